@@ -1,0 +1,47 @@
+# Compile settings shared by every target of Skein.
+add_library(skein_settings INTERFACE)
+target_include_directories(skein_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/skein>)
+target_compile_features(skein_settings INTERFACE cxx_std_17)
+
+# Floating point stays strict: contraction is explicit in the kernels, NaN checks and reproducibility survive.
+set(SKEIN_COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -Wall -Wextra -Wshadow -Wno-psabi)
+if(SKEIN_WERROR)
+  list(APPEND SKEIN_COMPILE_OPTIONS -Werror)
+endif()
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  list(APPEND SKEIN_COMPILE_OPTIONS -O3)
+endif()
+
+# skein_library(NAME SOURCES ... [PUBLIC deps ...] [PRIVATE deps ...])
+function(skein_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(skein_${name} STATIC ${ARG_SOURCES})
+  add_library(skein::${name} ALIAS skein_${name})
+  set_target_properties(skein_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(skein_${name} PUBLIC skein_settings ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  target_compile_options(skein_${name} PRIVATE ${SKEIN_COMPILE_OPTIONS})
+endfunction()
+
+# skein_test(NAME source ... LIBRARIES lib ... [LABELS label ...]): one GoogleTest program, its cases known to ctest.
+function(skein_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_options(${name} PRIVATE ${SKEIN_COMPILE_OPTIONS})
+  target_compile_definitions(${name} PRIVATE SKEIN_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
+endfunction()
+
+# skein_embed(TARGET symbol file): makes the file's bytes available as `extern const std::string_view symbol`
+# in namespace skein::data (declare it where it is used).
+function(skein_embed target symbol file)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded_${symbol}.cpp)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${file} -DOUTPUT=${output} -DSYMBOL=${symbol}
+            -P ${PROJECT_SOURCE_DIR}/cmake/EmbedFile.cmake
+    DEPENDS ${file} ${PROJECT_SOURCE_DIR}/cmake/EmbedFile.cmake
+    VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+endfunction()

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "envs/aircraft/aircraft.h"
+
+namespace skein {
+
+/// The F-16 of NASA TP-1538 with the University of Minnesota's mass properties (cg 0.30 chord, no
+/// engine angular momentum), the Stevens and Lewis engine and Skein's flight control gains. Loaded
+/// from the embedded data/f16 files.
+Aircraft F16();
+
+}  // namespace skein

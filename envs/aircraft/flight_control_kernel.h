@@ -1,0 +1,29 @@
+#pragma once
+
+#include "envs/dynamics/plant_kernel.h"
+
+namespace skein {
+
+enum class FlightControlMode {
+  kFull,    ///< pilot commands through the flight control system
+  kDirect,  ///< pilot commands scaled to the surfaces' limits; leading-edge flap on its steady
+            ///< schedule
+};
+
+/// Pilot commands of a tile: throttle in [0, 1]; roll (+ right wing down), pitch (+ nose up), yaw
+/// (+ nose right) in
+/// [-1, 1]. Each `count` long, padded as Tile says.
+struct PilotColumns {
+  const float* throttle = nullptr;
+  const float* pitch = nullptr;
+  const float* roll = nullptr;
+  const float* yaw = nullptr;
+};
+
+/// One control step of `dt` seconds before the integration: reads the sensors from the tile's
+/// columns, runs the flight control laws, moves the actuators (exact first-order response, rate and
+/// position limits) and sets kPowerCommand.
+void ControlTile(const KernelAircraft& aircraft, Tile tile, const PilotColumns& pilot,
+                 FlightControlMode mode, float dt);
+
+}  // namespace skein

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+
+#include "envs/air/atmosphere.h"
+#include "envs/aircraft/aircraft.h"
+#include "envs/dynamics/state.h"
+
+namespace skein {
+
+/// An aircraft arranged for the SIMD kernels: float32 node lines on one alpha x beta grid, the
+/// engine tables and every constant. Immutable once made, shared by all tiles and threads. Opaque
+/// outside the kernels.
+struct KernelAircraft;
+
+std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraft,
+                                                         AtmosphereModel atmosphere);
+
+/// Read-only columns of given controls: thrust [lbf], elevator, aileron, rudder, leading-edge flap
+/// [deg], each `count` long (padded as Tile says).
+struct ControlColumns {
+  const float* thrust_lbf = nullptr;
+  const float* elevator_deg = nullptr;
+  const float* aileron_deg = nullptr;
+  const float* rudder_deg = nullptr;
+  const float* leading_edge_flap_deg = nullptr;
+};
+
+/// One evaluation of the equations of motion for the thirteen rigid-body columns of `tile` with
+/// given controls. `state_rate` gets 13 columns and `coefficients` 6 (Cx, Cy, Cz, Cl, Cm, Cn), each
+/// of `tile.stride`.
+void EvaluateTile(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
+                  float* state_rate, float* coefficients);
+
+/// `substeps` RK4 steps of dt / substeps seconds each with given, held controls (no engine): the
+/// kernel of `skein fdm simulate`.
+void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
+                      float dt, int substeps);
+
+/// `substeps` RK4 steps of dt / substeps seconds each: rigid body and engine power (lag towards
+/// kPowerCommand, thrust by power, altitude and Mach at every stage) with the surfaces held at the
+/// columns' positions. Afterwards kNz and kNy hold the specific forces of the last stage of the
+/// last step, which is what the accelerometers read at the next control step.
+void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps);
+
+}  // namespace skein

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+
+namespace skein {
+
+/// The columns of one aircraft's simulated state, float32 in tiles. Foot, slug, second, radian;
+/// `_deg` in degrees. The first thirteen are the rigid-body state in the order of the equations
+/// (and of `skein fdm` files).
+enum Column : int {
+  kU,
+  kV,
+  kW,  ///< inertial velocity in body axes, ft/s
+  kP,
+  kQ,
+  kR,  ///< angular rates, rad/s
+  kNorth,
+  kEast,
+  kDown,  ///< position, ft; altitude = -down
+  kQ0,
+  kQx,
+  kQy,
+  kQz,  ///< attitude quaternion, v_body = T(q) v_ned
+  kNumRigidBody,
+
+  kPower = kNumRigidBody,  ///< engine power, 0..100; 50 is military
+  kPowerCommand,           ///< commanded engine power, held during a control step
+  kElevator,
+  kAileron,
+  kRudder,
+  kLeadingEdgeFlap,  ///< surface positions, deg
+  kNz,
+  kNy,  ///< specific forces at the cg, g; nz = -Fz/(m g), ny = Fy/(m g), read by the flight control
+
+  // Flight control system: one column per filter state (see envs/aircraft/flight_control.h).
+  kAlphaFilter,
+  kPitchRateFilter,
+  kPitchRateWashout,
+  kLoadFactorFilter,
+  kLoadFactorCommandFilter,
+  kPitchLeadFilter,
+  kPitchIntegrator,
+  kRollRateFilter,
+  kRollCommandFilter,
+  kRollIntegrator,
+  kYawRateFilter,
+  kYawWashout,
+  kYawLeadFilter,
+  kPedalFilter,
+  kLateralAccelerationFilter,
+  kFlapFilter,
+  kTrimAileron,
+  kTrimRudder,
+  kNumColumns
+};
+
+/// A view of a tile's columns: column c of aircraft i lies at base[c * stride + i]. `stride` is a
+/// multiple of 16 and at least `count` rounded up to 32: kernels also process the padding lanes,
+/// whose contents must be finite.
+struct Tile {
+  float* base = nullptr;
+  std::size_t stride = 0;
+  int count = 0;
+
+  float* operator[](int column) const { return base + static_cast<std::size_t>(column) * stride; }
+};
+
+/// The smallest stride for `count` aircraft: a multiple of 32 lanes, plus 16 so that columns do not
+/// share cache sets.
+constexpr std::size_t TileStride(int count) {
+  return (static_cast<std::size_t>(count) + 31) / 32 * 32 + 16;
+}
+
+}  // namespace skein

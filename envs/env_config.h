@@ -1,0 +1,73 @@
+#pragma once
+
+#include <string>
+
+#include "envs/air/atmosphere.h"
+#include "envs/aircraft/flight_control_kernel.h"
+
+namespace skein {
+
+/// A closed interval from which a value is drawn uniformly.
+struct Range {
+  double min = 0, max = 0;
+};
+
+/// Where episodes begin.
+struct InitialConfig {
+  Range altitude_ft{19000, 20000};
+  Range true_airspeed_fps{1000, 1200};
+  /// Trimmed at reset (table of float64 trims, bilinear in altitude and speed). false: the paper's
+  /// start, level, alpha 0, surfaces centred, 2000 lbf of thrust.
+  bool trimmed = true;
+};
+
+/// Targets of the Heading task relative to the initial state, and when they count as reached.
+struct HeadingConfig {
+  double altitude_change_ft = 3000;  ///< altitude0 + U(-x, x)
+  double yaw_change_rad = 3;         ///< yaw0 + U(-x, x), wrapped
+  double speed_change_fps = 300;     ///< speed0 + U(-x, x)
+  double altitude_tolerance_ft = 100;
+  double yaw_tolerance_deg = 5;
+  double speed_tolerance_fps = 20;
+  int earliest_success_step = 300;  ///< control steps
+};
+
+/// Limits of the paper's Table 5 and the reward for ending at one.
+struct TerminationConfig {
+  Range alpha_deg{-20, 45};
+  Range beta_deg{-30, 30};
+  double max_mach = 3, min_mach = 0.01;
+  double min_altitude_ft = 2500;
+  double max_load_factor = 10;
+  double failure_reward = -200;
+  double success_reward = 200;
+};
+
+/// A task, its aircraft and its conditions: everything that an episode depends on but the seed.
+struct EnvConfig {
+  std::string task = "heading";
+  std::string aircraft = "f16";
+  AtmosphereModel atmosphere = AtmosphereModel::kStevensLewis;
+  FlightControlMode flight_control = FlightControlMode::kFull;
+  double cg = 0.30;                    ///< fraction of the mean chord
+  double engine_angular_momentum = 0;  ///< slug ft^2/s
+  double control_interval_s = 0.02;    ///< 50 Hz
+  int substeps = 1;                    ///< RK4 steps per control interval
+  int action_repeat = 1;  ///< control steps for which an action is held; their rewards are summed
+  int time_limit_steps = 2500;  ///< control steps
+  bool truncate_at_time_limit =
+      false;  ///< false: the time limit is a terminal failure, as in the paper
+  bool stagger_clocks =
+      false;  ///< first episodes begin with their clocks spread over the time limit
+  double observation_noise =
+      0.01;  ///< standard deviation of Gaussian noise on every observation; 0 draws none
+  double reward_scale = 1;  ///< multiplies the step rewards (not the terminal ones)
+  InitialConfig initial;
+  HeadingConfig heading;
+  TerminationConfig termination;
+};
+
+/// Throws Error naming the first field whose value cannot be flown.
+void Validate(const EnvConfig& config);
+
+}  // namespace skein

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "envs/env_config.h"
+#include "envs/termination.h"
+
+namespace skein {
+
+/// What one decision did to each aircraft of a tile. Arrays of `tile_count(tile)`, owned by the
+/// caller.
+struct StepOutput {
+  float* reward = nullptr;  ///< sum over the held control steps, terminal reward included
+  std::uint8_t* termination = nullptr;  ///< Termination; kNone while flying
+  float* episode_return =
+      nullptr;  ///< undiscounted return of the episode that ended (else unchanged)
+  std::int32_t* episode_steps =
+      nullptr;  ///< control steps of the episode that ended (else unchanged)
+  /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
+  /// observation. May be null if the time limit is terminal.
+  float* final_observation = nullptr;
+};
+
+/// N aircraft flying one task, as independent tiles. Tiles may be driven from different threads at
+/// once, each by one. Every number depends only on (config, seed, aircraft index, actions): not on
+/// tile size, threads or neighbours.
+class VecEnv {
+ public:
+  /// Aircraft get the global indices [0, num_aircraft). `tile_size` is rounded up to a multiple
+  /// of 32. Throws Error on a configuration that cannot be flown. All aircraft start in a fresh
+  /// episode.
+  VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size = 256);
+  ~VecEnv();
+  VecEnv(VecEnv&&) noexcept;
+
+  const EnvConfig& config() const;
+  int num_aircraft() const;
+  int num_tiles() const;
+  int tile_begin(int tile) const;  ///< global index of the tile's first aircraft
+  int tile_count(int tile) const;
+  int observation_size() const;  ///< 22
+  int action_size() const;       ///< 4
+
+  /// Writes the tile's observations, row-major [count][observation_size], noise included.
+  void Observe(int tile, float* observation) const;
+
+  /// Holds actions (row-major [count][action_size], clipped to [-1, 1]) for config().action_repeat
+  /// control steps. An episode that ends during them takes no further reward, and its aircraft
+  /// begins a new one at the end of the decision.
+  void Step(int tile, const float* action, const StepOutput& output);
+
+  /// The whole mutable state (for checkpoints), and back. Restore throws Error on a size that does
+  /// not fit.
+  std::vector<std::uint32_t> Snapshot() const;
+  void Restore(const std::vector<std::uint32_t>& snapshot);
+
+  /// One column of the physical state (envs/dynamics/state.h) of one aircraft, for recording
+  /// flights and tests.
+  float StateOf(int aircraft, int column) const;
+  /// The target of one aircraft: altitude ft, yaw rad, speed ft/s for Heading.
+  std::vector<float> TargetOf(int aircraft) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace skein

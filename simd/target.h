@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace skein::simd {
+
+/// The instruction sets that every kernel is built for.
+enum class Target { kAvx512, kAvx2, kSse4, kScalar };
+
+/// "avx512", "avx2", "sse4" or "scalar".
+const char* Name(Target target);
+
+/// The targets that this build contains and this CPU runs, best first. Never empty: the scalar
+/// build always runs.
+std::vector<Target> SupportedTargets();
+
+/// The target that kernels use. The first call reads the environment variable SKEIN_SIMD (a name as
+/// given by `Name`); unset or empty means the best supported one. Throws Error if the name is
+/// unknown or the CPU does not support it.
+Target ActiveTarget();
+
+/// Makes every kernel use `target` from now on (tests and benchmarks). Throws Error if it is not
+/// supported. Not to be called while kernels run on other threads.
+void ForceTarget(Target target);
+
+}  // namespace skein::simd

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "envs/env_config.h"
+
+namespace skein {
+
+/// Sizes of the recurrent actor and critic (shared/tasks: LayerNorm, two Linear-ReLU-LayerNorm,
+/// GRU, LayerNorm, two more, head).
+struct NetworkConfig {
+  int hidden_size = 128;
+  int gru_size = 128;
+  bool tanh_mean = true;  ///< the Gaussian's mean goes through tanh
+  double initial_log_std = 0;
+  double actor_head_scale = 0.01;
+};
+
+struct PpoConfig {
+  int num_aircraft = 1536;
+  int rollout_steps = 64;  ///< decisions per aircraft and iteration
+  int chunk_length = 8;    ///< truncated backpropagation through time
+  int epochs = 2;
+  int minibatches = 16;
+  double learning_rate = 1e-3;
+  double final_learning_rate_fraction =
+      0.02;  ///< linear in steps done to this fraction at the budget's end; 1 keeps it constant
+  double adam_epsilon = 1e-5;
+  double gamma = 0.99;  ///< per decision
+  double gae_lambda = 0.95;
+  double clip = 0.2;
+  double max_gradient_norm = 2;  ///< actor and critic separately
+  double entropy_coefficient = 1e-3;
+  double value_coefficient = 1;
+  bool clip_value_loss = false;
+  bool normalise_advantages = true;
+  bool popart = true;        ///< false: value targets unscaled, as in the paper
+  double popart_rate = 0.1;  ///< moving average of the value targets' moments
+};
+
+struct LearnerConfig {
+  int tile_samples =
+      1024;  ///< samples per gradient tile: fixed shards, so results do not depend on threads
+  int rollout_tile = 256;  ///< aircraft per rollout tile
+};
+
+/// In-training evaluation, which also chooses the best checkpoint.
+struct PeriodicEvaluationConfig {
+  int interval_iterations = 20;  ///< 0: never
+  int episodes = 256;
+};
+
+struct TrainConfig {
+  EnvConfig env;
+  NetworkConfig network;
+  PpoConfig ppo;
+  LearnerConfig learner;
+  PeriodicEvaluationConfig evaluation;
+  std::uint64_t total_steps = 0;  ///< budget in control steps (environment steps at 50 Hz)
+  std::uint64_t seed = 1;
+};
+
+}  // namespace skein

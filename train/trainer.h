@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "envs/termination.h"
+#include "envs/worker_pool.h"
+#include "train/learner_config.h"
+#include "train/policy.h"
+
+namespace skein {
+
+/// What one iteration (rollout and update) did. All but the seconds is bit-identical for any number
+/// of threads.
+struct IterationReport {
+  std::uint64_t iteration = 0;
+  std::uint64_t env_steps = 0;  ///< control steps flown since the start of training
+  std::uint64_t episodes = 0;   ///< episodes that ended in this iteration
+  double return_mean = 0;       ///< of those; NaN if none
+  double success_rate = 0;      ///< of those; NaN if none
+  std::array<int, kNumTerminations> terminations{};
+  double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0, clip_fraction = 0;
+  double actor_gradient_norm = 0, critic_gradient_norm = 0;
+  double explained_variance = 0;
+  double learning_rate = 0;
+  double log_std_mean = 0;
+  double evaluation_success_rate =
+      -1;             ///< deterministic success if this iteration evaluated, else -1
+  bool best = false;  ///< this iteration's evaluation is the best so far
+  double rollout_seconds = 0, update_seconds = 0, evaluation_seconds = 0;
+};
+
+/// Recurrent PPO on a VecEnv. A run is a function of the configuration: same bits for any thread
+/// count, interrupted or not.
+class Trainer {
+ public:
+  Trainer(const TrainConfig& config, WorkerPool& pool);
+  ~Trainer();
+
+  const TrainConfig& config() const;
+  std::uint64_t env_steps() const;
+  std::uint64_t iteration() const;
+  bool finished() const;  ///< the step budget is used up
+
+  /// One rollout and update. Throws Error if a loss or gradient is not finite or explodes;
+  /// parameters are then those before the iteration.
+  IterationReport Iterate();
+
+  Policy policy() const;
+
+  /// Everything needed to go on bit for bit, written atomically (temporary file, fsync, rename,
+  /// directory fsync).
+  void Save(const std::string& path) const;
+  /// Throws Error if the file is damaged or was made with another configuration of networks,
+  /// environment or learner.
+  void Restore(const std::string& path);
+
+  /// A 64-bit hash (FNV-1a) of parameters, optimiser, value statistics and environment state.
+  std::uint64_t Signature() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Rates of the parts of an iteration, for `skein bench`.
+struct LearnerRates {
+  double rollout_steps_per_s = 0;  ///< decisions per second, simulator in the loop
+  double update_samples_per_s =
+      0;  ///< samples per second through forward, loss, backward and optimiser
+  double update_flops_per_sample = 0;
+};
+
+}  // namespace skein
