@@ -1,5 +1,6 @@
 # Compile settings shared by every target of Skein.
 add_library(skein_settings INTERFACE)
+set_target_properties(skein_settings PROPERTIES EXPORT_NAME settings)
 target_include_directories(skein_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/skein>)
 target_compile_features(skein_settings INTERFACE cxx_std_17)
