@@ -1,14 +1,9 @@
 #pragma once
 
+#include "envs/aircraft/flight_control.h"
 #include "envs/dynamics/plant_kernel.h"
 
 namespace skein {
-
-enum class FlightControlMode {
-  kFull,    ///< pilot commands through the flight control system
-  kDirect,  ///< pilot commands scaled to the surfaces' limits; leading-edge flap on its steady
-            ///< schedule
-};
 
 /// Pilot commands of a tile: throttle in [0, 1]; roll (+ right wing down), pitch (+ nose up), yaw
 /// (+ nose right) in

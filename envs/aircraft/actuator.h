@@ -1,0 +1,12 @@
+#pragma once
+
+#include "envs/aircraft/aircraft.h"
+
+namespace skein {
+
+/// Position of a surface after `dt` seconds with the command held: the exact response of the
+/// first-order lag, 1 - exp(-bandwidth dt) of the way to the limited command, then limited to what
+/// the rate limit allows in `dt` and to the position limits. Degrees.
+double StepActuator(const Actuator& actuator, double position_deg, double command_deg, double dt);
+
+}  // namespace skein

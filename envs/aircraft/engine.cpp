@@ -1,0 +1,89 @@
+#include "envs/aircraft/engine.h"
+
+#include <algorithm>
+
+#include "envs/aircraft/table_lookup.h"
+
+namespace skein {
+namespace {
+
+constexpr double kMilitaryPower = 50;
+constexpr double kMaximumPower = 100;
+
+// Throttle gearing.
+constexpr double kMilitaryThrottle = 0.77;
+constexpr double kDryGain = 64.94;
+constexpr double kAfterburnerGain = 217.38;
+constexpr double kAfterburnerOffset = -117.38;
+
+// The three thrust levels at one flight condition, lbf.
+struct ThrustLevels {
+  double idle, military, maximum;
+};
+
+ThrustLevels LevelsAt(const EngineTables& engine, double altitude_ft, double mach) {
+  const GridCell altitude = Locate(engine.altitude_ft, altitude_ft);
+  const GridCell column = Locate(engine.mach, mach);
+  const int columns = static_cast<int>(engine.mach.size());
+  return {Interpolate(engine.idle_lbf, altitude, column, columns),
+          Interpolate(engine.military_lbf, altitude, column, columns),
+          Interpolate(engine.maximum_lbf, altitude, column, columns)};
+}
+
+// Reciprocal time constant of the power lag, 1/s, by the distance still to go.
+double LagRate(double distance) {
+  if (distance <= 25) return 1;
+  if (distance >= 50) return 0.1;
+  return 1.9 - 0.036 * distance;
+}
+
+}  // namespace
+
+double PowerCommand(double throttle) {
+  throttle = std::clamp(throttle, 0.0, 1.0);
+  return throttle <= kMilitaryThrottle ? kDryGain * throttle
+                                       : kAfterburnerGain * throttle + kAfterburnerOffset;
+}
+
+double ThrottleForPower(double power) {
+  const double dry = power / kDryGain;
+  const double throttle =
+      dry <= kMilitaryThrottle ? dry : (power - kAfterburnerOffset) / kAfterburnerGain;
+  return std::clamp(throttle, 0.0, 1.0);
+}
+
+double PowerRate(double power, double power_command) {
+  // Crossing military power, the engine first heads for a point on its own side of the gap at a
+  // rate of its own; only then for the command.
+  constexpr double kLightUpPower = 60;
+  constexpr double kBlowOutPower = 40;
+  constexpr double kAfterburnerRate = 5;
+  if (power >= kMilitaryPower) {
+    const double target = power_command >= kMilitaryPower ? power_command : kBlowOutPower;
+    return kAfterburnerRate * (target - power);
+  }
+  const double target = power_command >= kMilitaryPower ? kLightUpPower : power_command;
+  return LagRate(target - power) * (target - power);
+}
+
+double Thrust(const EngineTables& engine, double power, double altitude_ft, double mach) {
+  const ThrustLevels level = LevelsAt(engine, altitude_ft, mach);
+  if (power < kMilitaryPower) {
+    return level.idle + (level.military - level.idle) * power / kMilitaryPower;
+  }
+  return level.military + (level.maximum - level.military) * (power - kMilitaryPower) /
+                              (kMaximumPower - kMilitaryPower);
+}
+
+double PowerForThrust(const EngineTables& engine, double thrust_lbf, double altitude_ft,
+                      double mach) {
+  const ThrustLevels level = LevelsAt(engine, altitude_ft, mach);
+  const double power =
+      thrust_lbf < level.military
+          ? kMilitaryPower * (thrust_lbf - level.idle) / (level.military - level.idle)
+          : kMilitaryPower + (kMaximumPower - kMilitaryPower) * (thrust_lbf - level.military) /
+                                 (level.maximum - level.military);
+  return std::clamp(power, 0.0, kMaximumPower);
+}
+
+}  // namespace skein

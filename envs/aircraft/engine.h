@@ -1,0 +1,28 @@
+#pragma once
+
+#include "envs/aircraft/aircraft.h"
+
+namespace skein {
+
+/// Engine of Stevens and Lewis, Aircraft Control and Simulation (after NASA TP-1538). Power is a
+/// number from 0 (idle) over 50 (military) to 100 (maximum, full afterburner).
+
+/// Commanded power for `throttle` in [0, 1] (clipped): military at 0.77, afterburner above.
+double PowerCommand(double throttle);
+
+/// Throttle in [0, 1] that commands `power`; the inverse of PowerCommand.
+double ThrottleForPower(double power);
+
+/// Rate of change of power, 1/s, lagging towards `power_command`.
+double PowerRate(double power, double power_command);
+
+/// Installed thrust, lbf. Linear in power between idle and military and between military and
+/// maximum; altitude and Mach number are clamped to the tables (no data above Mach 1). Idle thrust
+/// is negative at low altitude and high speed (ram drag), as published.
+double Thrust(const EngineTables& engine, double power, double altitude_ft, double mach);
+
+/// Power in [0, 100] whose thrust comes nearest to `thrust_lbf`.
+double PowerForThrust(const EngineTables& engine, double thrust_lbf, double altitude_ft,
+                      double mach);
+
+}  // namespace skein
