@@ -1,15 +1,18 @@
 #include "simd/target.h"
 
+#include <hwy/targets.h>
+
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
 
-#include "hwy/targets.h"
 #include "simd/error.h"
-#include "simd/highway_targets.h"
 
 namespace skein::simd {
 namespace {
+
+static_assert(HWY_TARGETS == (HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_SCALAR),
+              "Highway's targets are chosen by the compile definitions in simd/CMakeLists.txt");
 
 constexpr Target kAllTargets[] = {Target::kAvx512, Target::kAvx2, Target::kSse4, Target::kScalar};
 
