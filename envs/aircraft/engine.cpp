@@ -10,12 +10,6 @@ namespace {
 constexpr double kMilitaryPower = 50;
 constexpr double kMaximumPower = 100;
 
-// Throttle gearing.
-constexpr double kMilitaryThrottle = 0.77;
-constexpr double kDryGain = 64.94;
-constexpr double kAfterburnerGain = 217.38;
-constexpr double kAfterburnerOffset = -117.38;
-
 // The three thrust levels at one flight condition, lbf.
 struct ThrustLevels {
   double idle, military, maximum;
@@ -41,14 +35,18 @@ double LagRate(double distance) {
 
 double PowerCommand(double throttle) {
   throttle = std::clamp(throttle, 0.0, 1.0);
-  return throttle <= kMilitaryThrottle ? kDryGain * throttle
-                                       : kAfterburnerGain * throttle + kAfterburnerOffset;
+  const ThrottleGearing& gearing = kThrottleGearing;
+  return throttle <= gearing.military_throttle
+             ? gearing.dry_gain * throttle
+             : gearing.afterburner_gain * throttle + gearing.afterburner_offset;
 }
 
 double ThrottleForPower(double power) {
-  const double dry = power / kDryGain;
-  const double throttle =
-      dry <= kMilitaryThrottle ? dry : (power - kAfterburnerOffset) / kAfterburnerGain;
+  const ThrottleGearing& gearing = kThrottleGearing;
+  const double dry = power / gearing.dry_gain;
+  const double throttle = dry <= gearing.military_throttle
+                              ? dry
+                              : (power - gearing.afterburner_offset) / gearing.afterburner_gain;
   return std::clamp(throttle, 0.0, 1.0);
 }
 

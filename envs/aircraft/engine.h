@@ -7,6 +7,16 @@ namespace skein {
 /// Engine of Stevens and Lewis, Aircraft Control and Simulation (after NASA TP-1538). Power is a
 /// number from 0 (idle) over 50 (military) to 100 (maximum, full afterburner).
 
+/// Throttle gearing: `dry_gain` throttle up to military, afterburner_gain throttle +
+/// afterburner_offset above.
+struct ThrottleGearing {
+  double military_throttle = 0.77;
+  double dry_gain = 64.94;
+  double afterburner_gain = 217.38;
+  double afterburner_offset = -117.38;
+};
+inline constexpr ThrottleGearing kThrottleGearing{};
+
 /// Commanded power for `throttle` in [0, 1] (clipped): military at 0.77, afterburner above.
 double PowerCommand(double throttle);
 
