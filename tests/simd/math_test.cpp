@@ -1,0 +1,280 @@
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "gtest/gtest.h"
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/simd/math_test.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+
+V SinOf(D d, V x) {
+  V s, c;
+  SinCos(d, x, s, c);
+  return s;
+}
+V CosOf(D d, V x) {
+  V s, c;
+  SinCos(d, x, s, c);
+  return c;
+}
+
+using Unary = V (*)(D, V);
+using Binary = V (*)(D, V, V);
+
+void Apply(Unary f, const std::vector<float>& x, std::vector<float>& y) {
+  const D d;
+  for (std::size_t i = 0; i < x.size(); i += hn::Lanes(d)) {
+    hn::StoreU(f(d, hn::LoadU(d, &x[i])), d, &y[i]);
+  }
+}
+void Apply(Binary f, const std::vector<float>& x, const std::vector<float>& y,
+           std::vector<float>& z) {
+  const D d;
+  for (std::size_t i = 0; i < x.size(); i += hn::Lanes(d)) {
+    hn::StoreU(f(d, hn::LoadU(d, &x[i]), hn::LoadU(d, &y[i])), d, &z[i]);
+  }
+}
+
+using Column = std::vector<float>;
+void ReciprocalColumn(const Column& x, Column& y) { Apply(Reciprocal<D>, x, y); }
+void ReciprocalSqrtColumn(const Column& x, Column& y) { Apply(ReciprocalSqrt<D>, x, y); }
+void AtanDegreesColumn(const Column& x, Column& y) { Apply(AtanDegrees<D>, x, y); }
+void SinColumn(const Column& x, Column& y) { Apply(SinOf, x, y); }
+void CosColumn(const Column& x, Column& y) { Apply(CosOf, x, y); }
+void ExpColumn(const Column& x, Column& y) { Apply(Exp<D>, x, y); }
+void LogColumn(const Column& x, Column& y) { Apply(Log<D>, x, y); }
+void AsinColumn(const Column& x, Column& y) { Apply(Asin<D>, x, y); }
+void Atan2DegreesColumn(const Column& y, const Column& x, Column& z) {
+  Apply(Atan2Degrees<D>, y, x, z);
+}
+void Atan2Column(const Column& y, const Column& x, Column& z) { Apply(Atan2<D>, y, x, z); }
+void PowColumn(const Column& x, const Column& y, Column& z) { Apply(Pow<D>, x, y, z); }
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+namespace {
+
+HWY_EXPORT(ReciprocalColumn);
+HWY_EXPORT(ReciprocalSqrtColumn);
+HWY_EXPORT(AtanDegreesColumn);
+HWY_EXPORT(SinColumn);
+HWY_EXPORT(CosColumn);
+HWY_EXPORT(ExpColumn);
+HWY_EXPORT(LogColumn);
+HWY_EXPORT(AsinColumn);
+HWY_EXPORT(Atan2DegreesColumn);
+HWY_EXPORT(Atan2Column);
+HWY_EXPORT(PowColumn);
+
+using Column = std::vector<float>;
+using ColumnFunction = void (*)(const Column&, Column&);
+
+constexpr double kRadToDeg = 57.295779513082320877;
+constexpr int kSamples = 1 << 18;  // a multiple of every vector length
+
+/// Runs each test once per supported target.
+class MathTest : public testing::TestWithParam<simd::Target> {
+ protected:
+  void SetUp() override { simd::ForceTarget(GetParam()); }
+  void TearDown() override { simd::ForceTarget(before_); }
+
+ private:
+  const simd::Target before_ = simd::ActiveTarget();
+};
+
+Column Linear(double low, double high) {
+  Column x(kSamples);
+  for (int i = 0; i < kSamples; ++i) {
+    x[i] = static_cast<float>(low + (high - low) * i / (kSamples - 1));
+  }
+  return x;
+}
+
+Column Geometric(double low, double high) {
+  Column x(kSamples);
+  for (int i = 0; i < kSamples; ++i) {
+    x[i] = static_cast<float>(low * std::pow(high / low, static_cast<double>(i) / (kSamples - 1)));
+  }
+  return x;
+}
+
+double Ulp(double exact) {
+  const float magnitude = std::abs(static_cast<float>(exact));
+  return static_cast<double>(std::nextafter(magnitude, std::numeric_limits<float>::infinity())) -
+         static_cast<double>(magnitude);
+}
+
+double WorstUlp(ColumnFunction function, const std::function<double(double)>& exact,
+                const Column& x) {
+  Column y(x.size());
+  function(x, y);
+  double worst = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double expected = exact(x[i]);
+    worst = std::fmax(worst, std::abs(y[i] - expected) / Ulp(expected));
+    if (std::isnan(y[i])) return std::numeric_limits<double>::infinity();
+  }
+  return worst;
+}
+
+double WorstAbsolute(ColumnFunction function, const std::function<double(double)>& exact,
+                     const Column& x) {
+  Column y(x.size());
+  function(x, y);
+  double worst = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    worst = std::fmax(worst, std::abs(y[i] - exact(x[i])));
+    if (std::isnan(y[i])) return std::numeric_limits<double>::infinity();
+  }
+  return worst;
+}
+
+TEST_P(MathTest, Reciprocal) {
+  const auto exact = [](double x) { return 1 / x; };
+  const auto function = SKEIN_DISPATCH(ReciprocalColumn);
+  EXPECT_LE(WorstUlp(function, exact, Geometric(0x1p-125, 0x1p125)), 2);
+  EXPECT_LE(WorstUlp(function, exact, Linear(-2, -1)), 2);
+}
+
+TEST_P(MathTest, ReciprocalSqrt) {
+  const auto exact = [](double x) { return 1 / std::sqrt(x); };
+  const auto function = SKEIN_DISPATCH(ReciprocalSqrtColumn);
+  EXPECT_LE(WorstUlp(function, exact, Geometric(0x1p-125, 0x1p125)), 2);
+  EXPECT_LE(WorstUlp(function, exact, Linear(1, 4)), 2);
+}
+
+TEST_P(MathTest, AtanDegrees) {
+  const auto exact = [](double t) { return std::atan(t) * kRadToDeg; };
+  const auto function = SKEIN_DISPATCH(AtanDegreesColumn);
+  EXPECT_LE(WorstUlp(function, exact, Linear(-1, 1)), 4);
+  EXPECT_LE(WorstUlp(function, exact, Geometric(1e-30, 1)), 4);
+}
+
+TEST_P(MathTest, SinCos) {
+  for (const double range : {1.0, 10.0, 8192.0}) {
+    const Column x = Linear(-range, range);
+    EXPECT_LE(WorstAbsolute(
+                  SKEIN_DISPATCH(SinColumn), [](double a) { return std::sin(a); }, x),
+              1.2e-7);
+    EXPECT_LE(WorstAbsolute(
+                  SKEIN_DISPATCH(CosColumn), [](double a) { return std::cos(a); }, x),
+              1.2e-7);
+  }
+}
+
+TEST_P(MathTest, Exp) {
+  const auto exact = [](double x) { return std::exp(x); };
+  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(ExpColumn), exact, Linear(-87, 88)), 2);
+  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(ExpColumn), exact, Linear(-1, 1)), 2);
+}
+
+TEST_P(MathTest, ExpLimitsItsArgument) {
+  const Column x(16, 1000.0f), minus_x(16, -1000.0f);
+  Column y(16);
+  SKEIN_DISPATCH(ExpColumn)(x, y);
+  EXPECT_NEAR(std::log(static_cast<double>(y[0])), 88, 1e-5);
+  SKEIN_DISPATCH(ExpColumn)(minus_x, y);
+  EXPECT_NEAR(std::log(static_cast<double>(y[0])), -87, 1e-5);
+}
+
+TEST_P(MathTest, Log) {
+  const auto exact = [](double x) { return std::log(x); };
+  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(LogColumn), exact,
+                     Geometric(std::numeric_limits<float>::min(), 3e38)),
+            2);
+  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(LogColumn), exact, Linear(0.5, 2)), 2);
+}
+
+TEST_P(MathTest, Asin) {
+  EXPECT_LE(WorstAbsolute(
+                SKEIN_DISPATCH(AsinColumn), [](double x) { return std::asin(x); }, Linear(-1, 1)),
+            3e-7);
+}
+
+TEST_P(MathTest, PowOfATemperatureRatio) {
+  const Column x = Geometric(1e-3, 2);
+  const Column exponent(x.size(), 4.14f);
+  Column y(x.size());
+  SKEIN_DISPATCH(PowColumn)(x, exponent, y);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double power = static_cast<double>(exponent[i]) * std::log(static_cast<double>(x[i]));
+    ASSERT_NEAR(y[i] / std::exp(power), 1, 3e-7 * (1 + std::abs(power))) << x[i];
+  }
+}
+
+TEST_P(MathTest, Atan2OnCirclesOfEverySize) {
+  for (const double radius : {1e-20, 1.0, 1e20}) {
+    Column x(kSamples), y(kSamples), degrees(kSamples), radians(kSamples);
+    for (int i = 0; i < kSamples; ++i) {
+      const double angle = 2 * 3.14159265358979323846 * (i + 0.5) / kSamples;
+      x[i] = static_cast<float>(radius * std::cos(angle));
+      y[i] = static_cast<float>(radius * std::sin(angle));
+    }
+    SKEIN_DISPATCH(Atan2DegreesColumn)(y, x, degrees);
+    SKEIN_DISPATCH(Atan2Column)(y, x, radians);
+    for (int i = 0; i < kSamples; ++i) {
+      const double exact = std::atan2(static_cast<double>(y[i]), static_cast<double>(x[i]));
+      ASSERT_NEAR(degrees[i], exact * kRadToDeg, 3e-5);
+      ASSERT_NEAR(radians[i], exact, 5e-7);
+      if (std::abs(y[i]) <= x[i]) {
+        ASSERT_LE(std::abs(degrees[i] - exact * kRadToDeg), 5 * Ulp(exact * kRadToDeg));
+      }
+    }
+  }
+}
+
+TEST_P(MathTest, Atan2OnTheAxes) {
+  const float cases[][3] = {{0, 0, 0},    {0, 1, 0},  {1, 0, 90},     {-1, 0, -90},
+                            {0, -1, 180}, {1, 1, 45}, {-1, -1, -135}, {1, -1, 135}};
+  for (const auto& c : cases) {
+    Column y(16, c[0]), x(16, c[1]), z(16);
+    SKEIN_DISPATCH(Atan2DegreesColumn)(y, x, z);
+    EXPECT_NEAR(z[0], c[2], 3e-5) << c[0] << ", " << c[1];
+  }
+}
+
+TEST_P(MathTest, NaNStaysInItsLane) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const ColumnFunction function :
+       {SKEIN_DISPATCH(ReciprocalColumn), SKEIN_DISPATCH(ReciprocalSqrtColumn),
+        SKEIN_DISPATCH(AtanDegreesColumn), SKEIN_DISPATCH(SinColumn), SKEIN_DISPATCH(ExpColumn)}) {
+    Column clean(16, 0.7f), spoilt(16, 0.7f), y(16), z(16);
+    spoilt[5] = nan;
+    function(clean, y);
+    function(spoilt, z);
+    for (int i = 0; i < 16; ++i) {
+      if (i == 5) {
+        EXPECT_TRUE(std::isnan(z[i]));
+      } else {
+        EXPECT_EQ(z[i], y[i]);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryTarget, MathTest, testing::ValuesIn(simd::SupportedTargets()),
+                         [](const auto& test) { return simd::Name(test.param); });
+
+}  // namespace
+}  // namespace skein
+#endif
