@@ -1,0 +1,14 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace skein {
+
+// Each adds one subcommand to `app`. Its callback does the work and throws Error on failure.
+void AddTrainCommand(CLI::App* app);
+void AddEvalCommand(CLI::App* app);
+void AddFdmCommand(CLI::App* app);
+void AddBenchCommand(CLI::App* app);
+void AddInfoCommand(CLI::App* app);
+
+}  // namespace skein

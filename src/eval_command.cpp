@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "envs/vec_env.h"
+#include "simd/error.h"
+#include "src/commands.h"
+#include "src/configuration.h"
+#include "src/evaluation_report.h"
+#include "src/output_file.h"
+#include "src/run_directory.h"
+#include "train/policy.h"
+
+namespace skein {
+namespace {
+
+constexpr const char* kUntrained = "untrained";
+
+struct EvalOptions {
+  std::string policy, task;
+  std::string preset = "default";
+  CLI::Option* preset_option = nullptr;
+  std::string config;
+  std::vector<std::string> assignments;
+  int episodes = 1000;
+  bool deterministic = false;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::string json;
+};
+
+/// The policy file that stands for a run: the best, else the final one, else the newest checkpoint.
+std::string PolicyOfRun(const std::string& run) {
+  const std::string checkpoints = run + "/checkpoints";
+  for (const char* name : {"/policy-best.skein", "/policy-final.skein"}) {
+    if (std::filesystem::exists(checkpoints + name)) return checkpoints + name;
+  }
+  std::string newest;
+  for (const Checkpoint& checkpoint : CheckpointsIn(checkpoints)) newest = checkpoint.path;
+  if (newest.empty()) throw Error(fmt::format("{}: the run has not saved a policy yet", run));
+  return newest;
+}
+
+/// What the policy was made for: the run's own configuration if it is given as a run, else the
+/// preset's.
+ProgramConfig BaseConfig(const EvalOptions& options, bool is_run) {
+  if (!is_run || options.preset_option->count() > 0) {
+    if (options.task.empty()) {
+      throw Error("--task is needed to evaluate a policy that is not given as a run");
+    }
+    return ResolveConfig({options.task, options.preset, "", {}});
+  }
+  ProgramConfig config;
+  ApplyTomlFile(options.policy + "/config.toml", &config);
+  return config;
+}
+
+void ApplyOverrides(const EvalOptions& options, ProgramConfig* config) {
+  const std::string task = options.task.empty() ? config->train.env.task : options.task;
+  if (!options.config.empty()) ApplyTomlFile(options.config, config);
+  for (const std::string& assignment : options.assignments) ApplyAssignment(assignment, config);
+  if (config->train.env.task != task) {
+    throw Error(fmt::format("the configuration says env.task = {}, but --task is {}",
+                            config->train.env.task, task));
+  }
+  CheckConsistent(*config);
+}
+
+Policy UntrainedPolicy(const ProgramConfig& config, std::uint64_t seed) {
+  const VecEnv env(config.train.env, 1, seed);
+  return Policy::Untrained(config.train.network, env.observation_size(), env.action_size(), seed);
+}
+
+void Evaluate(const EvalOptions& options) {
+  const bool is_run = IsRunDirectory(options.policy);
+  if (!is_run && std::filesystem::is_directory(options.policy)) {
+    throw Error(fmt::format("{}: not the directory of a run (there is no config.toml in it)",
+                            options.policy));
+  }
+  ProgramConfig config = BaseConfig(options, is_run);
+  const std::string path = is_run ? PolicyOfRun(options.policy) : options.policy;
+  std::optional<Policy> policy;
+  if (path != kUntrained) {
+    policy = Policy::Load(path);
+    config.train.env.action_repeat = policy->action_repeat();
+  }
+  ApplyOverrides(options, &config);
+  if (!policy) policy = UntrainedPolicy(config, options.seed);
+  WorkerPool pool(options.threads);
+  const EvaluationReport report =
+      EvaluateBothWays(*policy, config.train.env, options.episodes, options.seed, pool);
+  if (!options.json.empty()) {
+    WriteFile(options.json,
+              ToJson(report, path, config, options.seed, options.deterministic).dump(1) + "\n");
+  }
+  fmt::print("{} on {}, {} episodes, seed {}, an action every {} control steps\n{}", path,
+             config.train.env.task, options.episodes, options.seed, config.train.env.action_repeat,
+             ToText(report));
+}
+
+}  // namespace
+
+void AddEvalCommand(CLI::App* app) {
+  auto options = std::make_shared<EvalOptions>();
+  CLI::App* command = app->add_subcommand("eval", "Fly a policy over fresh episodes");
+  command
+      ->add_option("--policy", options->policy,
+                   "policy file, checkpoint, directory of a run (its best policy), or the word "
+                   "untrained (freshly initialised networks)")
+      ->type_name("FILE_OR_RUN")
+      ->required();
+  command->add_option("--task", options->task, "what to fly: heading (default: the run's task)");
+  options->preset_option =
+      command
+          ->add_option("--preset", options->preset,
+                       "environment settings to begin with (default: the run's own; for a policy "
+                       "file, default)")
+          ->type_name("NAME");
+  command->add_option("--config", options->config, "TOML file on top of them")->type_name("FILE");
+  command
+      ->add_option("--set", options->assignments,
+                   "one configuration key, such as env.observation_noise=0.03; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--episodes", options->episodes, "number of episodes")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  command->add_flag("--deterministic", options->deterministic,
+                    "report the mean action first (default: sampled actions; both are flown)");
+  command->add_option("--seed", options->seed, "seed of the episodes")->capture_default_str();
+  command
+      ->add_option("--threads", options->threads,
+                   "worker threads; results do not depend on it (default: one per CPU)")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--json", options->json, "write the results here")->type_name("FILE");
+  command->footer(
+      "A policy file knows for how many control steps it holds an action; --set "
+      "env.action_repeat=N\n"
+      "flies it at another rate. Success counts episodes that reach the target.\n"
+      "Example: skein eval --policy runs/short --task heading --episodes 1000 --deterministic "
+      "--json result.json");
+  command->callback([options] { Evaluate(*options); });
+}
+
+}  // namespace skein

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace skein {
+
+/// "Intel(R) Xeon(R) ..." as the system names the processor, or "unknown".
+std::string CpuName();
+
+/// What a figure depends on: version, compiler, processor, SIMD target in use and supported ones,
+/// CPUs usable, LibTorch. The document of `skein info --json`, and part of every benchmark's.
+nlohmann::ordered_json DescribeMachine();
+
+}  // namespace skein

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace skein {
+
+/// A TOML file of configs/<task>/<name>.toml, embedded in the program.
+struct Preset {
+  const char* task;
+  const char* name;
+  const std::string_view* text;
+};
+
+const std::vector<Preset>& Presets();
+
+/// Throws Error that lists what there is if the task or the preset is unknown.
+const Preset& FindPreset(const std::string& task, const std::string& name);
+
+/// The tasks that have presets.
+std::vector<std::string> PresetTasks();
+
+}  // namespace skein

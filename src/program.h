@@ -1,0 +1,12 @@
+#pragma once
+
+namespace skein {
+
+inline constexpr int kExitSuccess = 0;
+inline constexpr int kExitFailure = 1;  ///< an Error, printed as one line on the error stream
+inline constexpr int kExitUsage = 2;    ///< the command line makes no sense
+
+/// The program `skein`: parses the command line, runs the command, returns the exit code.
+int RunProgram(int argc, char** argv);
+
+}  // namespace skein

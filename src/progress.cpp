@@ -1,0 +1,126 @@
+#include "src/progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace skein {
+namespace {
+
+std::size_t TerminalWidth() {
+  winsize size{};
+  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+double Seconds(ProgressMeter::Clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+std::string Percent(double fraction) {
+  return std::isfinite(fraction) ? fmt::format("{:.1f} %", 100 * fraction) : "-";
+}
+
+}  // namespace
+
+std::string FormatCount(double count) {
+  constexpr const char* kPrefixes[] = {"", "k", "M", "G", "T"};
+  int prefix = 0;
+  // 999.5 would print as 1000 with three digits.
+  while (count >= 999.5 && prefix < 4) {
+    count /= 1000;
+    ++prefix;
+  }
+  if (prefix == 0) return fmt::format("{:.0f}", count);
+  return fmt::format("{:.{}f} {}", count,
+                     count < 9.995   ? 2
+                     : count < 99.95 ? 1
+                                     : 0,
+                     kPrefixes[prefix]);
+}
+
+std::string FormatDuration(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0) return "-";
+  const long long s = std::llround(seconds);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  if (s < 86400) return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+  return fmt::format("{} d {:02} h", s / 86400, s / 3600 % 24);
+}
+
+std::string FormatProgress(const Progress& p) {
+  const double done = static_cast<double>(p.env_steps), total = static_cast<double>(p.total_steps);
+  const bool known = p.steps_per_s > 0;
+  const std::string rate = known ? FormatCount(p.steps_per_s) : "-";
+  const std::string left =
+      known ? FormatDuration(std::max(0.0, total - done) / p.steps_per_s) : "-";
+  return fmt::format(
+      "{}/{} steps ({:.1f} %) | {} steps/s | rollout {:.0f} % update {:.0f} % | return {} | "
+      "success {}{} | left {}",
+      FormatCount(done), FormatCount(total), 100 * done / total, rate, 100 * p.rollout_share,
+      100 * p.update_share,
+      std::isfinite(p.return_mean) ? fmt::format("{:.1f}", p.return_mean) : "-",
+      Percent(p.success_rate),
+      p.evaluation_success_rate < 0 ? ""
+                                    : " (evaluated " + Percent(p.evaluation_success_rate) + ")",
+      left);
+}
+
+ProgressMeter::ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps,
+                             Clock::time_point start) {
+  progress_.env_steps = env_steps;
+  progress_.total_steps = total_steps;
+  progress_.return_mean = progress_.success_rate = std::nan("");
+  samples_.push_back({start, env_steps, 0, 0});
+}
+
+void ProgressMeter::Add(const IterationReport& report, Clock::time_point now) {
+  constexpr double kWindowSeconds = 30;
+  const Sample& newest = samples_.back();
+  samples_.push_back({now, report.env_steps, newest.rollout_s + report.rollout_seconds,
+                      newest.update_s + report.update_seconds});
+  while (samples_.size() > 2 && Seconds(now - samples_[1].time) >= kWindowSeconds) {
+    samples_.pop_front();
+  }
+  const Sample& first = samples_.front();
+  const Sample& last = samples_.back();
+  progress_.env_steps = report.env_steps;
+  if (const double seconds = Seconds(now - first.time); seconds > 0) {
+    progress_.steps_per_s = static_cast<double>(last.env_steps - first.env_steps) / seconds;
+    progress_.rollout_share = (last.rollout_s - first.rollout_s) / seconds;
+    progress_.update_share = (last.update_s - first.update_s) / seconds;
+  }
+  if (std::isfinite(report.return_mean)) progress_.return_mean = report.return_mean;
+  if (std::isfinite(report.success_rate)) progress_.success_rate = report.success_rate;
+  if (report.evaluation_success_rate >= 0) {
+    progress_.evaluation_success_rate = report.evaluation_success_rate;
+  }
+}
+
+ProgressDisplay::ProgressDisplay() : terminal_(isatty(STDOUT_FILENO) == 1) {}
+
+void ProgressDisplay::Update(const std::string& line) {
+  constexpr double kTerminalInterval = 0.2, kPlainInterval = 10;
+  const auto now = ProgressMeter::Clock::now();
+  if (shown_ && Seconds(now - last_) < (terminal_ ? kTerminalInterval : kPlainInterval)) return;
+  shown_ = true;
+  last_ = now;
+  if (terminal_) {
+    fmt::print("\r{}\x1b[K", line.substr(0, TerminalWidth() - 1));
+    line_open_ = true;
+  } else {
+    fmt::print("{}\n", line);
+  }
+  std::fflush(stdout);
+}
+
+void ProgressDisplay::Print(const std::string& line) {
+  fmt::print("{}{}\n", line_open_ ? "\r\x1b[K" : "", line);
+  line_open_ = false;
+  std::fflush(stdout);
+}
+
+}  // namespace skein

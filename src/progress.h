@@ -1,0 +1,67 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "train/trainer.h"
+
+namespace skein {
+
+/// "1.35 G", "12.3 M", "999".
+std::string FormatCount(double count);
+/// "47 s", "12 min 05 s", "3 h 07 min", "2 d 04 h".
+std::string FormatDuration(double seconds);
+
+/// What the progress line shows.
+struct Progress {
+  std::uint64_t env_steps = 0, total_steps = 0;
+  double steps_per_s = 0;  ///< 0: not known yet
+  double rollout_share = 0, update_share = 0;
+  double return_mean = 0, success_rate = 0;  ///< NaN: no episode has ended yet
+  double evaluation_success_rate = -1;       ///< latest; negative: none yet
+};
+
+/// One line: steps and budget, steps per second, shares of time, mean return, success, time left.
+std::string FormatProgress(const Progress& progress);
+
+/// Collects iteration reports into a Progress: rates over the last iterations that took about half
+/// a minute, the latest values that exist of the others.
+class ProgressMeter {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `env_steps`: where this process begins (above 0 when resumed).
+  ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps, Clock::time_point start);
+
+  void Add(const IterationReport& report, Clock::time_point now);
+  const Progress& progress() const { return progress_; }
+
+ private:
+  struct Sample {
+    Clock::time_point time;
+    std::uint64_t env_steps = 0;
+    double rollout_s = 0, update_s = 0;
+  };
+  std::deque<Sample> samples_;
+  Progress progress_;
+};
+
+/// Shows lines on the standard output: in place on a terminal, else one every ten seconds.
+class ProgressDisplay {
+ public:
+  ProgressDisplay();
+  /// Shows `line` now, or not at all if it is too early.
+  void Update(const std::string& line);
+  /// Prints a line that stays.
+  void Print(const std::string& line);
+
+ private:
+  bool terminal_ = false;
+  bool line_open_ = false;
+  bool shown_ = false;
+  ProgressMeter::Clock::time_point last_;
+};
+
+}  // namespace skein

@@ -1,0 +1,179 @@
+#include "src/run_directory.h"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+#include "simd/error.h"
+#include "src/configuration.h"
+#include "src/output_file.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCheckpointPrefix = "checkpoint-";
+constexpr const char* kExtension = ".skein";
+
+int Lock(const std::string& directory) {
+  const std::string path = directory + "/lock";
+  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    throw Error(fmt::format("{}: cannot be opened: {}", path, SystemReason()));
+  }
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    const bool held = errno == EWOULDBLOCK;
+    const std::string reason = SystemReason();
+    close(descriptor);
+    throw Error(held ? fmt::format("{}: another skein is training here", directory)
+                     : fmt::format("{}: cannot be locked: {}", path, reason));
+  }
+  return descriptor;
+}
+
+void MakeDirectories(const std::string& path) {
+  std::error_code failure;
+  fs::create_directories(path, failure);
+  if (failure) {
+    throw Error(fmt::format("{}: cannot be made a directory: {}", path, failure.message()));
+  }
+}
+
+std::optional<std::uint64_t> IterationOf(const std::string& name) {
+  const std::string prefix = kCheckpointPrefix, extension = kExtension;
+  if (name.size() <= prefix.size() + extension.size() ||
+      name.compare(0, prefix.size(), prefix) != 0 ||
+      name.compare(name.size() - extension.size(), std::string::npos, extension) != 0) {
+    return std::nullopt;
+  }
+  std::uint64_t iteration = 0;
+  const char* end = name.data() + name.size() - extension.size();
+  const auto [stop, failure] = std::from_chars(name.data() + prefix.size(), end, iteration);
+  if (failure != std::errc() || stop != end) return std::nullopt;
+  return iteration;
+}
+
+/// The latest change of a run's files, as a sortable time.
+fs::file_time_type LastWritten(const std::string& run) {
+  fs::file_time_type latest = fs::file_time_type::min();
+  for (const char* name : {"/config.toml", "/metrics.csv", "/log.txt"}) {
+    std::error_code failure;
+    const auto time = fs::last_write_time(run + name, failure);
+    if (!failure) latest = std::max(latest, time);
+  }
+  return latest;
+}
+
+}  // namespace
+
+bool IsRunDirectory(const std::string& path) {
+  std::error_code failure;
+  return fs::is_regular_file(path + "/config.toml", failure);
+}
+
+RunDirectory RunDirectory::Create(const std::string& path) {
+  std::error_code failure;
+  if (fs::exists(path, failure) && !(fs::is_directory(path) && fs::is_empty(path, failure))) {
+    throw Error(
+        IsRunDirectory(path)
+            ? fmt::format("{0}: holds a run already; continue it with --resume {0}, or "
+                          "choose another --out",
+                          path)
+            : fmt::format("{}: exists and is not an empty directory; choose another --out", path));
+  }
+  MakeDirectories(path);
+  RunDirectory directory(path, Lock(path));
+  MakeDirectories(directory.checkpoints());
+  return directory;
+}
+
+RunDirectory RunDirectory::Open(const std::string& path) {
+  if (!IsRunDirectory(path)) {
+    throw Error(
+        fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
+  }
+  RunDirectory directory(path, Lock(path));
+  MakeDirectories(directory.checkpoints());
+  return directory;
+}
+
+RunDirectory::RunDirectory(RunDirectory&& other) noexcept
+    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
+
+RunDirectory::~RunDirectory() {
+  if (lock_ >= 0) close(lock_);
+}
+
+std::string RunDirectory::checkpoint(std::uint64_t iteration) const {
+  return fmt::format("{}/{}{:06}{}", checkpoints(), kCheckpointPrefix, iteration, kExtension);
+}
+
+std::vector<Checkpoint> CheckpointsIn(const std::string& folder) {
+  std::vector<Checkpoint> found;
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    if (const auto iteration = IterationOf(entry.path().filename().string())) {
+      found.push_back({*iteration, entry.path().string()});
+    }
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Checkpoint& a, const Checkpoint& b) { return a.iteration < b.iteration; });
+  return found;
+}
+
+void RunDirectory::Prune(int keep) const {
+  const std::vector<Checkpoint> all = Checkpoints();
+  for (std::size_t i = 0; i + static_cast<std::size_t>(keep) < all.size(); ++i) {
+    std::error_code failure;
+    fs::remove(all[i].path, failure);
+    if (failure) {
+      throw Error(fmt::format("{}: cannot be removed: {}", all[i].path, failure.message()));
+    }
+  }
+}
+
+void RunDirectory::RemoveTemporaries() const {
+  for (const std::string& folder : {path_, checkpoints()}) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_regular_file() && entry.path().extension() == ".tmp") fs::remove(entry.path());
+    }
+  }
+}
+
+std::string NewRunPath(const std::string& root, const std::string& task) {
+  const std::string base =
+      fmt::format("{}/{}-{:%Y%m%d-%H%M%S}", root, task, fmt::localtime(std::time(nullptr)));
+  std::string path = base;
+  for (int copy = 2; fs::exists(path); ++copy) path = fmt::format("{}-{}", base, copy);
+  return path;
+}
+
+std::optional<std::string> LatestRun(const std::string& root, const std::string& task) {
+  std::error_code failure;
+  std::vector<std::string> runs;
+  for (const auto& entry : fs::directory_iterator(root, failure)) {
+    if (IsRunDirectory(entry.path().string())) runs.push_back(entry.path().string());
+  }
+  std::sort(runs.begin(), runs.end(), [](const std::string& a, const std::string& b) {
+    return LastWritten(a) > LastWritten(b);
+  });
+  for (const std::string& run : runs) {
+    if (task.empty()) return run;
+    ProgramConfig config;
+    ApplyTomlFile(run + "/config.toml", &config);
+    if (config.train.env.task == task) return run;
+  }
+  return std::nullopt;
+}
+
+}  // namespace skein

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace skein {
+
+/// A checkpoint on disk.
+struct Checkpoint {
+  std::uint64_t iteration = 0;
+  std::string path;
+};
+
+/// The checkpoints in a run's folder of checkpoints, oldest first.
+std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
+
+/// The directory of one training run, held exclusively while the object lives:
+///   config.toml  log.txt  metrics.csv  timing.csv  events.out.tfevents.*  evaluation.json
+///   checkpoints/checkpoint-<iteration>.skein, policy-best.skein, policy-final.skein
+class RunDirectory {
+ public:
+  /// Makes a new one. Throws Error if `path` exists and is not an empty directory, cannot be made,
+  /// or is held by another process.
+  static RunDirectory Create(const std::string& path);
+  /// Opens one that holds a run. Throws Error if it does not, or another process holds it.
+  static RunDirectory Open(const std::string& path);
+
+  RunDirectory(RunDirectory&& other) noexcept;
+  ~RunDirectory();
+
+  const std::string& path() const { return path_; }
+  std::string config() const { return path_ + "/config.toml"; }
+  std::string log() const { return path_ + "/log.txt"; }
+  std::string metrics() const { return path_ + "/metrics.csv"; }
+  std::string timing() const { return path_ + "/timing.csv"; }
+  std::string evaluation() const { return path_ + "/evaluation.json"; }
+  std::string checkpoints() const { return path_ + "/checkpoints"; }
+  std::string best_policy() const { return checkpoints() + "/policy-best.skein"; }
+  std::string final_policy() const { return checkpoints() + "/policy-final.skein"; }
+  std::string checkpoint(std::uint64_t iteration) const;
+
+  /// All checkpoints, oldest first.
+  std::vector<Checkpoint> Checkpoints() const { return CheckpointsIn(checkpoints()); }
+  /// Removes the oldest checkpoints so that `keep` stay. Throws Error if one cannot be removed.
+  void Prune(int keep) const;
+  /// Removes temporary files that a killed process left behind.
+  void RemoveTemporaries() const;
+
+ private:
+  RunDirectory(std::string path, int lock) : path_(std::move(path)), lock_(lock) {}
+
+  std::string path_;
+  int lock_ = -1;
+};
+
+/// Whether `path` is the directory of a run.
+bool IsRunDirectory(const std::string& path);
+
+/// A directory for a new run under `root` that does not exist yet: <root>/<task>-<date>-<time>.
+std::string NewRunPath(const std::string& root, const std::string& task);
+
+/// The run under `root` that was written to last, of `task` unless that is empty.
+std::optional<std::string> LatestRun(const std::string& root, const std::string& task);
+
+}  // namespace skein

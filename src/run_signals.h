@@ -1,0 +1,21 @@
+#pragma once
+
+namespace skein {
+
+/// While it lives, SIGINT and SIGTERM ask for a stop and SIGUSR1 for a save instead of ending the
+/// process. A second SIGINT or SIGTERM ends it at once, as by default. One at a time.
+class RunSignals {
+ public:
+  /// Throws Error if the system refuses a handler.
+  RunSignals();
+  ~RunSignals();
+  RunSignals(const RunSignals&) = delete;
+  RunSignals& operator=(const RunSignals&) = delete;
+
+  /// The signal that asked for a stop, or 0.
+  int StopSignal() const;
+  /// Whether a save was asked for since the last call.
+  bool TakeSaveRequest();
+};
+
+}  // namespace skein

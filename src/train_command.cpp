@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "simd/error.h"
+#include "src/commands.h"
+#include "src/configuration.h"
+#include "src/presets.h"
+#include "src/run_directory.h"
+#include "src/training_run.h"
+
+namespace skein {
+namespace {
+
+constexpr const char* kRunsRoot = "runs";
+
+struct TrainOptions {
+  std::string task;
+  std::string preset = "default";
+  std::string config;
+  std::vector<std::string> assignments;
+  std::optional<double> steps;
+  std::optional<std::uint64_t> seed;
+  int threads = 0;
+  std::string out;
+  std::string resume;
+  CLI::Option* resume_option = nullptr;
+  bool help_keys = false;
+};
+
+/// --set, then the flags that stand for one key each.
+std::vector<std::string> Assignments(const TrainOptions& options) {
+  std::vector<std::string> assignments = options.assignments;
+  if (options.steps) assignments.push_back(fmt::format("run.total_steps={}", *options.steps));
+  if (options.seed) assignments.push_back(fmt::format("run.seed={}", *options.seed));
+  return assignments;
+}
+
+std::string RunToResume(const TrainOptions& options) {
+  if (!options.resume.empty() && options.resume != "latest") return options.resume;
+  if (const auto latest = LatestRun(kRunsRoot, options.task)) return *latest;
+  throw Error(fmt::format("nothing to resume: there is no run{} in {}/",
+                          options.task.empty() ? "" : " of " + options.task, kRunsRoot));
+}
+
+void Resume(const TrainOptions& options) {
+  RunDirectory directory = RunDirectory::Open(RunToResume(options));
+  ProgramConfig config;
+  ApplyTomlFile(directory.config(), &config);
+  CheckConsistent(config);
+  if (!options.task.empty() && options.task != config.train.env.task) {
+    throw Error(fmt::format("{}: is a run of task {}, not {}", directory.path(),
+                            config.train.env.task, options.task));
+  }
+  ProgramConfig asked = config;
+  for (const std::string& assignment : Assignments(options)) ApplyAssignment(assignment, &asked);
+  if (const auto differences = Differences(config, asked); !differences.empty()) {
+    throw Error(fmt::format(
+        "{}: a resumed run keeps its configuration, but this was asked for: {}; begin a new run "
+        "instead",
+        directory.path(), fmt::join(differences, ", ")));
+  }
+  WorkerPool pool(options.threads);
+  TrainingRun::Resume(config, std::move(directory), pool);
+}
+
+void Train(const TrainOptions& options) {
+  if (options.help_keys) {
+    const std::string task = options.task.empty() ? PresetTasks().front() : options.task;
+    fmt::print("{}", DescribeKeys(ResolveConfig({task, options.preset, options.config, {}})));
+    return;
+  }
+  if (options.resume_option->count() > 0) {
+    Resume(options);
+    return;
+  }
+  if (options.task.empty()) {
+    throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
+  }
+  const ProgramConfig config =
+      ResolveConfig({options.task, options.preset, options.config, Assignments(options)});
+  CheckConsistent(config);
+  WorkerPool pool(options.threads);
+  TrainingRun::Begin(config,
+                     options.out.empty() ? NewRunPath(kRunsRoot, options.task) : options.out, pool);
+}
+
+}  // namespace
+
+void AddTrainCommand(CLI::App* app) {
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App* command = app->add_subcommand("train", "Train a policy, then evaluate it");
+  command->add_option("task", options->task, "what to fly: heading")->type_name("TASK");
+  CLI::Option* preset =
+      command
+          ->add_option("--preset", options->preset,
+                       "named configuration: default (tuned for a small machine) or paper (the "
+                       "NeuralPlane paper's settings, 1.35e9 steps at 50 Hz)")
+          ->capture_default_str();
+  CLI::Option* file = command
+                          ->add_option("--config", options->config,
+                                       "TOML file on top of the preset (keys: --help-keys)")
+                          ->type_name("FILE");
+  command
+      ->add_option("--set", options->assignments,
+                   "one configuration key, on top of preset and file; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--steps", options->steps,
+                      "budget in control steps (50 Hz) over all aircraft, such as 1.35e9; same as "
+                      "--set run.total_steps=...");
+  command->add_option("--seed", options->seed, "seed of the run; same as --set run.seed=...");
+  CLI::Option* out = command
+                         ->add_option("--out", options->out,
+                                      "directory of the run; it must not hold one already "
+                                      "(default: runs/TASK-DATE-TIME)")
+                         ->type_name("DIR");
+  options->resume_option =
+      command
+          ->add_option("--resume", options->resume,
+                       "go on with the run in DIR, or with the latest in runs/ (of TASK, if "
+                       "given), bit for bit as if it had never stopped")
+          ->type_name("[DIR|latest]")
+          ->expected(0, 1)
+          ->excludes(preset)
+          ->excludes(file)
+          ->excludes(out);
+  command
+      ->add_option("--threads", options->threads,
+                   "worker threads; results do not depend on it (default: one per CPU)")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--help-keys", options->help_keys,
+                    "list every configuration key with type, range, value and meaning, and exit");
+  command->footer(
+      "Weakest first: built-in defaults, preset, --config, --set, --steps and --seed.\n"
+      "SIGINT (Ctrl-C) and SIGTERM finish the iteration, save and end with exit code 0; a second "
+      "one\n"
+      "ends at once. SIGUSR1 saves and goes on.\n"
+      "Examples:\n"
+      "  skein train heading\n"
+      "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
+      "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
+      "  skein train --resume runs/short");
+  command->callback([options] { Train(*options); });
+}
+
+}  // namespace skein

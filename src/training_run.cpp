@@ -1,0 +1,203 @@
+#include "src/training_run.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "simd/error.h"
+#include "src/configuration.h"
+#include "src/evaluation_report.h"
+#include "src/output_file.h"
+#include "src/progress.h"
+
+namespace skein {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Far from the seeds that people choose for training, so that the final episodes are fresh.
+constexpr std::uint64_t kFreshSeedOffset = 1000000007;
+
+double UnixTime() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+std::string CannotRestore(const Checkpoint& newest, const std::vector<Checkpoint>& all,
+                          const char* reason) {
+  std::string message = fmt::format("cannot resume: {}", reason);
+  if (message.find(newest.path) == std::string::npos) message += " (" + newest.path + ")";
+  if (all.size() > 1) {
+    message += fmt::format("; remove that file to go on from {}", all[all.size() - 2].path);
+  }
+  return message;
+}
+
+}  // namespace
+
+void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool) {
+  // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
+  Trainer trainer(config.train, pool);
+  RunDirectory directory = RunDirectory::Create(path);
+  WriteFile(directory.config(), DumpToml(config));
+  TrainingRun run(config, std::move(directory), trainer, pool);
+  run.Run();
+}
+
+void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool) {
+  directory.RemoveTemporaries();
+  Trainer trainer(config.train, pool);
+  const std::vector<Checkpoint> checkpoints = directory.Checkpoints();
+  if (!checkpoints.empty()) {
+    try {
+      trainer.Restore(checkpoints.back().path);
+    } catch (const Error& error) {
+      throw Error(CannotRestore(checkpoints.back(), checkpoints, error.what()));
+    }
+  }
+  const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration());
+  TrimRows(directory.timing(), trainer.iteration());
+  TrainingRun run(config, std::move(directory), trainer, pool);
+  if (rows != trainer.iteration()) {
+    run.log_.Say(fmt::format("warning: metrics.csv has {} rows for {} iterations", rows,
+                             trainer.iteration()));
+  }
+  run.Run();
+}
+
+TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
+                         WorkerPool& pool)
+    : config_(config),
+      directory_(std::move(directory)),
+      trainer_(trainer),
+      pool_(pool),
+      log_(directory_.log()),
+      metrics_(directory_.metrics()),
+      timing_(directory_.timing()),
+      events_(directory_.path(), UnixTime(), static_cast<std::int64_t>(trainer.env_steps()) + 1),
+      last_save_(Clock::now()),
+      saved_iteration_(trainer.iteration()) {
+  if (metrics_.empty()) metrics_.Append(MetricsHeader());
+  if (timing_.empty()) timing_.Append(TimingHeader());
+}
+
+void TrainingRun::Run() {
+  const std::uint64_t first_step = trainer_.env_steps();
+  log_.Say(fmt::format("{} {} in {}: {} of {} steps, {} aircraft, seed {}, {} threads",
+                       first_step == 0 ? "training" : "resuming", config_.train.env.task,
+                       directory_.path(), FormatCount(static_cast<double>(first_step)),
+                       FormatCount(static_cast<double>(config_.train.total_steps)),
+                       config_.train.ppo.num_aircraft, config_.train.seed, pool_.threads()));
+  const Clock::time_point start = Clock::now();
+  ProgressMeter meter(first_step, config_.train.total_steps, start);
+  while (!trainer_.finished() && signals_.StopSignal() == 0) {
+    const IterationReport report = Iterate();
+    Record(report);
+    meter.Add(report, Clock::now());
+    log_.Show(FormatProgress(meter.progress()));
+    if (signals_.TakeSaveRequest()) {
+      SaveCheckpoint();
+      log_.Say(fmt::format("saved {} as asked", directory_.checkpoint(trainer_.iteration())));
+    } else if (CheckpointIsDue()) {
+      SaveCheckpoint();
+    }
+  }
+  if (saved_iteration_ != trainer_.iteration()) SaveCheckpoint();
+  log_.Note(FormatProgress(meter.progress()));
+  if (!trainer_.finished()) {
+    log_.Say(fmt::format(
+        "stopped by {} after {} of {} steps; go on with: skein train --resume {}",
+        strsignal(signals_.StopSignal()), FormatCount(static_cast<double>(trainer_.env_steps())),
+        FormatCount(static_cast<double>(config_.train.total_steps)), directory_.path()));
+    return;
+  }
+  log_.Say(
+      fmt::format("trained for {} steps in {}",
+                  FormatCount(static_cast<double>(trainer_.env_steps() - first_step)),
+                  FormatDuration(std::chrono::duration<double>(Clock::now() - start).count())));
+  Finish();
+}
+
+IterationReport TrainingRun::Iterate() {
+  try {
+    IterationReport report = trainer_.Iterate();
+    report.iteration = trainer_.iteration();
+    return report;
+  } catch (const Error& error) {
+    // Not named like a checkpoint: its parameters are those before the failed iteration, but the
+    // aircraft have flown on, so a run cannot go on from it bit for bit.
+    const std::string path = fmt::format("{}/before-failure-{:06}.skein", directory_.checkpoints(),
+                                         trainer_.iteration());
+    log_.Note(fmt::format("error: {}", error.what()));
+    trainer_.Save(path);
+    throw Error(fmt::format("{}; the state from before is in {}", error.what(), path));
+  }
+}
+
+void TrainingRun::Record(const IterationReport& report) {
+  const double now = UnixTime();
+  metrics_.Append(MetricsRow(report));
+  timing_.Append(TimingRow(report, now));
+  events_.Append(now, static_cast<std::int64_t>(report.env_steps), Scalars(report));
+  const int non_finite = report.terminations[static_cast<std::size_t>(Termination::kNonFinite)];
+  if (non_finite > 0) {
+    log_.Say(
+        fmt::format("warning: {} aircraft left the finite numbers in iteration {} and were "
+                    "reset",
+                    non_finite, report.iteration));
+  }
+  if (report.evaluation_success_rate >= 0) {
+    log_.Note(fmt::format("iteration {}, {} steps: deterministic success {:.1f} %{}",
+                          report.iteration, FormatCount(static_cast<double>(report.env_steps)),
+                          100 * report.evaluation_success_rate,
+                          report.best ? ", the best so far" : ""));
+  }
+  if (report.best) trainer_.policy().Save(directory_.best_policy());
+}
+
+bool TrainingRun::CheckpointIsDue() const {
+  const CheckpointConfig& config = config_.checkpoint;
+  if (config.interval_iterations > 0 &&
+      trainer_.iteration() % static_cast<std::uint64_t>(config.interval_iterations) == 0) {
+    return true;
+  }
+  return config.interval_s > 0 &&
+         std::chrono::duration<double>(Clock::now() - last_save_).count() >= config.interval_s;
+}
+
+void TrainingRun::SaveCheckpoint() {
+  // Rows first: a checkpoint must never be newer than the records that it continues.
+  metrics_.Sync();
+  timing_.Sync();
+  trainer_.Save(directory_.checkpoint(trainer_.iteration()));
+  saved_iteration_ = trainer_.iteration();
+  last_save_ = Clock::now();
+  directory_.Prune(config_.checkpoint.keep);
+}
+
+void TrainingRun::Finish() {
+  trainer_.policy().Save(directory_.final_policy());
+  const bool has_best = std::filesystem::exists(directory_.best_policy());
+  const std::string path = has_best ? directory_.best_policy() : directory_.final_policy();
+  const Policy policy = Policy::Load(path);
+  const std::uint64_t seed = config_.train.seed + kFreshSeedOffset;
+  const int episodes = config_.final_evaluation_episodes;
+  log_.Say(fmt::format("evaluating {} over {} fresh episodes", path, episodes));
+  const EvaluationReport report =
+      EvaluateBothWays(policy, config_.train.env, episodes, seed, pool_);
+  WriteFile(directory_.evaluation(), ToJson(report, path, config_, seed, true).dump(1) + "\n");
+  log_.Say(ToText(report));
+  log_.Say(fmt::format(
+      "policy          {}\n"
+      "evaluation      {}\n"
+      "metrics         {}  (tensorboard --logdir {})\n"
+      "configuration   {}\n"
+      "checkpoints     {}\n"
+      "again           skein eval --policy {} --task {} --deterministic",
+      path, directory_.evaluation(), directory_.metrics(), directory_.path(), directory_.config(),
+      directory_.checkpoints(), directory_.path(), config_.train.env.task));
+  log_.Sync();
+}
+
+}  // namespace skein

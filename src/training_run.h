@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "envs/worker_pool.h"
+#include "src/append_file.h"
+#include "src/event_file.h"
+#include "src/metrics.h"
+#include "src/program_config.h"
+#include "src/run_directory.h"
+#include "src/run_log.h"
+#include "src/run_signals.h"
+#include "train/trainer.h"
+
+namespace skein {
+
+/// One training run in its directory: iterations, records, checkpoints, signals, and at the end the
+/// evaluation over fresh episodes.
+class TrainingRun {
+ public:
+  /// A new run in a new directory.
+  static void Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool);
+  /// Goes on from the directory's newest checkpoint, or from the start if it has none. Throws Error
+  /// if the checkpoint is damaged or made with another configuration.
+  static void Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool);
+
+ private:
+  TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
+              WorkerPool& pool);
+
+  void Run();
+  IterationReport Iterate();
+  void Record(const IterationReport& report);
+  void SaveCheckpoint();
+  bool CheckpointIsDue() const;
+  void Finish();
+
+  ProgramConfig config_;
+  RunDirectory directory_;
+  Trainer& trainer_;
+  WorkerPool& pool_;
+  RunSignals signals_;
+  RunLog log_;
+  AppendFile metrics_, timing_;
+  EventFile events_;
+  std::chrono::steady_clock::time_point last_save_;
+  std::uint64_t saved_iteration_ = 0;
+};
+
+}  // namespace skein
