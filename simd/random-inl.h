@@ -1,4 +1,4 @@
-// Philox4x32-10 and Box-Muller on vectors, for kernels (see simd/foreach_target.h).
+// Philox4x32-10 and Box-Muller on vectors, for kernels (see simd/dispatch.h).
 
 #include <cstdint>
 

@@ -1,0 +1,94 @@
+#include "envs/flight_reset.h"
+
+#include <cmath>
+
+#include "envs/aircraft/engine.h"
+#include "envs/dynamics/attitude.h"
+
+namespace skein {
+namespace {
+
+// Thrust of the paper's untrimmed start.
+constexpr double kUntrimmedThrustLbf = 2000;
+
+RigidBodyState LevelState(double altitude_ft, double true_airspeed_ft_s, double alpha_rad,
+                          double bank_rad, double pitch_rad) {
+  RigidBodyState state = RigidBodyState::Zero();
+  state[kU] = true_airspeed_ft_s * std::cos(alpha_rad);
+  state[kW] = true_airspeed_ft_s * std::sin(alpha_rad);
+  state[kDown] = -altitude_ft;
+  EulerAngles attitude;
+  attitude.roll = bank_rad;
+  attitude.pitch = pitch_rad;
+  state.segment<4>(kQ0) = QuaternionFromEuler(attitude);
+  return state;
+}
+
+std::optional<TrimTable> SolveTrims(const InitialConfig& initial, const Plant& plant) {
+  if (!initial.trimmed) return std::nullopt;
+  return TrimTable(plant, initial.altitude_ft.min, initial.altitude_ft.max,
+                   initial.true_airspeed_fps.min, initial.true_airspeed_fps.max);
+}
+
+}  // namespace
+
+FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
+    : initial_(config.initial),
+      plant_(aircraft, config.atmosphere),
+      flight_control_(aircraft, config.flight_control, config.control_interval_s),
+      trims_(SolveTrims(config.initial, plant_)) {}
+
+TrimmedStart FlightReset::UntrimmedAt(double altitude_ft, double true_airspeed_ft_s) const {
+  const RigidBodyState state = LevelState(altitude_ft, true_airspeed_ft_s, 0, 0, 0);
+  Controls controls;
+  controls.thrust_lbf = kUntrimmedThrustLbf;
+  const PlantOutput output = plant_.Evaluate(state, controls);
+  TrimmedStart start;
+  start.power =
+      PowerForThrust(plant_.aircraft().engine, kUntrimmedThrustLbf, altitude_ft, output.air.mach);
+  start.nz = output.nz;
+  start.ny = output.ny;
+  return start;
+}
+
+FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
+  const double altitude_ft = random->Uniform(initial_.altitude_ft.min, initial_.altitude_ft.max);
+  const double speed_ft_s =
+      random->Uniform(initial_.true_airspeed_fps.min, initial_.true_airspeed_fps.max);
+  const TrimmedStart start =
+      trims_ ? trims_->At(altitude_ft, speed_ft_s) : UntrimmedAt(altitude_ft, speed_ft_s);
+  const RigidBodyState state =
+      LevelState(altitude_ft, speed_ft_s, start.alpha_rad, start.bank_rad, start.pitch_rad);
+
+  const Air air = AirAt(plant_.atmosphere(), altitude_ft);
+  FlightSensors sensors;
+  sensors.alpha_deg = start.alpha_rad * kDegPerRad;
+  sensors.nz = start.nz;
+  sensors.ny = start.ny;
+  sensors.dynamic_pressure_psf = 0.5 * air.density_slug_ft3 * speed_ft_s * speed_ft_s;
+  sensors.static_pressure_psf = air.pressure_lbf_ft2;
+  const SurfaceAngles surfaces{start.elevator_deg, start.aileron_deg, start.rudder_deg,
+                               start.leading_edge_flap_deg};
+  const FlightControlState filters = flight_control_.InitialState(sensors, surfaces);
+
+  FreshFlight flight;
+  const auto set = [&flight](int column, double value) {
+    flight.columns[static_cast<std::size_t>(column)] = static_cast<float>(value);
+  };
+  for (int column = 0; column < kNumRigidBody; ++column) set(column, state[column]);
+  set(kPower, start.power);
+  set(kPowerCommand, start.power);
+  set(kElevator, surfaces.elevator_deg);
+  set(kAileron, surfaces.aileron_deg);
+  set(kRudder, surfaces.rudder_deg);
+  set(kLeadingEdgeFlap, surfaces.leading_edge_flap_deg);
+  set(kNz, start.nz);
+  set(kNy, start.ny);
+  for (int i = 0; i < kNumFlightControlStates; ++i) {
+    set(kAlphaFilter + i, filters[static_cast<std::size_t>(i)]);
+  }
+  flight.start = {altitude_ft, speed_ft_s, start.pitch_rad, 0};
+  return flight;
+}
+
+}  // namespace skein

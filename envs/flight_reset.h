@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "envs/aircraft/flight_control.h"
+#include "envs/dynamics/plant.h"
+#include "envs/dynamics/trim_table.h"
+#include "envs/env_config.h"
+#include "envs/tasks/task.h"
+#include "simd/random.h"
+
+namespace skein {
+
+/// A fresh flight: every physical column of one aircraft (envs/dynamics/state.h), and what its
+/// targets are drawn relative to.
+struct FreshFlight {
+  std::array<float, kNumColumns> columns{};
+  FlightStart start;
+};
+
+/// Draws the states in which episodes begin. Heading north at the origin; flight control at rest.
+class FlightReset {
+ public:
+  /// Solves the trims that trimmed starts need. Throws Error where there is none.
+  FlightReset(const EnvConfig& config, const Aircraft& aircraft);
+
+  FreshFlight Draw(simd::RandomStream* random) const;
+
+ private:
+  TrimmedStart UntrimmedAt(double altitude_ft, double true_airspeed_ft_s) const;
+
+  InitialConfig initial_;
+  Plant plant_;
+  FlightControl flight_control_;
+  std::optional<TrimTable> trims_;
+};
+
+}  // namespace skein

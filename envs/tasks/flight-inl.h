@@ -1,0 +1,81 @@
+// Quantities of flight that tasks share, on vectors of consecutive aircraft (see simd/dispatch.h).
+
+#include <cstdint>
+
+#include "envs/dynamics/state.h"
+
+#if defined(SKEIN_ENVS_TASKS_FLIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKEIN_ENVS_TASKS_FLIGHT_INL_H_
+#undef SKEIN_ENVS_TASKS_FLIGHT_INL_H_
+#else
+#define SKEIN_ENVS_TASKS_FLIGHT_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "simd/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FlightTag = hn::ScalableTag<float>;
+using FlightVector = hn::Vec<FlightTag>;
+
+HWY_INLINE FlightVector Constant(double value) {
+  return hn::Set(FlightTag(), static_cast<float>(value));
+}
+
+HWY_INLINE FlightVector Column(const Tile& tile, int column, int first) {
+  return hn::LoadU(FlightTag(), tile[column] + first);
+}
+
+/// Velocity in body axes, ft/s. Speeds are kept from zero so that ratios stay finite.
+struct VelocityVectors {
+  FlightVector u, v, w;
+  FlightVector forward;  ///< sqrt(u^2 + w^2)
+  FlightVector speed;
+};
+
+HWY_INLINE VelocityVectors Velocity(const Tile& tile, int first) {
+  const FlightVector least = Constant(1e-6);
+  VelocityVectors velocity;
+  velocity.u = Column(tile, kU, first);
+  velocity.v = Column(tile, kV, first);
+  velocity.w = Column(tile, kW, first);
+  const FlightVector forward_squared =
+      hn::MulAdd(velocity.u, velocity.u, hn::Mul(velocity.w, velocity.w));
+  velocity.forward = hn::Max(hn::Sqrt(forward_squared), least);
+  velocity.speed = hn::Max(hn::Sqrt(hn::MulAdd(velocity.v, velocity.v, forward_squared)), least);
+  return velocity;
+}
+
+/// 2 (a b + c d).
+HWY_INLINE FlightVector TwiceSum(FlightVector a, FlightVector b, FlightVector c, FlightVector d) {
+  const FlightVector sum = hn::MulAdd(a, b, hn::Mul(c, d));
+  return hn::Add(sum, sum);
+}
+
+/// Yaw, rad, in [-pi, pi].
+HWY_INLINE FlightVector Yaw(const Tile& tile, int first) {
+  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
+  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
+  const FlightVector north =
+      hn::MulAdd(q0, q0, hn::NegMulAdd(qz, qz, hn::NegMulAdd(qy, qy, hn::Mul(qx, qx))));
+  return Atan2(FlightTag(), TwiceSum(qx, qy, q0, qz), north);
+}
+
+/// An angle brought into [-pi, pi].
+HWY_INLINE FlightVector WrapAngle(FlightVector angle) {
+  const FlightVector turns = hn::Round(hn::Mul(angle, Constant(0.15915494309189535)));
+  // 2 pi in two parts: the first times a small integer is exact.
+  const FlightVector coarse = hn::NegMulAdd(turns, Constant(6.28125), angle);
+  return hn::NegMulAdd(turns, Constant(0.0019353071795864769), coarse);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#endif  // SKEIN_ENVS_TASKS_FLIGHT_INL_H_

@@ -1,0 +1,129 @@
+#include "envs/tasks/heading.h"
+
+#include <cmath>
+
+#include "envs/dynamics/attitude.h"
+#include "envs/tasks/normalisation.h"
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/tasks/heading.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "envs/tasks/flight-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Target minus actual, in ft, rad and ft/s.
+struct HeadingError {
+  FlightVector altitude, yaw, speed;
+};
+
+HWY_INLINE HeadingError ErrorOf(const Tile& flight, const Tile& task, int first) {
+  HeadingError error;
+  error.altitude = hn::Add(Column(task, kTargetAltitude, first), Column(flight, kDown, first));
+  error.yaw = WrapAngle(hn::Sub(Column(task, kTargetYaw, first), Yaw(flight, first)));
+  error.speed = hn::Sub(Column(task, kTargetSpeed, first), Velocity(flight, first).speed);
+  return error;
+}
+
+HWY_INLINE HeadingError Normalised(const HeadingError& error) {
+  return {hn::Mul(error.altitude, Constant(1 / kAltitudeErrorUnitFt)), error.yaw,
+          hn::Mul(error.speed, Constant(1 / kSpeedUnitFtS))};
+}
+
+void HeadingErrors(Tile flight, Tile task, float* errors, std::size_t error_stride) {
+  const FlightTag d;
+  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+    const HeadingError error = Normalised(ErrorOf(flight, task, first));
+    hn::StoreU(error.altitude, d, errors + first);
+    hn::StoreU(error.yaw, d, errors + error_stride + first);
+    hn::StoreU(error.speed, d, errors + 2 * error_stride + first);
+  }
+}
+
+void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config,
+                  const std::int32_t* steps_before, const TaskVerdict& verdict) {
+  const FlightTag d;
+  const hn::RebindToSigned<FlightTag> di;
+  const auto one = hn::Set(di, 1);
+  const auto earliest = hn::Set(di, config.earliest_success_step - 1);
+  const FlightVector altitude_tolerance = Constant(config.altitude_tolerance_ft);
+  const FlightVector yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
+  const FlightVector speed_tolerance = Constant(config.speed_tolerance_fps);
+  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+    const HeadingError error = ErrorOf(flight, task, first);
+    const HeadingError scaled = Normalised(error);
+    const FlightVector squares =
+        hn::MulAdd(scaled.altitude, scaled.altitude,
+                   hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));
+    hn::StoreU(hn::Neg(hn::Sqrt(squares)), d, verdict.reward + first);
+
+    const auto close = hn::And(hn::Lt(hn::Abs(error.altitude), altitude_tolerance),
+                               hn::And(hn::Lt(hn::Abs(error.yaw), yaw_tolerance),
+                                       hn::Lt(hn::Abs(error.speed), speed_tolerance)));
+    const auto early = hn::Gt(earliest, hn::LoadU(di, steps_before + first));
+    const auto reached =
+        hn::AndNot(hn::VecFromMask(di, early), hn::VecFromMask(di, hn::RebindMask(di, close)));
+    hn::StoreU(hn::And(reached, one), di, verdict.reached + first);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+namespace {
+
+HWY_EXPORT(HeadingErrors);
+HWY_EXPORT(HeadingJudge);
+
+class HeadingTask : public Task {
+ public:
+  explicit HeadingTask(const HeadingConfig& config) : config_(config) {}
+
+  int num_columns() const override { return kNumHeadingColumns; }
+  int num_targets() const override { return kNumHeadingColumns; }
+
+  void Reset(const FlightStart& start, simd::RandomStream* random, float* columns) const override {
+    const auto around = [random](double centre, double change) {
+      return centre + random->Uniform(-change, change);
+    };
+    columns[kTargetAltitude] =
+        static_cast<float>(around(start.altitude_ft, config_.altitude_change_ft));
+    const double yaw = around(start.yaw_rad, config_.yaw_change_rad);
+    columns[kTargetYaw] = static_cast<float>(std::remainder(yaw, 2 * M_PI));
+    columns[kTargetSpeed] =
+        static_cast<float>(around(start.true_airspeed_ft_s, config_.speed_change_fps));
+  }
+
+  void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
+    SKEIN_DISPATCH(HeadingErrors)(flight, task, errors, error_stride);
+  }
+
+  void Judge(Tile flight, Tile task, const std::int32_t* steps_before,
+             const TaskVerdict& verdict) const override {
+    SKEIN_DISPATCH(HeadingJudge)(flight, task, config_, steps_before, verdict);
+  }
+
+ private:
+  HeadingConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Task> MakeHeadingTask(const EnvConfig& config) {
+  return std::make_unique<HeadingTask>(config.heading);
+}
+
+}  // namespace skein
+#endif

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "envs/tasks/task.h"
+
+namespace skein {
+
+/// Task columns: altitude ft, yaw rad in [-pi, pi], true airspeed ft/s.
+enum HeadingColumn : int { kTargetAltitude, kTargetYaw, kTargetSpeed, kNumHeadingColumns };
+
+/// Turn to a given heading, altitude and true airspeed (NeuralPlane paper, Heading). Errors are
+/// target minus actual: altitude / 1 km, yaw rad in [-pi, pi], speed / 340 m/s. The reward of a
+/// step is minus their L2 norm.
+std::unique_ptr<Task> MakeHeadingTask(const EnvConfig& config);
+
+}  // namespace skein

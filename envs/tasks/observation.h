@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "envs/dynamics/plant_kernel.h"
+
+namespace skein {
+
+/// An aircraft's observation, float32:
+///   0-2   the task's errors (Task::Errors)
+///   3     altitude / 5 km
+///   4, 5  sin, cos of roll        6, 7   sin, cos of pitch
+///   8     equivalent airspeed / 340 m/s
+///   9, 10 sin, cos of alpha       11, 12 sin, cos of beta
+///   13-15 p, q, r, rad/s
+///   16    engine power / 100
+///   17-20 elevator, aileron, rudder, leading-edge flap as fractions of their range
+///   21    true airspeed / equivalent airspeed
+inline constexpr int kObservationSize = 22;
+
+/// Gaussian noise on every element, drawn from the streams (seed, aircraft, episode, step).
+struct ObservationNoise {
+  double standard_deviation = 0;  ///< 0 draws none
+  std::uint64_t seed = 0;
+  std::uint32_t first_aircraft = 0;  ///< global index of the tile's first aircraft
+  const std::int32_t* episode = nullptr;
+  const std::int32_t* step = nullptr;
+};
+
+/// Writes observations row-major, [tile.count][kObservationSize]. `errors` are kNumTaskErrors
+/// columns `error_stride` apart.
+void ObserveTile(const KernelAircraft& aircraft, Tile tile, const float* errors,
+                 std::size_t error_stride, const ObservationNoise& noise, float* observation);
+
+}  // namespace skein

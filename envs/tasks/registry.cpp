@@ -1,0 +1,34 @@
+#include <array>
+
+#include "envs/tasks/heading.h"
+#include "envs/tasks/task.h"
+#include "simd/error.h"
+
+namespace skein {
+namespace {
+
+struct Registration {
+  const char* name;
+  std::unique_ptr<Task> (*make)(const EnvConfig& config);
+};
+
+constexpr std::array<Registration, 1> kTasks = {{{"heading", MakeHeadingTask}}};
+
+}  // namespace
+
+std::vector<std::string> TaskNames() {
+  std::vector<std::string> names;
+  for (const Registration& task : kTasks) names.emplace_back(task.name);
+  return names;
+}
+
+std::unique_ptr<Task> MakeTask(const EnvConfig& config) {
+  std::string known;
+  for (const Registration& task : kTasks) {
+    if (config.task == task.name) return task.make(config);
+    known += (known.empty() ? "" : ", ") + std::string(task.name);
+  }
+  throw Error("environment: unknown task \"" + config.task + "\"; known: " + known);
+}
+
+}  // namespace skein

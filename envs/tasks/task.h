@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "envs/dynamics/state.h"
+#include "envs/env_config.h"
+#include "simd/random.h"
+
+namespace skein {
+
+/// Where a flight begins: what targets are drawn relative to.
+struct FlightStart {
+  double altitude_ft = 0;
+  double true_airspeed_ft_s = 0;
+  double pitch_rad = 0, yaw_rad = 0;
+};
+
+/// Task errors at the head of every observation.
+inline constexpr int kNumTaskErrors = 3;
+
+/// What one control step was worth, by the task alone; one element per aircraft, padded as Tile
+/// says.
+struct TaskVerdict {
+  float* reward = nullptr;          ///< before reward_scale, without terminal rewards
+  std::int32_t* reached = nullptr;  ///< 1 where the target counts as reached, else 0
+};
+
+/// What the aircraft of an environment are asked to do. One object serves all tiles: it holds
+/// settings, and each aircraft's targets live in the tile's task columns, which a `Tile` of
+/// num_columns() columns shows. Targets come first.
+class Task {
+ public:
+  virtual ~Task() = default;
+
+  virtual int num_columns() const = 0;
+  virtual int num_targets() const = 0;
+
+  /// Draws the task columns of one aircraft at the start of an episode.
+  virtual void Reset(const FlightStart& start, simd::RandomStream* random,
+                     float* columns) const = 0;
+
+  /// The first three observations, as columns `error_stride` apart.
+  virtual void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const = 0;
+
+  /// Judges the state after a control step. `steps_before` is each aircraft's control steps in this
+  /// episode before it.
+  virtual void Judge(Tile flight, Tile task, const std::int32_t* steps_before,
+                     const TaskVerdict& verdict) const = 0;
+};
+
+/// Names that EnvConfig::task may have.
+std::vector<std::string> TaskNames();
+
+/// Throws Error on an unknown name; the message lists the known ones.
+std::unique_ptr<Task> MakeTask(const EnvConfig& config);
+
+}  // namespace skein

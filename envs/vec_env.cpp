@@ -1,0 +1,387 @@
+#include "envs/vec_env.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "envs/aircraft/registry.h"
+#include "envs/dynamics/plant_kernel.h"
+#include "envs/flight_reset.h"
+#include "envs/tasks/judgement.h"
+#include "envs/tasks/observation.h"
+#include "envs/tasks/task.h"
+#include "simd/error.h"
+
+namespace skein {
+namespace {
+
+// Aircraft that go through all of a decision's control steps together: their columns stay in the
+// innermost caches.
+constexpr int kBlock = 128;
+constexpr int kLaneMultiple = 32;
+constexpr int kActionSize = 4;
+constexpr std::size_t kCacheLine = 64;
+
+struct AlignedDelete {
+  template <class T>
+  void operator()(T* words) const {
+    ::operator delete[](words, std::align_val_t{kCacheLine});
+  }
+};
+
+template <class T>
+using AlignedArray = std::unique_ptr<T[], AlignedDelete>;
+
+template <class T>
+AlignedArray<T> AllocateZeros(std::size_t count) {
+  void* const memory = ::operator new[](count * sizeof(T), std::align_val_t{kCacheLine});
+  T* const words = static_cast<T*>(memory);
+  std::uninitialized_fill_n(words, count, T{0});
+  return AlignedArray<T>(words);
+}
+
+int RoundUp(int count, int multiple) { return (count + multiple - 1) / multiple * multiple; }
+
+/// Limits to [-1, 1]; NaN stays NaN.
+float ClipAction(float action) { return action < -1 ? -1 : action > 1 ? 1 : action; }
+
+/// What a block needs during a decision only.
+struct alignas(kCacheLine) DecisionScratch {
+  float pilot[kActionSize][kBlock];
+  float step_reward[kBlock];
+  float decision_reward[kBlock];
+  std::int32_t reached[kBlock];
+  std::int32_t termination[kBlock];
+
+  PilotColumns pilot_columns() const { return {pilot[0], pilot[1], pilot[2], pilot[3]}; }
+};
+
+Aircraft ConfiguredAircraft(const EnvConfig& config) {
+  Aircraft aircraft = LoadAircraft(config.aircraft);
+  aircraft.airframe.cg = config.cg;
+  aircraft.airframe.engine_angular_momentum = config.engine_angular_momentum;
+  return aircraft;
+}
+
+const EnvConfig& Validated(const EnvConfig& config) {
+  Validate(config);
+  return config;
+}
+
+}  // namespace
+
+struct VecEnv::Impl {
+  /// A run of at most kBlock aircraft of one tile.
+  struct Block {
+    Tile flight, task;
+    float* episode_return;
+    std::int32_t* step;
+    std::int32_t* episode;
+    int first_aircraft;
+    int count;
+  };
+
+  Impl(const EnvConfig& environment, int aircraft_count, std::uint64_t random_seed,
+       int requested_tile_size)
+      : config(Validated(environment)),
+        num_aircraft(aircraft_count),
+        seed(random_seed),
+        task(MakeTask(config)),
+        aircraft(ConfiguredAircraft(config)),
+        kernel_aircraft(MakeKernelAircraft(aircraft, config.atmosphere)),
+        reset(config, aircraft) {
+    if (aircraft_count < 1) {
+      throw Error("environment: " + std::to_string(aircraft_count) +
+                  " aircraft, but there must be at least 1");
+    }
+    if (requested_tile_size < 1) {
+      throw Error("environment: tiles of " + std::to_string(requested_tile_size) +
+                  " aircraft, but a tile must have at least 1");
+    }
+    tile_size = RoundUp(std::min(requested_tile_size, num_aircraft), kLaneMultiple);
+    num_tiles = (num_aircraft + tile_size - 1) / tile_size;
+    stride = TileStride(tile_size);
+    floats_per_tile = static_cast<std::size_t>(kNumColumns + task->num_columns() + 1) * stride;
+    columns = AllocateZeros<float>(floats_per_tile * static_cast<std::size_t>(num_tiles));
+    counters = AllocateZeros<std::int32_t>(2 * stride * static_cast<std::size_t>(num_tiles));
+    for (int tile = 0; tile < num_tiles; ++tile) {
+      for (int begin = 0; begin < CountOf(tile); begin += kBlock) {
+        const Block block = BlockOf(tile, begin);
+        for (int i = 0; i < block.count; ++i) BeginEpisode(block, i, 0);
+        FillPadding(block);
+      }
+    }
+  }
+
+  int CountOf(int tile) const { return std::min(tile_size, num_aircraft - tile * tile_size); }
+
+  Block BlockOf(int tile, int begin) const {
+    float* const base = columns.get() + floats_per_tile * static_cast<std::size_t>(tile) + begin;
+    std::int32_t* const integers =
+        counters.get() + 2 * stride * static_cast<std::size_t>(tile) + begin;
+    const int count = std::min(kBlock, CountOf(tile) - begin);
+    Block block;
+    block.flight = {base, stride, count};
+    block.task = {base + kNumColumns * stride, stride, count};
+    block.episode_return = block.task[task->num_columns()];
+    block.step = integers;
+    block.episode = integers + stride;
+    block.first_aircraft = tile * tile_size + begin;
+    block.count = count;
+    return block;
+  }
+
+  simd::RandomStream Stream(const Block& block, int i, simd::RandomPurpose purpose) const {
+    simd::RandomKey key;
+    key.seed = seed;
+    key.a = static_cast<std::uint32_t>(block.first_aircraft + i);
+    key.b = static_cast<std::uint32_t>(block.episode[i]);
+    key.purpose = purpose;
+    return simd::RandomStream(key);
+  }
+
+  void BeginEpisode(const Block& block, int i, std::int32_t episode) const {
+    block.episode[i] = episode;
+    block.step[i] = 0;
+    block.episode_return[i] = 0;
+    simd::RandomStream initial = Stream(block, i, simd::RandomPurpose::kInitialState);
+    const FreshFlight flight = reset.Draw(&initial);
+    for (int column = 0; column < kNumColumns; ++column) {
+      block.flight[column][i] = flight.columns[static_cast<std::size_t>(column)];
+    }
+    std::vector<float> targets(static_cast<std::size_t>(task->num_columns()));
+    simd::RandomStream target = Stream(block, i, simd::RandomPurpose::kTarget);
+    task->Reset(flight.start, &target, targets.data());
+    for (int column = 0; column < task->num_columns(); ++column) {
+      block.task[column][i] = targets[static_cast<std::size_t>(column)];
+    }
+    if (config.stagger_clocks && episode == 0) {
+      simd::RandomStream clock = Stream(block, i, simd::RandomPurpose::kClockStagger);
+      block.step[i] = static_cast<std::int32_t>(clock.Uniform(0, config.time_limit_steps));
+    }
+  }
+
+  /// Lanes beyond the last aircraft fly copies of the first, so that kernels meet only sound
+  /// states there.
+  void FillPadding(const Block& block) const {
+    const int padded = RoundUp(block.count, kLaneMultiple);
+    for (int column = 0; column < kNumColumns; ++column) {
+      std::fill(block.flight[column] + block.count, block.flight[column] + padded,
+                block.flight[column][0]);
+    }
+    for (int column = 0; column < task->num_columns(); ++column) {
+      std::fill(block.task[column] + block.count, block.task[column] + padded,
+                block.task[column][0]);
+    }
+    std::fill(block.step + block.count, block.step + padded, 0);
+    std::fill(block.episode_return + block.count, block.episode_return + padded, 0.0f);
+  }
+
+  void Observe(const Block& block, float* observation) const {
+    alignas(kCacheLine) float errors[kNumTaskErrors * kBlock];
+    task->Errors(block.flight, block.task, errors, kBlock);
+    ObservationNoise noise;
+    noise.standard_deviation = config.observation_noise;
+    noise.seed = seed;
+    noise.first_aircraft = static_cast<std::uint32_t>(block.first_aircraft);
+    noise.episode = block.episode;
+    noise.step = block.step;
+    ObserveTile(*kernel_aircraft, block.flight, errors, kBlock, noise, observation);
+  }
+
+  /// Reads the pilots' commands. An action that is not finite makes its aircraft's state so, which
+  /// ends the episode as NonFinite.
+  static void Take(const float* action, const Block& block, DecisionScratch* scratch) {
+    for (int i = 0; i < block.count; ++i) {
+      const float throttle = ClipAction(action[i * kActionSize]);
+      scratch->pilot[0][i] = 0.5f * (throttle + 1);
+      bool is_finite = std::isfinite(action[i * kActionSize]);
+      for (int k = 1; k < kActionSize; ++k) {
+        scratch->pilot[k][i] = ClipAction(action[i * kActionSize + k]);
+        is_finite = is_finite && std::isfinite(action[i * kActionSize + k]);
+      }
+      if (!is_finite) block.flight[kU][i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    for (float* const column : scratch->pilot) {
+      std::fill(column + block.count, column + RoundUp(block.count, kLaneMultiple), 0.0f);
+    }
+  }
+
+  /// Copies the observations of aircraft whose time ran out in this control step.
+  void ObserveTruncated(const Block& block, const DecisionScratch& scratch, bool* written,
+                        float* final_observation) const {
+    const auto is_new = [&](int i) {
+      return scratch.termination[i] == static_cast<std::int32_t>(Termination::kUnreachTarget) &&
+             !written[i];
+    };
+    bool any = false;
+    for (int i = 0; i < block.count; ++i) any = any || is_new(i);
+    if (!any) return;
+    float observation[kBlock * kObservationSize];
+    Observe(block, observation);
+    for (int i = 0; i < block.count; ++i) {
+      if (!is_new(i)) continue;
+      std::copy_n(observation + i * kObservationSize, kObservationSize,
+                  final_observation + i * kObservationSize);
+      written[i] = true;
+    }
+  }
+
+  /// `output` points at the block's first aircraft.
+  void Step(const Block& block, const float* action, const StepOutput& output) const {
+    DecisionScratch scratch;
+    Take(action, block, &scratch);
+    std::fill(std::begin(scratch.decision_reward), std::end(scratch.decision_reward), 0.0f);
+    std::fill(std::begin(scratch.termination), std::end(scratch.termination), 0);
+    const TaskVerdict verdict{scratch.step_reward, scratch.reached};
+    const EpisodeColumns episodes{block.step, scratch.termination, scratch.decision_reward,
+                                  block.episode_return};
+    const bool keeps_final = config.truncate_at_time_limit && output.final_observation != nullptr;
+    bool written[kBlock] = {};
+    const float dt = static_cast<float>(config.control_interval_s);
+    for (int step = 0; step < config.action_repeat; ++step) {
+      ControlTile(*kernel_aircraft, block.flight, scratch.pilot_columns(), config.flight_control,
+                  dt);
+      StepTile(*kernel_aircraft, block.flight, dt, config.substeps);
+      task->Judge(block.flight, block.task, block.step, verdict);
+      JudgeTile(*kernel_aircraft, config, block.flight, verdict, episodes);
+      if (keeps_final) ObserveTruncated(block, scratch, written, output.final_observation);
+    }
+    for (int i = 0; i < block.count; ++i) {
+      output.reward[i] = scratch.decision_reward[i];
+      output.termination[i] = static_cast<std::uint8_t>(scratch.termination[i]);
+      if (scratch.termination[i] == static_cast<std::int32_t>(Termination::kNone)) continue;
+      output.episode_return[i] = block.episode_return[i];
+      output.episode_steps[i] = block.step[i];
+      BeginEpisode(block, i, block.episode[i] + 1);
+    }
+    if (block.count % kLaneMultiple != 0) FillPadding(block);
+  }
+
+  /// Where the `index`-th mutable 32-bit word of the block's first aircraft lies.
+  void* WordAt(const Block& block, std::size_t index) const {
+    const std::size_t floats = WordsPerAircraft() - 2;
+    if (index < floats) return block.flight[static_cast<int>(index)];
+    return index == floats ? block.step : block.episode;
+  }
+
+  std::size_t WordsPerAircraft() const {
+    return static_cast<std::size_t>(kNumColumns + task->num_columns() + 1 + 2);
+  }
+
+  Block BlockHolding(int index) const {
+    if (index < 0 || index >= num_aircraft) {
+      throw Error("environment: no aircraft " + std::to_string(index) + " among " +
+                  std::to_string(num_aircraft));
+    }
+    return BlockOf(index / tile_size, index % tile_size);
+  }
+
+  EnvConfig config;
+  int num_aircraft;
+  std::uint64_t seed;
+  std::unique_ptr<Task> task;
+  Aircraft aircraft;
+  std::shared_ptr<const KernelAircraft> kernel_aircraft;
+  FlightReset reset;
+
+  int tile_size = 0;
+  int num_tiles = 0;
+  std::size_t stride = 0;
+  /// Per tile: physical columns, task columns, episode return; each `stride` long.
+  std::size_t floats_per_tile = 0;
+  AlignedArray<float> columns;
+  /// Per tile: control steps of the episode, number of the episode; each `stride` long.
+  AlignedArray<std::int32_t> counters;
+};
+
+VecEnv::VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size)
+    : impl_(std::make_unique<Impl>(config, num_aircraft, seed, tile_size)) {}
+VecEnv::~VecEnv() = default;
+VecEnv::VecEnv(VecEnv&&) noexcept = default;
+
+const EnvConfig& VecEnv::config() const { return impl_->config; }
+int VecEnv::num_aircraft() const { return impl_->num_aircraft; }
+int VecEnv::num_tiles() const { return impl_->num_tiles; }
+int VecEnv::tile_begin(int tile) const { return tile * impl_->tile_size; }
+int VecEnv::tile_count(int tile) const { return impl_->CountOf(tile); }
+int VecEnv::observation_size() const { return kObservationSize; }
+int VecEnv::action_size() const { return kActionSize; }
+
+void VecEnv::Observe(int tile, float* observation) const {
+  for (int begin = 0; begin < tile_count(tile); begin += kBlock) {
+    impl_->Observe(impl_->BlockOf(tile, begin),
+                   observation + static_cast<std::size_t>(begin) * kObservationSize);
+  }
+}
+
+void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
+  for (int begin = 0; begin < tile_count(tile); begin += kBlock) {
+    StepOutput part = output;
+    part.reward += begin;
+    part.termination += begin;
+    part.episode_return += begin;
+    part.episode_steps += begin;
+    if (part.final_observation != nullptr) {
+      part.final_observation += static_cast<std::size_t>(begin) * kObservationSize;
+    }
+    impl_->Step(impl_->BlockOf(tile, begin), action + static_cast<std::size_t>(begin) * kActionSize,
+                part);
+  }
+}
+
+std::vector<std::uint32_t> VecEnv::Snapshot() const {
+  const std::size_t words = impl_->WordsPerAircraft();
+  std::vector<std::uint32_t> snapshot(words * static_cast<std::size_t>(num_aircraft()));
+  std::uint32_t* target = snapshot.data();
+  for (int index = 0; index < num_aircraft(); ++index) {
+    const Impl::Block block = impl_->BlockHolding(index);
+    for (std::size_t k = 0; k < words; ++k, ++target) {
+      std::memcpy(target, impl_->WordAt(block, k), sizeof *target);
+    }
+  }
+  return snapshot;
+}
+
+void VecEnv::Restore(const std::vector<std::uint32_t>& snapshot) {
+  const std::size_t words = impl_->WordsPerAircraft();
+  const std::size_t expected = words * static_cast<std::size_t>(num_aircraft());
+  if (snapshot.size() != expected) {
+    throw Error("environment: a snapshot of " + std::to_string(snapshot.size()) +
+                " words does not fit " + std::to_string(num_aircraft()) + " aircraft, which take " +
+                std::to_string(expected));
+  }
+  const std::uint32_t* source = snapshot.data();
+  for (int index = 0; index < num_aircraft(); ++index) {
+    const Impl::Block block = impl_->BlockHolding(index);
+    for (std::size_t k = 0; k < words; ++k, ++source) {
+      std::memcpy(impl_->WordAt(block, k), source, sizeof *source);
+    }
+  }
+  for (int tile = 0; tile < num_tiles(); ++tile) {
+    for (int begin = 0; begin < tile_count(tile); begin += kBlock) {
+      impl_->FillPadding(impl_->BlockOf(tile, begin));
+    }
+  }
+}
+
+float VecEnv::StateOf(int aircraft, int column) const {
+  if (column < 0 || column >= kNumColumns) {
+    throw Error("environment: no state column " + std::to_string(column));
+  }
+  return impl_->BlockHolding(aircraft).flight[column][0];
+}
+
+std::vector<float> VecEnv::TargetOf(int aircraft) const {
+  const Impl::Block block = impl_->BlockHolding(aircraft);
+  std::vector<float> target;
+  for (int column = 0; column < impl_->task->num_targets(); ++column) {
+    target.push_back(block.task[column][0]);
+  }
+  return target;
+}
+
+}  // namespace skein
