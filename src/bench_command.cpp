@@ -4,7 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "envs/dynamics/plant_kernel.h"
 #include "simd/peak.h"
+#include "simd/target.h"
 #include "src/commands.h"
 #include "src/configuration.h"
 #include "src/machine.h"
@@ -28,8 +30,7 @@ struct BenchOptions {
 };
 
 TrainConfig BenchConfig(const BenchOptions& options) {
-  const ProgramConfig config =
-      ResolveConfig({"heading", options.preset, "", options.assignments});
+  const ProgramConfig config = ResolveConfig({"heading", options.preset, "", options.assignments});
   CheckConsistent(config);
   return config.train;
 }
@@ -47,33 +48,132 @@ TrainConfig SignatureConfig() {
       .train;
 }
 
-void Report(const BenchOptions& options, Json results, int threads) {
+void Report(const BenchOptions& options, int threads, Json results) {
   if (options.json.empty()) return;
   results["threads"] = threads;
   results["machine"] = DescribeMachine();
   WriteFile(options.json, results.dump(1) + "\n");
 }
 
-simd::PeakRate Peak(const WorkerPool& pool) { return simd::MeasurePeak(pool.threads()); }
-
-std::string OfPeak(double gflops, double peak_gflops) {
-  return fmt::format("{:.1f} GFLOP/s, {:.1f} % of the measured peak of {:.1f}", gflops,
+std::string ShareOfPeak(double gflops, double peak_gflops) {
+  return fmt::format("{:.1f} GFLOP/s, {:.1f} % of the measured peak of {:.1f} GFLOP/s", gflops,
                      100 * gflops / peak_gflops, peak_gflops);
+}
+
+Json ToJson(const SimulatorRate& rate) {
+  return {{"step_ms", 1e3 * rate.step_s}, {"aircraft_steps_per_s", rate.aircraft_steps_per_s}};
 }
 
 void BenchSimulator(const BenchOptions& options) {
   WorkerPool pool(options.threads);
+  const EnvConfig env = BenchConfig(options).env;
+  const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
   const SimulatorRate plant = MeasurePlant(options.aircraft, options.steps, pool);
-  const SimulatorRate environment =
-      MeasureEnvironment(EnvConfig{}, options.aircraft, options.steps, pool);
+  const SimulatorRate environment = MeasureEnvironment(env, options.aircraft, options.steps, pool);
+  const double gflops = plant.aircraft_steps_per_s * kFlopsPerControlStep / 1e9;
   fmt::print(
-      "simulator: {} aircraft, {} control steps, {} threads\n"
-      "  flight control, actuators, engine, RK4: {:.2f} ms a step, {}aircraft-steps/s\n"
-      "  whole environment (observe to reset):   {:.2f} ms a step, {}aircraft-steps/s\n",
-      options.aircraft, options.steps, pool.threads(), 1e3 * plant.step_s,
-      FormatCount(plant.aircraft_steps_per_s), 1e3 * environment.step_s,
-      FormatCount(environment.aircraft_steps_per_s));
+      "simulator: {} aircraft, {} control steps, {} threads, {}\n"
+      "  flight control, actuators, engine, RK4  {:9.2f} ms a step, {} aircraft-steps/s ({})\n"
+      "  the whole environment                   {:9.2f} ms a step, {} aircraft-steps/s\n",
+      options.aircraft, options.steps, pool.threads(), Name(simd::ActiveTarget()),
+      1e3 * plant.step_s, FormatCount(plant.aircraft_steps_per_s), ShareOfPeak(gflops, peak.gflops),
+      1e3 * environment.step_s, FormatCount(environment.aircraft_steps_per_s));
+  Report(options, pool.threads(),
+         {{"aircraft", options.aircraft},
+          {"steps", options.steps},
+          {"plant", ToJson(plant)},
+          {"environment", ToJson(environment)},
+          {"gflops", gflops},
+          {"peak_gflops", peak.gflops},
+          {"fraction_of_peak", gflops / peak.gflops}});
+}
+
+void BenchRollout(const BenchOptions& options) {
+  WorkerPool pool(options.threads);
+  const TrainConfig config = BenchConfig(options);
+  const LearnerRates rates = MeasureLearner(config, pool);
+  fmt::print("rollout: {} aircraft, {} threads: {} decisions/s, {} control steps/s\n",
+             config.ppo.num_aircraft, pool.threads(), FormatCount(rates.rollout_steps_per_s),
+             FormatCount(rates.rollout_steps_per_s * config.env.action_repeat));
+  Report(options, pool.threads(),
+         {{"decisions_per_s", rates.rollout_steps_per_s},
+          {"control_steps_per_s", rates.rollout_steps_per_s * config.env.action_repeat}});
+}
+
+void BenchUpdate(const BenchOptions& options) {
+  WorkerPool pool(options.threads);
+  const TrainConfig config = BenchConfig(options);
+  const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
+  const LearnerRates rates = MeasureLearner(config, pool);
+  const double gflops = rates.update_samples_per_s * rates.update_flops_per_sample / 1e9;
+  fmt::print("update: {} threads: {} samples/s ({})\n", pool.threads(),
+             FormatCount(rates.update_samples_per_s), ShareOfPeak(gflops, peak.gflops));
+  Report(options, pool.threads(),
+         {{"samples_per_s", rates.update_samples_per_s},
+          {"flops_per_sample", rates.update_flops_per_sample},
+          {"gflops", gflops},
+          {"peak_gflops", peak.gflops},
+          {"fraction_of_peak", gflops / peak.gflops}});
+}
+
+void BenchSignature(const BenchOptions& options) {
+  WorkerPool pool(options.threads);
+  Trainer trainer(SignatureConfig(), pool);
+  while (!trainer.finished()) trainer.Iterate();
+  const std::string signature = fmt::format("{:016x}", trainer.Signature());
+  fmt::print("{}\n", signature);
+  Report(options, pool.threads(), {{"signature", signature}, {"iterations", trainer.iteration()}});
+}
+
+CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& description,
+                   const std::shared_ptr<BenchOptions>& options, void (*run)(const BenchOptions&)) {
+  CLI::App* command = bench->add_subcommand(name, description);
+  command->add_option("--threads", options->threads, "worker threads (default: one per CPU)")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--json", options->json, "also write the figures here")->type_name("FILE");
+  command->callback([options, run] { run(*options); });
+  return command;
+}
+
+void AddConfiguration(CLI::App* command, const std::shared_ptr<BenchOptions>& options) {
+  command->add_option("--preset", options->preset, "preset of task heading")->capture_default_str();
+  command->add_option("--set", options->assignments, "one configuration key; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
 }
 
 }  // namespace
+
+void AddBenchCommand(CLI::App* app) {
+  CLI::App* bench = app->add_subcommand("bench", "Measure speed, or print the signature");
+  bench->require_subcommand(1);
+  const auto options = std::make_shared<BenchOptions>();
+  CLI::App* sim =
+      AddBench(bench, "sim", "Aircraft-steps per second of the simulator", options, BenchSimulator);
+  sim->add_option("--aircraft", options->aircraft, "aircraft stepped at once")
+      ->check(CLI::Range(1, 100000000))
+      ->capture_default_str();
+  sim->add_option("--steps", options->steps, "control steps timed; the median counts")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  AddConfiguration(sim, options);
+  sim->footer(
+      "First the plant alone (flight control, actuators, engine, one RK4 step of 0.02 s), then "
+      "the\n"
+      "whole environment (observe, step, reward, terminate, reset) at 50 Hz.\n"
+      "Example: skein bench sim --aircraft 1000000 --steps 30 --threads 2");
+  AddConfiguration(
+      AddBench(bench, "rollout", "Decisions per second of policy and simulator together", options,
+               BenchRollout),
+      options);
+  AddConfiguration(
+      AddBench(bench, "update", "Samples per second through forward, loss, backward and optimiser",
+               options, BenchUpdate),
+      options);
+  AddBench(bench, "signature", "One hash of a fixed short training", options, BenchSignature)
+      ->footer(
+          "The same for any number of threads on one SIMD target: a change of the hash is a change "
+          "of\nresults.");
+}
+
 }  // namespace skein

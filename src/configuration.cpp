@@ -75,13 +75,6 @@ SettingValue ParseValue(const std::string& text) {
 std::string TableOf(const std::string& key) { return key.substr(0, key.rfind('.')); }
 std::string LastPart(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-void CheckOrdered(const char* name, const Range& range) {
-  if (range.min > range.max) {
-    throw Error(
-        fmt::format("configuration: {} has min {} above max {}", name, range.min, range.max));
-  }
-}
-
 }  // namespace
 
 void ApplyToml(const std::string& text, const std::string& source, ProgramConfig* config) {
@@ -117,10 +110,6 @@ void ApplyAssignment(const std::string& assignment, ProgramConfig* config) {
 
 void CheckConsistent(const ProgramConfig& config) {
   Validate(config.train.env);
-  CheckOrdered("env.initial.altitude", config.train.env.initial.altitude_ft);
-  CheckOrdered("env.initial.true_airspeed", config.train.env.initial.true_airspeed_fps);
-  CheckOrdered("env.termination.alpha", config.train.env.termination.alpha_deg);
-  CheckOrdered("env.termination.beta", config.train.env.termination.beta_deg);
   const PpoConfig& ppo = config.train.ppo;
   if (ppo.rollout_steps % ppo.chunk_length != 0) {
     throw Error(fmt::format(

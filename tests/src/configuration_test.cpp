@@ -112,7 +112,6 @@ TEST(Configuration, ValuesThatCannotGoTogetherAreRefused) {
   EXPECT_THAT(refused({"ppo.num_aircraft=1", "ppo.minibatches=9"}), HasSubstr("minibatches"));
   EXPECT_NE(refused({"env.initial.altitude_min_ft=21000"}), "");
   EXPECT_NE(refused({"checkpoint.interval_s=0"}), "");
-  EXPECT_NE(refused({"env.aircraft=balloon"}), "");
 }
 
 TEST(Configuration, UnknownPresetsAndTasksListWhatThereIs) {

@@ -32,7 +32,7 @@ TEST(EventFile, RecordsAreFramedAsTfRecords) {
   EXPECT_EQ(Hex(record.substr(0, 8)), "0900000000000000");
   EXPECT_EQ(record.substr(12, 9), "123456789");
   // rotate(0xE3069283, 15) + 0xA282EAD8, little-endian.
-  EXPECT_EQ(Hex(record.substr(21)), "e5b0a8c7");
+  EXPECT_EQ(Hex(record.substr(21)), "e5b08ac7");
 }
 
 TEST(EventFile, ScalarsAreAnEventProtocolBuffer) {

@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "src/output_file.h"
+#include "tests/src/run_program.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<std::string> Evaluation(const std::string& json,
+                                    const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"eval",   "--policy", "untrained",
+                                        "--task", "heading",  "--episodes",
+                                        "64",     "--set",    "env.time_limit_steps=400",
+                                        "--json", json};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+class EvaluationPipeline : public ::testing::Test {
+ protected:
+  std::string folder_ = FreshDirectory("eval");
+
+  nlohmann::json Fly(const std::string& name, const std::vector<std::string>& more = {}) {
+    const std::string path = folder_ + "/" + name + ".json";
+    const ProgramResult result = RunSkein(Evaluation(path, more));
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return nlohmann::json::parse(ReadFile(path));
+  }
+};
+
+TEST_F(EvaluationPipeline, ReportsTheModeAskedForAndBoth) {
+  const auto sampled = Fly("sampled"), mean = Fly("mean", {"--deterministic"});
+  for (const char* key :
+       {"episodes", "success_rate", "return_mean", "time_to_target_mean", "terminations"}) {
+    EXPECT_TRUE(sampled.contains(key)) << key;
+    EXPECT_EQ(sampled[key], sampled["sampled"][key]);
+    EXPECT_EQ(mean[key], mean["deterministic"][key]);
+  }
+  EXPECT_EQ(sampled["deterministic"], mean["deterministic"]);
+  EXPECT_EQ(sampled["sampled"], mean["sampled"]);
+  EXPECT_NE(mean["deterministic"]["return_mean"], mean["sampled"]["return_mean"]);
+  EXPECT_EQ(mean["environment"]["env.time_limit_steps"], 400);
+}
+
+TEST_F(EvaluationPipeline, CountsEveryEpisodeOnce) {
+  const auto result = Fly("count");
+  int ended = 0;
+  for (const auto& [kind, count] : result["terminations"].items()) ended += count.get<int>();
+  EXPECT_EQ(ended, 64);
+  EXPECT_EQ(result["success_rate"].get<double>() * 64,
+            result["terminations"]["ResetTarget"].get<double>());
+}
+
+TEST_F(EvaluationPipeline, DependsOnTheSeedAndNotOnThreads) {
+  const auto first = Fly("first", {"--seed", "5", "--threads", "1"});
+  EXPECT_EQ(first, Fly("again", {"--seed", "5", "--threads", "3"}));
+  EXPECT_NE(first["return_mean"], Fly("other", {"--seed", "6"})["return_mean"]);
+}
+
+TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
+  const std::string file = folder_ + "/foreign.skein";
+  WriteFile(file, "GIF89a");
+  const std::vector<std::vector<std::string>> wrong = {
+      {"eval", "--policy", file, "--task", "heading"},
+      {"eval", "--policy", folder_ + "/absent.skein", "--task", "heading"},
+      {"eval", "--policy", folder_, "--task", "heading"}};
+  for (const auto& arguments : wrong) {
+    const ProgramResult result = RunSkein(arguments);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.error, HasSubstr(arguments[2]));
+  }
+  const ProgramResult no_task = RunSkein({"eval", "--policy", file});
+  EXPECT_EQ(no_task.exit_code, 1);
+  EXPECT_THAT(no_task.error, HasSubstr("--task"));
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,199 @@
+// `skein fdm` on the golden points and trajectories of the double-precision reference.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "src/output_file.h"
+#include "tests/src/run_program.h"
+
+namespace skein {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+constexpr const char* kGolden = SKEIN_TEST_DATA "/golden.json";
+
+// The same equations in another language: only the order of operations may differ.
+constexpr double kFloat64Tolerance = 1e-9;
+// 24-bit mantissas through table blends and moment sums; values below a hundredth of a quantity's
+// largest are measured against that hundredth.
+constexpr double kFloat32Tolerance = 2e-4;
+constexpr double kFloat32Floor = 1e-2;
+// 500 steps of accumulated rounding.
+constexpr double kTrajectoryTolerance = 1e-6;
+
+json WithoutResults(json file) {
+  for (const char* list : {"points", "edge_points"}) {
+    for (json& point : file[list]) {
+      for (const char* key : {"coeffs", "xdot", "alpha_deg", "beta_deg", "mach", "qbar_psf"}) {
+        point.erase(key);
+      }
+    }
+  }
+  for (json& trajectory : file["trajectories"]) {
+    for (const char* key :
+         {"states_dt0_02", "states_dt0_001", "max_abs_difference_between_the_two"}) {
+      trajectory.erase(key);
+    }
+  }
+  return file;
+}
+
+class FdmPipeline : public ::testing::Test {
+ protected:
+  std::string folder_ = FreshDirectory("fdm");
+  json golden_ = json::parse(ReadFile(kGolden));
+
+  json Run(const std::string& command, const json& input, const std::string& precision) {
+    WriteFile(folder_ + "/in.json", input.dump());
+    const ProgramResult result = RunSkein({"fdm", command, "--in", folder_ + "/in.json", "--out",
+                                           folder_ + "/out.json", "--precision", precision});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return json::parse(ReadFile(folder_ + "/out.json"));
+  }
+};
+
+TEST_F(FdmPipeline, Float64EqualsTheReference) {
+  const json out = Run("eval", WithoutResults(golden_), "float64");
+  for (const char* list : {"points", "edge_points"}) {
+    ASSERT_EQ(out[list].size(), golden_[list].size());
+    for (std::size_t i = 0; i < golden_[list].size(); ++i) {
+      for (const char* key : {"coeffs", "xdot"}) {
+        for (std::size_t c = 0; c < golden_[list][i][key].size(); ++c) {
+          const double expected = golden_[list][i][key][c];
+          EXPECT_NEAR(out[list][i][key][c].get<double>(), expected,
+                      kFloat64Tolerance * std::max(1.0, std::abs(expected)))
+              << list << '[' << i << "]." << key << '[' << c << ']';
+        }
+      }
+    }
+  }
+}
+
+TEST_F(FdmPipeline, Float32IsWithinItsTolerance) {
+  const json out = Run("eval", WithoutResults(golden_), "float32");
+  for (const char* key : {"coeffs", "xdot"}) {
+    const std::size_t size = golden_["points"][0][key].size();
+    for (std::size_t c = 0; c < size; ++c) {
+      double largest = 0;
+      for (const json& point : golden_["points"]) {
+        largest = std::max(largest, std::abs(point[key][c].get<double>()));
+      }
+      for (const char* list : {"points", "edge_points"}) {
+        for (std::size_t i = 0; i < golden_[list].size(); ++i) {
+          const double expected = golden_[list][i][key][c];
+          const double scale = std::max(std::abs(expected), kFloat32Floor * largest);
+          EXPECT_NEAR(out[list][i][key][c].get<double>(), expected, kFloat32Tolerance * scale)
+              << list << '[' << i << "]." << key << '[' << c << ']';
+        }
+      }
+    }
+  }
+}
+
+TEST_F(FdmPipeline, TrajectoriesEqualTheReference) {
+  const json out = Run("simulate", WithoutResults(golden_), "float64");
+  EXPECT_FALSE(out.contains("points")) << "not this command's";
+  ASSERT_EQ(out["trajectories"].size(), golden_["trajectories"].size());
+  for (std::size_t i = 0; i < golden_["trajectories"].size(); ++i) {
+    for (const char* key : {"states_dt0_02", "states_dt0_001"}) {
+      const json& expected = golden_["trajectories"][i][key];
+      const json& flown = out["trajectories"][i][key];
+      ASSERT_EQ(flown.size(), expected.size());
+      for (std::size_t row = 0; row < expected.size(); ++row) {
+        for (std::size_t c = 0; c < 13; ++c) {
+          const double value = expected[row][c];
+          EXPECT_NEAR(flown[row][c].get<double>(), value,
+                      kTrajectoryTolerance * std::max(1.0, std::abs(value)))
+              << key << '[' << row << "][" << c << ']';
+        }
+      }
+    }
+  }
+}
+
+TEST_F(FdmPipeline, ResultsInTheInputAreIgnored) {
+  json wrong = golden_;
+  for (json& point : wrong["points"]) point["xdot"] = json::array({1, 2, 3});
+  EXPECT_EQ(Run("eval", wrong, "float64")["points"],
+            Run("eval", WithoutResults(golden_), "float64")["points"]);
+}
+
+TEST_F(FdmPipeline, ParametersOfAPointAreHonoured) {
+  json input = {{"points", json::array({golden_["points"][0], golden_["points"][0]})}};
+  input["points"][1]["params"] = {{"xcg", 0.35}, {"heng", 160.0}};
+  const json out = Run("eval", input, "float64");
+  EXPECT_NE(out["points"][0]["xdot"], out["points"][1]["xdot"]);
+}
+
+TEST_F(FdmPipeline, MalformedInputIsNamedInOneLine) {
+  const json point = golden_["points"][0];
+  const auto with = [&point](const char* key, const json& value) {
+    json changed = point;
+    changed[key] = value;
+    return json{{"points", json::array({point, changed})}}.dump();
+  };
+  json no_state = point;
+  no_state.erase("state");
+  json trajectory = golden_["trajectories"][0];
+  trajectory["t"] = {0, 0.05};
+  json pulse = golden_["trajectories"][0];
+  pulse["pulses"][1]["control_index"] = 7;
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"{\n\"points\": [1,\n}", "in.json:3: not valid JSON"},
+      {"", "not valid JSON"},
+      {"[]", "expected an object"},
+      {"{}", "holds none of points"},
+      {R"({"points": 3})", "points: expected a list"},
+      {R"({"points": [3]})", "points[0]: expected an object"},
+      {json{{"points", json::array({no_state})}}.dump(), "points[0]: state is missing"},
+      {with("state", json::array({1, 2})), "points[1].state: expected a list of 13 numbers"},
+      {with("state", json(std::vector<double>(13, 0.0))), "quaternion"},
+      {with("controls", json::array({1, 2, "x", 4, 5})), "points[1].controls[2]"},
+      {with("params", {{"mass", 1}}), "points[1].params.mass: unknown parameter"},
+      {R"({"points": [{"state": [1e999]}]})", "not"},
+      {json{{"trajectories", json::array({trajectory})}}.dump(), "not a multiple of the step"},
+      {json{{"trajectories", json::array({pulse})}}.dump(), "pulses[1].control_index"},
+  };
+  for (const auto& [text, expected] : cases) {
+    WriteFile(folder_ + "/in.json", text);
+    const ProgramResult result =
+        RunSkein({"fdm", "eval", "--in", folder_ + "/in.json", "--out", folder_ + "/none.json"});
+    EXPECT_EQ(result.exit_code, 1) << text;
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+    EXPECT_THAT(result.error, HasSubstr(expected));
+  }
+  const ProgramResult absent =
+      RunSkein({"fdm", "eval", "--in", folder_ + "/absent.json", "--out", folder_ + "/x.json"});
+  EXPECT_EQ(absent.exit_code, 1);
+  EXPECT_THAT(absent.error, HasSubstr("No such file"));
+}
+
+TEST_F(FdmPipeline, TrimIsSteadyFlight) {
+  const std::string path = folder_ + "/trim.json";
+  ASSERT_EQ(
+      RunSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "500", "--json", path})
+          .exit_code,
+      0);
+  const json trim = json::parse(ReadFile(path));
+  // The trim is a point like any other: flown through `fdm eval`, nothing accelerates.
+  const json out = Run("eval", {{"points", json::array({trim})}}, "float64");
+  for (std::size_t c = 0; c < 6; ++c) {
+    EXPECT_NEAR(out["points"][0]["xdot"][c].get<double>(), 0, 1e-6);
+  }
+  EXPECT_NEAR(trim["alpha_deg"].get<double>(), 4.53134, 1e-4);
+}
+
+TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
+  const ProgramResult result =
+      RunSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "30"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,101 @@
+#include "tests/src/run_program.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "src/output_file.h"
+
+namespace skein {
+namespace {
+
+std::string TestName() {
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  return std::string(test->test_suite_name()) + "." + test->name();
+}
+
+void Redirect(int descriptor, const std::string& path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (file < 0 || dup2(file, descriptor) < 0) _exit(125);
+}
+
+}  // namespace
+
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
+                               const std::function<void()>& before) {
+  static std::atomic<int> count{0};
+  const std::string base = ::testing::TempDir() + "/skein-output-" + std::to_string(getpid()) +
+                           "-" + std::to_string(count++);
+  output_path_ = base + ".out";
+  error_path_ = base + ".err";
+  std::vector<std::string> words = {SKEIN_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  process_ = fork();
+  if (process_ == 0) {
+    Redirect(STDOUT_FILENO, output_path_);
+    Redirect(STDERR_FILENO, error_path_);
+    if (before) before();
+    execv(argv[0], argv.data());
+    _exit(126);
+  }
+}
+
+RunningProgram::~RunningProgram() {
+  if (!ended_) {
+    Signal(SIGKILL);
+    Reap(true);
+  }
+  std::filesystem::remove(output_path_);
+  std::filesystem::remove(error_path_);
+}
+
+void RunningProgram::Signal(int signal) const {
+  if (!ended_) kill(process_, signal);
+}
+
+bool RunningProgram::Reap(bool block) {
+  if (!ended_) ended_ = waitpid(process_, &status_, block ? 0 : WNOHANG) == process_;
+  return ended_;
+}
+
+bool RunningProgram::WaitUntil(const std::function<bool()>& condition) {
+  while (!Reap(false)) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+ProgramResult RunningProgram::Wait() {
+  Reap(true);
+  ProgramResult result;
+  if (WIFEXITED(status_)) result.exit_code = WEXITSTATUS(status_);
+  if (WIFSIGNALED(status_)) result.signal = WTERMSIG(status_);
+  result.output = ReadFile(output_path_);
+  result.error = ReadFile(error_path_);
+  return result;
+}
+
+ProgramResult RunSkein(const std::vector<std::string>& arguments,
+                       const std::function<void()>& before) {
+  return RunningProgram(arguments, before).Wait();
+}
+
+std::string FreshDirectory(const std::string& name) {
+  const std::string path = ::testing::TempDir() + "/" + TestName() + "/" + name;
+  std::filesystem::remove_all(path);
+  std::filesystem::create_directories(path);
+  return path;
+}
+
+}  // namespace skein

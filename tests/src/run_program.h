@@ -1,0 +1,50 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// How a run of the program `skein` ended.
+struct ProgramResult {
+  int exit_code = -1;  ///< -1 if a signal ended it
+  int signal = 0;
+  std::string output;  ///< standard output
+  std::string error;   ///< standard error
+};
+
+/// The program `skein` as a child process.
+class RunningProgram {
+ public:
+  /// Starts it with the given arguments. `before` runs in the child ahead of the program (limits
+  /// and the like).
+  explicit RunningProgram(const std::vector<std::string>& arguments,
+                          const std::function<void()>& before = {});
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  void Signal(int signal) const;
+  /// Whether `condition` came true while the program was running.
+  bool WaitUntil(const std::function<bool()>& condition);
+  ProgramResult Wait();
+
+ private:
+  bool Reap(bool block);
+
+  pid_t process_ = -1;
+  int status_ = 0;
+  bool ended_ = false;
+  std::string output_path_, error_path_;
+};
+
+ProgramResult RunSkein(const std::vector<std::string>& arguments,
+                       const std::function<void()>& before = {});
+
+/// An empty directory for the running test.
+std::string FreshDirectory(const std::string& name);
+
+}  // namespace skein

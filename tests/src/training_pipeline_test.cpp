@@ -1,0 +1,293 @@
+// Runs the program as a user does, on trainings of about a second.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "src/output_file.h"
+#include "src/run_directory.h"
+#include "tests/src/run_program.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr int kIterations = 12;
+constexpr const char* kLastCheckpoint = "/checkpoints/checkpoint-000012.skein";
+
+std::vector<std::string> TinyTraining(const std::string& out,
+                                      const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"train", "heading", "--out", out, "--threads", "2"};
+  for (const std::string& assignment :
+       {std::string("run.total_steps=") + std::to_string(64 * 16 * 5 * kIterations),
+        std::string("ppo.num_aircraft=64"), std::string("ppo.rollout_steps=16"),
+        std::string("ppo.minibatches=2"), std::string("network.hidden_size=16"),
+        std::string("network.gru_size=16"), std::string("env.time_limit_steps=100"),
+        std::string("evaluation.interval_iterations=3"), std::string("evaluation.episodes=32"),
+        std::string("evaluation.final_episodes=32"),
+        std::string("checkpoint.interval_iterations=1")}) {
+    arguments.push_back("--set");
+    arguments.push_back(assignment);
+  }
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+void ExpectOneLine(const std::string& error, const std::string& part) {
+  EXPECT_EQ(error.rfind("skein: error: ", 0), 0u) << error;
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+  EXPECT_THAT(error, HasSubstr(part));
+}
+
+void ExpectSameFile(const std::string& a, const std::string& b) {
+  const std::string bytes = ReadFile(a);
+  EXPECT_FALSE(bytes.empty());
+  EXPECT_TRUE(bytes == ReadFile(b)) << a << " differs from " << b;
+}
+
+void ExpectSameRun(const std::string& a, const std::string& b) {
+  for (const char* file : {"/metrics.csv", kLastCheckpoint, "/checkpoints/policy-final.skein",
+                           "/checkpoints/policy-best.skein", "/config.toml"}) {
+    ExpectSameFile(a + file, b + file);
+  }
+}
+
+bool HasCheckpoint(const std::string& run, std::uint64_t iteration) {
+  const auto all = CheckpointsIn(run + "/checkpoints");
+  return !all.empty() && all.back().iteration >= iteration;
+}
+
+class TrainingPipeline : public ::testing::Test {
+ protected:
+  std::string root_ = FreshDirectory("runs");
+  std::string reference_ = root_ + "/reference", run_ = root_ + "/run";
+
+  /// An uninterrupted run to compare with.
+  void FlyReference(const std::vector<std::string>& more = {}) {
+    const ProgramResult result = RunSkein(TinyTraining(reference_, more));
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+  }
+};
+
+TEST_F(TrainingPipeline, LeavesEverythingBehindThatItSays) {
+  const ProgramResult result = RunSkein(TinyTraining(run_));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_EQ(result.error, "");
+  for (const char* file :
+       {"/config.toml", "/log.txt", "/metrics.csv", "/timing.csv", "/evaluation.json",
+        "/checkpoints/policy-best.skein", "/checkpoints/policy-final.skein", kLastCheckpoint}) {
+    EXPECT_TRUE(fs::is_regular_file(run_ + file)) << file;
+  }
+  EXPECT_THAT(result.output, HasSubstr(run_ + "/evaluation.json"));
+  EXPECT_THAT(result.output, HasSubstr("steps/s"));
+  EXPECT_EQ(CheckpointsIn(run_ + "/checkpoints").size(), 3u) << "only the newest stay";
+
+  const std::string metrics = ReadFile(run_ + "/metrics.csv");
+  EXPECT_EQ(std::count(metrics.begin(), metrics.end(), '\n'), 1 + kIterations);
+
+  const auto evaluation = nlohmann::json::parse(ReadFile(run_ + "/evaluation.json"));
+  EXPECT_EQ(evaluation["episodes"], 32);
+  EXPECT_GE(evaluation["success_rate"], 0);
+  int ended = 0;
+  for (const auto& [kind, count] : evaluation["terminations"].items()) ended += count.get<int>();
+  EXPECT_EQ(ended, 32) << "every episode ends for one reason";
+}
+
+TEST_F(TrainingPipeline, AConfigurationFileOfARunRepeatsIt) {
+  FlyReference();
+  const ProgramResult result =
+      RunSkein({"train", "heading", "--config", reference_ + "/config.toml", "--out", run_});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(TrainingPipeline, ThreadsDoNotChangeTheResult) {
+  FlyReference({"--threads", "1"});
+  const ProgramResult result = RunSkein(TinyTraining(run_, {"--threads", "3"}));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(TrainingPipeline, KilledAnywhereAndResumedEqualsUninterrupted) {
+  FlyReference();
+  std::random_device entropy;
+  std::mt19937 random(entropy());
+  bool finished = false;
+  for (int kill = 0; kill < 4 && !finished; ++kill) {
+    RunningProgram program(kill == 0 ? TinyTraining(run_)
+                                     : std::vector<std::string>{"train", "--resume", run_});
+    const auto delay = std::chrono::milliseconds(random() % 60);
+    const std::uint64_t iteration = 1 + random() % 2 + 3 * static_cast<std::uint64_t>(kill);
+    if (program.WaitUntil([&] { return HasCheckpoint(run_, iteration); })) {
+      std::this_thread::sleep_for(delay);
+      program.Signal(SIGKILL);
+    }
+    const ProgramResult result = program.Wait();
+    finished = result.exit_code == 0;
+    ASSERT_TRUE(finished || result.signal == SIGKILL) << result.error;
+  }
+  const ProgramResult result = RunSkein({"train", "--resume", run_});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameRun(reference_, run_);
+  for (const auto& entry : fs::recursive_directory_iterator(run_)) {
+    EXPECT_NE(entry.path().extension(), ".tmp") << "left behind by a kill";
+  }
+}
+
+TEST_F(TrainingPipeline, KilledBeforeTheFirstCheckpointBeginsAgain) {
+  FlyReference();
+  {
+    RunningProgram program(TinyTraining(run_));
+    ASSERT_TRUE(program.WaitUntil([&] { return fs::exists(run_ + "/config.toml"); }));
+    program.Signal(SIGKILL);
+    program.Wait();
+  }
+  const ProgramResult result = RunSkein({"train", "--resume", run_});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(TrainingPipeline, SigtermSavesAndEndsCleanly) {
+  FlyReference();
+  {
+    RunningProgram program(TinyTraining(run_, {"--set", "checkpoint.interval_iterations=5"}));
+    ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 5); }));
+    program.Signal(SIGTERM);
+    const ProgramResult result = program.Wait();
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.output, HasSubstr("skein train --resume " + run_));
+  }
+  const auto saved = CheckpointsIn(run_ + "/checkpoints").back().iteration;
+  const std::string metrics = ReadFile(run_ + "/metrics.csv");
+  EXPECT_EQ(static_cast<std::uint64_t>(std::count(metrics.begin(), metrics.end(), '\n')), 1 + saved)
+      << "everything flown is saved";
+  const ProgramResult result = RunSkein({"train", "heading", "--resume", run_});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameFile(reference_ + kLastCheckpoint, run_ + kLastCheckpoint);
+  ExpectSameFile(reference_ + "/metrics.csv", run_ + "/metrics.csv");
+}
+
+TEST_F(TrainingPipeline, Sigusr1SavesAndGoesOn) {
+  RunningProgram program(
+      TinyTraining(run_, {"--steps", "1e8", "--set", "checkpoint.interval_iterations=0", "--set",
+                          "checkpoint.interval_s=1e6"}));
+  ASSERT_TRUE(program.WaitUntil([&] {
+    return fs::exists(run_ + "/metrics.csv") &&
+           ReadFile(run_ + "/metrics.csv").find("\n2,") != std::string::npos;
+  }));
+  EXPECT_FALSE(HasCheckpoint(run_, 1));
+  program.Signal(SIGUSR1);
+  ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+  const std::string rows = ReadFile(run_ + "/metrics.csv");
+  ASSERT_TRUE(program.WaitUntil([&] { return ReadFile(run_ + "/metrics.csv") != rows; }))
+      << "goes on";
+  program.Signal(SIGINT);
+  EXPECT_EQ(program.Wait().exit_code, 0);
+}
+
+TEST_F(TrainingPipeline, TwoRunsDoNotShareADirectory) {
+  RunningProgram program(TinyTraining(run_, {"--steps", "1e8"}));
+  ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+  const ProgramResult second = RunSkein({"train", "--resume", run_});
+  EXPECT_EQ(second.exit_code, 1);
+  ExpectOneLine(second.error, "another skein is training here");
+  const ProgramResult third = RunSkein(TinyTraining(run_));
+  EXPECT_EQ(third.exit_code, 1);
+  ExpectOneLine(third.error, "--resume");
+}
+
+TEST_F(TrainingPipeline, AResumedRunKeepsItsConfiguration) {
+  FlyReference();
+  const ProgramResult same =
+      RunSkein({"train", "--resume", reference_, "--set", "ppo.num_aircraft=64"});
+  EXPECT_EQ(same.exit_code, 0) << same.error;
+  const ProgramResult other =
+      RunSkein({"train", "--resume", reference_, "--set", "ppo.num_aircraft=128"});
+  EXPECT_EQ(other.exit_code, 1);
+  ExpectOneLine(other.error, "ppo.num_aircraft (64 against 128)");
+  const ProgramResult longer = RunSkein({"train", "--resume", reference_, "--steps", "1e6"});
+  EXPECT_EQ(longer.exit_code, 1);
+  ExpectOneLine(longer.error, "run.total_steps");
+  EXPECT_EQ(RunSkein({"train", "--resume", reference_, "--preset", "paper"}).exit_code, 2);
+}
+
+TEST_F(TrainingPipeline, DamagedCheckpointsAreRefused) {
+  FlyReference();
+  const std::string path = reference_ + kLastCheckpoint;
+  const std::string whole = ReadFile(path);
+  std::string flipped = whole;
+  flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
+  const std::vector<std::string> damages = {flipped, whole.substr(0, whole.size() - 1), "",
+                                            "not a checkpoint at all"};
+  for (const std::string& damaged : damages) {
+    WriteFile(path, damaged);
+    const ProgramResult resumed = RunSkein({"train", "--resume", reference_});
+    EXPECT_EQ(resumed.exit_code, 1);
+    ExpectOneLine(resumed.error, path);
+    EXPECT_THAT(resumed.error, HasSubstr("checkpoint-000011.skein")) << "the way out is named";
+    const ProgramResult flown = RunSkein({"eval", "--policy", path, "--task", "heading"});
+    EXPECT_EQ(flown.exit_code, 1);
+    ExpectOneLine(flown.error, path);
+  }
+  fs::remove(path);
+  EXPECT_EQ(RunSkein({"train", "--resume", reference_}).exit_code, 0);
+  EXPECT_TRUE(ReadFile(path) == whole) << "flown again from the one before";
+}
+
+TEST_F(TrainingPipeline, AFullDiskLosesNothing) {
+  FlyReference();
+  // Larger than the records, smaller than a checkpoint: as a disk that fills up while saving.
+  const auto limit_file_size = [] {
+    const rlimit limit{8192, 8192};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);
+  };
+  {
+    RunningProgram program(TinyTraining(run_));
+    ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 3); }));
+    program.Signal(SIGTERM);
+    ASSERT_EQ(program.Wait().exit_code, 0);
+  }
+  const auto before = CheckpointsIn(run_ + "/checkpoints").back();
+  const std::string saved = ReadFile(before.path);
+  const ProgramResult full = RunSkein({"train", "--resume", run_}, limit_file_size);
+  EXPECT_EQ(full.exit_code, 1);
+  ExpectOneLine(full.error, run_);
+  EXPECT_TRUE(ReadFile(before.path) == saved);
+  const ProgramResult result = RunSkein({"train", "--resume", run_});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(TrainingPipeline, ADirectoryThatCannotBeMadeIsNamed) {
+  const ProgramResult inside_a_file = RunSkein(TinyTraining("/dev/null/run"));
+  EXPECT_EQ(inside_a_file.exit_code, 1);
+  ExpectOneLine(inside_a_file.error, "/dev/null/run");
+  WriteFile(root_ + "/file", "");
+  const ProgramResult on_a_file = RunSkein(TinyTraining(root_ + "/file"));
+  EXPECT_EQ(on_a_file.exit_code, 1);
+  ExpectOneLine(on_a_file.error, root_ + "/file");
+}
+
+TEST_F(TrainingPipeline, ConfigurationErrorsLeaveNoDirectoryBehind) {
+  for (const char* assignment :
+       {"ppo.gama=0.9", "ppo.gamma=high", "ppo.gamma=2", "env.aircraft=balloon", "nonsense"}) {
+    const ProgramResult result = RunSkein(TinyTraining(run_, {"--set", assignment}));
+    EXPECT_EQ(result.exit_code, 1) << assignment;
+    ExpectOneLine(result.error, "");
+    EXPECT_FALSE(fs::exists(run_)) << assignment;
+  }
+}
+
+}  // namespace
+}  // namespace skein
