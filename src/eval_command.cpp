@@ -96,7 +96,7 @@ void Evaluate(const EvalOptions& options) {
     WriteFile(options.json,
               ToJson(report, path, config, options.seed, options.deterministic).dump(1) + "\n");
   }
-  fmt::print("{} on {}, {} episodes, seed {}, an action every {} control steps\n{}", path,
+  fmt::print("{} on {}, {} episodes, seed {}, an action every {} control steps\n{}\n", path,
              config.train.env.task, options.episodes, options.seed, config.train.env.action_repeat,
              ToText(report));
 }

@@ -23,7 +23,7 @@ std::string Line(const char* mode, const EvaluationResult& result) {
       line += fmt::format(" {} {}", kTerminationNames[kind], result.terminations[kind]);
     }
   }
-  return line + "\n";
+  return line;
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ Json ToJson(const EvaluationReport& report, const std::string& policy, const Pro
 }
 
 std::string ToText(const EvaluationReport& report) {
-  return Line("deterministic", report.deterministic) + Line("sampled", report.sampled);
+  return Line("deterministic", report.deterministic) + "\n" + Line("sampled", report.sampled);
 }
 
 }  // namespace skein

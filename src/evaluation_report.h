@@ -31,7 +31,7 @@ nlohmann::ordered_json ToJson(const EvaluationResult& result);
 nlohmann::ordered_json ToJson(const EvaluationReport& report, const std::string& policy,
                               const ProgramConfig& config, std::uint64_t seed, bool deterministic);
 
-/// A few lines for people.
+/// A few lines for people, without a newline at the end.
 std::string ToText(const EvaluationReport& report);
 
 }  // namespace skein

@@ -20,13 +20,14 @@ double Seconds(ProgressMeter::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
-std::string Percent(double fraction) {
-  return std::isfinite(fraction) ? fmt::format("{:.1f} %", 100 * fraction) : "-";
+std::string Percent(double fraction, Spacing spacing, int digits) {
+  if (!std::isfinite(fraction)) return "-";
+  return fmt::format("{:.{}f}{}%", 100 * fraction, digits, spacing == Spacing::kWide ? " " : "");
 }
 
 }  // namespace
 
-std::string FormatCount(double count) {
+std::string FormatCount(double count, Spacing spacing) {
   constexpr const char* kPrefixes[] = {"", "k", "M", "G", "T"};
   int prefix = 0;
   // 999.5 would print as 1000 with three digits.
@@ -35,37 +36,46 @@ std::string FormatCount(double count) {
     ++prefix;
   }
   if (prefix == 0) return fmt::format("{:.0f}", count);
-  return fmt::format("{:.{}f} {}", count,
+  return fmt::format("{:.{}f}{}{}", count,
                      count < 9.995   ? 2
                      : count < 99.95 ? 1
                                      : 0,
-                     kPrefixes[prefix]);
+                     spacing == Spacing::kWide ? " " : "", kPrefixes[prefix]);
 }
 
-std::string FormatDuration(double seconds) {
+std::string FormatDuration(double seconds, Spacing spacing) {
   if (!std::isfinite(seconds) || seconds < 0) return "-";
   const long long s = std::llround(seconds);
-  if (s < 60) return fmt::format("{} s", s);
-  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
-  if (s < 86400) return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
-  return fmt::format("{} d {:02} h", s / 86400, s / 3600 % 24);
+  const bool wide = spacing == Spacing::kWide;
+  if (s < 60) return fmt::format(wide ? "{} s" : "{}s", s);
+  if (s < 3600) return fmt::format(wide ? "{} min {:02} s" : "{}m{:02}s", s / 60, s % 60);
+  if (s < 86400) return fmt::format(wide ? "{} h {:02} min" : "{}h{:02}m", s / 3600, s / 60 % 60);
+  return fmt::format(wide ? "{} d {:02} h" : "{}d{:02}h", s / 86400, s / 3600 % 24);
 }
 
-std::string FormatProgress(const Progress& p) {
+std::string FormatProgress(const Progress& p, Spacing spacing) {
   const double done = static_cast<double>(p.env_steps), total = static_cast<double>(p.total_steps);
   const bool known = p.steps_per_s > 0;
-  const std::string rate = known ? FormatCount(p.steps_per_s) : "-";
+  const std::string steps =
+      fmt::format("{}/{}", FormatCount(done, spacing), FormatCount(total, spacing));
+  const std::string rate = known ? FormatCount(p.steps_per_s, spacing) : "-";
   const std::string left =
-      known ? FormatDuration(std::max(0.0, total - done) / p.steps_per_s) : "-";
+      known ? FormatDuration(std::max(0.0, total - done) / p.steps_per_s, spacing) : "-";
+  const std::string rollout = Percent(p.rollout_share, spacing, 0);
+  const std::string update = Percent(p.update_share, spacing, 0);
+  const std::string mean_return =
+      std::isfinite(p.return_mean) ? fmt::format("{:.1f}", p.return_mean) : "-";
+  const std::string success = Percent(p.success_rate, spacing, 1);
+  if (spacing == Spacing::kTight) {
+    return fmt::format("{} {}/s rollout {} update {} return {} success {} left {}", steps, rate,
+                       rollout, update, mean_return, success, left);
+  }
   return fmt::format(
-      "{}/{} steps ({:.1f} %) | {} steps/s | rollout {:.0f} % update {:.0f} % | return {} | "
-      "success {}{} | left {}",
-      FormatCount(done), FormatCount(total), 100 * done / total, rate, 100 * p.rollout_share,
-      100 * p.update_share,
-      std::isfinite(p.return_mean) ? fmt::format("{:.1f}", p.return_mean) : "-",
-      Percent(p.success_rate),
-      p.evaluation_success_rate < 0 ? ""
-                                    : " (evaluated " + Percent(p.evaluation_success_rate) + ")",
+      "{} steps ({}) | {} steps/s | rollout {} update {} | return {} | success {}{} | left {}",
+      steps, Percent(done / total, spacing, 1), rate, rollout, update, mean_return, success,
+      p.evaluation_success_rate < 0
+          ? ""
+          : fmt::format(" (evaluated {})", Percent(p.evaluation_success_rate, spacing, 1)),
       left);
 }
 
@@ -102,14 +112,17 @@ void ProgressMeter::Add(const IterationReport& report, Clock::time_point now) {
 
 ProgressDisplay::ProgressDisplay() : terminal_(isatty(STDOUT_FILENO) == 1) {}
 
-void ProgressDisplay::Update(const std::string& line) {
+void ProgressDisplay::Update(const Progress& progress) {
   constexpr double kTerminalInterval = 0.2, kPlainInterval = 10;
   const auto now = ProgressMeter::Clock::now();
   if (shown_ && Seconds(now - last_) < (terminal_ ? kTerminalInterval : kPlainInterval)) return;
   shown_ = true;
   last_ = now;
+  std::string line = FormatProgress(progress, Spacing::kWide);
   if (terminal_) {
-    fmt::print("\r{}\x1b[K", line.substr(0, TerminalWidth() - 1));
+    const std::size_t width = TerminalWidth() - 1;
+    if (line.size() > width) line = FormatProgress(progress, Spacing::kTight).substr(0, width);
+    fmt::print("\r{}\x1b[K", line);
     line_open_ = true;
   } else {
     fmt::print("{}\n", line);

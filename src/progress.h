@@ -9,10 +9,13 @@
 
 namespace skein {
 
-/// "1.35 G", "12.3 M", "999".
-std::string FormatCount(double count);
-/// "47 s", "12 min 05 s", "3 h 07 min", "2 d 04 h".
-std::string FormatDuration(double seconds);
+/// With spaces and long units, or as short as can be.
+enum class Spacing { kWide, kTight };
+
+/// "1.35 G", "12.3 M", "999"; tight "1.35G".
+std::string FormatCount(double count, Spacing spacing = Spacing::kWide);
+/// "47 s", "12 min 05 s", "3 h 07 min", "2 d 04 h"; tight "12m05s".
+std::string FormatDuration(double seconds, Spacing spacing = Spacing::kWide);
 
 /// What the progress line shows.
 struct Progress {
@@ -24,7 +27,8 @@ struct Progress {
 };
 
 /// One line: steps and budget, steps per second, shares of time, mean return, success, time left.
-std::string FormatProgress(const Progress& progress);
+/// The tight one fits 80 columns and leaves the evaluation out.
+std::string FormatProgress(const Progress& progress, Spacing spacing = Spacing::kWide);
 
 /// Collects iteration reports into a Progress: rates over the last iterations that took about half
 /// a minute, the latest values that exist of the others.
@@ -52,8 +56,8 @@ class ProgressMeter {
 class ProgressDisplay {
  public:
   ProgressDisplay();
-  /// Shows `line` now, or not at all if it is too early.
-  void Update(const std::string& line);
+  /// Shows the progress now, or not at all if it is too early.
+  void Update(const Progress& progress);
   /// Prints a line that stays.
   void Print(const std::string& line);
 

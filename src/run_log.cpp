@@ -4,16 +4,21 @@
 #include <fmt/format.h>
 
 #include <ctime>
+#include <sstream>
 
 namespace skein {
 
-void RunLog::Say(const std::string& line) {
-  display_.Print(line);
-  Note(line);
+void RunLog::Say(const std::string& text) {
+  display_.Print(text);
+  Note(text);
 }
 
-void RunLog::Note(const std::string& line) {
-  file_.Append(fmt::format("{:%Y-%m-%dT%H:%M:%SZ} {}\n", fmt::gmtime(std::time(nullptr)), line));
+void RunLog::Note(const std::string& text) {
+  const std::string time = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    file_.Append(fmt::format("{} {}\n", time, line));
+  }
 }
 
 }  // namespace skein

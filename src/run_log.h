@@ -12,12 +12,12 @@ class RunLog {
  public:
   explicit RunLog(const std::string& path) : file_(path) {}
 
-  /// To both.
-  void Say(const std::string& line);
+  /// To both; `text` may have several lines.
+  void Say(const std::string& text);
   /// To the file alone.
-  void Note(const std::string& line);
-  /// To the output alone, replacing the last such line on a terminal.
-  void Show(const std::string& line) { display_.Update(line); }
+  void Note(const std::string& text);
+  /// To the output alone, replacing what was last shown on a terminal.
+  void Show(const Progress& progress) { display_.Update(progress); }
   void Sync() { file_.Sync(); }
 
  private:

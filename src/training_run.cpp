@@ -95,7 +95,7 @@ void TrainingRun::Run() {
     const IterationReport report = Iterate();
     Record(report);
     meter.Add(report, Clock::now());
-    log_.Show(FormatProgress(meter.progress()));
+    log_.Show(meter.progress());
     if (signals_.TakeSaveRequest()) {
       SaveCheckpoint();
       log_.Say(fmt::format("saved {} as asked", directory_.checkpoint(trainer_.iteration())));

@@ -39,6 +39,10 @@ TEST(Progress, LineSaysEverything) {
   EXPECT_EQ(FormatProgress(progress),
             "12.3 M/150 M steps (8.2 %) | 215 k steps/s | rollout 38 % update 60 % | return -312.0 "
             "| success 43.1 % (evaluated 52.0 %) | left 10 min 40 s");
+  const std::string tight = FormatProgress(progress, Spacing::kTight);
+  EXPECT_EQ(tight,
+            "12.3M/150M 215k/s rollout 38% update 60% return -312.0 success 43.1% left 10m40s");
+  EXPECT_LE(tight.size(), 80u);
 }
 
 TEST(Progress, WhatIsNotKnownYetIsADash) {

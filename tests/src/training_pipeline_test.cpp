@@ -27,7 +27,7 @@ constexpr const char* kLastCheckpoint = "/checkpoints/checkpoint-000012.skein";
 
 std::vector<std::string> TinyTraining(const std::string& out,
                                       const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"train", "heading", "--out", out, "--threads", "2"};
+  std::vector<std::string> arguments = {"train", "heading", "--out", out};
   for (const std::string& assignment :
        {std::string("run.total_steps=") + std::to_string(64 * 16 * 5 * kIterations),
         std::string("ppo.num_aircraft=64"), std::string("ppo.rollout_steps=16"),
