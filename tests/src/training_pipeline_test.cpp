@@ -177,6 +177,18 @@ TEST_F(TrainingPipeline, SigtermSavesAndEndsCleanly) {
   ExpectSameFile(reference_ + "/metrics.csv", run_ + "/metrics.csv");
 }
 
+TEST_F(TrainingPipeline, ASecondSignalEndsAtOnce) {
+  // Iterations of many seconds, so that the first signal has not been obeyed when the second comes.
+  RunningProgram program(
+      TinyTraining(run_, {"--set", "ppo.num_aircraft=4096", "--set", "ppo.rollout_steps=1024",
+                          "--set", "ppo.epochs=100", "--steps", "1e9"}));
+  ASSERT_TRUE(program.WaitUntil([&] { return fs::exists(run_ + "/timing.csv"); }));
+  program.Signal(SIGINT);
+  program.Signal(SIGTERM);
+  const ProgramResult result = program.Wait();
+  EXPECT_TRUE(result.signal == SIGTERM || result.signal == SIGINT) << result.exit_code;
+}
+
 TEST_F(TrainingPipeline, Sigusr1SavesAndGoesOn) {
   RunningProgram program(
       TinyTraining(run_, {"--steps", "1e8", "--set", "checkpoint.interval_iterations=0", "--set",
@@ -267,6 +279,20 @@ TEST_F(TrainingPipeline, AFullDiskLosesNothing) {
   const ProgramResult result = RunSkein({"train", "--resume", run_});
   ASSERT_EQ(result.exit_code, 0) << result.error;
   ExpectSameRun(reference_, run_);
+}
+
+TEST_F(TrainingPipeline, ALossThatIsNotFiniteStopsTheRunAndLeavesTheStateBefore) {
+  // The square of an unscaled value target of 1e38 is beyond float32.
+  const ProgramResult result = RunSkein(TinyTraining(
+      run_, {"--set", "env.termination.failure_reward=-1e38", "--set", "ppo.popart=false"}));
+  EXPECT_EQ(result.exit_code, 1);
+  ExpectOneLine(result.error, "before-failure-");
+  const std::string path =
+      result.error.substr(result.error.rfind(' ') + 1,
+                          result.error.rfind(".skein") + 6 - (result.error.rfind(' ') + 1));
+  const ProgramResult flown = RunSkein({"eval", "--policy", path, "--task", "heading", "--episodes",
+                                        "32", "--set", "env.time_limit_steps=100"});
+  EXPECT_EQ(flown.exit_code, 0) << flown.error;
 }
 
 TEST_F(TrainingPipeline, ADirectoryThatCannotBeMadeIsNamed) {
