@@ -26,7 +26,16 @@ using V = hn::Vec<FloatTag>;
 
 HWY_INLINE V Constant(double value) { return hn::Set(FloatTag(), static_cast<float>(value)); }
 
-HWY_INLINE V Clip(V x, V low, V high) { return hn::Min(hn::Max(x, low), high); }
+/// x limited to [low, high]; NaN stays NaN, so that a sick aircraft shows.
+HWY_INLINE V Clip(V x, V low, V high) {
+#if HWY_TARGET == HWY_SCALAR
+  // Here Min and Max prefer the operand that is a number.
+  return hn::IfThenElse(hn::Lt(x, low), low, hn::IfThenElse(hn::Gt(x, high), high, x));
+#else
+  // Of a number and a NaN, x86 takes the second.
+  return hn::Min(high, hn::Max(low, x));
+#endif
+}
 
 /// min(1, pressure / qbar): how loop gains fall with dynamic pressure.
 HWY_INLINE V GainFactor(double pressure_psf, V qbar) {

@@ -1,0 +1,169 @@
+#include "envs/tasks/heading.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "envs/dynamics/attitude.h"
+#include "simd/error.h"
+#include "tests/envs/test_tile.h"
+
+namespace skein {
+namespace {
+
+// Float32 rounding of angles and square roots near one.
+constexpr double kTolerance = 2e-6;
+constexpr double kFtPerKm = 1000 / 0.3048;
+
+class HeadingTest : public testing::TestWithParam<simd::Target> {
+ protected:
+  void SetAttitude(int i, double roll, double pitch, double yaw) {
+    const Eigen::Vector4d q = QuaternionFromEuler({roll, pitch, yaw});
+    for (int k = 0; k < 4; ++k) flight_.at(kQ0 + k, i) = static_cast<float>(q[k]);
+  }
+  void SetTarget(int i, double altitude_ft, double yaw, double speed_ft_s) {
+    targets_.at(kTargetAltitude, i) = static_cast<float>(altitude_ft);
+    targets_.at(kTargetYaw, i) = static_cast<float>(yaw);
+    targets_.at(kTargetSpeed, i) = static_cast<float>(speed_ft_s);
+  }
+  /// Level flight at 20,000 ft and 1000 ft/s towards `yaw`.
+  void SetLevel(int i, double yaw) {
+    SetAttitude(i, 0, 0, yaw);
+    flight_.at(kDown, i) = -20000;
+    flight_.at(kU, i) = 800;
+    flight_.at(kW, i) = 600;
+  }
+  std::vector<float> Errors() {
+    std::vector<float> errors(kNumTaskErrors * flight_.stride());
+    task_->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
+    return errors;
+  }
+  void Judge() {
+    task_->Judge(flight_.tile(), targets_.tile(), steps_.data(), {reward_.data(), reached_.data()});
+  }
+
+  static constexpr int kCount = 37;
+  ScopedTarget target_{GetParam()};
+  EnvConfig config_;
+  std::unique_ptr<Task> task_ = MakeTask(config_);
+  TestTile flight_{kCount};
+  TestTile targets_{kCount, kNumHeadingColumns};
+  std::vector<float> reward_ = std::vector<float>(flight_.stride());
+  std::vector<std::int32_t> reached_ = std::vector<std::int32_t>(flight_.stride());
+  std::vector<std::int32_t> steps_ = std::vector<std::int32_t>(flight_.stride(), 1000);
+};
+
+TEST_P(HeadingTest, ErrorsAreTargetMinusActualInTheirUnits) {
+  for (int i = 0; i < kCount; ++i) {
+    SetLevel(i, 0.5);
+    SetTarget(i, 20000 + 0.3 * kFtPerKm, 0.5 - 0.4, 1000 + 0.1 * 340 / 0.3048);
+  }
+  const std::vector<float> errors = Errors();
+  for (int i = 0; i < kCount; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    EXPECT_NEAR(errors[index], 0.3, kTolerance);
+    EXPECT_NEAR(errors[flight_.stride() + index], -0.4, kTolerance);
+    EXPECT_NEAR(errors[2 * flight_.stride() + index], 0.1, kTolerance);
+  }
+}
+
+TEST_P(HeadingTest, YawErrorTakesTheShortWayRound) {
+  constexpr double kStep = 0.17;
+  for (int i = 0; i < kCount; ++i) {
+    SetAttitude(i, 0.3, -0.2, std::remainder(kStep * i, 2 * M_PI));
+    SetTarget(i, 0, std::remainder(-2.3 * kStep * i, 2 * M_PI), 0);
+  }
+  const std::vector<float> errors = Errors();
+  for (int i = 0; i < kCount; ++i) {
+    const double expected = std::remainder(-3.3 * kStep * i, 2 * M_PI);
+    const double actual = errors[flight_.stride() + static_cast<std::size_t>(i)];
+    EXPECT_LE(std::abs(actual), M_PI + kTolerance);
+    EXPECT_NEAR(std::remainder(actual - expected, 2 * M_PI), 0, kTolerance) << i;
+  }
+}
+
+TEST_P(HeadingTest, RewardIsMinusTheNormOfTheErrors) {
+  SetLevel(0, 0);
+  SetTarget(0, 20000 - 0.2 * kFtPerKm, 0.3, 1000 + 0.6 * 340 / 0.3048);
+  Judge();
+  EXPECT_NEAR(reward_[0], -0.7, kTolerance);
+}
+
+TEST_P(HeadingTest, MirroredErrorsGetTheSameReward) {
+  for (const int side : {0, 1}) {
+    const double sign = side == 0 ? 1 : -1;
+    SetLevel(side, sign * 0.8);
+    SetTarget(side, 20500, sign * -1.1, 1100);
+  }
+  Judge();
+  EXPECT_EQ(reward_[0], reward_[1]);
+}
+
+TEST_P(HeadingTest, IsReachedOnlyInsideAllTolerancesAndNotEarly) {
+  struct Case {
+    double altitude_ft, yaw_deg, speed_ft_s;
+    int steps_before;
+    bool reached;
+  };
+  const std::vector<Case> cases = {
+      {99, 4.9, 19, 1000, true}, {-99, -4.9, -19, 1000, true}, {101, 0, 0, 1000, false},
+      {-101, 0, 0, 1000, false}, {0, 5.1, 0, 1000, false},     {0, -5.1, 0, 1000, false},
+      {0, 0, 21, 1000, false},   {0, 0, -21, 1000, false},     {0, 0, 0, 298, false},
+      {0, 0, 0, 299, true},      {0, 0, 0, 0, false},
+  };
+  for (int i = 0; i < static_cast<int>(cases.size()); ++i) {
+    const Case& c = cases[static_cast<std::size_t>(i)];
+    SetLevel(i, 3.1);
+    SetTarget(i, 20000 + c.altitude_ft, std::remainder(3.1 + c.yaw_deg / kDegPerRad, 2 * M_PI),
+              1000 + c.speed_ft_s);
+    steps_[static_cast<std::size_t>(i)] = c.steps_before;
+  }
+  Judge();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_EQ(reached_[i], cases[i].reached ? 1 : 0) << "case " << i;
+  }
+}
+
+TEST_P(HeadingTest, TargetsAreDrawnAroundTheStart) {
+  double least[3] = {1e9, 1e9, 1e9}, most[3] = {-1e9, -1e9, -1e9};
+  for (std::uint32_t episode = 0; episode < 2000; ++episode) {
+    simd::RandomStream random({5, 0, episode, 0, simd::RandomPurpose::kTarget});
+    float target[kNumHeadingColumns];
+    task_->Reset({20000, 1100, 0, 1}, &random, target);
+    const double change[3] = {target[kTargetAltitude] - 20000.0,
+                              std::remainder(target[kTargetYaw] - 1, 2 * M_PI),
+                              target[kTargetSpeed] - 1100.0};
+    EXPECT_LE(std::abs(target[kTargetYaw]), M_PI + kTolerance);
+    for (int k = 0; k < 3; ++k) {
+      least[k] = std::min(least[k], change[k]);
+      most[k] = std::max(most[k], change[k]);
+    }
+  }
+  const double limit[3] = {3000, 3, 300};
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_GE(least[k], -limit[k] * 1.00001);
+    EXPECT_LE(most[k], limit[k] * 1.00001);
+    EXPECT_LT(least[k], -limit[k] * 0.99);
+    EXPECT_GT(most[k], limit[k] * 0.99);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, HeadingTest, testing::ValuesIn(simd::SupportedTargets()),
+                         [](const auto& test) { return std::string(Name(test.param)); });
+
+TEST(TaskRegistry, RefusesAnUnknownTaskAndListsTheKnown) {
+  EnvConfig config;
+  config.task = "headin";
+  try {
+    MakeTask(config);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("headin"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("known: heading"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace skein

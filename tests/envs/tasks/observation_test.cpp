@@ -1,0 +1,113 @@
+#include "envs/tasks/observation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "envs/aircraft/f16/f16.h"
+#include "envs/dynamics/attitude.h"
+#include "simd/random.h"
+#include "tests/envs/test_tile.h"
+
+namespace skein {
+namespace {
+
+// Float32 rounding of values near one; the density of the kernels is good to 1e-6.
+constexpr double kTolerance = 3e-6;
+constexpr AtmosphereModel kAtmosphere = AtmosphereModel::kStevensLewis;
+
+class ObservationTest : public testing::TestWithParam<simd::Target> {
+ protected:
+  std::vector<float> Observe(double noise, std::uint32_t first_aircraft = 0) {
+    std::vector<float> observation(static_cast<std::size_t>(kCount) * kObservationSize);
+    ObserveTile(*kernel_, flight_.tile(), errors_.data(), flight_.stride(),
+                {noise, 77, first_aircraft, episode_.data(), step_.data()}, observation.data());
+    return observation;
+  }
+
+  static constexpr int kCount = 50;
+  ScopedTarget target_{GetParam()};
+  std::shared_ptr<const KernelAircraft> kernel_ = MakeKernelAircraft(F16(), kAtmosphere);
+  TestTile flight_{kCount};
+  std::vector<float> errors_ = std::vector<float>(3 * flight_.stride());
+  std::vector<std::int32_t> episode_ = std::vector<std::int32_t>(flight_.stride(), 3);
+  std::vector<std::int32_t> step_ = std::vector<std::int32_t>(flight_.stride(), 4);
+};
+
+TEST_P(ObservationTest, HasTheTwentyTwoValuesInTheirUnits) {
+  std::vector<std::vector<double>> expected;
+  for (int i = 0; i < kCount; ++i) {
+    simd::RandomStream random(
+        {1, static_cast<std::uint32_t>(i), 0, 0, simd::RandomPurpose::kInitialState});
+    const double altitude = random.Uniform(3000, 45000), speed = random.Uniform(300, 2000);
+    const double alpha = random.Uniform(-0.3, 0.7), beta = random.Uniform(-0.5, 0.5);
+    const double roll = random.Uniform(-3, 3), pitch = random.Uniform(-1.5, 1.5);
+    const double yaw = random.Uniform(-3, 3);
+    std::vector<double> row;
+    for (int k = 0; k < 3; ++k) {
+      row.push_back(random.Uniform(-2, 2));
+      errors_[static_cast<std::size_t>(k) * flight_.stride() + static_cast<std::size_t>(i)] =
+          static_cast<float>(row.back());
+    }
+    const double ratio = std::sqrt(AirAt(kAtmosphere, altitude).density_slug_ft3 /
+                                   AirAt(kAtmosphere, 0).density_slug_ft3);
+    row.insert(row.end(), {altitude * 0.3048 / 5000, std::sin(roll), std::cos(roll),
+                           std::sin(pitch), std::cos(pitch), speed * ratio * 0.3048 / 340,
+                           std::sin(alpha), std::cos(alpha), std::sin(beta), std::cos(beta)});
+    const Eigen::Vector4d q = QuaternionFromEuler({roll, pitch, yaw});
+    for (int k = 0; k < 4; ++k) flight_.at(kQ0 + k, i) = static_cast<float>(q[k]);
+    flight_.at(kU, i) = static_cast<float>(speed * std::cos(alpha) * std::cos(beta));
+    flight_.at(kV, i) = static_cast<float>(speed * std::sin(beta));
+    flight_.at(kW, i) = static_cast<float>(speed * std::sin(alpha) * std::cos(beta));
+    flight_.at(kDown, i) = static_cast<float>(-altitude);
+    for (const int column : {kP, kQ, kR}) {
+      row.push_back(random.Uniform(-2, 2));
+      flight_.at(column, i) = static_cast<float>(row.back());
+    }
+    const double range[5] = {100, 25, 21.5, 30, 25};
+    const int control[5] = {kPower, kElevator, kAileron, kRudder, kLeadingEdgeFlap};
+    for (int k = 0; k < 5; ++k) {
+      row.push_back(random.Uniform(k % 4 == 0 ? 0 : -1, 1));
+      flight_.at(control[k], i) = static_cast<float>(row.back() * range[k]);
+    }
+    row.push_back(1 / ratio);
+    ASSERT_EQ(row.size(), static_cast<std::size_t>(kObservationSize));
+    expected.push_back(row);
+  }
+  const std::vector<float> observation = Observe(0);
+  for (int i = 0; i < kCount; ++i) {
+    for (int k = 0; k < kObservationSize; ++k) {
+      EXPECT_NEAR(observation[static_cast<std::size_t>(i * kObservationSize + k)],
+                  expected[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)],
+                  kTolerance * (k == 4 || k == 5 ? 10 : 1))  // divided by a small cos(pitch)
+          << "aircraft " << i << ", element " << k;
+    }
+  }
+}
+
+TEST_P(ObservationTest, NoiseIsTheStreamOfAircraftEpisodeAndStep) {
+  constexpr double kNoise = 0.25;
+  for (int i = 0; i < kCount; ++i) {
+    flight_.at(kQ0, i) = 1;
+    flight_.at(kU, i) = 900;
+    flight_.at(kDown, i) = -20000;
+    step_[static_cast<std::size_t>(i)] = i;
+  }
+  const std::vector<float> clean = Observe(0), noisy = Observe(kNoise, 1000);
+  std::vector<std::uint32_t> episode(kCount, 3), step;
+  for (std::uint32_t i = 0; i < kCount; ++i) step.push_back(i);
+  std::vector<float> normals(clean.size());
+  simd::FillNormals(77, 1000, episode.data(), step.data(), simd::RandomPurpose::kObservationNoise,
+                    kCount, kObservationSize, normals.data());
+  for (std::size_t i = 0; i < clean.size(); ++i) {
+    EXPECT_NEAR(noisy[i] - clean[i], kNoise * normals[i], 1e-6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, ObservationTest, testing::ValuesIn(simd::SupportedTargets()),
+                         [](const auto& test) { return std::string(Name(test.param)); });
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "envs/dynamics/state.h"
+#include "simd/target.h"
+
+namespace skein {
+
+/// A tile that owns its columns, zero at first.
+class TestTile {
+ public:
+  explicit TestTile(int count, int num_columns = kNumColumns)
+      : stride_(TileStride(count)),
+        count_(count),
+        values_(stride_ * static_cast<std::size_t>(num_columns)) {}
+
+  Tile tile() { return {values_.data(), stride_, count_}; }
+  float& at(int column, int i) { return tile()[column][i]; }
+  /// The same value for all aircraft, padding included.
+  void Fill(int column, float value) {
+    for (std::size_t i = 0; i < stride_; ++i) tile()[column][i] = value;
+  }
+  std::size_t stride() const { return stride_; }
+  int count() const { return count_; }
+  bool operator==(const TestTile& other) const { return values_ == other.values_; }
+
+ private:
+  std::size_t stride_;
+  int count_;
+  std::vector<float> values_;
+};
+
+/// Makes kernels use one target while it lives.
+class ScopedTarget {
+ public:
+  explicit ScopedTarget(simd::Target target) : previous_(simd::ActiveTarget()) {
+    simd::ForceTarget(target);
+  }
+  ~ScopedTarget() { simd::ForceTarget(previous_); }
+  ScopedTarget(const ScopedTarget&) = delete;
+  ScopedTarget& operator=(const ScopedTarget&) = delete;
+
+ private:
+  simd::Target previous_;
+};
+
+}  // namespace skein

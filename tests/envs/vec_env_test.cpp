@@ -1,0 +1,476 @@
+#include "envs/vec_env.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "envs/aircraft/f16/f16.h"
+#include "envs/dynamics/attitude.h"
+#include "envs/dynamics/closed_loop.h"
+#include "envs/worker_pool.h"
+#include "simd/error.h"
+#include "simd/random.h"
+#include "tests/envs/test_tile.h"
+
+namespace skein {
+namespace {
+
+constexpr int kSize = 22;
+
+/// Actions that depend on nothing but the aircraft and the decision.
+std::array<float, 4> ActionOf(int aircraft, int decision) {
+  simd::RandomStream random({9, static_cast<std::uint32_t>(aircraft),
+                             static_cast<std::uint32_t>(decision / 10), 0,
+                             simd::RandomPurpose::kActionNoise});
+  std::array<float, 4> action;
+  for (float& value : action) value = static_cast<float>(random.Uniform(-1, 1));
+  action[1] *= 0.4f;  // few overloads: long flights
+  return action;
+}
+
+/// Everything that a run of decisions gave to one aircraft.
+struct Log {
+  std::vector<float> observations, rewards, returns;
+  std::vector<int> terminations, steps;
+
+  bool operator==(const Log& other) const {
+    return observations == other.observations && rewards == other.rewards &&
+           returns == other.returns && terminations == other.terminations && steps == other.steps;
+  }
+};
+
+/// Buffers for one tile.
+struct Buffers {
+  explicit Buffers(int count)
+      : observation(static_cast<std::size_t>(count) * kSize),
+        final_observation(observation.size()),
+        action(static_cast<std::size_t>(count) * 4),
+        reward(static_cast<std::size_t>(count)),
+        episode_return(reward.size()),
+        termination(reward.size()),
+        episode_steps(reward.size()) {}
+
+  StepOutput output() {
+    return {reward.data(), termination.data(), episode_return.data(), episode_steps.data(),
+            final_observation.data()};
+  }
+
+  std::vector<float> observation, final_observation, action, reward, episode_return;
+  std::vector<std::uint8_t> termination;
+  std::vector<std::int32_t> episode_steps;
+};
+
+void FlyTile(VecEnv* env, int tile, int first_decision, int decisions, std::vector<Log>* logs) {
+  const int count = env->tile_count(tile), begin = env->tile_begin(tile);
+  Buffers buffers(count);
+  for (int decision = first_decision; decision < first_decision + decisions; ++decision) {
+    env->Observe(tile, buffers.observation.data());
+    for (int i = 0; i < count; ++i) {
+      const std::array<float, 4> action = ActionOf(begin + i, decision);
+      std::copy(action.begin(), action.end(), buffers.action.begin() + i * 4);
+    }
+    env->Step(tile, buffers.action.data(), buffers.output());
+    for (int i = 0; i < count; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      Log& log = (*logs)[static_cast<std::size_t>(begin + i)];
+      log.observations.insert(log.observations.end(), buffers.observation.begin() + i * kSize,
+                              buffers.observation.begin() + (i + 1) * kSize);
+      log.rewards.push_back(buffers.reward[index]);
+      log.terminations.push_back(buffers.termination[index]);
+      if (buffers.termination[index] == 0) continue;
+      log.returns.push_back(buffers.episode_return[index]);
+      log.steps.push_back(buffers.episode_steps[index]);
+    }
+  }
+}
+
+std::vector<Log> Fly(VecEnv* env, int first_decision, int decisions) {
+  std::vector<Log> logs(static_cast<std::size_t>(env->num_aircraft()));
+  for (int tile = 0; tile < env->num_tiles(); ++tile) {
+    FlyTile(env, tile, first_decision, decisions, &logs);
+  }
+  return logs;
+}
+
+/// Short episodes with many ends.
+EnvConfig BusyConfig() {
+  EnvConfig config;
+  config.action_repeat = 3;
+  config.time_limit_steps = 100;
+  config.stagger_clocks = true;
+  return config;
+}
+
+TEST(VecEnv, ResultsDoNotDependOnTheTileSize) {
+  VecEnv small(BusyConfig(), 300, 1, 32), middle(BusyConfig(), 300, 1, 160),
+      large(BusyConfig(), 300, 1, 4096);
+  EXPECT_EQ(small.num_tiles(), 10);
+  EXPECT_EQ(large.num_tiles(), 1);
+  const std::vector<Log> logs = Fly(&small, 0, 60);
+  EXPECT_EQ(logs, Fly(&middle, 0, 60));
+  EXPECT_EQ(logs, Fly(&large, 0, 60));
+  EXPECT_EQ(small.Snapshot(), large.Snapshot());
+}
+
+TEST(VecEnv, ResultsDoNotDependOnNeighbours) {
+  VecEnv few(BusyConfig(), 5, 1), many(BusyConfig(), 200, 1);
+  const std::vector<Log> few_logs = Fly(&few, 0, 60);
+  std::vector<Log> many_logs = Fly(&many, 0, 60);
+  many_logs.resize(few_logs.size());
+  EXPECT_EQ(few_logs, many_logs);
+}
+
+TEST(VecEnv, ResultsDoNotDependOnThreads) {
+  VecEnv serial(BusyConfig(), 300, 1, 32), parallel(BusyConfig(), 300, 1, 32);
+  const std::vector<Log> expected = Fly(&serial, 0, 60);
+  WorkerPool pool(4);
+  std::vector<Log> logs(expected.size());
+  pool.ForEach(parallel.num_tiles(),
+               [&](int tile, int) { FlyTile(&parallel, tile, 0, 60, &logs); });
+  EXPECT_EQ(expected, logs);
+}
+
+TEST(VecEnv, SeedsGiveDifferentFlights) {
+  VecEnv one(BusyConfig(), 4, 1), two(BusyConfig(), 4, 2);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NE(one.StateOf(i, kDown), two.StateOf(i, kDown));
+    EXPECT_NE(one.TargetOf(i), two.TargetOf(i));
+  }
+  EXPECT_NE(one.StateOf(0, kDown), one.StateOf(1, kDown));
+}
+
+TEST(VecEnv, SnapshotContinuesBitForBit) {
+  VecEnv env(BusyConfig(), 70, 1, 64);
+  Fly(&env, 0, 40);
+  const std::vector<std::uint32_t> snapshot = env.Snapshot();
+  const std::vector<Log> expected = Fly(&env, 40, 40);
+  VecEnv other(BusyConfig(), 70, 1, 32);
+  Fly(&other, 0, 7);
+  other.Restore(snapshot);
+  EXPECT_EQ(other.Snapshot(), snapshot);
+  EXPECT_EQ(Fly(&other, 40, 40), expected);
+  VecEnv smaller(BusyConfig(), 69, 1);
+  EXPECT_THROW(smaller.Restore(snapshot), Error);
+}
+
+TEST(VecEnv, ScalarAndVectorTargetsAgree) {
+  // One second of flight amplifies float32 rounding (and fused against separate multiply-add) from
+  // 1e-7 to this, of observations near one.
+  constexpr double kTolerance = 5e-4;
+  EnvConfig config;
+  std::vector<std::vector<Log>> logs;
+  for (const simd::Target target : simd::SupportedTargets()) {
+    const ScopedTarget scoped(target);
+    VecEnv env(config, 64, 1);
+    logs.push_back(Fly(&env, 0, 50));
+  }
+  for (const std::vector<Log>& other : logs) {
+    for (std::size_t i = 0; i < other.size(); ++i) {
+      ASSERT_EQ(other[i].observations.size(), logs[0][i].observations.size());
+      for (std::size_t k = 0; k < other[i].observations.size(); ++k) {
+        ASSERT_NEAR(other[i].observations[k], logs[0][i].observations[k], kTolerance)
+            << "aircraft " << i << ", decision " << k / kSize << ", element " << k % kSize;
+      }
+    }
+  }
+}
+
+TEST(VecEnv, FliesLikeTheClosedLoopInDoublePrecision) {
+  // Float32 against double over two seconds of moderate flight: rounding of positions (2e-3 ft at
+  // 20,000 ft) and of the integrators, amplified by the pitch loop.
+  constexpr double kVelocityTolerance = 0.02, kRateTolerance = 2e-4, kPositionTolerance = 0.1;
+  constexpr double kSurfaceTolerance = 0.02;
+  EnvConfig config;
+  config.initial.altitude_ft = {20000, 20000};
+  config.initial.true_airspeed_fps = {1100, 1100};
+  const Plant plant(F16(), config.atmosphere);
+  const TrimPoint trim = Trim(plant, {20000, 1100, 0, 0});
+  constexpr int kCount = 8;
+  VecEnv env(config, kCount, 1);
+  std::vector<ClosedLoop> expected;
+  for (int i = 0; i < kCount; ++i) {
+    expected.emplace_back(plant, trim, config.flight_control, config.control_interval_s);
+  }
+  Buffers buffers(kCount);
+  for (int step = 0; step < 100; ++step) {
+    for (int i = 0; i < kCount; ++i) {
+      const std::array<float, 4> action = ActionOf(i, step / 2);
+      std::copy(action.begin(), action.end(), buffers.action.begin() + i * 4);
+      expected[static_cast<std::size_t>(i)].Step(
+          {0.5 * (action[0] + 1), action[1], action[2], action[3]});
+    }
+    env.Step(0, buffers.action.data(), buffers.output());
+    for (int i = 0; i < kCount; ++i) {
+      ASSERT_EQ(buffers.termination[static_cast<std::size_t>(i)], 0);
+      const ClosedLoop& loop = expected[static_cast<std::size_t>(i)];
+      const auto near = [&](int column, double value, double tolerance) {
+        ASSERT_NEAR(env.StateOf(i, column), value, tolerance)
+            << "step " << step << ", aircraft " << i << ", column " << column;
+      };
+      for (const int column : {kU, kV, kW}) near(column, loop.state()[column], kVelocityTolerance);
+      for (const int column : {kP, kQ, kR}) near(column, loop.state()[column], kRateTolerance);
+      for (const int column : {kNorth, kEast, kDown}) {
+        near(column, loop.state()[column], kPositionTolerance);
+      }
+      for (const int column : {kQ0, kQx, kQy, kQz}) {
+        near(column, loop.state()[column], kRateTolerance);
+      }
+      near(kPower, loop.power(), kSurfaceTolerance);
+      near(kElevator, loop.surfaces().elevator_deg, kSurfaceTolerance);
+      near(kAileron, loop.surfaces().aileron_deg, kSurfaceTolerance);
+      near(kRudder, loop.surfaces().rudder_deg, kSurfaceTolerance);
+      near(kLeadingEdgeFlap, loop.surfaces().leading_edge_flap_deg, kSurfaceTolerance);
+      near(kNz, loop.nz(), kSurfaceTolerance);
+    }
+  }
+}
+
+TEST(VecEnv, TrimmedStartsStayTrimmedHandsOff) {
+  EnvConfig config;
+  constexpr int kCount = 256;
+  VecEnv env(config, kCount, 3);
+  std::vector<float> speed(kCount), altitude(kCount);
+  for (int i = 0; i < kCount; ++i) {
+    speed[static_cast<std::size_t>(i)] = std::hypot(env.StateOf(i, kU), env.StateOf(i, kW));
+    altitude[static_cast<std::size_t>(i)] = -env.StateOf(i, kDown);
+    EXPECT_GE(altitude[static_cast<std::size_t>(i)], 19000 - 0.01);
+    EXPECT_LE(altitude[static_cast<std::size_t>(i)], 20000 + 0.01);
+    EXPECT_GE(speed[static_cast<std::size_t>(i)], 1000 - 0.01);
+    EXPECT_LE(speed[static_cast<std::size_t>(i)], 1200 + 0.01);
+  }
+  // 0.2 s: thrust stays that of the trim by giving each aircraft its own throttle.
+  Buffers buffers(kCount);
+  for (int i = 0; i < kCount; ++i) {
+    const float power = env.StateOf(i, kPower);
+    const float throttle = power <= 50 ? power / 64.94f : (power + 117.38f) / 217.38f;
+    buffers.action[static_cast<std::size_t>(i) * 4] = 2 * throttle - 1;
+  }
+  for (int step = 0; step < 10; ++step) env.Step(0, buffers.action.data(), buffers.output());
+  for (int i = 0; i < kCount; ++i) {
+    // The trim is interpolated between nodes, and the thrust table's slope changes between them.
+    EXPECT_NEAR(std::hypot(env.StateOf(i, kU), env.StateOf(i, kW)),
+                speed[static_cast<std::size_t>(i)], 0.1);
+    EXPECT_NEAR(-env.StateOf(i, kDown), altitude[static_cast<std::size_t>(i)], 0.1);
+    EXPECT_NEAR(env.StateOf(i, kNz), 1, 0.01);
+    EXPECT_NEAR(env.StateOf(i, kP), 0, 1e-3);
+  }
+}
+
+TEST(VecEnv, UntrimmedStartsAreThePapers) {
+  EnvConfig config;
+  config.initial.trimmed = false;
+  VecEnv env(config, 3, 3);
+  for (int i = 0; i < 3; ++i) {
+    for (const int column : {kV, kW, kP, kQ, kR, kNorth, kEast, kQx, kQy, kQz, kElevator, kAileron,
+                             kRudder, kLeadingEdgeFlap}) {
+      EXPECT_EQ(env.StateOf(i, column), 0) << column;
+    }
+    EXPECT_EQ(env.StateOf(i, kQ0), 1);
+    EXPECT_GT(env.StateOf(i, kPower), 0);
+  }
+  Fly(&env, 0, 20);
+}
+
+TEST(VecEnv, TimeLimitEndsAndRestartsEveryEpisode) {
+  EnvConfig config;
+  config.time_limit_steps = 20;
+  config.action_repeat = 8;
+  VecEnv env(config, 10, 1);
+  const std::vector<float> first_target = env.TargetOf(0);
+  Buffers buffers(10);
+  for (int decision = 0; decision < 9; ++decision) {
+    env.Step(0, buffers.action.data(), buffers.output());
+    const bool ends = decision % 3 == 2;
+    for (std::size_t i = 0; i < 10; ++i) {
+      EXPECT_EQ(buffers.termination[i],
+                static_cast<int>(ends ? Termination::kUnreachTarget : Termination::kNone));
+      if (!ends) continue;
+      EXPECT_EQ(buffers.episode_steps[i], 20);
+      EXPECT_LT(buffers.reward[i], -200);
+      EXPECT_LT(buffers.episode_return[i], buffers.reward[i]);
+      EXPECT_GT(buffers.reward[i], -200 - 4 * 5);  // four steps counted in the last decision
+      EXPECT_EQ(env.StateOf(static_cast<int>(i), kNorth), 0);
+    }
+  }
+  EXPECT_NE(env.TargetOf(0), first_target);
+}
+
+TEST(VecEnv, ReturnIsTheSumOfRewards) {
+  EnvConfig config;
+  config.time_limit_steps = 50;
+  config.action_repeat = 5;
+  VecEnv env(config, 40, 1);
+  const std::vector<Log> logs = Fly(&env, 0, 10);
+  for (const Log& log : logs) {
+    double sum = 0;
+    for (const float reward : log.rewards) sum += reward;
+    ASSERT_EQ(log.returns.size(), 1u);
+    EXPECT_NEAR(log.returns[0], sum, 1e-3);
+  }
+}
+
+TEST(VecEnv, TruncationKeepsTheLastObservation) {
+  EnvConfig config;
+  config.time_limit_steps = 10;
+  config.action_repeat = 10;
+  config.truncate_at_time_limit = true;
+  constexpr int kCount = 150;
+  VecEnv env(config, kCount, 1);
+  // The same flight with a later limit shows the same observation there.
+  EnvConfig longer = config;
+  longer.time_limit_steps = 1000;
+  VecEnv reference(longer, kCount, 1);
+  Buffers buffers(kCount), reference_buffers(kCount);
+  env.Step(0, buffers.action.data(), buffers.output());
+  reference.Step(0, reference_buffers.action.data(), reference_buffers.output());
+  reference.Observe(0, reference_buffers.observation.data());
+  EXPECT_EQ(buffers.final_observation, reference_buffers.observation);
+  EXPECT_EQ(buffers.reward, reference_buffers.reward);
+  for (const std::uint8_t termination : buffers.termination) {
+    EXPECT_EQ(termination, static_cast<int>(Termination::kUnreachTarget));
+  }
+}
+
+TEST(VecEnv, StaggeredClocksSpreadOverTheTimeLimit) {
+  EnvConfig config;
+  config.time_limit_steps = 40;
+  config.stagger_clocks = true;
+  constexpr int kCount = 4000;
+  VecEnv env(config, kCount, 1, kCount);
+  Buffers buffers(kCount);
+  std::vector<int> first_end(kCount, -1);
+  for (int step = 0; step < 40; ++step) {
+    env.Step(0, buffers.action.data(), buffers.output());
+    for (std::size_t i = 0; i < kCount; ++i) {
+      if (buffers.termination[i] != 0 && first_end[i] < 0) first_end[i] = step;
+    }
+  }
+  std::array<int, 40> ends{};
+  for (const int end : first_end) {
+    ASSERT_GE(end, 0);
+    ++ends[static_cast<std::size_t>(end)];
+  }
+  for (const int count : ends) EXPECT_NEAR(count, 100, 6 * std::sqrt(100.0));
+}
+
+/// Replaces one float of one aircraft's state.
+void Inject(VecEnv* env, int aircraft, int column, float value) {
+  std::vector<std::uint32_t> snapshot = env->Snapshot();
+  const std::size_t words = snapshot.size() / static_cast<std::size_t>(env->num_aircraft());
+  std::memcpy(
+      &snapshot[static_cast<std::size_t>(aircraft) * words + static_cast<std::size_t>(column)],
+      &value, sizeof value);
+  env->Restore(snapshot);
+}
+
+TEST(VecEnv, NonFiniteStateEndsOnlyItsOwnEpisode) {
+  constexpr int kCount = 96, kSick = 41;
+  for (const int column : {kU, kQ, kDown, kQx, kPower, kElevator, kPitchIntegrator, kNz}) {
+    VecEnv env(EnvConfig{}, kCount, 1), healthy(EnvConfig{}, kCount, 1);
+    Inject(&env, kSick, column, std::numeric_limits<float>::quiet_NaN());
+    const std::vector<Log> logs = Fly(&env, 0, 5), expected = Fly(&healthy, 0, 5);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      if (i != kSick) {
+        EXPECT_EQ(logs[i], expected[i]);
+        continue;
+      }
+      // At once, or one step later where the value acts through others first.
+      const std::vector<int>& terminations = logs[i].terminations;
+      EXPECT_EQ(std::count(terminations.begin(), terminations.end(),
+                           static_cast<int>(Termination::kNonFinite)),
+                1)
+          << "column " << column;
+      for (const float reward : logs[i].rewards) EXPECT_TRUE(std::isfinite(reward));
+      for (const float value : {env.StateOf(kSick, kU), env.StateOf(kSick, column)}) {
+        EXPECT_TRUE(std::isfinite(value));
+      }
+    }
+  }
+}
+
+TEST(VecEnv, NonFiniteActionIsNonFinite) {
+  VecEnv env(EnvConfig{}, 40, 1);
+  Buffers buffers(40);
+  buffers.action[3 * 4 + 2] = std::numeric_limits<float>::quiet_NaN();
+  buffers.action[5 * 4] = std::numeric_limits<float>::infinity();
+  env.Step(0, buffers.action.data(), buffers.output());
+  for (std::size_t i = 0; i < 40; ++i) {
+    EXPECT_EQ(buffers.termination[i],
+              static_cast<int>(i == 3 || i == 5 ? Termination::kNonFinite : Termination::kNone));
+  }
+}
+
+TEST(VecEnv, ActionsAreClipped) {
+  VecEnv one(EnvConfig{}, 2, 1), two(EnvConfig{}, 2, 1);
+  Buffers clipped(2), beyond(2);
+  clipped.action = {1, -1, 1, 1, -1, 1, -1, -1};
+  beyond.action = {3, -1.5f, 9, 1.01f, -4, 2, -7, -1e20f};
+  for (int step = 0; step < 10; ++step) {
+    one.Step(0, clipped.action.data(), clipped.output());
+    two.Step(0, beyond.action.data(), beyond.output());
+  }
+  EXPECT_EQ(one.Snapshot(), two.Snapshot());
+}
+
+TEST(VecEnv, NoiseHasTheConfiguredScaleAndIsNewEveryStep) {
+  EnvConfig clean_config, noisy_config;
+  clean_config.observation_noise = 0;
+  noisy_config.observation_noise = 0.05;
+  constexpr int kCount = 500;
+  VecEnv clean(clean_config, kCount, 1, kCount), noisy(noisy_config, kCount, 1, kCount);
+  Buffers clean_buffers(kCount), noisy_buffers(kCount);
+  std::vector<double> previous;
+  for (int step = 0; step < 3; ++step) {
+    clean.Observe(0, clean_buffers.observation.data());
+    noisy.Observe(0, noisy_buffers.observation.data());
+    std::vector<double> noise;
+    double squares = 0, product = 0;
+    for (std::size_t k = 0; k < clean_buffers.observation.size(); ++k) {
+      noise.push_back(noisy_buffers.observation[k] - clean_buffers.observation[k]);
+      squares += noise[k] * noise[k];
+      if (!previous.empty()) product += noise[k] * previous[k];
+    }
+    const double n = static_cast<double>(noise.size());
+    EXPECT_NEAR(std::sqrt(squares / n), 0.05, 5 * 0.05 / std::sqrt(2 * n));
+    EXPECT_NEAR(product / n, 0, 5 * 0.05 * 0.05 / std::sqrt(n));
+    previous = noise;
+    clean.Step(0, clean_buffers.action.data(), clean_buffers.output());
+    noisy.Step(0, noisy_buffers.action.data(), noisy_buffers.output());
+  }
+}
+
+TEST(VecEnv, RefusesWhatCannotBeFlown) {
+  const auto message = [](EnvConfig config, int aircraft = 1, int tile = 256) {
+    try {
+      VecEnv env(config, aircraft, 1, tile);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EnvConfig config;
+  EXPECT_EQ(message(config), "");
+  EXPECT_NE(message(config, 0).find("aircraft"), std::string::npos);
+  EXPECT_NE(message(config, 1, 0).find("tile"), std::string::npos);
+  config.task = "loiter";
+  EXPECT_NE(message(config).find("known: heading"), std::string::npos);
+  config = {};
+  config.aircraft = "f15";
+  EXPECT_NE(message(config).find("known: f16"), std::string::npos);
+  config = {};
+  config.action_repeat = 0;
+  EXPECT_NE(message(config).find("action_repeat"), std::string::npos);
+  config = {};
+  config.initial.altitude_ft = {20000, 19000};
+  EXPECT_NE(message(config).find("initial.altitude_ft"), std::string::npos);
+  config = {};
+  config.observation_noise = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(message(config).find("observation_noise"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace skein
