@@ -157,7 +157,8 @@ FdmFile ReadFdmFile(const std::string& path) {
     std::size_t line = 1;
     for (std::size_t i = 0; i < text.size() && i + 1 < error.byte; ++i) line += text[i] == '\n';
     Fail(fmt::format("{}:{}", path, line),
-         fmt::format("not valid JSON (byte {} of {})", error.byte, text.size()));
+         error.byte > text.size() ? "not valid JSON: it ends too early"
+                                  : fmt::format("not valid JSON at byte {}", error.byte));
   } catch (const Json::exception& error) {
     Fail(path, fmt::format("not usable JSON: {}", error.what()));
   }

@@ -145,7 +145,7 @@ TEST_F(FdmPipeline, MalformedInputIsNamedInOneLine) {
   pulse["pulses"][1]["control_index"] = 7;
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"{\n\"points\": [1,\n}", "in.json:3: not valid JSON"},
-      {"", "not valid JSON"},
+      {"", "it ends too early"},
       {"[]", "expected an object"},
       {"{}", "holds none of points"},
       {R"({"points": 3})", "points: expected a list"},
