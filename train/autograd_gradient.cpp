@@ -1,0 +1,188 @@
+#include "train/autograd_gradient.h"
+
+#include <torch/autograd.h>
+#include <torch/types.h>
+
+#include "train/matmul.h"
+
+namespace skein {
+namespace {
+
+constexpr double kNormEpsilon = 1e-5;
+constexpr double kHalfLogTwoPi = 0.91893853320467274;
+
+torch::Tensor View(const torch::Tensor& flat, std::int64_t offset, at::IntArrayRef shape) {
+  std::int64_t count = 1;
+  for (const std::int64_t extent : shape) count *= extent;
+  return flat.narrow(0, offset, count).view(shape);
+}
+
+torch::Tensor FromMemory(const float* data, at::IntArrayRef shape, torch::ScalarType type) {
+  return torch::from_blob(const_cast<float*>(data), shape, torch::kFloat32).to(type);
+}
+
+/// LayerNorm and the affine map behind it.
+torch::Tensor Map(const torch::Tensor& flat, const NormalisedLinear& layer,
+                  const torch::Tensor& in) {
+  const torch::Tensor normalised =
+      at::layer_norm(in, {layer.in}, View(flat, layer.norm_weight, {layer.in}),
+                     View(flat, layer.norm_bias, {layer.in}), kNormEpsilon);
+  return at::linear(normalised, View(flat, layer.weight, {layer.out, layer.in}),
+                    View(flat, layer.bias, {layer.out}));
+}
+
+struct Outputs {
+  torch::Tensor output, state;
+};
+
+Outputs Forward(const NetworkLayout& layout, const torch::Tensor& flat, const SequenceTile& tile) {
+  const torch::ScalarType type = flat.scalar_type();
+  const NetworkShape& shape = layout.shape();
+  const std::int64_t gru = shape.gru_size;
+  torch::Tensor x = FromMemory(tile.observation, {tile.rows(), shape.observation_size}, type);
+  x = at::relu(Map(flat, layout.layer(kFirstLayer), x));
+  x = at::relu(Map(flat, layout.layer(kSecondLayer), x));
+  const torch::Tensor inputs =
+      Map(flat, layout.layer(kGruInput), x).view({tile.steps, tile.batch, 3 * gru});
+  const torch::Tensor weight = View(flat, layout.gru_weight(), {3 * gru, gru});
+  const torch::Tensor bias = View(flat, layout.gru_bias(), {3 * gru});
+  const torch::Tensor keep = FromMemory(tile.keep, {tile.steps, tile.batch, 1}, type);
+  torch::Tensor state = FromMemory(tile.initial_state, {tile.batch, gru}, type);
+  std::vector<torch::Tensor> states;
+  for (int step = 0; step < tile.steps; ++step) {
+    const torch::Tensor previous = state * keep[step];
+    const auto from_input = inputs[step].chunk(3, 1);
+    const auto from_state = at::linear(previous, weight, bias).chunk(3, 1);
+    const torch::Tensor r = at::sigmoid(from_input[0] + from_state[0]);
+    const torch::Tensor z = at::sigmoid(from_input[1] + from_state[1]);
+    const torch::Tensor n = at::tanh(from_input[2] + r * from_state[2]);
+    state = (1 - z) * n + z * previous;
+    states.push_back(state);
+  }
+  x = at::stack(states).view({tile.rows(), gru});
+  x = at::relu(Map(flat, layout.layer(kThirdLayer), x));
+  x = at::relu(Map(flat, layout.layer(kFourthLayer), x));
+  return {Map(flat, layout.layer(kHead), x), state};
+}
+
+struct Loss {
+  torch::Tensor total;
+  LossSums sums;
+};
+
+Loss ActorLossOf(const NetworkLayout& layout, const torch::Tensor& flat,
+                 const torch::Tensor& output, const SampleTile& tile,
+                 const LossSettings& settings) {
+  const torch::ScalarType type = flat.scalar_type();
+  const std::int64_t rows = tile.sequence.rows(), size = layout.shape().output_size;
+  const torch::Tensor log_std = View(flat, layout.log_std(), {size});
+  const torch::Tensor mean = settings.tanh_mean ? at::tanh(output) : output;
+  const torch::Tensor deviation =
+      (FromMemory(tile.actor.action, {rows, size}, type) - mean) * at::exp(-log_std);
+  const torch::Tensor log_prob = (-0.5 * deviation.square() - log_std - kHalfLogTwoPi).sum(1);
+  const torch::Tensor log_ratio = log_prob - FromMemory(tile.actor.old_log_prob, {rows}, type);
+  const torch::Tensor ratio = at::exp(log_ratio);
+  const torch::Tensor advantage = FromMemory(tile.actor.advantage, {rows}, type);
+  const torch::Tensor clipped = at::clamp(ratio, 1 - settings.clip, 1 + settings.clip);
+  const torch::Tensor policy_loss =
+      -at::minimum(ratio * advantage, clipped * advantage).sum() * settings.sample_weight;
+  const torch::Tensor entropy =
+      (log_std + kHalfLogTwoPi + 0.5).sum() * (settings.sample_weight * static_cast<double>(rows));
+  Loss loss;
+  loss.total = policy_loss - settings.entropy_coefficient * entropy;
+  loss.sums.policy_loss = policy_loss.item<double>();
+  loss.sums.entropy = entropy.item<double>();
+  loss.sums.approximate_kl = (ratio - 1 - log_ratio).sum().item<double>() * settings.sample_weight;
+  loss.sums.clip_fraction = at::ne(ratio, clipped).sum().item<double>() * settings.sample_weight;
+  return loss;
+}
+
+Loss CriticLossOf(const torch::Tensor& output, const SampleTile& tile,
+                  const LossSettings& settings) {
+  const torch::ScalarType type = output.scalar_type();
+  const std::int64_t rows = tile.sequence.rows();
+  const torch::Tensor value = output.view({rows});
+  const torch::Tensor target = FromMemory(tile.target, {rows}, type);
+  torch::Tensor squares = (value - target).square();
+  if (settings.clip_value_loss) {
+    const torch::Tensor old_value = FromMemory(tile.old_value, {rows}, type);
+    const torch::Tensor moved =
+        old_value + at::clamp(value - old_value, -settings.clip, settings.clip);
+    squares = at::maximum(squares, (moved - target).square());
+  }
+  const torch::Tensor value_loss = 0.5 * squares.sum() * settings.sample_weight;
+  Loss loss;
+  loss.total = settings.value_coefficient * value_loss;
+  loss.sums.value_loss = value_loss.item<double>();
+  return loss;
+}
+
+Loss LossOf(const NetworkLayout& layout, const torch::Tensor& flat, const torch::Tensor& output,
+            const SampleTile& tile, const LossSettings& settings) {
+  return layout.shape().gaussian ? ActorLossOf(layout, flat, output, tile, settings)
+                                 : CriticLossOf(output, tile, settings);
+}
+
+class AutogradGradient : public NetworkGradient {
+ public:
+  explicit AutogradGradient(const NetworkLayout& layout) : layout_(layout) {
+    UseOneLibTorchThread();
+  }
+
+  void SetParameters(const float* parameters) override {
+    parameters_.assign(parameters, parameters + layout_.size());
+  }
+
+  std::int64_t accumulator_size() const override { return layout_.size(); }
+
+  LossSums Accumulate(const SampleTile& tile, const LossSettings& settings, int /*worker*/,
+                      float* accumulator) override {
+    const torch::Tensor flat =
+        FromMemory(parameters_.data(), {layout_.size()}, torch::kFloat32).detach();
+    // A leaf of this call's own graph, so that workers share no gradient buffers.
+    torch::Tensor leaf = flat.clone().requires_grad_(true);
+    const Loss loss =
+        LossOf(layout_, leaf, Forward(layout_, leaf, tile.sequence).output, tile, settings);
+    const torch::Tensor gradient = torch::autograd::grad({loss.total}, {leaf})[0].contiguous();
+    const float* const values = gradient.data_ptr<float>();
+    for (std::int64_t i = 0; i < layout_.size(); ++i) accumulator[i] += values[i];
+    return loss.sums;
+  }
+
+  void Finish(const float* accumulator, float* gradient) const override {
+    std::copy_n(accumulator, layout_.size(), gradient);
+  }
+
+ private:
+  NetworkLayout layout_;
+  std::vector<float> parameters_;
+};
+
+std::vector<double> ToVector(const torch::Tensor& tensor) {
+  const torch::Tensor flat = tensor.detach().to(torch::kFloat64).contiguous().view({-1});
+  return {flat.data_ptr<double>(), flat.data_ptr<double>() + flat.numel()};
+}
+
+}  // namespace
+
+std::unique_ptr<NetworkGradient> MakeAutogradGradient(const NetworkLayout& layout) {
+  return std::make_unique<AutogradGradient>(layout);
+}
+
+ReferenceGradient ComputeReferenceGradient(const NetworkLayout& layout,
+                                           const std::vector<float>& parameters,
+                                           const SampleTile& tile, const LossSettings& settings) {
+  const torch::Tensor flat =
+      FromMemory(parameters.data(), {layout.size()}, torch::kFloat64).clone().requires_grad_(true);
+  const Outputs outputs = Forward(layout, flat, tile.sequence);
+  const Loss loss = LossOf(layout, flat, outputs.output, tile, settings);
+  ReferenceGradient result;
+  result.loss = loss.total.item<double>();
+  result.sums = loss.sums;
+  result.gradient = ToVector(torch::autograd::grad({loss.total}, {flat})[0]);
+  result.output = ToVector(outputs.output);
+  result.state = ToVector(outputs.state);
+  return result;
+}
+
+}  // namespace skein

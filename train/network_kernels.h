@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+
+namespace skein {
+
+// The elementwise parts of a recurrent network, forward and backward, over row-major tiles; the
+// products between them are MatMul's. Columns must be a multiple of 16 unless said otherwise.
+// "Normalise" is LayerNorm without its affine part: (x - mean) / sqrt(variance + 1e-5) of each row;
+// the affine part is folded into the map that follows (train/tiled_network.h). Not-a-number in an
+// input shows in the output.
+
+/// Any number of columns.
+void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out);
+
+/// values = normalise(relu(values + bias)). `inverse_std` and `zero_level` get one value per row:
+/// 1 / sqrt(variance + 1e-5), and what a zero before the normalisation became, so that a ReLU was
+/// active just where values > zero_level.
+void BiasReluNormalise(std::int64_t rows, int columns, const float* bias, float* values,
+                       float* inverse_std, float* zero_level);
+
+/// gradient (by the normalised values) becomes the gradient by the values before bias and ReLU; its
+/// column sums are added to `bias_gradient`.
+void BiasReluNormaliseBackward(std::int64_t rows, int columns, const float* normalised,
+                               const float* inverse_std, const float* zero_level, float* gradient,
+                               float* bias_gradient);
+
+/// out = normalise(in), with 1 / sqrt(variance + 1e-5) of each row.
+void NormaliseWithStd(std::int64_t rows, int columns, const float* in, float* out,
+                      float* inverse_std);
+
+/// gradient (by the normalised values) becomes the gradient by the values before normalisation.
+void NormaliseBackward(std::int64_t rows, int columns, const float* normalised,
+                       const float* inverse_std, float* gradient);
+
+/// out[row] = keep[row] * in[row].
+void ScaleRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out);
+
+/// out[row] += keep[row] * in[row].
+void AddScaledRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out);
+
+/// One step of a GRU (Cho et al. 2014, in the form of cuDNN and LibTorch: the reset gate acts on
+/// the hidden product of the new gate). `gates` rows of `stride` floats hold [n | r | z | q], each
+/// `size` wide: on entry the input products in n, r, z; on return the activations, and in q the
+/// hidden product of the new gate with its bias. `hidden_product` rows hold [r | z | n].
+/// `input_bias` is ordered n, r, z; `hidden_bias` r, z, n. next = (1 - z) n + z previous.
+void GruForward(std::int64_t rows, int size, const float* input_bias, const float* hidden_bias,
+                const float* hidden_product, const float* previous, float* gates,
+                std::int64_t stride, float* next);
+
+/// Back through GruForward: `gates` become the gradients by [n | r | z | q] before activation (q by
+/// the hidden product with bias); `state_gradient` (by next) becomes the direct part of the
+/// gradient by previous, z times it.
+void GruBackward(std::int64_t rows, int size, const float* previous, float* gates,
+                 std::int64_t stride, float* state_gradient);
+
+/// sums[j] += sum over rows of in[row][j].
+void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,
+                   float* sums);
+
+}  // namespace skein
