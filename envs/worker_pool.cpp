@@ -1,0 +1,86 @@
+#include "envs/worker_pool.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+#include <xmmintrin.h>
+
+#include <optional>
+#include <string>
+
+#include "simd/error.h"
+
+namespace skein {
+namespace {
+
+/// Flushes denormal results to zero and takes denormal operands as zero while it lives: filters and
+/// gradients that decay would otherwise run a hundred times slower.
+class DenormalsFlushed {
+ public:
+  DenormalsFlushed() : before_(_mm_getcsr()) {
+    constexpr unsigned kFlushToZero = 0x8000;
+    constexpr unsigned kDenormalsAreZero = 0x0040;
+    _mm_setcsr(before_ | kFlushToZero | kDenormalsAreZero);
+  }
+  ~DenormalsFlushed() { _mm_setcsr(before_); }
+  DenormalsFlushed(const DenormalsFlushed&) = delete;
+  DenormalsFlushed& operator=(const DenormalsFlushed&) = delete;
+
+ private:
+  unsigned before_;
+};
+
+int ThreadCount(int threads) {
+  if (threads < 0) {
+    throw Error("worker pool: " + std::to_string(threads) +
+                " threads; a positive number, or 0 for one per CPU");
+  }
+  return threads == 0 ? tbb::info::default_concurrency() : threads;
+}
+
+}  // namespace
+
+struct WorkerPool::Arena {
+  explicit Arena(int threads) : arena(threads) {
+    // oneTBB makes no more threads than CPUs unless it is told to.
+    if (threads > tbb::info::default_concurrency()) {
+      more_threads.emplace(tbb::global_control::max_allowed_parallelism,
+                           static_cast<std::size_t>(threads));
+    }
+  }
+
+  std::optional<tbb::global_control> more_threads;
+  tbb::task_arena arena;
+};
+
+WorkerPool::WorkerPool(int threads)
+    : threads_(ThreadCount(threads)), arena_(std::make_unique<Arena>(threads_)) {}
+
+WorkerPool::~WorkerPool() = default;
+
+void WorkerPool::ForEach(int count, const std::function<void(int index, int worker)>& body) {
+  if (threads_ == 1) {
+    const DenormalsFlushed flushed;
+    for (int index = 0; index < count; ++index) body(index, 0);
+    return;
+  }
+  arena_->arena.execute([&] {
+    // Isolated, so that a worker that waits for a nested ForEach does not begin another index of
+    // the outer one.
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<int>(0, count, 1),
+          [&](const tbb::blocked_range<int>& range) {
+            const DenormalsFlushed flushed;
+            const int worker = tbb::this_task_arena::current_thread_index();
+            for (int index = range.begin(); index != range.end(); ++index) body(index, worker);
+          },
+          tbb::simple_partitioner());
+    });
+  });
+}
+
+}  // namespace skein
