@@ -11,6 +11,8 @@ namespace skein {
 /// Gravity of the published F-16 models, ft/s^2.
 inline constexpr double kGravityFtS2 = 32.17;
 
+inline constexpr double kDegPerRad = 57.295779513082320877;
+
 /// Mass, geometry and reference deflections. Foot, slug, second.
 struct Airframe {
   double mass_slug = 0;

@@ -26,6 +26,9 @@ struct AirData {
   double static_pressure_psf = 0;
 };
 
+/// Air data of a rigid-body state in still air.
+AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state);
+
 /// One evaluation of the equations of motion.
 struct PlantOutput {
   RigidBodyState state_rate;  ///< time derivative of the state

@@ -26,4 +26,7 @@ struct TrimPoint {
 /// the caller's to judge (see `power`).
 TrimPoint Trim(const Plant& plant, const TrimRequest& request);
 
+/// The same, starting from the trim of a neighbouring condition.
+TrimPoint Trim(const Plant& plant, const TrimRequest& request, const TrimPoint& start);
+
 }  // namespace skein
