@@ -67,6 +67,11 @@ void Validate(const EnvConfig& config) {
 
   RequireRange("termination.alpha_deg", config.termination.alpha_deg, -180, 180);
   RequireRange("termination.beta_deg", config.termination.beta_deg, -90, 90);
+  // The limits are judged by the sides of two directions, which an arc beyond 180 deg does not
+  // have.
+  Require(config.termination.alpha_deg.max - config.termination.alpha_deg.min <= 180,
+          "termination.alpha_deg.max", config.termination.alpha_deg.max,
+          "at most 180 above its min");
   RequireNotNegative("termination.min_mach", config.termination.min_mach);
   RequirePositive("termination.max_mach", config.termination.max_mach);
   Require(config.termination.min_mach < config.termination.max_mach, "termination.min_mach",

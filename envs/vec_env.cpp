@@ -13,6 +13,7 @@
 #include "envs/tasks/judgement.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"
+#include "simd/denormals.h"
 #include "simd/error.h"
 
 namespace skein {
@@ -92,6 +93,7 @@ struct VecEnv::Impl {
         task(MakeTask(config)),
         aircraft(ConfiguredAircraft(config)),
         kernel_aircraft(MakeKernelAircraft(aircraft, config.atmosphere)),
+        flight_control(aircraft, config.flight_control, config.control_interval_s),
         reset(config, aircraft) {
     if (aircraft_count < 1) {
       throw Error("environment: " + std::to_string(aircraft_count) +
@@ -243,8 +245,7 @@ struct VecEnv::Impl {
     bool written[kBlock] = {};
     const float dt = static_cast<float>(config.control_interval_s);
     for (int step = 0; step < config.action_repeat; ++step) {
-      ControlTile(*kernel_aircraft, block.flight, scratch.pilot_columns(), config.flight_control,
-                  dt);
+      ControlTile(*kernel_aircraft, flight_control, block.flight, scratch.pilot_columns());
       StepTile(*kernel_aircraft, block.flight, dt, config.substeps);
       task->Judge(block.flight, block.task, block.step, verdict);
       JudgeTile(*kernel_aircraft, config, block.flight, verdict, episodes);
@@ -286,6 +287,7 @@ struct VecEnv::Impl {
   std::unique_ptr<Task> task;
   Aircraft aircraft;
   std::shared_ptr<const KernelAircraft> kernel_aircraft;
+  FlightControlConstants flight_control;
   FlightReset reset;
 
   int tile_size = 0;
@@ -312,6 +314,7 @@ int VecEnv::observation_size() const { return kObservationSize; }
 int VecEnv::action_size() const { return kActionSize; }
 
 void VecEnv::Observe(int tile, float* observation) const {
+  const simd::DenormalsFlushed flushed;
   for (int begin = 0; begin < tile_count(tile); begin += kBlock) {
     impl_->Observe(impl_->BlockOf(tile, begin),
                    observation + static_cast<std::size_t>(begin) * kObservationSize);
@@ -319,6 +322,8 @@ void VecEnv::Observe(int tile, float* observation) const {
 }
 
 void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
+  // Also where the caller's thread does not: results must not depend on who drives the tile.
+  const simd::DenormalsFlushed flushed;
   for (int begin = 0; begin < tile_count(tile); begin += kBlock) {
     StepOutput part = output;
     part.reward += begin;

@@ -6,32 +6,15 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
-#include <xmmintrin.h>
 
 #include <optional>
 #include <string>
 
+#include "simd/denormals.h"
 #include "simd/error.h"
 
 namespace skein {
 namespace {
-
-/// Flushes denormal results to zero and takes denormal operands as zero while it lives: filters and
-/// gradients that decay would otherwise run a hundred times slower.
-class DenormalsFlushed {
- public:
-  DenormalsFlushed() : before_(_mm_getcsr()) {
-    constexpr unsigned kFlushToZero = 0x8000;
-    constexpr unsigned kDenormalsAreZero = 0x0040;
-    _mm_setcsr(before_ | kFlushToZero | kDenormalsAreZero);
-  }
-  ~DenormalsFlushed() { _mm_setcsr(before_); }
-  DenormalsFlushed(const DenormalsFlushed&) = delete;
-  DenormalsFlushed& operator=(const DenormalsFlushed&) = delete;
-
- private:
-  unsigned before_;
-};
 
 int ThreadCount(int threads) {
   if (threads < 0) {
@@ -63,7 +46,7 @@ WorkerPool::~WorkerPool() = default;
 
 void WorkerPool::ForEach(int count, const std::function<void(int index, int worker)>& body) {
   if (threads_ == 1) {
-    const DenormalsFlushed flushed;
+    const simd::DenormalsFlushed flushed;
     for (int index = 0; index < count; ++index) body(index, 0);
     return;
   }
@@ -74,7 +57,7 @@ void WorkerPool::ForEach(int count, const std::function<void(int index, int work
       tbb::parallel_for(
           tbb::blocked_range<int>(0, count, 1),
           [&](const tbb::blocked_range<int>& range) {
-            const DenormalsFlushed flushed;
+            const simd::DenormalsFlushed flushed;
             const int worker = tbb::this_task_arena::current_thread_index();
             for (int index = range.begin(); index != range.end(); ++index) body(index, worker);
           },

@@ -1,7 +1,6 @@
 #include "envs/aircraft/flight_control_kernel.h"
 
 #include "envs/aircraft/engine.h"
-#include "envs/aircraft/flight_control_constants.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/kernel_aircraft.h"
 #include "simd/dispatch.h"
@@ -24,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using FloatTag = hn::ScalableTag<float>;
 using V = hn::Vec<FloatTag>;
 
-HWY_INLINE V Constant(double value) { return hn::Set(FloatTag(), static_cast<float>(value)); }
+HWY_INLINE V Constant(float value) { return hn::Set(FloatTag(), value); }
 
 /// x limited to [low, high]; NaN stays NaN, so that a sick aircraft shows.
 HWY_INLINE V Clip(V x, V low, V high) {
@@ -38,9 +37,9 @@ HWY_INLINE V Clip(V x, V low, V high) {
 }
 
 /// min(1, pressure / qbar): how loop gains fall with dynamic pressure.
-HWY_INLINE V GainFactor(double pressure_psf, V qbar) {
+HWY_INLINE V GainFactor(float pressure_psf, V qbar) {
   const V pressure = Constant(pressure_psf);
-  return hn::Div(pressure, hn::Max(pressure, qbar));
+  return hn::Mul(pressure, Reciprocal(FloatTag(), hn::Max(pressure, qbar)));
 }
 
 HWY_INLINE V Follow(const FlightControlConstants::Schedule& schedule, V x) {
@@ -88,16 +87,15 @@ struct Sticks {
 /// Elevator command, deg.
 HWY_INLINE V PitchChannel(const FlightControlConstants& k, const Group& group,
                           const Sensors& sensors, const Sticks& sticks, V alpha) {
-  const FlightControlGains& gains = k.gains;
   const V zero = Constant(0), one = Constant(1);
   const V lateral_stick = hn::Max(hn::Abs(sticks.roll), hn::Abs(sticks.yaw));
   const V g_min = Follow(k.min_load_factor_command, sensors.qbar);
-  const V g_max = Constant(gains.max_load_factor_command);
+  const V g_max = Constant(k.max_load_factor_command);
   const V asked =
       hn::Mul(hn::Abs(sticks.pitch), hn::IfThenElse(hn::Ge(sticks.pitch, zero), g_max, g_min));
   const V least = hn::Mul(
-      g_min, hn::NegMulAdd(Constant(gains.min_load_factor_relative_reduction), lateral_stick, one));
-  const V most = hn::NegMulAdd(Constant(gains.max_load_factor_reduction), lateral_stick, g_max);
+      g_min, hn::NegMulAdd(Constant(k.min_load_factor_relative_reduction), lateral_stick, one));
+  const V most = hn::NegMulAdd(Constant(k.max_load_factor_reduction), lateral_stick, g_max);
   const V g_command =
       group.Filter(k.load_factor_command, kLoadFactorCommandFilter, Clip(asked, least, most));
 
@@ -105,32 +103,29 @@ HWY_INLINE V PitchChannel(const FlightControlConstants& k, const Group& group,
   const V q_washed = group.Filter(k.pitch_rate_washout, kPitchRateWashout, q);
   const V nz = group.Filter(k.load_factor, kLoadFactorFilter, hn::Sub(sensors.nz, one));
 
-  const V lead = hn::Mul(
-      hn::Mul(Constant(gains.limiter_rate_lead_s), Follow(k.limiter_rate_fade, sensors.qbar)),
-      q_washed);
+  const V lead =
+      hn::Mul(hn::Mul(Constant(k.limiter_rate_lead_s), Follow(k.limiter_rate_fade, sensors.qbar)),
+              q_washed);
   const V anticipated_alpha = hn::Add(alpha, lead);
-  const V onset =
-      hn::Max(zero, hn::Mul(Constant(gains.alpha_onset_gain_g_per_deg),
-                            hn::Sub(anticipated_alpha, Constant(gains.alpha_onset_deg))));
+  const V onset = hn::Max(zero, hn::Mul(Constant(k.alpha_onset_gain_g_per_deg),
+                                        hn::Sub(anticipated_alpha, Constant(k.alpha_onset_deg))));
   const V feedback =
-      hn::Add(onset, hn::MulAdd(Constant(gains.pitch_rate_gain_g_s_per_deg), q_washed, nz));
-  const V limiter =
-      hn::Max(zero, hn::Mul(Constant(gains.alpha_limit_gain_g_per_deg),
-                            hn::Sub(anticipated_alpha, Constant(gains.alpha_limit_deg))));
+      hn::Add(onset, hn::MulAdd(Constant(k.pitch_rate_gain_g_s_per_deg), q_washed, nz));
+  const V limiter = hn::Max(zero, hn::Mul(Constant(k.alpha_limit_gain_g_per_deg),
+                                          hn::Sub(anticipated_alpha, Constant(k.alpha_limit_deg))));
   const V error_g =
       hn::Add(hn::Sub(limiter, g_command), group.Filter(k.pitch_lead, kPitchLeadFilter, feedback));
-  const V proportional = hn::Mul(hn::Mul(Constant(gains.pitch_proportional_deg_per_g),
-                                         GainFactor(gains.pitch_gain_pressure_psf, sensors.qbar)),
+  const V proportional = hn::Mul(hn::Mul(Constant(k.pitch_proportional_deg_per_g),
+                                         GainFactor(k.pitch_gain_pressure_psf, sensors.qbar)),
                                  error_g);
 
   const V integrator = group.Get(kPitchIntegrator);
-  const V raw =
-      hn::Add(integrator, hn::MulAdd(Constant(gains.alpha_to_elevator), alpha, proportional));
+  const V raw = hn::Add(integrator, hn::MulAdd(Constant(k.alpha_to_elevator), alpha, proportional));
   const V elevator = Clip(raw, Constant(k.elevator.min_deg), Constant(k.elevator.max_deg));
   // Back-calculation: what the limits cut off unwinds the integrator.
-  const V moved = hn::MulAdd(Constant(gains.pitch_integral_per_s * k.dt),
+  const V moved = hn::MulAdd(Constant(k.pitch_integral_per_step),
                              hn::Sub(proportional, hn::Sub(raw, elevator)), integrator);
-  const V limit = Constant(gains.pitch_integrator_limit_deg);
+  const V limit = Constant(k.pitch_integrator_limit_deg);
   group.Put(kPitchIntegrator, Clip(moved, hn::Neg(limit), limit));
   return elevator;
 }
@@ -138,27 +133,25 @@ HWY_INLINE V PitchChannel(const FlightControlConstants& k, const Group& group,
 /// Aileron command, deg. `p` is the filtered roll rate, deg/s.
 HWY_INLINE V RollChannel(const FlightControlConstants& k, const Group& group,
                          const Sensors& sensors, const Sticks& sticks, V alpha, V p) {
-  const FlightControlGains& gains = k.gains;
-  const V asked = hn::Mul(
-      hn::Mul(Constant(gains.max_roll_rate_deg_s), Follow(k.roll_rate_fade, alpha)), sticks.roll);
+  const V asked = hn::Mul(hn::Mul(Constant(k.max_roll_rate_deg_s), Follow(k.roll_rate_fade, alpha)),
+                          sticks.roll);
   const V p_command = group.Filter(k.roll_command, kRollCommandFilter, asked);
-  const V proportional = hn::Mul(hn::Mul(Constant(gains.roll_rate_gain_s),
-                                         GainFactor(gains.roll_gain_pressure_psf, sensors.qbar)),
-                                 hn::Sub(p, p_command));
+  const V proportional = hn::Mul(
+      hn::Mul(Constant(k.roll_rate_gain_s), GainFactor(k.roll_gain_pressure_psf, sensors.qbar)),
+      hn::Sub(p, p_command));
   const V integrator = group.Get(kRollIntegrator);
   const V raw = hn::Add(hn::Add(proportional, integrator), group.Get(kTrimAileron));
   const V aileron = Clip(raw, Constant(k.aileron.min_deg), Constant(k.aileron.max_deg));
 
   const V fade = Follow(k.roll_integrator_fade, alpha);
-  const auto hands_off = hn::Lt(hn::Abs(sticks.roll), Constant(gains.roll_integrator_gate));
+  const auto hands_off = hn::Lt(hn::Abs(sticks.roll), Constant(k.roll_integrator_gate));
   const V driven = hn::IfThenElseZero(
-      hands_off, hn::Mul(hn::Mul(Constant(gains.roll_integral_per_s), fade), proportional));
-  const V unwound =
-      hn::Mul(Constant(gains.roll_integrator_antiwindup_per_s), hn::Sub(raw, aileron));
-  const V leaked = hn::Mul(hn::Mul(Constant(gains.roll_integrator_leak_per_s), integrator),
+      hands_off, hn::Mul(hn::Mul(Constant(k.roll_integral_per_s), fade), proportional));
+  const V unwound = hn::Mul(Constant(k.roll_integrator_antiwindup_per_s), hn::Sub(raw, aileron));
+  const V leaked = hn::Mul(hn::Mul(Constant(k.roll_integrator_leak_per_s), integrator),
                            hn::Sub(Constant(1), fade));
   const V moved = hn::MulAdd(Constant(k.dt), hn::Sub(driven, hn::Add(unwound, leaked)), integrator);
-  const V limit = Constant(gains.roll_integrator_limit_deg);
+  const V limit = Constant(k.roll_integrator_limit_deg);
   group.Put(kRollIntegrator, Clip(moved, hn::Neg(limit), limit));
   return aileron;
 }
@@ -166,22 +159,22 @@ HWY_INLINE V RollChannel(const FlightControlConstants& k, const Group& group,
 /// Rudder command, deg. `p` is the filtered roll rate, deg/s.
 HWY_INLINE V YawChannel(const FlightControlConstants& k, const Group& group, const Sensors& sensors,
                         const Sticks& sticks, V alpha, V p, V aileron) {
-  const FlightControlGains& gains = k.gains;
-  const V gain = GainFactor(gains.yaw_gain_pressure_psf, sensors.qbar);
-  const V pedal = group.Filter(k.pedal, kPedalFilter,
-                               hn::Mul(Constant(gains.max_pedal_rudder_deg), sticks.yaw));
+  const V gain = GainFactor(k.yaw_gain_pressure_psf, sensors.qbar);
+  const V pedal =
+      group.Filter(k.pedal, kPedalFilter, hn::Mul(Constant(k.max_pedal_rudder_deg), sticks.yaw));
   const V r = group.Filter(k.yaw_rate, kYawRateFilter, sensors.r_deg_s);
-  const V stability_rate = hn::NegMulAdd(hn::Mul(p, Constant(1 / kDegPerRad)), alpha, r);
+  const V stability_rate =
+      hn::NegMulAdd(hn::Mul(p, Constant(static_cast<float>(1 / kDegPerRad))), alpha, r);
   const V damper = group.Filter(k.yaw_lead, kYawLeadFilter,
                                 group.Filter(k.yaw_washout, kYawWashout, stability_rate));
   const V ny = group.Filter(k.lateral_acceleration, kLateralAccelerationFilter, sensors.ny);
 
   const V scheduled =
       hn::NegMulAdd(pedal, Follow(k.pedal_fade, alpha),
-                    hn::MulAdd(Constant(gains.yaw_rate_gain_s), damper,
-                               hn::Mul(Constant(gains.lateral_acceleration_gain_deg_per_g), ny)));
-  const V interconnect = Clip(hn::Mul(Constant(gains.aileron_rudder_interconnect_per_deg), alpha),
-                              Constant(gains.interconnect_min), Constant(gains.interconnect_max));
+                    hn::MulAdd(Constant(k.yaw_rate_gain_s), damper,
+                               hn::Mul(Constant(k.lateral_acceleration_gain_deg_per_g), ny)));
+  const V interconnect = Clip(hn::Mul(Constant(k.aileron_rudder_interconnect_per_deg), alpha),
+                              Constant(k.interconnect_min), Constant(k.interconnect_max));
   const V raw = hn::MulAdd(
       gain, scheduled,
       hn::MulAdd(interconnect, hn::Sub(aileron, group.Get(kTrimAileron)), group.Get(kTrimRudder)));
@@ -190,26 +183,27 @@ HWY_INLINE V YawChannel(const FlightControlConstants& k, const Group& group, con
 
 /// Leading-edge flap command, deg, from `alpha_deg` through the flap's lead filter or as it is.
 HWY_INLINE V FlapSchedule(const FlightControlConstants& k, const Sensors& sensors, V alpha_deg) {
-  const FlightControlGains& gains = k.gains;
-  const V pressure_ratio = hn::Div(sensors.qbar, sensors.static_pressure);
-  return hn::MulAdd(Constant(gains.flap_alpha_gain), alpha_deg,
-                    hn::NegMulAdd(Constant(gains.flap_pressure_gain_deg), pressure_ratio,
-                                  Constant(gains.flap_bias_deg)));
+  const V pressure_ratio = hn::Mul(sensors.qbar, Reciprocal(FloatTag(), sensors.static_pressure));
+  return hn::MulAdd(
+      Constant(k.flap_alpha_gain), alpha_deg,
+      hn::NegMulAdd(Constant(k.flap_pressure_gain_deg), pressure_ratio, Constant(k.flap_bias_deg)));
 }
 
 HWY_INLINE V PowerCommandOf(V throttle) {
-  const ThrottleGearing& gearing = kThrottleGearing;
-  const V dry = hn::Mul(Constant(gearing.dry_gain), throttle);
-  const V wet = hn::MulAdd(Constant(gearing.afterburner_gain), throttle,
-                           Constant(gearing.afterburner_offset));
-  return hn::IfThenElse(hn::Le(throttle, Constant(gearing.military_throttle)), dry, wet);
+  constexpr float kDryGain = static_cast<float>(kThrottleGearing.dry_gain);
+  constexpr float kWetGain = static_cast<float>(kThrottleGearing.afterburner_gain);
+  constexpr float kWetOffset = static_cast<float>(kThrottleGearing.afterburner_offset);
+  constexpr float kMilitary = static_cast<float>(kThrottleGearing.military_throttle);
+  const V dry = hn::Mul(Constant(kDryGain), throttle);
+  const V wet = hn::MulAdd(Constant(kWetGain), throttle, Constant(kWetOffset));
+  return hn::IfThenElse(hn::Le(throttle, Constant(kMilitary)), dry, wet);
 }
 
 HWY_INLINE Sensors Sense(const KernelAircraft& aircraft, const Group& group) {
   const FloatTag d;
   Sensors sensors;
   const V u = group.Get(kU), v = group.Get(kV), w = group.Get(kW);
-  const V degrees = Constant(kDegPerRad);
+  const V degrees = Constant(static_cast<float>(kDegPerRad));
   sensors.alpha_deg = Atan2Degrees(d, w, u);
   sensors.p_deg_s = hn::Mul(group.Get(kP), degrees);
   sensors.q_deg_s = hn::Mul(group.Get(kQ), degrees);
@@ -242,7 +236,7 @@ void ControlTileIn(const KernelAircraft& aircraft, const FlightControlConstants&
     V elevator, aileron, rudder, flap;
     if constexpr (kMode == FlightControlMode::kFull) {
       const V sensed_alpha =
-          Clip(sensors.alpha_deg, Constant(k.gains.alpha_min_deg), Constant(k.gains.alpha_max_deg));
+          Clip(sensors.alpha_deg, Constant(k.alpha_min_deg), Constant(k.alpha_max_deg));
       const V alpha = group.Filter(k.alpha, kAlphaFilter, sensed_alpha);
       const V p = group.Filter(k.roll_rate, kRollRateFilter, sensors.p_deg_s);
       elevator = PitchChannel(k, group, sensors, sticks, alpha);
@@ -283,14 +277,18 @@ namespace skein {
 HWY_EXPORT(ControlTileFull);
 HWY_EXPORT(ControlTileDirect);
 
-void ControlTile(const KernelAircraft& aircraft, Tile tile, const PilotColumns& pilot,
-                 FlightControlMode mode, float dt) {
-  const FlightControlConstants constants(aircraft.source, dt);
-  if (mode == FlightControlMode::kFull) {
+void ControlTile(const KernelAircraft& aircraft, const FlightControlConstants& constants, Tile tile,
+                 const PilotColumns& pilot) {
+  if (constants.mode == FlightControlMode::kFull) {
     SKEIN_DISPATCH(ControlTileFull)(aircraft, constants, tile, pilot);
   } else {
     SKEIN_DISPATCH(ControlTileDirect)(aircraft, constants, tile, pilot);
   }
+}
+
+void ControlTile(const KernelAircraft& aircraft, Tile tile, const PilotColumns& pilot,
+                 FlightControlMode mode, float dt) {
+  ControlTile(aircraft, FlightControlConstants(aircraft.source, mode, dt), tile, pilot);
 }
 
 }  // namespace skein

@@ -1,5 +1,8 @@
 #include "envs/tasks/judgement.h"
 
+#include <cmath>
+
+#include "envs/dynamics/attitude.h"
 #include "envs/dynamics/kernel_aircraft.h"
 #include "simd/dispatch.h"
 
@@ -20,63 +23,102 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using FlightMask = hn::Mask<FlightTag>;
 
-/// x - x of every value that must be finite, summed: zero, or NaN if any is not finite.
+/// 0 x of every value that must be finite, summed: zero, or NaN if any is not finite. Four sums
+/// side by side, since one would be a long chain of additions.
 HWY_INLINE FlightMask IsFinite(const Tile& tile, FlightVector reward, int first) {
-  FlightVector sum = hn::Sub(reward, reward);
-  for (int column = 0; column < kNumColumns; ++column) {
-    const FlightVector x = Column(tile, column, first);
-    sum = hn::Add(sum, hn::Sub(x, x));
+  const FlightVector zero = hn::Zero(FlightTag());
+  FlightVector sums[4] = {hn::Mul(zero, reward), zero, zero, zero};
+  int column = 0;
+  for (; column + 4 <= kNumColumns; column += 4) {
+    for (int k = 0; k < 4; ++k) {
+      sums[k] = hn::MulAdd(zero, Column(tile, column + k, first), sums[k]);
+    }
   }
-  return hn::Eq(sum, hn::Zero(FlightTag()));
+  for (; column < kNumColumns; ++column) {
+    sums[0] = hn::MulAdd(zero, Column(tile, column, first), sums[0]);
+  }
+  return hn::Eq(hn::Add(hn::Add(sums[0], sums[1]), hn::Add(sums[2], sums[3])), zero);
 }
 
-HWY_INLINE FlightMask IsOutside(FlightVector x, const Range& range) {
-  return hn::Or(hn::Lt(x, Constant(range.min)), hn::Gt(x, Constant(range.max)));
-}
+/// Whether the angle of the vector (along, across), across = tan(angle) along, lies outside
+/// `range`, which spans at most 180 degrees: on the wrong side of either end's direction.
+struct AngleRange {
+  explicit AngleRange(const Range& range_deg)
+      : sin_min(Constant(std::sin(range_deg.min / kDegPerRad))),
+        cos_min(Constant(std::cos(range_deg.min / kDegPerRad))),
+        sin_max(Constant(std::sin(range_deg.max / kDegPerRad))),
+        cos_max(Constant(std::cos(range_deg.max / kDegPerRad))) {}
 
-/// The termination that each aircraft's state asks for, as float numbers.
-HWY_INLINE FlightVector FindTermination(const KernelAircraft& aircraft, const EnvConfig& config,
-                                        const Tile& tile, FlightMask is_finite,
-                                        FlightMask is_reached, FlightMask is_out_of_time,
-                                        int first) {
+  HWY_INLINE FlightMask IsOutside(FlightVector along, FlightVector across) const {
+    return hn::Or(hn::Lt(hn::Mul(across, cos_min), hn::Mul(along, sin_min)),
+                  hn::Lt(hn::Mul(along, sin_max), hn::Mul(across, cos_max)));
+  }
+
+  FlightVector sin_min, cos_min, sin_max, cos_max;
+};
+
+/// The configuration as vectors, made once per tile.
+struct Limits {
+  explicit Limits(const EnvConfig& config)
+      : alpha(config.termination.alpha_deg),
+        beta(config.termination.beta_deg),
+        min_mach_squared(Constant(config.termination.min_mach * config.termination.min_mach)),
+        max_mach_squared(Constant(config.termination.max_mach * config.termination.max_mach)),
+        min_altitude(Constant(config.termination.min_altitude_ft)),
+        max_load_factor(Constant(config.termination.max_load_factor)),
+        failure_reward(Constant(config.termination.failure_reward)),
+        success_reward(Constant(config.termination.success_reward)),
+        time_limit_reward(
+            Constant(config.truncate_at_time_limit ? 0 : config.termination.failure_reward)),
+        reward_scale(Constant(config.reward_scale)) {}
+
+  AngleRange alpha, beta;
+  FlightVector min_mach_squared, max_mach_squared;
+  FlightVector min_altitude, max_load_factor;
+  FlightVector failure_reward, success_reward, time_limit_reward;
+  FlightVector reward_scale;
+};
+
+/// A Termination per lane, as a float number, and its reward.
+struct Verdict {
+  FlightVector termination, reward;
+
+  HWY_INLINE void SetWhere(FlightMask where, Termination value, FlightVector value_reward) {
+    termination = hn::IfThenElse(where, Constant(static_cast<int>(value)), termination);
+    reward = hn::IfThenElse(where, value_reward, reward);
+  }
+};
+
+HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const Limits& limits,
+                                   const Tile& tile, FlightMask is_finite, FlightMask is_reached,
+                                   FlightMask is_out_of_time, int first) {
   const FlightTag d;
-  const TerminationConfig& limits = config.termination;
-  const VelocityVectors velocity = Velocity(tile, first);
+  const FlightVector u = Column(tile, kU, first), v = Column(tile, kV, first);
+  const FlightVector w = Column(tile, kW, first);
+  const FlightVector forward_squared = hn::MulAdd(u, u, hn::Mul(w, w));
+  const FlightVector speed_squared = hn::MulAdd(v, v, forward_squared);
   const FlightVector altitude = hn::Neg(Column(tile, kDown, first));
   const FlightVector sound_speed = AirAtAltitude(d, aircraft, altitude).sound_speed;
-  const FlightVector alpha_deg = Atan2Degrees(d, velocity.w, velocity.u);
-  const FlightVector beta_deg = Atan2Degrees(d, velocity.v, velocity.forward);
+  const FlightVector sound_speed_squared = hn::Mul(sound_speed, sound_speed);
 
-  FlightVector found = hn::Zero(d);
-  const auto set = [&](Termination termination, FlightMask where) HWY_ATTR {
-    found = hn::IfThenElse(where, Constant(static_cast<int>(termination)), found);
-  };
+  const auto is_extreme =
+      hn::Or(limits.alpha.IsOutside(u, w), limits.beta.IsOutside(hn::Sqrt(forward_squared), v));
+  const auto is_fast = hn::Gt(speed_squared, hn::Mul(limits.max_mach_squared, sound_speed_squared));
+  const auto is_slow = hn::Lt(speed_squared, hn::Mul(limits.min_mach_squared, sound_speed_squared));
+  const auto is_low = hn::Lt(altitude, limits.min_altitude);
+  const auto is_overloaded = hn::Gt(Column(tile, kNz, first), limits.max_load_factor);
+
+  Verdict verdict{hn::Zero(d), hn::Zero(d)};
   // Later ones take precedence.
-  set(Termination::kUnreachTarget, is_out_of_time);
-  set(Termination::kResetTarget, is_reached);
-  set(Termination::kOverload, hn::Gt(Column(tile, kNz, first), Constant(limits.max_load_factor)));
-  set(Termination::kLowSpeed,
-      hn::Lt(velocity.speed, hn::Mul(Constant(limits.min_mach), sound_speed)));
-  set(Termination::kLowAltitude, hn::Lt(altitude, Constant(limits.min_altitude_ft)));
-  set(Termination::kHighSpeed,
-      hn::Gt(velocity.speed, hn::Mul(Constant(limits.max_mach), sound_speed)));
-  set(Termination::kExtremeState,
-      hn::Or(IsOutside(alpha_deg, limits.alpha_deg), IsOutside(beta_deg, limits.beta_deg)));
-  set(Termination::kNonFinite, hn::Not(is_finite));
-  return found;
-}
-
-HWY_INLINE FlightVector TerminalReward(const EnvConfig& config, FlightVector termination) {
-  const FlightTag d;
-  const auto is = [&](Termination value)
-                      HWY_ATTR { return hn::Eq(termination, Constant(static_cast<int>(value))); };
-  FlightVector reward = Constant(config.termination.failure_reward);
-  reward = hn::IfThenElse(is(Termination::kResetTarget),
-                          Constant(config.termination.success_reward), reward);
-  if (config.truncate_at_time_limit) {
-    reward = hn::IfThenElse(is(Termination::kUnreachTarget), hn::Zero(d), reward);
-  }
-  return hn::IfThenElse(is(Termination::kNone), hn::Zero(d), reward);
+  verdict.SetWhere(is_out_of_time, Termination::kUnreachTarget, limits.time_limit_reward);
+  verdict.SetWhere(is_reached, Termination::kResetTarget, limits.success_reward);
+  verdict.SetWhere(is_overloaded, Termination::kOverload, limits.failure_reward);
+  verdict.SetWhere(is_slow, Termination::kLowSpeed, limits.failure_reward);
+  verdict.SetWhere(is_low, Termination::kLowAltitude, limits.failure_reward);
+  verdict.SetWhere(is_fast, Termination::kHighSpeed, limits.failure_reward);
+  verdict.SetWhere(is_extreme, Termination::kExtremeState, limits.failure_reward);
+  verdict.SetWhere(hn::Not(is_finite), Termination::kNonFinite, limits.failure_reward);
+  return verdict;
 }
 
 HWY_INLINE void AddWhere(FlightMask where, FlightVector value, float* column) {
@@ -91,6 +133,7 @@ void JudgeTileKernel(const KernelAircraft& aircraft, const EnvConfig& config, Ti
   const hn::RebindToSigned<FlightTag> di;
   const auto zero = hn::Zero(di);
   const auto time_limit = hn::Set(di, config.time_limit_steps - 1);
+  const Limits limits(config);
   for (int first = 0; first < tile.count; first += static_cast<int>(hn::Lanes(d))) {
     const auto ended = hn::LoadU(di, episodes.termination + first);
     const auto is_flying = hn::Eq(ended, zero);
@@ -102,15 +145,14 @@ void JudgeTileKernel(const KernelAircraft& aircraft, const EnvConfig& config, Ti
     const FlightVector step_reward = hn::LoadU(d, verdict.reward + first);
     const auto reached = hn::LoadU(di, verdict.reached + first);
     const FlightMask is_finite = IsFinite(tile, step_reward, first);
-    const FlightVector termination =
-        FindTermination(aircraft, config, tile, is_finite, hn::RebindMask(d, hn::Gt(reached, zero)),
+    const Verdict found =
+        FindTermination(aircraft, limits, tile, is_finite, hn::RebindMask(d, hn::Gt(reached, zero)),
                         is_out_of_time, first);
-    hn::StoreU(hn::IfThenElse(is_flying, hn::ConvertTo(di, termination), ended), di,
+    hn::StoreU(hn::IfThenElse(is_flying, hn::ConvertTo(di, found.termination), ended), di,
                episodes.termination + first);
 
-    const FlightVector reward =
-        hn::Add(hn::IfThenElseZero(is_finite, hn::Mul(step_reward, Constant(config.reward_scale))),
-                TerminalReward(config, termination));
+    const FlightVector reward = hn::Add(
+        hn::IfThenElseZero(is_finite, hn::Mul(step_reward, limits.reward_scale)), found.reward);
     const FlightMask counts = hn::RebindMask(d, is_flying);
     AddWhere(counts, reward, episodes.decision_reward + first);
     AddWhere(counts, reward, episodes.episode_return + first);
