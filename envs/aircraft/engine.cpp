@@ -7,8 +7,8 @@
 namespace skein {
 namespace {
 
-constexpr double kMilitaryPower = 50;
-constexpr double kMaximumPower = 100;
+constexpr double kMilitaryPower = kPowerLag.military_power;
+constexpr double kMaximumPower = kPowerLag.maximum_power;
 
 // The three thrust levels at one flight condition, lbf.
 struct ThrustLevels {
@@ -26,9 +26,8 @@ ThrustLevels LevelsAt(const EngineTables& engine, double altitude_ft, double mac
 
 // Reciprocal time constant of the power lag, 1/s, by the distance still to go.
 double LagRate(double distance) {
-  if (distance <= 25) return 1;
-  if (distance >= 50) return 0.1;
-  return 1.9 - 0.036 * distance;
+  return std::clamp(kPowerLag.rate_offset_per_s - kPowerLag.rate_slope_per_s * distance,
+                    kPowerLag.min_rate_per_s, kPowerLag.max_rate_per_s);
 }
 
 }  // namespace
@@ -53,14 +52,12 @@ double ThrottleForPower(double power) {
 double PowerRate(double power, double power_command) {
   // Crossing military power, the engine first heads for a point on its own side of the gap at a
   // rate of its own; only then for the command.
-  constexpr double kLightUpPower = 60;
-  constexpr double kBlowOutPower = 40;
-  constexpr double kAfterburnerRate = 5;
   if (power >= kMilitaryPower) {
-    const double target = power_command >= kMilitaryPower ? power_command : kBlowOutPower;
-    return kAfterburnerRate * (target - power);
+    const double target =
+        power_command >= kMilitaryPower ? power_command : kPowerLag.blow_out_power;
+    return kPowerLag.afterburner_rate_per_s * (target - power);
   }
-  const double target = power_command >= kMilitaryPower ? kLightUpPower : power_command;
+  const double target = power_command >= kMilitaryPower ? kPowerLag.light_up_power : power_command;
   return LagRate(target - power) * (target - power);
 }
 

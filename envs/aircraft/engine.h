@@ -17,6 +17,20 @@ struct ThrottleGearing {
 };
 inline constexpr ThrottleGearing kThrottleGearing{};
 
+/// Levels of power, and the lag with which power follows its command: up to 1/s while 25 or less is
+/// missing, falling to min_rate_per_s at 50.
+struct PowerLag {
+  double military_power = 50;
+  double maximum_power = 100;
+  double light_up_power = 60;  ///< first aim below military power when the command is above it
+  double blow_out_power = 40;  ///< first aim above military power when the command is below it
+  double afterburner_rate_per_s = 5;
+  double max_rate_per_s = 1, min_rate_per_s = 0.1;
+  /// Between the two, the rate is rate_offset_per_s - rate_slope_per_s * (what is missing).
+  double rate_offset_per_s = 1.9, rate_slope_per_s = 0.036;
+};
+inline constexpr PowerLag kPowerLag{};
+
 /// Commanded power for `throttle` in [0, 1] (clipped): military at 0.77, afterburner above.
 double PowerCommand(double throttle);
 
