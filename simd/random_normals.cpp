@@ -37,8 +37,8 @@ void FillNormalsKernel(std::uint64_t seed, std::uint32_t first, const std::uint3
     const auto vector_b = hn::Load(du, block_b), vector_c = hn::Load(du, block_c);
     for (int element = 0; element < size; element += 4) {
       hn::Vec<decltype(d)> normals[4];
-      NormalBlock(d, seed, a, vector_b, vector_c, purpose, static_cast<std::uint32_t>(element / 4),
-                  normals);
+      NormalBlocks<1>(d, seed, a, vector_b, vector_c, purpose,
+                      static_cast<std::uint32_t>(element / 4), normals);
       for (int k = 0; k < 4; ++k) hn::Store(normals[k], d, block_normals[k]);
       const int elements = size - element < 4 ? size - element : 4;
       for (int lane = 0; lane < valid; ++lane) {

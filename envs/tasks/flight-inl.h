@@ -31,23 +31,30 @@ HWY_INLINE FlightVector Column(const Tile& tile, int column, int first) {
   return hn::LoadU(FlightTag(), tile[column] + first);
 }
 
-/// Velocity in body axes, ft/s. Speeds are kept from zero so that ratios stay finite.
+/// Velocity in body axes, ft/s, and the reciprocals of its lengths. Lengths are taken as at least
+/// 1e-6, so that ratios stay finite.
 struct VelocityVectors {
   FlightVector u, v, w;
-  FlightVector forward;  ///< sqrt(u^2 + w^2)
-  FlightVector speed;
+  FlightVector forward, per_forward;  ///< sqrt(u^2 + w^2)
+  FlightVector speed, per_speed;
 };
 
+/// The square root of `square` and its reciprocal.
+HWY_INLINE void Length(FlightVector square, FlightVector& length, FlightVector& per_length) {
+  const FlightVector positive = hn::Max(square, Constant(1e-12));
+  per_length = ReciprocalSqrt(FlightTag(), positive);
+  length = hn::Mul(positive, per_length);
+}
+
 HWY_INLINE VelocityVectors Velocity(const Tile& tile, int first) {
-  const FlightVector least = Constant(1e-6);
   VelocityVectors velocity;
   velocity.u = Column(tile, kU, first);
   velocity.v = Column(tile, kV, first);
   velocity.w = Column(tile, kW, first);
   const FlightVector forward_squared =
       hn::MulAdd(velocity.u, velocity.u, hn::Mul(velocity.w, velocity.w));
-  velocity.forward = hn::Max(hn::Sqrt(forward_squared), least);
-  velocity.speed = hn::Max(hn::Sqrt(hn::MulAdd(velocity.v, velocity.v, forward_squared)), least);
+  Length(forward_squared, velocity.forward, velocity.per_forward);
+  Length(hn::MulAdd(velocity.v, velocity.v, forward_squared), velocity.speed, velocity.per_speed);
   return velocity;
 }
 

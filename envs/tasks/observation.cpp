@@ -27,6 +27,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kMaxLanes = 16;
 // Noise comes in blocks of four normals.
 constexpr int kNoiseBlocks = (kObservationSize + 3) / 4;
+constexpr int kNoiseBlocksAtOnce = 3;
+static_assert(kNoiseBlocks % kNoiseBlocksAtOnce == 0, "noise is drawn in whole groups of blocks");
 
 /// One group of aircraft, [element][lane].
 using ObservationColumns = float[kNoiseBlocks * 4][kMaxLanes];
@@ -40,11 +42,11 @@ HWY_INLINE void ObserveAttitude(const Tile& tile, int first, ObservationColumns&
   const FlightVector y = TwiceSum(qy, qz, q0, qx);
   const FlightVector z =
       hn::MulAdd(q0, q0, hn::MulAdd(qz, qz, hn::NegMulAdd(qx, qx, hn::Neg(hn::Mul(qy, qy)))));
-  const FlightVector cos_pitch = hn::Sqrt(hn::MulAdd(y, y, hn::Mul(z, z)));
   // Nose straight up or down there is no roll: both its sine and cosine are then about zero.
-  const FlightVector divisor = hn::Max(cos_pitch, Constant(1e-6));
-  hn::Store(hn::Div(y, divisor), d, columns[4]);
-  hn::Store(hn::Div(z, divisor), d, columns[5]);
+  FlightVector cos_pitch, per_cos_pitch;
+  Length(hn::MulAdd(y, y, hn::Mul(z, z)), cos_pitch, per_cos_pitch);
+  hn::Store(hn::Mul(y, per_cos_pitch), d, columns[4]);
+  hn::Store(hn::Mul(z, per_cos_pitch), d, columns[5]);
   hn::Store(sin_pitch, d, columns[6]);
   hn::Store(cos_pitch, d, columns[7]);
 }
@@ -55,16 +57,16 @@ HWY_INLINE void ObserveAir(const KernelAircraft& aircraft, double sea_level_dens
   const VelocityVectors velocity = Velocity(tile, first);
   const FlightVector altitude = hn::Neg(Column(tile, kDown, first));
   const auto air = AirAtAltitude(d, aircraft, altitude);
-  const FlightVector equivalent_ratio =
-      hn::Sqrt(hn::Mul(air.density, Constant(1 / sea_level_density)));
+  FlightVector equivalent_ratio, true_ratio;
+  Length(hn::Mul(air.density, Constant(1 / sea_level_density)), equivalent_ratio, true_ratio);
   hn::Store(hn::Mul(altitude, Constant(1 / kAltitudeUnitFt)), d, columns[3]);
   hn::Store(hn::Mul(hn::Mul(velocity.speed, equivalent_ratio), Constant(1 / kSpeedUnitFtS)), d,
             columns[8]);
-  hn::Store(hn::Div(velocity.w, velocity.forward), d, columns[9]);
-  hn::Store(hn::Div(velocity.u, velocity.forward), d, columns[10]);
-  hn::Store(hn::Div(velocity.v, velocity.speed), d, columns[11]);
-  hn::Store(hn::Div(velocity.forward, velocity.speed), d, columns[12]);
-  hn::Store(hn::Div(Constant(1), equivalent_ratio), d, columns[21]);
+  hn::Store(hn::Mul(velocity.w, velocity.per_forward), d, columns[9]);
+  hn::Store(hn::Mul(velocity.u, velocity.per_forward), d, columns[10]);
+  hn::Store(hn::Mul(velocity.v, velocity.per_speed), d, columns[11]);
+  hn::Store(hn::Mul(velocity.forward, velocity.per_speed), d, columns[12]);
+  hn::Store(true_ratio, d, columns[21]);
 }
 
 HWY_INLINE void ObserveControls(const Actuators& actuators, const Tile& tile, int first,
@@ -88,15 +90,48 @@ HWY_INLINE void AddNoise(const ObservationNoise& noise, int first, ObservationCo
   const auto episode = hn::BitCast(du, hn::LoadU(di, noise.episode + first));
   const auto step = hn::BitCast(du, hn::LoadU(di, noise.step + first));
   const FlightVector scale = Constant(noise.standard_deviation);
-  for (int block = 0; block < kNoiseBlocks; ++block) {
-    FlightVector normals[4];
-    NormalBlock(d, noise.seed, index, episode, step, simd::RandomPurpose::kObservationNoise,
-                static_cast<std::uint32_t>(block), normals);
-    for (int k = 0; k < 4; ++k) {
+  for (int block = 0; block < kNoiseBlocks; block += kNoiseBlocksAtOnce) {
+    constexpr int kNormals = 4 * kNoiseBlocksAtOnce;
+    FlightVector normals[kNormals];
+    NormalBlocks<kNoiseBlocksAtOnce>(d, noise.seed, index, episode, step,
+                                     simd::RandomPurpose::kObservationNoise,
+                                     static_cast<std::uint32_t>(block), normals);
+    for (int k = 0; k < kNormals; ++k) {
       float* const column = columns[block * 4 + k];
       hn::Store(hn::MulAdd(scale, normals[k], hn::Load(d, column)), d, column);
     }
   }
+}
+
+/// Transposes the group's first `valid` aircraft into rows.
+HWY_INLINE void StoreRows(const ObservationColumns& columns, int valid, float* rows) {
+#if HWY_TARGET == HWY_SCALAR
+  static_cast<void>(valid);
+  for (int k = 0; k < kObservationSize; ++k) rows[k] = columns[k][0];
+#else
+  const FlightTag d;
+  const hn::RepartitionToWide<FlightTag> wide;
+  const hn::Full128<float> d4;
+  // Four elements at a time; the last four overlap the ones before, not the next row.
+  for (const int k : {0, 4, 8, 12, 16, kObservationSize - 4}) {
+    const FlightVector a = hn::Load(d, columns[k]), b = hn::Load(d, columns[k + 1]);
+    const FlightVector c = hn::Load(d, columns[k + 2]), e = hn::Load(d, columns[k + 3]);
+    const auto ab_low = hn::BitCast(wide, hn::InterleaveLower(d, a, b));
+    const auto ab_high = hn::BitCast(wide, hn::InterleaveUpper(d, a, b));
+    const auto ce_low = hn::BitCast(wide, hn::InterleaveLower(d, c, e));
+    const auto ce_high = hn::BitCast(wide, hn::InterleaveUpper(d, c, e));
+    // quads[i] holds, in its j-th four floats, the four elements of aircraft 4 j + i.
+    alignas(64) float quads[4][kMaxLanes];
+    hn::Store(hn::BitCast(d, hn::InterleaveLower(wide, ab_low, ce_low)), d, quads[0]);
+    hn::Store(hn::BitCast(d, hn::InterleaveUpper(wide, ab_low, ce_low)), d, quads[1]);
+    hn::Store(hn::BitCast(d, hn::InterleaveLower(wide, ab_high, ce_high)), d, quads[2]);
+    hn::Store(hn::BitCast(d, hn::InterleaveUpper(wide, ab_high, ce_high)), d, quads[3]);
+    for (int lane = 0; lane < valid; ++lane) {
+      const auto quad = hn::Load(d4, quads[lane % 4] + lane / 4 * 4);
+      hn::StoreU(quad, d4, rows + lane * kObservationSize + k);
+    }
+  }
+#endif
 }
 
 void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* errors,
@@ -115,10 +150,7 @@ void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* e
     if (noise.standard_deviation > 0) AddNoise(noise, first, columns);
 
     const int valid = tile.count - first < lanes ? tile.count - first : lanes;
-    float* row = observation + static_cast<std::size_t>(first) * kObservationSize;
-    for (int lane = 0; lane < valid; ++lane, row += kObservationSize) {
-      for (int k = 0; k < kObservationSize; ++k) row[k] = columns[k][lane];
-    }
+    StoreRows(columns, valid, observation + static_cast<std::size_t>(first) * kObservationSize);
   }
 }
 
