@@ -51,14 +51,15 @@ HWY_INLINE void ObserveAttitude(const Tile& tile, int first, ObservationColumns&
   hn::Store(cos_pitch, d, columns[7]);
 }
 
-HWY_INLINE void ObserveAir(const KernelAircraft& aircraft, double sea_level_density,
-                           const Tile& tile, int first, ObservationColumns& columns) {
+HWY_INLINE void ObserveAir(const KernelAircraft& aircraft, const Tile& tile, int first,
+                           ObservationColumns& columns) {
   const FlightTag d;
   const VelocityVectors velocity = Velocity(tile, first);
   const FlightVector altitude = hn::Neg(Column(tile, kDown, first));
   const auto air = AirAtAltitude(d, aircraft, altitude);
   FlightVector equivalent_ratio, true_ratio;
-  Length(hn::Mul(air.density, Constant(1 / sea_level_density)), equivalent_ratio, true_ratio);
+  Length(hn::Mul(air.density, Constant(1 / aircraft.atmosphere.sea_level_density)),
+         equivalent_ratio, true_ratio);
   hn::Store(hn::Mul(altitude, Constant(1 / kAltitudeUnitFt)), d, columns[3]);
   hn::Store(hn::Mul(hn::Mul(velocity.speed, equivalent_ratio), Constant(1 / kSpeedUnitFtS)), d,
             columns[8]);
@@ -135,8 +136,8 @@ HWY_INLINE void StoreRows(const ObservationColumns& columns, int valid, float* r
 }
 
 void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* errors,
-                       std::size_t error_stride, double sea_level_density,
-                       const ObservationNoise& noise, float* observation) {
+                       std::size_t error_stride, const ObservationNoise& noise,
+                       float* observation) {
   const FlightTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   alignas(64) ObservationColumns columns = {};
@@ -145,7 +146,7 @@ void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* e
       hn::Store(hn::LoadU(d, errors + k * error_stride + first), d, columns[k]);
     }
     ObserveAttitude(tile, first, columns);
-    ObserveAir(aircraft, sea_level_density, tile, first, columns);
+    ObserveAir(aircraft, tile, first, columns);
     ObserveControls(aircraft.source.actuators, tile, first, columns);
     if (noise.standard_deviation > 0) AddNoise(noise, first, columns);
 
@@ -166,9 +167,7 @@ HWY_EXPORT(ObserveTileKernel);
 
 void ObserveTile(const KernelAircraft& aircraft, Tile tile, const float* errors,
                  std::size_t error_stride, const ObservationNoise& noise, float* observation) {
-  const double sea_level_density = AirAt(aircraft.atmosphere, 0).density_slug_ft3;
-  SKEIN_DISPATCH(ObserveTileKernel)
-  (aircraft, tile, errors, error_stride, sea_level_density, noise, observation);
+  SKEIN_DISPATCH(ObserveTileKernel)(aircraft, tile, errors, error_stride, noise, observation);
 }
 
 }  // namespace skein
