@@ -13,11 +13,12 @@ namespace skein {
 /// caller.
 struct StepOutput {
   float* reward = nullptr;  ///< sum over the held control steps, terminal reward included
-  std::uint8_t* termination = nullptr;  ///< Termination; kNone while flying
+  /// Termination; kNone while flying. An episode that ended by truncation has kUnreachTarget.
+  std::uint8_t* termination = nullptr;
   float* episode_return =
       nullptr;  ///< undiscounted return of the episode that ended (else unchanged)
   std::int32_t* episode_steps =
-      nullptr;  ///< control steps of the episode that ended (else unchanged)
+      nullptr;  ///< clock of the episode that ended, control steps (else unchanged)
   /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
   /// observation. May be null if the time limit is terminal.
   float* final_observation = nullptr;
@@ -47,12 +48,14 @@ class VecEnv {
   void Observe(int tile, float* observation) const;
 
   /// Holds actions (row-major [count][action_size], clipped to [-1, 1]) for config().action_repeat
-  /// control steps. An episode that ends during them takes no further reward, and its aircraft
-  /// begins a new one at the end of the decision.
+  /// control steps: throttle (-1 is idle, 1 is maximum), pitch (+ nose up), roll (+ right), yaw (+
+  /// nose right). An episode that ends during them takes no further reward, and its aircraft begins
+  /// a new one at the end of the decision. An action that is not finite ends its aircraft's episode
+  /// as NonFinite.
   void Step(int tile, const float* action, const StepOutput& output);
 
-  /// The whole mutable state (for checkpoints), and back. Restore throws Error on a size that does
-  /// not fit.
+  /// The whole mutable state (for checkpoints), aircraft by aircraft whatever the tiles, and back.
+  /// Restore throws Error on a size that does not fit.
   std::vector<std::uint32_t> Snapshot() const;
   void Restore(const std::vector<std::uint32_t>& snapshot);
 
