@@ -1,0 +1,177 @@
+#include "envs/dynamics/kernel_aircraft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "envs/air/atmosphere_constants.h"
+#include "envs/dynamics/kernel_tables.h"
+#include "envs/dynamics/plant_kernel.h"
+#include "simd/error.h"
+
+namespace skein {
+namespace {
+
+KernelAtmosphere MakeAtmosphere(AtmosphereModel model) {
+  KernelAtmosphere air;
+  if (model == AtmosphereModel::kStevensLewis) {
+    const StevensLewisConstants& k = kStevensLewis;
+    air.lapse_per_ft = static_cast<float>(k.lapse_per_ft);
+    air.lapse_top_ft = static_cast<float>((1 - k.min_temperature_ratio) / k.lapse_per_ft);
+    air.density_exponent = static_cast<float>(k.density_exponent);
+    air.sea_level_density = static_cast<float>(k.sea_level_density_slug_ft3);
+    air.tropopause_ft = static_cast<float>(k.tropopause_ft);
+    air.sea_level_temperature = static_cast<float>(k.sea_level_temperature_degR);
+    air.stratosphere_temperature = static_cast<float>(k.stratosphere_temperature_degR);
+    air.sound_constant = static_cast<float>(kSpecificHeatRatio * k.sound_gas_constant);
+    air.pressure_constant = static_cast<float>(k.pressure_gas_constant);
+    return air;
+  }
+  const Standard1976Constants& k = kStandard1976;
+  const double lapse = -k.lapse_degR_per_ft / k.sea_level_temperature_degR;
+  const double stratosphere = k.sea_level_temperature_degR * (1 - lapse * k.tropopause_ft);
+  air.inverse_earth_radius = static_cast<float>(1 / k.earth_radius_ft);
+  air.lapse_per_ft = static_cast<float>(lapse);
+  air.lapse_top_ft = static_cast<float>(k.tropopause_ft);
+  // Density is pressure over temperature: one power less than the pressure's.
+  air.density_exponent =
+      static_cast<float>(-k.gravity_ft_s2 / (k.lapse_degR_per_ft * k.gas_constant) - 1);
+  air.sea_level_density = static_cast<float>(k.sea_level_pressure_lbf_ft2 /
+                                             (k.gas_constant * k.sea_level_temperature_degR));
+  air.decay_per_ft = static_cast<float>(k.gravity_ft_s2 / (k.gas_constant * stratosphere));
+  air.tropopause_ft = static_cast<float>(k.tropopause_ft);
+  air.sea_level_temperature = static_cast<float>(k.sea_level_temperature_degR);
+  air.stratosphere_temperature = static_cast<float>(stratosphere);
+  air.sound_constant = static_cast<float>(kSpecificHeatRatio * k.gas_constant);
+  air.pressure_constant = static_cast<float>(k.gas_constant);
+  return air;
+}
+
+KernelConstants MakeConstants(const Airframe& a) {
+  KernelConstants k;
+  k.inverse_aileron_reference = static_cast<float>(1 / a.aileron_reference_deg);
+  k.inverse_rudder_reference = static_cast<float>(1 / a.rudder_reference_deg);
+  k.inverse_flap_reference = static_cast<float>(1 / a.leading_edge_flap_reference_deg);
+  k.half_span = static_cast<float>(a.span_ft / 2);
+  k.half_chord = static_cast<float>(a.chord_ft / 2);
+  const double cg_shift = a.cg_reference - a.cg;
+  k.cg_shift = static_cast<float>(cg_shift);
+  k.cg_shift_yaw = static_cast<float>(cg_shift * a.chord_ft / a.span_ft);
+  k.half_wing_area = static_cast<float>(a.wing_area_ft2 / 2);
+  k.inverse_mass = static_cast<float>(1 / a.mass_slug);
+  k.inverse_weight = static_cast<float>(1 / (a.mass_slug * kGravityFtS2));
+  k.gravity = static_cast<float>(kGravityFtS2);
+
+  const double determinant = a.Ixx * a.Izz - a.Ixz * a.Ixz;
+  const double h = a.engine_angular_momentum;
+  k.p_Cl = static_cast<float>(a.span_ft * a.Izz / determinant);
+  k.p_Cn = static_cast<float>(a.span_ft * a.Ixz / determinant);
+  k.p_qr = static_cast<float>(((a.Iyy - a.Izz) * a.Izz - a.Ixz * a.Ixz) / determinant);
+  k.p_pq = static_cast<float>((a.Ixx - a.Iyy + a.Izz) * a.Ixz / determinant);
+  k.p_q = static_cast<float>(a.Ixz * h / determinant);
+  k.r_Cl = static_cast<float>(a.span_ft * a.Ixz / determinant);
+  k.r_Cn = static_cast<float>(a.span_ft * a.Ixx / determinant);
+  k.r_qr = static_cast<float>(-(a.Ixx - a.Iyy + a.Izz) * a.Ixz / determinant);
+  k.r_pq = static_cast<float>(((a.Ixx - a.Iyy) * a.Ixx + a.Ixz * a.Ixz) / determinant);
+  k.r_q = static_cast<float>(a.Ixx * h / determinant);
+  k.q_Cm = static_cast<float>(a.chord_ft / a.Iyy);
+  k.q_pr = static_cast<float>((a.Izz - a.Ixx) / a.Iyy);
+  k.q_pp = static_cast<float>(a.Ixz / a.Iyy);
+  k.q_r = static_cast<float>(-h / a.Iyy);
+  return k;
+}
+
+void FillThrust(const std::vector<double>& table, const char* name, int rows, int columns,
+                KernelEngine::Cells* cells) {
+  if (table.size() != static_cast<std::size_t>(rows * columns)) {
+    throw Error(std::string("engine table ") + name + " has " + std::to_string(table.size()) +
+                " values; its axes ask for " + std::to_string(rows * columns));
+  }
+  for (int i = 0; i + 1 < rows; ++i) {
+    for (int j = 0; j + 1 < columns; ++j) {
+      const double* node = table.data() + i * columns + j;
+      const double here = node[0], faster = node[1], higher = node[columns];
+      const int cell = i * (columns - 1) + j;
+      cells->c[0][cell] = static_cast<float>(here);
+      cells->c[1][cell] = static_cast<float>(higher - here);
+      cells->c[2][cell] = static_cast<float>(faster - here);
+      cells->c[3][cell] = static_cast<float>(node[columns + 1] - higher - faster + here);
+    }
+  }
+}
+
+KernelEngine MakeEngine(const EngineTables& tables) {
+  KernelEngine engine;
+  engine.altitude = MakeKernelAxis(tables.altitude_ft, "engine altitude_ft");
+  engine.mach = MakeKernelAxis(tables.mach, "engine mach");
+  const int rows = static_cast<int>(tables.altitude_ft.size());
+  const int columns = static_cast<int>(tables.mach.size());
+  if ((rows - 1) * (columns - 1) > CellTable::kMaxCells) {
+    throw Error("engine tables have " + std::to_string((rows - 1) * (columns - 1)) +
+                " cells of altitude and Mach number; the kernels hold " +
+                std::to_string(CellTable::kMaxCells));
+  }
+  engine.mach_cells = static_cast<float>(columns - 1);
+  FillThrust(tables.idle_lbf, "idle", rows, columns, &engine.thrust_lbf[KernelEngine::kIdle]);
+  FillThrust(tables.military_lbf, "military", rows, columns,
+             &engine.thrust_lbf[KernelEngine::kMilitary]);
+  FillThrust(tables.maximum_lbf, "maximum", rows, columns,
+             &engine.thrust_lbf[KernelEngine::kMaximum]);
+  return engine;
+}
+
+}  // namespace
+
+KernelAxis MakeKernelAxis(const std::vector<double>& nodes, const char* name) {
+  constexpr double kSameWidth = 1e-9;  // relative: widths are differences of decimal numbers
+  const auto fail = [&](const std::string& reason) {
+    throw Error(std::string("axis ") + name + " " + reason +
+                "; the kernels need cells of one width inside and one width outside");
+  };
+  const int cells = static_cast<int>(nodes.size()) - 1;
+  if (cells < 1) fail("has fewer than two nodes");
+  const auto width = [&](int cell) { return nodes[cell + 1] - nodes[cell]; };
+  const auto same = [&](double a, double b) { return std::abs(a - b) <= kSameWidth * a; };
+  double inner_width = width(0);
+  for (int cell = 0; cell < cells; ++cell) {
+    if (!(width(cell) > 0)) fail("is not strictly increasing");
+    inner_width = std::min(inner_width, width(cell));
+  }
+  int first = 0, last = cells;  // the inner cells are [first, last)
+  while (!same(width(first), inner_width)) ++first;
+  while (!same(width(last - 1), inner_width)) --last;
+  const double outer_width = first > 0 ? width(0) : last < cells ? width(cells - 1) : inner_width;
+  for (int cell = 0; cell < cells; ++cell) {
+    const bool is_inner = first <= cell && cell < last;
+    if (!same(width(cell), is_inner ? inner_width : outer_width)) {
+      fail("has a cell of width " + std::to_string(width(cell)) + " at " +
+           std::to_string(nodes[cell]));
+    }
+  }
+  KernelAxis axis;
+  axis.low = static_cast<float>(nodes.front());
+  axis.high = static_cast<float>(nodes.back());
+  axis.inner_low = static_cast<float>(nodes[first]);
+  axis.inner_high = static_cast<float>(nodes[last]);
+  axis.outer_cells_per_unit = static_cast<float>(1 / outer_width);
+  axis.inner_cells_per_unit = static_cast<float>(1 / inner_width);
+  axis.offset = static_cast<float>(first - nodes[first] / inner_width);
+  axis.last_cell = cells - 1;
+  return axis;
+}
+
+std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraft,
+                                                         AtmosphereModel atmosphere) {
+  auto kernel = std::make_shared<KernelAircraft>();
+  kernel->source = aircraft;
+  kernel->atmosphere_model = atmosphere;
+  FillAerodynamics(aircraft.aerodynamics, kernel.get());
+  kernel->engine = MakeEngine(aircraft.engine);
+  kernel->atmosphere = MakeAtmosphere(atmosphere);
+  kernel->constants = MakeConstants(aircraft.airframe);
+  return kernel;
+}
+
+}  // namespace skein

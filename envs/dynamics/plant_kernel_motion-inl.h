@@ -1,0 +1,200 @@
+// Third phase of the plant kernel: the coefficients' build-up and the equations of motion. The laws
+// are those of envs/aircraft/aerodynamics.cpp and envs/dynamics/plant.cpp.
+
+#if defined(SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_MOTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_MOTION_INL_H_
+#undef SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_MOTION_INL_H_
+#else
+#define SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_MOTION_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "envs/dynamics/plant_kernel_block-inl.h"
+#include "simd/lookup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace plant_kernel {
+
+struct Coefficients {
+  V Cx, Cy, Cz, Cl, Cm, Cn;
+};
+
+HWY_INLINE V ReadCells(const CellTable& table, VI cell, V fraction) {
+  const FloatTag d;
+  return hn::MulAdd(fraction, Lookup32(d, table.step, cell), Lookup32(d, table.value, cell));
+}
+
+/// Reads what the second phase left for one vector of aircraft.
+struct CoefficientReader {
+  const KernelAircraft& aircraft;
+  const Block& block;
+  int lane;
+  VI alpha_cell;
+  V alpha_fraction, elevator_fraction;
+  V flap_up;  // 1 with the flap up, 0 where the base tables have it
+
+  HWY_INLINE V Plane(PlaneSlot slot) const {
+    return hn::Load(FloatTag(), block.plane[slot] + lane);
+  }
+  HWY_INLINE V Elevator(ElevatorSlot slot, ElevatorSlot step) const {
+    const FloatTag d;
+    return hn::MulAdd(elevator_fraction, hn::Load(d, block.by_elevator[step] + lane),
+                      hn::Load(d, block.by_elevator[slot] + lane));
+  }
+  HWY_INLINE V Alpha(AlphaFunction function) const {
+    return ReadCells(aircraft.alpha_functions[function], alpha_cell, alpha_fraction);
+  }
+  /// A damping derivative with the flap where it is.
+  HWY_INLINE V Damping(AlphaFunction function, AlphaFunction flap) const {
+    return hn::MulAdd(flap_up, Alpha(flap), Alpha(function));
+  }
+};
+
+template <class State>
+HWY_INLINE Coefficients BuildUp(const KernelAircraft& aircraft, const State& state,
+                                const BlockControls& controls, int lane, const Block& block) {
+  const FloatTag d;
+  const IntTag di;
+  const KernelConstants& k = aircraft.constants;
+  const V flap_up = hn::NegMulAdd(hn::LoadU(d, controls.leading_edge_flap_deg + lane),
+                                  Constant(k.inverse_flap_reference), Constant(1.0f));
+  const CoefficientReader c{aircraft,
+                            block,
+                            lane,
+                            hn::Load(di, block.alpha_cell + lane),
+                            hn::Load(d, block.alpha_fraction + lane),
+                            hn::Load(d, block.elevator_fraction + lane),
+                            flap_up};
+  const V aileron =
+      hn::Mul(hn::LoadU(d, controls.aileron_deg + lane), Constant(k.inverse_aileron_reference));
+  const V rudder =
+      hn::Mul(hn::LoadU(d, controls.rudder_deg + lane), Constant(k.inverse_rudder_reference));
+  const V aileron_flap = hn::Mul(aileron, flap_up);
+  const V inverse_speed = hn::Load(d, block.inverse_speed + lane);
+  const V half_span = hn::Mul(inverse_speed, Constant(k.half_span));
+  const V p_hat = hn::Mul(state.Get(kP, lane), half_span);
+  const V q_hat = hn::Mul(state.Get(kQ, lane), hn::Mul(inverse_speed, Constant(k.half_chord)));
+  const V r_hat = hn::Mul(state.Get(kR, lane), half_span);
+
+  Coefficients sum;
+  sum.Cx = hn::MulAdd(flap_up, c.Plane(kPlaneCxFlap), c.Elevator(kElevatorCx, kElevatorCxStep));
+  sum.Cx = hn::MulAdd(q_hat, c.Damping(kAlphaCxq, kAlphaCxqFlap), sum.Cx);
+
+  sum.Cz = hn::MulAdd(flap_up, c.Plane(kPlaneCzFlap), c.Elevator(kElevatorCz, kElevatorCzStep));
+  sum.Cz = hn::MulAdd(q_hat, c.Damping(kAlphaCzq, kAlphaCzqFlap), sum.Cz);
+
+  const V elevator_effect = ReadCells(
+      aircraft.elevator_effect, hn::Load(di, block.elevator_cell + lane), c.elevator_fraction);
+  sum.Cm = hn::MulAdd(elevator_effect, c.Elevator(kElevatorCm, kElevatorCmStep), c.Alpha(kAlphaCm));
+  sum.Cm = hn::MulAdd(sum.Cz, Constant(k.cg_shift), sum.Cm);
+  sum.Cm = hn::MulAdd(flap_up, c.Plane(kPlaneCmFlap), sum.Cm);
+  sum.Cm = hn::MulAdd(q_hat, c.Damping(kAlphaCmq, kAlphaCmqFlap), sum.Cm);
+
+  sum.Cy = hn::MulAdd(flap_up, c.Plane(kPlaneCyFlap), c.Plane(kPlaneCy));
+  sum.Cy = hn::MulAdd(aileron, c.Plane(kPlaneCyAileron), sum.Cy);
+  sum.Cy = hn::MulAdd(aileron_flap, c.Plane(kPlaneCyAileronFlap), sum.Cy);
+  sum.Cy = hn::MulAdd(rudder, c.Plane(kPlaneCyRudder), sum.Cy);
+  sum.Cy = hn::MulAdd(r_hat, c.Damping(kAlphaCyr, kAlphaCyrFlap), sum.Cy);
+  sum.Cy = hn::MulAdd(p_hat, c.Damping(kAlphaCyp, kAlphaCypFlap), sum.Cy);
+
+  sum.Cn = hn::MulAdd(flap_up, c.Plane(kPlaneCnFlap), c.Elevator(kElevatorCn, kElevatorCnStep));
+  sum.Cn = hn::NegMulAdd(sum.Cy, Constant(k.cg_shift_yaw), sum.Cn);
+  sum.Cn = hn::MulAdd(aileron, c.Plane(kPlaneCnAileron), sum.Cn);
+  sum.Cn = hn::MulAdd(aileron_flap, c.Plane(kPlaneCnAileronFlap), sum.Cn);
+  sum.Cn = hn::MulAdd(rudder, c.Plane(kPlaneCnRudder), sum.Cn);
+  sum.Cn = hn::MulAdd(r_hat, c.Damping(kAlphaCnr, kAlphaCnrFlap), sum.Cn);
+  sum.Cn = hn::MulAdd(p_hat, c.Damping(kAlphaCnp, kAlphaCnpFlap), sum.Cn);
+
+  sum.Cl = hn::MulAdd(flap_up, c.Plane(kPlaneClFlap), c.Elevator(kElevatorCl, kElevatorClStep));
+  sum.Cl = hn::MulAdd(aileron, c.Plane(kPlaneClAileron), sum.Cl);
+  sum.Cl = hn::MulAdd(aileron_flap, c.Plane(kPlaneClAileronFlap), sum.Cl);
+  sum.Cl = hn::MulAdd(rudder, c.Plane(kPlaneClRudder), sum.Cl);
+  sum.Cl = hn::MulAdd(r_hat, c.Damping(kAlphaClr, kAlphaClrFlap), sum.Cl);
+  sum.Cl = hn::MulAdd(p_hat, c.Damping(kAlphaClp, kAlphaClpFlap), sum.Cl);
+  return sum;
+}
+
+/// Rates of the thirteen rigid-body columns for the aircraft in lanes `lane` to `lane + kLanes`.
+template <class State>
+HWY_INLINE void Move(const KernelConstants& k, const State& state, const Coefficients& c, int lane,
+                     const Block& block, float (*rates)[kBlock]) {
+  const FloatTag d;
+  const auto put = [&](int column, V rate) HWY_ATTR { hn::Store(rate, d, rates[column] + lane); };
+  const V u = state.Get(kU, lane), v = state.Get(kV, lane), w = state.Get(kW, lane);
+  const V p = state.Get(kP, lane), q = state.Get(kQ, lane), r = state.Get(kR, lane);
+  const V q0 = state.Get(kQ0, lane), qx = state.Get(kQx, lane);
+  const V qy = state.Get(kQy, lane), qz = state.Get(kQz, lane);
+  const V force = hn::Load(d, block.force + lane);
+
+  // Body axes from NED, row by row: the diagonal is q0^2 +- qx^2 +- qy^2 +- qz^2.
+  const V two_q0 = hn::Add(q0, q0), two_qx = hn::Add(qx, qx), two_qy = hn::Add(qy, qy);
+  const V xy = hn::Mul(two_qx, qy), xz = hn::Mul(two_qx, qz), yz = hn::Mul(two_qy, qz);
+  const V wx = hn::Mul(two_q0, qx), wy = hn::Mul(two_q0, qy), wz = hn::Mul(two_q0, qz);
+  const V q0_qz = hn::MulAdd(q0, q0, hn::Mul(qz, qz)), qx_qy = hn::MulAdd(qx, qx, hn::Mul(qy, qy));
+  const V q0_less_qz = hn::NegMulAdd(qz, qz, hn::Mul(q0, q0));
+  const V qx_less_qy = hn::NegMulAdd(qy, qy, hn::Mul(qx, qx));
+  const V t11 = hn::Add(q0_less_qz, qx_less_qy), t22 = hn::Sub(q0_less_qz, qx_less_qy);
+  const V t33 = hn::Sub(q0_qz, qx_qy);
+  const V t12 = hn::Add(xy, wz), t21 = hn::Sub(xy, wz);
+  const V t13 = hn::Sub(xz, wy), t31 = hn::Add(xz, wy);
+  const V t23 = hn::Add(yz, wx), t32 = hn::Sub(yz, wx);
+
+  const V gravity = Constant(k.gravity);
+  const V inverse_mass = Constant(k.inverse_mass);
+  const V per_mass = hn::Mul(force, inverse_mass);
+  const V thrust = hn::Mul(hn::Load(d, block.thrust + lane), inverse_mass);
+  V rate = hn::MulAdd(gravity, t13, hn::MulAdd(r, v, hn::MulAdd(per_mass, c.Cx, thrust)));
+  put(kU, hn::NegMulAdd(q, w, rate));
+  rate = hn::MulAdd(gravity, t23, hn::MulAdd(p, w, hn::Mul(per_mass, c.Cy)));
+  put(kV, hn::NegMulAdd(r, u, rate));
+  rate = hn::MulAdd(gravity, t33, hn::MulAdd(q, u, hn::Mul(per_mass, c.Cz)));
+  put(kW, hn::NegMulAdd(p, v, rate));
+
+  const V force_Cl = hn::Mul(force, c.Cl), force_Cn = hn::Mul(force, c.Cn);
+  rate = hn::MulAdd(force_Cl, Constant(k.p_Cl), hn::Mul(force_Cn, Constant(k.p_Cn)));
+  V gyration = hn::MulAdd(p, Constant(k.p_pq), hn::MulAdd(r, Constant(k.p_qr), Constant(k.p_q)));
+  put(kP, hn::MulAdd(q, gyration, rate));
+  rate = hn::MulAdd(force_Cn, Constant(k.r_Cn), hn::Mul(force_Cl, Constant(k.r_Cl)));
+  gyration = hn::MulAdd(p, Constant(k.r_pq), hn::MulAdd(r, Constant(k.r_qr), Constant(k.r_q)));
+  put(kR, hn::MulAdd(q, gyration, rate));
+  rate = hn::Mul(hn::Mul(force, c.Cm), Constant(k.q_Cm));
+  rate = hn::MulAdd(r, hn::MulAdd(p, Constant(k.q_pr), Constant(k.q_r)), rate);
+  put(kQ, hn::NegMulAdd(Constant(k.q_pp), hn::NegMulAdd(r, r, hn::Mul(p, p)), rate));
+
+  put(kNorth, hn::MulAdd(t31, w, hn::MulAdd(t21, v, hn::Mul(t11, u))));
+  put(kEast, hn::MulAdd(t32, w, hn::MulAdd(t22, v, hn::Mul(t12, u))));
+  put(kDown, hn::MulAdd(t33, w, hn::MulAdd(t23, v, hn::Mul(t13, u))));
+
+  const V half = Constant(0.5f);
+  const V hp = hn::Mul(p, half), hq = hn::Mul(q, half), hr = hn::Mul(r, half);
+  put(kQ0, hn::Neg(hn::MulAdd(hp, qx, hn::MulAdd(hq, qy, hn::Mul(hr, qz)))));
+  put(kQx, hn::MulAdd(hp, q0, hn::NegMulAdd(hq, qz, hn::Mul(hr, qy))));
+  put(kQy, hn::MulAdd(hq, q0, hn::NegMulAdd(hr, qx, hn::Mul(hp, qz))));
+  put(kQz, hn::MulAdd(hr, q0, hn::NegMulAdd(hp, qy, hn::Mul(hq, qx))));
+}
+
+/// Rates at one stage, for the aircraft in lanes `lane` to `lane + kLanes` of `block`.
+template <class State>
+HWY_INLINE void FindRates(const KernelAircraft& aircraft, const State& state,
+                          const BlockControls& controls, int lane, Block* block,
+                          float (*rates)[kBlock]) {
+  const FloatTag d;
+  const Coefficients c = BuildUp(aircraft, state, controls, lane, *block);
+  hn::Store(c.Cx, d, block->coefficients[0] + lane);
+  hn::Store(c.Cy, d, block->coefficients[1] + lane);
+  hn::Store(c.Cz, d, block->coefficients[2] + lane);
+  hn::Store(c.Cl, d, block->coefficients[3] + lane);
+  hn::Store(c.Cm, d, block->coefficients[4] + lane);
+  hn::Store(c.Cn, d, block->coefficients[5] + lane);
+  Move(aircraft.constants, state, c, lane, *block, rates);
+}
+
+}  // namespace plant_kernel
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#endif  // SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_MOTION_INL_H_
