@@ -27,7 +27,7 @@ struct Standard1976Constants {
   double lapse_degR_per_ft = -0.00356616;
   double tropopause_ft = 36089.24;
   double sea_level_pressure_lbf_ft2 = 2116.2166;
-  double gas_constant = 1716.49;  ///< ft lbf / (slug degR)
+  double gas_constant = 1716.562;  ///< ft lbf / (slug degR): 287.0529 J / (kg K)
   double gravity_ft_s2 = 32.17405;
 };
 inline constexpr Standard1976Constants kStandard1976{};

@@ -73,12 +73,15 @@ double Thrust(const EngineTables& engine, double power, double altitude_ft, doub
 double PowerForThrust(const EngineTables& engine, double thrust_lbf, double altitude_ft,
                       double mach) {
   const ThrustLevels level = LevelsAt(engine, altitude_ft, mach);
-  const double power =
-      thrust_lbf < level.military
-          ? kMilitaryPower * (thrust_lbf - level.idle) / (level.military - level.idle)
-          : kMilitaryPower + (kMaximumPower - kMilitaryPower) * (thrust_lbf - level.military) /
-                                 (level.maximum - level.military);
-  return std::clamp(power, 0.0, kMaximumPower);
+  // High and slow, the tables' idle thrust exceeds their military thrust: thrust need not rise with
+  // power.
+  const double dry = (thrust_lbf - level.idle) / (level.military - level.idle);
+  if (dry >= 0 && dry <= 1) return kMilitaryPower * dry;
+  const double afterburner = (thrust_lbf - level.military) / (level.maximum - level.military);
+  if (afterburner > 0) {
+    return kMilitaryPower + (kMaximumPower - kMilitaryPower) * std::min(afterburner, 1.0);
+  }
+  return level.idle < level.military ? 0 : kMilitaryPower;
 }
 
 }  // namespace skein
