@@ -7,7 +7,7 @@
 
 namespace skein {
 
-/// Sizes of the recurrent actor and critic (shared/tasks: LayerNorm, two Linear-ReLU-LayerNorm,
+/// Sizes of the recurrent actor and critic (LayerNorm, two Linear-ReLU-LayerNorm,
 /// GRU, LayerNorm, two more, head).
 struct NetworkConfig {
   int hidden_size = 128;
@@ -40,6 +40,9 @@ struct PpoConfig {
 };
 
 struct LearnerConfig {
+  /// How gradients are computed: "tiled", own kernels around LibTorch's products, or "autograd",
+  /// LibTorch's reference, two to three times slower.
+  std::string backend = "tiled";
   int tile_samples =
       1024;  ///< samples per gradient tile: fixed shards, so results do not depend on threads
   int rollout_tile = 256;  ///< aircraft per rollout tile

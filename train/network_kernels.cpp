@@ -6,11 +6,10 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "train/network_kernels.cpp"
-// clang-format off: foreach_target must come before highway
-#include <hwy/contrib/math/math-inl.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// clang-format on
+
+#include "simd/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -34,7 +33,7 @@ HWY_INLINE Vector Sigmoid(Vector x) {
   constexpr float kLimit = 30;
   const Vector clamped = hn::Min(hn::Max(x, hn::Set(d, -kLimit)), hn::Set(d, kLimit));
   const Vector one = hn::Set(d, 1.0f);
-  const Vector result = hn::Div(one, hn::Add(one, hn::Exp(d, hn::Neg(clamped))));
+  const Vector result = hn::Div(one, hn::Add(one, Exp(d, hn::Neg(clamped))));
   // Min and Max swallow not-a-number; adding 0 x brings it back.
   return hn::MulAdd(x, hn::Zero(d), result);
 }

@@ -11,16 +11,16 @@ namespace skein {
 /// threads.
 class Policy {
  public:
-  struct Parameters;  // train/network.h: configuration and the flat parameter vector
+  struct Parameters;  // train/policy_parameters.h: configuration and the flat parameter vector
 
   explicit Policy(std::shared_ptr<const Parameters> parameters);
 
   /// Reads the actor from a policy file or checkpoint (container of docs/file-formats.md). Throws
   /// Error on a file that is truncated, damaged or not one of Skein's.
   static Policy Load(const std::string& path);
-  /// A freshly initialised actor.
+  /// A freshly initialised actor: the one that training with this seed begins with.
   static Policy Untrained(const NetworkConfig& config, int observation_size, int action_size,
-                          std::uint64_t seed);
+                          std::uint64_t seed, int action_repeat = 1);
   /// Writes the actor alone, atomically.
   void Save(const std::string& path) const;
 
@@ -37,7 +37,8 @@ class Policy {
            float* log_std = nullptr) const;
 
  private:
-  std::shared_ptr<const Parameters> parameters_;
+  struct Folded;
+  std::shared_ptr<const Folded> folded_;
 };
 
 }  // namespace skein

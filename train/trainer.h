@@ -44,8 +44,8 @@ class Trainer {
   std::uint64_t iteration() const;
   bool finished() const;  ///< the step budget is used up
 
-  /// One rollout and update. Throws Error if a loss or gradient is not finite or explodes;
-  /// parameters are then those before the iteration.
+  /// One rollout and update. Throws Error if a loss or gradient is not finite or explodes; the
+  /// whole state is then that before the iteration, and can be saved.
   IterationReport Iterate();
 
   Policy policy() const;
@@ -70,7 +70,10 @@ struct LearnerRates {
   double rollout_steps_per_s = 0;  ///< decisions per second, simulator in the loop
   double update_samples_per_s =
       0;  ///< samples per second through forward, loss, backward and optimiser
-  double update_flops_per_sample = 0;
+  double update_flops_per_sample = 0;  ///< of the products, forward and backward, both networks
 };
+
+/// Trains `config` for a few iterations (after one to warm up) and measures.
+LearnerRates MeasureLearner(const TrainConfig& config, WorkerPool& pool);
 
 }  // namespace skein

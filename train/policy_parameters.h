@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "train/network.h"
+#include "train/policy.h"
+#include "train/tensor_file.h"
+
+namespace skein {
+
+/// What a Policy is made of.
+struct Policy::Parameters {
+  NetworkConfig config;
+  NetworkShape shape;
+  int action_repeat = 1;
+  std::vector<float> values;  ///< the actor's flat parameters
+};
+
+/// Writes the actor's description and parameters into `file`, one tensor "actor/<name>" per slice.
+void StorePolicy(const Policy::Parameters& parameters, TensorFile& file);
+
+/// The actor in a file that StorePolicy wrote to. Throws Error, naming `path`, if there is none.
+std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
+                                                     const std::string& path);
+
+}  // namespace skein

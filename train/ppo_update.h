@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "envs/worker_pool.h"
+#include "train/adam.h"
+#include "train/network_gradient.h"
+#include "train/rollout.h"
+
+namespace skein {
+
+/// What an update did: means over all minibatches.
+struct UpdateReport {
+  LossSums losses;
+  double actor_gradient_norm = 0, critic_gradient_norm = 0;  ///< before clipping
+};
+
+/// PPO's epochs over a rollout: minibatches of shuffled chunks, each cut into a fixed number of
+/// shards whose gradients are summed in a fixed order, so that no bit depends on the threads.
+class PpoUpdate {
+ public:
+  PpoUpdate(const TrainConfig& config, const NetworkLayout& actor, const NetworkLayout& critic,
+            WorkerPool& pool);
+
+  /// `iteration` keys the shuffles. Throws Error if a loss or a gradient is not finite, or a
+  /// gradient's norm exceeds kExplodedGradientNorm; parameters may then have moved.
+  UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
+                   double learning_rate, AdamOptimiser& actor, AdamOptimiser& critic);
+
+  /// No training that goes well comes near: unscaled values of +-200 give norms of thousands.
+  static constexpr double kExplodedGradientNorm = 1e8;
+
+ private:
+  /// A network's gradient: one accumulator and one sum of losses per shard.
+  struct Network {
+    std::unique_ptr<NetworkGradient> gradient;
+    std::vector<AlignedVector<float>> accumulators;
+    std::vector<LossSums> losses;
+    double norm = 0;
+  };
+  struct Gathered;
+  struct Advantages {
+    double mean = 0, inverse_std = 1;
+  };
+
+  void RunShard(Network& network, const Rollout& rollout, const ValueScale& scale,
+                const Advantages& advantages, const std::int64_t* chunks, int count,
+                const LossSettings& settings, int shard, int worker);
+  LossSums Minibatch(const Rollout& rollout, const ValueScale& scale, const Advantages& advantages,
+                     const std::int64_t* chunks, int count, double learning_rate,
+                     AdamOptimiser& actor, AdamOptimiser& critic);
+  Advantages AdvantageScale(const Rollout& rollout) const;
+
+  PpoConfig config_;
+  std::uint64_t seed_;
+  bool tanh_mean_;
+  int tile_chunks_;
+  WorkerPool& pool_;
+  Network actor_, critic_;
+  std::vector<std::shared_ptr<Gathered>> gathered_;  ///< one per worker
+};
+
+}  // namespace skein
