@@ -70,7 +70,7 @@ void BenchSimulator(const BenchOptions& options) {
   const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
   const SimulatorRate plant = MeasurePlant(options.aircraft, options.steps, pool);
   const SimulatorRate environment = MeasureEnvironment(env, options.aircraft, options.steps, pool);
-  const double gflops = plant.aircraft_steps_per_s * kFlopsPerControlStep / 1e9;
+  const double gflops = plant.aircraft_steps_per_s * kFlopsPerRk4Step / 1e9;
   fmt::print(
       "simulator: {} aircraft, {} control steps, {} threads, {}\n"
       "  flight control, actuators, engine, RK4  {:9.2f} ms a step, {} aircraft-steps/s ({})\n"
