@@ -39,8 +39,6 @@ void AddBiasGradient(std::int64_t rows, int columns, const float* gradient, floa
 void NetworkWorkspace::Reserve(const NetworkShape& shape, int steps, int batch) {
   const std::int64_t rows = static_cast<std::int64_t>(steps) * batch;
   const std::int64_t hidden = shape.hidden_size, gru = shape.gru_size;
-  if (rows <= reserved_rows_) return;
-  reserved_rows_ = rows;
   Grow(observation_, rows * shape.observation_size);
   for (HiddenRows& layer : hidden_) {
     Grow(layer.normalised, rows * hidden);

@@ -45,7 +45,6 @@ class NetworkWorkspace {
   AlignedVector<float> normalised_state_, state_inverse_std_;
   AlignedVector<float> output_;
   std::array<AlignedVector<float>, 2> gradient_;
-  std::int64_t reserved_rows_ = 0;
 };
 
 /// A recurrent network computed tile by tile without an autograd graph: LibTorch's matrix products,
