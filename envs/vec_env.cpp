@@ -1,12 +1,11 @@
 #include "envs/vec_env.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <new>
 #include <string>
 
+#include "envs/actions.h"
 #include "envs/aircraft/registry.h"
 #include "envs/dynamics/plant_kernel.h"
 #include "envs/flight_reset.h"
@@ -23,7 +22,6 @@ namespace {
 // innermost caches.
 constexpr int kBlock = 128;
 constexpr int kLaneMultiple = 32;
-constexpr int kActionSize = 4;
 constexpr std::size_t kCacheLine = 64;
 
 struct AlignedDelete {
@@ -45,9 +43,6 @@ AlignedArray<T> AllocateZeros(std::size_t count) {
 }
 
 int RoundUp(int count, int multiple) { return (count + multiple - 1) / multiple * multiple; }
-
-/// Limits to [-1, 1]; NaN stays NaN.
-float ClipAction(float action) { return action < -1 ? -1 : action > 1 ? 1 : action; }
 
 /// What a block needs during a decision only.
 struct alignas(kCacheLine) DecisionScratch {
@@ -194,24 +189,6 @@ struct VecEnv::Impl {
     ObserveTile(*kernel_aircraft, block.flight, errors, kBlock, noise, observation);
   }
 
-  /// Reads the pilots' commands. An action that is not finite makes its aircraft's state so, which
-  /// ends the episode as NonFinite.
-  static void Take(const float* action, const Block& block, DecisionScratch* scratch) {
-    for (int i = 0; i < block.count; ++i) {
-      const float throttle = ClipAction(action[i * kActionSize]);
-      scratch->pilot[0][i] = 0.5f * (throttle + 1);
-      bool is_finite = std::isfinite(action[i * kActionSize]);
-      for (int k = 1; k < kActionSize; ++k) {
-        scratch->pilot[k][i] = ClipAction(action[i * kActionSize + k]);
-        is_finite = is_finite && std::isfinite(action[i * kActionSize + k]);
-      }
-      if (!is_finite) block.flight[kU][i] = std::numeric_limits<float>::quiet_NaN();
-    }
-    for (float* const column : scratch->pilot) {
-      std::fill(column + block.count, column + RoundUp(block.count, kLaneMultiple), 0.0f);
-    }
-  }
-
   /// Copies the observations of aircraft whose time ran out in this control step.
   void ObserveTruncated(const Block& block, const DecisionScratch& scratch, bool* written,
                         float* final_observation) const {
@@ -232,10 +209,21 @@ struct VecEnv::Impl {
     }
   }
 
+  /// Reports the episodes that ended and begins new ones.
+  void RestartEnded(const Block& block, const DecisionScratch& scratch,
+                    const StepOutput& output) const {
+    for (int i = 0; i < block.count; ++i) {
+      if (scratch.termination[i] == static_cast<std::int32_t>(Termination::kNone)) continue;
+      output.episode_return[i] = block.episode_return[i];
+      output.episode_steps[i] = block.step[i];
+      BeginEpisode(block, i, block.episode[i] + 1);
+    }
+  }
+
   /// `output` points at the block's first aircraft.
   void Step(const Block& block, const float* action, const StepOutput& output) const {
     DecisionScratch scratch;
-    Take(action, block, &scratch);
+    TakeActions(action, block.flight, scratch.pilot[0], kBlock);
     std::fill(std::begin(scratch.decision_reward), std::end(scratch.decision_reward), 0.0f);
     std::fill(std::begin(scratch.termination), std::end(scratch.termination), 0);
     const TaskVerdict verdict{scratch.step_reward, scratch.reached};
@@ -251,14 +239,12 @@ struct VecEnv::Impl {
       JudgeTile(*kernel_aircraft, config, block.flight, verdict, episodes);
       if (keeps_final) ObserveTruncated(block, scratch, written, output.final_observation);
     }
-    for (int i = 0; i < block.count; ++i) {
-      output.reward[i] = scratch.decision_reward[i];
-      output.termination[i] = static_cast<std::uint8_t>(scratch.termination[i]);
-      if (scratch.termination[i] == static_cast<std::int32_t>(Termination::kNone)) continue;
-      output.episode_return[i] = block.episode_return[i];
-      output.episode_steps[i] = block.step[i];
-      BeginEpisode(block, i, block.episode[i] + 1);
-    }
+    std::copy_n(scratch.decision_reward, block.count, output.reward);
+    std::copy_n(scratch.termination, block.count, output.termination);
+    // Endings are rare: most blocks have none.
+    std::int32_t any_ended = 0;
+    for (int i = 0; i < block.count; ++i) any_ended |= scratch.termination[i];
+    if (any_ended != 0) RestartEnded(block, scratch, output);
     if (block.count % kLaneMultiple != 0) FillPadding(block);
   }
 
