@@ -14,38 +14,61 @@
 namespace skein {
 namespace {
 
+/// Fills the density cells from the float64 model: cubics through four Chebyshev-Lobatto points, so
+/// that neighbours meet. `tropopause_ft`, where the law of density may change, is an end of cells.
+void FillDensity(AtmosphereModel model, double tropopause_ft, KernelAtmosphere* air) {
+  constexpr double kLowFt = -5000;
+  constexpr int kCellsBelowTropopause = 9;
+  const double width = (tropopause_ft - kLowFt) / kCellsBelowTropopause;
+  const double high = kLowFt + width * CellTable::kMaxCells;
+  air->sea_level_density = static_cast<float>(AirAt(model, 0).density_slug_ft3);
+  air->low_ft = static_cast<float>(kLowFt);
+  air->high_ft = static_cast<float>(high);
+  air->cells_per_ft = static_cast<float>(1 / width);
+  air->offset = static_cast<float>(-kLowFt / width);
+  for (int cell = 0; cell < CellTable::kMaxCells; ++cell) {
+    const auto density = [&](double fraction) {
+      return AirAt(model, kLowFt + width * (cell + fraction)).density_slug_ft3;
+    };
+    // The cubic a + b f + c f^2 + e f^3 through f = 0, 1/4, 3/4, 1.
+    const double y0 = density(0), y1 = density(0.25), y2 = density(0.75), y3 = density(1);
+    const double s1 = 4 * (y1 - y0), s2 = (4.0 / 3) * (y2 - y0), s3 = y3 - y0;
+    const double t1 = 2 * (s2 - s1), t2 = (4.0 / 3) * (s3 - s1);
+    const double e = 4 * (t2 - t1);
+    const double c = t1 - e;
+    const double b = s1 - c / 4 - e / 16;
+    air->density.c[0][cell] = static_cast<float>(y0);
+    air->density.c[1][cell] = static_cast<float>(b);
+    air->density.c[2][cell] = static_cast<float>(c);
+    air->density.c[3][cell] = static_cast<float>(e);
+  }
+}
+
 KernelAtmosphere MakeAtmosphere(AtmosphereModel model) {
   KernelAtmosphere air;
+  double tropopause_ft = 0;  // geometric
   if (model == AtmosphereModel::kStevensLewis) {
     const StevensLewisConstants& k = kStevensLewis;
-    air.lapse_per_ft = static_cast<float>(k.lapse_per_ft);
-    air.lapse_top_ft = static_cast<float>((1 - k.min_temperature_ratio) / k.lapse_per_ft);
-    air.density_exponent = static_cast<float>(k.density_exponent);
-    air.sea_level_density = static_cast<float>(k.sea_level_density_slug_ft3);
+    tropopause_ft = k.tropopause_ft;
     air.tropopause_ft = static_cast<float>(k.tropopause_ft);
     air.sea_level_temperature = static_cast<float>(k.sea_level_temperature_degR);
+    air.lapse_per_ft = static_cast<float>(k.sea_level_temperature_degR * k.lapse_per_ft);
     air.stratosphere_temperature = static_cast<float>(k.stratosphere_temperature_degR);
     air.sound_constant = static_cast<float>(kSpecificHeatRatio * k.sound_gas_constant);
     air.pressure_constant = static_cast<float>(k.pressure_gas_constant);
-    return air;
+  } else {
+    const Standard1976Constants& k = kStandard1976;
+    tropopause_ft = k.tropopause_ft * k.earth_radius_ft / (k.earth_radius_ft - k.tropopause_ft);
+    air.inverse_earth_radius = static_cast<float>(1 / k.earth_radius_ft);
+    air.tropopause_ft = static_cast<float>(k.tropopause_ft);
+    air.sea_level_temperature = static_cast<float>(k.sea_level_temperature_degR);
+    air.lapse_per_ft = static_cast<float>(-k.lapse_degR_per_ft);
+    air.stratosphere_temperature =
+        static_cast<float>(k.sea_level_temperature_degR + k.lapse_degR_per_ft * k.tropopause_ft);
+    air.sound_constant = static_cast<float>(kSpecificHeatRatio * k.gas_constant);
+    air.pressure_constant = static_cast<float>(k.gas_constant);
   }
-  const Standard1976Constants& k = kStandard1976;
-  const double lapse = -k.lapse_degR_per_ft / k.sea_level_temperature_degR;
-  const double stratosphere = k.sea_level_temperature_degR * (1 - lapse * k.tropopause_ft);
-  air.inverse_earth_radius = static_cast<float>(1 / k.earth_radius_ft);
-  air.lapse_per_ft = static_cast<float>(lapse);
-  air.lapse_top_ft = static_cast<float>(k.tropopause_ft);
-  // Density is pressure over temperature: one power less than the pressure's.
-  air.density_exponent =
-      static_cast<float>(-k.gravity_ft_s2 / (k.lapse_degR_per_ft * k.gas_constant) - 1);
-  air.sea_level_density = static_cast<float>(k.sea_level_pressure_lbf_ft2 /
-                                             (k.gas_constant * k.sea_level_temperature_degR));
-  air.decay_per_ft = static_cast<float>(k.gravity_ft_s2 / (k.gas_constant * stratosphere));
-  air.tropopause_ft = static_cast<float>(k.tropopause_ft);
-  air.sea_level_temperature = static_cast<float>(k.sea_level_temperature_degR);
-  air.stratosphere_temperature = static_cast<float>(stratosphere);
-  air.sound_constant = static_cast<float>(kSpecificHeatRatio * k.gas_constant);
-  air.pressure_constant = static_cast<float>(k.gas_constant);
+  FillDensity(model, tropopause_ft, &air);
   return air;
 }
 
@@ -84,7 +107,7 @@ KernelConstants MakeConstants(const Airframe& a) {
 }
 
 void FillThrust(const std::vector<double>& table, const char* name, int rows, int columns,
-                KernelEngine::Cells* cells) {
+                KernelCells* cells) {
   if (table.size() != static_cast<std::size_t>(rows * columns)) {
     throw Error(std::string("engine table ") + name + " has " + std::to_string(table.size()) +
                 " values; its axes ask for " + std::to_string(rows * columns));
@@ -155,8 +178,8 @@ KernelAxis MakeKernelAxis(const std::vector<double>& nodes, const char* name) {
   axis.high = static_cast<float>(nodes.back());
   axis.inner_low = static_cast<float>(nodes[first]);
   axis.inner_high = static_cast<float>(nodes[last]);
-  axis.outer_cells_per_unit = static_cast<float>(1 / outer_width);
-  axis.inner_cells_per_unit = static_cast<float>(1 / inner_width);
+  axis.cells_per_unit = static_cast<float>(1 / outer_width);
+  axis.inner_more_cells_per_unit = static_cast<float>(1 / inner_width - 1 / outer_width);
   axis.offset = static_cast<float>(first - nodes[first] / inner_width);
   axis.last_cell = cells - 1;
   return axis;

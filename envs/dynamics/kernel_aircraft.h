@@ -9,13 +9,13 @@
 namespace skein {
 
 /// An axis on which the cell of a value is arithmetic instead of a search: its cells have one width
-/// in the middle and one outside. cell + fraction = offset + outer_cells_per_unit (x - m) +
-/// inner_cells_per_unit m, with m = x limited to [inner_low, inner_high] and x limited to [low,
-/// high].
+/// in the middle and one outside. cell + fraction = offset + cells_per_unit (x limited to [low,
+/// high])
+/// + inner_more_cells_per_unit (x limited to [inner_low, inner_high]).
 struct KernelAxis {
   float low = 0, high = 0;
   float inner_low = 0, inner_high = 0;
-  float outer_cells_per_unit = 0, inner_cells_per_unit = 0;
+  float cells_per_unit = 0, inner_more_cells_per_unit = 0;
   float offset = 0;
   std::int32_t last_cell = 0;
 };
@@ -77,6 +77,11 @@ struct alignas(64) CellTable {
   float step[kMaxCells] = {};
 };
 
+/// Four coefficients by cell.
+struct alignas(64) KernelCells {
+  float c[4][CellTable::kMaxCells] = {};
+};
+
 /// Functions of alpha. `Flap` ones are multiplied by how far the flap is up.
 enum AlphaFunction : int {
   kAlphaCxq,
@@ -101,18 +106,17 @@ enum AlphaFunction : int {
   kNumAlphaFunctions
 };
 
-/// Density, temperature and the gas constants of an atmosphere model:
-/// theta = 1 - lapse min(H, lapse_top), rho = rho_0 theta^exponent exp(-decay max(H - lapse_top,
-/// 0)).
+/// An atmosphere model by altitude: density as a cubic in each cell, temperature linear up to the
+/// tropopause and constant above.
 struct KernelAtmosphere {
+  /// Density, slug/ft^3, in cell i at fraction f: c[0] + c[1] f + c[2] f^2 + c[3] f^3.
+  KernelCells density;
+  float sea_level_density = 0;    ///< slug/ft^3
+  float low_ft = 0, high_ft = 0;  ///< ends of the cells; density is constant beyond
+  float cells_per_ft = 0, offset = 0;
   float inverse_earth_radius = 0;  ///< 1/ft; 0 where altitude is taken as geopotential
-  float lapse_per_ft = 0;
-  float lapse_top_ft = 0;
-  float density_exponent = 0;
-  float sea_level_density = 0;  ///< slug/ft^3
-  float decay_per_ft = 0;
   float tropopause_ft = 0;
-  float sea_level_temperature = 0, stratosphere_temperature = 0;  ///< degR
+  float sea_level_temperature = 0, lapse_per_ft = 0, stratosphere_temperature = 0;  ///< degR
   float sound_constant = 0;     ///< sound speed^2 / temperature, ft^2 / (s^2 degR)
   float pressure_constant = 0;  ///< pressure / (density temperature), ft lbf / (slug degR)
 };
@@ -123,10 +127,7 @@ struct KernelEngine {
   enum Level : int { kIdle, kMilitary, kMaximum, kNumLevels };
   KernelAxis altitude, mach;
   float mach_cells = 0;  ///< cell number = altitude cell * mach_cells + Mach cell
-  struct alignas(64) Cells {
-    float c[4][CellTable::kMaxCells] = {};
-  };
-  Cells thrust_lbf[kNumLevels];
+  KernelCells thrust_lbf[kNumLevels];
 };
 
 /// Constants of the coefficients' build-up and of the equations of motion, folded for float32.

@@ -29,7 +29,13 @@ HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const StageState
                                 const BlockControls& controls, Block* block,
                                 float (*rates)[kBlock]) {
   for (int lane = 0; lane < kBlock; lane += kLanes) {
-    FindAirData<kEngine>(aircraft, state, controls, lane, block, rates);
+    FindFlow(aircraft, state, controls, lane, block);
+  }
+  for (int lane = 0; lane < kBlock; lane += kLanes) {
+    FindAir<kEngine>(aircraft, state, lane, block);
+  }
+  for (int lane = 0; lane < kBlock; lane += kLanes) {
+    FindThrust<kEngine>(aircraft, state, controls, lane, block, rates);
   }
   for (int lane = 0; lane < kBlock; lane += kLanes) ReadTables(aircraft, lane, block);
   for (int lane = 0; lane < kBlock; lane += kLanes) {

@@ -16,6 +16,16 @@ struct KernelAircraft;
 std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraft,
                                                          AtmosphereModel atmosphere);
 
+/// Floating-point operations of one evaluation of the equations of motion with engine, and of one
+/// RK4 step: counted in the kernel's source (a multiply-add as two, a division or root estimate as
+/// one); for rates as a fraction of simd::MeasurePeak.
+inline constexpr double kFlopsPerEvaluation = 180    // air data, atmosphere, engine
+                                              + 182  // 26 coefficients blended at 7 each
+                                              + 140  // build-up
+                                              + 125  // equations of motion
+                                              + 28;  // state at the stage
+inline constexpr double kFlopsPerRk4Step = 4 * kFlopsPerEvaluation + 110;
+
 /// Read-only columns of given controls: thrust [lbf], elevator, aileron, rudder, leading-edge flap
 /// [deg], each `count` long (padded as Tile says).
 struct ControlColumns {

@@ -26,7 +26,7 @@ inline constexpr float kMinSpeedSquared = 1e-4f;
 inline constexpr float kMinPlaneSpeedSquared = 1e-12f;
 
 /// Thrust of one power level, lbf.
-HWY_INLINE V ThrustOf(const KernelEngine::Cells& cells, VI cell, V altitude, V mach) {
+HWY_INLINE V ThrustOf(const KernelCells& cells, VI cell, V altitude, V mach) {
   const FloatTag d;
   const V low = hn::MulAdd(mach, Lookup32(d, cells.c[2], cell), Lookup32(d, cells.c[0], cell));
   const V high = hn::MulAdd(mach, Lookup32(d, cells.c[3], cell), Lookup32(d, cells.c[1], cell));
@@ -35,14 +35,14 @@ HWY_INLINE V ThrustOf(const KernelEngine::Cells& cells, VI cell, V altitude, V m
 
 /// Thrust, lbf: linear in power below and above military.
 HWY_INLINE V Thrust(const KernelEngine& engine, V power, V altitude_ft, V mach) {
-  const IntTag di;
   constexpr float kMilitary = static_cast<float>(kPowerLag.military_power);
   constexpr float kInverseMilitary = static_cast<float>(1 / kPowerLag.military_power);
   constexpr float kInverseAfterburner =
       static_cast<float>(1 / (kPowerLag.maximum_power - kPowerLag.military_power));
   const Cell h = FindCell(engine.altitude, altitude_ft);
   const Cell m = FindCell(engine.mach, mach);
-  const VI cell = hn::ConvertTo(di, hn::MulAdd(h.start, Constant(engine.mach_cells), m.start));
+  const VI cell =
+      TruncateToInt(FloatTag(), hn::MulAdd(h.start, Constant(engine.mach_cells), m.start));
   const auto level = [&](KernelEngine::Level which) HWY_ATTR {
     return ThrustOf(engine.thrust_lbf[which], cell, h.fraction, m.fraction);
   };
@@ -76,23 +76,21 @@ HWY_INLINE V PowerRateOf(V power, V command) {
   return hn::Mul(rate, missing);
 }
 
-/// For the aircraft in lanes `lane` to `lane + kLanes` of `block`.
-template <bool kEngine, bool kFirst>
-HWY_INLINE void FindAirData(const KernelAircraft& aircraft, const StageState<kFirst>& state,
-                            const BlockControls& controls, int lane, Block* block,
-                            float (*rates)[kBlock]) {
+// The parts of the phase, each for the aircraft in lanes `lane` to `lane + kLanes`. They are chains
+// of dependent operations, so each part runs over the whole block before the next: the processor
+// then overlaps the chains of different aircraft.
+
+/// Speed, flow angles and from them the places in the aerodynamic tables.
+template <bool kFirst>
+HWY_INLINE void FindFlow(const KernelAircraft& aircraft, const StageState<kFirst>& state,
+                         const BlockControls& controls, int lane, Block* block) {
   const FloatTag d;
   const IntTag di;
   const V u = state.Get(kU, lane), v = state.Get(kV, lane), w = state.Get(kW, lane);
-  const V altitude = hn::Neg(state.Get(kDown, lane));
   const V plane_squared = hn::MulAdd(u, u, hn::Mul(w, w));
   const V speed_squared = hn::Max(hn::MulAdd(v, v, plane_squared), Constant(kMinSpeedSquared));
-  const V inverse_speed = ReciprocalSqrt(d, speed_squared);
-  hn::Store(inverse_speed, d, block->inverse_speed + lane);
-
-  const AirVectors<V> air = AirAtAltitude(d, aircraft, altitude);
-  const V wing = Constant(aircraft.constants.half_wing_area);
-  hn::Store(hn::Mul(hn::Mul(air.density, wing), speed_squared), d, block->force + lane);
+  hn::Store(speed_squared, d, block->speed_squared + lane);
+  hn::Store(ReciprocalSqrt(d, speed_squared), d, block->inverse_speed + lane);
 
   const V tan_beta =
       hn::Mul(v, ReciprocalSqrt(d, hn::Max(plane_squared, Constant(kMinPlaneSpeedSquared))));
@@ -108,16 +106,39 @@ HWY_INLINE void FindAirData(const KernelAircraft& aircraft, const StageState<kFi
   // Exact in float32: there are far fewer than 2^24 lines.
   const V line = hn::MulAdd(beta.start, Constant(aircraft.lines_per_beta),
                             hn::Mul(alpha.start, Constant(aircraft.lines_per_node)));
-  const VI plane_line = hn::ConvertTo(di, line);
+  const VI plane_line = TruncateToInt(d, line);
   hn::Store(plane_line, di, block->plane_line + lane);
   hn::Store(hn::Add(plane_line, hn::Add(elevator.index, hn::Set(di, 1))), di,
             block->elevator_line + lane);
+}
 
+/// Dynamic pressure times wing area; Mach number where the engine needs it.
+template <bool kEngine, bool kFirst>
+HWY_INLINE void FindAir(const KernelAircraft& aircraft, const StageState<kFirst>& state, int lane,
+                        Block* block) {
+  const FloatTag d;
+  const V altitude = hn::Neg(state.Get(kDown, lane));
+  const V speed_squared = hn::Load(d, block->speed_squared + lane);
+  const AirVectors<V> air = AirAtAltitude(d, aircraft, altitude);
+  const V wing = Constant(aircraft.constants.half_wing_area);
+  hn::Store(hn::Mul(hn::Mul(air.density, wing), speed_squared), d, block->force + lane);
   if constexpr (kEngine) {
-    const V mach = hn::Mul(
-        hn::Mul(speed_squared, inverse_speed),
-        ReciprocalSqrt(d, hn::Mul(Constant(aircraft.atmosphere.sound_constant), air.temperature)));
+    const V sound_squared = hn::Mul(Constant(aircraft.atmosphere.sound_constant), air.temperature);
+    const V speed = hn::Mul(speed_squared, hn::Load(d, block->inverse_speed + lane));
+    hn::Store(hn::Mul(speed, ReciprocalSqrt(d, sound_squared)), d, block->mach + lane);
+  }
+}
+
+/// Thrust and the rate of power, or the given thrust.
+template <bool kEngine, bool kFirst>
+HWY_INLINE void FindThrust(const KernelAircraft& aircraft, const StageState<kFirst>& state,
+                           const BlockControls& controls, int lane, Block* block,
+                           float (*rates)[kBlock]) {
+  const FloatTag d;
+  if constexpr (kEngine) {
+    const V altitude = hn::Neg(state.Get(kDown, lane));
     const V power = state.Get(kPower, lane);
+    const V mach = hn::Load(d, block->mach + lane);
     hn::Store(Thrust(aircraft.engine, power, altitude, mach), d, block->thrust + lane);
     hn::Store(PowerRateOf(power, hn::LoadU(d, controls.power_command + lane)), d,
               rates[kPower] + lane);

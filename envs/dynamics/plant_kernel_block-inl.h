@@ -15,6 +15,7 @@
 
 #include "envs/dynamics/kernel_aircraft.h"
 #include "envs/dynamics/state.h"
+#include "simd/lookup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -42,6 +43,8 @@ struct alignas(64) Block {
   float alpha_fraction[kBlock], beta_fraction[kBlock], elevator_fraction[kBlock];
   std::int32_t alpha_cell[kBlock], elevator_cell[kBlock];
   std::int32_t plane_line[kBlock], elevator_line[kBlock];
+  float speed_squared[kBlock];  // ft^2/s^2
+  float mach[kBlock];
   float inverse_speed[kBlock];  // s/ft
   float force[kBlock];          // dynamic pressure times wing area, lbf
   float thrust[kBlock];         // lbf
@@ -92,14 +95,14 @@ struct Cell {
 HWY_INLINE Cell FindCell(const KernelAxis& axis, V x) {
   const FloatTag d;
   const IntTag di;
-  x = hn::Min(hn::Max(x, Constant(axis.low)), Constant(axis.high));
+  const V whole = hn::Min(hn::Max(x, Constant(axis.low)), Constant(axis.high));
   const V inner = hn::Min(hn::Max(x, Constant(axis.inner_low)), Constant(axis.inner_high));
-  const V position =
-      hn::MulAdd(hn::Sub(x, inner), Constant(axis.outer_cells_per_unit),
-                 hn::MulAdd(inner, Constant(axis.inner_cells_per_unit), Constant(axis.offset)));
+  const V position = hn::MulAdd(
+      whole, Constant(axis.cells_per_unit),
+      hn::MulAdd(inner, Constant(axis.inner_more_cells_per_unit), Constant(axis.offset)));
   Cell cell;
   cell.index =
-      hn::Min(hn::Max(hn::ConvertTo(di, position), hn::Zero(di)), hn::Set(di, axis.last_cell));
+      hn::Min(hn::Max(TruncateToInt(d, position), hn::Zero(di)), hn::Set(di, axis.last_cell));
   cell.start = hn::ConvertTo(d, cell.index);
   cell.fraction = hn::Sub(position, cell.start);
   return cell;
