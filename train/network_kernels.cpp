@@ -75,8 +75,8 @@ void BiasReluNormaliseKernel(std::int64_t rows, int columns, const float* bias, 
     float* const row = values + i * columns;
     for (int j = 0; j < columns; j += lanes) {
       const Vector x = hn::Add(hn::LoadU(d, row + j), hn::LoadU(d, bias + j));
-      // The order of operands keeps not-a-number: x86's max returns its second one.
-      hn::StoreU(hn::Max(hn::Zero(d), x), d, row + j);
+      // Unlike a maximum with zero, this keeps not-a-number on every target.
+      hn::StoreU(hn::IfThenZeroElse(hn::Lt(x, hn::Zero(d)), x), d, row + j);
     }
     float mean;
     inverse_std[i] = NormaliseRow(columns, row, row, &mean);

@@ -1,0 +1,170 @@
+#include "train/trainer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "simd/error.h"
+#include "tests/train/small_config.h"
+
+namespace skein {
+namespace {
+
+class TrainerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = testing::TempDir() + "trainer_test_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(directory_);
+    path_ = directory_ + "/checkpoint.skein";
+  }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  static std::string BytesOf(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  static std::string RefusalOf(const TrainConfig& config, const std::string& path) {
+    WorkerPool pool(1);
+    Trainer trainer(config, pool);
+    const std::uint64_t before = trainer.Signature();
+    try {
+      trainer.Restore(path);
+    } catch (const Error& error) {
+      EXPECT_EQ(trainer.Signature(), before);
+      return error.what();
+    }
+    return "";
+  }
+
+  std::string directory_, path_;
+};
+
+TEST_F(TrainerTest, EveryBitIsTheSameForAnyNumberOfThreads) {
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 8}) {
+    WorkerPool pool(threads);
+    Trainer trainer(SmallConfig(), pool);
+    while (!trainer.finished()) trainer.Iterate();
+    if (first == 0) first = trainer.Signature();
+    EXPECT_EQ(trainer.Signature(), first) << threads << " threads";
+  }
+}
+
+TEST_F(TrainerTest, GoesOnBitForBitAfterRestoring) {
+  WorkerPool pool(2);
+  Trainer whole(SmallConfig(), pool);
+  whole.Iterate();
+  whole.Save(path_);
+  Trainer resumed(SmallConfig(), pool);
+  resumed.Restore(path_);
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  while (!whole.finished()) {
+    const IterationReport expected = whole.Iterate();
+    const IterationReport report = resumed.Iterate();
+    EXPECT_EQ(report.iteration, expected.iteration);
+    EXPECT_EQ(report.env_steps, expected.env_steps);
+    EXPECT_EQ(report.episodes, expected.episodes);
+    EXPECT_EQ(report.policy_loss, expected.policy_loss);
+    EXPECT_EQ(report.learning_rate, expected.learning_rate);
+    EXPECT_EQ(report.evaluation_success_rate, expected.evaluation_success_rate);
+    EXPECT_EQ(report.best, expected.best);
+  }
+  EXPECT_TRUE(resumed.finished());
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  whole.Save(directory_ + "/a");
+  resumed.Save(directory_ + "/b");
+  EXPECT_EQ(BytesOf(directory_ + "/a"), BytesOf(directory_ + "/b"));
+}
+
+TEST_F(TrainerTest, RefusesACheckpointOfAnotherConfigurationAndNamesTheField) {
+  WorkerPool pool(1);
+  Trainer trainer(SmallConfig(), pool);
+  trainer.Save(path_);
+  TrainConfig other = SmallConfig();
+  other.ppo.gamma = 0.98;
+  EXPECT_NE(RefusalOf(other, path_).find("ppo.gamma"), std::string::npos);
+  other = SmallConfig();
+  other.env.heading.yaw_change_rad = 1;
+  EXPECT_NE(RefusalOf(other, path_).find("env.heading.yaw_change_rad"), std::string::npos);
+  other = SmallConfig();
+  other.network.gru_size = 32;
+  EXPECT_NE(RefusalOf(other, path_).find("network.gru_size"), std::string::npos);
+  trainer.policy().Save(directory_ + "/policy");
+  EXPECT_NE(RefusalOf(SmallConfig(), directory_ + "/policy").find("not a checkpoint"),
+            std::string::npos);
+  EXPECT_EQ(RefusalOf(SmallConfig(), path_), "");
+}
+
+TEST_F(TrainerTest, AnExplosionLeavesTheStateOfBefore) {
+  TrainConfig config = SmallConfig();
+  config.ppo.learning_rate = 1e30;
+  config.ppo.max_gradient_norm = 1e6;
+  config.evaluation.interval_iterations = 0;
+  WorkerPool pool(2);
+  Trainer trainer(config, pool);
+  std::uint64_t before = 0;
+  const auto train = [&] {
+    while (!trainer.finished()) {
+      before = trainer.Signature();
+      trainer.Iterate();
+    }
+  };
+  EXPECT_THROW(train(), Error);
+  EXPECT_EQ(trainer.Signature(), before);
+  trainer.Save(path_);
+  Trainer restored(config, pool);
+  restored.Restore(path_);
+  EXPECT_EQ(restored.Signature(), before);
+}
+
+TEST_F(TrainerTest, TheFirstUpdateMovesALittleFromTheRolloutsPolicy) {
+  TrainConfig config = SmallConfig();
+  config.ppo.learning_rate = 1e-12;  // so that every minibatch still sees the rollout's policy
+  config.evaluation.interval_iterations = 0;
+  WorkerPool pool(1);
+  const IterationReport report = Trainer(config, pool).Iterate();
+  // log-probabilities differ by float32 rounding of values of about ten: KL by its square.
+  EXPECT_NEAR(report.approximate_kl, 0, 1e-7);
+  EXPECT_EQ(report.clip_fraction, 0);
+}
+
+TEST_F(TrainerTest, LearningRateFallsLinearlyToItsFraction) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  config.ppo.final_learning_rate_fraction = 0.5;
+  Trainer trainer(config, pool);
+  const double expected[] = {0.875, 0.75, 0.625, 0.5};
+  for (const double fraction : expected) {
+    EXPECT_NEAR(trainer.Iterate().learning_rate, fraction * config.ppo.learning_rate, 1e-12);
+  }
+  EXPECT_TRUE(trainer.finished());
+}
+
+TEST_F(TrainerTest, TheAutogradBackendTrainsTheSamePolicy) {
+  TrainConfig config = SmallConfig();
+  config.ppo.epochs = 1;
+  config.ppo.minibatches = 1;
+  config.evaluation.interval_iterations = 0;
+  WorkerPool pool(2);
+  const IterationReport tiled = Trainer(config, pool).Iterate();
+  config.learner.backend = "autograd";
+  const IterationReport autograd = Trainer(config, pool).Iterate();
+  EXPECT_NEAR(tiled.actor_gradient_norm, autograd.actor_gradient_norm,
+              1e-3 * autograd.actor_gradient_norm);
+  EXPECT_NEAR(tiled.critic_gradient_norm, autograd.critic_gradient_norm,
+              1e-3 * autograd.critic_gradient_norm);
+  EXPECT_NEAR(tiled.value_loss, autograd.value_loss, 1e-3 * autograd.value_loss);
+}
+
+TEST_F(TrainerTest, RefusesMoreMinibatchesThanChunks) {
+  TrainConfig config = SmallConfig();
+  config.ppo.minibatches = 1000;
+  WorkerPool pool(1);
+  EXPECT_THROW(Trainer(config, pool), Error);
+}
+
+}  // namespace
+}  // namespace skein
