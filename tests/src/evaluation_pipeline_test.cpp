@@ -27,7 +27,7 @@ class EvaluationPipeline : public ::testing::Test {
 
   nlohmann::json Fly(const std::string& name, const std::vector<std::string>& more = {}) {
     const std::string path = folder_ + "/" + name + ".json";
-    const ProgramResult result = RunSkein(Evaluation(path, more));
+    const ProgramResult result = CallSkein(Evaluation(path, more));
     EXPECT_EQ(result.exit_code, 0) << result.error;
     return nlohmann::json::parse(ReadFile(path));
   }
@@ -70,11 +70,11 @@ TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
       {"eval", "--policy", folder_ + "/absent.skein", "--task", "heading"},
       {"eval", "--policy", folder_, "--task", "heading"}};
   for (const auto& arguments : wrong) {
-    const ProgramResult result = RunSkein(arguments);
+    const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.error, HasSubstr(arguments[2]));
   }
-  const ProgramResult no_task = RunSkein({"eval", "--policy", file});
+  const ProgramResult no_task = CallSkein({"eval", "--policy", file});
   EXPECT_EQ(no_task.exit_code, 1);
   EXPECT_THAT(no_task.error, HasSubstr("--task"));
 }

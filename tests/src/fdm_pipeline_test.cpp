@@ -50,8 +50,8 @@ class FdmPipeline : public ::testing::Test {
 
   json Run(const std::string& command, const json& input, const std::string& precision) {
     WriteFile(folder_ + "/in.json", input.dump());
-    const ProgramResult result = RunSkein({"fdm", command, "--in", folder_ + "/in.json", "--out",
-                                           folder_ + "/out.json", "--precision", precision});
+    const ProgramResult result = CallSkein({"fdm", command, "--in", folder_ + "/in.json", "--out",
+                                            folder_ + "/out.json", "--precision", precision});
     EXPECT_EQ(result.exit_code, 0) << result.error;
     return json::parse(ReadFile(folder_ + "/out.json"));
   }
@@ -162,13 +162,13 @@ TEST_F(FdmPipeline, MalformedInputIsNamedInOneLine) {
   for (const auto& [text, expected] : cases) {
     WriteFile(folder_ + "/in.json", text);
     const ProgramResult result =
-        RunSkein({"fdm", "eval", "--in", folder_ + "/in.json", "--out", folder_ + "/none.json"});
+        CallSkein({"fdm", "eval", "--in", folder_ + "/in.json", "--out", folder_ + "/none.json"});
     EXPECT_EQ(result.exit_code, 1) << text;
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
     EXPECT_THAT(result.error, HasSubstr(expected));
   }
   const ProgramResult absent =
-      RunSkein({"fdm", "eval", "--in", folder_ + "/absent.json", "--out", folder_ + "/x.json"});
+      CallSkein({"fdm", "eval", "--in", folder_ + "/absent.json", "--out", folder_ + "/x.json"});
   EXPECT_EQ(absent.exit_code, 1);
   EXPECT_THAT(absent.error, HasSubstr("No such file"));
 }
@@ -176,7 +176,7 @@ TEST_F(FdmPipeline, MalformedInputIsNamedInOneLine) {
 TEST_F(FdmPipeline, TrimIsSteadyFlight) {
   const std::string path = folder_ + "/trim.json";
   ASSERT_EQ(
-      RunSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "500", "--json", path})
+      CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "500", "--json", path})
           .exit_code,
       0);
   const json trim = json::parse(ReadFile(path));
@@ -190,7 +190,7 @@ TEST_F(FdmPipeline, TrimIsSteadyFlight) {
 
 TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
   const ProgramResult result =
-      RunSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "30"});
+      CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "30"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
 }

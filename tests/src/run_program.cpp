@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "src/output_file.h"
+#include "src/program.h"
 
 namespace skein {
 namespace {
@@ -89,6 +90,21 @@ ProgramResult RunningProgram::Wait() {
 ProgramResult RunSkein(const std::vector<std::string>& arguments,
                        const std::function<void()>& before) {
   return RunningProgram(arguments, before).Wait();
+}
+
+ProgramResult CallSkein(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {"skein"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  ProgramResult result;
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  result.exit_code = RunProgram(static_cast<int>(words.size()), argv.data());
+  result.output = ::testing::internal::GetCapturedStdout();
+  result.error = ::testing::internal::GetCapturedStderr();
+  return result;
 }
 
 std::string FreshDirectory(const std::string& name) {

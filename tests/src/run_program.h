@@ -44,6 +44,9 @@ class RunningProgram {
 ProgramResult RunSkein(const std::vector<std::string>& arguments,
                        const std::function<void()>& before = {});
 
+/// The same without a process of its own, for what ends by itself: LibTorch is not loaded again.
+ProgramResult CallSkein(const std::vector<std::string>& arguments);
+
 /// An empty directory for the running test.
 std::string FreshDirectory(const std::string& name);
 

@@ -230,7 +230,7 @@ TEST_F(TrainingPipeline, AResumedRunKeepsItsConfiguration) {
   const ProgramResult longer = RunSkein({"train", "--resume", reference_, "--steps", "1e6"});
   EXPECT_EQ(longer.exit_code, 1);
   ExpectOneLine(longer.error, "run.total_steps");
-  EXPECT_EQ(RunSkein({"train", "--resume", reference_, "--preset", "paper"}).exit_code, 2);
+  EXPECT_EQ(CallSkein({"train", "--resume", reference_, "--preset", "paper"}).exit_code, 2);
 }
 
 TEST_F(TrainingPipeline, DamagedCheckpointsAreRefused) {
@@ -247,7 +247,7 @@ TEST_F(TrainingPipeline, DamagedCheckpointsAreRefused) {
     EXPECT_EQ(resumed.exit_code, 1);
     ExpectOneLine(resumed.error, path);
     EXPECT_THAT(resumed.error, HasSubstr("checkpoint-000011.skein")) << "the way out is named";
-    const ProgramResult flown = RunSkein({"eval", "--policy", path, "--task", "heading"});
+    const ProgramResult flown = CallSkein({"eval", "--policy", path, "--task", "heading"});
     EXPECT_EQ(flown.exit_code, 1);
     ExpectOneLine(flown.error, path);
   }
@@ -296,11 +296,11 @@ TEST_F(TrainingPipeline, ALossThatIsNotFiniteStopsTheRunAndLeavesTheStateBefore)
 }
 
 TEST_F(TrainingPipeline, ADirectoryThatCannotBeMadeIsNamed) {
-  const ProgramResult inside_a_file = RunSkein(TinyTraining("/dev/null/run"));
+  const ProgramResult inside_a_file = CallSkein(TinyTraining("/dev/null/run"));
   EXPECT_EQ(inside_a_file.exit_code, 1);
   ExpectOneLine(inside_a_file.error, "/dev/null/run");
   WriteFile(root_ + "/file", "");
-  const ProgramResult on_a_file = RunSkein(TinyTraining(root_ + "/file"));
+  const ProgramResult on_a_file = CallSkein(TinyTraining(root_ + "/file"));
   EXPECT_EQ(on_a_file.exit_code, 1);
   ExpectOneLine(on_a_file.error, root_ + "/file");
 }
@@ -308,7 +308,7 @@ TEST_F(TrainingPipeline, ADirectoryThatCannotBeMadeIsNamed) {
 TEST_F(TrainingPipeline, ConfigurationErrorsLeaveNoDirectoryBehind) {
   for (const char* assignment :
        {"ppo.gama=0.9", "ppo.gamma=high", "ppo.gamma=2", "env.aircraft=balloon", "nonsense"}) {
-    const ProgramResult result = RunSkein(TinyTraining(run_, {"--set", assignment}));
+    const ProgramResult result = CallSkein(TinyTraining(run_, {"--set", assignment}));
     EXPECT_EQ(result.exit_code, 1) << assignment;
     ExpectOneLine(result.error, "");
     EXPECT_FALSE(fs::exists(run_)) << assignment;

@@ -31,7 +31,7 @@ TEST(Usage, EveryCommandHasHelp) {
                                              {"info"}}) {
     std::vector<std::string> arguments = command;
     arguments.push_back("--help");
-    const ProgramResult result = RunSkein(arguments);
+    const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, HasSubstr("Usage: skein"));
     EXPECT_EQ(result.error, "");
@@ -51,7 +51,7 @@ TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
            {"fdm", "eval", "--in", "x"},
            {"fdm", "eval", "--in", "x", "--out", "y", "--precision", "float16"},
            {"bench"}}) {
-    const ProgramResult result = RunSkein(arguments);
+    const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 2) << result.error;
     EXPECT_EQ(result.error.rfind("skein: error: ", 0), 0u) << result.error;
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
@@ -60,14 +60,14 @@ TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
 }
 
 TEST(Usage, UnknownTasksAndPresetsListTheKnownOnes) {
-  EXPECT_THAT(RunSkein({"train", "heding"}).error,
+  EXPECT_THAT(CallSkein({"train", "heding"}).error,
               HasSubstr("unknown task heding; did you mean heading?"));
-  EXPECT_THAT(RunSkein({"train", "heading", "--preset", "fast"}).error,
+  EXPECT_THAT(CallSkein({"train", "heading", "--preset", "fast"}).error,
               HasSubstr("default, paper"));
 }
 
 TEST(Usage, HelpKeysListsEveryKeyWithItsValue) {
-  const ProgramResult result = RunSkein({"train", "heading", "--help-keys"});
+  const ProgramResult result = CallSkein({"train", "heading", "--help-keys"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.output, HasSubstr("env.action_repeat = 5\n"));
 }
@@ -90,7 +90,7 @@ TEST(Usage, AnUnknownSimdTargetIsAnError) {
 }
 
 TEST(Usage, AFullDeviceIsAnError) {
-  const ProgramResult result = RunSkein({"info", "--json", "/dev/full"});
+  const ProgramResult result = CallSkein({"info", "--json", "/dev/full"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.error, HasSubstr("/dev/full"));
 }
@@ -101,7 +101,7 @@ TEST(Usage, SignatureIsTheSameForAnyNumberOfThreads) {
   for (const char* threads : {"1", "2", "8"}) {
     const std::string path = folder + "/" + threads + ".json";
     const ProgramResult result =
-        RunSkein({"bench", "signature", "--threads", threads, "--json", path});
+        CallSkein({"bench", "signature", "--threads", threads, "--json", path});
     ASSERT_EQ(result.exit_code, 0) << result.error;
     const std::string signature =
         nlohmann::json::parse(ReadFile(path))["signature"].get<std::string>();
@@ -115,7 +115,7 @@ TEST(Usage, SignatureIsTheSameForAnyNumberOfThreads) {
 TEST(Usage, BenchSimReportsRates) {
   const std::string path = FreshDirectory("bench") + "/sim.json";
   const ProgramResult result =
-      RunSkein({"bench", "sim", "--aircraft", "2000", "--steps", "3", "--json", path});
+      CallSkein({"bench", "sim", "--aircraft", "2000", "--steps", "3", "--json", path});
   ASSERT_EQ(result.exit_code, 0) << result.error;
   EXPECT_GT(nlohmann::json::parse(ReadFile(path))["plant"]["aircraft_steps_per_s"], 0);
 }
