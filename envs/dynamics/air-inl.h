@@ -26,7 +26,7 @@ struct AirVectors {
   V pressure;     ///< lbf/ft^2
 };
 
-/// Air at geometric altitude `altitude_ft` for `aircraft`'s atmosphere: relative error 1e-6 against
+/// Air at geometric altitude `altitude_ft` for `aircraft`'s atmosphere: relative error 2e-6 against
 /// AirAt from -5000 to 60,000 ft, 1e-5 to 100,000 ft. Density stays what it is at -5000 ft below
 /// and at about 140,000 ft above. Members that are not used cost nothing.
 template <class D, class V = hn::Vec<D>>
