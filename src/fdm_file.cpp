@@ -57,7 +57,7 @@ FdmParameters Parameters(const Json& object, const std::string& where) {
     Fail(place, fmt::format("expected an object, got {}", found->type_name()));
   }
   for (const auto& [name, value] : found->items()) {
-    const std::string item = place + "." + name;
+    const std::string item = fmt::format("{}.{}", place, name);
     if (name == "xcg") {
       parameters.cg = Number(value, item);
     } else if (name == "heng") {

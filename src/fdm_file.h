@@ -46,7 +46,7 @@ struct FdmTrajectory {
 
 /// What a file of `skein fdm` asks for, with the document it came from (docs/program.md has the
 /// schema). Results that the document already holds are ignored.
-struct FdmFile {
+struct FdmFile {  // NOLINT(bugprone-exception-escape): seen in the JSON library's move alone
   nlohmann::ordered_json document;
   std::vector<FdmPoint> points, edge_points;
   std::vector<FdmTrajectory> trajectories;

@@ -405,6 +405,7 @@ const Setting& FindSetting(const std::string& key, const std::string& where) {
                                   [&key](const Setting& setting) { return setting.key == key; });
   if (found != settings.end()) return *found;
   std::vector<std::string> keys;
+  keys.reserve(settings.size());
   for (const Setting& setting : settings) keys.push_back(setting.key);
   const std::string suggestion = DidYouMean(key, keys);
   throw Error(
