@@ -110,7 +110,7 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
   return parameters;
 }
 
-Policy::Policy(std::shared_ptr<const Parameters> parameters) {
+Policy::Policy(const std::shared_ptr<const Parameters>& parameters) {
   auto folded =
       std::make_shared<Folded>(Folded{parameters, TiledNetwork(NetworkLayout(parameters->shape))});
   folded->network.SetParameters(parameters->values.data());

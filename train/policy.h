@@ -13,7 +13,7 @@ class Policy {
  public:
   struct Parameters;  // train/policy_parameters.h: configuration and the flat parameter vector
 
-  explicit Policy(std::shared_ptr<const Parameters> parameters);
+  explicit Policy(const std::shared_ptr<const Parameters>& parameters);
 
   /// Reads the actor from a policy file or checkpoint (container of docs/file-formats.md). Throws
   /// Error on a file that is truncated, damaged or not one of Skein's.
