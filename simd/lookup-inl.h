@@ -37,6 +37,17 @@ HWY_INLINE V Lookup32(D d, const float* table, VI index) {
   const V low = hn::Load(d, table);
   const V high = hn::Load(d, table + 16);
   return V{_mm512_permutex2var_ps(low.raw, index.raw, high.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  // Not a gather: processors with the mitigation of "Downfall" take over a hundred cycles for one.
+  // Each permutation goes by the index' low three bits; bits 3 and 4, as signs, choose among them.
+  const auto permuted = [&](int first) HWY_ATTR {
+    return _mm256_permutevar8x32_ps(hn::Load(d, table + first).raw, index.raw);
+  };
+  const __m256 bit3 = hn::BitCast(d, hn::ShiftLeft<28>(index)).raw;
+  const __m256 bit4 = hn::BitCast(d, hn::ShiftLeft<27>(index)).raw;
+  const __m256 low = _mm256_blendv_ps(permuted(0), permuted(8), bit3);
+  const __m256 high = _mm256_blendv_ps(permuted(16), permuted(24), bit3);
+  return V{_mm256_blendv_ps(low, high, bit4)};
 #else
   return hn::GatherIndex(d, table, index);
 #endif
