@@ -216,6 +216,9 @@ struct VecEnv::Impl {
       if (scratch.termination[i] == static_cast<std::int32_t>(Termination::kNone)) continue;
       output.episode_return[i] = block.episode_return[i];
       output.episode_steps[i] = block.step[i];
+      for (int column = 0; output.final_state != nullptr && column < kNumColumns; ++column) {
+        output.final_state[i * kNumColumns + column] = block.flight[column][i];
+      }
       BeginEpisode(block, i, block.episode[i] + 1);
     }
   }
@@ -318,6 +321,9 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
     part.episode_steps += begin;
     if (part.final_observation != nullptr) {
       part.final_observation += static_cast<std::size_t>(begin) * kObservationSize;
+    }
+    if (part.final_state != nullptr) {
+      part.final_state += static_cast<std::size_t>(begin) * kNumColumns;
     }
     impl_->Step(impl_->BlockOf(tile, begin), action + static_cast<std::size_t>(begin) * kActionSize,
                 part);

@@ -22,6 +22,9 @@ struct StepOutput {
   /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
   /// observation. May be null if the time limit is terminal.
   float* final_observation = nullptr;
+  /// Row-major [count][kNumColumns] (envs/dynamics/state.h); rows of episodes that ended get the
+  /// state at the end of the decision, before the new episode (else unchanged). May be null.
+  float* final_state = nullptr;
 };
 
 /// N aircraft flying one task, as independent tiles. Tiles may be driven from different threads at

@@ -93,6 +93,9 @@ class HeadingTask : public Task {
 
   int num_columns() const override { return kNumHeadingColumns; }
   int num_targets() const override { return kNumHeadingColumns; }
+  std::vector<TargetQuantity> target_quantities() const override {
+    return {{"altitude_ft"}, {"yaw_deg", true}, {"true_airspeed_fps"}};
+  }
 
   void Reset(const FlightStart& start, simd::RandomStream* random, float* columns) const override {
     const auto around = [random](double centre, double change) {

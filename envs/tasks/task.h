@@ -29,6 +29,13 @@ struct TaskVerdict {
   std::int32_t* reached = nullptr;  ///< 1 where the target counts as reached, else 0
 };
 
+/// What a target is compared with: a column of recorded flights (docs/file-formats.md). Of an angle
+/// the target is in radians, the column in degrees, and their difference is wrapped to +-180 deg.
+struct TargetQuantity {
+  const char* column = nullptr;
+  bool is_angle = false;
+};
+
 /// What the aircraft of an environment are asked to do. One object serves all tiles: it holds
 /// settings, and each aircraft's targets live in the tile's task columns, which a `Tile` of
 /// num_columns() columns shows. Targets come first.
@@ -38,6 +45,8 @@ class Task {
 
   virtual int num_columns() const = 0;
   virtual int num_targets() const = 0;
+  /// One per target, in their order.
+  virtual std::vector<TargetQuantity> target_quantities() const = 0;
 
   /// Draws the task columns of one aircraft at the start of an episode.
   virtual void Reset(const FlightStart& start, simd::RandomStream* random,
