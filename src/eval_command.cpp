@@ -10,9 +10,11 @@
 #include "src/commands.h"
 #include "src/configuration.h"
 #include "src/evaluation_report.h"
+#include "src/flight_file.h"
 #include "src/output_file.h"
 #include "src/run_directory.h"
 #include "train/policy.h"
+#include "train/record_flights.h"
 
 namespace skein {
 namespace {
@@ -30,6 +32,8 @@ struct EvalOptions {
   std::uint64_t seed = 0;
   int threads = 0;
   std::string json;
+  std::string flights;
+  int flights_count = 8;
 };
 
 /// The policy file that stands for a run: the best, else the final one, else the newest checkpoint.
@@ -74,6 +78,17 @@ Policy UntrainedPolicy(const ProgramConfig& config, std::uint64_t seed) {
   return Policy::Untrained(config.train.network, env.observation_size(), env.action_size(), seed);
 }
 
+/// Writes the first episodes of the mode that is reported first.
+void WriteFlights(const EvalOptions& options, const Policy& policy, const EnvConfig& env,
+                  WorkerPool& pool) {
+  const EvaluationOptions evaluation{options.episodes, options.seed, options.deterministic};
+  const std::vector<RecordedFlight> flights =
+      RecordFlights(policy, env, evaluation, options.flights_count, pool);
+  WriteFile(options.flights, FlightsCsv(env, flights));
+  fmt::print("{}: {} flights with {}\n", options.flights, flights.size(),
+             options.deterministic ? "the mean action" : "sampled actions");
+}
+
 void Evaluate(const EvalOptions& options) {
   const bool is_run = IsRunDirectory(options.policy);
   if (!is_run && std::filesystem::is_directory(options.policy)) {
@@ -99,6 +114,7 @@ void Evaluate(const EvalOptions& options) {
   fmt::print("{} on {}, {} episodes, seed {}, an action every {} control steps\n{}\n", path,
              config.train.env.task, options.episodes, options.seed, config.train.env.action_repeat,
              ToText(report));
+  if (!options.flights.empty()) WriteFlights(options, *policy, config.train.env, pool);
 }
 
 }  // namespace
@@ -136,12 +152,25 @@ void AddEvalCommand(CLI::App* app) {
                    "worker threads; results do not depend on it (default: one per CPU)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--json", options->json, "write the results here")->type_name("FILE");
+  CLI::Option* flights =
+      command
+          ->add_option("--flights", options->flights,
+                       "write the first episodes here, a CSV row for every control step, for "
+                       "scripts/plot flights (mean or sampled actions, as --deterministic says)")
+          ->type_name("FILE");
+  command
+      ->add_option("--flights-count", options->flights_count,
+                   "how many of them (all, if there are fewer)")
+      ->check(CLI::Range(1, 1000))
+      ->needs(flights)
+      ->capture_default_str();
   command->footer(
       "A policy file knows for how many control steps it holds an action; --set "
       "env.action_repeat=N\n"
       "flies it at another rate. Success counts episodes that reach the target.\n"
       "Example: skein eval --policy runs/short --task heading --episodes 1000 --deterministic "
-      "--json result.json");
+      "--json result.json\n"
+      "         skein eval --policy runs/short --deterministic --flights flights.csv");
   command->callback([options] { Evaluate(*options); });
 }
 

@@ -1,13 +1,10 @@
 #include "train/evaluate.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "envs/vec_env.h"
 #include "simd/error.h"
-#include "simd/random.h"
 
 namespace skein {
 namespace {
@@ -27,15 +24,10 @@ struct Episodes {
 void FlyTile(const Policy& policy, VecEnv& env, int tile, const EvaluationOptions& options,
              Episodes& episodes) {
   const int begin = env.tile_begin(tile), count = env.tile_count(tile);
-  const int actions = env.action_size();
-  std::vector<float> observation(static_cast<std::size_t>(count) * env.observation_size());
-  std::vector<float> state(static_cast<std::size_t>(count) * policy.state_size(), 0.0f);
-  std::vector<float> action(static_cast<std::size_t>(count) * actions), noise(action.size());
-  std::vector<float> log_std(actions), reward(count), episode_return(count);
-  std::vector<float> final_observation(observation.size());
+  std::vector<float> reward(count), episode_return(count);
+  std::vector<float> final_observation(static_cast<std::size_t>(count) * env.observation_size());
   std::vector<std::uint8_t> termination(count);
   std::vector<std::int32_t> steps(count);
-  std::vector<std::uint32_t> decision_low(count), decision_high(count, 0);
   StepOutput output;
   output.reward = reward.data();
   output.termination = termination.data();
@@ -43,24 +35,12 @@ void FlyTile(const Policy& policy, VecEnv& env, int tile, const EvaluationOption
   output.episode_steps = steps.data();
   output.final_observation = final_observation.data();
 
-  int flying = count;
-  for (std::uint32_t decision = 0; flying > 0; ++decision) {
-    env.Observe(tile, observation.data());
-    policy.Act(count, observation.data(), state.data(), action.data(), log_std.data());
-    if (!options.deterministic) {
-      std::fill(decision_low.begin(), decision_low.end(), decision);
-      simd::FillNormals(options.seed ^ kEvaluationStream, static_cast<std::uint32_t>(begin),
-                        decision_low.data(), decision_high.data(),
-                        simd::RandomPurpose::kActionNoise, count, actions, noise.data());
-      for (int i = 0; i < count * actions; ++i) {
-        action[i] += std::exp(log_std[i % actions]) * noise[i];
-      }
-    }
-    env.Step(tile, action.data(), output);
+  TilePilot pilot = MakeEvaluationPilot(policy, env, tile, options);
+  for (int flying = count; flying > 0;) {
+    env.Step(tile, pilot.Decide().data(), output);
     for (int i = 0; i < count; ++i) {
       if (termination[i] == static_cast<std::uint8_t>(Termination::kNone)) continue;
-      std::fill_n(state.begin() + static_cast<std::int64_t>(i) * policy.state_size(),
-                  policy.state_size(), 0.0f);
+      pilot.Forget(i);
       if (episodes.termination[begin + i] != static_cast<std::uint8_t>(Termination::kNone)) {
         continue;
       }
@@ -74,8 +54,8 @@ void FlyTile(const Policy& policy, VecEnv& env, int tile, const EvaluationOption
 
 }  // namespace
 
-EvaluationResult Evaluate(const Policy& policy, const EnvConfig& config,
-                          const EvaluationOptions& options, WorkerPool& pool) {
+VecEnv MakeEvaluationEnv(const Policy& policy, const EnvConfig& config,
+                         const EvaluationOptions& options) {
   if (options.episodes <= 0) throw Error("an evaluation needs at least one episode");
   EnvConfig whole_episodes = config;
   whole_episodes.stagger_clocks = false;
@@ -88,6 +68,17 @@ EvaluationResult Evaluate(const Policy& policy, const EnvConfig& config,
                 std::to_string(env.observation_size()) + " and " +
                 std::to_string(env.action_size()));
   }
+  return env;
+}
+
+TilePilot MakeEvaluationPilot(const Policy& policy, const VecEnv& env, int tile,
+                              const EvaluationOptions& options) {
+  return {policy, env, tile, options.seed ^ kEvaluationStream, options.deterministic};
+}
+
+EvaluationResult Evaluate(const Policy& policy, const EnvConfig& config,
+                          const EvaluationOptions& options, WorkerPool& pool) {
+  VecEnv env = MakeEvaluationEnv(policy, config, options);
   Episodes episodes;
   episodes.termination.resize(options.episodes);
   episodes.episode_return.resize(options.episodes);

@@ -5,8 +5,10 @@
 
 #include "envs/env_config.h"
 #include "envs/termination.h"
+#include "envs/vec_env.h"
 #include "envs/worker_pool.h"
 #include "train/policy.h"
+#include "train/tile_pilot.h"
 
 namespace skein {
 
@@ -28,5 +30,13 @@ struct EvaluationResult {
 
 EvaluationResult Evaluate(const Policy& policy, const EnvConfig& env,
                           const EvaluationOptions& options, WorkerPool& pool);
+
+/// What Evaluate flies: an aircraft for every episode, its first. Throws Error where the policy
+/// does not fit the task.
+VecEnv MakeEvaluationEnv(const Policy& policy, const EnvConfig& env,
+                         const EvaluationOptions& options);
+/// And who flies a tile of it.
+TilePilot MakeEvaluationPilot(const Policy& policy, const VecEnv& env, int tile,
+                              const EvaluationOptions& options);
 
 }  // namespace skein

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "src/output_file.h"
@@ -60,6 +61,40 @@ TEST_F(EvaluationPipeline, DependsOnTheSeedAndNotOnThreads) {
   const auto first = Fly("first", {"--seed", "5", "--threads", "1"});
   EXPECT_EQ(first, Fly("again", {"--seed", "5", "--threads", "3"}));
   EXPECT_NE(first["return_mean"], Fly("other", {"--seed", "6"})["return_mean"]);
+}
+
+TEST_F(EvaluationPipeline, RecordsFlightsAndChangesNothingByIt) {
+  const auto plain = Fly("plain");
+  const std::string one = folder_ + "/one.csv", three = folder_ + "/three.csv";
+  EXPECT_EQ(plain, Fly("one", {"--flights", one, "--flights-count", "3", "--threads", "1"}));
+  EXPECT_EQ(plain, Fly("three", {"--flights", three, "--flights-count", "3", "--threads", "3"}));
+  const std::string text = ReadFile(one);
+  EXPECT_EQ(text, ReadFile(three));
+  EXPECT_EQ(text.rfind("episode,time_s,north_ft,", 0), 0u);
+  // Each flight's last row names its end.
+  std::size_t ends = 0;
+  for (const char* kind : {"ResetTarget\n", "UnreachTarget\n", "Overload\n", "ExtremeState\n",
+                           "LowAltitude\n", "LowSpeed\n", "HighSpeed\n", "NonFinite\n"}) {
+    for (std::size_t at = text.find(kind); at != std::string::npos; at = text.find(kind, at + 1)) {
+      ++ends;
+    }
+  }
+  EXPECT_EQ(ends, 3u);
+  const std::string mean = folder_ + "/mean.csv";
+  Fly("mean", {"--flights", mean, "--flights-count", "3", "--deterministic"});
+  EXPECT_NE(text, ReadFile(mean));
+}
+
+TEST_F(EvaluationPipeline, FlightsThatCannotBeWrittenAreAnError) {
+  for (const std::string& path : {folder_ + "/absent/flights.csv", std::string("/dev/full")}) {
+    const ProgramResult result =
+        CallSkein(Evaluation(folder_ + "/result.json", {"--flights", path}));
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.error, HasSubstr(path));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+  const ProgramResult alone = CallSkein(Evaluation("result.json", {"--flights-count", "3"}));
+  EXPECT_EQ(alone.exit_code, 2) << "a number of flights without a file for them";
 }
 
 TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "envs/dynamics/state.h"
+#include "envs/env_config.h"
+#include "envs/termination.h"
+#include "envs/worker_pool.h"
+#include "train/evaluate.h"
+#include "train/policy.h"
+
+namespace skein {
+
+/// The end of one control step.
+struct RecordedStep {
+  std::array<float, kNumColumns> state{};  ///< envs/dynamics/state.h
+  std::vector<float> action;               ///< held during the step, clipped to [-1, 1]
+  float reward = 0;                        ///< of the step, terminal reward included
+  Termination termination = Termination::kNone;
+};
+
+/// One whole episode.
+struct RecordedFlight {
+  std::array<float, kNumColumns> initial_state{};
+  std::vector<float> target;  ///< Task::target_quantities
+  std::vector<RecordedStep> steps;
+};
+
+/// The first `count` episodes (all, if there are fewer) of Evaluate with the same arguments, flown
+/// again control step by control step: bit for bit what was evaluated, whatever the threads.
+std::vector<RecordedFlight> RecordFlights(const Policy& policy, const EnvConfig& env,
+                                          const EvaluationOptions& options, int count,
+                                          WorkerPool& pool);
+
+}  // namespace skein
