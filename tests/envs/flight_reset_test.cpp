@@ -1,0 +1,204 @@
+#include "envs/flight_reset.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "envs/aircraft/engine.h"
+#include "envs/aircraft/f16/f16.h"
+#include "envs/dynamics/attitude.h"
+#include "simd/error.h"
+
+namespace skein {
+namespace {
+
+FreshFlight DrawOf(const FlightReset& reset, std::uint32_t episode) {
+  simd::RandomStream random({7, 0, episode, 0, simd::RandomPurpose::kInitialState});
+  return reset.Draw(&random);
+}
+
+double At(const FreshFlight& flight, int column) {
+  return flight.columns[static_cast<std::size_t>(column)];
+}
+
+RigidBodyState BodyOf(const FreshFlight& flight) {
+  RigidBodyState state;
+  for (int i = 0; i < kNumRigidBody; ++i) state[i] = At(flight, i);
+  return state;
+}
+
+SurfaceAngles SurfacesOf(const FreshFlight& flight) {
+  return {At(flight, kElevator), At(flight, kAileron), At(flight, kRudder),
+          At(flight, kLeadingEdgeFlap)};
+}
+
+/// What the float64 plant makes of a fresh flight.
+PlantOutput EvaluateFresh(const Plant& plant, const FreshFlight& flight) {
+  const RigidBodyState state = BodyOf(flight);
+  const SurfaceAngles surfaces = SurfacesOf(flight);
+  Controls controls;
+  controls.thrust_lbf = Thrust(plant.aircraft().engine, At(flight, kPower), -At(flight, kDown),
+                               MeasureAir(plant.atmosphere(), state).mach);
+  controls.elevator_deg = surfaces.elevator_deg;
+  controls.aileron_deg = surfaces.aileron_deg;
+  controls.rudder_deg = surfaces.rudder_deg;
+  controls.leading_edge_flap_deg = surfaces.leading_edge_flap_deg;
+  return plant.Evaluate(state, controls);
+}
+
+constexpr int kDraws = 400;
+
+TEST(FlightResetTest, DrawsAltitudeAndSpeedUniformly) {
+  EnvConfig config;
+  config.initial.altitude_ft = {15000, 25000};
+  config.initial.true_airspeed_fps = {700, 1100};
+  const FlightReset reset(config, F16());
+  double altitude_sum = 0, speed_sum = 0, product_sum = 0;
+  for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
+    const FreshFlight flight = DrawOf(reset, episode);
+    // In units of the ranges' halves, from their middles. Float32 rounds at their ends.
+    const double altitude = (-At(flight, kDown) - 20000) / 5000;
+    const double speed = (BodyOf(flight).segment<3>(kU).norm() - 900) / 200;
+    constexpr double kEnd = 1 + 1e-6;
+    EXPECT_LE(std::abs(altitude), kEnd);
+    EXPECT_LE(std::abs(speed), kEnd);
+    EXPECT_NEAR(flight.start.altitude_ft, -At(flight, kDown), 1e-3);
+    EXPECT_NEAR(flight.start.true_airspeed_ft_s, 900 + 200 * speed, 1e-3);
+    altitude_sum += altitude;
+    speed_sum += speed;
+    product_sum += altitude * speed;
+  }
+  // Five standard deviations of the mean of a uniform variable on [-1, 1], and of the product of
+  // two independent ones.
+  const double mean_tolerance = 5 * std::sqrt(1.0 / 3 / kDraws);
+  EXPECT_NEAR(altitude_sum / kDraws, 0, mean_tolerance);
+  EXPECT_NEAR(speed_sum / kDraws, 0, mean_tolerance);
+  EXPECT_NEAR(product_sum / kDraws, 0, 5 * std::sqrt(1.0 / 9 / kDraws));
+}
+
+TEST(FlightResetTest, DependsOnTheStreamAlone) {
+  const FlightReset one(EnvConfig{}, F16()), other(EnvConfig{}, F16());
+  DrawOf(other, 5);
+  EXPECT_EQ(DrawOf(one, 3).columns, DrawOf(other, 3).columns);
+  EXPECT_NE(DrawOf(one, 3).columns, DrawOf(one, 4).columns);
+}
+
+TEST(FlightResetTest, FliesNorthFromTheOriginWithoutTurning) {
+  for (const bool trimmed : {true, false}) {
+    EnvConfig config;
+    config.initial.trimmed = trimmed;
+    const FlightReset reset(config, F16());
+    for (std::uint32_t episode = 0; episode < 20; ++episode) {
+      const FreshFlight flight = DrawOf(reset, episode);
+      for (const int column : {kNorth, kEast, kP, kQ, kR, kV}) EXPECT_EQ(At(flight, column), 0);
+      const RigidBodyState state = BodyOf(flight);
+      const EulerAngles attitude = EulerFromQuaternion(state.segment<4>(kQ0));
+      EXPECT_NEAR((state.segment<4>(kQ0).norm()), 1, 1e-6);
+      EXPECT_NEAR(attitude.yaw, 0, 1e-6);
+      EXPECT_NEAR(attitude.pitch, flight.start.pitch_rad, 1e-6);
+      EXPECT_EQ(flight.start.yaw_rad, 0);
+      EXPECT_EQ(At(flight, kPowerCommand), At(flight, kPower));
+    }
+  }
+}
+
+TEST(FlightResetTest, TrimmedStartsAreSteadyFlight) {
+  // Interpolation between trims, and the kinks of the tables between them: 0.02 g, of which a
+  // start without trim has fifty times as much, and turning of at most 1 deg/s^2 or so.
+  constexpr double kAcceleration = 0.6, kAngularAcceleration = 0.02, kClimb = 0.5;
+  const EnvConfig config;
+  const Plant plant(F16(), config.atmosphere);
+  const FlightReset reset(config, F16());
+  for (std::uint32_t episode = 0; episode < 50; ++episode) {
+    const FreshFlight flight = DrawOf(reset, episode);
+    const PlantOutput output = EvaluateFresh(plant, flight);
+    for (const int column : {kU, kV, kW}) EXPECT_NEAR(output.state_rate[column], 0, kAcceleration);
+    for (const int column : {kP, kQ, kR}) {
+      EXPECT_NEAR(output.state_rate[column], 0, kAngularAcceleration);
+    }
+    EXPECT_NEAR(output.state_rate[kDown], 0, kClimb);
+    EXPECT_NEAR(output.nz, At(flight, kNz), 0.01);
+    EXPECT_NEAR(output.ny, At(flight, kNy), 0.01);
+  }
+}
+
+TEST(FlightResetTest, FlightControlIsAtRest) {
+  // Of float32 columns, over a second of readings that do not change.
+  constexpr double kToleranceDeg = 2e-3;
+  for (const bool trimmed : {true, false}) {
+    EnvConfig config;
+    config.initial.trimmed = trimmed;
+    const FlightReset reset(config, F16());
+    const FlightControl flight_control(F16(), config.flight_control, config.control_interval_s);
+    for (std::uint32_t episode = 0; episode < 20; ++episode) {
+      const FreshFlight flight = DrawOf(reset, episode);
+      const AirData air = MeasureAir(config.atmosphere, BodyOf(flight));
+      FlightSensors sensors;
+      sensors.alpha_deg = air.alpha_rad * kDegPerRad;
+      sensors.nz = At(flight, kNz);
+      sensors.ny = At(flight, kNy);
+      sensors.dynamic_pressure_psf = air.dynamic_pressure_psf;
+      sensors.static_pressure_psf = air.static_pressure_psf;
+      FlightControlState filters;
+      for (int i = 0; i < kNumFlightControlStates; ++i) {
+        filters[static_cast<std::size_t>(i)] = At(flight, kAlphaFilter + i);
+      }
+      const SurfaceAngles at_reset = SurfacesOf(flight);
+      // Lag and lead filters that were not at rest would move; the pitch integrator may, slowly, by
+      // the load factor that differs from one (an untrimmed start is not in equilibrium).
+      const SurfaceAngles first = flight_control.Step({}, sensors, &filters);
+      EXPECT_NEAR(first.elevator_deg, at_reset.elevator_deg, kToleranceDeg);
+      EXPECT_NEAR(first.aileron_deg, at_reset.aileron_deg, kToleranceDeg);
+      EXPECT_NEAR(first.rudder_deg, at_reset.rudder_deg, kToleranceDeg);
+      if (!trimmed) continue;
+      SurfaceAngles last = first;
+      for (int step = 0; step < 50; ++step) last = flight_control.Step({}, sensors, &filters);
+      EXPECT_NEAR(last.aileron_deg, at_reset.aileron_deg, kToleranceDeg);
+      EXPECT_NEAR(last.rudder_deg, at_reset.rudder_deg, kToleranceDeg);
+      EXPECT_NEAR(last.leading_edge_flap_deg, at_reset.leading_edge_flap_deg, 0.05);
+    }
+  }
+}
+
+TEST(FlightResetTest, UntrimmedStartsAreLevelWithThePapersThrust) {
+  EnvConfig config;
+  config.initial.trimmed = false;
+  const Plant plant(F16(), config.atmosphere);
+  const FlightReset reset(config, F16());
+  for (std::uint32_t episode = 0; episode < 20; ++episode) {
+    const FreshFlight flight = DrawOf(reset, episode);
+    const double mach = MeasureAir(config.atmosphere, BodyOf(flight)).mach;
+    // Thrust from a float32 power.
+    EXPECT_NEAR(Thrust(plant.aircraft().engine, At(flight, kPower), -At(flight, kDown), mach), 2000,
+                0.1);
+    for (const int column : {kW, kElevator, kAileron, kRudder, kLeadingEdgeFlap, kQx, kQy}) {
+      EXPECT_EQ(At(flight, column), 0) << column;
+    }
+    const PlantOutput output = EvaluateFresh(plant, flight);
+    EXPECT_NEAR(output.nz, At(flight, kNz), 1e-4);
+    EXPECT_NEAR(output.ny, At(flight, kNy), 1e-4);
+  }
+}
+
+TEST(FlightResetTest, RangesOfOnePointAndDirectControlDo) {
+  EnvConfig config;
+  config.flight_control = FlightControlMode::kDirect;
+  config.initial.altitude_ft = {12000, 12000};
+  config.initial.true_airspeed_fps = {800, 800};
+  const FreshFlight flight = DrawOf(FlightReset(config, F16()), 0);
+  EXPECT_EQ(At(flight, kDown), -12000);
+  EXPECT_NEAR(std::hypot(At(flight, kU), At(flight, kW)), 800, 1e-3);
+}
+
+TEST(FlightResetTest, RefusesStartsThatCannotBeTrimmed) {
+  EnvConfig config;
+  config.initial.altitude_ft = {45000, 50000};
+  config.initial.true_airspeed_fps = {150, 200};
+  EXPECT_THROW(FlightReset(config, F16()), Error);
+  config.initial.trimmed = false;
+  EXPECT_NO_THROW(FlightReset(config, F16()));
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,68 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "envs/tasks/task.h"
+#include "simd/error.h"
+
+namespace skein {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+EnvConfig ConfigOf(const std::string& task) {
+  EnvConfig config;
+  config.task = task;
+  return config;
+}
+
+TEST(TaskRegistryTest, EveryNameMakesATaskWhoseColumnsHoldItsTargets) {
+  const std::vector<std::string> names = TaskNames();
+  ASSERT_FALSE(names.empty());
+  for (const std::string& name : names) {
+    const std::unique_ptr<Task> task = MakeTask(ConfigOf(name));
+    ASSERT_NE(task, nullptr) << name;
+    EXPECT_GE(task->num_targets(), 1) << name;
+    EXPECT_LE(task->num_targets(), task->num_columns()) << name;
+    EXPECT_EQ(task->target_quantities().size(), static_cast<std::size_t>(task->num_targets()))
+        << name;
+  }
+}
+
+TEST(TaskRegistryTest, TasksTakeTheirSettingsFromTheConfiguration) {
+  // Targets drawn from a range of no width are where the flight starts.
+  EnvConfig config = ConfigOf("heading");
+  config.heading.altitude_change_ft = config.heading.yaw_change_rad =
+      config.heading.speed_change_fps = 0;
+  simd::RandomStream random({1, 2, 3, 4, simd::RandomPurpose::kTarget});
+  float columns[3] = {};
+  MakeTask(config)->Reset({12000, 800, 0.1, -1.5}, &random, columns);
+  EXPECT_FLOAT_EQ(columns[0], 12000);
+  EXPECT_FLOAT_EQ(columns[1], -1.5);
+  EXPECT_FLOAT_EQ(columns[2], 800);
+}
+
+TEST(TaskRegistryTest, NamesAreDistinctAndHoldTheDefault) {
+  const std::vector<std::string> names = TaskNames();
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  EXPECT_THAT(names, Contains(EnvConfig{}.task));
+}
+
+TEST(TaskRegistryTest, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
+  for (const std::string unknown : {"landing", "", "Heading", "heading "}) {
+    try {
+      MakeTask(ConfigOf(unknown));
+      FAIL() << '"' << unknown << "\" was made";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr('"' + unknown + '"'));
+      for (const std::string& name : TaskNames()) EXPECT_THAT(error.what(), HasSubstr(name));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein
