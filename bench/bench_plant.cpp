@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include "envs/aircraft/f16/f16.h"
 #include "envs/dynamics/plant_kernel.h"
 #include "envs/worker_pool.h"
+#include "simd/denormals.h"
 #include "simd/peak.h"
 #include "simd/target.h"
 
@@ -25,8 +27,8 @@ constexpr int kTileSize = 512;
 constexpr float kDt = 0.02f;
 
 /// Columns of a number of aircraft in tiles, aligned to cache lines, at random flight conditions of
-/// the whole envelope: neighbours read different table cells, as in training. The state is restored
-/// now and then, so that free flight does not leave the tables.
+/// the whole envelope: neighbours read different table cells, as in training. Flights without
+/// control leave the tables sooner or later: Restart.
 class Flock {
  public:
   explicit Flock(int count) : count_(count), stride_(TileStride(std::min(count, kTileSize))) {
@@ -89,30 +91,53 @@ double PeakGflops(int threads) {
   return measured[threads] = simd::MeasurePeak(threads).gflops;
 }
 
-void Report(benchmark::State& state, int aircraft, double flops, int threads) {
-  using benchmark::Counter;
-  const double steps = static_cast<double>(state.iterations()) * aircraft;
-  state.counters["aircraft_steps"] = Counter(steps, Counter::kIsRate);
-  state.counters["of_peak"] =
-      Counter(steps * flops / (PeakGflops(threads) * 1e9), Counter::kIsRate);
-  state.SetLabel(simd::Name(simd::ActiveTarget()));
-}
+/// Times the calls that it is given, and reports them as aircraft per second and as the share of
+/// the measured multiply-add rate of as many threads that their operations use.
+class Meter {
+ public:
+  Meter(benchmark::State* state, int aircraft, double flops_per_aircraft, int threads)
+      : state_(*state), aircraft_(aircraft), flops_(flops_per_aircraft), threads_(threads) {}
+
+  template <class Call>
+  void Time(const Call& call) {
+    const auto start = Clock::now();
+    call();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    state_.SetIterationTime(seconds);
+    seconds_ += seconds;
+  }
+
+  void Report() const {
+    const double rate = static_cast<double>(state_.iterations()) * aircraft_ / seconds_;
+    state_.counters["aircraft_per_s"] = rate;
+    state_.counters["fraction_of_peak"] = rate * flops_ / (PeakGflops(threads_) * 1e9);
+    state_.SetLabel(simd::Name(simd::ActiveTarget()));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  benchmark::State& state_;
+  int aircraft_;
+  double flops_;
+  int threads_;
+  double seconds_ = 0;
+};
 
 void BM_Rk4(benchmark::State& state) {
   constexpr int kStepsPerFlight = 100;
   Flock flock(static_cast<int>(state.range(0)));
   WorkerPool pool(static_cast<int>(state.range(1)));
+  Meter meter(&state, flock.count(), kFlopsPerRk4Step, pool.threads());
   int step = 0;
   for (auto _ : state) {
-    if (++step % kStepsPerFlight == 0) {
-      state.PauseTiming();
-      flock.Restart();
-      state.ResumeTiming();
-    }
-    pool.ForEach(flock.tiles(),
-                 [&](int tile, int) { StepTile(TestAircraft(), flock.At(tile), kDt, 1); });
+    if (++step % kStepsPerFlight == 0) flock.Restart();
+    meter.Time([&] {
+      pool.ForEach(flock.tiles(),
+                   [&](int tile, int) { StepTile(TestAircraft(), flock.At(tile), kDt, 1); });
+    });
   }
-  Report(state, flock.count(), kFlopsPerRk4Step, pool.threads());
+  meter.Report();
 }
 BENCHMARK(BM_Rk4)
     ->ArgNames({"aircraft", "threads"})
@@ -122,7 +147,7 @@ BENCHMARK(BM_Rk4)
     ->Args({1000000, 1})
     ->Args({1000000, 2})
     ->Unit(benchmark::kMicrosecond)
-    ->UseRealTime();
+    ->UseManualTime();
 
 void BM_Evaluate(benchmark::State& state) {
   Flock flock(kTileSize);
@@ -131,16 +156,16 @@ void BM_Evaluate(benchmark::State& state) {
   std::vector<float> rates(tile.stride * kNumRigidBody), coefficients(tile.stride * 6);
   const ControlColumns controls{thrust.data(), tile[kElevator], tile[kAileron], tile[kRudder],
                                 tile[kLeadingEdgeFlap]};
-  WorkerPool pool(1);
+  const simd::DenormalsFlushed flushed;  // as on the environment's workers
+  Meter meter(&state, kTileSize, kFlopsPerEvaluation, 1);
   for (auto _ : state) {
-    pool.ForEach(1, [&](int, int) {
-      EvaluateTile(TestAircraft(), tile, controls, rates.data(), coefficients.data());
-    });
+    meter.Time(
+        [&] { EvaluateTile(TestAircraft(), tile, controls, rates.data(), coefficients.data()); });
     benchmark::DoNotOptimize(rates.data());
   }
-  Report(state, kTileSize, kFlopsPerEvaluation, 1);
+  meter.Report();
 }
-BENCHMARK(BM_Evaluate)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BM_Evaluate)->Unit(benchmark::kMicrosecond)->UseManualTime();
 
 }  // namespace
 }  // namespace skein
