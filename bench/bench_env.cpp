@@ -1,5 +1,6 @@
 // Rates of the environment's parts and of whole control steps, in aircraft-steps per second. BM_Rk4
-// is the yardstick: the other parts of a step should cost 20 to 30 % of it.
+// is the yardstick of the other parts. Observations and their noise are made once per decision, the
+// others in every control step.
 
 #include <benchmark/benchmark.h>
 

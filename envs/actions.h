@@ -8,9 +8,9 @@ namespace skein {
 inline constexpr int kActionSize = 4;
 
 /// Turns a tile's actions, row-major [tile.count][kActionSize], into pilot commands: kActionSize
-/// columns `pilot_stride` apart, clipped to [-1, 1], the throttle brought to [0, 1]. Lanes beyond
-/// the tile's last aircraft get centred commands. An action that is not finite makes its aircraft's
-/// kU NaN, so that its episode ends as NonFinite.
+/// columns `pilot_stride` apart, clipped to [-1, 1], the throttle brought to [0, 1]. Where the last
+/// aircraft does not fill a vector, the rest of its lanes get centred commands. An action that is
+/// not finite makes its aircraft's kU NaN, so that its episode ends as NonFinite.
 void TakeActions(const float* action, Tile tile, float* pilot, std::size_t pilot_stride);
 
 }  // namespace skein

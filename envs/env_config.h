@@ -23,22 +23,22 @@ struct InitialConfig {
 
 /// Targets of the Heading task relative to the initial state, and when they count as reached.
 struct HeadingConfig {
-  double altitude_change_ft = 3000;  ///< altitude0 + U(-x, x)
-  double yaw_change_rad = 3;         ///< yaw0 + U(-x, x), wrapped
-  double speed_change_fps = 300;     ///< speed0 + U(-x, x)
+  double altitude_change_ft = 3000;  ///< initial altitude + U(-x, x)
+  double yaw_change_rad = 3;         ///< initial yaw + U(-x, x), wrapped
+  double speed_change_fps = 300;     ///< initial true airspeed + U(-x, x)
   double altitude_tolerance_ft = 100;
   double yaw_tolerance_deg = 5;
   double speed_tolerance_fps = 20;
   int earliest_success_step = 300;  ///< control steps
 };
 
-/// Limits of the paper's Table 5 and the reward for ending at one.
+/// Limits of the paper's Table 5 and the rewards for ending at one and at the target.
 struct TerminationConfig {
   Range alpha_deg{-20, 45};
   Range beta_deg{-30, 30};
   double max_mach = 3, min_mach = 0.01;
   double min_altitude_ft = 2500;
-  double max_load_factor = 10;
+  double max_load_factor = 10;  ///< g, of nz; there is no limit to negative ones
   double failure_reward = -200;
   double success_reward = 200;
 };

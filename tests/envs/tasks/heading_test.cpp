@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "envs/dynamics/attitude.h"
-#include "simd/error.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {
@@ -152,18 +152,6 @@ TEST_P(HeadingTest, TargetsAreDrawnAroundTheStart) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, HeadingTest, testing::ValuesIn(simd::SupportedTargets()),
                          [](const auto& test) { return std::string(Name(test.param)); });
-
-TEST(TaskRegistry, RefusesAnUnknownTaskAndListsTheKnown) {
-  EnvConfig config;
-  config.task = "headin";
-  try {
-    MakeTask(config);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("headin"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("known: heading"), std::string::npos);
-  }
-}
 
 }  // namespace
 }  // namespace skein

@@ -53,7 +53,7 @@ TEST(TaskRegistryTest, NamesAreDistinctAndHoldTheDefault) {
 }
 
 TEST(TaskRegistryTest, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
-  for (const std::string unknown : {"landing", "", "Heading", "heading "}) {
+  for (const std::string unknown : {"landing", "", "headin", "Heading", "heading "}) {
     try {
       MakeTask(ConfigOf(unknown));
       FAIL() << '"' << unknown << "\" was made";
