@@ -7,6 +7,7 @@
 #include <string>
 
 #include "envs/air/atmosphere_constants.h"
+#include "envs/aircraft/engine.h"
 #include "envs/dynamics/kernel_tables.h"
 #include "envs/dynamics/plant_kernel.h"
 #include "simd/error.h"
@@ -106,12 +107,15 @@ KernelConstants MakeConstants(const Airframe& a) {
   return k;
 }
 
-void FillThrust(const std::vector<double>& table, const char* name, int rows, int columns,
-                KernelCells* cells) {
+void RequireEngineTable(const std::vector<double>& table, const char* name, int rows, int columns) {
   if (table.size() != static_cast<std::size_t>(rows * columns)) {
     throw Error(std::string("engine table ") + name + " has " + std::to_string(table.size()) +
                 " values; its axes ask for " + std::to_string(rows * columns));
   }
+}
+
+/// Bilinear coefficients by cell of a row-major table.
+void FillBilinear(const std::vector<double>& table, int rows, int columns, KernelCells* cells) {
   for (int i = 0; i + 1 < rows; ++i) {
     for (int j = 0; j + 1 < columns; ++j) {
       const double* node = table.data() + i * columns + j;
@@ -137,11 +141,20 @@ KernelEngine MakeEngine(const EngineTables& tables) {
                 std::to_string(CellTable::kMaxCells));
   }
   engine.mach_cells = static_cast<float>(columns - 1);
-  FillThrust(tables.idle_lbf, "idle", rows, columns, &engine.thrust_lbf[KernelEngine::kIdle]);
-  FillThrust(tables.military_lbf, "military", rows, columns,
-             &engine.thrust_lbf[KernelEngine::kMilitary]);
-  FillThrust(tables.maximum_lbf, "maximum", rows, columns,
-             &engine.thrust_lbf[KernelEngine::kMaximum]);
+  RequireEngineTable(tables.idle_lbf, "idle", rows, columns);
+  RequireEngineTable(tables.military_lbf, "military", rows, columns);
+  RequireEngineTable(tables.maximum_lbf, "maximum", rows, columns);
+  const auto fill = [&](KernelEngine::Segment segment, const std::vector<double>& low,
+                        const std::vector<double>& high, double power) {
+    std::vector<double> gain(low.size());
+    for (std::size_t i = 0; i < low.size(); ++i) gain[i] = (high[i] - low[i]) / power;
+    FillBilinear(low, rows, columns, &engine.low_lbf[segment]);
+    FillBilinear(gain, rows, columns, &engine.gain_lbf[segment]);
+  };
+  const double military = kPowerLag.military_power;
+  fill(KernelEngine::kDry, tables.idle_lbf, tables.military_lbf, military);
+  fill(KernelEngine::kAfterburner, tables.military_lbf, tables.maximum_lbf,
+       kPowerLag.maximum_power - military);
   return engine;
 }
 

@@ -10,8 +10,7 @@ namespace skein {
 
 /// An axis on which the cell of a value is arithmetic instead of a search: its cells have one width
 /// in the middle and one outside. cell + fraction = offset + cells_per_unit (x limited to [low,
-/// high])
-/// + inner_more_cells_per_unit (x limited to [inner_low, inner_high]).
+/// high]) + inner_more_cells_per_unit (x limited to [inner_low, inner_high]).
 struct KernelAxis {
   float low = 0, high = 0;
   float inner_low = 0, inner_high = 0;
@@ -23,50 +22,40 @@ struct KernelAxis {
 /// Throws Error if `nodes` (strictly increasing, at least two) are not of that form.
 KernelAxis MakeKernelAxis(const std::vector<double>& nodes, const char* name);
 
-/// Sixteen coefficients at one node of the alpha x beta grid, and what each gains towards the next
-/// alpha.
-struct alignas(64) NodeLine {
-  float value[16] = {};
-  float alpha_step[16] = {};
+/// A bilinear patch: a function in one cell of the alpha x beta grid, as what it is at the cell's
+/// first corner and what it gains along alpha, along beta and along both, by the fractions a and b
+/// of the cell: kCorner + a kAlongAlpha + b (kAlongBeta + a kAlongBoth).
+enum PatchTerm : int { kCorner, kAlongAlpha, kAlongBeta, kAlongBoth, kNumPatchTerms };
+
+/// Functions of alpha and beta come in sets of four, and what makes them up in lines of their
+/// patches: slot = term * kPatchesPerLine + place in the set.
+inline constexpr int kPatchesPerLine = 4;
+struct alignas(64) PatchLine {
+  static constexpr int kNumSlots = kNumPatchTerms * kPatchesPerLine;
+  float slot[kNumSlots] = {};
 };
 
-/// Slots of a node's first line: what does not depend on the elevator. Base side force; increments
-/// by full leading-edge flap (up), aileron, aileron with flap up, rudder.
-enum PlaneSlot : int {
-  kPlaneCy,
-  kPlaneCyFlap,
-  kPlaneCyAileron,
-  kPlaneCyAileronFlap,
-  kPlaneCyRudder,
-  kPlaneCxFlap,
-  kPlaneCzFlap,
-  kPlaneCmFlap,
-  kPlaneCnFlap,
-  kPlaneCnAileron,
-  kPlaneCnAileronFlap,
-  kPlaneCnRudder,
-  kPlaneClFlap,
-  kPlaneClAileron,
-  kPlaneClAileronFlap,
-  kPlaneClRudder,
-  kNumPlaneSlots
-};
+/// The lateral coefficients, and Cm's increment by the flap, which the elevator does not scale.
+enum LateralPatch : int { kPatchCy, kPatchCn, kPatchCl, kPatchCmFlap };
+/// The longitudinal coefficients; kPatchCm is what the elevator's effect on Cm scales.
+enum LongitudinalPatch : int { kPatchCx, kPatchCz, kPatchCm, kNumLongitudinalPatches };
 
-/// Slots of a node's further lines, one line per elevator interval: the coefficient at the
-/// interval's lower end and its gain over the interval. The order leaves two groups of four out of
-/// the 16 x 16 transposition's last stages.
-enum ElevatorSlot : int {
-  kElevatorCx,
-  kElevatorCz,
-  kElevatorCm,
-  kElevatorCn,
-  kElevatorCl,
-  kElevatorClStep,
-  kElevatorCxStep = 8,
-  kElevatorCzStep,
-  kElevatorCmStep,
-  kElevatorCnStep,
-  kNumElevatorSlots
+/// A cell's lines: increments by what the surfaces' positions multiply them with...
+enum SurfaceLine : int {
+  kLateralFlap,  ///< by how far the flap is up
+  kLateralAileron,
+  kLateralAileronFlap,  ///< by the product
+  kLateralRudder,
+  kLongitudinalFlap,
+  kNumSurfaceLines
+};
+/// ... and, for each elevator interval, the functions at its lower end and what they gain over it.
+enum ElevatorLine : int {
+  kLateralBase,
+  kLateralElevator,
+  kLongitudinalBase,
+  kLongitudinalElevator,
+  kNumElevatorLines
 };
 
 /// A function of one axis by cell: value at the cell's start and gain over the cell. Small enough
@@ -82,7 +71,7 @@ struct alignas(64) KernelCells {
   float c[4][CellTable::kMaxCells] = {};
 };
 
-/// Functions of alpha. `Flap` ones are multiplied by how far the flap is up.
+/// Functions of alpha.
 enum AlphaFunction : int {
   kAlphaCxq,
   kAlphaCzq,
@@ -93,16 +82,8 @@ enum AlphaFunction : int {
   kAlphaCnr,
   kAlphaClp,
   kAlphaClr,
-  kAlphaCxqFlap,
-  kAlphaCzqFlap,
-  kAlphaCmqFlap,
-  kAlphaCypFlap,
-  kAlphaCyrFlap,
-  kAlphaCnpFlap,
-  kAlphaCnrFlap,
-  kAlphaClpFlap,
-  kAlphaClrFlap,
-  kAlphaCm,
+  kNumDampings,  ///< those above depend on the flap, too
+  kAlphaCm = kNumDampings,
   kNumAlphaFunctions
 };
 
@@ -121,13 +102,15 @@ struct KernelAtmosphere {
   float pressure_constant = 0;  ///< pressure / (density temperature), ft lbf / (slug degR)
 };
 
-/// Thrust of the three power levels, each bilinear in altitude and Mach number by cell:
-/// c[0] + c[1] a + c[2] m + c[3] a m with the fractions a and m of the cell.
+/// Thrust as low + (power - start) gain, in one of two segments of power (dry: from idle to
+/// military; afterburner: to maximum), each of `low` and `gain` bilinear in altitude and Mach
+/// number by cell: c[0] + c[1] a + c[2] m + c[3] a m with the fractions a and m of the cell.
 struct KernelEngine {
-  enum Level : int { kIdle, kMilitary, kMaximum, kNumLevels };
+  enum Segment : int { kDry, kAfterburner, kNumSegments };
   KernelAxis altitude, mach;
   float mach_cells = 0;  ///< cell number = altitude cell * mach_cells + Mach cell
-  KernelCells thrust_lbf[kNumLevels];
+  KernelCells low_lbf[kNumSegments];
+  KernelCells gain_lbf[kNumSegments];  ///< per unit of power
 };
 
 /// Constants of the coefficients' build-up and of the equations of motion, folded for float32.
@@ -158,12 +141,13 @@ struct KernelAircraft {
   KernelAxis alpha, beta, elevator;
   /// Sideslip is limited as a tangent, before the arctangent.
   float tan_beta_low = 0, tan_beta_high = 0;
-  /// Line of node (alpha i, beta j): (j num_alpha + i) lines_per_node; elevator interval k: + 1 +
-  /// k.
-  float lines_per_node = 0, lines_per_beta = 0;
-  std::vector<NodeLine> lines;
+  /// Lines of patches by cell, beta by beta; a cell has those of SurfaceLine, then those of
+  /// ElevatorLine for each elevator interval. In slots: from cell to cell, and from beta to beta.
+  float slots_per_cell = 0, slots_per_beta = 0;
+  std::vector<PatchLine> lines;
   CellTable alpha_functions[kNumAlphaFunctions];
-  CellTable elevator_effect;  ///< factor of Cm by elevator
+  CellTable flap_dampings[kNumDampings];  ///< increments by how far the flap is up
+  CellTable elevator_effect;              ///< factor of Cm by elevator
 
   KernelEngine engine;
   KernelAtmosphere atmosphere;

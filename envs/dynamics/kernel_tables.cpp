@@ -1,6 +1,7 @@
 #include "envs/dynamics/kernel_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kDegToRad = 0.017453292519943295;
 constexpr double kMaxBetaDeg = 45;
+constexpr int kMaxSlots = 1 << 24;  // kernels find slots in float32
 
 using Values = std::vector<double>;
 
@@ -106,55 +108,100 @@ class Nodes {
   int first_flap_alpha_ = 0;
 };
 
-/// Values of a node's first line.
-void FillPlane(const AerodynamicTables& t, const Nodes& nodes, int i, int j, double* v) {
+/// The values of one line's functions at one node of the grid.
+using Quad = std::array<double, kPatchesPerLine>;
+
+/// A SurfaceLine at node (i, j).
+Quad SurfaceIncrements(const AerodynamicTables& t, const Nodes& nodes, int line, int i, int j) {
   const double Cy = nodes.Plane(t.Cy, i, j);
   const double Cn = nodes.Coarse(t.Cn, i, j, 0);
   const double Cl = nodes.Coarse(t.Cl, i, j, 0);
-  v[kPlaneCy] = Cy;
-  v[kPlaneCyAileron] = nodes.Plane(t.Cy_a20, i, j) - Cy;
-  v[kPlaneCnAileron] = nodes.Plane(t.Cn_a20, i, j) - Cn;
-  v[kPlaneClAileron] = nodes.Plane(t.Cl_a20, i, j) - Cl;
-  v[kPlaneCyRudder] = nodes.Plane(t.Cy_r30, i, j) - Cy;
-  v[kPlaneCnRudder] = nodes.Plane(t.Cn_r30, i, j) - Cn;
-  v[kPlaneClRudder] = nodes.Plane(t.Cl_r30, i, j) - Cl;
-
   // Flap increments: both terms at the alpha that the flap tables reach.
   const int f = nodes.FlapAlpha(i);
-  v[kPlaneCxFlap] = nodes.Flap(t.Cx_lef, f, j) - nodes.Fine(t.Cx, f, j, 0);
-  v[kPlaneCzFlap] = nodes.Flap(t.Cz_lef, f, j) - nodes.Fine(t.Cz, f, j, 0);
-  v[kPlaneCmFlap] = nodes.Flap(t.Cm_lef, f, j) - nodes.Fine(t.Cm, f, j, 0);
   const double flap_Cy = nodes.Flap(t.Cy_lef, f, j), base_Cy = nodes.Plane(t.Cy, f, j);
   const double flap_Cn = nodes.Flap(t.Cn_lef, f, j), base_Cn = nodes.Coarse(t.Cn, f, j, 0);
   const double flap_Cl = nodes.Flap(t.Cl_lef, f, j), base_Cl = nodes.Coarse(t.Cl, f, j, 0);
-  v[kPlaneCyFlap] = flap_Cy - base_Cy;
-  v[kPlaneCnFlap] = flap_Cn - base_Cn;
-  v[kPlaneClFlap] = flap_Cl - base_Cl;
-  v[kPlaneCyAileronFlap] =
-      (nodes.Flap(t.Cy_a20_lef, f, j) - flap_Cy) - (nodes.Plane(t.Cy_a20, f, j) - base_Cy);
-  v[kPlaneCnAileronFlap] =
-      (nodes.Flap(t.Cn_a20_lef, f, j) - flap_Cn) - (nodes.Plane(t.Cn_a20, f, j) - base_Cn);
-  v[kPlaneClAileronFlap] =
-      (nodes.Flap(t.Cl_a20_lef, f, j) - flap_Cl) - (nodes.Plane(t.Cl_a20, f, j) - base_Cl);
+  Quad quad{};
+  switch (line) {
+    case kLateralFlap:
+      quad[kPatchCy] = flap_Cy - base_Cy;
+      quad[kPatchCn] = flap_Cn - base_Cn;
+      quad[kPatchCl] = flap_Cl - base_Cl;
+      quad[kPatchCmFlap] = nodes.Flap(t.Cm_lef, f, j) - nodes.Fine(t.Cm, f, j, 0);
+      break;
+    case kLateralAileron:
+      quad[kPatchCy] = nodes.Plane(t.Cy_a20, i, j) - Cy;
+      quad[kPatchCn] = nodes.Plane(t.Cn_a20, i, j) - Cn;
+      quad[kPatchCl] = nodes.Plane(t.Cl_a20, i, j) - Cl;
+      break;
+    case kLateralAileronFlap:
+      quad[kPatchCy] =
+          (nodes.Flap(t.Cy_a20_lef, f, j) - flap_Cy) - (nodes.Plane(t.Cy_a20, f, j) - base_Cy);
+      quad[kPatchCn] =
+          (nodes.Flap(t.Cn_a20_lef, f, j) - flap_Cn) - (nodes.Plane(t.Cn_a20, f, j) - base_Cn);
+      quad[kPatchCl] =
+          (nodes.Flap(t.Cl_a20_lef, f, j) - flap_Cl) - (nodes.Plane(t.Cl_a20, f, j) - base_Cl);
+      break;
+    case kLateralRudder:
+      quad[kPatchCy] = nodes.Plane(t.Cy_r30, i, j) - Cy;
+      quad[kPatchCn] = nodes.Plane(t.Cn_r30, i, j) - Cn;
+      quad[kPatchCl] = nodes.Plane(t.Cl_r30, i, j) - Cl;
+      break;
+    case kLongitudinalFlap:
+      quad[kPatchCx] = nodes.Flap(t.Cx_lef, f, j) - nodes.Fine(t.Cx, f, j, 0);
+      quad[kPatchCz] = nodes.Flap(t.Cz_lef, f, j) - nodes.Fine(t.Cz, f, j, 0);
+      break;
+  }
+  return quad;
 }
 
-/// Values of a node's line of elevator interval k.
-void FillElevator(const AerodynamicTables& t, const Nodes& nodes, int i, int j, int k, double* v) {
-  const double low = t.elevator_deg[k], high = t.elevator_deg[k + 1];
-  const auto fine = [&](const Values& table, int slot, int step_slot) {
-    v[slot] = nodes.Fine(table, i, j, low);
-    v[step_slot] = nodes.Fine(table, i, j, high) - v[slot];
-  };
-  fine(t.Cx, kElevatorCx, kElevatorCxStep);
-  fine(t.Cz, kElevatorCz, kElevatorCzStep);
-  fine(t.Cm, kElevatorCm, kElevatorCmStep);
-  const auto coarse = [&](const Values& table, double per_beta, int slot, int step_slot) {
-    const double value = nodes.Coarse(table, i, j, low);
-    v[slot] = value + per_beta * t.beta_deg[j];
-    v[step_slot] = nodes.Coarse(table, i, j, high) - value;
-  };
-  coarse(t.Cn, t.dCn_beta[i], kElevatorCn, kElevatorCnStep);
-  coarse(t.Cl, t.dCl_beta[i], kElevatorCl, kElevatorClStep);
+/// The lateral or longitudinal functions at node (i, j) and an elevator angle.
+Quad LateralAt(const AerodynamicTables& t, const Nodes& nodes, int i, int j, double elevator_deg) {
+  const double beta_deg = t.beta_deg[j];
+  Quad quad{};
+  quad[kPatchCy] = nodes.Plane(t.Cy, i, j);
+  quad[kPatchCn] = nodes.Coarse(t.Cn, i, j, elevator_deg) + t.dCn_beta[i] * beta_deg;
+  quad[kPatchCl] = nodes.Coarse(t.Cl, i, j, elevator_deg) + t.dCl_beta[i] * beta_deg;
+  return quad;
+}
+
+Quad LongitudinalAt(const AerodynamicTables& t, const Nodes& nodes, int i, int j,
+                    double elevator_deg) {
+  Quad quad{};
+  quad[kPatchCx] = nodes.Fine(t.Cx, i, j, elevator_deg);
+  quad[kPatchCz] = nodes.Fine(t.Cz, i, j, elevator_deg);
+  quad[kPatchCm] = nodes.Fine(t.Cm, i, j, elevator_deg);
+  return quad;
+}
+
+/// An ElevatorLine of interval k at node (i, j).
+Quad ElevatorFunctions(const AerodynamicTables& t, const Nodes& nodes, int line, int i, int j,
+                       int k) {
+  const auto at = line == kLateralBase || line == kLateralElevator ? LateralAt : LongitudinalAt;
+  Quad quad = at(t, nodes, i, j, t.elevator_deg[k]);
+  if (line == kLateralElevator || line == kLongitudinalElevator) {
+    const Quad high = at(t, nodes, i, j, t.elevator_deg[k + 1]);
+    for (int n = 0; n < kPatchesPerLine; ++n) quad[n] = high[n] - quad[n];
+  }
+  return quad;
+}
+
+/// The line of patches of cell (i, j) for functions given at nodes.
+template <class FunctionsAt>
+PatchLine MakePatchLine(const FunctionsAt& functions_at, int i, int j) {
+  const Quad corner = functions_at(i, j), alpha = functions_at(i + 1, j);
+  const Quad beta = functions_at(i, j + 1), both = functions_at(i + 1, j + 1);
+  PatchLine line;
+  for (int n = 0; n < kPatchesPerLine; ++n) {
+    const auto set = [&](PatchTerm term, double value) {
+      line.slot[term * kPatchesPerLine + n] = static_cast<float>(value);
+    };
+    set(kCorner, corner[n]);
+    set(kAlongAlpha, alpha[n] - corner[n]);
+    set(kAlongBeta, beta[n] - corner[n]);
+    set(kAlongBoth, (both[n] - beta[n]) - (alpha[n] - corner[n]));
+  }
+  return line;
 }
 
 void FillCells(const Values& values, CellTable* table) {
@@ -164,11 +211,11 @@ void FillCells(const Values& values, CellTable* table) {
   }
 }
 
-void FillAlphaFunctions(const AerodynamicTables& t, const Nodes& nodes, CellTable* functions) {
+void FillAlphaFunctions(const AerodynamicTables& t, const Nodes& nodes, KernelAircraft* kernel) {
   const std::size_t A = t.alpha_deg.size(), L = t.alpha_lef_deg.size();
   const auto full = [&](const Values& table, int function) {
     RequireSize(table, A, "of alpha");
-    FillCells(table, &functions[function]);
+    FillCells(table, &kernel->alpha_functions[function]);
   };
   full(t.Cxq, kAlphaCxq);
   full(t.Czq, kAlphaCzq);
@@ -184,17 +231,17 @@ void FillAlphaFunctions(const AerodynamicTables& t, const Nodes& nodes, CellTabl
     RequireSize(table, L, "of the flap's alpha");
     Values extended(A);
     for (std::size_t i = 0; i < A; ++i) extended[i] = nodes.FlapAlone(table, static_cast<int>(i));
-    FillCells(extended, &functions[function]);
+    FillCells(extended, &kernel->flap_dampings[function]);
   };
-  flap(t.dCxq_lef, kAlphaCxqFlap);
-  flap(t.dCzq_lef, kAlphaCzqFlap);
-  flap(t.dCmq_lef, kAlphaCmqFlap);
-  flap(t.dCyp_lef, kAlphaCypFlap);
-  flap(t.dCyr_lef, kAlphaCyrFlap);
-  flap(t.dCnp_lef, kAlphaCnpFlap);
-  flap(t.dCnr_lef, kAlphaCnrFlap);
-  flap(t.dClp_lef, kAlphaClpFlap);
-  flap(t.dClr_lef, kAlphaClrFlap);
+  flap(t.dCxq_lef, kAlphaCxq);
+  flap(t.dCzq_lef, kAlphaCzq);
+  flap(t.dCmq_lef, kAlphaCmq);
+  flap(t.dCyp_lef, kAlphaCyp);
+  flap(t.dCyr_lef, kAlphaCyr);
+  flap(t.dCnp_lef, kAlphaCnp);
+  flap(t.dCnr_lef, kAlphaCnr);
+  flap(t.dClp_lef, kAlphaClp);
+  flap(t.dClr_lef, kAlphaClr);
 }
 
 }  // namespace
@@ -217,34 +264,38 @@ void FillAerodynamics(const AerodynamicTables& tables, KernelAircraft* kernel) {
   kernel->tan_beta_low = static_cast<float>(std::tan(tables.beta_deg.front() * kDegToRad));
   kernel->tan_beta_high = static_cast<float>(std::tan(tables.beta_deg.back() * kDegToRad));
 
-  const int num_alpha = static_cast<int>(tables.alpha_deg.size());
-  const int num_beta = static_cast<int>(tables.beta_deg.size());
-  const int lines_per_node = static_cast<int>(tables.elevator_deg.size());
-  kernel->lines_per_node = static_cast<float>(lines_per_node);
-  kernel->lines_per_beta = static_cast<float>(lines_per_node * num_alpha);
-  kernel->lines.resize(static_cast<std::size_t>(lines_per_node) * num_alpha * num_beta);
-  const auto fill = [&](int i, int j, int line, double* values) {
-    if (line == 0) {
-      FillPlane(tables, nodes, i, j, values);
-    } else {
-      FillElevator(tables, nodes, i, j, line - 1, values);
-    }
-  };
-  for (int j = 0; j < num_beta; ++j) {
-    for (int i = 0; i < num_alpha; ++i) {
-      for (int line = 0; line < lines_per_node; ++line) {
-        double here[16] = {}, next[16] = {};
-        fill(i, j, line, here);
-        fill(std::min(i + 1, num_alpha - 1), j, line, next);
-        NodeLine& node = kernel->lines[(j * num_alpha + i) * lines_per_node + line];
-        for (int slot = 0; slot < 16; ++slot) {
-          node.value[slot] = static_cast<float>(here[slot]);
-          node.alpha_step[slot] = static_cast<float>(next[slot] - here[slot]);
-        }
+  const int alpha_cells = kernel->alpha.last_cell + 1;
+  const int beta_cells = kernel->beta.last_cell + 1;
+  const int elevator_cells = kernel->elevator.last_cell + 1;
+  const int lines_per_cell = kNumSurfaceLines + kNumElevatorLines * elevator_cells;
+  const int slots = lines_per_cell * PatchLine::kNumSlots * alpha_cells * beta_cells;
+  if (slots >= kMaxSlots) {
+    throw Error("the aerodynamic tables make " + std::to_string(slots) +
+                " numbers; the kernels count to " + std::to_string(kMaxSlots));
+  }
+  kernel->slots_per_cell = static_cast<float>(lines_per_cell * PatchLine::kNumSlots);
+  kernel->slots_per_beta = kernel->slots_per_cell * static_cast<float>(alpha_cells);
+  kernel->lines.reserve(static_cast<std::size_t>(lines_per_cell) * alpha_cells * beta_cells);
+  for (int j = 0; j < beta_cells; ++j) {
+    for (int i = 0; i < alpha_cells; ++i) {
+      for (int line = 0; line < kNumSurfaceLines; ++line) {
+        kernel->lines.push_back(MakePatchLine(
+            [&](int alpha, int beta) {
+              return SurfaceIncrements(tables, nodes, line, alpha, beta);
+            },
+            i, j));
+      }
+      for (int line = 0; line < kNumElevatorLines * elevator_cells; ++line) {
+        kernel->lines.push_back(MakePatchLine(
+            [&](int alpha, int beta) {
+              return ElevatorFunctions(tables, nodes, line % kNumElevatorLines, alpha, beta,
+                                       line / kNumElevatorLines);
+            },
+            i, j));
       }
     }
   }
-  FillAlphaFunctions(tables, nodes, kernel->alpha_functions);
+  FillAlphaFunctions(tables, nodes, kernel);
   FillCells(tables.eta_el, &kernel->elevator_effect);
 }
 

@@ -26,83 +26,67 @@ namespace {
 using namespace plant_kernel;  // NOLINT: one room, split into files by phase
 
 /// One evaluation of the equations of motion for a block, phase by phase.
-template <bool kEngine, bool kFirst>
-HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const StageState<kFirst>& state,
-                                const BlockControls& controls, Block* block,
-                                float (*rates)[kBlock]) {
-  for (int lane = 0; lane < kBlock; lane += kLanes) {
-    FindFlow(aircraft, state, controls, lane, block);
-  }
-  for (int lane = 0; lane < kBlock; lane += kLanes) {
-    FindAir<kEngine>(aircraft, state, lane, block);
-  }
-  for (int lane = 0; lane < kBlock; lane += kLanes) {
-    FindThrust<kEngine>(aircraft, state, controls, lane, block, rates);
-  }
-  for (int lane = 0; lane < kBlock; lane += kLanes) ReadTables(aircraft, lane, block);
-  for (int lane = 0; lane < kBlock; lane += kLanes) {
-    FindRates(aircraft, state, controls, lane, block, rates);
-  }
+template <bool kEngine, Stage kStage, class Observer>
+HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const StageState<kStage>& state,
+                                const BlockControls& controls, const Observer& coefficients) {
+  FindFlow(aircraft, state, state.block);
+  FindAir<kEngine>(aircraft, state, state.block);
+  FindThrust<kEngine>(aircraft, state, controls, state.block);
+  FindRates(aircraft.constants, state, *state.block, coefficients);
 }
 
-/// y = start + dt/6 (k1 + 2 k2 + 2 k3 + k4).
-HWY_INLINE V Advanced(const float* column, const Block& block, int index, int lane, float dt) {
-  const FloatTag d;
-  const auto k = [&](int stage) HWY_ATTR { return hn::Load(d, block.rates[stage][index] + lane); };
-  const V outer = hn::Add(k(0), k(3));
-  const V inner = hn::Add(k(1), k(2));
-  const V change = hn::MulAdd(Constant(dt / 6), outer, hn::Mul(Constant(dt / 3), inner));
-  return hn::Add(hn::LoadU(d, column + lane), change);
+HWY_INLINE void FindSurfacesOfBlock(const KernelAircraft& aircraft, const BlockControls& controls,
+                                    Block* block) {
+  for (int lane = 0; lane < kBlock; lane += kLanes) FindSurfaces(aircraft, controls, lane, block);
 }
 
-/// Moves the state columns of a block on by one step and renormalises the quaternions.
-template <int kColumns>
-HWY_INLINE void AdvanceBlock(float* base, std::size_t stride, const Block& block, float dt) {
-  const FloatTag d;
-  for (int lane = 0; lane < kBlock; lane += kLanes) {
-    for (int column = 0; column < kColumns; ++column) {
-      if (kQ0 <= column && column <= kQz) continue;
-      float* values = base + static_cast<std::size_t>(column) * stride;
-      hn::StoreU(Advanced(values, block, column, lane, dt), d, values + lane);
+/// What may look at the coefficients of a stage: this one does not.
+struct IgnoreCoefficients {
+  HWY_INLINE void operator()(int /*lane*/, const Coefficients& /*c*/) const {}
+};
+
+/// Keeps the specific forces, g.
+struct StoreLoadFactors {
+  const KernelConstants& k;
+  const Block& block;
+  float* nz;
+  float* ny;
+
+  HWY_INLINE void operator()(int lane, const Coefficients& c) const {
+    const FloatTag d;
+    const V g = hn::Mul(hn::Load(d, block.force + lane), Constant(k.inverse_weight));
+    hn::StoreU(hn::Neg(hn::Mul(g, c.Cz)), d, nz + lane);
+    hn::StoreU(hn::Mul(g, c.Cy), d, ny + lane);
+  }
+};
+
+/// Keeps the coefficients in columns.
+struct StoreCoefficients {
+  float* columns;
+  std::size_t stride;
+
+  HWY_INLINE void operator()(int lane, const Coefficients& c) const {
+    const V values[] = {c.Cx, c.Cy, c.Cz, c.Cl, c.Cm, c.Cn};
+    for (int k = 0; k < 6; ++k) {
+      hn::StoreU(values[k], FloatTag(), columns + static_cast<std::size_t>(k) * stride + lane);
     }
-    float* values = base + static_cast<std::size_t>(kQ0) * stride;
-    const V q0 = Advanced(values, block, kQ0, lane, dt);
-    const V qx = Advanced(values + stride, block, kQx, lane, dt);
-    const V qy = Advanced(values + 2 * stride, block, kQy, lane, dt);
-    const V qz = Advanced(values + 3 * stride, block, kQz, lane, dt);
-    const V square = hn::MulAdd(q0, q0, hn::MulAdd(qx, qx, hn::MulAdd(qy, qy, hn::Mul(qz, qz))));
-    const V scale = ReciprocalSqrt(d, square);
-    hn::StoreU(hn::Mul(q0, scale), d, values + lane);
-    hn::StoreU(hn::Mul(qx, scale), d, values + stride + lane);
-    hn::StoreU(hn::Mul(qy, scale), d, values + 2 * stride + lane);
-    hn::StoreU(hn::Mul(qz, scale), d, values + 3 * stride + lane);
   }
-}
+};
 
 /// One RK4 step of a block.
-template <bool kEngine>
+template <bool kEngine, class Observer>
 HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& controls,
-                          float* base, std::size_t stride, float dt, Block* block) {
-  EvaluateBlock<kEngine>(aircraft, StageState<true>{base, stride, nullptr, 0}, controls, block,
-                         block->rates[0]);
-  const float steps[] = {dt / 2, dt / 2, dt};
-  for (int stage = 1; stage < 4; ++stage) {
-    EvaluateBlock<kEngine>(
-        aircraft, StageState<false>{base, stride, block->rates[stage - 1], steps[stage - 1]},
-        controls, block, block->rates[stage]);
+                          float* base, std::size_t stride, float dt, const Observer& coefficients,
+                          Block* block) {
+  const IgnoreCoefficients ignore;
+  EvaluateBlock<kEngine>(aircraft, StageState<kFirstStage>{base, stride, block, 0}, controls,
+                         ignore);
+  for (int middle = 0; middle < 2; ++middle) {
+    EvaluateBlock<kEngine>(aircraft, StageState<kMiddleStage>{base, stride, block, dt / 2},
+                           controls, ignore);
   }
-  AdvanceBlock<kEngine ? kNumIntegrated : kNumRigidBody>(base, stride, *block, dt);
-}
-
-/// Specific forces of the last evaluation, g.
-HWY_INLINE void StoreLoadFactors(const KernelConstants& k, const Block& block, float* nz,
-                                 float* ny) {
-  const FloatTag d;
-  for (int lane = 0; lane < kBlock; lane += kLanes) {
-    const V g = hn::Mul(hn::Load(d, block.force + lane), Constant(k.inverse_weight));
-    hn::StoreU(hn::Neg(hn::Mul(g, hn::Load(d, block.coefficients[2] + lane))), d, nz + lane);
-    hn::StoreU(hn::Mul(g, hn::Load(d, block.coefficients[1] + lane)), d, ny + lane);
-  }
+  EvaluateBlock<kEngine>(aircraft, StageState<kLastStage>{base, stride, block, dt}, controls,
+                         coefficients);
 }
 
 /// Starts loading the next block's columns: more streams than the processor follows by itself.
@@ -123,17 +107,14 @@ void EvaluateTileKernel(const KernelAircraft& aircraft, Tile tile, const Control
     const BlockControls at{controls.thrust_lbf + first,   nullptr,
                            controls.elevator_deg + first, controls.aileron_deg + first,
                            controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
-    EvaluateBlock<false>(aircraft, StageState<true>{tile.base + first, tile.stride, nullptr, 0}, at,
-                         &block, block.rates[0]);
-    for (int lane = 0; lane < kBlock; lane += kLanes) {
-      const std::size_t i = static_cast<std::size_t>(first + lane);
-      for (int column = 0; column < kNumRigidBody; ++column) {
-        hn::StoreU(hn::Load(d, block.rates[0][column] + lane), d,
-                   state_rate + column * tile.stride + i);
-      }
-      for (int c = 0; c < 6; ++c) {
-        hn::StoreU(hn::Load(d, block.coefficients[c] + lane), d,
-                   coefficients + c * tile.stride + i);
+    FindSurfacesOfBlock(aircraft, at, &block);
+    EvaluateBlock<false>(aircraft,
+                         StageState<kFirstStage>{tile.base + first, tile.stride, &block, 0}, at,
+                         StoreCoefficients{coefficients + first, tile.stride});
+    for (int column = 0; column < kNumRigidBody; ++column) {
+      float* rates = state_rate + static_cast<std::size_t>(column) * tile.stride + first;
+      for (int lane = 0; lane < kBlock; lane += kLanes) {
+        hn::StoreU(hn::Load(d, block.rate[column] + lane), d, rates + lane);
       }
     }
   }
@@ -146,9 +127,10 @@ void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
     const BlockControls at{controls.thrust_lbf + first,   nullptr,
                            controls.elevator_deg + first, controls.aileron_deg + first,
                            controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
+    FindSurfacesOfBlock(aircraft, at, &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<false>(aircraft, at, tile.base + first, tile.stride,
-                       dt / static_cast<float>(substeps), &block);
+                       dt / static_cast<float>(substeps), IgnoreCoefficients(), &block);
     }
   }
 }
@@ -162,12 +144,14 @@ void StepTileKernel(const KernelAircraft& aircraft, Tile tile, float dt, int sub
                            tile[kAileron] + first,
                            tile[kRudder] + first,
                            tile[kLeadingEdgeFlap] + first};
+    const StoreLoadFactors load_factors{aircraft.constants, block, tile[kNz] + first,
+                                        tile[kNy] + first};
     PrefetchColumns(tile, first + kBlock);
+    FindSurfacesOfBlock(aircraft, at, &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<true>(aircraft, at, tile.base + first, tile.stride,
-                      dt / static_cast<float>(substeps), &block);
+                      dt / static_cast<float>(substeps), load_factors, &block);
     }
-    StoreLoadFactors(aircraft.constants, block, tile[kNz] + first, tile[kNy] + first);
   }
 }
 

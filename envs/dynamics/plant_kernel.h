@@ -20,12 +20,17 @@ std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraf
 /// Floating-point operations of one evaluation of the equations of motion with engine, and of one
 /// RK4 step: counted in the kernel's source (a multiply-add as two, a division or root estimate as
 /// one); for rates as a fraction of simd::MeasurePeak.
-inline constexpr double kFlopsPerEvaluation = 180    // air data, atmosphere, engine
-                                              + 182  // 26 coefficients blended at 7 each
-                                              + 140  // build-up
-                                              + 125  // equations of motion
-                                              + 28;  // state at the stage
-inline constexpr double kFlopsPerRk4Step = 4 * kFlopsPerEvaluation + 110;
+inline constexpr double kFlopsPerTableReading = 22     // places of the surfaces in the tables
+                                                + 224  // two sets of patches added up
+                                                + 36;  // functions of alpha
+inline constexpr double kFlopsPerStage = 165           // air data, atmosphere, engine
+                                         + 62          // patches and functions of alpha
+                                         + 34          // build-up
+                                         + 125;        // equations of motion
+inline constexpr double kFlopsPerEvaluation = kFlopsPerTableReading + kFlopsPerStage;
+inline constexpr double kFlopsPerRk4Step = kFlopsPerTableReading + 4 * kFlopsPerStage +
+                                           7 * 28  // state at three stages, four sums of rates
+                                           + 12;   // attitudes of unit length
 
 /// Read-only columns of given controls: thrust [lbf], elevator, aileron, rudder, leading-edge flap
 /// [deg], each `count` long (padded as Tile says).

@@ -1,4 +1,4 @@
-// First phase of the plant kernel: air data, places in the tables, thrust.
+// First phase of the plant kernel: air data and thrust.
 
 #if defined(SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_AIR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_AIR_INL_H_
@@ -12,6 +12,7 @@
 #include "envs/aircraft/engine.h"
 #include "envs/dynamics/air-inl.h"
 #include "envs/dynamics/plant_kernel_block-inl.h"
+#include "envs/dynamics/plant_kernel_tables-inl.h"
 #include "simd/lookup-inl.h"
 #include "simd/math-inl.h"
 
@@ -25,36 +26,51 @@ namespace plant_kernel {
 inline constexpr float kMinSpeedSquared = 1e-4f;
 inline constexpr float kMinPlaneSpeedSquared = 1e-12f;
 
-/// Thrust of one power level, lbf.
-HWY_INLINE V ThrustOf(const KernelCells& cells, VI cell, V altitude, V mach) {
+/// A bilinear function whose coefficients lie in vectors.
+HWY_INLINE V ReadPatch(const float (*c)[kBlock], int lane, V first, V second) {
   const FloatTag d;
-  const V low = hn::MulAdd(mach, Lookup32(d, cells.c[2], cell), Lookup32(d, cells.c[0], cell));
-  const V high = hn::MulAdd(mach, Lookup32(d, cells.c[3], cell), Lookup32(d, cells.c[1], cell));
-  return hn::MulAdd(altitude, high, low);
+  const V low = hn::MulAdd(first, hn::Load(d, c[1] + lane), hn::Load(d, c[0] + lane));
+  const V step = hn::MulAdd(first, hn::Load(d, c[3] + lane), hn::Load(d, c[2] + lane));
+  return hn::MulAdd(second, step, low);
+}
+
+/// Reads the engine's tables for the aircraft in lanes `lane` to `lane + kLanes`.
+HWY_NOINLINE void ReadThrust(const KernelEngine& engine, VI cell, hn::Mask<FloatTag> is_lit,
+                             int lane, Block* block) {
+  const FloatTag d;
+  const auto read = [&](const KernelCells* segments, float(*c)[kBlock]) HWY_ATTR {
+    for (int k = 0; k < 4; ++k) {
+      const V dry = Lookup32(d, segments[KernelEngine::kDry].c[k], cell);
+      const V lit = Lookup32(d, segments[KernelEngine::kAfterburner].c[k], cell);
+      hn::Store(hn::IfThenElse(is_lit, lit, dry), d, c[k] + lane);
+    }
+  };
+  read(engine.low_lbf, block->thrust_low);
+  read(engine.gain_lbf, block->thrust_gain);
 }
 
 /// Thrust, lbf: linear in power below and above military.
-HWY_INLINE V Thrust(const KernelEngine& engine, V power, V altitude_ft, V mach) {
-  constexpr float kMilitary = static_cast<float>(kPowerLag.military_power);
-  constexpr float kInverseMilitary = static_cast<float>(1 / kPowerLag.military_power);
-  constexpr float kInverseAfterburner =
-      static_cast<float>(1 / (kPowerLag.maximum_power - kPowerLag.military_power));
+template <Stage kStage>
+HWY_INLINE V Thrust(const KernelEngine& engine, V power, V altitude_ft, V mach, int lane,
+                    Block* block) {
+  const FloatTag d;
+  const IntTag di;
   const Cell h = FindCell(engine.altitude, altitude_ft);
   const Cell m = FindCell(engine.mach, mach);
-  const VI cell =
-      TruncateToInt(FloatTag(), hn::MulAdd(h.start, Constant(engine.mach_cells), m.start));
-  const auto level = [&](KernelEngine::Level which) HWY_ATTR {
-    return ThrustOf(engine.thrust_lbf[which], cell, h.fraction, m.fraction);
-  };
-  const V idle = level(KernelEngine::kIdle);
-  const V military = level(KernelEngine::kMilitary);
-  const V maximum = level(KernelEngine::kMaximum);
-  const V over = hn::Sub(power, Constant(kMilitary));
-  const V dry =
-      hn::MulAdd(hn::Mul(power, Constant(kInverseMilitary)), hn::Sub(military, idle), idle);
-  const V wet = hn::MulAdd(hn::Mul(over, Constant(kInverseAfterburner)), hn::Sub(maximum, military),
-                           military);
-  return hn::IfThenElse(hn::Lt(power, Constant(kMilitary)), dry, wet);
+  const VI cell = TruncateToInt(d, hn::MulAdd(h.start, Constant(engine.mach_cells), m.start));
+  const V military = Constant(static_cast<float>(kPowerLag.military_power));
+  const auto is_lit = hn::Ge(power, military);
+  // The cell with the segment as its sign: both at once are compared with those of before.
+  const VI place = hn::Xor(cell, hn::VecFromMask(di, hn::RebindMask(di, is_lit)));
+  if (kStage == kFirstStage ||
+      !hn::AllTrue(di, hn::Eq(place, hn::Load(di, block->thrust_cell + lane)))) {
+    hn::Store(place, di, block->thrust_cell + lane);
+    ReadThrust(engine, cell, is_lit, lane, block);
+  }
+  const V low = ReadPatch(block->thrust_low, lane, h.fraction, m.fraction);
+  const V gain = ReadPatch(block->thrust_gain, lane, h.fraction, m.fraction);
+  const V over = hn::Sub(power, hn::IfThenElseZero(is_lit, military));
+  return hn::MulAdd(over, gain, low);
 }
 
 /// Rate of change of power, 1/s; the law of PowerRate in envs/aircraft/engine.h.
@@ -76,74 +92,90 @@ HWY_INLINE V PowerRateOf(V power, V command) {
   return hn::Mul(rate, missing);
 }
 
-// The parts of the phase, each for the aircraft in lanes `lane` to `lane + kLanes`. They are chains
-// of dependent operations, so each part runs over the whole block before the next: the processor
-// then overlaps the chains of different aircraft.
+// The parts of the phase. They are chains of dependent operations, so each goes over all vectors of
+// the block before the next: the processor then overlaps the chains of different aircraft.
 
-/// Speed, flow angles and from them the places in the aerodynamic tables.
-template <bool kFirst>
-HWY_INLINE void FindFlow(const KernelAircraft& aircraft, const StageState<kFirst>& state,
-                         const BlockControls& controls, int lane, Block* block) {
+/// Speed, flow angles, and the aerodynamic tables where those are.
+template <class State>
+HWY_INLINE void FindFlow(const KernelAircraft& aircraft, const State& state, Block* block) {
   const FloatTag d;
   const IntTag di;
-  const V u = state.Get(kU, lane), v = state.Get(kV, lane), w = state.Get(kW, lane);
-  const V plane_squared = hn::MulAdd(u, u, hn::Mul(w, w));
-  const V speed_squared = hn::Max(hn::MulAdd(v, v, plane_squared), Constant(kMinSpeedSquared));
-  hn::Store(speed_squared, d, block->speed_squared + lane);
-  hn::Store(ReciprocalSqrt(d, speed_squared), d, block->inverse_speed + lane);
-
-  const V tan_beta =
-      hn::Mul(v, ReciprocalSqrt(d, hn::Max(plane_squared, Constant(kMinPlaneSpeedSquared))));
-  const V limited = ClampTo(d, tan_beta, aircraft.tan_beta_low, aircraft.tan_beta_high);
-  const Cell alpha = FindCell(aircraft.alpha, Atan2Degrees(d, w, u));
-  const Cell beta = FindCell(aircraft.beta, AtanDegrees(d, limited));
-  const Cell elevator = FindCell(aircraft.elevator, hn::LoadU(d, controls.elevator_deg + lane));
-  hn::Store(alpha.fraction, d, block->alpha_fraction + lane);
-  hn::Store(beta.fraction, d, block->beta_fraction + lane);
-  hn::Store(elevator.fraction, d, block->elevator_fraction + lane);
-  hn::Store(alpha.index, di, block->alpha_cell + lane);
-  hn::Store(elevator.index, di, block->elevator_cell + lane);
-  // Exact in float32: there are far fewer than 2^24 lines.
-  const V line = hn::MulAdd(beta.start, Constant(aircraft.lines_per_beta),
-                            hn::Mul(alpha.start, Constant(aircraft.lines_per_node)));
-  const VI plane_line = TruncateToInt(d, line);
-  hn::Store(plane_line, di, block->plane_line + lane);
-  hn::Store(hn::Add(plane_line, hn::Add(elevator.index, hn::Set(di, 1))), di,
-            block->elevator_line + lane);
+  V u[kVectors], w[kVectors], tan_beta[kVectors];
+  for (int n = 0; n < kVectors; ++n) {
+    const int lane = n * kLanes;
+    u[n] = state.Get(kU, lane);
+    w[n] = state.Get(kW, lane);
+    const V v = state.Get(kV, lane);
+    const V plane_squared = hn::MulAdd(u[n], u[n], hn::Mul(w[n], w[n]));
+    const V speed_squared = hn::Max(hn::MulAdd(v, v, plane_squared), Constant(kMinSpeedSquared));
+    hn::Store(speed_squared, d, block->speed_squared + lane);
+    hn::Store(ReciprocalSqrt(d, speed_squared), d, block->inverse_speed + lane);
+    tan_beta[n] =
+        hn::Mul(v, ReciprocalSqrt(d, hn::Max(plane_squared, Constant(kMinPlaneSpeedSquared))));
+  }
+  V alpha_deg[kVectors], beta_deg[kVectors];
+  for (int n = 0; n < kVectors; ++n) {
+    alpha_deg[n] = Atan2Degrees(d, w[n], u[n]);
+    beta_deg[n] =
+        AtanDegrees(d, ClampTo(d, tan_beta[n], aircraft.tan_beta_low, aircraft.tan_beta_high));
+  }
+  VI cell_slot[kVectors], alpha_cell[kVectors];
+  for (int n = 0; n < kVectors; ++n) {
+    const Cell alpha = FindCell(aircraft.alpha, alpha_deg[n]);
+    const Cell beta = FindCell(aircraft.beta, beta_deg[n]);
+    hn::Store(alpha.fraction, d, block->alpha_fraction + n * kLanes);
+    hn::Store(beta.fraction, d, block->beta_fraction + n * kLanes);
+    // Exact in float32: FillAerodynamics makes fewer than 2^24 slots.
+    cell_slot[n] =
+        TruncateToInt(d, hn::MulAdd(beta.start, Constant(aircraft.slots_per_beta),
+                                    hn::Mul(alpha.start, Constant(aircraft.slots_per_cell))));
+    alpha_cell[n] = alpha.index;
+  }
+  for (int n = 0; n < kVectors; ++n) {
+    const int lane = n * kLanes;
+    if constexpr (State::kStage == kFirstStage) {
+      ReadTables(aircraft, cell_slot[n], alpha_cell[n], lane, block);
+    } else if (!hn::AllTrue(di, hn::Eq(cell_slot[n], hn::Load(di, block->cell_slot + lane)))) {
+      ReadChangedTables(aircraft, cell_slot[n], alpha_cell[n], lane, block);
+    }
+  }
 }
 
 /// Dynamic pressure times wing area; Mach number where the engine needs it.
-template <bool kEngine, bool kFirst>
-HWY_INLINE void FindAir(const KernelAircraft& aircraft, const StageState<kFirst>& state, int lane,
-                        Block* block) {
+template <bool kEngine, class State>
+HWY_INLINE void FindAir(const KernelAircraft& aircraft, const State& state, Block* block) {
   const FloatTag d;
-  const V altitude = hn::Neg(state.Get(kDown, lane));
-  const V speed_squared = hn::Load(d, block->speed_squared + lane);
-  const AirVectors<V> air = AirAtAltitude(d, aircraft, altitude);
-  const V wing = Constant(aircraft.constants.half_wing_area);
-  hn::Store(hn::Mul(hn::Mul(air.density, wing), speed_squared), d, block->force + lane);
-  if constexpr (kEngine) {
-    const V sound_squared = hn::Mul(Constant(aircraft.atmosphere.sound_constant), air.temperature);
-    const V speed = hn::Mul(speed_squared, hn::Load(d, block->inverse_speed + lane));
-    hn::Store(hn::Mul(speed, ReciprocalSqrt(d, sound_squared)), d, block->mach + lane);
+  for (int lane = 0; lane < kBlock; lane += kLanes) {
+    const V altitude = hn::Neg(state.Get(kDown, lane));
+    const V speed_squared = hn::Load(d, block->speed_squared + lane);
+    const AirVectors<V> air = AirAtAltitude(d, aircraft, altitude);
+    const V wing = Constant(aircraft.constants.half_wing_area);
+    hn::Store(hn::Mul(hn::Mul(air.density, wing), speed_squared), d, block->force + lane);
+    if constexpr (kEngine) {
+      const V sound_squared =
+          hn::Mul(Constant(aircraft.atmosphere.sound_constant), air.temperature);
+      const V speed = hn::Mul(speed_squared, hn::Load(d, block->inverse_speed + lane));
+      hn::Store(hn::Mul(speed, ReciprocalSqrt(d, sound_squared)), d, block->mach + lane);
+    }
   }
 }
 
 /// Thrust and the rate of power, or the given thrust.
-template <bool kEngine, bool kFirst>
-HWY_INLINE void FindThrust(const KernelAircraft& aircraft, const StageState<kFirst>& state,
-                           const BlockControls& controls, int lane, Block* block,
-                           float (*rates)[kBlock]) {
+template <bool kEngine, class State>
+HWY_INLINE void FindThrust(const KernelAircraft& aircraft, const State& state,
+                           const BlockControls& controls, Block* block) {
   const FloatTag d;
-  if constexpr (kEngine) {
-    const V altitude = hn::Neg(state.Get(kDown, lane));
-    const V power = state.Get(kPower, lane);
-    const V mach = hn::Load(d, block->mach + lane);
-    hn::Store(Thrust(aircraft.engine, power, altitude, mach), d, block->thrust + lane);
-    hn::Store(PowerRateOf(power, hn::LoadU(d, controls.power_command + lane)), d,
-              rates[kPower] + lane);
-  } else {
-    hn::Store(hn::LoadU(d, controls.thrust_lbf + lane), d, block->thrust + lane);
+  for (int lane = 0; lane < kBlock; lane += kLanes) {
+    if constexpr (kEngine) {
+      const V altitude = hn::Neg(state.Get(kDown, lane));
+      const V power = state.Get(kPower, lane);
+      const V mach = hn::Load(d, block->mach + lane);
+      hn::Store(Thrust<State::kStage>(aircraft.engine, power, altitude, mach, lane, block), d,
+                block->thrust + lane);
+      state.Put(kPower, lane, PowerRateOf(power, hn::LoadU(d, controls.power_command + lane)));
+    } else {
+      hn::Store(hn::LoadU(d, controls.thrust_lbf + lane), d, block->thrust + lane);
+    }
   }
 }
 

@@ -1,5 +1,5 @@
-// Third phase of the plant kernel: the coefficients' build-up and the equations of motion. The laws
-// are those of envs/aircraft/aerodynamics.cpp and envs/dynamics/plant.cpp.
+// Second phase of the plant kernel: the coefficients' build-up and the equations of motion. The
+// laws are those of envs/aircraft/aerodynamics.cpp and envs/dynamics/plant.cpp.
 
 #if defined(SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_MOTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SKEIN_ENVS_DYNAMICS_PLANT_KERNEL_MOTION_INL_H_
@@ -11,7 +11,6 @@
 #include <hwy/highway.h>
 
 #include "envs/dynamics/plant_kernel_block-inl.h"
-#include "simd/lookup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -22,57 +21,35 @@ struct Coefficients {
   V Cx, Cy, Cz, Cl, Cm, Cn;
 };
 
-HWY_INLINE V ReadCells(const CellTable& table, VI cell, V fraction) {
-  const FloatTag d;
-  return hn::MulAdd(fraction, Lookup32(d, table.step, cell), Lookup32(d, table.value, cell));
-}
-
-/// Reads what the second phase left for one vector of aircraft.
+/// Evaluates what ReadTables left for one vector of aircraft.
 struct CoefficientReader {
-  const KernelAircraft& aircraft;
   const Block& block;
   int lane;
-  VI alpha_cell;
-  V alpha_fraction, elevator_fraction;
-  V flap_up;  // 1 with the flap up, 0 where the base tables have it
+  V alpha_fraction, beta_fraction;
 
-  HWY_INLINE V Plane(PlaneSlot slot) const {
-    return hn::Load(FloatTag(), block.plane[slot] + lane);
-  }
-  HWY_INLINE V Elevator(ElevatorSlot slot, ElevatorSlot step) const {
+  template <PatchSet kSet>
+  HWY_INLINE V Patch(int place) const {
     const FloatTag d;
-    return hn::MulAdd(elevator_fraction, hn::Load(d, block.by_elevator[step] + lane),
-                      hn::Load(d, block.by_elevator[slot] + lane));
+    const auto term = [&](PatchTerm which) HWY_ATTR {
+      return hn::Load(d, block.patch[kSet][which * kPatchesPerLine + place] + lane);
+    };
+    const V low = hn::MulAdd(alpha_fraction, term(kAlongAlpha), term(kCorner));
+    const V step = hn::MulAdd(alpha_fraction, term(kAlongBoth), term(kAlongBeta));
+    return hn::MulAdd(beta_fraction, step, low);
   }
   HWY_INLINE V Alpha(AlphaFunction function) const {
-    return ReadCells(aircraft.alpha_functions[function], alpha_cell, alpha_fraction);
-  }
-  /// A damping derivative with the flap where it is.
-  HWY_INLINE V Damping(AlphaFunction function, AlphaFunction flap) const {
-    return hn::MulAdd(flap_up, Alpha(flap), Alpha(function));
+    const FloatTag d;
+    return hn::MulAdd(alpha_fraction, hn::Load(d, block.alpha_step[function] + lane),
+                      hn::Load(d, block.alpha_value[function] + lane));
   }
 };
 
 template <class State>
-HWY_INLINE Coefficients BuildUp(const KernelAircraft& aircraft, const State& state,
-                                const BlockControls& controls, int lane, const Block& block) {
+HWY_INLINE Coefficients BuildUp(const KernelConstants& k, const State& state, int lane,
+                                const Block& block) {
   const FloatTag d;
-  const IntTag di;
-  const KernelConstants& k = aircraft.constants;
-  const V flap_up = hn::NegMulAdd(hn::LoadU(d, controls.leading_edge_flap_deg + lane),
-                                  Constant(k.inverse_flap_reference), Constant(1.0f));
-  const CoefficientReader c{aircraft,
-                            block,
-                            lane,
-                            hn::Load(di, block.alpha_cell + lane),
-                            hn::Load(d, block.alpha_fraction + lane),
-                            hn::Load(d, block.elevator_fraction + lane),
-                            flap_up};
-  const V aileron =
-      hn::Mul(hn::LoadU(d, controls.aileron_deg + lane), Constant(k.inverse_aileron_reference));
-  const V rudder =
-      hn::Mul(hn::LoadU(d, controls.rudder_deg + lane), Constant(k.inverse_rudder_reference));
-  const V aileron_flap = hn::Mul(aileron, flap_up);
+  const CoefficientReader c{block, lane, hn::Load(d, block.alpha_fraction + lane),
+                            hn::Load(d, block.beta_fraction + lane)};
   const V inverse_speed = hn::Load(d, block.inverse_speed + lane);
   const V half_span = hn::Mul(inverse_speed, Constant(k.half_span));
   const V p_hat = hn::Mul(state.Get(kP, lane), half_span);
@@ -80,49 +57,30 @@ HWY_INLINE Coefficients BuildUp(const KernelAircraft& aircraft, const State& sta
   const V r_hat = hn::Mul(state.Get(kR, lane), half_span);
 
   Coefficients sum;
-  sum.Cx = hn::MulAdd(flap_up, c.Plane(kPlaneCxFlap), c.Elevator(kElevatorCx, kElevatorCxStep));
-  sum.Cx = hn::MulAdd(q_hat, c.Damping(kAlphaCxq, kAlphaCxqFlap), sum.Cx);
-
-  sum.Cz = hn::MulAdd(flap_up, c.Plane(kPlaneCzFlap), c.Elevator(kElevatorCz, kElevatorCzStep));
-  sum.Cz = hn::MulAdd(q_hat, c.Damping(kAlphaCzq, kAlphaCzqFlap), sum.Cz);
-
-  const V elevator_effect = ReadCells(
-      aircraft.elevator_effect, hn::Load(di, block.elevator_cell + lane), c.elevator_fraction);
-  sum.Cm = hn::MulAdd(elevator_effect, c.Elevator(kElevatorCm, kElevatorCmStep), c.Alpha(kAlphaCm));
+  sum.Cx = hn::MulAdd(q_hat, c.Alpha(kAlphaCxq), c.Patch<kLongitudinal>(kPatchCx));
+  sum.Cz = hn::MulAdd(q_hat, c.Alpha(kAlphaCzq), c.Patch<kLongitudinal>(kPatchCz));
+  sum.Cm = hn::MulAdd(hn::Load(d, block.elevator_effect + lane), c.Patch<kLongitudinal>(kPatchCm),
+                      c.Alpha(kAlphaCm));
   sum.Cm = hn::MulAdd(sum.Cz, Constant(k.cg_shift), sum.Cm);
-  sum.Cm = hn::MulAdd(flap_up, c.Plane(kPlaneCmFlap), sum.Cm);
-  sum.Cm = hn::MulAdd(q_hat, c.Damping(kAlphaCmq, kAlphaCmqFlap), sum.Cm);
+  sum.Cm = hn::Add(sum.Cm, c.Patch<kLateral>(kPatchCmFlap));
+  sum.Cm = hn::MulAdd(q_hat, c.Alpha(kAlphaCmq), sum.Cm);
 
-  sum.Cy = hn::MulAdd(flap_up, c.Plane(kPlaneCyFlap), c.Plane(kPlaneCy));
-  sum.Cy = hn::MulAdd(aileron, c.Plane(kPlaneCyAileron), sum.Cy);
-  sum.Cy = hn::MulAdd(aileron_flap, c.Plane(kPlaneCyAileronFlap), sum.Cy);
-  sum.Cy = hn::MulAdd(rudder, c.Plane(kPlaneCyRudder), sum.Cy);
-  sum.Cy = hn::MulAdd(r_hat, c.Damping(kAlphaCyr, kAlphaCyrFlap), sum.Cy);
-  sum.Cy = hn::MulAdd(p_hat, c.Damping(kAlphaCyp, kAlphaCypFlap), sum.Cy);
-
-  sum.Cn = hn::MulAdd(flap_up, c.Plane(kPlaneCnFlap), c.Elevator(kElevatorCn, kElevatorCnStep));
-  sum.Cn = hn::NegMulAdd(sum.Cy, Constant(k.cg_shift_yaw), sum.Cn);
-  sum.Cn = hn::MulAdd(aileron, c.Plane(kPlaneCnAileron), sum.Cn);
-  sum.Cn = hn::MulAdd(aileron_flap, c.Plane(kPlaneCnAileronFlap), sum.Cn);
-  sum.Cn = hn::MulAdd(rudder, c.Plane(kPlaneCnRudder), sum.Cn);
-  sum.Cn = hn::MulAdd(r_hat, c.Damping(kAlphaCnr, kAlphaCnrFlap), sum.Cn);
-  sum.Cn = hn::MulAdd(p_hat, c.Damping(kAlphaCnp, kAlphaCnpFlap), sum.Cn);
-
-  sum.Cl = hn::MulAdd(flap_up, c.Plane(kPlaneClFlap), c.Elevator(kElevatorCl, kElevatorClStep));
-  sum.Cl = hn::MulAdd(aileron, c.Plane(kPlaneClAileron), sum.Cl);
-  sum.Cl = hn::MulAdd(aileron_flap, c.Plane(kPlaneClAileronFlap), sum.Cl);
-  sum.Cl = hn::MulAdd(rudder, c.Plane(kPlaneClRudder), sum.Cl);
-  sum.Cl = hn::MulAdd(r_hat, c.Damping(kAlphaClr, kAlphaClrFlap), sum.Cl);
-  sum.Cl = hn::MulAdd(p_hat, c.Damping(kAlphaClp, kAlphaClpFlap), sum.Cl);
+  sum.Cy = hn::MulAdd(r_hat, c.Alpha(kAlphaCyr), c.Patch<kLateral>(kPatchCy));
+  sum.Cy = hn::MulAdd(p_hat, c.Alpha(kAlphaCyp), sum.Cy);
+  sum.Cn = hn::NegMulAdd(sum.Cy, Constant(k.cg_shift_yaw), c.Patch<kLateral>(kPatchCn));
+  sum.Cn = hn::MulAdd(r_hat, c.Alpha(kAlphaCnr), sum.Cn);
+  sum.Cn = hn::MulAdd(p_hat, c.Alpha(kAlphaCnp), sum.Cn);
+  sum.Cl = hn::MulAdd(r_hat, c.Alpha(kAlphaClr), c.Patch<kLateral>(kPatchCl));
+  sum.Cl = hn::MulAdd(p_hat, c.Alpha(kAlphaClp), sum.Cl);
   return sum;
 }
 
 /// Rates of the thirteen rigid-body columns for the aircraft in lanes `lane` to `lane + kLanes`.
 template <class State>
 HWY_INLINE void Move(const KernelConstants& k, const State& state, const Coefficients& c, int lane,
-                     const Block& block, float (*rates)[kBlock]) {
+                     const Block& block) {
   const FloatTag d;
-  const auto put = [&](int column, V rate) HWY_ATTR { hn::Store(rate, d, rates[column] + lane); };
+  const auto put = [&](int column, V rate) HWY_ATTR { state.Put(column, lane, rate); };
   const V u = state.Get(kU, lane), v = state.Get(kV, lane), w = state.Get(kW, lane);
   const V p = state.Get(kP, lane), q = state.Get(kQ, lane), r = state.Get(kR, lane);
   const V q0 = state.Get(kQ0, lane), qx = state.Get(kQx, lane);
@@ -170,26 +128,21 @@ HWY_INLINE void Move(const KernelConstants& k, const State& state, const Coeffic
 
   const V half = Constant(0.5f);
   const V hp = hn::Mul(p, half), hq = hn::Mul(q, half), hr = hn::Mul(r, half);
-  put(kQ0, hn::Neg(hn::MulAdd(hp, qx, hn::MulAdd(hq, qy, hn::Mul(hr, qz)))));
-  put(kQx, hn::MulAdd(hp, q0, hn::NegMulAdd(hq, qz, hn::Mul(hr, qy))));
-  put(kQy, hn::MulAdd(hq, q0, hn::NegMulAdd(hr, qx, hn::Mul(hp, qz))));
-  put(kQz, hn::MulAdd(hr, q0, hn::NegMulAdd(hp, qy, hn::Mul(hq, qx))));
+  state.PutAttitude(lane, hn::Neg(hn::MulAdd(hp, qx, hn::MulAdd(hq, qy, hn::Mul(hr, qz)))),
+                    hn::MulAdd(hp, q0, hn::NegMulAdd(hq, qz, hn::Mul(hr, qy))),
+                    hn::MulAdd(hq, q0, hn::NegMulAdd(hr, qx, hn::Mul(hp, qz))),
+                    hn::MulAdd(hr, q0, hn::NegMulAdd(hp, qy, hn::Mul(hq, qx))));
 }
 
-/// Rates at one stage, for the aircraft in lanes `lane` to `lane + kLanes` of `block`.
-template <class State>
-HWY_INLINE void FindRates(const KernelAircraft& aircraft, const State& state,
-                          const BlockControls& controls, int lane, Block* block,
-                          float (*rates)[kBlock]) {
-  const FloatTag d;
-  const Coefficients c = BuildUp(aircraft, state, controls, lane, *block);
-  hn::Store(c.Cx, d, block->coefficients[0] + lane);
-  hn::Store(c.Cy, d, block->coefficients[1] + lane);
-  hn::Store(c.Cz, d, block->coefficients[2] + lane);
-  hn::Store(c.Cl, d, block->coefficients[3] + lane);
-  hn::Store(c.Cm, d, block->coefficients[4] + lane);
-  hn::Store(c.Cn, d, block->coefficients[5] + lane);
-  Move(aircraft.constants, state, c, lane, *block, rates);
+/// Rates at one stage. `coefficients(lane, Coefficients)` sees what they come from.
+template <class State, class Observer>
+HWY_INLINE void FindRates(const KernelConstants& k, const State& state, const Block& block,
+                          const Observer& coefficients) {
+  for (int lane = 0; lane < kBlock; lane += kLanes) {
+    const Coefficients c = BuildUp(k, state, lane, block);
+    coefficients(lane, c);
+    Move(k, state, c, lane, block);
+  }
 }
 
 }  // namespace plant_kernel

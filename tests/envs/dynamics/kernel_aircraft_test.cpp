@@ -65,18 +65,25 @@ TEST(KernelAircraft, IncrementsBeyondTheFlapTablesAreThoseAtTheirEnd) {
   const auto kernel = Make(F16());
   const std::vector<double>& alpha = kernel->source.aerodynamics.alpha_deg;
   const int last_flap = static_cast<int>(std::find(alpha.begin(), alpha.end(), 45) - alpha.begin());
-  const int lines_per_node = static_cast<int>(kernel->lines_per_node);
-  const int num_alpha = static_cast<int>(alpha.size());
-  const int num_beta = static_cast<int>(kernel->source.aerodynamics.beta_deg.size());
-  for (int j = 0; j < num_beta; ++j) {
-    const NodeLine& end = kernel->lines[(j * num_alpha + last_flap) * lines_per_node];
-    for (int i = last_flap; i < num_alpha; ++i) {
-      const NodeLine& line = kernel->lines[(j * num_alpha + i) * lines_per_node];
-      for (const int slot :
-           {kPlaneCxFlap, kPlaneCzFlap, kPlaneCmFlap, kPlaneCyFlap, kPlaneCnFlap, kPlaneClFlap,
-            kPlaneCyAileronFlap, kPlaneCnAileronFlap, kPlaneClAileronFlap}) {
-        EXPECT_EQ(line.value[slot], end.value[slot]);
-        EXPECT_EQ(line.alpha_step[slot], 0);
+  const int lines_per_cell = static_cast<int>(kernel->slots_per_cell) / PatchLine::kNumSlots;
+  const int alpha_cells = static_cast<int>(kernel->slots_per_beta / kernel->slots_per_cell);
+  const int beta_cells = static_cast<int>(kernel->source.aerodynamics.beta_deg.size()) - 1;
+  ASSERT_LT(last_flap, alpha_cells);
+  for (int j = 0; j < beta_cells; ++j) {
+    for (int i = last_flap; i < alpha_cells; ++i) {
+      for (const int which : {kLateralFlap, kLateralAileronFlap, kLongitudinalFlap}) {
+        const PatchLine& end =
+            kernel->lines[(j * alpha_cells + last_flap) * lines_per_cell + which];
+        const PatchLine& line = kernel->lines[(j * alpha_cells + i) * lines_per_cell + which];
+        for (int n = 0; n < kPatchesPerLine; ++n) {
+          const auto term = [&](const PatchLine& patches, PatchTerm of) {
+            return patches.slot[of * kPatchesPerLine + n];
+          };
+          EXPECT_EQ(term(line, kCorner), term(end, kCorner));
+          EXPECT_EQ(term(line, kAlongBeta), term(end, kAlongBeta));
+          EXPECT_EQ(term(line, kAlongAlpha), 0);
+          EXPECT_EQ(term(line, kAlongBoth), 0);
+        }
       }
     }
   }
