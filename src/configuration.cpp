@@ -110,19 +110,7 @@ void ApplyAssignment(const std::string& assignment, ProgramConfig* config) {
 
 void CheckConsistent(const ProgramConfig& config) {
   Validate(config.train.env);
-  const PpoConfig& ppo = config.train.ppo;
-  if (ppo.rollout_steps % ppo.chunk_length != 0) {
-    throw Error(fmt::format(
-        "configuration: ppo.rollout_steps = {} is not a multiple of ppo.chunk_length = {}",
-        ppo.rollout_steps, ppo.chunk_length));
-  }
-  const std::int64_t chunks =
-      static_cast<std::int64_t>(ppo.rollout_steps / ppo.chunk_length) * ppo.num_aircraft;
-  if (ppo.minibatches > chunks) {
-    throw Error(
-        fmt::format("configuration: ppo.minibatches = {} is more than the {} chunks of a rollout",
-                    ppo.minibatches, chunks));
-  }
+  Validate(config.train.ppo);
   if (config.checkpoint.interval_iterations == 0 && config.checkpoint.interval_s == 0) {
     throw Error(
         "configuration: checkpoint.interval_iterations and checkpoint.interval_s are both 0; "

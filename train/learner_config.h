@@ -39,6 +39,10 @@ struct PpoConfig {
   double popart_rate = 0.1;  ///< moving average of the value targets' moments
 };
 
+/// Throws Error on values that do not go together: a rollout is a whole number of chunks per
+/// aircraft, and every minibatch has a chunk.
+void Validate(const PpoConfig& config);
+
 struct LearnerConfig {
   /// How gradients are computed: "tiled", own kernels around LibTorch's products, or "autograd",
   /// LibTorch's reference, two to three times slower.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simd/error.h"
 #include "simd/random.h"
 #include "train/ppo_loss.h"
 
@@ -196,11 +195,7 @@ Rollout::Rollout(const PpoConfig& config, int observations, int actions, int gru
       observation_size(observations),
       action_size(actions),
       gru_size(gru) {
-  if (steps <= 0 || aircraft <= 0 || chunk_length <= 0 || steps % chunk_length != 0) {
-    throw Error("ppo.rollout_steps is " + std::to_string(steps) +
-                "; it must be a positive multiple of ppo.chunk_length, " +
-                std::to_string(chunk_length));
-  }
+  Validate(config);
   observation.resize(samples() * observation_size);
   action.resize(samples() * action_size);
   for (auto* const column : {&log_prob, &value, &reward, &keep, &advantage, &target}) {

@@ -13,6 +13,7 @@ namespace skein {
 
 /// What PPO learns from: one row per decision step, one column per aircraft; [step][aircraft].
 struct Rollout {
+  /// Throws Error where Validate(config) does.
   Rollout(const PpoConfig& config, int observation_size, int action_size, int gru_size);
 
   std::int64_t samples() const { return static_cast<std::int64_t>(steps) * aircraft; }

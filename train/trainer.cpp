@@ -41,19 +41,8 @@ double ExplainedVariance(const Rollout& rollout) {
                              : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Throws Error on a configuration whose parts do not fit each other.
-const TrainConfig& Checked(const TrainConfig& config) {
-  const PpoConfig& ppo = config.ppo;
-  if (ppo.chunk_length <= 0 || ppo.rollout_steps % ppo.chunk_length != 0) {
-    throw Error("ppo.rollout_steps must be a multiple of ppo.chunk_length");
-  }
-  const std::int64_t chunks =
-      static_cast<std::int64_t>(ppo.num_aircraft) * (ppo.rollout_steps / ppo.chunk_length);
-  if (ppo.minibatches <= 0 || ppo.minibatches > chunks) {
-    throw Error("ppo.minibatches is " + std::to_string(ppo.minibatches) +
-                "; there are between 1 and " + std::to_string(chunks) +
-                " chunks to share among them");
-  }
+const TrainConfig& Validated(const TrainConfig& config) {
+  Validate(config.ppo);
   return config;
 }
 
@@ -61,7 +50,7 @@ const TrainConfig& Checked(const TrainConfig& config) {
 
 struct Trainer::Impl {
   Impl(const TrainConfig& training, WorkerPool& workers)
-      : config(Checked(training)),
+      : config(Validated(training)),
         pool(workers),
         env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile),
         actor_layout(ActorShape(config.network, env.observation_size(), env.action_size())),
