@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "simd/error.h"
+#include "src/output_file.h"
 #include "src/presets.h"
 #include "src/settings.h"
 
@@ -89,13 +88,7 @@ void ApplyToml(const std::string& text, const std::string& source, ProgramConfig
 }
 
 void ApplyTomlFile(const std::string& path, ProgramConfig* config) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || !text) {
-    throw Error(fmt::format("{}: cannot be read; a configuration is a TOML file", path));
-  }
-  ApplyToml(text.str(), path, config);
+  ApplyToml(ReadFile(path), path, config);
 }
 
 void ApplyAssignment(const std::string& assignment, ProgramConfig* config) {

@@ -92,19 +92,19 @@ std::string EncodeScalars(double unix_time_s, std::int64_t step,
 }
 
 EventFile::EventFile(const std::string& directory, double unix_time_s, std::int64_t first_step)
-    : file_(
-          fmt::format("{}/events.out.tfevents.{:.0f}.{}.skein", directory, unix_time_s, getpid())) {
+    : file_(fmt::format("{}/events.out.tfevents.{:.0f}.{}.skein", directory, unix_time_s, getpid()),
+            OpenMode::kAppend) {
   const std::string version =
       Key(kWallTime, kFixed64) + LittleEndian(unix_time_s) + Message(kFileVersion, "brain.Event:2");
   // A session that starts at a step makes TensorBoard forget what earlier files say from there on.
   const std::string session = EventHead(unix_time_s, first_step) +
                               Message(kSessionLog, Key(kStatus, kVarint) + Varint(kStatusStart));
-  file_.Append(FrameRecord(version) + FrameRecord(session));
+  file_.Write(FrameRecord(version) + FrameRecord(session));
 }
 
 void EventFile::Append(double unix_time_s, std::int64_t step,
                        const std::vector<std::pair<std::string, double>>& scalars) {
-  file_.Append(FrameRecord(EncodeScalars(unix_time_s, step, scalars)));
+  file_.Write(FrameRecord(EncodeScalars(unix_time_s, step, scalars)));
 }
 
 }  // namespace skein

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/append_file.h"
+#include "train/file_descriptor.h"
 
 namespace skein {
 
@@ -33,7 +33,7 @@ class EventFile {
               const std::vector<std::pair<std::string, double>>& scalars);
 
  private:
-  AppendFile file_;
+  FileDescriptor file_;
 };
 
 }  // namespace skein

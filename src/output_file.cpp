@@ -1,81 +1,56 @@
 #include "src/output_file.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <system_error>
 
 #include "simd/error.h"
+#include "train/file_descriptor.h"
 
 namespace skein {
 namespace {
 
-/// Writes, syncs and closes; false with errno set on the first failure.
-bool WriteAndSync(int descriptor, const std::string& text, bool sync) {
-  std::size_t done = 0;
-  bool good = true;
-  while (good && done < text.size()) {
-    const ssize_t written = write(descriptor, text.data() + done, text.size() - done);
-    if (written > 0) {
-      done += static_cast<std::size_t>(written);
-    } else if (errno != EINTR) {
-      good = false;
+/// The standard stream that `file` is, by whatever name (/dev/stdout, a redirection's file), or -1.
+/// Replacing such a file would take it from under the stream.
+int StandardStream(const struct stat& file) {
+  for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat stream {};
+    if (fstat(descriptor, &stream) == 0 && stream.st_dev == file.st_dev &&
+        stream.st_ino == file.st_ino) {
+      return descriptor;
     }
   }
-  good = good && (!sync || fsync(descriptor) == 0);
-  const int reason = errno;
-  const bool closed = close(descriptor) == 0;
-  if (!good) errno = reason;
-  return good && closed;
-}
-
-[[noreturn]] void Fail(const std::string& path) {
-  throw Error(fmt::format("{}: cannot be written: {}", path, SystemReason()));
+  return -1;
 }
 
 }  // namespace
 
-std::string SystemReason() { return std::strerror(errno); }
-
 void WriteFile(const std::string& path, const std::string& text) {
   struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0 || !WriteAndSync(descriptor, text, false)) Fail(path);
-    return;
+  if (stat(path.c_str(), &status) == 0) {
+    if (const int stream = StandardStream(status); stream >= 0) {
+      std::FILE* const out = stream == STDOUT_FILENO ? stdout : stderr;
+      if (std::fputs(text.c_str(), out) == EOF || std::fflush(out) != 0) {
+        throw Error(path + ": cannot be written: " + SystemReason());
+      }
+      return;
+    }
+    if (!S_ISREG(status.st_mode)) {
+      FileDescriptor(path, OpenMode::kWrite).Write(text);
+      return;
+    }
   }
-  const std::string temporary = fmt::format("{}.{}.tmp", path, getpid());
-  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) Fail(path);
-  if (!WriteAndSync(descriptor, text, true) || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int reason = errno;
-    unlink(temporary.c_str());
-    errno = reason;
-    Fail(path);
-  }
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  const int directory =
-      open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (directory < 0 || fsync(directory) != 0) Fail(path);
-  close(directory);
+  std::error_code failure;
+  const bool is_link = std::filesystem::is_symlink(path, failure);
+  ReplaceFile(is_link ? std::filesystem::weakly_canonical(path).string() : path,
+              [&](FileDescriptor& file) { file.Write(text); });
 }
 
 std::string ReadFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  // An empty file sets failbit on `text`, so only the file's own state is asked.
-  if (!file.is_open() || file.bad() || std::filesystem::is_directory(path)) {
-    throw Error(fmt::format("{}: cannot be read: {}", path, SystemReason()));
-  }
-  return text.str();
+  return FileDescriptor(path, OpenMode::kRead).ReadToEnd();
 }
 
 }  // namespace skein

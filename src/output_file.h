@@ -4,15 +4,12 @@
 
 namespace skein {
 
-/// Replaces the file at `path` by `text`: temporary file beside it, fsync, rename, fsync of the
-/// directory. A device or pipe is written to directly. Throws Error (path, reason of the system);
-/// an existing file is then untouched.
+/// Replaces the file at `path` by `text`, durably and whole or not at all (ReplaceFile); through a
+/// symbolic link, the file it leads to. A device, a pipe or the program's own standard output is
+/// written to directly. Throws Error (path, reason of the system).
 void WriteFile(const std::string& path, const std::string& text);
 
-/// The whole file. Throws Error if it cannot be read.
+/// The whole file, which may be a pipe. Throws Error if it cannot be read.
 std::string ReadFile(const std::string& path);
-
-/// "No space left on device" and the like for the current errno.
-std::string SystemReason();
 
 }  // namespace skein

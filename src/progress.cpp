@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "train/file_descriptor.h"
+
 namespace skein {
 namespace {
 
@@ -122,18 +124,25 @@ void ProgressDisplay::Update(const Progress& progress) {
   if (terminal_) {
     const std::size_t width = TerminalWidth() - 1;
     if (line.size() > width) line = FormatProgress(progress, Spacing::kTight).substr(0, width);
-    fmt::print("\r{}\x1b[K", line);
+    Write(fmt::format("\r{}\x1b[K", line));
     line_open_ = true;
   } else {
-    fmt::print("{}\n", line);
+    Write(line + "\n");
   }
-  std::fflush(stdout);
 }
 
 void ProgressDisplay::Print(const std::string& line) {
-  fmt::print("{}{}\n", line_open_ ? "\r\x1b[K" : "", line);
+  Write(fmt::format("{}{}\n", line_open_ ? "\r\x1b[K" : "", line));
   line_open_ = false;
-  std::fflush(stdout);
+}
+
+void ProgressDisplay::Write(const std::string& text) {
+  if (silent_) return;
+  if (std::fputs(text.c_str(), stdout) != EOF && std::fflush(stdout) == 0) return;
+  failure_ = SystemReason();
+  silent_ = true;
+  // Also drops what the stream still holds, which would fail again when the program ends.
+  static_cast<void>(std::freopen("/dev/null", "w", stdout));
 }
 
 }  // namespace skein

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <utility>
 
 #include "train/trainer.h"
 
@@ -52,7 +53,8 @@ class ProgressMeter {
   Progress progress_;
 };
 
-/// Shows lines on the standard output: in place on a terminal, else one every ten seconds.
+/// Shows lines on the standard output: in place on a terminal, else one every ten seconds. Falls
+/// silent when the output breaks (its reader has gone, its disk is full).
 class ProgressDisplay {
  public:
   ProgressDisplay();
@@ -60,11 +62,17 @@ class ProgressDisplay {
   void Update(const Progress& progress);
   /// Prints a line that stays.
   void Print(const std::string& line);
+  /// The system's reason why it has fallen silent, told once; else empty.
+  std::string TakeFailure() { return std::exchange(failure_, ""); }
 
  private:
+  void Write(const std::string& text);
+
   bool terminal_ = false;
   bool line_open_ = false;
   bool shown_ = false;
+  bool silent_ = false;
+  std::string failure_;
   ProgressMeter::Clock::time_point last_;
 };
 

@@ -1,10 +1,8 @@
 #include "src/run_directory.h"
 
-#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,7 +13,7 @@
 
 #include "simd/error.h"
 #include "src/configuration.h"
-#include "src/output_file.h"
+#include "train/file_descriptor.h"
 
 namespace skein {
 namespace {
@@ -25,28 +23,33 @@ namespace fs = std::filesystem;
 constexpr const char* kCheckpointPrefix = "checkpoint-";
 constexpr const char* kExtension = ".skein";
 
-int Lock(const std::string& directory) {
-  const std::string path = directory + "/lock";
-  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    throw Error(fmt::format("{}: cannot be opened: {}", path, SystemReason()));
+FileDescriptor Lock(const std::string& directory) {
+  FileDescriptor file(directory + "/lock", OpenMode::kAppend);
+  if (flock(file.value(), LOCK_EX | LOCK_NB) != 0) {
+    throw Error(errno == EWOULDBLOCK
+                    ? fmt::format("{}: another skein is training here", directory)
+                    : fmt::format("{}: cannot be locked: {}", directory, SystemReason()));
   }
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    const bool held = errno == EWOULDBLOCK;
-    const std::string reason = SystemReason();
-    close(descriptor);
-    throw Error(held ? fmt::format("{}: another skein is training here", directory)
-                     : fmt::format("{}: cannot be locked: {}", path, reason));
-  }
-  return descriptor;
+  return file;
 }
 
-void MakeDirectories(const std::string& path) {
+/// Makes `path` and what is missing above it, durably; returns it.
+const std::string& MakeDirectories(const std::string& path) {
+  const fs::path parent = fs::absolute(path).parent_path();
   std::error_code failure;
-  fs::create_directories(path, failure);
+  if (!fs::exists(parent, failure)) MakeDirectories(parent.string());
+  const bool made = fs::create_directory(path, failure);
   if (failure) {
     throw Error(fmt::format("{}: cannot be made a directory: {}", path, failure.message()));
   }
+  if (made) SyncDirectory(parent.string());
+  return path;
+}
+
+/// `path` without slashes at its end, which would double in the names of files below it.
+std::string WithoutTrailingSlashes(const std::string& path) {
+  const auto last = path.find_last_not_of('/');
+  return last == std::string::npos ? path : path.substr(0, last + 1);
 }
 
 std::optional<std::uint64_t> IterationOf(const std::string& name) {
@@ -91,10 +94,7 @@ RunDirectory RunDirectory::Create(const std::string& path) {
                           path)
             : fmt::format("{}: exists and is not an empty directory; choose another --out", path));
   }
-  MakeDirectories(path);
-  RunDirectory directory(path, Lock(path));
-  MakeDirectories(directory.checkpoints());
-  return directory;
+  return RunDirectory(path);
 }
 
 RunDirectory RunDirectory::Open(const std::string& path) {
@@ -102,16 +102,12 @@ RunDirectory RunDirectory::Open(const std::string& path) {
     throw Error(
         fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
   }
-  RunDirectory directory(path, Lock(path));
-  MakeDirectories(directory.checkpoints());
-  return directory;
+  return RunDirectory(path);
 }
 
-RunDirectory::RunDirectory(RunDirectory&& other) noexcept
-    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
-
-RunDirectory::~RunDirectory() {
-  if (lock_ >= 0) close(lock_);
+RunDirectory::RunDirectory(const std::string& path)
+    : path_(WithoutTrailingSlashes(path)), lock_(Lock(MakeDirectories(path_))) {
+  MakeDirectories(checkpoints());
 }
 
 std::string RunDirectory::checkpoint(std::uint64_t iteration) const {
@@ -125,6 +121,9 @@ std::vector<Checkpoint> CheckpointsIn(const std::string& folder) {
     if (const auto iteration = IterationOf(entry.path().filename().string())) {
       found.push_back({*iteration, entry.path().string()});
     }
+  }
+  if (failure && failure != std::errc::no_such_file_or_directory) {
+    throw Error(fmt::format("{}: cannot be read: {}", folder, failure.message()));
   }
   std::sort(found.begin(), found.end(),
             [](const Checkpoint& a, const Checkpoint& b) { return a.iteration < b.iteration; });
@@ -160,14 +159,13 @@ std::string NewRunPath(const std::string& root, const std::string& task) {
 
 std::optional<std::string> LatestRun(const std::string& root, const std::string& task) {
   std::error_code failure;
-  std::vector<std::string> runs;
+  std::vector<std::pair<fs::file_time_type, std::string>> runs;
   for (const auto& entry : fs::directory_iterator(root, failure)) {
-    if (IsRunDirectory(entry.path().string())) runs.push_back(entry.path().string());
+    const std::string run = entry.path().string();
+    if (IsRunDirectory(run)) runs.emplace_back(LastWritten(run), run);
   }
-  std::sort(runs.begin(), runs.end(), [](const std::string& a, const std::string& b) {
-    return LastWritten(a) > LastWritten(b);
-  });
-  for (const std::string& run : runs) {
+  std::sort(runs.rbegin(), runs.rend());
+  for (const auto& [time, run] : runs) {
     if (task.empty()) return run;
     ProgramConfig config;
     ApplyTomlFile(run + "/config.toml", &config);

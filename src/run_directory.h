@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "train/file_descriptor.h"
 
 namespace skein {
 
@@ -14,7 +15,8 @@ struct Checkpoint {
   std::string path;
 };
 
-/// The checkpoints in a run's folder of checkpoints, oldest first.
+/// The checkpoints in a run's folder of checkpoints, oldest first; none if there is no such folder.
+/// Throws Error if it cannot be read.
 std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 
 /// The directory of one training run, held exclusively while the object lives:
@@ -27,9 +29,6 @@ class RunDirectory {
   static RunDirectory Create(const std::string& path);
   /// Opens one that holds a run. Throws Error if it does not, or another process holds it.
   static RunDirectory Open(const std::string& path);
-
-  RunDirectory(RunDirectory&& other) noexcept;
-  ~RunDirectory();
 
   const std::string& path() const { return path_; }
   std::string config() const { return path_ + "/config.toml"; }
@@ -50,10 +49,11 @@ class RunDirectory {
   void RemoveTemporaries() const;
 
  private:
-  RunDirectory(std::string path, int lock) : path_(std::move(path)), lock_(lock) {}
+  /// Makes the folders that are missing, and takes the lock.
+  explicit RunDirectory(const std::string& path);
 
   std::string path_;
-  int lock_ = -1;
+  FileDescriptor lock_;
 };
 
 /// Whether `path` is the directory of a run.

@@ -2,26 +2,29 @@
 
 #include <string>
 
-#include "src/append_file.h"
 #include "src/progress.h"
+#include "train/file_descriptor.h"
 
 namespace skein {
 
-/// What a run says: to log.txt with the time, and to the standard output.
+/// What a run says: to log.txt with the time, and to the standard output, which may break (and that
+/// is noted) without ending the run. Throws Error if the file cannot be written.
 class RunLog {
  public:
-  explicit RunLog(const std::string& path) : file_(path) {}
+  explicit RunLog(const std::string& path) : file_(path, OpenMode::kAppend) {}
 
   /// To both; `text` may have several lines.
   void Say(const std::string& text);
   /// To the file alone.
   void Note(const std::string& text);
   /// To the output alone, replacing what was last shown on a terminal.
-  void Show(const Progress& progress) { display_.Update(progress); }
+  void Show(const Progress& progress);
   void Sync() { file_.Sync(); }
 
  private:
-  AppendFile file_;
+  void NoteBrokenOutput();
+
+  FileDescriptor file_;
   ProgressDisplay display_;
 };
 

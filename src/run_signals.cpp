@@ -3,7 +3,7 @@
 #include <csignal>
 
 #include "simd/error.h"
-#include "src/output_file.h"
+#include "train/file_descriptor.h"
 
 namespace skein {
 namespace {
@@ -41,10 +41,11 @@ RunSignals::RunSignals() {
   Install(SIGINT, OnStop);
   Install(SIGTERM, OnStop);
   Install(SIGUSR1, OnSave);
+  Install(SIGPIPE, SIG_IGN);
 }
 
 RunSignals::~RunSignals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGPIPE}) std::signal(signal, SIG_DFL);
 }
 
 int RunSignals::StopSignal() const { return stop_signal; }

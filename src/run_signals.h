@@ -3,7 +3,8 @@
 namespace skein {
 
 /// While it lives, SIGINT and SIGTERM ask for a stop and SIGUSR1 for a save instead of ending the
-/// process. A second SIGINT or SIGTERM ends it at once, as by default. One at a time.
+/// process. A second SIGINT or SIGTERM ends it at once, as by default. SIGPIPE is ignored: a reader
+/// of the progress that goes away is no reason to stop. One at a time.
 class RunSignals {
  public:
   /// Throws Error if the system refuses a handler.

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <utility>
 
 #include "simd/error.h"
+#include "simd/target.h"
 #include "src/configuration.h"
 #include "src/evaluation_report.h"
 #include "src/output_file.h"
@@ -73,13 +75,13 @@ TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Tr
       trainer_(trainer),
       pool_(pool),
       log_(directory_.log()),
-      metrics_(directory_.metrics()),
-      timing_(directory_.timing()),
+      metrics_(directory_.metrics(), OpenMode::kAppend),
+      timing_(directory_.timing(), OpenMode::kAppend),
       events_(directory_.path(), UnixTime(), static_cast<std::int64_t>(trainer.env_steps()) + 1),
       last_save_(Clock::now()),
       saved_iteration_(trainer.iteration()) {
-  if (metrics_.empty()) metrics_.Append(MetricsHeader());
-  if (timing_.empty()) timing_.Append(TimingHeader());
+  if (metrics_.size() == 0) metrics_.Write(MetricsHeader());
+  if (timing_.size() == 0) timing_.Write(TimingHeader());
 }
 
 void TrainingRun::Run() {
@@ -130,15 +132,20 @@ IterationReport TrainingRun::Iterate() {
     const std::string path = fmt::format("{}/before-failure-{:06}.skein", directory_.checkpoints(),
                                          trainer_.iteration());
     log_.Note(fmt::format("error: {}", error.what()));
-    trainer_.Save(path);
+    try {
+      trainer_.Save(path);
+    } catch (const Error& failure) {
+      throw Error(fmt::format("{}; the state from before could not be saved: {}", error.what(),
+                              failure.what()));
+    }
     throw Error(fmt::format("{}; the state from before is in {}", error.what(), path));
   }
 }
 
 void TrainingRun::Record(const IterationReport& report) {
   const double now = UnixTime();
-  metrics_.Append(MetricsRow(report));
-  timing_.Append(TimingRow(report, now));
+  metrics_.Write(MetricsRow(report));
+  timing_.Write(TimingRow(report, now));
   events_.Append(now, static_cast<std::int64_t>(report.env_steps), Scalars(report));
   const int non_finite = report.terminations[static_cast<std::size_t>(Termination::kNonFinite)];
   if (non_finite > 0) {

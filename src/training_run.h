@@ -5,13 +5,13 @@
 #include <string>
 
 #include "envs/worker_pool.h"
-#include "src/append_file.h"
 #include "src/event_file.h"
 #include "src/metrics.h"
 #include "src/program_config.h"
 #include "src/run_directory.h"
 #include "src/run_log.h"
 #include "src/run_signals.h"
+#include "train/file_descriptor.h"
 #include "train/trainer.h"
 
 namespace skein {
@@ -43,7 +43,7 @@ class TrainingRun {
   WorkerPool& pool_;
   RunSignals signals_;
   RunLog log_;
-  AppendFile metrics_, timing_;
+  FileDescriptor metrics_, timing_;
   EventFile events_;
   std::chrono::steady_clock::time_point last_save_;
   std::uint64_t saved_iteration_ = 0;

@@ -1,25 +1,21 @@
 #include "train/tensor_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "simd/error.h"
+#include "train/file_descriptor.h"
 #include "train/fnv_hash.h"
 
 namespace skein {
 namespace {
 
-using Json = nlohmann::ordered_json;
+// Sorted, so that a hostile header of very many names is still found in quickly.
+using Json = nlohmann::json;
 
 constexpr std::uint64_t kMaxHeaderBytes = 16u << 20;
 constexpr std::uint64_t kLengthBytes = 8;
@@ -71,15 +67,6 @@ const std::string& BlankChecksumField() {
   return blank;
 }
 
-/// The checksum of a file: FNV-1a over the header, its checksum's digits as zeros, and the data.
-template <typename Data>
-std::string Checksum(const std::string& blank_header, const Data& add_data) {
-  FnvHash hash;
-  hash.Add(blank_header.data(), blank_header.size());
-  add_data(hash);
-  return hash.Hex();
-}
-
 Json::const_reference Member(const Json& object, const char* key, const std::string& path,
                              const std::string& name) {
   const auto found = object.find(key);
@@ -127,69 +114,45 @@ Entry ParseEntry(const std::string& name, const Json& json, const std::string& p
   return entry;
 }
 
-std::string ReadWhole(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    throw Error(path + ": " + (code ? code.message() : "not a regular file"));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(path + ": cannot be opened: " + std::strerror(errno));
-  std::string bytes;
-  bytes.resize(std::filesystem::file_size(path));
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
-    throw Error(path + ": cannot be read to its end");
-  }
-  return bytes;
+std::string_view TextOf(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const std::string& path, int flags)
-      : path_(path), value_(open(path.c_str(), flags, 0644)) {
-    if (value_ < 0) Fail("cannot be opened");
-  }
-  ~Descriptor() {
-    if (value_ >= 0) close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  void Write(const void* data, std::size_t size) {
-    const char* bytes = static_cast<const char*>(data);
-    while (size > 0) {
-      const ssize_t written = write(value_, bytes, size);
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) Fail("cannot be written");
-      bytes += written;
-      size -= static_cast<std::size_t>(written);
+/// The tensors that the header describes, in the order of their bytes.
+std::vector<Entry> ParseHeader(const std::string& text, std::uint64_t data_size,
+                               const std::string& path,
+                               std::map<std::string, std::string>* metadata) {
+  const Json header = Json::parse(text, nullptr, false);
+  if (!header.is_object() || text.front() != '{') Refuse(path, "its header is not a JSON object");
+  std::vector<Entry> entries;
+  for (const auto& [name, json] : header.items()) {
+    if (name != kMetadataKey) {
+      entries.push_back(ParseEntry(name, json, path));
+      continue;
+    }
+    if (!json.is_object()) Refuse(path, "its metadata is not an object");
+    for (const auto& [key, value] : json.items()) {
+      if (!value.is_string()) Refuse(path, "its metadata holds something else than text");
+      (*metadata)[key] = value.get<std::string>();
     }
   }
-  void Sync() {
-    if (fsync(value_) != 0) Fail("cannot be synced");
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
+  });
+  std::uint64_t expected = 0;
+  for (const Entry& entry : entries) {
+    if (entry.begin != expected) Refuse(path, "its tensors overlap or leave holes");
+    expected = entry.end;
   }
-  void Close() {
-    const int value = value_;
-    value_ = -1;
-    if (close(value) != 0) Fail("cannot be closed");
-  }
-
- private:
-  [[noreturn]] void Fail(const char* what) const {
-    throw Error(path_ + ": " + what + ": " + std::strerror(errno));
-  }
-
-  std::string path_;
-  int value_;
-};
+  if (expected != data_size) Refuse(path, "its data has the wrong size (truncated or extended)");
+  return entries;
+}
 
 }  // namespace
 
 void TensorFile::Write(const std::string& path) const {
-  Json header;
-  Json& texts = header[kMetadataKey];
-  texts = Json::object();
+  nlohmann::ordered_json header;
+  nlohmann::ordered_json& texts = header[kMetadataKey];
   texts[kChecksumKey] = std::string(kChecksumDigits, '0');
   for (const auto& [key, value] : metadata) {
     if (key == kChecksumKey) throw Error(path + ": metadata key \"checksum\" is reserved");
@@ -209,91 +172,64 @@ void TensorFile::Write(const std::string& path) const {
   // Spaces to a whole number of words, so that data is aligned when the file is mapped.
   text.append((kAlignment - text.size() % kAlignment) % kAlignment, ' ');
   if (text.size() > kMaxHeaderBytes) throw Error(path + ": the header would exceed 16 MiB");
-  const std::string checksum = Checksum(text, [this](FnvHash& hash) {
-    for (const auto& [name, tensor] : tensors) hash.Add(tensor.bytes.data(), tensor.bytes.size());
-  });
+  // FNV-1a over the header, its checksum's digits as zeros, and the data.
+  FnvHash hash;
+  hash.Add(text.data(), text.size());
+  for (const auto& [name, tensor] : tensors) hash.Add(tensor.bytes.data(), tensor.bytes.size());
   const std::size_t field = text.find(BlankChecksumField());
-  text.replace(field, BlankChecksumField().size(), ChecksumField(checksum));
-  std::array<std::uint8_t, kLengthBytes> length;
+  text.replace(field, BlankChecksumField().size(), ChecksumField(hash.Hex()));
+  std::array<char, kLengthBytes> length;
   for (std::size_t i = 0; i < kLengthBytes; ++i) {
-    length[i] = static_cast<std::uint8_t>(text.size() >> (8 * i));
+    length[i] = static_cast<char>(static_cast<std::uint8_t>(text.size() >> (8 * i)));
   }
 
-  const std::string temporary = path + ".tmp";
-  try {
-    Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
-    file.Write(length.data(), length.size());
-    file.Write(text.data(), text.size());
-    for (const auto& [name, tensor] : tensors) file.Write(tensor.bytes.data(), tensor.bytes.size());
-    file.Sync();
-    file.Close();
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-      throw Error(path + ": cannot be replaced: " + std::strerror(errno));
-    }
-  } catch (const Error&) {
-    unlink(temporary.c_str());
-    throw;
-  }
-  const std::string directory = std::filesystem::path(path).parent_path().string();
-  Descriptor(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC).Sync();
+  ReplaceFile(path, [&](FileDescriptor& file) {
+    file.Write({length.data(), length.size()});
+    file.Write(text);
+    for (const auto& [name, tensor] : tensors) file.Write(TextOf(tensor.bytes));
+  });
 }
 
 TensorFile TensorFile::Read(const std::string& path) {
-  const std::string bytes = ReadWhole(path);
-  if (bytes.size() < kLengthBytes) Refuse(path, "shorter than its length field");
+  // Asked before it is opened, which could wait for ever on a pipe.
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) {
+    throw Error(path + ": " + (code ? code.message() : "not a regular file"));
+  }
+  FileDescriptor in(path, OpenMode::kRead);
+  const std::uint64_t size = in.size();
+  if (size < kLengthBytes) Refuse(path, "shorter than its length field");
+  std::array<char, kLengthBytes> length_bytes;
+  in.ReadExactly(length_bytes.data(), length_bytes.size());
   std::uint64_t length = 0;
   for (std::size_t i = 0; i < kLengthBytes; ++i) {
-    length |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(bytes[i])) << (8 * i);
+    length |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(length_bytes[i])) << (8 * i);
   }
-  if (length > kMaxHeaderBytes || length > bytes.size() - kLengthBytes) {
+  if (length > kMaxHeaderBytes || length > size - kLengthBytes) {
     Refuse(path, "its header length is impossible (foreign or truncated)");
   }
-  std::string text = bytes.substr(kLengthBytes, length);
-  const char* const data = bytes.data() + kLengthBytes + length;
-  const std::uint64_t data_size = bytes.size() - kLengthBytes - length;
-  const Json header = Json::parse(text, nullptr, false);
-  if (!header.is_object() || text.front() != '{') Refuse(path, "its header is not a JSON object");
+  std::string text(length, '\0');
+  in.ReadExactly(text.data(), text.size());
 
   TensorFile file;
-  std::string checksum;
-  std::vector<Entry> entries;
-  for (const auto& [name, json] : header.items()) {
-    if (name != kMetadataKey) {
-      entries.push_back(ParseEntry(name, json, path));
-      continue;
-    }
-    if (!json.is_object()) Refuse(path, "its metadata is not an object");
-    for (const auto& [key, value] : json.items()) {
-      if (!value.is_string()) Refuse(path, "its metadata holds something else than text");
-      if (key == kChecksumKey) {
-        checksum = value.get<std::string>();
-      } else {
-        file.metadata[key] = value.get<std::string>();
-      }
-    }
-  }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;
-  });
-  std::uint64_t expected = 0;
-  for (const Entry& entry : entries) {
-    if (entry.begin != expected) Refuse(path, "its tensors overlap or leave holes");
-    expected = entry.end;
-  }
-  if (expected != data_size) Refuse(path, "its data has the wrong size (truncated or extended)");
-
+  const std::uint64_t data_size = size - kLengthBytes - length;
+  std::vector<Entry> entries = ParseHeader(text, data_size, path, &file.metadata);
+  const std::string checksum = file.metadata[kChecksumKey];
+  file.metadata.erase(kChecksumKey);
   const std::size_t field = text.find(ChecksumField(checksum));
   if (checksum.size() != kChecksumDigits || field == std::string::npos) {
     Refuse(path, "it has no checksum");
   }
   text.replace(field, BlankChecksumField().size(), BlankChecksumField());
-  if (Checksum(text, [&](FnvHash& hash) { hash.Add(data, data_size); }) != checksum) {
-    Refuse(path, "its checksum does not match (damaged)");
-  }
+  FnvHash hash;
+  hash.Add(text.data(), text.size());
   for (Entry& entry : entries) {
-    entry.tensor.bytes.assign(data + entry.begin, data + entry.end);
+    entry.tensor.bytes.resize(entry.end - entry.begin);
+    in.ReadExactly(reinterpret_cast<char*>(entry.tensor.bytes.data()), entry.tensor.bytes.size());
+    hash.Add(entry.tensor.bytes.data(), entry.tensor.bytes.size());
     file.tensors.emplace(std::move(entry.name), std::move(entry.tensor));
   }
+  if (hash.Hex() != checksum) Refuse(path, "its checksum does not match (damaged)");
   return file;
 }
 

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "simd/error.h"
+#include "src/output_file.h"
 #include "src/presets.h"
 #include "src/settings.h"
 
@@ -39,8 +42,19 @@ TEST(Configuration, TomlErrorsNameFileLineAndReason) {
             "run.toml:2: ppo.gamma = inf is out of range; it must be in [0, 1]");
 }
 
-TEST(Configuration, AnErrorLeavesNoDoubtAboutItsOneLine) {
-  EXPECT_THAT(ErrorOf("[ppo]\n\"a\\nb\" = 1\n"), HasSubstr("unknown key"));
+TEST(Configuration, AnEmptyFileChangesNothingAndAMissingOneIsNamed) {
+  const std::string path = ::testing::TempDir() + "/configuration_test.toml";
+  WriteFile(path, "");
+  ProgramConfig config;
+  ApplyTomlFile(path, &config);
+  EXPECT_THAT(Differences(config, {}), IsEmpty());
+  std::filesystem::remove(path);
+  try {
+    ApplyTomlFile(path, &config);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(path + ": cannot be opened"));
+  }
 }
 
 TEST(Configuration, DumpReadsBackExactly) {

@@ -55,6 +55,12 @@ TEST_F(RunDirectoryTest, PruneKeepsTheNewestByNumber) {
   EXPECT_FALSE(fs::exists(run.checkpoints() + "/checkpoint-12.skein.tmp"));
 }
 
+TEST_F(RunDirectoryTest, CheckpointsThatCannotBeReadAreNotTakenForNone) {
+  EXPECT_TRUE(CheckpointsIn(root_ + "/absent").empty());
+  WriteFile(root_ + "/file", "");
+  EXPECT_THROW(CheckpointsIn(root_ + "/file"), Error);
+}
+
 TEST_F(RunDirectoryTest, LatestIsTheOneWrittenToLast) {
   EXPECT_FALSE(LatestRun(root_, "").has_value());
   for (const char* name : {"/a", "/b", "/c"}) {
@@ -76,6 +82,14 @@ TEST_F(RunDirectoryTest, NewPathsDoNotExist) {
   const std::string path = NewRunPath(root_, "heading");
   fs::create_directories(path);
   EXPECT_NE(NewRunPath(root_, "heading"), path);
+}
+
+TEST_F(RunDirectoryTest, SymbolicLinksLeadToTheFileThatIsReplaced) {
+  WriteFile(root_ + "/file", "old");
+  fs::create_symlink(root_ + "/file", root_ + "/link");
+  WriteFile(root_ + "/link", "new");
+  EXPECT_TRUE(fs::is_symlink(root_ + "/link"));
+  EXPECT_EQ(ReadFile(root_ + "/file"), "new");
 }
 
 TEST_F(RunDirectoryTest, FilesAreReplacedWholeOrNotAtAll) {

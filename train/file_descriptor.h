@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace skein {
+
+enum class OpenMode {
+  kRead,       ///< must exist
+  kReplace,    ///< made if absent, emptied if not
+  kWrite,      ///< must exist; as it is, for devices and pipes
+  kAppend,     ///< made if absent; every write goes to the end
+  kDirectory,  ///< to sync it
+};
+
+/// An open file that closes itself. Every function throws Error (its name, what failed, the
+/// system's reason). Writes reach the system at once, so that a killed process loses nothing.
+class FileDescriptor {
+ public:
+  /// `name`: what errors call the file, if not by its path.
+  FileDescriptor(const std::string& path, OpenMode mode, const std::string& name = "");
+  FileDescriptor(FileDescriptor&& other) noexcept;
+  ~FileDescriptor();
+  FileDescriptor& operator=(FileDescriptor&&) = delete;
+
+  int value() const { return value_; }
+  std::uint64_t size() const;  ///< bytes
+
+  /// All of `bytes`.
+  void Write(std::string_view bytes);
+  /// Exactly `size` bytes; a file that ends before is an Error.
+  void ReadExactly(char* bytes, std::size_t size);
+  /// Everything up to the end.
+  std::string ReadToEnd();
+  /// Waits until what was written survives a power cut.
+  void Sync();
+  /// Some file systems report a failed write only here.
+  void Close();
+
+ private:
+  std::size_t ReadSome(char* bytes, std::size_t size);
+  [[noreturn]] void Fail(const char* what) const;
+
+  std::string name_;
+  int value_ = -1;
+};
+
+/// Replaces the file `path` by what `write` writes: temporary file `path`.tmp, fsync, rename, fsync
+/// of the directory. Throws Error, as `write` may; an existing file is then untouched.
+void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write);
+
+/// Makes the names in a directory survive a power cut.
+void SyncDirectory(const std::string& path);
+
+/// "No space left on device" and the like for the current errno.
+std::string SystemReason();
+
+}  // namespace skein
