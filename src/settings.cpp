@@ -259,6 +259,8 @@ std::vector<Setting> MakeSettings() {
        {0, 1, true},
        "weight of an iteration in PopArt's moving moments"},
 
+      {"learner.backend", [](C& c) -> F { return &c.train.learner.backend; }, name,
+       "gradients by own kernels (tiled) or LibTorch's autograd (autograd), the slow reference"},
       {"learner.tile_samples",
        [](C& c) -> F { return &c.train.learner.tile_samples; },
        {1, 1000000},
@@ -390,7 +392,8 @@ std::string Setting::BoundsText() const {
     return "";
   }
   const bool open_below = bounds.min_open || std::isinf(bounds.min);
-  return fmt::format("{}{:.10g}, {:.10g}{}", open_below ? '(' : '[', bounds.min, bounds.max,
+  const std::string max = bounds.max == kMaxCount ? "2^53" : fmt::format("{:.10g}", bounds.max);
+  return fmt::format("{}{:.10g}, {}{}", open_below ? '(' : '[', bounds.min, max,
                      std::isinf(bounds.max) ? ')' : ']');
 }
 

@@ -51,9 +51,11 @@ void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wo
   directory.RemoveTemporaries();
   Trainer trainer(config.train, pool);
   const std::vector<Checkpoint> checkpoints = directory.Checkpoints();
+  const std::string target = Name(simd::ActiveTarget());
+  std::string saved_on = target;
   if (!checkpoints.empty()) {
     try {
-      trainer.Restore(checkpoints.back().path);
+      saved_on = trainer.Restore(checkpoints.back().path);
     } catch (const Error& error) {
       throw Error(CannotRestore(checkpoints.back(), checkpoints, error.what()));
     }
@@ -64,6 +66,12 @@ void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wo
   if (rows != trainer.iteration()) {
     run.log_.Say(fmt::format("warning: metrics.csv has {} rows for {} iterations", rows,
                              trainer.iteration()));
+  }
+  if (saved_on != target) {
+    run.log_.Say(
+        fmt::format("warning: saved with SIMD target {0}, going on with {1}: no longer bit for bit "
+                    "(SKEIN_SIMD={0} forces it)",
+                    saved_on, target));
   }
   run.Run();
 }

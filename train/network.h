@@ -78,6 +78,9 @@ class NetworkLayout {
 NetworkShape ActorShape(const NetworkConfig& config, int observation_size, int action_size);
 NetworkShape CriticShape(const NetworkConfig& config, int observation_size);
 
+/// Streams of InitialParameters.
+inline constexpr std::uint32_t kActorStream = 0, kCriticStream = 1;
+
 /// Fresh parameters: orthogonal weights (gain sqrt 2 before a ReLU, 1 in each gate of the GRU,
 /// `head_scale` in the head), zero biases, unit LayerNorms, `log_std` throughout. A function of its
 /// arguments alone; `stream` tells the networks of one seed apart.

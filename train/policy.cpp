@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include "simd/error.h"
@@ -17,7 +16,6 @@ namespace {
 
 constexpr const char* kFormat = "skein-policy-1";
 constexpr int kMaxSize = 1 << 14;  ///< of any layer: a file cannot ask for more memory than this
-constexpr int kActorStream = 0;
 
 std::string Metadata(const TensorFile& file, const std::string& path, const std::string& key) {
   const auto found = file.metadata.find(key);
@@ -44,13 +42,6 @@ int SizeIn(const TensorFile& file, const std::string& path, const std::string& k
   return static_cast<int>(value);
 }
 
-/// Seventeen digits: the double comes back as it was.
-std::string Exactly(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
-
 }  // namespace
 
 /// The network with its affine parts folded, beside what it was folded from.
@@ -65,8 +56,8 @@ void StorePolicy(const Policy::Parameters& parameters, TensorFile& file) {
   metadata["policy.hidden_size"] = std::to_string(parameters.config.hidden_size);
   metadata["policy.gru_size"] = std::to_string(parameters.config.gru_size);
   metadata["policy.tanh_mean"] = parameters.config.tanh_mean ? "1" : "0";
-  metadata["policy.initial_log_std"] = Exactly(parameters.config.initial_log_std);
-  metadata["policy.actor_head_scale"] = Exactly(parameters.config.actor_head_scale);
+  metadata["policy.initial_log_std"] = ExactText(parameters.config.initial_log_std);
+  metadata["policy.actor_head_scale"] = ExactText(parameters.config.actor_head_scale);
   metadata["policy.observation_size"] = std::to_string(parameters.shape.observation_size);
   metadata["policy.action_size"] = std::to_string(parameters.shape.output_size);
   metadata["policy.action_repeat"] = std::to_string(parameters.action_repeat);
@@ -104,8 +95,9 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
     parameters->values.insert(parameters->values.end(), values.begin(), values.end());
   }
   for (const float value : parameters->values) {
-    if (!std::isfinite(value))
+    if (!std::isfinite(value)) {
       throw Error(path + ": the policy has parameters that are not finite");
+    }
   }
   return parameters;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "simd/error.h"
@@ -19,6 +22,13 @@ constexpr NamedTensor::Type TensorTypeOf() {
   if constexpr (std::is_same_v<T, std::uint64_t>) return NamedTensor::Type::kU64;
   if constexpr (std::is_same_v<T, std::int64_t>) return NamedTensor::Type::kI64;
   if constexpr (std::is_same_v<T, std::uint8_t>) return NamedTensor::Type::kU8;
+}
+
+/// A number for a file's metadata: seventeen digits, so that the double comes back as it was.
+inline std::string ExactText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
 }
 
 /// Adds `count` values as a tensor of `shape`. Skein runs on little-endian machines alone.

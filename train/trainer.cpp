@@ -18,7 +18,6 @@
 namespace skein {
 namespace {
 
-constexpr std::uint32_t kActorStream = 0, kCriticStream = 1;
 constexpr double kCriticHeadScale = 1;
 
 double SecondsSince(std::chrono::steady_clock::time_point start) {
@@ -95,7 +94,8 @@ struct Trainer::Impl {
   }
 
   void SetState(const TrainingState& state) {
-    // The environment's is the one part that may be refused: first, so that nothing moves then.
+    // Sizes are right, LoadCheckpoint has seen to it, but for the environment's, which it asks
+    // about itself: first, so that nothing has moved if it throws.
     env.Restore(state.env);
     std::copy(state.actor.begin(), state.actor.end(), actor.parameters());
     std::copy(state.critic.begin(), state.critic.end(), critic.parameters());
@@ -234,9 +234,11 @@ void Trainer::Save(const std::string& path) const {
   StoreCheckpoint(impl_->config, impl_->actor_layout, impl_->State()).Write(path);
 }
 
-void Trainer::Restore(const std::string& path) {
-  impl_->SetState(LoadCheckpoint(TensorFile::Read(path), path, impl_->config, impl_->actor_layout,
-                                 impl_->critic_layout));
+std::string Trainer::Restore(const std::string& path) {
+  const TensorFile file = TensorFile::Read(path);
+  impl_->SetState(
+      LoadCheckpoint(file, path, impl_->config, impl_->actor_layout, impl_->critic_layout));
+  return file.metadata.at(kSimdTargetKey);
 }
 
 std::uint64_t Trainer::Signature() const { return Hash(impl_->State()); }

@@ -53,9 +53,10 @@ class Trainer {
   /// Everything needed to go on bit for bit, written atomically (temporary file, fsync, rename,
   /// directory fsync).
   void Save(const std::string& path) const;
-  /// Throws Error if the file is damaged or was made with another configuration of networks,
-  /// environment or learner.
-  void Restore(const std::string& path);
+  /// Returns the SIMD target that the checkpoint was made on: on another one training goes on, but
+  /// not bit for bit. Throws Error if the file is damaged or was made with another configuration of
+  /// networks, environment or learner; nothing has changed then.
+  std::string Restore(const std::string& path);
 
   /// A 64-bit hash (FNV-1a) of parameters, optimiser, value statistics and environment state.
   std::uint64_t Signature() const;

@@ -1,10 +1,10 @@
 #include "train/training_state.h"
 
 #include <array>
-#include <cstdio>
 #include <utility>
 
 #include "simd/error.h"
+#include "simd/target.h"
 #include "train/fnv_hash.h"
 #include "train/policy_parameters.h"
 #include "train/tensor_access.h"
@@ -19,14 +19,13 @@ std::string Text(const std::string& value) { return value; }
 std::string Text(bool value) { return value ? "true" : "false"; }
 std::string Text(int value) { return std::to_string(value); }
 std::string Text(std::uint64_t value) { return std::to_string(value); }
-std::string Text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
+std::string Text(double value) { return ExactText(value); }
+std::string Text(AtmosphereModel model) {
+  return model == AtmosphereModel::kStevensLewis ? "stevens_lewis" : "standard_1976";
 }
-std::string Text(const Range& range) { return Text(range.min) + " to " + Text(range.max); }
-std::string Text(AtmosphereModel model) { return Text(static_cast<int>(model)); }
-std::string Text(FlightControlMode mode) { return Text(static_cast<int>(mode)); }
+std::string Text(FlightControlMode mode) {
+  return mode == FlightControlMode::kFull ? "full" : "direct";
+}
 
 void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& fields) {
   const auto add = [&](const char* name, const auto& value) {
@@ -36,8 +35,8 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
   add("aircraft", env.aircraft);
   add("atmosphere", env.atmosphere);
   add("flight_control", env.flight_control);
-  add("cg", env.cg);
-  add("engine_angular_momentum", env.engine_angular_momentum);
+  add("cg_chord_fraction", env.cg);
+  add("engine_angular_momentum_slug_ft2_per_s", env.engine_angular_momentum);
   add("control_interval_s", env.control_interval_s);
   add("substeps", env.substeps);
   add("action_repeat", env.action_repeat);
@@ -46,8 +45,10 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
   add("stagger_clocks", env.stagger_clocks);
   add("observation_noise", env.observation_noise);
   add("reward_scale", env.reward_scale);
-  add("initial.altitude_ft", env.initial.altitude_ft);
-  add("initial.true_airspeed_fps", env.initial.true_airspeed_fps);
+  add("initial.altitude_min_ft", env.initial.altitude_ft.min);
+  add("initial.altitude_max_ft", env.initial.altitude_ft.max);
+  add("initial.true_airspeed_min_fps", env.initial.true_airspeed_fps.min);
+  add("initial.true_airspeed_max_fps", env.initial.true_airspeed_fps.max);
   add("initial.trimmed", env.initial.trimmed);
   add("heading.altitude_change_ft", env.heading.altitude_change_ft);
   add("heading.yaw_change_rad", env.heading.yaw_change_rad);
@@ -56,12 +57,14 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
   add("heading.yaw_tolerance_deg", env.heading.yaw_tolerance_deg);
   add("heading.speed_tolerance_fps", env.heading.speed_tolerance_fps);
   add("heading.earliest_success_step", env.heading.earliest_success_step);
-  add("termination.alpha_deg", env.termination.alpha_deg);
-  add("termination.beta_deg", env.termination.beta_deg);
+  add("termination.alpha_min_deg", env.termination.alpha_deg.min);
+  add("termination.alpha_max_deg", env.termination.alpha_deg.max);
+  add("termination.beta_min_deg", env.termination.beta_deg.min);
+  add("termination.beta_max_deg", env.termination.beta_deg.max);
   add("termination.max_mach", env.termination.max_mach);
   add("termination.min_mach", env.termination.min_mach);
   add("termination.min_altitude_ft", env.termination.min_altitude_ft);
-  add("termination.max_load_factor", env.termination.max_load_factor);
+  add("termination.max_load_factor_g", env.termination.max_load_factor);
   add("termination.failure_reward", env.termination.failure_reward);
   add("termination.success_reward", env.termination.success_reward);
 }
@@ -146,6 +149,7 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
                            const TrainingState& state) {
   TensorFile file;
   file.metadata["checkpoint.format"] = kFormat;
+  file.metadata[kSimdTargetKey] = Name(simd::ActiveTarget());
   for (const auto& [name, value] : DescribeConfig(config)) {
     file.metadata[kConfigPrefix + name] = value;
   }
@@ -175,9 +179,16 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
   if (format == file.metadata.end() || format->second != kFormat) {
     throw Error(path + ": not a checkpoint of this version of Skein (\"" + kFormat + "\")");
   }
+  if (file.metadata.find(kSimdTargetKey) == file.metadata.end()) {
+    throw Error(path + ": the checkpoint does not say on which SIMD target it was made");
+  }
   RequireSameConfig(file, path, config);
+  const std::shared_ptr<const Policy::Parameters> policy = LoadPolicy(file, path);
+  if (!(policy->shape == actor.shape())) {
+    throw Error(path + ": its policy has other sizes than the configuration's");
+  }
   TrainingState state;
-  state.actor = LoadPolicy(file, path)->values;
+  state.actor = policy->values;
   const std::int64_t states =
       static_cast<std::int64_t>(config.ppo.num_aircraft) * config.network.gru_size;
   const std::map<std::string, std::int64_t> sizes{{"critic/parameters", critic.size()},

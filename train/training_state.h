@@ -25,7 +25,11 @@ struct TrainingState {
   double best_success_rate = -1, best_return = 0;
 };
 
-/// Every field of a configuration that training depends on, as text by its dotted name.
+/// Metadata key of a checkpoint: the SIMD target that it was made on.
+inline constexpr const char* kSimdTargetKey = "checkpoint.simd_target";
+
+/// Every field of a configuration that training depends on, as text, by the name of its
+/// configuration key (`skein train --help-keys`).
 std::map<std::string, std::string> DescribeConfig(const TrainConfig& config);
 
 /// Writes a checkpoint: configuration, state, and the actor as a policy that Policy::Load reads.
@@ -33,7 +37,8 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
                            const TrainingState& state);
 
 /// Throws Error, naming `path`, if the file is no checkpoint, was made with another configuration
-/// (naming the first field that differs), or holds values of another size.
+/// (naming the first field that differs), or holds values of another size (of `env`, VecEnv is the
+/// judge).
 TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
                              const TrainConfig& config, const NetworkLayout& actor,
                              const NetworkLayout& critic);

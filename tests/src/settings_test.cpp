@@ -1,15 +1,19 @@
 #include "src/settings.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "simd/error.h"
+#include "src/configuration.h"
+#include "src/output_file.h"
+#include "train/training_state.h"
 
 namespace skein {
 namespace {
+
+using ::testing::HasSubstr;
 
 std::string MessageOf(void (*action)()) {
   try {
@@ -99,13 +103,32 @@ TEST(Settings, WholeNumbersServeAsIntegersAndIntegersAsNumbers) {
   EXPECT_EQ(config.train.ppo.clip, 1.0);
 }
 
-TEST(Settings, DocumentationListsEveryKey) {
-  std::ifstream file(SKEIN_TEST_DATA "/../../docs/program.md");
-  std::ostringstream text;
-  text << file.rdbuf();
+TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
+  const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
+  const ProgramConfig usual = ResolveConfig({"heading", "default", "", {}});
+  const ProgramConfig paper = ResolveConfig({"heading", "paper", "", {}});
   for (const Setting& setting : Settings()) {
-    EXPECT_NE(text.str().find("`" + setting.key + "`"), std::string::npos) << setting.key;
+    const std::string bounds = setting.BoundsText();
+    const std::string type = setting.TypeName() + (bounds.empty() ? "" : " in " + bounds);
+    const std::string here = FormatValue(setting, usual), there = FormatValue(setting, paper);
+    EXPECT_THAT(text,
+                HasSubstr("\n| `" + setting.key + "` | " + type + " | " + here + " | " +
+                          (here == there ? "" : there) + " | " + setting.description + " |\n"));
   }
+}
+
+TEST(Settings, ACheckpointHoldsEveryKeyThatTrainingDependsOn) {
+  std::set<std::string> keys;
+  for (const Setting& setting : Settings()) {
+    // How a run is kept may change while it goes on.
+    if (setting.key.rfind("checkpoint.", 0) == 0 || setting.key == "evaluation.final_episodes") {
+      continue;
+    }
+    keys.insert(setting.key);
+  }
+  std::set<std::string> described;
+  for (const auto& [key, value] : DescribeConfig(TrainConfig{})) described.insert(key);
+  EXPECT_EQ(described, keys);
 }
 
 }  // namespace

@@ -2,12 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -279,6 +280,28 @@ TEST_F(TrainingPipeline, AFullDiskLosesNothing) {
   const ProgramResult result = RunSkein({"train", "--resume", run_});
   ASSERT_EQ(result.exit_code, 0) << result.error;
   ExpectSameRun(reference_, run_);
+}
+
+TEST_F(TrainingPipeline, GoesOnWhenTheReaderOfItsOutputHasGone) {
+  FlyReference();
+  const ProgramResult result = RunSkein(TinyTraining(run_), [] {
+    int ends[2];
+    if (pipe(ends) != 0 || dup2(ends[1], STDOUT_FILENO) < 0) _exit(125);
+    close(ends[0]);
+    close(ends[1]);
+  });
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_EQ(result.error, "");
+  ExpectSameRun(reference_, run_);
+  EXPECT_THAT(ReadFile(run_ + "/log.txt"), HasSubstr("the standard output broke: Broken pipe"));
+}
+
+TEST_F(TrainingPipeline, AnotherSimdTargetIsWarnedOf) {
+  FlyReference();
+  const auto scalar = [] { setenv("SKEIN_SIMD", "scalar", 1); };
+  const ProgramResult other = RunSkein({"train", "--resume", reference_}, scalar);
+  EXPECT_EQ(other.exit_code, 0) << other.error;
+  EXPECT_THAT(other.output, HasSubstr("no longer bit for bit"));
 }
 
 TEST_F(TrainingPipeline, ALossThatIsNotFiniteStopsTheRunAndLeavesTheStateBefore) {

@@ -123,6 +123,24 @@ TEST(EvaluateTest, CountsOneEpisodePerAircraftWhateverTheThreads) {
   }
 }
 
+TEST(EvaluateTest, TimeToTargetIsTheClockOfTheEpisodesThatReachIt) {
+  EnvConfig env;
+  env.action_repeat = 5;
+  // Targets that every state within the limits has reached: success is a matter of the clock.
+  env.heading.altitude_tolerance_ft = 1e6;
+  env.heading.yaw_tolerance_deg = 180;
+  env.heading.speed_tolerance_fps = 1e6;
+  env.heading.earliest_success_step = 100;
+  EvaluationOptions options;
+  options.episodes = 40;
+  WorkerPool pool(1);
+  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  const EvaluationResult result = Evaluate(policy, env, options, pool);
+  EXPECT_EQ(result.success_rate, 1);
+  EXPECT_EQ(result.terminations[static_cast<int>(Termination::kResetTarget)], 40);
+  EXPECT_DOUBLE_EQ(result.time_to_target_mean_s, 100 * env.control_interval_s);
+}
+
 TEST(EvaluateTest, RefusesAPolicyOfAnotherTask) {
   WorkerPool pool(1);
   const Policy policy = Policy::Untrained(SmallConfig().network, 20, 4, 3);

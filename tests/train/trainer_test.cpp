@@ -7,7 +7,10 @@
 #include <fstream>
 
 #include "simd/error.h"
+#include "simd/target.h"
 #include "tests/train/small_config.h"
+#include "train/policy_parameters.h"
+#include "train/training_state.h"
 
 namespace skein {
 namespace {
@@ -96,6 +99,32 @@ TEST_F(TrainerTest, RefusesACheckpointOfAnotherConfigurationAndNamesTheField) {
   EXPECT_NE(RefusalOf(SmallConfig(), directory_ + "/policy").find("not a checkpoint"),
             std::string::npos);
   EXPECT_EQ(RefusalOf(SmallConfig(), path_), "");
+}
+
+TEST_F(TrainerTest, RefusesACheckpointWhosePolicyHasOtherSizes) {
+  WorkerPool pool(1);
+  Trainer(SmallConfig(), pool).Save(path_);
+  TensorFile file = TensorFile::Read(path_);
+  // Forged: a larger policy than the configuration says would not fit into the trainer's memory.
+  Policy::Parameters larger;
+  larger.config = SmallConfig().network;
+  larger.config.hidden_size = 64;
+  larger.shape = ActorShape(larger.config, 22, 4);
+  larger.values.assign(NetworkLayout(larger.shape).size(), 0.5f);
+  StorePolicy(larger, file);
+  file.Write(path_);
+  EXPECT_NE(RefusalOf(SmallConfig(), path_).find("other sizes"), std::string::npos);
+}
+
+TEST_F(TrainerTest, RestoringTellsTheSimdTargetOfTheCheckpoint) {
+  WorkerPool pool(1);
+  Trainer trainer(SmallConfig(), pool);
+  trainer.Save(path_);
+  EXPECT_EQ(trainer.Restore(path_), Name(simd::ActiveTarget()));
+  TensorFile file = TensorFile::Read(path_);
+  file.metadata[kSimdTargetKey] = "another";
+  file.Write(path_);
+  EXPECT_EQ(trainer.Restore(path_), "another");
 }
 
 TEST_F(TrainerTest, AnExplosionLeavesTheStateOfBefore) {
