@@ -12,6 +12,7 @@
 #include "envs/dynamics/plant.h"
 #include "envs/dynamics/plant_kernel.h"
 #include "simd/error.h"
+#include "train/aligned_vector.h"
 
 namespace skein {
 namespace {
@@ -49,14 +50,11 @@ class OpenLoopTile {
   explicit OpenLoopTile(int count)
       : count_(count),
         stride_(TileStride(count)),
-        storage_((kNumRigidBody + kNumControls) * stride_ + kAlignment) {
-    base_ = storage_.data();
-    while (reinterpret_cast<std::uintptr_t>(base_) % (kAlignment * sizeof(float)) != 0) ++base_;
-  }
+        columns_((kNumRigidBody + kNumControls) * stride_) {}
 
-  Tile state() { return {base_, stride_, count_}; }
+  Tile state() { return {columns_.data(), stride_, count_}; }
   ControlColumns controls() const {
-    const float* first = base_ + kNumRigidBody * stride_;
+    const float* first = columns_.data() + kNumRigidBody * stride_;
     return {first, first + stride_, first + 2 * stride_, first + 3 * stride_, first + 4 * stride_};
   }
   /// Fills lane `i`; the last filled aircraft also fills the padding, which kernels process too.
@@ -66,21 +64,19 @@ class OpenLoopTile {
 
  private:
   static constexpr int kNumControls = 5;
-  static constexpr std::size_t kAlignment = 16;  // floats: one cache line
 
   template <std::size_t kCount>
   void Set(int first_column, int i, const std::array<double, kCount>& numbers) {
     const std::size_t end = i + 1 == count_ ? stride_ : static_cast<std::size_t>(i) + 1;
     for (std::size_t c = 0; c < kCount; ++c) {
-      float* column = base_ + (static_cast<std::size_t>(first_column) + c) * stride_;
+      float* column = columns_.data() + (static_cast<std::size_t>(first_column) + c) * stride_;
       std::fill(column + i, column + end, static_cast<float>(numbers[c]));
     }
   }
 
   int count_;
   std::size_t stride_;
-  std::vector<float> storage_;
-  float* base_ = nullptr;
+  AlignedVector<float> columns_;
 };
 
 void EvaluateWithKernel(const Aircraft& aircraft, AtmosphereModel atmosphere,
@@ -107,11 +103,15 @@ void EvaluateWithKernel(const Aircraft& aircraft, AtmosphereModel atmosphere,
 std::vector<long> StepsOf(const FdmTrajectory& trajectory, double dt) {
   // Times are decimal fractions in a file: equal to a multiple of dt only up to rounding.
   constexpr double kTimeTolerance = 1e-9;
+  constexpr double kMaxSteps = 1e9;
   std::vector<long> steps;
   for (const double t : trajectory.t) {
     const double step = std::round(t / dt);
     if (std::abs(step * dt - t) > kTimeTolerance * std::max(1.0, t)) {
       throw Error(fmt::format("time {} s is not a multiple of the step of {} s", t, dt));
+    }
+    if (step > kMaxSteps) {
+      throw Error(fmt::format("time {} s is more than {} steps of {} s", t, kMaxSteps, dt));
     }
     steps.push_back(static_cast<long>(step));
   }

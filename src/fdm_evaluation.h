@@ -28,7 +28,7 @@ std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
                                            FdmPrecision precision, AtmosphereModel atmosphere);
 
 /// The states at trajectory.t, flown with classic RK4 steps of `dt` seconds. Throws Error if a time
-/// is not a multiple of dt.
+/// is not a multiple of dt, or more than 1e9 of them.
 std::vector<FdmState> FlyTrajectory(const FdmTrajectory& trajectory, double dt,
                                     FdmPrecision precision, AtmosphereModel atmosphere);
 

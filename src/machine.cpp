@@ -1,20 +1,11 @@
 #include "src/machine.h"
 
-#include <sched.h>
-
 #include <fstream>
 
+#include "envs/worker_pool.h"
 #include "simd/target.h"
 
 namespace skein {
-namespace {
-
-int UsableCpus() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
-}
-
-}  // namespace
 
 std::string CpuName() {
   std::ifstream file("/proc/cpuinfo");
@@ -29,10 +20,10 @@ std::string CpuName() {
 nlohmann::ordered_json DescribeMachine() {
   auto supported = nlohmann::ordered_json::array();
   for (const simd::Target target : simd::SupportedTargets()) supported.push_back(Name(target));
-  return {{"version", SKEIN_VERSION},       {"compiler", SKEIN_COMPILER},
-          {"build_type", SKEIN_BUILD_TYPE}, {"cpu", CpuName()},
-          {"threads", UsableCpus()},        {"simd", Name(simd::ActiveTarget())},
-          {"simd_supported", supported},    {"libtorch", SKEIN_LIBTORCH_VERSION}};
+  return {{"version", SKEIN_VERSION},          {"compiler", SKEIN_COMPILER},
+          {"build_type", SKEIN_BUILD_TYPE},    {"cpu", CpuName()},
+          {"threads", WorkerPool().threads()}, {"simd", Name(simd::ActiveTarget())},
+          {"simd_supported", supported},       {"libtorch", SKEIN_LIBTORCH_VERSION}};
 }
 
 }  // namespace skein

@@ -9,7 +9,8 @@ namespace skein {
 std::string CpuName();
 
 /// What a figure depends on: version, compiler, processor, SIMD target in use and supported ones,
-/// CPUs usable, LibTorch. The document of `skein info --json`, and part of every benchmark's.
+/// threads that commands use unless told otherwise, LibTorch. The document of `skein info --json`,
+/// and part of every benchmark's.
 nlohmann::ordered_json DescribeMachine();
 
 }  // namespace skein

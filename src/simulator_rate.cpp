@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,14 +9,12 @@
 
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16/f16.h"
-#include "envs/aircraft/flight_control.h"
 #include "envs/aircraft/flight_control_kernel.h"
-#include "envs/dynamics/attitude.h"
-#include "envs/dynamics/plant.h"
 #include "envs/dynamics/plant_kernel.h"
-#include "envs/dynamics/trim_table.h"
+#include "envs/flight_reset.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
+#include "train/aligned_vector.h"
 
 namespace skein {
 namespace {
@@ -25,9 +22,6 @@ namespace {
 constexpr int kTileSize = 256;
 constexpr int kWarmUpSteps = 3;
 constexpr double kDt = 0.02;
-// Where the aircraft are spread: inside the envelope in which steady flight exists.
-constexpr double kMinAltitudeFt = 10000, kMaxAltitudeFt = 25000;
-constexpr double kMinSpeedFps = 600, kMaxSpeedFps = 1000;
 
 SimulatorRate Measure(int aircraft, int steps, const std::function<void()>& step) {
   using Clock = std::chrono::steady_clock;
@@ -43,27 +37,34 @@ SimulatorRate Measure(int aircraft, int steps, const std::function<void()>& step
   return {*middle, aircraft / *middle};
 }
 
+/// Where the aircraft are spread: inside the envelope in which steady flight exists.
+EnvConfig SpreadFlights() {
+  EnvConfig config;
+  config.control_interval_s = kDt;
+  config.initial.altitude_ft = {10000, 25000};
+  config.initial.true_airspeed_fps = {600, 1000};
+  return config;
+}
+
 /// A tile of aircraft in trimmed flight with its pilot's commands.
 class TrimmedTile {
  public:
-  TrimmedTile(const Aircraft& aircraft, const TrimTable& trims, AtmosphereModel atmosphere,
-              int count, simd::RandomStream* random)
-      : stride_(TileStride(count)),
-        count_(count),
-        columns_((kNumColumns + kNumPilot) * stride_ + kAlignment) {
-    base_ = columns_.data();
-    while (reinterpret_cast<std::uintptr_t>(base_) % (kAlignment * sizeof(float)) != 0) ++base_;
-    const FlightControl control(aircraft, FlightControlMode::kFull, kDt);
+  TrimmedTile(const FlightReset& reset, int count, simd::RandomStream* random)
+      : stride_(TileStride(count)), count_(count), columns_((kNumColumns + kNumPilot) * stride_) {
     for (std::size_t i = 0; i < stride_; ++i) {
-      const double altitude = random->Uniform(kMinAltitudeFt, kMaxAltitudeFt);
-      const double speed = random->Uniform(kMinSpeedFps, kMaxSpeedFps);
-      Fill(control, trims.At(altitude, speed), AirAt(atmosphere, altitude), altitude, speed, i);
+      const FreshFlight flight = reset.Draw(random);
+      for (std::size_t column = 0; column < kNumColumns; ++column) {
+        columns_[column * stride_ + i] = flight.columns[column];
+      }
+      // The sticks stay centred.
+      columns_[kNumColumns * stride_ + i] =
+          static_cast<float>(ThrottleForPower(flight.columns[kPower]));
     }
   }
 
   void Step(const KernelAircraft& kernel) {
-    const Tile tile{base_, stride_, count_};
-    const float* pilot = base_ + kNumColumns * stride_;
+    const Tile tile{columns_.data(), stride_, count_};
+    const float* pilot = columns_.data() + kNumColumns * stride_;
     ControlTile(kernel, tile, {pilot, pilot + stride_, pilot + 2 * stride_, pilot + 3 * stride_},
                 FlightControlMode::kFull, static_cast<float>(kDt));
     StepTile(kernel, tile, static_cast<float>(kDt), 1);
@@ -71,54 +72,19 @@ class TrimmedTile {
 
  private:
   static constexpr int kNumPilot = 4;
-  static constexpr std::size_t kAlignment = 16;  // floats: one cache line
-
-  void Fill(const FlightControl& control, const TrimmedStart& trim, const Air& air, double altitude,
-            double speed, std::size_t i) {
-    const auto set = [this, i](int column, double value) {
-      base_[static_cast<std::size_t>(column) * stride_ + i] = static_cast<float>(value);
-    };
-    set(kU, speed * std::cos(trim.alpha_rad));
-    set(kW, speed * std::sin(trim.alpha_rad));
-    set(kDown, -altitude);
-    const Eigen::Vector4d quaternion = QuaternionFromEuler({trim.bank_rad, trim.pitch_rad, 0});
-    for (int k = 0; k < 4; ++k) set(kQ0 + k, quaternion[k]);
-    set(kPower, trim.power);
-    set(kPowerCommand, trim.power);
-    set(kElevator, trim.elevator_deg);
-    set(kAileron, trim.aileron_deg);
-    set(kRudder, trim.rudder_deg);
-    set(kLeadingEdgeFlap, trim.leading_edge_flap_deg);
-    set(kNz, trim.nz);
-    set(kNy, trim.ny);
-    FlightSensors sensors;
-    sensors.alpha_deg = trim.alpha_rad * kDegPerRad;
-    sensors.nz = trim.nz;
-    sensors.ny = trim.ny;
-    sensors.dynamic_pressure_psf = 0.5 * air.density_slug_ft3 * speed * speed;
-    sensors.static_pressure_psf = air.pressure_lbf_ft2;
-    const FlightControlState state = control.InitialState(
-        sensors,
-        {trim.elevator_deg, trim.aileron_deg, trim.rudder_deg, trim.leading_edge_flap_deg});
-    for (int k = 0; k < kNumFlightControlStates; ++k) {
-      set(kAlphaFilter + k, state[static_cast<std::size_t>(k)]);
-    }
-    set(kNumColumns, ThrottleForPower(trim.power));  // sticks stay centred
-  }
 
   std::size_t stride_;
   int count_;
-  std::vector<float> columns_;
-  float* base_ = nullptr;
+  AlignedVector<float> columns_;
 };
 
 }  // namespace
 
 SimulatorRate MeasurePlant(int aircraft, int steps, WorkerPool& pool) {
-  constexpr AtmosphereModel kAtmosphere = AtmosphereModel::kStevensLewis;
-  const Plant plant(F16(), kAtmosphere);
-  const TrimTable trims(plant, kMinAltitudeFt, kMaxAltitudeFt, kMinSpeedFps, kMaxSpeedFps);
-  const auto kernel = MakeKernelAircraft(plant.aircraft(), kAtmosphere);
+  const EnvConfig config = SpreadFlights();
+  const Aircraft f16 = F16();
+  const FlightReset reset(config, f16);
+  const auto kernel = MakeKernelAircraft(f16, config.atmosphere);
   std::vector<std::unique_ptr<TrimmedTile>> tiles(
       static_cast<std::size_t>((aircraft + kTileSize - 1) / kTileSize));
   const int count = static_cast<int>(tiles.size());
@@ -127,8 +93,7 @@ SimulatorRate MeasurePlant(int aircraft, int steps, WorkerPool& pool) {
     simd::RandomStream random(
         {0, static_cast<std::uint32_t>(tile), 0, 0, simd::RandomPurpose::kInitialState});
     const int size = std::min(kTileSize, aircraft - tile * kTileSize);
-    tiles[static_cast<std::size_t>(tile)] =
-        std::make_unique<TrimmedTile>(plant.aircraft(), trims, kAtmosphere, size, &random);
+    tiles[static_cast<std::size_t>(tile)] = std::make_unique<TrimmedTile>(reset, size, &random);
   });
   return Measure(aircraft, steps, [&] {
     pool.ForEach(count,

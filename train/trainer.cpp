@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "envs/dynamics/plant_kernel.h"
 #include "envs/vec_env.h"
 #include "simd/error.h"
 #include "train/adam.h"
@@ -259,12 +260,15 @@ LearnerRates MeasureLearner(const TrainConfig& config, WorkerPool& pool) {
       static_cast<double>(kIterations) * config.ppo.num_aircraft * config.ppo.rollout_steps;
   const VecEnv env(config.env, 1, config.seed);
   LearnerRates rates;
-  rates.rollout_steps_per_s = samples / rollout_seconds;
+  const double forward_flops =
+      ForwardFlops(ActorShape(config.network, env.observation_size(), env.action_size())) +
+      ForwardFlops(CriticShape(config.network, env.observation_size()));
+  rates.rollout_decisions_per_s = samples / rollout_seconds;
+  rates.rollout_flops_per_decision =
+      forward_flops + config.env.action_repeat * config.env.substeps * kFlopsPerRk4Step;
   rates.update_samples_per_s = samples * config.ppo.epochs / update_seconds;
   // Backward is two products for each one forward.
-  rates.update_flops_per_sample =
-      3 * (ForwardFlops(ActorShape(config.network, env.observation_size(), env.action_size())) +
-           ForwardFlops(CriticShape(config.network, env.observation_size())));
+  rates.update_flops_per_sample = 3 * forward_flops;
   return rates;
 }
 

@@ -68,9 +68,11 @@ class Trainer {
 
 /// Rates of the parts of an iteration, for `skein bench`.
 struct LearnerRates {
-  double rollout_steps_per_s = 0;  ///< decisions per second, simulator in the loop
-  double update_samples_per_s =
-      0;  ///< samples per second through forward, loss, backward and optimiser
+  double rollout_decisions_per_s = 0;  ///< simulator in the loop
+  /// Of the networks' products and of the RK4 steps until the next decision.
+  double rollout_flops_per_decision = 0;
+  /// Through forward, loss, backward and optimiser.
+  double update_samples_per_s = 0;
   double update_flops_per_sample = 0;  ///< of the products, forward and backward, both networks
 };
 
