@@ -75,7 +75,8 @@ void ApplyOverrides(const EvalOptions& options, ProgramConfig* config) {
 
 Policy UntrainedPolicy(const ProgramConfig& config, std::uint64_t seed) {
   const VecEnv env(config.train.env, 1, seed);
-  return Policy::Untrained(config.train.network, env.observation_size(), env.action_size(), seed);
+  return Policy::Untrained(config.train.network, env.observation_size(), env.action_size(), seed,
+                           config.train.env.action_repeat);
 }
 
 /// Writes the first episodes of the mode that is reported first.
@@ -146,7 +147,9 @@ void AddEvalCommand(CLI::App* app) {
       ->capture_default_str();
   command->add_flag("--deterministic", options->deterministic,
                     "report the mean action first (default: sampled actions; both are flown)");
-  command->add_option("--seed", options->seed, "seed of the episodes")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the episodes")
+      ->check(CLI::Range(0.0, 0x1p53))
+      ->capture_default_str();
   command
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")

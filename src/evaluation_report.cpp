@@ -30,16 +30,14 @@ std::string Line(const char* mode, const EvaluationResult& result) {
 
 EvaluationReport EvaluateBothWays(const Policy& policy, const EnvConfig& env, int episodes,
                                   std::uint64_t seed, WorkerPool& pool) {
-  EnvConfig fresh = env;
-  fresh.stagger_clocks = false;  // whole episodes only
   EvaluationOptions options;
   options.episodes = episodes;
   options.seed = seed;
   EvaluationReport report;
   options.deterministic = true;
-  report.deterministic = Evaluate(policy, fresh, options, pool);
+  report.deterministic = Evaluate(policy, env, options, pool);
   options.deterministic = false;
-  report.sampled = Evaluate(policy, fresh, options, pool);
+  report.sampled = Evaluate(policy, env, options, pool);
   return report;
 }
 

@@ -1,17 +1,32 @@
 #include "src/program.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "src/commands.h"
+#include "src/nearest_name.h"
+#include "train/file_descriptor.h"
 
 namespace skein {
 namespace {
+
+/// Takes the descriptors of standard streams that were closed, so that no file opened later becomes
+/// one of them; the wrong way round, so that using it stays an error.
+void OccupyStandardStreams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) >= 0) continue;
+    static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+  }
+}
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -27,9 +42,32 @@ std::string CommandPath(const CLI::App& app) {
   return path;
 }
 
+/// What is wrong with the command line. CLI11 only says that a subcommand is missing where one was
+/// misspelt.
+std::string WrongUsage(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* deepest = &app;
+  while (!deepest->get_subcommands().empty()) deepest = deepest->get_subcommands().front();
+  std::vector<std::string> names;
+  for (const CLI::App* sub : deepest->get_subcommands({})) names.push_back(sub->get_name());
+  const std::vector<std::string> unknown = deepest->remaining();
+  if (names.empty() || unknown.empty()) return FirstLine(error.what());
+  if (unknown.front().rfind('-', 0) == 0) return "unknown option " + unknown.front();
+  return fmt::format("unknown command {}{}; known commands: {}", unknown.front(),
+                     DidYouMean(unknown.front(), names), fmt::join(names, ", "));
+}
+
+/// The exit code of a command that went well, if what it said has reached the standard output.
+int ExitCode() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kExitSuccess;
+  fmt::print(stderr, "skein: error: the standard output cannot be written: {}\n", SystemReason());
+  std::clearerr(stdout);
+  return kExitFailure;
+}
+
 }  // namespace
 
 int RunProgram(int argc, char** argv) {
+  OccupyStandardStreams();
   CLI::App app("Skein: fixed-wing flight simulation and recurrent PPO on SIMD CPU cores", "skein");
   app.set_version_flag("--version", "skein " SKEIN_VERSION);
   app.require_subcommand(1);
@@ -46,11 +84,12 @@ int RunProgram(int argc, char** argv) {
   AddInfoCommand(&app);
   try {
     app.parse(argc, argv);
-    return kExitSuccess;
+    return ExitCode();
   } catch (const CLI::Success& success) {  // --help and --version
-    return app.exit(success);
+    app.exit(success);
+    return ExitCode();
   } catch (const CLI::ParseError& error) {
-    PrintError(fmt::format("{} (see {} --help)", FirstLine(error.what()), CommandPath(app)));
+    PrintError(fmt::format("{} (see {} --help)", WrongUsage(app, error), CommandPath(app)));
     return kExitUsage;
   } catch (const std::bad_alloc&) {
     PrintError("out of memory; fewer aircraft or shorter rollouts need less");

@@ -11,6 +11,7 @@
 #include "src/configuration.h"
 #include "src/presets.h"
 #include "src/run_directory.h"
+#include "src/settings.h"
 #include "src/training_run.h"
 
 namespace skein {
@@ -24,7 +25,7 @@ struct TrainOptions {
   std::string config;
   std::vector<std::string> assignments;
   std::optional<double> steps;
-  std::optional<std::uint64_t> seed;
+  std::optional<std::int64_t> seed;
   int threads = 0;
   std::string out;
   std::string resume;
@@ -32,12 +33,20 @@ struct TrainOptions {
   bool help_keys = false;
 };
 
-/// --set, then the flags that stand for one key each.
-std::vector<std::string> Assignments(const TrainOptions& options) {
-  std::vector<std::string> assignments = options.assignments;
-  if (options.steps) assignments.push_back(fmt::format("run.total_steps={}", *options.steps));
-  if (options.seed) assignments.push_back(fmt::format("run.seed={}", *options.seed));
-  return assignments;
+/// The flags that stand for one key each.
+void ApplyFlags(const TrainOptions& options, ProgramConfig* config) {
+  const auto assign = [config](const char* key, const SettingValue& value, const char* flag) {
+    Assign(FindSetting(key, flag), value, flag, config);
+  };
+  if (options.steps) assign("run.total_steps", *options.steps, "--steps");
+  if (options.seed) assign("run.seed", *options.seed, "--seed");
+}
+
+/// What the command line asks for, for a new run.
+ProgramConfig Configure(const TrainOptions& options, const std::string& task) {
+  ProgramConfig config = ResolveConfig({task, options.preset, options.config, options.assignments});
+  ApplyFlags(options, &config);
+  return config;
 }
 
 std::string RunToResume(const TrainOptions& options) {
@@ -57,7 +66,8 @@ void Resume(const TrainOptions& options) {
                             config.train.env.task, options.task));
   }
   ProgramConfig asked = config;
-  for (const std::string& assignment : Assignments(options)) ApplyAssignment(assignment, &asked);
+  for (const std::string& assignment : options.assignments) ApplyAssignment(assignment, &asked);
+  ApplyFlags(options, &asked);
   if (const auto differences = Differences(config, asked); !differences.empty()) {
     throw Error(fmt::format(
         "{}: a resumed run keeps its configuration, but this was asked for: {}; begin a new run "
@@ -71,7 +81,7 @@ void Resume(const TrainOptions& options) {
 void Train(const TrainOptions& options) {
   if (options.help_keys) {
     const std::string task = options.task.empty() ? PresetTasks().front() : options.task;
-    fmt::print("{}", DescribeKeys(ResolveConfig({task, options.preset, options.config, {}})));
+    fmt::print("{}", DescribeKeys(Configure(options, task)));
     return;
   }
   if (options.resume_option->count() > 0) {
@@ -81,8 +91,7 @@ void Train(const TrainOptions& options) {
   if (options.task.empty()) {
     throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
   }
-  const ProgramConfig config =
-      ResolveConfig({options.task, options.preset, options.config, Assignments(options)});
+  const ProgramConfig config = Configure(options, options.task);
   CheckConsistent(config);
   WorkerPool pool(options.threads);
   TrainingRun::Begin(config,

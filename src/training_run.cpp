@@ -26,6 +26,12 @@ double UnixTime() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
+/// What starts this program again, for hints that can be copied.
+std::string CommandName() {
+  const std::string name = program_invocation_name;
+  return name.find('/') == std::string::npos ? "skein" : name;
+}
+
 std::string CannotRestore(const Checkpoint& newest, const std::vector<Checkpoint>& all,
                           const char* reason) {
   std::string message = fmt::format("cannot resume: {}", reason);
@@ -116,10 +122,11 @@ void TrainingRun::Run() {
   if (saved_iteration_ != trainer_.iteration()) SaveCheckpoint();
   log_.Note(FormatProgress(meter.progress()));
   if (!trainer_.finished()) {
-    log_.Say(fmt::format(
-        "stopped by {} after {} of {} steps; go on with: skein train --resume {}",
-        strsignal(signals_.StopSignal()), FormatCount(static_cast<double>(trainer_.env_steps())),
-        FormatCount(static_cast<double>(config_.train.total_steps)), directory_.path()));
+    log_.Say(fmt::format("stopped by {} after {} of {} steps; go on with: {} train --resume {}",
+                         strsignal(signals_.StopSignal()),
+                         FormatCount(static_cast<double>(trainer_.env_steps())),
+                         FormatCount(static_cast<double>(config_.train.total_steps)), CommandName(),
+                         directory_.path()));
     return;
   }
   log_.Say(
@@ -209,9 +216,9 @@ void TrainingRun::Finish() {
       "metrics         {}  (tensorboard --logdir {})\n"
       "configuration   {}\n"
       "checkpoints     {}\n"
-      "again           skein eval --policy {} --task {} --deterministic",
+      "again           {} eval --policy {} --task {} --deterministic",
       path, directory_.evaluation(), directory_.metrics(), directory_.path(), directory_.config(),
-      directory_.checkpoints(), directory_.path(), config_.train.env.task));
+      directory_.checkpoints(), CommandName(), directory_.path(), config_.train.env.task));
   log_.Sync();
 }
 

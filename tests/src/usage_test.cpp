@@ -1,9 +1,12 @@
 // The command line: help, wrong usage, and the commands without a pipeline of their own.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "src/output_file.h"
@@ -48,6 +51,8 @@ TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
            {"train", "heading", "--threads", "0"},
            {"eval"},
            {"eval", "--policy", "x", "--task", "heading", "--episodes", "0"},
+           {"eval", "--policy", "untrained", "--task", "heading", "--seed", "-3"},
+           {"--bogus"},
            {"fdm", "eval", "--in", "x"},
            {"fdm", "eval", "--in", "x", "--out", "y", "--precision", "float16"},
            {"bench"}}) {
@@ -57,6 +62,55 @@ TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
     EXPECT_THAT(result.error, HasSubstr("--help"));
   }
+}
+
+TEST(Usage, FlagsThatStandForAKeyAreNamedInItsErrors) {
+  EXPECT_THAT(CallSkein({"train", "heading", "--steps", "0"}).error,
+              HasSubstr("--steps: run.total_steps = 0 is out of range; it must be in [1, 2^53]"));
+  EXPECT_THAT(CallSkein({"train", "heading", "--steps", "nan"}).error, HasSubstr("--steps"));
+  EXPECT_THAT(CallSkein({"train", "heading", "--seed", "-1"}).error,
+              HasSubstr("--seed: run.seed = -1 is out of range"));
+}
+
+TEST(Usage, AnErrorIsOneLineWhateverIsInIt) {
+  const std::string path = FreshDirectory("line") + "/config.toml";
+  WriteFile(path, "[ppo]\n\"a\\nb\" = 1\n");
+  const ProgramResult result = CallSkein({"train", "heading", "--config", path});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.error, HasSubstr(path + ":2: unknown key ppo.a"));
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+}
+
+TEST(Usage, OutputThatIsLostIsAnError) {
+  const std::vector<std::pair<std::string, std::function<void()>>> outputs = {
+      {"No space left on device", [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); }},
+      {"Bad file descriptor", [] { close(STDOUT_FILENO); }}};
+  for (const auto& [reason, lose_output] : outputs) {
+    for (const char* argument : {"info", "--help"}) {
+      const ProgramResult result = RunSkein({argument}, lose_output);
+      EXPECT_EQ(result.exit_code, 1) << reason;
+      EXPECT_EQ(result.error,
+                "skein: error: the standard output cannot be written: " + reason + "\n");
+    }
+  }
+}
+
+TEST(Usage, JsonMayGoToTheStandardOutput) {
+  // Here a regular file, which must not be replaced under the stream.
+  const ProgramResult result = RunSkein({"info", "--json", "/dev/stdout"});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("\"libtorch\":"));
+  EXPECT_THAT(result.output, HasSubstr("libtorch  "));
+}
+
+TEST(Usage, UnknownCommandsSuggestTheNearest) {
+  EXPECT_EQ(
+      CallSkein({"trian", "heading"}).error,
+      "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
+      "fdm, bench, info (see skein --help)\n");
+  EXPECT_THAT(
+      CallSkein({"fdm", "fly"}).error,
+      HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));
 }
 
 TEST(Usage, UnknownTasksAndPresetsListTheKnownOnes) {
@@ -70,6 +124,8 @@ TEST(Usage, HelpKeysListsEveryKeyWithItsValue) {
   const ProgramResult result = CallSkein({"train", "heading", "--help-keys"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.output, HasSubstr("env.action_repeat = 5\n"));
+  EXPECT_THAT(CallSkein({"train", "--help-keys", "--set", "env.action_repeat=7"}).output,
+              HasSubstr("env.action_repeat = 7\n"));
 }
 
 TEST(Usage, InfoNamesWhatItRunsOn) {
@@ -112,12 +168,29 @@ TEST(Usage, SignatureIsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(Usage, BenchSimReportsRates) {
-  const std::string path = FreshDirectory("bench") + "/sim.json";
-  const ProgramResult result =
-      CallSkein({"bench", "sim", "--aircraft", "2000", "--steps", "3", "--json", path});
-  ASSERT_EQ(result.exit_code, 0) << result.error;
-  EXPECT_GT(nlohmann::json::parse(ReadFile(path))["plant"]["aircraft_steps_per_s"], 0);
+TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
+  const std::string path = FreshDirectory("bench") + "/result.json";
+  const auto measure = [&path](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "bench");
+    arguments.insert(arguments.end(), {"--json", path});
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    const auto json = nlohmann::json::parse(ReadFile(path));
+    EXPECT_GT(json["fraction_of_peak"], 0);
+    EXPECT_LT(json["fraction_of_peak"], 1);
+    EXPECT_GE(json["threads"], 1);
+    return json;
+  };
+  EXPECT_GT(measure({"sim", "--aircraft", "2000", "--steps", "3"})["plant"]["aircraft_steps_per_s"],
+            0);
+  const std::vector<std::string> small = {"--set", "ppo.num_aircraft=64",
+                                          "--set", "ppo.rollout_steps=16",
+                                          "--set", "ppo.minibatches=2"};
+  std::vector<std::string> rollout = {"rollout"}, update = {"update"};
+  rollout.insert(rollout.end(), small.begin(), small.end());
+  update.insert(update.end(), small.begin(), small.end());
+  EXPECT_GT(measure(rollout)["decisions_per_s"], 0);
+  EXPECT_GT(measure(update)["samples_per_s"], 0);
 }
 
 }  // namespace
