@@ -2,11 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16/f16.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/trim.h"
@@ -26,6 +28,9 @@ const std::map<std::string, FdmPrecision> kPrecisions = {{"float64", FdmPrecisio
 const std::map<std::string, AtmosphereModel> kAtmospheres = {
     {"stevens_lewis", AtmosphereModel::kStevensLewis},
     {"standard_1976", AtmosphereModel::kStandard1976}};
+
+// Thrust is linear in power between table entries: what the inverse leaves is rounding.
+constexpr double kThrustToleranceLbf = 1e-3;
 
 struct FileOptions {
   std::string in, out;
@@ -60,6 +65,9 @@ void WritePoints(const FileOptions& options, const char* name, const std::vector
     const std::string where = fmt::format("{}: {}[{}]", options.in, name, i);
     CheckFinite(result.state_rate, where);
     CheckFinite(result.coefficients, where);
+    CheckFinite(std::array<double, 4>{result.alpha_deg, result.beta_deg, result.mach,
+                                      result.dynamic_pressure_psf},
+                where);
     Json& point = (*document)[name][i];
     point["alpha_deg"] = result.alpha_deg;
     point["beta_deg"] = result.beta_deg;
@@ -140,11 +148,17 @@ void FindTrim(TrimOptions options) {
   const TrimPoint trim = Trim(plant, options.request);
   const PlantOutput output = plant.Evaluate(trim.state, trim.controls);
 
+  // The trim's power is the nearest that the engine has; its thrust tells whether that is enough.
+  const double available_lbf =
+      Thrust(plant.aircraft().engine, trim.power, options.request.altitude_ft, output.air.mach);
+  const bool within_engine =
+      std::abs(available_lbf - trim.controls.thrust_lbf) <= kThrustToleranceLbf;
+
   const double bank_deg = trim.bank_rad * kDegPerRad, alpha_deg = trim.alpha_rad * kDegPerRad;
   const double beta_deg = output.air.beta_rad * kDegPerRad;
   fmt::print(
       "steady flight of the F-16 at {} ft and {} ft/s, flight path {} deg, turn {} deg/s, cg {}\n"
-      "  thrust           {:14.6f} lbf   (engine power {:.4f} %)\n"
+      "  thrust           {:14.6f} lbf   ({})\n"
       "  alpha            {:14.6f} deg\n"
       "  beta             {:14.6f} deg\n"
       "  bank             {:14.6f} deg\n"
@@ -158,7 +172,9 @@ void FindTrim(TrimOptions options) {
       "  dynamic pressure {:14.6f} lbf/ft2\n"
       "  residual         {:14.3e} ft/s2 or rad/s2\n",
       options.request.altitude_ft, options.request.true_airspeed_ft_s, options.flight_path_deg,
-      options.turn_rate_deg_s, options.parameters.cg, trim.controls.thrust_lbf, trim.power,
+      options.turn_rate_deg_s, options.parameters.cg, trim.controls.thrust_lbf,
+      within_engine ? fmt::format("engine power {:.4f} %", trim.power)
+                    : fmt::format("beyond the engine, which gives {:.1f} lbf here", available_lbf),
       alpha_deg, beta_deg, bank_deg, trim.pitch_rad * kDegPerRad, trim.controls.elevator_deg,
       trim.controls.aileron_deg, trim.controls.rudder_deg, trim.controls.leading_edge_flap_deg,
       output.nz, output.air.mach, output.air.dynamic_pressure_psf, trim.residual);
@@ -175,6 +191,7 @@ void FindTrim(TrimOptions options) {
        {trim.controls.thrust_lbf, trim.controls.elevator_deg, trim.controls.aileron_deg,
         trim.controls.rudder_deg, trim.controls.leading_edge_flap_deg}},
       {"power", trim.power},
+      {"within_engine", within_engine},
       {"alpha_deg", alpha_deg},
       {"beta_deg", beta_deg},
       {"bank_deg", bank_deg},
@@ -190,7 +207,7 @@ void AddAtmosphere(CLI::App* command, std::string* atmosphere) {
   command
       ->add_option("--atmosphere", *atmosphere,
                    "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
-      ->check(CLI::IsMember({"stevens_lewis", "standard_1976"}))
+      ->check(CLI::IsMember(kAtmospheres))
       ->capture_default_str();
 }
 
@@ -208,7 +225,7 @@ void AddFileCommand(CLI::App* fdm, const std::string& name, const std::string& d
       ->add_option("--precision", options->precision,
                    "float64: the scalar plant; float32: the SIMD kernel (SKEIN_SIMD chooses its "
                    "instruction set)")
-      ->check(CLI::IsMember({"float64", "float32"}))
+      ->check(CLI::IsMember(kPrecisions))
       ->capture_default_str();
   AddAtmosphere(command, &options->atmosphere);
   command->footer(footer);

@@ -12,6 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Writing a document takes a call for every level of it.
+constexpr int kMaxDepth = 100;
+
 [[noreturn]] void Fail(const std::string& where, const std::string& what) {
   throw Error(fmt::format("{}: {}", where, what));
 }
@@ -152,7 +155,10 @@ FdmFile ReadFdmFile(const std::string& path) {
   FdmFile file;
   const std::string text = ReadFile(path);
   try {
-    file.document = Json::parse(text);
+    file.document = Json::parse(text, [&path](int depth, Json::parse_event_t, const Json&) {
+      if (depth > kMaxDepth) Fail(path, fmt::format("nested deeper than {} levels", kMaxDepth));
+      return true;
+    });
   } catch (const Json::parse_error& error) {
     std::size_t line = 1;
     for (std::size_t i = 0; i < text.size() && i + 1 < error.byte; ++i) line += text[i] == '\n';

@@ -141,6 +141,10 @@ TEST_F(FdmPipeline, MalformedInputIsNamedInOneLine) {
   no_state.erase("state");
   json trajectory = golden_["trajectories"][0];
   trajectory["t"] = {0, 0.05};
+  json endless = golden_["trajectories"][0];
+  endless["t"] = {0, 1e300};
+  json too_fast = point["state"];
+  too_fast[0] = 1e200;
   json pulse = golden_["trajectories"][0];
   pulse["pulses"][1]["control_index"] = 7;
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -158,6 +162,10 @@ TEST_F(FdmPipeline, MalformedInputIsNamedInOneLine) {
       {R"({"points": [{"state": [1e999]}]})", "not"},
       {json{{"trajectories", json::array({trajectory})}}.dump(), "not a multiple of the step"},
       {json{{"trajectories", json::array({pulse})}}.dump(), "pulses[1].control_index"},
+      {json{{"trajectories", json::array({endless})}}.dump(), "more than 1000000000 steps"},
+      {R"({"points": [], "x": )" + std::string(100000, '[') + std::string(100000, ']') + "}",
+       "nested deeper than 100 levels"},
+      {with("state", too_fast), "a value that is not finite"},
   };
   for (const auto& [text, expected] : cases) {
     WriteFile(folder_ + "/in.json", text);
@@ -186,6 +194,22 @@ TEST_F(FdmPipeline, TrimIsSteadyFlight) {
     EXPECT_NEAR(out["points"][0]["xdot"][c].get<double>(), 0, 1e-6);
   }
   EXPECT_NEAR(trim["alpha_deg"].get<double>(), 4.53134, 1e-4);
+}
+
+TEST_F(FdmPipeline, ATrimBeyondTheEngineSaysSo) {
+  const std::string path = folder_ + "/trim.json";
+  const auto trim = [&path](const char* speed) {
+    const ProgramResult result =
+        CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", speed, "--json", path});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return std::pair(result.output, json::parse(ReadFile(path)));
+  };
+  const auto [easy_text, easy] = trim("500");
+  EXPECT_TRUE(easy["within_engine"]);
+  EXPECT_THAT(easy_text, HasSubstr("engine power"));
+  const auto [fast_text, fast] = trim("2600");
+  EXPECT_FALSE(fast["within_engine"]);
+  EXPECT_THAT(fast_text, HasSubstr("beyond the engine"));
 }
 
 TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
