@@ -10,9 +10,6 @@ set(SKEIN_COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -Wall -Wextra -Wshad
 if(SKEIN_WERROR)
   list(APPEND SKEIN_COMPILE_OPTIONS -Werror)
 endif()
-if(CMAKE_BUILD_TYPE STREQUAL "Release")
-  list(APPEND SKEIN_COMPILE_OPTIONS -O3)
-endif()
 
 # skein_library(NAME SOURCES ... [PUBLIC deps ...] [PRIVATE deps ...])
 function(skein_library name)

@@ -20,8 +20,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
 using Vector = hn::Vec<Floats>;
 
-constexpr float kNormEpsilon = 1e-5f;
-
 HWY_INLINE float Sum(Vector v) {
   const Floats d;
   return hn::GetLane(hn::SumOfLanes(d, v));
@@ -58,7 +56,7 @@ HWY_INLINE float NormaliseRow(int columns, const float* in, float* out, float* m
     squares = hn::MulAdd(deviation, deviation, squares);
   }
   const float variance = Sum(squares) / static_cast<float>(columns);
-  const float inverse_std = 1.0f / std::sqrt(variance + kNormEpsilon);
+  const float inverse_std = 1.0f / std::sqrt(variance + kLayerNormEpsilon);
   const Vector inverse_std_v = hn::Set(d, inverse_std);
   for (int j = 0; j < columns; j += lanes) {
     hn::StoreU(hn::Mul(hn::Sub(hn::LoadU(d, in + j), mean_v), inverse_std_v), d, out + j);
@@ -259,14 +257,14 @@ HWY_EXPORT(GruBackwardKernel);
 HWY_EXPORT(AddColumnSumsKernel);
 
 void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out) {
-  constexpr float kEpsilon = 1e-5f;
   for (std::int64_t i = 0; i < rows; ++i) {
     const float* const row = in + i * columns;
     float sum = 0, squares = 0;
     for (int j = 0; j < columns; ++j) sum += row[j];
     const float mean = sum / static_cast<float>(columns);
     for (int j = 0; j < columns; ++j) squares += (row[j] - mean) * (row[j] - mean);
-    const float inverse_std = 1.0f / std::sqrt(squares / static_cast<float>(columns) + kEpsilon);
+    const float inverse_std =
+        1.0f / std::sqrt(squares / static_cast<float>(columns) + kLayerNormEpsilon);
     for (int j = 0; j < columns; ++j) out[i * columns + j] = (row[j] - mean) * inverse_std;
   }
 }

@@ -4,18 +4,21 @@
 
 namespace skein {
 
+/// What LayerNorm adds to the variance.
+inline constexpr float kLayerNormEpsilon = 1e-5f;
+
 // The elementwise parts of a recurrent network, forward and backward, over row-major tiles; the
 // products between them are MatMul's. Columns must be a multiple of 16 unless said otherwise.
-// "Normalise" is LayerNorm without its affine part: (x - mean) / sqrt(variance + 1e-5) of each row;
-// the affine part is folded into the map that follows (train/tiled_network.h). Not-a-number in an
-// input shows in the output.
+// "Normalise" is LayerNorm without its affine part: (x - mean) / sqrt(variance + epsilon) of each
+// row; the affine part is folded into the map that follows (train/tiled_network.h). Not-a-number in
+// an input shows in the output.
 
 /// Any number of columns.
 void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out);
 
 /// values = normalise(relu(values + bias)). `inverse_std` and `zero_level` get one value per row:
-/// 1 / sqrt(variance + 1e-5), and what a zero before the normalisation became, so that a ReLU was
-/// active just where values > zero_level.
+/// 1 / sqrt(variance + epsilon), and what a zero before the normalisation became, so that a ReLU
+/// was active just where values > zero_level.
 void BiasReluNormalise(std::int64_t rows, int columns, const float* bias, float* values,
                        float* inverse_std, float* zero_level);
 
@@ -25,7 +28,7 @@ void BiasReluNormaliseBackward(std::int64_t rows, int columns, const float* norm
                                const float* inverse_std, const float* zero_level, float* gradient,
                                float* bias_gradient);
 
-/// out = normalise(in), with 1 / sqrt(variance + 1e-5) of each row.
+/// out = normalise(in), with 1 / sqrt(variance + epsilon) of each row.
 void NormaliseWithStd(std::int64_t rows, int columns, const float* in, float* out,
                       float* inverse_std);
 

@@ -1,6 +1,7 @@
 #include "train/ppo_update.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>

@@ -1,0 +1,17 @@
+#include <cstdio>
+
+#include "envs/worker_pool.h"
+#include "train/evaluate.h"
+#include "train/policy.h"
+
+int main() {
+  const skein::Policy policy = skein::Policy::Untrained({}, 22, 4, 1);
+  skein::EnvConfig config;
+  config.time_limit_steps = 100;
+  skein::EvaluationOptions options;
+  options.episodes = 32;
+  skein::WorkerPool pool(1);
+  const skein::EvaluationResult result = skein::Evaluate(policy, config, options, pool);
+  std::printf("mean return of an untrained policy: %.1f\n", result.return_mean);
+  return result.episodes == 32 ? 0 : 1;
+}
