@@ -100,10 +100,12 @@ struct VecEnv::Impl {
     }
     tile_size = RoundUp(std::min(requested_tile_size, num_aircraft), kLaneMultiple);
     num_tiles = (num_aircraft + tile_size - 1) / tile_size;
-    stride = TileStride(tile_size);
-    floats_per_tile = static_cast<std::size_t>(kNumColumns + task->num_columns() + 1) * stride;
-    columns = AllocateZeros<float>(floats_per_tile * static_cast<std::size_t>(num_tiles));
-    counters = AllocateZeros<std::int32_t>(2 * stride * static_cast<std::size_t>(num_tiles));
+    blocks_per_tile = (tile_size + kBlock - 1) / kBlock;
+    stride = TileStride(std::min(tile_size, kBlock));
+    floats_per_block = static_cast<std::size_t>(kNumColumns + task->num_columns() + 1) * stride;
+    num_blocks = static_cast<std::size_t>(blocks_per_tile) * static_cast<std::size_t>(num_tiles);
+    columns = AllocateZeros<float>(floats_per_block * num_blocks);
+    counters = AllocateZeros<std::int32_t>(2 * stride * num_blocks);
     for (int tile = 0; tile < num_tiles; ++tile) {
       for (int begin = 0; begin < CountOf(tile); begin += kBlock) {
         const Block block = BlockOf(tile, begin);
@@ -115,11 +117,13 @@ struct VecEnv::Impl {
 
   int CountOf(int tile) const { return std::min(tile_size, num_aircraft - tile * tile_size); }
 
+  /// The block that begins at, or holds from there on, the tile's aircraft `begin`.
   Block BlockOf(int tile, int begin) const {
-    float* const base = columns.get() + floats_per_tile * static_cast<std::size_t>(tile) + begin;
-    std::int32_t* const integers =
-        counters.get() + 2 * stride * static_cast<std::size_t>(tile) + begin;
-    const int count = std::min(kBlock, CountOf(tile) - begin);
+    const std::size_t index = static_cast<std::size_t>(tile * blocks_per_tile + begin / kBlock);
+    const int lane = begin % kBlock;
+    float* const base = columns.get() + floats_per_block * index + lane;
+    std::int32_t* const integers = counters.get() + 2 * stride * index + lane;
+    const int count = std::min(kBlock - lane, CountOf(tile) - begin);
     Block block;
     block.flight = {base, stride, count};
     block.task = {base + kNumColumns * stride, stride, count};
@@ -237,7 +241,10 @@ struct VecEnv::Impl {
     const float dt = static_cast<float>(config.control_interval_s);
     for (int step = 0; step < config.action_repeat; ++step) {
       ControlTile(*kernel_aircraft, flight_control, block.flight, scratch.pilot_columns());
-      StepTile(*kernel_aircraft, block.flight, dt, config.substeps);
+      // The next block's memory is needed after this one's last control step.
+      const bool is_last = step + 1 == config.action_repeat;
+      StepTile(*kernel_aircraft, block.flight, dt, config.substeps,
+               is_last ? MemoryBehind(block) : MemoryAhead());
       task->Judge(block.flight, block.task, block.step, verdict);
       JudgeTile(*kernel_aircraft, config, block.flight, verdict, episodes);
       if (keeps_final) ObserveTruncated(block, scratch, written, output.final_observation);
@@ -256,6 +263,14 @@ struct VecEnv::Impl {
     const std::size_t floats = WordsPerAircraft() - 2;
     if (index < floats) return block.flight[static_cast<int>(index)];
     return index == floats ? block.step : block.episode;
+  }
+
+  /// The columns of the block that follows in memory.
+  MemoryAhead MemoryBehind(const Block& block) const {
+    const float* const end = columns.get() + floats_per_block * num_blocks;
+    const float* const next = block.flight.base + floats_per_block;
+    if (next >= end) return {};
+    return {reinterpret_cast<const char*>(next), floats_per_block * sizeof(float)};
   }
 
   std::size_t WordsPerAircraft() const {
@@ -281,11 +296,14 @@ struct VecEnv::Impl {
 
   int tile_size = 0;
   int num_tiles = 0;
-  std::size_t stride = 0;
-  /// Per tile: physical columns, task columns, episode return; each `stride` long.
-  std::size_t floats_per_tile = 0;
+  std::size_t stride = 0;  // of a block's columns
+  int blocks_per_tile = 0;
+  std::size_t num_blocks = 0;
+  /// Per block of a tile: physical columns, task columns, episode return; each `stride` long. What
+  /// is worked on together lies together.
+  std::size_t floats_per_block = 0;
   AlignedArray<float> columns;
-  /// Per tile: control steps of the episode, number of the episode; each `stride` long.
+  /// Per block: control steps of the episode, number of the episode; each `stride` long.
   AlignedArray<std::int32_t> counters;
 };
 

@@ -98,30 +98,34 @@ HWY_INLINE V Atan2(D d, V y, V x) {
   return hn::Mul(Atan2Degrees(d, y, x), hn::Set(d, 0.0174532925f));
 }
 
-/// sin(x) and cos(x), x in radians, |x| <= 8192: absolute error 1.2e-7.
+/// Sine and cosine of |r| <= pi/4: absolute error 1.2e-7.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE void SinCos(D d, V x, V& sine, V& cosine) {
-  const hn::RebindToSigned<D> di;
-  const V quadrant = hn::Round(hn::Mul(x, hn::Set(d, 0.636619772f)));
-  // pi/2 in three parts whose products with a quadrant number below 2^13 are exact (Cody and
-  // Waite).
-  V r = hn::NegMulAdd(quadrant, hn::Set(d, 1.5703125f), x);
-  r = hn::NegMulAdd(quadrant, hn::Set(d, 4.837512969970703125e-4f), r);
-  r = hn::NegMulAdd(quadrant, hn::Set(d, 7.549789954891883e-8f), r);
+HWY_INLINE void SinCosInQuadrant(D d, V r, V& sine, V& cosine) {
   const V r2 = hn::Mul(r, r);
-  const V s = hn::MulAdd(hn::Mul(r, r2),
-                         Polynomial(d, r2, {-0.166666552f, 0.008332178f, -0.000195172979f}), r);
-  const V c = hn::MulAdd(hn::Mul(r2, r2),
-                         Polynomial(d, r2, {0.0416666456f, -0.00138873677f, 2.44384646e-05f}),
-                         hn::NegMulAdd(hn::Set(d, 0.5f), r2, hn::Set(d, 1.0f)));
-  const auto q = hn::ConvertTo(di, quadrant);
-  const auto one = hn::Set(di, 1);
-  const auto is_odd = hn::RebindMask(d, hn::Eq(hn::And(q, one), one));
-  // The sign bit of a quadrant's sine is its bit 1, that of its cosine the exclusive or of both.
-  const V sine_sign = hn::BitCast(d, hn::ShiftLeft<30>(hn::And(q, hn::Set(di, 2))));
-  const V cosine_sign = hn::BitCast(d, hn::ShiftLeft<30>(hn::And(hn::Add(q, one), hn::Set(di, 2))));
-  sine = hn::Xor(hn::IfThenElse(is_odd, c, s), sine_sign);
-  cosine = hn::Xor(hn::IfThenElse(is_odd, s, c), cosine_sign);
+  sine = hn::MulAdd(hn::Mul(r, r2),
+                    Polynomial(d, r2, {-0.166666552f, 0.008332178f, -0.000195172979f}), r);
+  cosine = hn::MulAdd(hn::Mul(r2, r2),
+                      Polynomial(d, r2, {0.0416666456f, -0.00138873677f, 2.44384646e-05f}),
+                      hn::NegMulAdd(hn::Set(d, 0.5f), r2, hn::Set(d, 1.0f)));
+}
+
+/// Sine and cosine of an angle given by 32 bits: the upper two are its quadrant, the others a
+/// signed fraction of it: pi/2 (bits >> 30) + pi/4 int32(bits << 2) / 2^31 radians. A bijection of
+/// the integers to angles all around: uniform bits give a uniform angle. Absolute error 1.2e-7.
+template <class D, class VU = hn::Vec<hn::RebindToUnsigned<D>>, class V = hn::Vec<D>>
+HWY_INLINE void SinCosOfBits(D d, VU bits, V& sine, V& cosine) {
+  const hn::RebindToSigned<D> di;
+  const hn::RebindToUnsigned<D> du;
+  const V r = hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::ShiftLeft<2>(bits))),
+                      hn::Set(d, 0.785398163f * 0x1.0p-31f));
+  V s, c;
+  SinCosInQuadrant(d, r, s, c);
+  const auto turned = hn::ShiftLeft<1>(bits);  // bit 30, whether the quadrant is odd, as the sign
+  const auto sign = hn::Set(du, 0x80000000u);
+  const auto is_odd = hn::RebindMask(d, hn::Lt(hn::BitCast(di, turned), hn::Zero(di)));
+  sine = hn::Xor(hn::IfThenElse(is_odd, c, s), hn::BitCast(d, hn::And(bits, sign)));
+  cosine =
+      hn::Xor(hn::IfThenElse(is_odd, s, c), hn::BitCast(d, hn::And(hn::Xor(bits, turned), sign)));
 }
 
 /// e^x: 2 ULP for x in [-87, 88]; x is limited to that range.
@@ -160,29 +164,6 @@ HWY_INLINE V Log(D d, V x) {
   y = hn::MulAdd(ef, hn::Set(d, -2.12194440e-4f), y);
   y = hn::NegMulAdd(hn::Set(d, 0.5f), m2, y);
   return hn::MulAdd(ef, hn::Set(d, 0.693359375f), hn::Add(m, y));
-}
-
-/// x^y for a positive normal x: relative error 3e-7 (1 + |y log x|), where |y log x| <= 87.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Pow(D d, V x, V y) {
-  return Exp(d, hn::Mul(y, Log(d, x)));
-}
-
-/// Arcsine in radians for |x| <= 1 (limited to it; NaN gives a finite value): absolute error 3e-7.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Asin(D d, V x) {
-  const V half = hn::Set(d, 0.5f);
-  const V a = hn::Min(hn::Abs(x), hn::Set(d, 1.0f));
-  const auto is_large = hn::Gt(a, half);
-  // asin(a) = pi/2 - 2 asin(sqrt((1 - a) / 2)) near one, where the series converges badly.
-  const V t = hn::IfThenElse(is_large, hn::Mul(half, hn::Sub(hn::Set(d, 1.0f), a)), hn::Mul(a, a));
-  const V s = hn::IfThenElse(is_large, hn::Sqrt(t), a);
-  const V p = hn::MulAdd(
-      hn::Mul(s, t),
-      Polynomial(d, t, {0.166667536f, 0.0749524236f, 0.0454770625f, 0.0241477918f, 0.0422182456f}),
-      s);
-  const V large = hn::NegMulAdd(hn::Set(d, 2.0f), p, hn::Set(d, 1.57079633f));
-  return hn::CopySign(hn::IfThenElse(is_large, large, p), x);
 }
 
 }  // namespace HWY_NAMESPACE

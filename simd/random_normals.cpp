@@ -23,6 +23,7 @@ void FillNormalsKernel(std::uint64_t seed, std::uint32_t first, const std::uint3
                        float* out) {
   const hn::ScalableTag<float> d;
   const hn::ScalableTag<std::uint32_t> du;
+  const PhiloxKeys keys(seed);
   constexpr int kMaxLanes = 16;
   const int lanes = static_cast<int>(hn::Lanes(d));
   alignas(64) std::uint32_t block_b[kMaxLanes] = {}, block_c[kMaxLanes] = {};
@@ -37,8 +38,8 @@ void FillNormalsKernel(std::uint64_t seed, std::uint32_t first, const std::uint3
     const auto vector_b = hn::Load(du, block_b), vector_c = hn::Load(du, block_c);
     for (int element = 0; element < size; element += 4) {
       hn::Vec<decltype(d)> normals[4];
-      NormalBlocks<1>(d, seed, a, vector_b, vector_c, purpose,
-                      static_cast<std::uint32_t>(element / 4), normals);
+      NormalBlock(d, keys, a, vector_b, vector_c, purpose, static_cast<std::uint32_t>(element / 4),
+                  normals);
       for (int k = 0; k < 4; ++k) hn::Store(normals[k], d, block_normals[k]);
       const int elements = size - element < 4 ? size - element : 4;
       for (int lane = 0; lane < valid; ++lane) {

@@ -20,10 +20,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
 struct AirVectors {
-  V density;      ///< slug/ft^3
-  V temperature;  ///< degR
-  V sound_speed;  ///< ft/s
-  V pressure;     ///< lbf/ft^2
+  V density;              ///< slug/ft^3
+  V temperature;          ///< degR
+  V sound_speed_squared;  ///< ft^2/s^2
+  V pressure;             ///< lbf/ft^2
 };
 
 /// Air at geometric altitude `altitude_ft` for `aircraft`'s atmosphere: relative error 2e-6 against
@@ -53,7 +53,7 @@ HWY_INLINE AirVectors<V> AirAtAltitude(D d, const KernelAircraft& aircraft, V al
   air.density = hn::MulAdd(f, density, c(0));
   air.temperature = hn::IfThenElse(hn::Lt(H, hn::Set(d, k.tropopause_ft)), troposphere,
                                    hn::Set(d, k.stratosphere_temperature));
-  air.sound_speed = hn::Sqrt(hn::Mul(hn::Set(d, k.sound_constant), air.temperature));
+  air.sound_speed_squared = hn::Mul(hn::Set(d, k.sound_constant), air.temperature);
   air.pressure = hn::Mul(hn::Set(d, k.pressure_constant), hn::Mul(air.density, air.temperature));
   return air;
 }

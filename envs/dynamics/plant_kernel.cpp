@@ -2,6 +2,7 @@
 
 #include <hwy/cache_control.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "envs/dynamics/kernel_aircraft.h"
@@ -73,23 +74,8 @@ struct StoreCoefficients {
   }
 };
 
-/// One RK4 step of a block.
-template <bool kEngine, class Observer>
-HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& controls,
-                          float* base, std::size_t stride, float dt, const Observer& coefficients,
-                          Block* block) {
-  const IgnoreCoefficients ignore;
-  EvaluateBlock<kEngine>(aircraft, StageState<kFirstStage>{base, stride, block, 0}, controls,
-                         ignore);
-  for (int middle = 0; middle < 2; ++middle) {
-    EvaluateBlock<kEngine>(aircraft, StageState<kMiddleStage>{base, stride, block, dt / 2},
-                           controls, ignore);
-  }
-  EvaluateBlock<kEngine>(aircraft, StageState<kLastStage>{base, stride, block, dt}, controls,
-                         coefficients);
-}
-
-/// Starts loading the next block's columns: more streams than the processor follows by itself.
+/// Starts loading the columns of the block at `first`: more streams than the processor follows by
+/// itself.
 HWY_INLINE void PrefetchColumns(Tile tile, int first) {
   if (first >= tile.count) return;
   for (int column = 0; column <= kNy; ++column) {
@@ -97,6 +83,41 @@ HWY_INLINE void PrefetchColumns(Tile tile, int first) {
     hwy::Prefetch(values);
     hwy::Prefetch(values + kBlock / 2);
   }
+}
+
+inline constexpr std::size_t kCacheLine = 64;
+
+/// Memory to be fetched into the second-level cache, a part at a time: all at once would hold up
+/// the kernel's own loads.
+struct Prefetcher {
+  MemoryAhead ahead;
+  std::size_t part;  // bytes
+
+  HWY_INLINE void FetchPart() {
+    const std::size_t now = std::min(part, ahead.bytes);
+    for (std::size_t i = 0; i < now; i += kCacheLine) __builtin_prefetch(ahead.begin + i, 0, 2);
+    ahead.begin += now;
+    ahead.bytes -= now;
+  }
+};
+
+/// One RK4 step of a block.
+template <bool kEngine, class Observer>
+HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& controls,
+                          float* base, std::size_t stride, float dt, const Observer& coefficients,
+                          Prefetcher* prefetcher, Block* block) {
+  const IgnoreCoefficients ignore;
+  prefetcher->FetchPart();
+  EvaluateBlock<kEngine>(aircraft, StageState<kFirstStage>{base, stride, block, 0}, controls,
+                         ignore);
+  for (int middle = 0; middle < 2; ++middle) {
+    prefetcher->FetchPart();
+    EvaluateBlock<kEngine>(aircraft, StageState<kMiddleStage>{base, stride, block, dt / 2},
+                           controls, ignore);
+  }
+  prefetcher->FetchPart();
+  EvaluateBlock<kEngine>(aircraft, StageState<kLastStage>{base, stride, block, dt}, controls,
+                         coefficients);
 }
 
 void EvaluateTileKernel(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
@@ -123,6 +144,7 @@ void EvaluateTileKernel(const KernelAircraft& aircraft, Tile tile, const Control
 void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
                             const ControlColumns& controls, float dt, int substeps) {
   Block block;
+  Prefetcher prefetcher{};
   for (int first = 0; first < tile.count; first += kBlock) {
     const BlockControls at{controls.thrust_lbf + first,   nullptr,
                            controls.elevator_deg + first, controls.aileron_deg + first,
@@ -130,13 +152,18 @@ void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
     FindSurfacesOfBlock(aircraft, at, &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<false>(aircraft, at, tile.base + first, tile.stride,
-                       dt / static_cast<float>(substeps), IgnoreCoefficients(), &block);
+                       dt / static_cast<float>(substeps), IgnoreCoefficients(), &prefetcher,
+                       &block);
     }
   }
 }
 
-void StepTileKernel(const KernelAircraft& aircraft, Tile tile, float dt, int substeps) {
+void StepTileKernel(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                    MemoryAhead ahead) {
   Block block;
+  const int parts = 4 * (tile.count + kBlock - 1) / kBlock;
+  Prefetcher prefetcher{
+      ahead, ahead.bytes / static_cast<std::size_t>(parts) / kCacheLine * kCacheLine + kCacheLine};
   for (int first = 0; first < tile.count; first += kBlock) {
     const BlockControls at{nullptr,
                            tile[kPowerCommand] + first,
@@ -150,7 +177,7 @@ void StepTileKernel(const KernelAircraft& aircraft, Tile tile, float dt, int sub
     FindSurfacesOfBlock(aircraft, at, &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<true>(aircraft, at, tile.base + first, tile.stride,
-                      dt / static_cast<float>(substeps), load_factors, &block);
+                      dt / static_cast<float>(substeps), load_factors, &prefetcher, &block);
     }
   }
 }
@@ -177,8 +204,9 @@ void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlCo
   SKEIN_DISPATCH(StepTileOpenLoopKernel)(aircraft, tile, controls, dt, substeps);
 }
 
-void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps) {
-  SKEIN_DISPATCH(StepTileKernel)(aircraft, tile, dt, substeps);
+void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+              MemoryAhead ahead) {
+  SKEIN_DISPATCH(StepTileKernel)(aircraft, tile, dt, substeps, ahead);
 }
 
 }  // namespace skein

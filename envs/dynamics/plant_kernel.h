@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "envs/air/atmosphere.h"
@@ -54,10 +55,18 @@ void EvaluateTile(const KernelAircraft& aircraft, Tile tile, const ControlColumn
 void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
                       float dt, int substeps);
 
+/// Memory that the caller works on next.
+struct MemoryAhead {
+  const char* begin = nullptr;
+  std::size_t bytes = 0;
+};
+
 /// `substeps` RK4 steps of dt / substeps seconds each: rigid body and engine power (lag towards
 /// kPowerCommand, thrust by power, altitude and Mach at every stage) with the surfaces held at the
 /// columns' positions. Afterwards kNz and kNy hold the specific forces of the last stage of the
-/// last step, which is what the accelerometers read at the next control step.
-void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps);
+/// last step, which is what the accelerometers read at the next control step. On the way `ahead` is
+/// fetched into the caches: large flocks would else wait for memory.
+void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+              MemoryAhead ahead = {});
 
 }  // namespace skein

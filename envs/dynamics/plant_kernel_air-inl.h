@@ -152,10 +152,8 @@ HWY_INLINE void FindAir(const KernelAircraft& aircraft, const State& state, Bloc
     const V wing = Constant(aircraft.constants.half_wing_area);
     hn::Store(hn::Mul(hn::Mul(air.density, wing), speed_squared), d, block->force + lane);
     if constexpr (kEngine) {
-      const V sound_squared =
-          hn::Mul(Constant(aircraft.atmosphere.sound_constant), air.temperature);
       const V speed = hn::Mul(speed_squared, hn::Load(d, block->inverse_speed + lane));
-      hn::Store(hn::Mul(speed, ReciprocalSqrt(d, sound_squared)), d, block->mach + lane);
+      hn::Store(hn::Mul(speed, ReciprocalSqrt(d, air.sound_speed_squared)), d, block->mach + lane);
     }
   }
 }

@@ -98,8 +98,7 @@ HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const Limits&
   const FlightVector forward_squared = hn::MulAdd(u, u, hn::Mul(w, w));
   const FlightVector speed_squared = hn::MulAdd(v, v, forward_squared);
   const FlightVector altitude = hn::Neg(Column(tile, kDown, first));
-  const FlightVector sound_speed = AirAtAltitude(d, aircraft, altitude).sound_speed;
-  const FlightVector sound_speed_squared = hn::Mul(sound_speed, sound_speed);
+  const FlightVector sound_speed_squared = AirAtAltitude(d, aircraft, altitude).sound_speed_squared;
 
   const auto is_extreme =
       hn::Or(limits.alpha.IsOutside(u, w), limits.beta.IsOutside(hn::Sqrt(forward_squared), v));

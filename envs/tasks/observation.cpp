@@ -25,13 +25,11 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kMaxLanes = 16;
-// Noise comes in blocks of four normals.
-constexpr int kNoiseBlocks = (kObservationSize + 3) / 4;
-constexpr int kNoiseBlocksAtOnce = 3;
-static_assert(kNoiseBlocks % kNoiseBlocksAtOnce == 0, "noise is drawn in whole groups of blocks");
+// Noise comes in blocks of eight deviates.
+constexpr int kNoiseBlocks = (kObservationSize + 7) / 8;
 
 /// One group of aircraft, [element][lane].
-using ObservationColumns = float[kNoiseBlocks * 4][kMaxLanes];
+using ObservationColumns = float[kNoiseBlocks * 8][kMaxLanes];
 
 HWY_INLINE void ObserveAttitude(const Tile& tile, int first, ObservationColumns& columns) {
   const FlightTag d;
@@ -83,7 +81,8 @@ HWY_INLINE void ObserveControls(const Actuators& actuators, const Tile& tile, in
   }
 }
 
-HWY_INLINE void AddNoise(const ObservationNoise& noise, int first, ObservationColumns& columns) {
+HWY_INLINE void AddNoise(const ObservationNoise& noise, const PhiloxKeys& keys, int first,
+                         ObservationColumns& columns) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
   const hn::RebindToUnsigned<FlightTag> du;
@@ -91,16 +90,11 @@ HWY_INLINE void AddNoise(const ObservationNoise& noise, int first, ObservationCo
   const auto episode = hn::BitCast(du, hn::LoadU(di, noise.episode + first));
   const auto step = hn::BitCast(du, hn::LoadU(di, noise.step + first));
   const FlightVector scale = Constant(noise.standard_deviation);
-  for (int block = 0; block < kNoiseBlocks; block += kNoiseBlocksAtOnce) {
-    constexpr int kNormals = 4 * kNoiseBlocksAtOnce;
-    FlightVector normals[kNormals];
-    NormalBlocks<kNoiseBlocksAtOnce>(d, noise.seed, index, episode, step,
-                                     simd::RandomPurpose::kObservationNoise,
-                                     static_cast<std::uint32_t>(block), normals);
-    for (int k = 0; k < kNormals; ++k) {
-      float* const column = columns[block * 4 + k];
-      hn::Store(hn::MulAdd(scale, normals[k], hn::Load(d, column)), d, column);
-    }
+  FlightVector deviates[8 * kNoiseBlocks];
+  CoarseNormals<kNoiseBlocks>(d, keys, index, episode, step, simd::RandomPurpose::kObservationNoise,
+                              deviates);
+  for (int k = 0; k < kObservationSize; ++k) {
+    hn::Store(hn::MulAdd(scale, deviates[k], hn::Load(d, columns[k])), d, columns[k]);
   }
 }
 
@@ -140,6 +134,7 @@ void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* e
                        float* observation) {
   const FlightTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
+  const PhiloxKeys keys(noise.seed);
   alignas(64) ObservationColumns columns = {};
   for (int first = 0; first < tile.count; first += lanes) {
     for (int k = 0; k < kNumTaskErrors; ++k) {
@@ -148,7 +143,7 @@ void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* e
     ObserveAttitude(tile, first, columns);
     ObserveAir(aircraft, tile, first, columns);
     ObserveControls(aircraft.source.actuators, tile, first, columns);
-    if (noise.standard_deviation > 0) AddNoise(noise, first, columns);
+    if (noise.standard_deviation > 0) AddNoise(noise, keys, first, columns);
 
     const int valid = tile.count - first < lanes ? tile.count - first : lanes;
     StoreRows(columns, valid, observation + static_cast<std::size_t>(first) * kObservationSize);

@@ -90,7 +90,8 @@ TEST_P(FillNormalsTest, AppliesBoxMullerToTheScalarWords) {
       const std::uint32_t radius_word = words[j % 4 < 2 ? 0 : 2];
       const std::uint32_t angle_word = words[j % 4 < 2 ? 1 : 3];
       const double radius = std::sqrt(-2 * std::log(((radius_word >> 8) + 1) * 0x1.0p-24));
-      const double angle = 2 * M_PI * (angle_word >> 8) * 0x1.0p-24 - M_PI;
+      const double in_quadrant = static_cast<std::int32_t>(angle_word << 2) * 0x1.0p-31;
+      const double angle = M_PI / 2 * (angle_word >> 30) + M_PI / 4 * in_quadrant;
       const double expected = radius * (j % 2 == 0 ? std::cos(angle) : std::sin(angle));
       EXPECT_NEAR(normals[static_cast<std::size_t>(i) * kSize + j], expected, kTolerance);
     }

@@ -34,7 +34,7 @@ void AirColumn(const KernelAircraft& aircraft, const Column& altitude, Column (&
     const auto air = AirAtAltitude(d, aircraft, hn::LoadU(d, &altitude[i]));
     hn::StoreU(air.density, d, &out[0][i]);
     hn::StoreU(air.temperature, d, &out[1][i]);
-    hn::StoreU(air.sound_speed, d, &out[2][i]);
+    hn::StoreU(hn::Sqrt(air.sound_speed_squared), d, &out[2][i]);
     hn::StoreU(air.pressure, d, &out[3][i]);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -28,6 +29,7 @@ class ObservationTest : public testing::TestWithParam<simd::Target> {
   }
 
   static constexpr int kCount = 50;
+  static constexpr int kNumRepeats = 200;  // of kCount noisy rows, for their statistics
   ScopedTarget target_{GetParam()};
   std::shared_ptr<const KernelAircraft> kernel_ = MakeKernelAircraft(F16(), kAtmosphere);
   TestTile flight_{kCount};
@@ -96,14 +98,49 @@ TEST_P(ObservationTest, NoiseIsTheStreamOfAircraftEpisodeAndStep) {
     step_[static_cast<std::size_t>(i)] = i;
   }
   const std::vector<float> clean = Observe(0), noisy = Observe(kNoise, 1000);
-  std::vector<std::uint32_t> episode(kCount, 3), step;
-  for (std::uint32_t i = 0; i < kCount; ++i) step.push_back(i);
-  std::vector<float> normals(clean.size());
-  simd::FillNormals(77, 1000, episode.data(), step.data(), simd::RandomPurpose::kObservationNoise,
-                    kCount, kObservationSize, normals.data());
-  for (std::size_t i = 0; i < clean.size(); ++i) {
-    EXPECT_NEAR(noisy[i] - clean[i], kNoise * normals[i], 1e-6);
+  for (int i = 0; i < kCount; ++i) {
+    const simd::RandomKey key{77, 1000 + static_cast<std::uint32_t>(i), 3,
+                              static_cast<std::uint32_t>(i),
+                              simd::RandomPurpose::kObservationNoise};
+    for (int k = 0; k < kObservationSize; ++k) {
+      // A word to a pair: radius by the upper half, angle by the lower.
+      const int pair = k / 2;
+      const std::uint32_t word =
+          simd::RandomWords(key, static_cast<std::uint32_t>(pair / 4))[pair % 4];
+      const double radius = std::sqrt(-2 * std::log(((word >> 16) + 0.5 + 0x1.0p-8) * 0x1.0p-16));
+      const double angle = M_PI / 2 * (word >> 14 & 3) +
+                           M_PI / 4 * static_cast<std::int32_t>(word << 18) * 0x1.0p-31;
+      const double deviate = radius * (k % 2 == 0 ? std::cos(angle) : std::sin(angle));
+      const std::size_t at = static_cast<std::size_t>(i * kObservationSize + k);
+      EXPECT_NEAR(noisy[at] - clean[at], kNoise * deviate, 3e-6);
+    }
   }
+}
+
+TEST_P(ObservationTest, NoiseHasTheMomentsAndTailsOfANormal) {
+  double sum[5] = {};
+  double beyond2 = 0, n = 0;
+  for (int k = 0; k < kNumRepeats; ++k) {
+    std::fill(step_.begin(), step_.end(), k);
+    const std::vector<float> clean = Observe(0), noisy = Observe(1);
+    for (std::size_t i = 0; i < clean.size(); ++i) {
+      const double x = static_cast<double>(noisy[i]) - clean[i];
+      double power = 1;
+      for (double& s : sum) {
+        s += power;
+        power *= x;
+      }
+      beyond2 += std::abs(x) > 2;
+      ++n;
+    }
+  }
+  // Five standard errors: the variances of x, x^2, x^3, x^4 are 1, 2, 15, 96.
+  EXPECT_NEAR(sum[1] / n, 0, 5 * std::sqrt(1 / n));
+  EXPECT_NEAR(sum[2] / n, 1, 5 * std::sqrt(2 / n));
+  EXPECT_NEAR(sum[3] / n, 0, 5 * std::sqrt(15 / n));
+  EXPECT_NEAR(sum[4] / n, 3, 5 * std::sqrt(96 / n));
+  const double tail2 = std::erfc(2 / std::sqrt(2.0));
+  EXPECT_NEAR(beyond2 / n, tail2, 5 * std::sqrt(tail2 / n));
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, ObservationTest, testing::ValuesIn(simd::SupportedTargets()),
