@@ -76,26 +76,48 @@ Json ToJson(const SimulatorRate& rate) {
   return {{"step_ms", 1e3 * rate.step_s}, {"aircraft_steps_per_s", rate.aircraft_steps_per_s}};
 }
 
+// NeuralPlane (NeurIPS 2024): one Euler step of 10^6 F-16s without flight control on a GPU.
+constexpr double kPaperEulerStepS = 0.2;
+
 void BenchSimulator(const BenchOptions& options) {
   WorkerPool pool(options.threads);
-  const EnvConfig env = BenchConfig(options).env;
+  const EnvConfig noisy = BenchConfig(options).env;
+  EnvConfig clean = noisy;
+  clean.observation_noise = 0;
   const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
-  const SimulatorRate plant = MeasurePlant(options.aircraft, options.steps, pool);
-  const SimulatorRate environment = MeasureEnvironment(env, options.aircraft, options.steps, pool);
-  const double gflops = plant.aircraft_steps_per_s * kFlopsPerRk4Step / 1e9;
-  fmt::print(
-      "simulator: {} aircraft, {} control steps, {} threads, {}\n"
-      "  flight control, actuators, engine, RK4  {:9.2f} ms a step, {} aircraft-steps/s ({})\n"
-      "  the whole environment                   {:9.2f} ms a step, {} aircraft-steps/s\n",
-      options.aircraft, options.steps, pool.threads(), Name(simd::ActiveTarget()),
-      1e3 * plant.step_s, FormatCount(plant.aircraft_steps_per_s), ShareOfPeak(gflops, peak.gflops),
-      1e3 * environment.step_s, FormatCount(environment.aircraft_steps_per_s));
-  Report(options, pool.threads(),
-         WithShareOfPeak({{"aircraft", options.aircraft},
-                          {"steps", options.steps},
-                          {"plant", ToJson(plant)},
-                          {"environment", ToJson(environment)}},
-                         gflops, peak.gflops));
+  const auto plant = [&](PlantPart part) {
+    return MeasurePlant(part, options.aircraft, options.steps, pool);
+  };
+  const auto environment = [&](const EnvConfig& config) {
+    return MeasureEnvironment(config, options.aircraft, options.steps, pool);
+  };
+  const SimulatorRate rk4 = plant(PlantPart::kRk4);
+  const SimulatorRate controlled = plant(PlantPart::kFlightControlAndRk4);
+  const SimulatorRate whole = environment(clean);
+  const double gflops = rk4.aircraft_steps_per_s * kFlopsPerRk4Step / 1e9;
+  fmt::print("simulator: {} aircraft, {} control steps, {} threads, {}\n", options.aircraft,
+             options.steps, pool.threads(), Name(simd::ActiveTarget()));
+  const auto line = [](const char* what, const SimulatorRate& rate, const std::string& note) {
+    fmt::print("  {:<38}  {:9.2f} ms a step, {} aircraft-steps/s{}\n", what, 1e3 * rate.step_s,
+               FormatCount(rate.aircraft_steps_per_s), note);
+  };
+  line("RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
+  line("flight control, actuators, engine, RK4", controlled, "");
+  line("the whole environment, without noise", whole, "");
+  Json results{{"aircraft", options.aircraft},
+               {"steps", options.steps},
+               {"rk4", ToJson(rk4)},
+               {"plant", ToJson(controlled)},
+               {"environment", ToJson(whole)}};
+  if (noisy.observation_noise > 0) {
+    const SimulatorRate with_noise = environment(noisy);
+    line("the whole environment, with noise", with_noise,
+         fmt::format(" (+{:.0f} %)", 100 * (with_noise.step_s / whole.step_s - 1)));
+    results["environment_with_noise"] = ToJson(with_noise);
+  }
+  fmt::print("  (the paper's GPU: {:.0f} ms for an Euler step of 10^6 without flight control)\n",
+             1e3 * kPaperEulerStepS);
+  Report(options, pool.threads(), WithShareOfPeak(results, gflops, peak.gflops));
 }
 
 void BenchRollout(const BenchOptions& options) {
@@ -171,9 +193,11 @@ void AddBenchCommand(CLI::App* app) {
       ->capture_default_str();
   AddConfiguration(sim, options);
   sim->footer(
-      "First the plant alone (flight control, actuators, engine, one RK4 step of 0.02 s), then "
-      "the\n"
-      "whole environment (observe, step, reward, terminate, reset) at 50 Hz.\n"
+      "Trimmed F-16s through one RK4 step of 0.02 s, without and with flight control; then the "
+      "whole\n"
+      "environment (observe, step, reward, terminate, reset) at 50 Hz under random actions, "
+      "without\n"
+      "and with observation noise.\n"
       "Example: skein bench sim --aircraft 1000000 --steps 30 --threads 2");
   AddConfiguration(
       AddBench(bench, "rollout", "Decisions per second of policy and simulator together", options,

@@ -46,58 +46,71 @@ EnvConfig SpreadFlights() {
   return config;
 }
 
-/// A tile of aircraft in trimmed flight with its pilot's commands.
-class TrimmedTile {
+/// Aircraft in trimmed flight with their pilots' commands, tile behind tile in memory.
+class TrimmedFlock {
  public:
-  TrimmedTile(const FlightReset& reset, int count, simd::RandomStream* random)
-      : stride_(TileStride(count)), count_(count), columns_((kNumColumns + kNumPilot) * stride_) {
-    for (std::size_t i = 0; i < stride_; ++i) {
-      const FreshFlight flight = reset.Draw(random);
-      for (std::size_t column = 0; column < kNumColumns; ++column) {
-        columns_[column * stride_ + i] = flight.columns[column];
-      }
-      // The sticks stay centred.
-      columns_[kNumColumns * stride_ + i] =
-          static_cast<float>(ThrottleForPower(flight.columns[kPower]));
-    }
+  /// Made by the workers, so that pages are first touched where they are used.
+  TrimmedFlock(int count, WorkerPool& pool)
+      : count_(count), columns_(static_cast<std::size_t>(num_tiles()) * kFloatsPerTile) {
+    const EnvConfig config = SpreadFlights();
+    const Aircraft f16 = F16();
+    const FlightReset reset(config, f16);
+    kernel_ = MakeKernelAircraft(f16, config.atmosphere);
+    pool.ForEach(num_tiles(), [&](int tile, int) { Fill(reset, tile); });
   }
 
-  void Step(const KernelAircraft& kernel) {
-    const Tile tile{columns_.data(), stride_, count_};
-    const float* pilot = columns_.data() + kNumColumns * stride_;
-    ControlTile(kernel, tile, {pilot, pilot + stride_, pilot + 2 * stride_, pilot + 3 * stride_},
-                FlightControlMode::kFull, static_cast<float>(kDt));
-    StepTile(kernel, tile, static_cast<float>(kDt), 1);
+  int num_tiles() const { return (count_ + kFlockTile - 1) / kFlockTile; }
+
+  void Step(PlantPart part, int index) {
+    const Tile tile = At(index);
+    if (part == PlantPart::kFlightControlAndRk4) {
+      const PilotColumns pilot{tile[kNumColumns], tile[kNumColumns + 1], tile[kNumColumns + 2],
+                               tile[kNumColumns + 3]};
+      ControlTile(*kernel_, tile, pilot, FlightControlMode::kFull, static_cast<float>(kDt));
+    }
+    MemoryAhead ahead;
+    if (index + 1 < num_tiles()) {
+      ahead = {reinterpret_cast<const char*>(At(index + 1).base), kFloatsPerTile * sizeof(float)};
+    }
+    StepTile(*kernel_, tile, static_cast<float>(kDt), 1, ahead);
   }
 
  private:
+  static constexpr int kFlockTile = 128;  // stays in the innermost caches
   static constexpr int kNumPilot = 4;
+  static constexpr std::size_t kFloatsPerTile = (kNumColumns + kNumPilot) * TileStride(kFlockTile);
 
-  std::size_t stride_;
+  Tile At(int index) {
+    return {columns_.data() + static_cast<std::size_t>(index) * kFloatsPerTile,
+            TileStride(kFlockTile), std::min(kFlockTile, count_ - index * kFlockTile)};
+  }
+
+  void Fill(const FlightReset& reset, int index) {
+    const Tile tile = At(index);
+    simd::RandomStream random(
+        {0, static_cast<std::uint32_t>(index), 0, 0, simd::RandomPurpose::kInitialState});
+    for (std::size_t i = 0; i < tile.stride; ++i) {
+      const FreshFlight flight = reset.Draw(&random);
+      for (int column = 0; column < kNumColumns; ++column) {
+        tile[column][i] = flight.columns[static_cast<std::size_t>(column)];
+      }
+      // The sticks stay centred.
+      for (int k = 0; k < kNumPilot; ++k) tile[kNumColumns + k][i] = 0;
+      tile[kNumColumns][i] = static_cast<float>(ThrottleForPower(flight.columns[kPower]));
+    }
+  }
+
   int count_;
   AlignedVector<float> columns_;
+  std::shared_ptr<const KernelAircraft> kernel_;
 };
 
 }  // namespace
 
-SimulatorRate MeasurePlant(int aircraft, int steps, WorkerPool& pool) {
-  const EnvConfig config = SpreadFlights();
-  const Aircraft f16 = F16();
-  const FlightReset reset(config, f16);
-  const auto kernel = MakeKernelAircraft(f16, config.atmosphere);
-  std::vector<std::unique_ptr<TrimmedTile>> tiles(
-      static_cast<std::size_t>((aircraft + kTileSize - 1) / kTileSize));
-  const int count = static_cast<int>(tiles.size());
-  // Made by the workers, so that pages and caches are first touched where they are used.
-  pool.ForEach(count, [&](int tile, int) {
-    simd::RandomStream random(
-        {0, static_cast<std::uint32_t>(tile), 0, 0, simd::RandomPurpose::kInitialState});
-    const int size = std::min(kTileSize, aircraft - tile * kTileSize);
-    tiles[static_cast<std::size_t>(tile)] = std::make_unique<TrimmedTile>(reset, size, &random);
-  });
+SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& pool) {
+  TrimmedFlock flock(aircraft, pool);
   return Measure(aircraft, steps, [&] {
-    pool.ForEach(count,
-                 [&](int tile, int) { tiles[static_cast<std::size_t>(tile)]->Step(*kernel); });
+    pool.ForEach(flock.num_tiles(), [&](int tile, int) { flock.Step(part, tile); });
   });
 }
 

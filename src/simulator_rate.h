@@ -11,9 +11,11 @@ struct SimulatorRate {
   double aircraft_steps_per_s = 0;  ///< all aircraft over that median
 };
 
-/// Flight control, actuators, engine and one RK4 step of `aircraft` F-16s, spread over altitudes
-/// and speeds in trimmed flight; `steps` control steps are timed after a few that are not.
-SimulatorRate MeasurePlant(int aircraft, int steps, WorkerPool& pool);
+/// One RK4 step (0.02 s, four evaluations of the tables, the equations of motion and the engine) of
+/// `aircraft` F-16s, spread over altitudes and speeds in trimmed flight, with flight control and
+/// actuators before it or without; `steps` steps are timed after a few that are not.
+enum class PlantPart { kRk4, kFlightControlAndRk4 };
+SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& pool);
 
 /// The whole environment of `config`: observe, hold a random action for one control step, reward,
 /// terminate, reset.
