@@ -1,0 +1,117 @@
+// A fixed number of steps of one part of the simulator, on one thread and without timing, for
+// scripts/count_instructions: two runs with different numbers of steps differ by those steps alone.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "envs/aircraft/f16/f16.h"
+#include "envs/aircraft/flight_control_kernel.h"
+#include "envs/dynamics/plant_kernel.h"
+#include "envs/vec_env.h"
+#include "simd/denormals.h"
+#include "simd/error.h"
+#include "simd/random.h"
+#include "simd/target.h"
+
+namespace skein {
+namespace {
+
+constexpr char kUsage[] =
+    "usage: count_steps PART AIRCRAFT STEPS   steps one tile; PART is one of rk4, controlled,\n"
+    "                                         environment, environment_with_noise\n"
+    "       count_steps targets               prints the SIMD targets that run here\n";
+constexpr float kDt = 0.02f;
+constexpr float kThrottle = 0.2f;
+
+/// Trimmed F-16s, each step one RK4 step, with flight control and actuators before it if
+/// `controlled`. The sticks stay centred.
+void StepPlant(bool controlled, int aircraft, int steps) {
+  const EnvConfig config;
+  const VecEnv start(config, aircraft, 1, aircraft);
+  const std::size_t stride = TileStride(aircraft);
+  std::vector<float> columns(stride * kNumColumns);
+  const Tile tile{columns.data(), stride, aircraft};
+  for (std::size_t i = 0; i < stride; ++i) {
+    const int drawn = static_cast<int>(i) % aircraft;  // padding flies, too
+    for (int column = 0; column < kNumColumns; ++column) {
+      tile[column][i] = start.StateOf(drawn, column);
+    }
+  }
+  const auto kernel = MakeKernelAircraft(F16(), config.atmosphere);
+  const FlightControlConstants constants(F16(), FlightControlMode::kFull, kDt);
+  const std::vector<float> centred(stride), throttle(stride, kThrottle);
+  const PilotColumns pilot{throttle.data(), centred.data(), centred.data(), centred.data()};
+  const simd::DenormalsFlushed flushed;
+  for (int step = 0; step < steps; ++step) {
+    if (controlled) ControlTile(*kernel, constants, tile, pilot);
+    StepTile(*kernel, tile, kDt, 1);
+  }
+}
+
+/// The Heading environment under constant random actions: observe, step, reward, terminate, reset.
+void StepEnvironment(double observation_noise, int aircraft, int steps) {
+  EnvConfig config;
+  config.observation_noise = observation_noise;
+  VecEnv env(config, aircraft, 1, aircraft);
+  const auto count = static_cast<std::size_t>(aircraft);
+  const auto observation_size = static_cast<std::size_t>(env.observation_size());
+  std::vector<float> action(count * static_cast<std::size_t>(env.action_size()));
+  simd::RandomStream random({1, 0, 0, 0, simd::RandomPurpose::kActionNoise});
+  for (float& value : action) value = static_cast<float>(random.Uniform(-1, 1));
+  std::vector<float> observation(count * observation_size), final_observation(observation.size());
+  std::vector<float> reward(count), episode_return(count);
+  std::vector<std::uint8_t> termination(count);
+  std::vector<std::int32_t> episode_steps(count);
+  for (int step = 0; step < steps; ++step) {
+    env.Observe(0, observation.data());
+    env.Step(0, action.data(),
+             {reward.data(), termination.data(), episode_return.data(), episode_steps.data(),
+              final_observation.data()});
+  }
+}
+
+int Positive(const std::string& text) {
+  const bool digits =
+      !text.empty() && text.size() < 8 &&
+      std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
+  const int value = digits ? std::atoi(text.c_str()) : 0;
+  if (value <= 0) throw Error("count_steps: not a positive whole number: " + text);
+  return value;
+}
+
+int Run(const std::vector<std::string>& arguments) {
+  if (arguments.size() == 1 && arguments[0] == "targets") {
+    for (const simd::Target target : simd::SupportedTargets()) std::cout << Name(target) << '\n';
+    return 0;
+  }
+  if (arguments.size() == 3) {
+    const std::string& part = arguments[0];
+    const int aircraft = Positive(arguments[1]), steps = Positive(arguments[2]);
+    if (part == "rk4" || part == "controlled") {
+      StepPlant(part == "controlled", aircraft, steps);
+      return 0;
+    }
+    if (part == "environment" || part == "environment_with_noise") {
+      StepEnvironment(part == "environment" ? 0 : EnvConfig{}.observation_noise, aircraft, steps);
+      return 0;
+    }
+  }
+  std::cerr << kUsage;
+  return 2;
+}
+
+}  // namespace
+}  // namespace skein
+
+int main(int argc, char** argv) {
+  try {
+    return skein::Run({argv + 1, argv + argc});
+  } catch (const skein::Error& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}
