@@ -1,6 +1,7 @@
 #include "envs/vec_env.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <new>
 #include <string>
@@ -25,21 +26,16 @@ constexpr int kLaneMultiple = 32;
 constexpr std::size_t kCacheLine = 64;
 
 struct AlignedDelete {
-  template <class T>
-  void operator()(T* words) const {
-    ::operator delete[](words, std::align_val_t{kCacheLine});
+  void operator()(std::byte* bytes) const {
+    ::operator delete[](bytes, std::align_val_t{kCacheLine});
   }
 };
 
-template <class T>
-using AlignedArray = std::unique_ptr<T[], AlignedDelete>;
+using AlignedBytes = std::unique_ptr<std::byte[], AlignedDelete>;
 
-template <class T>
-AlignedArray<T> AllocateZeros(std::size_t count) {
-  void* const memory = ::operator new[](count * sizeof(T), std::align_val_t{kCacheLine});
-  T* const words = static_cast<T*>(memory);
-  std::uninitialized_fill_n(words, count, T{0});
-  return AlignedArray<T>(words);
+AlignedBytes AllocateZeros(std::size_t size) {
+  void* const memory = ::operator new[](size, std::align_val_t{kCacheLine});
+  return AlignedBytes(static_cast<std::byte*>(std::memset(memory, 0, size)));
 }
 
 int RoundUp(int count, int multiple) { return (count + multiple - 1) / multiple * multiple; }
@@ -102,10 +98,9 @@ struct VecEnv::Impl {
     num_tiles = (num_aircraft + tile_size - 1) / tile_size;
     blocks_per_tile = (tile_size + kBlock - 1) / kBlock;
     stride = TileStride(std::min(tile_size, kBlock));
-    floats_per_block = static_cast<std::size_t>(kNumColumns + task->num_columns() + 1) * stride;
+    block_size = WordsPerAircraft() * stride * sizeof(float);
     num_blocks = static_cast<std::size_t>(blocks_per_tile) * static_cast<std::size_t>(num_tiles);
-    columns = AllocateZeros<float>(floats_per_block * num_blocks);
-    counters = AllocateZeros<std::int32_t>(2 * stride * num_blocks);
+    memory = AllocateZeros(block_size * num_blocks);
     for (int tile = 0; tile < num_tiles; ++tile) {
       for (int begin = 0; begin < CountOf(tile); begin += kBlock) {
         const Block block = BlockOf(tile, begin);
@@ -119,17 +114,18 @@ struct VecEnv::Impl {
 
   /// The block that begins at, or holds from there on, the tile's aircraft `begin`.
   Block BlockOf(int tile, int begin) const {
-    const std::size_t index = static_cast<std::size_t>(tile * blocks_per_tile + begin / kBlock);
+    std::byte* const bytes =
+        memory.get() +
+        block_size * static_cast<std::size_t>(tile * blocks_per_tile + begin / kBlock);
     const int lane = begin % kBlock;
-    float* const base = columns.get() + floats_per_block * index + lane;
-    std::int32_t* const integers = counters.get() + 2 * stride * index + lane;
+    float* const base = reinterpret_cast<float*>(bytes) + lane;
     const int count = std::min(kBlock - lane, CountOf(tile) - begin);
     Block block;
     block.flight = {base, stride, count};
     block.task = {base + kNumColumns * stride, stride, count};
     block.episode_return = block.task[task->num_columns()];
-    block.step = integers;
-    block.episode = integers + stride;
+    block.step = reinterpret_cast<std::int32_t*>(block.episode_return + stride);
+    block.episode = block.step + stride;
     block.first_aircraft = tile * tile_size + begin;
     block.count = count;
     return block;
@@ -265,12 +261,11 @@ struct VecEnv::Impl {
     return index == floats ? block.step : block.episode;
   }
 
-  /// The columns of the block that follows in memory.
+  /// The block that follows in memory.
   MemoryAhead MemoryBehind(const Block& block) const {
-    const float* const end = columns.get() + floats_per_block * num_blocks;
-    const float* const next = block.flight.base + floats_per_block;
-    if (next >= end) return {};
-    return {reinterpret_cast<const char*>(next), floats_per_block * sizeof(float)};
+    const auto* const next = reinterpret_cast<const std::byte*>(block.flight.base) + block_size;
+    if (next >= memory.get() + block_size * num_blocks) return {};
+    return {next, block_size};
   }
 
   std::size_t WordsPerAircraft() const {
@@ -299,12 +294,11 @@ struct VecEnv::Impl {
   std::size_t stride = 0;  // of a block's columns
   int blocks_per_tile = 0;
   std::size_t num_blocks = 0;
-  /// Per block of a tile: physical columns, task columns, episode return; each `stride` long. What
-  /// is worked on together lies together.
-  std::size_t floats_per_block = 0;
-  AlignedArray<float> columns;
-  /// Per block: control steps of the episode, number of the episode; each `stride` long.
-  AlignedArray<std::int32_t> counters;
+  /// Per block of a tile: physical columns, task columns, episode return (float32), control steps
+  /// of the episode and its number (int32), each `stride` long. What is worked on together lies
+  /// together.
+  AlignedBytes memory;
+  std::size_t block_size = 0;  // bytes
 };
 
 VecEnv::VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size)

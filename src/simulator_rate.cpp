@@ -19,7 +19,7 @@
 namespace skein {
 namespace {
 
-constexpr int kTileSize = 256;
+constexpr int kTileSize = 128;  // stays in the innermost caches
 constexpr int kWarmUpSteps = 3;
 constexpr double kDt = 0.02;
 
@@ -59,7 +59,7 @@ class TrimmedFlock {
     pool.ForEach(num_tiles(), [&](int tile, int) { Fill(reset, tile); });
   }
 
-  int num_tiles() const { return (count_ + kFlockTile - 1) / kFlockTile; }
+  int num_tiles() const { return (count_ + kTileSize - 1) / kTileSize; }
 
   void Step(PlantPart part, int index) {
     const Tile tile = At(index);
@@ -70,19 +70,19 @@ class TrimmedFlock {
     }
     MemoryAhead ahead;
     if (index + 1 < num_tiles()) {
-      ahead = {reinterpret_cast<const char*>(At(index + 1).base), kFloatsPerTile * sizeof(float)};
+      ahead = {reinterpret_cast<const std::byte*>(At(index + 1).base),
+               kFloatsPerTile * sizeof(float)};
     }
     StepTile(*kernel_, tile, static_cast<float>(kDt), 1, ahead);
   }
 
  private:
-  static constexpr int kFlockTile = 128;  // stays in the innermost caches
   static constexpr int kNumPilot = 4;
-  static constexpr std::size_t kFloatsPerTile = (kNumColumns + kNumPilot) * TileStride(kFlockTile);
+  static constexpr std::size_t kFloatsPerTile = (kNumColumns + kNumPilot) * TileStride(kTileSize);
 
   Tile At(int index) {
     return {columns_.data() + static_cast<std::size_t>(index) * kFloatsPerTile,
-            TileStride(kFlockTile), std::min(kFlockTile, count_ - index * kFlockTile)};
+            TileStride(kTileSize), std::min(kTileSize, count_ - index * kTileSize)};
   }
 
   void Fill(const FlightReset& reset, int index) {

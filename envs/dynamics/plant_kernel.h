@@ -57,7 +57,7 @@ void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlCo
 
 /// Memory that the caller works on next.
 struct MemoryAhead {
-  const char* begin = nullptr;
+  const std::byte* begin = nullptr;
   std::size_t bytes = 0;
 };
 
