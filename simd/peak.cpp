@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "simd/dispatch.h"
@@ -59,6 +61,72 @@ double MultiplyAdd(std::int64_t rounds, float* sink) {
   return static_cast<double>(rounds) * kChains * kOperations * static_cast<double>(hn::Lanes(d));
 }
 
+/// Loads a buffer of the innermost cache again and again and returns the bytes; `sink` as above.
+double LoadVectors(std::int64_t rounds, float* sink) {
+  const hn::ScalableTag<float> d;
+  // Half of the smallest first-level caches.
+  constexpr std::size_t kFloats = 4096;
+  alignas(64) static float buffer[kFloats] = {};
+  const std::size_t lanes = hn::Lanes(d);
+  // Loads go into logical operations of one cycle, of which as many run at once as loads.
+  auto a0 = hn::Zero(d), a1 = a0, a2 = a0, a3 = a0, a4 = a0, a5 = a0, a6 = a0, a7 = a0;
+  for (std::int64_t i = 0; i < rounds; ++i) {
+    for (std::size_t k = 0; k < kFloats; k += 8 * lanes) {
+      a0 = hn::Or(a0, hn::Load(d, buffer + k));
+      a1 = hn::Or(a1, hn::Load(d, buffer + k + lanes));
+      a2 = hn::Or(a2, hn::Load(d, buffer + k + 2 * lanes));
+      a3 = hn::Or(a3, hn::Load(d, buffer + k + 3 * lanes));
+      a4 = hn::Or(a4, hn::Load(d, buffer + k + 4 * lanes));
+      a5 = hn::Or(a5, hn::Load(d, buffer + k + 5 * lanes));
+      a6 = hn::Or(a6, hn::Load(d, buffer + k + 6 * lanes));
+      a7 = hn::Or(a7, hn::Load(d, buffer + k + 7 * lanes));
+#if HWY_COMPILER_GCC
+      // Keep the compiler from making wider vectors of the loads.
+      asm volatile(""
+                   : "+x"(a0.raw), "+x"(a1.raw), "+x"(a2.raw), "+x"(a3.raw), "+x"(a4.raw),
+                     "+x"(a5.raw), "+x"(a6.raw), "+x"(a7.raw));
+#endif
+    }
+#if HWY_COMPILER_GCC
+    // The buffer might have changed: keep the compiler from loading it but once.
+    asm volatile("" : : "r"(buffer) : "memory");
+#endif
+  }
+  const auto sum =
+      hn::Or(hn::Or(hn::Or(a0, a1), hn::Or(a2, a3)), hn::Or(hn::Or(a4, a5), hn::Or(a6, a7)));
+  *sink = hn::GetLane(sum);
+  return static_cast<double>(rounds) * static_cast<double>(sizeof buffer);
+}
+
+/// A chain of integer multiplications and returns the cycles that it takes; `sink` as above. Beside
+/// it runs a multiply-add in every other cycle, since wide vectors slow some processors' clocks.
+double MultiplyInAChain(std::int64_t rounds, float* sink) {
+  const hn::ScalableTag<float> d;
+  // Chains of their own, so that none is longer than that of the integers.
+  auto a0 = hn::Set(d, 0.1f), a1 = hn::Set(d, 0.2f), a2 = hn::Set(d, 0.3f);
+  auto a3 = hn::Set(d, 0.4f), a4 = hn::Set(d, 0.5f), a5 = hn::Set(d, 0.6f);
+  const auto x = hn::Set(d, 0.9375f), y = hn::Set(d, 0.0625f);
+  std::uint64_t chain = static_cast<std::uint64_t>(rounds) | 1;
+  for (std::int64_t i = 0; i < rounds; ++i) {
+    // Squares: unlike powers of a constant, no compiler folds them.
+    chain *= chain;
+    chain *= chain;
+    a0 = hn::MulAdd(a0, x, y);
+    a1 = hn::MulAdd(a1, x, y);
+    a2 = hn::MulAdd(a2, x, y);
+    chain *= chain;
+    chain *= chain;
+    a3 = hn::MulAdd(a3, x, y);
+    a4 = hn::MulAdd(a4, x, y);
+    a5 = hn::MulAdd(a5, x, y);
+  }
+  const auto sum = hn::Add(hn::Add(hn::Add(a0, a1), hn::Add(a2, a3)), hn::Add(a4, a5));
+  *sink = hn::GetLane(sum) + static_cast<float>(chain);
+  // Of a 64-bit multiplication: Intel since Nehalem, AMD since Zen.
+  constexpr double kChain = 4, kLatency = 3;
+  return static_cast<double>(rounds) * kChain * kLatency;
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace skein
@@ -67,6 +135,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace skein {
 HWY_EXPORT(MultiplyAdd);
+HWY_EXPORT(LoadVectors);
+HWY_EXPORT(MultiplyInAChain);
 
 namespace simd {
 namespace {
@@ -75,21 +145,22 @@ using Clock = std::chrono::steady_clock;
 
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// Best rate of several rounds in which all threads start together; the slowest thread's time
-/// counts.
-double BestRate(int threads) {
-  constexpr int kRepetitions = 8;
-  constexpr std::int64_t kRounds = 400000;
+/// Does `rounds` rounds of some work and returns how much that is.
+using Work = double (*)(std::int64_t rounds, float* sink);
+
+/// Best rate of `repetitions` in which all threads start together, work per second; the slowest
+/// thread's time counts.
+double BestRate(Work work, std::int64_t rounds, int repetitions, int threads) {
   double best = 0;
-  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
     std::atomic<int> waiting{threads};
-    std::vector<double> operations(threads), seconds(threads);
+    std::vector<double> done(threads), seconds(threads);
     const auto run = [&](int thread) {
       float sink = 0;
       --waiting;
       while (waiting > 0) std::this_thread::yield();
       const auto start = Clock::now();
-      operations[thread] = SKEIN_DISPATCH(MultiplyAdd)(kRounds, &sink);
+      done[thread] = work(rounds, &sink);
       const volatile float kept = sink;
       static_cast<void>(kept);
       seconds[thread] = Seconds(Clock::now() - start);
@@ -99,18 +170,39 @@ double BestRate(int threads) {
     run(0);
     for (std::thread& other : others) other.join();
     double total = 0;
-    for (const double done : operations) total += done;
+    for (const double part : done) total += part;
     best = std::max(best, total / *std::max_element(seconds.begin(), seconds.end()));
   }
-  return best / 1e9;
+  return best;
+}
+
+/// The rate of one thread, and of all of them.
+std::pair<double, double> BestRates(Work work, std::int64_t rounds, int threads) {
+  if (threads < 1) throw Error("peak rates: " + std::to_string(threads) + " threads");
+  constexpr int kRepetitions = 32;
+  const double one = BestRate(work, rounds, kRepetitions, 1);
+  return {one, threads == 1 ? one : BestRate(work, rounds, kRepetitions, threads)};
 }
 
 }  // namespace
 
 PeakRate MeasurePeak(int threads) {
-  if (threads < 1) throw Error("MeasurePeak: " + std::to_string(threads) + " threads");
-  const double one = BestRate(1);
-  return {one, threads == 1 ? one : BestRate(threads)};
+  constexpr std::int64_t kRounds = 200000;
+  const auto [one, all] = BestRates(SKEIN_DISPATCH(MultiplyAdd), kRounds, threads);
+  return {one / 1e9, all / 1e9};
+}
+
+LoadRate MeasureLoadPeak(int threads) {
+  constexpr std::int64_t kRounds = 2000;
+  const auto [one, all] = BestRates(SKEIN_DISPATCH(LoadVectors), kRounds, threads);
+  return {one, all};
+}
+
+double MeasureClock() {
+  // Repetitions shorter than a busy scheduler's slices: some of them run undisturbed.
+  constexpr std::int64_t kRounds = 40000;
+  constexpr int kRepetitions = 200;
+  return BestRate(SKEIN_DISPATCH(MultiplyInAChain), kRounds, kRepetitions, 1);
 }
 
 }  // namespace simd

@@ -1,5 +1,9 @@
 #pragma once
 
+// Roofs that the rates of kernels are compared with, measured on this machine for the active
+// target. Each figure is the best of many short runs and takes some 0.1 s; functions of `threads`
+// throw Error for fewer than 1.
+
 namespace skein::simd {
 
 /// Measured float32 multiply-add rates, in GFLOP/s (a multiply-add counts as two).
@@ -8,9 +12,22 @@ struct PeakRate {
   double gflops = 0;           ///< all threads together
 };
 
-/// Measures what the multiply-add units give on the active target with operands in registers: the
-/// roof that the rates of kernels are compared with. `threads` of them, at least 1. Takes about 0.2
-/// s; best of several runs.
+/// Measures what the multiply-add units give with operands in registers.
 PeakRate MeasurePeak(int threads);
+
+/// Measured rates of loads, in bytes/s.
+struct LoadRate {
+  double bytes_per_s_per_core = 0;  ///< one thread running alone
+  double bytes_per_s = 0;           ///< all threads together
+};
+
+/// Measures what the load units give: aligned loads of whole vectors from 16 KB, which stay in the
+/// first-level cache.
+LoadRate MeasureLoadPeak(int threads);
+
+/// The clock of one core at work on vectors, cycles/s: a chain of dependent 64-bit multiplications,
+/// of three cycles each on x86 processors since 2008 (Intel) and 2017 (AMD), beside multiply-adds.
+/// Not the time-stamp counter's rate, which does not follow the clock.
+double MeasureClock();
 
 }  // namespace skein::simd

@@ -7,13 +7,27 @@
 namespace skein {
 namespace {
 
-TEST(Peak, WiderVectorsDoMore) {
+// No processor of a supported target runs faster than this, cycles/s. Other programs may take any
+// part of the machine away, so that there is no such bound below.
+constexpr double kFastestClock = 1e10;
+// Threads may share a core, and the machine with other programs: together they do at least this
+// share of what one does alone, as the best of many runs counts.
+constexpr double kLeastShare = 0.25;
+
+/// The rates of a target, with the one before put back.
+template <class Measure>
+auto On(simd::Target target, const Measure& measure) {
   const simd::Target before = simd::ActiveTarget();
-  simd::ForceTarget(simd::Target::kScalar);
-  const double scalar = simd::MeasurePeak(1).gflops_per_core;
-  simd::ForceTarget(simd::SupportedTargets().front());
-  const simd::PeakRate best = simd::MeasurePeak(1);
+  simd::ForceTarget(target);
+  const auto result = measure();
   simd::ForceTarget(before);
+  return result;
+}
+
+TEST(Peak, WiderVectorsDoMore) {
+  const auto measure = [] { return simd::MeasurePeak(1); };
+  const double scalar = On(simd::Target::kScalar, measure).gflops_per_core;
+  const simd::PeakRate best = On(simd::SupportedTargets().front(), measure);
   EXPECT_GT(scalar, 0.05);
   EXPECT_EQ(best.gflops, best.gflops_per_core);
   // Four lanes or more; half of that allows for a busy machine.
@@ -22,7 +36,35 @@ TEST(Peak, WiderVectorsDoMore) {
   }
 }
 
-TEST(Peak, NoThreadsIsAnError) { EXPECT_THROW(simd::MeasurePeak(0), Error); }
+TEST(Peak, WiderVectorsLoadMore) {
+  const auto measure = [] { return simd::MeasureLoadPeak(1); };
+  const double scalar = On(simd::Target::kScalar, measure).bytes_per_s_per_core;
+  const simd::LoadRate best = On(simd::SupportedTargets().front(), measure);
+  EXPECT_EQ(best.bytes_per_s, best.bytes_per_s_per_core);
+  if (simd::SupportedTargets().size() > 1) {
+    EXPECT_GT(best.bytes_per_s_per_core, 2 * scalar);
+  }
+}
+
+TEST(Peak, ClockIsThatOfAProcessorOnEveryTarget) {
+  for (const simd::Target target : simd::SupportedTargets()) {
+    SCOPED_TRACE(simd::Name(target));
+    const double clock = On(target, [] { return simd::MeasureClock(); });
+    EXPECT_GT(clock, 0);
+    EXPECT_LT(clock, kFastestClock);
+  }
+}
+
+TEST(Peak, MoreThreadsLoadNoLess) {
+  const simd::LoadRate rate = simd::MeasureLoadPeak(2);
+  EXPECT_GT(rate.bytes_per_s_per_core, 0);
+  EXPECT_GT(rate.bytes_per_s, kLeastShare * rate.bytes_per_s_per_core);
+}
+
+TEST(Peak, NoThreadsIsAnError) {
+  EXPECT_THROW(simd::MeasurePeak(0), Error);
+  EXPECT_THROW(simd::MeasureLoadPeak(0), Error);
+}
 
 }  // namespace
 }  // namespace skein
