@@ -35,8 +35,8 @@ HWY_INLINE V ReadPatch(const float (*c)[kBlock], int lane, V first, V second) {
 }
 
 /// Reads the engine's tables for the aircraft in lanes `lane` to `lane + kLanes`.
-HWY_NOINLINE void ReadThrust(const KernelEngine& engine, VI cell, hn::Mask<FloatTag> is_lit,
-                             int lane, Block* block) {
+inline HWY_NOINLINE void ReadThrust(const KernelEngine& engine, VI cell, hn::Mask<FloatTag> is_lit,
+                                    int lane, Block* block) {
   const FloatTag d;
   const auto read = [&](const KernelCells* segments, float(*c)[kBlock]) HWY_ATTR {
     for (int k = 0; k < 4; ++k) {

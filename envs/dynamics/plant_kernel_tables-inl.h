@@ -127,8 +127,8 @@ HWY_INLINE void ReadAlphaFunctions(const KernelAircraft& aircraft, VI alpha_cell
 }
 
 /// Reads the tables of those aircraft in lanes `lane` to `lane + kLanes` that changed their cell.
-HWY_NOINLINE void ReadChangedTables(const KernelAircraft& aircraft, VI cell_slot, VI alpha_cell,
-                                    int lane, Block* block) {
+inline HWY_NOINLINE void ReadChangedTables(const KernelAircraft& aircraft, VI cell_slot,
+                                           VI alpha_cell, int lane, Block* block) {
   const IntTag di;
   alignas(64) std::int32_t found[kLanes];
   hn::Store(cell_slot, di, found);
