@@ -1,34 +1,36 @@
-// Rates of the environment's parts and of whole control steps, in aircraft-steps per second. BM_Rk4
-// is the yardstick of the other parts. Observations and their noise are made once per decision, the
-// others in every control step.
+// The environment's parts around the plant, on one tile that stays in the innermost caches: flight
+// control, judging, observation, noise, beginnings of episodes. RK4 is the yardstick. Observations
+// and their noise are made once per decision, the others in every control step.
 
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "bench/environment_costs.h"
+#include "bench/noise_part.h"
+#include "bench/report.h"
 #include "envs/aircraft/f16/f16.h"
 #include "envs/aircraft/flight_control_kernel.h"
 #include "envs/dynamics/plant_kernel.h"
+#include "envs/flight_reset.h"
 #include "envs/tasks/judgement.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"
 #include "envs/vec_env.h"
-#include "envs/worker_pool.h"
 #include "simd/denormals.h"
 #include "simd/random.h"
 
-namespace skein {
+namespace skein::bench {
 namespace {
 
 constexpr int kTileSize = 128;
+// Timed together: many times what reading the clock takes.
+constexpr int kRounds = 32;
+constexpr float kDt = 0.02f;
 
-void ReportRate(benchmark::State& state, std::int64_t aircraft) {
-  state.counters["aircraft_steps"] = benchmark::Counter(  // printed per second
-      static_cast<double>(state.iterations() * aircraft), benchmark::Counter::kIsRate);
-}
-
-/// One tile of trimmed flights that stays in the innermost caches, and all that acts on it.
+/// One tile of trimmed flights, and all that acts on it.
 struct TrimmedTile {
   TrimmedTile() {
     const VecEnv env(config, kTileSize, 1);
@@ -63,84 +65,100 @@ struct TrimmedTile {
       std::vector<float>(static_cast<std::size_t>(kTileSize) * kObservationSize);
 };
 
+/// Times `part`, one round of the tile's work.
+template <class Part>
+void TimeRounds(benchmark::State& state, const Cost& cost, const Part& part) {
+  Meter meter(&state, static_cast<double>(kTileSize) * kRounds, cost);
+  for (auto _ : state) {
+    meter.Time([&] {
+      for (int round = 0; round < kRounds; ++round) {
+        part();
+        benchmark::ClobberMemory();
+      }
+    });
+  }
+  meter.Report();
+}
+
 void BM_Rk4(benchmark::State& state) {
   TrimmedTile t;
   const std::vector<float> start = t.flight;
+  Meter meter(&state, static_cast<double>(kTileSize) * kRounds, kRk4Cost);
   for (auto _ : state) {
-    StepTile(*t.aircraft, t.tile(), 0.02f, 1);
     // Hands-off flight goes on for ever; starting anew keeps it near the trim.
     t.flight = start;
+    meter.Time([&] {
+      for (int round = 0; round < kRounds; ++round) StepTile(*t.aircraft, t.tile(), kDt, 1);
+    });
   }
-  ReportRate(state, kTileSize);
+  meter.Report();
 }
-BENCHMARK(BM_Rk4);
+BENCHMARK(BM_Rk4)->UseManualTime();
 
 void BM_FlightControl(benchmark::State& state) {
   TrimmedTile t;
   const PilotColumns pilot{t.pilot.data(), t.pilot.data(), t.pilot.data(), t.pilot.data()};
-  const FlightControlConstants constants(F16(), FlightControlMode::kFull, 0.02);
-  for (auto _ : state) {
-    ControlTile(*t.aircraft, constants, t.tile(), pilot);
-  }
-  ReportRate(state, kTileSize);
+  const FlightControlConstants constants(F16(), FlightControlMode::kFull, kDt);
+  TimeRounds(state, kFlightControlCost,
+             [&] { ControlTile(*t.aircraft, constants, t.tile(), pilot); });
 }
-BENCHMARK(BM_FlightControl);
+BENCHMARK(BM_FlightControl)->UseManualTime();
 
 void BM_Judge(benchmark::State& state) {
   TrimmedTile t;
   const TaskVerdict verdict{t.reward.data(), t.reached.data()};
-  for (auto _ : state) {
+  TimeRounds(state, kJudgeCost, [&] {
     t.task->Judge(t.tile(), t.task_tile(), t.step.data(), verdict);
     JudgeTile(*t.aircraft, t.config, t.tile(), verdict,
               {t.step.data(), t.termination.data(), t.decision.data(), t.total.data()});
-  }
-  ReportRate(state, kTileSize);
+  });
 }
-BENCHMARK(BM_Judge);
+BENCHMARK(BM_Judge)->UseManualTime();
 
 void BM_Observe(benchmark::State& state) {
   TrimmedTile t;
-  const double noise = state.range(0) == 0 ? 0 : 0.01;
-  for (auto _ : state) {
+  const bool noisy = state.range(0) != 0;
+  const double noise = noisy ? t.config.observation_noise : 0;
+  TimeRounds(state, noisy ? Cost{} : kObserveCost, [&] {
     t.task->Errors(t.tile(), t.task_tile(), t.errors.data(), t.stride);
     ObserveTile(*t.aircraft, t.tile(), t.errors.data(), t.stride,
                 {noise, 1, 0, t.episode.data(), t.step.data()}, t.observation.data());
-    benchmark::ClobberMemory();
-  }
-  ReportRate(state, kTileSize);
+  });
 }
-BENCHMARK(BM_Observe)->ArgName("noise")->Arg(0)->Arg(1);
+BENCHMARK(BM_Observe)->ArgName("noise")->Arg(0)->Arg(1)->UseManualTime();
 
-/// Whole control steps of an environment: flight control, actuators, engine, RK4, reward,
-/// terminations, resets.
-void BM_Step(benchmark::State& state) {
-  const int count = static_cast<int>(state.range(0));
-  VecEnv env(EnvConfig{}, count, 1);
-  WorkerPool pool(static_cast<int>(state.range(1)));
-  const auto size = static_cast<std::size_t>(count);
-  std::vector<float> action(size * 4), reward(size), episode_return(size);
-  std::vector<std::uint8_t> termination(size);
-  std::vector<std::int32_t> episode_steps(size);
-  simd::RandomStream random({1, 0, 0, 0, simd::RandomPurpose::kActionNoise});
-  for (float& value : action) value = static_cast<float>(random.Uniform(-0.3, 0.3));
-  for (auto _ : state) {
-    pool.ForEach(env.num_tiles(), [&](int tile, int) {
-      const int begin = env.tile_begin(tile);
-      env.Step(tile, action.data() + static_cast<std::size_t>(begin) * 4,
-               {reward.data() + begin, termination.data() + begin, episode_return.data() + begin,
-                episode_steps.data() + begin, nullptr});
-    });
-  }
-  ReportRate(state, count);
+/// The deviates alone. Most of it is arithmetic of integers, so that there is no share of the peak.
+void BM_Noise(benchmark::State& state) {
+  TrimmedTile t;
+  TimeRounds(state, {},
+             [&] { DrawNoise(1, kTileSize, t.episode.data(), t.step.data(), t.reward.data()); });
 }
-BENCHMARK(BM_Step)
-    ->ArgNames({"aircraft", "threads"})
-    ->Args({4096, 1})
-    ->Args({65536, 1})
-    ->Args({65536, 2})
-    ->Args({1000000, 2})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_Noise)->UseManualTime();
+
+/// The state and the target of a new episode, drawn in float64 for one aircraft at a time.
+void BM_Reset(benchmark::State& state) {
+  const EnvConfig config;
+  const FlightReset reset(config, F16());
+  const std::unique_ptr<Task> task = MakeTask(config);
+  std::vector<float> targets(static_cast<std::size_t>(task->num_columns()));
+  std::uint32_t episode = 0;
+  Meter meter(&state, kTileSize, {});
+  for (auto _ : state) {
+    meter.Time([&] {
+      for (std::uint32_t i = 0; i < kTileSize; ++i) {
+        simd::RandomStream initial({1, i, episode, 0, simd::RandomPurpose::kInitialState});
+        const FreshFlight flight = reset.Draw(&initial);
+        simd::RandomStream target({1, i, episode, 0, simd::RandomPurpose::kTarget});
+        task->Reset(flight.start, &target, targets.data());
+        benchmark::DoNotOptimize(flight.columns);
+        benchmark::DoNotOptimize(targets.data());
+      }
+    });
+    ++episode;
+  }
+  meter.Report();
+}
+BENCHMARK(BM_Reset)->UseManualTime();
 
 }  // namespace
-}  // namespace skein
+}  // namespace skein::bench

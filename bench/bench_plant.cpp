@@ -1,140 +1,101 @@
-// Rates of the plant kernel: single evaluations and whole RK4 steps, in aircraft per
-// second and as a fraction of the machine's measured multiply-add rate.
+// The plant kernel: its parts one by one, whole evaluations, whole RK4 steps.
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <map>
-#include <memory>
-#include <random>
 #include <vector>
 
-#include "envs/aircraft/f16/f16.h"
-#include "envs/dynamics/plant_kernel.h"
+#include "bench/flock.h"
+#include "bench/plant_parts.h"
+#include "bench/report.h"
 #include "envs/worker_pool.h"
 #include "simd/denormals.h"
-#include "simd/peak.h"
-#include "simd/target.h"
 
-namespace skein {
+namespace skein::bench {
 namespace {
 
-constexpr int kTileSize = 512;
 constexpr float kDt = 0.02f;
 
-/// Columns of a number of aircraft in tiles, aligned to cache lines, at random flight conditions of
-/// the whole envelope: neighbours read different table cells, as in training. Flights without
-/// control leave the tables sooner or later: Restart.
-class Flock {
- public:
-  explicit Flock(int count) : count_(count), stride_(TileStride(std::min(count, kTileSize))) {
-    const std::size_t size = static_cast<std::size_t>(tiles()) * tile_floats();
-    values_.resize(size + kAlignment);
-    base_ = values_.data();
-    while (reinterpret_cast<std::uintptr_t>(base_) % (kAlignment * sizeof(float)) != 0) ++base_;
-    std::mt19937 random(1);
-    const auto uniform = [&](float low, float high) {
-      return std::uniform_real_distribution<float>(low, high)(random);
-    };
-    for (int t = 0; t < tiles(); ++t) {
-      const Tile tile = At(t);
-      for (std::size_t i = 0; i < stride_; ++i) {
-        const float speed = uniform(400, 1000), alpha = uniform(-0.05f, 0.35f);
-        tile[kU][i] = speed * std::cos(alpha);
-        tile[kV][i] = uniform(-30, 30);
-        tile[kW][i] = speed * std::sin(alpha);
-        for (const int rate : {kP, kQ, kR}) tile[rate][i] = uniform(-0.1f, 0.1f);
-        tile[kDown][i] = -uniform(5000, 40000);
-        const float bank = uniform(-0.7f, 0.7f);
-        tile[kQ0][i] = std::cos(bank / 2);
-        tile[kQx][i] = std::sin(bank / 2);
-        tile[kPower][i] = uniform(0, 100);
-        tile[kPowerCommand][i] = uniform(0, 100);
-        tile[kElevator][i] = uniform(-5, 5);
-        tile[kLeadingEdgeFlap][i] = uniform(0, 25);
+void RunStagePart(benchmark::State& state, StagePart part, const Cost& cost) {
+  constexpr int kRounds = 256;
+  Flock flock(kPlantBlock);
+  const simd::DenormalsFlushed flushed;  // as on the environment's workers
+  Meter meter(&state, static_cast<double>(kPlantBlock) * kRounds, cost);
+  for (auto _ : state) {
+    meter.Time([&] { RunStagePart(part, KernelF16(), flock.At(0), kRounds); });
+  }
+  meter.Report();
+}
+
+/// Angles of flow, air, and where both lie in the tables.
+void BM_AirData(benchmark::State& state) { RunStagePart(state, StagePart::kAirData, kAirDataCost); }
+BENCHMARK(BM_AirData)->UseManualTime();
+
+void BM_Engine(benchmark::State& state) { RunStagePart(state, StagePart::kEngine, kEngineCost); }
+BENCHMARK(BM_Engine)->UseManualTime();
+
+void BM_BuildUpAndEquations(benchmark::State& state) {
+  RunStagePart(state, StagePart::kBuildUpAndEquations, kBuildUpAndEquationsCost);
+}
+BENCHMARK(BM_BuildUpAndEquations)->UseManualTime();
+
+/// What a step reads of the tables, once. bench_lookup compares other arrangements.
+void BM_ReadTables(benchmark::State& state) {
+  Flock flock(1024);
+  std::vector<std::vector<std::int32_t>> cell_slot, alpha_cell;
+  for (int t = 0; t < flock.tiles(); ++t) {
+    cell_slot.emplace_back(flock.At(t).stride);
+    alpha_cell.emplace_back(flock.At(t).stride);
+    FindTableCells(KernelF16(), flock.At(t), cell_slot.back().data(), alpha_cell.back().data());
+  }
+  Meter meter(&state, flock.count(), kTableReadingCost);
+  for (auto _ : state) {
+    meter.Time([&] {
+      for (int t = 0; t < flock.tiles(); ++t) {
+        const auto index = static_cast<std::size_t>(t);
+        ReadTablesOf(KernelF16(), flock.At(t), cell_slot[index].data(), alpha_cell[index].data());
       }
-    }
-    start_ = values_;
+    });
   }
-
-  int tiles() const { return (count_ + kTileSize - 1) / kTileSize; }
-  int count() const { return count_; }
-  Tile At(int t) {
-    return {base_ + static_cast<std::size_t>(t) * tile_floats(), stride_,
-            std::min(kTileSize, count_ - t * kTileSize)};
-  }
-  void Restart() { std::copy(start_.begin(), start_.end(), values_.begin()); }
-
- private:
-  static constexpr std::size_t kAlignment = 16;
-  std::size_t tile_floats() const { return stride_ * kNumColumns; }
-
-  int count_;
-  std::size_t stride_;
-  std::vector<float> values_, start_;
-  float* base_ = nullptr;
-};
-
-const KernelAircraft& TestAircraft() {
-  static const auto aircraft = MakeKernelAircraft(F16(), AtmosphereModel::kStevensLewis);
-  return *aircraft;
+  meter.Report();
 }
+BENCHMARK(BM_ReadTables)->UseManualTime();
 
-double PeakGflops(int threads) {
-  static std::map<int, double> measured;
-  const auto found = measured.find(threads);
-  if (found != measured.end()) return found->second;
-  return measured[threads] = simd::MeasurePeak(threads).gflops;
+/// One evaluation of the equations of motion with given thrust, tables read anew.
+void BM_Evaluate(benchmark::State& state) {
+  Flock flock(512);
+  const std::size_t stride = flock.At(0).stride;
+  const std::vector<float> thrust(stride, 5000);
+  std::vector<float> rates(stride * kNumRigidBody), coefficients(stride * 6);
+  const simd::DenormalsFlushed flushed;
+  Meter meter(&state, flock.count(), {kFlopsPerEvaluation, 0});
+  for (auto _ : state) {
+    meter.Time([&] {
+      for (int t = 0; t < flock.tiles(); ++t) {
+        const Tile tile = flock.At(t);
+        const ControlColumns controls{thrust.data(), tile[kElevator], tile[kAileron], tile[kRudder],
+                                      tile[kLeadingEdgeFlap]};
+        EvaluateTile(KernelF16(), tile, controls, rates.data(), coefficients.data());
+      }
+    });
+    benchmark::DoNotOptimize(rates.data());
+  }
+  meter.Report();
 }
-
-/// Times the calls that it is given, and reports them as aircraft per second and as the share of
-/// the measured multiply-add rate of as many threads that their operations use.
-class Meter {
- public:
-  Meter(benchmark::State* state, int aircraft, double flops_per_aircraft, int threads)
-      : state_(*state), aircraft_(aircraft), flops_(flops_per_aircraft), threads_(threads) {}
-
-  template <class Call>
-  void Time(const Call& call) {
-    const auto start = Clock::now();
-    call();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    state_.SetIterationTime(seconds);
-    seconds_ += seconds;
-  }
-
-  void Report() const {
-    const double rate = static_cast<double>(state_.iterations()) * aircraft_ / seconds_;
-    state_.counters["aircraft_per_s"] = rate;
-    state_.counters["fraction_of_peak"] = rate * flops_ / (PeakGflops(threads_) * 1e9);
-    state_.SetLabel(simd::Name(simd::ActiveTarget()));
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  benchmark::State& state_;
-  int aircraft_;
-  double flops_;
-  int threads_;
-  double seconds_ = 0;
-};
+BENCHMARK(BM_Evaluate)->Unit(benchmark::kMicrosecond)->UseManualTime();
 
 void BM_Rk4(benchmark::State& state) {
   constexpr int kStepsPerFlight = 100;
   Flock flock(static_cast<int>(state.range(0)));
   WorkerPool pool(static_cast<int>(state.range(1)));
-  Meter meter(&state, flock.count(), kFlopsPerRk4Step, pool.threads());
+  Meter meter(&state, flock.count(), kRk4Cost, pool.threads());
   int step = 0;
   for (auto _ : state) {
     if (++step % kStepsPerFlight == 0) flock.Restart();
     meter.Time([&] {
-      pool.ForEach(flock.tiles(),
-                   [&](int tile, int) { StepTile(TestAircraft(), flock.At(tile), kDt, 1); });
+      pool.ForEach(flock.tiles(), [&](int tile, int) {
+        StepTile(KernelF16(), flock.At(tile), kDt, 1, flock.Behind(tile));
+      });
     });
   }
   meter.Report();
@@ -149,23 +110,5 @@ BENCHMARK(BM_Rk4)
     ->Unit(benchmark::kMicrosecond)
     ->UseManualTime();
 
-void BM_Evaluate(benchmark::State& state) {
-  Flock flock(kTileSize);
-  const Tile tile = flock.At(0);
-  const std::vector<float> thrust(tile.stride, 5000);
-  std::vector<float> rates(tile.stride * kNumRigidBody), coefficients(tile.stride * 6);
-  const ControlColumns controls{thrust.data(), tile[kElevator], tile[kAileron], tile[kRudder],
-                                tile[kLeadingEdgeFlap]};
-  const simd::DenormalsFlushed flushed;  // as on the environment's workers
-  Meter meter(&state, kTileSize, kFlopsPerEvaluation, 1);
-  for (auto _ : state) {
-    meter.Time(
-        [&] { EvaluateTile(TestAircraft(), tile, controls, rates.data(), coefficients.data()); });
-    benchmark::DoNotOptimize(rates.data());
-  }
-  meter.Report();
-}
-BENCHMARK(BM_Evaluate)->Unit(benchmark::kMicrosecond)->UseManualTime();
-
 }  // namespace
-}  // namespace skein
+}  // namespace skein::bench

@@ -1,0 +1,20 @@
+#include <benchmark/benchmark.h>
+
+#include <iostream>
+
+#include "bench/report.h"
+#include "simd/error.h"
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  try {
+    skein::bench::DescribeRoofs();
+    benchmark::RunSpecifiedBenchmarks();
+  } catch (const skein::Error& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  benchmark::Shutdown();
+  return 0;
+}

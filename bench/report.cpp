@@ -1,0 +1,66 @@
+#include "bench/report.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "simd/peak.h"
+#include "simd/target.h"
+
+namespace skein::bench {
+namespace {
+
+struct Roofs {
+  simd::PeakRate peak;
+  simd::LoadRate load;
+  double clock = 0;  // cycles/s
+};
+
+const Roofs& MeasuredRoofs(int threads) {
+  static std::map<int, Roofs> measured;
+  const auto found = measured.find(threads);
+  if (found != measured.end()) return found->second;
+  return measured[threads] = {simd::MeasurePeak(threads), simd::MeasureLoadPeak(threads),
+                              simd::MeasureClock()};
+}
+
+std::string Rounded(double value, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f %s", value, unit);
+  return text;
+}
+
+}  // namespace
+
+Meter::Meter(benchmark::State* state, double aircraft, const Cost& cost, int threads)
+    : state_(*state), aircraft_(aircraft), cost_(cost), threads_(threads) {}
+
+void Meter::Report() {
+  if (seconds_.empty()) return;
+  const Roofs& roofs = MeasuredRoofs(threads_);
+  const auto median = seconds_.begin() + static_cast<std::ptrdiff_t>(seconds_.size() / 2);
+  std::nth_element(seconds_.begin(), median, seconds_.end());
+  const double rate = aircraft_ / *median;
+  // Plain numbers: benchmark::Counter's rates would print with a unit of their own.
+  state_.counters["aircraft/s"] = rate;
+  state_.counters["cycles/aircraft"] = threads_ * roofs.clock / rate;
+  if (cost_.flops > 0) {
+    state_.counters["%_of_FMA_peak"] = 100 * rate * cost_.flops / (roofs.peak.gflops * 1e9);
+  }
+  if (cost_.bytes_loaded > 0) {
+    state_.counters["%_of_load_peak"] = 100 * rate * cost_.bytes_loaded / roofs.load.bytes_per_s;
+  }
+}
+
+void DescribeRoofs() {
+  const Roofs& roofs = MeasuredRoofs(1);
+  benchmark::AddCustomContext("simd_target", simd::Name(simd::ActiveTarget()));
+  benchmark::AddCustomContext("core_clock", Rounded(roofs.clock / 1e9, "GHz"));
+  benchmark::AddCustomContext("core_fma_peak", Rounded(roofs.peak.gflops_per_core, "GFLOP/s"));
+  benchmark::AddCustomContext("core_load_peak",
+                              Rounded(roofs.load.bytes_per_s_per_core / 1e9, "GB/s"));
+}
+
+}  // namespace skein::bench
