@@ -127,8 +127,9 @@ TEST_F(TensorFileTest, RefusesHostileHeadersWithRightChecksums) {
       R"(,"a":[1])",
       R"(,"a":{"dtype":"U8","shape":[3],"data_offsets":[0,3]})",
       R"(,"a":{"dtype":"U8","shape":[3],"data_offsets":[1,4]})",
-      R"(,"a":{"dtype":"U8","shape":[3],"data_offsets":[0,3]},)"
-      R"("b":{"dtype":"U8","shape":[2],"data_offsets":[2,4]})",
+      // Parentheses: one text in two parts.
+      (R"(,"a":{"dtype":"U8","shape":[3],"data_offsets":[0,3]},)"
+       R"("b":{"dtype":"U8","shape":[2],"data_offsets":[2,4]})"),
       R"(,"a":{"dtype":"F32","shape":[4611686018427387905],"data_offsets":[0,4]})",
       R"(,"a":{"dtype":"F64","shape":[4294967296,4294967296],"data_offsets":[0,4]})",
       R"(,"a":{"dtype":"U8","shape":[1e300],"data_offsets":[0,4]})",
