@@ -107,9 +107,10 @@ BENCHMARK(BM_FlightControl)->UseManualTime();
 void BM_Judge(benchmark::State& state) {
   TrimmedTile t;
   const TaskVerdict verdict{t.reward.data(), t.reached.data()};
+  const JudgementLimits limits(t.config);
   TimeRounds(state, kJudgeCost, [&] {
     t.task->Judge(t.tile(), t.task_tile(), t.step.data(), verdict);
-    JudgeTile(*t.aircraft, t.config, t.tile(), verdict,
+    JudgeTile(*t.aircraft, limits, t.tile(), verdict,
               {t.step.data(), t.termination.data(), t.decision.data(), t.total.data()});
   });
 }

@@ -85,6 +85,7 @@ struct VecEnv::Impl {
         aircraft(ConfiguredAircraft(config)),
         kernel_aircraft(MakeKernelAircraft(aircraft, config.atmosphere)),
         flight_control(aircraft, config.flight_control, config.control_interval_s),
+        limits(config),
         reset(config, aircraft) {
     if (aircraft_count < 1) {
       throw Error("environment: " + std::to_string(aircraft_count) +
@@ -242,7 +243,7 @@ struct VecEnv::Impl {
       StepTile(*kernel_aircraft, block.flight, dt, config.substeps,
                is_last ? MemoryBehind(block) : MemoryAhead());
       task->Judge(block.flight, block.task, block.step, verdict);
-      JudgeTile(*kernel_aircraft, config, block.flight, verdict, episodes);
+      JudgeTile(*kernel_aircraft, limits, block.flight, verdict, episodes);
       if (keeps_final) ObserveTruncated(block, scratch, written, output.final_observation);
     }
     std::copy_n(scratch.decision_reward, block.count, output.reward);
@@ -287,6 +288,7 @@ struct VecEnv::Impl {
   Aircraft aircraft;
   std::shared_ptr<const KernelAircraft> kernel_aircraft;
   FlightControlConstants flight_control;
+  JudgementLimits limits;
   FlightReset reset;
 
   int tile_size = 0;

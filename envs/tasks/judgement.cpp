@@ -41,55 +41,25 @@ HWY_INLINE FlightMask IsFinite(const Tile& tile, FlightVector reward, int first)
 }
 
 /// Whether the angle of the vector (along, across), across = tan(angle) along, lies outside
-/// `range`, which spans at most 180 degrees: on the wrong side of either end's direction.
-struct AngleRange {
-  explicit AngleRange(const Range& range_deg)
-      : sin_min(Constant(std::sin(range_deg.min / kDegPerRad))),
-        cos_min(Constant(std::cos(range_deg.min / kDegPerRad))),
-        sin_max(Constant(std::sin(range_deg.max / kDegPerRad))),
-        cos_max(Constant(std::cos(range_deg.max / kDegPerRad))) {}
-
-  HWY_INLINE FlightMask IsOutside(FlightVector along, FlightVector across) const {
-    return hn::Or(hn::Lt(hn::Mul(across, cos_min), hn::Mul(along, sin_min)),
-                  hn::Lt(hn::Mul(along, sin_max), hn::Mul(across, cos_max)));
-  }
-
-  FlightVector sin_min, cos_min, sin_max, cos_max;
-};
-
-/// The configuration as vectors, made once per tile.
-struct Limits {
-  explicit Limits(const EnvConfig& config)
-      : alpha(config.termination.alpha_deg),
-        beta(config.termination.beta_deg),
-        min_mach_squared(Constant(config.termination.min_mach * config.termination.min_mach)),
-        max_mach_squared(Constant(config.termination.max_mach * config.termination.max_mach)),
-        min_altitude(Constant(config.termination.min_altitude_ft)),
-        max_load_factor(Constant(config.termination.max_load_factor)),
-        failure_reward(Constant(config.termination.failure_reward)),
-        success_reward(Constant(config.termination.success_reward)),
-        time_limit_reward(
-            Constant(config.truncate_at_time_limit ? 0 : config.termination.failure_reward)),
-        reward_scale(Constant(config.reward_scale)) {}
-
-  AngleRange alpha, beta;
-  FlightVector min_mach_squared, max_mach_squared;
-  FlightVector min_altitude, max_load_factor;
-  FlightVector failure_reward, success_reward, time_limit_reward;
-  FlightVector reward_scale;
-};
+/// `range`: on the wrong side of either end's direction.
+HWY_INLINE FlightMask IsOutside(const JudgementLimits::AngleRange& range, FlightVector along,
+                                FlightVector across) {
+  return hn::Or(
+      hn::Lt(hn::Mul(across, Constant(range.cos_min)), hn::Mul(along, Constant(range.sin_min))),
+      hn::Lt(hn::Mul(along, Constant(range.sin_max)), hn::Mul(across, Constant(range.cos_max))));
+}
 
 /// A Termination per lane, as a float number, and its reward.
 struct Verdict {
   FlightVector termination, reward;
 
-  HWY_INLINE void SetWhere(FlightMask where, Termination value, FlightVector value_reward) {
+  HWY_INLINE void SetWhere(FlightMask where, Termination value, float value_reward) {
     termination = hn::IfThenElse(where, Constant(static_cast<int>(value)), termination);
-    reward = hn::IfThenElse(where, value_reward, reward);
+    reward = hn::IfThenElse(where, Constant(value_reward), reward);
   }
 };
 
-HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const Limits& limits,
+HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const JudgementLimits& limits,
                                    const Tile& tile, FlightMask is_finite, FlightMask is_reached,
                                    FlightMask is_out_of_time, int first) {
   const FlightTag d;
@@ -100,12 +70,16 @@ HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const Limits&
   const FlightVector altitude = hn::Neg(Column(tile, kDown, first));
   const FlightVector sound_speed_squared = AirAtAltitude(d, aircraft, altitude).sound_speed_squared;
 
-  const auto is_extreme =
-      hn::Or(limits.alpha.IsOutside(u, w), limits.beta.IsOutside(hn::Sqrt(forward_squared), v));
-  const auto is_fast = hn::Gt(speed_squared, hn::Mul(limits.max_mach_squared, sound_speed_squared));
-  const auto is_slow = hn::Lt(speed_squared, hn::Mul(limits.min_mach_squared, sound_speed_squared));
-  const auto is_low = hn::Lt(altitude, limits.min_altitude);
-  const auto is_overloaded = hn::Gt(Column(tile, kNz, first), limits.max_load_factor);
+  FlightVector forward, per_forward;
+  Length(forward_squared, forward, per_forward);
+
+  const auto is_extreme = hn::Or(IsOutside(limits.alpha, u, w), IsOutside(limits.beta, forward, v));
+  const auto is_fast =
+      hn::Gt(speed_squared, hn::Mul(Constant(limits.max_mach_squared), sound_speed_squared));
+  const auto is_slow =
+      hn::Lt(speed_squared, hn::Mul(Constant(limits.min_mach_squared), sound_speed_squared));
+  const auto is_low = hn::Lt(altitude, Constant(limits.min_altitude_ft));
+  const auto is_overloaded = hn::Gt(Column(tile, kNz, first), Constant(limits.max_load_factor));
 
   Verdict verdict{hn::Zero(d), hn::Zero(d)};
   // Later ones take precedence.
@@ -126,13 +100,12 @@ HWY_INLINE void AddWhere(FlightMask where, FlightVector value, float* column) {
   hn::StoreU(hn::IfThenElse(where, hn::Add(old, value), old), d, column);
 }
 
-void JudgeTileKernel(const KernelAircraft& aircraft, const EnvConfig& config, Tile tile,
+void JudgeTileKernel(const KernelAircraft& aircraft, const JudgementLimits& limits, Tile tile,
                      const TaskVerdict& verdict, const EpisodeColumns& episodes) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
   const auto zero = hn::Zero(di);
-  const auto time_limit = hn::Set(di, config.time_limit_steps - 1);
-  const Limits limits(config);
+  const auto time_limit = hn::Set(di, limits.time_limit_steps - 1);
   for (int first = 0; first < tile.count; first += static_cast<int>(hn::Lanes(d))) {
     const auto ended = hn::LoadU(di, episodes.termination + first);
     const auto is_flying = hn::Eq(ended, zero);
@@ -150,8 +123,9 @@ void JudgeTileKernel(const KernelAircraft& aircraft, const EnvConfig& config, Ti
     hn::StoreU(hn::IfThenElse(is_flying, hn::ConvertTo(di, found.termination), ended), di,
                episodes.termination + first);
 
-    const FlightVector reward = hn::Add(
-        hn::IfThenElseZero(is_finite, hn::Mul(step_reward, limits.reward_scale)), found.reward);
+    const FlightVector reward =
+        hn::Add(hn::IfThenElseZero(is_finite, hn::Mul(step_reward, Constant(limits.reward_scale))),
+                found.reward);
     const FlightMask counts = hn::RebindMask(d, is_flying);
     AddWhere(counts, reward, episodes.decision_reward + first);
     AddWhere(counts, reward, episodes.episode_return + first);
@@ -166,11 +140,36 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace skein {
 
+namespace {
+
+JudgementLimits::AngleRange Directions(const Range& range_deg) {
+  const double min = range_deg.min / kDegPerRad, max = range_deg.max / kDegPerRad;
+  return {static_cast<float>(std::sin(min)), static_cast<float>(std::cos(min)),
+          static_cast<float>(std::sin(max)), static_cast<float>(std::cos(max))};
+}
+
+}  // namespace
+
+JudgementLimits::JudgementLimits(const EnvConfig& config)
+    : alpha(Directions(config.termination.alpha_deg)),
+      beta(Directions(config.termination.beta_deg)),
+      min_mach_squared(
+          static_cast<float>(config.termination.min_mach * config.termination.min_mach)),
+      max_mach_squared(
+          static_cast<float>(config.termination.max_mach * config.termination.max_mach)),
+      min_altitude_ft(static_cast<float>(config.termination.min_altitude_ft)),
+      max_load_factor(static_cast<float>(config.termination.max_load_factor)),
+      failure_reward(static_cast<float>(config.termination.failure_reward)),
+      success_reward(static_cast<float>(config.termination.success_reward)),
+      time_limit_reward(config.truncate_at_time_limit ? 0 : failure_reward),
+      reward_scale(static_cast<float>(config.reward_scale)),
+      time_limit_steps(config.time_limit_steps) {}
+
 HWY_EXPORT(JudgeTileKernel);
 
-void JudgeTile(const KernelAircraft& aircraft, const EnvConfig& config, Tile tile,
+void JudgeTile(const KernelAircraft& aircraft, const JudgementLimits& limits, Tile tile,
                const TaskVerdict& verdict, const EpisodeColumns& episodes) {
-  SKEIN_DISPATCH(JudgeTileKernel)(aircraft, config, tile, verdict, episodes);
+  SKEIN_DISPATCH(JudgeTileKernel)(aircraft, limits, tile, verdict, episodes);
 }
 
 }  // namespace skein

@@ -32,7 +32,7 @@ class JudgementTest : public testing::TestWithParam<simd::Target> {
     flight_.at(kNz, i) = 1;
   }
   void Judge() {
-    JudgeTile(*kernel_, config_, flight_.tile(), {reward_.data(), reached_.data()},
+    JudgeTile(*kernel_, JudgementLimits(config_), flight_.tile(), {reward_.data(), reached_.data()},
               {step_.data(), termination_.data(), decision_.data(), return_.data()});
   }
   Termination Of(int i) const {
