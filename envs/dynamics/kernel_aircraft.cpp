@@ -131,8 +131,15 @@ void FillBilinear(const std::vector<double>& table, int rows, int columns, Kerne
 
 KernelEngine MakeEngine(const EngineTables& tables) {
   KernelEngine engine;
-  engine.altitude = MakeKernelAxis(tables.altitude_ft, "engine altitude_ft");
-  engine.mach = MakeKernelAxis(tables.mach, "engine mach");
+  const auto uniform = [](const std::vector<double>& nodes, const char* name) {
+    const KernelAxis axis = MakeKernelAxis(nodes, name);
+    if (axis.inner_more_cells_per_unit != 0) {
+      throw Error(std::string("axis ") + name + " must have cells of one width");
+    }
+    return axis;
+  };
+  engine.altitude = uniform(tables.altitude_ft, "engine altitude_ft");
+  engine.mach = uniform(tables.mach, "engine mach");
   const int rows = static_cast<int>(tables.altitude_ft.size());
   const int columns = static_cast<int>(tables.mach.size());
   if ((rows - 1) * (columns - 1) > CellTable::kMaxCells) {

@@ -55,8 +55,8 @@ HWY_INLINE V Thrust(const KernelEngine& engine, V power, V altitude_ft, V mach, 
                     Block* block) {
   const FloatTag d;
   const IntTag di;
-  const Cell h = FindCell(engine.altitude, altitude_ft);
-  const Cell m = FindCell(engine.mach, mach);
+  const Cell h = FindUniformCell(engine.altitude, altitude_ft);
+  const Cell m = FindUniformCell(engine.mach, mach);
   const VI cell = TruncateToInt(d, hn::MulAdd(h.start, Constant(engine.mach_cells), m.start));
   const V military = Constant(static_cast<float>(kPowerLag.military_power));
   const auto is_lit = hn::Ge(power, military);

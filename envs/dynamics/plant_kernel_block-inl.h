@@ -158,21 +158,30 @@ struct Cell {
   V fraction;  // in [0, 1] for finite values
 };
 
-/// Always a cell of the axis, also for NaN: tables are never read outside.
-HWY_INLINE Cell FindCell(const KernelAxis& axis, V x) {
+/// The cell at a position from 0 to the axis' number of cells, give or take a rounding.
+HWY_INLINE Cell CellAt(const KernelAxis& axis, V position) {
   const FloatTag d;
-  const IntTag di;
-  const V whole = hn::Min(hn::Max(x, Constant(axis.low)), Constant(axis.high));
-  const V inner = hn::Min(hn::Max(x, Constant(axis.inner_low)), Constant(axis.inner_high));
-  const V position = hn::MulAdd(
-      whole, Constant(axis.cells_per_unit),
-      hn::MulAdd(inner, Constant(axis.inner_more_cells_per_unit), Constant(axis.offset)));
   Cell cell;
-  cell.index =
-      hn::Min(hn::Max(TruncateToInt(d, position), hn::Zero(di)), hn::Set(di, axis.last_cell));
+  cell.index = hn::Min(TruncateToInt(d, position), hn::Set(IntTag(), axis.last_cell));
   cell.start = hn::ConvertTo(d, cell.index);
   cell.fraction = hn::Sub(position, cell.start);
   return cell;
+}
+
+/// Always a cell of the axis, also for NaN: tables are never read outside.
+HWY_INLINE Cell FindCell(const KernelAxis& axis, V x) {
+  const FloatTag d;
+  const V whole = ClampTo(d, x, axis.low, axis.high);
+  const V inner = ClampTo(d, x, axis.inner_low, axis.inner_high);
+  return CellAt(axis, hn::MulAdd(whole, Constant(axis.cells_per_unit),
+                                 hn::MulAdd(inner, Constant(axis.inner_more_cells_per_unit),
+                                            Constant(axis.offset))));
+}
+
+/// The same for an axis whose cells all have one width.
+HWY_INLINE Cell FindUniformCell(const KernelAxis& axis, V x) {
+  const V whole = ClampTo(FloatTag(), x, axis.low, axis.high);
+  return CellAt(axis, hn::MulAdd(whole, Constant(axis.cells_per_unit), Constant(axis.offset)));
 }
 
 }  // namespace plant_kernel

@@ -103,6 +103,7 @@ TEST(KernelAircraft, TablesThatDoNotFitAreErrors) {
   expect_error([](Aircraft* a) { a->aerodynamics.eta_el.clear(); });
   expect_error([](Aircraft* a) { a->aerodynamics.dCn_beta.clear(); });
   expect_error([](Aircraft* a) { a->engine.idle_lbf.pop_back(); });
+  expect_error([](Aircraft* a) { a->engine.mach.back() += 1; });
   expect_error([](Aircraft* a) { a->aerodynamics.alpha_deg[3] += 1; });
   expect_error([](Aircraft* a) { a->aerodynamics.alpha_lef_deg[3] += 1; });
   expect_error([](Aircraft* a) { a->aerodynamics.elevator_coarse_deg[1] = 5; });
