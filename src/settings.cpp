@@ -192,11 +192,11 @@ std::vector<Setting> MakeSettings() {
 
       {"network.hidden_size",
        [](C& c) -> F { return &c.train.network.hidden_size; },
-       {1, 4096},
+       {1, 1024},
        "units of each linear layer of actor and critic"},
       {"network.gru_size",
        [](C& c) -> F { return &c.train.network.gru_size; },
-       {1, 4096},
+       {1, 1024},
        "units of the gated recurrent layer"},
       {"network.tanh_mean", [](C& c) -> F { return &c.train.network.tanh_mean; }, name,
        "the Gaussian's mean goes through tanh"},
