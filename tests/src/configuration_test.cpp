@@ -9,6 +9,7 @@
 #include "src/output_file.h"
 #include "src/presets.h"
 #include "src/settings.h"
+#include "tests/scratch_directory.h"
 
 namespace skein {
 namespace {
@@ -43,7 +44,8 @@ TEST(Configuration, TomlErrorsNameFileLineAndReason) {
 }
 
 TEST(Configuration, AnEmptyFileChangesNothingAndAMissingOneIsNamed) {
-  const std::string path = ::testing::TempDir() + "/configuration_test.toml";
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "empty.toml";
   WriteFile(path, "");
   ProgramConfig config;
   ApplyTomlFile(path, &config);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/output_file.h"
+#include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 
 namespace skein {
@@ -24,7 +25,8 @@ std::vector<std::string> Evaluation(const std::string& json,
 
 class EvaluationPipeline : public ::testing::Test {
  protected:
-  std::string folder_ = FreshDirectory("eval");
+  const ScratchDirectory scratch_;
+  std::string folder_ = scratch_.path();
 
   nlohmann::json Fly(const std::string& name, const std::vector<std::string>& more = {}) {
     const std::string path = folder_ + "/" + name + ".json";

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "src/output_file.h"
+#include "tests/scratch_directory.h"
 
 namespace skein {
 namespace {
@@ -48,14 +49,12 @@ TEST(EventFile, ScalarsAreAnEventProtocolBuffer) {
 }
 
 TEST(EventFile, BeginsWithVersionAndSession) {
-  const std::string folder = ::testing::TempDir() + "/event_file_test";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const ScratchDirectory scratch;
   {
-    EventFile file(folder, 1000, 1);
+    EventFile file(scratch.path(), 1000, 1);
     file.Append(1001, 2, {{"train/return_mean", -3.5}});
   }
-  const auto entry = *std::filesystem::directory_iterator(folder);
+  const auto entry = *std::filesystem::directory_iterator(scratch.path());
   EXPECT_NE(entry.path().filename().string().find("tfevents"), std::string::npos)
       << "TensorBoard looks for this";
   const std::string text = ReadFile(entry.path().string());

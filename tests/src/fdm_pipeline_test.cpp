@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/output_file.h"
+#include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 
 namespace skein {
@@ -45,7 +46,8 @@ json WithoutResults(json file) {
 
 class FdmPipeline : public ::testing::Test {
  protected:
-  std::string folder_ = FreshDirectory("fdm");
+  const ScratchDirectory scratch_;
+  std::string folder_ = scratch_.path();
   json golden_ = json::parse(ReadFile(kGolden));
 
   json Run(const std::string& command, const json& input, const std::string& precision) {

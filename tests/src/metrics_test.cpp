@@ -4,19 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "src/output_file.h"
+#include "tests/scratch_directory.h"
 
 namespace skein {
 namespace {
 
-std::string FileWith(const std::string& text) {
-  const std::string path = ::testing::TempDir() + "/metrics_test.csv";
-  std::filesystem::remove(path);
-  WriteFile(path, text);
-  return path;
-}
+/// The metrics of a run: a file with given text.
+class MetricsFileTest : public testing::Test {
+ protected:
+  std::string FileWith(const std::string& text) const {
+    const std::string path = scratch_ / "metrics.csv";
+    WriteFile(path, text);
+    return path;
+  }
+
+  const ScratchDirectory scratch_;
+};
 
 TEST(Metrics, RowsHaveTheColumnsOfTheHeader) {
   const auto commas = [](const std::string& line) {
@@ -51,26 +56,26 @@ TEST(Metrics, ScalarsLeaveOutWhatDoesNotExist) {
   }
 }
 
-TEST(Metrics, TrimKeepsRowsUpToTheIteration) {
+TEST_F(MetricsFileTest, TrimKeepsRowsUpToTheIteration) {
   const std::string path = FileWith("iteration,x\n1,a\n2,b\n3,c\n");
   EXPECT_EQ(TrimRows(path, 2), 2u);
   EXPECT_EQ(ReadFile(path), "iteration,x\n1,a\n2,b\n");
 }
 
-TEST(Metrics, TrimDropsATornRow) {
+TEST_F(MetricsFileTest, TrimDropsATornRow) {
   const std::string path = FileWith("iteration,x\n1,a\n2,b\n3");
   EXPECT_EQ(TrimRows(path, 9), 2u);
   EXPECT_EQ(ReadFile(path), "iteration,x\n1,a\n2,b\n");
 }
 
-TEST(Metrics, TrimOfATornHeaderLeavesAnEmptyFile) {
+TEST_F(MetricsFileTest, TrimOfATornHeaderLeavesAnEmptyFile) {
   const std::string path = FileWith("iterat");
   EXPECT_EQ(TrimRows(path, 9), 0u);
   EXPECT_EQ(ReadFile(path), "");
 }
 
-TEST(Metrics, TrimOfNoFileIsNothing) {
-  EXPECT_EQ(TrimRows(::testing::TempDir() + "/metrics_test_absent.csv", 3), 0u);
+TEST_F(MetricsFileTest, TrimOfNoFileIsNothing) {
+  EXPECT_EQ(TrimRows(scratch_ / "absent.csv", 3), 0u);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "simd/error.h"
 #include "src/output_file.h"
-#include "tests/src/run_program.h"
+#include "tests/scratch_directory.h"
 
 namespace skein {
 namespace {
@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 class RunDirectoryTest : public ::testing::Test {
  protected:
-  std::string root_ = FreshDirectory("root");
+  const ScratchDirectory scratch_;
+  std::string root_ = scratch_.path();
 };
 
 TEST_F(RunDirectoryTest, IsHeldByOneAtATime) {

@@ -5,10 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <thread>
 
 #include "src/output_file.h"
@@ -17,10 +15,8 @@
 namespace skein {
 namespace {
 
-std::string TestName() {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  return std::string(test->test_suite_name()) + "." + test->name();
-}
+constexpr const char* kOutput = "output";
+constexpr const char* kError = "error";
 
 void Redirect(int descriptor, const std::string& path) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -31,11 +27,6 @@ void Redirect(int descriptor, const std::string& path) {
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
                                const std::function<void()>& before) {
-  static std::atomic<int> count{0};
-  const std::string base = ::testing::TempDir() + "/skein-output-" + std::to_string(getpid()) +
-                           "-" + std::to_string(count++);
-  output_path_ = base + ".out";
-  error_path_ = base + ".err";
   std::vector<std::string> words = {SKEIN_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -43,8 +34,8 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
   argv.push_back(nullptr);
   process_ = fork();
   if (process_ == 0) {
-    Redirect(STDOUT_FILENO, output_path_);
-    Redirect(STDERR_FILENO, error_path_);
+    Redirect(STDOUT_FILENO, scratch_ / kOutput);
+    Redirect(STDERR_FILENO, scratch_ / kError);
     if (before) before();
     execv(argv[0], argv.data());
     _exit(126);
@@ -56,8 +47,6 @@ RunningProgram::~RunningProgram() {
     Signal(SIGKILL);
     Reap(true);
   }
-  std::filesystem::remove(output_path_);
-  std::filesystem::remove(error_path_);
 }
 
 void RunningProgram::Signal(int signal) const {
@@ -82,8 +71,8 @@ ProgramResult RunningProgram::Wait() {
   ProgramResult result;
   if (WIFEXITED(status_)) result.exit_code = WEXITSTATUS(status_);
   if (WIFSIGNALED(status_)) result.signal = WTERMSIG(status_);
-  result.output = ReadFile(output_path_);
-  result.error = ReadFile(error_path_);
+  result.output = ReadFile(scratch_ / kOutput);
+  result.error = ReadFile(scratch_ / kError);
   return result;
 }
 
@@ -105,13 +94,6 @@ ProgramResult CallSkein(const std::vector<std::string>& arguments) {
   result.output = ::testing::internal::GetCapturedStdout();
   result.error = ::testing::internal::GetCapturedStderr();
   return result;
-}
-
-std::string FreshDirectory(const std::string& name) {
-  const std::string path = ::testing::TempDir() + "/" + TestName() + "/" + name;
-  std::filesystem::remove_all(path);
-  std::filesystem::create_directories(path);
-  return path;
 }
 
 }  // namespace skein

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/scratch_directory.h"
+
 namespace skein {
 
 /// How a run of the program `skein` ended.
@@ -38,7 +40,7 @@ class RunningProgram {
   pid_t process_ = -1;
   int status_ = 0;
   bool ended_ = false;
-  std::string output_path_, error_path_;
+  ScratchDirectory scratch_;
 };
 
 ProgramResult RunSkein(const std::vector<std::string>& arguments,
@@ -46,8 +48,5 @@ ProgramResult RunSkein(const std::vector<std::string>& arguments,
 
 /// The same without a process of its own, for what ends by itself: LibTorch is not loaded again.
 ProgramResult CallSkein(const std::vector<std::string>& arguments);
-
-/// An empty directory for the running test.
-std::string FreshDirectory(const std::string& name);
 
 }  // namespace skein

@@ -15,6 +15,7 @@
 
 #include "src/output_file.h"
 #include "src/run_directory.h"
+#include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 
 namespace skein {
@@ -70,7 +71,8 @@ bool HasCheckpoint(const std::string& run, std::uint64_t iteration) {
 
 class TrainingPipeline : public ::testing::Test {
  protected:
-  std::string root_ = FreshDirectory("runs");
+  const ScratchDirectory scratch_;
+  std::string root_ = scratch_.path();
   std::string reference_ = root_ + "/reference", run_ = root_ + "/run";
 
   /// An uninterrupted run to compare with.

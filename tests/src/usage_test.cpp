@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/output_file.h"
+#include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 
 namespace skein {
@@ -73,7 +74,8 @@ TEST(Usage, FlagsThatStandForAKeyAreNamedInItsErrors) {
 }
 
 TEST(Usage, AnErrorIsOneLineWhateverIsInIt) {
-  const std::string path = FreshDirectory("line") + "/config.toml";
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "config.toml";
   WriteFile(path, "[ppo]\n\"a\\nb\" = 1\n");
   const ProgramResult result = CallSkein({"train", "heading", "--config", path});
   EXPECT_EQ(result.exit_code, 1);
@@ -129,7 +131,8 @@ TEST(Usage, HelpKeysListsEveryKeyWithItsValue) {
 }
 
 TEST(Usage, InfoNamesWhatItRunsOn) {
-  const std::string path = FreshDirectory("info") + "/info.json";
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "info.json";
   const ProgramResult result =
       RunSkein({"info", "--json", path}, [] { setenv("SKEIN_SIMD", "scalar", 1); });
   EXPECT_EQ(result.exit_code, 0) << result.error;
@@ -152,10 +155,10 @@ TEST(Usage, AFullDeviceIsAnError) {
 }
 
 TEST(Usage, SignatureIsTheSameForAnyNumberOfThreads) {
-  const std::string folder = FreshDirectory("signature");
+  const ScratchDirectory scratch;
   std::string first;
   for (const char* threads : {"1", "2", "8"}) {
-    const std::string path = folder + "/" + threads + ".json";
+    const std::string path = scratch / (std::string(threads) + ".json");
     const ProgramResult result =
         CallSkein({"bench", "signature", "--threads", threads, "--json", path});
     ASSERT_EQ(result.exit_code, 0) << result.error;
@@ -169,7 +172,8 @@ TEST(Usage, SignatureIsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
-  const std::string path = FreshDirectory("bench") + "/result.json";
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "result.json";
   const auto measure = [&path](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "bench");
     arguments.insert(arguments.end(), {"--json", path});

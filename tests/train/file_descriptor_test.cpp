@@ -6,23 +6,17 @@
 #include <filesystem>
 
 #include "simd/error.h"
+#include "tests/scratch_directory.h"
 
 namespace skein {
 namespace {
 
 class FileDescriptorTest : public testing::Test {
  protected:
-  void SetUp() override {
-    directory_ = testing::TempDir() + "file_descriptor_test_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(directory_);
-    path_ = directory_ + "/file";
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   std::string Content() const { return FileDescriptor(path_, OpenMode::kRead).ReadToEnd(); }
 
-  std::string directory_, path_;
+  const ScratchDirectory scratch_;
+  const std::string path_ = scratch_ / "file";
 };
 
 TEST_F(FileDescriptorTest, AppendsGoToTheEnd) {
@@ -52,8 +46,8 @@ TEST_F(FileDescriptorTest, ErrorsOfTheSystemAreNamed) {
   };
   EXPECT_EQ(message_of([&] { FileDescriptor(path_, OpenMode::kRead); }),
             path_ + ": cannot be opened: No such file or directory");
-  EXPECT_EQ(message_of([&] { FileDescriptor(directory_, OpenMode::kRead).ReadToEnd(); }),
-            directory_ + ": cannot be read: Is a directory");
+  EXPECT_EQ(message_of([&] { FileDescriptor(scratch_.path(), OpenMode::kRead).ReadToEnd(); }),
+            scratch_.path() + ": cannot be read: Is a directory");
   EXPECT_EQ(message_of([] { FileDescriptor("/dev/full", OpenMode::kWrite).Write("x"); }),
             "/dev/full: cannot be written: No space left on device");
 }
@@ -68,14 +62,13 @@ TEST_F(FileDescriptorTest, AReplacementThatFailsLeavesTheOldFileAndNothingElse) 
                Error);
   EXPECT_EQ(Content(), "old");
   try {
-    ReplaceFile(directory_ + "/absent/file", [](FileDescriptor&) {});
+    ReplaceFile(scratch_ / "absent/file", [](FileDescriptor&) {});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.what(),
-              directory_ + "/absent/file: cannot be opened: No such file or directory")
+    EXPECT_EQ(error.what(), scratch_ / "absent/file: cannot be opened: No such file or directory")
         << "the file, not its temporary";
   }
-  const std::filesystem::directory_iterator files(directory_);
+  const std::filesystem::directory_iterator files(scratch_.path());
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);
   ReplaceFile(path_, [](FileDescriptor& file) { file.Write("new"); });
   EXPECT_EQ(Content(), "new");

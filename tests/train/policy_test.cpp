@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <thread>
 
 #include "simd/error.h"
+#include "tests/scratch_directory.h"
 #include "tests/train/small_config.h"
 #include "train/evaluate.h"
 #include "train/tensor_file.h"
@@ -28,13 +28,8 @@ std::vector<float> Decide(const Policy& policy, int count) {
 
 class PolicyTest : public testing::Test {
  protected:
-  void SetUp() override {
-    path_ = testing::TempDir() + "policy_test_" +
-            testing::UnitTest::GetInstance()->current_test_info()->name();
-  }
-  void TearDown() override { std::filesystem::remove(path_); }
-
-  std::string path_;
+  const ScratchDirectory scratch_;
+  const std::string path_ = scratch_ / "policy.skein";
 };
 
 TEST_F(PolicyTest, FileGivesTheSameDecisions) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "simd/error.h"
+#include "tests/scratch_directory.h"
 #include "train/fnv_hash.h"
 
 namespace skein {
@@ -15,14 +16,6 @@ namespace {
 
 class TensorFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    directory_ = testing::TempDir() + "tensor_file_test_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(directory_);
-    path_ = directory_ + "/file.skein";
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   static TensorFile Example() {
     TensorFile file;
     file.metadata["format"] = "example";
@@ -60,7 +53,8 @@ class TensorFileTest : public testing::Test {
     return "";
   }
 
-  std::string directory_, path_;
+  const ScratchDirectory scratch_;
+  const std::string path_ = scratch_ / "file.skein";
 };
 
 TEST_F(TensorFileTest, ComesBackAsItWas) {
@@ -166,7 +160,7 @@ TEST_F(TensorFileTest, AFailedWriteLeavesTheOldFileAlone) {
   TensorFile wrong = Example();
   wrong.tensors["a"].shape = {7};
   EXPECT_THROW(wrong.Write(path_), Error);
-  EXPECT_THROW(Example().Write(directory_ + "/missing/file.skein"), Error);
+  EXPECT_THROW(Example().Write(scratch_ / "missing/file.skein"), Error);
   EXPECT_EQ(Bytes(), before);
 }
 

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 #include "simd/error.h"
 #include "simd/target.h"
+#include "tests/scratch_directory.h"
 #include "tests/train/small_config.h"
 #include "train/policy_parameters.h"
 #include "train/training_state.h"
@@ -17,14 +17,6 @@ namespace {
 
 class TrainerTest : public testing::Test {
  protected:
-  void SetUp() override {
-    directory_ = testing::TempDir() + "trainer_test_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(directory_);
-    path_ = directory_ + "/checkpoint.skein";
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   static std::string BytesOf(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -42,7 +34,8 @@ class TrainerTest : public testing::Test {
     return "";
   }
 
-  std::string directory_, path_;
+  const ScratchDirectory scratch_;
+  const std::string path_ = scratch_ / "checkpoint.skein";
 };
 
 TEST_F(TrainerTest, EveryBitIsTheSameForAnyNumberOfThreads) {
@@ -77,9 +70,9 @@ TEST_F(TrainerTest, GoesOnBitForBitAfterRestoring) {
   }
   EXPECT_TRUE(resumed.finished());
   EXPECT_EQ(resumed.Signature(), whole.Signature());
-  whole.Save(directory_ + "/a");
-  resumed.Save(directory_ + "/b");
-  EXPECT_EQ(BytesOf(directory_ + "/a"), BytesOf(directory_ + "/b"));
+  whole.Save(scratch_ / "a");
+  resumed.Save(scratch_ / "b");
+  EXPECT_EQ(BytesOf(scratch_ / "a"), BytesOf(scratch_ / "b"));
 }
 
 TEST_F(TrainerTest, RefusesACheckpointOfAnotherConfigurationAndNamesTheField) {
@@ -95,8 +88,8 @@ TEST_F(TrainerTest, RefusesACheckpointOfAnotherConfigurationAndNamesTheField) {
   other = SmallConfig();
   other.network.gru_size = 32;
   EXPECT_NE(RefusalOf(other, path_).find("network.gru_size"), std::string::npos);
-  trainer.policy().Save(directory_ + "/policy");
-  EXPECT_NE(RefusalOf(SmallConfig(), directory_ + "/policy").find("not a checkpoint"),
+  trainer.policy().Save(scratch_ / "policy");
+  EXPECT_NE(RefusalOf(SmallConfig(), scratch_ / "policy").find("not a checkpoint"),
             std::string::npos);
   EXPECT_EQ(RefusalOf(SmallConfig(), path_), "");
 }
