@@ -5,12 +5,10 @@
 
 #include <memory>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "simd/peak.h"
-#include "train/network_gradient.h"
-#include "train/tiled_network.h"
+#include "train/recurrent_network.h"
 
 namespace skein {
 namespace {
@@ -36,7 +34,7 @@ void Report(benchmark::State& state, std::int64_t samples, double flops_per_samp
 }
 
 /// Forward, losses and backward of actor and critic on one tile of `range(0)` samples.
-void Gradient(benchmark::State& state, const std::string& backend) {
+void Gradient(benchmark::State& state, Backend backend) {
   const int batch = static_cast<int>(state.range(0)) / kChunkLength;
   const std::int64_t rows = static_cast<std::int64_t>(batch) * kChunkLength;
   const NetworkConfig config;
@@ -55,27 +53,29 @@ void Gradient(benchmark::State& state, const std::string& backend) {
   LossSettings settings;
   settings.sample_weight = 1.0 / static_cast<double>(rows);
 
-  std::unique_ptr<NetworkGradient> gradients[2];
+  std::unique_ptr<RecurrentNetwork> networks[2];
+  NetworkWorkspace workspace;
   std::vector<float> accumulators[2];
   double flops = 0;
   for (int i = 0; i < 2; ++i) {
-    gradients[i] = MakeNetworkGradient(backend, layouts[i], 1);
-    gradients[i]->SetParameters(InitialParameters(layouts[i], 0.01, 0, 1, 0).data());
-    accumulators[i].resize(gradients[i]->accumulator_size());
+    networks[i] = MakeNetwork(backend, layouts[i]);
+    networks[i]->SetParameters(InitialParameters(layouts[i], 0.01, 0, 1, 0).data());
+    accumulators[i].resize(networks[i]->accumulator_size());
     flops += 3 * ForwardFlops(layouts[i].shape());
   }
   for (auto _ : state) {
     for (int i = 0; i < 2; ++i) {
-      benchmark::DoNotOptimize(gradients[i]->Accumulate(tile, settings, 0, accumulators[i].data()));
+      benchmark::DoNotOptimize(
+          networks[i]->AccumulateGradient(tile, settings, workspace, accumulators[i].data()));
     }
   }
   Report(state, rows, flops);
 }
-BENCHMARK_CAPTURE(Gradient, tiled, std::string("tiled"))
+BENCHMARK_CAPTURE(Gradient, fused, Backend::kFused)
     ->RangeMultiplier(2)
     ->Range(256, 4096)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Gradient, autograd, std::string("autograd"))
+BENCHMARK_CAPTURE(Gradient, libtorch, Backend::kLibTorch)
     ->Arg(1024)
     ->Arg(4096)
     ->Unit(benchmark::kMillisecond);
@@ -87,19 +87,20 @@ void Inference(benchmark::State& state) {
   const auto observation = Normal(static_cast<std::int64_t>(batch) * kObservationSize, 1);
   const auto initial_state = Normal(static_cast<std::int64_t>(batch) * config.gru_size, 0.3f);
   const std::vector<float> keep(batch, 1.0f);
-  std::vector<TiledNetwork> networks;
+  std::vector<std::unique_ptr<RecurrentNetwork>> networks;
   double flops = 0;
   for (const NetworkShape& shape :
        {ActorShape(config, kObservationSize, kActionSize), CriticShape(config, kObservationSize)}) {
-    networks.emplace_back(NetworkLayout(shape));
-    networks.back().SetParameters(
-        InitialParameters(networks.back().layout(), 0.01, 0, 1, 0).data());
+    networks.push_back(MakeNetwork(Backend::kFused, NetworkLayout(shape)));
+    networks.back()->SetParameters(
+        InitialParameters(networks.back()->layout(), 0.01, 0, 1, 0).data());
     flops += ForwardFlops(shape);
   }
   NetworkWorkspace workspace;
   for (auto _ : state) {
-    for (const TiledNetwork& network : networks) {
-      network.Forward({1, batch, observation.data(), initial_state.data(), keep.data()}, workspace);
+    for (const auto& network : networks) {
+      network->Forward({1, batch, observation.data(), initial_state.data(), keep.data()},
+                       workspace);
       benchmark::DoNotOptimize(workspace.output());
     }
   }

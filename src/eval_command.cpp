@@ -105,6 +105,7 @@ void Evaluate(const EvalOptions& options) {
   }
   ApplyOverrides(options, &config);
   if (!policy) policy = UntrainedPolicy(config, options.seed);
+  policy = policy->WithBackend(config.train.learner.backend);
   WorkerPool pool(options.threads);
   const EvaluationReport report =
       EvaluateBothWays(*policy, config.train.env, options.episodes, options.seed, pool);
@@ -112,9 +113,9 @@ void Evaluate(const EvalOptions& options) {
     WriteFile(options.json,
               ToJson(report, path, config, options.seed, options.deterministic).dump(1) + "\n");
   }
-  fmt::print("{} on {}, {} episodes, seed {}, an action every {} control steps\n{}\n", path,
+  fmt::print("{} on {}, {} episodes, seed {}, an action every {} control steps; {}\n{}\n", path,
              config.train.env.task, options.episodes, options.seed, config.train.env.action_repeat,
-             ToText(report));
+             Describe(policy->backend()), ToText(report));
   if (!options.flights.empty()) WriteFlights(options, *policy, config.train.env, pool);
 }
 

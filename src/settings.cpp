@@ -19,21 +19,29 @@ constexpr double kMaxInt = std::numeric_limits<int>::max();
 // TOML integers are signed 64-bit, and a double holds every step count up to 2^53 exactly.
 constexpr double kMaxCount = 9007199254740992.0;
 
-template <typename Enum>
-using Names = std::array<std::pair<Enum, const char*>, 2>;
+template <typename Enum, std::size_t kCount>
+using Names = std::array<std::pair<Enum, const char*>, kCount>;
 
-constexpr Names<AtmosphereModel> kAtmosphereNames = {
+constexpr Names<AtmosphereModel, 2> kAtmosphereNames = {
     {{AtmosphereModel::kStevensLewis, "stevens_lewis"},
      {AtmosphereModel::kStandard1976, "standard_1976"}}};
-constexpr Names<FlightControlMode> kFlightControlNames = {
+constexpr Names<FlightControlMode, 2> kFlightControlNames = {
     {{FlightControlMode::kFull, "full"}, {FlightControlMode::kDirect, "direct"}}};
 
-const Names<AtmosphereModel>& NamesOf(AtmosphereModel) { return kAtmosphereNames; }
-const Names<FlightControlMode>& NamesOf(FlightControlMode) { return kFlightControlNames; }
+const auto& NamesOf(AtmosphereModel) { return kAtmosphereNames; }
+const auto& NamesOf(FlightControlMode) { return kFlightControlNames; }
+const auto& NamesOf(Activation) { return kActivationNames; }
+const auto& NamesOf(Backend) { return kBackendNames; }
 
-template <typename Enum>
-std::string ListNames(const Names<Enum>& names) {
-  return fmt::format("\"{}\" or \"{}\"", names[0].second, names[1].second);
+/// "a", "b" or "c".
+template <typename Enum, std::size_t kCount>
+std::string ListNames(const Names<Enum, kCount>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (i > 0) list += i + 1 < kCount ? ", " : " or ";
+    list += fmt::format("\"{}\"", names[i].second);
+  }
+  return list;
 }
 
 std::string FormatNumber(double value) {
@@ -190,14 +198,24 @@ std::vector<Setting> MakeSettings() {
        [](C& c) -> F { return &c.train.env.termination.success_reward; }, any,
        "reward for reaching the target"},
 
+      {"network.hidden_layers",
+       [](C& c) -> F { return &c.train.network.hidden_layers; },
+       {0, kMaxHiddenLayers},
+       "linear layers before the gated recurrent ones, and as many behind them"},
       {"network.hidden_size",
        [](C& c) -> F { return &c.train.network.hidden_size; },
-       {1, 1024},
+       {1, kMaxWidth},
        "units of each linear layer of actor and critic"},
+      {"network.gru_layers",
+       [](C& c) -> F { return &c.train.network.gru_layers; },
+       {1, kMaxGruLayers},
+       "gated recurrent layers, each on top of the other"},
       {"network.gru_size",
        [](C& c) -> F { return &c.train.network.gru_size; },
-       {1, 1024},
-       "units of the gated recurrent layer"},
+       {1, kMaxWidth},
+       "units of each gated recurrent layer"},
+      {"network.activation", [](C& c) -> F { return &c.train.network.activation; }, name,
+       "of the linear layers; all but relu are computed by LibTorch"},
       {"network.tanh_mean", [](C& c) -> F { return &c.train.network.tanh_mean; }, name,
        "the Gaussian's mean goes through tanh"},
       {"network.initial_log_std",
@@ -260,7 +278,7 @@ std::vector<Setting> MakeSettings() {
        "weight of an iteration in PopArt's moving moments"},
 
       {"learner.backend", [](C& c) -> F { return &c.train.learner.backend; }, name,
-       "gradients by own kernels (tiled) or LibTorch's autograd (autograd), the slow reference"},
+       "networks computed by own kernels (fused) or by LibTorch, the slow reference"},
       {"learner.tile_samples",
        [](C& c) -> F { return &c.train.learner.tile_samples; },
        {1, 1000000},

@@ -105,6 +105,7 @@ void TrainingRun::Run() {
                        directory_.path(), FormatCount(static_cast<double>(first_step)),
                        FormatCount(static_cast<double>(config_.train.total_steps)),
                        config_.train.ppo.num_aircraft, config_.train.seed, pool_.threads()));
+  log_.Say(Describe(trainer_.backend()));
   const Clock::time_point start = Clock::now();
   ProgressMeter meter(first_step, config_.train.total_steps, start);
   while (!trainer_.finished() && signals_.StopSignal() == 0) {
@@ -202,7 +203,7 @@ void TrainingRun::Finish() {
   trainer_.policy().Save(directory_.final_policy());
   const bool has_best = std::filesystem::exists(directory_.best_policy());
   const std::string path = has_best ? directory_.best_policy() : directory_.final_policy();
-  const Policy policy = Policy::Load(path);
+  const Policy policy = Policy::Load(path).WithBackend(config_.train.learner.backend);
   const std::uint64_t seed = config_.train.seed + kFreshSeedOffset;
   const int episodes = config_.final_evaluation_episodes;
   log_.Say(fmt::format("evaluating {} over {} fresh episodes", path, episodes));

@@ -1,8 +1,24 @@
 #include "train/learner_config.h"
 
+#include <string>
+
 #include "simd/error.h"
 
 namespace skein {
+namespace {
+
+template <typename Names, typename Enum>
+const char* NameIn(const Names& names, Enum value) {
+  for (const auto& [option, name] : names) {
+    if (option == value) return name;
+  }
+  throw Error("a configuration field holds a value without a name");
+}
+
+}  // namespace
+
+const char* Name(Activation activation) { return NameIn(kActivationNames, activation); }
+const char* Name(Backend backend) { return NameIn(kBackendNames, backend); }
 
 void Validate(const PpoConfig& config) {
   const auto require_positive = [](const char* key, int value) {

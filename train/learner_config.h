@@ -1,17 +1,36 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <string>
+#include <utility>
 
 #include "envs/env_config.h"
 
 namespace skein {
 
-/// Sizes of the recurrent actor and critic (LayerNorm, two Linear-ReLU-LayerNorm,
-/// GRU, LayerNorm, two more, head).
+/// What a hidden layer applies to its linear map.
+enum class Activation { kRelu, kTanh, kElu, kSilu };
+
+/// Names in configurations and files.
+inline constexpr std::array<std::pair<Activation, const char*>, 4> kActivationNames{
+    {{Activation::kRelu, "relu"},
+     {Activation::kTanh, "tanh"},
+     {Activation::kElu, "elu"},
+     {Activation::kSilu, "silu"}}};
+const char* Name(Activation activation);
+
+/// Largest networks.
+inline constexpr int kMaxHiddenLayers = 8, kMaxGruLayers = 8, kMaxWidth = 1024;
+
+/// Shape of the recurrent actor and critic: LayerNorm on the observation; `hidden_layers` of
+/// Linear, activation, LayerNorm; `gru_layers` of a GRU; LayerNorm; as many hidden layers again;
+/// linear head.
 struct NetworkConfig {
+  int hidden_layers = 2;  ///< before the GRU, and as many behind it
   int hidden_size = 128;
+  int gru_layers = 1;  ///< each reads the state of the one before it
   int gru_size = 128;
+  Activation activation = Activation::kRelu;
   bool tanh_mean = true;  ///< the Gaussian's mean goes through tanh
   double initial_log_std = 0;
   double actor_head_scale = 0.01;
@@ -43,10 +62,20 @@ struct PpoConfig {
 /// aircraft, and every minibatch has a chunk.
 void Validate(const PpoConfig& config);
 
+/// What computes the networks, forward and backward.
+enum class Backend {
+  kFused,     ///< own kernels, tile by tile
+  kLibTorch,  ///< LibTorch's operations and autograd: the reference, two to three times slower
+};
+
+/// Names in configurations and files.
+inline constexpr std::array<std::pair<Backend, const char*>, 2> kBackendNames{
+    {{Backend::kFused, "fused"}, {Backend::kLibTorch, "libtorch"}}};
+const char* Name(Backend backend);
+
 struct LearnerConfig {
-  /// How gradients are computed: "tiled", own kernels around LibTorch's products, or "autograd",
-  /// LibTorch's reference, two to three times slower.
-  std::string backend = "tiled";
+  /// As asked for; ChooseBackend (train/backend.h) says what runs.
+  Backend backend = Backend::kFused;
   int tile_samples =
       1024;  ///< samples per gradient tile: fixed shards, so results do not depend on threads
   int rollout_tile = 256;  ///< aircraft per rollout tile

@@ -42,52 +42,82 @@ HWY_INLINE Vector Tanh(Vector x) {
   return hn::MulSub(two, Sigmoid(hn::Mul(two, x)), hn::Set(d, 1.0f));
 }
 
+/// `v` with zeros in lanes that lie behind the columns, where it holds the columns from `j` on.
+template <bool kPadded>
+HWY_INLINE Vector WithinColumns(int columns, int j, Vector v) {
+  if constexpr (!kPadded) return v;
+  const Floats d;
+  const int left = columns - j;
+  return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left > 0 ? left : 0)), v);
+}
+
 /// Normalises one row; returns its inverse standard deviation and mean.
+template <bool kPadded>
 HWY_INLINE float NormaliseRow(int columns, const float* in, float* out, float* mean_out) {
   const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   Vector sum = hn::Zero(d);
-  for (int j = 0; j < columns; j += lanes) sum = hn::Add(sum, hn::LoadU(d, in + j));
+  for (int j = 0; j < width; j += lanes) sum = hn::Add(sum, hn::LoadU(d, in + j));
   const float mean = Sum(sum) / static_cast<float>(columns);
   const Vector mean_v = hn::Set(d, mean);
   Vector squares = hn::Zero(d);
-  for (int j = 0; j < columns; j += lanes) {
-    const Vector deviation = hn::Sub(hn::LoadU(d, in + j), mean_v);
+  for (int j = 0; j < width; j += lanes) {
+    const Vector deviation =
+        WithinColumns<kPadded>(columns, j, hn::Sub(hn::LoadU(d, in + j), mean_v));
     squares = hn::MulAdd(deviation, deviation, squares);
   }
   const float variance = Sum(squares) / static_cast<float>(columns);
   const float inverse_std = 1.0f / std::sqrt(variance + kLayerNormEpsilon);
   const Vector inverse_std_v = hn::Set(d, inverse_std);
-  for (int j = 0; j < columns; j += lanes) {
-    hn::StoreU(hn::Mul(hn::Sub(hn::LoadU(d, in + j), mean_v), inverse_std_v), d, out + j);
+  for (int j = 0; j < width; j += lanes) {
+    const Vector deviation =
+        WithinColumns<kPadded>(columns, j, hn::Sub(hn::LoadU(d, in + j), mean_v));
+    hn::StoreU(hn::Mul(deviation, inverse_std_v), d, out + j);
   }
   *mean_out = mean;
   return inverse_std;
 }
 
-void BiasReluNormaliseKernel(std::int64_t rows, int columns, const float* bias, float* values,
-                             float* inverse_std, float* zero_level) {
+template <bool kPadded>
+void BiasReluNormaliseRows(std::int64_t rows, int columns, const float* bias, float* values,
+                           float* inverse_std, float* zero_level) {
   const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    float* const row = values + i * columns;
-    for (int j = 0; j < columns; j += lanes) {
+    float* const row = values + i * width;
+    for (int j = 0; j < width; j += lanes) {
       const Vector x = hn::Add(hn::LoadU(d, row + j), hn::LoadU(d, bias + j));
       // Unlike a maximum with zero, this keeps not-a-number on every target.
       hn::StoreU(hn::IfThenZeroElse(hn::Lt(x, hn::Zero(d)), x), d, row + j);
     }
     float mean;
-    inverse_std[i] = NormaliseRow(columns, row, row, &mean);
+    inverse_std[i] = NormaliseRow<kPadded>(columns, row, row, &mean);
     zero_level[i] = -mean * inverse_std[i];
+  }
+}
+
+void BiasReluNormaliseKernel(std::int64_t rows, int columns, const float* bias, float* values,
+                             float* inverse_std, float* zero_level) {
+  const auto kernel =
+      PaddedWidth(columns) == columns ? BiasReluNormaliseRows<false> : BiasReluNormaliseRows<true>;
+  kernel(rows, columns, bias, values, inverse_std, zero_level);
+}
+
+template <bool kPadded>
+void NormaliseWithStdRows(std::int64_t rows, int columns, const float* in, float* out,
+                          float* inverse_std) {
+  const int width = PaddedWidth(columns);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    float mean;
+    inverse_std[i] = NormaliseRow<kPadded>(columns, in + i * width, out + i * width, &mean);
   }
 }
 
 void NormaliseWithStdKernel(std::int64_t rows, int columns, const float* in, float* out,
                             float* inverse_std) {
-  for (std::int64_t i = 0; i < rows; ++i) {
-    float mean;
-    inverse_std[i] = NormaliseRow(columns, in + i * columns, out + i * columns, &mean);
-  }
+  const auto kernel =
+      PaddedWidth(columns) == columns ? NormaliseWithStdRows<false> : NormaliseWithStdRows<true>;
+  kernel(rows, columns, in, out, inverse_std);
 }
 
 /// The means that LayerNorm's gradient subtracts: of the gradient, and of gradient times
@@ -95,9 +125,9 @@ void NormaliseWithStdKernel(std::int64_t rows, int columns, const float* in, flo
 HWY_INLINE void GradientMeans(int columns, const float* gradient, const float* normalised,
                               Vector* mean, Vector* projection) {
   const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   Vector sum = hn::Zero(d), product_sum = hn::Zero(d);
-  for (int j = 0; j < columns; j += lanes) {
+  for (int j = 0; j < width; j += lanes) {
     const Vector g = hn::LoadU(d, gradient + j);
     sum = hn::Add(sum, g);
     product_sum = hn::MulAdd(g, hn::LoadU(d, normalised + j), product_sum);
@@ -106,53 +136,71 @@ HWY_INLINE void GradientMeans(int columns, const float* gradient, const float* n
   *projection = hn::Set(d, Sum(product_sum) / static_cast<float>(columns));
 }
 
-void BiasReluNormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
-                                     const float* inverse_std, const float* zero_level,
-                                     float* gradient, float* bias_gradient) {
+template <bool kPadded>
+void BiasReluNormaliseBackwardRows(std::int64_t rows, int columns, const float* normalised,
+                                   const float* inverse_std, const float* zero_level,
+                                   float* gradient, float* bias_gradient) {
   const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    float* const g = gradient + i * columns;
-    const float* const x = normalised + i * columns;
+    float* const g = gradient + i * width;
+    const float* const x = normalised + i * width;
     Vector mean, projection;
     GradientMeans(columns, g, x, &mean, &projection);
     const Vector scale = hn::Set(d, inverse_std[i]), zero = hn::Set(d, zero_level[i]);
-    for (int j = 0; j < columns; j += lanes) {
+    for (int j = 0; j < width; j += lanes) {
       const Vector xj = hn::LoadU(d, x + j);
       const Vector centred = hn::NegMulAdd(xj, projection, hn::Sub(hn::LoadU(d, g + j), mean));
-      const Vector result = hn::IfThenElseZero(hn::Gt(xj, zero), hn::Mul(scale, centred));
+      const Vector passed = hn::IfThenElseZero(hn::Gt(xj, zero), hn::Mul(scale, centred));
+      const Vector result = WithinColumns<kPadded>(columns, j, passed);
       hn::StoreU(result, d, g + j);
       hn::StoreU(hn::Add(hn::LoadU(d, bias_gradient + j), result), d, bias_gradient + j);
     }
   }
 }
 
-void NormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
-                             const float* inverse_std, float* gradient) {
+void BiasReluNormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
+                                     const float* inverse_std, const float* zero_level,
+                                     float* gradient, float* bias_gradient) {
+  const auto kernel = PaddedWidth(columns) == columns ? BiasReluNormaliseBackwardRows<false>
+                                                      : BiasReluNormaliseBackwardRows<true>;
+  kernel(rows, columns, normalised, inverse_std, zero_level, gradient, bias_gradient);
+}
+
+template <bool kPadded>
+void NormaliseBackwardRows(std::int64_t rows, int columns, const float* normalised,
+                           const float* inverse_std, float* gradient) {
   const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    float* const g = gradient + i * columns;
-    const float* const x = normalised + i * columns;
+    float* const g = gradient + i * width;
+    const float* const x = normalised + i * width;
     Vector mean, projection;
     GradientMeans(columns, g, x, &mean, &projection);
     const Vector scale = hn::Set(d, inverse_std[i]);
-    for (int j = 0; j < columns; j += lanes) {
+    for (int j = 0; j < width; j += lanes) {
       const Vector centred =
           hn::NegMulAdd(hn::LoadU(d, x + j), projection, hn::Sub(hn::LoadU(d, g + j), mean));
-      hn::StoreU(hn::Mul(scale, centred), d, g + j);
+      hn::StoreU(WithinColumns<kPadded>(columns, j, hn::Mul(scale, centred)), d, g + j);
     }
   }
+}
+
+void NormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
+                             const float* inverse_std, float* gradient) {
+  const auto kernel =
+      PaddedWidth(columns) == columns ? NormaliseBackwardRows<false> : NormaliseBackwardRows<true>;
+  kernel(rows, columns, normalised, inverse_std, gradient);
 }
 
 void ScaleRowsKernel(std::int64_t rows, int columns, const float* keep, const float* in,
                      float* out) {
   const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
     const Vector factor = hn::Set(d, keep[i]);
-    for (int j = 0; j < columns; j += lanes) {
-      hn::StoreU(hn::Mul(factor, hn::LoadU(d, in + i * columns + j)), d, out + i * columns + j);
+    for (std::int64_t j = i * width; j < (i + 1) * width; j += lanes) {
+      hn::StoreU(hn::Mul(factor, hn::LoadU(d, in + j)), d, out + j);
     }
   }
 }
@@ -160,18 +208,18 @@ void ScaleRowsKernel(std::int64_t rows, int columns, const float* keep, const fl
 void AddScaledRowsKernel(std::int64_t rows, int columns, const float* keep, const float* in,
                          float* out) {
   const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
     const Vector factor = hn::Set(d, keep[i]);
-    for (std::int64_t j = i * columns; j < (i + 1) * columns; j += lanes) {
+    for (std::int64_t j = i * width; j < (i + 1) * width; j += lanes) {
       hn::StoreU(hn::MulAdd(factor, hn::LoadU(d, in + j), hn::LoadU(d, out + j)), d, out + j);
     }
   }
 }
 
-void GruForwardKernel(std::int64_t rows, int size, const float* input_bias,
-                      const float* hidden_bias, const float* hidden_product, const float* previous,
-                      float* gates, std::int64_t stride, float* next) {
+void GruStepKernel(std::int64_t rows, int size, const float* input_bias, const float* hidden_bias,
+                   const float* hidden_product, const float* previous, float* gates,
+                   std::int64_t stride, float* next) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (std::int64_t i = 0; i < rows; ++i) {
@@ -200,8 +248,8 @@ void GruForwardKernel(std::int64_t rows, int size, const float* input_bias,
   }
 }
 
-void GruBackwardKernel(std::int64_t rows, int size, const float* previous, float* gates,
-                       std::int64_t stride, float* state_gradient) {
+void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, float* gates,
+                           std::int64_t stride, float* state_gradient) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const Vector one = hn::Set(d, 1.0f);
@@ -252,8 +300,8 @@ HWY_EXPORT(NormaliseWithStdKernel);
 HWY_EXPORT(NormaliseBackwardKernel);
 HWY_EXPORT(ScaleRowsKernel);
 HWY_EXPORT(AddScaledRowsKernel);
-HWY_EXPORT(GruForwardKernel);
-HWY_EXPORT(GruBackwardKernel);
+HWY_EXPORT(GruStepKernel);
+HWY_EXPORT(GruStepBackwardKernel);
 HWY_EXPORT(AddColumnSumsKernel);
 
 void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out) {
@@ -299,16 +347,16 @@ void AddScaledRows(std::int64_t rows, int columns, const float* keep, const floa
   SKEIN_DISPATCH(AddScaledRowsKernel)(rows, columns, keep, in, out);
 }
 
-void GruForward(std::int64_t rows, int size, const float* input_bias, const float* hidden_bias,
-                const float* hidden_product, const float* previous, float* gates,
-                std::int64_t stride, float* next) {
-  SKEIN_DISPATCH(GruForwardKernel)
+void GruStep(std::int64_t rows, int size, const float* input_bias, const float* hidden_bias,
+             const float* hidden_product, const float* previous, float* gates, std::int64_t stride,
+             float* next) {
+  SKEIN_DISPATCH(GruStepKernel)
   (rows, size, input_bias, hidden_bias, hidden_product, previous, gates, stride, next);
 }
 
-void GruBackward(std::int64_t rows, int size, const float* previous, float* gates,
-                 std::int64_t stride, float* state_gradient) {
-  SKEIN_DISPATCH(GruBackwardKernel)(rows, size, previous, gates, stride, state_gradient);
+void GruStepBackward(std::int64_t rows, int size, const float* previous, float* gates,
+                     std::int64_t stride, float* state_gradient) {
+  SKEIN_DISPATCH(GruStepBackwardKernel)(rows, size, previous, gates, stride, state_gradient);
 }
 
 void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,

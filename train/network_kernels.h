@@ -7,13 +7,20 @@ namespace skein {
 /// What LayerNorm adds to the variance.
 inline constexpr float kLayerNormEpsilon = 1e-5f;
 
-// The elementwise parts of a recurrent network, forward and backward, over row-major tiles; the
-// products between them are MatMul's. Columns must be a multiple of 16 unless said otherwise.
-// "Normalise" is LayerNorm without its affine part: (x - mean) / sqrt(variance + epsilon) of each
-// row; the affine part is folded into the map that follows (train/tiled_network.h). Not-a-number in
-// an input shows in the output.
+/// Rows of a tile are whole vectors of every SIMD target: widths are rounded up to this.
+inline constexpr int kWidthGranularity = 16;
+constexpr int PaddedWidth(int width) {
+  return (width + kWidthGranularity - 1) / kWidthGranularity * kWidthGranularity;
+}
 
-/// Any number of columns.
+// The elementwise parts of a recurrent network, forward and backward, over row-major tiles; the
+// products between them are MatMul's. Unless said otherwise rows lie PaddedWidth(columns) floats
+// apart, and what is behind the columns is zero before and after. "Normalise" is LayerNorm without
+// its affine part: (x - mean) / sqrt(variance + epsilon) of each row; the affine part is folded
+// into the map that follows (train/folded_parameters.h). Not-a-number in an input shows in the
+// output.
+
+/// Any number of columns, without padding.
 void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out);
 
 /// values = normalise(relu(values + bias)). `inverse_std` and `zero_level` get one value per row:
@@ -43,21 +50,22 @@ void ScaleRows(std::int64_t rows, int columns, const float* keep, const float* i
 void AddScaledRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out);
 
 /// One step of a GRU (Cho et al. 2014, in the form of cuDNN and LibTorch: the reset gate acts on
-/// the hidden product of the new gate). `gates` rows of `stride` floats hold [n | r | z | q], each
-/// `size` wide: on entry the input products in n, r, z; on return the activations, and in q the
-/// hidden product of the new gate with its bias. `hidden_product` rows hold [r | z | n].
-/// `input_bias` is ordered n, r, z; `hidden_bias` r, z, n. next = (1 - z) n + z previous.
-void GruForward(std::int64_t rows, int size, const float* input_bias, const float* hidden_bias,
-                const float* hidden_product, const float* previous, float* gates,
-                std::int64_t stride, float* next);
+/// the hidden product of the new gate). `size` is a padded width: a unit without weights, bias and
+/// state stays exactly zero. `gates` rows of `stride` floats hold [n | r | z | q], each `size`
+/// wide: on entry the input products in n, r, z; on return the activations, and in q the hidden
+/// product of the new gate with its bias. `hidden_product` rows hold [r | z | n]. `input_bias` is
+/// ordered n, r, z; `hidden_bias` r, z, n. next = (1 - z) n + z previous.
+void GruStep(std::int64_t rows, int size, const float* input_bias, const float* hidden_bias,
+             const float* hidden_product, const float* previous, float* gates, std::int64_t stride,
+             float* next);
 
-/// Back through GruForward: `gates` become the gradients by [n | r | z | q] before activation (q by
+/// Back through GruStep: `gates` become the gradients by [n | r | z | q] before activation (q by
 /// the hidden product with bias); `state_gradient` (by next) becomes the direct part of the
 /// gradient by previous, z times it.
-void GruBackward(std::int64_t rows, int size, const float* previous, float* gates,
-                 std::int64_t stride, float* state_gradient);
+void GruStepBackward(std::int64_t rows, int size, const float* previous, float* gates,
+                     std::int64_t stride, float* state_gradient);
 
-/// sums[j] += sum over rows of in[row][j].
+/// sums[j] += sum over rows of in[row][j]. Columns are a multiple of kWidthGranularity.
 void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,
                    float* sums);
 

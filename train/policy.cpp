@@ -8,13 +8,16 @@
 #include "simd/error.h"
 #include "train/policy_parameters.h"
 #include "train/ppo_loss.h"
+#include "train/recurrent_network.h"
 #include "train/tensor_access.h"
-#include "train/tiled_network.h"
 
 namespace skein {
 namespace {
 
 constexpr const char* kFormat = "skein-policy-1";
+constexpr const char* kHiddenLayersKey = "policy.hidden_layers";
+constexpr const char* kGruLayersKey = "policy.gru_layers";
+constexpr const char* kActivationKey = "policy.activation";
 constexpr int kMaxSize = 1 << 14;  ///< of any layer: a file cannot ask for more memory than this
 
 std::string Metadata(const TensorFile& file, const std::string& path, const std::string& key) {
@@ -33,26 +36,46 @@ double NumberIn(const TensorFile& file, const std::string& path, const std::stri
   return value;
 }
 
-int SizeIn(const TensorFile& file, const std::string& path, const std::string& key) {
+int WholeNumberIn(const TensorFile& file, const std::string& path, const std::string& key, int min,
+                  int max) {
   const double value = NumberIn(file, path, key);
-  if (value < 1 || value > kMaxSize || value != std::floor(value)) {
-    throw Error(path + ": \"" + key + "\" must be a whole number from 1 to " +
-                std::to_string(kMaxSize));
+  if (value < min || value > max || value != std::floor(value)) {
+    throw Error(path + ": \"" + key + "\" must be a whole number from " + std::to_string(min) +
+                " to " + std::to_string(max));
   }
   return static_cast<int>(value);
 }
 
+int SizeIn(const TensorFile& file, const std::string& path, const std::string& key) {
+  return WholeNumberIn(file, path, key, 1, kMaxSize);
+}
+
+bool Has(const TensorFile& file, const char* key) { return file.metadata.count(key) > 0; }
+
+Activation ActivationIn(const TensorFile& file, const std::string& path) {
+  const std::string text = Metadata(file, path, kActivationKey);
+  for (const auto& [activation, name] : kActivationNames) {
+    if (text == name) return activation;
+  }
+  throw Error(path + ": \"" + kActivationKey + "\" is \"" + text +
+              "\", which this program does not know");
+}
+
 }  // namespace
 
-/// The network with its affine parts folded, beside what it was folded from.
-struct Policy::Folded {
+/// The network beside what it was made from.
+struct Policy::Actor {
   std::shared_ptr<const Parameters> parameters;
-  TiledNetwork network;
+  BackendChoice backend;
+  std::unique_ptr<RecurrentNetwork> network;
 };
 
 void StorePolicy(const Policy::Parameters& parameters, TensorFile& file) {
   auto& metadata = file.metadata;
   metadata["policy.format"] = kFormat;
+  metadata[kHiddenLayersKey] = std::to_string(parameters.config.hidden_layers);
+  metadata[kGruLayersKey] = std::to_string(parameters.config.gru_layers);
+  metadata[kActivationKey] = Name(parameters.config.activation);
   metadata["policy.hidden_size"] = std::to_string(parameters.config.hidden_size);
   metadata["policy.gru_size"] = std::to_string(parameters.config.gru_size);
   metadata["policy.tanh_mean"] = parameters.config.tanh_mean ? "1" : "0";
@@ -80,6 +103,14 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
   }
   auto parameters = std::make_shared<Policy::Parameters>();
   NetworkConfig& config = parameters->config;
+  // Files from before networks had these hold the one shape there was, which is the default.
+  if (Has(file, kHiddenLayersKey)) {
+    config.hidden_layers = WholeNumberIn(file, path, kHiddenLayersKey, 0, kMaxHiddenLayers);
+  }
+  if (Has(file, kGruLayersKey)) {
+    config.gru_layers = WholeNumberIn(file, path, kGruLayersKey, 1, kMaxGruLayers);
+  }
+  if (Has(file, kActivationKey)) config.activation = ActivationIn(file, path);
   config.hidden_size = SizeIn(file, path, "policy.hidden_size");
   config.gru_size = SizeIn(file, path, "policy.gru_size");
   config.tanh_mean = NumberIn(file, path, "policy.tanh_mean") != 0;
@@ -102,12 +133,16 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
   return parameters;
 }
 
-Policy::Policy(const std::shared_ptr<const Parameters>& parameters) {
-  auto folded =
-      std::make_shared<Folded>(Folded{parameters, TiledNetwork(NetworkLayout(parameters->shape))});
-  folded->network.SetParameters(parameters->values.data());
-  folded_ = std::move(folded);
+Policy::Policy(const std::shared_ptr<const Parameters>& parameters, Backend backend) {
+  auto actor = std::make_shared<Actor>();
+  actor->parameters = parameters;
+  actor->backend = ChooseBackend(backend, parameters->shape);
+  actor->network = MakeNetwork(actor->backend.backend, NetworkLayout(parameters->shape));
+  actor->network->SetParameters(parameters->values.data());
+  actor_ = std::move(actor);
 }
+
+Policy Policy::WithBackend(Backend backend) const { return Policy(actor_->parameters, backend); }
 
 Policy Policy::Load(const std::string& path) {
   return Policy(LoadPolicy(TensorFile::Read(path), path));
@@ -126,15 +161,16 @@ Policy Policy::Untrained(const NetworkConfig& config, int observation_size, int 
 
 void Policy::Save(const std::string& path) const {
   TensorFile file;
-  StorePolicy(*folded_->parameters, file);
+  StorePolicy(*actor_->parameters, file);
   file.Write(path);
 }
 
-const NetworkConfig& Policy::config() const { return folded_->parameters->config; }
-int Policy::observation_size() const { return folded_->parameters->shape.observation_size; }
-int Policy::action_size() const { return folded_->parameters->shape.output_size; }
-int Policy::state_size() const { return folded_->parameters->shape.gru_size; }
-int Policy::action_repeat() const { return folded_->parameters->action_repeat; }
+const NetworkConfig& Policy::config() const { return actor_->parameters->config; }
+int Policy::observation_size() const { return actor_->parameters->shape.observation_size; }
+const BackendChoice& Policy::backend() const { return actor_->backend; }
+int Policy::action_size() const { return actor_->parameters->shape.output_size; }
+int Policy::state_size() const { return actor_->parameters->shape.state_size(); }
+int Policy::action_repeat() const { return actor_->parameters->action_repeat; }
 
 void Policy::Act(int count, const float* observation, float* state, float* mean,
                  float* log_std) const {
@@ -142,14 +178,14 @@ void Policy::Act(int count, const float* observation, float* state, float* mean,
   static thread_local NetworkWorkspace workspace;
   static thread_local std::vector<float> keep;
   if (static_cast<int>(keep.size()) < count) keep.resize(count, 1.0f);
-  const Parameters& parameters = *folded_->parameters;
-  folded_->network.Forward({1, count, observation, state, keep.data()}, workspace);
+  const Parameters& parameters = *actor_->parameters;
+  actor_->network->Forward({1, count, observation, state, keep.data()}, workspace);
   const std::int64_t size = parameters.shape.output_size;
-  std::copy_n(workspace.state(), static_cast<std::int64_t>(count) * parameters.shape.gru_size,
-              state);
+  std::copy_n(workspace.final_state(),
+              static_cast<std::int64_t>(count) * parameters.shape.state_size(), state);
   GaussianMean(count * size, parameters.config.tanh_mean, workspace.output(), mean);
   if (log_std != nullptr) {
-    std::copy_n(parameters.values.begin() + folded_->network.layout().log_std(), size, log_std);
+    std::copy_n(parameters.values.begin() + actor_->network->layout().log_std(), size, log_std);
   }
 }
 

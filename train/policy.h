@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "train/backend.h"
 #include "train/learner_config.h"
 
 namespace skein {
@@ -13,7 +14,9 @@ class Policy {
  public:
   struct Parameters;  // train/policy_parameters.h: configuration and the flat parameter vector
 
-  explicit Policy(const std::shared_ptr<const Parameters>& parameters);
+  /// `backend` as asked for; see backend().
+  explicit Policy(const std::shared_ptr<const Parameters>& parameters,
+                  Backend backend = Backend::kFused);
 
   /// Reads the actor from a policy file or checkpoint (container of docs/file-formats.md). Throws
   /// Error on a file that is truncated, damaged or not one of Skein's.
@@ -21,13 +24,16 @@ class Policy {
   /// A freshly initialised actor: the one that training with this seed begins with.
   static Policy Untrained(const NetworkConfig& config, int observation_size, int action_size,
                           std::uint64_t seed, int action_repeat = 1);
+  /// The same actor, computed by another backend.
+  Policy WithBackend(Backend backend) const;
   /// Writes the actor alone, atomically.
   void Save(const std::string& path) const;
 
   const NetworkConfig& config() const;
   int observation_size() const;
   int action_size() const;
-  int state_size() const;     ///< floats of recurrent state per aircraft
+  const BackendChoice& backend() const;  ///< what computes it
+  int state_size() const;                ///< floats of recurrent state per aircraft
   int action_repeat() const;  ///< control steps for which it was trained to hold an action
 
   /// One decision for `count` aircraft: observation [count][observation_size], state
@@ -37,8 +43,8 @@ class Policy {
            float* log_std = nullptr) const;
 
  private:
-  struct Folded;
-  std::shared_ptr<const Folded> folded_;
+  struct Actor;
+  std::shared_ptr<const Actor> actor_;
 };
 
 }  // namespace skein

@@ -25,7 +25,7 @@ void UpdatePopArt(const std::vector<float>& targets, double rate, const NetworkL
   popart.started = true;
   const ValueScale after = popart.scale();
 
-  const NormalisedLinear& head = critic.layer(kHead);
+  const NormalisedLinear& head = critic.layer(critic.head());
   const double ratio = before.std / after.std;
   for (int j = 0; j < head.in; ++j) {
     float& weight_j = parameters[head.weight + j];

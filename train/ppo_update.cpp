@@ -62,13 +62,14 @@ void RequireSane(const char* network, double loss, double norm) {
 
 }  // namespace
 
-/// Chunks of a tile in time-major order.
+/// Chunks of a tile in time-major order, and what the networks need to compute them.
 struct PpoUpdate::Gathered {
+  NetworkWorkspace workspace;
   AlignedVector<float> observation, state, keep, action, log_prob, advantage, target, old_value;
 
   void Resize(const Rollout& rollout, std::int64_t rows, int chunks) {
     observation.resize(rows * rollout.observation_size);
-    state.resize(static_cast<std::int64_t>(chunks) * rollout.gru_size);
+    state.resize(static_cast<std::int64_t>(chunks) * rollout.state_size);
     action.resize(rows * rollout.action_size);
     for (auto* const column : {&keep, &log_prob, &advantage, &target, &old_value}) {
       column->resize(rows);
@@ -76,15 +77,15 @@ struct PpoUpdate::Gathered {
   }
 };
 
-PpoUpdate::PpoUpdate(const TrainConfig& config, const NetworkLayout& actor,
+PpoUpdate::PpoUpdate(const TrainConfig& config, Backend backend, const NetworkLayout& actor,
                      const NetworkLayout& critic, WorkerPool& pool)
     : config_(config.ppo),
       seed_(config.seed),
       tanh_mean_(config.network.tanh_mean),
       tile_chunks_(std::max(1, config.learner.tile_samples / config.ppo.chunk_length)),
       pool_(pool) {
-  actor_.gradient = MakeNetworkGradient(config.learner.backend, actor, pool.threads());
-  critic_.gradient = MakeNetworkGradient(config.learner.backend, critic, pool.threads());
+  actor_.network = MakeNetwork(backend, actor);
+  critic_.network = MakeNetwork(backend, critic);
   for (int i = 0; i < pool.threads(); ++i) gathered_.push_back(std::make_shared<Gathered>());
 }
 
@@ -99,13 +100,13 @@ PpoUpdate::Advantages PpoUpdate::AdvantageScale(const Rollout& rollout) const {
   return {mean, 1 / (std::sqrt(squares / count) + kAdvantageEpsilon)};
 }
 
-void PpoUpdate::RunShard(Network& network, const Rollout& rollout, const ValueScale& scale,
+void PpoUpdate::RunShard(Side& side, const Rollout& rollout, const ValueScale& scale,
                          const Advantages& advantages, const std::int64_t* chunks, int count,
                          const LossSettings& settings, int shard, int worker) {
-  AlignedVector<float>& accumulator = network.accumulators[shard];
-  accumulator.assign(network.gradient->accumulator_size(), 0.0f);
-  network.losses[shard] = {};
-  const bool is_actor = &network == &actor_;
+  AlignedVector<float>& accumulator = side.accumulators[shard];
+  accumulator.assign(side.network->accumulator_size(), 0.0f);
+  side.losses[shard] = {};
+  const bool is_actor = &side == &actor_;
   const std::vector<float>& states = is_actor ? rollout.actor_state : rollout.critic_state;
   Gathered& own = *gathered_[worker];
   for (int first = 0; first < count; first += tile_chunks_) {
@@ -116,8 +117,8 @@ void PpoUpdate::RunShard(Network& network, const Rollout& rollout, const ValueSc
       const std::int64_t chunk = chunks[first + i];
       const auto aircraft = static_cast<int>(chunk % rollout.aircraft);
       const auto chunk_step = static_cast<int>(chunk / rollout.aircraft) * rollout.chunk_length;
-      std::copy_n(states.begin() + chunk * rollout.gru_size, rollout.gru_size,
-                  own.state.begin() + static_cast<std::int64_t>(i) * rollout.gru_size);
+      std::copy_n(states.begin() + chunk * rollout.state_size, rollout.state_size,
+                  own.state.begin() + static_cast<std::int64_t>(i) * rollout.state_size);
       for (int step = 0; step < rollout.chunk_length; ++step) {
         const std::int64_t from = rollout.row(chunk_step + step, aircraft);
         const std::int64_t to = static_cast<std::int64_t>(step) * batch + i;
@@ -143,8 +144,8 @@ void PpoUpdate::RunShard(Network& network, const Rollout& rollout, const ValueSc
     tile.actor = {own.action.data(), own.log_prob.data(), own.advantage.data()};
     tile.target = own.target.data();
     tile.old_value = own.old_value.data();
-    network.losses[shard] +=
-        network.gradient->Accumulate(tile, settings, worker, accumulator.data());
+    side.losses[shard] +=
+        side.network->AccumulateGradient(tile, settings, own.workspace, accumulator.data());
   }
 }
 
@@ -165,25 +166,21 @@ LossSums PpoUpdate::Minibatch(const Rollout& rollout, const ValueScale& scale,
     return std::min(
         count, static_cast<int>(static_cast<std::int64_t>(shard) * tiles / shards) * tile_chunks_);
   };
-  struct Side {
-    Network* network;
-    AdamOptimiser* optimiser;
-  };
-  const std::array<Side, 2> sides{{{&actor_, &actor}, {&critic_, &critic}}};
-  for (const Side& side : sides) {
-    side.network->accumulators.resize(shards);
-    side.network->losses.resize(shards);
+  const std::array<Side*, 2> sides{&actor_, &critic_};
+  const std::array<AdamOptimiser*, 2> optimisers{&actor, &critic};
+  for (Side* const side : sides) {
+    side->accumulators.resize(shards);
+    side->losses.resize(shards);
   }
-  pool_.ForEach(2, [&](int i, int) {
-    sides[i].network->gradient->SetParameters(sides[i].optimiser->parameters());
-  });
+  pool_.ForEach(2,
+                [&](int i, int) { sides[i]->network->SetParameters(optimisers[i]->parameters()); });
   pool_.ForEach(2 * shards, [&](int index, int worker) {
     const int shard = index / 2, begin = shard_begin(shard);
-    RunShard(*sides[index % 2].network, rollout, scale, advantages, chunks + begin,
+    RunShard(*sides[index % 2], rollout, scale, advantages, chunks + begin,
              shard_begin(shard + 1) - begin, settings, shard, worker);
   });
-  for (const Side& side : sides) {
-    auto& accumulators = side.network->accumulators;
+  for (Side* const side : sides) {
+    auto& accumulators = side->accumulators;
     const auto size = static_cast<std::int64_t>(accumulators[0].size());
     const auto blocks = static_cast<int>((size + kSumBlock - 1) / kSumBlock);
     pool_.ForEach(blocks, [&](int block, int) {
@@ -194,9 +191,9 @@ LossSums PpoUpdate::Minibatch(const Rollout& rollout, const ValueScale& scale,
     });
   }
   pool_.ForEach(2, [&](int i, int) {
-    Network& network = *sides[i].network;
-    network.gradient->Finish(network.accumulators[0].data(), sides[i].optimiser->gradient());
-    network.norm = Apply(config_.max_gradient_norm, learning_rate, *sides[i].optimiser);
+    Side& side = *sides[i];
+    side.network->FinishGradient(side.accumulators[0].data(), optimisers[i]->gradient());
+    side.norm = Apply(config_.max_gradient_norm, learning_rate, *optimisers[i]);
   });
   LossSums total;
   for (int shard = 0; shard < shards; ++shard) {

@@ -6,7 +6,7 @@
 
 #include "envs/worker_pool.h"
 #include "train/adam.h"
-#include "train/network_gradient.h"
+#include "train/recurrent_network.h"
 #include "train/rollout.h"
 
 namespace skein {
@@ -21,8 +21,8 @@ struct UpdateReport {
 /// shards whose gradients are summed in a fixed order, so that no bit depends on the threads.
 class PpoUpdate {
  public:
-  PpoUpdate(const TrainConfig& config, const NetworkLayout& actor, const NetworkLayout& critic,
-            WorkerPool& pool);
+  PpoUpdate(const TrainConfig& config, Backend backend, const NetworkLayout& actor,
+            const NetworkLayout& critic, WorkerPool& pool);
 
   /// `iteration` keys the shuffles. Throws Error if a loss or a gradient is not finite, or a
   /// gradient's norm exceeds kExplodedGradientNorm; parameters may then have moved.
@@ -33,9 +33,9 @@ class PpoUpdate {
   static constexpr double kExplodedGradientNorm = 1e8;
 
  private:
-  /// A network's gradient: one accumulator and one sum of losses per shard.
-  struct Network {
-    std::unique_ptr<NetworkGradient> gradient;
+  /// A network and its gradient: one accumulator and one sum of losses per shard.
+  struct Side {
+    std::unique_ptr<RecurrentNetwork> network;
     std::vector<AlignedVector<float>> accumulators;
     std::vector<LossSums> losses;
     double norm = 0;
@@ -45,7 +45,7 @@ class PpoUpdate {
     double mean = 0, inverse_std = 1;
   };
 
-  void RunShard(Network& network, const Rollout& rollout, const ValueScale& scale,
+  void RunShard(Side& side, const Rollout& rollout, const ValueScale& scale,
                 const Advantages& advantages, const std::int64_t* chunks, int count,
                 const LossSettings& settings, int shard, int worker);
   LossSums Minibatch(const Rollout& rollout, const ValueScale& scale, const Advantages& advantages,
@@ -58,7 +58,7 @@ class PpoUpdate {
   bool tanh_mean_;
   int tile_chunks_;
   WorkerPool& pool_;
-  Network actor_, critic_;
+  Side actor_, critic_;
   std::vector<std::shared_ptr<Gathered>> gathered_;  ///< one per worker
 };
 

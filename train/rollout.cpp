@@ -33,7 +33,7 @@ struct TileScratch {
 /// One tile's flight through a rollout.
 class TileRollout {
  public:
-  TileRollout(VecEnv& env, int tile, const TiledNetwork& actor, const TiledNetwork& critic,
+  TileRollout(VecEnv& env, int tile, const RecurrentNetwork& actor, const RecurrentNetwork& critic,
               const std::vector<float>& log_std, const RolloutSettings& settings,
               TileScratch& scratch, RecurrentState& state, Rollout& rollout)
       : env_(env),
@@ -46,8 +46,8 @@ class TileRollout {
         settings_(settings),
         scratch_(scratch),
         rollout_(rollout),
-        actor_state_(state.actor.data() + static_cast<std::int64_t>(begin_) * rollout.gru_size),
-        critic_state_(state.critic.data() + static_cast<std::int64_t>(begin_) * rollout.gru_size),
+        actor_state_(state.actor.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
+        critic_state_(state.critic.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
         keep_(state.keep.data() + begin_) {
     scratch.Resize(count_, rollout.observation_size, rollout.action_size);
   }
@@ -73,9 +73,9 @@ class TileRollout {
 
   void StoreChunkStart(int step) {
     if (step % rollout_.chunk_length != 0) return;
-    const std::int64_t values = static_cast<std::int64_t>(count_) * rollout_.gru_size;
+    const std::int64_t values = static_cast<std::int64_t>(count_) * rollout_.state_size;
     const std::int64_t offset =
-        rollout_.row(step / rollout_.chunk_length, begin_) * rollout_.gru_size;
+        rollout_.row(step / rollout_.chunk_length, begin_) * rollout_.state_size;
     std::copy_n(actor_state_, values, rollout_.actor_state.begin() + offset);
     std::copy_n(critic_state_, values, rollout_.critic_state.begin() + offset);
   }
@@ -92,16 +92,16 @@ class TileRollout {
 
   void Decide(int step) {
     const std::int64_t row = Row(step),
-                       states = static_cast<std::int64_t>(count_) * rollout_.gru_size;
+                       states = static_cast<std::int64_t>(count_) * rollout_.state_size;
     const int size = rollout_.action_size;
     float* const observation = Observation(step);
     env_.Observe(tile_, observation);
     std::copy_n(keep_, count_, rollout_.keep.begin() + row);
 
     EvaluateCritic(observation, critic_state_, keep_, rollout_.value.data() + row);
-    std::copy_n(scratch_.workspace.state(), states, critic_state_);
+    std::copy_n(scratch_.workspace.final_state(), states, critic_state_);
     actor_.Forward({1, count_, observation, actor_state_, keep_}, scratch_.workspace);
-    std::copy_n(scratch_.workspace.state(), states, actor_state_);
+    std::copy_n(scratch_.workspace.final_state(), states, actor_state_);
     GaussianMean(static_cast<std::int64_t>(count_) * size, settings_.tanh_mean,
                  scratch_.workspace.output(), scratch_.mean.data());
 
@@ -174,8 +174,8 @@ class TileRollout {
 
   VecEnv& env_;
   int tile_, begin_, count_;
-  const TiledNetwork& actor_;
-  const TiledNetwork& critic_;
+  const RecurrentNetwork& actor_;
+  const RecurrentNetwork& critic_;
   const std::vector<float>& log_std_;
   const RolloutSettings& settings_;
   TileScratch& scratch_;
@@ -188,13 +188,13 @@ class TileRollout {
 
 }  // namespace
 
-Rollout::Rollout(const PpoConfig& config, int observations, int actions, int gru)
+Rollout::Rollout(const PpoConfig& config, int observations, int actions, int states)
     : steps(config.rollout_steps),
       aircraft(config.num_aircraft),
       chunk_length(config.chunk_length),
       observation_size(observations),
       action_size(actions),
-      gru_size(gru) {
+      state_size(states) {
   Validate(config);
   observation.resize(samples() * observation_size);
   action.resize(samples() * action_size);
@@ -203,14 +203,14 @@ Rollout::Rollout(const PpoConfig& config, int observations, int actions, int gru
   }
   ends.resize(samples());
   bootstrap.resize(aircraft);
-  const std::int64_t states = static_cast<std::int64_t>(chunks()) * aircraft * gru_size;
-  actor_state.resize(states);
-  critic_state.resize(states);
+  const std::int64_t stored = static_cast<std::int64_t>(chunks()) * aircraft * state_size;
+  actor_state.resize(stored);
+  critic_state.resize(stored);
 }
 
-RecurrentState::RecurrentState(int aircraft, int gru_size)
-    : actor(static_cast<std::size_t>(aircraft) * gru_size, 0.0f),
-      critic(static_cast<std::size_t>(aircraft) * gru_size, 0.0f),
+RecurrentState::RecurrentState(int aircraft, int state_size)
+    : actor(static_cast<std::size_t>(aircraft) * state_size, 0.0f),
+      critic(static_cast<std::size_t>(aircraft) * state_size, 0.0f),
       keep(aircraft, 0.0f) {}
 
 EpisodeStatistics& EpisodeStatistics::operator+=(const EpisodeStatistics& other) {
@@ -220,9 +220,10 @@ EpisodeStatistics& EpisodeStatistics::operator+=(const EpisodeStatistics& other)
   return *this;
 }
 
-EpisodeStatistics CollectRollout(VecEnv& env, const TiledNetwork& actor, const TiledNetwork& critic,
-                                 const std::vector<float>& log_std, const RolloutSettings& settings,
-                                 WorkerPool& pool, RecurrentState& state, Rollout& rollout) {
+EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
+                                 const RecurrentNetwork& critic, const std::vector<float>& log_std,
+                                 const RolloutSettings& settings, WorkerPool& pool,
+                                 RecurrentState& state, Rollout& rollout) {
   std::vector<TileScratch> scratch(pool.threads());
   std::vector<EpisodeStatistics> statistics(env.num_tiles());
   pool.ForEach(env.num_tiles(), [&](int tile, int worker) {

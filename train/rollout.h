@@ -7,14 +7,15 @@
 #include "envs/vec_env.h"
 #include "envs/worker_pool.h"
 #include "train/learner_config.h"
-#include "train/tiled_network.h"
+#include "train/recurrent_network.h"
 
 namespace skein {
 
 /// What PPO learns from: one row per decision step, one column per aircraft; [step][aircraft].
+/// `state_size` is that of both networks, NetworkShape::state_size.
 struct Rollout {
   /// Throws Error where Validate(config) does.
-  Rollout(const PpoConfig& config, int observation_size, int action_size, int gru_size);
+  Rollout(const PpoConfig& config, int observation_size, int action_size, int state_size);
 
   std::int64_t samples() const { return static_cast<std::int64_t>(steps) * aircraft; }
   int chunks() const { return steps / chunk_length; }  ///< per aircraft
@@ -22,7 +23,7 @@ struct Rollout {
     return static_cast<std::int64_t>(step) * aircraft + index;
   }
 
-  int steps, aircraft, chunk_length, observation_size, action_size, gru_size;
+  int steps, aircraft, chunk_length, observation_size, action_size, state_size;
   std::vector<float> observation;  ///< [steps][aircraft][observation_size]
   std::vector<float> action;       ///< [steps][aircraft][action_size], before clipping
   std::vector<float> log_prob, value;
@@ -31,14 +32,14 @@ struct Rollout {
   std::vector<std::uint8_t> ends;        ///< 1 where an episode ended with this step
   std::vector<float> bootstrap;          ///< [aircraft]: value of what follows the last step
   std::vector<float> advantage, target;  ///< target: advantage + value
-  std::vector<float> actor_state, critic_state;  ///< [chunks][aircraft][gru_size] at chunk starts
+  std::vector<float> actor_state, critic_state;  ///< [chunks][aircraft][state_size] at chunk starts
 };
 
 /// Where the recurrent networks stand between rollouts.
 struct RecurrentState {
-  RecurrentState(int aircraft, int gru_size);
+  RecurrentState(int aircraft, int state_size);
 
-  std::vector<float> actor, critic;  ///< [aircraft][gru_size]
+  std::vector<float> actor, critic;  ///< [aircraft][state_size]
   std::vector<float> keep;           ///< [aircraft]: 0 if an episode begins with the next step
 };
 
@@ -67,9 +68,10 @@ struct RolloutSettings {
 
 /// Flies `rollout.steps` decisions with every aircraft and fills `rollout`, advantages included.
 /// A task per tile of the environment flies its whole rollout without waiting for others.
-EpisodeStatistics CollectRollout(VecEnv& env, const TiledNetwork& actor, const TiledNetwork& critic,
-                                 const std::vector<float>& log_std, const RolloutSettings& settings,
-                                 WorkerPool& pool, RecurrentState& state, Rollout& rollout);
+EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
+                                 const RecurrentNetwork& critic, const std::vector<float>& log_std,
+                                 const RolloutSettings& settings, WorkerPool& pool,
+                                 RecurrentState& state, Rollout& rollout);
 
 /// Generalised advantage estimation (Schulman et al. 2016, equation 16) and value targets of the
 /// aircraft [begin, end): delta = r + gamma V' - V, A = delta + gamma lambda A', where V' and A'

@@ -60,11 +60,13 @@ struct Trainer::Impl {
               config.ppo.adam_epsilon),
         critic(InitialParameters(critic_layout, kCriticHeadScale, 0, config.seed, kCriticStream),
                config.ppo.adam_epsilon),
-        actor_network(actor_layout),
-        critic_network(critic_layout),
-        rollout(config.ppo, env.observation_size(), env.action_size(), config.network.gru_size),
-        recurrent(config.ppo.num_aircraft, config.network.gru_size),
-        update(config, actor_layout, critic_layout, pool) {}
+        backend(ChooseBackend(config.learner.backend, actor_layout.shape())),
+        actor_network(MakeNetwork(backend.backend, actor_layout)),
+        critic_network(MakeNetwork(backend.backend, critic_layout)),
+        rollout(config.ppo, env.observation_size(), env.action_size(),
+                actor_layout.shape().state_size()),
+        recurrent(config.ppo.num_aircraft, actor_layout.shape().state_size()),
+        update(config, backend.backend, actor_layout, critic_layout, pool) {}
 
   std::uint64_t env_steps() const {
     return decisions * config.ppo.num_aircraft * config.env.action_repeat;
@@ -121,13 +123,13 @@ struct Trainer::Impl {
     parameters->shape = actor_layout.shape();
     parameters->action_repeat = config.env.action_repeat;
     parameters->values.assign(actor.parameters(), actor.parameters() + actor.size());
-    return Policy(std::move(parameters));
+    return Policy(std::move(parameters), config.learner.backend);
   }
 
   void Fly(IterationReport& report) {
     const auto start = std::chrono::steady_clock::now();
-    actor_network.SetParameters(actor.parameters());
-    critic_network.SetParameters(critic.parameters());
+    actor_network->SetParameters(actor.parameters());
+    critic_network->SetParameters(critic.parameters());
     RolloutSettings settings;
     settings.seed = config.seed;
     settings.first_decision = decisions;
@@ -135,8 +137,8 @@ struct Trainer::Impl {
     settings.gae_lambda = config.ppo.gae_lambda;
     settings.tanh_mean = config.network.tanh_mean;
     settings.value_scale = popart.scale();
-    const EpisodeStatistics episodes = CollectRollout(env, actor_network, critic_network, LogStd(),
-                                                      settings, pool, recurrent, rollout);
+    const EpisodeStatistics episodes = CollectRollout(env, *actor_network, *critic_network,
+                                                      LogStd(), settings, pool, recurrent, rollout);
     decisions += config.ppo.rollout_steps;
     const auto count = static_cast<double>(episodes.episodes);
     report.episodes = episodes.episodes;
@@ -194,7 +196,8 @@ struct Trainer::Impl {
   VecEnv env;
   NetworkLayout actor_layout, critic_layout;
   AdamOptimiser actor, critic;
-  TiledNetwork actor_network, critic_network;  ///< what flies; frozen during a rollout
+  BackendChoice backend;
+  std::unique_ptr<RecurrentNetwork> actor_network, critic_network;  ///< frozen during a rollout
   Rollout rollout;
   RecurrentState recurrent;
   PpoUpdate update;
@@ -212,6 +215,8 @@ const TrainConfig& Trainer::config() const { return impl_->config; }
 std::uint64_t Trainer::env_steps() const { return impl_->env_steps(); }
 std::uint64_t Trainer::iteration() const { return impl_->iteration; }
 bool Trainer::finished() const { return impl_->env_steps() >= impl_->config.total_steps; }
+
+const BackendChoice& Trainer::backend() const { return impl_->backend; }
 
 IterationReport Trainer::Iterate() {
   const TrainingState before = impl_->State();

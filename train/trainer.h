@@ -7,6 +7,7 @@
 
 #include "envs/termination.h"
 #include "envs/worker_pool.h"
+#include "train/backend.h"
 #include "train/learner_config.h"
 #include "train/policy.h"
 
@@ -42,7 +43,8 @@ class Trainer {
   const TrainConfig& config() const;
   std::uint64_t env_steps() const;
   std::uint64_t iteration() const;
-  bool finished() const;  ///< the step budget is used up
+  bool finished() const;                 ///< the step budget is used up
+  const BackendChoice& backend() const;  ///< what computes the networks
 
   /// One rollout and update. Throws Error if a loss or gradient is not finite or explodes; the
   /// whole state is then that before the iteration, and can be saved.

@@ -23,6 +23,8 @@ std::string Text(double value) { return ExactText(value); }
 std::string Text(AtmosphereModel model) {
   return model == AtmosphereModel::kStevensLewis ? "stevens_lewis" : "standard_1976";
 }
+std::string Text(Activation activation) { return Name(activation); }
+std::string Text(Backend backend) { return Name(backend); }
 std::string Text(FlightControlMode mode) {
   return mode == FlightControlMode::kFull ? "full" : "direct";
 }
@@ -91,10 +93,19 @@ std::array<double, 4> Scalars(const TrainingState& state) {
   return {state.popart.mean, state.popart.mean_square, state.best_success_rate, state.best_return};
 }
 
+/// What checkpoints from before these keys existed were made with.
+const std::map<std::string, std::string>& ValuesBeforeTheirKeys() {
+  static const std::map<std::string, std::string> values{
+      {"network.hidden_layers", "2"}, {"network.gru_layers", "1"}, {"network.activation", "relu"}};
+  return values;
+}
+
 void RequireSameConfig(const TensorFile& file, const std::string& path, const TrainConfig& config) {
   for (const auto& [name, value] : DescribeConfig(config)) {
     const auto stored = file.metadata.find(kConfigPrefix + name);
     if (stored == file.metadata.end()) {
+      const auto before = ValuesBeforeTheirKeys().find(name);
+      if (before != ValuesBeforeTheirKeys().end() && before->second == value) continue;
       throw Error(path + ": the checkpoint does not say what " + name + " was");
     }
     if (stored->second != value) {
@@ -111,8 +122,11 @@ std::map<std::string, std::string> DescribeConfig(const TrainConfig& config) {
   DescribeEnv(config.env, fields);
   const auto add = [&](const char* name, const auto& value) { fields[name] = Text(value); };
   const NetworkConfig& network = config.network;
+  add("network.hidden_layers", network.hidden_layers);
   add("network.hidden_size", network.hidden_size);
+  add("network.gru_layers", network.gru_layers);
   add("network.gru_size", network.gru_size);
+  add("network.activation", network.activation);
   add("network.tanh_mean", network.tanh_mean);
   add("network.initial_log_std", network.initial_log_std);
   add("network.actor_head_scale", network.actor_head_scale);
@@ -190,7 +204,7 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
   TrainingState state;
   state.actor = policy->values;
   const std::int64_t states =
-      static_cast<std::int64_t>(config.ppo.num_aircraft) * config.network.gru_size;
+      static_cast<std::int64_t>(config.ppo.num_aircraft) * actor.shape().state_size();
   const std::map<std::string, std::int64_t> sizes{{"critic/parameters", critic.size()},
                                                   {"actor_adam/first_moment", actor.size()},
                                                   {"actor_adam/second_moment", actor.size()},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simd/error.h"
@@ -29,9 +30,64 @@ TEST(NetworkLayoutTest, PaperNetworksHaveAbout153ThousandParameters) {
   EXPECT_EQ(NetworkLayout(CriticShape({}, 22)).size(), 153005);
 }
 
-TEST(NetworkLayoutTest, RefusesSizesThatVectorsDoNotDivide) {
-  EXPECT_THROW(NetworkLayout({22, 100, 128, 4, true}), Error);
-  EXPECT_THROW(NetworkLayout({22, 128, 0, 4, true}), Error);
+TEST(NetworkLayoutTest, DefaultShapeKeepsTheOrderOfPolicyFiles) {
+  const char* const names[] = {"layer1", "layer2", "gru_input", "layer3", "layer4", "head"};
+  std::vector<std::string> expected;
+  for (const std::string name : names) {
+    for (const char* part : {".norm.weight", ".norm.bias", ".weight", ".bias"}) {
+      expected.push_back(name + part);
+    }
+    if (name != "gru_input") continue;
+    expected.insert(expected.end(), {"gru_hidden.weight", "gru_hidden.bias"});
+  }
+  expected.push_back("log_std");
+  const NetworkLayout layout(ActorShape({}, 22, 4));
+  ASSERT_EQ(layout.slices().size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(layout.slices()[i].name, expected[i]);
+}
+
+TEST(NetworkLayoutTest, DepthsNameTheirLayers) {
+  NetworkConfig config;
+  config.hidden_layers = 1;
+  config.gru_layers = 3;
+  const NetworkLayout layout(CriticShape(config, 22));
+  std::vector<std::string> names;
+  for (const ParameterSlice& slice : layout.slices()) names.push_back(slice.name);
+  for (const char* name : {"layer1.weight", "gru_input.weight", "gru_hidden.weight",
+                           "gru2_input.weight", "gru3_hidden.bias", "layer2.bias", "head.bias"}) {
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  }
+  EXPECT_EQ(layout.shape().state_size(), 3 * 128);
+}
+
+TEST(NetworkLayoutTest, RefusesShapesBeyondItsLimits) {
+  const auto refused = [](const auto& change) {
+    NetworkShape shape = ActorShape({}, 22, 4);
+    change(shape);
+    EXPECT_THROW(NetworkLayout{shape}, Error);
+  };
+  refused([](NetworkShape& shape) { shape.hidden_size = 0; });
+  refused([](NetworkShape& shape) { shape.hidden_size = kMaxWidth + 1; });
+  refused([](NetworkShape& shape) { shape.gru_size = -1; });
+  refused([](NetworkShape& shape) { shape.hidden_layers = kMaxHiddenLayers + 1; });
+  refused([](NetworkShape& shape) { shape.hidden_layers = -1; });
+  refused([](NetworkShape& shape) { shape.gru_layers = 0; });
+  refused([](NetworkShape& shape) { shape.output_size = 0; });
+}
+
+TEST(NetworkLayoutTest, FlopsAreThoseOfTheProducts) {
+  // Every weight, and nothing else, is multiplied and added once.
+  for (const int depth : {0, 2, 3}) {
+    NetworkShape shape = CriticShape({}, 22);
+    shape.hidden_layers = depth;
+    shape.gru_layers = depth + 1;
+    const NetworkLayout layout(shape);
+    double weights = 0;
+    for (const ParameterSlice& slice : layout.slices()) {
+      if (slice.shape.size() == 2) weights += slice.shape[0] * slice.shape[1];
+    }
+    EXPECT_EQ(ForwardFlops(shape), 2 * weights);
+  }
 }
 
 TEST(InitialParametersTest, WeightsAreOrthogonalWithTheirGain) {
@@ -49,9 +105,9 @@ TEST(InitialParametersTest, WeightsAreOrthogonalWithTheirGain) {
       }
     }
   };
-  expect_rows(layout.layer(kSecondLayer).weight, 64, 64, std::sqrt(2.0));
-  expect_rows(layout.layer(kHead).weight, 4, 64, 0.01);
-  expect_rows(layout.gru_weight() + 32 * 32, 32, 32, 1);
+  expect_rows(layout.layer(1).weight, 64, 64, std::sqrt(2.0));
+  expect_rows(layout.layer(layout.head()).weight, 4, 64, 0.01);
+  expect_rows(layout.gru_layers()[0].hidden_weight + 32 * 32, 32, 32, 1);
   EXPECT_EQ(parameters[layout.log_std()], -0.5f);
 }
 

@@ -43,6 +43,47 @@ TEST_F(PolicyTest, FileGivesTheSameDecisions) {
   EXPECT_EQ(Decide(loaded, 9), Decide(policy, 9));
 }
 
+TEST_F(PolicyTest, FilesKeepEveryShape) {
+  NetworkConfig config;
+  config.hidden_size = 33;
+  config.gru_size = 10;
+  for (const int depth : {0, 1, 3}) {
+    for (const Activation activation : {Activation::kRelu, Activation::kSilu}) {
+      config.hidden_layers = depth;
+      config.gru_layers = depth + 1;
+      config.activation = activation;
+      const Policy policy = Policy::Untrained(config, 22, 4, 3);
+      policy.Save(path_);
+      const Policy loaded = Policy::Load(path_);
+      EXPECT_EQ(loaded.config().hidden_layers, depth);
+      EXPECT_EQ(loaded.config().activation, activation);
+      EXPECT_EQ(loaded.state_size(), 10 * (depth + 1));
+      EXPECT_EQ(Decide(loaded, 5), Decide(policy, 5));
+    }
+  }
+}
+
+TEST_F(PolicyTest, ReadsFilesFromBeforeNetworksHadDepths) {
+  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  policy.Save(path_);
+  TensorFile file = TensorFile::Read(path_);
+  for (const char* key : {"policy.hidden_layers", "policy.gru_layers", "policy.activation"}) {
+    EXPECT_EQ(file.metadata.erase(key), 1u) << key;
+  }
+  file.Write(path_);
+  EXPECT_EQ(Decide(Policy::Load(path_), 5), Decide(policy, 5));
+}
+
+TEST_F(PolicyTest, BackendsDecideAlike) {
+  const Policy fused = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  const Policy libtorch = fused.WithBackend(Backend::kLibTorch);
+  EXPECT_EQ(fused.backend().backend, Backend::kFused);
+  EXPECT_EQ(libtorch.backend().backend, Backend::kLibTorch);
+  const std::vector<float> a = Decide(fused, 9), b = Decide(libtorch, 9);
+  // A few float32 roundings of values of order one.
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
+}
+
 TEST_F(PolicyTest, ACheckpointIsAPolicyToo) {
   WorkerPool pool(1);
   Trainer trainer(SmallConfig(), pool);
@@ -87,6 +128,10 @@ TEST_F(PolicyTest, RefusesFilesThatAreNoPolicy) {
   refused("policy.hidden_size", "1e9");
   refused("policy.gru_size", "-16");
   refused("policy.gru_size", "nan");
+  refused("policy.hidden_layers", "9");
+  refused("policy.hidden_layers", "3");
+  refused("policy.gru_layers", "0");
+  refused("policy.activation", "RELU");
   refused("policy.action_size", "");
   refused("policy.action_repeat", "0");
   Policy::Untrained(SmallConfig().network, 22, 4, 3).Save(path_);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/train/sample_tile.h"
+#include "train/fused_network.h"
 
 namespace skein {
 namespace {
@@ -16,7 +17,7 @@ TEST(PopArtTest, ValuesStayAsTheyWereWhenTheMomentsMove) {
   const NetworkLayout layout({5, 32, 16, 1, false});
   std::vector<float> parameters = DisturbedParameters(layout);
   RandomTile samples(layout.shape(), 4, 6);
-  TiledNetwork network(layout);
+  FusedNetwork network(layout);
   NetworkWorkspace workspace;
   PopArt popart;
   const auto values = [&] {

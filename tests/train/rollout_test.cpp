@@ -8,6 +8,7 @@
 
 #include "simd/error.h"
 #include "tests/train/small_config.h"
+#include "train/fused_network.h"
 #include "train/ppo_loss.h"
 
 namespace skein {
@@ -74,8 +75,9 @@ struct Flight {
         actor(actor_layout),
         critic(critic_layout),
         actor_parameters(InitialParameters(actor_layout, 0.5, 0, 1, 0)),
-        rollout(config.ppo, env.observation_size(), env.action_size(), config.network.gru_size),
-        state(config.ppo.num_aircraft, config.network.gru_size) {
+        rollout(config.ppo, env.observation_size(), env.action_size(),
+                actor_layout.shape().state_size()),
+        state(config.ppo.num_aircraft, actor_layout.shape().state_size()) {
     actor.SetParameters(actor_parameters.data());
     critic.SetParameters(InitialParameters(critic_layout, 1, 0, 1, 1).data());
   }
@@ -93,7 +95,7 @@ struct Flight {
   WorkerPool pool;
   VecEnv env;
   NetworkLayout actor_layout, critic_layout;
-  TiledNetwork actor, critic;
+  FusedNetwork actor, critic;
   std::vector<float> actor_parameters;
   Rollout rollout;
   RecurrentState state;
@@ -115,7 +117,7 @@ TEST(RolloutTest, LogProbabilitiesRecomputedFromChunksAreTheRolloutsOwn) {
     const std::int64_t row = rollout.row(chunk * length, 0);
     flight.actor.Forward(
         {length, aircraft, rollout.observation.data() + row * rollout.observation_size,
-         rollout.actor_state.data() + rollout.row(chunk, 0) * rollout.gru_size,
+         rollout.actor_state.data() + rollout.row(chunk, 0) * rollout.state_size,
          rollout.keep.data() + row},
         workspace);
     GaussianMean(static_cast<std::int64_t>(mean.size()), true, workspace.output(), mean.data());

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "train/network_gradient.h"
+#include "train/recurrent_network.h"
 
 namespace skein {
 
@@ -15,7 +15,7 @@ class RandomTile {
       : steps_(steps), batch_(batch), generator_(seed) {
     const int rows = steps * batch;
     observation = Normal(rows * shape.observation_size, 1);
-    state = Normal(batch * shape.gru_size, 0.3f);
+    state = Normal(batch * shape.state_size(), 0.3f);
     action = Normal(rows * shape.output_size, 1);
     log_prob = Normal(rows, 0.2f);
     // About the log-probability of such actions, so that ratios lie on both sides of the clip.

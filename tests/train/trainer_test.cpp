@@ -165,20 +165,64 @@ TEST_F(TrainerTest, LearningRateFallsLinearlyToItsFraction) {
   EXPECT_TRUE(trainer.finished());
 }
 
-TEST_F(TrainerTest, TheAutogradBackendTrainsTheSamePolicy) {
+TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
   TrainConfig config = SmallConfig();
+  config.network.hidden_layers = 1;
+  config.network.hidden_size = 20;
+  config.network.gru_layers = 2;
+  config.network.gru_size = 9;
   config.ppo.epochs = 1;
   config.ppo.minibatches = 1;
   config.evaluation.interval_iterations = 0;
   WorkerPool pool(2);
-  const IterationReport tiled = Trainer(config, pool).Iterate();
-  config.learner.backend = "autograd";
-  const IterationReport autograd = Trainer(config, pool).Iterate();
-  EXPECT_NEAR(tiled.actor_gradient_norm, autograd.actor_gradient_norm,
-              1e-3 * autograd.actor_gradient_norm);
-  EXPECT_NEAR(tiled.critic_gradient_norm, autograd.critic_gradient_norm,
-              1e-3 * autograd.critic_gradient_norm);
-  EXPECT_NEAR(tiled.value_loss, autograd.value_loss, 1e-3 * autograd.value_loss);
+  Trainer fused_trainer(config, pool);
+  EXPECT_EQ(fused_trainer.backend().backend, Backend::kFused);
+  const IterationReport fused = fused_trainer.Iterate();
+  config.learner.backend = Backend::kLibTorch;
+  Trainer libtorch_trainer(config, pool);
+  EXPECT_EQ(libtorch_trainer.backend().backend, Backend::kLibTorch);
+  const IterationReport libtorch = libtorch_trainer.Iterate();
+  EXPECT_NEAR(fused.actor_gradient_norm, libtorch.actor_gradient_norm,
+              1e-3 * libtorch.actor_gradient_norm);
+  EXPECT_NEAR(fused.critic_gradient_norm, libtorch.critic_gradient_norm,
+              1e-3 * libtorch.critic_gradient_norm);
+  EXPECT_NEAR(fused.value_loss, libtorch.value_loss, 1e-3 * libtorch.value_loss);
+}
+
+TEST_F(TrainerTest, EveryShapeTrainsAndGoesOnBitForBit) {
+  WorkerPool pool(2);
+  TrainConfig config = SmallConfig();
+  config.network.hidden_size = 20;
+  config.network.gru_layers = 2;
+  config.network.gru_size = 11;
+  for (const Activation activation : {Activation::kRelu, Activation::kTanh}) {
+    config.network.activation = activation;
+    Trainer whole(config, pool);
+    EXPECT_EQ(whole.backend().backend,
+              activation == Activation::kRelu ? Backend::kFused : Backend::kLibTorch);
+    whole.Iterate();
+    whole.Save(path_);
+    Trainer resumed(config, pool);
+    resumed.Restore(path_);
+    whole.Iterate();
+    resumed.Iterate();
+    EXPECT_EQ(resumed.Signature(), whole.Signature());
+  }
+}
+
+TEST_F(TrainerTest, ReadsCheckpointsFromBeforeNetworksHadDepths) {
+  WorkerPool pool(1);
+  Trainer(SmallConfig(), pool).Save(path_);
+  TensorFile file = TensorFile::Read(path_);
+  for (const char* key : {"hidden_layers", "gru_layers", "activation"}) {
+    EXPECT_EQ(file.metadata.erase(std::string("config.network.") + key), 1u);
+    EXPECT_EQ(file.metadata.erase(std::string("policy.") + key), 1u);
+  }
+  file.Write(path_);
+  EXPECT_EQ(RefusalOf(SmallConfig(), path_), "");
+  TrainConfig deeper = SmallConfig();
+  deeper.network.gru_layers = 2;
+  EXPECT_NE(RefusalOf(deeper, path_).find("network.gru_layers"), std::string::npos);
 }
 
 TEST_F(TrainerTest, RefusesMoreMinibatchesThanChunks) {

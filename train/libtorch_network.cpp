@@ -1,10 +1,12 @@
-#include "train/autograd_gradient.h"
+#include "train/libtorch_network.h"
 
+#include <c10/core/InferenceMode.h>
 #include <torch/autograd.h>
 #include <torch/types.h>
 
 #include <algorithm>
 
+#include "simd/error.h"
 #include "train/matmul.h"
 
 namespace skein {
@@ -33,25 +35,29 @@ torch::Tensor Map(const torch::Tensor& flat, const NormalisedLinear& layer,
                     View(flat, layer.bias, {layer.out}));
 }
 
-struct Outputs {
-  torch::Tensor output, state;
-};
+torch::Tensor Activate(Activation activation, const torch::Tensor& in) {
+  switch (activation) {
+    case Activation::kRelu:
+      return at::relu(in);
+    case Activation::kTanh:
+      return at::tanh(in);
+    case Activation::kElu:
+      return at::elu(in);
+    case Activation::kSilu:
+      return at::silu(in);
+  }
+  throw Error("network.activation holds a value without a name");
+}
 
-Outputs Forward(const NetworkLayout& layout, const torch::Tensor& flat, const SequenceTile& tile) {
-  const torch::ScalarType type = flat.scalar_type();
-  const NetworkShape& shape = layout.shape();
-  const std::int64_t gru = shape.gru_size;
-  torch::Tensor x = FromMemory(tile.observation, {tile.rows(), shape.observation_size}, type);
-  x = at::relu(Map(flat, layout.layer(kFirstLayer), x));
-  x = at::relu(Map(flat, layout.layer(kSecondLayer), x));
-  const torch::Tensor inputs =
-      Map(flat, layout.layer(kGruInput), x).view({tile.steps, tile.batch, 3 * gru});
-  const torch::Tensor weight = View(flat, layout.gru_weight(), {3 * gru, gru});
-  const torch::Tensor bias = View(flat, layout.gru_bias(), {3 * gru});
-  const torch::Tensor keep = FromMemory(tile.keep, {tile.steps, tile.batch, 1}, type);
-  torch::Tensor state = FromMemory(tile.initial_state, {tile.batch, gru}, type);
+/// States [steps][batch][gru_size] of a GRU layer from its input map's values,
+/// [steps][batch][3 gru_size], and its state before the first step.
+torch::Tensor GruStates(const torch::Tensor& flat, const GruLayer& layer, int gru_size,
+                        const torch::Tensor& inputs, const torch::Tensor& keep,
+                        torch::Tensor state) {
+  const torch::Tensor weight = View(flat, layer.hidden_weight, {3 * gru_size, gru_size});
+  const torch::Tensor bias = View(flat, layer.hidden_bias, {3 * gru_size});
   std::vector<torch::Tensor> states;
-  for (int step = 0; step < tile.steps; ++step) {
+  for (std::int64_t step = 0; step < inputs.size(0); ++step) {
     const torch::Tensor previous = state * keep[step];
     const auto from_input = inputs[step].chunk(3, 1);
     const auto from_state = at::linear(previous, weight, bias).chunk(3, 1);
@@ -61,10 +67,45 @@ Outputs Forward(const NetworkLayout& layout, const torch::Tensor& flat, const Se
     state = (1 - z) * n + z * previous;
     states.push_back(state);
   }
-  x = at::stack(states).view({tile.rows(), gru});
-  x = at::relu(Map(flat, layout.layer(kThirdLayer), x));
-  x = at::relu(Map(flat, layout.layer(kFourthLayer), x));
-  return {Map(flat, layout.layer(kHead), x), state};
+  return at::stack(states);
+}
+
+struct Outputs {
+  torch::Tensor output;  ///< [rows][output_size]
+  torch::Tensor state;   ///< [batch][gru_layers][gru_size]
+};
+
+/// In the precision of `flat`, the network's parameters.
+Outputs ForwardOf(const NetworkLayout& layout, const torch::Tensor& flat,
+                  const SequenceTile& tile) {
+  const torch::ScalarType type = flat.scalar_type();
+  const NetworkShape& shape = layout.shape();
+  const std::int64_t gru = shape.gru_size;
+  torch::Tensor x = FromMemory(tile.observation, {tile.rows(), shape.observation_size}, type);
+  const auto pass_hidden = [&](int first) {
+    for (int i = first; i < first + shape.hidden_layers; ++i) {
+      x = Activate(shape.activation, Map(flat, layout.layer(i), x));
+    }
+  };
+  pass_hidden(0);
+  const torch::Tensor keep = FromMemory(tile.keep, {tile.steps, tile.batch, 1}, type);
+  const torch::Tensor initial =
+      FromMemory(tile.initial_state, {tile.batch, shape.gru_layers, gru}, type);
+  std::vector<torch::Tensor> last;
+  for (int i = 0; i < shape.gru_layers; ++i) {
+    const GruLayer& layer = layout.gru_layers()[i];
+    const torch::Tensor inputs =
+        i == 0 ? Map(flat, layout.layer(layout.gru_input()), x)
+               : at::linear(x, View(flat, layer.input_weight, {3 * gru, layer.in}),
+                            View(flat, layer.input_bias, {3 * gru}));
+    const torch::Tensor states =
+        GruStates(flat, layer, shape.gru_size, inputs.view({tile.steps, tile.batch, 3 * gru}), keep,
+                  initial.select(1, i));
+    last.push_back(states[tile.steps - 1]);
+    x = states.view({tile.rows(), gru});
+  }
+  pass_hidden(layout.gru_input() + 1);
+  return {Map(flat, layout.layer(layout.head()), x), at::stack(last, 1)};
 }
 
 struct Loss {
@@ -125,40 +166,11 @@ Loss LossOf(const NetworkLayout& layout, const torch::Tensor& flat, const torch:
                                  : CriticLossOf(output, tile, settings);
 }
 
-class AutogradGradient : public NetworkGradient {
- public:
-  explicit AutogradGradient(const NetworkLayout& layout) : layout_(layout) {
-    UseOneLibTorchThread();
-  }
-
-  void SetParameters(const float* parameters) override {
-    parameters_.assign(parameters, parameters + layout_.size());
-  }
-
-  std::int64_t accumulator_size() const override { return layout_.size(); }
-
-  LossSums Accumulate(const SampleTile& tile, const LossSettings& settings, int /*worker*/,
-                      float* accumulator) override {
-    const torch::Tensor flat =
-        FromMemory(parameters_.data(), {layout_.size()}, torch::kFloat32).detach();
-    // A leaf of this call's own graph, so that workers share no gradient buffers.
-    torch::Tensor leaf = flat.clone().requires_grad_(true);
-    const Loss loss =
-        LossOf(layout_, leaf, Forward(layout_, leaf, tile.sequence).output, tile, settings);
-    const torch::Tensor gradient = torch::autograd::grad({loss.total}, {leaf})[0].contiguous();
-    const float* const values = gradient.data_ptr<float>();
-    for (std::int64_t i = 0; i < layout_.size(); ++i) accumulator[i] += values[i];
-    return loss.sums;
-  }
-
-  void Finish(const float* accumulator, float* gradient) const override {
-    std::copy_n(accumulator, layout_.size(), gradient);
-  }
-
- private:
-  NetworkLayout layout_;
-  std::vector<float> parameters_;
-};
+void Copy(const torch::Tensor& from, AlignedVector<float>& to) {
+  const torch::Tensor values = from.contiguous();
+  const float* const data = values.data_ptr<float>();
+  to.assign(data, data + values.numel());
+}
 
 std::vector<double> ToVector(const torch::Tensor& tensor) {
   const torch::Tensor flat = tensor.detach().to(torch::kFloat64).contiguous().view({-1});
@@ -167,8 +179,39 @@ std::vector<double> ToVector(const torch::Tensor& tensor) {
 
 }  // namespace
 
-std::unique_ptr<NetworkGradient> MakeAutogradGradient(const NetworkLayout& layout) {
-  return std::make_unique<AutogradGradient>(layout);
+LibTorchNetwork::LibTorchNetwork(const NetworkLayout& layout) : layout_(layout) {
+  UseOneLibTorchThread();
+}
+
+void LibTorchNetwork::SetParameters(const float* parameters) {
+  parameters_.assign(parameters, parameters + layout_.size());
+}
+
+void LibTorchNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace) const {
+  const c10::InferenceMode no_autograd;
+  const torch::Tensor flat = FromMemory(parameters_.data(), {layout_.size()}, torch::kFloat32);
+  const Outputs outputs = ForwardOf(layout_, flat, tile);
+  Copy(outputs.output, workspace.output_);
+  Copy(outputs.state, workspace.final_state_);
+}
+
+LossSums LibTorchNetwork::AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
+                                             NetworkWorkspace& /*workspace*/,
+                                             float* accumulator) const {
+  // A leaf of this call's own graph, so that workers share no gradient buffers.
+  const torch::Tensor leaf = FromMemory(parameters_.data(), {layout_.size()}, torch::kFloat32)
+                                 .clone()
+                                 .requires_grad_(true);
+  const Loss loss =
+      LossOf(layout_, leaf, ForwardOf(layout_, leaf, tile.sequence).output, tile, settings);
+  const torch::Tensor gradient = torch::autograd::grad({loss.total}, {leaf})[0].contiguous();
+  const float* const values = gradient.data_ptr<float>();
+  for (std::int64_t i = 0; i < layout_.size(); ++i) accumulator[i] += values[i];
+  return loss.sums;
+}
+
+void LibTorchNetwork::FinishGradient(const float* accumulator, float* gradient) const {
+  std::copy_n(accumulator, layout_.size(), gradient);
 }
 
 ReferenceGradient ComputeReferenceGradient(const NetworkLayout& layout,
@@ -176,7 +219,7 @@ ReferenceGradient ComputeReferenceGradient(const NetworkLayout& layout,
                                            const SampleTile& tile, const LossSettings& settings) {
   const torch::Tensor flat =
       FromMemory(parameters.data(), {layout.size()}, torch::kFloat64).clone().requires_grad_(true);
-  const Outputs outputs = Forward(layout, flat, tile.sequence);
+  const Outputs outputs = ForwardOf(layout, flat, tile.sequence);
   const Loss loss = LossOf(layout, flat, outputs.output, tile, settings);
   ReferenceGradient result;
   result.loss = loss.total.item<double>();

@@ -1,0 +1,13 @@
+#include "train/recurrent_network.h"
+
+#include "train/fused_network.h"
+#include "train/libtorch_network.h"
+
+namespace skein {
+
+std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout) {
+  if (backend == Backend::kFused) return std::make_unique<FusedNetwork>(layout);
+  return std::make_unique<LibTorchNetwork>(layout);
+}
+
+}  // namespace skein
