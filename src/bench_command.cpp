@@ -127,11 +127,13 @@ void BenchRollout(const BenchOptions& options) {
   const LearnerRates rates = MeasureLearner(config, pool);
   const double control_steps_per_s = rates.rollout_decisions_per_s * config.env.action_repeat;
   const double gflops = rates.rollout_decisions_per_s * rates.rollout_flops_per_decision / 1e9;
-  fmt::print("rollout: {} aircraft, {} threads: {} decisions/s, {} control steps/s ({})\n",
+  fmt::print("rollout: {} aircraft, {} threads: {} decisions/s, {} control steps/s ({}); {}\n",
              config.ppo.num_aircraft, pool.threads(), FormatCount(rates.rollout_decisions_per_s),
-             FormatCount(control_steps_per_s), ShareOfPeak(gflops, peak.gflops));
+             FormatCount(control_steps_per_s), ShareOfPeak(gflops, peak.gflops),
+             Describe(rates.backend));
   Report(options, pool.threads(),
-         WithShareOfPeak({{"decisions_per_s", rates.rollout_decisions_per_s},
+         WithShareOfPeak({{"backend", Name(rates.backend.backend)},
+                          {"decisions_per_s", rates.rollout_decisions_per_s},
                           {"control_steps_per_s", control_steps_per_s},
                           {"flops_per_decision", rates.rollout_flops_per_decision}},
                          gflops, peak.gflops));
@@ -143,10 +145,12 @@ void BenchUpdate(const BenchOptions& options) {
   const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
   const LearnerRates rates = MeasureLearner(config, pool);
   const double gflops = rates.update_samples_per_s * rates.update_flops_per_sample / 1e9;
-  fmt::print("update: {} threads: {} samples/s ({})\n", pool.threads(),
-             FormatCount(rates.update_samples_per_s), ShareOfPeak(gflops, peak.gflops));
+  fmt::print("update: {} threads: {} samples/s ({}); {}\n", pool.threads(),
+             FormatCount(rates.update_samples_per_s), ShareOfPeak(gflops, peak.gflops),
+             Describe(rates.backend));
   Report(options, pool.threads(),
-         WithShareOfPeak({{"samples_per_s", rates.update_samples_per_s},
+         WithShareOfPeak({{"backend", Name(rates.backend.backend)},
+                          {"samples_per_s", rates.update_samples_per_s},
                           {"flops_per_sample", rates.update_flops_per_sample}},
                          gflops, peak.gflops));
 }

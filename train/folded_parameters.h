@@ -17,8 +17,8 @@ struct FoldedMap {
 
   // What it is folded from.
   int flat_in = 0;
-  int block = 0, padded_block = 0;         ///< rows of a gate of the GRU, else of the whole map
-  std::array<int, 3> order{};              ///< the flat vector's block that is the folded one's
+  int block = 0, padded_block = 0;  ///< rows of a gate of the GRU, else of the whole map
+  std::array<int, 3> order{};       ///< the flat vector's block that is the folded one's
   std::int64_t flat_weight = 0, flat_bias = 0;
   std::int64_t norm_weight = -1, norm_bias = -1;  ///< -1: no LayerNorm before it
 
@@ -46,9 +46,9 @@ class FoldedLayout {
 
   /// The folded form of `parameters`, the network's flat vector.
   void Fold(const float* parameters, float* folded) const;
-  /// The gradient by the flat parameters from the one by the folded ones, which is linear in it: the
-  /// sum over tiles may be unfolded at once. With G the gradient by W' and g by b',
-  /// dW = G diag(gamma) + g beta^T, dgamma = column sums of W o G, dbeta = W^T g.
+  /// The gradient by the flat parameters from the one by the folded ones, which is linear in it:
+  /// the sum over tiles may be unfolded at once. With G the gradient by W' and g by b', dW = G
+  /// diag(gamma) + g beta^T, dgamma = column sums of W o G, dbeta = W^T g.
   void UnfoldGradient(const float* parameters, const float* folded_gradient, float* gradient) const;
 
  private:

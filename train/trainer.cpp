@@ -265,6 +265,7 @@ LearnerRates MeasureLearner(const TrainConfig& config, WorkerPool& pool) {
       static_cast<double>(kIterations) * config.ppo.num_aircraft * config.ppo.rollout_steps;
   const VecEnv env(config.env, 1, config.seed);
   LearnerRates rates;
+  rates.backend = trainer.backend();
   const double forward_flops =
       ForwardFlops(ActorShape(config.network, env.observation_size(), env.action_size())) +
       ForwardFlops(CriticShape(config.network, env.observation_size()));

@@ -70,6 +70,7 @@ class Trainer {
 
 /// Rates of the parts of an iteration, for `skein bench`.
 struct LearnerRates {
+  BackendChoice backend;               ///< what computed the networks
   double rollout_decisions_per_s = 0;  ///< simulator in the loop
   /// Of the networks' products and of the RK4 steps until the next decision.
   double rollout_flops_per_decision = 0;

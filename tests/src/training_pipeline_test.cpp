@@ -106,6 +106,59 @@ TEST_F(TrainingPipeline, LeavesEverythingBehindThatItSays) {
   EXPECT_EQ(ended, 32) << "every episode ends for one reason";
 }
 
+/// Trains a tiny network and flies it; returns what both said.
+ProgramResult TrainAndEvaluate(const std::string& run,
+                               const std::vector<std::string>& assignments) {
+  std::vector<std::string> more = {"--steps", "10240"};
+  for (const std::string& assignment : assignments) {
+    more.insert(more.end(), {"--set", assignment});
+  }
+  ProgramResult result = CallSkein(TinyTraining(run, more));
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(ReadFile(run + "/log.txt"), HasSubstr("networks by "));
+  const ProgramResult flown = CallSkein({"eval", "--policy", run, "--episodes", "32"});
+  EXPECT_EQ(flown.exit_code, 0) << flown.error;
+  EXPECT_EQ(flown.error, "");
+  result.output += flown.output;
+  return result;
+}
+
+std::size_t CountOf(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST_F(TrainingPipeline, EveryBackendTrainsAndFliesAndSaysSo) {
+  const std::vector<std::string> odd = {"network.hidden_layers=1", "network.hidden_size=20",
+                                        "network.gru_layers=2", "network.gru_size=9"};
+  EXPECT_EQ(CountOf("networks by the fused kernels", TrainAndEvaluate(run_, odd).output), 2u);
+  std::vector<std::string> asked = odd;
+  asked.push_back("learner.backend=libtorch");
+  EXPECT_EQ(CountOf("networks by LibTorch, as asked",
+                    TrainAndEvaluate(root_ + "/libtorch", asked).output),
+            2u);
+}
+
+TEST_F(TrainingPipeline, WhatTheFusedKernelsCannotDoFallsBackAloud) {
+  const std::string reason =
+      "networks by LibTorch, slower: the fused kernels do not know network.activation = \"tanh\"";
+  EXPECT_EQ(CountOf(reason, TrainAndEvaluate(run_, {"network.activation=tanh"}).output), 2u);
+  EXPECT_EQ(CountOf(reason, ReadFile(run_ + "/log.txt")), 1u);
+}
+
+TEST_F(TrainingPipeline, OldNamesOfBackendsAreErrorsThatNameTheNewOnes) {
+  for (const std::string name : {"tiled", "autograd"}) {
+    const ProgramResult result =
+        CallSkein(TinyTraining(run_, {"--set", "learner.backend=" + name}));
+    EXPECT_EQ(result.exit_code, 1);
+    ExpectOneLine(result.error, "learner.backend must be \"fused\" or \"libtorch\", not");
+    EXPECT_FALSE(fs::exists(run_));
+  }
+}
+
 TEST_F(TrainingPipeline, AConfigurationFileOfARunRepeatsIt) {
   FlyReference();
   const ProgramResult result =
