@@ -93,19 +93,10 @@ std::array<double, 4> Scalars(const TrainingState& state) {
   return {state.popart.mean, state.popart.mean_square, state.best_success_rate, state.best_return};
 }
 
-/// What checkpoints from before these keys existed were made with.
-const std::map<std::string, std::string>& ValuesBeforeTheirKeys() {
-  static const std::map<std::string, std::string> values{
-      {"network.hidden_layers", "2"}, {"network.gru_layers", "1"}, {"network.activation", "relu"}};
-  return values;
-}
-
 void RequireSameConfig(const TensorFile& file, const std::string& path, const TrainConfig& config) {
   for (const auto& [name, value] : DescribeConfig(config)) {
     const auto stored = file.metadata.find(kConfigPrefix + name);
     if (stored == file.metadata.end()) {
-      const auto before = ValuesBeforeTheirKeys().find(name);
-      if (before != ValuesBeforeTheirKeys().end() && before->second == value) continue;
       throw Error(path + ": the checkpoint does not say what " + name + " was");
     }
     if (stored->second != value) {

@@ -210,21 +210,6 @@ TEST_F(TrainerTest, EveryShapeTrainsAndGoesOnBitForBit) {
   }
 }
 
-TEST_F(TrainerTest, ReadsCheckpointsFromBeforeNetworksHadDepths) {
-  WorkerPool pool(1);
-  Trainer(SmallConfig(), pool).Save(path_);
-  TensorFile file = TensorFile::Read(path_);
-  for (const char* key : {"hidden_layers", "gru_layers", "activation"}) {
-    EXPECT_EQ(file.metadata.erase(std::string("config.network.") + key), 1u);
-    EXPECT_EQ(file.metadata.erase(std::string("policy.") + key), 1u);
-  }
-  file.Write(path_);
-  EXPECT_EQ(RefusalOf(SmallConfig(), path_), "");
-  TrainConfig deeper = SmallConfig();
-  deeper.network.gru_layers = 2;
-  EXPECT_NE(RefusalOf(deeper, path_).find("network.gru_layers"), std::string::npos);
-}
-
 TEST_F(TrainerTest, RefusesMoreMinibatchesThanChunks) {
   TrainConfig config = SmallConfig();
   config.ppo.minibatches = 1000;
