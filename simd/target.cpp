@@ -1,5 +1,6 @@
 #include "simd/target.h"
 
+#include <cpuid.h>
 #include <hwy/targets.h>
 
 #include <atomic>
@@ -77,6 +78,17 @@ std::atomic<Target>& Current() {
   return current;
 }
 
+#ifdef SKEIN_NATIVE_BFLOAT16
+bool CpuHasBfloat16() {
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  constexpr unsigned kExtendedFeatures = 7, kSecondLeaf = 1, kAvx512Bf16 = 1u << 5;
+  return __get_cpuid_count(kExtendedFeatures, kSecondLeaf, &eax, &ebx, &ecx, &edx) != 0 &&
+         (eax & kAvx512Bf16) != 0;
+}
+#else
+bool CpuHasBfloat16() { return false; }
+#endif
+
 }  // namespace
 
 const char* Name(Target target) {
@@ -102,6 +114,11 @@ std::vector<Target> SupportedTargets() {
 }
 
 Target ActiveTarget() { return Current().load(std::memory_order_relaxed); }
+
+bool NativeBfloat16() {
+  static const bool cpu_has_it = CpuHasBfloat16();
+  return cpu_has_it && ActiveTarget() == Target::kAvx512;
+}
 
 void ForceTarget(Target target) {
   RequireSupported(target, "ForceTarget");

@@ -20,6 +20,10 @@ std::vector<Target> SupportedTargets();
 /// unknown or the CPU does not support it.
 Target ActiveTarget();
 
+/// Whether products of bfloat16 (simd/matrix_product.h) take the instruction made for them: the
+/// active target is avx512, the CPU has AVX512_BF16, and the compiler of this build knew it.
+bool NativeBfloat16();
+
 /// Makes every kernel use `target` from now on (tests and benchmarks). Throws Error if it is not
 /// supported. Not to be called while kernels run on other threads.
 void ForceTarget(Target target);

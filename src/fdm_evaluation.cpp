@@ -11,8 +11,8 @@
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/plant.h"
 #include "envs/dynamics/plant_kernel.h"
+#include "simd/aligned_vector.h"
 #include "simd/error.h"
-#include "train/aligned_vector.h"
 
 namespace skein {
 namespace {

@@ -13,8 +13,8 @@
 #include "envs/dynamics/plant_kernel.h"
 #include "envs/flight_reset.h"
 #include "envs/vec_env.h"
+#include "simd/aligned_vector.h"
 #include "simd/random.h"
-#include "train/aligned_vector.h"
 
 namespace skein {
 namespace {

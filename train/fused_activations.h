@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "train/aligned_vector.h"
+#include "simd/aligned_vector.h"
 #include "train/network.h"
 
 namespace skein {

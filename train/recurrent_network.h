@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "train/aligned_vector.h"
+#include "simd/aligned_vector.h"
 #include "train/fused_activations.h"
 #include "train/network.h"
 #include "train/ppo_loss.h"

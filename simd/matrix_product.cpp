@@ -1,0 +1,218 @@
+#include "simd/matrix_product.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "simd/bfloat16.h"
+#include "simd/denormals.h"
+#include "simd/error.h"
+#include "simd/product_kernels.h"
+
+namespace skein::simd {
+namespace {
+
+// A panel of B this deep, 16 KB, stays in the first-level cache while rows pass by.
+constexpr std::int64_t kDepthBlock = 128;  // words
+// As many rows of A stay in the second-level cache while panels pass by; a multiple of the rows of
+// every target's tiles.
+constexpr std::int64_t kRowBlock = 96;
+constexpr std::int64_t kLineWords = 16;  // of a cache line
+// Rows of a power of two of words would all begin in the same few sets of the cache.
+constexpr std::int64_t kRoundedStride = kDepthBlock + kLineWords;
+
+/// DenormalsFlushed, or nothing.
+class FlushIf {
+ public:
+  explicit FlushIf(bool flush) {
+    if (flush) flushed_.emplace();
+  }
+
+ private:
+  std::optional<DenormalsFlushed> flushed_;
+};
+
+ProductKernels KernelsFor(Precision precision) {
+  if (precision == Precision::kFloat32) return Float32Kernels();
+#ifdef SKEIN_NATIVE_BFLOAT16
+  if (NativeBfloat16()) return NativeBfloat16Kernels();
+#endif
+  return EmulatedBfloat16Kernels();
+}
+
+std::int64_t RoundUp(std::int64_t n, std::int64_t multiple) {
+  return (n + multiple - 1) / multiple * multiple;
+}
+
+/// Words of `depth` elements; pairs are whole ones.
+std::int64_t Words(std::int64_t depth, Precision precision, const ProductKernels& kernels) {
+  return precision == Precision::kFloat32 ? depth : RoundUp(depth, 2) / kernels.elements_per_word;
+}
+
+/// The panels of a block of B, one behind the other: [panel][depth][columns].
+class PanelRow {
+ public:
+  PanelRow(const ProductKernels& kernels, std::int64_t columns)
+      : width_(kernels.lanes * kernels.panel_vectors), lanes_(kernels.lanes), columns_(columns) {}
+
+  std::int64_t count() const { return (columns_ + width_ - 1) / width_; }
+  std::int64_t first_column(std::int64_t panel) const { return panel * width_; }
+  int columns(std::int64_t panel) const {
+    return static_cast<int>(std::min(width_, columns_ - first_column(panel)));
+  }
+  int vectors(std::int64_t panel) const {
+    return static_cast<int>((columns(panel) + lanes_ - 1) / lanes_);
+  }
+  /// Words between rows of a panel.
+  std::int64_t stride(std::int64_t panel) const { return vectors(panel) * lanes_; }
+  /// Words of all panels, for each word of depth.
+  std::int64_t padded_columns() const { return RoundUp(columns_, lanes_); }
+
+ private:
+  std::int64_t width_, lanes_, columns_;
+};
+
+/// Multiplies a block of A by all panels of a block of B; a null `init` is zero.
+void MultiplyPanels(const ProductKernels& kernels, const PanelRow& panels, const float* b,
+                    PanelProduct product) {
+  static constexpr float kZeros[32] = {};
+  const float* const init = product.init;
+  float* const out = product.out;
+  for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
+    const std::int64_t column = panels.first_column(panel);
+    product.b = b + column * product.depth;
+    product.vectors = panels.vectors(panel);
+    product.columns = panels.columns(panel);
+    product.init = init == nullptr ? kZeros : init + column;
+    product.out = out + column;
+    kernels.multiply_panel(product);
+  }
+}
+
+}  // namespace
+
+void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* data,
+                        std::int64_t depth_stride, std::int64_t column_stride,
+                        Precision precision) {
+  if (depth < 1 || columns < 1) {
+    throw Error("PackedMatrix: " + std::to_string(depth) + " x " + std::to_string(columns) +
+                " elements; both must be positive");
+  }
+  const ProductKernels kernels = KernelsFor(precision);
+  const PanelRow panels(kernels, columns);
+  depth_ = depth;
+  columns_ = columns;
+  precision_ = precision;
+  target_ = ActiveTarget();
+  const std::int64_t words = Words(depth, precision, kernels);
+  words_.assign(words * panels.padded_columns(), 0.0f);
+
+  const auto rounded = [&](std::int64_t k, std::int64_t j) -> std::uint16_t {
+    return k < depth ? RoundToBfloat16(data[k * depth_stride + j * column_stride]) : 0;
+  };
+  const auto word = [&](std::int64_t k, std::int64_t j) {
+    if (precision == Precision::kFloat32) return data[k * depth_stride + j * column_stride];
+    if (kernels.elements_per_word == 1) return Bfloat16Value(rounded(k ^ 1, j));
+    const std::uint32_t pair = rounded(2 * k, j) | std::uint32_t{rounded(2 * k + 1, j)} << 16;
+    float bits;
+    std::memcpy(&bits, &pair, sizeof bits);
+    return bits;
+  };
+  float* out = words_.data();
+  for (std::int64_t first = 0; first < words; first += kDepthBlock) {
+    const std::int64_t end = std::min(words, first + kDepthBlock);
+    for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
+      const std::int64_t column = panels.first_column(panel);
+      for (std::int64_t k = first; k < end; ++k, out += panels.stride(panel)) {
+        for (int j = 0; j < panels.columns(panel); ++j) out[j] = word(k, column + j);
+      }
+    }
+  }
+}
+
+void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const PackedMatrix& b,
+              const float* bias, bool accumulate, float* out, std::int64_t out_stride,
+              ProductWorkspace* workspace) {
+  if (b.depth() == 0 || b.target() != ActiveTarget()) {
+    throw Error(std::string("Multiply: the matrix is not packed for ") + Name(ActiveTarget()));
+  }
+  const ProductKernels kernels = KernelsFor(b.precision());
+  const PanelRow panels(kernels, b.columns());
+  const std::int64_t words = Words(b.depth(), b.precision(), kernels);
+  const FlushIf flush(b.precision() == Precision::kBfloat16);
+  if (bias != nullptr && accumulate) {
+    for (std::int64_t i = 0; i < rows; ++i) {
+      for (std::int64_t j = 0; j < b.columns(); ++j) out[i * out_stride + j] += bias[j];
+    }
+    bias = nullptr;
+  }
+  for (std::int64_t row = 0; row < rows; row += kRowBlock) {
+    PanelProduct product;
+    product.rows = std::min(kRowBlock, rows - row);
+    product.out = out + row * out_stride;
+    product.out_stride = out_stride;
+    product.init = accumulate ? product.out : bias;
+    product.init_stride = accumulate ? out_stride : 0;
+    for (std::int64_t word = 0; word < words; word += kDepthBlock) {
+      product.depth = std::min(kDepthBlock, words - word);
+      const std::int64_t first = word * kernels.elements_per_word;
+      const float* const block = a + row * a_stride + first;
+      if (kernels.round_rows == nullptr) {
+        product.a = block;
+        product.a_stride = a_stride;
+      } else {
+        product.a_stride = kRoundedStride;
+        float* const rounded = workspace->Left(kRowBlock * kRoundedStride);
+        const std::int64_t elements =
+            std::min(product.depth * kernels.elements_per_word, b.depth() - first);
+        kernels.round_rows({product.rows, elements, block, a_stride}, kRoundedStride, rounded);
+        product.a = rounded;
+      }
+      MultiplyPanels(kernels, panels, b.words() + word * panels.padded_columns(), product);
+      product.init = product.out;
+      product.init_stride = out_stride;
+    }
+  }
+}
+
+void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t left_stride,
+                          std::int64_t left_columns, const float* right, std::int64_t right_stride,
+                          std::int64_t right_columns, Precision precision, float* out,
+                          std::int64_t out_stride, ProductWorkspace* workspace) {
+  const ProductKernels kernels = KernelsFor(precision);
+  const PanelRow panels(kernels, right_columns);
+  const FlushIf flush(precision == Precision::kBfloat16);
+  const bool rounds = precision == Precision::kBfloat16;
+  const std::int64_t block_rows = kDepthBlock * kernels.elements_per_word;
+  float* const b = workspace->Right(kDepthBlock * panels.padded_columns());
+  PanelProduct product;
+  product.rows = left_columns;
+  product.a_transposed = true;
+  product.init = product.out = out;
+  product.init_stride = product.out_stride = out_stride;
+  for (std::int64_t row = 0; row < rows; row += block_rows) {
+    const std::int64_t count = std::min(block_rows, rows - row);
+    product.depth = Words(count, precision, kernels);
+    for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
+      const std::int64_t column = panels.first_column(panel);
+      kernels.pack_rows(
+          {count, panels.columns(panel), right + row * right_stride + column, right_stride},
+          panels.stride(panel), b + column * product.depth);
+    }
+    const float* const block = left + row * left_stride;
+    if (rounds) {
+      // Rows that do not all begin in the same few sets of the cache.
+      product.a_stride = RoundUp(left_columns, kernels.lanes) + kLineWords;
+      float* const a = workspace->Left(kDepthBlock * product.a_stride);
+      kernels.pack_rows({count, left_columns, block, left_stride}, product.a_stride, a);
+      product.a = a;
+    } else {
+      product.a = block;
+      product.a_stride = left_stride;
+    }
+    MultiplyPanels(kernels, panels, b, product);
+  }
+}
+
+}  // namespace skein::simd

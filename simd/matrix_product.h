@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+
+#include "simd/aligned_vector.h"
+#include "simd/target.h"
+
+namespace skein::simd {
+
+/// Of the operands of a product; sums are float32 in either.
+enum class Precision {
+  kFloat32,
+  /// Operands are rounded to bfloat16, to nearest even, denormals to zero. Each pair of neighbours
+  /// along the sum is added as the instruction vdpbf16ps does: fused multiply-adds, the odd element
+  /// first, denormal results flushed. Targets with fused multiply-adds agree bit for bit, with the
+  /// instruction (NativeBfloat16) or without.
+  kBfloat16,
+};
+
+/// Scratch memory of one thread's products; grows to what they need.
+class ProductWorkspace {
+ public:
+  /// At least `size` floats from a cache line's boundary on, until the next call.
+  float* Left(std::int64_t size) { return Grown(left_, size); }
+  float* Right(std::int64_t size) { return Grown(right_, size); }
+
+ private:
+  static float* Grown(AlignedVector<float>& memory, std::int64_t size) {
+    if (static_cast<std::int64_t>(memory.size()) < size) memory.resize(size);
+    return memory.data();
+  }
+
+  AlignedVector<float> left_, right_;
+};
+
+/// The right factor of a product, [depth][columns], copied into the order in which the kernels of
+/// the active target read it. Reading it from many threads is safe.
+class PackedMatrix {
+ public:
+  /// Element (k, j) is data[k * depth_stride + j * column_stride]: a transposed matrix packs by its
+  /// strides. Packing again reuses the memory. Throws Error unless depth and columns are positive.
+  void Pack(std::int64_t depth, std::int64_t columns, const float* data, std::int64_t depth_stride,
+            std::int64_t column_stride, Precision precision);
+
+  std::int64_t depth() const { return depth_; }
+  std::int64_t columns() const { return columns_; }
+  Precision precision() const { return precision_; }
+  /// Products are only possible on the target that was active when this was packed.
+  Target target() const { return target_; }
+
+  /// For the kernels: blocks of the depth, in them panels of columns, in them words along the depth
+  /// (simd/product_kernels.h).
+  const float* words() const { return words_.data(); }
+
+ private:
+  std::int64_t depth_ = 0, columns_ = 0;
+  Precision precision_ = Precision::kFloat32;
+  Target target_ = Target::kScalar;
+  AlignedVector<float> words_;
+};
+
+/// out = A B, plus what was in `out` if `accumulate`, plus `bias` in every row unless that is null.
+/// A has `rows` rows of b.depth() columns, `out` b.columns(); strides are floats between rows. An
+/// element of `out` is one sum in one order (what is added, then along the depth): how rows are
+/// divided among calls changes no bit. Not-a-number and infinity spread to the elements that
+/// depend on them, and to no other. `out` must not overlap A. Throws Error if `b` was packed for
+/// another target or not at all.
+void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const PackedMatrix& b,
+              const float* bias, bool accumulate, float* out, std::int64_t out_stride,
+              ProductWorkspace* workspace);
+
+/// out += left^T right, the gradient by a weight: out[i][j] += sum over r of left[r][i] right[r][j]
+/// for `rows` rows r. Strides are floats between rows; `out` is [left_columns][right_columns]. An
+/// element is one sum in the order of the rows, starting from what was there: dividing rows among
+/// successive calls changes no bit, for bfloat16 if all calls but the last have an even number of
+/// rows. `out` must not overlap the others.
+void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t left_stride,
+                          std::int64_t left_columns, const float* right, std::int64_t right_stride,
+                          std::int64_t right_columns, Precision precision, float* out,
+                          std::int64_t out_stride, ProductWorkspace* workspace);
+
+}  // namespace skein::simd

@@ -1,0 +1,206 @@
+#include "simd/product_kernels.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/product_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using simd::PanelProduct;
+using simd::RowBlock;
+using Floats = hn::ScalableTag<float>;
+using Vector = hn::Vec<Floats>;
+
+// Accumulators of a tile, rows times vectors, with the vectors of B and a broadcast of A beside
+// them: 32 registers on avx512, 16 on the others.
+#if HWY_TARGET == HWY_AVX3
+constexpr int kTileRows = 12, kTileVectors = 2;
+#elif HWY_TARGET == HWY_AVX2
+constexpr int kTileRows = 6, kTileVectors = 2;
+#else
+constexpr int kTileRows = 4, kTileVectors = 2;
+#endif
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Floats()));
+
+/// out = init + A B for kRows rows and kVectors vectors of columns.
+template <int kRows, int kVectors, bool kTransposed>
+HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64_t a_stride,
+                     const float* HWY_RESTRICT b, const float* init, std::int64_t init_stride,
+                     float* out, std::int64_t out_stride) {
+  const Floats d;
+  Vector sum[kRows][kVectors];
+  HWY_UNROLL(16)
+  for (int i = 0; i < kRows; ++i) {
+    HWY_UNROLL(16)
+    for (int j = 0; j < kVectors; ++j) {
+      sum[i][j] = hn::LoadU(d, init + i * init_stride + j * kLanes);
+    }
+  }
+  for (std::int64_t k = 0; k < depth; ++k) {
+    Vector right[kVectors];
+    HWY_UNROLL(16)
+    for (int j = 0; j < kVectors; ++j) right[j] = hn::Load(d, b + j * kLanes);
+    HWY_UNROLL(16)
+    for (int i = 0; i < kRows; ++i) {
+      const Vector left = hn::Set(d, kTransposed ? a[i] : a[i * a_stride]);
+      HWY_UNROLL(16)
+      for (int j = 0; j < kVectors; ++j) sum[i][j] = hn::MulAdd(left, right[j], sum[i][j]);
+    }
+    a += kTransposed ? a_stride : 1;
+    b += kVectors * kLanes;
+  }
+  HWY_UNROLL(16)
+  for (int i = 0; i < kRows; ++i) {
+    HWY_UNROLL(16)
+    for (int j = 0; j < kVectors; ++j) hn::StoreU(sum[i][j], d, out + i * out_stride + j * kLanes);
+  }
+}
+
+/// Tiles of kRows rows from row `row` on while there are as many, then those of fewer rows.
+template <int kRows, int kVectors, bool kTransposed>
+void Strips(const PanelProduct& p, std::int64_t row) {
+  const float* const a = static_cast<const float*>(p.a);
+  const float* const b = static_cast<const float*>(p.b);
+  for (; row + kRows <= p.rows; row += kRows) {
+    const float* const strip = a + row * (kTransposed ? 1 : p.a_stride);
+    const float* const init = p.init + row * p.init_stride;
+    float* const out = p.out + row * p.out_stride;
+    if (p.columns == kVectors * kLanes) {
+      Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, init, p.init_stride, out,
+                                         p.out_stride);
+    } else {
+      // Columns of padding must not be read or written where others' memory may be.
+      const std::size_t bytes = p.columns * sizeof(float);
+      HWY_ALIGN float edge[kRows][kVectors * kLanes] = {};
+      for (int i = 0; i < kRows; ++i) std::memcpy(edge[i], init + i * p.init_stride, bytes);
+      Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, edge[0], kVectors * kLanes,
+                                         edge[0], kVectors * kLanes);
+      for (int i = 0; i < kRows; ++i) std::memcpy(out + i * p.out_stride, edge[i], bytes);
+    }
+  }
+  if constexpr (kRows > 1) Strips<(kRows + 1) / 2, kVectors, kTransposed>(p, row);
+}
+
+template <int kVectors>
+void StripsOf(const PanelProduct& p) {
+  if (p.a_transposed) {
+    Strips<kTileRows, kVectors, true>(p, 0);
+  } else {
+    Strips<kTileRows, kVectors, false>(p, 0);
+  }
+}
+
+void MultiplyPanel(const PanelProduct& p) {
+  static_assert(kTileVectors == 2, "one case for each number of vectors");
+  if (p.vectors == 2) {
+    StripsOf<2>(p);
+  } else {
+    StripsOf<1>(p);
+  }
+}
+
+/// simd::RoundToBfloat16 as a float32.
+HWY_INLINE Vector Rounded(Vector x) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;  // magnitudes: compared as signed integers
+  const auto bits = hn::BitCast(di, x);
+  const auto magnitude = hn::And(bits, hn::Set(di, 0x7fffffff));
+  const auto odd = hn::And(hn::ShiftRight<16>(bits), hn::Set(di, 1));
+  const auto nearest = hn::Add(bits, hn::Add(odd, hn::Set(di, 0x7fff)));
+  const auto quiet = hn::Or(bits, hn::Set(di, 0x00400000));
+  const auto zero = hn::AndNot(hn::Set(di, 0x7fffffff), bits);
+  const auto is_nan = hn::Gt(magnitude, hn::Set(di, 0x7f800000));
+  const auto is_denormal = hn::Gt(hn::Set(di, 0x00800000), magnitude);
+  const auto rounded = hn::IfThenElse(is_denormal, zero, hn::IfThenElse(is_nan, quiet, nearest));
+  return hn::BitCast(d, hn::AndNot(hn::Set(di, 0xffff), rounded));
+}
+
+/// Copies `columns` floats, as they are or rounded, and zeros up to the next multiple of kLanes.
+template <bool kRound>
+HWY_INLINE void PackRow(std::int64_t columns, const float* in, float* out) {
+  const Floats d;
+  std::int64_t j = 0;
+  for (; j + kLanes <= columns; j += kLanes) {
+    const Vector x = hn::LoadU(d, in + j);
+    hn::Store(kRound ? Rounded(x) : x, d, out + j);
+  }
+  if (j == columns) return;
+  HWY_ALIGN float edge[kLanes] = {};
+  std::memcpy(edge, in + j, (columns - j) * sizeof(float));
+  const Vector x = hn::Load(d, edge);
+  hn::Store(kRound ? Rounded(x) : x, d, out + j);
+}
+
+void PackRowsAsTheyAre(const RowBlock& block, std::int64_t words_stride, void* words) {
+  float* const out = static_cast<float*>(words);
+  for (std::int64_t i = 0; i < block.rows; ++i) {
+    PackRow<false>(block.columns, block.data + i * block.stride, out + i * words_stride);
+  }
+}
+
+void PackRowsRounded(const RowBlock& block, std::int64_t words_stride, void* words) {
+  float* const out = static_cast<float*>(words);
+  for (std::int64_t i = 0; i < block.rows; ++i) {
+    // The odd row of a pair goes first.
+    PackRow<true>(block.columns, block.data + i * block.stride, out + (i ^ 1) * words_stride);
+  }
+  if (block.rows % 2 == 0) return;
+  const std::int64_t padded = (block.columns + kLanes - 1) / kLanes * kLanes;
+  std::fill_n(out + (block.rows - 1) * words_stride, padded, 0.0f);
+}
+
+void RoundRows(const RowBlock& block, std::int64_t words_stride, void* words) {
+  const Floats d;
+  for (std::int64_t i = 0; i < block.rows; ++i) {
+    const float* const in = block.data + i * block.stride;
+    float* const out = static_cast<float*>(words) + i * words_stride;
+    std::int64_t j = 0;
+    for (; j + kLanes <= block.columns; j += kLanes) {
+      const Vector rounded = Rounded(hn::LoadU(d, in + j));
+#if HWY_TARGET == HWY_SCALAR
+      out[j ^ 1] = hn::GetLane(rounded);
+#else
+      hn::StoreU(hn::Shuffle2301(rounded), d, out + j);
+#endif
+    }
+    for (; j < block.columns; ++j) {
+      out[j ^ 1] = hn::GetLane(Rounded(hn::Set(d, in[j])));
+    }
+    if (block.columns % 2 != 0) out[block.columns - 1] = 0;
+  }
+}
+
+simd::ProductKernels Kernels(bool rounded) {
+  if (rounded) return {kLanes, kTileVectors, 1, &MultiplyPanel, &RoundRows, &PackRowsRounded};
+  return {kLanes, kTileVectors, 1, &MultiplyPanel, nullptr, &PackRowsAsTheyAre};
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+HWY_EXPORT(Kernels);
+
+namespace simd {
+
+ProductKernels Float32Kernels() { return SKEIN_DISPATCH(Kernels)(false); }
+
+ProductKernels EmulatedBfloat16Kernels() { return SKEIN_DISPATCH(Kernels)(true); }
+
+}  // namespace simd
+}  // namespace skein
+#endif

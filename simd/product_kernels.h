@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+
+// What Multiply and AddTransposedProduct (simd/matrix_product.h) are made of, once per target and
+// precision. Elements along the depth (the index that is summed over) come in words of 32 bits: a
+// float32, or a pair of bfloat16 for processors that multiply those. A panel is a strip of B as
+// wide as the accumulators of one row: `panel_vectors` vectors, or fewer at the right edge.
+
+namespace skein::simd {
+
+/// out = init + A B for all rows and one panel of B. Sums of an element run in the order of the
+/// words, whatever the shape is.
+struct PanelProduct {
+  std::int64_t rows = 0;
+  std::int64_t depth = 0;  ///< words
+  const void* a = nullptr;
+  std::int64_t a_stride = 0;  ///< words between rows of A, or between its columns if transposed
+  bool a_transposed = false;  ///< which of both indices is contiguous in memory: the row's
+  const void* b = nullptr;    ///< [depth][vectors * lanes] words, aligned to 64 bytes
+  int vectors = 0;            ///< 1 to panel_vectors
+  int columns = 0;            ///< of init and out, up to vectors * lanes; the others are padding
+  const float* init = nullptr;
+  std::int64_t init_stride = 0;
+  float* out = nullptr;  ///< may be `init`
+  std::int64_t out_stride = 0;
+};
+
+/// Rows of float32 that are to become words.
+struct RowBlock {
+  std::int64_t rows = 0, columns = 0;
+  const float* data = nullptr;
+  std::int64_t stride = 0;
+};
+
+struct ProductKernels {
+  int lanes = 0;              ///< words of a vector
+  int panel_vectors = 0;      ///< vectors of a whole panel
+  int elements_per_word = 0;  ///< 1 or 2
+
+  void (*multiply_panel)(const PanelProduct& product);
+
+  /// Words along the columns of the block, [rows][columns rounded up to pairs / elements_per_word]:
+  /// A of a product, rounded. Null if A needs no rounding.
+  void (*round_rows)(const RowBlock& block, std::int64_t words_stride, void* words);
+
+  /// Words along the rows of the block: [rows rounded up to pairs / elements_per_word][stride],
+  /// zero from `columns` to the next multiple of `lanes`: B of a product, or A transposed.
+  void (*pack_rows)(const RowBlock& block, std::int64_t words_stride, void* words);
+};
+
+/// Kernels of the active target with float32 operands.
+ProductKernels Float32Kernels();
+
+/// Kernels of the active target with operands rounded to bfloat16 and kept as float32: products of
+/// two bfloat16 are exact in float32, so that fused multiply-adds in the order of the instruction
+/// vdpbf16ps (the odd element of a pair first) give what it gives.
+ProductKernels EmulatedBfloat16Kernels();
+
+/// Kernels with the instruction vdpbf16ps; only where NativeBfloat16() (simd/target.h).
+ProductKernels NativeBfloat16Kernels();
+
+}  // namespace skein::simd
