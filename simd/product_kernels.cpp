@@ -39,13 +39,11 @@ HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64
                      const float* HWY_RESTRICT b, const float* init, std::int64_t init_stride,
                      float* out, std::int64_t out_stride) {
   const Floats d;
-  Vector sum[kRows][kVectors];
-  HWY_UNROLL(16)
-  for (int i = 0; i < kRows; ++i) {
-    HWY_UNROLL(16)
-    for (int j = 0; j < kVectors; ++j) {
-      sum[i][j] = hn::LoadU(d, init + i * init_stride + j * kLanes);
-    }
+  // One loop, not two: g++ unrolls nested ones too late to keep the sums in registers.
+  Vector sum[kRows * kVectors];
+  HWY_UNROLL(64)
+  for (int t = 0; t < kRows * kVectors; ++t) {
+    sum[t] = hn::LoadU(d, init + t / kVectors * init_stride + t % kVectors * kLanes);
   }
   for (std::int64_t k = 0; k < depth; ++k) {
     Vector right[kVectors];
@@ -55,41 +53,44 @@ HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64
     for (int i = 0; i < kRows; ++i) {
       const Vector left = hn::Set(d, kTransposed ? a[i] : a[i * a_stride]);
       HWY_UNROLL(16)
-      for (int j = 0; j < kVectors; ++j) sum[i][j] = hn::MulAdd(left, right[j], sum[i][j]);
+      for (int j = 0; j < kVectors; ++j) {
+        sum[i * kVectors + j] = hn::MulAdd(left, right[j], sum[i * kVectors + j]);
+      }
     }
     a += kTransposed ? a_stride : 1;
     b += kVectors * kLanes;
   }
-  HWY_UNROLL(16)
-  for (int i = 0; i < kRows; ++i) {
-    HWY_UNROLL(16)
-    for (int j = 0; j < kVectors; ++j) hn::StoreU(sum[i][j], d, out + i * out_stride + j * kLanes);
+  HWY_UNROLL(64)
+  for (int t = 0; t < kRows * kVectors; ++t) {
+    hn::StoreU(sum[t], d, out + t / kVectors * out_stride + t % kVectors * kLanes);
   }
 }
 
-/// Tiles of kRows rows from row `row` on while there are as many, then those of fewer rows.
+/// Tiles of kRows rows, as many as fit between `row` and the end; then one tile of the rest.
 template <int kRows, int kVectors, bool kTransposed>
 void Strips(const PanelProduct& p, std::int64_t row) {
-  const float* const a = static_cast<const float*>(p.a);
-  const float* const b = static_cast<const float*>(p.b);
-  for (; row + kRows <= p.rows; row += kRows) {
-    const float* const strip = a + row * (kTransposed ? 1 : p.a_stride);
-    const float* const init = p.init + row * p.init_stride;
-    float* const out = p.out + row * p.out_stride;
-    if (p.columns == kVectors * kLanes) {
-      Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, init, p.init_stride, out,
-                                         p.out_stride);
-    } else {
-      // Columns of padding must not be read or written where others' memory may be.
-      const std::size_t bytes = p.columns * sizeof(float);
-      HWY_ALIGN float edge[kRows][kVectors * kLanes] = {};
-      for (int i = 0; i < kRows; ++i) std::memcpy(edge[i], init + i * p.init_stride, bytes);
-      Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, edge[0], kVectors * kLanes,
-                                         edge[0], kVectors * kLanes);
-      for (int i = 0; i < kRows; ++i) std::memcpy(out + i * p.out_stride, edge[i], bytes);
+  if constexpr (kRows > 0) {
+    const float* const a = static_cast<const float*>(p.a);
+    const float* const b = static_cast<const float*>(p.b);
+    for (; row + kRows <= p.rows; row += kRows) {
+      const float* const strip = a + row * (kTransposed ? 1 : p.a_stride);
+      const float* const init = p.init + row * p.init_stride;
+      float* const out = p.out + row * p.out_stride;
+      if (p.columns == kVectors * kLanes) {
+        Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, init, p.init_stride, out,
+                                           p.out_stride);
+      } else {
+        // Columns of padding must not be read or written where others' memory may be.
+        const std::size_t bytes = p.columns * sizeof(float);
+        HWY_ALIGN float edge[kRows][kVectors * kLanes] = {};
+        for (int i = 0; i < kRows; ++i) std::memcpy(edge[i], init + i * p.init_stride, bytes);
+        Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, edge[0],
+                                           kVectors * kLanes, edge[0], kVectors * kLanes);
+        for (int i = 0; i < kRows; ++i) std::memcpy(out + i * p.out_stride, edge[i], bytes);
+      }
     }
+    if (row < p.rows) Strips<kRows - 1, kVectors, kTransposed>(p, row);
   }
-  if constexpr (kRows > 1) Strips<(kRows + 1) / 2, kVectors, kTransposed>(p, row);
 }
 
 template <int kVectors>
