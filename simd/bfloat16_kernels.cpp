@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLanes = 16;
 constexpr __mmask16 kAllLanes = 0xffff;
-constexpr int kTileRows = 12, kPanelVectors = 2;
+constexpr int kSums = 24, kPanelVectors = 4;
 
 using Word = std::int32_t;  // a pair of bfloat16, the even element in the lower half
 
@@ -28,66 +28,66 @@ inline __attribute__((always_inline)) void Tile(const PanelProduct& p, const Wor
                                                 const float* init, float* out, __mmask16 last) {
   const auto mask = [&](int j) -> __mmask16 { return j + 1 < kVectors ? kAllLanes : last; };
   const char* b = static_cast<const char*>(p.b);
-  __m512 sum[kRows][kVectors];
-#pragma GCC unroll 16
-  for (int i = 0; i < kRows; ++i) {
-#pragma GCC unroll 16
-    for (int j = 0; j < kVectors; ++j) {
-      sum[i][j] = _mm512_maskz_loadu_ps(mask(j), init + i * p.init_stride + j * kLanes);
-    }
+  // One loop, not two: g++ unrolls nested ones too late to keep the sums in registers.
+  __m512 sum[kRows * kVectors];
+#pragma GCC unroll 64
+  for (int t = 0; t < kRows * kVectors; ++t) {
+    const int i = t / kVectors, j = t % kVectors;
+    sum[t] = _mm512_maskz_loadu_ps(mask(j), init + i * p.init_stride + j * kLanes);
   }
+#pragma GCC unroll 2
   for (std::int64_t k = 0; k < p.depth; ++k) {
     __m512i right[kVectors];
 #pragma GCC unroll 16
-    for (int j = 0; j < kVectors; ++j) right[j] = _mm512_load_si512(b + j * sizeof(__m512i));
+    for (int j = 0; j < kVectors; ++j) right[j] = _mm512_loadu_si512(b + j * sizeof(__m512i));
 #pragma GCC unroll 16
     for (int i = 0; i < kRows; ++i) {
       const __m512i left = _mm512_set1_epi32(kTransposed ? a[i] : a[i * p.a_stride]);
 #pragma GCC unroll 16
       for (int j = 0; j < kVectors; ++j) {
-        sum[i][j] = _mm512_dpbf16_ps(sum[i][j], (__m512bh)left, (__m512bh)right[j]);
+        __m512& s = sum[i * kVectors + j];
+        s = _mm512_dpbf16_ps(s, (__m512bh)left, (__m512bh)right[j]);
       }
     }
     a += kTransposed ? p.a_stride : 1;
     b += kVectors * sizeof(__m512i);
   }
-#pragma GCC unroll 16
-  for (int i = 0; i < kRows; ++i) {
-#pragma GCC unroll 16
-    for (int j = 0; j < kVectors; ++j) {
-      _mm512_mask_storeu_ps(out + i * p.out_stride + j * kLanes, mask(j), sum[i][j]);
+#pragma GCC unroll 64
+  for (int t = 0; t < kRows * kVectors; ++t) {
+    const int i = t / kVectors, j = t % kVectors;
+    _mm512_mask_storeu_ps(out + i * p.out_stride + j * kLanes, mask(j), sum[t]);
+  }
+}
+
+/// Tiles of kRows rows, as many as fit between `row` and the end; then one tile of the rest.
+template <int kRows, int kVectors, bool kTransposed>
+void Strips(const PanelProduct& p, std::int64_t row) {
+  if constexpr (kRows > 0) {
+    const __mmask16 last = FirstLanes(p.columns - (kVectors - 1) * kLanes);
+    for (; row + kRows <= p.rows; row += kRows) {
+      Tile<kRows, kVectors, kTransposed>(
+          p, static_cast<const Word*>(p.a) + row * (kTransposed ? 1 : p.a_stride),
+          p.init + row * p.init_stride, p.out + row * p.out_stride, last);
+    }
+    if (row < p.rows) Strips<kRows - 1, kVectors, kTransposed>(p, row);
+  }
+}
+
+template <int kVectors>
+void MultiplyPanelOf(const PanelProduct& p) {
+  if constexpr (kVectors > 0) {
+    if (p.vectors != kVectors) return MultiplyPanelOf<kVectors - 1>(p);
+    constexpr int kMostRows = 16;  // more are no faster
+    constexpr int kRows = kSums / kVectors < kMostRows ? kSums / kVectors : kMostRows;
+    if (p.a_transposed) {
+      Strips<kRows, kVectors, true>(p, 0);
+    } else {
+      Strips<kRows, kVectors, false>(p, 0);
     }
   }
 }
 
-/// Tiles of kRows rows from row `row` on while there are as many, then those of fewer rows.
-template <int kRows, int kVectors, bool kTransposed>
-void Strips(const PanelProduct& p, std::int64_t row) {
-  const __mmask16 last = FirstLanes(p.columns - (kVectors - 1) * kLanes);
-  for (; row + kRows <= p.rows; row += kRows) {
-    Tile<kRows, kVectors, kTransposed>(
-        p, static_cast<const Word*>(p.a) + row * (kTransposed ? 1 : p.a_stride),
-        p.init + row * p.init_stride, p.out + row * p.out_stride, last);
-  }
-  if constexpr (kRows > 1) Strips<(kRows + 1) / 2, kVectors, kTransposed>(p, row);
-}
-
-template <int kVectors>
-void StripsOf(const PanelProduct& p) {
-  if (p.a_transposed) {
-    Strips<kTileRows, kVectors, true>(p, 0);
-  } else {
-    Strips<kTileRows, kVectors, false>(p, 0);
-  }
-}
-
-void MultiplyPanel(const PanelProduct& p) {
-  if (p.vectors == 2) {
-    StripsOf<2>(p);
-  } else {
-    StripsOf<1>(p);
-  }
-}
+void MultiplyPanel(const PanelProduct& p) { MultiplyPanelOf<kPanelVectors>(p); }
 
 void RoundRows(const RowBlock& block, std::int64_t words_stride, void* words) {
   for (std::int64_t i = 0; i < block.rows; ++i) {

@@ -13,10 +13,12 @@
 namespace skein::simd {
 namespace {
 
-// A panel of B this deep, 16 KB, stays in the first-level cache while rows pass by.
-constexpr std::int64_t kDepthBlock = 128;  // words
-// As many rows of A stay in the second-level cache while panels pass by; a multiple of the rows of
-// every target's tiles.
+// Sums run in memory between blocks of the depth; a block of a panel stays in the second-level
+// cache.
+constexpr std::int64_t kDepthBlock = 384;  // words
+// As many rows of both factors of a transposed product, a panel and a strip, stay in the
+// first-level cache. Even, so that pairs are whole.
+constexpr std::int64_t kTransposedBlock = 80;  // words
 constexpr std::int64_t kRowBlock = 96;
 constexpr std::int64_t kLineWords = 16;  // of a cache line
 // Rows of a power of two of words would all begin in the same few sets of the cache.
@@ -73,15 +75,24 @@ class PanelRow {
   std::int64_t width_, lanes_, columns_;
 };
 
+/// A block of B. Its panels are packed one behind the other, unless its rows are as they were
+/// given.
+struct RightBlock {
+  const float* data = nullptr;
+  std::int64_t row_stride = 0;  // 0 if packed
+};
+
 /// Multiplies a block of A by all panels of a block of B; a null `init` is zero.
-void MultiplyPanels(const ProductKernels& kernels, const PanelRow& panels, const float* b,
+void MultiplyPanels(const ProductKernels& kernels, const PanelRow& panels, const RightBlock& b,
                     PanelProduct product) {
-  static constexpr float kZeros[32] = {};
+  static constexpr float kZeros[64] = {};
   const float* const init = product.init;
   float* const out = product.out;
   for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
     const std::int64_t column = panels.first_column(panel);
-    product.b = b + column * product.depth;
+    const bool packed = b.row_stride == 0;
+    product.b = b.data + (packed ? column * product.depth : column);
+    product.b_stride = packed ? panels.stride(panel) : b.row_stride;
     product.vectors = panels.vectors(panel);
     product.columns = panels.columns(panel);
     product.init = init == nullptr ? kZeros : init + column;
@@ -169,7 +180,7 @@ void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const Pa
         kernels.round_rows({product.rows, elements, block, a_stride}, kRoundedStride, rounded);
         product.a = rounded;
       }
-      MultiplyPanels(kernels, panels, b.words() + word * panels.padded_columns(), product);
+      MultiplyPanels(kernels, panels, {b.words() + word * panels.padded_columns()}, product);
       product.init = product.out;
       product.init_stride = out_stride;
     }
@@ -184,8 +195,9 @@ void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t lef
   const PanelRow panels(kernels, right_columns);
   const FlushIf flush(precision == Precision::kBfloat16);
   const bool rounds = precision == Precision::kBfloat16;
-  const std::int64_t block_rows = kDepthBlock * kernels.elements_per_word;
-  float* const b = workspace->Right(kDepthBlock * panels.padded_columns());
+  // Whole vectors can be read where they are.
+  const bool packs = rounds || right_columns % kernels.lanes != 0;
+  const std::int64_t block_rows = kTransposedBlock * kernels.elements_per_word;
   PanelProduct product;
   product.rows = left_columns;
   product.a_transposed = true;
@@ -194,22 +206,24 @@ void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t lef
   for (std::int64_t row = 0; row < rows; row += block_rows) {
     const std::int64_t count = std::min(block_rows, rows - row);
     product.depth = Words(count, precision, kernels);
-    for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
-      const std::int64_t column = panels.first_column(panel);
-      kernels.pack_rows(
-          {count, panels.columns(panel), right + row * right_stride + column, right_stride},
-          panels.stride(panel), b + column * product.depth);
-    }
-    const float* const block = left + row * left_stride;
+    product.a = left + row * left_stride;
+    product.a_stride = left_stride;
     if (rounds) {
-      // Rows that do not all begin in the same few sets of the cache.
       product.a_stride = RoundUp(left_columns, kernels.lanes) + kLineWords;
-      float* const a = workspace->Left(kDepthBlock * product.a_stride);
-      kernels.pack_rows({count, left_columns, block, left_stride}, product.a_stride, a);
+      float* const a = workspace->Left(kTransposedBlock * product.a_stride);
+      kernels.pack_rows({count, left_columns, left + row * left_stride, left_stride},
+                        product.a_stride, a);
       product.a = a;
-    } else {
-      product.a = block;
-      product.a_stride = left_stride;
+    }
+    RightBlock b{right + row * right_stride, right_stride};
+    if (packs) {
+      float* const words = workspace->Right(kTransposedBlock * panels.padded_columns());
+      for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
+        const std::int64_t column = panels.first_column(panel);
+        kernels.pack_rows({count, panels.columns(panel), b.data + column, right_stride},
+                          panels.stride(panel), words + column * product.depth);
+      }
+      b = {words};
     }
     MultiplyPanels(kernels, panels, b, product);
   }

@@ -22,22 +22,22 @@ using simd::RowBlock;
 using Floats = hn::ScalableTag<float>;
 using Vector = hn::Vec<Floats>;
 
-// Accumulators of a tile, rows times vectors, with the vectors of B and a broadcast of A beside
-// them: 32 registers on avx512, 16 on the others.
+// Sums of a tile, and vectors of a whole panel: with the vectors of B and a broadcast of A they
+// fill the registers, 32 on avx512 and 16 on the others.
 #if HWY_TARGET == HWY_AVX3
-constexpr int kTileRows = 12, kTileVectors = 2;
+constexpr int kSums = 24, kPanelVectors = 4;
 #elif HWY_TARGET == HWY_AVX2
-constexpr int kTileRows = 6, kTileVectors = 2;
+constexpr int kSums = 12, kPanelVectors = 2;
 #else
-constexpr int kTileRows = 4, kTileVectors = 2;
+constexpr int kSums = 8, kPanelVectors = 2;
 #endif
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(Floats()));
 
 /// out = init + A B for kRows rows and kVectors vectors of columns.
 template <int kRows, int kVectors, bool kTransposed>
 HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64_t a_stride,
-                     const float* HWY_RESTRICT b, const float* init, std::int64_t init_stride,
-                     float* out, std::int64_t out_stride) {
+                     const float* HWY_RESTRICT b, std::int64_t b_stride, const float* init,
+                     std::int64_t init_stride, float* out, std::int64_t out_stride) {
   const Floats d;
   // One loop, not two: g++ unrolls nested ones too late to keep the sums in registers.
   Vector sum[kRows * kVectors];
@@ -45,10 +45,11 @@ HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64
   for (int t = 0; t < kRows * kVectors; ++t) {
     sum[t] = hn::LoadU(d, init + t / kVectors * init_stride + t % kVectors * kLanes);
   }
+  HWY_UNROLL(2)
   for (std::int64_t k = 0; k < depth; ++k) {
     Vector right[kVectors];
     HWY_UNROLL(16)
-    for (int j = 0; j < kVectors; ++j) right[j] = hn::Load(d, b + j * kLanes);
+    for (int j = 0; j < kVectors; ++j) right[j] = hn::LoadU(d, b + j * kLanes);
     HWY_UNROLL(16)
     for (int i = 0; i < kRows; ++i) {
       const Vector left = hn::Set(d, kTransposed ? a[i] : a[i * a_stride]);
@@ -58,7 +59,7 @@ HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64
       }
     }
     a += kTransposed ? a_stride : 1;
-    b += kVectors * kLanes;
+    b += kTransposed ? b_stride : kVectors * kLanes;
   }
   HWY_UNROLL(64)
   for (int t = 0; t < kRows * kVectors; ++t) {
@@ -77,14 +78,14 @@ void Strips(const PanelProduct& p, std::int64_t row) {
       const float* const init = p.init + row * p.init_stride;
       float* const out = p.out + row * p.out_stride;
       if (p.columns == kVectors * kLanes) {
-        Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, init, p.init_stride, out,
-                                           p.out_stride);
+        Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, p.b_stride, init,
+                                           p.init_stride, out, p.out_stride);
       } else {
         // Columns of padding must not be read or written where others' memory may be.
         const std::size_t bytes = p.columns * sizeof(float);
         HWY_ALIGN float edge[kRows][kVectors * kLanes] = {};
         for (int i = 0; i < kRows; ++i) std::memcpy(edge[i], init + i * p.init_stride, bytes);
-        Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, edge[0],
+        Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, p.b_stride, edge[0],
                                            kVectors * kLanes, edge[0], kVectors * kLanes);
         for (int i = 0; i < kRows; ++i) std::memcpy(out + i * p.out_stride, edge[i], bytes);
       }
@@ -94,22 +95,20 @@ void Strips(const PanelProduct& p, std::int64_t row) {
 }
 
 template <int kVectors>
-void StripsOf(const PanelProduct& p) {
-  if (p.a_transposed) {
-    Strips<kTileRows, kVectors, true>(p, 0);
-  } else {
-    Strips<kTileRows, kVectors, false>(p, 0);
+void MultiplyPanelOf(const PanelProduct& p) {
+  if constexpr (kVectors > 0) {
+    if (p.vectors != kVectors) return MultiplyPanelOf<kVectors - 1>(p);
+    constexpr int kMostRows = 16;  // more are no faster
+    constexpr int kRows = std::min(kMostRows, kSums / kVectors);
+    if (p.a_transposed) {
+      Strips<kRows, kVectors, true>(p, 0);
+    } else {
+      Strips<kRows, kVectors, false>(p, 0);
+    }
   }
 }
 
-void MultiplyPanel(const PanelProduct& p) {
-  static_assert(kTileVectors == 2, "one case for each number of vectors");
-  if (p.vectors == 2) {
-    StripsOf<2>(p);
-  } else {
-    StripsOf<1>(p);
-  }
-}
+void MultiplyPanel(const PanelProduct& p) { MultiplyPanelOf<kPanelVectors>(p); }
 
 /// simd::RoundToBfloat16 as a float32.
 HWY_INLINE Vector Rounded(Vector x) {
@@ -183,8 +182,8 @@ void RoundRows(const RowBlock& block, std::int64_t words_stride, void* words) {
 }
 
 simd::ProductKernels Kernels(bool rounded) {
-  if (rounded) return {kLanes, kTileVectors, 1, &MultiplyPanel, &RoundRows, &PackRowsRounded};
-  return {kLanes, kTileVectors, 1, &MultiplyPanel, nullptr, &PackRowsAsTheyAre};
+  if (rounded) return {kLanes, kPanelVectors, 1, &MultiplyPanel, &RoundRows, &PackRowsRounded};
+  return {kLanes, kPanelVectors, 1, &MultiplyPanel, nullptr, &PackRowsAsTheyAre};
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ struct PanelProduct {
   const void* a = nullptr;
   std::int64_t a_stride = 0;  ///< words between rows of A, or between its columns if transposed
   bool a_transposed = false;  ///< which of both indices is contiguous in memory: the row's
-  const void* b = nullptr;    ///< [depth][vectors * lanes] words, aligned to 64 bytes
+  const void* b = nullptr;    ///< [depth][vectors * lanes] words
+  std::int64_t b_stride = 0;  ///< words between rows of B: vectors * lanes unless A is transposed
   int vectors = 0;            ///< 1 to panel_vectors
   int columns = 0;            ///< of init and out, up to vectors * lanes; the others are padding
   const float* init = nullptr;
