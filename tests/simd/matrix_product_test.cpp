@@ -1,0 +1,434 @@
+#include "simd/matrix_product.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "gtest/gtest.h"
+#include "simd/bfloat16.h"
+#include "simd/error.h"
+#include "simd/target.h"
+
+namespace skein::simd {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// What lies between rows, where nothing may be read into a result or written.
+constexpr float kBetweenRows = 12345.0f;
+
+/// A row-major matrix whose rows are further apart than they are long.
+struct Matrix {
+  Matrix(std::int64_t rows_, std::int64_t columns_, std::int64_t gap = 3)
+      : rows(rows_),
+        columns(columns_),
+        stride(columns_ + gap),
+        data(static_cast<std::size_t>(rows_ * stride), kBetweenRows) {}
+
+  float& At(std::int64_t i, std::int64_t j) { return data[i * stride + j]; }
+  float At(std::int64_t i, std::int64_t j) const { return data[i * stride + j]; }
+
+  std::int64_t rows, columns, stride;
+  std::vector<float> data;
+};
+
+Matrix Random(std::int64_t rows, std::int64_t columns, unsigned seed, std::int64_t gap = 3) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<float> normal(0, 1);
+  Matrix matrix(rows, columns, gap);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    for (std::int64_t j = 0; j < columns; ++j) matrix.At(i, j) = normal(generator);
+  }
+  return matrix;
+}
+
+PackedMatrix Packed(const Matrix& b, Precision precision) {
+  PackedMatrix packed;
+  packed.Pack(b.rows, b.columns, b.data.data(), b.stride, 1, precision);
+  return packed;
+}
+
+void Multiply(const Matrix& a, const PackedMatrix& b, const float* bias, bool accumulate,
+              Matrix* out) {
+  ProductWorkspace workspace;
+  simd::Multiply(a.rows, a.data.data(), a.stride, b, bias, accumulate, out->data.data(),
+                 out->stride, &workspace);
+}
+
+void AddTransposedProduct(const Matrix& left, const Matrix& right, Precision precision,
+                          Matrix* out) {
+  ProductWorkspace workspace;
+  simd::AddTransposedProduct(left.rows, left.data.data(), left.stride, left.columns,
+                             right.data.data(), right.stride, right.columns, precision,
+                             out->data.data(), out->stride, &workspace);
+}
+
+double Operand(float x, Precision precision) {
+  return precision == Precision::kFloat32 ? x : Bfloat16Value(RoundToBfloat16(x));
+}
+
+/// A sum in double precision, and the same of magnitudes.
+struct Sum {
+  void Add(double x) {
+    value += x;
+    magnitude += std::abs(x);
+  }
+  double value = 0, magnitude = 0;
+};
+
+/// A float32 sum of `terms` terms, in any order, is off by no more than this (Higham, Accuracy and
+/// Stability of Numerical Algorithms, section 3.1), with a rounding for each product, too.
+double Bound(const Sum& sum, std::int64_t terms) {
+  constexpr double kUnitRoundoff = 0x1p-24;
+  return 1.01 * static_cast<double>(terms + 2) * kUnitRoundoff * sum.magnitude;
+}
+
+void ExpectUntouchedBetweenRows(const Matrix& matrix) {
+  for (std::int64_t i = 0; i < matrix.rows; ++i) {
+    for (std::int64_t j = matrix.columns; j < matrix.stride; ++j) {
+      ASSERT_EQ(matrix.data[i * matrix.stride + j], kBetweenRows) << "row " << i;
+    }
+  }
+}
+
+bool SameBits(const Matrix& a, const Matrix& b) {
+  return a.data.size() == b.data.size() &&
+         std::memcmp(a.data.data(), b.data.data(), a.data.size() * sizeof(float)) == 0;
+}
+
+struct Shape {
+  std::int64_t rows, depth, columns;
+};
+
+// Heads and observations; every edge of tiles (up to 16 rows), of panels (up to 64 columns) and of
+// blocks (384 of depth, 96 rows, 80 rows of a transposed product).
+const Shape kShapes[] = {{1, 1, 1},     {3, 2, 5},     {48, 22, 128},  {17, 128, 4},  {97, 128, 1},
+                         {13, 4, 37},   {7, 127, 33},  {5, 385, 64},   {100, 9, 130}, {11, 770, 17},
+                         {31, 128, 22}, {6, 81, 96},   {191, 16, 48},  {2, 160, 384}, {29, 33, 65},
+                         {15, 6, 200},  {8, 1024, 20}, {161, 3, 1024}, {4, 5, 16}};
+
+class MatrixProductTest : public testing::TestWithParam<std::tuple<Target, Precision>> {
+ protected:
+  void SetUp() override { ForceTarget(std::get<0>(GetParam())); }
+  void TearDown() override { ForceTarget(before_); }
+  Precision precision() const { return std::get<1>(GetParam()); }
+
+ private:
+  const Target before_ = ActiveTarget();
+};
+
+TEST_P(MatrixProductTest, MultiplyIsTheSumInDoublePrecision) {
+  for (const Shape& shape : kShapes) {
+    SCOPED_TRACE(testing::Message()
+                 << shape.rows << " x " << shape.depth << " x " << shape.columns);
+    const Matrix a = Random(shape.rows, shape.depth, 1), b = Random(shape.depth, shape.columns, 2);
+    const Matrix bias = Random(1, shape.columns, 3);
+    const Matrix before = Random(shape.rows, shape.columns, 4);
+    const PackedMatrix packed = Packed(b, precision());
+    for (const bool biased : {false, true}) {
+      for (const bool accumulate : {false, true}) {
+        Matrix out = before;
+        Multiply(a, packed, biased ? bias.data.data() : nullptr, accumulate, &out);
+        ExpectUntouchedBetweenRows(out);
+        for (std::int64_t i = 0; i < shape.rows; ++i) {
+          for (std::int64_t j = 0; j < shape.columns; ++j) {
+            Sum sum;
+            if (biased) sum.Add(bias.At(0, j));
+            if (accumulate) sum.Add(before.At(i, j));
+            for (std::int64_t k = 0; k < shape.depth; ++k) {
+              sum.Add(Operand(a.At(i, k), precision()) * Operand(b.At(k, j), precision()));
+            }
+            ASSERT_NEAR(out.At(i, j), sum.value, Bound(sum, shape.depth + 2))
+                << "at " << i << ", " << j;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(MatrixProductTest, AddTransposedProductIsTheSumInDoublePrecision) {
+  for (const Shape& shape : kShapes) {
+    SCOPED_TRACE(testing::Message()
+                 << shape.rows << " rows of " << shape.depth << " and " << shape.columns);
+    const Matrix left = Random(shape.rows, shape.depth, 1);
+    const Matrix right = Random(shape.rows, shape.columns, 2);
+    const Matrix before = Random(shape.depth, shape.columns, 3);
+    Matrix out = before;
+    AddTransposedProduct(left, right, precision(), &out);
+    ExpectUntouchedBetweenRows(out);
+    for (std::int64_t i = 0; i < shape.depth; ++i) {
+      for (std::int64_t j = 0; j < shape.columns; ++j) {
+        Sum sum;
+        sum.Add(before.At(i, j));
+        for (std::int64_t r = 0; r < shape.rows; ++r) {
+          sum.Add(Operand(left.At(r, i), precision()) * Operand(right.At(r, j), precision()));
+        }
+        ASSERT_NEAR(out.At(i, j), sum.value, Bound(sum, shape.rows + 1)) << "at " << i << ", " << j;
+      }
+    }
+  }
+}
+
+TEST_P(MatrixProductTest, TransposedMatrixPacksByItsStrides) {
+  const Matrix b = Random(130, 70, 1), a = Random(9, 130, 2);
+  Matrix transposed(70, 130, 5);
+  for (std::int64_t k = 0; k < 130; ++k) {
+    for (std::int64_t j = 0; j < 70; ++j) transposed.At(j, k) = b.At(k, j);
+  }
+  PackedMatrix packed;
+  packed.Pack(130, 70, transposed.data.data(), 1, transposed.stride, precision());
+  Matrix expected(9, 70), out(9, 70);
+  Multiply(a, Packed(b, precision()), nullptr, false, &expected);
+  Multiply(a, packed, nullptr, false, &out);
+  EXPECT_TRUE(SameBits(out, expected));
+}
+
+TEST_P(MatrixProductTest, PackingAgainForgetsWhatWasPackedBefore) {
+  const Matrix large = Random(200, 90, 1), small = Random(7, 5, 2), a = Random(4, 7, 3);
+  PackedMatrix packed = Packed(large, precision());
+  packed.Pack(7, 5, small.data.data(), small.stride, 1, precision());
+  EXPECT_EQ(packed.depth(), 7);
+  EXPECT_EQ(packed.columns(), 5);
+  Matrix expected(4, 5), out(4, 5);
+  Multiply(a, Packed(small, precision()), nullptr, false, &expected);
+  Multiply(a, packed, nullptr, false, &out);
+  EXPECT_TRUE(SameBits(out, expected));
+}
+
+TEST_P(MatrixProductTest, DividingRowsAmongCallsChangesNoBit) {
+  const std::int64_t rows = 230, depth = 450, columns = 75;
+  const Matrix a = Random(rows, depth, 1), b = Random(depth, columns, 2);
+  const Matrix bias = Random(1, columns, 3), before = Random(rows, columns, 4);
+  const PackedMatrix packed = Packed(b, precision());
+  Matrix whole = before;
+  Multiply(a, packed, bias.data.data(), true, &whole);
+  for (const std::int64_t part : {1, 5, 13, 48, 97}) {
+    Matrix out = before;
+    ProductWorkspace workspace;
+    for (std::int64_t row = 0; row < rows; row += part) {
+      simd::Multiply(std::min(part, rows - row), &a.data[row * a.stride], a.stride, packed,
+                     bias.data.data(), true, &out.data[row * out.stride], out.stride, &workspace);
+    }
+    EXPECT_TRUE(SameBits(out, whole)) << part << " rows a call";
+  }
+}
+
+TEST_P(MatrixProductTest, DividingRowsOfATransposedProductChangesNoBit) {
+  const std::int64_t rows = 333, depth = 39, columns = 75;
+  const Matrix left = Random(rows, depth, 1), right = Random(rows, columns, 2);
+  const Matrix before = Random(depth, columns, 3);
+  Matrix whole = before;
+  AddTransposedProduct(left, right, precision(), &whole);
+  for (const std::int64_t part : {2, 14, 80, 162, 332}) {
+    Matrix out = before;
+    ProductWorkspace workspace;
+    for (std::int64_t row = 0; row < rows; row += part) {
+      simd::AddTransposedProduct(std::min(part, rows - row), &left.data[row * left.stride],
+                                 left.stride, depth, &right.data[row * right.stride], right.stride,
+                                 columns, precision(), out.data.data(), out.stride, &workspace);
+    }
+    EXPECT_TRUE(SameBits(out, whole)) << part << " rows a call";
+  }
+}
+
+TEST_P(MatrixProductTest, NotFiniteInputsReachWhatDependsOnThemAndNothingElse) {
+  // Odd sizes: every kind of padding lies beside the values.
+  const std::int64_t rows = 21, depth = 35, columns = 41;
+  for (const float poison : {kNan, kInfinity, -kInfinity}) {
+    Matrix a = Random(rows, depth, 1), b = Random(depth, columns, 2);
+    a.At(rows - 1, depth - 1) = poison;
+    Matrix out(rows, columns);
+    Multiply(a, Packed(b, precision()), nullptr, false, &out);
+    for (std::int64_t i = 0; i < rows; ++i) {
+      for (std::int64_t j = 0; j < columns; ++j) {
+        ASSERT_EQ(std::isfinite(out.At(i, j)), i != rows - 1) << i << ", " << j;
+      }
+    }
+    a = Random(rows, depth, 1);
+    b.At(depth - 1, columns - 1) = poison;
+    Multiply(a, Packed(b, precision()), nullptr, false, &out);
+    for (std::int64_t i = 0; i < rows; ++i) {
+      for (std::int64_t j = 0; j < columns; ++j) {
+        ASSERT_EQ(std::isfinite(out.At(i, j)), j != columns - 1) << i << ", " << j;
+      }
+    }
+    Matrix left = Random(rows, depth, 3), right = Random(rows, columns, 4);
+    left.At(rows - 1, depth - 1) = poison;
+    Matrix gradient = Random(depth, columns, 5);
+    AddTransposedProduct(left, right, precision(), &gradient);
+    for (std::int64_t i = 0; i < depth; ++i) {
+      for (std::int64_t j = 0; j < columns; ++j) {
+        ASSERT_EQ(std::isfinite(gradient.At(i, j)), i != depth - 1) << i << ", " << j;
+      }
+    }
+    left = Random(rows, depth, 3);
+    right.At(rows - 1, columns - 1) = poison;
+    gradient = Random(depth, columns, 5);
+    AddTransposedProduct(left, right, precision(), &gradient);
+    for (std::int64_t i = 0; i < depth; ++i) {
+      for (std::int64_t j = 0; j < columns; ++j) {
+        ASSERT_EQ(std::isfinite(gradient.At(i, j)), j != columns - 1) << i << ", " << j;
+      }
+    }
+  }
+}
+
+TEST_P(MatrixProductTest, NoRowsDoNothing) {
+  const PackedMatrix packed = Packed(Random(4, 4, 1), precision());
+  Matrix out = Random(1, 4, 2);
+  const Matrix before = out;
+  ProductWorkspace workspace;
+  simd::Multiply(0, nullptr, 4, packed, nullptr, false, out.data.data(), 4, &workspace);
+  simd::AddTransposedProduct(0, nullptr, 1, 1, nullptr, 4, 4, precision(), out.data.data(), 4,
+                             &workspace);
+  EXPECT_TRUE(SameBits(out, before));
+}
+
+class Bfloat16ProductTest : public testing::TestWithParam<Target> {
+ protected:
+  void SetUp() override { ForceTarget(GetParam()); }
+  void TearDown() override { ForceTarget(before_); }
+
+ private:
+  const Target before_ = ActiveTarget();
+};
+
+TEST_P(Bfloat16ProductTest, OperandsAreRoundedAsStated) {
+  // Every exponent, ties among them; the products by one show what each operand became.
+  std::vector<float> values = {
+      0.0f,          -0.0f,           1.0f,      0x1.01p0f,        0x1.03p0f,
+      0x1.02fffep0f, -0x1p0f,         0x1p-126f, 0x1.fffffcp-127f, 0x1p-149f,
+      -0x1p-130f,    0x1.fffffep127f, kNan,      kInfinity,        -kInfinity};
+  std::mt19937 generator(1);
+  while (values.size() < 300) {
+    const std::uint32_t bits = generator();
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    values.push_back(value);
+  }
+  const auto expect_rounded = [](float result, float value) {
+    const float expected = Bfloat16Value(RoundToBfloat16(value));
+    if (std::isnan(expected)) {
+      EXPECT_TRUE(std::isnan(result));
+    } else {
+      EXPECT_EQ(result, expected) << value;
+    }
+  };
+  const auto count = static_cast<std::int64_t>(values.size());
+  Matrix one(1, 1), column(count, 1, 0), row(1, count, 0);
+  one.At(0, 0) = 1;
+  column.data = row.data = values;
+  Matrix out(count, 1, 0);
+  Multiply(column, Packed(one, Precision::kBfloat16), nullptr, false, &out);
+  for (std::int64_t i = 0; i < count; ++i) expect_rounded(out.At(i, 0), values[i]);
+  Matrix across(1, count, 0);
+  Multiply(one, Packed(row, Precision::kBfloat16), nullptr, false, &across);
+  for (std::int64_t i = 0; i < count; ++i) expect_rounded(across.At(0, i), values[i]);
+  std::fill(across.data.begin(), across.data.end(), 0.0f);
+  AddTransposedProduct(one, row, Precision::kBfloat16, &across);
+  for (std::int64_t i = 0; i < count; ++i) expect_rounded(across.At(0, i), values[i]);
+}
+
+TEST_P(Bfloat16ProductTest, PairsOfBfloat16AreAddedOddElementFirst) {
+  // 2^24 + 1 is 2^24 in float32, so that only the order odd, even loses the one.
+  const float large = 0x1p24f;
+  Matrix a(1, 2), b(2, 1), bias(1, 1), out(1, 1);
+  a.At(0, 0) = -large;
+  a.At(0, 1) = b.At(0, 0) = b.At(1, 0) = 1;
+  bias.At(0, 0) = large;
+  Multiply(a, Packed(b, Precision::kBfloat16), bias.data.data(), false, &out);
+  EXPECT_EQ(out.At(0, 0), 0);
+  Matrix left(2, 1);
+  left.At(0, 0) = -large;
+  left.At(1, 0) = 1;
+  out.At(0, 0) = large;
+  AddTransposedProduct(left, b, Precision::kBfloat16, &out);
+  EXPECT_EQ(out.At(0, 0), 0);
+}
+
+std::string ParameterName(const testing::TestParamInfo<std::tuple<Target, Precision>>& test) {
+  const bool is_float32 = std::get<1>(test.param) == Precision::kFloat32;
+  return Name(std::get<0>(test.param)) + std::string(is_float32 ? "_float32" : "_bfloat16");
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryTarget, MatrixProductTest,
+                         testing::Combine(testing::ValuesIn(SupportedTargets()),
+                                          testing::Values(Precision::kFloat32,
+                                                          Precision::kBfloat16)),
+                         ParameterName);
+
+INSTANTIATE_TEST_SUITE_P(EveryTarget, Bfloat16ProductTest, testing::ValuesIn(SupportedTargets()),
+                         [](const auto& test) { return Name(test.param); });
+
+/// On processors with the instruction for bfloat16 this compares it with what stands in for it.
+TEST(MatrixProduct, TargetsWithFusedMultiplyAddsAgreeBitForBit) {
+  const Target before = ActiveTarget();
+  const auto supported = SupportedTargets();
+  for (const Target target : {Target::kAvx512, Target::kAvx2}) {
+    if (std::find(supported.begin(), supported.end(), target) == supported.end()) {
+      GTEST_SKIP() << "one of the targets is not supported";
+    }
+  }
+  for (const Precision precision : {Precision::kFloat32, Precision::kBfloat16}) {
+    for (const Shape& shape : kShapes) {
+      const Matrix a = Random(shape.rows, shape.depth, 1);
+      const Matrix b = Random(shape.depth, shape.columns, 2);
+      const Matrix right = Random(shape.rows, shape.columns, 3);
+      std::vector<Matrix> products, gradients;
+      for (const Target target : {Target::kAvx512, Target::kAvx2}) {
+        ForceTarget(target);
+        products.emplace_back(shape.rows, shape.columns);
+        Multiply(a, Packed(b, precision), nullptr, false, &products.back());
+        gradients.push_back(b);
+        AddTransposedProduct(a, right, precision, &gradients.back());
+      }
+      EXPECT_TRUE(SameBits(products[0], products[1]));
+      EXPECT_TRUE(SameBits(gradients[0], gradients[1]));
+    }
+  }
+  ForceTarget(before);
+}
+
+TEST(MatrixProduct, MatrixOfAnotherTargetIsAnError) {
+  const Target before = ActiveTarget();
+  ForceTarget(SupportedTargets().front());
+  const PackedMatrix packed = Packed(Random(4, 4, 1), Precision::kFloat32);
+  ForceTarget(SupportedTargets().back());
+  const Matrix a = Random(2, 4, 2);
+  Matrix out(2, 4);
+  if (SupportedTargets().size() > 1) {
+    EXPECT_THROW(Multiply(a, packed, nullptr, false, &out), Error);
+  }
+  ForceTarget(before);
+  EXPECT_THROW(Multiply(a, PackedMatrix(), nullptr, false, &out), Error);
+}
+
+TEST(MatrixProduct, EmptyMatrixIsAnError) {
+  PackedMatrix packed;
+  const float data[1] = {};
+  EXPECT_THROW(packed.Pack(0, 1, data, 1, 1, Precision::kFloat32), Error);
+  EXPECT_THROW(packed.Pack(1, 0, data, 1, 1, Precision::kFloat32), Error);
+}
+
+TEST(Bfloat16, RoundsToNearestEven) {
+  // A bfloat16 has 8 significant bits: neighbours of one are 2^-7 apart.
+  EXPECT_EQ(Bfloat16Value(RoundToBfloat16(1.0f + 0x1p-8f)), 1.0f);
+  EXPECT_EQ(Bfloat16Value(RoundToBfloat16(1.0f + 3 * 0x1p-8f)), 1.0f + 4 * 0x1p-8f);
+  EXPECT_EQ(Bfloat16Value(RoundToBfloat16(1.0f + 0x1.01p-8f)), 1.0f + 0x1p-7f);
+  EXPECT_EQ(Bfloat16Value(RoundToBfloat16(std::numeric_limits<float>::max())), kInfinity);
+  EXPECT_EQ(Bfloat16Value(RoundToBfloat16(-kInfinity)), -kInfinity);
+  EXPECT_TRUE(std::isnan(Bfloat16Value(RoundToBfloat16(kNan))));
+  const float denormal = Bfloat16Value(RoundToBfloat16(-0x1p-127f));
+  EXPECT_EQ(denormal, 0);
+  EXPECT_TRUE(std::signbit(denormal));
+}
+
+}  // namespace
+}  // namespace skein::simd
