@@ -59,6 +59,10 @@ void DescribeRoofs() {
   benchmark::AddCustomContext("simd_target", simd::Name(simd::ActiveTarget()));
   benchmark::AddCustomContext("core_clock", Rounded(roofs.clock / 1e9, "GHz"));
   benchmark::AddCustomContext("core_fma_peak", Rounded(roofs.peak.gflops_per_core, "GFLOP/s"));
+  if (const auto bfloat16 = simd::MeasureBfloat16Peak(1)) {
+    benchmark::AddCustomContext("core_bfloat16_peak",
+                                Rounded(bfloat16->gflops_per_core, "GFLOP/s"));
+  }
   benchmark::AddCustomContext("core_load_peak",
                               Rounded(roofs.load.bytes_per_s_per_core / 1e9, "GB/s"));
 }

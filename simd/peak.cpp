@@ -5,11 +5,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "simd/bfloat16_peak.h"
 #include "simd/dispatch.h"
 #include "simd/error.h"
 
@@ -176,9 +178,13 @@ double BestRate(Work work, std::int64_t rounds, int repetitions, int threads) {
   return best;
 }
 
+[[noreturn]] void ThrowNoThreads(int threads) {
+  throw Error("peak rates: " + std::to_string(threads) + " threads");
+}
+
 /// The rate of one thread, and of all of them.
 std::pair<double, double> BestRates(Work work, std::int64_t rounds, int threads) {
-  if (threads < 1) throw Error("peak rates: " + std::to_string(threads) + " threads");
+  if (threads < 1) ThrowNoThreads(threads);
   constexpr int kRepetitions = 32;
   const double one = BestRate(work, rounds, kRepetitions, 1);
   return {one, threads == 1 ? one : BestRate(work, rounds, kRepetitions, threads)};
@@ -190,6 +196,18 @@ PeakRate MeasurePeak(int threads) {
   constexpr std::int64_t kRounds = 200000;
   const auto [one, all] = BestRates(SKEIN_DISPATCH(MultiplyAdd), kRounds, threads);
   return {one / 1e9, all / 1e9};
+}
+
+std::optional<PeakRate> MeasureBfloat16Peak(int threads) {
+#ifdef SKEIN_NATIVE_BFLOAT16
+  if (NativeBfloat16()) {
+    constexpr std::int64_t kRounds = 100000;
+    const auto [one, all] = BestRates(&MultiplyAddBfloat16, kRounds, threads);
+    return PeakRate{one / 1e9, all / 1e9};
+  }
+#endif
+  if (threads < 1) ThrowNoThreads(threads);
+  return std::nullopt;
 }
 
 LoadRate MeasureLoadPeak(int threads) {

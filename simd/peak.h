@@ -1,12 +1,14 @@
 #pragma once
 
+#include <optional>
+
 // Roofs that the rates of kernels are compared with, measured on this machine for the active
 // target. Each figure is the best of many short runs and takes some 0.1 s; functions of `threads`
 // throw Error for fewer than 1.
 
 namespace skein::simd {
 
-/// Measured float32 multiply-add rates, in GFLOP/s (a multiply-add counts as two).
+/// Measured multiply-add rates, in GFLOP/s (a multiply-add counts as two).
 struct PeakRate {
   double gflops_per_core = 0;  ///< one thread running alone
   double gflops = 0;           ///< all threads together
@@ -14,6 +16,10 @@ struct PeakRate {
 
 /// Measures what the multiply-add units give with operands in registers.
 PeakRate MeasurePeak(int threads);
+
+/// The same of products of bfloat16 with float32 sums (simd/matrix_product.h) where the processor
+/// has an instruction for them (NativeBfloat16); elsewhere nothing: MeasurePeak is their roof.
+std::optional<PeakRate> MeasureBfloat16Peak(int threads);
 
 /// Measured rates of loads, in bytes/s.
 struct LoadRate {

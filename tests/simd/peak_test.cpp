@@ -61,8 +61,17 @@ TEST(Peak, MoreThreadsLoadNoLess) {
   EXPECT_GT(rate.bytes_per_s, kLeastShare * rate.bytes_per_s_per_core);
 }
 
+TEST(Peak, Bfloat16IsFasterWhereItHasAnInstruction) {
+  const auto rate = simd::MeasureBfloat16Peak(1);
+  ASSERT_EQ(rate.has_value(), simd::NativeBfloat16());
+  if (rate) {
+    EXPECT_GT(rate->gflops_per_core, simd::MeasurePeak(1).gflops_per_core);
+  }
+}
+
 TEST(Peak, NoThreadsIsAnError) {
   EXPECT_THROW(simd::MeasurePeak(0), Error);
+  EXPECT_THROW(simd::MeasureBfloat16Peak(0), Error);
   EXPECT_THROW(simd::MeasureLoadPeak(0), Error);
 }
 

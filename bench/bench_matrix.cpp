@@ -1,0 +1,158 @@
+// The learner's products of matrices on one core: own kernels in both precisions beside LibTorch's.
+// All take turns in every iteration, as the machine's speed varies; rates are of the medians.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "simd/aligned_vector.h"
+#include "simd/matrix_product.h"
+#include "simd/peak.h"
+#include "train/matmul.h"
+
+namespace skein::bench {
+namespace {
+
+using simd::Precision;
+
+AlignedVector<float> Normal(std::int64_t count) {
+  static std::mt19937 generator(1);
+  std::normal_distribution<float> normal(0, 1);
+  AlignedVector<float> values(count);
+  for (float& value : values) value = normal(generator);
+  return values;
+}
+
+/// Calls of one kind, and how long each took.
+class Contender {
+ public:
+  template <class Call>
+  double Time(const Call& call) {
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
+    seconds_.push_back(duration.count());
+    return duration.count();
+  }
+  double Median() {
+    const auto middle = seconds_.begin() + static_cast<std::ptrdiff_t>(seconds_.size() / 2);
+    std::nth_element(seconds_.begin(), middle, seconds_.end());
+    return *middle;
+  }
+
+ private:
+  std::vector<double> seconds_;
+};
+
+/// The roofs of one core, GFLOP/s; bfloat16 has that of float32 where it has no instruction.
+double Peak(Precision precision) {
+  static const double float32 = simd::MeasurePeak(1).gflops_per_core;
+  static const double bfloat16 =
+      simd::MeasureBfloat16Peak(1).value_or(simd::PeakRate{float32, float32}).gflops_per_core;
+  return precision == Precision::kFloat32 ? float32 : bfloat16;
+}
+
+/// Times `own(precision)` and `libtorch()`, products of `multiply_adds`.
+template <class Own, class LibTorch>
+void Compare(benchmark::State& state, std::int64_t multiply_adds, const Own& own,
+             const LibTorch& libtorch) {
+  Contender float32, bfloat16, reference;
+  for (auto _ : state) {
+    reference.Time(libtorch);
+    bfloat16.Time([&] { own(Precision::kBfloat16); });
+    state.SetIterationTime(float32.Time([&] { own(Precision::kFloat32); }));
+  }
+  const auto gflops = [&](Contender& contender) {
+    return 2e-9 * static_cast<double>(multiply_adds) / contender.Median();
+  };
+  // Plain numbers: benchmark::Counter's rates would print with a unit of their own.
+  state.counters["fp32_GFLOP/s"] = gflops(float32);
+  state.counters["fp32_%_of_peak"] = 100 * gflops(float32) / Peak(Precision::kFloat32);
+  state.counters["bf16_GFLOP/s"] = gflops(bfloat16);
+  state.counters["bf16_%_of_peak"] = 100 * gflops(bfloat16) / Peak(Precision::kBfloat16);
+  state.counters["LibTorch_GFLOP/s"] = gflops(reference);
+  state.counters["fp32/LibTorch"] = reference.Median() / float32.Median();
+}
+
+/// Floats between rows: a cache line more than a row has, so that rows do not all fall into the
+/// same sets of the cache.
+std::int64_t Stride(std::int64_t columns) { return (columns + 15) / 16 * 16 + 16; }
+
+/// out = A W^T, a layer forward: range = rows, depth, columns. Its backward by the input, dY W, is
+/// the same kernel with depth and columns swapped.
+void Layer(benchmark::State& state) {
+  UseOneLibTorchThread();
+  const std::int64_t rows = state.range(0), depth = state.range(1), columns = state.range(2);
+  auto a = Normal(rows * Stride(depth)), weight = Normal(depth * columns);
+  auto out = Normal(rows * Stride(columns));
+  simd::PackedMatrix packed[2];
+  for (const Precision precision : {Precision::kFloat32, Precision::kBfloat16}) {
+    packed[static_cast<int>(precision)].Pack(depth, columns, weight.data(), 1, depth, precision);
+  }
+  simd::ProductWorkspace workspace;
+  Compare(
+      state, rows * depth * columns,
+      [&](Precision precision) {
+        simd::Multiply(rows, a.data(), Stride(depth), packed[static_cast<int>(precision)], nullptr,
+                       false, out.data(), Stride(columns), &workspace);
+      },
+      [&] {
+        MatMul({a.data(), rows, depth, Stride(depth)}, Transpose::kNo,
+               {weight.data(), columns, depth, depth}, Transpose::kYes, false,
+               {out.data(), rows, columns, Stride(columns)});
+      });
+}
+BENCHMARK(Layer)
+    ->ArgNames({"rows", "depth", "columns"})
+    ->Args({384, 128, 128})
+    ->Args({384, 128, 384})
+    ->Args({384, 384, 128})
+    ->Args({384, 22, 128})
+    ->Args({384, 128, 4})
+    ->Args({384, 128, 1})
+    ->Args({384, 4, 128})
+    ->Args({48, 128, 384})
+    ->Args({48, 384, 128})
+    ->Args({1024, 128, 128})
+    ->Args({1024, 128, 384})
+    ->UseManualTime();
+
+/// gradient += dY^T X: range = rows, columns of dY (the layer's outputs), columns of X.
+void WeightGradient(benchmark::State& state) {
+  UseOneLibTorchThread();
+  const std::int64_t rows = state.range(0), outputs = state.range(1), inputs = state.range(2);
+  auto left = Normal(rows * Stride(outputs)), right = Normal(rows * Stride(inputs));
+  auto gradient = Normal(outputs * inputs);
+  simd::ProductWorkspace workspace;
+  Compare(
+      state, rows * outputs * inputs,
+      [&](Precision precision) {
+        simd::AddTransposedProduct(rows, left.data(), Stride(outputs), outputs, right.data(),
+                                   Stride(inputs), inputs, precision, gradient.data(), inputs,
+                                   &workspace);
+      },
+      [&] {
+        MatMul({left.data(), rows, outputs, Stride(outputs)}, Transpose::kYes,
+               {right.data(), rows, inputs, Stride(inputs)}, Transpose::kNo, true,
+               {gradient.data(), outputs, inputs, inputs});
+      });
+}
+BENCHMARK(WeightGradient)
+    ->ArgNames({"rows", "outputs", "inputs"})
+    ->Args({384, 128, 128})
+    ->Args({384, 384, 128})
+    ->Args({384, 128, 22})
+    ->Args({384, 4, 128})
+    ->Args({384, 1, 128})
+    ->Args({1024, 128, 128})
+    ->Args({1024, 384, 128})
+    ->UseManualTime();
+
+}  // namespace
+}  // namespace skein::bench
