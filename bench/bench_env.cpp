@@ -141,7 +141,8 @@ void BM_Reset(benchmark::State& state) {
   const EnvConfig config;
   const FlightReset reset(config, F16());
   const std::unique_ptr<Task> task = MakeTask(config);
-  std::vector<float> targets(static_cast<std::size_t>(task->num_columns()));
+  std::vector<float> columns(static_cast<std::size_t>(task->num_columns()));
+  const Tile targets{columns.data(), 1, 1};
   std::uint32_t episode = 0;
   Meter meter(&state, kTileSize, {});
   for (auto _ : state) {
@@ -150,9 +151,9 @@ void BM_Reset(benchmark::State& state) {
         simd::RandomStream initial({1, i, episode, 0, simd::RandomPurpose::kInitialState});
         const FreshFlight flight = reset.Draw(&initial);
         simd::RandomStream target({1, i, episode, 0, simd::RandomPurpose::kTarget});
-        task->Reset(flight.start, &target, targets.data());
+        task->Reset(flight.start, &target, targets, 0);
         benchmark::DoNotOptimize(flight.columns);
-        benchmark::DoNotOptimize(targets.data());
+        benchmark::DoNotOptimize(columns.data());
       }
     });
     ++episode;

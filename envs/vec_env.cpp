@@ -150,12 +150,8 @@ struct VecEnv::Impl {
     for (int column = 0; column < kNumColumns; ++column) {
       block.flight[column][i] = flight.columns[static_cast<std::size_t>(column)];
     }
-    std::vector<float> targets(static_cast<std::size_t>(task->num_columns()));
     simd::RandomStream target = Stream(block, i, simd::RandomPurpose::kTarget);
-    task->Reset(flight.start, &target, targets.data());
-    for (int column = 0; column < task->num_columns(); ++column) {
-      block.task[column][i] = targets[static_cast<std::size_t>(column)];
-    }
+    task->Reset(flight.start, &target, block.task, i);
     if (config.stagger_clocks && episode == 0) {
       simd::RandomStream clock = Stream(block, i, simd::RandomPurpose::kClockStagger);
       block.step[i] = static_cast<std::int32_t>(clock.Uniform(0, config.time_limit_steps));

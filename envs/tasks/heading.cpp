@@ -97,15 +97,16 @@ class HeadingTask : public Task {
     return {{"altitude_ft"}, {"yaw_deg", true}, {"true_airspeed_fps"}};
   }
 
-  void Reset(const FlightStart& start, simd::RandomStream* random, float* columns) const override {
+  void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
+             int index) const override {
     const auto around = [random](double centre, double change) {
       return centre + random->Uniform(-change, change);
     };
-    columns[kTargetAltitude] =
+    task[kTargetAltitude][index] =
         static_cast<float>(around(start.altitude_ft, config_.altitude_change_ft));
     const double yaw = around(start.yaw_rad, config_.yaw_change_rad);
-    columns[kTargetYaw] = static_cast<float>(std::remainder(yaw, 2 * M_PI));
-    columns[kTargetSpeed] =
+    task[kTargetYaw][index] = static_cast<float>(std::remainder(yaw, 2 * M_PI));
+    task[kTargetSpeed][index] =
         static_cast<float>(around(start.true_airspeed_ft_s, config_.speed_change_fps));
   }
 

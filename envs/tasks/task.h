@@ -48,9 +48,9 @@ class Task {
   /// One per target, in their order.
   virtual std::vector<TargetQuantity> target_quantities() const = 0;
 
-  /// Draws the task columns of one aircraft at the start of an episode.
-  virtual void Reset(const FlightStart& start, simd::RandomStream* random,
-                     float* columns) const = 0;
+  /// Draws the columns of the tile's aircraft `index` at the start of an episode.
+  virtual void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
+                     int index) const = 0;
 
   /// The first three observations, as columns `error_stride` apart.
   virtual void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const = 0;

@@ -130,12 +130,13 @@ TEST_P(HeadingTest, TargetsAreDrawnAroundTheStart) {
   double least[3] = {1e9, 1e9, 1e9}, most[3] = {-1e9, -1e9, -1e9};
   for (std::uint32_t episode = 0; episode < 2000; ++episode) {
     simd::RandomStream random({5, 0, episode, 0, simd::RandomPurpose::kTarget});
-    float target[kNumHeadingColumns];
-    task_->Reset({20000, 1100, 0, 1}, &random, target);
-    const double change[3] = {target[kTargetAltitude] - 20000.0,
-                              std::remainder(target[kTargetYaw] - 1, 2 * M_PI),
-                              target[kTargetSpeed] - 1100.0};
-    EXPECT_LE(std::abs(target[kTargetYaw]), M_PI + kTolerance);
+    TestTile target(1, kNumHeadingColumns);
+    task_->Reset({20000, 1100, 0, 1}, &random, target.tile(), 0);
+    const double yaw = target.at(kTargetYaw, 0);
+    const double change[3] = {target.at(kTargetAltitude, 0) - 20000.0,
+                              std::remainder(yaw - 1, 2 * M_PI),
+                              target.at(kTargetSpeed, 0) - 1100.0};
+    EXPECT_LE(std::abs(yaw), M_PI + kTolerance);
     for (int k = 0; k < 3; ++k) {
       least[k] = std::min(least[k], change[k]);
       most[k] = std::max(most[k], change[k]);
