@@ -1,38 +1,48 @@
 #include "envs/env_config.h"
 
 #include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
 
 #include "simd/error.h"
 
 namespace skein {
 namespace {
 
-void Require(bool holds, const std::string& field, double value, const std::string& rule) {
+std::string Text(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(10) << value;
+  return text.str();
+}
+
+void Require(bool holds, const std::string& key, double value, const std::string& rule) {
   if (!holds) {
-    throw Error("environment: " + field + " = " + std::to_string(value) + ", but it must be " +
-                rule);
+    throw Error("configuration: " + key + " = " + Text(value) + ", but it must be " + rule);
   }
 }
 
-void RequireRange(const std::string& field, const Range& range, double least, double most) {
-  Require(std::isfinite(range.min) && range.min >= least, field + ".min", range.min,
-          "at least " + std::to_string(least));
-  Require(std::isfinite(range.max) && range.max <= most, field + ".max", range.max,
-          "at most " + std::to_string(most));
-  Require(range.min <= range.max, field + ".min", range.min,
-          "no more than its max, " + std::to_string(range.max));
+/// Of the keys `quantity`_min_`unit` and `quantity`_max_`unit`.
+void RequireRange(const std::string& quantity, const std::string& unit, const Range& range,
+                  double least, double most) {
+  const std::string min = quantity + "_min_" + unit, max = quantity + "_max_" + unit;
+  Require(std::isfinite(range.min) && range.min >= least, min, range.min,
+          "at least " + Text(least));
+  Require(std::isfinite(range.max) && range.max <= most, max, range.max, "at most " + Text(most));
+  Require(range.min <= range.max, min, range.min, "no more than " + max + ", " + Text(range.max));
 }
 
-void RequirePositive(const std::string& field, double value) {
-  Require(std::isfinite(value) && value > 0, field, value, "a positive number");
+void RequirePositive(const std::string& key, double value) {
+  Require(std::isfinite(value) && value > 0, key, value, "a positive number");
 }
 
-void RequireNotNegative(const std::string& field, double value) {
-  Require(std::isfinite(value) && value >= 0, field, value, "zero or more");
+void RequireNotNegative(const std::string& key, double value) {
+  Require(std::isfinite(value) && value >= 0, key, value, "zero or more");
 }
 
-void RequireFinite(const std::string& field, double value) {
-  Require(std::isfinite(value), field, value, "a finite number");
+void RequireFinite(const std::string& key, double value) {
+  Require(std::isfinite(value), key, value, "a finite number");
 }
 
 // The longest control interval for which the discrete flight control's filters keep their shape:
@@ -42,48 +52,54 @@ constexpr double kLongestControlInterval = 0.04;
 }  // namespace
 
 void Validate(const EnvConfig& config) {
-  RequirePositive("control_interval_s", config.control_interval_s);
-  Require(config.control_interval_s <= kLongestControlInterval, "control_interval_s",
-          config.control_interval_s, "at most " + std::to_string(kLongestControlInterval));
-  Require(config.substeps >= 1, "substeps", config.substeps, "at least 1");
-  Require(config.action_repeat >= 1, "action_repeat", config.action_repeat, "at least 1");
-  Require(config.time_limit_steps >= 1, "time_limit_steps", config.time_limit_steps, "at least 1");
-  RequireNotNegative("observation_noise", config.observation_noise);
-  RequireNotNegative("reward_scale", config.reward_scale);
-  Require(config.cg > 0 && config.cg < 1, "cg", config.cg, "between 0 and 1 (fraction of chord)");
-  RequireNotNegative("engine_angular_momentum", config.engine_angular_momentum);
+  RequirePositive("env.control_interval_s", config.control_interval_s);
+  Require(config.control_interval_s <= kLongestControlInterval, "env.control_interval_s",
+          config.control_interval_s, "at most " + Text(kLongestControlInterval));
+  Require(config.substeps >= 1, "env.substeps", config.substeps, "at least 1");
+  Require(config.action_repeat >= 1, "env.action_repeat", config.action_repeat, "at least 1");
+  Require(config.time_limit_steps >= 1, "env.time_limit_steps", config.time_limit_steps,
+          "at least 1");
+  RequireNotNegative("env.observation_noise", config.observation_noise);
+  RequireNotNegative("env.reward_scale", config.reward_scale);
+  Require(config.cg > 0 && config.cg < 1, "env.cg_chord_fraction", config.cg,
+          "between 0 and 1 (fraction of chord)");
+  RequireNotNegative("env.engine_angular_momentum_slug_ft2_per_s", config.engine_angular_momentum);
 
-  RequireRange("initial.altitude_ft", config.initial.altitude_ft, 0, 60000);
-  RequireRange("initial.true_airspeed_fps", config.initial.true_airspeed_fps, 100, 3000);
+  RequireRange("env.initial.altitude", "ft", config.initial.altitude_ft, 0, 60000);
+  RequireRange("env.initial.true_airspeed", "fps", config.initial.true_airspeed_fps, 100, 3000);
 
-  RequireNotNegative("heading.altitude_change_ft", config.heading.altitude_change_ft);
-  RequireNotNegative("heading.yaw_change_rad", config.heading.yaw_change_rad);
-  RequireNotNegative("heading.speed_change_fps", config.heading.speed_change_fps);
-  RequirePositive("heading.altitude_tolerance_ft", config.heading.altitude_tolerance_ft);
-  RequirePositive("heading.yaw_tolerance_deg", config.heading.yaw_tolerance_deg);
-  RequirePositive("heading.speed_tolerance_fps", config.heading.speed_tolerance_fps);
-  Require(config.heading.earliest_success_step >= 0, "heading.earliest_success_step",
+  RequireNotNegative("env.heading.altitude_change_ft", config.heading.altitude_change_ft);
+  RequireNotNegative("env.heading.yaw_change_rad", config.heading.yaw_change_rad);
+  RequireNotNegative("env.heading.speed_change_fps", config.heading.speed_change_fps);
+  RequirePositive("env.heading.altitude_tolerance_ft", config.heading.altitude_tolerance_ft);
+  RequirePositive("env.heading.yaw_tolerance_deg", config.heading.yaw_tolerance_deg);
+  RequirePositive("env.heading.speed_tolerance_fps", config.heading.speed_tolerance_fps);
+  Require(config.heading.earliest_success_step >= 0, "env.heading.earliest_success_step",
           config.heading.earliest_success_step, "zero or more");
+  Require(config.heading.earliest_success_step <= config.time_limit_steps,
+          "env.heading.earliest_success_step", config.heading.earliest_success_step,
+          "no more than env.time_limit_steps, " + Text(config.time_limit_steps) +
+              ": else no episode could succeed");
 
-  RequireRange("termination.alpha_deg", config.termination.alpha_deg, -180, 180);
-  RequireRange("termination.beta_deg", config.termination.beta_deg, -90, 90);
+  RequireRange("env.termination.alpha", "deg", config.termination.alpha_deg, -180, 180);
+  RequireRange("env.termination.beta", "deg", config.termination.beta_deg, -90, 90);
   // The limits are judged by the sides of two directions, which an arc beyond 180 deg does not
   // have.
   Require(config.termination.alpha_deg.max - config.termination.alpha_deg.min <= 180,
-          "termination.alpha_deg.max", config.termination.alpha_deg.max,
-          "at most 180 above its min");
-  RequireNotNegative("termination.min_mach", config.termination.min_mach);
-  RequirePositive("termination.max_mach", config.termination.max_mach);
-  Require(config.termination.min_mach < config.termination.max_mach, "termination.min_mach",
-          config.termination.min_mach, "below termination.max_mach");
-  RequireFinite("termination.min_altitude_ft", config.termination.min_altitude_ft);
-  Require(
-      config.initial.altitude_ft.min > config.termination.min_altitude_ft,
-      "initial.altitude_ft.min", config.initial.altitude_ft.min,
-      "above termination.min_altitude_ft, " + std::to_string(config.termination.min_altitude_ft));
-  RequirePositive("termination.max_load_factor", config.termination.max_load_factor);
-  RequireFinite("termination.failure_reward", config.termination.failure_reward);
-  RequireFinite("termination.success_reward", config.termination.success_reward);
+          "env.termination.alpha_max_deg", config.termination.alpha_deg.max,
+          "at most 180 above env.termination.alpha_min_deg");
+  RequireNotNegative("env.termination.min_mach", config.termination.min_mach);
+  RequirePositive("env.termination.max_mach", config.termination.max_mach);
+  Require(config.termination.min_mach < config.termination.max_mach, "env.termination.min_mach",
+          config.termination.min_mach,
+          "below env.termination.max_mach, " + Text(config.termination.max_mach));
+  RequireFinite("env.termination.min_altitude_ft", config.termination.min_altitude_ft);
+  Require(config.initial.altitude_ft.min > config.termination.min_altitude_ft,
+          "env.initial.altitude_min_ft", config.initial.altitude_ft.min,
+          "above env.termination.min_altitude_ft, " + Text(config.termination.min_altitude_ft));
+  RequirePositive("env.termination.max_load_factor_g", config.termination.max_load_factor);
+  RequireFinite("env.termination.failure_reward", config.termination.failure_reward);
+  RequireFinite("env.termination.success_reward", config.termination.success_reward);
 }
 
 }  // namespace skein

@@ -67,7 +67,8 @@ struct EnvConfig {
   TerminationConfig termination;
 };
 
-/// Throws Error naming the first field whose value cannot be flown.
+/// Throws Error naming the configuration key of the first value that cannot be flown, or under
+/// which no episode could succeed.
 void Validate(const EnvConfig& config);
 
 }  // namespace skein

@@ -29,7 +29,7 @@ Aircraft LoadAircraft(const std::string& name) {
     if (name == aircraft.name) return aircraft.load();
     known += (known.empty() ? "" : ", ") + std::string(aircraft.name);
   }
-  throw Error("unknown aircraft \"" + name + "\"; known: " + known);
+  throw Error("environment: unknown aircraft \"" + name + "\"; known: " + known);
 }
 
 }  // namespace skein

@@ -29,98 +29,121 @@ std::string Complaint(const EnvConfig& config) {
 TEST(EnvConfigTest, DefaultsCanBeFlown) { EXPECT_EQ(Complaint({}), ""); }
 
 struct Fault {
-  std::string field;
+  std::string key;
   std::function<void(EnvConfig*)> make;
 };
 
-TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheField) {
+TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
   const std::vector<Fault> faults = {
-      {"control_interval_s", [](EnvConfig* c) { c->control_interval_s = 0; }},
-      {"control_interval_s", [](EnvConfig* c) { c->control_interval_s = 0.05; }},
-      {"substeps", [](EnvConfig* c) { c->substeps = 0; }},
-      {"action_repeat", [](EnvConfig* c) { c->action_repeat = 0; }},
-      {"time_limit_steps", [](EnvConfig* c) { c->time_limit_steps = 0; }},
-      {"observation_noise", [](EnvConfig* c) { c->observation_noise = -0.01; }},
-      {"reward_scale", [](EnvConfig* c) { c->reward_scale = -1; }},
-      {"cg", [](EnvConfig* c) { c->cg = 0; }},
-      {"cg", [](EnvConfig* c) { c->cg = 30; }},
-      {"engine_angular_momentum", [](EnvConfig* c) { c->engine_angular_momentum = -160; }},
-      {"initial.altitude_ft",
+      {"env.control_interval_s = ", [](EnvConfig* c) { c->control_interval_s = 0; }},
+      {"env.control_interval_s = ", [](EnvConfig* c) { c->control_interval_s = 0.05; }},
+      {"env.substeps = ", [](EnvConfig* c) { c->substeps = 0; }},
+      {"env.action_repeat = ", [](EnvConfig* c) { c->action_repeat = 0; }},
+      {"env.time_limit_steps = ", [](EnvConfig* c) { c->time_limit_steps = 0; }},
+      {"env.observation_noise = ", [](EnvConfig* c) { c->observation_noise = -0.01; }},
+      {"env.reward_scale = ", [](EnvConfig* c) { c->reward_scale = -1; }},
+      {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 0; }},
+      {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 30; }},
+      {"env.engine_angular_momentum_slug_ft2_per_s = ",
+       [](EnvConfig* c) { c->engine_angular_momentum = -160; }},
+      {"env.initial.altitude_min_ft = ",
        [](EnvConfig* c) {
          c->initial.altitude_ft = {20000, 19000};
        }},
-      {"initial.altitude_ft",
+      {"env.initial.altitude_max_ft = ",
        [](EnvConfig* c) {
          c->initial.altitude_ft = {19000, 70000};
        }},
-      {"initial.true_airspeed_fps",
+      {"env.initial.true_airspeed_min_fps = ",
        [](EnvConfig* c) {
          c->initial.true_airspeed_fps = {0, 1000};
        }},
-      {"heading.altitude_change_ft", [](EnvConfig* c) { c->heading.altitude_change_ft = -1; }},
-      {"heading.yaw_change_rad", [](EnvConfig* c) { c->heading.yaw_change_rad = -1; }},
-      {"heading.speed_change_fps", [](EnvConfig* c) { c->heading.speed_change_fps = -1; }},
-      {"heading.altitude_tolerance_ft", [](EnvConfig* c) { c->heading.altitude_tolerance_ft = 0; }},
-      {"heading.yaw_tolerance_deg", [](EnvConfig* c) { c->heading.yaw_tolerance_deg = 0; }},
-      {"heading.speed_tolerance_fps", [](EnvConfig* c) { c->heading.speed_tolerance_fps = 0; }},
-      {"heading.earliest_success_step",
+      {"env.heading.altitude_change_ft = ",
+       [](EnvConfig* c) { c->heading.altitude_change_ft = -1; }},
+      {"env.heading.yaw_change_rad = ", [](EnvConfig* c) { c->heading.yaw_change_rad = -1; }},
+      {"env.heading.speed_change_fps = ", [](EnvConfig* c) { c->heading.speed_change_fps = -1; }},
+      {"env.heading.altitude_tolerance_ft = ",
+       [](EnvConfig* c) { c->heading.altitude_tolerance_ft = 0; }},
+      {"env.heading.yaw_tolerance_deg = ", [](EnvConfig* c) { c->heading.yaw_tolerance_deg = 0; }},
+      {"env.heading.speed_tolerance_fps = ",
+       [](EnvConfig* c) { c->heading.speed_tolerance_fps = 0; }},
+      {"env.heading.earliest_success_step = ",
        [](EnvConfig* c) { c->heading.earliest_success_step = -1; }},
-      {"termination.alpha_deg",
+      // No episode would last long enough to succeed.
+      {"env.heading.earliest_success_step = ",
+       [](EnvConfig* c) { c->heading.earliest_success_step = c->time_limit_steps + 1; }},
+      {"env.termination.alpha_min_deg = ",
        [](EnvConfig* c) {
          c->termination.alpha_deg = {45, -20};
        }},
       // The kernels judge angles by the sides of two directions: an arc of 180 degrees at most.
-      {"termination.alpha_deg",
+      {"env.termination.alpha_max_deg = ",
        [](EnvConfig* c) {
          c->termination.alpha_deg = {-95, 95};
        }},
-      {"termination.beta_deg",
+      {"env.termination.beta_min_deg = ",
        [](EnvConfig* c) {
          c->termination.beta_deg = {-100, 30};
        }},
-      {"termination.min_mach", [](EnvConfig* c) { c->termination.min_mach = 3; }},
-      {"termination.max_mach", [](EnvConfig* c) { c->termination.max_mach = -1; }},
-      {"termination.max_load_factor", [](EnvConfig* c) { c->termination.max_load_factor = 0; }},
+      {"env.termination.min_mach = ", [](EnvConfig* c) { c->termination.min_mach = 3; }},
+      {"env.termination.max_mach = ", [](EnvConfig* c) { c->termination.max_mach = -1; }},
+      {"env.termination.max_load_factor_g = ",
+       [](EnvConfig* c) { c->termination.max_load_factor = 0; }},
       // Every episode would end with its first step.
-      {"initial.altitude_ft",
+      {"env.initial.altitude_min_ft = ",
        [](EnvConfig* c) { c->termination.min_altitude_ft = c->initial.altitude_ft.min; }},
   };
   for (const Fault& fault : faults) {
     EnvConfig config;
     fault.make(&config);
-    EXPECT_NE(Complaint(config).find(fault.field), std::string::npos)
-        << "expected a complaint about " << fault.field << ", got \"" << Complaint(config) << '"';
+    EXPECT_NE(Complaint(config).find(fault.key), std::string::npos)
+        << "expected a complaint about " << fault.key << ", got \"" << Complaint(config) << '"';
   }
 }
 
 TEST(EnvConfigTest, RefusesNumbersThatAreNotFinite) {
   const std::vector<std::pair<std::string, std::function<double*(EnvConfig*)>>> fields = {
-      {"cg", [](EnvConfig* c) { return &c->cg; }},
-      {"engine_angular_momentum", [](EnvConfig* c) { return &c->engine_angular_momentum; }},
-      {"control_interval_s", [](EnvConfig* c) { return &c->control_interval_s; }},
-      {"observation_noise", [](EnvConfig* c) { return &c->observation_noise; }},
-      {"reward_scale", [](EnvConfig* c) { return &c->reward_scale; }},
-      {"initial.altitude_ft", [](EnvConfig* c) { return &c->initial.altitude_ft.min; }},
-      {"initial.altitude_ft", [](EnvConfig* c) { return &c->initial.altitude_ft.max; }},
-      {"initial.true_airspeed_fps", [](EnvConfig* c) { return &c->initial.true_airspeed_fps.min; }},
-      {"initial.true_airspeed_fps", [](EnvConfig* c) { return &c->initial.true_airspeed_fps.max; }},
-      {"heading.altitude_change_ft", [](EnvConfig* c) { return &c->heading.altitude_change_ft; }},
-      {"heading.yaw_change_rad", [](EnvConfig* c) { return &c->heading.yaw_change_rad; }},
-      {"heading.speed_change_fps", [](EnvConfig* c) { return &c->heading.speed_change_fps; }},
-      {"heading.altitude_tolerance_ft",
+      {"env.cg_chord_fraction = ", [](EnvConfig* c) { return &c->cg; }},
+      {"env.engine_angular_momentum_slug_ft2_per_s = ",
+       [](EnvConfig* c) { return &c->engine_angular_momentum; }},
+      {"env.control_interval_s = ", [](EnvConfig* c) { return &c->control_interval_s; }},
+      {"env.observation_noise = ", [](EnvConfig* c) { return &c->observation_noise; }},
+      {"env.reward_scale = ", [](EnvConfig* c) { return &c->reward_scale; }},
+      {"env.initial.altitude_min_ft = ", [](EnvConfig* c) { return &c->initial.altitude_ft.min; }},
+      {"env.initial.altitude_max_ft = ", [](EnvConfig* c) { return &c->initial.altitude_ft.max; }},
+      {"env.initial.true_airspeed_min_fps = ",
+       [](EnvConfig* c) { return &c->initial.true_airspeed_fps.min; }},
+      {"env.initial.true_airspeed_max_fps = ",
+       [](EnvConfig* c) { return &c->initial.true_airspeed_fps.max; }},
+      {"env.heading.altitude_change_ft = ",
+       [](EnvConfig* c) { return &c->heading.altitude_change_ft; }},
+      {"env.heading.yaw_change_rad = ", [](EnvConfig* c) { return &c->heading.yaw_change_rad; }},
+      {"env.heading.speed_change_fps = ",
+       [](EnvConfig* c) { return &c->heading.speed_change_fps; }},
+      {"env.heading.altitude_tolerance_ft = ",
        [](EnvConfig* c) { return &c->heading.altitude_tolerance_ft; }},
-      {"heading.yaw_tolerance_deg", [](EnvConfig* c) { return &c->heading.yaw_tolerance_deg; }},
-      {"heading.speed_tolerance_fps", [](EnvConfig* c) { return &c->heading.speed_tolerance_fps; }},
-      {"termination.alpha_deg", [](EnvConfig* c) { return &c->termination.alpha_deg.min; }},
-      {"termination.alpha_deg", [](EnvConfig* c) { return &c->termination.alpha_deg.max; }},
-      {"termination.beta_deg", [](EnvConfig* c) { return &c->termination.beta_deg.min; }},
-      {"termination.beta_deg", [](EnvConfig* c) { return &c->termination.beta_deg.max; }},
-      {"termination.min_mach", [](EnvConfig* c) { return &c->termination.min_mach; }},
-      {"termination.max_mach", [](EnvConfig* c) { return &c->termination.max_mach; }},
-      {"termination.min_altitude_ft", [](EnvConfig* c) { return &c->termination.min_altitude_ft; }},
-      {"termination.max_load_factor", [](EnvConfig* c) { return &c->termination.max_load_factor; }},
-      {"termination.failure_reward", [](EnvConfig* c) { return &c->termination.failure_reward; }},
-      {"termination.success_reward", [](EnvConfig* c) { return &c->termination.success_reward; }},
+      {"env.heading.yaw_tolerance_deg = ",
+       [](EnvConfig* c) { return &c->heading.yaw_tolerance_deg; }},
+      {"env.heading.speed_tolerance_fps = ",
+       [](EnvConfig* c) { return &c->heading.speed_tolerance_fps; }},
+      {"env.termination.alpha_min_deg = ",
+       [](EnvConfig* c) { return &c->termination.alpha_deg.min; }},
+      {"env.termination.alpha_max_deg = ",
+       [](EnvConfig* c) { return &c->termination.alpha_deg.max; }},
+      {"env.termination.beta_min_deg = ",
+       [](EnvConfig* c) { return &c->termination.beta_deg.min; }},
+      {"env.termination.beta_max_deg = ",
+       [](EnvConfig* c) { return &c->termination.beta_deg.max; }},
+      {"env.termination.min_mach = ", [](EnvConfig* c) { return &c->termination.min_mach; }},
+      {"env.termination.max_mach = ", [](EnvConfig* c) { return &c->termination.max_mach; }},
+      {"env.termination.min_altitude_ft = ",
+       [](EnvConfig* c) { return &c->termination.min_altitude_ft; }},
+      {"env.termination.max_load_factor_g = ",
+       [](EnvConfig* c) { return &c->termination.max_load_factor; }},
+      {"env.termination.failure_reward = ",
+       [](EnvConfig* c) { return &c->termination.failure_reward; }},
+      {"env.termination.success_reward = ",
+       [](EnvConfig* c) { return &c->termination.success_reward; }},
   };
   for (const auto& [name, field] : fields) {
     for (const double value : {kNan, kInfinity, -kInfinity}) {
@@ -130,6 +153,18 @@ TEST(EnvConfigTest, RefusesNumbersThatAreNotFinite) {
           << name << " = " << value << ": \"" << Complaint(config) << '"';
     }
   }
+}
+
+TEST(EnvConfigTest, SaysWhatWouldBeRight) {
+  EnvConfig config;
+  config.time_limit_steps = 100;
+  EXPECT_EQ(Complaint(config),
+            "configuration: env.heading.earliest_success_step = 300, but it must be no more than "
+            "env.time_limit_steps, 100: else no episode could succeed");
+  config = {};
+  config.control_interval_s = 0.05;
+  EXPECT_EQ(Complaint(config),
+            "configuration: env.control_interval_s = 0.05, but it must be at most 0.04");
 }
 
 TEST(EnvConfigTest, AcceptsTheEdgesOfWhatItAllows) {
@@ -146,6 +181,8 @@ TEST(EnvConfigTest, AcceptsTheEdgesOfWhatItAllows) {
   config.termination.alpha_deg = {-90, 90};
   config.termination.beta_deg = {-90, 90};
   config.termination.min_mach = 0;
+  EXPECT_EQ(Complaint(config), "");
+  config.heading.earliest_success_step = config.time_limit_steps;
   EXPECT_EQ(Complaint(config), "");
 }
 

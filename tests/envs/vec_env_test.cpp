@@ -100,7 +100,7 @@ std::vector<Log> Fly(VecEnv* env, int first_decision, int decisions) {
 EnvConfig BusyConfig() {
   EnvConfig config;
   config.action_repeat = 3;
-  config.time_limit_steps = 100;
+  config.time_limit_steps = config.heading.earliest_success_step = 100;
   config.stagger_clocks = true;
   return config;
 }
@@ -277,7 +277,7 @@ TEST(VecEnv, UntrimmedStartsAreThePapers) {
 
 TEST(VecEnv, TimeLimitEndsAndRestartsEveryEpisode) {
   EnvConfig config;
-  config.time_limit_steps = 20;
+  config.time_limit_steps = config.heading.earliest_success_step = 20;
   config.action_repeat = 8;
   VecEnv env(config, 10, 1);
   const std::vector<float> first_target = env.TargetOf(0);
@@ -301,7 +301,7 @@ TEST(VecEnv, TimeLimitEndsAndRestartsEveryEpisode) {
 
 TEST(VecEnv, ReturnIsTheSumOfRewards) {
   EnvConfig config;
-  config.time_limit_steps = 50;
+  config.time_limit_steps = config.heading.earliest_success_step = 50;
   config.action_repeat = 5;
   VecEnv env(config, 40, 1);
   const std::vector<Log> logs = Fly(&env, 0, 10);
@@ -315,7 +315,7 @@ TEST(VecEnv, ReturnIsTheSumOfRewards) {
 
 TEST(VecEnv, TruncationKeepsTheLastObservation) {
   EnvConfig config;
-  config.time_limit_steps = 10;
+  config.time_limit_steps = config.heading.earliest_success_step = 10;
   config.action_repeat = 10;
   config.truncate_at_time_limit = true;
   constexpr int kCount = 150;
@@ -337,7 +337,7 @@ TEST(VecEnv, TruncationKeepsTheLastObservation) {
 
 TEST(VecEnv, ShowsTheStateInWhichAnEpisodeEnded) {
   EnvConfig config;
-  config.time_limit_steps = 10;
+  config.time_limit_steps = config.heading.earliest_success_step = 10;
   config.action_repeat = 10;
   constexpr int kCount = 150;
   VecEnv env(config, kCount, 1);
@@ -368,7 +368,7 @@ TEST(VecEnv, ShowsTheStateInWhichAnEpisodeEnded) {
 
 TEST(VecEnv, StaggeredClocksSpreadOverTheTimeLimit) {
   EnvConfig config;
-  config.time_limit_steps = 40;
+  config.time_limit_steps = config.heading.earliest_success_step = 40;
   config.stagger_clocks = true;
   constexpr int kCount = 4000;
   VecEnv env(config, kCount, 1, kCount);
@@ -497,7 +497,7 @@ TEST(VecEnv, RefusesWhatCannotBeFlown) {
   EXPECT_NE(message(config).find("action_repeat"), std::string::npos);
   config = {};
   config.initial.altitude_ft = {20000, 19000};
-  EXPECT_NE(message(config).find("initial.altitude_ft"), std::string::npos);
+  EXPECT_NE(message(config).find("env.initial.altitude_min_ft"), std::string::npos);
   config = {};
   config.observation_noise = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(message(config).find("observation_noise"), std::string::npos);

@@ -7,7 +7,7 @@
 int main() {
   const skein::Policy policy = skein::Policy::Untrained({}, 22, 4, 1);
   skein::EnvConfig config;
-  config.time_limit_steps = 100;
+  config.time_limit_steps = config.heading.earliest_success_step = 100;
   skein::EvaluationOptions options;
   options.episodes = 32;
   skein::WorkerPool pool(1);

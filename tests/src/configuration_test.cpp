@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "simd/error.h"
@@ -128,6 +129,27 @@ TEST(Configuration, ValuesThatCannotGoTogetherAreRefused) {
   EXPECT_THAT(refused({"ppo.num_aircraft=1", "ppo.minibatches=9"}), HasSubstr("minibatches"));
   EXPECT_NE(refused({"env.initial.altitude_min_ft=21000"}), "");
   EXPECT_NE(refused({"checkpoint.interval_s=0"}), "");
+}
+
+TEST(Configuration, AnEnvironmentThatCannotBeFlownIsNamedByItsKey) {
+  for (const Setting& setting : Settings()) {
+    if (setting.key.rfind("env.", 0) != 0) continue;
+    ProgramConfig config;
+    const SettingField field = setting.field(config);
+    if (double* const* const number = std::get_if<double*>(&field)) {
+      **number = std::nan("");
+    } else if (int* const* const integer = std::get_if<int*>(&field)) {
+      **integer = -1;
+    } else {
+      continue;
+    }
+    try {
+      CheckConsistent(config);
+      FAIL() << setting.key << " was not refused";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("configuration: " + setting.key + " = "));
+    }
+  }
 }
 
 TEST(Configuration, UnknownPresetsAndTasksListWhatThereIs) {

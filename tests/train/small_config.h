@@ -9,7 +9,8 @@ inline TrainConfig SmallConfig() {
   TrainConfig config;
   config.env.action_repeat = 5;
   config.env.stagger_clocks = true;
-  config.env.time_limit_steps = 100;  // episodes end in every rollout
+  // Episodes end in every rollout.
+  config.env.time_limit_steps = config.env.heading.earliest_success_step = 100;
   config.network.hidden_size = 32;
   config.network.gru_size = 16;
   config.ppo.num_aircraft = 96;
