@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 
@@ -22,8 +23,16 @@ class WorkerPool {
   /// never overlap.
   void ForEach(int count, const std::function<void(int index, int worker)>& body);
 
+  /// Asks whoever works on the pool to give up, for good: long bodies look at stopping() now and
+  /// then and return early. What they leave is incomplete, and their caller throws it away when it
+  /// sees stopping(). From any thread, or a signal handler.
+  void RequestStop() { stopping_.store(true, std::memory_order_release); }
+  bool stopping() const { return stopping_.load(std::memory_order_acquire); }
+
  private:
   struct Arena;
+  static_assert(std::atomic<bool>::is_always_lock_free, "set in signal handlers");
+  std::atomic<bool> stopping_{false};
   int threads_ = 1;
   std::unique_ptr<Arena> arena_;
 };

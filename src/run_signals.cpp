@@ -1,5 +1,6 @@
 #include "src/run_signals.h"
 
+#include <atomic>
 #include <csignal>
 
 #include "simd/error.h"
@@ -8,20 +9,25 @@
 namespace skein {
 namespace {
 
-volatile std::sig_atomic_t stop_signal = 0;
-volatile std::sig_atomic_t save_requested = 0;
+// Handlers run on whichever thread the system chooses.
+std::atomic<WorkerPool*> stopped_pool{nullptr};
+std::atomic<int> stop_signal{0};
+std::atomic<bool> save_requested{false};
+static_assert(std::atomic<WorkerPool*>::is_always_lock_free &&
+              std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 void OnStop(int signal) {
-  if (stop_signal != 0) {
+  int none = 0;
+  if (!stop_signal.compare_exchange_strong(none, signal)) {
     // Once handled is enough: the next one acts as if no handler were there.
     std::signal(signal, SIG_DFL);
     std::raise(signal);
     return;
   }
-  stop_signal = signal;
+  stopped_pool.load()->RequestStop();
 }
 
-void OnSave(int) { save_requested = 1; }
+void OnSave(int) { save_requested = true; }
 
 void Install(int signal, void (*handler)(int)) {
   struct sigaction action {};
@@ -35,9 +41,10 @@ void Install(int signal, void (*handler)(int)) {
 
 }  // namespace
 
-RunSignals::RunSignals() {
+RunSignals::RunSignals(WorkerPool& pool) {
+  stopped_pool = &pool;
   stop_signal = 0;
-  save_requested = 0;
+  save_requested = false;
   Install(SIGINT, OnStop);
   Install(SIGTERM, OnStop);
   Install(SIGUSR1, OnSave);
@@ -50,10 +57,6 @@ RunSignals::~RunSignals() {
 
 int RunSignals::StopSignal() const { return stop_signal; }
 
-bool RunSignals::TakeSaveRequest() {
-  if (save_requested == 0) return false;
-  save_requested = 0;
-  return true;
-}
+bool RunSignals::TakeSaveRequest() { return save_requested.exchange(false); }
 
 }  // namespace skein

@@ -1,14 +1,16 @@
 #pragma once
 
+#include "envs/worker_pool.h"
+
 namespace skein {
 
-/// While it lives, SIGINT and SIGTERM ask for a stop and SIGUSR1 for a save instead of ending the
-/// process. A second SIGINT or SIGTERM ends it at once, as by default. SIGPIPE is ignored: a reader
-/// of the progress that goes away is no reason to stop. One at a time.
+/// While it lives, SIGINT and SIGTERM ask a pool to stop and SIGUSR1 asks for a save instead of
+/// ending the process. A second SIGINT or SIGTERM ends it at once, as by default. SIGPIPE is
+/// ignored: a reader of the progress that goes away is no reason to stop. One at a time.
 class RunSignals {
  public:
   /// Throws Error if the system refuses a handler.
-  RunSignals();
+  explicit RunSignals(WorkerPool& pool);
   ~RunSignals();
   RunSignals(const RunSignals&) = delete;
   RunSignals& operator=(const RunSignals&) = delete;

@@ -146,9 +146,9 @@ void AddTrainCommand(CLI::App* app) {
                     "list every configuration key with type, range, value and meaning, and exit");
   command->footer(
       "Weakest first: built-in defaults, preset, --config, --set, --steps and --seed.\n"
-      "SIGINT (Ctrl-C) and SIGTERM finish the iteration, save and end with exit code 0; a second "
-      "one\n"
-      "ends at once. SIGUSR1 saves and goes on.\n"
+      "SIGINT (Ctrl-C) and SIGTERM drop the iteration under way, save and end with exit code 0; a "
+      "second\n"
+      "one ends at once. SIGUSR1 saves after the iteration and goes on.\n"
       "Examples:\n"
       "  skein train heading\n"
       "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"

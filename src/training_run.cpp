@@ -88,6 +88,7 @@ TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Tr
       directory_(std::move(directory)),
       trainer_(trainer),
       pool_(pool),
+      signals_(pool),
       log_(directory_.log()),
       metrics_(directory_.metrics(), OpenMode::kAppend),
       timing_(directory_.timing(), OpenMode::kAppend),
@@ -108,8 +109,14 @@ void TrainingRun::Run() {
   log_.Say(Describe(trainer_.backend()));
   const Clock::time_point start = Clock::now();
   ProgressMeter meter(first_step, config_.train.total_steps, start);
-  while (!trainer_.finished() && signals_.StopSignal() == 0) {
+  std::string dropped;
+  while (!trainer_.finished() && !pool_.stopping()) {
     const IterationReport report = Iterate();
+    if (report.dropped) {
+      dropped = fmt::format("; dropped the iteration that was under way and its {} steps",
+                            FormatCount(static_cast<double>(report.dropped_steps)));
+      break;
+    }
     Record(report);
     meter.Add(report, Clock::now());
     log_.Show(meter.progress());
@@ -123,11 +130,7 @@ void TrainingRun::Run() {
   if (saved_iteration_ != trainer_.iteration()) SaveCheckpoint();
   log_.Note(FormatProgress(meter.progress()));
   if (!trainer_.finished()) {
-    log_.Say(fmt::format("stopped by {} after {} of {} steps; go on with: {} train --resume {}",
-                         strsignal(signals_.StopSignal()),
-                         FormatCount(static_cast<double>(trainer_.env_steps())),
-                         FormatCount(static_cast<double>(config_.train.total_steps)), CommandName(),
-                         directory_.path()));
+    SayStopped(dropped);
     return;
   }
   log_.Say(
@@ -137,14 +140,21 @@ void TrainingRun::Run() {
   Finish();
 }
 
+void TrainingRun::SayStopped(const std::string& dropped) {
+  log_.Say(fmt::format("stopped by {} after {} of {} steps{}; go on with: {} train --resume {}",
+                       strsignal(signals_.StopSignal()),
+                       FormatCount(static_cast<double>(trainer_.env_steps())),
+                       FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
+                       CommandName(), directory_.path()));
+}
+
 IterationReport TrainingRun::Iterate() {
   try {
     IterationReport report = trainer_.Iterate();
     report.iteration = trainer_.iteration();
     return report;
   } catch (const Error& error) {
-    // Not named like a checkpoint: its parameters are those before the failed iteration, but the
-    // aircraft have flown on, so a run cannot go on from it bit for bit.
+    // Not named like a checkpoint: a run that went on from it would fail again.
     const std::string path = fmt::format("{}/before-failure-{:06}.skein", directory_.checkpoints(),
                                          trainer_.iteration());
     log_.Note(fmt::format("error: {}", error.what()));
@@ -209,6 +219,10 @@ void TrainingRun::Finish() {
   log_.Say(fmt::format("evaluating {} over {} fresh episodes", path, episodes));
   const EvaluationReport report =
       EvaluateBothWays(policy, config_.train.env, episodes, seed, pool_);
+  if (pool_.stopping()) {
+    SayStopped("; dropped the evaluation that was under way");
+    return;
+  }
   WriteFile(directory_.evaluation(), ToJson(report, path, config_, seed, true).dump(1) + "\n");
   log_.Say(ToText(report));
   log_.Say(fmt::format(

@@ -36,6 +36,7 @@ class TrainingRun {
   void SaveCheckpoint();
   bool CheckpointIsDue() const;
   void Finish();
+  void SayStopped(const std::string& dropped);
 
   ProgramConfig config_;
   RunDirectory directory_;

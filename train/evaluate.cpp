@@ -22,7 +22,7 @@ struct Episodes {
 };
 
 void FlyTile(const Policy& policy, VecEnv& env, int tile, const EvaluationOptions& options,
-             Episodes& episodes) {
+             const WorkerPool& pool, Episodes& episodes) {
   const int begin = env.tile_begin(tile), count = env.tile_count(tile);
   std::vector<float> reward(count), episode_return(count);
   std::vector<float> final_observation(static_cast<std::size_t>(count) * env.observation_size());
@@ -36,7 +36,7 @@ void FlyTile(const Policy& policy, VecEnv& env, int tile, const EvaluationOption
   output.final_observation = final_observation.data();
 
   TilePilot pilot = MakeEvaluationPilot(policy, env, tile, options);
-  for (int flying = count; flying > 0;) {
+  for (int flying = count; flying > 0 && !pool.stopping();) {
     env.Step(tile, pilot.Decide().data(), output);
     for (int i = 0; i < count; ++i) {
       if (termination[i] == static_cast<std::uint8_t>(Termination::kNone)) continue;
@@ -84,7 +84,7 @@ EvaluationResult Evaluate(const Policy& policy, const EnvConfig& config,
   episodes.episode_return.resize(options.episodes);
   episodes.steps.resize(options.episodes);
   pool.ForEach(env.num_tiles(),
-               [&](int tile, int) { FlyTile(policy, env, tile, options, episodes); });
+               [&](int tile, int) { FlyTile(policy, env, tile, options, pool, episodes); });
 
   EvaluationResult result;
   result.episodes = options.episodes;

@@ -28,6 +28,7 @@ struct EvaluationResult {
   std::array<int, kNumTerminations> terminations{};
 };
 
+/// If the pool is stopping, ends within a decision, and the result says nothing.
 EvaluationResult Evaluate(const Policy& policy, const EnvConfig& env,
                           const EvaluationOptions& options, WorkerPool& pool);
 

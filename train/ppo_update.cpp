@@ -109,7 +109,7 @@ void PpoUpdate::RunShard(Side& side, const Rollout& rollout, const ValueScale& s
   const bool is_actor = &side == &actor_;
   const std::vector<float>& states = is_actor ? rollout.actor_state : rollout.critic_state;
   Gathered& own = *gathered_[worker];
-  for (int first = 0; first < count; first += tile_chunks_) {
+  for (int first = 0; first < count && !pool_.stopping(); first += tile_chunks_) {
     const int batch = std::min(tile_chunks_, count - first);
     const std::int64_t rows = static_cast<std::int64_t>(batch) * rollout.chunk_length;
     own.Resize(rollout, rows, batch);
@@ -179,6 +179,7 @@ LossSums PpoUpdate::Minibatch(const Rollout& rollout, const ValueScale& scale,
     RunShard(*sides[index % 2], rollout, scale, advantages, chunks + begin,
              shard_begin(shard + 1) - begin, settings, shard, worker);
   });
+  if (pool_.stopping()) return {};
   for (Side* const side : sides) {
     auto& accumulators = side->accumulators;
     const auto size = static_cast<std::int64_t>(accumulators[0].size());
@@ -214,6 +215,7 @@ UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
   for (int epoch = 0; epoch < config_.epochs; ++epoch) {
     const std::vector<std::int64_t> order = ShuffledChunks(chunks, seed_, iteration, epoch);
     for (int minibatch = 0; minibatch < config_.minibatches; ++minibatch) {
+      if (pool_.stopping()) return report;
       const std::int64_t begin = chunks * minibatch / config_.minibatches;
       const std::int64_t end = chunks * (minibatch + 1) / config_.minibatches;
       report.losses += Minibatch(rollout, scale, advantages, order.data() + begin,

@@ -25,7 +25,8 @@ class PpoUpdate {
             const NetworkLayout& critic, WorkerPool& pool);
 
   /// `iteration` keys the shuffles. Throws Error if a loss or a gradient is not finite, or a
-  /// gradient's norm exceeds kExplodedGradientNorm; parameters may then have moved.
+  /// gradient's norm exceeds kExplodedGradientNorm; parameters may then have moved. So they may
+  /// if the pool is stopping: the update then ends within a tile, unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
                    double learning_rate, AdamOptimiser& actor, AdamOptimiser& critic);
 

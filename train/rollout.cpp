@@ -35,7 +35,7 @@ class TileRollout {
  public:
   TileRollout(VecEnv& env, int tile, const RecurrentNetwork& actor, const RecurrentNetwork& critic,
               const std::vector<float>& log_std, const RolloutSettings& settings,
-              TileScratch& scratch, RecurrentState& state, Rollout& rollout)
+              const WorkerPool& pool, TileScratch& scratch, RecurrentState& state, Rollout& rollout)
       : env_(env),
         tile_(tile),
         begin_(env.tile_begin(tile)),
@@ -44,6 +44,7 @@ class TileRollout {
         critic_(critic),
         log_std_(log_std),
         settings_(settings),
+        pool_(pool),
         scratch_(scratch),
         rollout_(rollout),
         actor_state_(state.actor.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
@@ -54,9 +55,11 @@ class TileRollout {
 
   EpisodeStatistics Fly() {
     for (int step = 0; step < rollout_.steps; ++step) {
+      if (pool_.stopping()) return statistics_;
       StoreChunkStart(step);
       Decide(step);
       Step(step);
+      statistics_.decisions += count_;
     }
     env_.Observe(tile_, scratch_.final_observation.data());
     EvaluateCritic(scratch_.final_observation.data(), critic_state_, keep_,
@@ -178,6 +181,7 @@ class TileRollout {
   const RecurrentNetwork& critic_;
   const std::vector<float>& log_std_;
   const RolloutSettings& settings_;
+  const WorkerPool& pool_;
   TileScratch& scratch_;
   Rollout& rollout_;
   float* actor_state_;
@@ -214,6 +218,7 @@ RecurrentState::RecurrentState(int aircraft, int state_size)
       keep(aircraft, 0.0f) {}
 
 EpisodeStatistics& EpisodeStatistics::operator+=(const EpisodeStatistics& other) {
+  decisions += other.decisions;
   episodes += other.episodes;
   return_sum += other.return_sum;
   for (int i = 0; i < kNumTerminations; ++i) terminations[i] += other.terminations[i];
@@ -227,9 +232,9 @@ EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
   std::vector<TileScratch> scratch(pool.threads());
   std::vector<EpisodeStatistics> statistics(env.num_tiles());
   pool.ForEach(env.num_tiles(), [&](int tile, int worker) {
-    statistics[tile] =
-        TileRollout(env, tile, actor, critic, log_std, settings, scratch[worker], state, rollout)
-            .Fly();
+    statistics[tile] = TileRollout(env, tile, actor, critic, log_std, settings, pool,
+                                   scratch[worker], state, rollout)
+                           .Fly();
   });
   EpisodeStatistics total;
   for (const EpisodeStatistics& part : statistics) total += part;

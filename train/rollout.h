@@ -43,8 +43,9 @@ struct RecurrentState {
   std::vector<float> keep;           ///< [aircraft]: 0 if an episode begins with the next step
 };
 
-/// Episodes that ended in a rollout.
+/// What was flown in a rollout, and the episodes that ended in it.
 struct EpisodeStatistics {
+  std::uint64_t decisions = 0;  ///< by all aircraft together; all of the rollout's unless stopped
   std::uint64_t episodes = 0;
   double return_sum = 0;
   std::array<int, kNumTerminations> terminations{};
@@ -67,7 +68,8 @@ struct RolloutSettings {
 };
 
 /// Flies `rollout.steps` decisions with every aircraft and fills `rollout`, advantages included.
-/// A task per tile of the environment flies its whole rollout without waiting for others.
+/// A task per tile of the environment flies its whole rollout without waiting for others. If the
+/// pool is stopping, tiles fly no further decision and `rollout` is incomplete.
 EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
                                  const RecurrentNetwork& critic, const std::vector<float>& log_std,
                                  const RolloutSettings& settings, WorkerPool& pool,

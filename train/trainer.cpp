@@ -126,7 +126,8 @@ struct Trainer::Impl {
     return Policy(std::move(parameters), config.learner.backend);
   }
 
-  void Fly(IterationReport& report) {
+  /// Returns the control steps flown.
+  std::uint64_t Fly(IterationReport& report) {
     const auto start = std::chrono::steady_clock::now();
     actor_network->SetParameters(actor.parameters());
     critic_network->SetParameters(critic.parameters());
@@ -148,9 +149,11 @@ struct Trainer::Impl {
         episodes.terminations[static_cast<int>(Termination::kResetTarget)] / count;
     report.explained_variance = ExplainedVariance(rollout);
     report.rollout_seconds = SecondsSince(start);
+    return episodes.decisions * config.env.action_repeat;
   }
 
   void Learn(IterationReport& report) {
+    if (pool.stopping()) return;
     const auto start = std::chrono::steady_clock::now();
     report.learning_rate = LearningRate();
     if (config.ppo.popart) {
@@ -172,6 +175,7 @@ struct Trainer::Impl {
   }
 
   void EvaluateIfDue(IterationReport& report) {
+    if (pool.stopping()) return;
     const PeriodicEvaluationConfig& evaluation = config.evaluation;
     if (evaluation.interval_iterations <= 0) return;
     if (iteration % evaluation.interval_iterations != 0 && env_steps() < config.total_steps) return;
@@ -222,12 +226,17 @@ IterationReport Trainer::Iterate() {
   const TrainingState before = impl_->State();
   try {
     IterationReport report;
-    impl_->Fly(report);
+    const std::uint64_t flown = impl_->Fly(report);
     impl_->Learn(report);
     report.iteration = ++impl_->iteration;
     report.env_steps = impl_->env_steps();
     impl_->EvaluateIfDue(report);
-    return report;
+    if (!impl_->pool.stopping()) return report;
+    impl_->SetState(before);
+    IterationReport dropped;
+    dropped.dropped = true;
+    dropped.dropped_steps = flown;
+    return dropped;
   } catch (...) {
     impl_->SetState(before);
     throw;

@@ -16,6 +16,10 @@ namespace skein {
 /// What one iteration (rollout and update) did. All but the seconds is bit-identical for any number
 /// of threads.
 struct IterationReport {
+  /// The pool was asked to stop: nothing was done after all, and of the other fields only
+  /// dropped_steps means anything.
+  bool dropped = false;
+  std::uint64_t dropped_steps = 0;  ///< control steps flown in vain
   std::uint64_t iteration = 0;
   std::uint64_t env_steps = 0;  ///< control steps flown since the start of training
   std::uint64_t episodes = 0;   ///< episodes that ended in this iteration
@@ -47,7 +51,9 @@ class Trainer {
   const BackendChoice& backend() const;  ///< what computes the networks
 
   /// One rollout and update. Throws Error if a loss or gradient is not finite or explodes; the
-  /// whole state is then that before the iteration, and can be saved.
+  /// whole state is then that before the iteration, and can be saved. So it is if the pool was
+  /// asked to stop, which takes no longer than a decision of a tile of aircraft or the gradient of
+  /// a tile of samples.
   IterationReport Iterate();
 
   Policy policy() const;

@@ -97,6 +97,20 @@ TEST_P(WorkerPoolTest, DenormalsAreFlushedInsideOnly) {
   EXPECT_NE(smallest * 0.5f, 0);
 }
 
+TEST_P(WorkerPoolTest, AStopIsSeenByEveryCallAndStays) {
+  EXPECT_FALSE(pool_.stopping());
+  // Each call waits for the stop, which comes from outside.
+  std::thread outside([&] { pool_.RequestStop(); });
+  std::atomic<int> runs{0};
+  pool_.ForEach(kCount, [&](int, int) {
+    while (!pool_.stopping()) std::this_thread::yield();
+    ++runs;
+  });
+  outside.join();
+  EXPECT_EQ(runs, kCount) << "every index is still called";
+  EXPECT_TRUE(pool_.stopping());
+}
+
 TEST_P(WorkerPoolTest, NothingToDoIsNoError) {
   pool_.ForEach(0, [](int, int) { FAIL(); });
 }

@@ -35,6 +35,7 @@ std::vector<std::string> TinyTraining(const std::string& out,
         std::string("ppo.num_aircraft=64"), std::string("ppo.rollout_steps=16"),
         std::string("ppo.minibatches=2"), std::string("network.hidden_size=16"),
         std::string("network.gru_size=16"), std::string("env.time_limit_steps=100"),
+        std::string("env.heading.earliest_success_step=100"),
         std::string("evaluation.interval_iterations=3"), std::string("evaluation.episodes=32"),
         std::string("evaluation.final_episodes=32"),
         std::string("checkpoint.interval_iterations=1")}) {
@@ -233,11 +234,76 @@ TEST_F(TrainingPipeline, SigtermSavesAndEndsCleanly) {
   ExpectSameFile(reference_ + "/metrics.csv", run_ + "/metrics.csv");
 }
 
+TEST_F(TrainingPipeline, StoppedAnywhereAndResumedEqualsUninterrupted) {
+  FlyReference();
+  std::random_device entropy;
+  std::mt19937 random(entropy());
+  for (int stop = 0; stop < 6; ++stop) {
+    // One checkpoint of its own says that a run handles signals.
+    const auto saved = CheckpointsIn(run_ + "/checkpoints");
+    const std::uint64_t iteration = saved.empty() ? 1 : saved.back().iteration + 1;
+    RunningProgram program(stop == 0 ? TinyTraining(run_)
+                                     : std::vector<std::string>{"train", "--resume", run_});
+    const auto delay = std::chrono::milliseconds(random() % 60);
+    if (program.WaitUntil([&] { return HasCheckpoint(run_, iteration); })) {
+      std::this_thread::sleep_for(delay);
+      program.Signal(stop % 2 == 0 ? SIGTERM : SIGINT);
+    }
+    const ProgramResult result = program.Wait();
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+  }
+  const ProgramResult result = RunSkein({"train", "--resume", run_});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(TrainingPipeline, AStopDropsTheIterationUnderWay) {
+  // Iterations of many minutes, by the rollout and by the update.
+  const std::vector<std::vector<std::string>> iterations = {
+      {"--set", "ppo.rollout_steps=20000", "--set", "env.action_repeat=1000", "--set",
+       "env.substeps=20"},
+      {"--set", "ppo.num_aircraft=1024", "--set", "ppo.epochs=1000", "--set",
+       "network.hidden_size=256", "--set", "network.gru_size=256"}};
+  for (std::size_t i = 0; i < iterations.size(); ++i) {
+    const std::string run = run_ + std::to_string(i);
+    std::vector<std::string> more = iterations[i];
+    more.insert(more.end(), {"--steps", "1e14"});
+    RunningProgram program(TinyTraining(run, more));
+    ASSERT_TRUE(program.WaitUntil([&] { return fs::exists(run + "/timing.csv"); }));
+    std::this_thread::sleep_for(std::chrono::seconds(1));  // for the update to begin
+    program.Signal(SIGTERM);
+    const ProgramResult result = program.Wait();
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.output, HasSubstr("after 0 of 100 T steps; dropped the iteration"));
+    EXPECT_FALSE(HasCheckpoint(run, 1));
+    const std::string metrics = ReadFile(run + "/metrics.csv");
+    EXPECT_EQ(std::count(metrics.begin(), metrics.end(), '\n'), 1) << "the header alone";
+  }
+}
+
+TEST_F(TrainingPipeline, AStopInTheFinalEvaluationKeepsWhatWasTrained) {
+  const std::vector<std::string> long_evaluation = {"--set", "evaluation.final_episodes=300000",
+                                                    "--set", "env.substeps=200",
+                                                    "--set", "ppo.rollout_steps=8"};
+  RunningProgram program(TinyTraining(run_, long_evaluation));
+  ASSERT_TRUE(program.WaitUntil([&] {
+    return fs::exists(run_ + "/log.txt") &&
+           ReadFile(run_ + "/log.txt").find("fresh episodes") != std::string::npos;
+  }));
+  program.Signal(SIGINT);
+  const ProgramResult result = program.Wait();
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("dropped the evaluation"));
+  EXPECT_TRUE(fs::exists(run_ + "/checkpoints/policy-final.skein"));
+  EXPECT_FALSE(fs::exists(run_ + "/evaluation.json"));
+}
+
 TEST_F(TrainingPipeline, ASecondSignalEndsAtOnce) {
-  // Iterations of many seconds, so that the first signal has not been obeyed when the second comes.
+  // Decisions of minutes, so that the first signal has not been obeyed when the second comes.
   RunningProgram program(
-      TinyTraining(run_, {"--set", "ppo.num_aircraft=4096", "--set", "ppo.rollout_steps=1024",
-                          "--set", "ppo.epochs=100", "--steps", "1e9"}));
+      TinyTraining(run_, {"--set", "ppo.num_aircraft=100000", "--set", "ppo.rollout_steps=8",
+                          "--set", "learner.rollout_tile=100000", "--set", "env.action_repeat=1000",
+                          "--set", "env.substeps=20", "--steps", "1e12"}));
   ASSERT_TRUE(program.WaitUntil([&] { return fs::exists(run_ + "/timing.csv"); }));
   program.Signal(SIGINT);
   program.Signal(SIGTERM);
@@ -368,8 +434,9 @@ TEST_F(TrainingPipeline, ALossThatIsNotFiniteStopsTheRunAndLeavesTheStateBefore)
   const std::string path =
       result.error.substr(result.error.rfind(' ') + 1,
                           result.error.rfind(".skein") + 6 - (result.error.rfind(' ') + 1));
-  const ProgramResult flown = RunSkein({"eval", "--policy", path, "--task", "heading", "--episodes",
-                                        "32", "--set", "env.time_limit_steps=100"});
+  const ProgramResult flown =
+      RunSkein({"eval", "--policy", path, "--task", "heading", "--episodes", "32", "--set",
+                "env.time_limit_steps=100", "--set", "env.heading.earliest_success_step=100"});
   EXPECT_EQ(flown.exit_code, 0) << flown.error;
 }
 

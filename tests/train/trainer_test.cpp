@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 #include "simd/error.h"
 #include "simd/target.h"
@@ -140,6 +142,56 @@ TEST_F(TrainerTest, AnExplosionLeavesTheStateOfBefore) {
   Trainer restored(config, pool);
   restored.Restore(path_);
   EXPECT_EQ(restored.Signature(), before);
+}
+
+TEST_F(TrainerTest, AStopAnywhereLeavesTheStateOfBefore) {
+  using Clock = std::chrono::steady_clock;
+  // The second iteration has a rollout, an update and an evaluation to be stopped in.
+  constexpr int kMoments = 16;
+  Clock::duration whole_time{};
+  std::uint64_t before = 0, after = 0;
+  {
+    WorkerPool pool(2);
+    Trainer trainer(SmallConfig(), pool);
+    trainer.Iterate();
+    trainer.Save(path_);
+    before = trainer.Signature();
+    const Clock::time_point start = Clock::now();
+    EXPECT_GE(trainer.Iterate().evaluation_success_rate, 0);
+    whole_time = Clock::now() - start;
+    after = trainer.Signature();
+  }
+  int dropped = 0;
+  for (int moment = 0; moment < kMoments; ++moment) {
+    WorkerPool pool(2);
+    Trainer trainer(SmallConfig(), pool);
+    trainer.Restore(path_);
+    std::thread stop([&] {
+      std::this_thread::sleep_for(whole_time * moment / kMoments);
+      pool.RequestStop();
+    });
+    const IterationReport report = trainer.Iterate();
+    stop.join();
+    EXPECT_EQ(trainer.Signature(), report.dropped ? before : after) << "moment " << moment;
+    EXPECT_LE(report.dropped_steps, 96u * 16 * 5);
+    if (!report.dropped) continue;
+    ++dropped;
+    EXPECT_EQ(trainer.iteration(), 1u);
+    trainer.Save(scratch_ / "stopped");
+    EXPECT_EQ(BytesOf(scratch_ / "stopped"), BytesOf(path_));
+  }
+  EXPECT_GT(dropped, 0);
+}
+
+TEST_F(TrainerTest, AStoppingPoolFliesNothing) {
+  WorkerPool pool(2);
+  Trainer trainer(SmallConfig(), pool);
+  const std::uint64_t before = trainer.Signature();
+  pool.RequestStop();
+  const IterationReport report = trainer.Iterate();
+  EXPECT_TRUE(report.dropped);
+  EXPECT_EQ(report.dropped_steps, 0u);
+  EXPECT_EQ(trainer.Signature(), before);
 }
 
 TEST_F(TrainerTest, TheFirstUpdateMovesALittleFromTheRolloutsPolicy) {
