@@ -11,10 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/libtorch_matmul.h"
 #include "simd/aligned_vector.h"
 #include "simd/matrix_product.h"
 #include "simd/peak.h"
-#include "train/matmul.h"
+#include "train/libtorch_threads.h"
 
 namespace skein::bench {
 namespace {

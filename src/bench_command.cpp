@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "src/output_file.h"
 #include "src/progress.h"
 #include "src/simulator_rate.h"
+#include "train/learner_rates.h"
 #include "train/trainer.h"
 
 namespace skein {
@@ -24,6 +26,7 @@ struct BenchOptions {
   int aircraft = 1000000;
   int steps = 30;
   int threads = 0;
+  int iterations = 3;
   std::string preset = "default";
   std::vector<std::string> assignments;
   std::string json;
@@ -47,6 +50,7 @@ TrainConfig SignatureConfig() {
   config.ppo.num_aircraft = 512;
   config.ppo.rollout_steps = 32;
   config.ppo.minibatches = 4;
+  config.learner.precision = LearnerPrecision::kFloat32;
   config.learner.rollout_tile = 64;
   config.learner.tile_samples = 512;
   config.evaluation.interval_iterations = 0;
@@ -120,39 +124,139 @@ void BenchSimulator(const BenchOptions& options) {
   Report(options, pool.threads(), WithShareOfPeak(results, gflops, peak.gflops));
 }
 
+/// What learner benchmarks compare: the fused kernels in the configuration's precision first, in
+/// every other one that this processor knows, and LibTorch in tiles that suit it.
+std::vector<TrainConfig> LearnersOf(const TrainConfig& config) {
+  // LibTorch's best sizes: each of its operations walks through a whole tile.
+  constexpr int kLibTorchTileSamples = 4096, kLibTorchRolloutTile = 512;
+  std::vector<TrainConfig> learners{config};
+  std::vector<LearnerPrecision> precisions{LearnerPrecision::kFloat32};
+  if (simd::NativeBfloat16()) {
+    precisions = {LearnerPrecision::kFloat32, LearnerPrecision::kMixed, LearnerPrecision::kBfloat16,
+                  LearnerPrecision::kFast};
+  }
+  LearnerPrecision own = config.learner.precision;
+  if (own == LearnerPrecision::kAuto) own = DefaultPrecision();
+  for (const LearnerPrecision precision : precisions) {
+    if (precision == own) continue;
+    learners.push_back(config);
+    learners.back().learner.precision = precision;
+  }
+  if (config.learner.backend == Backend::kLibTorch) return {config};
+  learners.push_back(config);
+  learners.back().learner.backend = Backend::kLibTorch;
+  learners.back().learner.tile_samples = kLibTorchTileSamples;
+  learners.back().learner.rollout_tile = kLibTorchRolloutTile;
+  return learners;
+}
+
+std::string ShortName(const BackendChoice& backend) {
+  if (backend.backend == Backend::kLibTorch) return "LibTorch";
+  return std::string("fused, ") + Name(backend.precision);
+}
+
+/// One rate of several learners, the last of them LibTorch's.
+struct Comparison {
+  const char* unit;  ///< what is counted
+  double LearnerRates::*rate;
+  double LearnerRates::*flops;
+};
+
+/// Prints a line for each learner, and gives the first one's figures with all of them as
+/// "learners".
+Json Compare(const std::vector<LearnerRates>& learners, const Comparison& comparison, int threads) {
+  const double peak = simd::MeasurePeak(threads).gflops;
+  const auto bf16_peak = simd::MeasureBfloat16Peak(threads);
+  const double reference = learners.back().*comparison.rate;
+  auto all = Json::array();
+  for (const LearnerRates& rates : learners) {
+    const double rate = rates.*comparison.rate;
+    const bool is_bf16 = rates.backend.precision == LearnerPrecision::kBfloat16 && bf16_peak;
+    const double roof = is_bf16 ? bf16_peak->gflops : peak;
+    const double gflops = rate * (rates.*comparison.flops) / 1e9;
+    fmt::print("  {:<14} {} {}/s  {:5.2f} x LibTorch  ({}{})\n", ShortName(rates.backend),
+               FormatCount(rate), comparison.unit, rate / reference, ShareOfPeak(gflops, roof),
+               is_bf16 ? " in bf16" : "");
+    all.push_back(WithShareOfPeak({{"backend", Name(rates.backend.backend)},
+                                   {"precision", Name(rates.backend.precision)},
+                                   {std::string(comparison.unit) + "_per_s", rate},
+                                   {"times_libtorch", rate / reference}},
+                                  gflops, roof));
+  }
+  Json results = all[0];
+  results["learners"] = all;
+  return results;
+}
+
 void BenchRollout(const BenchOptions& options) {
   WorkerPool pool(options.threads);
   const TrainConfig config = BenchConfig(options);
-  const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
-  const LearnerRates rates = MeasureLearner(config, pool);
-  const double control_steps_per_s = rates.rollout_decisions_per_s * config.env.action_repeat;
-  const double gflops = rates.rollout_decisions_per_s * rates.rollout_flops_per_decision / 1e9;
-  fmt::print("rollout: {} aircraft, {} threads: {} decisions/s, {} control steps/s ({}); {}\n",
-             config.ppo.num_aircraft, pool.threads(), FormatCount(rates.rollout_decisions_per_s),
-             FormatCount(control_steps_per_s), ShareOfPeak(gflops, peak.gflops),
-             Describe(rates.backend));
-  Report(options, pool.threads(),
-         WithShareOfPeak({{"backend", Name(rates.backend.backend)},
-                          {"decisions_per_s", rates.rollout_decisions_per_s},
-                          {"control_steps_per_s", control_steps_per_s},
-                          {"flops_per_decision", rates.rollout_flops_per_decision}},
-                         gflops, peak.gflops));
+  const std::vector<LearnerRates> learners =
+      MeasureLearners(LearnersOf(config), options.iterations, pool);
+  fmt::print("rollout: {} aircraft, {} threads; {}\n", config.ppo.num_aircraft, pool.threads(),
+             Describe(learners[0].backend));
+  Json results = Compare(learners,
+                         {"decisions", &LearnerRates::rollout_decisions_per_s,
+                          &LearnerRates::rollout_flops_per_decision},
+                         pool.threads());
+  const double control_steps = learners[0].rollout_decisions_per_s * config.env.action_repeat;
+  fmt::print("  {} control steps/s with the first; the simulator takes {:.0f} % of its time\n",
+             FormatCount(control_steps), 100 * learners[0].simulator_share);
+  results["control_steps_per_s"] = control_steps;
+  results["simulator_share"] = learners[0].simulator_share;
+  Report(options, pool.threads(), results);
 }
 
 void BenchUpdate(const BenchOptions& options) {
   WorkerPool pool(options.threads);
   const TrainConfig config = BenchConfig(options);
-  const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
-  const LearnerRates rates = MeasureLearner(config, pool);
-  const double gflops = rates.update_samples_per_s * rates.update_flops_per_sample / 1e9;
-  fmt::print("update: {} threads: {} samples/s ({}); {}\n", pool.threads(),
-             FormatCount(rates.update_samples_per_s), ShareOfPeak(gflops, peak.gflops),
-             Describe(rates.backend));
+  const std::vector<LearnerRates> learners =
+      MeasureLearners(LearnersOf(config), options.iterations, pool);
+  fmt::print("update: {} threads; {}\n", pool.threads(), Describe(learners[0].backend));
   Report(options, pool.threads(),
-         WithShareOfPeak({{"backend", Name(rates.backend.backend)},
-                          {"samples_per_s", rates.update_samples_per_s},
-                          {"flops_per_sample", rates.update_flops_per_sample}},
-                         gflops, peak.gflops));
+         Compare(learners,
+                 {"samples", &LearnerRates::update_samples_per_s,
+                  &LearnerRates::update_flops_per_sample},
+                 pool.threads()));
+}
+
+double PeakMemoryGb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e9;
+}
+
+void BenchIteration(const BenchOptions& options) {
+  WorkerPool pool(options.threads);
+  const TrainConfig config = BenchConfig(options);
+  const LearnerRates rates = MeasureLearners({config}, options.iterations, pool)[0];
+  const double steps = static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps *
+                       config.env.action_repeat;
+  const double steps_per_s = steps / rates.iteration_s;
+  const double hours = static_cast<double>(config.total_steps) / steps_per_s / 3600;
+  fmt::print(
+      "iteration: {} aircraft x {} decisions, {} epochs, {} threads; {}\n"
+      "  {:.2f} s an iteration, {} control steps/s\n"
+      "  rollout {} decisions/s (the simulator {:.0f} % of it), gradients {} samples/s\n"
+      "  these two alone would take {:.1f} % of the time; {:.2f} GB of memory at most\n"
+      "  {} control steps would take {:.2f} h\n",
+      config.ppo.num_aircraft, config.ppo.rollout_steps, config.ppo.epochs, pool.threads(),
+      Describe(rates.backend), rates.iteration_s, FormatCount(steps_per_s),
+      FormatCount(rates.rollout_decisions_per_s), 100 * rates.simulator_share,
+      FormatCount(rates.gradient_samples_per_s), 100 * rates.efficiency, PeakMemoryGb(),
+      FormatCount(static_cast<double>(config.total_steps)), hours);
+  Report(options, pool.threads(),
+         {{"backend", Name(rates.backend.backend)},
+          {"precision", Name(rates.backend.precision)},
+          {"iteration_s", rates.iteration_s},
+          {"control_steps_per_s", steps_per_s},
+          {"decisions_per_s", rates.rollout_decisions_per_s},
+          {"simulator_share", rates.simulator_share},
+          {"gradient_samples_per_s", rates.gradient_samples_per_s},
+          {"efficiency", rates.efficiency},
+          {"memory_gb", PeakMemoryGb()},
+          {"budget_steps", config.total_steps},
+          {"budget_h", hours}});
 }
 
 void BenchSignature(const BenchOptions& options) {
@@ -181,6 +285,17 @@ void AddConfiguration(CLI::App* command, const std::shared_ptr<BenchOptions>& op
       ->allow_extra_args(false);
 }
 
+CLI::App* AddLearner(CLI::App* bench, const std::string& name, const std::string& description,
+                     const std::shared_ptr<BenchOptions>& options,
+                     void (*run)(const BenchOptions&)) {
+  CLI::App* command = AddBench(bench, name, description, options, run);
+  command->add_option("--iterations", options->iterations, "iterations timed; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  AddConfiguration(command, options);
+  return command;
+}
+
 }  // namespace
 
 void AddBenchCommand(CLI::App* app) {
@@ -203,14 +318,23 @@ void AddBenchCommand(CLI::App* app) {
       "without\n"
       "and with observation noise.\n"
       "Example: skein bench sim --aircraft 1000000 --steps 30 --threads 2");
-  AddConfiguration(
-      AddBench(bench, "rollout", "Decisions per second of policy and simulator together", options,
-               BenchRollout),
-      options);
-  AddConfiguration(
-      AddBench(bench, "update", "Samples per second through forward, loss, backward and optimiser",
-               options, BenchUpdate),
-      options);
+  AddLearner(bench, "rollout", "Decisions per second of policy and simulator together", options,
+             BenchRollout)
+      ->footer(
+          "The fused kernels beside LibTorch, iteration by iteration in turns; medians.\n"
+          "Example: skein bench rollout --set learner.rollout_tile=128");
+  AddLearner(bench, "update", "Samples per second through forward, loss, backward and optimiser",
+             options, BenchUpdate)
+      ->footer(
+          "The fused kernels beside LibTorch, iteration by iteration in turns; medians. Where the\n"
+          "processor multiplies bfloat16, every precision.\n"
+          "Example: skein bench update --set learner.precision=bf16");
+  AddLearner(bench, "iteration", "Whole iterations, and the time that the budget would take",
+             options, BenchIteration)
+      ->footer(
+          "How much of an iteration rollout and gradients take: the rest is optimiser, advantages\n"
+          "and what else lies between.\n"
+          "Example: skein bench iteration --preset paper --set ppo.rollout_steps=96");
   AddBench(bench, "signature", "One hash of a fixed short training", options, BenchSignature)
       ->footer(
           "The same for any number of threads on one SIMD target: a change of the hash is a change "

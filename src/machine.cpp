@@ -4,6 +4,7 @@
 
 #include "envs/worker_pool.h"
 #include "simd/target.h"
+#include "train/backend.h"
 
 namespace skein {
 
@@ -20,10 +21,16 @@ std::string CpuName() {
 nlohmann::ordered_json DescribeMachine() {
   auto supported = nlohmann::ordered_json::array();
   for (const simd::Target target : simd::SupportedTargets()) supported.push_back(Name(target));
-  return {{"version", SKEIN_VERSION},          {"compiler", SKEIN_COMPILER},
-          {"build_type", SKEIN_BUILD_TYPE},    {"cpu", CpuName()},
-          {"threads", WorkerPool().threads()}, {"simd", Name(simd::ActiveTarget())},
-          {"simd_supported", supported},       {"libtorch", SKEIN_LIBTORCH_VERSION}};
+  return {{"version", SKEIN_VERSION},
+          {"compiler", SKEIN_COMPILER},
+          {"build_type", SKEIN_BUILD_TYPE},
+          {"cpu", CpuName()},
+          {"threads", WorkerPool().threads()},
+          {"simd", Name(simd::ActiveTarget())},
+          {"simd_supported", supported},
+          {"native_bf16", simd::NativeBfloat16()},
+          {"precision", Name(DefaultPrecision())},
+          {"libtorch", SKEIN_LIBTORCH_VERSION}};
 }
 
 }  // namespace skein

@@ -32,6 +32,7 @@ const auto& NamesOf(AtmosphereModel) { return kAtmosphereNames; }
 const auto& NamesOf(FlightControlMode) { return kFlightControlNames; }
 const auto& NamesOf(Activation) { return kActivationNames; }
 const auto& NamesOf(Backend) { return kBackendNames; }
+const auto& NamesOf(LearnerPrecision) { return kPrecisionNames; }
 
 /// "a", "b" or "c".
 template <typename Enum, std::size_t kCount>
@@ -279,6 +280,10 @@ std::vector<Setting> MakeSettings() {
 
       {"learner.backend", [](C& c) -> F { return &c.train.learner.backend; }, name,
        "networks computed by own kernels (fused) or by LibTorch, the slow reference"},
+      {"learner.precision", [](C& c) -> F { return &c.train.learner.precision; }, name,
+       "products of the networks in fp32, mixed (forward fp32, backward bf16), bf16, or fast "
+       "(actor "
+       "mixed, critic bf16); auto: fast where the processor has bf16, else fp32"},
       {"learner.tile_samples",
        [](C& c) -> F { return &c.train.learner.tile_samples; },
        {1, 1000000},

@@ -48,8 +48,10 @@ void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wo
   // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
   Trainer trainer(config.train, pool);
   RunDirectory directory = RunDirectory::Create(path);
-  WriteFile(directory.config(), DumpToml(config));
-  TrainingRun run(config, std::move(directory), trainer, pool);
+  ProgramConfig resolved = config;
+  resolved.train = trainer.config();
+  WriteFile(directory.config(), DumpToml(resolved));
+  TrainingRun run(resolved, std::move(directory), trainer, pool);
   run.Run();
 }
 

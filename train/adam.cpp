@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "train/matmul.h"
+#include "train/libtorch_threads.h"
 
 namespace skein {
 namespace {

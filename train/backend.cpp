@@ -2,22 +2,69 @@
 
 #include <utility>
 
+#include "simd/error.h"
+#include "simd/target.h"
+
 namespace skein {
+namespace {
+
+NetworkPrecision ProductsOf(LearnerPrecision precision) {
+  constexpr simd::Precision kFloat32 = simd::Precision::kFloat32;
+  constexpr simd::Precision kBfloat16 = simd::Precision::kBfloat16;
+  switch (precision) {
+    case LearnerPrecision::kFloat32:
+      return {kFloat32, kFloat32};
+    case LearnerPrecision::kMixed:
+      return {kFloat32, kBfloat16};
+    case LearnerPrecision::kBfloat16:
+      return {kBfloat16, kBfloat16};
+    default:
+      throw Error(std::string("precision \"") + Name(precision) + "\" is not one network's");
+  }
+}
+
+std::string DescribePrecision(LearnerPrecision precision) {
+  if (precision == LearnerPrecision::kFloat32) return "in fp32";
+  std::string text = precision == LearnerPrecision::kFast
+                         ? "the actor in mixed precision and the critic in bf16"
+                         : std::string("in ") + Name(precision);
+  return text + (simd::NativeBfloat16() ? "" : ", emulated: this processor has no bf16 products");
+}
+
+}  // namespace
 
 std::string FusedLimitation(const NetworkShape& shape) {
   if (shape.activation == Activation::kRelu) return "";
   return std::string("network.activation = \"") + Name(shape.activation) + "\"";
 }
 
-BackendChoice ChooseBackend(Backend asked, const NetworkShape& shape) {
-  if (asked == Backend::kLibTorch) return {Backend::kLibTorch, ""};
-  std::string limitation = FusedLimitation(shape);
-  if (limitation.empty()) return {Backend::kFused, ""};
-  return {Backend::kLibTorch, std::move(limitation)};
+BackendChoice ChooseBackend(Backend asked, const NetworkShape& shape, LearnerPrecision precision) {
+  BackendChoice choice;
+  choice.backend = asked;
+  if (asked == Backend::kFused) choice.fallback_reason = FusedLimitation(shape);
+  if (!choice.fallback_reason.empty()) choice.backend = Backend::kLibTorch;
+  if (choice.backend == Backend::kFused) {
+    choice.precision = precision == LearnerPrecision::kAuto ? DefaultPrecision() : precision;
+  }
+  return choice;
+}
+
+LearnerPrecision DefaultPrecision() {
+  return simd::NativeBfloat16() ? LearnerPrecision::kFast : LearnerPrecision::kFloat32;
+}
+
+NetworkPrecision ActorPrecision(LearnerPrecision precision) {
+  return ProductsOf(precision == LearnerPrecision::kFast ? LearnerPrecision::kMixed : precision);
+}
+
+NetworkPrecision CriticPrecision(LearnerPrecision precision) {
+  return ProductsOf(precision == LearnerPrecision::kFast ? LearnerPrecision::kBfloat16 : precision);
 }
 
 std::string Describe(const BackendChoice& choice) {
-  if (choice.backend == Backend::kFused) return "networks by the fused kernels";
+  if (choice.backend == Backend::kFused) {
+    return "networks by the fused kernels, " + DescribePrecision(choice.precision);
+  }
   if (choice.fallback_reason.empty()) return "networks by LibTorch, as asked";
   return "networks by LibTorch, slower: the fused kernels do not know " + choice.fallback_reason;
 }

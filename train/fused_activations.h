@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simd/aligned_vector.h"
+#include "simd/matrix_product.h"
 #include "train/network.h"
 
 namespace skein {
@@ -26,10 +27,12 @@ struct FusedActivations {
   AlignedVector<float> observation;  ///< normalised, not padded
   std::vector<HiddenRows> hidden;    ///< before the GRU, then behind it
   std::vector<GruRows> gru;
-  AlignedVector<float> hidden_product;  ///< of one step
   AlignedVector<float> normalised_state, state_inverse_std;
   AlignedVector<float> output_gradient;
-  std::array<AlignedVector<float>, 2> gradient;
+  std::array<AlignedVector<float>, 2> state_gradient;  ///< by the states of two GRU layers
+  std::array<AlignedVector<float>, 2> block_gradient;  ///< by two hidden layers, of a few rows
+  AlignedVector<float> gate_sums;                      ///< of gate gradients over the rows
+  simd::ProductWorkspace products;
 };
 
 }  // namespace skein

@@ -19,6 +19,7 @@ const char* NameIn(const Names& names, Enum value) {
 
 const char* Name(Activation activation) { return NameIn(kActivationNames, activation); }
 const char* Name(Backend backend) { return NameIn(kBackendNames, backend); }
+const char* Name(LearnerPrecision precision) { return NameIn(kPrecisionNames, precision); }
 
 void Validate(const PpoConfig& config) {
   const auto require_positive = [](const char* key, int value) {

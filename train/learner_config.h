@@ -73,12 +73,31 @@ inline constexpr std::array<std::pair<Backend, const char*>, 2> kBackendNames{
     {{Backend::kFused, "fused"}, {Backend::kLibTorch, "libtorch"}}};
 const char* Name(Backend backend);
 
+/// Of the operands of a network's products; sums and all the rest are float32.
+enum class LearnerPrecision {
+  kAuto,  ///< kFast where the processor multiplies bfloat16 itself, else kFloat32
+  kFloat32,
+  kMixed,     ///< forward float32, backward bfloat16
+  kBfloat16,  ///< both bfloat16
+  kFast,      ///< actor kMixed, critic kBfloat16
+};
+
+/// Names in configurations and files.
+inline constexpr std::array<std::pair<LearnerPrecision, const char*>, 5> kPrecisionNames{
+    {{LearnerPrecision::kAuto, "auto"},
+     {LearnerPrecision::kFloat32, "fp32"},
+     {LearnerPrecision::kMixed, "mixed"},
+     {LearnerPrecision::kBfloat16, "bf16"},
+     {LearnerPrecision::kFast, "fast"}}};
+const char* Name(LearnerPrecision precision);
+
 struct LearnerConfig {
   /// As asked for; ChooseBackend (train/backend.h) says what runs.
   Backend backend = Backend::kFused;
+  LearnerPrecision precision = LearnerPrecision::kAuto;
   int tile_samples =
-      1024;  ///< samples per gradient tile: fixed shards, so results do not depend on threads
-  int rollout_tile = 256;  ///< aircraft per rollout tile
+      384;  ///< samples per gradient tile: fixed shards, so results do not depend on threads
+  int rollout_tile = 64;  ///< aircraft per rollout tile
 };
 
 /// In-training evaluation, which also chooses the best checkpoint.

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "simd/error.h"
-#include "train/matmul.h"
+#include "train/libtorch_threads.h"
 
 namespace skein {
 namespace {

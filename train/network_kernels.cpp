@@ -25,15 +25,10 @@ HWY_INLINE float Sum(Vector v) {
   return hn::GetLane(hn::SumOfLanes(d, v));
 }
 
-/// 1 / (1 + exp(-x)); the argument is clamped where the result is 0 or 1 to float32.
+/// 1 / (1 + exp(-x)); Exp limits its argument where the result is 0 or 1 to float32.
 HWY_INLINE Vector Sigmoid(Vector x) {
   const Floats d;
-  constexpr float kLimit = 30;
-  const Vector clamped = hn::Min(hn::Max(x, hn::Set(d, -kLimit)), hn::Set(d, kLimit));
-  const Vector one = hn::Set(d, 1.0f);
-  const Vector result = hn::Div(one, hn::Add(one, Exp(d, hn::Neg(clamped))));
-  // Min and Max swallow not-a-number; adding 0 x brings it back.
-  return hn::MulAdd(x, hn::Zero(d), result);
+  return Reciprocal(d, hn::Add(hn::Set(d, 1.0f), Exp(d, hn::Neg(x))));
 }
 
 HWY_INLINE Vector Tanh(Vector x) {
@@ -79,14 +74,15 @@ HWY_INLINE float NormaliseRow(int columns, const float* in, float* out, float* m
 }
 
 template <bool kPadded>
-void BiasReluNormaliseRows(std::int64_t rows, int columns, const float* bias, float* values,
-                           float* inverse_std, float* zero_level) {
+void ReluNormaliseRows(std::int64_t rows, int columns, float* values, float* inverse_std,
+                       float* zero_level) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    float* const row = values + i * width;
+    float* const row = values + i * stride;
     for (int j = 0; j < width; j += lanes) {
-      const Vector x = hn::Add(hn::LoadU(d, row + j), hn::LoadU(d, bias + j));
+      const Vector x = hn::LoadU(d, row + j);
       // Unlike a maximum with zero, this keeps not-a-number on every target.
       hn::StoreU(hn::IfThenZeroElse(hn::Lt(x, hn::Zero(d)), x), d, row + j);
     }
@@ -96,20 +92,20 @@ void BiasReluNormaliseRows(std::int64_t rows, int columns, const float* bias, fl
   }
 }
 
-void BiasReluNormaliseKernel(std::int64_t rows, int columns, const float* bias, float* values,
-                             float* inverse_std, float* zero_level) {
+void ReluNormaliseKernel(std::int64_t rows, int columns, float* values, float* inverse_std,
+                         float* zero_level) {
   const auto kernel =
-      PaddedWidth(columns) == columns ? BiasReluNormaliseRows<false> : BiasReluNormaliseRows<true>;
-  kernel(rows, columns, bias, values, inverse_std, zero_level);
+      PaddedWidth(columns) == columns ? ReluNormaliseRows<false> : ReluNormaliseRows<true>;
+  kernel(rows, columns, values, inverse_std, zero_level);
 }
 
 template <bool kPadded>
 void NormaliseWithStdRows(std::int64_t rows, int columns, const float* in, float* out,
                           float* inverse_std) {
-  const int width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
     float mean;
-    inverse_std[i] = NormaliseRow<kPadded>(columns, in + i * width, out + i * width, &mean);
+    inverse_std[i] = NormaliseRow<kPadded>(columns, in + i * stride, out + i * stride, &mean);
   }
 }
 
@@ -137,14 +133,15 @@ HWY_INLINE void GradientMeans(int columns, const float* gradient, const float* n
 }
 
 template <bool kPadded>
-void BiasReluNormaliseBackwardRows(std::int64_t rows, int columns, const float* normalised,
-                                   const float* inverse_std, const float* zero_level,
-                                   float* gradient, float* bias_gradient) {
+void ReluNormaliseBackwardRows(std::int64_t rows, int columns, const float* normalised,
+                               const float* inverse_std, const float* zero_level, float* gradient,
+                               float* bias_gradient) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    float* const g = gradient + i * width;
-    const float* const x = normalised + i * width;
+    float* const g = gradient + i * stride;
+    const float* const x = normalised + i * stride;
     Vector mean, projection;
     GradientMeans(columns, g, x, &mean, &projection);
     const Vector scale = hn::Set(d, inverse_std[i]), zero = hn::Set(d, zero_level[i]);
@@ -159,11 +156,11 @@ void BiasReluNormaliseBackwardRows(std::int64_t rows, int columns, const float* 
   }
 }
 
-void BiasReluNormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
-                                     const float* inverse_std, const float* zero_level,
-                                     float* gradient, float* bias_gradient) {
-  const auto kernel = PaddedWidth(columns) == columns ? BiasReluNormaliseBackwardRows<false>
-                                                      : BiasReluNormaliseBackwardRows<true>;
+void ReluNormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
+                                 const float* inverse_std, const float* zero_level, float* gradient,
+                                 float* bias_gradient) {
+  const auto kernel = PaddedWidth(columns) == columns ? ReluNormaliseBackwardRows<false>
+                                                      : ReluNormaliseBackwardRows<true>;
   kernel(rows, columns, normalised, inverse_std, zero_level, gradient, bias_gradient);
 }
 
@@ -172,9 +169,10 @@ void NormaliseBackwardRows(std::int64_t rows, int columns, const float* normalis
                            const float* inverse_std, float* gradient) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    float* const g = gradient + i * width;
-    const float* const x = normalised + i * width;
+    float* const g = gradient + i * stride;
+    const float* const x = normalised + i * stride;
     Vector mean, projection;
     GradientMeans(columns, g, x, &mean, &projection);
     const Vector scale = hn::Set(d, inverse_std[i]);
@@ -197,9 +195,10 @@ void ScaleRowsKernel(std::int64_t rows, int columns, const float* keep, const fl
                      float* out) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
     const Vector factor = hn::Set(d, keep[i]);
-    for (std::int64_t j = i * width; j < (i + 1) * width; j += lanes) {
+    for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
       hn::StoreU(hn::Mul(factor, hn::LoadU(d, in + j)), d, out + j);
     }
   }
@@ -209,50 +208,49 @@ void AddScaledRowsKernel(std::int64_t rows, int columns, const float* keep, cons
                          float* out) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
     const Vector factor = hn::Set(d, keep[i]);
-    for (std::int64_t j = i * width; j < (i + 1) * width; j += lanes) {
+    for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
       hn::StoreU(hn::MulAdd(factor, hn::LoadU(d, in + j), hn::LoadU(d, out + j)), d, out + j);
     }
   }
 }
 
-void GruStepKernel(std::int64_t rows, int size, const float* input_bias, const float* hidden_bias,
-                   const float* hidden_product, const float* previous, float* gates,
+void GruStepKernel(std::int64_t rows, int size, const float* previous, float* gates,
                    std::int64_t stride, float* next) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
+  const std::int64_t row_stride = RowStride(size);
   for (std::int64_t i = 0; i < rows; ++i) {
     float* const gate_n = gates + i * stride;
     float* const gate_r = gate_n + size;
     float* const gate_z = gate_r + size;
-    float* const gate_q = gate_z + size;
-    const float* const product = hidden_product + i * 3 * size;
+    const float* const gate_q = gate_z + size;
     for (int j = 0; j < size; j += lanes) {
-      const auto biased = [&](const float* value, const float* bias) HWY_ATTR {
-        return hn::Add(hn::LoadU(d, value + j), hn::LoadU(d, bias + j));
-      };
-      const Vector r =
-          Sigmoid(hn::Add(biased(gate_r, input_bias + size), biased(product, hidden_bias)));
-      const Vector z = Sigmoid(hn::Add(biased(gate_z, input_bias + 2 * size),
-                                       biased(product + size, hidden_bias + size)));
-      const Vector q = biased(product + 2 * size, hidden_bias + 2 * size);
-      const Vector n = Tanh(hn::MulAdd(r, q, biased(gate_n, input_bias)));
-      const Vector h = hn::LoadU(d, previous + i * size + j);
+      const Vector r = Sigmoid(hn::LoadU(d, gate_r + j));
+      const Vector z = Sigmoid(hn::LoadU(d, gate_z + j));
+      const Vector n = Tanh(hn::MulAdd(r, hn::LoadU(d, gate_q + j), hn::LoadU(d, gate_n + j)));
+      const Vector h = hn::LoadU(d, previous + i * row_stride + j);
       hn::StoreU(n, d, gate_n + j);
       hn::StoreU(r, d, gate_r + j);
       hn::StoreU(z, d, gate_z + j);
-      hn::StoreU(q, d, gate_q + j);
-      hn::StoreU(hn::MulAdd(z, hn::Sub(h, n), n), d, next + i * size + j);
+      hn::StoreU(hn::MulAdd(z, hn::Sub(h, n), n), d, next + i * row_stride + j);
     }
   }
 }
 
+HWY_INLINE void AddTo(Vector value, float* sum) {
+  const Floats d;
+  hn::StoreU(hn::Add(hn::LoadU(d, sum), value), d, sum);
+}
+
 void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, float* gates,
-                           std::int64_t stride, float* state_gradient) {
+                           std::int64_t stride, float* state_gradient, float* gate_sums) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const Vector one = hn::Set(d, 1.0f);
+  const std::int64_t row_stride = RowStride(size);
   for (std::int64_t i = 0; i < rows; ++i) {
     float* const gate_n = gates + i * stride;
     float* const gate_r = gate_n + size;
@@ -261,27 +259,23 @@ void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, f
     for (int j = 0; j < size; j += lanes) {
       const Vector n = hn::LoadU(d, gate_n + j), r = hn::LoadU(d, gate_r + j);
       const Vector z = hn::LoadU(d, gate_z + j), q = hn::LoadU(d, gate_q + j);
-      const Vector g = hn::LoadU(d, state_gradient + i * size + j);
-      const Vector h = hn::LoadU(d, previous + i * size + j);
-      const Vector dz = hn::Mul(hn::Mul(g, hn::Sub(h, n)), hn::Mul(z, hn::Sub(one, z)));
-      const Vector dn = hn::Mul(hn::Mul(g, hn::Sub(one, z)), hn::NegMulAdd(n, n, one));
-      const Vector dr = hn::Mul(hn::Mul(dn, q), hn::Mul(r, hn::Sub(one, r)));
+      const Vector g = hn::LoadU(d, state_gradient + i * row_stride + j);
+      const Vector h = hn::LoadU(d, previous + i * row_stride + j);
+      const Vector g_new = hn::Mul(g, hn::Sub(one, z));
+      const Vector g_old = hn::Mul(g, z);
+      const Vector dz = hn::Mul(hn::Mul(g_new, z), hn::Sub(h, n));
+      const Vector dn = hn::Mul(g_new, hn::NegMulAdd(n, n, one));
+      const Vector dq = hn::Mul(dn, r);
+      const Vector dr = hn::Mul(hn::Mul(dq, q), hn::Sub(one, r));
       hn::StoreU(dn, d, gate_n + j);
       hn::StoreU(dr, d, gate_r + j);
       hn::StoreU(dz, d, gate_z + j);
-      hn::StoreU(hn::Mul(dn, r), d, gate_q + j);
-      hn::StoreU(hn::Mul(g, z), d, state_gradient + i * size + j);
-    }
-  }
-}
-
-void AddColumnSumsKernel(std::int64_t rows, int columns, const float* in, std::int64_t stride,
-                         float* sums) {
-  const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  for (std::int64_t i = 0; i < rows; ++i) {
-    for (int j = 0; j < columns; j += lanes) {
-      hn::StoreU(hn::Add(hn::LoadU(d, sums + j), hn::LoadU(d, in + i * stride + j)), d, sums + j);
+      hn::StoreU(dq, d, gate_q + j);
+      hn::StoreU(g_old, d, state_gradient + i * row_stride + j);
+      AddTo(dn, gate_sums + j);
+      AddTo(dr, gate_sums + size + j);
+      AddTo(dz, gate_sums + 2 * size + j);
+      AddTo(dq, gate_sums + 3 * size + j);
     }
   }
 }
@@ -294,17 +288,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace skein {
 
-HWY_EXPORT(BiasReluNormaliseKernel);
-HWY_EXPORT(BiasReluNormaliseBackwardKernel);
+HWY_EXPORT(ReluNormaliseKernel);
+HWY_EXPORT(ReluNormaliseBackwardKernel);
 HWY_EXPORT(NormaliseWithStdKernel);
 HWY_EXPORT(NormaliseBackwardKernel);
 HWY_EXPORT(ScaleRowsKernel);
 HWY_EXPORT(AddScaledRowsKernel);
 HWY_EXPORT(GruStepKernel);
 HWY_EXPORT(GruStepBackwardKernel);
-HWY_EXPORT(AddColumnSumsKernel);
 
 void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out) {
+  const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
     const float* const row = in + i * columns;
     float sum = 0, squares = 0;
@@ -313,19 +307,19 @@ void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out) 
     for (int j = 0; j < columns; ++j) squares += (row[j] - mean) * (row[j] - mean);
     const float inverse_std =
         1.0f / std::sqrt(squares / static_cast<float>(columns) + kLayerNormEpsilon);
-    for (int j = 0; j < columns; ++j) out[i * columns + j] = (row[j] - mean) * inverse_std;
+    for (int j = 0; j < columns; ++j) out[i * stride + j] = (row[j] - mean) * inverse_std;
   }
 }
 
-void BiasReluNormalise(std::int64_t rows, int columns, const float* bias, float* values,
-                       float* inverse_std, float* zero_level) {
-  SKEIN_DISPATCH(BiasReluNormaliseKernel)(rows, columns, bias, values, inverse_std, zero_level);
+void ReluNormalise(std::int64_t rows, int columns, float* values, float* inverse_std,
+                   float* zero_level) {
+  SKEIN_DISPATCH(ReluNormaliseKernel)(rows, columns, values, inverse_std, zero_level);
 }
 
-void BiasReluNormaliseBackward(std::int64_t rows, int columns, const float* normalised,
-                               const float* inverse_std, const float* zero_level, float* gradient,
-                               float* bias_gradient) {
-  SKEIN_DISPATCH(BiasReluNormaliseBackwardKernel)
+void ReluNormaliseBackward(std::int64_t rows, int columns, const float* normalised,
+                           const float* inverse_std, const float* zero_level, float* gradient,
+                           float* bias_gradient) {
+  SKEIN_DISPATCH(ReluNormaliseBackwardKernel)
   (rows, columns, normalised, inverse_std, zero_level, gradient, bias_gradient);
 }
 
@@ -347,21 +341,22 @@ void AddScaledRows(std::int64_t rows, int columns, const float* keep, const floa
   SKEIN_DISPATCH(AddScaledRowsKernel)(rows, columns, keep, in, out);
 }
 
-void GruStep(std::int64_t rows, int size, const float* input_bias, const float* hidden_bias,
-             const float* hidden_product, const float* previous, float* gates, std::int64_t stride,
+void GruStep(std::int64_t rows, int size, const float* previous, float* gates, std::int64_t stride,
              float* next) {
-  SKEIN_DISPATCH(GruStepKernel)
-  (rows, size, input_bias, hidden_bias, hidden_product, previous, gates, stride, next);
+  SKEIN_DISPATCH(GruStepKernel)(rows, size, previous, gates, stride, next);
 }
 
 void GruStepBackward(std::int64_t rows, int size, const float* previous, float* gates,
-                     std::int64_t stride, float* state_gradient) {
-  SKEIN_DISPATCH(GruStepBackwardKernel)(rows, size, previous, gates, stride, state_gradient);
+                     std::int64_t stride, float* state_gradient, float* gate_sums) {
+  SKEIN_DISPATCH(GruStepBackwardKernel)
+  (rows, size, previous, gates, stride, state_gradient, gate_sums);
 }
 
 void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,
                    float* sums) {
-  SKEIN_DISPATCH(AddColumnSumsKernel)(rows, columns, in, stride, sums);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) sums[j] += in[i * stride + j];
+  }
 }
 
 }  // namespace skein

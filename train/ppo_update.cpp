@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -77,15 +78,15 @@ struct PpoUpdate::Gathered {
   }
 };
 
-PpoUpdate::PpoUpdate(const TrainConfig& config, Backend backend, const NetworkLayout& actor,
-                     const NetworkLayout& critic, WorkerPool& pool)
+PpoUpdate::PpoUpdate(const TrainConfig& config, const BackendChoice& backend,
+                     const NetworkLayout& actor, const NetworkLayout& critic, WorkerPool& pool)
     : config_(config.ppo),
       seed_(config.seed),
       tanh_mean_(config.network.tanh_mean),
       tile_chunks_(std::max(1, config.learner.tile_samples / config.ppo.chunk_length)),
       pool_(pool) {
-  actor_.network = MakeNetwork(backend, actor);
-  critic_.network = MakeNetwork(backend, critic);
+  actor_.network = MakeNetwork(backend.backend, actor, ActorPrecision(backend.precision));
+  critic_.network = MakeNetwork(backend.backend, critic, CriticPrecision(backend.precision));
   for (int i = 0; i < pool.threads(); ++i) gathered_.push_back(std::make_shared<Gathered>());
 }
 
@@ -174,11 +175,14 @@ LossSums PpoUpdate::Minibatch(const Rollout& rollout, const ValueScale& scale,
   }
   pool_.ForEach(2,
                 [&](int i, int) { sides[i]->network->SetParameters(optimisers[i]->parameters()); });
+  const auto start = std::chrono::steady_clock::now();
   pool_.ForEach(2 * shards, [&](int index, int worker) {
     const int shard = index / 2, begin = shard_begin(shard);
     RunShard(*sides[index % 2], rollout, scale, advantages, chunks + begin,
              shard_begin(shard + 1) - begin, settings, shard, worker);
   });
+  gradient_seconds_ +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (pool_.stopping()) return {};
   for (Side* const side : sides) {
     auto& accumulators = side->accumulators;
@@ -212,6 +216,7 @@ UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
   const Advantages advantages = AdvantageScale(rollout);
   const std::int64_t chunks = static_cast<std::int64_t>(rollout.chunks()) * rollout.aircraft;
   UpdateReport report;
+  gradient_seconds_ = 0;
   for (int epoch = 0; epoch < config_.epochs; ++epoch) {
     const std::vector<std::int64_t> order = ShuffledChunks(chunks, seed_, iteration, epoch);
     for (int minibatch = 0; minibatch < config_.minibatches; ++minibatch) {
@@ -231,6 +236,7 @@ UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
         &losses.clip_fraction, &report.actor_gradient_norm, &report.critic_gradient_norm}) {
     *mean /= count;
   }
+  report.gradient_seconds = gradient_seconds_;
   return report;
 }
 

@@ -6,6 +6,7 @@
 
 #include "envs/worker_pool.h"
 #include "train/adam.h"
+#include "train/backend.h"
 #include "train/recurrent_network.h"
 #include "train/rollout.h"
 
@@ -15,13 +16,14 @@ namespace skein {
 struct UpdateReport {
   LossSums losses;
   double actor_gradient_norm = 0, critic_gradient_norm = 0;  ///< before clipping
+  double gradient_seconds = 0;  ///< in forward, losses and backward, of all minibatches
 };
 
 /// PPO's epochs over a rollout: minibatches of shuffled chunks, each cut into a fixed number of
 /// shards whose gradients are summed in a fixed order, so that no bit depends on the threads.
 class PpoUpdate {
  public:
-  PpoUpdate(const TrainConfig& config, Backend backend, const NetworkLayout& actor,
+  PpoUpdate(const TrainConfig& config, const BackendChoice& backend, const NetworkLayout& actor,
             const NetworkLayout& critic, WorkerPool& pool);
 
   /// `iteration` keys the shuffles. Throws Error if a loss or a gradient is not finite, or a
@@ -61,6 +63,7 @@ class PpoUpdate {
   WorkerPool& pool_;
   Side actor_, critic_;
   std::vector<std::shared_ptr<Gathered>> gathered_;  ///< one per worker
+  double gradient_seconds_ = 0;                      ///< of the update so far
 };
 
 }  // namespace skein

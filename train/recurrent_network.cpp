@@ -5,8 +5,9 @@
 
 namespace skein {
 
-std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout) {
-  if (backend == Backend::kFused) return std::make_unique<FusedNetwork>(layout);
+std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout,
+                                              const NetworkPrecision& precision) {
+  if (backend == Backend::kFused) return std::make_unique<FusedNetwork>(layout, precision);
   return std::make_unique<LibTorchNetwork>(layout);
 }
 

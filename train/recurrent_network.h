@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "simd/aligned_vector.h"
+#include "train/affine_map.h"
 #include "train/fused_activations.h"
 #include "train/network.h"
 #include "train/ppo_loss.h"
@@ -72,6 +73,8 @@ class RecurrentNetwork {
 };
 
 /// Throws Error if `backend` cannot compute the shape; ChooseBackend (train/backend.h) asks first.
-std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout);
+/// LibTorch takes no notice of the precision.
+std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout,
+                                              const NetworkPrecision& precision = {});
 
 }  // namespace skein

@@ -1,6 +1,7 @@
 #include "train/rollout.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "simd/random.h"
@@ -69,6 +70,15 @@ class TileRollout {
   }
 
  private:
+  /// Runs a part of the simulator on the clock.
+  template <typename Part>
+  void Simulate(const Part& part) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    part();
+    statistics_.simulator_seconds += std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
   std::int64_t Row(int step) const { return rollout_.row(step, begin_); }
   float* Observation(int step) const {
     return rollout_.observation.data() + Row(step) * rollout_.observation_size;
@@ -98,7 +108,7 @@ class TileRollout {
                        states = static_cast<std::int64_t>(count_) * rollout_.state_size;
     const int size = rollout_.action_size;
     float* const observation = Observation(step);
-    env_.Observe(tile_, observation);
+    Simulate([&] { env_.Observe(tile_, observation); });
     std::copy_n(keep_, count_, rollout_.keep.begin() + row);
 
     EvaluateCritic(observation, critic_state_, keep_, rollout_.value.data() + row);
@@ -137,7 +147,8 @@ class TileRollout {
     output.episode_steps = scratch_.episode_steps.data();
     const bool truncates = env_.config().truncate_at_time_limit;
     if (truncates) output.final_observation = scratch_.final_observation.data();
-    env_.Step(tile_, rollout_.action.data() + row * rollout_.action_size, output);
+    Simulate(
+        [&] { env_.Step(tile_, rollout_.action.data() + row * rollout_.action_size, output); });
     bool truncated = false;
     for (int i = 0; i < count_; ++i) {
       const auto termination = static_cast<Termination>(scratch_.termination[i]);
@@ -221,6 +232,7 @@ EpisodeStatistics& EpisodeStatistics::operator+=(const EpisodeStatistics& other)
   decisions += other.decisions;
   episodes += other.episodes;
   return_sum += other.return_sum;
+  simulator_seconds += other.simulator_seconds;
   for (int i = 0; i < kNumTerminations; ++i) terminations[i] += other.terminations[i];
   return *this;
 }

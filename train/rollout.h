@@ -49,6 +49,7 @@ struct EpisodeStatistics {
   std::uint64_t episodes = 0;
   double return_sum = 0;
   std::array<int, kNumTerminations> terminations{};
+  double simulator_seconds = 0;  ///< that threads spent in the environment; no two runs' are equal
 
   EpisodeStatistics& operator+=(const EpisodeStatistics& other);
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "envs/dynamics/plant_kernel.h"
 #include "envs/vec_env.h"
 #include "simd/error.h"
 #include "train/adam.h"
@@ -60,13 +59,18 @@ struct Trainer::Impl {
               config.ppo.adam_epsilon),
         critic(InitialParameters(critic_layout, kCriticHeadScale, 0, config.seed, kCriticStream),
                config.ppo.adam_epsilon),
-        backend(ChooseBackend(config.learner.backend, actor_layout.shape())),
-        actor_network(MakeNetwork(backend.backend, actor_layout)),
-        critic_network(MakeNetwork(backend.backend, critic_layout)),
+        backend(
+            ChooseBackend(config.learner.backend, actor_layout.shape(), config.learner.precision)),
+        actor_network(
+            MakeNetwork(backend.backend, actor_layout, ActorPrecision(backend.precision))),
+        critic_network(
+            MakeNetwork(backend.backend, critic_layout, CriticPrecision(backend.precision))),
         rollout(config.ppo, env.observation_size(), env.action_size(),
                 actor_layout.shape().state_size()),
         recurrent(config.ppo.num_aircraft, actor_layout.shape().state_size()),
-        update(config, backend.backend, actor_layout, critic_layout, pool) {}
+        update(config, backend, actor_layout, critic_layout, pool) {
+    config.learner.precision = backend.precision;
+  }
 
   std::uint64_t env_steps() const {
     return decisions * config.ppo.num_aircraft * config.env.action_repeat;
@@ -149,6 +153,7 @@ struct Trainer::Impl {
         episodes.terminations[static_cast<int>(Termination::kResetTarget)] / count;
     report.explained_variance = ExplainedVariance(rollout);
     report.rollout_seconds = SecondsSince(start);
+    report.simulator_seconds = episodes.simulator_seconds / pool.threads();
     return episodes.decisions * config.env.action_repeat;
   }
 
@@ -162,6 +167,7 @@ struct Trainer::Impl {
     }
     const UpdateReport done =
         update.Run(rollout, popart.scale(), iteration, report.learning_rate, actor, critic);
+    report.gradient_seconds = done.gradient_seconds;
     report.policy_loss = done.losses.policy_loss;
     report.value_loss = done.losses.value_loss;
     report.entropy = done.losses.entropy;
@@ -257,34 +263,5 @@ std::string Trainer::Restore(const std::string& path) {
 }
 
 std::uint64_t Trainer::Signature() const { return Hash(impl_->State()); }
-
-LearnerRates MeasureLearner(const TrainConfig& config, WorkerPool& pool) {
-  constexpr int kIterations = 4;
-  TrainConfig measured = config;
-  measured.evaluation.interval_iterations = 0;
-  Trainer trainer(measured, pool);
-  trainer.Iterate();
-  double rollout_seconds = 0, update_seconds = 0;
-  for (int i = 0; i < kIterations; ++i) {
-    const IterationReport report = trainer.Iterate();
-    rollout_seconds += report.rollout_seconds;
-    update_seconds += report.update_seconds;
-  }
-  const double samples =
-      static_cast<double>(kIterations) * config.ppo.num_aircraft * config.ppo.rollout_steps;
-  const VecEnv env(config.env, 1, config.seed);
-  LearnerRates rates;
-  rates.backend = trainer.backend();
-  const double forward_flops =
-      ForwardFlops(ActorShape(config.network, env.observation_size(), env.action_size())) +
-      ForwardFlops(CriticShape(config.network, env.observation_size()));
-  rates.rollout_decisions_per_s = samples / rollout_seconds;
-  rates.rollout_flops_per_decision =
-      forward_flops + config.env.action_repeat * config.env.substeps * kFlopsPerRk4Step;
-  rates.update_samples_per_s = samples * config.ppo.epochs / update_seconds;
-  // Backward is two products for each one forward.
-  rates.update_flops_per_sample = 3 * forward_flops;
-  return rates;
-}
 
 }  // namespace skein

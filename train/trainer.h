@@ -35,6 +35,8 @@ struct IterationReport {
       -1;             ///< deterministic success if this iteration evaluated, else -1
   bool best = false;  ///< this iteration's evaluation is the best so far
   double rollout_seconds = 0, update_seconds = 0, evaluation_seconds = 0;
+  double simulator_seconds = 0;  ///< of the rollout, mean of the threads
+  double gradient_seconds = 0;   ///< of the update: forward, losses and backward
 };
 
 /// Recurrent PPO on a VecEnv. A run is a function of the configuration: same bits for any thread
@@ -44,6 +46,7 @@ class Trainer {
   Trainer(const TrainConfig& config, WorkerPool& pool);
   ~Trainer();
 
+  /// The configuration, its precision as it was chosen (train/backend.h).
   const TrainConfig& config() const;
   std::uint64_t env_steps() const;
   std::uint64_t iteration() const;
@@ -73,19 +76,5 @@ class Trainer {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Rates of the parts of an iteration, for `skein bench`.
-struct LearnerRates {
-  BackendChoice backend;               ///< what computed the networks
-  double rollout_decisions_per_s = 0;  ///< simulator in the loop
-  /// Of the networks' products and of the RK4 steps until the next decision.
-  double rollout_flops_per_decision = 0;
-  /// Through forward, loss, backward and optimiser.
-  double update_samples_per_s = 0;
-  double update_flops_per_sample = 0;  ///< of the products, forward and backward, both networks
-};
-
-/// Trains `config` for a few iterations (after one to warm up) and measures.
-LearnerRates MeasureLearner(const TrainConfig& config, WorkerPool& pool);
 
 }  // namespace skein

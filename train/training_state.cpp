@@ -25,6 +25,7 @@ std::string Text(AtmosphereModel model) {
 }
 std::string Text(Activation activation) { return Name(activation); }
 std::string Text(Backend backend) { return Name(backend); }
+std::string Text(LearnerPrecision precision) { return Name(precision); }
 std::string Text(FlightControlMode mode) {
   return mode == FlightControlMode::kFull ? "full" : "direct";
 }
@@ -141,6 +142,7 @@ std::map<std::string, std::string> DescribeConfig(const TrainConfig& config) {
   add("ppo.popart", ppo.popart);
   add("ppo.popart_rate", ppo.popart_rate);
   add("learner.backend", config.learner.backend);
+  add("learner.precision", config.learner.precision);
   add("learner.tile_samples", config.learner.tile_samples);
   add("learner.rollout_tile", config.learner.rollout_tile);
   add("evaluation.interval_iterations", config.evaluation.interval_iterations);

@@ -188,14 +188,34 @@ TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
   };
   EXPECT_GT(measure({"sim", "--aircraft", "2000", "--steps", "3"})["plant"]["aircraft_steps_per_s"],
             0);
-  const std::vector<std::string> small = {"--set", "ppo.num_aircraft=64",
-                                          "--set", "ppo.rollout_steps=16",
-                                          "--set", "ppo.minibatches=2"};
+  const std::vector<std::string> small = {
+      "--set", "ppo.num_aircraft=64", "--set",        "ppo.rollout_steps=16",
+      "--set", "ppo.minibatches=2",   "--iterations", "1"};
   std::vector<std::string> rollout = {"rollout"}, update = {"update"};
   rollout.insert(rollout.end(), small.begin(), small.end());
   update.insert(update.end(), small.begin(), small.end());
-  EXPECT_GT(measure(rollout)["decisions_per_s"], 0);
-  EXPECT_GT(measure(update)["samples_per_s"], 0);
+  const auto rollouts = measure(rollout);
+  EXPECT_GT(rollouts["decisions_per_s"], 0);
+  EXPECT_GT(rollouts["simulator_share"], 0);
+  EXPECT_LT(rollouts["simulator_share"], 1);
+  const auto updates = measure(update);
+  EXPECT_GT(updates["samples_per_s"], 0);
+  EXPECT_EQ(updates["learners"].back()["backend"], "libtorch");
+  EXPECT_EQ(updates["learners"].back()["times_libtorch"], 1);
+}
+
+TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "result.json";
+  const ProgramResult result =
+      CallSkein({"bench", "iteration", "--iterations", "1", "--set", "ppo.num_aircraft=64", "--set",
+                 "ppo.rollout_steps=16", "--set", "ppo.minibatches=2", "--json", path});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  const auto json = nlohmann::json::parse(ReadFile(path));
+  EXPECT_GT(json["efficiency"], 0);
+  EXPECT_LE(json["efficiency"], 1);
+  EXPECT_NEAR(json["budget_h"].get<double>() * 3600 * json["control_steps_per_s"].get<double>(),
+              json["budget_steps"].get<double>(), 1);
 }
 
 }  // namespace

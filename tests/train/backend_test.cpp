@@ -18,7 +18,7 @@ TEST(ChooseBackendTest, GivesWhatWasAskedForWhereItCan) {
   const BackendChoice fused = ChooseBackend(Backend::kFused, ShapeWith(Activation::kRelu));
   EXPECT_EQ(fused.backend, Backend::kFused);
   EXPECT_EQ(fused.fallback_reason, "");
-  EXPECT_EQ(Describe(fused), "networks by the fused kernels");
+  EXPECT_EQ(Describe(fused), "networks by the fused kernels, in fp32");
   for (const Activation activation : {Activation::kRelu, Activation::kTanh}) {
     const BackendChoice libtorch = ChooseBackend(Backend::kLibTorch, ShapeWith(activation));
     EXPECT_EQ(libtorch.backend, Backend::kLibTorch);

@@ -18,8 +18,4 @@ enum class Transpose { kNo, kYes };
 void MatMul(const MatrixView& a, Transpose transpose_a, const MatrixView& b, Transpose transpose_b,
             bool accumulate, const MatrixView& out);
 
-/// Makes LibTorch and the BLAS below it compute on the calling thread alone; WorkerPool brings the
-/// parallelism. Idempotent, and called by whatever multiplies matrices in this room.
-void UseOneLibTorchThread();
-
 }  // namespace skein

@@ -1,9 +1,7 @@
-#include "train/matmul.h"
+#include "bench/libtorch_matmul.h"
 
 #include <ATen/ATen.h>
-#include <ATen/Parallel.h>
 #include <c10/core/InferenceMode.h>
-#include <dlfcn.h>
 
 #include <string>
 
@@ -39,20 +37,6 @@ void MatMul(const MatrixView& a, Transpose transpose_a, const MatrixView& b, Tra
   } else {
     at::mm_out(result, left, right);
   }
-}
-
-void UseOneLibTorchThread() {
-  static const bool done = [] {
-    at::set_num_threads(1);
-    // OpenBLAS keeps threads of its own that LibTorch does not know of.
-    using SetThreads = void (*)(int);
-    if (const auto set =
-            reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) {
-      set(1);
-    }
-    return true;
-  }();
-  static_cast<void>(done);
 }
 
 }  // namespace skein

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace skein {
+
+/// Makes LibTorch and the BLAS below it compute on the calling thread alone; WorkerPool brings the
+/// parallelism. Idempotent.
+void UseOneLibTorchThread();
+
+}  // namespace skein
