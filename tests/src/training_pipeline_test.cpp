@@ -17,6 +17,7 @@
 #include "src/run_directory.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
+#include "train/backend.h"
 
 namespace skein {
 namespace {
@@ -158,6 +159,33 @@ TEST_F(TrainingPipeline, OldNamesOfBackendsAreErrorsThatNameTheNewOnes) {
     ExpectOneLine(result.error, "learner.backend must be \"fused\" or \"libtorch\", not");
     EXPECT_FALSE(fs::exists(run_));
   }
+}
+
+TEST_F(TrainingPipeline, ARunSaysAndKeepsItsPrecision) {
+  FlyReference({"--steps", "5120"});
+  const std::string automatic = Name(DefaultPrecision());
+  EXPECT_THAT(ReadFile(reference_ + "/config.toml"),
+              HasSubstr("precision = \"" + automatic + "\"\n"));
+  ASSERT_EQ(RunSkein(TinyTraining(run_, {"--steps", "5120", "--set", "learner.precision=mixed"}))
+                .exit_code,
+            0);
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("precision = \"mixed\"\n"));
+  EXPECT_THAT(ReadFile(run_ + "/log.txt"), HasSubstr("networks by the fused kernels, in mixed"));
+  EXPECT_EQ(CallSkein({"train", "--resume", run_}).exit_code, 0);
+  const ProgramResult other =
+      CallSkein({"train", "--resume", run_, "--set", "learner.precision=bf16"});
+  EXPECT_EQ(other.exit_code, 1);
+  ExpectOneLine(other.error, "learner.precision (\"mixed\" against \"bf16\")");
+}
+
+TEST_F(TrainingPipeline, AnUnknownPrecisionIsAnErrorThatNamesTheKnownOnes) {
+  const ProgramResult result = CallSkein(TinyTraining(run_, {"--set", "learner.precision=fp16"}));
+  EXPECT_EQ(result.exit_code, 1);
+  ExpectOneLine(result.error, "learner.precision");
+  for (const auto& [precision, name] : kPrecisionNames) {
+    EXPECT_THAT(result.error, HasSubstr(std::string("\"") + name + "\""));
+  }
+  EXPECT_FALSE(fs::exists(run_));
 }
 
 TEST_F(TrainingPipeline, AConfigurationFileOfARunRepeatsIt) {

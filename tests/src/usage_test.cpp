@@ -9,6 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "simd/target.h"
 #include "src/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
@@ -140,6 +141,21 @@ TEST(Usage, InfoNamesWhatItRunsOn) {
   EXPECT_EQ(info["simd"], "scalar");
   EXPECT_GE(info["threads"], 1);
   EXPECT_NE(info["libtorch"], "");
+  EXPECT_EQ(info["native_bf16"], false) << "the scalar target has none";
+  EXPECT_EQ(info["precision"], "fp32");
+  EXPECT_THAT(result.output, HasSubstr("learner   precision fp32 (native bf16: no;"));
+}
+
+TEST(Usage, InfoNamesThePrecisionOfThisProcessor) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "info.json";
+  const ProgramResult result = CallSkein({"info", "--json", path});
+  const auto info = nlohmann::json::parse(ReadFile(path));
+  EXPECT_EQ(info["native_bf16"], simd::NativeBfloat16());
+  EXPECT_EQ(info["precision"], simd::NativeBfloat16() ? "fast" : "fp32");
+  EXPECT_THAT(result.output,
+              HasSubstr(simd::NativeBfloat16() ? "precision fast (native bf16: yes;"
+                                               : "precision fp32 (native bf16: no;"));
 }
 
 TEST(Usage, AnUnknownSimdTargetIsAnError) {

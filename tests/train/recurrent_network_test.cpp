@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <numeric>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simd/target.h"
+#include "tests/train/gradient_comparison.h"
 #include "tests/train/sample_tile.h"
 #include "train/folded_parameters.h"
 #include "train/fused_network.h"
@@ -41,23 +46,6 @@ std::string NameOf(const NetworkShape& shape) {
          Name(shape.activation);
 }
 
-LossSettings Settings(int samples) {
-  LossSettings settings;
-  settings.sample_weight = 1.0 / samples;
-  settings.entropy_coefficient = 0.01;
-  settings.value_coefficient = 0.7;
-  return settings;
-}
-
-double RelativeDifference(const std::vector<float>& a, const std::vector<double>& b) {
-  double difference = 0, norm = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    difference += (a[i] - b[i]) * (a[i] - b[i]);
-    norm += b[i] * b[i];
-  }
-  return std::sqrt(difference / norm);
-}
-
 /// Every slice by itself, so that no large one hides an error in a small one; below a hundredth of
 /// the whole gradient a slice is held to the rounding of that.
 void ExpectSlicesAgree(const NetworkLayout& layout, const std::vector<float>& gradient,
@@ -78,19 +66,6 @@ void ExpectSlicesAgree(const NetworkLayout& layout, const std::vector<float>& gr
               kGradientTolerance * std::max(std::sqrt(slice_norm), 0.01 * norm))
         << slice.name;
   }
-}
-
-std::vector<float> GradientBy(Backend backend, const NetworkLayout& layout,
-                              const std::vector<float>& parameters, const SampleTile& tile,
-                              const LossSettings& settings, LossSums* sums = nullptr) {
-  const auto network = MakeNetwork(backend, layout);
-  NetworkWorkspace workspace;
-  network->SetParameters(parameters.data());
-  std::vector<float> accumulator(network->accumulator_size(), 0.0f), flat(layout.size());
-  const LossSums done = network->AccumulateGradient(tile, settings, workspace, accumulator.data());
-  if (sums != nullptr) *sums = done;
-  network->FinishGradient(accumulator.data(), flat.data());
-  return flat;
 }
 
 void ExpectForwardAgrees(Backend backend, const NetworkLayout& layout,
@@ -119,7 +94,7 @@ TEST_P(RecurrentNetworkTest, AgreesWithAutogradInDoublePrecision) {
     const std::vector<float> parameters = DisturbedParameters(layout);
     const RandomTile samples(shape, 8, 12);
     for (const bool option : {false, true}) {
-      LossSettings settings = Settings(96);
+      LossSettings settings = FullLossSettings(96);
       settings.tanh_mean = option;
       settings.clip_value_loss = option;
       const ReferenceGradient reference =
@@ -147,7 +122,7 @@ TEST_P(RecurrentNetworkTest, EveryShapeAgreesWithDoublePrecision) {
     const NetworkLayout layout(shape);
     const std::vector<float> parameters = DisturbedParameters(layout);
     const RandomTile samples(shape, 8, 12);
-    const LossSettings settings = Settings(96);
+    const LossSettings settings = FullLossSettings(96);
     const ReferenceGradient reference =
         ComputeReferenceGradient(layout, parameters, samples.tile(), settings);
     for (const Backend backend : {Backend::kFused, Backend::kLibTorch}) {
@@ -175,7 +150,7 @@ TEST_P(RecurrentNetworkTest, PaddingStaysExactlyZero) {
   std::vector<float> accumulator(network.accumulator_size(), 0.0f);
   for (const unsigned seed : {1u, 2u}) {
     const RandomTile samples(shape, 8, 12, seed);
-    network.AccumulateGradient(samples.tile(), Settings(96), workspace, accumulator.data());
+    network.AccumulateGradient(samples.tile(), FullLossSettings(96), workspace, accumulator.data());
   }
   std::vector<FoldedMap> maps;
   for (int i = 0; i <= layout.head(); ++i) maps.push_back(folded.map(i));
@@ -234,7 +209,7 @@ TEST_P(RecurrentNetworkTest, ResetInsideAChunkEqualsTwoSequences) {
   RandomTile samples(shape, 8, 1);
   constexpr int kReset = 3;
   for (int step = 0; step < 8; ++step) samples.keep[step] = step == kReset ? 0.0f : 1.0f;
-  const LossSettings settings = Settings(8);
+  const LossSettings settings = FullLossSettings(8);
   const std::vector<float> whole =
       GradientBy(Backend::kFused, layout, parameters, samples.tile(), settings);
 
@@ -256,19 +231,99 @@ TEST_P(RecurrentNetworkTest, ResetInsideAChunkEqualsTwoSequences) {
   EXPECT_LT(RelativeDifference(whole, sum), kGradientTolerance);
 }
 
+/// Quiet, and with a payload that is lost if the lower half of its bits is cut off.
+std::vector<float> NotANumbers() {
+  const std::uint32_t bits = 0x7f800001u;
+  float low_payload;
+  std::memcpy(&low_payload, &bits, sizeof bits);
+  return {std::nanf(""), low_payload};
+}
+
 TEST_P(RecurrentNetworkTest, NotANumberIsNeverSwallowed) {
-  const NetworkLayout layout(kCritic);
-  const std::vector<float> parameters = DisturbedParameters(layout);
-  RandomTile samples(kCritic, 4, 3);
-  samples.observation[2] = std::nanf("");
-  LossSums sums;
-  GradientBy(Backend::kFused, layout, parameters, samples.tile(), Settings(12), &sums);
-  EXPECT_TRUE(std::isnan(sums.value_loss));
-  RandomTile others(kCritic, 4, 3);
-  others.keep.assign(12, 1.0f);
-  others.state[0] = std::nanf("");
-  GradientBy(Backend::kFused, layout, parameters, others.tile(), Settings(12), &sums);
-  EXPECT_TRUE(std::isnan(sums.value_loss));
+  for (const NetworkShape& shape : {kActor, kCritic}) {
+    const NetworkLayout layout(shape);
+    const std::vector<float> parameters = DisturbedParameters(layout);
+    for (const LearnerPrecision precision : kRunnablePrecisions) {
+      SCOPED_TRACE(Name(precision));
+      const auto expect_shows = [&](const RandomTile& samples) {
+        LossSums sums;
+        const std::vector<float> gradient =
+            GradientBy(Backend::kFused, layout, parameters, samples.tile(), FullLossSettings(12),
+                       &sums, PrecisionOf(shape, precision));
+        EXPECT_TRUE(std::isnan(sums.value_loss + sums.policy_loss));
+        EXPECT_TRUE(std::isnan(std::accumulate(gradient.begin(), gradient.end(), 0.0)));
+      };
+      for (const float value : NotANumbers()) {
+        for (const int at : {2, 6 * 12 - 1}) {
+          RandomTile samples(shape, 4, 3);
+          samples.observation[at] = value;
+          expect_shows(samples);
+        }
+        RandomTile state(shape, 4, 3);
+        state.keep.assign(12, 1.0f);
+        state.state[0] = value;
+        expect_shows(state);
+        RandomTile losses(shape, 4, 3);
+        (shape.gaussian ? losses.advantage : losses.target)[11] = value;
+        expect_shows(losses);
+      }
+    }
+  }
+}
+
+/// Every shape without and with what a loss may have: tanh of the mean, clipped values.
+std::vector<std::pair<NetworkShape, bool>> WithBothOptions(
+    const std::vector<NetworkShape>& shapes) {
+  std::vector<std::pair<NetworkShape, bool>> pairs;
+  for (const NetworkShape& shape : shapes) {
+    pairs.emplace_back(shape, false);
+    pairs.emplace_back(shape, true);
+  }
+  return pairs;
+}
+
+/// The fused kernels' gradient against differences of their own losses: per slice along a random
+/// direction, so that every parameter takes part.
+TEST_P(RecurrentNetworkTest, AgreesWithFiniteDifferencesOfItsOwnLoss) {
+  // Losses of float32 samples, summed in float64, over a step of a thousandth; a ReLU that a step
+  // takes over its kink adds of that order, too.
+  constexpr double kStep = 1e-3, kTolerance = 1e-3;
+  for (const auto& [shape, option] :
+       WithBothOptions({{5, 7, 5, 2, true, 1, 2}, {5, 6, 4, 1, false, 1, 1}})) {
+    SCOPED_TRACE(NameOf(shape));
+    const NetworkLayout layout(shape);
+    const RandomTile samples(shape, 5, 8);
+    LossSettings settings = FullLossSettings(40);
+    settings.tanh_mean = settings.clip_value_loss = option;
+    const std::vector<float> middle = DisturbedParameters(layout);
+    const auto loss = [&](const std::vector<float>& parameters) {
+      LossSums sums;
+      GradientBy(Backend::kFused, layout, parameters, samples.tile(), settings, &sums);
+      return sums.policy_loss - settings.entropy_coefficient * sums.entropy +
+             settings.value_coefficient * sums.value_loss;
+    };
+    const std::vector<float> gradient =
+        GradientBy(Backend::kFused, layout, middle, samples.tile(), settings);
+    std::mt19937 generator(3);
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < layout.slices().size(); ++i) {
+      const ParameterSlice& slice = layout.slices()[i];
+      const std::int64_t end =
+          i + 1 < layout.slices().size() ? layout.slices()[i + 1].offset : layout.size();
+      std::vector<double> direction(end - slice.offset);
+      double squares = 0;
+      for (double& value : direction) squares += std::pow(value = normal(generator), 2);
+      std::vector<float> above = middle, below = middle;
+      double expected = 0;
+      for (std::size_t j = 0; j < direction.size(); ++j) {
+        const std::size_t at = slice.offset + j;
+        above[at] += static_cast<float>(kStep * direction[j] / std::sqrt(squares));
+        below[at] -= static_cast<float>(kStep * direction[j] / std::sqrt(squares));
+        expected += gradient[at] * (static_cast<double>(above[at]) - below[at]) / (2 * kStep);
+      }
+      EXPECT_NEAR((loss(above) - loss(below)) / (2 * kStep), expected, kTolerance) << slice.name;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, RecurrentNetworkTest, testing::ValuesIn(simd::SupportedTargets()),
@@ -276,16 +331,17 @@ INSTANTIATE_TEST_SUITE_P(Targets, RecurrentNetworkTest, testing::ValuesIn(simd::
 
 /// One parameter of every slice and more of the larger ones, of the reference in float64.
 TEST(ReferenceGradientTest, AgreesWithFiniteDifferences) {
-  std::vector<NetworkShape> shapes{kActor, kCritic, {5, 7, 5, 2, true, 1, 2}};
+  auto cases = WithBothOptions({kActor, kCritic, {5, 7, 5, 2, true, 1, 2}});
   for (const auto& [activation, name] : kActivationNames) {
-    shapes.push_back({5, 6, 4, 1, false, 1, 1, activation});
-    shapes.push_back({5, 6, 4, 2, true, 0, 2, activation});
+    cases.push_back({{5, 6, 4, 1, false, 1, 1, activation}, false});
+    cases.push_back({{5, 6, 4, 2, true, 0, 2, activation}, true});
   }
-  for (const NetworkShape& shape : shapes) {
+  for (const auto& [shape, option] : cases) {
     SCOPED_TRACE(NameOf(shape));
     const NetworkLayout layout(shape);
     const RandomTile samples(shape, 5, 4);
-    const LossSettings settings = Settings(20);
+    LossSettings settings = FullLossSettings(20);
+    settings.tanh_mean = settings.clip_value_loss = option;
     std::vector<float> parameters = DisturbedParameters(layout);
     const ReferenceGradient reference =
         ComputeReferenceGradient(layout, parameters, samples.tile(), settings);
@@ -321,12 +377,12 @@ TEST(LibTorchNetworkTest, EveryActivationAgreesWithDoublePrecision) {
     const std::vector<float> parameters = DisturbedParameters(layout);
     const RandomTile samples(shape, 8, 12);
     const ReferenceGradient reference =
-        ComputeReferenceGradient(layout, parameters, samples.tile(), Settings(96));
+        ComputeReferenceGradient(layout, parameters, samples.tile(), FullLossSettings(96));
     ExpectForwardAgrees(Backend::kLibTorch, layout, parameters, samples.tile().sequence, reference,
                         workspace);
-    EXPECT_LT(RelativeDifference(
-                  GradientBy(Backend::kLibTorch, layout, parameters, samples.tile(), Settings(96)),
-                  reference.gradient),
+    EXPECT_LT(RelativeDifference(GradientBy(Backend::kLibTorch, layout, parameters, samples.tile(),
+                                            FullLossSettings(96)),
+                                 reference.gradient),
               kGradientTolerance);
   }
 }

@@ -5,11 +5,13 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "simd/error.h"
 #include "simd/target.h"
 #include "tests/scratch_directory.h"
+#include "tests/train/gradient_comparison.h"
 #include "tests/train/small_config.h"
 #include "train/policy_parameters.h"
 #include "train/training_state.h"
@@ -40,23 +42,33 @@ class TrainerTest : public testing::Test {
   const std::string path_ = scratch_ / "checkpoint.skein";
 };
 
-TEST_F(TrainerTest, EveryBitIsTheSameForAnyNumberOfThreads) {
+class TrainerPrecisionTest : public TrainerTest,
+                             public testing::WithParamInterface<LearnerPrecision> {
+ protected:
+  static TrainConfig Config() {
+    TrainConfig config = SmallConfig();
+    config.learner.precision = GetParam();
+    return config;
+  }
+};
+
+TEST_P(TrainerPrecisionTest, EveryBitIsTheSameForAnyNumberOfThreads) {
   std::uint64_t first = 0;
   for (const int threads : {1, 2, 8}) {
     WorkerPool pool(threads);
-    Trainer trainer(SmallConfig(), pool);
+    Trainer trainer(Config(), pool);
     while (!trainer.finished()) trainer.Iterate();
     if (first == 0) first = trainer.Signature();
     EXPECT_EQ(trainer.Signature(), first) << threads << " threads";
   }
 }
 
-TEST_F(TrainerTest, GoesOnBitForBitAfterRestoring) {
+TEST_P(TrainerPrecisionTest, GoesOnBitForBitAfterRestoring) {
   WorkerPool pool(2);
-  Trainer whole(SmallConfig(), pool);
+  Trainer whole(Config(), pool);
   whole.Iterate();
   whole.Save(path_);
-  Trainer resumed(SmallConfig(), pool);
+  Trainer resumed(Config(), pool);
   resumed.Restore(path_);
   EXPECT_EQ(resumed.Signature(), whole.Signature());
   while (!whole.finished()) {
@@ -122,8 +134,8 @@ TEST_F(TrainerTest, RestoringTellsTheSimdTargetOfTheCheckpoint) {
   EXPECT_EQ(trainer.Restore(path_), "another");
 }
 
-TEST_F(TrainerTest, AnExplosionLeavesTheStateOfBefore) {
-  TrainConfig config = SmallConfig();
+TEST_P(TrainerPrecisionTest, AnExplosionLeavesTheStateOfBefore) {
+  TrainConfig config = Config();
   config.ppo.learning_rate = 1e30;
   config.ppo.max_gradient_norm = 1e6;
   config.evaluation.interval_iterations = 0;
@@ -194,15 +206,85 @@ TEST_F(TrainerTest, AStoppingPoolFliesNothing) {
   EXPECT_EQ(trainer.Signature(), before);
 }
 
-TEST_F(TrainerTest, TheFirstUpdateMovesALittleFromTheRolloutsPolicy) {
-  TrainConfig config = SmallConfig();
+TEST_P(TrainerPrecisionTest, NotANumberInAnyTileLeavesTheStateOfBefore) {
+  TrainConfig config = Config();
+  config.evaluation.interval_iterations = 0;
+  config.ppo.popart = false;
+  WorkerPool pool(2);
+  Trainer trainer(config, pool);
+  trainer.Iterate();
+  trainer.Save(path_);
+  const NetworkLayout actor(ActorShape(config.network, 22, 4)),
+      critic(CriticShape(config.network, 22));
+  const TrainingState whole = LoadCheckpoint(TensorFile::Read(path_), path_, config, actor, critic);
+  for (const auto states : {&RecurrentState::actor, &RecurrentState::critic}) {
+    for (const int aircraft : {0, 50, 95}) {
+      // Forged: a state that is no number spoils what its aircraft alone adds.
+      TrainingState forged = whole;
+      (forged.recurrent.*states)[aircraft * config.network.gru_size + 3] = std::nanf("");
+      StoreCheckpoint(config, actor, forged).Write(path_);
+      trainer.Restore(path_);
+      const std::uint64_t before = trainer.Signature();
+      try {
+        trainer.Iterate();
+        ADD_FAILURE() << "aircraft " << aircraft;
+      } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("exploded"), std::string::npos) << error.what();
+      }
+      EXPECT_EQ(trainer.Signature(), before);
+    }
+  }
+}
+
+TEST_P(TrainerPrecisionTest, TheFirstUpdateMovesALittleFromTheRolloutsPolicy) {
+  TrainConfig config = Config();
   config.ppo.learning_rate = 1e-12;  // so that every minibatch still sees the rollout's policy
   config.evaluation.interval_iterations = 0;
   WorkerPool pool(1);
   const IterationReport report = Trainer(config, pool).Iterate();
-  // log-probabilities differ by float32 rounding of values of about ten: KL by its square.
+  // Rollouts and updates compute in the same precision: log-probabilities differ by float32
+  // rounding of values of about ten, KL by its square.
   EXPECT_NEAR(report.approximate_kl, 0, 1e-7);
   EXPECT_EQ(report.clip_fraction, 0);
+}
+
+TEST_P(TrainerPrecisionTest, ConfigurationSaysWhatRunsAndLibTorchRunsInFloat32) {
+  WorkerPool pool(1);
+  TrainConfig config = Config();
+  EXPECT_EQ(Trainer(config, pool).config().learner.precision, GetParam());
+  EXPECT_EQ(Trainer(config, pool).backend().precision, GetParam());
+  config.learner.backend = Backend::kLibTorch;
+  EXPECT_EQ(Trainer(config, pool).config().learner.precision, LearnerPrecision::kFloat32);
+}
+
+INSTANTIATE_TEST_SUITE_P(Precisions, TrainerPrecisionTest, testing::ValuesIn(kRunnablePrecisions),
+                         [](const auto& precision) { return Name(precision.param); });
+
+TEST_F(TrainerTest, EveryPrecisionIsAnotherTraining) {
+  WorkerPool pool(2);
+  std::set<std::uint64_t> signatures;
+  for (const LearnerPrecision precision : kRunnablePrecisions) {
+    TrainConfig config = SmallConfig();
+    config.learner.precision = precision;
+    Trainer trainer(config, pool);
+    trainer.Iterate();
+    signatures.insert(trainer.Signature());
+  }
+  EXPECT_EQ(signatures.size(), kRunnablePrecisions.size());
+}
+
+TEST_F(TrainerTest, AutomaticPrecisionIsResolvedAndStaysInCheckpoints) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  config.learner.precision = LearnerPrecision::kAuto;
+  Trainer trainer(config, pool);
+  EXPECT_EQ(trainer.config().learner.precision, DefaultPrecision());
+  trainer.Save(path_);
+  EXPECT_EQ(RefusalOf(config, path_), "");
+  config.learner.precision = LearnerPrecision::kMixed;
+  EXPECT_EQ(RefusalOf(config, path_),
+            path_ + ": made with learner.precision = " + Name(DefaultPrecision()) +
+                ", but the configuration says mixed");
 }
 
 TEST_F(TrainerTest, LearningRateFallsLinearlyToItsFraction) {
@@ -223,6 +305,7 @@ TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
   config.network.hidden_size = 20;
   config.network.gru_layers = 2;
   config.network.gru_size = 9;
+  config.learner.precision = LearnerPrecision::kFloat32;
   config.ppo.epochs = 1;
   config.ppo.minibatches = 1;
   config.evaluation.interval_iterations = 0;
