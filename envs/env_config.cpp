@@ -76,10 +76,19 @@ void Validate(const EnvConfig& config) {
   RequirePositive("env.heading.speed_tolerance_fps", config.heading.speed_tolerance_fps);
   Require(config.heading.earliest_success_step >= 0, "env.heading.earliest_success_step",
           config.heading.earliest_success_step, "zero or more");
-  Require(config.heading.earliest_success_step <= config.time_limit_steps,
-          "env.heading.earliest_success_step", config.heading.earliest_success_step,
-          "no more than env.time_limit_steps, " + Text(config.time_limit_steps) +
-              ": else no episode could succeed");
+  Require(
+      config.task != "heading" || config.heading.earliest_success_step <= config.time_limit_steps,
+      "env.heading.earliest_success_step", config.heading.earliest_success_step,
+      "no more than env.time_limit_steps, " + Text(config.time_limit_steps) +
+          ": else no episode could succeed");
+
+  RequireNotNegative("env.control.pitch_change_rad", config.control.pitch_change_rad);
+  RequireNotNegative("env.control.yaw_change_rad", config.control.yaw_change_rad);
+  RequireNotNegative("env.control.speed_change_fps", config.control.speed_change_fps);
+  RequirePositive("env.control.pitch_tolerance_deg", config.control.pitch_tolerance_deg);
+  RequirePositive("env.control.yaw_tolerance_deg", config.control.yaw_tolerance_deg);
+  RequirePositive("env.control.speed_tolerance_fps", config.control.speed_tolerance_fps);
+  RequireNotNegative("env.control.speed_error_weight", config.control.speed_error_weight);
 
   RequireRange("env.termination.alpha", "deg", config.termination.alpha_deg, -180, 180);
   RequireRange("env.termination.beta", "deg", config.termination.beta_deg, -90, 90);

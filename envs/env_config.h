@@ -32,6 +32,21 @@ struct HeadingConfig {
   int earliest_success_step = 300;  ///< control steps
 };
 
+/// Targets of the Control task relative to the initial state, when they count as reached, and what
+/// a speed error costs.
+struct ControlConfig {
+  /// Initial pitch + U(-x, x), folded into [-pi/2, pi/2]: beyond the vertical it comes down again.
+  double pitch_change_rad = 0.5;
+  double yaw_change_rad = 3;      ///< initial yaw + U(-x, x), wrapped
+  double speed_change_fps = 300;  ///< initial true airspeed + U(-x, x)
+  double pitch_tolerance_deg = 5;
+  double yaw_tolerance_deg = 5;
+  double speed_tolerance_fps = 20;
+  /// Reward lost per step and 340 m/s of speed error; the paper's is 0. At 5 the speed tolerance
+  /// costs as much as the angular ones, and bringing the nose round at a wrong speed does not pay.
+  double speed_error_weight = 5;
+};
+
 /// Limits of the paper's Table 5 and the rewards for ending at one and at the target.
 struct TerminationConfig {
   Range alpha_deg{-20, 45};
@@ -64,6 +79,7 @@ struct EnvConfig {
   double reward_scale = 1;  ///< multiplies the step rewards (not the terminal ones)
   InitialConfig initial;
   HeadingConfig heading;
+  ControlConfig control;
   TerminationConfig termination;
 };
 

@@ -65,7 +65,8 @@ class VecEnv {
   /// One column of the physical state (envs/dynamics/state.h) of one aircraft, for recording
   /// flights and tests.
   float StateOf(int aircraft, int column) const;
-  /// The target of one aircraft: altitude ft, yaw rad, speed ft/s for Heading.
+  /// The target of one aircraft: altitude ft, yaw rad, speed ft/s for Heading; pitch rad,
+  /// yaw rad, speed ft/s for Control.
   std::vector<float> TargetOf(int aircraft) const;
 
  private:

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "src/evaluation_report.h"
 #include "src/flight_file.h"
 #include "src/output_file.h"
+#include "src/presets.h"
 #include "src/run_directory.h"
 #include "train/policy.h"
 #include "train/record_flights.h"
@@ -130,7 +132,9 @@ void AddEvalCommand(CLI::App* app) {
                    "untrained (freshly initialised networks)")
       ->type_name("FILE_OR_RUN")
       ->required();
-  command->add_option("--task", options->task, "what to fly: heading (default: the run's task)");
+  command->add_option(
+      "--task", options->task,
+      fmt::format("what to fly: {} (default: the run's task)", fmt::join(PresetTasks(), ", ")));
   options->preset_option =
       command
           ->add_option("--preset", options->preset,

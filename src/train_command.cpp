@@ -80,7 +80,7 @@ void Resume(const TrainOptions& options) {
 
 void Train(const TrainOptions& options) {
   if (options.help_keys) {
-    const std::string task = options.task.empty() ? PresetTasks().front() : options.task;
+    const std::string task = options.task.empty() ? EnvConfig{}.task : options.task;
     fmt::print("{}", DescribeKeys(Configure(options, task)));
     return;
   }
@@ -103,12 +103,15 @@ void Train(const TrainOptions& options) {
 void AddTrainCommand(CLI::App* app) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app->add_subcommand("train", "Train a policy, then evaluate it");
-  command->add_option("task", options->task, "what to fly: heading")->type_name("TASK");
+  command
+      ->add_option("task", options->task,
+                   fmt::format("what to fly: {}", fmt::join(PresetTasks(), ", ")))
+      ->type_name("TASK");
   CLI::Option* preset =
       command
           ->add_option("--preset", options->preset,
                        "named configuration: default (tuned for a small machine) or paper (the "
-                       "NeuralPlane paper's settings, 1.35e9 steps at 50 Hz)")
+                       "NeuralPlane paper's settings at 50 Hz)")
           ->capture_default_str();
   CLI::Option* file = command
                           ->add_option("--config", options->config,
@@ -152,6 +155,7 @@ void AddTrainCommand(CLI::App* app) {
       "Examples:\n"
       "  skein train heading\n"
       "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
+      "  skein train control --set env.control.pitch_change_rad=0.9\n"
       "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
       "  skein train --resume runs/short");
   command->callback([options] { Train(*options); });

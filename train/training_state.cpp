@@ -53,13 +53,24 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
   add("initial.true_airspeed_min_fps", env.initial.true_airspeed_fps.min);
   add("initial.true_airspeed_max_fps", env.initial.true_airspeed_fps.max);
   add("initial.trimmed", env.initial.trimmed);
-  add("heading.altitude_change_ft", env.heading.altitude_change_ft);
-  add("heading.yaw_change_rad", env.heading.yaw_change_rad);
-  add("heading.speed_change_fps", env.heading.speed_change_fps);
-  add("heading.altitude_tolerance_ft", env.heading.altitude_tolerance_ft);
-  add("heading.yaw_tolerance_deg", env.heading.yaw_tolerance_deg);
-  add("heading.speed_tolerance_fps", env.heading.speed_tolerance_fps);
-  add("heading.earliest_success_step", env.heading.earliest_success_step);
+  // Of the tasks the one that is flown: a task added later does not keep older runs from going on.
+  if (env.task == "heading") {
+    add("heading.altitude_change_ft", env.heading.altitude_change_ft);
+    add("heading.yaw_change_rad", env.heading.yaw_change_rad);
+    add("heading.speed_change_fps", env.heading.speed_change_fps);
+    add("heading.altitude_tolerance_ft", env.heading.altitude_tolerance_ft);
+    add("heading.yaw_tolerance_deg", env.heading.yaw_tolerance_deg);
+    add("heading.speed_tolerance_fps", env.heading.speed_tolerance_fps);
+    add("heading.earliest_success_step", env.heading.earliest_success_step);
+  } else if (env.task == "control") {
+    add("control.pitch_change_rad", env.control.pitch_change_rad);
+    add("control.yaw_change_rad", env.control.yaw_change_rad);
+    add("control.speed_change_fps", env.control.speed_change_fps);
+    add("control.pitch_tolerance_deg", env.control.pitch_tolerance_deg);
+    add("control.yaw_tolerance_deg", env.control.yaw_tolerance_deg);
+    add("control.speed_tolerance_fps", env.control.speed_tolerance_fps);
+    add("control.speed_error_weight", env.control.speed_error_weight);
+  }
   add("termination.alpha_min_deg", env.termination.alpha_deg.min);
   add("termination.alpha_max_deg", env.termination.alpha_deg.max);
   add("termination.beta_min_deg", env.termination.beta_deg.min);

@@ -64,6 +64,18 @@ HWY_INLINE FlightVector TwiceSum(FlightVector a, FlightVector b, FlightVector c,
   return hn::Add(sum, sum);
 }
 
+/// Pitch, rad, in [-pi/2, pi/2], from the sine and cosine both: as exact nose up as level.
+HWY_INLINE FlightVector Pitch(const Tile& tile, int first) {
+  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
+  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
+  const FlightVector sine = TwiceSum(q0, qy, hn::Neg(qx), qz);
+  const FlightVector y = TwiceSum(qy, qz, q0, qx);
+  const FlightVector z =
+      hn::MulAdd(q0, q0, hn::MulAdd(qz, qz, hn::NegMulAdd(qx, qx, hn::Neg(hn::Mul(qy, qy)))));
+  const FlightVector cosine = hn::Sqrt(hn::MulAdd(y, y, hn::Mul(z, z)));
+  return Atan2(FlightTag(), sine, cosine);
+}
+
 /// Yaw, rad, in [-pi, pi].
 HWY_INLINE FlightVector Yaw(const Tile& tile, int first) {
   const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "envs/tasks/control.h"
 #include "envs/tasks/heading.h"
 #include "envs/tasks/task.h"
 #include "simd/error.h"
@@ -12,7 +13,8 @@ struct Registration {
   std::unique_ptr<Task> (*make)(const EnvConfig& config);
 };
 
-constexpr std::array<Registration, 1> kTasks = {{{"heading", MakeHeadingTask}}};
+constexpr std::array<Registration, 2> kTasks = {
+    {{"heading", MakeHeadingTask}, {"control", MakeControlTask}}};
 
 }  // namespace
 

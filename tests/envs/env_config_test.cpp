@@ -72,6 +72,16 @@ TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
       // No episode would last long enough to succeed.
       {"env.heading.earliest_success_step = ",
        [](EnvConfig* c) { c->heading.earliest_success_step = c->time_limit_steps + 1; }},
+      {"env.control.pitch_change_rad = ", [](EnvConfig* c) { c->control.pitch_change_rad = -1; }},
+      {"env.control.yaw_change_rad = ", [](EnvConfig* c) { c->control.yaw_change_rad = -1; }},
+      {"env.control.speed_change_fps = ", [](EnvConfig* c) { c->control.speed_change_fps = -1; }},
+      {"env.control.pitch_tolerance_deg = ",
+       [](EnvConfig* c) { c->control.pitch_tolerance_deg = 0; }},
+      {"env.control.yaw_tolerance_deg = ", [](EnvConfig* c) { c->control.yaw_tolerance_deg = 0; }},
+      {"env.control.speed_tolerance_fps = ",
+       [](EnvConfig* c) { c->control.speed_tolerance_fps = 0; }},
+      {"env.control.speed_error_weight = ",
+       [](EnvConfig* c) { c->control.speed_error_weight = -1; }},
       {"env.termination.alpha_min_deg = ",
        [](EnvConfig* c) {
          c->termination.alpha_deg = {45, -20};
@@ -126,6 +136,19 @@ TEST(EnvConfigTest, RefusesNumbersThatAreNotFinite) {
        [](EnvConfig* c) { return &c->heading.yaw_tolerance_deg; }},
       {"env.heading.speed_tolerance_fps = ",
        [](EnvConfig* c) { return &c->heading.speed_tolerance_fps; }},
+      {"env.control.pitch_change_rad = ",
+       [](EnvConfig* c) { return &c->control.pitch_change_rad; }},
+      {"env.control.yaw_change_rad = ", [](EnvConfig* c) { return &c->control.yaw_change_rad; }},
+      {"env.control.speed_change_fps = ",
+       [](EnvConfig* c) { return &c->control.speed_change_fps; }},
+      {"env.control.pitch_tolerance_deg = ",
+       [](EnvConfig* c) { return &c->control.pitch_tolerance_deg; }},
+      {"env.control.yaw_tolerance_deg = ",
+       [](EnvConfig* c) { return &c->control.yaw_tolerance_deg; }},
+      {"env.control.speed_tolerance_fps = ",
+       [](EnvConfig* c) { return &c->control.speed_tolerance_fps; }},
+      {"env.control.speed_error_weight = ",
+       [](EnvConfig* c) { return &c->control.speed_error_weight; }},
       {"env.termination.alpha_min_deg = ",
        [](EnvConfig* c) { return &c->termination.alpha_deg.min; }},
       {"env.termination.alpha_max_deg = ",
@@ -167,6 +190,13 @@ TEST(EnvConfigTest, SaysWhatWouldBeRight) {
             "configuration: env.control_interval_s = 0.05, but it must be at most 0.04");
 }
 
+TEST(EnvConfigTest, ShortEpisodesOfOtherTasksNeedNothingOfHeading) {
+  EnvConfig config;
+  config.task = "control";
+  config.time_limit_steps = 100;
+  EXPECT_EQ(Complaint(config), "");
+}
+
 TEST(EnvConfigTest, AcceptsTheEdgesOfWhatItAllows) {
   EnvConfig config;
   config.observation_noise = 0;
@@ -174,6 +204,8 @@ TEST(EnvConfigTest, AcceptsTheEdgesOfWhatItAllows) {
   config.heading.altitude_change_ft = config.heading.yaw_change_rad =
       config.heading.speed_change_fps = 0;
   config.heading.earliest_success_step = 0;
+  config.control.pitch_change_rad = config.control.yaw_change_rad =
+      config.control.speed_change_fps = config.control.speed_error_weight = 0;
   config.time_limit_steps = config.substeps = config.action_repeat = 1;
   config.control_interval_s = 0.04;
   config.initial.altitude_ft = {20000, 20000};

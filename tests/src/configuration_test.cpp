@@ -110,6 +110,22 @@ TEST(Configuration, ThePaperPresetHasThePapersFigures) {
   EXPECT_FALSE(train.env.initial.trimmed);
 }
 
+TEST(Configuration, ThePaperPresetOfControlHasThePapersFigures) {
+  // NeuralPlane (NeurIPS 2024), Table 7; all but the budget and the task as for Heading.
+  const TrainConfig control = ResolveConfig({"control", "paper", "", {}}).train;
+  EXPECT_EQ(control.total_steps, 2250000000u);
+  EXPECT_EQ(control.env.task, "control");
+  EXPECT_EQ(control.env.control.pitch_change_rad, 3);
+  EXPECT_EQ(control.env.control.speed_error_weight, 0) << "the angle alone";
+  const std::vector<std::string> differences = Differences(
+      ResolveConfig({"control", "paper", "", {}}), ResolveConfig({"heading", "paper", "", {}}));
+  for (const std::string& difference : differences) {
+    const std::string key = difference.substr(0, difference.find(' '));
+    EXPECT_TRUE(key == "run.total_steps" || key == "env.task" || key.rfind("env.control.", 0) == 0)
+        << difference;
+  }
+}
+
 TEST(Configuration, EveryPresetIsConsistent) {
   for (const Preset& preset : Presets()) {
     EXPECT_NO_THROW(CheckConsistent(ResolveConfig({preset.task, preset.name, "", {}})));

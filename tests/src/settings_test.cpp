@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "envs/tasks/task.h"
 #include "simd/error.h"
 #include "src/configuration.h"
 #include "src/output_file.h"
@@ -57,6 +58,7 @@ TEST(Settings, TheUnitOfEveryPhysicalQuantityIsInItsName) {
     for (const char* quantity : {"altitude", "airspeed", "alpha_m", "beta_m", "yaw", "speed_"}) {
       if (setting.key.find(quantity) == std::string::npos) continue;
       const std::string unit = setting.key.substr(setting.key.rfind('_'));
+      if (unit == "_weight") continue;  // has no dimension
       EXPECT_TRUE(unit == "_ft" || unit == "_fps" || unit == "_deg" || unit == "_rad")
           << setting.key;
     }
@@ -105,15 +107,34 @@ TEST(Settings, WholeNumbersServeAsIntegersAndIntegersAsNumbers) {
 
 TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
   const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
-  const ProgramConfig usual = ResolveConfig({"heading", "default", "", {}});
-  const ProgramConfig paper = ResolveConfig({"heading", "paper", "", {}});
   for (const Setting& setting : Settings()) {
+    // A task's own keys as its presets set them, all others as Heading's do.
+    const std::string task = setting.key.rfind("env.control.", 0) == 0 ? "control" : "heading";
+    const ProgramConfig usual = ResolveConfig({task, "default", "", {}});
+    const ProgramConfig paper = ResolveConfig({task, "paper", "", {}});
     const std::string bounds = setting.BoundsText();
     const std::string type = setting.TypeName() + (bounds.empty() ? "" : " in " + bounds);
     const std::string here = FormatValue(setting, usual), there = FormatValue(setting, paper);
     EXPECT_THAT(text,
                 HasSubstr("\n| `" + setting.key + "` | " + type + " | " + here + " | " +
                           (here == there ? "" : there) + " | " + setting.description + " |\n"));
+  }
+}
+
+TEST(Settings, DocumentationSaysWhereThePresetsOfControlDiffer) {
+  const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
+  const auto own = [](const Setting& setting) {
+    return setting.key == "env.task" || setting.key.rfind("env.control.", 0) == 0;
+  };
+  for (const std::string preset : {"default", "paper"}) {
+    const ProgramConfig heading = ResolveConfig({"heading", preset, "", {}});
+    const ProgramConfig control = ResolveConfig({"control", preset, "", {}});
+    for (const Setting& setting : Settings()) {
+      const std::string value = FormatValue(setting, control);
+      if (own(setting) || value == FormatValue(setting, heading)) continue;
+      EXPECT_THAT(text,
+                  HasSubstr("\n| `" + setting.key + "` | `" + preset + "` | " + value + " |\n"));
+    }
   }
 }
 
@@ -127,8 +148,24 @@ TEST(Settings, ACheckpointHoldsEveryKeyThatTrainingDependsOn) {
     keys.insert(setting.key);
   }
   std::set<std::string> described;
-  for (const auto& [key, value] : DescribeConfig(TrainConfig{})) described.insert(key);
+  for (const std::string& task : TaskNames()) {
+    TrainConfig config;
+    config.env.task = task;
+    for (const auto& [key, value] : DescribeConfig(config)) described.insert(key);
+  }
   EXPECT_EQ(described, keys);
+}
+
+TEST(Settings, ACheckpointHoldsNoKeysOfOtherTasks) {
+  for (const std::string& task : TaskNames()) {
+    TrainConfig config;
+    config.env.task = task;
+    for (const auto& [key, value] : DescribeConfig(config)) {
+      for (const std::string& other : TaskNames()) {
+        if (other != task) EXPECT_NE(key.rfind("env." + other + ".", 0), 0u) << task << ": " << key;
+      }
+    }
+  }
 }
 
 }  // namespace

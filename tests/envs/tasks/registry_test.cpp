@@ -48,6 +48,20 @@ TEST(TaskRegistryTest, TasksTakeTheirSettingsFromTheConfiguration) {
   for (int column = 0; column < 3; ++column) EXPECT_EQ(columns.at(column, 0), 0);
 }
 
+TEST(TaskRegistryTest, ControlTakesItsSettingsFromTheConfiguration) {
+  EnvConfig config = ConfigOf("control");
+  config.control.pitch_change_rad = config.control.yaw_change_rad =
+      config.control.speed_change_fps = 0;
+  simd::RandomStream random({1, 2, 3, 4, simd::RandomPurpose::kTarget});
+  const std::unique_ptr<Task> task = MakeTask(config);
+  TestTile columns(2, task->num_columns());
+  task->Reset({12000, 800, 0.1, -1.5}, &random, columns.tile(), 1);
+  EXPECT_FLOAT_EQ(columns.at(0, 1), 0.1f);
+  EXPECT_FLOAT_EQ(columns.at(1, 1), -1.5);
+  EXPECT_FLOAT_EQ(columns.at(2, 1), 800);
+  for (int column = 0; column < task->num_columns(); ++column) EXPECT_EQ(columns.at(column, 0), 0);
+}
+
 TEST(TaskRegistryTest, NamesAreDistinctAndHoldTheDefault) {
   const std::vector<std::string> names = TaskNames();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());

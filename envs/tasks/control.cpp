@@ -1,0 +1,161 @@
+#include "envs/tasks/control.h"
+
+#include <cmath>
+
+#include "envs/dynamics/attitude.h"
+#include "envs/tasks/normalisation.h"
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/tasks/control.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "envs/tasks/flight-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Target minus actual, in rad and ft/s.
+struct ControlError {
+  FlightVector pitch, yaw, speed;
+};
+
+HWY_INLINE ControlError ErrorOf(const Tile& flight, const Tile& task, int first) {
+  ControlError error;
+  error.pitch = hn::Sub(Column(task, kControlPitch, first), Pitch(flight, first));
+  error.yaw = WrapAngle(hn::Sub(Column(task, kControlYaw, first), Yaw(flight, first)));
+  error.speed = hn::Sub(Column(task, kControlSpeed, first), Velocity(flight, first).speed);
+  return error;
+}
+
+HWY_INLINE FlightVector NormalisedSpeed(FlightVector speed) {
+  return hn::Mul(speed, Constant(1 / kSpeedUnitFtS));
+}
+
+/// The angle of the rotation from the attitude to the target's, rad. By the arc tangent of the
+/// relative quaternion's parts: the arc cosine of its scalar part alone would lose half of the
+/// digits where the angle is small.
+HWY_INLINE FlightVector RotationAngle(const Tile& flight, const Tile& task, int first) {
+  const FlightTag d;
+  const FlightVector q0 = Column(flight, kQ0, first), qx = Column(flight, kQx, first);
+  const FlightVector qy = Column(flight, kQy, first), qz = Column(flight, kQz, first);
+  const FlightVector t0 = Column(task, kControlQ0, first), tx = Column(task, kControlQx, first);
+  const FlightVector ty = Column(task, kControlQy, first), tz = Column(task, kControlQz, first);
+  const auto sum = [](FlightVector a, FlightVector b, FlightVector c, FlightVector e) {
+    return hn::MulAdd(a, b, hn::Mul(c, e));
+  };
+  const FlightVector scalar = hn::Add(sum(q0, t0, qx, tx), sum(qy, ty, qz, tz));
+  // Of conj(q) t; the differences are of products that nearly cancel where the angle is small.
+  const FlightVector x = hn::Sub(sum(q0, tx, qz, ty), sum(t0, qx, qy, tz));
+  const FlightVector y = hn::Sub(sum(q0, ty, qx, tz), sum(t0, qy, qz, tx));
+  const FlightVector z = hn::Sub(sum(q0, tz, qy, tx), sum(t0, qz, qx, ty));
+  const FlightVector length = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+  // A quaternion and its negative are one attitude: the nearer of the two.
+  const FlightVector half = Atan2(d, length, hn::Abs(scalar));
+  return hn::Add(half, half);
+}
+
+void ControlErrors(Tile flight, Tile task, float* errors, std::size_t error_stride) {
+  const FlightTag d;
+  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+    const ControlError error = ErrorOf(flight, task, first);
+    hn::StoreU(error.pitch, d, errors + first);
+    hn::StoreU(error.yaw, d, errors + error_stride + first);
+    hn::StoreU(NormalisedSpeed(error.speed), d, errors + 2 * error_stride + first);
+  }
+}
+
+void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const TaskVerdict& verdict) {
+  const FlightTag d;
+  const hn::RebindToSigned<FlightTag> di;
+  const auto one = hn::Set(di, 1);
+  const FlightVector pitch_tolerance = Constant(config.pitch_tolerance_deg / kDegPerRad);
+  const FlightVector yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
+  const FlightVector speed_tolerance = Constant(config.speed_tolerance_fps);
+  const FlightVector speed_weight = Constant(config.speed_error_weight);
+  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+    const ControlError error = ErrorOf(flight, task, first);
+    const FlightVector speed_error = hn::Abs(error.speed);
+    const FlightVector cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error),
+                                         RotationAngle(flight, task, first));
+    hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
+
+    const auto reached = hn::And(hn::Lt(hn::Abs(error.pitch), pitch_tolerance),
+                                 hn::And(hn::Lt(hn::Abs(error.yaw), yaw_tolerance),
+                                         hn::Lt(speed_error, speed_tolerance)));
+    hn::StoreU(hn::And(hn::VecFromMask(di, hn::RebindMask(di, reached)), one), di,
+               verdict.reached + first);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+namespace {
+
+HWY_EXPORT(ControlErrors);
+HWY_EXPORT(ControlJudge);
+
+/// Reflects a pitch beyond the vertical back: the elevation at which its nose points.
+double Folded(double pitch_rad) { return std::asin(std::sin(pitch_rad)); }
+
+class ControlTask : public Task {
+ public:
+  explicit ControlTask(const ControlConfig& config) : config_(config) {}
+
+  int num_columns() const override { return kNumControlColumns; }
+  int num_targets() const override { return kControlSpeed + 1; }
+  std::vector<TargetQuantity> target_quantities() const override {
+    return {{"pitch_deg", true}, {"yaw_deg", true}, {"true_airspeed_fps"}};
+  }
+
+  void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
+             int index) const override {
+    const auto around = [random](double centre, double change) {
+      return centre + random->Uniform(-change, change);
+    };
+    EulerAngles attitude;
+    attitude.pitch = Folded(around(start.pitch_rad, config_.pitch_change_rad));
+    attitude.yaw = std::remainder(around(start.yaw_rad, config_.yaw_change_rad), 2 * M_PI);
+    const double speed = around(start.true_airspeed_ft_s, config_.speed_change_fps);
+    const Eigen::Vector4d quaternion = QuaternionFromEuler(attitude);
+
+    const auto set = [task, index](int column, double value) {
+      task[column][index] = static_cast<float>(value);
+    };
+    set(kControlPitch, attitude.pitch);
+    set(kControlYaw, attitude.yaw);
+    set(kControlSpeed, speed);
+    for (int k = 0; k < 4; ++k) set(kControlQ0 + k, quaternion[k]);
+  }
+
+  void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
+    SKEIN_DISPATCH(ControlErrors)(flight, task, errors, error_stride);
+  }
+
+  void Judge(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
+             const TaskVerdict& verdict) const override {
+    SKEIN_DISPATCH(ControlJudge)(flight, task, config_, verdict);
+  }
+
+ private:
+  ControlConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Task> MakeControlTask(const EnvConfig& config) {
+  return std::make_unique<ControlTask>(config.control);
+}
+
+}  // namespace skein
+#endif

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "envs/tasks/task.h"
+
+namespace skein {
+
+/// Task columns: the targets, pitch rad in [-pi/2, pi/2], yaw rad in [-pi, pi] and true airspeed
+/// ft/s; then the quaternion of the target attitude, whose roll is 0.
+enum ControlColumn : int {
+  kControlPitch,
+  kControlYaw,
+  kControlSpeed,
+  kControlQ0,
+  kControlQx,
+  kControlQy,
+  kControlQz,
+  kNumControlColumns
+};
+
+/// Bring the nose to a given pitch and yaw at a given true airspeed (NeuralPlane paper, Control).
+/// Errors are target minus actual: pitch rad, yaw rad in [-pi, pi], speed / 340 m/s. The reward of
+/// a step is minus the angle in rad, from 0 to pi, of the one rotation that takes the attitude to
+/// the target's, wings level, minus `speed_error_weight` times the absolute speed error /
+/// 340 m/s. Reached is judged by pitch, yaw and speed alone: at any roll.
+std::unique_ptr<Task> MakeControlTask(const EnvConfig& config);
+
+}  // namespace skein
