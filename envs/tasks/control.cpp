@@ -81,13 +81,13 @@ void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const Tas
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     const ControlError error = ErrorOf(flight, task, first);
     const FlightVector speed_error = hn::Abs(error.speed);
-    const FlightVector cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error),
-                                         RotationAngle(flight, task, first));
+    const FlightVector cost =
+        hn::MulAdd(speed_weight, NormalisedSpeed(speed_error), RotationAngle(flight, task, first));
     hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
 
-    const auto reached = hn::And(hn::Lt(hn::Abs(error.pitch), pitch_tolerance),
-                                 hn::And(hn::Lt(hn::Abs(error.yaw), yaw_tolerance),
-                                         hn::Lt(speed_error, speed_tolerance)));
+    const auto reached = hn::And(
+        hn::Lt(hn::Abs(error.pitch), pitch_tolerance),
+        hn::And(hn::Lt(hn::Abs(error.yaw), yaw_tolerance), hn::Lt(speed_error, speed_tolerance)));
     hn::StoreU(hn::And(hn::VecFromMask(di, hn::RebindMask(di, reached)), one), di,
                verdict.reached + first);
   }

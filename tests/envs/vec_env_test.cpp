@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "envs/aircraft/f16/f16.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/closed_loop.h"
+#include "envs/tasks/task.h"
 #include "envs/worker_pool.h"
 #include "simd/error.h"
 #include "simd/random.h"
@@ -114,6 +116,20 @@ TEST(VecEnv, ResultsDoNotDependOnTheTileSize) {
   EXPECT_EQ(logs, Fly(&middle, 0, 60));
   EXPECT_EQ(logs, Fly(&large, 0, 60));
   EXPECT_EQ(small.Snapshot(), large.Snapshot());
+}
+
+TEST(VecEnv, NoTaskDependsOnTheTileSizeAndEverySnapshotGoesOn) {
+  for (const std::string& task : TaskNames()) {
+    EnvConfig config = BusyConfig();
+    config.task = task;
+    VecEnv small(config, 70, 1, 32), large(config, 70, 1, 4096);
+    EXPECT_EQ(Fly(&small, 0, 40), Fly(&large, 0, 40)) << task;
+    const std::vector<std::uint32_t> snapshot = small.Snapshot();
+    EXPECT_EQ(snapshot, large.Snapshot()) << task;
+    VecEnv other(config, 70, 2);
+    other.Restore(snapshot);
+    EXPECT_EQ(Fly(&other, 40, 20), Fly(&small, 40, 20)) << task;
+  }
 }
 
 TEST(VecEnv, ResultsDoNotDependOnNeighbours) {
@@ -297,6 +313,50 @@ TEST(VecEnv, TimeLimitEndsAndRestartsEveryEpisode) {
     }
   }
   EXPECT_NE(env.TargetOf(0), first_target);
+}
+
+TEST(VecEnv, ControlEndsAtItsTargetAtOnce) {
+  // A target where the flight begins: a control step from trim moves neither nose nor speed, and
+  // the trimmed bank is below a tenth of a degree.
+  constexpr float kFarthest = 0.01f;
+  EnvConfig config;
+  config.task = "control";
+  config.control.pitch_change_rad = config.control.yaw_change_rad =
+      config.control.speed_change_fps = 0;
+  VecEnv env(config, 3, 1);
+  Buffers buffers(3);
+  env.Step(0, buffers.action.data(), buffers.output());
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(buffers.termination[i], static_cast<int>(Termination::kResetTarget));
+    EXPECT_LE(buffers.reward[i], 200);
+    EXPECT_GT(buffers.reward[i], 200 - kFarthest * (1 + 5));
+    EXPECT_EQ(buffers.episode_steps[i], 1);
+  }
+}
+
+TEST(VecEnv, ControlFailsAtItsTimeLimit) {
+  EnvConfig config;
+  config.task = "control";
+  config.control.pitch_change_rad = config.control.yaw_change_rad = 0;
+  config.control.speed_change_fps = 300;
+  config.control.speed_tolerance_fps = 1e-3;
+  config.time_limit_steps = 10;
+  config.action_repeat = 10;
+  VecEnv env(config, 40, 1);
+  // Ten steps of about 5 x speed error / 340 m/s; idle thrust slows by less than 10 ft/s meanwhile.
+  constexpr double kSlowing = 10 * 5 * 10 / (340 / 0.3048);
+  std::vector<double> expected;
+  for (int i = 0; i < 40; ++i) {
+    const double speed = std::hypot(env.StateOf(i, kU), env.StateOf(i, kV), env.StateOf(i, kW));
+    expected.push_back(-10 * 5 * std::abs(env.TargetOf(i)[2] - speed) / (340 / 0.3048));
+  }
+  Buffers buffers(40);
+  for (std::size_t i = 0; i < 40; ++i) buffers.action[4 * i] = -1;
+  env.Step(0, buffers.action.data(), buffers.output());
+  for (std::size_t i = 0; i < 40; ++i) {
+    EXPECT_EQ(buffers.termination[i], static_cast<int>(Termination::kUnreachTarget));
+    EXPECT_NEAR(buffers.reward[i], -200 + expected[i], kSlowing) << i;
+  }
 }
 
 TEST(VecEnv, ReturnIsTheSumOfRewards) {
@@ -488,7 +548,7 @@ TEST(VecEnv, RefusesWhatCannotBeFlown) {
   EXPECT_NE(message(config, 0).find("aircraft"), std::string::npos);
   EXPECT_NE(message(config, 1, 0).find("tile"), std::string::npos);
   config.task = "loiter";
-  EXPECT_NE(message(config).find("known: heading"), std::string::npos);
+  EXPECT_NE(message(config).find("known: heading, control"), std::string::npos);
   config = {};
   config.aircraft = "f15";
   EXPECT_NE(message(config).find("known: f16"), std::string::npos);

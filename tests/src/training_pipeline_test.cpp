@@ -108,6 +108,30 @@ TEST_F(TrainingPipeline, LeavesEverythingBehindThatItSays) {
   EXPECT_EQ(ended, 32) << "every episode ends for one reason";
 }
 
+TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
+  std::vector<std::string> arguments = TinyTraining(run_, {"--steps", "20480"});
+  arguments[1] = "control";
+  const ProgramResult trained = RunSkein(arguments);
+  ASSERT_EQ(trained.exit_code, 0) << trained.error;
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("task = \"control\""));
+  const std::string json = root_ + "/control.json", flights = root_ + "/control.csv";
+  const ProgramResult flown = CallSkein({"eval", "--policy", run_, "--task", "control",
+                                         "--episodes", "32", "--json", json, "--flights", flights});
+  ASSERT_EQ(flown.exit_code, 0) << flown.error;
+  EXPECT_THAT(flown.output, HasSubstr("on control, 32 episodes"));
+  int ended = 0;
+  const auto evaluation = nlohmann::json::parse(ReadFile(json));
+  for (const auto& [kind, count] : evaluation["terminations"].items()) ended += count.get<int>();
+  EXPECT_EQ(ended, 32);
+  EXPECT_THAT(ReadFile(flights),
+              HasSubstr(",error_pitch_deg,error_yaw_deg,error_true_airspeed_fps"));
+  const ProgramResult other = CallSkein({"eval", "--policy", run_, "--task", "heading"});
+  EXPECT_EQ(other.exit_code, 1);
+  ExpectOneLine(other.error, "env.task = control, but --task is heading");
+  const ProgramResult further = CallSkein({"train", "--resume", run_});
+  EXPECT_EQ(further.exit_code, 0) << further.error;
+}
+
 /// Trains a tiny network and flies it; returns what both said.
 ProgramResult TrainAndEvaluate(const std::string& run,
                                const std::vector<std::string>& assignments) {

@@ -123,18 +123,18 @@ TEST_P(ControlTest, RewardIsMinusTheAngleToTheTargetAttitude) {
     double target_pitch, target_yaw, angle;
   };
   const std::vector<Case> cases = {
-      {{0, 0.3, 1}, 0.3, 1, 0},                       // there
-      {{0, 0.3, 1}, -0.1, 1, 0.4},                    // by pitch alone
-      {{0, 0, 1}, 0, -0.5, 1.5},                      // by yaw alone, level
-      {{0.8, 0, 1}, 0, 1, 0.8},                       // by roll alone: the target's is 0
-      {{-0.8, 0.6, 1}, 0.6, 1, 0.8},                  // the same, nose up
-      {{M_PI, 0, 0}, 0, 0, M_PI},                     // upside down
-      {{0, 0, 3}, 0, -3, 2 * M_PI - 6},               // the short way round
-      {{0, 0, 0}, M_PI / 2, 0, M_PI / 2},             // straight up
+      {{0, 0.3, 1}, 0.3, 1, 0},            // there
+      {{0, 0.3, 1}, -0.1, 1, 0.4},         // by pitch alone
+      {{0, 0, 1}, 0, -0.5, 1.5},           // by yaw alone, level
+      {{0.8, 0, 1}, 0, 1, 0.8},            // by roll alone: the target's is 0
+      {{-0.8, 0.6, 1}, 0.6, 1, 0.8},       // the same, nose up
+      {{M_PI, 0, 0}, 0, 0, M_PI},          // upside down
+      {{0, 0, 3}, 0, -3, 2 * M_PI - 6},    // the short way round
+      {{0, 0, 0}, M_PI / 2, 0, M_PI / 2},  // straight up
       // ... and yawed by 2 rad: the scalar part is cos(45 deg) cos(1 rad).
       {{0, 0, 0}, M_PI / 2, 2, 2 * std::acos(std::sqrt(0.5) * std::cos(1.0))},
-      {{0, 0, 0}, 0, 1e-3, 1e-3},                     // small, where an arc cosine has no digits
-      {{0, 1.5, 0}, 1.5, 0.1, 0.1},                   // a yaw about the vertical, nose up
+      {{0, 0, 0}, 0, 1e-3, 1e-3},    // small, where an arc cosine has no digits
+      {{0, 1.5, 0}, 1.5, 0.1, 0.1},  // a yaw about the vertical, nose up
   };
   for (int i = 0; i < static_cast<int>(cases.size()); ++i) {
     const Case& c = cases[static_cast<std::size_t>(i)];
@@ -197,10 +197,12 @@ TEST_P(ControlTest, IsReachedOnlyInsideAllTolerancesAtAnyRollAndTime) {
     bool reached;
   };
   const std::vector<Case> cases = {
-      {0, 4.9, 4.9, 19, 1000, true}, {0, -4.9, -4.9, -19, 1000, true}, {0, 5.1, 0, 0, 1000, false},
-      {0, -5.1, 0, 0, 1000, false},  {0, 0, 5.1, 0, 1000, false},      {0, 0, -5.1, 0, 1000, false},
-      {0, 0, 0, 21, 1000, false},    {0, 0, 0, -21, 1000, false},      {75, 0, 0, 0, 1000, true},
-      {-170, 0, 0, 0, 1000, true},   {0, 0, 0, 0, 0, true},
+      {0, 4.9, 4.9, 19, 1000, true}, {0, -4.9, -4.9, -19, 1000, true},
+      {0, 5.1, 0, 0, 1000, false},   {0, -5.1, 0, 0, 1000, false},
+      {0, 0, 5.1, 0, 1000, false},   {0, 0, -5.1, 0, 1000, false},
+      {0, 0, 0, 21, 1000, false},    {0, 0, 0, -21, 1000, false},
+      {75, 0, 0, 0, 1000, true},     {-170, 0, 0, 0, 1000, true},
+      {0, 0, 0, 0, 0, true},
   };
   for (int i = 0; i < static_cast<int>(cases.size()); ++i) {
     const Case& c = cases[static_cast<std::size_t>(i)];
