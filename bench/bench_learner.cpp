@@ -1,112 +1,217 @@
-// Rates of the learner's parts: gradients of a tile by each backend, and inference of a rollout's
-// tile, in samples per second and as a fraction of the machine's measured multiply-add rate.
+// Rates of the learner's whole computations: gradients of a tile, inference of a rollout's tile,
+// the GRU alone, and whole iterations. Its parts are in learner_kernels.cpp and learner_step.cpp.
 
 #include <benchmark/benchmark.h>
 
 #include <memory>
-#include <random>
 #include <vector>
 
-#include "simd/peak.h"
+#include "bench/learner_meter.h"
+#include "simd/denormals.h"
+#include "train/learner_rates.h"
 #include "train/recurrent_network.h"
 
-namespace skein {
+namespace skein::bench {
 namespace {
 
 constexpr int kChunkLength = 8;
 constexpr int kObservationSize = 22, kActionSize = 4;
 
-std::vector<float> Normal(std::int64_t count, float scale) {
-  static std::mt19937 generator(1);
-  std::normal_distribution<float> normal(0, scale);
-  std::vector<float> values(count);
-  for (float& value : values) value = normal(generator);
-  return values;
+/// The smallest time of one benchmark: there are many.
+constexpr double kMinSeconds = 0.2;
+
+std::vector<NetworkShape> ActorAndCritic() {
+  const NetworkConfig config;
+  return {ActorShape(config, kObservationSize, kActionSize), CriticShape(config, kObservationSize)};
 }
 
-/// Reports samples per second, and their floating-point operations against the peak of one core.
-void Report(benchmark::State& state, std::int64_t samples, double flops_per_sample) {
-  static const double peak = simd::MeasurePeak(1).gflops_per_core * 1e9;
-  const auto total = static_cast<double>(state.iterations() * samples);
-  state.counters["samples/s"] = benchmark::Counter(total, benchmark::Counter::kIsRate);
-  state.counters["of_peak"] =
-      benchmark::Counter(total * flops_per_sample / peak, benchmark::Counter::kIsRate);
+/// Seconds per sample that products of one network take at the peak: one forward, two backward.
+double ForwardSeconds(const NetworkShape& shape, const NetworkPrecision& precision) {
+  return ForwardFlops(shape) / Peak(precision.forward);
+}
+double BackwardSeconds(const NetworkShape& shape, const NetworkPrecision& precision) {
+  return 2 * ForwardFlops(shape) / Peak(precision.backward);
+}
+
+/// Random samples of `batch` chunks for networks of the shape.
+struct Samples {
+  Samples(const NetworkShape& shape, int batch, int steps)
+      : observation(Normal(Rows(batch, steps) * shape.observation_size)),
+        initial_state(Normal(Rows(batch, 1) * shape.state_size(), 0.3f)),
+        action(Normal(Rows(batch, steps) * kActionSize)),
+        advantage(Normal(Rows(batch, steps))),
+        target(Normal(Rows(batch, steps))),
+        keep(Rows(batch, steps), 1.0f),
+        log_prob(Rows(batch, steps), -5.5f) {
+    tile.sequence = {steps, batch, observation.data(), initial_state.data(), keep.data()};
+    tile.actor = {action.data(), log_prob.data(), advantage.data()};
+    tile.target = tile.old_value = target.data();
+    settings.sample_weight = 1.0 / static_cast<double>(tile.sequence.rows());
+  }
+  static std::int64_t Rows(int batch, int steps) {
+    return static_cast<std::int64_t>(batch) * steps;
+  }
+
+  AlignedVector<float> observation, initial_state, action, advantage, target;
+  std::vector<float> keep, log_prob;
+  SampleTile tile;
+  LossSettings settings;
+};
+
+std::unique_ptr<RecurrentNetwork> FreshNetwork(Backend backend, const NetworkShape& shape,
+                                               const NetworkPrecision& precision) {
+  const NetworkLayout layout(shape);
+  auto network = MakeNetwork(backend, layout, precision);
+  network->SetParameters(InitialParameters(layout, 0.01, 0, 1, 0).data());
+  return network;
+}
+
+NetworkPrecision PrecisionOf(int network, LearnerPrecision precision) {
+  return network == 0 ? ActorPrecision(precision) : CriticPrecision(precision);
 }
 
 /// Forward, losses and backward of actor and critic on one tile of `range(0)` samples.
-void Gradient(benchmark::State& state, Backend backend) {
-  const int batch = static_cast<int>(state.range(0)) / kChunkLength;
-  const std::int64_t rows = static_cast<std::int64_t>(batch) * kChunkLength;
-  const NetworkConfig config;
-  const NetworkLayout layouts[2] = {
-      NetworkLayout(ActorShape(config, kObservationSize, kActionSize)),
-      NetworkLayout(CriticShape(config, kObservationSize))};
-  const auto observation = Normal(rows * kObservationSize, 1);
-  const auto initial_state = Normal(static_cast<std::int64_t>(batch) * config.gru_size, 0.3f);
-  const auto action = Normal(rows * kActionSize, 1);
-  const auto advantage = Normal(rows, 1), target = Normal(rows, 1);
-  const std::vector<float> keep(rows, 1.0f), log_prob(rows, -5.5f);
-  SampleTile tile;
-  tile.sequence = {kChunkLength, batch, observation.data(), initial_state.data(), keep.data()};
-  tile.actor = {action.data(), log_prob.data(), advantage.data()};
-  tile.target = tile.old_value = target.data();
-  LossSettings settings;
-  settings.sample_weight = 1.0 / static_cast<double>(rows);
-
+void Gradient(benchmark::State& state, Backend backend, LearnerPrecision precision) {
+  const simd::DenormalsFlushed flushed;
+  const std::vector<NetworkShape> shapes = ActorAndCritic();
+  const Samples samples(shapes[0], static_cast<int>(state.range(0)) / kChunkLength, kChunkLength);
+  const std::int64_t rows = samples.tile.sequence.rows();
   std::unique_ptr<RecurrentNetwork> networks[2];
+  AlignedVector<float> accumulators[2];
   NetworkWorkspace workspace;
-  std::vector<float> accumulators[2];
-  double flops = 0;
+  double peak_seconds = 0;
   for (int i = 0; i < 2; ++i) {
-    networks[i] = MakeNetwork(backend, layouts[i]);
-    networks[i]->SetParameters(InitialParameters(layouts[i], 0.01, 0, 1, 0).data());
+    const NetworkPrecision own = PrecisionOf(i, precision);
+    networks[i] = FreshNetwork(backend, shapes[i], own);
     accumulators[i].resize(networks[i]->accumulator_size());
-    flops += 3 * ForwardFlops(layouts[i].shape());
+    peak_seconds += static_cast<double>(rows) *
+                    (ForwardSeconds(shapes[i], own) + BackwardSeconds(shapes[i], own));
   }
+  LearnerMeter meter(&state, rows, peak_seconds);
   for (auto _ : state) {
-    for (int i = 0; i < 2; ++i) {
-      benchmark::DoNotOptimize(
-          networks[i]->AccumulateGradient(tile, settings, workspace, accumulators[i].data()));
-    }
+    meter.Time([&] {
+      for (int i = 0; i < 2; ++i) {
+        benchmark::DoNotOptimize(networks[i]->AccumulateGradient(
+            samples.tile, samples.settings, workspace, accumulators[i].data()));
+      }
+    });
   }
-  Report(state, rows, flops);
+  meter.Report();
 }
-BENCHMARK_CAPTURE(Gradient, fused, Backend::kFused)
+#define SKEIN_GRADIENT(name, backend, precision) \
+  BENCHMARK_CAPTURE(Gradient, name, backend, precision)->UseManualTime()->MinTime(kMinSeconds)
+SKEIN_GRADIENT(fp32, Backend::kFused, LearnerPrecision::kFloat32)
     ->RangeMultiplier(2)
-    ->Range(256, 4096)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Gradient, libtorch, Backend::kLibTorch)
-    ->Arg(1024)
-    ->Arg(4096)
-    ->Unit(benchmark::kMillisecond);
+    ->Range(192, 1536)
+    ->Arg(4096);
+SKEIN_GRADIENT(mixed, Backend::kFused, LearnerPrecision::kMixed)->Arg(384);
+SKEIN_GRADIENT(bf16, Backend::kFused, LearnerPrecision::kBfloat16)->Arg(384);
+SKEIN_GRADIENT(fast, Backend::kFused, LearnerPrecision::kFast)->Arg(384);
+SKEIN_GRADIENT(libtorch, Backend::kLibTorch, LearnerPrecision::kFloat32)->Arg(384)->Arg(4096);
+#undef SKEIN_GRADIENT
 
 /// One decision of actor and critic for a rollout tile of `range(0)` aircraft.
-void Inference(benchmark::State& state) {
+void Inference(benchmark::State& state, LearnerPrecision precision) {
+  const simd::DenormalsFlushed flushed;
+  const std::vector<NetworkShape> shapes = ActorAndCritic();
   const int batch = static_cast<int>(state.range(0));
-  const NetworkConfig config;
-  const auto observation = Normal(static_cast<std::int64_t>(batch) * kObservationSize, 1);
-  const auto initial_state = Normal(static_cast<std::int64_t>(batch) * config.gru_size, 0.3f);
-  const std::vector<float> keep(batch, 1.0f);
+  const Samples samples(shapes[0], batch, 1);
   std::vector<std::unique_ptr<RecurrentNetwork>> networks;
-  double flops = 0;
-  for (const NetworkShape& shape :
-       {ActorShape(config, kObservationSize, kActionSize), CriticShape(config, kObservationSize)}) {
-    networks.push_back(MakeNetwork(Backend::kFused, NetworkLayout(shape)));
-    networks.back()->SetParameters(
-        InitialParameters(networks.back()->layout(), 0.01, 0, 1, 0).data());
-    flops += ForwardFlops(shape);
-  }
   NetworkWorkspace workspace;
-  for (auto _ : state) {
-    for (const auto& network : networks) {
-      network->Forward({1, batch, observation.data(), initial_state.data(), keep.data()},
-                       workspace);
-      benchmark::DoNotOptimize(workspace.output());
-    }
+  double peak_seconds = 0;
+  for (int i = 0; i < 2; ++i) {
+    const NetworkPrecision own = PrecisionOf(i, precision);
+    networks.push_back(FreshNetwork(Backend::kFused, shapes[i], own));
+    peak_seconds += batch * ForwardSeconds(shapes[i], own);
   }
-  Report(state, batch, flops);
+  LearnerMeter meter(&state, batch, peak_seconds);
+  for (auto _ : state) {
+    meter.Time([&] {
+      for (const auto& network : networks) {
+        network->Forward(samples.tile.sequence, workspace);
+        benchmark::DoNotOptimize(workspace.output());
+      }
+    });
+  }
+  meter.Report();
 }
-BENCHMARK(Inference)->RangeMultiplier(2)->Range(64, 1024)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Inference, fp32, LearnerPrecision::kFloat32)
+    ->RangeMultiplier(2)
+    ->Range(64, 512)
+    ->UseManualTime()
+    ->MinTime(kMinSeconds);
+BENCHMARK_CAPTURE(Inference, bf16, LearnerPrecision::kBfloat16)
+    ->Arg(64)
+    ->UseManualTime()
+    ->MinTime(kMinSeconds);
+
+/// The GRU on one tile of 48 chunks: a critic without hidden layers, whose observation is as wide
+/// as a layer. Beside the GRU that leaves two LayerNorms and a head of one output; backward lacks
+/// the gradient by the GRU's input.
+void GruChunk(benchmark::State& state, simd::Precision precision, bool backward) {
+  const simd::DenormalsFlushed flushed;
+  constexpr int kBatch = 48;
+  NetworkShape shape;
+  shape.hidden_layers = 0;
+  shape.hidden_size = shape.gru_size = shape.observation_size = 128;
+  shape.output_size = 1;
+  const Samples samples(shape, kBatch, kChunkLength);
+  const auto rows = static_cast<double>(samples.tile.sequence.rows());
+  const NetworkPrecision both{precision, precision};
+  const auto network = FreshNetwork(Backend::kFused, shape, both);
+  AlignedVector<float> accumulator(network->accumulator_size());
+  NetworkWorkspace workspace;
+  double peak_seconds = rows * ForwardSeconds(shape, both);
+  if (backward) {
+    constexpr int kGates = 3;
+    const double input_product = 2.0 * shape.observation_size * kGates * shape.gru_size;
+    peak_seconds += rows * (BackwardSeconds(shape, both) - input_product / Peak(precision));
+  }
+  LearnerMeter meter(&state, samples.tile.sequence.rows(), peak_seconds);
+  for (auto _ : state) {
+    meter.Time([&] {
+      if (backward) {
+        benchmark::DoNotOptimize(network->AccumulateGradient(samples.tile, samples.settings,
+                                                             workspace, accumulator.data()));
+      } else {
+        network->Forward(samples.tile.sequence, workspace);
+        benchmark::DoNotOptimize(workspace.output());
+      }
+    });
+  }
+  meter.Report();
+}
+#define SKEIN_GRU_CHUNK(name, precision, backward) \
+  BENCHMARK_CAPTURE(GruChunk, name, precision, backward)->UseManualTime()->MinTime(kMinSeconds)
+SKEIN_GRU_CHUNK(forward_fp32, simd::Precision::kFloat32, false);
+SKEIN_GRU_CHUNK(forward_backward_fp32, simd::Precision::kFloat32, true);
+SKEIN_GRU_CHUNK(forward_bf16, simd::Precision::kBfloat16, false);
+SKEIN_GRU_CHUNK(forward_backward_bf16, simd::Precision::kBfloat16, true);
+#undef SKEIN_GRU_CHUNK
+
+/// Whole iterations of the default settings with a quarter of the aircraft and minibatches, on all
+/// CPUs; the time is one iteration's.
+void Iteration(benchmark::State& state) {
+  constexpr int kIterations = 3;
+  WorkerPool pool;
+  TrainConfig config;
+  config.ppo.num_aircraft /= 4;
+  config.ppo.minibatches /= 4;
+  config.learner.precision = LearnerPrecision::kFloat32;
+  config.total_steps = 100'000'000;
+  for (auto _ : state) {
+    const LearnerRates rates = MeasureLearners({config}, kIterations, pool)[0];
+    state.SetIterationTime(rates.iteration_s);
+    state.counters["decisions/s"] = rates.rollout_decisions_per_s;
+    state.counters["samples/s"] = rates.update_samples_per_s;
+    state.counters["gradient_samples/s"] = rates.gradient_samples_per_s;
+    state.counters["%_of_FMA_peak"] = 100 * rates.gradient_samples_per_s *
+                                      rates.update_flops_per_sample /
+                                      (pool.threads() * Peak(simd::Precision::kFloat32));
+    state.counters["%_rollout_and_gradients"] = 100 * rates.efficiency;
+  }
+}
+BENCHMARK(Iteration)->Iterations(1)->UseManualTime()->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace skein
+}  // namespace skein::bench

@@ -9,6 +9,7 @@
 
 #include "simd/error.h"
 #include "simd/random.h"
+#include "train/minibatch_step.h"
 
 namespace skein {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 /// Shards of a minibatch and network at most: enough for many threads, few enough to keep their
 /// gradients in memory.
 constexpr int kMaxShards = 32;
-/// Parameters that one task sums over the shards.
-constexpr std::int64_t kSumBlock = 16384;
 constexpr double kAdvantageEpsilon = 1e-8;
 
 /// A permutation of [0, count): Fisher and Yates, keyed by (seed, iteration, epoch).
@@ -35,27 +34,8 @@ std::vector<std::int64_t> ShuffledChunks(std::int64_t count, std::uint64_t seed,
   return chunks;
 }
 
-double Norm(const float* values, std::int64_t size) {
-  double squares = 0;
-  for (std::int64_t i = 0; i < size; ++i) squares += static_cast<double>(values[i]) * values[i];
-  return std::sqrt(squares);
-}
-
-/// Clips and applies the gradient; returns its norm before.
-double Apply(double max_norm, double learning_rate, AdamOptimiser& optimiser) {
-  float* const gradient = optimiser.gradient();
-  const double norm = Norm(gradient, optimiser.size());
-  if (!(norm <= PpoUpdate::kExplodedGradientNorm)) return norm;
-  if (norm > max_norm) {
-    const auto scale = static_cast<float>(max_norm / norm);
-    for (std::int64_t i = 0; i < optimiser.size(); ++i) gradient[i] *= scale;
-  }
-  optimiser.Step(learning_rate);
-  return norm;
-}
-
 void RequireSane(const char* network, double loss, double norm) {
-  if (std::isfinite(loss) && norm <= PpoUpdate::kExplodedGradientNorm) return;
+  if (std::isfinite(loss) && norm <= kExplodedGradientNorm) return;
   throw Error("the " + std::string(network) + "'s training exploded (loss " + std::to_string(loss) +
               ", gradient norm " + std::to_string(norm) +
               "); lower ppo.learning_rate, or ppo.max_gradient_norm");
@@ -189,16 +169,14 @@ LossSums PpoUpdate::Minibatch(const Rollout& rollout, const ValueScale& scale,
     const auto size = static_cast<std::int64_t>(accumulators[0].size());
     const auto blocks = static_cast<int>((size + kSumBlock - 1) / kSumBlock);
     pool_.ForEach(blocks, [&](int block, int) {
-      const std::int64_t begin = block * kSumBlock, end = std::min(size, begin + kSumBlock);
-      for (int shard = 1; shard < shards; ++shard) {
-        for (std::int64_t i = begin; i < end; ++i) accumulators[0][i] += accumulators[shard][i];
-      }
+      const std::int64_t begin = block * kSumBlock;
+      SumShards(begin, std::min(size, begin + kSumBlock), accumulators);
     });
   }
   pool_.ForEach(2, [&](int i, int) {
     Side& side = *sides[i];
     side.network->FinishGradient(side.accumulators[0].data(), optimisers[i]->gradient());
-    side.norm = Apply(config_.max_gradient_norm, learning_rate, *optimisers[i]);
+    side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, *optimisers[i]);
   });
   LossSums total;
   for (int shard = 0; shard < shards; ++shard) {

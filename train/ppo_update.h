@@ -27,13 +27,11 @@ class PpoUpdate {
             const NetworkLayout& critic, WorkerPool& pool);
 
   /// `iteration` keys the shuffles. Throws Error if a loss or a gradient is not finite, or a
-  /// gradient's norm exceeds kExplodedGradientNorm; parameters may then have moved. So they may
-  /// if the pool is stopping: the update then ends within a tile, unfinished.
+  /// gradient's norm exceeds kExplodedGradientNorm (train/minibatch_step.h); parameters may then
+  /// have moved. So they may if the pool is stopping: the update then ends within a tile,
+  /// unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
                    double learning_rate, AdamOptimiser& actor, AdamOptimiser& critic);
-
-  /// No training that goes well comes near: unscaled values of +-200 give norms of thousands.
-  static constexpr double kExplodedGradientNorm = 1e8;
 
  private:
   /// A network and its gradient: one accumulator and one sum of losses per shard.
