@@ -1,11 +1,9 @@
 #include "simd/matrix_product.h"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <string>
 
-#include "simd/bfloat16.h"
 #include "simd/denormals.h"
 #include "simd/error.h"
 #include "simd/product_kernels.h"
@@ -20,6 +18,9 @@ constexpr std::int64_t kDepthBlock = 384;  // words
 // first-level cache. Even, so that pairs are whole.
 constexpr std::int64_t kTransposedBlock = 80;  // words
 constexpr std::int64_t kRowBlock = 96;
+// Rows of a matrix that are packed together. Even, so that pairs are whole; a divisor of
+// kDepthBlock.
+constexpr std::int64_t kStripRows = 32;
 constexpr std::int64_t kLineWords = 16;  // of a cache line
 // Rows of a power of two of words would all begin in the same few sets of the cache.
 constexpr std::int64_t kRoundedStride = kDepthBlock + kLineWords;
@@ -101,6 +102,15 @@ void MultiplyPanels(const ProductKernels& kernels, const PanelRow& panels, const
   }
 }
 
+/// Copies elements `column_stride` apart within rows of `block` to contiguous rows `stride` apart.
+void CopyStrided(const RowBlock& block, std::int64_t column_stride, std::int64_t stride,
+                 float* out) {
+  for (std::int64_t j = 0; j < block.columns; ++j) {
+    const float* const column = block.data + j * column_stride;
+    for (std::int64_t i = 0; i < block.rows; ++i) out[i * stride + j] = column[i * block.stride];
+  }
+}
+
 }  // namespace
 
 void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* data,
@@ -117,26 +127,27 @@ void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* d
   precision_ = precision;
   target_ = ActiveTarget();
   const std::int64_t words = Words(depth, precision, kernels);
-  words_.assign(words * panels.padded_columns(), 0.0f);
+  words_.resize(words * panels.padded_columns());
 
-  const auto rounded = [&](std::int64_t k, std::int64_t j) -> std::uint16_t {
-    return k < depth ? RoundToBfloat16(data[k * depth_stride + j * column_stride]) : 0;
-  };
-  const auto word = [&](std::int64_t k, std::int64_t j) {
-    if (precision == Precision::kFloat32) return data[k * depth_stride + j * column_stride];
-    if (kernels.elements_per_word == 1) return Bfloat16Value(rounded(k ^ 1, j));
-    const std::uint32_t pair = rounded(2 * k, j) | std::uint32_t{rounded(2 * k + 1, j)} << 16;
-    float bits;
-    std::memcpy(&bits, &pair, sizeof bits);
-    return bits;
-  };
+  AlignedVector<float> strip;  // of a panel, where its rows are not contiguous
   float* out = words_.data();
-  for (std::int64_t first = 0; first < words; first += kDepthBlock) {
-    const std::int64_t end = std::min(words, first + kDepthBlock);
+  const std::int64_t block_rows = kDepthBlock * kernels.elements_per_word;
+  for (std::int64_t block = 0; block < depth; block += block_rows) {
+    const std::int64_t end = std::min(depth, block + block_rows);
     for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
-      const std::int64_t column = panels.first_column(panel);
-      for (std::int64_t k = first; k < end; ++k, out += panels.stride(panel)) {
-        for (int j = 0; j < panels.columns(panel); ++j) out[j] = word(k, column + j);
+      const float* const from = data + panels.first_column(panel) * column_stride;
+      const std::int64_t stride = panels.stride(panel);
+      for (std::int64_t k = block; k < end; k += kStripRows) {
+        RowBlock rows{std::min(kStripRows, end - k), panels.columns(panel), from + k * depth_stride,
+                      depth_stride};
+        if (column_stride != 1) {
+          strip.resize(kStripRows * stride);
+          CopyStrided(rows, column_stride, stride, strip.data());
+          rows.data = strip.data();
+          rows.stride = stride;
+        }
+        kernels.pack_rows(rows, stride, out);
+        out += Words(rows.rows, precision, kernels) * stride;
       }
     }
   }

@@ -7,26 +7,54 @@
 namespace skein {
 namespace {
 
+/// bias[r] + weight[r] beta for kRows rows at once: each is one chain of dependent sums.
+template <int kRows>
+void FoldBiases(std::int64_t columns, const float* weight, const float* beta, const float* bias,
+                float* folded) {
+  double sums[kRows];
+  for (int r = 0; r < kRows; ++r) sums[r] = bias[r];
+  for (std::int64_t j = 0; j < columns; ++j) {
+    const double b = beta[j];
+    for (int r = 0; r < kRows; ++r) sums[r] += weight[r * columns + j] * b;
+  }
+  for (int r = 0; r < kRows; ++r) folded[r] = static_cast<float>(sums[r]);
+}
+
 void FoldMap(const FoldedMap& map, const float* parameters, float* folded) {
-  const float* const gamma = map.norm_weight < 0 ? nullptr : parameters + map.norm_weight;
-  const float* const beta = map.norm_bias < 0 ? nullptr : parameters + map.norm_bias;
-  for (int row = 0; row < map.out; ++row) {
-    float* const out = folded + map.weight + static_cast<std::int64_t>(row) * map.in;
-    const int flat_row = map.FlatRow(row);
-    if (flat_row < 0) {
-      std::fill_n(out, map.in, 0.0f);
-      folded[map.bias + row] = 0;
-      continue;
-    }
+  constexpr int kRowsAtOnce = 8;
+  const bool has_norm = map.norm_weight >= 0;
+  const float* const gamma = has_norm ? parameters + map.norm_weight : nullptr;
+  const float* const beta = has_norm ? parameters + map.norm_bias : nullptr;
+  for (int first = 0; first < map.out; first += map.padded_block) {
+    const int flat_row = map.FlatRow(first);
     const float* const weight =
         parameters + map.flat_weight + static_cast<std::int64_t>(flat_row) * map.flat_in;
-    double bias = parameters[map.flat_bias + flat_row];
-    for (int j = 0; j < map.flat_in; ++j) {
-      out[j] = gamma == nullptr ? weight[j] : weight[j] * gamma[j];
-      if (beta != nullptr) bias += static_cast<double>(weight[j]) * beta[j];
+    const float* const bias = parameters + map.flat_bias + flat_row;
+    float* const out = folded + map.weight + static_cast<std::int64_t>(first) * map.in;
+    float* const out_bias = folded + map.bias + first;
+    for (int row = 0; row < map.block; ++row) {
+      const float* const from = weight + static_cast<std::int64_t>(row) * map.flat_in;
+      float* const to = out + static_cast<std::int64_t>(row) * map.in;
+      if (has_norm) {
+        for (int j = 0; j < map.flat_in; ++j) to[j] = from[j] * gamma[j];
+      } else {
+        std::copy_n(from, map.flat_in, to);
+      }
+      std::fill(to + map.flat_in, to + map.in, 0.0f);
     }
-    std::fill(out + map.flat_in, out + map.in, 0.0f);
-    folded[map.bias + row] = static_cast<float>(bias);
+    std::fill_n(out + static_cast<std::int64_t>(map.block) * map.in,
+                static_cast<std::int64_t>(map.padded_block - map.block) * map.in, 0.0f);
+    std::fill(std::copy_n(bias, map.block, out_bias), out_bias + map.padded_block, 0.0f);
+    if (!has_norm) continue;
+    int row = 0;
+    for (; row + kRowsAtOnce <= map.block; row += kRowsAtOnce) {
+      FoldBiases<kRowsAtOnce>(map.flat_in, weight + static_cast<std::int64_t>(row) * map.flat_in,
+                              beta, bias + row, out_bias + row);
+    }
+    for (; row < map.block; ++row) {
+      FoldBiases<1>(map.flat_in, weight + static_cast<std::int64_t>(row) * map.flat_in, beta,
+                    bias + row, out_bias + row);
+    }
   }
 }
 
