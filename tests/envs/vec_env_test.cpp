@@ -126,7 +126,7 @@ TEST(VecEnv, NoTaskDependsOnTheTileSizeAndEverySnapshotGoesOn) {
     EXPECT_EQ(Fly(&small, 0, 40), Fly(&large, 0, 40)) << task;
     const std::vector<std::uint32_t> snapshot = small.Snapshot();
     EXPECT_EQ(snapshot, large.Snapshot()) << task;
-    VecEnv other(config, 70, 2);
+    VecEnv other(config, 70, 1);
     other.Restore(snapshot);
     EXPECT_EQ(Fly(&other, 40, 20), Fly(&small, 40, 20)) << task;
   }

@@ -189,11 +189,11 @@ TEST_F(TrainingPipeline, ARunSaysAndKeepsItsPrecision) {
   FlyReference({"--steps", "5120"});
   const std::string automatic = Name(DefaultPrecision());
   EXPECT_THAT(ReadFile(reference_ + "/config.toml"),
-              HasSubstr("precision = \"" + automatic + "\"\n"));
+              HasSubstr("precision = \"" + automatic + "\"  #"));
   ASSERT_EQ(RunSkein(TinyTraining(run_, {"--steps", "5120", "--set", "learner.precision=mixed"}))
                 .exit_code,
             0);
-  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("precision = \"mixed\"\n"));
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("precision = \"mixed\"  #"));
   EXPECT_THAT(ReadFile(run_ + "/log.txt"), HasSubstr("networks by the fused kernels, in mixed"));
   EXPECT_EQ(CallSkein({"train", "--resume", run_}).exit_code, 0);
   const ProgramResult other =
