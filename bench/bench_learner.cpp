@@ -101,9 +101,7 @@ void Gradient(benchmark::State& state, Backend backend, LearnerPrecision precisi
 #define SKEIN_GRADIENT(name, backend, precision) \
   BENCHMARK_CAPTURE(Gradient, name, backend, precision)->UseManualTime()->MinTime(kMinSeconds)
 SKEIN_GRADIENT(fp32, Backend::kFused, LearnerPrecision::kFloat32)
-    ->RangeMultiplier(2)
-    ->Range(192, 1536)
-    ->Arg(4096);
+    ->ArgsProduct({{192, 384, 768, 1536, 4096}});
 SKEIN_GRADIENT(mixed, Backend::kFused, LearnerPrecision::kMixed)->Arg(384);
 SKEIN_GRADIENT(bf16, Backend::kFused, LearnerPrecision::kBfloat16)->Arg(384);
 SKEIN_GRADIENT(fast, Backend::kFused, LearnerPrecision::kFast)->Arg(384);
