@@ -41,6 +41,7 @@ std::string FusedLimitation(const NetworkShape& shape) {
 BackendChoice ChooseBackend(Backend asked, const NetworkShape& shape, LearnerPrecision precision) {
   BackendChoice choice;
   choice.backend = asked;
+  choice.asked_precision = precision;
   if (asked == Backend::kFused) choice.fallback_reason = FusedLimitation(shape);
   if (!choice.fallback_reason.empty()) choice.backend = Backend::kLibTorch;
   if (choice.backend == Backend::kFused) {
@@ -65,8 +66,16 @@ std::string Describe(const BackendChoice& choice) {
   if (choice.backend == Backend::kFused) {
     return "networks by the fused kernels, " + DescribePrecision(choice.precision);
   }
-  if (choice.fallback_reason.empty()) return "networks by LibTorch, as asked";
-  return "networks by LibTorch, slower: the fused kernels do not know " + choice.fallback_reason;
+  std::string text =
+      choice.fallback_reason.empty()
+          ? "networks by LibTorch, as asked"
+          : "networks by LibTorch, slower: the fused kernels do not know " + choice.fallback_reason;
+  const LearnerPrecision asked = choice.asked_precision;
+  if (asked != LearnerPrecision::kAuto && asked != choice.precision) {
+    text +=
+        std::string("; in fp32, not ") + Name(asked) + ": LibTorch computes in nothing else here";
+  }
+  return text;
 }
 
 }  // namespace skein

@@ -12,6 +12,7 @@ struct BackendChoice {
   Backend backend = Backend::kFused;
   std::string fallback_reason;  ///< what the fused kernels cannot do; empty if nothing
   LearnerPrecision precision = LearnerPrecision::kFloat32;  ///< never kAuto
+  LearnerPrecision asked_precision = LearnerPrecision::kFloat32;
 };
 
 /// What of `shape` the fused kernels cannot compute, as key and value; empty if they can.

@@ -89,6 +89,14 @@ TEST(ChooseBackendTest, LibTorchComputesInFloat32Alone) {
               LearnerPrecision::kFloat32)
         << name;
   }
+  const BackendChoice mixed =
+      ChooseBackend(Backend::kLibTorch, ShapeWith(Activation::kRelu), LearnerPrecision::kMixed);
+  EXPECT_EQ(Describe(mixed),
+            "networks by LibTorch, as asked; in fp32, not mixed: LibTorch computes in nothing else "
+            "here");
+  const BackendChoice automatic =
+      ChooseBackend(Backend::kLibTorch, ShapeWith(Activation::kRelu), LearnerPrecision::kAuto);
+  EXPECT_EQ(Describe(automatic), "networks by LibTorch, as asked");
 }
 
 TEST(ChooseBackendTest, PrecisionsAreThoseOfForwardAndBackwardProducts) {
