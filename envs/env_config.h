@@ -42,6 +42,10 @@ struct ControlConfig {
   double pitch_tolerance_deg = 5;
   double yaw_tolerance_deg = 5;
   double speed_tolerance_fps = 20;
+  /// true: the reward's angle is that to the target attitude, wings level, as the paper's; false:
+  /// that between the nose and where it should point. Roll does not count for the target, but has
+  /// to be flown to reach it: the attitude's angle makes a bank cost more than the turn is worth.
+  bool reward_includes_roll = false;
   /// Reward lost per step and 340 m/s of speed error; the paper's is 0. At 5 the speed tolerance
   /// costs as much as the angular ones, and bringing the nose round at a wrong speed does not pay.
   double speed_error_weight = 5;

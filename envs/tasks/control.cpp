@@ -37,11 +37,12 @@ HWY_INLINE FlightVector NormalisedSpeed(FlightVector speed) {
   return hn::Mul(speed, Constant(1 / kSpeedUnitFtS));
 }
 
-/// The angle of the rotation from the attitude to the target's, rad. By the arc tangent of the
-/// relative quaternion's parts: the arc cosine of its scalar part alone would lose half of the
-/// digits where the angle is small.
-HWY_INLINE FlightVector RotationAngle(const Tile& flight, const Tile& task, int first) {
-  const FlightTag d;
+/// The rotation from the attitude to the target's: conj(q) t, as scalar and vector part.
+struct RelativeAttitude {
+  FlightVector scalar, x, y, z;
+};
+
+HWY_INLINE RelativeAttitude RelativeTo(const Tile& flight, const Tile& task, int first) {
   const FlightVector q0 = Column(flight, kQ0, first), qx = Column(flight, kQx, first);
   const FlightVector qy = Column(flight, kQy, first), qz = Column(flight, kQz, first);
   const FlightVector t0 = Column(task, kControlQ0, first), tx = Column(task, kControlQx, first);
@@ -49,15 +50,33 @@ HWY_INLINE FlightVector RotationAngle(const Tile& flight, const Tile& task, int 
   const auto sum = [](FlightVector a, FlightVector b, FlightVector c, FlightVector e) {
     return hn::MulAdd(a, b, hn::Mul(c, e));
   };
-  const FlightVector scalar = hn::Add(sum(q0, t0, qx, tx), sum(qy, ty, qz, tz));
-  // Of conj(q) t; the differences are of products that nearly cancel where the angle is small.
-  const FlightVector x = hn::Sub(sum(q0, tx, qz, ty), sum(t0, qx, qy, tz));
-  const FlightVector y = hn::Sub(sum(q0, ty, qx, tz), sum(t0, qy, qz, tx));
-  const FlightVector z = hn::Sub(sum(q0, tz, qy, tx), sum(t0, qz, qx, ty));
-  const FlightVector length = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+  RelativeAttitude relative;
+  relative.scalar = hn::Add(sum(q0, t0, qx, tx), sum(qy, ty, qz, tz));
+  // Differences of products that nearly cancel where the angle is small.
+  relative.x = hn::Sub(sum(q0, tx, qz, ty), sum(t0, qx, qy, tz));
+  relative.y = hn::Sub(sum(q0, ty, qx, tz), sum(t0, qy, qz, tx));
+  relative.z = hn::Sub(sum(q0, tz, qy, tx), sum(t0, qz, qx, ty));
+  return relative;
+}
+
+/// The angle of the rotation, rad. By the arc tangent of its parts: the arc cosine of the scalar
+/// part alone would lose half of the digits where the angle is small.
+HWY_INLINE FlightVector RotationAngle(const RelativeAttitude& r) {
+  const FlightVector length =
+      hn::Sqrt(hn::MulAdd(r.x, r.x, hn::MulAdd(r.y, r.y, hn::Mul(r.z, r.z))));
   // A quaternion and its negative are one attitude: the nearer of the two.
-  const FlightVector half = Atan2(d, length, hn::Abs(scalar));
+  const FlightVector half = Atan2(FlightTag(), length, hn::Abs(r.scalar));
   return hn::Add(half, half);
+}
+
+/// The angle between the nose and where the target's points, rad: the rotation turns body x into
+/// the vector (along, 2 (x y + s z), 2 (x z - s y)).
+HWY_INLINE FlightVector NoseAngle(const RelativeAttitude& r) {
+  const FlightVector along = hn::MulAdd(
+      r.scalar, r.scalar, hn::MulAdd(r.x, r.x, hn::Neg(hn::MulAdd(r.y, r.y, hn::Mul(r.z, r.z)))));
+  const FlightVector right = TwiceSum(r.x, r.y, r.scalar, r.z);
+  const FlightVector down = TwiceSum(r.x, r.z, hn::Neg(r.scalar), r.y);
+  return Atan2(FlightTag(), hn::Sqrt(hn::MulAdd(right, right, hn::Mul(down, down))), along);
 }
 
 void ControlErrors(Tile flight, Tile task, float* errors, std::size_t error_stride) {
@@ -81,8 +100,10 @@ void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const Tas
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     const ControlError error = ErrorOf(flight, task, first);
     const FlightVector speed_error = hn::Abs(error.speed);
-    const FlightVector cost =
-        hn::MulAdd(speed_weight, NormalisedSpeed(speed_error), RotationAngle(flight, task, first));
+    const RelativeAttitude relative = RelativeTo(flight, task, first);
+    const FlightVector angle =
+        config.reward_includes_roll ? RotationAngle(relative) : NoseAngle(relative);
+    const FlightVector cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error), angle);
     hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
 
     const auto reached = hn::And(

@@ -28,9 +28,10 @@ double AngleBetween(const EulerAngles& a, const EulerAngles& b) {
 
 class ControlTest : public testing::TestWithParam<simd::Target> {
  protected:
-  static EnvConfig ConfigOf(double speed_error_weight) {
+  static EnvConfig ConfigOf(double speed_error_weight, bool reward_includes_roll = true) {
     EnvConfig config;
     config.task = "control";
+    config.control.reward_includes_roll = reward_includes_roll;
     config.control.speed_error_weight = speed_error_weight;
     return config;
   }
@@ -64,6 +65,7 @@ class ControlTest : public testing::TestWithParam<simd::Target> {
   ScopedTarget target_{GetParam()};
   std::unique_ptr<Task> task_ = MakeTask(ConfigOf(5));
   std::unique_ptr<Task> angle_only_ = MakeTask(ConfigOf(0));
+  std::unique_ptr<Task> nose_only_ = MakeTask(ConfigOf(0, false));
   TestTile flight_{kCount};
   TestTile targets_{kCount, kNumControlColumns};
   std::vector<float> reward_ = std::vector<float>(flight_.stride());
@@ -166,6 +168,36 @@ TEST_P(ControlTest, RewardAgreesWithRotationMatricesInFloat64) {
     JudgeBy(*angle_only_);
     for (std::size_t i = 0; i < kCount; ++i) EXPECT_NEAR(reward_[i], -angles[i], kTolerance) << i;
   }
+}
+
+TEST_P(ControlTest, RewardCanBeMinusTheAngleOfTheNoseAtAnyRoll) {
+  for (int i = 0; i < kCount; ++i) {
+    SetFlight(i, {0.17 * i, std::asin(std::sin(0.4 * i)), std::remainder(0.9 * i, 2 * M_PI)});
+    SetTarget(i, std::asin(std::sin(1.3 * i)), std::remainder(-0.5 * i, 2 * M_PI), 1000);
+  }
+  // Target and nose in one, the other way round, and apart by less than float32 sees in a cosine.
+  SetFlight(0, {2, 0.3, 1});
+  SetTarget(0, 0.3, 1, 1000);
+  SetFlight(1, {2, 0.3, 1});
+  SetTarget(1, -0.3, 1 - M_PI, 1000);
+  SetFlight(2, {-1, 0.3, 1});
+  SetTarget(2, 0.3 + 1e-4, 1, 1000);
+  JudgeBy(*nose_only_);
+  const auto direction = [](double pitch, double yaw) {
+    return Eigen::Vector3d(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
+                           -std::sin(pitch));
+  };
+  for (int i = 3; i < kCount; ++i) {
+    const Eigen::Vector3d nose =
+        direction(std::asin(std::sin(0.4 * i)), std::remainder(0.9 * i, 2 * M_PI));
+    const Eigen::Vector3d wanted =
+        direction(std::asin(std::sin(1.3 * i)), std::remainder(-0.5 * i, 2 * M_PI));
+    const double angle = std::atan2(nose.cross(wanted).norm(), nose.dot(wanted));
+    EXPECT_NEAR(reward_[static_cast<std::size_t>(i)], -angle, kTolerance) << i;
+  }
+  EXPECT_NEAR(reward_[0], 0, kTolerance);
+  EXPECT_NEAR(reward_[1], -M_PI, kTolerance);
+  EXPECT_NEAR(reward_[2], -1e-4, kTolerance);
 }
 
 TEST_P(ControlTest, SpeedErrorsCostTheirWeightOnEitherSide) {
