@@ -69,6 +69,7 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("control.pitch_tolerance_deg", env.control.pitch_tolerance_deg);
     add("control.yaw_tolerance_deg", env.control.yaw_tolerance_deg);
     add("control.speed_tolerance_fps", env.control.speed_tolerance_fps);
+    add("control.reward_includes_roll", env.control.reward_includes_roll);
     add("control.speed_error_weight", env.control.speed_error_weight);
   }
   add("termination.alpha_min_deg", env.termination.alpha_deg.min);
