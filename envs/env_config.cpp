@@ -49,6 +49,9 @@ void RequireFinite(const std::string& key, double value) {
 // the fastest has a corner at 50 rad/s, and Tustin's rule needs it below 2/dt.
 constexpr double kLongestControlInterval = 0.04;
 
+// Beyond the jet stream's.
+constexpr double kFastestWindFps = 500;
+
 }  // namespace
 
 void Validate(const EnvConfig& config) {
@@ -60,6 +63,11 @@ void Validate(const EnvConfig& config) {
   Require(config.time_limit_steps >= 1, "env.time_limit_steps", config.time_limit_steps,
           "at least 1");
   RequireNotNegative("env.observation_noise", config.observation_noise);
+  Require(config.observation_noise_max == 0 ||
+              (std::isfinite(config.observation_noise_max) &&
+               config.observation_noise_max >= config.observation_noise),
+          "env.observation_noise_max", config.observation_noise_max,
+          "0 or no less than env.observation_noise, " + Text(config.observation_noise));
   RequireNotNegative("env.reward_scale", config.reward_scale);
   Require(config.cg > 0 && config.cg < 1, "env.cg_chord_fraction", config.cg,
           "between 0 and 1 (fraction of chord)");
@@ -67,6 +75,10 @@ void Validate(const EnvConfig& config) {
 
   RequireRange("env.initial.altitude", "ft", config.initial.altitude_ft, 0, 60000);
   RequireRange("env.initial.true_airspeed", "fps", config.initial.true_airspeed_fps, 100, 3000);
+
+  RequireRange("env.wind.speed", "fps", config.wind.speed_fps, 0, kFastestWindFps);
+  RequireRange("env.wind.from", "deg", config.wind.from_deg, -360, 360);
+  RequireRange("env.wind.turbulence", "fps", config.wind.turbulence_fps, 0, kFastestWindFps);
 
   RequireNotNegative("env.heading.altitude_change_ft", config.heading.altitude_change_ft);
   RequireNotNegative("env.heading.yaw_change_rad", config.heading.yaw_change_rad);

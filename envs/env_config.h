@@ -21,6 +21,19 @@ struct InitialConfig {
   bool trimmed = true;
 };
 
+/// How the air moves. Every episode draws its own from the ranges.
+struct WindConfig {
+  Range speed_fps{0, 0};   ///< of the steady wind, which is horizontal
+  Range from_deg{0, 360};  ///< where it comes from: 0 is north, 90 is east
+  /// Standard deviation of Dryden turbulence (envs/air/dryden.h); 0 has none.
+  Range turbulence_fps{0, 0};
+  /// The aircraft is trimmed in still air, keeps its velocity over ground and meets the steady wind
+  /// as a step at the start of the episode. false: it is trimmed in the moving air.
+  bool step_at_reset = true;
+
+  bool blows() const { return speed_fps.max > 0 || turbulence_fps.max > 0; }
+};
+
 /// Targets of the Heading task relative to the initial state, and when they count as reached.
 struct HeadingConfig {
   double altitude_change_ft = 3000;  ///< initial altitude + U(-x, x)
@@ -80,8 +93,11 @@ struct EnvConfig {
       false;  ///< first episodes begin with their clocks spread over the time limit
   double observation_noise =
       0.01;  ///< standard deviation of Gaussian noise on every observation; 0 draws none
+  /// If larger, every episode draws its standard deviation between the two.
+  double observation_noise_max = 0;
   double reward_scale = 1;  ///< multiplies the step rewards (not the terminal ones)
   InitialConfig initial;
+  WindConfig wind;
   HeadingConfig heading;
   ControlConfig control;
   TerminationConfig termination;

@@ -13,6 +13,7 @@
 #include "envs/tasks/judgement.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"
+#include "envs/wind.h"
 #include "simd/denormals.h"
 #include "simd/error.h"
 
@@ -86,7 +87,9 @@ struct VecEnv::Impl {
         kernel_aircraft(MakeKernelAircraft(aircraft, config.atmosphere)),
         flight_control(aircraft, config.flight_control, config.control_interval_s),
         limits(config),
-        reset(config, aircraft) {
+        reset(config, aircraft),
+        wind(config.wind),
+        flight_columns(wind.blows() ? kNumWindyColumns : kNumColumns) {
     if (aircraft_count < 1) {
       throw Error("environment: " + std::to_string(aircraft_count) +
                   " aircraft, but there must be at least 1");
@@ -122,8 +125,8 @@ struct VecEnv::Impl {
     float* const base = reinterpret_cast<float*>(bytes) + lane;
     const int count = std::min(kBlock - lane, CountOf(tile) - begin);
     Block block;
-    block.flight = {base, stride, count};
-    block.task = {base + kNumColumns * stride, stride, count};
+    block.flight = {base, stride, count, wind.blows()};
+    block.task = {block.flight[flight_columns], stride, count};
     block.episode_return = block.task[task->num_columns()];
     block.step = reinterpret_cast<std::int32_t*>(block.episode_return + stride);
     block.episode = block.step + stride;
@@ -141,6 +144,10 @@ struct VecEnv::Impl {
     return simd::RandomStream(key);
   }
 
+  GustKeys KeysOf(const Block& block) const {
+    return {seed, static_cast<std::uint32_t>(block.first_aircraft), block.episode, block.step};
+  }
+
   void BeginEpisode(const Block& block, int i, std::int32_t episode) const {
     block.episode[i] = episode;
     block.step[i] = 0;
@@ -150,6 +157,7 @@ struct VecEnv::Impl {
     for (int column = 0; column < kNumColumns; ++column) {
       block.flight[column][i] = flight.columns[static_cast<std::size_t>(column)];
     }
+    if (wind.blows()) wind.Begin(block.flight, i, KeysOf(block));
     simd::RandomStream target = Stream(block, i, simd::RandomPurpose::kTarget);
     task->Reset(flight.start, &target, block.task, i);
     if (config.stagger_clocks && episode == 0) {
@@ -162,7 +170,7 @@ struct VecEnv::Impl {
   /// states there.
   void FillPadding(const Block& block) const {
     const int padded = RoundUp(block.count, kLaneMultiple);
-    for (int column = 0; column < kNumColumns; ++column) {
+    for (int column = 0; column < flight_columns; ++column) {
       std::fill(block.flight[column] + block.count, block.flight[column] + padded,
                 block.flight[column][0]);
     }
@@ -179,6 +187,7 @@ struct VecEnv::Impl {
     task->Errors(block.flight, block.task, errors, kBlock);
     ObservationNoise noise;
     noise.standard_deviation = config.observation_noise;
+    noise.max_standard_deviation = config.observation_noise_max;
     noise.seed = seed;
     noise.first_aircraft = static_cast<std::uint32_t>(block.first_aircraft);
     noise.episode = block.episode;
@@ -206,6 +215,10 @@ struct VecEnv::Impl {
     }
   }
 
+  float Recorded(const Block& block, int column, int i) const {
+    return column < flight_columns ? block.flight[column][i] : 0;
+  }
+
   /// Reports the episodes that ended and begins new ones.
   void RestartEnded(const Block& block, const DecisionScratch& scratch,
                     const StepOutput& output) const {
@@ -213,8 +226,9 @@ struct VecEnv::Impl {
       if (scratch.termination[i] == static_cast<std::int32_t>(Termination::kNone)) continue;
       output.episode_return[i] = block.episode_return[i];
       output.episode_steps[i] = block.step[i];
-      for (int column = 0; output.final_state != nullptr && column < kNumColumns; ++column) {
-        output.final_state[i * kNumColumns + column] = block.flight[column][i];
+      for (int column = 0; output.final_state != nullptr && column < kNumRecordedColumns;
+           ++column) {
+        output.final_state[i * kNumRecordedColumns + column] = Recorded(block, column, i);
       }
       BeginEpisode(block, i, block.episode[i] + 1);
     }
@@ -233,6 +247,7 @@ struct VecEnv::Impl {
     bool written[kBlock] = {};
     const float dt = static_cast<float>(config.control_interval_s);
     for (int step = 0; step < config.action_repeat; ++step) {
+      if (wind.blows()) wind.Advance(block.flight, dt, KeysOf(block));
       ControlTile(*kernel_aircraft, flight_control, block.flight, scratch.pilot_columns());
       // The next block's memory is needed after this one's last control step.
       const bool is_last = step + 1 == config.action_repeat;
@@ -266,7 +281,7 @@ struct VecEnv::Impl {
   }
 
   std::size_t WordsPerAircraft() const {
-    return static_cast<std::size_t>(kNumColumns + task->num_columns() + 1 + 2);
+    return static_cast<std::size_t>(flight_columns + task->num_columns() + 1 + 2);
   }
 
   Block BlockHolding(int index) const {
@@ -286,6 +301,8 @@ struct VecEnv::Impl {
   FlightControlConstants flight_control;
   JudgementLimits limits;
   FlightReset reset;
+  Wind wind;
+  int flight_columns;
 
   int tile_size = 0;
   int num_tiles = 0;
@@ -333,7 +350,7 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
       part.final_observation += static_cast<std::size_t>(begin) * kObservationSize;
     }
     if (part.final_state != nullptr) {
-      part.final_state += static_cast<std::size_t>(begin) * kNumColumns;
+      part.final_state += static_cast<std::size_t>(begin) * kNumRecordedColumns;
     }
     impl_->Step(impl_->BlockOf(tile, begin), action + static_cast<std::size_t>(begin) * kActionSize,
                 part);
@@ -376,10 +393,10 @@ void VecEnv::Restore(const std::vector<std::uint32_t>& snapshot) {
 }
 
 float VecEnv::StateOf(int aircraft, int column) const {
-  if (column < 0 || column >= kNumColumns) {
+  if (column < 0 || column >= kNumWindyColumns) {
     throw Error("environment: no state column " + std::to_string(column));
   }
-  return impl_->BlockHolding(aircraft).flight[column][0];
+  return impl_->Recorded(impl_->BlockHolding(aircraft), column, 0);
 }
 
 std::vector<float> VecEnv::TargetOf(int aircraft) const {

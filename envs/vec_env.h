@@ -22,8 +22,9 @@ struct StepOutput {
   /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
   /// observation. May be null if the time limit is terminal.
   float* final_observation = nullptr;
-  /// Row-major [count][kNumColumns] (envs/dynamics/state.h); rows of episodes that ended get the
-  /// state at the end of the decision, before the new episode (else unchanged). May be null.
+  /// Row-major [count][kNumRecordedColumns] (envs/dynamics/state.h), the wind zero in still air;
+  /// rows of episodes that ended get the state at the end of the decision, before the new episode
+  /// (else unchanged). May be null.
   float* final_state = nullptr;
 };
 
@@ -63,7 +64,7 @@ class VecEnv {
   void Restore(const std::vector<std::uint32_t>& snapshot);
 
   /// One column of the physical state (envs/dynamics/state.h) of one aircraft, for recording
-  /// flights and tests.
+  /// flights and tests; in still air the wind's are zero.
   float StateOf(int aircraft, int column) const;
   /// The target of one aircraft: altitude ft, yaw rad, speed ft/s for Heading; pitch rad,
   /// yaw rad, speed ft/s for Control.

@@ -134,6 +134,20 @@ HWY_INLINE void NormalBlock(D d, const PhiloxKeys& keys, VU a, VU b, VU c,
   BoxMuller(d, x[2][0], x[3][0], normals[2], normals[3]);
 }
 
+/// The first word of each stream (a, b, c, purpose) as a uniform number in [0, 1): what
+/// simd::UniformFromBits makes of it.
+template <class D, class V = hn::Vec<D>, class VU>
+HWY_INLINE V FirstUniform(D d, const PhiloxKeys& keys, VU a, VU b, VU c,
+                          simd::RandomPurpose purpose) {
+  const hn::RebindToSigned<D> di;
+  const hn::RebindToUnsigned<D> du;
+  VU x[4][1];
+  SetCounters(du, a, b, c, purpose, 0, x);
+  PhiloxLanes(du, keys, x);
+  return hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<8>(x[0][0]))),
+                 hn::Set(d, 0x1.0p-24f));
+}
+
 /// 8 kBlocks coarse normal deviates per lane from the first blocks of the streams (a, b, c,
 /// purpose), for noise: one word to a pair. Radius and angle have 16 bits each, so that no
 /// magnitude exceeds 4.86; moments and tails up to 4 are those of a normal to 1e-4.

@@ -14,6 +14,10 @@ enum class RandomPurpose : std::uint32_t {
   kShuffle = 5,
   kClockStagger = 6,
   kNetworkInitialisation = 7,
+  kWind = 8,
+  kGustStart = 9,
+  kGust = 10,
+  kNoiseLevel = 11,
 };
 
 /// Constants of Philox4x32-10 (Salmon et al., SC 2011, section 3.3).

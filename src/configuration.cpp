@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "simd/error.h"
+#include "src/conditions.h"
 #include "src/output_file.h"
 #include "src/presets.h"
 #include "src/settings.h"
@@ -101,6 +102,15 @@ void ApplyAssignment(const std::string& assignment, ProgramConfig* config) {
   Assign(setting, ParseValue(Trimmed(assignment.substr(equals + 1))), "--set", config);
 }
 
+void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
+                                   const std::vector<std::string>& assignments,
+                                   ProgramConfig* config) {
+  for (const std::string& assignment : ConditionAssignments(conditions)) {
+    ApplyAssignment(assignment, config);
+  }
+  for (const std::string& assignment : assignments) ApplyAssignment(assignment, config);
+}
+
 void CheckConsistent(const ProgramConfig& config) {
   Validate(config.train.env);
   Validate(config.train.ppo);
@@ -118,7 +128,7 @@ ProgramConfig ResolveConfig(const ConfigSources& sources) {
   ApplyToml(std::string(*preset.text), fmt::format("preset {}/{}", preset.task, preset.name),
             &config);
   if (!sources.file.empty()) ApplyTomlFile(sources.file, &config);
-  for (const std::string& assignment : sources.assignments) ApplyAssignment(assignment, &config);
+  ApplyConditionsAndAssignments(sources.conditions, sources.assignments, &config);
   if (config.train.env.task != sources.task) {
     throw Error(fmt::format("the configuration says env.task = {}, but the task asked for is {}",
                             config.train.env.task, sources.task));

@@ -17,6 +17,11 @@ void ApplyTomlFile(const std::string& path, ProgramConfig* config);
 /// Applies one `key=value` of the command line. The value is TOML; names need no quotes.
 void ApplyAssignment(const std::string& assignment, ProgramConfig* config);
 
+/// Applies conditions (src/conditions.h), then assignments.
+void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
+                                   const std::vector<std::string>& assignments,
+                                   ProgramConfig* config);
+
 /// Throws Error on values that are each allowed but cannot go together.
 void CheckConsistent(const ProgramConfig& config);
 
@@ -26,10 +31,11 @@ struct ConfigSources {
   std::string preset;  ///< name of a preset of the task
   std::string file;    ///< TOML file, or empty
   std::vector<std::string> assignments;
+  std::vector<std::string> conditions = {};  ///< NAME=LEVEL, weaker than assignments
 };
 
-/// Defaults, then preset, then file, then assignments. Throws Error if one of them names another
-/// task.
+/// Defaults, then preset, then file, then conditions, then assignments. Throws Error if one of them
+/// names another task.
 ProgramConfig ResolveConfig(const ConfigSources& sources);
 
 /// Every key with its value as TOML that ApplyToml reads back exactly, each with its meaning.

@@ -9,6 +9,7 @@
 #include "envs/vec_env.h"
 #include "simd/error.h"
 #include "src/commands.h"
+#include "src/conditions.h"
 #include "src/configuration.h"
 #include "src/evaluation_report.h"
 #include "src/flight_file.h"
@@ -28,7 +29,7 @@ struct EvalOptions {
   std::string preset = "default";
   CLI::Option* preset_option = nullptr;
   std::string config;
-  std::vector<std::string> assignments;
+  std::vector<std::string> conditions, assignments;
   int episodes = 1000;
   bool deterministic = false;
   std::uint64_t seed = 0;
@@ -67,7 +68,7 @@ ProgramConfig BaseConfig(const EvalOptions& options, bool is_run) {
 void ApplyOverrides(const EvalOptions& options, ProgramConfig* config) {
   const std::string task = options.task.empty() ? config->train.env.task : options.task;
   if (!options.config.empty()) ApplyTomlFile(options.config, config);
-  for (const std::string& assignment : options.assignments) ApplyAssignment(assignment, config);
+  ApplyConditionsAndAssignments(options.conditions, options.assignments, config);
   if (config->train.env.task != task) {
     throw Error(fmt::format("the configuration says env.task = {}, but --task is {}",
                             config->train.env.task, task));
@@ -142,6 +143,9 @@ void AddEvalCommand(CLI::App* app) {
                        "file, default)")
           ->type_name("NAME");
   command->add_option("--config", options->config, "TOML file on top of them")->type_name("FILE");
+  command->add_option("--condition", options->conditions, ConditionHelp())
+      ->type_name("NAME=LEVEL")
+      ->allow_extra_args(false);
   command
       ->add_option("--set", options->assignments,
                    "one configuration key, such as env.observation_noise=0.03; may be repeated")
@@ -178,7 +182,9 @@ void AddEvalCommand(CLI::App* app) {
       "flies it at another rate. Success counts episodes that reach the target.\n"
       "Example: skein eval --policy runs/short --task heading --episodes 1000 --deterministic "
       "--json result.json\n"
-      "         skein eval --policy runs/short --deterministic --flights flights.csv");
+      "         skein eval --policy runs/short --deterministic --flights flights.csv\n"
+      "         skein eval --policy runs/short --condition windy=60fps,moderate --condition "
+      "noisy=0.03");
   command->callback([options] { Evaluate(*options); });
 }
 

@@ -18,7 +18,7 @@
 namespace skein {
 namespace {
 
-using State = std::array<float, kNumColumns>;
+using State = std::array<float, kNumRecordedColumns>;
 using Quantity = std::pair<const char*, double>;
 
 constexpr std::array<const char*, kActionSize> kActionNames = {"throttle", "pitch", "roll", "yaw"};
@@ -28,7 +28,8 @@ std::vector<Quantity> Readings(AtmosphereModel atmosphere, const State& state) {
   RigidBodyState body;
   for (int i = 0; i < kNumRigidBody; ++i) body[i] = state[static_cast<std::size_t>(i)];
   const EulerAngles attitude = EulerFromQuaternion(body.segment<4>(kQ0));
-  const AirData air = MeasureAir(atmosphere, body);
+  const Eigen::Vector3d wind(state[kWindNorth], state[kWindEast], state[kWindDown]);
+  const AirData air = MeasureAir(atmosphere, body, wind);
   return {{"north_ft", body[kNorth]},
           {"east_ft", body[kEast]},
           {"altitude_ft", -body[kDown]},
@@ -45,6 +46,9 @@ std::vector<Quantity> Readings(AtmosphereModel atmosphere, const State& state) {
           {"beta_deg", air.beta_rad * kDegPerRad},
           {"true_airspeed_fps", air.true_airspeed_ft_s},
           {"mach", air.mach},
+          {"wind_north_fps", wind.x()},
+          {"wind_east_fps", wind.y()},
+          {"wind_down_fps", wind.z()},
           {"load_factor_g", state[kNz]},
           {"power", state[kPower]},
           {"elevator_deg", state[kElevator]},

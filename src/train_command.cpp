@@ -8,6 +8,7 @@
 
 #include "simd/error.h"
 #include "src/commands.h"
+#include "src/conditions.h"
 #include "src/configuration.h"
 #include "src/presets.h"
 #include "src/run_directory.h"
@@ -23,7 +24,7 @@ struct TrainOptions {
   std::string task;
   std::string preset = "default";
   std::string config;
-  std::vector<std::string> assignments;
+  std::vector<std::string> conditions, assignments;
   std::optional<double> steps;
   std::optional<std::int64_t> seed;
   int threads = 0;
@@ -44,7 +45,8 @@ void ApplyFlags(const TrainOptions& options, ProgramConfig* config) {
 
 /// What the command line asks for, for a new run.
 ProgramConfig Configure(const TrainOptions& options, const std::string& task) {
-  ProgramConfig config = ResolveConfig({task, options.preset, options.config, options.assignments});
+  ProgramConfig config = ResolveConfig(
+      {task, options.preset, options.config, options.assignments, options.conditions});
   ApplyFlags(options, &config);
   return config;
 }
@@ -66,7 +68,7 @@ void Resume(const TrainOptions& options) {
                             config.train.env.task, options.task));
   }
   ProgramConfig asked = config;
-  for (const std::string& assignment : options.assignments) ApplyAssignment(assignment, &asked);
+  ApplyConditionsAndAssignments(options.conditions, options.assignments, &asked);
   ApplyFlags(options, &asked);
   if (const auto differences = Differences(config, asked); !differences.empty()) {
     throw Error(fmt::format(
@@ -117,6 +119,9 @@ void AddTrainCommand(CLI::App* app) {
                           ->add_option("--config", options->config,
                                        "TOML file on top of the preset (keys: --help-keys)")
                           ->type_name("FILE");
+  command->add_option("--condition", options->conditions, ConditionHelp())
+      ->type_name("NAME=LEVEL")
+      ->allow_extra_args(false);
   command
       ->add_option("--set", options->assignments,
                    "one configuration key, on top of preset and file; may be repeated")
@@ -148,7 +153,8 @@ void AddTrainCommand(CLI::App* app) {
   command->add_flag("--help-keys", options->help_keys,
                     "list every configuration key with type, range, value and meaning, and exit");
   command->footer(
-      "Weakest first: built-in defaults, preset, --config, --set, --steps and --seed.\n"
+      "Weakest first: built-in defaults, preset, --config, --condition, --set, --steps and "
+      "--seed.\n"
       "SIGINT (Ctrl-C) and SIGTERM drop the iteration under way, save and end with exit code 0; a "
       "second\n"
       "one ends at once. SIGUSR1 saves after the iteration and goes on.\n"
@@ -157,6 +163,8 @@ void AddTrainCommand(CLI::App* app) {
       "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
       "  skein train control --set env.control.pitch_change_rad=0.9\n"
       "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
+      "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
+      "noisy=0.01..0.05\n"
       "  skein train --resume runs/short");
   command->callback([options] { Train(*options); });
 }

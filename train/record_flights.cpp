@@ -11,9 +11,9 @@
 namespace skein {
 namespace {
 
-std::array<float, kNumColumns> StateOf(const VecEnv& env, int aircraft) {
-  std::array<float, kNumColumns> state;
-  for (int column = 0; column < kNumColumns; ++column) {
+std::array<float, kNumRecordedColumns> StateOf(const VecEnv& env, int aircraft) {
+  std::array<float, kNumRecordedColumns> state;
+  for (int column = 0; column < kNumRecordedColumns; ++column) {
     state[column] = env.StateOf(aircraft, column);
   }
   return state;
@@ -31,7 +31,7 @@ class TileRecorder {
         reward_(env.tile_count(tile)),
         episode_return_(reward_.size()),
         final_observation_(reward_.size() * env.observation_size()),
-        final_state_(reward_.size() * kNumColumns),
+        final_state_(reward_.size() * kNumRecordedColumns),
         termination_(reward_.size()),
         steps_(reward_.size()) {
     for (std::size_t i = 0; i < flights_.size(); ++i) {
@@ -57,8 +57,8 @@ class TileRecorder {
       if (flying_[i]) {
         step.state = StateOf(env_, begin_ + static_cast<int>(i));
       } else {
-        std::copy_n(final_state_.begin() + static_cast<std::int64_t>(i) * kNumColumns, kNumColumns,
-                    step.state.begin());
+        std::copy_n(final_state_.begin() + static_cast<std::int64_t>(i) * kNumRecordedColumns,
+                    kNumRecordedColumns, step.state.begin());
       }
       for (int k = 0; k < actions; ++k) {
         step.action.push_back(std::clamp(action[i * actions + k], -1.0f, 1.0f));

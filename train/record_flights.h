@@ -14,15 +14,15 @@ namespace skein {
 
 /// The end of one control step.
 struct RecordedStep {
-  std::array<float, kNumColumns> state{};  ///< envs/dynamics/state.h
-  std::vector<float> action;               ///< held during the step, clipped to [-1, 1]
-  float reward = 0;                        ///< of the step, terminal reward included
+  std::array<float, kNumRecordedColumns> state{};  ///< envs/dynamics/state.h
+  std::vector<float> action;                       ///< held during the step, clipped to [-1, 1]
+  float reward = 0;                                ///< of the step, terminal reward included
   Termination termination = Termination::kNone;
 };
 
 /// One whole episode.
 struct RecordedFlight {
-  std::array<float, kNumColumns> initial_state{};
+  std::array<float, kNumRecordedColumns> initial_state{};
   std::vector<float> target;  ///< Task::target_quantities
   std::vector<RecordedStep> steps;
 };

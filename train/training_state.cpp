@@ -48,6 +48,17 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
   add("stagger_clocks", env.stagger_clocks);
   add("observation_noise", env.observation_noise);
   add("reward_scale", env.reward_scale);
+  // Noise by episode and wind only where there are any: runs from before there were go on.
+  if (env.observation_noise_max > 0) add("observation_noise_max", env.observation_noise_max);
+  if (env.wind.blows()) {
+    add("wind.speed_min_fps", env.wind.speed_fps.min);
+    add("wind.speed_max_fps", env.wind.speed_fps.max);
+    add("wind.from_min_deg", env.wind.from_deg.min);
+    add("wind.from_max_deg", env.wind.from_deg.max);
+    add("wind.turbulence_min_fps", env.wind.turbulence_fps.min);
+    add("wind.turbulence_max_fps", env.wind.turbulence_fps.max);
+    add("wind.step_at_reset", env.wind.step_at_reset);
+  }
   add("initial.altitude_min_ft", env.initial.altitude_ft.min);
   add("initial.altitude_max_ft", env.initial.altitude_ft.max);
   add("initial.true_airspeed_min_fps", env.initial.true_airspeed_fps.min);
@@ -107,7 +118,8 @@ std::array<double, 4> Scalars(const TrainingState& state) {
 }
 
 void RequireSameConfig(const TensorFile& file, const std::string& path, const TrainConfig& config) {
-  for (const auto& [name, value] : DescribeConfig(config)) {
+  const std::map<std::string, std::string> described = DescribeConfig(config);
+  for (const auto& [name, value] : described) {
     const auto stored = file.metadata.find(kConfigPrefix + name);
     if (stored == file.metadata.end()) {
       throw Error(path + ": the checkpoint does not say what " + name + " was");
@@ -115,6 +127,15 @@ void RequireSameConfig(const TensorFile& file, const std::string& path, const Tr
     if (stored->second != value) {
       throw Error(path + ": made with " + name + " = " + stored->second +
                   ", but the configuration says " + value);
+    }
+  }
+  const std::string prefix = kConfigPrefix;
+  for (const auto& [key, value] : file.metadata) {
+    if (key.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string name = key.substr(prefix.size());
+    if (described.count(name) == 0) {
+      throw Error(path + ": made with " + name + " = " + value +
+                  ", but the configuration has none of it");
     }
   }
 }

@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "envs/dynamics/air-inl.h"
+#include "envs/dynamics/air_velocity-inl.h"
 #include "simd/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -202,7 +203,7 @@ HWY_INLINE V PowerCommandOf(V throttle) {
 HWY_INLINE Sensors Sense(const KernelAircraft& aircraft, const Group& group) {
   const FloatTag d;
   Sensors sensors;
-  const V u = group.Get(kU), v = group.Get(kV), w = group.Get(kW);
+  const auto [u, v, w] = AirVelocity(d, group.tile, group.first);
   const V degrees = Constant(static_cast<float>(kDegPerRad));
   sensors.alpha_deg = Atan2Degrees(d, w, u);
   sensors.p_deg_s = hn::Mul(group.Get(kP), degrees);

@@ -35,7 +35,7 @@ ClosedLoop::ClosedLoop(const Plant& plant, const TrimPoint& trim, FlightControlM
   flight_control_state_ = flight_control_.InitialState(Sense(), surfaces_);
 }
 
-AirData ClosedLoop::air() const { return MeasureAir(plant_.atmosphere(), state_); }
+AirData ClosedLoop::air() const { return MeasureAir(plant_.atmosphere(), state_, wind_); }
 
 FlightSensors ClosedLoop::Sense() const {
   const AirData measured = air();
@@ -73,7 +73,7 @@ void ClosedLoop::Step(const PilotCommands& pilot) {
 
 ClosedLoop::Flight ClosedLoop::RateOf(const Flight& flight, double power_command,
                                       PlantOutput* output) const {
-  const AirData measured = MeasureAir(plant_.atmosphere(), flight.body);
+  const AirData measured = MeasureAir(plant_.atmosphere(), flight.body, wind_);
   Controls controls;
   controls.thrust_lbf =
       Thrust(plant_.aircraft().engine, flight.power, -flight.body[kDown], measured.mach);
@@ -81,7 +81,7 @@ ClosedLoop::Flight ClosedLoop::RateOf(const Flight& flight, double power_command
   controls.aileron_deg = surfaces_.aileron_deg;
   controls.rudder_deg = surfaces_.rudder_deg;
   controls.leading_edge_flap_deg = surfaces_.leading_edge_flap_deg;
-  *output = plant_.Evaluate(flight.body, controls);
+  *output = plant_.Evaluate(flight.body, controls, wind_);
   return {output->state_rate, PowerRate(flight.power, power_command)};
 }
 

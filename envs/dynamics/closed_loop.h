@@ -29,6 +29,10 @@ class ClosedLoop {
   /// Makes surface commands reach the actuators one control step late, as a computer's delay would.
   void set_delayed(bool delayed) { delayed_ = delayed; }
 
+  /// The air's velocity from now on, north, east, down, ft/s; zero at first. The aircraft keeps its
+  /// velocity over ground.
+  void set_wind(const Eigen::Vector3d& wind) { wind_ = wind; }
+
   const RigidBodyState& state() const { return state_; }
   RigidBodyState& mutable_state() { return state_; }
   const SurfaceAngles& surfaces() const { return surfaces_; }
@@ -49,6 +53,7 @@ class ClosedLoop {
   double dt_;
   int substeps_;
   bool delayed_ = false;
+  Eigen::Vector3d wind_ = Eigen::Vector3d::Zero();
   RigidBodyState state_;
   double power_ = 0;
   double nz_ = 1, ny_ = 0;

@@ -31,8 +31,9 @@ Eigen::Vector3d AngularAcceleration(const Airframe& a, const Eigen::Vector3d& ra
 
 }  // namespace
 
-AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state) {
-  const Eigen::Vector3d velocity = state.segment<3>(kU);
+AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state,
+                   const Eigen::Vector3d& wind) {
+  const Eigen::Vector3d velocity = state.segment<3>(kU) - BodyFromNed(state.segment<4>(kQ0)) * wind;
   const Air air = AirAt(atmosphere, -state[kDown]);
   const double speed = std::max(velocity.norm(), kMinAirspeedFtS);
   AirData data;
@@ -48,7 +49,8 @@ AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state) {
 Plant::Plant(Aircraft aircraft, AtmosphereModel atmosphere)
     : aircraft_(std::move(aircraft)), atmosphere_(atmosphere) {}
 
-PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& controls) const {
+PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& controls,
+                            const Eigen::Vector3d& wind) const {
   const Airframe& airframe = aircraft_.airframe;
   const Eigen::Vector3d velocity = state.segment<3>(kU);
   const Eigen::Vector3d rates = state.segment<3>(kP);
@@ -56,7 +58,7 @@ PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& control
   const Eigen::Matrix3d body_from_ned = BodyFromNed(quaternion);
 
   PlantOutput output;
-  const AirData& air = output.air = MeasureAir(atmosphere_, state);
+  const AirData& air = output.air = MeasureAir(atmosphere_, state, wind);
 
   AerodynamicCondition condition;
   condition.alpha_deg = air.alpha_rad * kDegPerRad;
@@ -92,9 +94,11 @@ PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& control
   return output;
 }
 
-RigidBodyState Plant::StepRk4(const RigidBodyState& state, const Controls& controls,
-                              double dt) const {
-  const auto rate = [&](const RigidBodyState& at) { return Evaluate(at, controls).state_rate; };
+RigidBodyState Plant::StepRk4(const RigidBodyState& state, const Controls& controls, double dt,
+                              const Eigen::Vector3d& wind) const {
+  const auto rate = [&](const RigidBodyState& at) {
+    return Evaluate(at, controls, wind).state_rate;
+  };
   const RigidBodyState k1 = rate(state);
   const RigidBodyState k2 = rate(state + dt / 2 * k1);
   const RigidBodyState k3 = rate(state + dt / 2 * k2);

@@ -26,8 +26,10 @@ struct AirData {
   double static_pressure_psf = 0;
 };
 
-/// Air data of a rigid-body state in still air.
-AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state);
+/// Air data of a rigid-body state, in still air or in one that moves by `wind` (north, east, down,
+/// ft/s).
+AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state,
+                   const Eigen::Vector3d& wind = Eigen::Vector3d::Zero());
 
 /// One evaluation of the equations of motion.
 struct PlantOutput {
@@ -48,11 +50,14 @@ class Plant {
   const Aircraft& aircraft() const { return aircraft_; }
   AtmosphereModel atmosphere() const { return atmosphere_; }
 
-  PlantOutput Evaluate(const RigidBodyState& state, const Controls& controls) const;
+  /// `wind` is the air's velocity, north, east, down, ft/s.
+  PlantOutput Evaluate(const RigidBodyState& state, const Controls& controls,
+                       const Eigen::Vector3d& wind = Eigen::Vector3d::Zero()) const;
 
-  /// One classic RK4 step of `dt` seconds with the controls held; the quaternion is renormalised
-  /// after it.
-  RigidBodyState StepRk4(const RigidBodyState& state, const Controls& controls, double dt) const;
+  /// One classic RK4 step of `dt` seconds with controls and wind held; the quaternion is
+  /// renormalised after it.
+  RigidBodyState StepRk4(const RigidBodyState& state, const Controls& controls, double dt,
+                         const Eigen::Vector3d& wind = Eigen::Vector3d::Zero()) const;
 
  private:
   Aircraft aircraft_;

@@ -27,8 +27,8 @@ namespace {
 using namespace plant_kernel;  // NOLINT: one room, split into files by phase
 
 /// One evaluation of the equations of motion for a block, phase by phase.
-template <bool kEngine, Stage kStage, class Observer>
-HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const StageState<kStage>& state,
+template <bool kEngine, class State, class Observer>
+HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const State& state,
                                 const BlockControls& controls, const Observer& coefficients) {
   FindFlow(aircraft, state, state.block);
   FindAir<kEngine>(aircraft, state, state.block);
@@ -102,22 +102,22 @@ struct Prefetcher {
 };
 
 /// One RK4 step of a block.
-template <bool kEngine, class Observer>
+template <bool kEngine, bool kWindy, class Observer>
 HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& controls,
                           float* base, std::size_t stride, float dt, const Observer& coefficients,
                           Prefetcher* prefetcher, Block* block) {
   const IgnoreCoefficients ignore;
   prefetcher->FetchPart();
-  EvaluateBlock<kEngine>(aircraft, StageState<kFirstStage>{base, stride, block, 0}, controls,
-                         ignore);
+  EvaluateBlock<kEngine>(aircraft, StageState<kFirstStage, kWindy>{base, stride, block, 0},
+                         controls, ignore);
   for (int middle = 0; middle < 2; ++middle) {
     prefetcher->FetchPart();
-    EvaluateBlock<kEngine>(aircraft, StageState<kMiddleStage>{base, stride, block, dt / 2},
+    EvaluateBlock<kEngine>(aircraft, StageState<kMiddleStage, kWindy>{base, stride, block, dt / 2},
                            controls, ignore);
   }
   prefetcher->FetchPart();
-  EvaluateBlock<kEngine>(aircraft, StageState<kLastStage>{base, stride, block, dt}, controls,
-                         coefficients);
+  EvaluateBlock<kEngine>(aircraft, StageState<kLastStage, kWindy>{base, stride, block, dt},
+                         controls, coefficients);
 }
 
 void EvaluateTileKernel(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
@@ -151,15 +151,16 @@ void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
                            controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
     FindSurfacesOfBlock(aircraft, at, &block);
     for (int substep = 0; substep < substeps; ++substep) {
-      StepBlock<false>(aircraft, at, tile.base + first, tile.stride,
-                       dt / static_cast<float>(substeps), IgnoreCoefficients(), &prefetcher,
-                       &block);
+      StepBlock<false, false>(aircraft, at, tile.base + first, tile.stride,
+                              dt / static_cast<float>(substeps), IgnoreCoefficients(), &prefetcher,
+                              &block);
     }
   }
 }
 
-void StepTileKernel(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                    MemoryAhead ahead) {
+template <bool kWindy>
+void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                MemoryAhead ahead) {
   Block block;
   const int parts = 4 * (tile.count + kBlock - 1) / kBlock;
   Prefetcher prefetcher{
@@ -176,10 +177,20 @@ void StepTileKernel(const KernelAircraft& aircraft, Tile tile, float dt, int sub
     PrefetchColumns(tile, first + kBlock);
     FindSurfacesOfBlock(aircraft, at, &block);
     for (int substep = 0; substep < substeps; ++substep) {
-      StepBlock<true>(aircraft, at, tile.base + first, tile.stride,
-                      dt / static_cast<float>(substeps), load_factors, &prefetcher, &block);
+      StepBlock<true, kWindy>(aircraft, at, tile.base + first, tile.stride,
+                              dt / static_cast<float>(substeps), load_factors, &prefetcher, &block);
     }
   }
+}
+
+void StepTileInStillAir(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                        MemoryAhead ahead) {
+  StepTileIn<false>(aircraft, tile, dt, substeps, ahead);
+}
+
+void StepTileInWind(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                    MemoryAhead ahead) {
+  StepTileIn<true>(aircraft, tile, dt, substeps, ahead);
 }
 
 }  // namespace
@@ -192,7 +203,8 @@ namespace skein {
 
 HWY_EXPORT(EvaluateTileKernel);
 HWY_EXPORT(StepTileOpenLoopKernel);
-HWY_EXPORT(StepTileKernel);
+HWY_EXPORT(StepTileInStillAir);
+HWY_EXPORT(StepTileInWind);
 
 void EvaluateTile(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
                   float* state_rate, float* coefficients) {
@@ -206,7 +218,11 @@ void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlCo
 
 void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
               MemoryAhead ahead) {
-  SKEIN_DISPATCH(StepTileKernel)(aircraft, tile, dt, substeps, ahead);
+  if (tile.windy) {
+    SKEIN_DISPATCH(StepTileInWind)(aircraft, tile, dt, substeps, ahead);
+  } else {
+    SKEIN_DISPATCH(StepTileInStillAir)(aircraft, tile, dt, substeps, ahead);
+  }
 }
 
 }  // namespace skein

@@ -103,9 +103,10 @@ HWY_INLINE void FindFlow(const KernelAircraft& aircraft, const State& state, Blo
   V u[kVectors], w[kVectors], tan_beta[kVectors];
   for (int n = 0; n < kVectors; ++n) {
     const int lane = n * kLanes;
-    u[n] = state.Get(kU, lane);
-    w[n] = state.Get(kW, lane);
-    const V v = state.Get(kV, lane);
+    const BodyVelocity<V> velocity = state.AirVelocity(lane);
+    u[n] = velocity.u;
+    w[n] = velocity.w;
+    const V v = velocity.v;
     const V plane_squared = hn::MulAdd(u[n], u[n], hn::Mul(w[n], w[n]));
     const V speed_squared = hn::Max(hn::MulAdd(v, v, plane_squared), Constant(kMinSpeedSquared));
     hn::Store(speed_squared, d, block->speed_squared + lane);

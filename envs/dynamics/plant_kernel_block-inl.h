@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "envs/dynamics/air_velocity-inl.h"
 #include "envs/dynamics/kernel_aircraft.h"
 #include "envs/dynamics/state.h"
 #include "simd/lookup-inl.h"
@@ -92,7 +93,7 @@ enum Stage : int { kFirstStage, kMiddleStage, kLastStage };
 /// The state at one stage of the integration. It is not stored: `Get` adds `step` times the
 /// previous stage's rates to the state at the start of the step, `Put` takes the rates at this
 /// stage, after the last `Get` of the same column and lane.
-template <Stage kStageOf>
+template <Stage kStageOf, bool kWindy = false>
 struct StageState {
   static constexpr Stage kStage = kStageOf;
   float* base;  // of the block's state columns
@@ -111,6 +112,20 @@ struct StageState {
       return start;
     } else {
       return hn::MulAdd(Constant(step), hn::Load(d, block->rate[column] + lane), start);
+    }
+  }
+
+  /// Velocity relative to the air, which moves as at the start of the step.
+  HWY_INLINE BodyVelocity<V> AirVelocity(int lane) const {
+    const BodyVelocity<V> inertial{Get(kU, lane), Get(kV, lane), Get(kW, lane)};
+    if constexpr (kWindy) {
+      const auto wind = [&](int column)
+                            HWY_ATTR { return hn::LoadU(FloatTag(), Column(column, lane)); };
+      const auto attitude =
+          AttitudeMatrixOf(Get(kQ0, lane), Get(kQx, lane), Get(kQy, lane), Get(kQz, lane));
+      return LessWind(inertial, attitude, wind(kWindNorth), wind(kWindEast), wind(kWindDown));
+    } else {
+      return inertial;
     }
   }
 

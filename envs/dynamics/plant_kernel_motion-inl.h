@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include "envs/dynamics/air_velocity-inl.h"
 #include "envs/dynamics/plant_kernel_block-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -87,28 +88,16 @@ HWY_INLINE void Move(const KernelConstants& k, const State& state, const Coeffic
   const V qy = state.Get(kQy, lane), qz = state.Get(kQz, lane);
   const V force = hn::Load(d, block.force + lane);
 
-  // Body axes from NED, row by row: the diagonal is q0^2 +- qx^2 +- qy^2 +- qz^2.
-  const V two_q0 = hn::Add(q0, q0), two_qx = hn::Add(qx, qx), two_qy = hn::Add(qy, qy);
-  const V xy = hn::Mul(two_qx, qy), xz = hn::Mul(two_qx, qz), yz = hn::Mul(two_qy, qz);
-  const V wx = hn::Mul(two_q0, qx), wy = hn::Mul(two_q0, qy), wz = hn::Mul(two_q0, qz);
-  const V q0_qz = hn::MulAdd(q0, q0, hn::Mul(qz, qz)), qx_qy = hn::MulAdd(qx, qx, hn::Mul(qy, qy));
-  const V q0_less_qz = hn::NegMulAdd(qz, qz, hn::Mul(q0, q0));
-  const V qx_less_qy = hn::NegMulAdd(qy, qy, hn::Mul(qx, qx));
-  const V t11 = hn::Add(q0_less_qz, qx_less_qy), t22 = hn::Sub(q0_less_qz, qx_less_qy);
-  const V t33 = hn::Sub(q0_qz, qx_qy);
-  const V t12 = hn::Add(xy, wz), t21 = hn::Sub(xy, wz);
-  const V t13 = hn::Sub(xz, wy), t31 = hn::Add(xz, wy);
-  const V t23 = hn::Add(yz, wx), t32 = hn::Sub(yz, wx);
-
+  const AttitudeMatrix<V> t = AttitudeMatrixOf(q0, qx, qy, qz);
   const V gravity = Constant(k.gravity);
   const V inverse_mass = Constant(k.inverse_mass);
   const V per_mass = hn::Mul(force, inverse_mass);
   const V thrust = hn::Mul(hn::Load(d, block.thrust + lane), inverse_mass);
-  V rate = hn::MulAdd(gravity, t13, hn::MulAdd(r, v, hn::MulAdd(per_mass, c.Cx, thrust)));
+  V rate = hn::MulAdd(gravity, t.t13, hn::MulAdd(r, v, hn::MulAdd(per_mass, c.Cx, thrust)));
   put(kU, hn::NegMulAdd(q, w, rate));
-  rate = hn::MulAdd(gravity, t23, hn::MulAdd(p, w, hn::Mul(per_mass, c.Cy)));
+  rate = hn::MulAdd(gravity, t.t23, hn::MulAdd(p, w, hn::Mul(per_mass, c.Cy)));
   put(kV, hn::NegMulAdd(r, u, rate));
-  rate = hn::MulAdd(gravity, t33, hn::MulAdd(q, u, hn::Mul(per_mass, c.Cz)));
+  rate = hn::MulAdd(gravity, t.t33, hn::MulAdd(q, u, hn::Mul(per_mass, c.Cz)));
   put(kW, hn::NegMulAdd(p, v, rate));
 
   const V force_Cl = hn::Mul(force, c.Cl), force_Cn = hn::Mul(force, c.Cn);
@@ -122,9 +111,9 @@ HWY_INLINE void Move(const KernelConstants& k, const State& state, const Coeffic
   rate = hn::MulAdd(r, hn::MulAdd(p, Constant(k.q_pr), Constant(k.q_r)), rate);
   put(kQ, hn::NegMulAdd(Constant(k.q_pp), hn::NegMulAdd(r, r, hn::Mul(p, p)), rate));
 
-  put(kNorth, hn::MulAdd(t31, w, hn::MulAdd(t21, v, hn::Mul(t11, u))));
-  put(kEast, hn::MulAdd(t32, w, hn::MulAdd(t22, v, hn::Mul(t12, u))));
-  put(kDown, hn::MulAdd(t33, w, hn::MulAdd(t23, v, hn::Mul(t13, u))));
+  put(kNorth, hn::MulAdd(t.t31, w, hn::MulAdd(t.t21, v, hn::Mul(t.t11, u))));
+  put(kEast, hn::MulAdd(t.t32, w, hn::MulAdd(t.t22, v, hn::Mul(t.t12, u))));
+  put(kDown, hn::MulAdd(t.t33, w, hn::MulAdd(t.t23, v, hn::Mul(t.t13, u))));
 
   const V half = Constant(0.5f);
   const V hp = hn::Mul(p, half), hq = hn::Mul(q, half), hr = hn::Mul(r, half);

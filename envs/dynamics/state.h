@@ -51,16 +51,33 @@ enum Column : int {
   kFlapFilter,
   kTrimAileron,
   kTrimRudder,
-  kNumColumns
+  kNumColumns,
+
+  // Wind (envs/wind.h): only tiles that are `windy` have the columns from here on.
+  kWindNorth = kNumColumns,
+  kWindEast,
+  kWindDown,  ///< velocity of the air over ground, ft/s, held during a control step
+  kNumRecordedColumns,
+  kSteadyWindNorth = kNumRecordedColumns,
+  kSteadyWindEast,    ///< its part that lasts, ft/s
+  kTurbulenceStdDev,  ///< standard deviation of the gusts, ft/s
+  kGustForward,
+  kGustRight,
+  kGustRightLagged,
+  kGustDown,
+  kGustDownLagged,  ///< states of the gusts' filters, of unit scale (envs/air/dryden.h)
+  kNumWindyColumns
 };
 
 /// A view of a tile's columns: column c of aircraft i lies at base[c * stride + i]. `stride` is a
 /// multiple of 16 and at least `count` rounded up to 32: kernels also process the padding lanes,
-/// whose contents must be finite.
+/// whose contents must be finite. A tile has kNumColumns columns, or kNumWindyColumns if it is
+/// `windy`; else its air is still.
 struct Tile {
   float* base = nullptr;
   std::size_t stride = 0;
   int count = 0;
+  bool windy = false;
 
   float* operator[](int column) const { return base + static_cast<std::size_t>(column) * stride; }
 };

@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include "envs/dynamics/air_velocity-inl.h"
 #include "simd/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,8 +32,8 @@ HWY_INLINE FlightVector Column(const Tile& tile, int column, int first) {
   return hn::LoadU(FlightTag(), tile[column] + first);
 }
 
-/// Velocity in body axes, ft/s, and the reciprocals of its lengths. Lengths are taken as at least
-/// 1e-6, so that ratios stay finite.
+/// Velocity relative to the air in body axes, ft/s, and the reciprocals of its lengths. Lengths are
+/// taken as at least 1e-6, so that ratios stay finite.
 struct VelocityVectors {
   FlightVector u, v, w;
   FlightVector forward, per_forward;  ///< sqrt(u^2 + w^2)
@@ -48,9 +49,10 @@ HWY_INLINE void Length(FlightVector square, FlightVector& length, FlightVector& 
 
 HWY_INLINE VelocityVectors Velocity(const Tile& tile, int first) {
   VelocityVectors velocity;
-  velocity.u = Column(tile, kU, first);
-  velocity.v = Column(tile, kV, first);
-  velocity.w = Column(tile, kW, first);
+  const auto air = AirVelocity(FlightTag(), tile, first);
+  velocity.u = air.u;
+  velocity.v = air.v;
+  velocity.w = air.w;
   const FlightVector forward_squared =
       hn::MulAdd(velocity.u, velocity.u, hn::Mul(velocity.w, velocity.w));
   Length(forward_squared, velocity.forward, velocity.per_forward);

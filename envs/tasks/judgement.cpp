@@ -63,8 +63,7 @@ HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const Judgeme
                                    const Tile& tile, FlightMask is_finite, FlightMask is_reached,
                                    FlightMask is_out_of_time, int first) {
   const FlightTag d;
-  const FlightVector u = Column(tile, kU, first), v = Column(tile, kV, first);
-  const FlightVector w = Column(tile, kW, first);
+  const auto [u, v, w] = AirVelocity(d, tile, first);
   const FlightVector forward_squared = hn::MulAdd(u, u, hn::Mul(w, w));
   const FlightVector speed_squared = hn::MulAdd(v, v, forward_squared);
   const FlightVector altitude = hn::Neg(Column(tile, kDown, first));

@@ -89,7 +89,13 @@ HWY_INLINE void AddNoise(const ObservationNoise& noise, const PhiloxKeys& keys, 
   const auto index = hn::Iota(du, noise.first_aircraft + static_cast<std::uint32_t>(first));
   const auto episode = hn::BitCast(du, hn::LoadU(di, noise.episode + first));
   const auto step = hn::BitCast(du, hn::LoadU(di, noise.step + first));
-  const FlightVector scale = Constant(noise.standard_deviation);
+  FlightVector scale = Constant(noise.standard_deviation);
+  if (noise.max_standard_deviation > noise.standard_deviation) {
+    const FlightVector share =
+        FirstUniform(d, keys, index, episode, hn::Zero(du), simd::RandomPurpose::kNoiseLevel);
+    scale =
+        hn::MulAdd(share, Constant(noise.max_standard_deviation - noise.standard_deviation), scale);
+  }
   FlightVector deviates[8 * kNoiseBlocks];
   CoarseNormals<kNoiseBlocks>(d, keys, index, episode, step, simd::RandomPurpose::kObservationNoise,
                               deviates);
@@ -135,6 +141,7 @@ void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* e
   const FlightTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const PhiloxKeys keys(noise.seed);
+  const bool is_noisy = noise.standard_deviation > 0 || noise.max_standard_deviation > 0;
   alignas(64) ObservationColumns columns = {};
   for (int first = 0; first < tile.count; first += lanes) {
     for (int k = 0; k < kNumTaskErrors; ++k) {
@@ -143,7 +150,7 @@ void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* e
     ObserveAttitude(tile, first, columns);
     ObserveAir(aircraft, tile, first, columns);
     ObserveControls(aircraft.source.actuators, tile, first, columns);
-    if (noise.standard_deviation > 0) AddNoise(noise, keys, first, columns);
+    if (is_noisy) AddNoise(noise, keys, first, columns);
 
     const int valid = tile.count - first < lanes ? tile.count - first : lanes;
     StoreRows(columns, valid, observation + static_cast<std::size_t>(first) * kObservationSize);

@@ -26,6 +26,8 @@ struct ObservationNoise {
   std::uint32_t first_aircraft = 0;  ///< global index of the tile's first aircraft
   const std::int32_t* episode = nullptr;
   const std::int32_t* step = nullptr;
+  /// If larger, every aircraft's episode has its own standard deviation, uniform between the two.
+  double max_standard_deviation = 0;
 };
 
 /// Writes observations row-major, [tile.count][kObservationSize]. `errors` are kNumTaskErrors

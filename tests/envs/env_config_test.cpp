@@ -41,6 +41,23 @@ TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
       {"env.action_repeat = ", [](EnvConfig* c) { c->action_repeat = 0; }},
       {"env.time_limit_steps = ", [](EnvConfig* c) { c->time_limit_steps = 0; }},
       {"env.observation_noise = ", [](EnvConfig* c) { c->observation_noise = -0.01; }},
+      {"env.observation_noise_max = ", [](EnvConfig* c) { c->observation_noise_max = 0.005; }},
+      {"env.wind.speed_min_fps = ",
+       [](EnvConfig* c) {
+         c->wind.speed_fps = {60, 30};
+       }},
+      {"env.wind.speed_max_fps = ",
+       [](EnvConfig* c) {
+         c->wind.speed_fps = {0, 600};
+       }},
+      {"env.wind.from_max_deg = ",
+       [](EnvConfig* c) {
+         c->wind.from_deg = {0, 400};
+       }},
+      {"env.wind.turbulence_min_fps = ",
+       [](EnvConfig* c) {
+         c->wind.turbulence_fps = {-1, 5};
+       }},
       {"env.reward_scale = ", [](EnvConfig* c) { c->reward_scale = -1; }},
       {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 0; }},
       {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 30; }},

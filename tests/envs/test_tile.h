@@ -9,15 +9,16 @@
 
 namespace skein {
 
-/// A tile that owns its columns, zero at first.
+/// A tile that owns its columns, zero at first. With kNumWindyColumns it is windy.
 class TestTile {
  public:
   explicit TestTile(int count, int num_columns = kNumColumns)
       : stride_(TileStride(count)),
         count_(count),
+        windy_(num_columns == kNumWindyColumns),
         values_(stride_ * static_cast<std::size_t>(num_columns)) {}
 
-  Tile tile() { return {values_.data(), stride_, count_}; }
+  Tile tile() { return {values_.data(), stride_, count_, windy_}; }
   float& at(int column, int i) { return tile()[column][i]; }
   /// The same value for all aircraft, padding included.
   void Fill(int column, float value) {
@@ -30,6 +31,7 @@ class TestTile {
  private:
   std::size_t stride_;
   int count_;
+  bool windy_;
   std::vector<float> values_;
 };
 

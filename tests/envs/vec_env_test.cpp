@@ -132,6 +132,20 @@ TEST(VecEnv, NoTaskDependsOnTheTileSizeAndEverySnapshotGoesOn) {
   }
 }
 
+TEST(VecEnv, NeitherDoWindAndNoiseByEpisode) {
+  EnvConfig config = BusyConfig();
+  config.wind.speed_fps = {0, 120};
+  config.wind.turbulence_fps = {0, 20};
+  config.observation_noise_max = 0.1;
+  VecEnv small(config, 70, 1, 32), large(config, 70, 1, 4096);
+  EXPECT_EQ(Fly(&small, 0, 40), Fly(&large, 0, 40));
+  const std::vector<std::uint32_t> snapshot = small.Snapshot();
+  EXPECT_EQ(snapshot, large.Snapshot());
+  VecEnv other(config, 70, 1);
+  other.Restore(snapshot);
+  EXPECT_EQ(Fly(&other, 40, 20), Fly(&small, 40, 20));
+}
+
 TEST(VecEnv, ResultsDoNotDependOnNeighbours) {
   VecEnv few(BusyConfig(), 5, 1), many(BusyConfig(), 200, 1);
   const std::vector<Log> few_logs = Fly(&few, 0, 60);
@@ -407,7 +421,7 @@ TEST(VecEnv, ShowsTheStateInWhichAnEpisodeEnded) {
   VecEnv reference(longer, kCount, 1);
   Buffers buffers(kCount), reference_buffers(kCount);
   constexpr float kUntouched = 12345;
-  std::vector<float> state(kCount * kNumColumns), untouched(state.size(), kUntouched);
+  std::vector<float> state(kCount * kNumRecordedColumns), untouched(state.size(), kUntouched);
   const auto step = [](VecEnv* flock, Buffers* out, std::vector<float>* final_state) {
     StepOutput output = out->output();
     output.final_state = final_state->data();
@@ -416,8 +430,8 @@ TEST(VecEnv, ShowsTheStateInWhichAnEpisodeEnded) {
   step(&env, &buffers, &state);
   step(&reference, &reference_buffers, &untouched);
   for (int i = 0; i < kCount; ++i) {
-    for (int column = 0; column < kNumColumns; ++column) {
-      ASSERT_EQ(state[static_cast<std::size_t>(i * kNumColumns + column)],
+    for (int column = 0; column < kNumRecordedColumns; ++column) {
+      ASSERT_EQ(state[static_cast<std::size_t>(i * kNumRecordedColumns + column)],
                 reference.StateOf(i, column))
           << "aircraft " << i << ", column " << column;
     }

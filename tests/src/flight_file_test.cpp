@@ -45,9 +45,9 @@ std::vector<Row> Parse(const std::string& text) {
 }
 
 /// At 20,000 ft, 800 ft/s along an axis 5 degrees above body x and 2 degrees to the right.
-std::array<float, kNumColumns> State(const EulerAngles& attitude) {
+std::array<float, kNumRecordedColumns> State(const EulerAngles& attitude) {
   constexpr double kAlpha = 5 / kDegPerRad, kBeta = 2 / kDegPerRad;
-  std::array<float, kNumColumns> state{};
+  std::array<float, kNumRecordedColumns> state{};
   state[kU] = static_cast<float>(800 * std::cos(kAlpha) * std::cos(kBeta));
   state[kV] = static_cast<float>(800 * std::sin(kBeta));
   state[kW] = static_cast<float>(800 * std::sin(kAlpha) * std::cos(kBeta));

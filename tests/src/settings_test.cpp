@@ -151,6 +151,8 @@ TEST(Settings, ACheckpointHoldsEveryKeyThatTrainingDependsOn) {
   for (const std::string& task : TaskNames()) {
     TrainConfig config;
     config.env.task = task;
+    config.env.wind.speed_fps.max = 60;
+    config.env.observation_noise_max = 0.05;
     for (const auto& [key, value] : DescribeConfig(config)) described.insert(key);
   }
   EXPECT_EQ(described, keys);

@@ -100,9 +100,9 @@ TEST_F(RecordFlightsTest, StatesAreOfOneUnbrokenFlight) {
   // float32 positions of 20,000 ft.
   constexpr double kToleranceFt = 0.02;
   for (const RecordedFlight& flight : Record(6, pool_)) {
-    const std::array<float, kNumColumns>* before = &flight.initial_state;
+    const std::array<float, kNumRecordedColumns>* before = &flight.initial_state;
     for (const RecordedStep& step : flight.steps) {
-      const auto speed = [](const std::array<float, kNumColumns>& state) {
+      const auto speed = [](const std::array<float, kNumRecordedColumns>& state) {
         return std::hypot(state[kU], state[kV], state[kW]);
       };
       const double moved =

@@ -404,5 +404,51 @@ TEST(ClosedLoop, DirectModeFliesWithoutAugmentation) {
   EXPECT_GT(loop.nz(), 1.1);
 }
 
+// Galileo: in a steady wind only the position differs.
+TEST(ClosedLoop, FlightTrimmedInASteadyWindIsFlightInStillAirCarriedAway) {
+  const Plant plant(F16(), AtmosphereModel::kStevensLewis);
+  TrimRequest request;
+  request.altitude_ft = 20000;
+  request.true_airspeed_ft_s = 900;
+  const TrimPoint trim = Trim(plant, request);
+  const Eigen::Vector3d wind(-70, 90, 0);
+  ClosedLoop calm(plant, trim, FlightControlMode::kFull, kDt), windy(calm);
+  windy.set_wind(wind);
+  const auto body_from_ned = [](const ClosedLoop& loop) {
+    return BodyFromNed(loop.state().segment<4>(kQ0));
+  };
+  windy.mutable_state().segment<3>(kU) += body_from_ned(windy) * wind;
+  PilotCommands pilot;
+  pilot.throttle = 0.8;
+  constexpr int kSteps = 500;
+  for (int i = 0; i < kSteps; ++i) {
+    pilot.roll = i < 100 ? 0.3 : 0;
+    pilot.pitch = i < 200 ? 0.2 : 0;
+    calm.Step(pilot);
+    windy.Step(pilot);
+  }
+  // Rounding, and the integration of a velocity that turns with the body: RK4's own error.
+  constexpr double kTolerance = 1e-5;
+  RigidBodyState carried = calm.state();
+  carried.segment<3>(kU) += body_from_ned(calm) * wind;
+  carried.segment<3>(kNorth) += kSteps * kDt * wind;
+  EXPECT_LT((windy.state() - carried).cwiseAbs().maxCoeff(), kTolerance * 1000);
+  EXPECT_NEAR(windy.air().alpha_rad, calm.air().alpha_rad, kTolerance);
+  EXPECT_NEAR(windy.air().beta_rad, calm.air().beta_rad, kTolerance);
+  EXPECT_NEAR(windy.air().true_airspeed_ft_s / calm.air().true_airspeed_ft_s, 1, kTolerance);
+}
+
+TEST(ClosedLoop, AStepOfWindKeepsTheVelocityOverGround) {
+  const Plant plant(F16(), AtmosphereModel::kStevensLewis);
+  TrimRequest request;
+  request.altitude_ft = 20000;
+  request.true_airspeed_ft_s = 900;
+  const TrimPoint trim = Trim(plant, request);
+  ClosedLoop loop(plant, trim, FlightControlMode::kFull, kDt);
+  loop.set_wind({-100, 0, 0});  // from the north, where the nose points
+  EXPECT_EQ(loop.state(), trim.state);
+  EXPECT_NEAR(loop.air().true_airspeed_ft_s, 1000, 0.01);
+}
+
 }  // namespace
 }  // namespace skein

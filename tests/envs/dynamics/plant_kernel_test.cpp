@@ -112,6 +112,15 @@ class RandomFlight {
     }
   }
 
+  /// The columns of the air's velocity, up to 150 ft/s each way.
+  void FillWind(TestTile* tile) {
+    for (int i = 0; i < static_cast<int>(tile->stride()); ++i) {
+      for (const int column : {kWindNorth, kWindEast, kWindDown}) {
+        tile->at(column, i) = static_cast<float>(Uniform(-150, 150));
+      }
+    }
+  }
+
  private:
   static constexpr double kDegToRad = 0.017453292519943295;
   std::mt19937 random_;
@@ -230,12 +239,12 @@ struct PoweredState {
 
 /// StepTile's specification in double precision. Returns nz and ny of the last stage.
 std::pair<double, double> StepPowered(const Plant& plant, Controls surfaces, double power_command,
-                                      double dt, PoweredState* state) {
+                                      const Eigen::Vector3d& wind, double dt, PoweredState* state) {
   PlantOutput output;
   const auto rate = [&](const RigidBodyState& body, double power) {
-    const AirData air = plant.Evaluate(body, surfaces).air;
+    const AirData air = plant.Evaluate(body, surfaces, wind).air;
     surfaces.thrust_lbf = Thrust(plant.aircraft().engine, power, -body[kDown], air.mach);
-    output = plant.Evaluate(body, surfaces);
+    output = plant.Evaluate(body, surfaces, wind);
     return PoweredState{output.state_rate, PowerRate(power, power_command)};
   };
   const auto at = [&](const PoweredState& k, double step) {
@@ -251,7 +260,8 @@ std::pair<double, double> StepPowered(const Plant& plant, Controls surfaces, dou
   return {output.nz, output.ny};
 }
 
-TEST_P(PlantKernelTest, AStepAgreesWithTheFloat64PlantAndEngine) {
+/// Of random flights, in still air or in wind.
+void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy) {
   constexpr int kCount = 20000;
   constexpr double kDt = 0.02;
   // A step adds rounding of the state's own last place to that of the rates; a stage that crosses
@@ -259,11 +269,12 @@ TEST_P(PlantKernelTest, AStepAgreesWithTheFloat64PlantAndEngine) {
   constexpr double kTolerance = 2e-5;
   constexpr double kLoadFactorTolerance = 2e-4;
   RandomFlight random(11);
-  TestTile tile(kCount);
+  TestTile tile(kCount, windy ? kNumWindyColumns : kNumColumns);
   random.Fill(&tile);
   random.FillEngineAndSurfaces(&tile);
+  if (windy) random.FillWind(&tile);
   TestTile before = tile;
-  StepTile(*kernel_, tile.tile(), static_cast<float>(kDt), 1);
+  StepTile(kernel, tile.tile(), static_cast<float>(kDt), 1);
   ErrorTable states, load_factors;
   for (int i = 0; i < kCount; ++i) {
     PoweredState state{StateIn(&before, i), before.at(kPower, i)};
@@ -272,8 +283,10 @@ TEST_P(PlantKernelTest, AStepAgreesWithTheFloat64PlantAndEngine) {
     surfaces.aileron_deg = before.at(kAileron, i);
     surfaces.rudder_deg = before.at(kRudder, i);
     surfaces.leading_edge_flap_deg = before.at(kLeadingEdgeFlap, i);
-    const auto [nz, ny] =
-        StepPowered(plant_, surfaces, before.at(kPowerCommand, i), static_cast<float>(kDt), &state);
+    Eigen::Vector3d wind = Eigen::Vector3d::Zero();
+    for (int k = 0; windy && k < 3; ++k) wind[k] = before.at(kWindNorth + k, i);
+    const auto [nz, ny] = StepPowered(plant, surfaces, before.at(kPowerCommand, i), wind,
+                                      static_cast<float>(kDt), &state);
     for (int c = 0; c < kNumRigidBody; ++c) {
       states.Add("column " + std::to_string(c), tile.at(c, i), state.body[c]);
     }
@@ -283,6 +296,32 @@ TEST_P(PlantKernelTest, AStepAgreesWithTheFloat64PlantAndEngine) {
   }
   states.ExpectWithin(kTolerance);
   load_factors.ExpectWithin(kLoadFactorTolerance);
+}
+
+TEST_P(PlantKernelTest, AStepAgreesWithTheFloat64PlantAndEngine) {
+  CompareSteps(plant_, *kernel_, false);
+}
+
+TEST_P(PlantKernelTest, AStepInWindAgreesWithTheFloat64PlantAndEngine) {
+  CompareSteps(plant_, *kernel_, true);
+}
+
+// Both are code of their own, but a velocity less nothing is the same velocity.
+TEST_P(PlantKernelTest, AWindOfZeroIsStillAir) {
+  constexpr int kCount = 1000;
+  RandomFlight random(31);
+  TestTile still(kCount);
+  random.Fill(&still);
+  random.FillEngineAndSurfaces(&still);
+  TestTile windy(kCount, kNumWindyColumns);
+  for (int column = 0; column < kNumColumns; ++column) {
+    std::copy_n(still.tile()[column], still.stride(), windy.tile()[column]);
+  }
+  StepTile(*kernel_, still.tile(), 0.02f, 1);
+  StepTile(*kernel_, windy.tile(), 0.02f, 1);
+  for (int column = 0; column < kNumColumns; ++column) {
+    for (int i = 0; i < kCount; ++i) ASSERT_EQ(windy.at(column, i), still.at(column, i)) << column;
+  }
 }
 
 TEST_P(PlantKernelTest, GoldenTrajectories) {

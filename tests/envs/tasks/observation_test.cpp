@@ -143,6 +143,30 @@ TEST_P(ObservationTest, NoiseHasTheMomentsAndTailsOfANormal) {
   EXPECT_NEAR(beyond2 / n, tail2, 5 * std::sqrt(tail2 / n));
 }
 
+TEST_P(ObservationTest, ARangeOfNoiseGivesEveryEpisodeItsOwn) {
+  constexpr double kMin = 0.25, kMax = 2;
+  for (int i = 0; i < kCount; ++i) episode_[static_cast<std::size_t>(i)] = 5 * i;
+  const std::vector<float> clean = Observe(0);
+  for (const int step : {4, 5}) {
+    std::fill(step_.begin(), step_.end(), step);
+    const std::vector<float> deviates = Observe(1, 1000);
+    std::vector<float> ranged(clean.size());
+    ObserveTile(*kernel_, flight_.tile(), errors_.data(), flight_.stride(),
+                {kMin, 77, 1000, episode_.data(), step_.data(), kMax}, ranged.data());
+    for (int i = 0; i < kCount; ++i) {
+      const simd::RandomKey key{77, 1000 + static_cast<std::uint32_t>(i),
+                                5 * static_cast<std::uint32_t>(i), 0,
+                                simd::RandomPurpose::kNoiseLevel};
+      const double share = simd::UniformFromBits(simd::RandomWords(key, 0)[0]);
+      for (int k = 0; k < kObservationSize; ++k) {
+        const std::size_t at = static_cast<std::size_t>(i * kObservationSize + k);
+        EXPECT_NEAR(ranged[at] - clean[at],
+                    (kMin + share * (kMax - kMin)) * (deviates[at] - clean[at]), 1e-5);
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Targets, ObservationTest, testing::ValuesIn(simd::SupportedTargets()),
                          [](const auto& test) { return std::string(Name(test.param)); });
 

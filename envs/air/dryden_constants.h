@@ -1,0 +1,22 @@
+#pragma once
+
+namespace skein::dryden {
+
+/// Scales and strengths of gusts by altitude: MIL-F-8785C, sections 3.7.2.1 and 3.7.3.2. From
+/// kLowestFt to kLowFt a horizontal gust's standard deviation over a vertical one's is
+/// (kRatioBase + kRatioSlopePerFt h)^kRatioExponent, and its scale is h times that ratio's cube.
+inline constexpr double kHighScaleFt = 1750;
+inline constexpr double kLowestFt = 10, kLowFt = 1000, kHighFt = 2000;
+inline constexpr double kRatioBase = 0.177, kRatioSlopePerFt = 0.000823, kRatioExponent = -0.4;
+/// Of every scale by altitude between kLowFt and kHighFt.
+inline constexpr double kScaleSlope = (kHighScaleFt - kLowFt) / (kHighFt - kLowFt);
+
+/// A transverse gust is kFirst x1 + kSecond x2, where x1 lags white noise by the time L / V and x2
+/// lags x1 by as much. x1 has the variance 1/2, x2 has 1/4, their covariance is 1/4: the gust's
+/// variance is 1 and its spectrum MIL-F-8785C's.
+inline constexpr double kFirst = 1.7320508075688772;  // sqrt(3)
+inline constexpr double kSecond = 1 - kFirst;
+inline constexpr double kFirstDeviation = 0.7071067811865476;
+inline constexpr double kSecondVariance = 0.25, kCovariance = 0.25;
+
+}  // namespace skein::dryden

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// The configuration assignments ("env.initial.altitude_min_ft=30000") that put an environment
+/// under `conditions`, each "NAME=LEVEL" as docs/conditions.md describes them. Throws Error on an
+/// unknown or repeated name and on a level that cannot be read, saying what would be right.
+std::vector<std::string> ConditionAssignments(const std::vector<std::string>& conditions);
+
+/// The help text of a command's option --condition.
+std::string ConditionHelp();
+
+}  // namespace skein
