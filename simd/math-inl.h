@@ -128,6 +128,26 @@ HWY_INLINE void SinCosOfBits(D d, VU bits, V& sine, V& cosine) {
       hn::Xor(hn::IfThenElse(is_odd, s, c), hn::BitCast(d, hn::And(hn::Xor(bits, turned), sign)));
 }
 
+/// Sine and cosine of x radians, |x| <= 1000: absolute error 2e-7.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void SinCos(D d, V x, V& sine, V& cosine) {
+  const hn::RebindToSigned<D> di;
+  const V quarter_turns = hn::Round(hn::Mul(x, hn::Set(d, 0.636619772f)));
+  // pi/2 in three parts, of which the first two times a small integer are exact.
+  V r = hn::NegMulAdd(quarter_turns, hn::Set(d, 1.5703125f), x);
+  r = hn::NegMulAdd(quarter_turns, hn::Set(d, 4.83751297e-4f), r);
+  r = hn::NegMulAdd(quarter_turns, hn::Set(d, 7.54978995e-8f), r);
+  V s, c;
+  SinCosInQuadrant(d, r, s, c);
+  const auto quadrant = hn::ConvertTo(di, quarter_turns);
+  const auto one = hn::Set(di, 1);
+  const auto is_odd = hn::RebindMask(d, hn::Eq(hn::And(quadrant, one), one));
+  const auto sine_sign = hn::ShiftLeft<30>(hn::AndNot(one, quadrant));
+  const auto cosine_sign = hn::ShiftLeft<30>(hn::AndNot(one, hn::Add(quadrant, one)));
+  sine = hn::Xor(hn::IfThenElse(is_odd, c, s), hn::BitCast(d, sine_sign));
+  cosine = hn::Xor(hn::IfThenElse(is_odd, s, c), hn::BitCast(d, cosine_sign));
+}
+
 /// e^x: 2 ULP for x in [-87, 88]; x is limited to that range.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp(D d, V x) {

@@ -1,0 +1,171 @@
+#include "envs/autopilot/autopilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "envs/actions.h"
+#include "envs/tasks/normalisation.h"
+#include "envs/tasks/observation.h"
+#include "simd/denormals.h"
+#include "simd/dispatch.h"
+#include "simd/error.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/autopilot/autopilot.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "envs/autopilot/laws-inl.h"
+#include "envs/autopilot/rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kLanes = HWY_LANES(float);
+
+/// A full vector of aircraft.
+template <template <class> class Law>
+HWY_INLINE void FlyGroup(const AutopilotGains& gains, const AutopilotTiming& timing,
+                         const float* observation, float* state, float* action) {
+  using Memory = typename Law<Lanes>::Memory;
+  static_assert(std::is_trivially_copyable_v<Memory> && sizeof(Memory) % sizeof(Lanes) == 0);
+  constexpr int kStateSize = sizeof(Memory) / sizeof(Lanes);
+  const LaneTag d;
+  alignas(64) float columns[std::max(kStateSize, kObservationSize) * kLanes];
+
+  Lanes observed[kObservationSize];
+  ColumnsFromRows(d, observation, kObservationSize, columns);
+  std::memcpy(static_cast<void*>(observed), columns, sizeof(observed));
+  Memory memory;
+  ColumnsFromRows(d, state, kStateSize, columns);
+  std::memcpy(static_cast<void*>(&memory), columns, sizeof(memory));
+
+  Lanes commands[kActionSize];
+  Law<Lanes>::Fly(gains, timing, observed, memory, commands);
+
+  std::memcpy(columns, static_cast<const void*>(&memory), sizeof(memory));
+  RowsFromColumns(d, columns, kStateSize, state);
+  hn::StoreInterleaved4(commands[0].v, commands[1].v, commands[2].v, commands[3].v, d, action);
+}
+
+template <template <class> class Law>
+HWY_INLINE void FlyAll(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
+                       const float* observation, float* state, float* action) {
+  constexpr int kStateSize = sizeof(typename Law<Lanes>::Memory) / sizeof(Lanes);
+  int first = 0;
+  for (; first + kLanes <= count; first += kLanes) {
+    FlyGroup<Law>(gains, timing, observation + first * kObservationSize, state + first * kStateSize,
+                  action + first * kActionSize);
+  }
+  const int rest = count - first;
+  if (rest == 0) return;
+  float last_observation[kLanes * kObservationSize] = {}, last_state[kLanes * kStateSize] = {};
+  float last_action[kLanes * kActionSize];
+  std::copy_n(observation + first * kObservationSize, rest * kObservationSize, last_observation);
+  std::copy_n(state + first * kStateSize, rest * kStateSize, last_state);
+  FlyGroup<Law>(gains, timing, last_observation, last_state, last_action);
+  std::copy_n(last_state, rest * kStateSize, state + first * kStateSize);
+  std::copy_n(last_action, rest * kActionSize, action + first * kActionSize);
+}
+
+void FlyHeading(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
+                const float* observation, float* state, float* action) {
+  FlyAll<HeadingLaw>(gains, timing, count, observation, state, action);
+}
+void FlyControl(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
+                const float* observation, float* state, float* action) {
+  FlyAll<ControlLaw>(gains, timing, count, observation, state, action);
+}
+void FlyTracking(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
+                 const float* observation, float* state, float* action) {
+  FlyAll<TrackingLaw>(gains, timing, count, observation, state, action);
+}
+
+template <template <class> class Law>
+constexpr int StateSizeOf() {
+  return sizeof(typename Law<double>::Memory) / sizeof(double);
+}
+constexpr int kHeadingStateSize = StateSizeOf<HeadingLaw>();
+constexpr int kControlStateSize = StateSizeOf<ControlLaw>();
+constexpr int kTrackingStateSize = StateSizeOf<TrackingLaw>();
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+namespace {
+
+HWY_EXPORT(FlyHeading);
+HWY_EXPORT(FlyControl);
+HWY_EXPORT(FlyTracking);
+
+using FlyFunction = void (*)(const AutopilotGains&, const AutopilotTiming&, int, const float*,
+                             float*, float*);
+
+/// An autopilot of one task.
+struct Registration {
+  const char* task;
+  int state_size;
+  FlyFunction (*fly)();  ///< the build for the active target
+};
+
+const Registration kAutopilots[] = {
+    {"heading", HWY_NAMESPACE::kHeadingStateSize, [] { return SKEIN_DISPATCH(FlyHeading); }},
+    {"control", HWY_NAMESPACE::kControlStateSize, [] { return SKEIN_DISPATCH(FlyControl); }},
+    {"tracking", HWY_NAMESPACE::kTrackingStateSize, [] { return SKEIN_DISPATCH(FlyTracking); }},
+};
+
+const Registration& AutopilotFor(const std::string& task) {
+  for (const Registration& autopilot : kAutopilots) {
+    if (autopilot.task == task) return autopilot;
+  }
+  throw Error("the autopilot does not fly env.task = \"" + task +
+              "\", but \"heading\", \"control\" and \"tracking\"");
+}
+
+class Autopilot : public Pilot {
+ public:
+  Autopilot(const Registration& law, const AutopilotGains& gains, const AutopilotTiming& timing)
+      : law_(law), gains_(gains), timing_(timing) {}
+
+  int observation_size() const override { return kObservationSize; }
+  int action_size() const override { return kActionSize; }
+  int state_size() const override { return law_.state_size; }
+  int action_repeat() const override { return 1; }
+
+  void Fly(int count, const float* observation, float* state, float* action) const override {
+    const simd::DenormalsFlushed flushed;
+    law_.fly()(gains_, timing_, count, observation, state, action);
+  }
+
+ private:
+  const Registration& law_;
+  AutopilotGains gains_;
+  AutopilotTiming timing_;
+};
+
+}  // namespace
+
+std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains) {
+  AutopilotTiming timing;
+  timing.dt = config.control_interval_s;
+  timing.steps_per_decision =
+      std::max(1, static_cast<int>(std::lround(gains.outer_interval_s / timing.dt)));
+  return std::make_unique<Autopilot>(AutopilotFor(config.task), gains, timing);
+}
+
+std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant) {
+  return MakeAutopilot(config, GainsOf(variant));
+}
+
+}  // namespace skein
+#endif

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "envs/autopilot/gains.h"
+#include "envs/env_config.h"
+#include "envs/pilot.h"
+
+namespace skein {
+
+/// The traditional autopilot of an environment's aircraft: TECS and L1, every `outer_interval_s`,
+/// over dual-loop PID in every control step (ArduPilot's structure). `config.task` chooses what it
+/// flies: "heading", "control" or "tracking". It sees what any agent sees, the noisy observation.
+/// Throws Error on a task that it cannot fly.
+std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant);
+std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains);
+
+}  // namespace skein

@@ -1,0 +1,38 @@
+// When an aircraft's autopilot decides: outer loops run in every few control steps, the first one
+// included.
+
+#if defined(SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_
+#undef SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_
+#else
+#define SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_
+#endif
+
+#include "envs/autopilot/real-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+
+/// What this control step is to an aircraft.
+template <class Mask>
+struct Now {
+  Mask begins;   ///< the first of its episode
+  Mask decides;  ///< one of the outer loops; the first is
+};
+
+/// Advances a clock that says in how many steps the outer loops run next, of `steps_per_decision`;
+/// 0 before the first step.
+template <class T>
+HWY_INLINE auto Tick(int steps_per_decision, T& clock) {
+  auto begins = clock < 0.5;
+  auto decides = clock < 1.5;
+  clock = Select(decides, static_cast<double>(steps_per_decision), clock - 1);
+  return Now<decltype(decides)>{begins, decides};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#endif  // SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_

@@ -1,0 +1,58 @@
+#include "envs/autopilot/gains.h"
+
+#include <array>
+
+#include "simd/error.h"
+
+namespace skein {
+namespace {
+
+struct Registration {
+  const char* name;
+  AutopilotVariant variant;
+};
+
+constexpr std::array<Registration, 4> kAutopilots = {
+    {{"public", AutopilotVariant::kPublic},
+     {"traditional", AutopilotVariant::kTraditional},
+     {"aggressive", AutopilotVariant::kAggressive},
+     {"parallel", AutopilotVariant::kParallel}}};
+
+}  // namespace
+
+AutopilotGains GainsOf(AutopilotVariant variant) {
+  AutopilotGains gains;
+  switch (variant) {
+    case AutopilotVariant::kPublic:
+      gains.lift.max_bank = Radians(45);
+      gains.tecs.max_climb_angle = Radians(15);
+      gains.sequencer.enabled = false;
+      break;
+    case AutopilotVariant::kTraditional:
+      break;
+    case AutopilotVariant::kAggressive:
+    case AutopilotVariant::kParallel:
+      gains.lift.over_bank = true;
+      gains.sequencer.enabled = variant == AutopilotVariant::kAggressive;
+      gains.sequencer.speed_lead = 1.8;
+      break;
+  }
+  return gains;
+}
+
+std::vector<std::string> AutopilotNames() {
+  std::vector<std::string> names;
+  for (const Registration& autopilot : kAutopilots) names.emplace_back(autopilot.name);
+  return names;
+}
+
+AutopilotVariant AutopilotOf(const std::string& name) {
+  std::string known;
+  for (const Registration& autopilot : kAutopilots) {
+    if (name == autopilot.name) return autopilot.variant;
+    known += (known.empty() ? "" : ", ") + std::string(autopilot.name);
+  }
+  throw Error("unknown autopilot \"" + name + "\"; known: " + known);
+}
+
+}  // namespace skein
