@@ -67,18 +67,30 @@ struct Kinematics {
 /// The speed that divisions by it take at least, ft/s.
 inline constexpr double kLeastSpeed = 100;
 
-/// One step of an estimate that moves by `change` and is drawn to `measured` by the share
-/// `correction`. At the beginning of an episode it is the measurement.
+/// One step of an estimate: moved by `change`, what is then missing to `measured` is corrected by
+/// the share `correction`. At the beginning of an episode it is the measurement.
 template <class T, class Mask>
 HWY_INLINE T Corrected(T estimate, T change, T measured, double correction, Mask begins) {
-  return Select(begins, measured, estimate + change + correction * (measured - estimate));
+  const T predicted = estimate + change;
+  return Select(begins, measured, predicted + correction * (measured - predicted));
 }
 
 /// The same for an angle, in [-pi, pi].
 template <class T, class Mask>
 HWY_INLINE T CorrectedAngle(T estimate, T change, T measured, double correction, Mask begins) {
-  return Wrapped(
-      Select(begins, measured, estimate + change + correction * Wrapped(measured - estimate)));
+  const T predicted = estimate + change;
+  const T corrected = predicted + correction * Wrapped(measured - predicted);
+  return Wrapped(Select(begins, measured, corrected));
+}
+
+/// A speed, ft/s, and its rate, ft/s^2, by a second-order filter of `bandwidth` rad/s and twice the
+/// damping ratio `damping`.
+template <class T, class Mask>
+HWY_INLINE void FilterSpeed(double bandwidth, double damping, double dt, T measured, Mask begins,
+                            T& speed, T& acceleration) {
+  const T missing = measured - (speed + dt * acceleration);
+  acceleration = Select(begins, 0, acceleration + dt * bandwidth * bandwidth * missing);
+  speed = Corrected(speed, dt * acceleration, measured, damping * bandwidth * dt, begins);
 }
 
 /// Airspeed in heading axes (ahead, right, up) from body axes.
@@ -123,10 +135,8 @@ HWY_INLINE Kinematics<T> Estimate(const EstimatorGains& k, double dt,
   SinCos(flight.roll, motion.sin_roll, motion.cos_roll);
   SinCos(flight.pitch, motion.sin_pitch, motion.cos_pitch);
 
-  const T too_slow = measured.true_airspeed - flight.speed;
-  flight.acceleration = Select(begins, 0, flight.acceleration + dt * k.speed * k.speed * too_slow);
-  flight.speed = Corrected(flight.speed, dt * flight.acceleration, measured.true_airspeed,
-                           k.damping * k.speed * dt, begins);
+  FilterSpeed(k.speed, k.damping, dt, measured.true_airspeed, begins, flight.speed,
+              flight.acceleration);
   ResolveAirspeed(flight, motion);
   flight.altitude =
       Corrected(flight.altitude, dt * motion.up, measured.altitude, k.altitude * dt, begins);

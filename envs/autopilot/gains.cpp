@@ -33,8 +33,8 @@ AutopilotGains GainsOf(AutopilotVariant variant) {
     case AutopilotVariant::kAggressive:
     case AutopilotVariant::kParallel:
       gains.lift.over_bank = true;
+      gains.lift.pitch_time_s = 1;
       gains.sequencer.enabled = variant == AutopilotVariant::kAggressive;
-      gains.sequencer.speed_lead = 1.8;
       break;
   }
   return gains;

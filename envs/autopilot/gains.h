@@ -20,7 +20,7 @@ struct EstimatorGains {
   double altitude = 2;    ///< also altitude errors
   double speed = 3;       ///< of a second-order filter that knows the acceleration, too
   double position = 2;    ///< of the target, relative to the aircraft
-  double wind = 0.5;      ///< of the wind that positions reveal
+  double wind = 1;        ///< of the wind that positions reveal
   double damping = 1.4142135623730951;  ///< twice the damping ratio of the second-order filters
 };
 
@@ -52,7 +52,7 @@ struct TecsGains {
 /// From wanted accelerations to bank and load factor.
 struct LiftGains {
   double flight_path_time_s = 1.2;          ///< in which a climb angle is brought about
-  double pitch_time_s = 1.0;                ///< in which a pitch is
+  double pitch_time_s = 1.5;                ///< in which a pitch is
   double min_vertical_acceleration = -130;  ///< ft/s^2, beyond holding the path
   double max_vertical_acceleration = 180;
   double min_load_factor = -2, max_load_factor = 6.5;
@@ -80,8 +80,9 @@ struct InnerLoopGains {
 
 /// The order in which Control's targets are brought about.
 struct SequencerGains {
-  bool enabled = true;    ///< else the nose goes to its target at once
-  double speed_lead = 0;  ///< foresight of what gravity does to the speed while the nose moves
+  bool enabled = true;  ///< else the nose goes to its target at once
+  double speed_lead =
+      1.8;  ///< weight of the foresight of what gravity does to the speed while the nose moves
   double pitch_rate = Radians(8);  ///< rad/s at which the nose is taken to move
   double pitch_per_speed = 0.004;  ///< rad per ft/s of speed to be gained
   double max_speed_pitch = Radians(25);

@@ -33,19 +33,17 @@ template <class T, class Mask>
 HWY_INLINE void EstimateTarget(const EstimatorGains& k, double dt, const Kinematics<T>& motion,
                                T ahead, T right, T up, Mask begins, TargetEstimate<T>& target) {
   const T turned = dt * motion.yaw_rate;
-  const T missed_ahead = Select(begins, 0, ahead - target.ahead);
-  const T missed_right = Select(begins, 0, right - target.right);
-  const T drift_ahead = dt * (motion.ahead + target.wind_ahead);
-  const T drift_right = dt * (motion.right + target.wind_right);
   const T old_ahead = target.ahead, old_wind_ahead = target.wind_ahead;
-  target.ahead =
-      Corrected(target.ahead, turned * target.right - drift_ahead, ahead, k.position * dt, begins);
-  target.right =
-      Corrected(target.right, -turned * old_ahead - drift_right, right, k.position * dt, begins);
-  target.up = Corrected(target.up, -dt * motion.up, up, k.position * dt, begins);
+  const T moved_ahead = turned * target.right - dt * (motion.ahead + target.wind_ahead);
+  const T moved_right = -turned * old_ahead - dt * (motion.right + target.wind_right);
   const double wind_share = k.wind * k.wind * dt;
-  target.wind_ahead = target.wind_ahead + turned * target.wind_right - wind_share * missed_ahead;
-  target.wind_right = target.wind_right - turned * old_wind_ahead - wind_share * missed_right;
+  const T missing_ahead = Select(begins, 0, ahead - (target.ahead + moved_ahead));
+  const T missing_right = Select(begins, 0, right - (target.right + moved_right));
+  target.ahead = Corrected(target.ahead, moved_ahead, ahead, k.position * dt, begins);
+  target.right = Corrected(target.right, moved_right, right, k.position * dt, begins);
+  target.up = Corrected(target.up, -dt * motion.up, up, k.position * dt, begins);
+  target.wind_ahead = target.wind_ahead + turned * target.wind_right - wind_share * missing_ahead;
+  target.wind_right = target.wind_right - turned * old_wind_ahead - wind_share * missing_right;
 }
 
 /// 2 V^2 / L1 sin(eta) towards the line of sight, eta the angle between velocity and target; as at

@@ -57,11 +57,8 @@ template <class T, class Mask>
 HWY_INLINE void DecideThrottle(const TecsGains& k, double dt, const FlightEstimate<T>& flight,
                                const Kinematics<T>& motion, const EnergyDemand<T>& demand,
                                const Now<Mask>& now, TecsMemory<T>& memory) {
-  const T faster = flight.speed - memory.speed;
-  const T gained = memory.acceleration + dt * k.speed_filter * k.speed_filter * faster;
-  const T acceleration = Select(now.begins, 0, gained);
-  const T speed = Corrected(memory.speed, dt * acceleration, flight.speed,
-                            k.damping * k.speed_filter * dt, now.begins);
+  T speed = memory.speed, acceleration = memory.acceleration;
+  FilterSpeed(k.speed_filter, k.damping, dt, flight.speed, now.begins, speed, acceleration);
 
   const T wanted_acceleration =
       Clip(demand.speed_error / k.time_constant_s, -k.max_acceleration, k.max_acceleration);

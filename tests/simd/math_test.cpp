@@ -35,6 +35,17 @@ V CosOfBits(D d, V x) {
   return c;
 }
 
+V SinOf(D d, V x) {
+  V s, c;
+  SinCos(d, x, s, c);
+  return s;
+}
+V CosOf(D d, V x) {
+  V s, c;
+  SinCos(d, x, s, c);
+  return c;
+}
+
 using Unary = V (*)(D, V);
 using Binary = V (*)(D, V, V);
 
@@ -58,6 +69,8 @@ void ReciprocalSqrtColumn(const Column& x, Column& y) { Apply(ReciprocalSqrt<D>,
 void AtanDegreesColumn(const Column& x, Column& y) { Apply(AtanDegrees<D>, x, y); }
 void SinOfBitsColumn(const Column& x, Column& y) { Apply(SinOfBits, x, y); }
 void CosOfBitsColumn(const Column& x, Column& y) { Apply(CosOfBits, x, y); }
+void SinColumn(const Column& x, Column& y) { Apply(SinOf, x, y); }
+void CosColumn(const Column& x, Column& y) { Apply(CosOf, x, y); }
 void ExpColumn(const Column& x, Column& y) { Apply(Exp<D>, x, y); }
 void LogColumn(const Column& x, Column& y) { Apply(Log<D>, x, y); }
 void Atan2DegreesColumn(const Column& y, const Column& x, Column& z) {
@@ -79,6 +92,8 @@ HWY_EXPORT(ReciprocalSqrtColumn);
 HWY_EXPORT(AtanDegreesColumn);
 HWY_EXPORT(SinOfBitsColumn);
 HWY_EXPORT(CosOfBitsColumn);
+HWY_EXPORT(SinColumn);
+HWY_EXPORT(CosColumn);
 HWY_EXPORT(ExpColumn);
 HWY_EXPORT(LogColumn);
 HWY_EXPORT(Atan2DegreesColumn);
@@ -188,6 +203,18 @@ TEST_P(MathTest, SinCosOfBits) {
         WorstAbsolute(
             SKEIN_DISPATCH(CosOfBitsColumn), [](double a) { return std::cos(AngleOfBits(a)); }, x),
         1.2e-7);
+  }
+}
+
+TEST_P(MathTest, SinCos) {
+  for (const double range : {1000.0, 4.0, 1e-6}) {
+    const Column x = Linear(-range, range);
+    EXPECT_LE(WorstAbsolute(
+                  SKEIN_DISPATCH(SinColumn), [](double a) { return std::sin(a); }, x),
+              2e-7);
+    EXPECT_LE(WorstAbsolute(
+                  SKEIN_DISPATCH(CosColumn), [](double a) { return std::cos(a); }, x),
+              2e-7);
   }
 }
 
