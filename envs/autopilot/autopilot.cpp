@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <type_traits>
 
 #include "envs/actions.h"
@@ -164,6 +165,15 @@ std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGai
 }
 
 std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant) {
+  if (config.aircraft != "f16") {
+    throw Error("the autopilot has gains for env.aircraft = \"f16\", not for \"" + config.aircraft +
+                "\"");
+  }
+  if (config.flight_control != FlightControlMode::kFull) {
+    throw Error(
+        "the autopilot flies with env.flight_control = \"full\": its sticks ask for load "
+        "factor and roll rate");
+  }
   return MakeAutopilot(config, GainsOf(variant));
 }
 

@@ -39,6 +39,15 @@ TEST(Autopilot, RefusesATaskThatItCannotFly) {
   EXPECT_THROW(MakeAutopilot(Task("landing"), AutopilotVariant::kTraditional), Error);
 }
 
+TEST(Autopilot, RefusesWhatItHasNoGainsFor) {
+  EnvConfig other = Task("heading");
+  other.aircraft = "glider";
+  EXPECT_THROW(MakeAutopilot(other, AutopilotVariant::kTraditional), Error);
+  EnvConfig direct = Task("heading");
+  direct.flight_control = FlightControlMode::kDirect;
+  EXPECT_THROW(MakeAutopilot(direct, AutopilotVariant::kTraditional), Error);
+}
+
 TEST(Autopilot, OuterLoopsKeepTheirRateAtOtherControlIntervals) {
   EnvConfig config = Task("heading");
   config.control_interval_s = 0.01;
