@@ -54,6 +54,13 @@ constexpr double kFastestWindFps = 500;
 
 }  // namespace
 
+EnvConfig EvaluationConfig(const EnvConfig& config) {
+  EnvConfig evaluated = config;
+  evaluated.stagger_clocks = false;
+  evaluated.control.training_tolerance_min = 1;
+  return evaluated;
+}
+
 void Validate(const EnvConfig& config) {
   RequirePositive("env.control_interval_s", config.control_interval_s);
   Require(config.control_interval_s <= kLongestControlInterval, "env.control_interval_s",
@@ -100,6 +107,9 @@ void Validate(const EnvConfig& config) {
   RequirePositive("env.control.pitch_tolerance_deg", config.control.pitch_tolerance_deg);
   RequirePositive("env.control.yaw_tolerance_deg", config.control.yaw_tolerance_deg);
   RequirePositive("env.control.speed_tolerance_fps", config.control.speed_tolerance_fps);
+  Require(config.control.training_tolerance_min > 0 && config.control.training_tolerance_min <= 1,
+          "env.control.training_tolerance_min", config.control.training_tolerance_min,
+          "above 0 and at most 1");
   RequireNotNegative("env.control.speed_error_weight", config.control.speed_error_weight);
 
   RequireRange("env.termination.alpha", "deg", config.termination.alpha_deg, -180, 180);

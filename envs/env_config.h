@@ -55,6 +55,10 @@ struct ControlConfig {
   double pitch_tolerance_deg = 5;
   double yaw_tolerance_deg = 5;
   double speed_tolerance_fps = 20;
+  /// In training an episode's tolerances are these times U(x, 1), which the agent does not see.
+  /// 1 is the paper's; with less it learns to come nearer than it must, as a controller under a
+  /// planner has to.
+  double training_tolerance_min = 1;
   /// true: the reward's angle is that to the target attitude, wings level, as the paper's; false:
   /// that between the nose and where it should point. Roll does not count for the target, but has
   /// to be flown to reach it: the attitude's angle makes a bank cost more than the turn is worth.
@@ -102,6 +106,10 @@ struct EnvConfig {
   ControlConfig control;
   TerminationConfig termination;
 };
+
+/// The environment in which what was trained in `config` is evaluated: without what only serves
+/// training, stagger_clocks and training tolerances.
+EnvConfig EvaluationConfig(const EnvConfig& config);
 
 /// Throws Error naming the configuration key of the first value that cannot be flown, or under
 /// which no episode could succeed.

@@ -57,9 +57,8 @@ void FlyTile(const Policy& policy, VecEnv& env, int tile, const EvaluationOption
 VecEnv MakeEvaluationEnv(const Policy& policy, const EnvConfig& config,
                          const EvaluationOptions& options) {
   if (options.episodes <= 0) throw Error("an evaluation needs at least one episode");
-  EnvConfig whole_episodes = config;
-  whole_episodes.stagger_clocks = false;
-  VecEnv env(whole_episodes, options.episodes, options.seed ^ kEvaluationStream, kTileSize);
+  VecEnv env(EvaluationConfig(config), options.episodes, options.seed ^ kEvaluationStream,
+             kTileSize);
   if (policy.observation_size() != env.observation_size() ||
       policy.action_size() != env.action_size()) {
     throw Error("the policy takes " + std::to_string(policy.observation_size()) +

@@ -80,6 +80,7 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("control.pitch_tolerance_deg", env.control.pitch_tolerance_deg);
     add("control.yaw_tolerance_deg", env.control.yaw_tolerance_deg);
     add("control.speed_tolerance_fps", env.control.speed_tolerance_fps);
+    add("control.training_tolerance_min", env.control.training_tolerance_min);
     add("control.reward_includes_roll", env.control.reward_includes_roll);
     add("control.speed_error_weight", env.control.speed_error_weight);
   }

@@ -100,15 +100,16 @@ void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const Tas
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     const ControlError error = ErrorOf(flight, task, first);
     const FlightVector speed_error = hn::Abs(error.speed);
+    const FlightVector share = Column(task, kControlTolerance, first);
     const RelativeAttitude relative = RelativeTo(flight, task, first);
     const FlightVector angle =
         config.reward_includes_roll ? RotationAngle(relative) : NoseAngle(relative);
     const FlightVector cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error), angle);
     hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
 
-    const auto reached = hn::And(
-        hn::Lt(hn::Abs(error.pitch), pitch_tolerance),
-        hn::And(hn::Lt(hn::Abs(error.yaw), yaw_tolerance), hn::Lt(speed_error, speed_tolerance)));
+    const auto reached = hn::And(hn::Lt(hn::Abs(error.pitch), hn::Mul(share, pitch_tolerance)),
+                                 hn::And(hn::Lt(hn::Abs(error.yaw), hn::Mul(share, yaw_tolerance)),
+                                         hn::Lt(speed_error, hn::Mul(share, speed_tolerance))));
     hn::StoreU(hn::And(hn::VecFromMask(di, hn::RebindMask(di, reached)), one), di,
                verdict.reached + first);
   }
@@ -157,6 +158,7 @@ class ControlTask : public Task {
     set(kControlYaw, attitude.yaw);
     set(kControlSpeed, speed);
     for (int k = 0; k < 4; ++k) set(kControlQ0 + k, quaternion[k]);
+    set(kControlTolerance, random->Uniform(config_.training_tolerance_min, 1));
   }
 
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {

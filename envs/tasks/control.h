@@ -7,7 +7,8 @@
 namespace skein {
 
 /// Task columns: the targets, pitch rad in [-pi/2, pi/2], yaw rad in [-pi, pi] and true airspeed
-/// ft/s; then the quaternion of the target attitude, whose roll is 0.
+/// ft/s; then the quaternion of the target attitude, whose roll is 0; then what the episode's
+/// tolerances are as a share of the configured ones.
 enum ControlColumn : int {
   kControlPitch,
   kControlYaw,
@@ -16,14 +17,16 @@ enum ControlColumn : int {
   kControlQx,
   kControlQy,
   kControlQz,
+  kControlTolerance,
   kNumControlColumns
 };
 
 /// Bring the nose to a given pitch and yaw at a given true airspeed (NeuralPlane paper, Control).
 /// Errors are target minus actual: pitch rad, yaw rad in [-pi, pi], speed / 340 m/s. The reward of
-/// a step is minus the angle in rad, from 0 to pi, of the one rotation that takes the attitude to
-/// the target's, wings level, minus `speed_error_weight` times the absolute speed error /
-/// 340 m/s. Reached is judged by pitch, yaw and speed alone: at any roll.
+/// a step is minus an angle in rad, from 0 to pi, minus `speed_error_weight` times the absolute
+/// speed error / 340 m/s. The angle is that between the nose and where it should point, or
+/// (`reward_includes_roll`) of the one rotation that takes the attitude to the target's. Reached is
+/// judged by pitch, yaw and speed alone: at any roll.
 std::unique_ptr<Task> MakeControlTask(const EnvConfig& config);
 
 }  // namespace skein

@@ -118,6 +118,7 @@ TEST(Configuration, ThePaperPresetOfControlHasThePapersFigures) {
   EXPECT_EQ(control.env.control.pitch_change_rad, 3);
   EXPECT_EQ(control.env.control.speed_error_weight, 0) << "the angle alone";
   EXPECT_TRUE(control.env.control.reward_includes_roll);
+  EXPECT_EQ(control.env.control.training_tolerance_min, 1);
   const std::vector<std::string> differences = Differences(
       ResolveConfig({"control", "paper", "", {}}), ResolveConfig({"heading", "paper", "", {}}));
   for (const std::string& difference : differences) {

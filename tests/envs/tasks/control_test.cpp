@@ -265,6 +265,33 @@ TEST_P(ControlTest, TolerancesAreTheConfigurations) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(reached_[i], i == 0 ? 1 : 0) << i;
 }
 
+TEST_P(ControlTest, TrainingTolerancesAreSharesDrawnByEpisode) {
+  EnvConfig config = ConfigOf(0);
+  config.control.pitch_change_rad = config.control.yaw_change_rad =
+      config.control.speed_change_fps = 0;
+  config.control.training_tolerance_min = 0.2;
+  const std::unique_ptr<Task> training = MakeTask(config);
+  double least = 1, most = 0, mean = 0;
+  constexpr int kEpisodes = 2000;
+  for (std::uint32_t episode = 0; episode < kEpisodes; ++episode) {
+    simd::RandomStream random({5, 0, episode, 0, simd::RandomPurpose::kTarget});
+    training->Reset({20000, 1000, 0.1, 0.2}, &random, targets_.tile(), 0);
+    const double share = targets_.at(kControlTolerance, 0);
+    least = std::min(least, share);
+    most = std::max(most, share);
+    mean += share / kEpisodes;
+    // 3 deg of pitch are 0.6 of the tolerance.
+    SetFlight(0, {0, 0.1 - 3 / kDegPerRad, 0.2});
+    JudgeBy(*training);
+    EXPECT_EQ(reached_[0], share > 0.6 ? 1 : 0) << share;
+  }
+  EXPECT_GE(least, 0.2);
+  EXPECT_LT(least, 0.21);
+  EXPECT_GT(most, 0.99);
+  EXPECT_NEAR(mean, 0.6, 0.02);
+  EXPECT_EQ(EvaluationConfig(config).control.training_tolerance_min, 1);
+}
+
 TEST_P(ControlTest, AStateThatIsNotFiniteIsNotReached) {
   SetFlight(0, {0, 0.1, 0.2});
   SetTarget(0, 0.1, 0.2, 1000);
