@@ -87,8 +87,10 @@ struct EnvConfig {
   FlightControlMode flight_control = FlightControlMode::kFull;
   double cg = 0.30;                    ///< fraction of the mean chord
   double engine_angular_momentum = 0;  ///< slug ft^2/s
-  double control_interval_s = 0.02;    ///< 50 Hz
-  int substeps = 1;                    ///< RK4 steps per control interval
+  bool thrust_grows = false;  ///< above Mach 1 (Aircraft::engine); false: held at its value there
+  bool drag_rises = false;    ///< with the Mach number (Aircraft::drag_rise)
+  double control_interval_s = 0.02;  ///< 50 Hz
+  int substeps = 1;                  ///< RK4 steps per control interval
   int action_repeat = 1;  ///< control steps for which an action is held; their rewards are summed
   int time_limit_steps = 2500;  ///< control steps
   bool truncate_at_time_limit =

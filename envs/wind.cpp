@@ -27,10 +27,16 @@ void Wind::Begin(Tile tile, int index, const GustKeys& keys) const {
   for (int k = 0; k < 2; ++k) set(kSteadyWindNorth + k, wind[k]);
   set(kTurbulenceStdDev, turbulence);
   StartGusts(tile, index, keys);
-  if (config_.step_at_reset) return;
+
   const auto get = [&](int column) { return static_cast<double>(tile[column][index]); };
-  const Eigen::Vector3d carried = BodyFromNed({get(kQ0), get(kQx), get(kQy), get(kQz)}) * wind;
-  for (int k = 0; k < 3; ++k) set(kU + k, get(kU + k) + carried[k]);
+  const Eigen::Matrix3d body_from_ned = BodyFromNed({get(kQ0), get(kQx), get(kQy), get(kQz)});
+  if (!config_.step_at_reset) {
+    const Eigen::Vector3d carried = body_from_ned * wind;
+    for (int k = 0; k < 3; ++k) set(kU + k, get(kU + k) + carried[k]);
+  }
+  const Eigen::Vector3d blown =
+      body_from_ned * Eigen::Vector3d(get(kWindNorth), get(kWindEast), get(kWindDown));
+  for (int k = 0; k < 3; ++k) set(kAirU + k, get(kU + k) - blown[k]);
 }
 
 }  // namespace skein

@@ -48,7 +48,9 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
   add("stagger_clocks", env.stagger_clocks);
   add("observation_noise", env.observation_noise);
   add("reward_scale", env.reward_scale);
-  // Noise by episode and wind only where there are any: runs from before there were go on.
+  // What is off is not named: runs from before it existed go on.
+  if (env.thrust_grows) add("thrust_growth_above_mach_1", env.thrust_grows);
+  if (env.drag_rises) add("drag_rise", env.drag_rises);
   if (env.observation_noise_max > 0) add("observation_noise_max", env.observation_noise_max);
   if (env.wind.blows()) {
     add("wind.speed_min_fps", env.wind.speed_fps.min);

@@ -143,6 +143,7 @@ void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys) {
     put(kWindNorth, get(kSteadyWindNorth), t.t11, t.t21, t.t31);
     put(kWindEast, get(kSteadyWindEast), t.t12, t.t22, t.t32);
     put(kWindDown, hn::Zero(d), t.t13, t.t23, t.t33);
+    UpdateAirVelocity(d, tile, first);
   }
 }
 

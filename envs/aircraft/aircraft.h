@@ -43,11 +43,20 @@ struct Actuators {
   Actuator elevator, aileron, rudder, leading_edge_flap;
 };
 
+/// A piecewise linear function of the Mach number between its nodes, constant outside. Without
+/// nodes there is none.
+struct MachFunction {
+  std::vector<double> mach, value;
+};
+
 /// Thrust in lbf by [altitude][mach], row-major, at idle, military and maximum power; clamped
 /// outside the axes.
 struct EngineTables {
   std::vector<double> altitude_ft, mach;
   std::vector<double> idle_lbf, military_lbf, maximum_lbf;
+  /// What thrust is multiplied with above Mach 1, if it grows there.
+  MachFunction growth;
+  bool grows = false;
 };
 
 /// Everything that makes one aircraft, in double precision, as loaded from data/.
@@ -56,6 +65,8 @@ struct Aircraft {
   Airframe airframe;
   AerodynamicTables aerodynamics;
   EngineTables engine;
+  MachFunction drag_rise;  ///< coefficient of axial force (along -x) gained, if drag rises
+  bool drag_rises = false;
   Actuators actuators;
   FlightControlGains flight_control;
 };

@@ -19,9 +19,10 @@ ThrustLevels LevelsAt(const EngineTables& engine, double altitude_ft, double mac
   const GridCell altitude = Locate(engine.altitude_ft, altitude_ft);
   const GridCell column = Locate(engine.mach, mach);
   const int columns = static_cast<int>(engine.mach.size());
-  return {Interpolate(engine.idle_lbf, altitude, column, columns),
-          Interpolate(engine.military_lbf, altitude, column, columns),
-          Interpolate(engine.maximum_lbf, altitude, column, columns)};
+  const double growth = engine.grows ? ValueAt(engine.growth, mach) : 1;
+  return {growth * Interpolate(engine.idle_lbf, altitude, column, columns),
+          growth * Interpolate(engine.military_lbf, altitude, column, columns),
+          growth * Interpolate(engine.maximum_lbf, altitude, column, columns)};
 }
 
 // Reciprocal time constant of the power lag, 1/s, by the distance still to go.

@@ -41,8 +41,9 @@ double ThrottleForPower(double power);
 double PowerRate(double power, double power_command);
 
 /// Installed thrust, lbf. Linear in power between idle and military and between military and
-/// maximum; altitude and Mach number are clamped to the tables (no data above Mach 1). Idle thrust
-/// is negative at low altitude and high speed (ram drag), as published.
+/// maximum; altitude and Mach number are clamped to the tables (no data above Mach 1), and
+/// thrust is multiplied with the tables' growth if it grows. Idle thrust is negative at low
+/// altitude and high speed (ram drag), as published.
 double Thrust(const EngineTables& engine, double power, double altitude_ft, double mach);
 
 /// Power in [0, 100] whose thrust comes nearest to `thrust_lbf`.

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "envs/aircraft/aircraft.h"
+
 namespace skein {
 
 /// Where a value lies on an axis: between nodes `index` and `index + 1`, `fraction` of the way.
@@ -29,6 +31,11 @@ inline double Interpolate(const double* row, GridCell cell, int stride) {
 
 inline double Interpolate(const std::vector<double>& table, GridCell i) {
   return Interpolate(table.data(), i, 1);
+}
+
+/// The function at `mach`.
+inline double ValueAt(const MachFunction& function, double mach) {
+  return Interpolate(function.value, Locate(function.mach, mach));
 }
 
 /// Bilinear interpolation in a row-major table with `columns` columns.

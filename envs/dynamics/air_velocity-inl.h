@@ -68,11 +68,21 @@ HWY_INLINE BodyVelocity<V> LessWind(const BodyVelocity<V>& inertial, const Attit
 /// Velocity relative to the air of the aircraft from `first` on.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE BodyVelocity<V> AirVelocity(D d, const Tile& tile, int first) {
+  const int column = tile.air_velocity();
+  return {hn::LoadU(d, tile[column] + first), hn::LoadU(d, tile[column + 1] + first),
+          hn::LoadU(d, tile[column + 2] + first)};
+}
+
+/// Brings a windy tile's columns of it up to date with its state and wind.
+template <class D>
+HWY_INLINE void UpdateAirVelocity(D d, const Tile& tile, int first) {
   const auto get = [&](int column) HWY_ATTR { return hn::LoadU(d, tile[column] + first); };
-  const BodyVelocity<V> inertial{get(kU), get(kV), get(kW)};
-  if (HWY_LIKELY(!tile.windy)) return inertial;
-  return LessWind(inertial, AttitudeMatrixOf(get(kQ0), get(kQx), get(kQy), get(kQz)),
-                  get(kWindNorth), get(kWindEast), get(kWindDown));
+  const BodyVelocity<hn::Vec<D>> inertial{get(kU), get(kV), get(kW)};
+  const auto air = LessWind(inertial, AttitudeMatrixOf(get(kQ0), get(kQx), get(kQy), get(kQz)),
+                            get(kWindNorth), get(kWindEast), get(kWindDown));
+  hn::StoreU(air.u, d, tile[kAirU] + first);
+  hn::StoreU(air.v, d, tile[kAirV] + first);
+  hn::StoreU(air.w, d, tile[kAirW] + first);
 }
 
 }  // namespace HWY_NAMESPACE

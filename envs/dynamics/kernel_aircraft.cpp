@@ -165,6 +165,30 @@ KernelEngine MakeEngine(const EngineTables& tables) {
   return engine;
 }
 
+/// `nothing` is the value of a function that does not act.
+KernelMachFunction MakeMachFunction(const MachFunction& function, bool acts, float nothing) {
+  KernelMachFunction kernel;
+  kernel.start = nothing;
+  if (!acts) return kernel;
+  const std::size_t ramps = function.mach.size() - 1;
+  if (function.mach.size() < 2 || ramps > KernelMachFunction::kMaxRamps ||
+      function.value.size() != function.mach.size()) {
+    throw Error("a function of the Mach number has " + std::to_string(function.mach.size()) +
+                " nodes; the kernels hold 2 to " +
+                std::to_string(KernelMachFunction::kMaxRamps + 1));
+  }
+  kernel.start = static_cast<float>(function.value[0]);
+  kernel.num_ramps = static_cast<int>(ramps);
+  for (std::size_t k = 0; k < ramps; ++k) {
+    const double from = function.mach[k], to = function.mach[k + 1];
+    if (!(from < to)) throw Error("a function of the Mach number has nodes out of order");
+    kernel.from[k] = static_cast<float>(from);
+    kernel.to[k] = static_cast<float>(to);
+    kernel.slope[k] = static_cast<float>((function.value[k + 1] - function.value[k]) / (to - from));
+  }
+  return kernel;
+}
+
 }  // namespace
 
 KernelAxis MakeKernelAxis(const std::vector<double>& nodes, const char* name) {
@@ -214,6 +238,9 @@ std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraf
   kernel->engine = MakeEngine(aircraft.engine);
   kernel->atmosphere = MakeAtmosphere(atmosphere);
   kernel->constants = MakeConstants(aircraft.airframe);
+  kernel->depends_on_mach = aircraft.drag_rises || aircraft.engine.grows;
+  kernel->drag_rise = MakeMachFunction(aircraft.drag_rise, aircraft.drag_rises, 0);
+  kernel->thrust_growth = MakeMachFunction(aircraft.engine.growth, aircraft.engine.grows, 1);
   return kernel;
 }
 

@@ -113,6 +113,15 @@ struct KernelEngine {
   KernelCells gain_lbf[kNumSegments];  ///< per unit of power
 };
 
+/// A MachFunction as its first value and ramps: start + sum of slope (Mach number limited to
+/// [from, to] - from). Without ramps it is `start` everywhere.
+struct KernelMachFunction {
+  static constexpr int kMaxRamps = 4;
+  float start = 0;
+  int num_ramps = 0;
+  float from[kMaxRamps] = {}, to[kMaxRamps] = {}, slope[kMaxRamps] = {};
+};
+
 /// Constants of the coefficients' build-up and of the equations of motion, folded for float32.
 struct KernelConstants {
   float inverse_aileron_reference = 0, inverse_rudder_reference = 0, inverse_flap_reference = 0;
@@ -152,6 +161,10 @@ struct KernelAircraft {
   KernelEngine engine;
   KernelAtmosphere atmosphere;
   KernelConstants constants;
+
+  /// Whether what follows acts: the coefficient of axial force gained and the factor of thrust.
+  bool depends_on_mach = false;
+  KernelMachFunction drag_rise, thrust_growth;
 };
 
 }  // namespace skein

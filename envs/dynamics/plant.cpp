@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "envs/aircraft/aerodynamics.h"
+#include "envs/aircraft/table_lookup.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/state.h"
 
@@ -71,6 +72,8 @@ PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& control
   condition.q_hat = rates.y() * airframe.chord_ft / (2 * air.true_airspeed_ft_s);
   condition.r_hat = rates.z() * airframe.span_ft / (2 * air.true_airspeed_ft_s);
   output.coefficients = EvaluateAerodynamics(aircraft_, condition);
+
+  if (aircraft_.drag_rises) output.coefficients[0] -= ValueAt(aircraft_.drag_rise, air.mach);
 
   const double qbar_S = air.dynamic_pressure_psf * airframe.wing_area_ft2;
   Eigen::Vector3d force = qbar_S * output.coefficients.head<3>();

@@ -13,6 +13,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "envs/dynamics/air_velocity-inl.h"
 #include "envs/dynamics/plant_kernel_air-inl.h"
 #include "envs/dynamics/plant_kernel_block-inl.h"
 #include "envs/dynamics/plant_kernel_motion-inl.h"
@@ -33,6 +34,9 @@ HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const State& sta
   FindFlow(aircraft, state, state.block);
   FindAir<kEngine>(aircraft, state, state.block);
   FindThrust<kEngine>(aircraft, state, controls, state.block);
+  if constexpr (kEngine) {
+    if (HWY_UNLIKELY(aircraft.depends_on_mach)) AddMachEffects(aircraft, state.block);
+  }
   FindRates(aircraft.constants, state, *state.block, coefficients);
 }
 
@@ -179,6 +183,11 @@ void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substep
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<true, kWindy>(aircraft, at, tile.base + first, tile.stride,
                               dt / static_cast<float>(substeps), load_factors, &prefetcher, &block);
+    }
+    if constexpr (kWindy) {
+      for (int lane = 0; lane < kBlock; lane += kLanes) {
+        UpdateAirVelocity(FloatTag(), tile, first + lane);
+      }
     }
   }
 }

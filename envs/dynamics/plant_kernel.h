@@ -44,14 +44,14 @@ struct ControlColumns {
 };
 
 /// One evaluation of the equations of motion for the thirteen rigid-body columns of `tile` with
-/// given controls in still air; within 2e-4 of the float64 Plant, relative to the larger of a
-/// quantity's value and 1 % of its largest, on every SIMD target. `state_rate` gets 13 columns and
-/// `coefficients` 6 (Cx, Cy, Cz, Cl, Cm, Cn), each of `tile.stride`.
+/// given controls in still air, without drag rise; within 2e-4 of the float64 Plant, relative to
+/// the larger of a quantity's value and 1 % of its largest, on every SIMD target. `state_rate` gets
+/// 13 columns and `coefficients` 6 (Cx, Cy, Cz, Cl, Cm, Cn), each of `tile.stride`.
 void EvaluateTile(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
                   float* state_rate, float* coefficients);
 
 /// `substeps` RK4 steps of dt / substeps seconds each with given, held controls (no engine) in
-/// still air: the kernel of `skein fdm simulate`.
+/// still air, without drag rise: the kernel of `skein fdm simulate`.
 void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
                       float dt, int substeps);
 
@@ -65,8 +65,8 @@ struct MemoryAhead {
 /// kPowerCommand, thrust by power, altitude and Mach at every stage) with the surfaces held at the
 /// columns' positions, in the wind of a windy tile's columns. Afterwards kNz and kNy hold the
 /// specific forces of the last stage of the last step, which is what the accelerometers read at the
-/// next control step. On the way `ahead` is fetched into the caches: large flocks would else wait
-/// for memory.
+/// next control step, and kAirU, kAirV, kAirW of a windy tile are up to date. On the way `ahead` is
+/// fetched into the caches: large flocks would else wait for memory.
 void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
               MemoryAhead ahead = {});
 

@@ -178,6 +178,30 @@ HWY_INLINE void FindThrust(const KernelAircraft& aircraft, const State& state,
   }
 }
 
+HWY_INLINE V ValueAt(const KernelMachFunction& function, V mach) {
+  const FloatTag d;
+  V value = Constant(function.start);
+  for (int k = 0; k < function.num_ramps; ++k) {
+    const V way =
+        hn::Sub(ClampTo(d, mach, function.from[k], function.to[k]), Constant(function.from[k]));
+    value = hn::MulAdd(way, Constant(function.slope[k]), value);
+  }
+  return value;
+}
+
+/// What the Mach number changes of thrust and, along the same axis, of drag. Apart from the rest:
+/// few aircraft are asked for it.
+inline HWY_NOINLINE void AddMachEffects(const KernelAircraft& aircraft, Block* block) {
+  const FloatTag d;
+  for (int lane = 0; lane < kBlock; lane += kLanes) {
+    const V mach = hn::Load(d, block->mach + lane);
+    const V thrust =
+        hn::Mul(hn::Load(d, block->thrust + lane), ValueAt(aircraft.thrust_growth, mach));
+    const V drag = hn::Mul(hn::Load(d, block->force + lane), ValueAt(aircraft.drag_rise, mach));
+    hn::Store(hn::Sub(thrust, drag), d, block->thrust + lane);
+  }
+}
+
 }  // namespace plant_kernel
 }  // namespace HWY_NAMESPACE
 }  // namespace skein

@@ -58,7 +58,10 @@ enum Column : int {
   kWindEast,
   kWindDown,  ///< velocity of the air over ground, ft/s, held during a control step
   kNumRecordedColumns,
-  kSteadyWindNorth = kNumRecordedColumns,
+  kAirU = kNumRecordedColumns,
+  kAirV,
+  kAirW,  ///< velocity relative to the air in body axes, ft/s: kU, kV, kW less the wind
+  kSteadyWindNorth,
   kSteadyWindEast,    ///< its part that lasts, ft/s
   kTurbulenceStdDev,  ///< standard deviation of the gusts, ft/s
   kGustForward,
@@ -78,6 +81,9 @@ struct Tile {
   std::size_t stride = 0;
   int count = 0;
   bool windy = false;
+
+  /// The first of the three columns of the velocity relative to the air, in body axes.
+  int air_velocity() const { return windy ? kAirU : kU; }
 
   float* operator[](int column) const { return base + static_cast<std::size_t>(column) * stride; }
 };

@@ -165,6 +165,12 @@ EngineTables F16Engine() {
   return t;
 }
 
+/// JSBSim's F-16: thrust of its F100-PW-229 at sea level over that at Mach 1.
+MachFunction F16ThrustGrowth() { return {{1, 1.2, 1.4, 1.6, 2}, {1, 1.069, 1.154, 1.259, 1.49}}; }
+
+/// JSBSim's F-16: the increment of drag by the Mach number (CDmach).
+MachFunction F16DragRise() { return {{0.81, 1.1, 1.8}, {0, 0.023, 0.015}}; }
+
 }  // namespace
 
 Aircraft F16() {
@@ -175,6 +181,8 @@ Aircraft F16() {
   try {
     aircraft.aerodynamics = F16Aerodynamics();
     aircraft.engine = F16Engine();
+    aircraft.engine.growth = F16ThrustGrowth();
+    aircraft.drag_rise = F16DragRise();
   } catch (const json::exception& error) {
     throw Error(std::string("the embedded F-16 data cannot be read: ") + error.what());
   }

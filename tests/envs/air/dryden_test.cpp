@@ -23,19 +23,19 @@ class Gusts {
       : tile_(count, kNumWindyColumns),
         episode_(tile_.stride(), 2),
         step_(tile_.stride()),
-        first_(first_aircraft) {
+        first_(first_aircraft),
+        speed_(static_cast<float>(speed_ft_s)) {
     tile_.Fill(kQ0, 1);
-    tile_.Fill(kU, static_cast<float>(speed_ft_s));
     tile_.Fill(kDown, static_cast<float>(-altitude_ft));
     tile_.Fill(kTurbulenceStdDev, static_cast<float>(kDeviation));
     for (int i = 0; i < count; ++i) StartGusts(tile_.tile(), i, keys());
   }
 
   void Advance(double dt) {
-    // Along the ground as through the air: gusts meet a speed that they do not change.
-    for (std::size_t i = 0; i < tile_.stride(); ++i) {
-      for (int k = 0; k < 3; ++k) tile_.tile()[kWindNorth + k][i] = 0;
-    }
+    // Gusts meet a speed that they do not change.
+    tile_.Fill(kAirU, speed_);
+    tile_.Fill(kAirV, 0);
+    tile_.Fill(kAirW, 0);
     AdvanceGusts(tile_.tile(), static_cast<float>(dt), keys());
     for (std::int32_t& step : step_) ++step;
   }
@@ -53,6 +53,7 @@ class Gusts {
   TestTile tile_;
   std::vector<std::int32_t> episode_, step_;
   std::uint32_t first_;
+  float speed_;
 };
 
 double MeanProduct(const std::vector<double>& a, const std::vector<double>& b) {

@@ -47,6 +47,17 @@ TEST_F(Engine, ThrustIsClampedOutsideTheTables) {
   EXPECT_EQ(Thrust(tables_, 100, -500, 0.5), Thrust(tables_, 100, 0, 0.5));
 }
 
+TEST_F(Engine, ThrustGrowsAboveMachOneIfAskedTo) {
+  const double held = Thrust(tables_, 80, 20000, 1);
+  tables_.grows = true;
+  EXPECT_EQ(Thrust(tables_, 80, 20000, 0.7), Thrust(F16().engine, 80, 20000, 0.7));
+  EXPECT_NEAR(Thrust(tables_, 80, 20000, 1), held, kRounding);
+  EXPECT_NEAR(Thrust(tables_, 80, 20000, 1.3), held * (1.069 + 1.154) / 2, 1e-6);
+  EXPECT_NEAR(Thrust(tables_, 80, 20000, 3), held * 1.49, 1e-6);
+  const double power = PowerForThrust(tables_, 15000, 20000, 1.5);
+  EXPECT_NEAR(Thrust(tables_, power, 20000, 1.5), 15000, 1e-6);
+}
+
 TEST_F(Engine, PowerForThrustInvertsThrust) {
   for (double altitude = 0; altitude <= 50000; altitude += 5000) {
     for (double mach = 0; mach <= 1.2; mach += 0.13) {

@@ -15,6 +15,7 @@
 
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16/f16.h"
+#include "envs/dynamics/attitude.h"
 #include "envs/dynamics/plant.h"
 #include "gtest/gtest.h"
 #include "simd/target.h"
@@ -291,6 +292,11 @@ void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy) 
       states.Add("column " + std::to_string(c), tile.at(c, i), state.body[c]);
     }
     states.Add("power", tile.at(kPower, i), state.power);
+    const Eigen::Vector3d air =
+        state.body.segment<3>(kU) - BodyFromNed(state.body.segment<4>(kQ0)) * wind;
+    for (int k = 0; windy && k < 3; ++k) {
+      states.Add("air velocity " + std::to_string(k), tile.at(kAirU + k, i), air[k]);
+    }
     load_factors.Add("nz", tile.at(kNz, i), nz);
     load_factors.Add("ny", tile.at(kNy, i), ny);
   }
@@ -304,6 +310,13 @@ TEST_P(PlantKernelTest, AStepAgreesWithTheFloat64PlantAndEngine) {
 
 TEST_P(PlantKernelTest, AStepInWindAgreesWithTheFloat64PlantAndEngine) {
   CompareSteps(plant_, *kernel_, true);
+}
+
+TEST_P(PlantKernelTest, AStepWithEffectsOfTheMachNumberAgreesWithTheFloat64PlantAndEngine) {
+  Aircraft aircraft = F16();
+  aircraft.drag_rises = aircraft.engine.grows = true;
+  const Plant plant(aircraft, AtmosphereModel::kStevensLewis);
+  CompareSteps(plant, *MakeKernelAircraft(aircraft, plant.atmosphere()), false);
 }
 
 // Both are code of their own, but a velocity less nothing is the same velocity.

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
+#include "envs/aircraft/f16/f16.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/state.h"
 #include "tests/envs/golden.h"
@@ -223,6 +225,29 @@ TEST(Plant, IntegratesToFourthOrderBetweenTheTablesKinks) {
   const double fine = (fly(4) - exact).norm();
   EXPECT_GT(coarse / fine, 12);  // 16 for fourth order, 8 for third
   EXPECT_LT(coarse / fine, 24);
+}
+
+TEST(Plant, DragRisesWithTheMachNumberIfAskedTo) {
+  Aircraft aircraft = F16();
+  const Plant level(aircraft, AtmosphereModel::kStevensLewis);
+  aircraft.drag_rises = true;
+  const Plant rising(aircraft, AtmosphereModel::kStevensLewis);
+  const double sound = AirAt(AtmosphereModel::kStevensLewis, 20000).sound_speed_ft_s;
+  // Mach number, and the increment of the axial force coefficient there.
+  const std::pair<double, double> rises[] = {{0.8, 0}, {1.1, 0.023}, {1.45, 0.019}, {2, 0.015}};
+  for (const auto& [mach, rise] : rises) {
+    RigidBodyState state = RigidBodyState::Zero();
+    state[kU] = mach * sound;
+    state[kDown] = -20000;
+    state[kQ0] = 1;
+    const PlantOutput without = level.Evaluate(state, {}), with = rising.Evaluate(state, {});
+    EXPECT_NEAR(without.coefficients[0] - with.coefficients[0], rise, 1e-9) << mach;
+    EXPECT_EQ(with.coefficients.tail<5>(), without.coefficients.tail<5>()) << mach;
+    const double force = rise * with.air.dynamic_pressure_psf * aircraft.airframe.wing_area_ft2;
+    EXPECT_NEAR(without.state_rate[kU] - with.state_rate[kU], force / aircraft.airframe.mass_slug,
+                1e-6)
+        << mach;
+  }
 }
 
 }  // namespace
