@@ -46,149 +46,157 @@ HWY_INLINE Vector WithinColumns(int columns, int j, Vector v) {
   return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left > 0 ? left : 0)), v);
 }
 
-/// Normalises one row; returns its inverse standard deviation and mean.
-template <bool kPadded>
-HWY_INLINE float NormaliseRow(int columns, const float* in, float* out, float* mean_out) {
-  const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
-  Vector sum = hn::Zero(d);
-  for (int j = 0; j < width; j += lanes) sum = hn::Add(sum, hn::LoadU(d, in + j));
-  const float mean = Sum(sum) / static_cast<float>(columns);
-  const Vector mean_v = hn::Set(d, mean);
-  Vector squares = hn::Zero(d);
-  for (int j = 0; j < width; j += lanes) {
-    const Vector deviation =
-        WithinColumns<kPadded>(columns, j, hn::Sub(hn::LoadU(d, in + j), mean_v));
-    squares = hn::MulAdd(deviation, deviation, squares);
-  }
-  const float variance = Sum(squares) / static_cast<float>(columns);
-  const float inverse_std = 1.0f / std::sqrt(variance + kLayerNormEpsilon);
-  const Vector inverse_std_v = hn::Set(d, inverse_std);
-  for (int j = 0; j < width; j += lanes) {
-    const Vector deviation =
-        WithinColumns<kPadded>(columns, j, hn::Sub(hn::LoadU(d, in + j), mean_v));
-    hn::StoreU(hn::Mul(deviation, inverse_std_v), d, out + j);
-  }
-  *mean_out = mean;
-  return inverse_std;
-}
+/// Rows that are normalised together: their sums, chains of dependent additions, run side by side.
+constexpr int kRowsTogether = 4;
 
-template <bool kPadded>
-void ReluNormaliseRows(std::int64_t rows, int columns, float* values, float* inverse_std,
-                       float* zero_level) {
+/// Normalises the kRows rows from `first` on, with kRelu their rectified values. A row's sums run
+/// in one order, however many rows there are.
+template <int kRows, bool kRelu, bool kPadded>
+HWY_INLINE void NormaliseTogether(std::int64_t first, int columns, const float* in, float* out,
+                                  float* inverse_std, float* zero_level) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
-  for (std::int64_t i = 0; i < rows; ++i) {
-    float* const row = values + i * stride;
-    for (int j = 0; j < width; j += lanes) {
-      const Vector x = hn::LoadU(d, row + j);
-      // Unlike a maximum with zero, this keeps not-a-number on every target.
-      hn::StoreU(hn::IfThenZeroElse(hn::Lt(x, hn::Zero(d)), x), d, row + j);
+  in += first * stride;
+  out += first * stride;
+  inverse_std += first;
+  Vector sum[kRows], squares[kRows];
+  for (int i = 0; i < kRows; ++i) sum[i] = squares[i] = hn::Zero(d);
+  for (int j = 0; j < width; j += lanes) {
+    for (int i = 0; i < kRows; ++i) {
+      Vector x = hn::LoadU(d, in + i * stride + j);
+      if constexpr (kRelu) {
+        // Unlike a maximum with zero, this keeps not-a-number on every target.
+        x = hn::IfThenZeroElse(hn::Lt(x, hn::Zero(d)), x);
+        hn::StoreU(x, d, out + i * stride + j);
+      }
+      sum[i] = hn::Add(sum[i], x);
     }
-    float mean;
-    inverse_std[i] = NormaliseRow<kPadded>(columns, row, row, &mean);
-    zero_level[i] = -mean * inverse_std[i];
+  }
+  const float* const values = kRelu ? out : in;
+  const auto deviation = [&](int i, int j, Vector mean) HWY_ATTR {
+    return WithinColumns<kPadded>(columns, j, hn::Sub(hn::LoadU(d, values + i * stride + j), mean));
+  };
+  float mean[kRows];
+  for (int i = 0; i < kRows; ++i) mean[i] = Sum(sum[i]) / static_cast<float>(columns);
+  for (int j = 0; j < width; j += lanes) {
+    for (int i = 0; i < kRows; ++i) {
+      const Vector x = deviation(i, j, hn::Set(d, mean[i]));
+      squares[i] = hn::MulAdd(x, x, squares[i]);
+    }
+  }
+  for (int i = 0; i < kRows; ++i) {
+    const float variance = Sum(squares[i]) / static_cast<float>(columns);
+    inverse_std[i] = 1.0f / std::sqrt(variance + kLayerNormEpsilon);
+    if constexpr (kRelu) zero_level[first + i] = -mean[i] * inverse_std[i];
+  }
+  for (int j = 0; j < width; j += lanes) {
+    for (int i = 0; i < kRows; ++i) {
+      const Vector x = deviation(i, j, hn::Set(d, mean[i]));
+      hn::StoreU(hn::Mul(x, hn::Set(d, inverse_std[i])), d, out + i * stride + j);
+    }
+  }
+}
+
+template <bool kRelu, bool kPadded>
+void NormaliseAll(std::int64_t rows, int columns, const float* in, float* out, float* inverse_std,
+                  float* zero_level) {
+  std::int64_t i = 0;
+  for (; i + kRowsTogether <= rows; i += kRowsTogether) {
+    NormaliseTogether<kRowsTogether, kRelu, kPadded>(i, columns, in, out, inverse_std, zero_level);
+  }
+  for (; i < rows; ++i) {
+    NormaliseTogether<1, kRelu, kPadded>(i, columns, in, out, inverse_std, zero_level);
   }
 }
 
 void ReluNormaliseKernel(std::int64_t rows, int columns, float* values, float* inverse_std,
                          float* zero_level) {
   const auto kernel =
-      PaddedWidth(columns) == columns ? ReluNormaliseRows<false> : ReluNormaliseRows<true>;
-  kernel(rows, columns, values, inverse_std, zero_level);
-}
-
-template <bool kPadded>
-void NormaliseWithStdRows(std::int64_t rows, int columns, const float* in, float* out,
-                          float* inverse_std) {
-  const std::int64_t stride = RowStride(columns);
-  for (std::int64_t i = 0; i < rows; ++i) {
-    float mean;
-    inverse_std[i] = NormaliseRow<kPadded>(columns, in + i * stride, out + i * stride, &mean);
-  }
+      PaddedWidth(columns) == columns ? NormaliseAll<true, false> : NormaliseAll<true, true>;
+  kernel(rows, columns, values, values, inverse_std, zero_level);
 }
 
 void NormaliseWithStdKernel(std::int64_t rows, int columns, const float* in, float* out,
                             float* inverse_std) {
   const auto kernel =
-      PaddedWidth(columns) == columns ? NormaliseWithStdRows<false> : NormaliseWithStdRows<true>;
-  kernel(rows, columns, in, out, inverse_std);
+      PaddedWidth(columns) == columns ? NormaliseAll<false, false> : NormaliseAll<false, true>;
+  kernel(rows, columns, in, out, inverse_std, nullptr);
 }
 
-/// The means that LayerNorm's gradient subtracts: of the gradient, and of gradient times
-/// normalised.
-HWY_INLINE void GradientMeans(int columns, const float* gradient, const float* normalised,
-                              Vector* mean, Vector* projection) {
-  const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
-  Vector sum = hn::Zero(d), product_sum = hn::Zero(d);
-  for (int j = 0; j < width; j += lanes) {
-    const Vector g = hn::LoadU(d, gradient + j);
-    sum = hn::Add(sum, g);
-    product_sum = hn::MulAdd(g, hn::LoadU(d, normalised + j), product_sum);
-  }
-  *mean = hn::Set(d, Sum(sum) / static_cast<float>(columns));
-  *projection = hn::Set(d, Sum(product_sum) / static_cast<float>(columns));
-}
-
-template <bool kPadded>
-void ReluNormaliseBackwardRows(std::int64_t rows, int columns, const float* normalised,
-                               const float* inverse_std, const float* zero_level, float* gradient,
-                               float* bias_gradient) {
+/// The gradient through NormaliseTogether: `gradient` (by the normalised values) becomes the one by
+/// the values, of which with kRelu the column sums are added to `bias_gradient`, row by row.
+template <int kRows, bool kRelu, bool kPadded>
+HWY_INLINE void NormaliseBackwardTogether(std::int64_t first, int columns, const float* normalised,
+                                          const float* inverse_std, const float* zero_level,
+                                          float* gradient, float* bias_gradient) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
-  for (std::int64_t i = 0; i < rows; ++i) {
-    float* const g = gradient + i * stride;
-    const float* const x = normalised + i * stride;
-    Vector mean, projection;
-    GradientMeans(columns, g, x, &mean, &projection);
-    const Vector scale = hn::Set(d, inverse_std[i]), zero = hn::Set(d, zero_level[i]);
-    for (int j = 0; j < width; j += lanes) {
-      const Vector xj = hn::LoadU(d, x + j);
-      const Vector centred = hn::NegMulAdd(xj, projection, hn::Sub(hn::LoadU(d, g + j), mean));
-      const Vector passed = hn::IfThenElseZero(hn::Gt(xj, zero), hn::Mul(scale, centred));
-      const Vector result = WithinColumns<kPadded>(columns, j, passed);
-      hn::StoreU(result, d, g + j);
-      hn::StoreU(hn::Add(hn::LoadU(d, bias_gradient + j), result), d, bias_gradient + j);
+  normalised += first * stride;
+  gradient += first * stride;
+  // LayerNorm's gradient subtracts the means of the gradient, and of gradient times normalised.
+  Vector sum[kRows], projection[kRows];
+  for (int i = 0; i < kRows; ++i) sum[i] = projection[i] = hn::Zero(d);
+  for (int j = 0; j < width; j += lanes) {
+    for (int i = 0; i < kRows; ++i) {
+      const Vector g = hn::LoadU(d, gradient + i * stride + j);
+      sum[i] = hn::Add(sum[i], g);
+      projection[i] = hn::MulAdd(g, hn::LoadU(d, normalised + i * stride + j), projection[i]);
     }
+  }
+  for (int i = 0; i < kRows; ++i) {
+    sum[i] = hn::Set(d, Sum(sum[i]) / static_cast<float>(columns));
+    projection[i] = hn::Set(d, Sum(projection[i]) / static_cast<float>(columns));
+  }
+  for (int j = 0; j < width; j += lanes) {
+    Vector bias = hn::Zero(d);
+    if constexpr (kRelu) bias = hn::LoadU(d, bias_gradient + j);
+    for (int i = 0; i < kRows; ++i) {
+      const Vector x = hn::LoadU(d, normalised + i * stride + j);
+      const Vector g = hn::LoadU(d, gradient + i * stride + j);
+      const Vector centred = hn::NegMulAdd(x, projection[i], hn::Sub(g, sum[i]));
+      Vector result = hn::Mul(hn::Set(d, inverse_std[first + i]), centred);
+      if constexpr (kRelu) {
+        const Vector zero = hn::Set(d, zero_level[first + i]);
+        result = hn::IfThenElseZero(hn::Gt(x, zero), result);
+      }
+      result = WithinColumns<kPadded>(columns, j, result);
+      hn::StoreU(result, d, gradient + i * stride + j);
+      if constexpr (kRelu) bias = hn::Add(bias, result);
+    }
+    if constexpr (kRelu) hn::StoreU(bias, d, bias_gradient + j);
+  }
+}
+
+template <bool kRelu, bool kPadded>
+void NormaliseBackwardAll(std::int64_t rows, int columns, const float* normalised,
+                          const float* inverse_std, const float* zero_level, float* gradient,
+                          float* bias_gradient) {
+  std::int64_t i = 0;
+  for (; i + kRowsTogether <= rows; i += kRowsTogether) {
+    NormaliseBackwardTogether<kRowsTogether, kRelu, kPadded>(i, columns, normalised, inverse_std,
+                                                             zero_level, gradient, bias_gradient);
+  }
+  for (; i < rows; ++i) {
+    NormaliseBackwardTogether<1, kRelu, kPadded>(i, columns, normalised, inverse_std, zero_level,
+                                                 gradient, bias_gradient);
   }
 }
 
 void ReluNormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
                                  const float* inverse_std, const float* zero_level, float* gradient,
                                  float* bias_gradient) {
-  const auto kernel = PaddedWidth(columns) == columns ? ReluNormaliseBackwardRows<false>
-                                                      : ReluNormaliseBackwardRows<true>;
+  const auto kernel = PaddedWidth(columns) == columns ? NormaliseBackwardAll<true, false>
+                                                      : NormaliseBackwardAll<true, true>;
   kernel(rows, columns, normalised, inverse_std, zero_level, gradient, bias_gradient);
-}
-
-template <bool kPadded>
-void NormaliseBackwardRows(std::int64_t rows, int columns, const float* normalised,
-                           const float* inverse_std, float* gradient) {
-  const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
-  const std::int64_t stride = RowStride(columns);
-  for (std::int64_t i = 0; i < rows; ++i) {
-    float* const g = gradient + i * stride;
-    const float* const x = normalised + i * stride;
-    Vector mean, projection;
-    GradientMeans(columns, g, x, &mean, &projection);
-    const Vector scale = hn::Set(d, inverse_std[i]);
-    for (int j = 0; j < width; j += lanes) {
-      const Vector centred =
-          hn::NegMulAdd(hn::LoadU(d, x + j), projection, hn::Sub(hn::LoadU(d, g + j), mean));
-      hn::StoreU(WithinColumns<kPadded>(columns, j, hn::Mul(scale, centred)), d, g + j);
-    }
-  }
 }
 
 void NormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
                              const float* inverse_std, float* gradient) {
-  const auto kernel =
-      PaddedWidth(columns) == columns ? NormaliseBackwardRows<false> : NormaliseBackwardRows<true>;
-  kernel(rows, columns, normalised, inverse_std, gradient);
+  const auto kernel = PaddedWidth(columns) == columns ? NormaliseBackwardAll<false, false>
+                                                      : NormaliseBackwardAll<false, true>;
+  kernel(rows, columns, normalised, inverse_std, nullptr, gradient, nullptr);
 }
 
 void ScaleRowsKernel(std::int64_t rows, int columns, const float* keep, const float* in,
