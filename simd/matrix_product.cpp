@@ -14,10 +14,10 @@ namespace {
 // Sums run in memory between blocks of the depth; a block of a panel stays in the second-level
 // cache.
 constexpr std::int64_t kDepthBlock = 384;  // words
-// As many rows of both factors of a transposed product, a panel and a strip, stay in the
-// first-level cache. Even, so that pairs are whole.
-constexpr std::int64_t kTransposedBlock = 80;  // words
 constexpr std::int64_t kRowBlock = 96;
+// As many rows of both factors of a transposed product, a panel and a strip, stay in the
+// first-level cache, and their pages in its translation buffer. Even, so that pairs are whole.
+constexpr std::int64_t kTransposedBlock = kRowBlock / 2;  // words
 // Rows of a matrix that are packed together. Even, so that pairs are whole; a divisor of
 // kDepthBlock.
 constexpr std::int64_t kStripRows = 32;
