@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "simd/bfloat16_peak.h"
@@ -150,10 +149,10 @@ double Seconds(Clock::duration duration) { return std::chrono::duration<double>(
 /// Does `rounds` rounds of some work and returns how much that is.
 using Work = double (*)(std::int64_t rounds, float* sink);
 
-/// Best rate of `repetitions` in which all threads start together, work per second; the slowest
-/// thread's time counts.
-double BestRate(Work work, std::int64_t rounds, int repetitions, int threads) {
-  double best = 0;
+/// Rates of `repetitions` in which all threads start together, work per second, in ascending order;
+/// the slowest thread's time counts.
+std::vector<double> Rates(Work work, std::int64_t rounds, int repetitions, int threads) {
+  std::vector<double> rates;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     std::atomic<int> waiting{threads};
     std::vector<double> done(threads), seconds(threads);
@@ -173,37 +172,43 @@ double BestRate(Work work, std::int64_t rounds, int repetitions, int threads) {
     for (std::thread& other : others) other.join();
     double total = 0;
     for (const double part : done) total += part;
-    best = std::max(best, total / *std::max_element(seconds.begin(), seconds.end()));
+    rates.push_back(total / *std::max_element(seconds.begin(), seconds.end()));
   }
-  return best;
+  std::sort(rates.begin(), rates.end());
+  return rates;
 }
 
 [[noreturn]] void ThrowNoThreads(int threads) {
   throw Error("peak rates: " + std::to_string(threads) + " threads");
 }
 
-/// The rate of one thread, and of all of them.
-std::pair<double, double> BestRates(Work work, std::int64_t rounds, int threads) {
+struct Roof {
+  double one = 0, all = 0;  ///< best of one thread, and of all together
+  double median = 0;        ///< of all together
+};
+
+Roof MeasureRoof(Work work, std::int64_t rounds, int threads) {
   if (threads < 1) ThrowNoThreads(threads);
-  constexpr int kRepetitions = 32;
-  const double one = BestRate(work, rounds, kRepetitions, 1);
-  return {one, threads == 1 ? one : BestRate(work, rounds, kRepetitions, threads)};
+  constexpr int kRepetitions = 65;
+  const std::vector<double> one = Rates(work, rounds, kRepetitions, 1);
+  const std::vector<double> all = threads == 1 ? one : Rates(work, rounds, kRepetitions, threads);
+  return {one.back(), all.back(), all[all.size() / 2]};
 }
+
+PeakRate InGflops(const Roof& roof) { return {roof.one / 1e9, roof.all / 1e9, roof.median / 1e9}; }
 
 }  // namespace
 
 PeakRate MeasurePeak(int threads) {
   constexpr std::int64_t kRounds = 200000;
-  const auto [one, all] = BestRates(SKEIN_DISPATCH(MultiplyAdd), kRounds, threads);
-  return {one / 1e9, all / 1e9};
+  return InGflops(MeasureRoof(SKEIN_DISPATCH(MultiplyAdd), kRounds, threads));
 }
 
 std::optional<PeakRate> MeasureBfloat16Peak(int threads) {
 #ifdef SKEIN_NATIVE_BFLOAT16
   if (NativeBfloat16()) {
     constexpr std::int64_t kRounds = 100000;
-    const auto [one, all] = BestRates(&MultiplyAddBfloat16, kRounds, threads);
-    return PeakRate{one / 1e9, all / 1e9};
+    return InGflops(MeasureRoof(&MultiplyAddBfloat16, kRounds, threads));
   }
 #endif
   if (threads < 1) ThrowNoThreads(threads);
@@ -212,15 +217,15 @@ std::optional<PeakRate> MeasureBfloat16Peak(int threads) {
 
 LoadRate MeasureLoadPeak(int threads) {
   constexpr std::int64_t kRounds = 2000;
-  const auto [one, all] = BestRates(SKEIN_DISPATCH(LoadVectors), kRounds, threads);
-  return {one, all};
+  const Roof roof = MeasureRoof(SKEIN_DISPATCH(LoadVectors), kRounds, threads);
+  return {roof.one, roof.all};
 }
 
 double MeasureClock() {
   // Repetitions shorter than a busy scheduler's slices: some of them run undisturbed.
   constexpr std::int64_t kRounds = 40000;
   constexpr int kRepetitions = 200;
-  return BestRate(SKEIN_DISPATCH(MultiplyInAChain), kRounds, kRepetitions, 1);
+  return Rates(SKEIN_DISPATCH(MultiplyInAChain), kRounds, kRepetitions, 1).back();
 }
 
 }  // namespace simd

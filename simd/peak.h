@@ -3,8 +3,8 @@
 #include <optional>
 
 // Roofs that the rates of kernels are compared with, measured on this machine for the active
-// target. Each figure is the best of many short runs and takes some 0.1 s; functions of `threads`
-// throw Error for fewer than 1.
+// target. A figure takes some 0.1 s, and is the best of many short runs unless it says otherwise;
+// functions of `threads` throw Error for fewer than 1.
 
 namespace skein::simd {
 
@@ -12,6 +12,9 @@ namespace skein::simd {
 struct PeakRate {
   double gflops_per_core = 0;  ///< one thread running alone
   double gflops = 0;           ///< all threads together
+  /// All threads together, the median of the runs: what other programs and virtual machines leave,
+  /// to compare with the median of a long computation that is measured in turns with this.
+  double median_gflops = 0;
 };
 
 /// Measures what the multiply-add units give with operands in registers.

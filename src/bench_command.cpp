@@ -164,24 +164,20 @@ struct Comparison {
 
 /// Prints a line for each learner, and gives the first one's figures with all of them as
 /// "learners".
-Json Compare(const std::vector<LearnerRates>& learners, const Comparison& comparison, int threads) {
-  const double peak = simd::MeasurePeak(threads).gflops;
-  const auto bf16_peak = simd::MeasureBfloat16Peak(threads);
+Json Compare(const std::vector<LearnerRates>& learners, const Comparison& comparison) {
   const double reference = learners.back().*comparison.rate;
   auto all = Json::array();
   for (const LearnerRates& rates : learners) {
     const double rate = rates.*comparison.rate;
-    const bool is_bf16 = rates.backend.precision == LearnerPrecision::kBfloat16 && bf16_peak;
-    const double roof = is_bf16 ? bf16_peak->gflops : peak;
     const double gflops = rate * (rates.*comparison.flops) / 1e9;
-    fmt::print("  {:<14} {} {}/s  {:5.2f} x LibTorch  ({}{})\n", ShortName(rates.backend),
-               FormatCount(rate), comparison.unit, rate / reference, ShareOfPeak(gflops, roof),
-               is_bf16 ? " in bf16" : "");
+    fmt::print("  {:<14} {} {}/s  {:5.2f} x LibTorch  ({})\n", ShortName(rates.backend),
+               FormatCount(rate), comparison.unit, rate / reference,
+               ShareOfPeak(gflops, rates.peak_gflops));
     all.push_back(WithShareOfPeak({{"backend", Name(rates.backend.backend)},
                                    {"precision", Name(rates.backend.precision)},
                                    {std::string(comparison.unit) + "_per_s", rate},
                                    {"times_libtorch", rate / reference}},
-                                  gflops, roof));
+                                  gflops, rates.peak_gflops));
   }
   Json results = all[0];
   results["learners"] = all;
@@ -195,10 +191,8 @@ void BenchRollout(const BenchOptions& options) {
       MeasureLearners(LearnersOf(config), options.iterations, pool);
   fmt::print("rollout: {} aircraft, {} threads; {}\n", config.ppo.num_aircraft, pool.threads(),
              Describe(learners[0].backend));
-  Json results = Compare(learners,
-                         {"decisions", &LearnerRates::rollout_decisions_per_s,
-                          &LearnerRates::rollout_flops_per_decision},
-                         pool.threads());
+  Json results = Compare(learners, {"decisions", &LearnerRates::rollout_decisions_per_s,
+                                    &LearnerRates::rollout_flops_per_decision});
   const double control_steps = learners[0].rollout_decisions_per_s * config.env.action_repeat;
   fmt::print("  {} control steps/s with the first; the simulator takes {:.0f} % of its time\n",
              FormatCount(control_steps), 100 * learners[0].simulator_share);
@@ -214,10 +208,8 @@ void BenchUpdate(const BenchOptions& options) {
       MeasureLearners(LearnersOf(config), options.iterations, pool);
   fmt::print("update: {} threads; {}\n", pool.threads(), Describe(learners[0].backend));
   Report(options, pool.threads(),
-         Compare(learners,
-                 {"samples", &LearnerRates::update_samples_per_s,
-                  &LearnerRates::update_flops_per_sample},
-                 pool.threads()));
+         Compare(learners, {"samples", &LearnerRates::update_samples_per_s,
+                            &LearnerRates::update_flops_per_sample}));
 }
 
 double PeakMemoryGb() {

@@ -6,6 +6,7 @@
 
 #include "envs/dynamics/plant_kernel.h"
 #include "envs/vec_env.h"
+#include "simd/peak.h"
 #include "train/network.h"
 #include "train/trainer.h"
 
@@ -21,7 +22,7 @@ double Median(std::vector<double> values) {
 /// One configuration in training, and its seconds by iteration.
 struct Runner {
   Runner(const TrainConfig& config, WorkerPool& pool)
-      : trainer(std::make_unique<Trainer>(config, pool)) {
+      : trainer(std::make_unique<Trainer>(config, pool)), threads(pool.threads()) {
     trainer->Iterate();
   }
 
@@ -35,6 +36,14 @@ struct Runner {
     update.push_back(report.update_seconds);
     gradient.push_back(report.gradient_seconds);
     efficiency.push_back((report.rollout_seconds + report.gradient_seconds) / whole.back());
+    peak.push_back(MedianPeak());
+  }
+
+  double MedianPeak() const {
+    if (trainer->backend().precision == LearnerPrecision::kBfloat16) {
+      if (const auto bfloat16 = simd::MeasureBfloat16Peak(threads)) return bfloat16->median_gflops;
+    }
+    return simd::MeasurePeak(threads).median_gflops;
   }
 
   LearnerRates Rates() const {
@@ -56,13 +65,15 @@ struct Runner {
     rates.gradient_samples_per_s = samples / Median(gradient);
     // Backward is two products for each one forward.
     rates.update_flops_per_sample = 3 * forward_flops;
+    rates.peak_gflops = Median(peak);
     rates.iteration_s = Median(whole);
     rates.efficiency = Median(efficiency);
     return rates;
   }
 
   std::unique_ptr<Trainer> trainer;
-  std::vector<double> whole, rollout, simulator, update, gradient, efficiency;
+  int threads;
+  std::vector<double> whole, rollout, simulator, update, gradient, efficiency, peak;
 };
 
 }  // namespace

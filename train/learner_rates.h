@@ -19,12 +19,16 @@ struct LearnerRates {
   double gradient_samples_per_s = 0;   ///< through forward, loss and backward alone
   double update_flops_per_sample = 0;  ///< of the products, forward and backward, both networks
   double iteration_s = 0;              ///< rollout, update and all between
+  /// What the multiply-add units gave between iterations, with the operands of this learner's
+  /// products: of bfloat16 for LearnerPrecision::kBfloat16 where the processor multiplies those.
+  double peak_gflops = 0;
   /// Of an iteration, the share that rollout and gradients alone would take.
   double efficiency = 0;
 };
 
-/// Trains every configuration for `iterations` iterations after one to warm up, in turns, so that
-/// all meet the same machine. Their evaluations are left out.
+/// Trains every configuration for `iterations` iterations after one to warm up, in turns with each
+/// other and with the measurements of the peak, so that all meet the same machine. Their
+/// evaluations are left out.
 std::vector<LearnerRates> MeasureLearners(const std::vector<TrainConfig>& configs, int iterations,
                                           WorkerPool& pool);
 
