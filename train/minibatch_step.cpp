@@ -33,11 +33,12 @@ void SumShards(std::int64_t begin, std::int64_t end, std::vector<AlignedVector<f
 
 double ClippedStep(double max_norm, double learning_rate, AdamOptimiser& optimiser) {
   float* const gradient = optimiser.gradient();
-  const double norm = Norm(gradient, optimiser.size());
+  const std::int64_t size = optimiser.size();
+  const double norm = Norm(gradient, size);
   if (!(norm <= kExplodedGradientNorm)) return norm;
   if (norm > max_norm) {
     const auto scale = static_cast<float>(max_norm / norm);
-    for (std::int64_t i = 0; i < optimiser.size(); ++i) gradient[i] *= scale;
+    for (std::int64_t i = 0; i < size; ++i) gradient[i] *= scale;
   }
   optimiser.Step(learning_rate);
   return norm;
