@@ -70,6 +70,9 @@ void Resume(const TrainOptions& options) {
   ProgramConfig asked = config;
   ApplyConditionsAndAssignments(options.conditions, options.assignments, &asked);
   ApplyFlags(options, &asked);
+  // Which precision suits the processor was decided when the run began.
+  LearnerPrecision& precision = asked.train.learner.precision;
+  if (precision == LearnerPrecision::kAuto) precision = config.train.learner.precision;
   if (const auto differences = Differences(config, asked); !differences.empty()) {
     throw Error(fmt::format(
         "{}: a resumed run keeps its configuration, but this was asked for: {}; begin a new run "

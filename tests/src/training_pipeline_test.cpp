@@ -399,6 +399,14 @@ TEST_F(TrainingPipeline, AResumedRunKeepsItsConfiguration) {
   const ProgramResult same =
       RunSkein({"train", "--resume", reference_, "--set", "ppo.num_aircraft=64"});
   EXPECT_EQ(same.exit_code, 0) << same.error;
+  // What "auto" means was decided when the run began, and is in its configuration by name.
+  const ProgramResult chosen =
+      RunSkein({"train", "--resume", reference_, "--set", "learner.precision=auto"});
+  EXPECT_EQ(chosen.exit_code, 0) << chosen.error;
+  const ProgramResult rounded =
+      RunSkein({"train", "--resume", reference_, "--set", "learner.precision=mixed"});
+  EXPECT_EQ(rounded.exit_code, 1);
+  ExpectOneLine(rounded.error, "learner.precision");
   const ProgramResult other =
       RunSkein({"train", "--resume", reference_, "--set", "ppo.num_aircraft=128"});
   EXPECT_EQ(other.exit_code, 1);
