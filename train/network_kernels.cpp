@@ -235,14 +235,16 @@ void GruStepKernel(std::int64_t rows, int size, const float* previous, float* ga
     float* const gate_r = gate_n + size;
     float* const gate_z = gate_r + size;
     const float* const gate_q = gate_z + size;
+    // The long chains of the new gate begin where those of its reset gate have ended: in loops of
+    // their own they run side by side.
+    for (int j = 0; j < 2 * size; j += lanes) {
+      hn::StoreU(Sigmoid(hn::LoadU(d, gate_r + j)), d, gate_r + j);  // r, and z behind it
+    }
     for (int j = 0; j < size; j += lanes) {
-      const Vector r = Sigmoid(hn::LoadU(d, gate_r + j));
-      const Vector z = Sigmoid(hn::LoadU(d, gate_z + j));
+      const Vector r = hn::LoadU(d, gate_r + j), z = hn::LoadU(d, gate_z + j);
       const Vector n = Tanh(hn::MulAdd(r, hn::LoadU(d, gate_q + j), hn::LoadU(d, gate_n + j)));
       const Vector h = hn::LoadU(d, previous + i * row_stride + j);
       hn::StoreU(n, d, gate_n + j);
-      hn::StoreU(r, d, gate_r + j);
-      hn::StoreU(z, d, gate_z + j);
       hn::StoreU(hn::MulAdd(z, hn::Sub(h, n), n), d, next + i * row_stride + j);
     }
   }
