@@ -149,10 +149,15 @@ double Seconds(Clock::duration duration) { return std::chrono::duration<double>(
 /// Does `rounds` rounds of some work and returns how much that is.
 using Work = double (*)(std::int64_t rounds, float* sink);
 
-/// Rates of `repetitions` in which all threads start together, work per second, in ascending order;
-/// the slowest thread's time counts.
-std::vector<double> Rates(Work work, std::int64_t rounds, int repetitions, int threads) {
-  std::vector<double> rates;
+/// Rates of several repetitions in which all threads start together, work per second, in ascending
+/// order.
+struct Rates {
+  std::vector<double> of_slowest;  ///< all work in the slowest thread's time
+  std::vector<double> summed;      ///< of each thread's own rate: as if none waited for another
+};
+
+Rates MeasureRates(Work work, std::int64_t rounds, int repetitions, int threads) {
+  Rates rates;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     std::atomic<int> waiting{threads};
     std::vector<double> done(threads), seconds(threads);
@@ -170,11 +175,16 @@ std::vector<double> Rates(Work work, std::int64_t rounds, int repetitions, int t
     for (int thread = 1; thread < threads; ++thread) others.emplace_back(run, thread);
     run(0);
     for (std::thread& other : others) other.join();
-    double total = 0;
-    for (const double part : done) total += part;
-    rates.push_back(total / *std::max_element(seconds.begin(), seconds.end()));
+    double total = 0, sum = 0;
+    for (int thread = 0; thread < threads; ++thread) {
+      total += done[thread];
+      sum += done[thread] / seconds[thread];
+    }
+    rates.of_slowest.push_back(total / *std::max_element(seconds.begin(), seconds.end()));
+    rates.summed.push_back(sum);
   }
-  std::sort(rates.begin(), rates.end());
+  std::sort(rates.of_slowest.begin(), rates.of_slowest.end());
+  std::sort(rates.summed.begin(), rates.summed.end());
   return rates;
 }
 
@@ -184,15 +194,15 @@ std::vector<double> Rates(Work work, std::int64_t rounds, int repetitions, int t
 
 struct Roof {
   double one = 0, all = 0;  ///< best of one thread, and of all together
-  double median = 0;        ///< of all together
+  double median = 0;        ///< of all, none waiting for another
 };
 
 Roof MeasureRoof(Work work, std::int64_t rounds, int threads) {
   if (threads < 1) ThrowNoThreads(threads);
   constexpr int kRepetitions = 65;
-  const std::vector<double> one = Rates(work, rounds, kRepetitions, 1);
-  const std::vector<double> all = threads == 1 ? one : Rates(work, rounds, kRepetitions, threads);
-  return {one.back(), all.back(), all[all.size() / 2]};
+  const Rates one = MeasureRates(work, rounds, kRepetitions, 1);
+  const Rates all = threads == 1 ? one : MeasureRates(work, rounds, kRepetitions, threads);
+  return {one.of_slowest.back(), all.of_slowest.back(), all.summed[kRepetitions / 2]};
 }
 
 PeakRate InGflops(const Roof& roof) { return {roof.one / 1e9, roof.all / 1e9, roof.median / 1e9}; }
@@ -225,7 +235,7 @@ double MeasureClock() {
   // Repetitions shorter than a busy scheduler's slices: some of them run undisturbed.
   constexpr std::int64_t kRounds = 40000;
   constexpr int kRepetitions = 200;
-  return Rates(SKEIN_DISPATCH(MultiplyInAChain), kRounds, kRepetitions, 1).back();
+  return MeasureRates(SKEIN_DISPATCH(MultiplyInAChain), kRounds, kRepetitions, 1).of_slowest.back();
 }
 
 }  // namespace simd

@@ -12,8 +12,8 @@ namespace skein::simd {
 struct PeakRate {
   double gflops_per_core = 0;  ///< one thread running alone
   double gflops = 0;           ///< all threads together
-  /// All threads together, the median of the runs: what other programs and virtual machines leave,
-  /// to compare with the median of a long computation that is measured in turns with this.
+  /// All threads, none waiting for another, the median of the runs: what other programs and virtual
+  /// machines leave, to compare with the median of a long computation that is measured in turns.
   double median_gflops = 0;
 };
 

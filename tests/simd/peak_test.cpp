@@ -36,6 +36,12 @@ TEST(Peak, WiderVectorsDoMore) {
   }
 }
 
+TEST(Peak, MedianOfOneThreadIsNotAboveItsBest) {
+  const simd::PeakRate rate = simd::MeasurePeak(1);
+  EXPECT_GT(rate.median_gflops, 0);
+  EXPECT_LE(rate.median_gflops, rate.gflops);
+}
+
 TEST(Peak, WiderVectorsLoadMore) {
   const auto measure = [] { return simd::MeasureLoadPeak(1); };
   const double scalar = On(simd::Target::kScalar, measure).bytes_per_s_per_core;
