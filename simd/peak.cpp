@@ -157,30 +157,35 @@ struct Rates {
 };
 
 Rates MeasureRates(Work work, std::int64_t rounds, int repetitions, int threads) {
-  Rates rates;
-  for (int repetition = 0; repetition < repetitions; ++repetition) {
-    std::atomic<int> waiting{threads};
-    std::vector<double> done(threads), seconds(threads);
-    const auto run = [&](int thread) {
+  std::atomic<int> arrived{0};
+  std::vector<double> done(repetitions * threads), seconds(repetitions * threads);
+  // Threads live through all repetitions: fresh ones may share a processor until they are moved.
+  const auto run = [&](int thread) {
+    for (int repetition = 0; repetition < repetitions; ++repetition) {
       float sink = 0;
-      --waiting;
-      while (waiting > 0) std::this_thread::yield();
+      ++arrived;
+      while (arrived < threads * (repetition + 1)) std::this_thread::yield();
       const auto start = Clock::now();
-      done[thread] = work(rounds, &sink);
+      done[repetition * threads + thread] = work(rounds, &sink);
       const volatile float kept = sink;
       static_cast<void>(kept);
-      seconds[thread] = Seconds(Clock::now() - start);
-    };
-    std::vector<std::thread> others;
-    for (int thread = 1; thread < threads; ++thread) others.emplace_back(run, thread);
-    run(0);
-    for (std::thread& other : others) other.join();
-    double total = 0, sum = 0;
-    for (int thread = 0; thread < threads; ++thread) {
-      total += done[thread];
-      sum += done[thread] / seconds[thread];
+      seconds[repetition * threads + thread] = Seconds(Clock::now() - start);
     }
-    rates.of_slowest.push_back(total / *std::max_element(seconds.begin(), seconds.end()));
+  };
+  std::vector<std::thread> others;
+  for (int thread = 1; thread < threads; ++thread) others.emplace_back(run, thread);
+  run(0);
+  for (std::thread& other : others) other.join();
+
+  Rates rates;
+  for (int first = 0; first < repetitions * threads; first += threads) {
+    double total = 0, sum = 0, slowest = 0;
+    for (int i = first; i < first + threads; ++i) {
+      total += done[i];
+      sum += done[i] / seconds[i];
+      slowest = std::max(slowest, seconds[i]);
+    }
+    rates.of_slowest.push_back(total / slowest);
     rates.summed.push_back(sum);
   }
   std::sort(rates.of_slowest.begin(), rates.of_slowest.end());
@@ -199,7 +204,7 @@ struct Roof {
 
 Roof MeasureRoof(Work work, std::int64_t rounds, int threads) {
   if (threads < 1) ThrowNoThreads(threads);
-  constexpr int kRepetitions = 65;
+  constexpr int kRepetitions = 129;
   const Rates one = MeasureRates(work, rounds, kRepetitions, 1);
   const Rates all = threads == 1 ? one : MeasureRates(work, rounds, kRepetitions, threads);
   return {one.of_slowest.back(), all.of_slowest.back(), all.summed[kRepetitions / 2]};
