@@ -81,7 +81,7 @@ void Validate(const EnvConfig& config) {
   RequireNotNegative("env.engine_angular_momentum_slug_ft2_per_s", config.engine_angular_momentum);
 
   RequireRange("env.initial.altitude", "ft", config.initial.altitude_ft, 0, 60000);
-  RequireRange("env.initial.true_airspeed", "fps", config.initial.true_airspeed_fps, 100, 3000);
+  RequireRange("env.initial.true_airspeed", "fps", config.initial.true_airspeed_fps, 10, 3000);
 
   RequireRange("env.wind.speed", "fps", config.wind.speed_fps, 0, kFastestWindFps);
   RequireRange("env.wind.from", "deg", config.wind.from_deg, -360, 360);

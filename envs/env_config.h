@@ -17,7 +17,7 @@ struct InitialConfig {
   Range altitude_ft{19000, 20000};
   Range true_airspeed_fps{1000, 1200};
   /// Trimmed at reset (table of float64 trims, bilinear in altitude and speed). false: the paper's
-  /// start, level, alpha 0, surfaces centred, 2000 lbf of thrust.
+  /// start, level, alpha 0, surfaces centred, Aircraft::untrimmed_thrust_lbf (F-16: 2000 lbf).
   bool trimmed = true;
 };
 
@@ -63,8 +63,9 @@ struct ControlConfig {
   /// that between the nose and where it should point. Roll does not count for the target, but has
   /// to be flown to reach it: the attitude's angle makes a bank cost more than the turn is worth.
   bool reward_includes_roll = false;
-  /// Reward lost per step and 340 m/s of speed error; the paper's is 0. At 5 the speed tolerance
-  /// costs as much as the angular ones, and bringing the nose round at a wrong speed does not pay.
+  /// Reward lost per step and unit of speed error (F-16: 340 m/s); the paper's is 0. At 5 the speed
+  /// tolerance costs as much as the angular ones, and bringing the nose round at a wrong speed does
+  /// not pay.
   double speed_error_weight = 5;
 };
 

@@ -8,9 +8,6 @@
 namespace skein {
 namespace {
 
-// Thrust of the paper's untrimmed start.
-constexpr double kUntrimmedThrustLbf = 2000;
-
 RigidBodyState LevelState(double altitude_ft, double true_airspeed_ft_s, double alpha_rad,
                           double bank_rad, double pitch_rad) {
   RigidBodyState state = RigidBodyState::Zero();
@@ -41,11 +38,11 @@ FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
 TrimmedStart FlightReset::UntrimmedAt(double altitude_ft, double true_airspeed_ft_s) const {
   const RigidBodyState state = LevelState(altitude_ft, true_airspeed_ft_s, 0, 0, 0);
   Controls controls;
-  controls.thrust_lbf = kUntrimmedThrustLbf;
+  controls.thrust_lbf = plant_.aircraft().untrimmed_thrust_lbf;
   const PlantOutput output = plant_.Evaluate(state, controls);
   TrimmedStart start;
   start.power =
-      PowerForThrust(plant_.aircraft().engine, kUntrimmedThrustLbf, altitude_ft, output.air.mach);
+      PowerForThrust(plant_.aircraft().engine, controls.thrust_lbf, altitude_ft, output.air.mach);
   start.nz = output.nz;
   start.ny = output.ny;
   return start;

@@ -56,7 +56,7 @@ class TrimmedFlock {
     const Aircraft f16 = F16();
     const FlightReset reset(config, f16);
     kernel_ = MakeKernelAircraft(f16, config.atmosphere);
-    pool.ForEach(num_tiles(), [&](int tile, int) { Fill(reset, tile); });
+    pool.ForEach(num_tiles(), [&](int tile, int) { Fill(reset, f16.throttle_gearing, tile); });
   }
 
   int num_tiles() const { return (count_ + kTileSize - 1) / kTileSize; }
@@ -85,7 +85,7 @@ class TrimmedFlock {
             TileStride(kTileSize), std::min(kTileSize, count_ - index * kTileSize)};
   }
 
-  void Fill(const FlightReset& reset, int index) {
+  void Fill(const FlightReset& reset, const ThrottleGearing& gearing, int index) {
     const Tile tile = At(index);
     simd::RandomStream random(
         {0, static_cast<std::uint32_t>(index), 0, 0, simd::RandomPurpose::kInitialState});
@@ -96,7 +96,7 @@ class TrimmedFlock {
       }
       // The sticks stay centred.
       for (int k = 0; k < kNumPilot; ++k) tile[kNumColumns + k][i] = 0;
-      tile[kNumColumns][i] = static_cast<float>(ThrottleForPower(flight.columns[kPower]));
+      tile[kNumColumns][i] = static_cast<float>(ThrottleForPower(gearing, flight.columns[kPower]));
     }
   }
 

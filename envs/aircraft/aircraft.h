@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,35 @@ struct EngineTables {
   bool grows = false;
 };
 
+/// Power that a throttle in [0, 1] commands: `dry_gain` throttle up to military_throttle,
+/// afterburner_gain throttle + afterburner_offset above.
+struct ThrottleGearing {
+  double military_throttle = 0;
+  double dry_gain = 0;
+  double afterburner_gain = 0, afterburner_offset = 0;
+};
+
+/// The lag with which power follows its command. The rate of the lag falls with what is missing:
+/// rate_offset_per_s - rate_slope_per_s (command - power), within the two limits. From
+/// afterburner_power on a second stage burns, at a rate of its own; crossing it, power first heads
+/// for a point on its own side. An engine of one stage has it at infinity.
+struct PowerLag {
+  double max_rate_per_s = 0, min_rate_per_s = 0;
+  double rate_offset_per_s = 0, rate_slope_per_s = 0;
+  double afterburner_power = std::numeric_limits<double>::infinity();
+  double light_up_power = 0;  ///< first aim below afterburner_power when the command is above it
+  double blow_out_power = 0;  ///< first aim above it when the command is below
+  double afterburner_rate_per_s = 0;
+};
+
+/// What the tasks measure lengths and speeds by, in observations and rewards: the aircraft's own
+/// scale, so that they are of order one and noise on them means the same to every aircraft.
+struct ReferenceUnits {
+  double altitude_error_ft = 0;  ///< errors of altitude
+  double altitude_ft = 0;        ///< altitudes
+  double speed_ft_s = 0;         ///< speeds and errors of speed
+};
+
 /// Everything that makes one aircraft, in double precision, as loaded from data/.
 struct Aircraft {
   std::string name;
@@ -67,8 +97,12 @@ struct Aircraft {
   EngineTables engine;
   MachFunction drag_rise;  ///< coefficient of axial force (along -x) gained, if drag rises
   bool drag_rises = false;
+  ThrottleGearing throttle_gearing;
+  PowerLag power_lag;
   Actuators actuators;
   FlightControlGains flight_control;
+  ReferenceUnits units;
+  double untrimmed_thrust_lbf = 0;  ///< of starts that are not trimmed
 };
 
 }  // namespace skein

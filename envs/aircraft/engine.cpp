@@ -7,9 +7,6 @@
 namespace skein {
 namespace {
 
-constexpr double kMilitaryPower = kPowerLag.military_power;
-constexpr double kMaximumPower = kPowerLag.maximum_power;
-
 // The three thrust levels at one flight condition, lbf.
 struct ThrustLevels {
   double idle, military, maximum;
@@ -26,23 +23,21 @@ ThrustLevels LevelsAt(const EngineTables& engine, double altitude_ft, double mac
 }
 
 // Reciprocal time constant of the power lag, 1/s, by the distance still to go.
-double LagRate(double distance) {
-  return std::clamp(kPowerLag.rate_offset_per_s - kPowerLag.rate_slope_per_s * distance,
-                    kPowerLag.min_rate_per_s, kPowerLag.max_rate_per_s);
+double LagRate(const PowerLag& lag, double distance) {
+  return std::clamp(lag.rate_offset_per_s - lag.rate_slope_per_s * distance, lag.min_rate_per_s,
+                    lag.max_rate_per_s);
 }
 
 }  // namespace
 
-double PowerCommand(double throttle) {
+double PowerCommand(const ThrottleGearing& gearing, double throttle) {
   throttle = std::clamp(throttle, 0.0, 1.0);
-  const ThrottleGearing& gearing = kThrottleGearing;
   return throttle <= gearing.military_throttle
              ? gearing.dry_gain * throttle
              : gearing.afterburner_gain * throttle + gearing.afterburner_offset;
 }
 
-double ThrottleForPower(double power) {
-  const ThrottleGearing& gearing = kThrottleGearing;
+double ThrottleForPower(const ThrottleGearing& gearing, double power) {
   const double dry = power / gearing.dry_gain;
   const double throttle = dry <= gearing.military_throttle
                               ? dry
@@ -50,16 +45,16 @@ double ThrottleForPower(double power) {
   return std::clamp(throttle, 0.0, 1.0);
 }
 
-double PowerRate(double power, double power_command) {
-  // Crossing military power, the engine first heads for a point on its own side of the gap at a
-  // rate of its own; only then for the command.
-  if (power >= kMilitaryPower) {
-    const double target =
-        power_command >= kMilitaryPower ? power_command : kPowerLag.blow_out_power;
-    return kPowerLag.afterburner_rate_per_s * (target - power);
+double PowerRate(const PowerLag& lag, double power, double power_command) {
+  // Crossing to or from the second stage, the engine first heads for a point on its own side of the
+  // gap; only then for the command.
+  const bool is_asked = power_command >= lag.afterburner_power;
+  if (power >= lag.afterburner_power) {
+    const double target = is_asked ? power_command : lag.blow_out_power;
+    return lag.afterburner_rate_per_s * (target - power);
   }
-  const double target = power_command >= kMilitaryPower ? kPowerLag.light_up_power : power_command;
-  return LagRate(target - power) * (target - power);
+  const double target = is_asked ? lag.light_up_power : power_command;
+  return LagRate(lag, target - power) * (target - power);
 }
 
 double Thrust(const EngineTables& engine, double power, double altitude_ft, double mach) {

@@ -5,8 +5,8 @@
 namespace skein {
 
 /// What the flight control kernel works with, made once from the aircraft and the control interval
-/// in seconds, in float32: gains, discretised filters, ramps as slope and offset, exact actuator
-/// responses.
+/// in seconds, in float32: throttle gearing, gains, discretised filters, ramps as slope and offset,
+/// exact actuator responses.
 struct FlightControlConstants {
   /// As LinearFilter.
   struct Filter {
@@ -26,6 +26,8 @@ struct FlightControlConstants {
 
   FlightControlMode mode;
   float dt;
+  // As in ThrottleGearing.
+  float military_throttle, dry_gain, afterburner_gain, afterburner_offset;
   // Named and in units as in FlightControlGains.
   float alpha_min_deg, alpha_max_deg;
   float pitch_gain_pressure_psf, roll_gain_pressure_psf, yaw_gain_pressure_psf;

@@ -1,6 +1,5 @@
 #include "envs/aircraft/flight_control_kernel.h"
 
-#include "envs/aircraft/engine.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/kernel_aircraft.h"
 #include "simd/dispatch.h"
@@ -190,14 +189,10 @@ HWY_INLINE V FlapSchedule(const FlightControlConstants& k, const Sensors& sensor
       hn::NegMulAdd(Constant(k.flap_pressure_gain_deg), pressure_ratio, Constant(k.flap_bias_deg)));
 }
 
-HWY_INLINE V PowerCommandOf(V throttle) {
-  constexpr float kDryGain = static_cast<float>(kThrottleGearing.dry_gain);
-  constexpr float kWetGain = static_cast<float>(kThrottleGearing.afterburner_gain);
-  constexpr float kWetOffset = static_cast<float>(kThrottleGearing.afterburner_offset);
-  constexpr float kMilitary = static_cast<float>(kThrottleGearing.military_throttle);
-  const V dry = hn::Mul(Constant(kDryGain), throttle);
-  const V wet = hn::MulAdd(Constant(kWetGain), throttle, Constant(kWetOffset));
-  return hn::IfThenElse(hn::Le(throttle, Constant(kMilitary)), dry, wet);
+HWY_INLINE V PowerCommandOf(const FlightControlConstants& k, V throttle) {
+  const V dry = hn::Mul(Constant(k.dry_gain), throttle);
+  const V wet = hn::MulAdd(Constant(k.afterburner_gain), throttle, Constant(k.afterburner_offset));
+  return hn::IfThenElse(hn::Le(throttle, Constant(k.military_throttle)), dry, wet);
 }
 
 HWY_INLINE Sensors Sense(const KernelAircraft& aircraft, const Group& group) {
@@ -232,7 +227,7 @@ void ControlTileIn(const KernelAircraft& aircraft, const FlightControlConstants&
     const Sticks sticks{Stick(pilot.pitch, first), Stick(pilot.roll, first),
                         Stick(pilot.yaw, first)};
     const V throttle = Clip(hn::LoadU(d, pilot.throttle + first), Constant(0), Constant(1));
-    group.Put(kPowerCommand, PowerCommandOf(throttle));
+    group.Put(kPowerCommand, PowerCommandOf(k, throttle));
 
     V elevator, aileron, rudder, flap;
     if constexpr (kMode == FlightControlMode::kFull) {

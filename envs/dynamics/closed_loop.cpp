@@ -67,7 +67,7 @@ void ClosedLoop::Step(const PilotCommands& pilot) {
       StepActuator(actuators.leading_edge_flap, surfaces_.leading_edge_flap_deg,
                    command.leading_edge_flap_deg, dt_);
 
-  const double power_command = PowerCommand(pilot.throttle);
+  const double power_command = PowerCommand(plant_.aircraft().throttle_gearing, pilot.throttle);
   for (int i = 0; i < substeps_; ++i) Integrate(dt_ / substeps_, power_command);
 }
 
@@ -82,7 +82,7 @@ ClosedLoop::Flight ClosedLoop::RateOf(const Flight& flight, double power_command
   controls.rudder_deg = surfaces_.rudder_deg;
   controls.leading_edge_flap_deg = surfaces_.leading_edge_flap_deg;
   *output = plant_.Evaluate(flight.body, controls, wind_);
-  return {output->state_rate, PowerRate(flight.power, power_command)};
+  return {output->state_rate, PowerRate(plant_.aircraft().power_lag, flight.power, power_command)};
 }
 
 void ClosedLoop::Integrate(double dt, double power_command) {

@@ -129,7 +129,7 @@ void FillBilinear(const std::vector<double>& table, int rows, int columns, Kerne
   }
 }
 
-KernelEngine MakeEngine(const EngineTables& tables) {
+KernelEngine MakeEngine(const EngineTables& tables, const PowerLag& lag) {
   KernelEngine engine;
   const auto uniform = [](const std::vector<double>& nodes, const char* name) {
     const KernelAxis axis = MakeKernelAxis(nodes, name);
@@ -158,10 +158,17 @@ KernelEngine MakeEngine(const EngineTables& tables) {
     FillBilinear(low, rows, columns, &engine.low_lbf[segment]);
     FillBilinear(gain, rows, columns, &engine.gain_lbf[segment]);
   };
-  const double military = kPowerLag.military_power;
-  fill(KernelEngine::kDry, tables.idle_lbf, tables.military_lbf, military);
+  fill(KernelEngine::kDry, tables.idle_lbf, tables.military_lbf, kMilitaryPower);
   fill(KernelEngine::kAfterburner, tables.military_lbf, tables.maximum_lbf,
-       kPowerLag.maximum_power - military);
+       kMaximumPower - kMilitaryPower);
+  engine.max_rate_per_s = static_cast<float>(lag.max_rate_per_s);
+  engine.min_rate_per_s = static_cast<float>(lag.min_rate_per_s);
+  engine.rate_offset_per_s = static_cast<float>(lag.rate_offset_per_s);
+  engine.rate_slope_per_s = static_cast<float>(lag.rate_slope_per_s);
+  engine.afterburner_power = static_cast<float>(lag.afterburner_power);
+  engine.light_up_power = static_cast<float>(lag.light_up_power);
+  engine.blow_out_power = static_cast<float>(lag.blow_out_power);
+  engine.afterburner_rate_per_s = static_cast<float>(lag.afterburner_rate_per_s);
   return engine;
 }
 
@@ -235,7 +242,7 @@ std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraf
   kernel->source = aircraft;
   kernel->atmosphere_model = atmosphere;
   FillAerodynamics(aircraft.aerodynamics, kernel.get());
-  kernel->engine = MakeEngine(aircraft.engine);
+  kernel->engine = MakeEngine(aircraft.engine, aircraft.power_lag);
   kernel->atmosphere = MakeAtmosphere(atmosphere);
   kernel->constants = MakeConstants(aircraft.airframe);
   kernel->depends_on_mach = aircraft.drag_rises || aircraft.engine.grows;

@@ -104,13 +104,18 @@ struct KernelAtmosphere {
 
 /// Thrust as low + (power - start) gain, in one of two segments of power (dry: from idle to
 /// military; afterburner: to maximum), each of `low` and `gain` bilinear in altitude and Mach
-/// number by cell: c[0] + c[1] a + c[2] m + c[3] a m with the fractions a and m of the cell.
+/// number by cell: c[0] + c[1] a + c[2] m + c[3] a m with the fractions a and m of the cell; and
+/// the lag of power.
 struct KernelEngine {
   enum Segment : int { kDry, kAfterburner, kNumSegments };
   KernelAxis altitude, mach;
   float mach_cells = 0;  ///< cell number = altitude cell * mach_cells + Mach cell
   KernelCells low_lbf[kNumSegments];
   KernelCells gain_lbf[kNumSegments];  ///< per unit of power
+  /// As PowerLag.
+  float max_rate_per_s = 0, min_rate_per_s = 0;
+  float rate_offset_per_s = 0, rate_slope_per_s = 0;
+  float afterburner_power = 0, light_up_power = 0, blow_out_power = 0, afterburner_rate_per_s = 0;
 };
 
 /// A MachFunction as its first value and ramps: start + sum of slope (Mach number limited to

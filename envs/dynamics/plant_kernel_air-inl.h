@@ -58,7 +58,7 @@ HWY_INLINE V Thrust(const KernelEngine& engine, V power, V altitude_ft, V mach, 
   const Cell h = FindUniformCell(engine.altitude, altitude_ft);
   const Cell m = FindUniformCell(engine.mach, mach);
   const VI cell = TruncateToInt(d, hn::MulAdd(h.start, Constant(engine.mach_cells), m.start));
-  const V military = Constant(static_cast<float>(kPowerLag.military_power));
+  const V military = Constant(static_cast<float>(kMilitaryPower));
   const auto is_lit = hn::Ge(power, military);
   // The cell with the segment as its sign: both at once are compared with those of before.
   const VI place = hn::Xor(cell, hn::VecFromMask(di, hn::RebindMask(di, is_lit)));
@@ -74,21 +74,18 @@ HWY_INLINE V Thrust(const KernelEngine& engine, V power, V altitude_ft, V mach, 
 }
 
 /// Rate of change of power, 1/s; the law of PowerRate in envs/aircraft/engine.h.
-HWY_INLINE V PowerRateOf(V power, V command) {
-  constexpr const PowerLag& k = kPowerLag;
-  const V military = Constant(static_cast<float>(k.military_power));
-  const auto lit = hn::Ge(power, military);
-  const auto asked = hn::Ge(command, military);
-  const V target_lit =
-      hn::IfThenElse(asked, command, Constant(static_cast<float>(k.blow_out_power)));
-  const V target_dry =
-      hn::IfThenElse(asked, Constant(static_cast<float>(k.light_up_power)), command);
+HWY_INLINE V PowerRateOf(const KernelEngine& k, V power, V command) {
+  const V afterburner = Constant(k.afterburner_power);
+  const auto lit = hn::Ge(power, afterburner);
+  const auto asked = hn::Ge(command, afterburner);
+  const V target_lit = hn::IfThenElse(asked, command, Constant(k.blow_out_power));
+  const V target_dry = hn::IfThenElse(asked, Constant(k.light_up_power), command);
   const V missing = hn::Sub(hn::IfThenElse(lit, target_lit, target_dry), power);
-  const V lag = ClampTo(FloatTag(),
-                        hn::NegMulAdd(Constant(static_cast<float>(k.rate_slope_per_s)), missing,
-                                      Constant(static_cast<float>(k.rate_offset_per_s))),
-                        static_cast<float>(k.min_rate_per_s), static_cast<float>(k.max_rate_per_s));
-  const V rate = hn::IfThenElse(lit, Constant(static_cast<float>(k.afterburner_rate_per_s)), lag);
+  const V lag =
+      ClampTo(FloatTag(),
+              hn::NegMulAdd(Constant(k.rate_slope_per_s), missing, Constant(k.rate_offset_per_s)),
+              k.min_rate_per_s, k.max_rate_per_s);
+  const V rate = hn::IfThenElse(lit, Constant(k.afterburner_rate_per_s), lag);
   return hn::Mul(rate, missing);
 }
 
@@ -171,7 +168,8 @@ HWY_INLINE void FindThrust(const KernelAircraft& aircraft, const State& state,
       const V mach = hn::Load(d, block->mach + lane);
       hn::Store(Thrust<State::kStage>(aircraft.engine, power, altitude, mach, lane, block), d,
                 block->thrust + lane);
-      state.Put(kPower, lane, PowerRateOf(power, hn::LoadU(d, controls.power_command + lane)));
+      const V command = hn::LoadU(d, controls.power_command + lane);
+      state.Put(kPower, lane, PowerRateOf(aircraft.engine, power, command));
     } else {
       hn::Store(hn::LoadU(d, controls.thrust_lbf + lane), d, block->thrust + lane);
     }

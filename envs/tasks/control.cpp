@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "envs/aircraft/registry.h"
 #include "envs/dynamics/attitude.h"
-#include "envs/tasks/normalisation.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -33,8 +33,8 @@ HWY_INLINE ControlError ErrorOf(const Tile& flight, const Tile& task, int first)
   return error;
 }
 
-HWY_INLINE FlightVector NormalisedSpeed(FlightVector speed) {
-  return hn::Mul(speed, Constant(1 / kSpeedUnitFtS));
+HWY_INLINE FlightVector NormalisedSpeed(FlightVector speed, const ReferenceUnits& units) {
+  return hn::Mul(speed, Constant(1 / units.speed_ft_s));
 }
 
 /// The rotation from the attitude to the target's: conj(q) t, as scalar and vector part.
@@ -79,17 +79,19 @@ HWY_INLINE FlightVector NoseAngle(const RelativeAttitude& r) {
   return Atan2(FlightTag(), hn::Sqrt(hn::MulAdd(right, right, hn::Mul(down, down))), along);
 }
 
-void ControlErrors(Tile flight, Tile task, float* errors, std::size_t error_stride) {
+void ControlErrors(Tile flight, Tile task, const ReferenceUnits& units, float* errors,
+                   std::size_t error_stride) {
   const FlightTag d;
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     const ControlError error = ErrorOf(flight, task, first);
     hn::StoreU(error.pitch, d, errors + first);
     hn::StoreU(error.yaw, d, errors + error_stride + first);
-    hn::StoreU(NormalisedSpeed(error.speed), d, errors + 2 * error_stride + first);
+    hn::StoreU(NormalisedSpeed(error.speed, units), d, errors + 2 * error_stride + first);
   }
 }
 
-void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const TaskVerdict& verdict) {
+void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const ReferenceUnits& units,
+                  const TaskVerdict& verdict) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
   const auto one = hn::Set(di, 1);
@@ -104,7 +106,7 @@ void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const Tas
     const RelativeAttitude relative = RelativeTo(flight, task, first);
     const FlightVector angle =
         config.reward_includes_roll ? RotationAngle(relative) : NoseAngle(relative);
-    const FlightVector cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error), angle);
+    const FlightVector cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error, units), angle);
     hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
 
     const auto reached = hn::And(hn::Lt(hn::Abs(error.pitch), hn::Mul(share, pitch_tolerance)),
@@ -132,7 +134,8 @@ double Folded(double pitch_rad) { return std::asin(std::sin(pitch_rad)); }
 
 class ControlTask : public Task {
  public:
-  explicit ControlTask(const ControlConfig& config) : config_(config) {}
+  ControlTask(const ControlConfig& config, const ReferenceUnits& units)
+      : config_(config), units_(units) {}
 
   int num_columns() const override { return kNumControlColumns; }
   int num_targets() const override { return kControlSpeed + 1; }
@@ -162,22 +165,23 @@ class ControlTask : public Task {
   }
 
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
-    SKEIN_DISPATCH(ControlErrors)(flight, task, errors, error_stride);
+    SKEIN_DISPATCH(ControlErrors)(flight, task, units_, errors, error_stride);
   }
 
   void Judge(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
              const TaskVerdict& verdict) const override {
-    SKEIN_DISPATCH(ControlJudge)(flight, task, config_, verdict);
+    SKEIN_DISPATCH(ControlJudge)(flight, task, config_, units_, verdict);
   }
 
  private:
   ControlConfig config_;
+  ReferenceUnits units_;
 };
 
 }  // namespace
 
 std::unique_ptr<Task> MakeControlTask(const EnvConfig& config) {
-  return std::make_unique<ControlTask>(config.control);
+  return std::make_unique<ControlTask>(config.control, LoadAircraft(config.aircraft).units);
 }
 
 }  // namespace skein

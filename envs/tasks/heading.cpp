@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "envs/aircraft/registry.h"
 #include "envs/dynamics/attitude.h"
-#include "envs/tasks/normalisation.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -33,22 +33,23 @@ HWY_INLINE HeadingError ErrorOf(const Tile& flight, const Tile& task, int first)
   return error;
 }
 
-HWY_INLINE HeadingError Normalised(const HeadingError& error) {
-  return {hn::Mul(error.altitude, Constant(1 / kAltitudeErrorUnitFt)), error.yaw,
-          hn::Mul(error.speed, Constant(1 / kSpeedUnitFtS))};
+HWY_INLINE HeadingError Normalised(const HeadingError& error, const ReferenceUnits& units) {
+  return {hn::Mul(error.altitude, Constant(1 / units.altitude_error_ft)), error.yaw,
+          hn::Mul(error.speed, Constant(1 / units.speed_ft_s))};
 }
 
-void HeadingErrors(Tile flight, Tile task, float* errors, std::size_t error_stride) {
+void HeadingErrors(Tile flight, Tile task, const ReferenceUnits& units, float* errors,
+                   std::size_t error_stride) {
   const FlightTag d;
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
-    const HeadingError error = Normalised(ErrorOf(flight, task, first));
+    const HeadingError error = Normalised(ErrorOf(flight, task, first), units);
     hn::StoreU(error.altitude, d, errors + first);
     hn::StoreU(error.yaw, d, errors + error_stride + first);
     hn::StoreU(error.speed, d, errors + 2 * error_stride + first);
   }
 }
 
-void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config,
+void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config, const ReferenceUnits& units,
                   const std::int32_t* steps_before, const TaskVerdict& verdict) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
@@ -59,7 +60,7 @@ void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config,
   const FlightVector speed_tolerance = Constant(config.speed_tolerance_fps);
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     const HeadingError error = ErrorOf(flight, task, first);
-    const HeadingError scaled = Normalised(error);
+    const HeadingError scaled = Normalised(error, units);
     const FlightVector squares =
         hn::MulAdd(scaled.altitude, scaled.altitude,
                    hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));
@@ -89,7 +90,8 @@ HWY_EXPORT(HeadingJudge);
 
 class HeadingTask : public Task {
  public:
-  explicit HeadingTask(const HeadingConfig& config) : config_(config) {}
+  HeadingTask(const HeadingConfig& config, const ReferenceUnits& units)
+      : config_(config), units_(units) {}
 
   int num_columns() const override { return kNumHeadingColumns; }
   int num_targets() const override { return kNumHeadingColumns; }
@@ -111,22 +113,23 @@ class HeadingTask : public Task {
   }
 
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
-    SKEIN_DISPATCH(HeadingErrors)(flight, task, errors, error_stride);
+    SKEIN_DISPATCH(HeadingErrors)(flight, task, units_, errors, error_stride);
   }
 
   void Judge(Tile flight, Tile task, const std::int32_t* steps_before,
              const TaskVerdict& verdict) const override {
-    SKEIN_DISPATCH(HeadingJudge)(flight, task, config_, steps_before, verdict);
+    SKEIN_DISPATCH(HeadingJudge)(flight, task, config_, units_, steps_before, verdict);
   }
 
  private:
   HeadingConfig config_;
+  ReferenceUnits units_;
 };
 
 }  // namespace
 
 std::unique_ptr<Task> MakeHeadingTask(const EnvConfig& config) {
-  return std::make_unique<HeadingTask>(config.heading);
+  return std::make_unique<HeadingTask>(config.heading, LoadAircraft(config.aircraft).units);
 }
 
 }  // namespace skein

@@ -10,8 +10,9 @@ namespace skein {
 enum HeadingColumn : int { kTargetAltitude, kTargetYaw, kTargetSpeed, kNumHeadingColumns };
 
 /// Turn to a given heading, altitude and true airspeed (NeuralPlane paper, Heading). Errors are
-/// target minus actual: altitude / 1 km, yaw rad in [-pi, pi], speed / 340 m/s. The reward of a
-/// step is minus their L2 norm.
+/// target minus actual: altitude / units.altitude_error_ft, yaw rad in [-pi, pi], speed /
+/// units.speed_ft_s, with the aircraft's ReferenceUnits (F-16: 1 km, 340 m/s). The reward of a step
+/// is minus their L2 norm.
 std::unique_ptr<Task> MakeHeadingTask(const EnvConfig& config);
 
 }  // namespace skein

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "envs/aircraft/engine.h"
 #include "envs/dynamics/kernel_aircraft.h"
-#include "envs/tasks/normalisation.h"
 #include "envs/tasks/task.h"
 #include "simd/dispatch.h"
 #include "simd/random.h"
@@ -52,14 +52,15 @@ HWY_INLINE void ObserveAttitude(const Tile& tile, int first, ObservationColumns&
 HWY_INLINE void ObserveAir(const KernelAircraft& aircraft, const Tile& tile, int first,
                            ObservationColumns& columns) {
   const FlightTag d;
+  const ReferenceUnits& units = aircraft.source.units;
   const VelocityVectors velocity = Velocity(tile, first);
   const FlightVector altitude = hn::Neg(Column(tile, kDown, first));
   const auto air = AirAtAltitude(d, aircraft, altitude);
   FlightVector equivalent_ratio, true_ratio;
   Length(hn::Mul(air.density, Constant(1 / aircraft.atmosphere.sea_level_density)),
          equivalent_ratio, true_ratio);
-  hn::Store(hn::Mul(altitude, Constant(1 / kAltitudeUnitFt)), d, columns[3]);
-  hn::Store(hn::Mul(hn::Mul(velocity.speed, equivalent_ratio), Constant(1 / kSpeedUnitFtS)), d,
+  hn::Store(hn::Mul(altitude, Constant(1 / units.altitude_ft)), d, columns[3]);
+  hn::Store(hn::Mul(hn::Mul(velocity.speed, equivalent_ratio), Constant(1 / units.speed_ft_s)), d,
             columns[8]);
   hn::Store(hn::Mul(velocity.w, velocity.per_forward), d, columns[9]);
   hn::Store(hn::Mul(velocity.u, velocity.per_forward), d, columns[10]);
@@ -72,7 +73,7 @@ HWY_INLINE void ObserveControls(const Actuators& actuators, const Tile& tile, in
                                 ObservationColumns& columns) {
   const FlightTag d;
   for (int k = 0; k < 3; ++k) hn::Store(Column(tile, kP + k, first), d, columns[13 + k]);
-  hn::Store(hn::Mul(Column(tile, kPower, first), Constant(1 / kPowerUnit)), d, columns[16]);
+  hn::Store(hn::Mul(Column(tile, kPower, first), Constant(1 / kMaximumPower)), d, columns[16]);
   const Actuator* const surfaces[] = {&actuators.elevator, &actuators.aileron, &actuators.rudder,
                                       &actuators.leading_edge_flap};
   for (int k = 0; k < 4; ++k) {

@@ -7,11 +7,11 @@
 
 namespace skein {
 
-/// An aircraft's observation, float32:
+/// An aircraft's observation, float32, in the ReferenceUnits of its type:
 ///   0-2   the task's errors (Task::Errors)
-///   3     altitude / 5 km
+///   3     altitude / units.altitude_ft (F-16: 5 km)
 ///   4, 5  sin, cos of roll        6, 7   sin, cos of pitch
-///   8     equivalent airspeed / 340 m/s
+///   8     equivalent airspeed / units.speed_ft_s (F-16: 340 m/s)
 ///   9, 10 sin, cos of alpha       11, 12 sin, cos of beta
 ///   13-15 p, q, r, rad/s
 ///   16    engine power / 100

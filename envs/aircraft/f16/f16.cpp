@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "envs/aircraft/units.h"
 #include "simd/error.h"
 
 namespace skein {
@@ -48,6 +49,39 @@ Actuators F16Actuators() {
   actuators.rudder = {20.2, 120, -30, 30};
   actuators.leading_edge_flap = {7.25, 25, 0, 25};
   return actuators;
+}
+
+/// Stevens and Lewis, Aircraft Control and Simulation (after NASA TP-1538), like the tables of
+/// thrust. Military power is at a throttle of 0.77, the afterburner above.
+ThrottleGearing F16ThrottleGearing() {
+  ThrottleGearing gearing;
+  gearing.military_throttle = 0.77;
+  gearing.dry_gain = 64.94;
+  gearing.afterburner_gain = 217.38;
+  gearing.afterburner_offset = -117.38;
+  return gearing;
+}
+
+PowerLag F16PowerLag() {
+  PowerLag lag;
+  lag.max_rate_per_s = 1;
+  lag.min_rate_per_s = 0.1;
+  lag.rate_offset_per_s = 1.9;
+  lag.rate_slope_per_s = 0.036;
+  lag.afterburner_power = 50;
+  lag.light_up_power = 60;
+  lag.blow_out_power = 40;
+  lag.afterburner_rate_per_s = 5;
+  return lag;
+}
+
+/// 1 km, 5 km and 340 m/s: NeuralPlane's public configuration.
+ReferenceUnits F16Units() {
+  ReferenceUnits units;
+  units.altitude_error_ft = 1000 * kFeetPerMetre;
+  units.altitude_ft = 5000 * kFeetPerMetre;
+  units.speed_ft_s = 340 * kFeetPerMetre;
+  return units;
 }
 
 void Flatten(const json& values, std::vector<double>* flat) {
@@ -178,6 +212,10 @@ Aircraft F16() {
   aircraft.name = "f16";
   aircraft.airframe = F16Airframe();
   aircraft.actuators = F16Actuators();
+  aircraft.throttle_gearing = F16ThrottleGearing();
+  aircraft.power_lag = F16PowerLag();
+  aircraft.units = F16Units();
+  aircraft.untrimmed_thrust_lbf = 2000;  // the NeuralPlane paper's start
   try {
     aircraft.aerodynamics = F16Aerodynamics();
     aircraft.engine = F16Engine();

@@ -13,19 +13,22 @@ constexpr double kRounding = 1e-9;
 
 class Engine : public ::testing::Test {
  protected:
-  EngineTables tables_ = F16().engine;
+  Aircraft aircraft_ = F16();
+  EngineTables tables_ = aircraft_.engine;
+  ThrottleGearing gearing_ = aircraft_.throttle_gearing;
+  PowerLag lag_ = aircraft_.power_lag;
 };
 
 TEST_F(Engine, ThrottleCommandsMilitaryAtItsDetentAndMaximumAtTheStop) {
   // The published gearing steps by 0.0012 at the detent.
-  EXPECT_NEAR(PowerCommand(0), 0, kRounding);
-  EXPECT_NEAR(PowerCommand(0.77), 50.0038, 1e-4);
-  EXPECT_NEAR(PowerCommand(0.7700001), 50.0026, 1e-4);
-  EXPECT_NEAR(PowerCommand(1), 100, kRounding);
-  EXPECT_EQ(PowerCommand(-1), 0);
-  EXPECT_EQ(PowerCommand(2), PowerCommand(1));
+  EXPECT_NEAR(PowerCommand(gearing_, 0), 0, kRounding);
+  EXPECT_NEAR(PowerCommand(gearing_, 0.77), 50.0038, 1e-4);
+  EXPECT_NEAR(PowerCommand(gearing_, 0.7700001), 50.0026, 1e-4);
+  EXPECT_NEAR(PowerCommand(gearing_, 1), 100, kRounding);
+  EXPECT_EQ(PowerCommand(gearing_, -1), 0);
+  EXPECT_EQ(PowerCommand(gearing_, 2), PowerCommand(gearing_, 1));
   for (double power = 0; power <= 100; power += 2.5) {
-    EXPECT_NEAR(PowerCommand(ThrottleForPower(power)), power, 2e-3) << power;
+    EXPECT_NEAR(PowerCommand(gearing_, ThrottleForPower(gearing_, power)), power, 2e-3) << power;
   }
 }
 
@@ -81,7 +84,7 @@ TEST_F(Engine, SpoolsUpInTheKnownTimes) {
   constexpr double kPublishedDigits = 0.06;  // the times have two digits
   const auto time_to_99 = [&](double power) {
     double time = 0;
-    for (; power < 99; time += kDt) power += kDt * PowerRate(power, 100);
+    for (; power < 99; time += kDt) power += kDt * PowerRate(lag_, power, 100);
     return time;
   };
   EXPECT_NEAR(time_to_99(0), 5.1, kPublishedDigits);
@@ -92,7 +95,7 @@ TEST_F(Engine, PowerSettlesAtItsCommandFromEitherSide) {
   for (double command : {0.0, 30.0, 49.0, 60.0, 100.0}) {
     for (double start : {0.0, 45.0, 55.0, 100.0}) {
       double power = start;
-      for (int i = 0; i < 3000; ++i) power += 0.02 * PowerRate(power, command);
+      for (int i = 0; i < 3000; ++i) power += 0.02 * PowerRate(lag_, power, command);
       EXPECT_NEAR(power, command, 1e-6) << "from " << start;
     }
   }

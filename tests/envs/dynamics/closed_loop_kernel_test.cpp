@@ -108,7 +108,8 @@ class Envelope {
         tile.at(kAlphaFilter + k, i) =
             static_cast<float>(start.flight_control_state()[static_cast<std::size_t>(k)]);
       }
-      throttle[static_cast<std::size_t>(i)] = static_cast<float>(ThrottleForPower(start.power()));
+      throttle[static_cast<std::size_t>(i)] =
+          static_cast<float>(ThrottleForPower(plant_->aircraft().throttle_gearing, start.power()));
     }
     std::vector<Flight> flights(grid_.size());
     for (int step = 0; step * kInterval < seconds; ++step) {
