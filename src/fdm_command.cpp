@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "envs/aircraft/engine.h"
-#include "envs/aircraft/f16/f16.h"
+#include "envs/aircraft/registry.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/trim.h"
 #include "simd/error.h"
@@ -34,17 +34,20 @@ constexpr double kThrustToleranceLbf = 1e-3;
 
 struct FileOptions {
   std::string in, out;
+  std::string aircraft = "f16";
   std::string precision = "float64";
   std::string atmosphere = "stevens_lewis";
 
-  FdmPrecision Precision() const { return kPrecisions.at(precision); }
-  AtmosphereModel Atmosphere() const { return kAtmospheres.at(atmosphere); }
+  FdmModel Model() const {
+    return {aircraft, kAtmospheres.at(atmosphere), kPrecisions.at(precision)};
+  }
 };
 
 struct TrimOptions {
   TrimRequest request;
   double flight_path_deg = 0, turn_rate_deg_s = 0;
   FdmParameters parameters;
+  std::string aircraft = "f16";
   std::string atmosphere = "stevens_lewis";
   std::string json;
 };
@@ -59,7 +62,7 @@ void CheckFinite(const std::array<double, kCount>& numbers, const std::string& w
 void WritePoints(const FileOptions& options, const char* name, const std::vector<FdmPoint>& points,
                  Json* document) {
   if (!document->contains(name)) return;
-  const auto results = EvaluatePoints(points, options.Precision(), options.Atmosphere());
+  const auto results = EvaluatePoints(points, options.Model());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const FdmPointResult& result = results[i];
     const std::string where = fmt::format("{}: {}[{}]", options.in, name, i);
@@ -85,7 +88,7 @@ void WriteTrajectories(const FileOptions& options, const FdmFile& file, Json* do
     const std::string where = fmt::format("{}: trajectories[{}]", options.in, i);
     const auto fly = [&](double dt) {
       try {
-        return FlyTrajectory(file.trajectories[i], dt, options.Precision(), options.Atmosphere());
+        return FlyTrajectory(file.trajectories[i], dt, options.Model());
       } catch (const Error& error) {
         throw Error(fmt::format("{}: {}", where, error.what()));
       }
@@ -139,7 +142,7 @@ void Simulate(const FileOptions& options) {
 }
 
 void FindTrim(TrimOptions options) {
-  Aircraft aircraft = F16();
+  Aircraft aircraft = LoadAircraft(options.aircraft);
   aircraft.airframe.cg = options.parameters.cg;
   aircraft.airframe.engine_angular_momentum = options.parameters.engine_angular_momentum;
   options.request.flight_path_angle_rad = options.flight_path_deg / kDegPerRad;
@@ -157,7 +160,7 @@ void FindTrim(TrimOptions options) {
   const double bank_deg = trim.bank_rad * kDegPerRad, alpha_deg = trim.alpha_rad * kDegPerRad;
   const double beta_deg = output.air.beta_rad * kDegPerRad;
   fmt::print(
-      "steady flight of the F-16 at {} ft and {} ft/s, flight path {} deg, turn {} deg/s, cg {}\n"
+      "steady flight of {} at {} ft and {} ft/s, flight path {} deg, turn {} deg/s, cg {}\n"
       "  thrust           {:14.6f} lbf   ({})\n"
       "  alpha            {:14.6f} deg\n"
       "  beta             {:14.6f} deg\n"
@@ -171,8 +174,9 @@ void FindTrim(TrimOptions options) {
       "  Mach             {:14.6f}\n"
       "  dynamic pressure {:14.6f} lbf/ft2\n"
       "  residual         {:14.3e} ft/s2 or rad/s2\n",
-      options.request.altitude_ft, options.request.true_airspeed_ft_s, options.flight_path_deg,
-      options.turn_rate_deg_s, options.parameters.cg, trim.controls.thrust_lbf,
+      options.aircraft, options.request.altitude_ft, options.request.true_airspeed_ft_s,
+      options.flight_path_deg, options.turn_rate_deg_s, options.parameters.cg,
+      trim.controls.thrust_lbf,
       within_engine ? fmt::format("engine power {:.4f} %", trim.power)
                     : fmt::format("beyond the engine, which gives {:.1f} lbf here", available_lbf),
       alpha_deg, beta_deg, bank_deg, trim.pitch_rad * kDegPerRad, trim.controls.elevator_deg,
@@ -180,6 +184,7 @@ void FindTrim(TrimOptions options) {
       output.nz, output.air.mach, output.air.dynamic_pressure_psf, trim.residual);
   if (options.json.empty()) return;
   Json json = {
+      {"aircraft", options.aircraft},
       {"altitude_ft", options.request.altitude_ft},
       {"speed_fps", options.request.true_airspeed_ft_s},
       {"flight_path_deg", options.flight_path_deg},
@@ -203,7 +208,10 @@ void FindTrim(TrimOptions options) {
   WriteFile(options.json, json.dump(1) + "\n");
 }
 
-void AddAtmosphere(CLI::App* command, std::string* atmosphere) {
+void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere) {
+  command->add_option("--aircraft", *aircraft, "whose equations of motion")
+      ->check(CLI::IsMember(AircraftNames()))
+      ->capture_default_str();
   command
       ->add_option("--atmosphere", *atmosphere,
                    "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
@@ -227,7 +235,7 @@ void AddFileCommand(CLI::App* fdm, const std::string& name, const std::string& d
                    "instruction set)")
       ->check(CLI::IsMember(kPrecisions))
       ->capture_default_str();
-  AddAtmosphere(command, &options->atmosphere);
+  AddModel(command, &options->aircraft, &options->atmosphere);
   command->footer(footer);
   command->callback([options, run] { run(*options); });
 }
@@ -253,7 +261,7 @@ void AddTrimCommand(CLI::App* fdm) {
       ->add_option("--heng", options->parameters.engine_angular_momentum,
                    "angular momentum of the engine, slug ft2/s")
       ->capture_default_str();
-  AddAtmosphere(command, &options->atmosphere);
+  AddModel(command, &options->aircraft, &options->atmosphere);
   command->add_option("--json", options->json, "also write state, controls and air data here")
       ->type_name("FILE");
   command->footer(

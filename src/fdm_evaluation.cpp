@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "envs/aircraft/f16/f16.h"
+#include "envs/aircraft/registry.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/plant.h"
 #include "envs/dynamics/plant_kernel.h"
@@ -17,8 +17,8 @@
 namespace skein {
 namespace {
 
-Aircraft AircraftWith(const FdmParameters& parameters) {
-  Aircraft aircraft = F16();
+Aircraft AircraftWith(const std::string& name, const FdmParameters& parameters) {
+  Aircraft aircraft = LoadAircraft(name);
   aircraft.airframe.cg = parameters.cg;
   aircraft.airframe.engine_angular_momentum = parameters.engine_angular_momentum;
   return aircraft;
@@ -131,7 +131,7 @@ FdmControls ControlsAt(const FdmTrajectory& trajectory, double t) {
 }  // namespace
 
 std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
-                                           FdmPrecision precision, AtmosphereModel atmosphere) {
+                                           const FdmModel& model) {
   std::vector<FdmPointResult> results(points.size());
   std::vector<bool> done(points.size());
   for (std::size_t first = 0; first < points.size(); ++first) {
@@ -141,26 +141,26 @@ std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
     for (std::size_t i = first; i < points.size(); ++i) {
       if (points[i].parameters == points[first].parameters) which.push_back(i);
     }
-    const Plant plant(AircraftWith(points[first].parameters), atmosphere);
+    const Plant plant(AircraftWith(model.aircraft, points[first].parameters), model.atmosphere);
     for (const std::size_t i : which) {
       results[i] = EvaluateScalar(plant, points[i]);
       done[i] = true;
     }
-    if (precision == FdmPrecision::kFloat32) {
-      EvaluateWithKernel(plant.aircraft(), atmosphere, points, which, &results);
+    if (model.precision == FdmPrecision::kFloat32) {
+      EvaluateWithKernel(plant.aircraft(), model.atmosphere, points, which, &results);
     }
   }
   return results;
 }
 
 std::vector<FdmState> FlyTrajectory(const FdmTrajectory& trajectory, double dt,
-                                    FdmPrecision precision, AtmosphereModel atmosphere) {
+                                    const FdmModel& model) {
   const std::vector<long> steps = StepsOf(trajectory, dt);
-  const Plant plant(AircraftWith(trajectory.parameters), atmosphere);
+  const Plant plant(AircraftWith(model.aircraft, trajectory.parameters), model.atmosphere);
   std::shared_ptr<const KernelAircraft> kernel;
   OpenLoopTile tile(1);
-  if (precision == FdmPrecision::kFloat32) {
-    kernel = MakeKernelAircraft(plant.aircraft(), atmosphere);
+  if (model.precision == FdmPrecision::kFloat32) {
+    kernel = MakeKernelAircraft(plant.aircraft(), model.atmosphere);
     tile.SetState(0, trajectory.initial_state);
   }
   std::vector<FdmState> states;
