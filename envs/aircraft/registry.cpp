@@ -2,12 +2,14 @@
 
 #include <array>
 
+#include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/aircraft/f16/f16.h"
 #include "simd/error.h"
 
 namespace skein {
 namespace {
 
+/// Aircraft with a loader of their own.
 struct Registration {
   const char* name;
   Aircraft (*load)();
@@ -20,14 +22,20 @@ constexpr std::array<Registration, 1> kAircraft = {{{"f16", F16}}};
 std::vector<std::string> AircraftNames() {
   std::vector<std::string> names;
   for (const Registration& aircraft : kAircraft) names.emplace_back(aircraft.name);
+  for (const AircraftFile& file : AircraftFiles()) names.emplace_back(file.name);
   return names;
 }
 
 Aircraft LoadAircraft(const std::string& name) {
-  std::string known;
   for (const Registration& aircraft : kAircraft) {
     if (name == aircraft.name) return aircraft.load();
-    known += (known.empty() ? "" : ", ") + std::string(aircraft.name);
+  }
+  for (const AircraftFile& file : AircraftFiles()) {
+    if (name == file.name) return MakeAircraft(ReadDerivativeAircraft(name, *file.text));
+  }
+  std::string known;
+  for (const std::string& aircraft : AircraftNames()) {
+    known += (known.empty() ? "" : ", ") + aircraft;
   }
   throw Error("environment: unknown aircraft \"" + name + "\"; known: " + known);
 }

@@ -8,9 +8,10 @@
 
 #include "envs/aircraft/actuator.h"
 #include "envs/aircraft/engine.h"
-#include "envs/aircraft/f16/f16.h"
+#include "envs/aircraft/registry.h"
 #include "envs/dynamics/attitude.h"
 #include "simd/random.h"
+#include "tests/envs/every_aircraft.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {
@@ -64,8 +65,9 @@ struct Pilots {
 };
 
 /// A random flight condition: air-relative velocity, rates, altitude and accelerations.
-void DrawFlight(TestTile* tile, int i, simd::RandomStream* random) {
-  const double speed = random->Uniform(250, 1800);
+/// `speed_unit_ft_s` is that of the aircraft.
+void DrawFlight(double speed_unit_ft_s, TestTile* tile, int i, simd::RandomStream* random) {
+  const double speed = speed_unit_ft_s * random->Uniform(0.22, 1.6);
   const double alpha = random->Uniform(-15, 40) / kDegPerRad;
   const double beta = random->Uniform(-15, 15) / kDegPerRad;
   tile->at(kU, i) = static_cast<float>(speed * std::cos(alpha) * std::cos(beta));
@@ -109,7 +111,7 @@ struct Specification {
                 StepActuator(actuators.rudder, surfaces[2], command.rudder_deg, kInterval),
                 StepActuator(actuators.leading_edge_flap, surfaces[3],
                              command.leading_edge_flap_deg, kInterval)};
-    power_command = PowerCommand(pilot.throttle);
+    power_command = PowerCommand(aircraft.throttle_gearing, pilot.throttle);
   }
   double of(int column) const {
     if (column == kPowerCommand) return power_command;
@@ -124,10 +126,11 @@ std::vector<int> ControlledColumns() {
   return columns;
 }
 
-class FlightControlKernelTest : public testing::TestWithParam<simd::Target> {
+class FlightControlKernelTest : public testing::TestWithParam<AircraftOnTarget> {
  protected:
-  ScopedTarget target_{GetParam()};
-  Aircraft aircraft_ = F16();
+  ScopedTarget target_{GetParam().target};
+  Aircraft aircraft_ = LoadAircraft(GetParam().aircraft);
+  double speed_unit_ = aircraft_.units.speed_ft_s;
   std::shared_ptr<const KernelAircraft> kernel_ = MakeKernelAircraft(aircraft_, kAtmosphere);
 };
 
@@ -141,11 +144,11 @@ TEST_P(FlightControlKernelTest, OneStepAgreesWithTheSpecification) {
     for (int i = 0; i < kCount; ++i) {
       simd::RandomStream random(
           {1, static_cast<std::uint32_t>(i), 0, 0, simd::RandomPurpose::kInitialState});
-      DrawFlight(&tile, i, &random);
+      DrawFlight(speed_unit_, &tile, i, &random);
       pilots.Draw(i, &random);
       // Filters at rest in one flight condition, then flown in another.
       TestTile other(1);
-      DrawFlight(&other, 0, &random);
+      DrawFlight(speed_unit_, &other, 0, &random);
       const SurfaceAngles surfaces{random.Uniform(-25, 25), random.Uniform(-21, 21),
                                    random.Uniform(-30, 30), random.Uniform(0, 25)};
       Specification& specification = expected[static_cast<std::size_t>(i)];
@@ -186,7 +189,7 @@ TEST_P(FlightControlKernelTest, StaysWithTheSpecificationOverAFlight) {
     random.emplace_back(simd::RandomKey{2, static_cast<std::uint32_t>(i), 0, 0,
                                         simd::RandomPurpose::kInitialState});
     tile.at(kElevator, i) = -2;
-    DrawFlight(&tile, i, &random.back());
+    DrawFlight(speed_unit_, &tile, i, &random.back());
     Specification& specification = expected[static_cast<std::size_t>(i)];
     specification.filters = flight_control.InitialState(SensorsOf(&tile, i), {-2, 0, 0, 0});
     specification.surfaces = {-2, 0, 0, 0};
@@ -199,7 +202,7 @@ TEST_P(FlightControlKernelTest, StaysWithTheSpecificationOverAFlight) {
     for (int i = 0; i < kCount; ++i) {
       simd::RandomStream& stream = random[static_cast<std::size_t>(i)];
       // New sensor readings and sticks now and then; each aircraft at its own time.
-      if ((step + i) % 7 == 0) DrawFlight(&tile, i, &stream);
+      if ((step + i) % 7 == 0) DrawFlight(speed_unit_, &tile, i, &stream);
       if ((step + i) % 25 == 0) pilots.Draw(i, &stream);
       expected[static_cast<std::size_t>(i)].Step(aircraft_, flight_control, pilots.of(i),
                                                  SensorsOf(&tile, i));
@@ -225,7 +228,7 @@ TEST_P(FlightControlKernelTest, ResultsDoNotDependOnTheLane) {
          {std::tuple{&tile, &pilots, i}, std::tuple{&shifted, &shifted_pilots, j}}) {
       simd::RandomStream random(
           {3, static_cast<std::uint32_t>(i), 0, 0, simd::RandomPurpose::kInitialState});
-      DrawFlight(target, index, &random);
+      DrawFlight(speed_unit_, target, index, &random);
       pilot->Draw(index, &random);
     }
   }
@@ -258,8 +261,7 @@ TEST_P(FlightControlKernelTest, SticksAndThrottleAreLimited) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, FlightControlKernelTest,
-                         testing::ValuesIn(simd::SupportedTargets()),
-                         [](const auto& test) { return std::string(Name(test.param)); });
+                         testing::ValuesIn(EveryAircraftOnEveryTarget()), AircraftOnTargetName);
 
 }  // namespace
 }  // namespace skein

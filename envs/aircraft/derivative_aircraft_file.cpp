@@ -1,0 +1,277 @@
+#include "envs/aircraft/derivative_aircraft_file.h"
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "envs/aircraft/engine.h"
+#include "simd/error.h"
+
+namespace skein {
+namespace {
+
+using nlohmann::json;
+
+/// An object of the file, whose every key must be read once Finish is called; "source" and "about"
+/// are for the human reader.
+class Section {
+ public:
+  Section(const json& values, std::string path) : values_(values), path_(std::move(path)) {
+    if (!values_.is_object()) throw Error(path_ + " must be an object of named values");
+  }
+
+  Section Below(const char* key) { return {At(key), path_ + "." + key}; }
+
+  void Read(const char* key, double* value) { *value = ToNumber(At(key), path_ + "." + key); }
+
+  void Read(const char* key, FirstOrder* law) {
+    ReadList(key, "b1, b0, a0 of (b1 s + b0) / (s + a0)", {&law->b1, &law->b0, &law->a0});
+  }
+
+  void Read(const char* key, Ramp* ramp) {
+    ReadList(key, "x_low, y_low, x_high, y_high",
+             {&ramp->x_low, &ramp->y_low, &ramp->x_high, &ramp->y_high});
+  }
+
+  void Read(const char* key, Actuator* actuator) {
+    Section section = Below(key);
+    section.Read("bandwidth_per_s", &actuator->bandwidth_per_s);
+    section.Read("rate_limit_deg_per_s", &actuator->rate_limit_deg_per_s);
+    section.Read("min_deg", &actuator->min_deg);
+    section.Read("max_deg", &actuator->max_deg);
+    section.Finish();
+    if (!(actuator->min_deg < 0 && actuator->max_deg > 0)) {
+      throw Error(path_ + "." + key + " must have min_deg below zero and max_deg above");
+    }
+  }
+
+  void Finish() const {
+    for (const auto& entry : values_.items()) {
+      const std::string& key = entry.key();
+      if (key != "source" && key != "about" && read_.count(key) == 0) {
+        throw Error(path_ + " has the unknown key " + key);
+      }
+    }
+  }
+
+ private:
+  const json& At(const char* key) {
+    const auto found = values_.find(key);
+    if (found == values_.end()) throw Error(path_ + " lacks " + key);
+    read_.insert(key);
+    return *found;
+  }
+
+  static double ToNumber(const json& value, const std::string& path) {
+    if (!value.is_number()) throw Error(path + " must be a number");
+    return value.get<double>();
+  }
+
+  void ReadList(const char* key, const char* meaning, const std::vector<double*>& numbers) {
+    const json& list = At(key);
+    const std::string path = path_ + "." + key;
+    if (!list.is_array() || list.size() != numbers.size()) {
+      throw Error(path + " must be a list of " + std::to_string(numbers.size()) +
+                  " numbers: " + meaning);
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] = ToNumber(list[i], path);
+  }
+
+  const json& values_;
+  std::string path_;
+  std::set<std::string> read_;
+};
+
+/// The straight lines from (0, 0) through the knee to (1, 100).
+ThrottleGearing GearingThrough(double knee_throttle, double knee_power) {
+  ThrottleGearing gearing;
+  gearing.military_throttle = knee_throttle;
+  gearing.dry_gain = knee_power / knee_throttle;
+  gearing.afterburner_gain = (kMaximumPower - knee_power) / (1 - knee_throttle);
+  gearing.afterburner_offset = kMaximumPower - gearing.afterburner_gain;
+  return gearing;
+}
+
+/// A first-order lag, the same at every power.
+PowerLag ConstantLag(double rate_per_s) {
+  PowerLag lag;
+  lag.rate_offset_per_s = lag.min_rate_per_s = lag.max_rate_per_s = rate_per_s;
+  return lag;
+}
+
+void ReadAirframe(Section section, DerivativeAircraft* aircraft) {
+  section.Read("mass_kg", &aircraft->mass_kg);
+  section.Read("Ixx_kg_m2", &aircraft->Ixx_kg_m2);
+  section.Read("Iyy_kg_m2", &aircraft->Iyy_kg_m2);
+  section.Read("Izz_kg_m2", &aircraft->Izz_kg_m2);
+  section.Read("Ixz_kg_m2", &aircraft->Ixz_kg_m2);
+  section.Read("wing_area_m2", &aircraft->wing_area_m2);
+  section.Read("span_m", &aircraft->span_m);
+  section.Read("chord_m", &aircraft->chord_m);
+  section.Read("cg_chord_fraction", &aircraft->cg_chord_fraction);
+  section.Finish();
+}
+
+void ReadLongitudinal(Section section, LongitudinalDerivatives* k) {
+  section.Read("CL_0", &k->CL_0);
+  section.Read("CL_alpha", &k->CL_alpha);
+  section.Read("CL_q", &k->CL_q);
+  section.Read("CL_elevator", &k->CL_elevator);
+  section.Read("CD_parasitic", &k->CD_parasitic);
+  section.Read("CD_q", &k->CD_q);
+  section.Read("CD_elevator", &k->CD_elevator);
+  section.Read("Cm_0", &k->Cm_0);
+  section.Read("Cm_alpha", &k->Cm_alpha);
+  section.Read("Cm_q", &k->Cm_q);
+  section.Read("Cm_elevator", &k->Cm_elevator);
+  section.Read("oswald_efficiency", &k->oswald_efficiency);
+  section.Read("stall_alpha_rad", &k->stall_alpha_rad);
+  section.Read("stall_sharpness", &k->stall_sharpness);
+  section.Finish();
+}
+
+void ReadLateral(Section section, LateralDerivatives* k) {
+  section.Read("CY_beta", &k->CY_beta);
+  section.Read("CY_p", &k->CY_p);
+  section.Read("CY_r", &k->CY_r);
+  section.Read("CY_aileron", &k->CY_aileron);
+  section.Read("CY_rudder", &k->CY_rudder);
+  section.Read("Cl_beta", &k->Cl_beta);
+  section.Read("Cl_p", &k->Cl_p);
+  section.Read("Cl_r", &k->Cl_r);
+  section.Read("Cl_aileron", &k->Cl_aileron);
+  section.Read("Cl_rudder", &k->Cl_rudder);
+  section.Read("Cn_beta", &k->Cn_beta);
+  section.Read("Cn_p", &k->Cn_p);
+  section.Read("Cn_r", &k->Cn_r);
+  section.Read("Cn_aileron", &k->Cn_aileron);
+  section.Read("Cn_rudder", &k->Cn_rudder);
+  section.Finish();
+}
+
+void ReadPropulsion(Section section, DerivativeAircraft* aircraft) {
+  Propeller& propeller = aircraft->propeller;
+  section.Read("diameter_m", &propeller.diameter_m);
+  section.Read("CT_0", &propeller.CT_0);
+  section.Read("CT_1", &propeller.CT_1);
+  section.Read("CT_2", &propeller.CT_2);
+  section.Read("CQ_0", &propeller.CQ_0);
+  section.Read("CQ_1", &propeller.CQ_1);
+  section.Read("CQ_2", &propeller.CQ_2);
+  section.Read("speed_constant_rpm_per_V", &propeller.speed_constant_rpm_per_V);
+  section.Read("resistance_ohm", &propeller.resistance_ohm);
+  section.Read("no_load_current_A", &propeller.no_load_current_A);
+  section.Read("max_voltage_V", &propeller.max_voltage_V);
+
+  Section levels = section.Below("motor_throttle");
+  levels.Read("idle", &aircraft->propeller_levels.idle);
+  levels.Read("military", &aircraft->propeller_levels.military);
+  levels.Read("maximum", &aircraft->propeller_levels.maximum);
+  levels.Finish();
+
+  Section gearing = section.Below("throttle_gearing");
+  double knee_throttle = 0, knee_power = 0;
+  gearing.Read("knee_throttle", &knee_throttle);
+  gearing.Read("knee_power", &knee_power);
+  gearing.Finish();
+  aircraft->throttle_gearing = GearingThrough(knee_throttle, knee_power);
+
+  double rate_per_s = 0;
+  section.Read("power_rate_per_s", &rate_per_s);
+  aircraft->power_lag = ConstantLag(rate_per_s);
+  section.Read("untrimmed_thrust_N", &aircraft->untrimmed_thrust_N);
+  section.Finish();
+}
+
+void ReadFlightControl(Section section, FlightControlGains* g) {
+  section.Read("alpha_min_deg", &g->alpha_min_deg);
+  section.Read("alpha_max_deg", &g->alpha_max_deg);
+  section.Read("alpha_filter", &g->alpha_filter);
+  section.Read("pitch_gain_pressure_psf", &g->pitch_gain_pressure_psf);
+  section.Read("roll_gain_pressure_psf", &g->roll_gain_pressure_psf);
+  section.Read("yaw_gain_pressure_psf", &g->yaw_gain_pressure_psf);
+  section.Read("max_load_factor_command", &g->max_load_factor_command);
+  section.Read("max_load_factor_reduction", &g->max_load_factor_reduction);
+  section.Read("min_load_factor_relative_reduction", &g->min_load_factor_relative_reduction);
+  section.Read("min_load_factor_command", &g->min_load_factor_command);
+
+  section.Read("pitch_rate_filter", &g->pitch_rate_filter);
+  section.Read("pitch_rate_washout", &g->pitch_rate_washout);
+  section.Read("load_factor_filter", &g->load_factor_filter);
+  section.Read("load_factor_command_filter", &g->load_factor_command_filter);
+  section.Read("pitch_lead", &g->pitch_lead);
+  section.Read("pitch_proportional_deg_per_g", &g->pitch_proportional_deg_per_g);
+  section.Read("pitch_integral_per_s", &g->pitch_integral_per_s);
+  section.Read("pitch_rate_gain_g_s_per_deg", &g->pitch_rate_gain_g_s_per_deg);
+  section.Read("alpha_to_elevator", &g->alpha_to_elevator);
+  section.Read("limiter_rate_lead_s", &g->limiter_rate_lead_s);
+  section.Read("limiter_rate_fade", &g->limiter_rate_fade);
+  section.Read("alpha_onset_deg", &g->alpha_onset_deg);
+  section.Read("alpha_onset_gain_g_per_deg", &g->alpha_onset_gain_g_per_deg);
+  section.Read("alpha_limit_deg", &g->alpha_limit_deg);
+  section.Read("alpha_limit_gain_g_per_deg", &g->alpha_limit_gain_g_per_deg);
+  section.Read("pitch_integrator_limit_deg", &g->pitch_integrator_limit_deg);
+
+  section.Read("roll_rate_filter", &g->roll_rate_filter);
+  section.Read("roll_command_filter", &g->roll_command_filter);
+  section.Read("max_roll_rate_deg_s", &g->max_roll_rate_deg_s);
+  section.Read("roll_rate_fade", &g->roll_rate_fade);
+  section.Read("roll_rate_gain_s", &g->roll_rate_gain_s);
+  section.Read("roll_integral_per_s", &g->roll_integral_per_s);
+  section.Read("roll_integrator_fade", &g->roll_integrator_fade);
+  section.Read("roll_integrator_gate", &g->roll_integrator_gate);
+  section.Read("roll_integrator_antiwindup_per_s", &g->roll_integrator_antiwindup_per_s);
+  section.Read("roll_integrator_leak_per_s", &g->roll_integrator_leak_per_s);
+  section.Read("roll_integrator_limit_deg", &g->roll_integrator_limit_deg);
+
+  section.Read("yaw_rate_filter", &g->yaw_rate_filter);
+  section.Read("yaw_washout", &g->yaw_washout);
+  section.Read("yaw_lead", &g->yaw_lead);
+  section.Read("pedal_filter", &g->pedal_filter);
+  section.Read("lateral_acceleration_filter", &g->lateral_acceleration_filter);
+  section.Read("max_pedal_rudder_deg", &g->max_pedal_rudder_deg);
+  section.Read("pedal_fade", &g->pedal_fade);
+  section.Read("yaw_rate_gain_s", &g->yaw_rate_gain_s);
+  section.Read("lateral_acceleration_gain_deg_per_g", &g->lateral_acceleration_gain_deg_per_g);
+  section.Read("aileron_rudder_interconnect_per_deg", &g->aileron_rudder_interconnect_per_deg);
+  section.Read("interconnect_min", &g->interconnect_min);
+  section.Read("interconnect_max", &g->interconnect_max);
+  section.Finish();
+}
+
+void ReadUnits(Section section, DerivativeAircraft* aircraft) {
+  section.Read("altitude_error_m", &aircraft->altitude_error_unit_m);
+  section.Read("altitude_m", &aircraft->altitude_unit_m);
+  section.Read("speed_m_s", &aircraft->speed_unit_m_s);
+  section.Finish();
+}
+
+}  // namespace
+
+DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_view text) {
+  const std::string where = "aircraft " + name;
+  json file;
+  try {
+    file = json::parse(text);
+  } catch (const json::exception& error) {
+    throw Error(where + ": its data cannot be read: " + error.what());
+  }
+  Section section(file, where);
+  DerivativeAircraft aircraft;
+  aircraft.name = name;
+  ReadAirframe(section.Below("airframe"), &aircraft);
+  ReadLongitudinal(section.Below("longitudinal"), &aircraft.longitudinal);
+  ReadLateral(section.Below("lateral"), &aircraft.lateral);
+  ReadPropulsion(section.Below("propulsion"), &aircraft);
+  Section actuators = section.Below("actuators");
+  actuators.Read("elevator", &aircraft.elevator);
+  actuators.Read("aileron", &aircraft.aileron);
+  actuators.Read("rudder", &aircraft.rudder);
+  actuators.Finish();
+  ReadFlightControl(section.Below("flight_control"), &aircraft.flight_control);
+  ReadUnits(section.Below("observation_units"), &aircraft);
+  section.Finish();
+  return aircraft;
+}
+
+}  // namespace skein

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "envs/aircraft/derivative_aircraft.h"
+
+namespace skein {
+
+/// A file data/NAME/aircraft.json, embedded in the library. docs/add-an-aircraft.md says what is in
+/// it.
+struct AircraftFile {
+  const char* name;
+  const std::string_view* text;
+};
+
+/// All of them, by name.
+const std::vector<AircraftFile>& AircraftFiles();
+
+/// Reads the text of such a file. Throws Error that names the aircraft and the key of what is
+/// missing, unknown or not a number.
+DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_view text);
+
+}  // namespace skein
