@@ -21,13 +21,14 @@ double PropellerThrust(const Propeller& propeller, double motor_throttle, double
   // The motor's torque less the propeller's, a quadratic in the speed omega, rad/s, vanishes:
   //   K ((volts - K omega) / R - i0) = rho D^5 (omega / 2 pi)^2 C_Q(J).
   const double a = rho * std::pow(D, 5) * propeller.CQ_0 / (kTwoPi * kTwoPi);
-  const double b = rho * std::pow(D, 4) * propeller.CQ_1 * V / kTwoPi + K * K / propeller.resistance_ohm;
+  const double b =
+      rho * std::pow(D, 4) * propeller.CQ_1 * V / kTwoPi + K * K / propeller.resistance_ohm;
   const double c = rho * std::pow(D, 3) * propeller.CQ_2 * V * V -
                    K * (volts / propeller.resistance_ohm - propeller.no_load_current_A);
   const double turns_per_s = (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a) / kTwoPi;
   return rho * D * D *
-         (propeller.CT_0 * turns_per_s * turns_per_s * D * D + propeller.CT_1 * turns_per_s * D * V +
-          propeller.CT_2 * V * V);
+         (propeller.CT_0 * turns_per_s * turns_per_s * D * D +
+          propeller.CT_1 * turns_per_s * D * V + propeller.CT_2 * V * V);
 }
 
 EngineTables TabulatePropeller(const Propeller& propeller, const PropellerLevels& levels) {

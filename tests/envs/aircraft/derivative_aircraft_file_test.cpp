@@ -52,9 +52,10 @@ TEST(DerivativeAircraftFile, ErrorsNameTheAircraftAndTheKey) {
             "aircraft glider.longitudinal has the unknown key CM_q");
   EXPECT_EQ(ErrorOf(Changed("-38.21", "\"-38.21\"")),
             "aircraft glider.longitudinal.Cm_q must be a number");
-  EXPECT_EQ(ErrorOf(Changed("[0, 10, 10]", "[0, 10]")),
-            "aircraft glider.flight_control.alpha_filter must be a list of 3 numbers: b1, b0, a0 of "
-            "(b1 s + b0) / (s + a0)");
+  EXPECT_EQ(
+      ErrorOf(Changed("[0, 10, 10]", "[0, 10]")),
+      "aircraft glider.flight_control.alpha_filter must be a list of 3 numbers: b1, b0, a0 of "
+      "(b1 s + b0) / (s + a0)");
   EXPECT_EQ(ErrorOf(Changed("\"min_deg\": -25.0", "\"min_deg\": 0")),
             "aircraft glider.actuators.elevator must have min_deg below zero and max_deg above");
 }

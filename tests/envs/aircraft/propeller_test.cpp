@@ -16,7 +16,8 @@ namespace {
 
 class AerosondePropeller : public ::testing::Test {
  protected:
-  const DerivativeAircraft aircraft_ = ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
+  const DerivativeAircraft aircraft_ =
+      ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
   const Propeller& propeller_ = aircraft_.propeller;
   const Aircraft flown_ = LoadAircraft("aerosonde");
 };

@@ -1,6 +1,6 @@
 // The Aerosonde as it flies: against the check values that Beard and McLain publish with their
-// book's simulation files (mavsim_python, chap4_check.py and chap5_check.py), and its flight control
-// over its envelope.
+// book's simulation files (mavsim_python, chap4_check.py and chap5_check.py), and its flight
+// control over its envelope.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -82,9 +82,8 @@ TEST(Aerosonde, TrimsWhereTheBookDoes) {
 // taken off.
 TEST(Aerosonde, GivesTheBooksForcesAndMoments) {
   const double speed = 27.39323489287441, alpha = 0.05259649205640062, beta = 0.022801214339060967;
-  RigidBodyState state =
-      BookState(speed * std::cos(alpha) * std::cos(beta), speed * std::sin(beta),
-                speed * std::sin(alpha) * std::cos(beta));
+  RigidBodyState state = BookState(speed * std::cos(alpha) * std::cos(beta), speed * std::sin(beta),
+                                   speed * std::sin(alpha) * std::cos(beta));
   state.segment<3>(kP) << 4.98772167e-03, 1.68736005e-01, 1.71797313e-01;
   const PlantOutput output =
       BookPlant().Evaluate(state, BookControls(-0.15705144, 0.01788999, 0.01084654));
@@ -95,8 +94,8 @@ TEST(Aerosonde, GivesTheBooksForcesAndMoments) {
   // As above: alpha between nodes.
   EXPECT_NEAR(qbar_S * output.coefficients[0],
               36.22803068339798 - thrust - weight * 2 * (e1 * e3 - e2 * e0), 0.2);
-  EXPECT_NEAR(qbar_S * output.coefficients[1],
-              48.44092504137796 - weight * 2 * (e2 * e3 + e1 * e0), 1e-3);
+  EXPECT_NEAR(qbar_S * output.coefficients[1], 48.44092504137796 - weight * 2 * (e2 * e3 + e1 * e0),
+              1e-3);
   EXPECT_NEAR(qbar_S * output.coefficients[2],
               -39.39246596662818 - weight * (e3 * e3 + e0 * e0 - e1 * e1 - e2 * e2), 0.2);
   EXPECT_NEAR(qbar_S * 2.8956 * output.coefficients[3], 0.10867448074086083 + torque, 1e-3);
@@ -190,13 +189,11 @@ TEST(Aerosonde, HasTheModesOfItsDerivatives) {
 
   const double sum = A(kW, kW) + A(kQ, kQ);
   const double product = A(kW, kW) * A(kQ, kQ) - u * A(kQ, kW);
-  const std::complex<double> short_period =
-      sum / 2 + i * std::sqrt(product - sum * sum / 4);
+  const std::complex<double> short_period = sum / 2 + i * std::sqrt(product - sum * sum / 4);
   EXPECT_LT(std::abs(Mode(modes, short_period) - short_period), 0.05 * std::abs(short_period));
 
   const std::complex<double> phugoid =
-      A(kU, kU) / 2 +
-      i * std::sqrt(-A(kW, kU) * kGravityFtS2 / u - A(kU, kU) * A(kU, kU) / 4);
+      A(kU, kU) / 2 + i * std::sqrt(-A(kW, kU) * kGravityFtS2 / u - A(kU, kU) * A(kU, kU) / 4);
   // The book's phugoid leaves out alpha's part: right to within a third.
   EXPECT_LT(std::abs(Mode(modes, phugoid) - phugoid), 0.35 * std::abs(phugoid));
 
@@ -204,8 +201,7 @@ TEST(Aerosonde, HasTheModesOfItsDerivatives) {
 
   const double yaw_sum = A(kV, kV) + A(kR, kR);
   const std::complex<double> dutch_roll =
-      yaw_sum / 2 +
-      i * std::sqrt(A(kV, kV) * A(kR, kR) + u * A(kR, kV) - yaw_sum * yaw_sum / 4);
+      yaw_sum / 2 + i * std::sqrt(A(kV, kV) * A(kR, kR) + u * A(kR, kV) - yaw_sum * yaw_sum / 4);
   EXPECT_LT(std::abs(Mode(modes, dutch_roll) - dutch_roll), 0.25 * std::abs(dutch_roll));
 
   // The spiral diverges, slowly.

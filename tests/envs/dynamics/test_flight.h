@@ -36,8 +36,8 @@ struct Setting {
   int substeps = 1;
 };
 
-inline Flight Fly(const Plant& plant, const TrimPoint& trim, double seconds,
-                  const Sticks& sticks, const Setting& setting = {}) {
+inline Flight Fly(const Plant& plant, const TrimPoint& trim, double seconds, const Sticks& sticks,
+                  const Setting& setting = {}) {
   constexpr double kDt = 0.02;
   ClosedLoop loop(plant, trim, FlightControlMode::kFull, kDt, setting.substeps);
   loop.set_delayed(setting.delayed);
