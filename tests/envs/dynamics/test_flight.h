@@ -13,6 +13,9 @@
 
 namespace skein {
 
+/// The control interval of the flights, s.
+inline constexpr double kDt = 0.02;
+
 /// What happened in a flight, one entry per control step; degrees, deg/s, g.
 struct Flight {
   std::vector<double> time, alpha, beta, p, q, r, nz, bank;
@@ -38,7 +41,6 @@ struct Setting {
 
 inline Flight Fly(const Plant& plant, const TrimPoint& trim, double seconds, const Sticks& sticks,
                   const Setting& setting = {}) {
-  constexpr double kDt = 0.02;
   ClosedLoop loop(plant, trim, FlightControlMode::kFull, kDt, setting.substeps);
   loop.set_delayed(setting.delayed);
   loop.mutable_state().segment<3>(kP) += setting.push * Eigen::Vector3d(0.05, 0.05, 0.02);
