@@ -146,7 +146,8 @@ std::vector<Setting> MakeSettings() {
        {0, 5000, true},
        "highest initial true airspeed"},
       {"env.initial.trimmed", [](C& c) -> F { return &c.train.env.initial.trimmed; }, name,
-       "true: steady flight; false: level, alpha 0, surfaces centred, 2000 lbf of thrust"},
+       "true: steady flight; false: level, alpha 0, surfaces centred, a set thrust (F-16: 2000 "
+       "lbf)"},
 
       {"env.wind.speed_min_fps",
        [](C& c) -> F { return &c.train.env.wind.speed_fps.min; },
@@ -230,7 +231,7 @@ std::vector<Setting> MakeSettings() {
        "true: the reward's angle is to the attitude, wings level; false: to where the nose points"},
       {"env.control.speed_error_weight",
        [](C& c) -> F { return &c.train.env.control.speed_error_weight; }, not_negative,
-       "reward lost per step and 340 m/s of speed error, beside the angle's"},
+       "reward lost per step and unit of speed error (F-16: 340 m/s), beside the angle's"},
 
       {"env.termination.alpha_min_deg",
        [](C& c) -> F { return &c.train.env.termination.alpha_deg.min; },
