@@ -210,11 +210,11 @@ TEST(Aerosonde, HasTheModesOfItsDerivatives) {
   EXPECT_LT(spiral, 0.2);
 }
 
-/// Trimmed flight at 18 to 34 m/s, where it exists below the alpha limiter's onset.
+/// Trimmed flight at 19 to 33 m/s, from the most elevator to full throttle.
 std::vector<TrimPoint> Envelope(const Plant& plant) {
   std::vector<TrimPoint> envelope;
   for (const double altitude_ft : {0.0, 1500.0, 4000.0}) {
-    for (double speed = 18; speed <= 34; speed += 2) {
+    for (double speed = 19; speed <= 33; speed += 2) {
       TrimRequest request;
       request.altitude_ft = altitude_ft;
       request.true_airspeed_ft_s = speed * kFeetPerMetre;
