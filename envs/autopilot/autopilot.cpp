@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "envs/actions.h"
-#include "envs/tasks/normalisation.h"
+#include "envs/aircraft/f16/f16_units.h"
 #include "envs/tasks/observation.h"
 #include "simd/denormals.h"
 #include "simd/dispatch.h"

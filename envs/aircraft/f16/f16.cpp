@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "envs/aircraft/units.h"
+#include "envs/aircraft/f16/f16_units.h"
 #include "simd/error.h"
 
 namespace skein {
@@ -75,12 +75,11 @@ PowerLag F16PowerLag() {
   return lag;
 }
 
-/// 1 km, 5 km and 340 m/s: NeuralPlane's public configuration.
 ReferenceUnits F16Units() {
   ReferenceUnits units;
-  units.altitude_error_ft = 1000 * kFeetPerMetre;
-  units.altitude_ft = 5000 * kFeetPerMetre;
-  units.speed_ft_s = 340 * kFeetPerMetre;
+  units.altitude_error_ft = kAltitudeErrorUnitFt;
+  units.altitude_ft = kAltitudeUnitFt;
+  units.speed_ft_s = kSpeedUnitFtS;
   return units;
 }
 
