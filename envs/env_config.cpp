@@ -112,6 +112,14 @@ void Validate(const EnvConfig& config) {
           "above 0 and at most 1");
   RequireNotNegative("env.control.speed_error_weight", config.control.speed_error_weight);
 
+  RequireRange("env.tracking.distance", "ft", config.tracking.distance_ft, 0, 1e6);
+  RequireNotNegative("env.tracking.azimuth_deg", config.tracking.azimuth_deg);
+  RequireNotNegative("env.tracking.elevation_deg", config.tracking.elevation_deg);
+  RequirePositive("env.tracking.position_tolerance_ft", config.tracking.position_tolerance_ft);
+  RequireNotNegative("env.planner.pitch_change_rad", config.planner.pitch_change_rad);
+  RequireNotNegative("env.planner.yaw_change_rad", config.planner.yaw_change_rad);
+  RequireNotNegative("env.planner.speed_change_fps", config.planner.speed_change_fps);
+
   RequireRange("env.termination.alpha", "deg", config.termination.alpha_deg, -180, 180);
   RequireRange("env.termination.beta", "deg", config.termination.beta_deg, -90, 90);
   // The limits are judged by the sides of two directions, which an arc beyond 180 deg does not

@@ -69,6 +69,29 @@ struct ControlConfig {
   double speed_error_weight = 5;
 };
 
+/// Axes in which Tracking shows where its target is.
+enum class TrackingAxes {
+  kHeading,  ///< ahead, right and up of the aircraft's heading
+  kEarth,    ///< north, east and up, as in the paper: where the nose points is then not observed
+};
+
+/// Targets of the Tracking task relative to the initial state, and when they count as reached.
+struct TrackingConfig {
+  Range distance_ft{10000, 30000};     ///< the paper's public configuration has 2000
+  double azimuth_deg = 30;             ///< to either side of the nose: U(-x, x)
+  double elevation_deg = 30;           ///< above and below the nose: U(-x, x)
+  double position_tolerance_ft = 100;  ///< north, east and up
+  TrackingAxes error_axes = TrackingAxes::kHeading;
+};
+
+/// What a planner's full action asks of the controller that flies (envs/guided_flight.h): changes
+/// of the present pitch, yaw and true airspeed.
+struct PlannerConfig {
+  double pitch_change_rad = 0.3;
+  double yaw_change_rad = 0.3;
+  double speed_change_fps = 30;
+};
+
 /// Limits of the paper's Table 5 and the rewards for ending at one and at the target.
 struct TerminationConfig {
   Range alpha_deg{-20, 45};
@@ -107,6 +130,8 @@ struct EnvConfig {
   WindConfig wind;
   HeadingConfig heading;
   ControlConfig control;
+  TrackingConfig tracking;
+  PlannerConfig planner;
   TerminationConfig termination;
 };
 

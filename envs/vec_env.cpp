@@ -10,6 +10,7 @@
 #include "envs/aircraft/registry.h"
 #include "envs/dynamics/plant_kernel.h"
 #include "envs/flight_reset.h"
+#include "envs/guided_flight.h"
 #include "envs/tasks/judgement.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"
@@ -23,6 +24,7 @@ namespace {
 // Aircraft that go through all of a decision's control steps together: their columns stay in the
 // innermost caches.
 constexpr int kBlock = 128;
+static_assert(kBlock <= GuidedFlight::kMaxCount);
 constexpr int kLaneMultiple = 32;
 constexpr std::size_t kCacheLine = 64;
 
@@ -48,6 +50,7 @@ struct alignas(kCacheLine) DecisionScratch {
   float decision_reward[kBlock];
   std::int32_t reached[kBlock];
   std::int32_t termination[kBlock];
+  GuidedFlight::Decision guidance;  // with a controller
 
   PilotColumns pilot_columns() const { return {pilot[0], pilot[1], pilot[2], pilot[3]}; }
 };
@@ -87,7 +90,7 @@ struct VecEnv::Impl {
   };
 
   Impl(const EnvConfig& environment, int aircraft_count, std::uint64_t random_seed,
-       int requested_tile_size)
+       int requested_tile_size, std::shared_ptr<const Pilot> controller)
       : config(Validated(environment)),
         num_aircraft(aircraft_count),
         seed(random_seed),
@@ -106,6 +109,9 @@ struct VecEnv::Impl {
     if (requested_tile_size < 1) {
       throw Error("environment: tiles of " + std::to_string(requested_tile_size) +
                   " aircraft, but a tile must have at least 1");
+    }
+    if (controller != nullptr) {
+      guided = std::make_unique<GuidedFlight>(config, num_aircraft, std::move(controller));
     }
     tile_size = RoundUp(std::min(requested_tile_size, num_aircraft), kLaneMultiple);
     num_tiles = (num_aircraft + tile_size - 1) / tile_size;
@@ -161,6 +167,7 @@ struct VecEnv::Impl {
     block.episode[i] = episode;
     block.step[i] = 0;
     block.episode_return[i] = 0;
+    if (guided != nullptr) guided->Forget(block.first_aircraft + i);
     simd::RandomStream initial = Stream(block, i, simd::RandomPurpose::kInitialState);
     const FreshFlight flight = reset.Draw(&initial);
     for (int column = 0; column < kNumColumns; ++column) {
@@ -191,9 +198,7 @@ struct VecEnv::Impl {
     std::fill(block.episode_return + block.count, block.episode_return + padded, 0.0f);
   }
 
-  void Observe(const Block& block, float* observation) const {
-    alignas(kCacheLine) float errors[kNumTaskErrors * kBlock];
-    task->Errors(block.flight, block.task, errors, kBlock);
+  ObservationNoise NoiseOf(const Block& block) const {
     ObservationNoise noise;
     noise.standard_deviation = config.observation_noise;
     noise.max_standard_deviation = config.observation_noise_max;
@@ -201,7 +206,13 @@ struct VecEnv::Impl {
     noise.first_aircraft = static_cast<std::uint32_t>(block.first_aircraft);
     noise.episode = block.episode;
     noise.step = block.step;
-    ObserveTile(*kernel_aircraft, block.flight, errors, kBlock, noise, observation);
+    return noise;
+  }
+
+  void Observe(const Block& block, float* observation) const {
+    alignas(kCacheLine) float errors[kNumTaskErrors * kBlock];
+    task->Errors(block.flight, block.task, errors, kBlock);
+    ObserveTile(*kernel_aircraft, block.flight, errors, kBlock, NoiseOf(block), observation);
   }
 
   /// Copies the observations of aircraft whose time ran out in this control step.
@@ -243,10 +254,42 @@ struct VecEnv::Impl {
     }
   }
 
+  /// Has the controller, if there is one, decide when it is due. Returns the stick actions that
+  /// hold during the control step.
+  const float* TakeSticks(const Block& block, const float* action, int step,
+                          DecisionScratch& scratch) const {
+    const bool is_first = step == 0;
+    if (guided == nullptr) {
+      if (is_first) TakeActions(action, block.flight, scratch.pilot[0], kBlock);
+      return action;
+    }
+    if (is_first) guided->Plan(action, block.flight, scratch.guidance);
+    if (guided->Decides(step)) {
+      guided->Decide(*kernel_aircraft, block.flight, NoiseOf(block), scratch.guidance);
+      TakeActions(scratch.guidance.stick, block.flight, scratch.pilot[0], kBlock);
+    }
+    return scratch.guidance.stick;
+  }
+
+  /// Judges a control step, and shows it to the observer, if there is one.
+  void Judge(const Block& block, const TaskVerdict& verdict, const EpisodeColumns& episodes,
+             const float* stick, ControlStepObserver* observer) const {
+    task->Judge(block.flight, block.task, block.step, verdict);
+    if (observer == nullptr) {
+      JudgeTile(*kernel_aircraft, limits, block.flight, verdict, episodes);
+      return;
+    }
+    alignas(kCacheLine) float reward[kBlock] = {};
+    EpisodeColumns step = episodes;
+    step.decision_reward = reward;
+    JudgeTile(*kernel_aircraft, limits, block.flight, verdict, step);
+    for (int i = 0; i < block.count; ++i) episodes.decision_reward[i] += reward[i];
+    observer->See({block.first_aircraft, block.flight, stick, reward, episodes.termination});
+  }
+
   /// `output` points at the block's first aircraft.
   void Step(const Block& block, const float* action, const StepOutput& output) const {
     DecisionScratch scratch;
-    TakeActions(action, block.flight, scratch.pilot[0], kBlock);
     std::fill(std::begin(scratch.decision_reward), std::end(scratch.decision_reward), 0.0f);
     std::fill(std::begin(scratch.termination), std::end(scratch.termination), 0);
     const TaskVerdict verdict{scratch.step_reward, scratch.reached};
@@ -256,14 +299,14 @@ struct VecEnv::Impl {
     bool written[kBlock] = {};
     const float dt = static_cast<float>(config.control_interval_s);
     for (int step = 0; step < config.action_repeat; ++step) {
+      const float* const stick = TakeSticks(block, action, step, scratch);
       if (wind.blows()) wind.Advance(block.flight, dt, KeysOf(block));
       ControlTile(*kernel_aircraft, flight_control, block.flight, scratch.pilot_columns());
       // The next block's memory is needed after this one's last control step.
       const bool is_last = step + 1 == config.action_repeat;
       StepTile(*kernel_aircraft, block.flight, dt, config.substeps,
                is_last ? MemoryBehind(block) : MemoryAhead());
-      task->Judge(block.flight, block.task, block.step, verdict);
-      JudgeTile(*kernel_aircraft, limits, block.flight, verdict, episodes);
+      Judge(block, verdict, episodes, stick, output.observer);
       if (keeps_final) ObserveTruncated(block, scratch, written, output.final_observation);
     }
     std::copy_n(scratch.decision_reward, block.count, output.reward);
@@ -293,6 +336,24 @@ struct VecEnv::Impl {
     return static_cast<std::size_t>(flight_columns + task->num_columns() + 1 + 2);
   }
 
+  int MemorySize() const { return guided == nullptr ? 0 : guided->memory_size(); }
+
+  std::size_t SnapshotWords() const {
+    return (WordsPerAircraft() + static_cast<std::size_t>(MemorySize())) *
+           static_cast<std::size_t>(num_aircraft);
+  }
+
+  /// Every mutable 32-bit word of every aircraft, aircraft by aircraft.
+  template <typename Visit>
+  void VisitWords(const Visit& visit) const {
+    const std::size_t words = WordsPerAircraft();
+    for (int index = 0; index < num_aircraft; ++index) {
+      const Block block = BlockHolding(index);
+      for (std::size_t k = 0; k < words; ++k) visit(WordAt(block, k));
+      for (int k = 0; k < MemorySize(); ++k) visit(guided->memory(index) + k);
+    }
+  }
+
   Block BlockHolding(int index) const {
     if (index < 0 || index >= num_aircraft) {
       throw Error("environment: no aircraft " + std::to_string(index) + " among " +
@@ -312,6 +373,7 @@ struct VecEnv::Impl {
   FlightReset reset;
   Wind wind;
   int flight_columns;
+  std::unique_ptr<GuidedFlight> guided;  // null without a controller
 
   int tile_size = 0;
   int num_tiles = 0;
@@ -325,8 +387,9 @@ struct VecEnv::Impl {
   std::size_t block_size = 0;  // bytes
 };
 
-VecEnv::VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size)
-    : impl_(std::make_unique<Impl>(config, num_aircraft, seed, tile_size)) {}
+VecEnv::VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size,
+               std::shared_ptr<const Pilot> controller)
+    : impl_(std::make_unique<Impl>(config, num_aircraft, seed, tile_size, std::move(controller))) {}
 VecEnv::~VecEnv() = default;
 VecEnv::VecEnv(VecEnv&&) noexcept = default;
 
@@ -336,7 +399,9 @@ int VecEnv::num_tiles() const { return impl_->num_tiles; }
 int VecEnv::tile_begin(int tile) const { return tile * impl_->tile_size; }
 int VecEnv::tile_count(int tile) const { return impl_->CountOf(tile); }
 int VecEnv::observation_size() const { return kObservationSize; }
-int VecEnv::action_size() const { return kActionSize; }
+int VecEnv::action_size() const {
+  return impl_->guided != nullptr ? kPlannerActionSize : kActionSize;
+}
 
 void VecEnv::Observe(int tile, float* observation) const {
   const simd::DenormalsFlushed flushed;
@@ -361,39 +426,27 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
     if (part.final_state != nullptr) {
       part.final_state += static_cast<std::size_t>(begin) * kNumRecordedColumns;
     }
-    impl_->Step(impl_->BlockOf(tile, begin), action + static_cast<std::size_t>(begin) * kActionSize,
+    const std::size_t row = static_cast<std::size_t>(begin);
+    impl_->Step(impl_->BlockOf(tile, begin), action + row * static_cast<std::size_t>(action_size()),
                 part);
   }
 }
 
 std::vector<std::uint32_t> VecEnv::Snapshot() const {
-  const std::size_t words = impl_->WordsPerAircraft();
-  std::vector<std::uint32_t> snapshot(words * static_cast<std::size_t>(num_aircraft()));
+  std::vector<std::uint32_t> snapshot(impl_->SnapshotWords());
   std::uint32_t* target = snapshot.data();
-  for (int index = 0; index < num_aircraft(); ++index) {
-    const Impl::Block block = impl_->BlockHolding(index);
-    for (std::size_t k = 0; k < words; ++k, ++target) {
-      std::memcpy(target, impl_->WordAt(block, k), sizeof *target);
-    }
-  }
+  impl_->VisitWords([&target](const void* word) { std::memcpy(target++, word, sizeof *target); });
   return snapshot;
 }
 
 void VecEnv::Restore(const std::vector<std::uint32_t>& snapshot) {
-  const std::size_t words = impl_->WordsPerAircraft();
-  const std::size_t expected = words * static_cast<std::size_t>(num_aircraft());
-  if (snapshot.size() != expected) {
+  if (snapshot.size() != impl_->SnapshotWords()) {
     throw Error("environment: a snapshot of " + std::to_string(snapshot.size()) +
                 " words does not fit " + std::to_string(num_aircraft()) + " aircraft, which take " +
-                std::to_string(expected));
+                std::to_string(impl_->SnapshotWords()));
   }
   const std::uint32_t* source = snapshot.data();
-  for (int index = 0; index < num_aircraft(); ++index) {
-    const Impl::Block block = impl_->BlockHolding(index);
-    for (std::size_t k = 0; k < words; ++k, ++source) {
-      std::memcpy(impl_->WordAt(block, k), source, sizeof *source);
-    }
-  }
+  impl_->VisitWords([&source](void* word) { std::memcpy(word, source++, sizeof *source); });
   for (int tile = 0; tile < num_tiles(); ++tile) {
     for (int begin = 0; begin < tile_count(tile); begin += kBlock) {
       impl_->FillPadding(impl_->BlockOf(tile, begin));

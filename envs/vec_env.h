@@ -4,7 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "envs/control_step.h"
 #include "envs/env_config.h"
+#include "envs/pilot.h"
 #include "envs/termination.h"
 
 namespace skein {
@@ -26,17 +28,22 @@ struct StepOutput {
   /// rows of episodes that ended get the state at the end of the decision, before the new episode
   /// (else unchanged). May be null.
   float* final_state = nullptr;
+  ControlStepObserver* observer = nullptr;  ///< sees every control step on the way; may be null
 };
 
 /// N aircraft flying one task, as independent tiles. Tiles may be driven from different threads at
 /// once, each by one. Every number depends only on (config, seed, aircraft index, actions): not on
 /// tile size, threads or neighbours.
+///
+/// Without a controller, actions are the pilot's. With one, they are a planner's, and the
+/// controller flies (envs/guided_flight.h).
 class VecEnv {
  public:
   /// Aircraft get the global indices [0, num_aircraft). `tile_size` is rounded up to a multiple
   /// of 32. Throws Error on a configuration that cannot be flown. All aircraft start in a fresh
   /// episode.
-  VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size = 256);
+  VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size = 256,
+         std::shared_ptr<const Pilot> controller = nullptr);
   ~VecEnv();
   VecEnv(VecEnv&&) noexcept;
 
@@ -46,16 +53,18 @@ class VecEnv {
   int tile_begin(int tile) const;  ///< global index of the tile's first aircraft
   int tile_count(int tile) const;
   int observation_size() const;  ///< 22
-  int action_size() const;       ///< 4
+  int action_size() const;       ///< 4; 3 with a controller
 
   /// Writes the tile's observations, row-major [count][observation_size], noise included.
   void Observe(int tile, float* observation) const;
 
   /// Holds actions (row-major [count][action_size], clipped to [-1, 1]) for config().action_repeat
   /// control steps: throttle (-1 is idle, 1 is maximum), pitch (+ nose up), roll (+ right), yaw (+
-  /// nose right). An episode that ends during them takes no further reward, and its aircraft begins
-  /// a new one at the end of the decision. An action that is not finite ends its aircraft's episode
-  /// as NonFinite.
+  /// nose right). With a controller: pitch, yaw and speed that it is to reach, as changes of what
+  /// they are now (EnvConfig::planner); it decides anew every controller->action_repeat() control
+  /// steps, and remembers nothing of an earlier episode. An episode that ends during them takes no
+  /// further reward, and its aircraft begins a new one at the end of the decision. An action that
+  /// is not finite ends its aircraft's episode as NonFinite.
   void Step(int tile, const float* action, const StepOutput& output);
 
   /// The whole mutable state (for checkpoints), aircraft by aircraft whatever the tiles, and back.
@@ -67,7 +76,7 @@ class VecEnv {
   /// flights and tests; in still air the wind's are zero.
   float StateOf(int aircraft, int column) const;
   /// The target of one aircraft: altitude ft, yaw rad, speed ft/s for Heading; pitch rad,
-  /// yaw rad, speed ft/s for Control.
+  /// yaw rad, speed ft/s for Control; north, east and altitude, ft, for Tracking.
   std::vector<float> TargetOf(int aircraft) const;
 
  private:

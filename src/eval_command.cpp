@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -11,9 +10,11 @@
 #include "src/commands.h"
 #include "src/conditions.h"
 #include "src/configuration.h"
+#include "src/controller_option.h"
 #include "src/evaluation_report.h"
 #include "src/flight_file.h"
 #include "src/output_file.h"
+#include "src/policy_file.h"
 #include "src/presets.h"
 #include "src/run_directory.h"
 #include "train/policy.h"
@@ -30,6 +31,7 @@ struct EvalOptions {
   CLI::Option* preset_option = nullptr;
   std::string config;
   std::vector<std::string> conditions, assignments;
+  std::string controller;
   int episodes = 1000;
   bool deterministic = false;
   std::uint64_t seed = 0;
@@ -38,18 +40,6 @@ struct EvalOptions {
   std::string flights;
   int flights_count = 8;
 };
-
-/// The policy file that stands for a run: the best, else the final one, else the newest checkpoint.
-std::string PolicyOfRun(const std::string& run) {
-  const std::string checkpoints = run + "/checkpoints";
-  for (const char* name : {"/policy-best.skein", "/policy-final.skein"}) {
-    if (std::filesystem::exists(checkpoints + name)) return checkpoints + name;
-  }
-  std::string newest;
-  for (const Checkpoint& checkpoint : CheckpointsIn(checkpoints)) newest = checkpoint.path;
-  if (newest.empty()) throw Error(fmt::format("{}: the run has not saved a policy yet", run));
-  return newest;
-}
 
 /// What the policy was made for: the run's own configuration if it is given as a run, else the
 /// preset's.
@@ -76,10 +66,15 @@ void ApplyOverrides(const EvalOptions& options, ProgramConfig* config) {
   CheckConsistent(*config);
 }
 
-Policy UntrainedPolicy(const ProgramConfig& config, std::uint64_t seed) {
-  const VecEnv env(config.train.env, 1, seed);
-  return Policy::Untrained(config.train.network, env.observation_size(), env.action_size(), seed,
-                           config.train.env.action_repeat);
+/// Of a planned task a planner, or without a controller a pilot.
+Policy UntrainedPolicy(const ProgramConfig& config, const EvalOptions& options) {
+  std::shared_ptr<const Pilot> controller;
+  if (!options.controller.empty()) {
+    controller = ChooseController(config.train.env.task, options.controller).pilot;
+  }
+  const VecEnv env(config.train.env, 1, options.seed, 1, controller);
+  return Policy::Untrained(config.train.network, env.observation_size(), env.action_size(),
+                           options.seed, config.train.env.action_repeat, controller);
 }
 
 /// Writes the first episodes of the mode that is reported first.
@@ -93,21 +88,26 @@ void WriteFlights(const EvalOptions& options, const Policy& policy, const EnvCon
              options.deterministic ? "the mean action" : "sampled actions");
 }
 
+std::string Rates(const Policy& policy, const EnvConfig& env) {
+  const std::string own = fmt::format("an action every {} control steps", env.action_repeat);
+  if (policy.controller() == nullptr) return own;
+  return fmt::format("{} for a controller with one every {}", own,
+                     policy.controller()->action_repeat());
+}
+
 void Evaluate(const EvalOptions& options) {
-  const bool is_run = IsRunDirectory(options.policy);
-  if (!is_run && std::filesystem::is_directory(options.policy)) {
-    throw Error(fmt::format("{}: not the directory of a run (there is no config.toml in it)",
-                            options.policy));
+  const std::string path = PolicyFileOf(options.policy);
+  ProgramConfig config = BaseConfig(options, IsRunDirectory(options.policy));
+  if (path != kUntrained && !options.controller.empty()) {
+    throw Error("--controller is for --policy untrained: a trained planner brings its own");
   }
-  ProgramConfig config = BaseConfig(options, is_run);
-  const std::string path = is_run ? PolicyOfRun(options.policy) : options.policy;
   std::optional<Policy> policy;
   if (path != kUntrained) {
     policy = Policy::Load(path);
     config.train.env.action_repeat = policy->action_repeat();
   }
   ApplyOverrides(options, &config);
-  if (!policy) policy = UntrainedPolicy(config, options.seed);
+  if (!policy) policy = UntrainedPolicy(config, options);
   policy = policy->WithBackend(config.train.learner.backend);
   WorkerPool pool(options.threads);
   const EvaluationReport report =
@@ -116,8 +116,8 @@ void Evaluate(const EvalOptions& options) {
     WriteFile(options.json,
               ToJson(report, path, config, options.seed, options.deterministic).dump(1) + "\n");
   }
-  fmt::print("{} on {}, {} episodes, seed {}, an action every {} control steps; {}\n{}\n", path,
-             config.train.env.task, options.episodes, options.seed, config.train.env.action_repeat,
+  fmt::print("{} on {}, {} episodes, seed {}, {}; {}\n{}\n", path, config.train.env.task,
+             options.episodes, options.seed, Rates(*policy, config.train.env),
              Describe(policy->backend()), ToText(report));
   if (!options.flights.empty()) WriteFlights(options, *policy, config.train.env, pool);
 }
@@ -151,6 +151,11 @@ void AddEvalCommand(CLI::App* app) {
                    "one configuration key, such as env.observation_noise=0.03; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command
+      ->add_option("--controller", options->controller,
+                   "with --policy untrained: the policy of task control that flies what the "
+                   "planner asks for; without it the sticks are flown")
+      ->type_name("RUN_OR_POLICY");
   command->add_option("--episodes", options->episodes, "number of episodes")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();

@@ -12,6 +12,7 @@
 #include "envs/aircraft/aircraft.h"
 #include "envs/dynamics/attitude.h"
 #include "envs/dynamics/plant.h"
+#include "envs/guided_flight.h"
 #include "envs/tasks/task.h"
 #include "simd/error.h"
 
@@ -21,7 +22,9 @@ namespace {
 using State = std::array<float, kNumRecordedColumns>;
 using Quantity = std::pair<const char*, double>;
 
-constexpr std::array<const char*, kActionSize> kActionNames = {"throttle", "pitch", "roll", "yaw"};
+constexpr std::array<const char*, kActionSize> kStickNames = {"throttle", "pitch", "roll", "yaw"};
+constexpr std::array<const char*, kPlannerActionSize> kPlanNames = {"target_pitch", "target_yaw",
+                                                                    "target_speed"};
 
 /// What a state is called and worth in the units of people, in the order of the file's columns.
 std::vector<Quantity> Readings(AtmosphereModel atmosphere, const State& state) {
@@ -69,15 +72,18 @@ double ValueOf(const std::vector<Quantity>& readings, const std::string& name) {
 /// Writes the rows of one configuration's flights.
 class FlightTable {
  public:
-  explicit FlightTable(const EnvConfig& env)
-      : env_(env), targets_(MakeTask(env)->target_quantities()) {}
+  FlightTable(const EnvConfig& env, bool is_planned)
+      : env_(env), is_planned_(is_planned), targets_(MakeTask(env)->target_quantities()) {}
 
   std::string Header() const {
     std::string header = "episode,time_s";
     for (const auto& [name, value] : Readings(env_.atmosphere, {})) {
       header += fmt::format(",{}", name);
     }
-    for (const char* name : kActionNames) header += fmt::format(",action_{}", name);
+    for (const char* name : kStickNames) header += fmt::format(",action_{}", name);
+    if (is_planned_) {
+      for (const char* name : kPlanNames) header += fmt::format(",action_{}", name);
+    }
     for (const TargetQuantity& target : targets_)
       header += fmt::format(",target_{}", target.column);
     for (const TargetQuantity& target : targets_) header += fmt::format(",error_{}", target.column);
@@ -94,11 +100,12 @@ class FlightTable {
     const std::vector<Quantity> readings =
         Readings(env_.atmosphere, step == nullptr ? flight.initial_state : step->state);
     for (const auto& [name, value] : readings) cell(value);
-    for (std::size_t k = 0; k < kActionNames.size(); ++k) {
-      if (step == nullptr) {
-        text->push_back(',');
-      } else {
-        cell(step->action[k]);
+    if (step == nullptr) {
+      text->append(kStickNames.size() + (is_planned_ ? kPlanNames.size() : 0), ',');
+    } else {
+      for (const float command : step->stick) cell(command);
+      if (is_planned_) {
+        for (const float command : step->action) cell(command);
       }
     }
     for (std::size_t k = 0; k < targets_.size(); ++k) cell(TargetOf(flight, k));
@@ -122,13 +129,20 @@ class FlightTable {
   }
 
   const EnvConfig& env_;
+  bool is_planned_;
   std::vector<TargetQuantity> targets_;
 };
+
+/// Whether a planner's actions were recorded.
+bool IsPlanned(const std::vector<RecordedFlight>& flights) {
+  return !flights.empty() && !flights.front().steps.empty() &&
+         flights.front().steps.front().action.size() == kPlannerActionSize;
+}
 
 }  // namespace
 
 std::string FlightsCsv(const EnvConfig& env, const std::vector<RecordedFlight>& flights) {
-  const FlightTable table(env);
+  const FlightTable table(env, IsPlanned(flights));
   std::string text = table.Header();
   for (std::size_t episode = 0; episode < flights.size(); ++episode) {
     const RecordedFlight& flight = flights[episode];

@@ -20,8 +20,9 @@ struct Checkpoint {
 std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 
 /// The directory of one training run, held exclusively while the object lives:
-///   config.toml  log.txt  metrics.csv  timing.csv  events.out.tfevents.*  evaluation.json
-///   checkpoints/checkpoint-<iteration>.skein, policy-best.skein, policy-final.skein
+///   config.toml  controller.skein (of planners)  log.txt  metrics.csv  timing.csv
+///   events.out.tfevents.*  evaluation.json checkpoints/checkpoint-<iteration>.skein,
+///   policy-best.skein, policy-final.skein
 class RunDirectory {
  public:
   /// Makes a new one. Throws Error if `path` exists and is not an empty directory, cannot be made,
@@ -32,6 +33,7 @@ class RunDirectory {
 
   const std::string& path() const { return path_; }
   std::string config() const { return path_ + "/config.toml"; }
+  std::string controller() const { return path_ + "/controller.skein"; }
   std::string log() const { return path_ + "/log.txt"; }
   std::string metrics() const { return path_ + "/metrics.csv"; }
   std::string timing() const { return path_ + "/timing.csv"; }

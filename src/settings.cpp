@@ -28,8 +28,12 @@ constexpr Names<AtmosphereModel, 2> kAtmosphereNames = {
 constexpr Names<FlightControlMode, 2> kFlightControlNames = {
     {{FlightControlMode::kFull, "full"}, {FlightControlMode::kDirect, "direct"}}};
 
+constexpr Names<TrackingAxes, 2> kTrackingAxesNames = {
+    {{TrackingAxes::kHeading, "heading"}, {TrackingAxes::kEarth, "earth"}}};
+
 const auto& NamesOf(AtmosphereModel) { return kAtmosphereNames; }
 const auto& NamesOf(FlightControlMode) { return kFlightControlNames; }
+const auto& NamesOf(TrackingAxes) { return kTrackingAxesNames; }
 const auto& NamesOf(Activation) { return kActivationNames; }
 const auto& NamesOf(Backend) { return kBackendNames; }
 const auto& NamesOf(LearnerPrecision) { return kPrecisionNames; }
@@ -232,6 +236,38 @@ std::vector<Setting> MakeSettings() {
       {"env.control.speed_error_weight",
        [](C& c) -> F { return &c.train.env.control.speed_error_weight; }, not_negative,
        "reward lost per step and unit of speed error (F-16: 340 m/s), beside the angle's"},
+
+      {"env.tracking.distance_min_ft",
+       [](C& c) -> F { return &c.train.env.tracking.distance_ft.min; }, not_negative,
+       "nearest target"},
+      {"env.tracking.distance_max_ft",
+       [](C& c) -> F { return &c.train.env.tracking.distance_ft.max; }, not_negative,
+       "farthest target"},
+      {"env.tracking.azimuth_deg",
+       [](C& c) -> F { return &c.train.env.tracking.azimuth_deg; },
+       {0, 180},
+       "target's direction: left or right of the initial nose by U(-x, x)"},
+      {"env.tracking.elevation_deg",
+       [](C& c) -> F { return &c.train.env.tracking.elevation_deg; },
+       {0, 90},
+       "target's direction: above or below the initial nose by U(-x, x)"},
+      {"env.tracking.position_tolerance_ft",
+       [](C& c) -> F { return &c.train.env.tracking.position_tolerance_ft; }, positive,
+       "distance north, east and up of the target that counts as reached"},
+      {"env.tracking.error_axes", [](C& c) -> F { return &c.train.env.tracking.error_axes; }, name,
+       "what the errors are: ahead, right and up of the heading, or north, east and up"},
+
+      {"env.planner.pitch_change_rad",
+       [](C& c) -> F { return &c.train.env.planner.pitch_change_rad; },
+       {0, 3.1415926535897932},
+       "full action of a planner: target pitch above the present one"},
+      {"env.planner.yaw_change_rad",
+       [](C& c) -> F { return &c.train.env.planner.yaw_change_rad; },
+       {0, 3.1415926535897932},
+       "full action of a planner: target yaw to the right of the present one"},
+      {"env.planner.speed_change_fps",
+       [](C& c) -> F { return &c.train.env.planner.speed_change_fps; }, not_negative,
+       "full action of a planner: target true airspeed beyond the present one"},
 
       {"env.termination.alpha_min_deg",
        [](C& c) -> F { return &c.train.env.termination.alpha_deg.min; },

@@ -15,7 +15,7 @@ using SettingValue = std::variant<bool, std::int64_t, double, std::string>;
 /// Where a setting's value lives in a ProgramConfig.
 using SettingField =
     std::variant<bool*, int*, std::uint64_t*, double*, std::string*, AtmosphereModel*,
-                 FlightControlMode*, Activation*, Backend*, LearnerPrecision*>;
+                 FlightControlMode*, TrackingAxes*, Activation*, Backend*, LearnerPrecision*>;
 
 /// The interval that a number must lie in; `min_open` leaves `min` itself out.
 struct Bounds {

@@ -6,14 +6,17 @@
 #include <memory>
 #include <optional>
 
+#include "envs/tasks/task.h"
 #include "simd/error.h"
 #include "src/commands.h"
 #include "src/conditions.h"
 #include "src/configuration.h"
+#include "src/controller_option.h"
 #include "src/presets.h"
 #include "src/run_directory.h"
 #include "src/settings.h"
 #include "src/training_run.h"
+#include "train/controller_file.h"
 
 namespace skein {
 namespace {
@@ -28,6 +31,7 @@ struct TrainOptions {
   std::optional<double> steps;
   std::optional<std::int64_t> seed;
   int threads = 0;
+  std::string controller;
   std::string out;
   std::string resume;
   CLI::Option* resume_option = nullptr;
@@ -58,6 +62,15 @@ std::string RunToResume(const TrainOptions& options) {
                           options.task.empty() ? "" : " of " + options.task, kRunsRoot));
 }
 
+/// What the run began with.
+std::shared_ptr<const Pilot> ControllerOf(const RunDirectory& directory, const std::string& task) {
+  if (!IsPlanned(task)) return nullptr;
+  const std::string path = directory.controller();
+  std::shared_ptr<const Pilot> controller = LoadController(TensorFile::Read(path), path);
+  if (controller == nullptr) throw Error(fmt::format("{}: it holds no controller", path));
+  return controller;
+}
+
 void Resume(const TrainOptions& options) {
   RunDirectory directory = RunDirectory::Open(RunToResume(options));
   ProgramConfig config;
@@ -79,6 +92,17 @@ void Resume(const TrainOptions& options) {
         "instead",
         directory.path(), fmt::join(differences, ", ")));
   }
+  config.train.controller = ControllerOf(directory, config.train.env.task);
+  if (!options.controller.empty()) {
+    const ChosenController asked_controller =
+        ChooseController(config.train.env.task, options.controller);
+    if (!IsSameController(asked_controller.pilot.get(), config.train.controller.get())) {
+      throw Error(
+          fmt::format("{}: a resumed run keeps its controller, but --controller {} is "
+                      "another one; begin a new run instead",
+                      directory.path(), options.controller));
+    }
+  }
   WorkerPool pool(options.threads);
   TrainingRun::Resume(config, std::move(directory), pool);
 }
@@ -96,11 +120,14 @@ void Train(const TrainOptions& options) {
   if (options.task.empty()) {
     throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
   }
-  const ProgramConfig config = Configure(options, options.task);
+  ProgramConfig config = Configure(options, options.task);
   CheckConsistent(config);
+  const ChosenController controller = ChooseController(options.task, options.controller);
+  config.train.controller = controller.pilot;
   WorkerPool pool(options.threads);
   TrainingRun::Begin(config,
-                     options.out.empty() ? NewRunPath(kRunsRoot, options.task) : options.out, pool);
+                     options.out.empty() ? NewRunPath(kRunsRoot, options.task) : options.out, pool,
+                     controller.description);
 }
 
 }  // namespace
@@ -134,6 +161,11 @@ void AddTrainCommand(CLI::App* app) {
                       "budget in control steps (50 Hz) over all aircraft, such as 1.35e9; same as "
                       "--set run.total_steps=...");
   command->add_option("--seed", options->seed, "seed of the run; same as --set run.seed=...");
+  command
+      ->add_option("--controller", options->controller,
+                   "for task tracking: the policy of task control that flies what the planner asks "
+                   "for (a file, or a run's best)")
+      ->type_name("RUN_OR_POLICY");
   CLI::Option* out = command
                          ->add_option("--out", options->out,
                                       "directory of the run; it must not hold one already "
@@ -165,6 +197,7 @@ void AddTrainCommand(CLI::App* app) {
       "  skein train heading\n"
       "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
       "  skein train control --set env.control.pitch_change_rad=0.9\n"
+      "  skein train tracking --controller runs/control\n"
       "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
       "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
       "noisy=0.01..0.05\n"

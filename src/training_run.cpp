@@ -13,6 +13,7 @@
 #include "src/evaluation_report.h"
 #include "src/output_file.h"
 #include "src/progress.h"
+#include "train/controller_file.h"
 
 namespace skein {
 namespace {
@@ -44,14 +45,21 @@ std::string CannotRestore(const Checkpoint& newest, const std::vector<Checkpoint
 
 }  // namespace
 
-void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool) {
+void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
+                        const std::string& note) {
   // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
   Trainer trainer(config.train, pool);
   RunDirectory directory = RunDirectory::Create(path);
   ProgramConfig resolved = config;
   resolved.train = trainer.config();
   WriteFile(directory.config(), DumpToml(resolved));
+  if (config.train.controller != nullptr) {
+    TensorFile controller;
+    StoreController(*config.train.controller, controller);
+    controller.Write(directory.controller());
+  }
   TrainingRun run(resolved, std::move(directory), trainer, pool);
+  if (!note.empty()) run.log_.Say(note);
   run.Run();
 }
 

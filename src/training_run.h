@@ -20,10 +20,12 @@ namespace skein {
 /// evaluation over fresh episodes.
 class TrainingRun {
  public:
-  /// A new run in a new directory.
-  static void Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool);
-  /// Goes on from the directory's newest checkpoint, or from the start if it has none. Throws Error
-  /// if the checkpoint is damaged or made with another configuration.
+  /// A new run in a new directory. `note`, unless empty, goes into its log.
+  static void Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
+                    const std::string& note = "");
+  /// Goes on from the directory's newest checkpoint, or from the start if it has none, over the
+  /// controller that the run began with. Throws Error if the checkpoint is damaged or made with
+  /// another configuration.
   static void Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool);
 
  private:

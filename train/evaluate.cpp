@@ -58,7 +58,7 @@ VecEnv MakeEvaluationEnv(const Policy& policy, const EnvConfig& config,
                          const EvaluationOptions& options) {
   if (options.episodes <= 0) throw Error("an evaluation needs at least one episode");
   VecEnv env(EvaluationConfig(config), options.episodes, options.seed ^ kEvaluationStream,
-             kTileSize);
+             kTileSize, policy.controller());
   if (policy.observation_size() != env.observation_size() ||
       policy.action_size() != env.action_size()) {
     throw Error("the policy takes " + std::to_string(policy.observation_size()) +

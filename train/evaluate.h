@@ -32,8 +32,8 @@ struct EvaluationResult {
 EvaluationResult Evaluate(const Policy& policy, const EnvConfig& env,
                           const EvaluationOptions& options, WorkerPool& pool);
 
-/// What Evaluate flies: an aircraft for every episode, its first. Throws Error where the policy
-/// does not fit the task.
+/// What Evaluate flies: an aircraft for every episode, its first; by the policy's controller if it
+/// has one. Throws Error where the policy does not fit the task.
 VecEnv MakeEvaluationEnv(const Policy& policy, const EnvConfig& env,
                          const EvaluationOptions& options);
 /// And who flies a tile of it.

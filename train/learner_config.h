@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "envs/env_config.h"
+#include "envs/pilot.h"
 
 namespace skein {
 
@@ -112,6 +114,8 @@ struct TrainConfig {
   PpoConfig ppo;
   LearnerConfig learner;
   PeriodicEvaluationConfig evaluation;
+  /// What flies, frozen, while a planner is trained; null where the policy itself flies.
+  std::shared_ptr<const Pilot> controller;
   std::uint64_t total_steps = 0;  ///< budget in control steps (environment steps at 50 Hz)
   std::uint64_t seed = 1;
 };

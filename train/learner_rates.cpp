@@ -51,7 +51,7 @@ struct Runner {
     const double decisions =
         static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps;
     const double samples = decisions * config.ppo.epochs;
-    const VecEnv env(config.env, 1, config.seed);
+    const VecEnv env(config.env, 1, config.seed, 1, config.controller);
     const double forward_flops =
         ForwardFlops(ActorShape(config.network, env.observation_size(), env.action_size())) +
         ForwardFlops(CriticShape(config.network, env.observation_size()));

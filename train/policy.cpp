@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "simd/error.h"
+#include "train/controller_file.h"
 #include "train/policy_parameters.h"
 #include "train/ppo_loss.h"
 #include "train/recurrent_network.h"
@@ -18,6 +19,7 @@ constexpr const char* kFormat = "skein-policy-1";
 constexpr const char* kHiddenLayersKey = "policy.hidden_layers";
 constexpr const char* kGruLayersKey = "policy.gru_layers";
 constexpr const char* kActivationKey = "policy.activation";
+constexpr const char* kTaskKey = "policy.task";
 constexpr int kMaxSize = 1 << 14;  ///< of any layer: a file cannot ask for more memory than this
 
 std::string Metadata(const TensorFile& file, const std::string& path, const std::string& key) {
@@ -84,6 +86,8 @@ void StorePolicy(const Policy::Parameters& parameters, TensorFile& file) {
   metadata["policy.observation_size"] = std::to_string(parameters.shape.observation_size);
   metadata["policy.action_size"] = std::to_string(parameters.shape.output_size);
   metadata["policy.action_repeat"] = std::to_string(parameters.action_repeat);
+  if (!parameters.task.empty()) metadata[kTaskKey] = parameters.task;
+  if (parameters.controller != nullptr) StoreController(*parameters.controller, file);
   const NetworkLayout layout(parameters.shape);
   for (std::size_t i = 0; i < layout.slices().size(); ++i) {
     const ParameterSlice& slice = layout.slices()[i];
@@ -119,6 +123,8 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
   parameters->shape = ActorShape(config, SizeIn(file, path, "policy.observation_size"),
                                  SizeIn(file, path, "policy.action_size"));
   parameters->action_repeat = SizeIn(file, path, "policy.action_repeat");
+  if (Has(file, kTaskKey)) parameters->task = Metadata(file, path, kTaskKey);
+  parameters->controller = LoadController(file, path);
   const NetworkLayout layout(parameters->shape);
   for (const ParameterSlice& slice : layout.slices()) {
     const std::vector<float> values =
@@ -149,11 +155,13 @@ Policy Policy::Load(const std::string& path) {
 }
 
 Policy Policy::Untrained(const NetworkConfig& config, int observation_size, int action_size,
-                         std::uint64_t seed, int action_repeat) {
+                         std::uint64_t seed, int action_repeat,
+                         std::shared_ptr<const Pilot> controller) {
   auto parameters = std::make_shared<Parameters>();
   parameters->config = config;
   parameters->shape = ActorShape(config, observation_size, action_size);
   parameters->action_repeat = action_repeat;
+  parameters->controller = std::move(controller);
   parameters->values = InitialParameters(NetworkLayout(parameters->shape), config.actor_head_scale,
                                          config.initial_log_std, seed, kActorStream);
   return Policy(std::move(parameters));
@@ -171,6 +179,13 @@ const BackendChoice& Policy::backend() const { return actor_->backend; }
 int Policy::action_size() const { return actor_->parameters->shape.output_size; }
 int Policy::state_size() const { return actor_->parameters->shape.state_size(); }
 int Policy::action_repeat() const { return actor_->parameters->action_repeat; }
+const std::string& Policy::task() const { return actor_->parameters->task; }
+const std::shared_ptr<const Pilot>& Policy::controller() const {
+  return actor_->parameters->controller;
+}
+const std::shared_ptr<const Policy::Parameters>& Policy::parameters() const {
+  return actor_->parameters;
+}
 
 void Policy::Act(int count, const float* observation, float* state, float* mean,
                  float* log_std) const {
@@ -187,6 +202,11 @@ void Policy::Act(int count, const float* observation, float* state, float* mean,
   if (log_std != nullptr) {
     std::copy_n(parameters.values.begin() + actor_->network->layout().log_std(), size, log_std);
   }
+}
+
+void Policy::Fly(int count, const float* observation, float* state, float* action) const {
+  Act(count, observation, state, action);
+  for (int i = 0; i < count * action_size(); ++i) action[i] = std::clamp(action[i], -1.0f, 1.0f);
 }
 
 }  // namespace skein

@@ -15,10 +15,13 @@ struct Policy::Parameters {
   NetworkConfig config;
   NetworkShape shape;
   int action_repeat = 1;
-  std::vector<float> values;  ///< the actor's flat parameters
+  std::string task;                         ///< what it was trained for; empty if unknown
+  std::shared_ptr<const Pilot> controller;  ///< of a planner, else null
+  std::vector<float> values;                ///< the actor's flat parameters
 };
 
-/// Writes the actor's description and parameters into `file`, one tensor "actor/<name>" per slice.
+/// Writes the actor's description and parameters into `file`, one tensor "actor/<name>" per slice,
+/// and its controller (train/controller_file.h).
 void StorePolicy(const Policy::Parameters& parameters, TensorFile& file);
 
 /// The actor in a file that StorePolicy wrote to. Throws Error, naming `path`, if there is none.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "envs/control_step.h"
 #include "envs/vec_env.h"
 #include "simd/error.h"
 #include "train/tile_pilot.h"
@@ -19,8 +20,10 @@ std::array<float, kNumRecordedColumns> StateOf(const VecEnv& env, int aircraft) 
   return state;
 }
 
+float Clipped(float command) { return std::clamp(command, -1.0f, 1.0f); }
+
 /// Flies the first episodes of a tile's first `flights.size()` aircraft.
-class TileRecorder {
+class TileRecorder : private ControlStepObserver {
  public:
   TileRecorder(VecEnv& env, int tile, std::vector<RecordedFlight*> flights)
       : env_(env),
@@ -31,7 +34,6 @@ class TileRecorder {
         reward_(env.tile_count(tile)),
         episode_return_(reward_.size()),
         final_observation_(reward_.size() * env.observation_size()),
-        final_state_(reward_.size() * kNumRecordedColumns),
         termination_(reward_.size()),
         steps_(reward_.size()) {
     for (std::size_t i = 0; i < flights_.size(); ++i) {
@@ -43,36 +45,43 @@ class TileRecorder {
 
   bool IsDone() const { return std::find(flying_.begin(), flying_.end(), true) == flying_.end(); }
 
-  /// One control step with the tile's actions.
+  /// One decision: the tile's actions.
   void Step(const std::vector<float>& action) {
-    env_.Step(tile_, action.data(),
-              {reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
-               final_observation_.data(), final_state_.data()});
-    const int actions = env_.action_size();
-    for (std::size_t i = 0; i < flights_.size(); ++i) {
-      if (!flying_[i]) continue;
-      RecordedStep& step = flights_[i]->steps.emplace_back();
-      step.termination = static_cast<Termination>(termination_[i]);
-      flying_[i] = step.termination == Termination::kNone;
-      if (flying_[i]) {
-        step.state = StateOf(env_, begin_ + static_cast<int>(i));
-      } else {
-        std::copy_n(final_state_.begin() + static_cast<std::int64_t>(i) * kNumRecordedColumns,
-                    kNumRecordedColumns, step.state.begin());
-      }
-      for (int k = 0; k < actions; ++k) {
-        step.action.push_back(std::clamp(action[i * actions + k], -1.0f, 1.0f));
-      }
-      step.reward = reward_[i];
-    }
+    action_ = action.data();
+    StepOutput output{reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
+                      final_observation_.data()};
+    output.observer = this;
+    env_.Step(tile_, action.data(), output);
   }
 
  private:
+  void See(const ControlStep& seen) override {
+    const int actions = env_.action_size();
+    for (int i = 0; i < seen.state.count; ++i) {
+      const int index = seen.first_aircraft - begin_ + i;
+      if (index >= static_cast<int>(flights_.size()) || !flying_[index]) continue;
+      RecordedStep& step = flights_[index]->steps.emplace_back();
+      step.termination = static_cast<Termination>(seen.termination[i]);
+      flying_[index] = step.termination == Termination::kNone;
+      // In still air the wind stays zero.
+      const int columns = seen.state.windy ? kNumRecordedColumns : kNumColumns;
+      for (int column = 0; column < columns; ++column) step.state[column] = seen.state[column][i];
+      for (int k = 0; k < actions; ++k) {
+        step.action.push_back(Clipped(action_[index * actions + k]));
+      }
+      for (int k = 0; k < kActionSize; ++k) {
+        step.stick[k] = Clipped(seen.stick[i * kActionSize + k]);
+      }
+      step.reward = seen.reward[i];
+    }
+  }
+
   VecEnv& env_;
   int tile_, begin_;
   std::vector<RecordedFlight*> flights_;
   std::vector<bool> flying_;
-  std::vector<float> reward_, episode_return_, final_observation_, final_state_;
+  const float* action_ = nullptr;  // of the decision under way
+  std::vector<float> reward_, episode_return_, final_observation_;
   std::vector<std::uint8_t> termination_;
   std::vector<std::int32_t> steps_;
 };
@@ -83,10 +92,7 @@ std::vector<RecordedFlight> RecordFlights(const Policy& policy, const EnvConfig&
                                           const EvaluationOptions& options, int count,
                                           WorkerPool& pool) {
   if (count < 1) throw Error("cannot record " + std::to_string(count) + " flights");
-  // Nothing but rewards depends on where decisions end, so steps can be taken one by one.
-  EnvConfig every_step = config;
-  every_step.action_repeat = 1;
-  VecEnv env = MakeEvaluationEnv(policy, every_step, options);
+  VecEnv env = MakeEvaluationEnv(policy, config, options);
   std::vector<RecordedFlight> flights(std::min(count, options.episodes));
   int tiles = 0;
   while (tiles < env.num_tiles() && env.tile_begin(tiles) < static_cast<int>(flights.size())) {
@@ -102,10 +108,7 @@ std::vector<RecordedFlight> RecordFlights(const Policy& policy, const EnvConfig&
     while (!recorder.IsDone()) {
       // Whole tiles fly, the aircraft that are not recorded too: matrix products may round by
       // shape.
-      const std::vector<float>& action = pilot.Decide();
-      for (int step = 0; step < config.action_repeat && !recorder.IsDone(); ++step) {
-        recorder.Step(action);
-      }
+      recorder.Step(pilot.Decide());
     }
   });
   return flights;

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "envs/actions.h"
 #include "envs/dynamics/state.h"
 #include "envs/env_config.h"
 #include "envs/termination.h"
@@ -15,8 +16,11 @@ namespace skein {
 /// The end of one control step.
 struct RecordedStep {
   std::array<float, kNumRecordedColumns> state{};  ///< envs/dynamics/state.h
-  std::vector<float> action;                       ///< held during the step, clipped to [-1, 1]
-  float reward = 0;                                ///< of the step, terminal reward included
+  std::vector<float> action;  ///< the policy's, held during the step, clipped to [-1, 1]
+  /// What the pilot's stick and throttle got, clipped to [-1, 1]: the action, or the controller's
+  /// that flies for a planner.
+  std::array<float, kActionSize> stick{};
+  float reward = 0;  ///< of the step, terminal reward included
   Termination termination = Termination::kNone;
 };
 

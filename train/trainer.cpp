@@ -51,7 +51,8 @@ struct Trainer::Impl {
   Impl(const TrainConfig& training, WorkerPool& workers)
       : config(Validated(training)),
         pool(workers),
-        env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile),
+        env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile,
+            config.controller),
         actor_layout(ActorShape(config.network, env.observation_size(), env.action_size())),
         critic_layout(CriticShape(config.network, env.observation_size())),
         actor(InitialParameters(actor_layout, config.network.actor_head_scale,
@@ -126,6 +127,8 @@ struct Trainer::Impl {
     parameters->config = config.network;
     parameters->shape = actor_layout.shape();
     parameters->action_repeat = config.env.action_repeat;
+    parameters->task = config.env.task;
+    parameters->controller = config.controller;
     parameters->values.assign(actor.parameters(), actor.parameters() + actor.size());
     return Policy(std::move(parameters), config.learner.backend);
   }

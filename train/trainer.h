@@ -66,7 +66,7 @@ class Trainer {
   void Save(const std::string& path) const;
   /// Returns the SIMD target that the checkpoint was made on: on another one training goes on, but
   /// not bit for bit. Throws Error if the file is damaged or was made with another configuration of
-  /// networks, environment or learner; nothing has changed then.
+  /// networks, environment or learner, or another controller; nothing has changed then.
   std::string Restore(const std::string& path);
 
   /// A 64-bit hash (FNV-1a) of parameters, optimiser, value statistics and environment state.

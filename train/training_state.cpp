@@ -5,6 +5,7 @@
 
 #include "simd/error.h"
 #include "simd/target.h"
+#include "train/controller_file.h"
 #include "train/fnv_hash.h"
 #include "train/policy_parameters.h"
 #include "train/tensor_access.h"
@@ -23,6 +24,7 @@ std::string Text(double value) { return ExactText(value); }
 std::string Text(AtmosphereModel model) {
   return model == AtmosphereModel::kStevensLewis ? "stevens_lewis" : "standard_1976";
 }
+std::string Text(TrackingAxes axes) { return axes == TrackingAxes::kHeading ? "heading" : "earth"; }
 std::string Text(Activation activation) { return Name(activation); }
 std::string Text(Backend backend) { return Name(backend); }
 std::string Text(LearnerPrecision precision) { return Name(precision); }
@@ -85,6 +87,16 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("control.training_tolerance_min", env.control.training_tolerance_min);
     add("control.reward_includes_roll", env.control.reward_includes_roll);
     add("control.speed_error_weight", env.control.speed_error_weight);
+  } else if (env.task == "tracking") {
+    add("tracking.distance_min_ft", env.tracking.distance_ft.min);
+    add("tracking.distance_max_ft", env.tracking.distance_ft.max);
+    add("tracking.azimuth_deg", env.tracking.azimuth_deg);
+    add("tracking.elevation_deg", env.tracking.elevation_deg);
+    add("tracking.position_tolerance_ft", env.tracking.position_tolerance_ft);
+    add("tracking.error_axes", env.tracking.error_axes);
+    add("planner.pitch_change_rad", env.planner.pitch_change_rad);
+    add("planner.yaw_change_rad", env.planner.yaw_change_rad);
+    add("planner.speed_change_fps", env.planner.speed_change_fps);
   }
   add("termination.alpha_min_deg", env.termination.alpha_deg.min);
   add("termination.alpha_max_deg", env.termination.alpha_deg.max);
@@ -200,6 +212,8 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
   policy.config = config.network;
   policy.shape = actor.shape();
   policy.action_repeat = config.env.action_repeat;
+  policy.task = config.env.task;
+  policy.controller = config.controller;
   policy.values = state.actor;
   StorePolicy(policy, file);
   VisitFloats(state, [&](const char* name, const std::vector<float>& values) {
@@ -229,6 +243,9 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
   const std::shared_ptr<const Policy::Parameters> policy = LoadPolicy(file, path);
   if (!(policy->shape == actor.shape())) {
     throw Error(path + ": its policy has other sizes than the configuration's");
+  }
+  if (!IsSameController(policy->controller.get(), config.controller.get())) {
+    throw Error(path + ": made with another controller than the one that flies now");
   }
   TrainingState state;
   state.actor = policy->values;

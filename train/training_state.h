@@ -37,8 +37,8 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
                            const TrainingState& state);
 
 /// Throws Error, naming `path`, if the file is no checkpoint, was made with another configuration
-/// (naming the first field that differs), or holds values of another size (of `env`, VecEnv is the
-/// judge).
+/// (naming the first field that differs) or controller, or holds values of another size (of `env`,
+/// VecEnv is the judge).
 TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
                              const TrainConfig& config, const NetworkLayout& actor,
                              const NetworkLayout& critic);

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <array>
 
 #include "envs/tasks/control.h"
 #include "envs/tasks/heading.h"
 #include "envs/tasks/task.h"
+#include "envs/tasks/tracking.h"
 #include "simd/error.h"
 
 namespace skein {
@@ -11,10 +13,12 @@ namespace {
 struct Registration {
   const char* name;
   std::unique_ptr<Task> (*make)(const EnvConfig& config);
+  bool is_planned;
 };
 
-constexpr std::array<Registration, 2> kTasks = {
-    {{"heading", MakeHeadingTask}, {"control", MakeControlTask}}};
+constexpr std::array<Registration, 3> kTasks = {{{"heading", MakeHeadingTask, false},
+                                                 {"control", MakeControlTask, false},
+                                                 {"tracking", MakeTrackingTask, true}}};
 
 }  // namespace
 
@@ -22,6 +26,12 @@ std::vector<std::string> TaskNames() {
   std::vector<std::string> names;
   for (const Registration& task : kTasks) names.emplace_back(task.name);
   return names;
+}
+
+bool IsPlanned(const std::string& name) {
+  return std::any_of(kTasks.begin(), kTasks.end(), [&name](const Registration& task) {
+    return name == task.name && task.is_planned;
+  });
 }
 
 std::unique_ptr<Task> MakeTask(const EnvConfig& config) {

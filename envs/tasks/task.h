@@ -64,6 +64,9 @@ class Task {
 /// Names that EnvConfig::task may have.
 std::vector<std::string> TaskNames();
 
+/// Whether the task is trained by a planner over a controller, not by flying itself.
+bool IsPlanned(const std::string& task);
+
 /// Throws Error on an unknown name; the message lists the known ones.
 std::unique_ptr<Task> MakeTask(const EnvConfig& config);
 

@@ -1,0 +1,108 @@
+#include "envs/guided_flight.h"
+
+#include <algorithm>
+#include <string>
+
+#include "envs/tasks/control.h"
+#include "simd/dispatch.h"
+#include "simd/error.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/guided_flight.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "envs/tasks/flight-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+void PlanKernel(const PlannerConfig& config, const float* action, Tile flight, Tile target) {
+  const FlightTag d;
+  constexpr int kMaxLanes = 16;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const FlightVector one = Constant(1), zero = hn::Zero(d), vertical = Constant(1.5707963267948966);
+  alignas(64) float last_rows[kMaxLanes * kPlannerActionSize] = {};
+  for (int first = 0; first < flight.count; first += lanes) {
+    const float* rows = action + first * kPlannerActionSize;
+    if (flight.count - first < lanes) {
+      std::copy(rows, action + flight.count * kPlannerActionSize, last_rows);
+      rows = last_rows;
+    }
+    FlightVector pitch, yaw, speed;
+    hn::LoadInterleaved3(d, rows, pitch, yaw, speed);
+    // Zero, or NaN where any of the three is not finite: clipping may lose it.
+    const FlightVector poison = hn::MulAdd(zero, pitch, hn::MulAdd(zero, yaw, hn::Mul(zero, speed)));
+    float* const u = flight[kU] + first;
+    hn::StoreU(hn::Add(hn::LoadU(d, u), poison), d, u);
+
+    const auto change = [&](FlightVector command, double full) {
+      return hn::Mul(hn::Min(hn::Max(command, hn::Neg(one)), one), Constant(full));
+    };
+    const FlightVector target_pitch =
+        hn::Add(Pitch(flight, first), change(pitch, config.pitch_change_rad));
+    hn::StoreU(hn::Min(hn::Max(target_pitch, hn::Neg(vertical)), vertical), d,
+               target[kControlPitch] + first);
+    hn::StoreU(WrapAngle(hn::Add(Yaw(flight, first), change(yaw, config.yaw_change_rad))), d,
+               target[kControlYaw] + first);
+    hn::StoreU(hn::Add(Velocity(flight, first).speed, change(speed, config.speed_change_fps)), d,
+               target[kControlSpeed] + first);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+namespace {
+
+HWY_EXPORT(PlanKernel);
+
+static_assert(kControlPitch == 0 && kControlYaw == 1 && kControlSpeed == 2 &&
+              kPlannerActionSize == 3);
+
+void RequireSize(const char* what, int size, int expected) {
+  if (size == expected) return;
+  throw Error("environment: the controller has " + std::to_string(size) + " " + what +
+              ", but one that flies for a planner has " + std::to_string(expected));
+}
+
+}  // namespace
+
+GuidedFlight::GuidedFlight(const EnvConfig& config, int num_aircraft,
+                           std::shared_ptr<const Pilot> controller)
+    : planner_(config.planner),
+      control_(MakeControlTask(config)),
+      controller_(std::move(controller)),
+      memory_size_(controller_->state_size()) {
+  RequireSize("observations", controller_->observation_size(), kObservationSize);
+  RequireSize("actions", controller_->action_size(), kActionSize);
+  memory_.assign(Offset(num_aircraft), 0.0f);
+}
+
+void GuidedFlight::Forget(int aircraft) { std::fill_n(memory(aircraft), memory_size_, 0.0f); }
+
+void GuidedFlight::Plan(const float* action, Tile flight, Decision& decision) const {
+  SKEIN_DISPATCH(PlanKernel)
+  (planner_, action, flight, {decision.target[0], kMaxCount, flight.count});
+}
+
+void GuidedFlight::Decide(const KernelAircraft& aircraft, Tile flight,
+                          const ObservationNoise& noise, Decision& decision) {
+  // Of the Control task's columns, those that its errors are made of.
+  const Tile target{decision.target[0], kMaxCount, flight.count};
+  control_->Errors(flight, target, decision.error[0], kMaxCount);
+  ObserveTile(aircraft, flight, decision.error[0], kMaxCount, noise, decision.observation);
+  controller_->Fly(flight.count, decision.observation,
+                   memory(static_cast<int>(noise.first_aircraft)), decision.stick);
+}
+
+}  // namespace skein
+#endif

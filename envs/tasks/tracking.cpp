@@ -1,0 +1,189 @@
+#include "envs/tasks/tracking.h"
+
+#include <cmath>
+
+#include "envs/dynamics/attitude.h"
+#include "envs/tasks/normalisation.h"
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/tasks/tracking.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "envs/tasks/flight-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The target's position relative to the aircraft's, ft.
+struct TrackingError {
+  FlightVector north, east, up;
+};
+
+HWY_INLINE TrackingError ErrorOf(const Tile& flight, const Tile& task, int first) {
+  return {hn::Sub(Column(task, kTrackingNorth, first), Column(flight, kNorth, first)),
+          hn::Sub(Column(task, kTrackingEast, first), Column(flight, kEast, first)),
+          hn::Add(Column(task, kTrackingAltitude, first), Column(flight, kDown, first))};
+}
+
+/// The same from where the control step began.
+HWY_INLINE TrackingError LastErrorOf(const Tile& task, int first) {
+  return {hn::Sub(Column(task, kTrackingNorth, first), Column(task, kTrackingLastNorth, first)),
+          hn::Sub(Column(task, kTrackingEast, first), Column(task, kTrackingLastEast, first)),
+          hn::Sub(Column(task, kTrackingAltitude, first),
+                  Column(task, kTrackingLastAltitude, first))};
+}
+
+HWY_INLINE FlightVector InUnits(FlightVector distance) {
+  return hn::Mul(distance, Constant(1 / kAltitudeErrorUnitFt));
+}
+
+/// Turns north and east into ahead and right of the heading. An aircraft that points straight up or
+/// down has none: north counts as it.
+HWY_INLINE void TurnIntoHeading(const Tile& flight, int first, FlightVector& north_or_ahead,
+                                FlightVector& east_or_right) {
+  const FlightVector q0 = Column(flight, kQ0, first), qx = Column(flight, kQx, first);
+  const FlightVector qy = Column(flight, kQy, first), qz = Column(flight, kQz, first);
+  const FlightVector nose_north =
+      hn::MulAdd(q0, q0, hn::NegMulAdd(qz, qz, hn::NegMulAdd(qy, qy, hn::Mul(qx, qx))));
+  const FlightVector nose_east = TwiceSum(qx, qy, q0, qz);
+  const FlightVector square = hn::MulAdd(nose_north, nose_north, hn::Mul(nose_east, nose_east));
+  const auto has_heading = hn::Gt(square, Constant(1e-12));
+  FlightVector length, per_length;
+  Length(square, length, per_length);
+  const FlightVector cosine =
+      hn::IfThenElse(has_heading, hn::Mul(nose_north, per_length), Constant(1));
+  const FlightVector sine = hn::IfThenElseZero(has_heading, hn::Mul(nose_east, per_length));
+  const FlightVector north = north_or_ahead, east = east_or_right;
+  north_or_ahead = hn::MulAdd(north, cosine, hn::Mul(east, sine));
+  east_or_right = hn::NegMulAdd(north, sine, hn::Mul(east, cosine));
+}
+
+void TrackingErrors(Tile flight, Tile task, TrackingAxes axes, float* errors,
+                    std::size_t error_stride) {
+  const FlightTag d;
+  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+    TrackingError error = ErrorOf(flight, task, first);
+    if (axes == TrackingAxes::kHeading) TurnIntoHeading(flight, first, error.north, error.east);
+    hn::StoreU(InUnits(error.north), d, errors + first);
+    hn::StoreU(InUnits(error.east), d, errors + error_stride + first);
+    hn::StoreU(InUnits(error.up), d, errors + 2 * error_stride + first);
+  }
+}
+
+/// Shares of a path, from 0 at its beginning to 1 at its end: where it enters and leaves the box.
+struct PathInBox {
+  FlightVector enters, leaves;
+};
+
+/// Cuts off what lies outside the slab abs(error) <= tolerance of one axis.
+HWY_INLINE void CutBySlab(FlightVector begin, FlightVector end, FlightVector tolerance,
+                          PathInBox& path) {
+  const FlightVector change = hn::Sub(end, begin);
+  // A path along the slab is inside all the way or not at all: far crossings say which.
+  const FlightVector along =
+      hn::IfThenElse(hn::Eq(change, hn::Zero(FlightTag())), Constant(1e-20), change);
+  const FlightVector one = hn::Div(hn::Sub(hn::Neg(tolerance), begin), along);
+  const FlightVector other = hn::Div(hn::Sub(tolerance, begin), along);
+  path.enters = hn::Max(path.enters, hn::Min(one, other));
+  path.leaves = hn::Min(path.leaves, hn::Max(one, other));
+}
+
+void TrackingJudge(Tile flight, Tile task, double tolerance_ft, const TaskVerdict& verdict) {
+  const FlightTag d;
+  const hn::RebindToSigned<FlightTag> di;
+  const FlightVector tolerance = Constant(tolerance_ft);
+  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+    const TrackingError begin = LastErrorOf(task, first);
+    const TrackingError end = ErrorOf(flight, task, first);
+    const FlightVector square =
+        hn::MulAdd(end.north, end.north,
+                   hn::MulAdd(end.east, end.east, hn::Mul(end.up, end.up)));
+    const FlightVector cost = InUnits(hn::Sqrt(square));
+    hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
+
+    PathInBox path{hn::Zero(d), Constant(1)};
+    CutBySlab(begin.north, end.north, tolerance, path);
+    CutBySlab(begin.east, end.east, tolerance, path);
+    CutBySlab(begin.up, end.up, tolerance, path);
+    // Minima and maxima may lose a NaN; the cost has it still.
+    const auto reached = hn::And(hn::Le(path.enters, path.leaves), hn::Eq(cost, cost));
+    hn::StoreU(hn::And(hn::VecFromMask(di, hn::RebindMask(di, reached)), hn::Set(di, 1)), di,
+               verdict.reached + first);
+
+    hn::StoreU(Column(flight, kNorth, first), d, task[kTrackingLastNorth] + first);
+    hn::StoreU(Column(flight, kEast, first), d, task[kTrackingLastEast] + first);
+    hn::StoreU(hn::Neg(Column(flight, kDown, first)), d, task[kTrackingLastAltitude] + first);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+namespace {
+
+HWY_EXPORT(TrackingErrors);
+HWY_EXPORT(TrackingJudge);
+
+class TrackingTask : public Task {
+ public:
+  explicit TrackingTask(const TrackingConfig& config) : config_(config) {}
+
+  int num_columns() const override { return kNumTrackingColumns; }
+  int num_targets() const override { return kTrackingAltitude + 1; }
+  std::vector<TargetQuantity> target_quantities() const override {
+    return {{"north_ft"}, {"east_ft"}, {"altitude_ft"}};
+  }
+
+  /// Flights begin at the origin.
+  void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
+             int index) const override {
+    const auto around = [random](double centre_rad, double change_deg) {
+      const double change_rad = change_deg / kDegPerRad;
+      return centre_rad + random->Uniform(-change_rad, change_rad);
+    };
+    const double distance = random->Uniform(config_.distance_ft.min, config_.distance_ft.max);
+    const double azimuth = around(start.yaw_rad, config_.azimuth_deg);
+    const double elevation = around(start.pitch_rad, config_.elevation_deg);
+
+    const auto set = [task, index](int column, double value) {
+      task[column][index] = static_cast<float>(value);
+    };
+    set(kTrackingNorth, distance * std::cos(elevation) * std::cos(azimuth));
+    set(kTrackingEast, distance * std::cos(elevation) * std::sin(azimuth));
+    set(kTrackingAltitude, start.altitude_ft + distance * std::sin(elevation));
+    set(kTrackingLastNorth, 0);
+    set(kTrackingLastEast, 0);
+    set(kTrackingLastAltitude, start.altitude_ft);
+  }
+
+  void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
+    SKEIN_DISPATCH(TrackingErrors)(flight, task, config_.error_axes, errors, error_stride);
+  }
+
+  void Judge(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
+             const TaskVerdict& verdict) const override {
+    SKEIN_DISPATCH(TrackingJudge)(flight, task, config_.position_tolerance_ft, verdict);
+  }
+
+ private:
+  TrackingConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Task> MakeTrackingTask(const EnvConfig& config) {
+  return std::make_unique<TrackingTask>(config.tracking);
+}
+
+}  // namespace skein
+#endif

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "envs/pilot.h"
+
+namespace skein {
+
+/// A controller that was asked for on the command line.
+struct ChosenController {
+  std::shared_ptr<const Pilot> pilot;  ///< null where none flies
+  std::string description;             ///< a line for people
+};
+
+/// What flies for a planner of `task`: the policy that `option` names (a run of task control, or a
+/// file of one), or nothing if it is empty. Throws Error if the task needs a controller and none is
+/// named, if it knows none, or if what is named cannot fly as one.
+ChosenController ChooseController(const std::string& task, const std::string& option);
+
+}  // namespace skein

@@ -1,0 +1,75 @@
+#include "train/controller_file.h"
+
+#include <utility>
+
+#include "simd/error.h"
+#include "train/policy.h"
+#include "train/policy_parameters.h"
+
+namespace skein {
+namespace {
+
+constexpr const char* kMetadataPrefix = "controller.";
+constexpr const char* kTensorPrefix = "controller/";
+
+template <typename Value>
+void InsertWithPrefix(const std::map<std::string, Value>& from, const std::string& prefix,
+                      std::map<std::string, Value>& to) {
+  for (const auto& [name, value] : from) to[prefix + name] = value;
+}
+
+/// What has the prefix, without it.
+template <typename Value>
+std::map<std::string, Value> ExtractPrefix(const std::map<std::string, Value>& from,
+                                           const std::string& prefix) {
+  std::map<std::string, Value> part;
+  for (auto it = from.lower_bound(prefix);
+       it != from.end() && it->first.compare(0, prefix.size(), prefix) == 0; ++it) {
+    part[it->first.substr(prefix.size())] = it->second;
+  }
+  return part;
+}
+
+TensorFile FileOf(const Pilot& controller) {
+  const auto* const policy = dynamic_cast<const Policy*>(&controller);
+  if (policy == nullptr) throw Error("a planner's controller must be a policy, to be written");
+  if (policy->controller() != nullptr) {
+    throw Error("a planner's controller must fly itself, not plan for another");
+  }
+  TensorFile file;
+  StorePolicy(*policy->parameters(), file);
+  return file;
+}
+
+bool IsSame(const NamedTensor& a, const NamedTensor& b) {
+  return a.type == b.type && a.shape == b.shape && a.bytes == b.bytes;
+}
+
+}  // namespace
+
+void StoreController(const Pilot& controller, TensorFile& file) {
+  const TensorFile part = FileOf(controller);
+  InsertWithPrefix(part.metadata, kMetadataPrefix, file.metadata);
+  InsertWithPrefix(part.tensors, kTensorPrefix, file.tensors);
+}
+
+std::shared_ptr<const Pilot> LoadController(const TensorFile& file, const std::string& path) {
+  TensorFile part;
+  part.metadata = ExtractPrefix(file.metadata, kMetadataPrefix);
+  if (part.metadata.empty()) return nullptr;
+  part.tensors = ExtractPrefix(file.tensors, kTensorPrefix);
+  return std::make_shared<const Policy>(LoadPolicy(part, path + ", its controller"));
+}
+
+bool IsSameController(const Pilot* a, const Pilot* b) {
+  if (a == nullptr || b == nullptr) return a == b;
+  const TensorFile one = FileOf(*a), other = FileOf(*b);
+  if (one.metadata != other.metadata || one.tensors.size() != other.tensors.size()) return false;
+  for (const auto& [name, tensor] : one.tensors) {
+    const auto found = other.tensors.find(name);
+    if (found == other.tensors.end() || !IsSame(tensor, found->second)) return false;
+  }
+  return true;
+}
+
+}  // namespace skein
