@@ -8,9 +8,9 @@ namespace skein {
 
 /// What one control step did to consecutive aircraft of a tile.
 struct ControlStep {
-  int first_aircraft = 0;        ///< global index
-  Tile state;                    ///< at its end; `state.count` aircraft
-  const float* stick = nullptr;  ///< row-major [count][kActionSize], held during it, not clipped
+  int first_aircraft = 0;         ///< global index
+  Tile state;                     ///< at its end; `state.count` aircraft
+  const float* stick = nullptr;   ///< row-major [count][kActionSize], held during it, not clipped
   const float* reward = nullptr;  ///< of the step, terminal reward included; 0 after the end
   const std::int32_t* termination = nullptr;  ///< Termination; kNone while flying
 };

@@ -36,7 +36,8 @@ void PlanKernel(const PlannerConfig& config, const float* action, Tile flight, T
     FlightVector pitch, yaw, speed;
     hn::LoadInterleaved3(d, rows, pitch, yaw, speed);
     // Zero, or NaN where any of the three is not finite: clipping may lose it.
-    const FlightVector poison = hn::MulAdd(zero, pitch, hn::MulAdd(zero, yaw, hn::Mul(zero, speed)));
+    const FlightVector poison =
+        hn::MulAdd(zero, pitch, hn::MulAdd(zero, yaw, hn::Mul(zero, speed)));
     float* const u = flight[kU] + first;
     hn::StoreU(hn::Add(hn::LoadU(d, u), poison), d, u);
 

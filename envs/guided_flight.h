@@ -35,8 +35,7 @@ class GuidedFlight {
 
   /// Throws Error if the controller does not take the Control task's observations, or gives no
   /// stick actions.
-  GuidedFlight(const EnvConfig& config, int num_aircraft,
-               std::shared_ptr<const Pilot> controller);
+  GuidedFlight(const EnvConfig& config, int num_aircraft, std::shared_ptr<const Pilot> controller);
 
   /// Floats that the controller remembers of an aircraft, and where they lie; zeros at the
   /// beginning of an episode.

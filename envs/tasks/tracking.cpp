@@ -33,10 +33,10 @@ HWY_INLINE TrackingError ErrorOf(const Tile& flight, const Tile& task, int first
 
 /// The same from where the control step began.
 HWY_INLINE TrackingError LastErrorOf(const Tile& task, int first) {
-  return {hn::Sub(Column(task, kTrackingNorth, first), Column(task, kTrackingLastNorth, first)),
-          hn::Sub(Column(task, kTrackingEast, first), Column(task, kTrackingLastEast, first)),
-          hn::Sub(Column(task, kTrackingAltitude, first),
-                  Column(task, kTrackingLastAltitude, first))};
+  return {
+      hn::Sub(Column(task, kTrackingNorth, first), Column(task, kTrackingLastNorth, first)),
+      hn::Sub(Column(task, kTrackingEast, first), Column(task, kTrackingLastEast, first)),
+      hn::Sub(Column(task, kTrackingAltitude, first), Column(task, kTrackingLastAltitude, first))};
 }
 
 HWY_INLINE FlightVector InUnits(FlightVector distance) {
@@ -102,8 +102,7 @@ void TrackingJudge(Tile flight, Tile task, double tolerance_ft, const TaskVerdic
     const TrackingError begin = LastErrorOf(task, first);
     const TrackingError end = ErrorOf(flight, task, first);
     const FlightVector square =
-        hn::MulAdd(end.north, end.north,
-                   hn::MulAdd(end.east, end.east, hn::Mul(end.up, end.up)));
+        hn::MulAdd(end.north, end.north, hn::MulAdd(end.east, end.east, hn::Mul(end.up, end.up)));
     const FlightVector cost = InUnits(hn::Sqrt(square));
     hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
 

@@ -103,6 +103,21 @@ TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
        [](EnvConfig* c) { c->control.training_tolerance_min = 1.1; }},
       {"env.control.speed_error_weight = ",
        [](EnvConfig* c) { c->control.speed_error_weight = -1; }},
+      {"env.tracking.distance_min_ft = ",
+       [](EnvConfig* c) {
+         c->tracking.distance_ft = {30000, 10000};
+       }},
+      {"env.tracking.distance_max_ft = ",
+       [](EnvConfig* c) {
+         c->tracking.distance_ft = {10000, 1e7};
+       }},
+      {"env.tracking.azimuth_deg = ", [](EnvConfig* c) { c->tracking.azimuth_deg = -1; }},
+      {"env.tracking.elevation_deg = ", [](EnvConfig* c) { c->tracking.elevation_deg = -1; }},
+      {"env.tracking.position_tolerance_ft = ",
+       [](EnvConfig* c) { c->tracking.position_tolerance_ft = 0; }},
+      {"env.planner.pitch_change_rad = ", [](EnvConfig* c) { c->planner.pitch_change_rad = -1; }},
+      {"env.planner.yaw_change_rad = ", [](EnvConfig* c) { c->planner.yaw_change_rad = -1; }},
+      {"env.planner.speed_change_fps = ", [](EnvConfig* c) { c->planner.speed_change_fps = -1; }},
       {"env.termination.alpha_min_deg = ",
        [](EnvConfig* c) {
          c->termination.alpha_deg = {45, -20};

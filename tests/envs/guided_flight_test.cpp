@@ -1,0 +1,357 @@
+#include "envs/guided_flight.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "envs/dynamics/attitude.h"
+#include "envs/tasks/control.h"
+#include "envs/vec_env.h"
+#include "envs/worker_pool.h"
+#include "simd/error.h"
+#include "simd/random.h"
+#include "tests/envs/test_pilot.h"
+#include "tests/envs/test_tile.h"
+
+namespace skein {
+namespace {
+
+constexpr double kSpeedUnit = 340 / 0.3048;
+constexpr int kSize = kObservationSize;
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+/// Short episodes: four decisions of 20 control steps.
+EnvConfig Config() {
+  EnvConfig config;
+  config.task = "tracking";
+  config.action_repeat = 20;
+  config.time_limit_steps = 80;
+  return config;
+}
+
+std::shared_ptr<const Pilot> Controller(int action_repeat = 4) {
+  return std::make_shared<const TestPilot>(action_repeat);
+}
+
+/// Plans that depend on nothing but the aircraft and the decision; some beyond full.
+std::array<float, kPlannerActionSize> PlanOf(int aircraft, int decision) {
+  simd::RandomStream random({9, static_cast<std::uint32_t>(aircraft),
+                             static_cast<std::uint32_t>(decision), 0,
+                             simd::RandomPurpose::kActionNoise});
+  std::array<float, kPlannerActionSize> plan;
+  for (float& value : plan) value = static_cast<float>(random.Uniform(-1.2, 1.2));
+  return plan;
+}
+
+/// Buffers for one tile.
+struct Buffers {
+  Buffers(int count, int actions)
+      : observation(Index(count) * kSize),
+        final_observation(observation.size()),
+        action(Index(count) * Index(actions)),
+        reward(Index(count)),
+        episode_return(reward.size()),
+        termination(reward.size()),
+        episode_steps(reward.size()) {}
+
+  StepOutput output() {
+    return {reward.data(), termination.data(), episode_return.data(), episode_steps.data(),
+            final_observation.data()};
+  }
+
+  std::vector<float> observation, final_observation, action, reward, episode_return;
+  std::vector<std::uint8_t> termination;
+  std::vector<std::int32_t> episode_steps;
+};
+
+/// All that was seen and earned, aircraft by aircraft.
+using Log = std::vector<std::vector<float>>;
+
+void FlyTile(VecEnv* env, int tile, int first_decision, int decisions, Log* log) {
+  const int count = env->tile_count(tile), begin = env->tile_begin(tile);
+  Buffers buffers(count, kPlannerActionSize);
+  for (int decision = first_decision; decision < first_decision + decisions; ++decision) {
+    env->Observe(tile, buffers.observation.data());
+    for (int i = 0; i < count; ++i) {
+      const auto plan = PlanOf(begin + i, decision);
+      std::copy(plan.begin(), plan.end(), buffers.action.begin() + i * kPlannerActionSize);
+    }
+    env->Step(tile, buffers.action.data(), buffers.output());
+    for (int i = 0; i < count; ++i) {
+      std::vector<float>& own = (*log)[Index(begin + i)];
+      own.insert(own.end(), buffers.observation.begin() + i * kSize,
+                 buffers.observation.begin() + (i + 1) * kSize);
+      own.push_back(buffers.reward[Index(i)]);
+      own.push_back(buffers.termination[Index(i)]);
+    }
+  }
+}
+
+Log Fly(VecEnv* env, int first_decision, int decisions) {
+  Log log(Index(env->num_aircraft()));
+  for (int tile = 0; tile < env->num_tiles(); ++tile) {
+    FlyTile(env, tile, first_decision, decisions, &log);
+  }
+  return log;
+}
+
+/// The hierarchy as two plain loops around an environment that takes stick actions: an outer one
+/// that sets targets, an inner one in which the pilot sees their errors.
+class TwoLoops {
+ public:
+  TwoLoops(const EnvConfig& planned, int count, std::uint64_t seed, const Pilot& pilot)
+      : planned_(planned),
+        count_(count),
+        pilot_(pilot),
+        env_(StickConfig(planned), count, seed, count),
+        clean_(CleanConfig(planned), count, seed, count),
+        memory_(Index(count * pilot.state_size())) {}
+
+  /// Rewards of one decision.
+  std::vector<double> Decide(int decision) {
+    std::vector<double> reward(Index(count_));
+    std::vector<std::array<double, 3>> targets;
+    for (int i = 0; i < count_; ++i) targets.push_back(TargetOf(i, PlanOf(i, decision)));
+    Buffers buffers(count_, kActionSize), clean(count_, kActionSize);
+    for (int step = 0; step < planned_.action_repeat; ++step) {
+      if (step % pilot_.action_repeat() == 0) {
+        env_.Observe(0, buffers.observation.data());
+        clean_.Observe(0, clean.observation.data());
+        for (int i = 0; i < count_; ++i) {
+          const std::array<double, 3> errors = ErrorsOf(i, targets[Index(i)]);
+          for (int k = 0; k < 3; ++k) {
+            const auto at = Index(i * kSize + k);
+            // The task's own errors go, and their noise stays.
+            buffers.observation[at] +=
+                static_cast<float>(errors[Index(k)]) - clean.observation[at];
+          }
+        }
+        pilot_.Fly(count_, buffers.observation.data(), memory_.data(), buffers.action.data());
+      }
+      env_.Step(0, buffers.action.data(), buffers.output());
+      clean_.Step(0, buffers.action.data(), clean.output());
+      for (int i = 0; i < count_; ++i) {
+        reward[Index(i)] += buffers.reward[Index(i)];
+        const auto end = static_cast<Termination>(buffers.termination[Index(i)]);
+        if (end == Termination::kNone) continue;
+        // Elsewhere a new episode would have to wait for the end of the decision.
+        EXPECT_EQ(end, Termination::kUnreachTarget);
+        EXPECT_EQ(step + 1, planned_.action_repeat);
+        ++ends_;
+        std::fill_n(memory_.begin() + i * pilot_.state_size(), pilot_.state_size(), 0.0f);
+      }
+    }
+    return reward;
+  }
+
+  const VecEnv& env() const { return env_; }
+  int ends() const { return ends_; }
+
+ private:
+  static EnvConfig StickConfig(EnvConfig config) {
+    config.action_repeat = 1;
+    return config;
+  }
+  static EnvConfig CleanConfig(const EnvConfig& config) {
+    EnvConfig clean = StickConfig(config);
+    clean.observation_noise = 0;
+    return clean;
+  }
+
+  EulerAngles AttitudeOf(int i) const {
+    Eigen::Vector4d q;
+    for (int k = 0; k < 4; ++k) q[k] = env_.StateOf(i, kQ0 + k);
+    return EulerFromQuaternion(q);
+  }
+  double SpeedOf(int i) const {
+    return std::hypot(env_.StateOf(i, kU), env_.StateOf(i, kV), env_.StateOf(i, kW));
+  }
+  std::array<double, 3> TargetOf(int i, const std::array<float, 3>& plan) const {
+    const auto clipped = [&plan](int k) {
+      return std::clamp(static_cast<double>(plan[Index(k)]), -1.0, 1.0);
+    };
+    const EulerAngles attitude = AttitudeOf(i);
+    return {attitude.pitch + 0.3 * clipped(0), attitude.yaw + 0.3 * clipped(1),
+            SpeedOf(i) + 30 * clipped(2)};
+  }
+  std::array<double, 3> ErrorsOf(int i, const std::array<double, 3>& target) const {
+    const EulerAngles attitude = AttitudeOf(i);
+    return {target[0] - attitude.pitch, std::remainder(target[1] - attitude.yaw, 2 * M_PI),
+            (target[2] - SpeedOf(i)) / kSpeedUnit};
+  }
+
+  EnvConfig planned_;
+  int count_;
+  const Pilot& pilot_;
+  VecEnv env_, clean_;
+  std::vector<float> memory_;
+  int ends_ = 0;
+};
+
+TEST(GuidedFlight, EqualsTwoPlainLoops) {
+  // Errors in double against float32 in the hierarchy differ by 1e-7, which a few seconds of flight
+  // and twenty decisions amplify; positions are of 2000 ft, rewards of twenty steps of 10 km.
+  constexpr double kVelocityTolerance = 0.02, kRateTolerance = 2e-4, kPositionTolerance = 0.05;
+  constexpr double kRewardTolerance = 1e-3;
+  constexpr int kCount = 40, kDecisions = 10;
+  for (const double noise : {0.0, 0.02}) {
+    for (const int action_repeat : {1, 4, 7}) {  // the last does not divide the decision
+      EnvConfig config = Config();
+      config.observation_noise = noise;
+      const TestPilot pilot(action_repeat);
+      VecEnv env(config, kCount, 3, 32, Controller(action_repeat));
+      TwoLoops expected(config, kCount, 3, pilot);
+      for (int decision = 0; decision < kDecisions; ++decision) {
+        const Log log = Fly(&env, decision, 1);
+        const std::vector<double> reward = expected.Decide(decision);
+        for (int i = 0; i < kCount; ++i) {
+          ASSERT_NEAR(log[Index(i)][kSize], reward[Index(i)], kRewardTolerance)
+              << "aircraft " << i << ", decision " << decision;
+          const auto near = [&](int column, double tolerance) {
+            ASSERT_NEAR(env.StateOf(i, column), expected.env().StateOf(i, column), tolerance)
+                << "aircraft " << i << ", decision " << decision << ", column " << column;
+          };
+          for (const int column : {kU, kV, kW}) near(column, kVelocityTolerance);
+          for (const int column : {kP, kQ, kR, kQ0, kQx, kQy, kQz}) near(column, kRateTolerance);
+          for (const int column : {kNorth, kEast, kDown}) near(column, kPositionTolerance);
+        }
+      }
+      EXPECT_EQ(expected.ends(), 2 * kCount) << "new episodes were begun";
+    }
+  }
+}
+
+TEST(GuidedFlight, PlannersTakeThreeActions) {
+  EXPECT_EQ(VecEnv(Config(), 1, 1, 32, Controller()).action_size(), 3);
+  EXPECT_EQ(VecEnv(Config(), 1, 1, 32, Controller()).observation_size(), kSize);
+  EXPECT_EQ(VecEnv(Config(), 1, 1).action_size(), 4);
+}
+
+TEST(GuidedFlight, DependsNeitherOnTilesNorOnThreads) {
+  VecEnv small(Config(), 300, 1, 32, Controller()), middle(Config(), 300, 1, 160, Controller()),
+      large(Config(), 300, 1, 4096, Controller()), parallel(Config(), 300, 1, 32, Controller());
+  const Log log = Fly(&small, 0, 12);
+  EXPECT_EQ(log, Fly(&middle, 0, 12));
+  EXPECT_EQ(log, Fly(&large, 0, 12));
+  EXPECT_EQ(small.Snapshot(), large.Snapshot());
+  WorkerPool pool(4);
+  Log threaded(log.size());
+  pool.ForEach(parallel.num_tiles(),
+               [&](int tile, int) { FlyTile(&parallel, tile, 0, 12, &threaded); });
+  EXPECT_EQ(log, threaded);
+}
+
+TEST(GuidedFlight, SnapshotsHoldWhatTheControllerRemembers) {
+  // Three decisions into episodes of four.
+  VecEnv env(Config(), 70, 1, 64, Controller());
+  Fly(&env, 0, 3);
+  const std::vector<std::uint32_t> snapshot = env.Snapshot();
+  VecEnv sticks(Config(), 70, 1, 64);
+  EXPECT_EQ(snapshot.size(), sticks.Snapshot().size() + 70 * 2);
+  const Log expected = Fly(&env, 3, 6);
+  VecEnv other(Config(), 70, 1, 32, Controller());
+  Fly(&other, 0, 2);
+  other.Restore(snapshot);
+  EXPECT_EQ(other.Snapshot(), snapshot);
+  EXPECT_EQ(Fly(&other, 3, 6), expected);
+  EXPECT_THROW(sticks.Restore(snapshot), Error);
+}
+
+TEST(GuidedFlight, APlanThatIsNotFiniteEndsItsOwnEpisodeOnly) {
+  for (const float poison : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    for (int k = 0; k < kPlannerActionSize; ++k) {
+      VecEnv env(Config(), 40, 1, 64, Controller()), healthy(Config(), 40, 1, 64, Controller());
+      Buffers buffers(40, kPlannerActionSize), expected(40, kPlannerActionSize);
+      buffers.action[Index(7 * kPlannerActionSize + k)] = poison;
+      env.Step(0, buffers.action.data(), buffers.output());
+      healthy.Step(0, expected.action.data(), expected.output());
+      for (int i = 0; i < 40; ++i) {
+        EXPECT_EQ(buffers.termination[Index(i)],
+                  static_cast<int>(i == 7 ? Termination::kNonFinite : Termination::kNone));
+        if (i != 7) {
+          EXPECT_EQ(buffers.reward[Index(i)], expected.reward[Index(i)]);
+        }
+      }
+      // And nothing of it stays.
+      const Log log = Fly(&env, 0, 2);
+      for (const float value : log[7]) EXPECT_TRUE(std::isfinite(value));
+    }
+  }
+}
+
+TEST(GuidedFlight, RefusesAControllerOfAnotherMake) {
+  const auto message = [](const TestPilot& pilot) -> std::string {
+    try {
+      VecEnv(Config(), 4, 1, 32, std::make_shared<const TestPilot>(pilot));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message(TestPilot(1, 21, 4)).find("21 observations"), std::string::npos);
+  EXPECT_NE(message(TestPilot(1, 22, 3)).find("3 actions"), std::string::npos);
+  EXPECT_EQ(message(TestPilot(1)), "");
+}
+
+class PlanTest : public testing::TestWithParam<simd::Target> {
+ protected:
+  /// The target (pitch, yaw, speed) of one aircraft that flies 800 ft/s ahead and 600 down.
+  std::array<float, 3> Plan(const EulerAngles& attitude, const std::array<float, 3>& action) {
+    constexpr int kLast = 4;  // of a group that fills no vector
+    TestTile flight(kLast + 1);
+    const Eigen::Vector4d q = QuaternionFromEuler(attitude);
+    for (int k = 0; k < 4; ++k) flight.Fill(kQ0 + k, static_cast<float>(q[k]));
+    flight.Fill(kU, 800);
+    flight.Fill(kW, 600);
+    std::vector<float> actions(3 * (kLast + 1), 0.0f);
+    std::copy(action.begin(), action.end(), actions.begin() + 3 * kLast);
+    GuidedFlight guided(config_, kLast + 1, Controller());
+    GuidedFlight::Decision decision;
+    guided.Plan(actions.data(), flight.tile(), decision);
+    return {decision.target[0][kLast], decision.target[1][kLast], decision.target[2][kLast]};
+  }
+  void ExpectTarget(const std::array<float, 3>& target, double pitch, double yaw, double speed) {
+    // Float32 rounding of radians, and of 1000 ft/s.
+    EXPECT_NEAR(target[0], pitch, 1e-6);
+    EXPECT_NEAR(target[1], yaw, 1e-6);
+    EXPECT_NEAR(target[2], speed, 2e-4);
+  }
+
+  ScopedTarget target_{GetParam()};
+  EnvConfig config_ = Config();
+};
+
+TEST_P(PlanTest, TargetsAreChangesOfThePresentState) {
+  ExpectTarget(Plan({0.7, 0.2, -1}, {0, 0, 0}), 0.2, -1, 1000);
+  ExpectTarget(Plan({0.7, 0.2, -1}, {1, -0.5f, 0.1f}), 0.5, -1.15, 1003);
+  ExpectTarget(Plan({-2, -0.2, 2}, {-0.5f, 1, -1}), -0.35, 2.3, 970);
+}
+
+TEST_P(PlanTest, ActionsAreClipped) {
+  ExpectTarget(Plan({0, 0.2, -1}, {5, -3, 100}), 0.5, -1.3, 1030);
+}
+
+TEST_P(PlanTest, YawWrapsAndPitchStopsAtTheVertical) {
+  ExpectTarget(Plan({0, 0, 3}, {0, 1, 0}), 0, 3.3 - 2 * M_PI, 1000);
+  ExpectTarget(Plan({0, 1.4, 1}, {1, 0, 0}), M_PI / 2, 1, 1000);
+  ExpectTarget(Plan({0, -1.5, 1}, {-1, 0, 0}), -M_PI / 2, 1, 1000);
+}
+
+TEST_P(PlanTest, ChangesAreTheConfigurations) {
+  config_.planner.pitch_change_rad = 0.1;
+  config_.planner.yaw_change_rad = 1;
+  config_.planner.speed_change_fps = 200;
+  ExpectTarget(Plan({0, 0.2, -1}, {1, 0.5f, -1}), 0.3, -0.5, 800);
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, PlanTest, testing::ValuesIn(simd::SupportedTargets()),
+                         [](const auto& test) { return std::string(Name(test.param)); });
+
+}  // namespace
+}  // namespace skein
