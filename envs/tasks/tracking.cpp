@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "envs/aircraft/registry.h"
 #include "envs/dynamics/attitude.h"
-#include "envs/tasks/normalisation.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -39,8 +39,8 @@ HWY_INLINE TrackingError LastErrorOf(const Tile& task, int first) {
       hn::Sub(Column(task, kTrackingAltitude, first), Column(task, kTrackingLastAltitude, first))};
 }
 
-HWY_INLINE FlightVector InUnits(FlightVector distance) {
-  return hn::Mul(distance, Constant(1 / kAltitudeErrorUnitFt));
+HWY_INLINE FlightVector InUnits(FlightVector distance, double unit_ft) {
+  return hn::Mul(distance, Constant(1 / unit_ft));
 }
 
 /// Turns north and east into ahead and right of the heading. An aircraft that points straight up or
@@ -64,15 +64,15 @@ HWY_INLINE void TurnIntoHeading(const Tile& flight, int first, FlightVector& nor
   east_or_right = hn::NegMulAdd(north, sine, hn::Mul(east, cosine));
 }
 
-void TrackingErrors(Tile flight, Tile task, TrackingAxes axes, float* errors,
+void TrackingErrors(Tile flight, Tile task, TrackingAxes axes, double unit_ft, float* errors,
                     std::size_t error_stride) {
   const FlightTag d;
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     TrackingError error = ErrorOf(flight, task, first);
     if (axes == TrackingAxes::kHeading) TurnIntoHeading(flight, first, error.north, error.east);
-    hn::StoreU(InUnits(error.north), d, errors + first);
-    hn::StoreU(InUnits(error.east), d, errors + error_stride + first);
-    hn::StoreU(InUnits(error.up), d, errors + 2 * error_stride + first);
+    hn::StoreU(InUnits(error.north, unit_ft), d, errors + first);
+    hn::StoreU(InUnits(error.east, unit_ft), d, errors + error_stride + first);
+    hn::StoreU(InUnits(error.up, unit_ft), d, errors + 2 * error_stride + first);
   }
 }
 
@@ -94,7 +94,8 @@ HWY_INLINE void CutBySlab(FlightVector begin, FlightVector end, FlightVector tol
   path.leaves = hn::Min(path.leaves, hn::Max(one, other));
 }
 
-void TrackingJudge(Tile flight, Tile task, double tolerance_ft, const TaskVerdict& verdict) {
+void TrackingJudge(Tile flight, Tile task, double tolerance_ft, double unit_ft,
+                   const TaskVerdict& verdict) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
   const FlightVector tolerance = Constant(tolerance_ft);
@@ -103,7 +104,7 @@ void TrackingJudge(Tile flight, Tile task, double tolerance_ft, const TaskVerdic
     const TrackingError end = ErrorOf(flight, task, first);
     const FlightVector square =
         hn::MulAdd(end.north, end.north, hn::MulAdd(end.east, end.east, hn::Mul(end.up, end.up)));
-    const FlightVector cost = InUnits(hn::Sqrt(square));
+    const FlightVector cost = InUnits(hn::Sqrt(square), unit_ft);
     hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
 
     PathInBox path{hn::Zero(d), Constant(1)};
@@ -135,7 +136,7 @@ HWY_EXPORT(TrackingJudge);
 
 class TrackingTask : public Task {
  public:
-  explicit TrackingTask(const TrackingConfig& config) : config_(config) {}
+  TrackingTask(const TrackingConfig& config, double unit_ft) : config_(config), unit_ft_(unit_ft) {}
 
   int num_columns() const override { return kNumTrackingColumns; }
   int num_targets() const override { return kTrackingAltitude + 1; }
@@ -166,22 +167,24 @@ class TrackingTask : public Task {
   }
 
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
-    SKEIN_DISPATCH(TrackingErrors)(flight, task, config_.error_axes, errors, error_stride);
+    SKEIN_DISPATCH(TrackingErrors)(flight, task, config_.error_axes, unit_ft_, errors, error_stride);
   }
 
   void Judge(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
              const TaskVerdict& verdict) const override {
-    SKEIN_DISPATCH(TrackingJudge)(flight, task, config_.position_tolerance_ft, verdict);
+    SKEIN_DISPATCH(TrackingJudge)(flight, task, config_.position_tolerance_ft, unit_ft_, verdict);
   }
 
  private:
   TrackingConfig config_;
+  double unit_ft_;
 };
 
 }  // namespace
 
 std::unique_ptr<Task> MakeTrackingTask(const EnvConfig& config) {
-  return std::make_unique<TrackingTask>(config.tracking);
+  return std::make_unique<TrackingTask>(config.tracking,
+                                        LoadAircraft(config.aircraft).units.altitude_error_ft);
 }
 
 }  // namespace skein

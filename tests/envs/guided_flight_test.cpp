@@ -128,8 +128,7 @@ class TwoLoops {
           for (int k = 0; k < 3; ++k) {
             const auto at = Index(i * kSize + k);
             // The task's own errors go, and their noise stays.
-            buffers.observation[at] +=
-                static_cast<float>(errors[Index(k)]) - clean.observation[at];
+            buffers.observation[at] += static_cast<float>(errors[Index(k)]) - clean.observation[at];
           }
         }
         pilot_.Fly(count_, buffers.observation.data(), memory_.data(), buffers.action.data());

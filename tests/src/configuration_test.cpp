@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "simd/error.h"
 #include "src/output_file.h"
@@ -125,6 +126,30 @@ TEST(Configuration, ThePaperPresetOfControlHasThePapersFigures) {
     const std::string key = difference.substr(0, difference.find(' '));
     EXPECT_TRUE(key == "run.total_steps" || key == "env.task" || key.rfind("env.control.", 0) == 0)
         << difference;
+  }
+}
+
+TEST(Configuration, ThePaperPresetOfTrackingHasThePapersFigures) {
+  // NeuralPlane (NeurIPS 2024), Table 7; what it leaves open, and PPO, as for Heading.
+  const TrainConfig tracking = ResolveConfig({"tracking", "paper", "", {}}).train;
+  EXPECT_EQ(tracking.total_steps, 300000000u * 50) << "the paper counts the planner's";
+  EXPECT_EQ(tracking.env.action_repeat, 50);
+  EXPECT_EQ(tracking.env.tracking.distance_ft.min, 2000);
+  EXPECT_EQ(tracking.env.tracking.distance_ft.max, 2000);
+  EXPECT_EQ(tracking.env.tracking.error_axes, TrackingAxes::kEarth);
+  EXPECT_EQ(tracking.ppo.num_aircraft, 10000);
+  EXPECT_EQ(tracking.ppo.rollout_steps, 100);
+  const std::set<std::string> own = {"run.total_steps",
+                                     "env.task",
+                                     "env.action_repeat",
+                                     "ppo.num_aircraft",
+                                     "ppo.rollout_steps",
+                                     "ppo.chunk_length",
+                                     "evaluation.interval_iterations"};
+  for (const std::string& difference : Differences(ResolveConfig({"tracking", "paper", "", {}}),
+                                                   ResolveConfig({"heading", "paper", "", {}}))) {
+    const std::string key = difference.substr(0, difference.find(' '));
+    EXPECT_TRUE(own.count(key) == 1 || key.rfind("env.tracking.", 0) == 0) << difference;
   }
 }
 

@@ -79,6 +79,7 @@ class FlightFileTest : public ::testing::Test {
     flight_.target = {21000, static_cast<float>(-175 / kDegPerRad), 900};
     RecordedStep step;
     step.action = {-1, 0.25f, 0.5f, 1};
+    step.stick = {-1, 0.25f, 0.5f, 1};
     attitude.yaw = 171 / kDegPerRad;
     step.state = State(attitude);
     step.reward = -0.5f;
@@ -148,6 +149,27 @@ TEST_F(FlightFileTest, HasARowForTheStartAndOneForEveryStep) {
   EXPECT_EQ(rows[1].at("action_throttle"), "-1");
   EXPECT_EQ(rows[1].at("action_pitch"), "0.25");
   EXPECT_EQ(rows[1].at("action_yaw"), "1");
+}
+
+TEST_F(FlightFileTest, PlannedFlightsShowThePlanBesideTheSticks) {
+  EnvConfig config;
+  config.task = "tracking";
+  flight_.target = {1000, 2000, 18000};
+  for (RecordedStep& step : flight_.steps) step.action = {0.125f, -0.5f, 1};
+  const std::vector<Row> rows = Parse(FlightsCsv(config, {flight_}));
+  ASSERT_EQ(rows.size(), 3u);
+  for (const char* name : {"action_target_pitch", "action_target_yaw", "action_target_speed"}) {
+    ASSERT_TRUE(rows[0].count(name)) << name;
+    EXPECT_EQ(rows[0].at(name), "");
+  }
+  EXPECT_EQ(rows[1].at("action_roll"), "0.5");
+  EXPECT_EQ(rows[1].at("action_target_pitch"), "0.125");
+  EXPECT_EQ(rows[1].at("action_target_yaw"), "-0.5");
+  EXPECT_EQ(rows[1].at("action_target_speed"), "1");
+  EXPECT_EQ(rows[1].at("target_east_ft"), "2000");
+  EXPECT_NEAR(std::stod(rows[1].at("error_north_ft")), 900, 0.01);
+  EXPECT_NEAR(std::stod(rows[1].at("error_east_ft")), 2200, 0.01);
+  EXPECT_NEAR(std::stod(rows[1].at("error_altitude_ft")), -2000, 0.01);
 }
 
 }  // namespace

@@ -105,11 +105,20 @@ TEST(Settings, WholeNumbersServeAsIntegersAndIntegersAsNumbers) {
   EXPECT_EQ(config.train.ppo.clip, 1.0);
 }
 
+/// The task whose presets show the key: its own, or Heading, which comes first.
+std::string OwnerOf(const Setting& setting) {
+  if (setting.key.rfind("env.planner.", 0) == 0) return "tracking";
+  for (const std::string& task : TaskNames()) {
+    if (setting.key.rfind("env." + task + ".", 0) == 0) return task;
+  }
+  return "heading";
+}
+
 TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
   const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
   for (const Setting& setting : Settings()) {
     // A task's own keys as its presets set them, all others as Heading's do.
-    const std::string task = setting.key.rfind("env.control.", 0) == 0 ? "control" : "heading";
+    const std::string task = OwnerOf(setting);
     const ProgramConfig usual = ResolveConfig({task, "default", "", {}});
     const ProgramConfig paper = ResolveConfig({task, "paper", "", {}});
     const std::string bounds = setting.BoundsText();
@@ -121,19 +130,19 @@ TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
   }
 }
 
-TEST(Settings, DocumentationSaysWhereThePresetsOfControlDiffer) {
+TEST(Settings, DocumentationSaysWhereThePresetsOfOtherTasksDiffer) {
   const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
-  const auto own = [](const Setting& setting) {
-    return setting.key == "env.task" || setting.key.rfind("env.control.", 0) == 0;
-  };
-  for (const std::string preset : {"default", "paper"}) {
-    const ProgramConfig heading = ResolveConfig({"heading", preset, "", {}});
-    const ProgramConfig control = ResolveConfig({"control", preset, "", {}});
-    for (const Setting& setting : Settings()) {
-      const std::string value = FormatValue(setting, control);
-      if (own(setting) || value == FormatValue(setting, heading)) continue;
-      EXPECT_THAT(text,
-                  HasSubstr("\n| `" + setting.key + "` | `" + preset + "` | " + value + " |\n"));
+  for (const std::string& task : TaskNames()) {
+    for (const std::string preset : {"default", "paper"}) {
+      const ProgramConfig heading = ResolveConfig({"heading", preset, "", {}});
+      const ProgramConfig other = ResolveConfig({task, preset, "", {}});
+      for (const Setting& setting : Settings()) {
+        const std::string value = FormatValue(setting, other);
+        if (setting.key == "env.task" || OwnerOf(setting) == task) continue;
+        if (value == FormatValue(setting, heading)) continue;
+        EXPECT_THAT(text, HasSubstr("\n| `" + task + "` | `" + setting.key + "` | `" + preset +
+                                    "` | " + value + " |\n"));
+      }
     }
   }
 }

@@ -40,7 +40,8 @@ class TrackingTest : public testing::TestWithParam<simd::Target> {
   }
   void SetTarget(int i, const Position& position) {
     for (int k = 0; k < 3; ++k) {
-      targets_.at(kTrackingNorth + k, i) = static_cast<float>(position[static_cast<std::size_t>(k)]);
+      targets_.at(kTrackingNorth + k, i) =
+          static_cast<float>(position[static_cast<std::size_t>(k)]);
     }
   }
   void Judge(const Task& task) {
@@ -204,8 +205,7 @@ TEST_P(TrackingTest, APathEqualsManyPointsOnIt) {
       for (int p = 0; p <= kPoints; ++p) {
         double farthest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-          farthest =
-              std::max(farthest, std::abs(begin[k] + (end[k] - begin[k]) * p / kPoints));
+          farthest = std::max(farthest, std::abs(begin[k] + (end[k] - begin[k]) * p / kPoints));
         }
         double& least = nearest[static_cast<std::size_t>(i)];
         least = std::min(least, farthest);
