@@ -7,12 +7,15 @@
 #include "envs/tasks/task.h"
 #include "simd/error.h"
 #include "src/policy_file.h"
+#include "train/autopilot_controller.h"
 #include "train/policy.h"
 
 namespace skein {
 namespace {
 
 constexpr const char* kControllersTask = "control";
+constexpr const char* kAutopilot = "autopilot";
+constexpr const char* kPlannersVariant = "parallel";  ///< nose and speed at once, as a planner asks
 
 Policy LoadControlPolicy(const std::string& path) {
   Policy policy = Policy::Load(path);
@@ -32,18 +35,30 @@ Policy LoadControlPolicy(const std::string& path) {
   return policy;
 }
 
+ChosenController ChooseAutopilot(const EnvConfig& env, const std::string& option) {
+  const std::string variant =
+      option == kAutopilot ? kPlannersVariant : option.substr(option.find(':') + 1);
+  return {std::make_shared<const AutopilotController>(variant, env),
+          fmt::format("controller: the traditional autopilot, {}", variant)};
+}
+
 }  // namespace
 
-ChosenController ChooseController(const std::string& task, const std::string& option) {
+ChosenController ChooseController(const EnvConfig& env, const std::string& option) {
+  const std::string& task = env.task;
   if (option.empty()) {
     if (!IsPlanned(task)) return {};
     throw Error(
         fmt::format("task {0} needs --controller RUN_OR_POLICY, a trained policy of task "
-                    "{1} that flies what the planner asks for (`skein train {1}` makes one)",
+                    "{1} that flies what the planner asks for (`skein train {1}` makes one), or "
+                    "--controller autopilot",
                     task, kControllersTask));
   }
   if (!IsPlanned(task)) {
     throw Error(fmt::format("--controller is for tasks that are planned, not for {}", task));
+  }
+  if (option == kAutopilot || option.rfind(kAutopilot + std::string(":"), 0) == 0) {
+    return ChooseAutopilot(env, option);
   }
   const std::string path = PolicyFileOf(option);
   const auto policy = std::make_shared<const Policy>(LoadControlPolicy(path));

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "envs/env_config.h"
 #include "envs/pilot.h"
 
 namespace skein {
@@ -13,9 +14,10 @@ struct ChosenController {
   std::string description;             ///< a line for people
 };
 
-/// What flies for a planner of `task`: the policy that `option` names (a run of task control, or a
-/// file of one), or nothing if it is empty. Throws Error if the task needs a controller and none is
-/// named, if it knows none, or if what is named cannot fly as one.
-ChosenController ChooseController(const std::string& task, const std::string& option);
+/// What flies for a planner of the environment's task: the policy that `option` names (a run of
+/// task control, or a file of one), an autopilot ("autopilot", or "autopilot:VARIANT"), or nothing
+/// if it is empty. Throws Error if the task needs a controller and none is named, if it knows none,
+/// or if what is named cannot fly as one.
+ChosenController ChooseController(const EnvConfig& env, const std::string& option);
 
 }  // namespace skein

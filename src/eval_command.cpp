@@ -70,7 +70,7 @@ void ApplyOverrides(const EvalOptions& options, ProgramConfig* config) {
 Policy UntrainedPolicy(const ProgramConfig& config, const EvalOptions& options) {
   std::shared_ptr<const Pilot> controller;
   if (!options.controller.empty()) {
-    controller = ChooseController(config.train.env.task, options.controller).pilot;
+    controller = ChooseController(config.train.env, options.controller).pilot;
   }
   const VecEnv env(config.train.env, 1, options.seed, 1, controller);
   return Policy::Untrained(config.train.network, env.observation_size(), env.action_size(),
@@ -153,8 +153,8 @@ void AddEvalCommand(CLI::App* app) {
       ->allow_extra_args(false);
   command
       ->add_option("--controller", options->controller,
-                   "with --policy untrained: the policy of task control that flies what the "
-                   "planner asks for; without it the sticks are flown")
+                   "with --policy untrained: the policy of task control, or autopilot[:VARIANT], "
+                   "that flies what the planner asks for; without it the sticks are flown")
       ->type_name("RUN_OR_POLICY");
   command->add_option("--episodes", options->episodes, "number of episodes")
       ->check(CLI::Range(1, 10000000))

@@ -95,7 +95,7 @@ void Resume(const TrainOptions& options) {
   config.train.controller = ControllerOf(directory, config.train.env.task);
   if (!options.controller.empty()) {
     const ChosenController asked_controller =
-        ChooseController(config.train.env.task, options.controller);
+        ChooseController(config.train.env, options.controller);
     if (!IsSameController(asked_controller.pilot.get(), config.train.controller.get())) {
       throw Error(
           fmt::format("{}: a resumed run keeps its controller, but --controller {} is "
@@ -122,7 +122,7 @@ void Train(const TrainOptions& options) {
   }
   ProgramConfig config = Configure(options, options.task);
   CheckConsistent(config);
-  const ChosenController controller = ChooseController(options.task, options.controller);
+  const ChosenController controller = ChooseController(config.train.env, options.controller);
   config.train.controller = controller.pilot;
   WorkerPool pool(options.threads);
   TrainingRun::Begin(config,
@@ -164,7 +164,7 @@ void AddTrainCommand(CLI::App* app) {
   command
       ->add_option("--controller", options->controller,
                    "for task tracking: the policy of task control that flies what the planner asks "
-                   "for (a file, or a run's best)")
+                   "for (a file, or a run's best), or autopilot[:VARIANT]")
       ->type_name("RUN_OR_POLICY");
   CLI::Option* out = command
                          ->add_option("--out", options->out,

@@ -1,16 +1,21 @@
 #include "train/controller_file.h"
 
+#include <cstdlib>
 #include <utility>
 
 #include "simd/error.h"
+#include "train/autopilot_controller.h"
 #include "train/policy.h"
 #include "train/policy_parameters.h"
+#include "train/tensor_access.h"
 
 namespace skein {
 namespace {
 
 constexpr const char* kMetadataPrefix = "controller.";
 constexpr const char* kTensorPrefix = "controller/";
+constexpr const char* kAutopilotKey = "autopilot";
+constexpr const char* kIntervalKey = "control_interval_s";
 
 template <typename Value>
 void InsertWithPrefix(const std::map<std::string, Value>& from, const std::string& prefix,
@@ -31,14 +36,32 @@ std::map<std::string, Value> ExtractPrefix(const std::map<std::string, Value>& f
 }
 
 TensorFile FileOf(const Pilot& controller) {
+  TensorFile file;
+  if (const auto* const autopilot = dynamic_cast<const AutopilotController*>(&controller)) {
+    file.metadata[kAutopilotKey] = autopilot->variant();
+    file.metadata[kIntervalKey] = ExactText(autopilot->control_interval_s());
+    return file;
+  }
   const auto* const policy = dynamic_cast<const Policy*>(&controller);
-  if (policy == nullptr) throw Error("a planner's controller must be a policy, to be written");
+  if (policy == nullptr) {
+    throw Error("a planner's controller must be a policy or an autopilot, to be written");
+  }
   if (policy->controller() != nullptr) {
     throw Error("a planner's controller must fly itself, not plan for another");
   }
-  TensorFile file;
   StorePolicy(*policy->parameters(), file);
   return file;
+}
+
+std::shared_ptr<const Pilot> AutopilotIn(const TensorFile& part, const std::string& path) {
+  const auto interval = part.metadata.find(kIntervalKey);
+  EnvConfig env;
+  env.control_interval_s =
+      interval == part.metadata.end() ? 0 : std::strtod(interval->second.c_str(), nullptr);
+  if (!(env.control_interval_s > 0)) {
+    throw Error(path + ", its controller: it does not say at which interval the autopilot flies");
+  }
+  return std::make_shared<const AutopilotController>(part.metadata.at(kAutopilotKey), env);
 }
 
 bool IsSame(const NamedTensor& a, const NamedTensor& b) {
@@ -57,6 +80,7 @@ std::shared_ptr<const Pilot> LoadController(const TensorFile& file, const std::s
   TensorFile part;
   part.metadata = ExtractPrefix(file.metadata, kMetadataPrefix);
   if (part.metadata.empty()) return nullptr;
+  if (part.metadata.count(kAutopilotKey) > 0) return AutopilotIn(part, path);
   part.tensors = ExtractPrefix(file.tensors, kTensorPrefix);
   return std::make_shared<const Policy>(LoadPolicy(part, path + ", its controller"));
 }

@@ -19,9 +19,9 @@ enum TrackingColumn : int {
 };
 
 /// Fly to a point (NeuralPlane paper, Tracking). Errors are the target's position relative to the
-/// aircraft / 1 km: ahead, right and up of its heading, or north, east and up, as
-/// `TrackingConfig::error_axes` says. The reward of a step is minus their L2 norm, in either axes
-/// the distance. Reached when the straight path of a control step touches the box whose sides lie
+/// aircraft / units.altitude_error_ft, with its ReferenceUnits (F-16: 1 km): ahead, right and up of
+/// its heading, or north, east and up, as `TrackingConfig::error_axes` says. The reward of a step is
+/// minus their L2 norm, in either axes the distance. Reached when the straight path of a control step touches the box whose sides lie
 /// `position_tolerance_ft` north, east, south, west, above and below of the target.
 std::unique_ptr<Task> MakeTrackingTask(const EnvConfig& config);
 

@@ -181,6 +181,21 @@ TEST_F(TrainingPipeline, APlannerTrainsOverAControlPolicyAndFliesByItself) {
   EXPECT_THAT(ReadFile(flights), HasSubstr(",action_target_pitch,"));
 }
 
+TEST_F(TrainingPipeline, APlannerTrainsOverTheAutopilot) {
+  const ProgramResult trained = CallSkein(PlannerTraining(run_, "autopilot"));
+  ASSERT_EQ(trained.exit_code, 0) << trained.error;
+  EXPECT_THAT(trained.output, HasSubstr("the traditional autopilot, parallel"));
+  const std::string policy = run_ + "/checkpoints/policy-final.skein";
+  const ProgramResult flown = CallSkein({"eval", "--policy", policy, "--task", "tracking",
+                                         "--episodes", "32", "--set", "env.time_limit_steps=100"});
+  ASSERT_EQ(flown.exit_code, 0) << flown.error;
+  EXPECT_THAT(flown.output, HasSubstr("for a controller with one every 1;"));
+  const ProgramResult other =
+      CallSkein({"train", "--resume", run_, "--controller", "autopilot:traditional"});
+  EXPECT_EQ(other.exit_code, 1);
+  ExpectOneLine(other.error, "keeps its controller");
+}
+
 TEST_F(TrainingPipeline, ControllersThatDoNotFitAreNamed) {
   const std::string heading = root_ + "/heading";
   ASSERT_EQ(CallSkein(TinyTraining(heading, {"--steps", "10240"})).exit_code, 0);
@@ -213,6 +228,9 @@ TEST_F(TrainingPipeline, ControllersThatDoNotFitAreNamed) {
       CallSkein(PlannerTraining(root_ + "/nested", run_ + "/checkpoints/policy-final.skein"));
   EXPECT_EQ(nested.exit_code, 1);
   ExpectOneLine(nested.error, "a policy of task tracking");
+  const ProgramResult unknown = CallSkein(PlannerTraining(root_ + "/none", "autopilot:drunken"));
+  EXPECT_EQ(unknown.exit_code, 1);
+  ExpectOneLine(unknown.error, "parallel");
   // Untrained, both ways of flying Tracking.
   for (const bool planned : {true, false}) {
     std::vector<std::string> untrained = {"eval",   "--policy", "untrained",

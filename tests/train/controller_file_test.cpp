@@ -10,6 +10,7 @@
 #include "tests/envs/test_pilot.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/planner_config.h"
+#include "train/autopilot_controller.h"
 #include "train/evaluate.h"
 #include "train/record_flights.h"
 #include "train/tensor_file.h"
@@ -85,6 +86,26 @@ TEST_F(ControllerFileTest, DamageInTheControllerIsNamed) {
   ASSERT_EQ(file.tensors.erase("controller/actor/head.bias"), 1u);
   file.Write(path_);
   EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("its controller"));
+}
+
+TEST_F(ControllerFileTest, AnAutopilotIsHeldByItsName) {
+  EnvConfig env;
+  env.control_interval_s = 0.01;
+  const auto autopilot = std::make_shared<const AutopilotController>("parallel", env);
+  Planner(autopilot).Save(path_);
+  const Policy loaded = Policy::Load(path_);
+  ASSERT_NE(loaded.controller(), nullptr);
+  EXPECT_EQ(FlyTwice(*loaded.controller()), FlyTwice(*autopilot));
+  EXPECT_TRUE(IsSameController(loaded.controller().get(), autopilot.get()));
+  const AutopilotController slower("parallel", {}), other("aggressive", env);
+  EXPECT_FALSE(IsSameController(&slower, autopilot.get()));
+  EXPECT_FALSE(IsSameController(&other, autopilot.get()));
+  EXPECT_FALSE(IsSameController(SmallController().get(), autopilot.get()));
+  TensorFile file = TensorFile::Read(path_);
+  file.metadata["controller.autopilot"] = "drunken";
+  file.Write(path_);
+  EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("drunken"));
+  EXPECT_THROW(AutopilotController("", {}), Error);
 }
 
 TEST_F(ControllerFileTest, ControllersThatNoFileHoldsAreRefused) {
