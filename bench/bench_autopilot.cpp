@@ -69,7 +69,7 @@ class FlownTile {
   std::vector<std::int32_t> episode_steps_;
 };
 
-const char* const kTasks[] = {"heading", "control"};
+const char* const kTasks[] = {"heading", "control", "tracking"};
 
 void BM_Autopilot(benchmark::State& state) {
   const char* const task = kTasks[state.range(0)];
@@ -86,7 +86,7 @@ void BM_Autopilot(benchmark::State& state) {
   state.SetLabel(task);
   meter.Report();
 }
-BENCHMARK(BM_Autopilot)->ArgName("task")->DenseRange(0, 1)->UseManualTime();
+BENCHMARK(BM_Autopilot)->ArgName("task")->DenseRange(0, 2)->UseManualTime();
 
 void BM_Environment(benchmark::State& state) {
   const char* const task = kTasks[state.range(0)];
@@ -104,7 +104,7 @@ void BM_Environment(benchmark::State& state) {
   state.SetLabel(task);
   meter.Report();
 }
-BENCHMARK(BM_Environment)->ArgName("task")->DenseRange(0, 1)->UseManualTime();
+BENCHMARK(BM_Environment)->ArgName("task")->DenseRange(0, 2)->UseManualTime();
 
 }  // namespace
 }  // namespace skein::bench

@@ -133,6 +133,14 @@ const Registration& AutopilotFor(const std::string& task) {
               "\", but \"heading\", \"control\" and \"tracking\"");
 }
 
+void CheckErrorAxes(const EnvConfig& config) {
+  if (config.task == "tracking" && config.tracking.error_axes != TrackingAxes::kHeading) {
+    throw Error(
+        "the autopilot flies with env.tracking.error_axes = \"heading\": it does not observe which "
+        "way north is");
+  }
+}
+
 class Autopilot : public Pilot {
  public:
   Autopilot(const Registration& law, const AutopilotGains& gains, const AutopilotTiming& timing)
@@ -157,6 +165,7 @@ class Autopilot : public Pilot {
 }  // namespace
 
 std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains) {
+  CheckErrorAxes(config);
   AutopilotTiming timing;
   timing.dt = config.control_interval_s;
   timing.steps_per_decision =

@@ -46,6 +46,9 @@ TEST(Autopilot, RefusesWhatItHasNoGainsFor) {
   EnvConfig direct = Task("heading");
   direct.flight_control = FlightControlMode::kDirect;
   EXPECT_THROW(MakeAutopilot(direct, AutopilotVariant::kTraditional), Error);
+  EnvConfig blind = Task("tracking");
+  blind.tracking.error_axes = TrackingAxes::kEarth;
+  EXPECT_THROW(MakeAutopilot(blind, AutopilotVariant::kTraditional), Error);
 }
 
 TEST(Autopilot, OuterLoopsKeepTheirRateAtOtherControlIntervals) {
@@ -82,10 +85,16 @@ TEST(AutopilotFloor, Control) {
   ExpectFloor({"control", AutopilotVariant::kParallel, 0.75, 17.5});
 }
 
+TEST(AutopilotFloor, Tracking) {
+  ExpectFloor({"tracking", AutopilotVariant::kTraditional, 0.81, 21});
+  ExpectFloor({"tracking", AutopilotVariant::kAggressive, 0.975, 20});
+}
+
 TEST(AutopilotFloor, LimitsToStartFromDoNotSuffice) {
   const AutopilotGains gains = GainsOf(AutopilotVariant::kPublic);
   EXPECT_LT(FirstEpisodes(Task("heading"), gains, 300, 2026).success_rate, 0.65);
   EXPECT_LT(FirstEpisodes(Task("control"), gains, 300, 2026).success_rate, 0.55);
+  EXPECT_LT(FirstEpisodes(Task("tracking"), gains, 300, 2026).success_rate, 0.65);
 }
 
 // Step responses, without noise: targets drawn in one quantity only, that never count as reached.
@@ -194,6 +203,30 @@ TEST_P(StepResponse, OfHeadingLeavesAltitudeAndSpeed) {
       const VecEnv& env = flock.env();
       ASSERT_NEAR(Altitude(env, i), TargetOf(env, i, kTargetAltitude), 400) << step;
       ASSERT_NEAR(Speed(env, i), TargetOf(env, i, kTargetSpeed), 120) << step;
+    }
+  }
+}
+
+/// Points that lie ahead within 15 deg are flown to along a path that leads straight there: hardly
+/// longer than the distance.
+TEST_P(StepResponse, PathsToAPointAreStraight) {
+  EnvConfig config = Task("tracking");
+  config.observation_noise = 0;
+  config.tracking.azimuth_deg = config.tracking.elevation_deg = 15;
+  config.tracking.distance_ft = {20000, 20000};
+  Flock flock(config, GainsOf(GetParam()), kCount, 5);
+  std::vector<double> path(kCount);
+  std::vector<bool> ended(kCount);
+  for (int step = 0; step < config.time_limit_steps; ++step) {
+    flock.Step();
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const int aircraft = static_cast<int>(i);
+      if (ended[i]) continue;
+      path[i] += Speed(flock.env(), aircraft) * config.control_interval_s;
+      ended[i] = flock.HasEnded(aircraft);
+      if (!ended[i]) continue;
+      EXPECT_EQ(flock.termination(aircraft), Termination::kResetTarget) << i;
+      EXPECT_LT(path[i], 1.03 * 20000) << i;
     }
   }
 }
