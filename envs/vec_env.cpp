@@ -9,6 +9,7 @@
 #include "envs/actions.h"
 #include "envs/aircraft/registry.h"
 #include "envs/dynamics/plant_kernel.h"
+#include "envs/flight_metrics.h"
 #include "envs/flight_reset.h"
 #include "envs/guided_flight.h"
 #include "envs/tasks/judgement.h"
@@ -120,6 +121,7 @@ struct VecEnv::Impl {
     block_size = WordsPerAircraft() * stride * sizeof(float);
     num_blocks = static_cast<std::size_t>(blocks_per_tile) * static_cast<std::size_t>(num_tiles);
     memory = AllocateZeros(block_size * num_blocks);
+    metric_sums.resize(num_blocks);
     for (int tile = 0; tile < num_tiles; ++tile) {
       for (int begin = 0; begin < CountOf(tile); begin += kBlock) {
         const Block block = BlockOf(tile, begin);
@@ -239,6 +241,13 @@ struct VecEnv::Impl {
     return column < flight_columns ? block.flight[column][i] : 0;
   }
 
+  /// Of the block of one tile, which one thread drives.
+  FlightMetricSums& MetricSums(const Block& block) const {
+    const int tile = block.first_aircraft / tile_size;
+    const int place = block.first_aircraft % tile_size / kBlock;
+    return metric_sums[static_cast<std::size_t>(tile * blocks_per_tile + place)];
+  }
+
   /// Reports the episodes that ended and begins new ones.
   void RestartEnded(const Block& block, const DecisionScratch& scratch,
                     const StepOutput& output) const {
@@ -250,6 +259,12 @@ struct VecEnv::Impl {
            ++column) {
         output.final_state[i * kNumRecordedColumns + column] = Recorded(block, column, i);
       }
+      FlightMetricSums& metrics = MetricSums(block);
+      if (output.flight_metrics != nullptr) {
+        metrics.Report(i, block.step[i], config.control_interval_s,
+                       output.flight_metrics + i * kNumFlightMetrics);
+      }
+      metrics.Begin(i);
       BeginEpisode(block, i, block.episode[i] + 1);
     }
   }
@@ -306,6 +321,9 @@ struct VecEnv::Impl {
       const bool is_last = step + 1 == config.action_repeat;
       StepTile(*kernel_aircraft, block.flight, dt, config.substeps,
                is_last ? MemoryBehind(block) : MemoryAhead());
+      if (output.flight_metrics != nullptr) {
+        MetricSums(block).Add(*kernel_aircraft, block.flight, scratch.termination);
+      }
       Judge(block, verdict, episodes, stick, output.observer);
       if (keeps_final) ObserveTruncated(block, scratch, written, output.final_observation);
     }
@@ -385,6 +403,8 @@ struct VecEnv::Impl {
   /// together.
   AlignedBytes memory;
   std::size_t block_size = 0;  // bytes
+  /// By block, each a cache of what its episodes did so far: no part of the environment's state.
+  mutable std::vector<FlightMetricSums> metric_sums;
 };
 
 VecEnv::VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size,
@@ -415,18 +435,21 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
   // Also where the caller's thread does not: results must not depend on who drives the tile.
   const simd::DenormalsFlushed flushed;
   for (int begin = 0; begin < tile_count(tile); begin += kBlock) {
+    const std::size_t row = static_cast<std::size_t>(begin);
     StepOutput part = output;
     part.reward += begin;
     part.termination += begin;
     part.episode_return += begin;
     part.episode_steps += begin;
     if (part.final_observation != nullptr) {
-      part.final_observation += static_cast<std::size_t>(begin) * kObservationSize;
+      part.final_observation += row * kObservationSize;
     }
     if (part.final_state != nullptr) {
-      part.final_state += static_cast<std::size_t>(begin) * kNumRecordedColumns;
+      part.final_state += row * kNumRecordedColumns;
     }
-    const std::size_t row = static_cast<std::size_t>(begin);
+    if (part.flight_metrics != nullptr) {
+      part.flight_metrics += row * kNumFlightMetrics;
+    }
     impl_->Step(impl_->BlockOf(tile, begin), action + row * static_cast<std::size_t>(action_size()),
                 part);
   }
@@ -445,6 +468,7 @@ void VecEnv::Restore(const std::vector<std::uint32_t>& snapshot) {
                 " words does not fit " + std::to_string(num_aircraft()) + " aircraft, which take " +
                 std::to_string(impl_->SnapshotWords()));
   }
+  for (FlightMetricSums& sums : impl_->metric_sums) sums.Clear();
   const std::uint32_t* source = snapshot.data();
   impl_->VisitWords([&source](void* word) { std::memcpy(word, source++, sizeof *source); });
   for (int tile = 0; tile < num_tiles(); ++tile) {

@@ -29,6 +29,10 @@ struct StepOutput {
   /// (else unchanged). May be null.
   float* final_state = nullptr;
   ControlStepObserver* observer = nullptr;  ///< sees every control step on the way; may be null
+  /// Row-major [count][kNumFlightMetrics] (envs/flight_metrics.h); rows of episodes that ended get
+  /// how they were flown (else unchanged), NaN unless this was asked for in all of their steps. May
+  /// be null, and costs nothing then.
+  float* flight_metrics = nullptr;
 };
 
 /// N aircraft flying one task, as independent tiles. Tiles may be driven from different threads at

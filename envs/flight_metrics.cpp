@@ -1,0 +1,213 @@
+#include "envs/flight_metrics.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "envs/dynamics/attitude.h"
+#include "envs/dynamics/kernel_aircraft.h"
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/flight_metrics.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "envs/dynamics/air-inl.h"
+#include "envs/tasks/flight-inl.h"
+
+#ifndef SKEIN_ENVS_FLIGHT_METRICS_CONSTANTS_
+#define SKEIN_ENVS_FLIGHT_METRICS_CONSTANTS_
+namespace skein {
+namespace {
+
+// Margins are fractions of the way from the middle to the ends of the ranges of the paper's Table
+// 5, whatever the limits flown under: so they can be compared.
+constexpr double kLowestAltitudeFt = 2500, kAltitudeRangeFt = 5000 / 0.3048;
+constexpr double kMiddleMach = (3 + 0.01) / 2;
+constexpr double kLargestLoadFactor = 10;
+constexpr double kMiddleAlphaDeg = (45 - 20) / 2.0, kAlphaHalfRangeDeg = (45 + 20) / 2.0;
+constexpr double kBetaHalfRangeDeg = 30;
+// What smoothness divides by, ours: body rates by pi rad/s, the load factor by its limit.
+constexpr double kPi = 3.14159265358979324;
+
+// Rows of sums: how many steps, what they sum to, what rounding has lost of that, and the smoothed
+// quantities one and two steps ago.
+constexpr int kNumSmoothed = 4;
+constexpr int kSteps = 0;
+constexpr int kSum = kSteps + 1;
+constexpr int kLost = kSum + kNumFlightMetrics;
+constexpr int kBefore = kLost + kNumFlightMetrics;
+constexpr int kTwoBefore = kBefore + kNumSmoothed;
+constexpr int kNumSumColumns = kTwoBefore + kNumSmoothed;
+
+}  // namespace
+}  // namespace skein
+#endif  // SKEIN_ENVS_FLIGHT_METRICS_CONSTANTS_
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FlightMask = hn::Mask<FlightTag>;
+
+/// 1 at `middle`, falling to 0 at a distance of `half_range`.
+HWY_INLINE FlightVector Margin(FlightVector value, double middle, double half_range) {
+  const FlightVector distance = hn::Abs(hn::Sub(value, Constant(middle)));
+  return hn::NegMulAdd(distance, Constant(1 / half_range), Constant(1));
+}
+
+/// Feet per second over the ground, upwards.
+HWY_INLINE FlightVector ClimbRate(const Tile& tile, int first) {
+  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
+  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
+  // The third row of the attitude matrix: what of the body's axes points down.
+  const FlightVector down_x = TwiceSum(qx, qz, hn::Neg(q0), qy);
+  const FlightVector down_y = TwiceSum(qy, qz, q0, qx);
+  const FlightVector down_z =
+      hn::MulAdd(q0, q0, hn::MulAdd(qz, qz, hn::NegMulAdd(qx, qx, hn::Neg(hn::Mul(qy, qy)))));
+  return hn::Neg(hn::MulAdd(
+      Column(tile, kU, first), down_x,
+      hn::MulAdd(Column(tile, kV, first), down_y, hn::Mul(Column(tile, kW, first), down_z))));
+}
+
+/// Everything but smoothness.
+HWY_INLINE void Measure(const KernelAircraft& aircraft, const Tile& tile, int first,
+                        FlightVector (&values)[kNumFlightMetrics]) {
+  const FlightTag d;
+  const VelocityVectors velocity = Velocity(tile, first);
+  const FlightVector altitude = hn::Neg(Column(tile, kDown, first));
+  FlightVector sound_speed, per_sound_speed;
+  Length(AirAtAltitude(d, aircraft, altitude).sound_speed_squared, sound_speed, per_sound_speed);
+  const FlightVector load_factor = Column(tile, kNz, first);
+  const FlightVector mach = hn::Mul(velocity.speed, per_sound_speed);
+  const FlightVector alpha = Atan2Degrees(d, velocity.w, velocity.u);
+  const FlightVector beta = Atan2Degrees(d, velocity.v, velocity.forward);
+  values[kMeanLoadFactor] = load_factor;
+  values[kMeanMach] = mach;
+  values[kMeanClimbRate] = ClimbRate(tile, first);
+  values[kMeanAbsAlpha] = hn::Abs(alpha);
+  values[kMeanAbsBeta] = hn::Abs(beta);
+  for (int k = 0; k < 3; ++k) values[kMeanAbsP + k] = hn::Abs(Column(tile, kP + k, first));
+  values[kAltitudeMargin] =
+      hn::Mul(hn::Sub(altitude, Constant(kLowestAltitudeFt)), Constant(1 / kAltitudeRangeFt));
+  values[kSpeedMargin] = Margin(mach, kMiddleMach, kMiddleMach);
+  values[kOverloadMargin] = Margin(load_factor, 0, kLargestLoadFactor);
+  values[kAlphaMargin] = Margin(alpha, kMiddleAlphaDeg, kAlphaHalfRangeDeg);
+  values[kBetaMargin] = Margin(beta, 0, kBetaHalfRangeDeg);
+}
+
+/// The norm of the smoothed quantities' second difference, which moves on by a step where `flying`.
+HWY_INLINE FlightVector SecondDifference(const Tile& tile, const Tile& sums, FlightMask flying,
+                                         int first) {
+  const FlightTag d;
+  FlightVector square = hn::Zero(d);
+  for (int k = 0; k < kNumSmoothed; ++k) {
+    const bool is_rate = k < 3;
+    const FlightVector now = hn::Mul(Column(tile, is_rate ? kP + k : kNz, first),
+                                     Constant(1 / (is_rate ? kPi : kLargestLoadFactor)));
+    const FlightVector before = Column(sums, kBefore + k, first);
+    const FlightVector two_before = Column(sums, kTwoBefore + k, first);
+    const FlightVector second = hn::Add(hn::Sub(now, before), hn::Sub(two_before, before));
+    square = hn::MulAdd(second, second, square);
+    hn::StoreU(hn::IfThenElse(flying, before, two_before), d, sums[kTwoBefore + k] + first);
+    hn::StoreU(hn::IfThenElse(flying, now, before), d, sums[kBefore + k] + first);
+  }
+  const FlightVector steps = Column(sums, kSteps, first);
+  return hn::IfThenElseZero(hn::Ge(steps, Constant(2)), hn::Sqrt(square));
+}
+
+/// Adds with what rounding loses carried along (Kahan 1965): the sums of a long episode are as
+/// exact as its steps.
+HWY_INLINE void AddWhere(FlightMask where, FlightVector value, float* sum_row, float* lost_row) {
+  const FlightTag d;
+  const FlightVector sum = hn::LoadU(d, sum_row), lost = hn::LoadU(d, lost_row);
+  const FlightVector corrected = hn::Sub(value, lost);
+  const FlightVector total = hn::Add(sum, corrected);
+  hn::StoreU(hn::IfThenElse(where, total, sum), d, sum_row);
+  hn::StoreU(hn::IfThenElse(where, hn::Sub(hn::Sub(total, sum), corrected), lost), d, lost_row);
+}
+
+void AddFlightMetrics(const KernelAircraft& aircraft, Tile tile, const std::int32_t* termination,
+                      Tile sums) {
+  const FlightTag d;
+  const hn::RebindToSigned<FlightTag> di;
+  for (int first = 0; first < tile.count; first += static_cast<int>(hn::Lanes(d))) {
+    const FlightMask flying =
+        hn::RebindMask(d, hn::Eq(hn::LoadU(di, termination + first), hn::Zero(di)));
+    FlightVector values[kNumFlightMetrics];
+    Measure(aircraft, tile, first, values);
+    values[kSmoothness] = SecondDifference(tile, sums, flying, first);
+    for (int k = 0; k < kNumFlightMetrics; ++k) {
+      AddWhere(flying, values[k], sums[kSum + k] + first, sums[kLost + k] + first);
+    }
+    const FlightVector steps = Column(sums, kSteps, first);
+    hn::StoreU(hn::Add(steps, hn::IfThenElseZero(flying, Constant(1))), d, sums[kSteps] + first);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+
+HWY_EXPORT(AddFlightMetrics);
+
+const std::array<FlightMetricName, kNumFlightMetrics> kFlightMetricNames = {{
+    {"load_factor_g", "G", "load factor, g"},
+    {"mach", "TAS", "airspeed, Mach"},
+    {"climb_rate_fps", "RoC", "climb rate, ft/s"},
+    {"abs_alpha_deg", "|AOA|", "alpha, deg"},
+    {"abs_beta_deg", "|AOS|", "beta, deg"},
+    {"abs_p_rad_s", "|P|", "roll rate, rad/s"},
+    {"abs_q_rad_s", "|Q|", "pitch rate, rad/s"},
+    {"abs_r_rad_s", "|R|", "yaw rate, rad/s"},
+    {"altitude_margin", "ASM", "altitude margin"},
+    {"speed_margin", "SSM", "speed margin"},
+    {"overload_margin", "OSM", "overload margin"},
+    {"alpha_margin", "AOASM", "alpha margin"},
+    {"beta_margin", "AOSSM", "beta margin"},
+    {"smoothness", "FSM", "smoothness"},
+}};
+
+void FlightMetricSums::Add(const KernelAircraft& aircraft, Tile flight,
+                           const std::int32_t* termination) {
+  if (columns_.empty()) {
+    stride_ = flight.stride;
+    columns_.resize(kNumSumColumns * stride_);
+  }
+  SKEIN_DISPATCH(AddFlightMetrics)
+  (aircraft, flight, termination, {columns_.data(), stride_, flight.count});
+}
+
+void FlightMetricSums::Report(int index, std::int32_t episode_steps, double control_interval_s,
+                              float* metrics) const {
+  const auto sum = [&](int column) -> double {
+    return columns_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(index)];
+  };
+  if (columns_.empty() || sum(kSteps) != episode_steps) {
+    std::fill_n(metrics, kNumFlightMetrics, std::numeric_limits<float>::quiet_NaN());
+    return;
+  }
+  for (int k = 0; k < kNumFlightMetrics; ++k) {
+    metrics[k] = static_cast<float>(sum(kSum + k) / episode_steps);
+  }
+  // Between n states there are n - 2 second differences; fewer states were perfectly smooth.
+  const int differences = std::max(1, episode_steps - 2);
+  metrics[kSmoothness] =
+      static_cast<float>(1 / (1 + sum(kSum + kSmoothness) / (differences * control_interval_s)));
+}
+
+void FlightMetricSums::Begin(int index) {
+  for (auto at = static_cast<std::size_t>(index); at < columns_.size(); at += stride_) {
+    columns_[at] = 0;
+  }
+}
+
+}  // namespace skein
+#endif

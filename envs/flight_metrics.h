@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "envs/dynamics/plant_kernel.h"
+#include "envs/dynamics/state.h"
+#include "simd/aligned_vector.h"
+
+namespace skein {
+
+/// How an episode was flown: the paper's Table 6 but for the time to the target, which is an
+/// episode's length. Each is the mean over the states after every control step of the episode
+/// (smoothness is of such a mean); formulas and what they assume: docs/metrics.md.
+enum FlightMetric : int {
+  kMeanLoadFactor,       ///< G: nz, g, signed
+  kMeanMach,             ///< TAS as a Mach number
+  kMeanClimbRate,        ///< ft/s, over the ground
+  kMeanAbsAlpha,         ///< deg
+  kMeanAbsBeta,          ///< deg
+  kMeanAbsP,             ///< rad/s
+  kMeanAbsQ,             ///< rad/s
+  kMeanAbsR,             ///< rad/s
+  kAltitudeMargin,       ///< ASM
+  kSpeedMargin,          ///< SSM
+  kOverloadMargin,       ///< OSM
+  kAlphaMargin,          ///< AOASM
+  kBetaMargin,           ///< AOSSM
+  kSmoothness,           ///< FSM, in (0, 1]
+  kNumFlightMetrics
+};
+
+struct FlightMetricName {
+  const char* key;      ///< in files, with its unit
+  const char* symbol;   ///< in the paper's Table 6
+  const char* meaning;  ///< for people, with its unit
+};
+
+/// By FlightMetric.
+extern const std::array<FlightMetricName, kNumFlightMetrics> kFlightMetricNames;
+
+/// Sums over the control steps of the episodes under way in one block of aircraft, from which
+/// their metrics are made when they end. Takes memory from the first Add on.
+class FlightMetricSums {
+ public:
+  /// Adds the states that a control step has led to, of the aircraft whose `termination` is still
+  /// 0 (padded as Tile says). The block is the same every time.
+  void Add(const KernelAircraft& aircraft, Tile flight, const std::int32_t* termination);
+
+  /// Writes the kNumFlightMetrics of the `index`-th aircraft's episode, which took `episode_steps`
+  /// control steps of `control_interval_s`. NaN throughout unless just these were added: if adding
+  /// began in the middle of the episode, say, or its clock did not begin at 0.
+  void Report(int index, std::int32_t episode_steps, double control_interval_s,
+              float* metrics) const;
+
+  /// The `index`-th aircraft begins an episode.
+  void Begin(int index);
+  /// Forgets all episodes under way.
+  void Clear() { columns_.clear(); }
+
+ private:
+  AlignedVector<float> columns_;  ///< empty until Add
+  std::size_t stride_ = 0;
+};
+
+}  // namespace skein

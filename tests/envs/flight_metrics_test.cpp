@@ -1,0 +1,221 @@
+#include "envs/flight_metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "envs/aircraft/f16/f16.h"
+#include "envs/dynamics/attitude.h"
+#include "envs/vec_env.h"
+#include "tests/envs/test_tile.h"
+
+namespace skein {
+namespace {
+
+using Metrics = std::vector<float>;
+
+class FlightMetricsTest : public testing::TestWithParam<simd::Target> {
+ protected:
+  FlightMetricsTest() {
+    for (int i = 0; i < kCount; ++i) Fly(i, 1000, 0, 0, 20000);
+  }
+
+  void Fly(int i, double speed, double alpha_deg, double beta_deg, double altitude_ft) {
+    const double alpha = alpha_deg / kDegPerRad, beta = beta_deg / kDegPerRad;
+    flight_.at(kQ0, i) = 1;
+    flight_.at(kU, i) = static_cast<float>(speed * std::cos(alpha) * std::cos(beta));
+    flight_.at(kV, i) = static_cast<float>(speed * std::sin(beta));
+    flight_.at(kW, i) = static_cast<float>(speed * std::sin(alpha) * std::cos(beta));
+    flight_.at(kDown, i) = static_cast<float>(-altitude_ft);
+    flight_.at(kNz, i) = 1;
+  }
+  void Add() { sums_.Add(*kernel_, flight_.tile(), termination_.data()); }
+  Metrics Report(int i, int steps) const {
+    Metrics metrics(kNumFlightMetrics);
+    sums_.Report(i, steps, kInterval, metrics.data());
+    return metrics;
+  }
+
+  static constexpr int kCount = 40;
+  static constexpr double kInterval = 0.02;
+  ScopedTarget target_{GetParam()};
+  std::shared_ptr<const KernelAircraft> kernel_ =
+      MakeKernelAircraft(F16(), AtmosphereModel::kStevensLewis);
+  TestTile flight_{kCount};
+  std::vector<std::int32_t> termination_ = std::vector<std::int32_t>(flight_.stride());
+  FlightMetricSums sums_;
+};
+
+// float32 states and kernels of a few ULP.
+constexpr double kTolerance = 2e-5;
+
+TEST_P(FlightMetricsTest, MeansAreOfTheStatesByTheFormulasOfTable6) {
+  const double sound = AirAt(AtmosphereModel::kStevensLewis, 20000).sound_speed_ft_s;
+  constexpr int i = 37;  // in the last, incomplete vector
+  Fly(i, 0.9 * sound, -4, 3, 20000);
+  flight_.at(kNz, i) = -2;
+  flight_.at(kP, i) = -0.3f;
+  flight_.at(kQ, i) = 0.1f;
+  flight_.at(kR, i) = 0.02f;
+  Add();
+  Fly(i, 2 * sound, 8, -5, 20000);
+  flight_.at(kNz, i) = 5;
+  flight_.at(kP, i) = 0.1f;
+  flight_.at(kQ, i) = -0.3f;
+  flight_.at(kR, i) = 0.04f;
+  Add();
+  const Metrics m = Report(i, 2);
+  EXPECT_NEAR(m[kMeanLoadFactor], 1.5, kTolerance);
+  EXPECT_NEAR(m[kMeanMach], 1.45, kTolerance);
+  EXPECT_NEAR(m[kMeanAbsAlpha], 6, 1e-4);
+  EXPECT_NEAR(m[kMeanAbsBeta], 4, 1e-4);
+  EXPECT_NEAR(m[kMeanAbsP], 0.2, kTolerance);
+  EXPECT_NEAR(m[kMeanAbsQ], 0.2, kTolerance);
+  EXPECT_NEAR(m[kMeanAbsR], 0.03, kTolerance);
+  // 17500 ft are 5334 m.
+  EXPECT_NEAR(m[kAltitudeMargin], 1.0668, kTolerance);
+  // 0.9 is 0.605 below the middle, 2 is 0.495 above.
+  EXPECT_NEAR(m[kSpeedMargin], 1 - 0.55 / 1.505, kTolerance);
+  EXPECT_NEAR(m[kOverloadMargin], 0.65, kTolerance);
+  // -4 deg is 16.5 below the middle of 12.5, 8 deg 4.5.
+  EXPECT_NEAR(m[kAlphaMargin], 1 - 10.5 / 32.5, kTolerance);
+  EXPECT_NEAR(m[kBetaMargin], 1 - 4.0 / 30, kTolerance);
+  EXPECT_EQ(m[kSmoothness], 1) << "two states have no second difference";
+}
+
+TEST_P(FlightMetricsTest, ClimbRateIsOverTheGroundInAnyAttitude) {
+  // Nose 30 deg up, banked 60 deg, slipping: against the float64 rotation.
+  const Eigen::Vector4d attitude = QuaternionFromEuler({60 / kDegPerRad, 30 / kDegPerRad, 1});
+  Fly(0, 900, 6, -2, 20000);
+  for (int k = 0; k < 4; ++k) flight_.at(kQ0 + k, 0) = static_cast<float>(attitude[k]);
+  const Eigen::Vector3d body(flight_.at(kU, 0), flight_.at(kV, 0), flight_.at(kW, 0));
+  const double expected = -(BodyFromNed(attitude).transpose() * body)[2];
+  Add();
+  EXPECT_GT(expected, 300);
+  EXPECT_NEAR(Report(0, 1)[kMeanClimbRate], expected, 1e-3);
+}
+
+TEST_P(FlightMetricsTest, SmoothnessIsOfTheSecondDifferences) {
+  const auto fly = [&](double p, double nz) {
+    flight_.at(kP, 0) = static_cast<float>(p);
+    flight_.at(kNz, 0) = static_cast<float>(nz);
+    Add();
+  };
+  // Steady change is smooth.
+  for (const int step : {0, 1, 2, 3}) fly(0.1 * step, 1 + 0.5 * step);
+  EXPECT_NEAR(Report(0, 4)[kSmoothness], 1, 1e-4);
+  // A step of 3 g and one of 0.4 pi rad/s: second differences (0.4, 0.3), then (-0.4, -0.3), after
+  // two of zero.
+  sums_.Begin(0);
+  for (int step = 0; step < 4; ++step) fly(0, 1);
+  fly(0.4 * 3.14159265, 4);
+  fly(0.4 * 3.14159265, 4);
+  EXPECT_NEAR(Report(0, 6)[kSmoothness], 1 / (1 + (0.5 + 0.5) / 4 / kInterval), 1e-5);
+}
+
+TEST_P(FlightMetricsTest, EpisodesThatHaveEndedAddNothing) {
+  Add();
+  termination_[3] = static_cast<std::int32_t>(Termination::kOverload);
+  flight_.at(kNz, 3) = 9;
+  flight_.at(kNz, 4) = 9;
+  Add();
+  EXPECT_EQ(Report(3, 1)[kMeanLoadFactor], 1);
+  EXPECT_EQ(Report(4, 2)[kMeanLoadFactor], 5);
+}
+
+TEST_P(FlightMetricsTest, OnlyWholeEpisodesHaveMetrics) {
+  EXPECT_TRUE(std::isnan(Report(0, 1)[kMeanMach]));
+  Add();
+  Add();
+  EXPECT_FALSE(std::isnan(Report(0, 2)[kMeanMach]));
+  for (const float metric : Report(0, 3)) EXPECT_TRUE(std::isnan(metric));
+  sums_.Begin(0);
+  Add();
+  EXPECT_EQ(Report(0, 1)[kMeanLoadFactor], 1);
+  EXPECT_EQ(Report(1, 3)[kMeanLoadFactor], 1);
+  sums_.Clear();
+  EXPECT_TRUE(std::isnan(Report(0, 1)[kMeanMach]));
+}
+
+TEST_P(FlightMetricsTest, SumsOfLongEpisodesKeepTheirDigits) {
+  constexpr int kSteps = 20000;
+  flight_.at(kP, 0) = 0.1f;
+  for (int step = 0; step < kSteps; ++step) Add();
+  // A plain float32 sum of as many is off by 1e-4.
+  EXPECT_NEAR(Report(0, kSteps)[kMeanAbsP] / 0.1f, 1, 2e-7);
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, FlightMetricsTest, testing::ValuesIn(simd::SupportedTargets()),
+                         [](const auto& suite) { return std::string(Name(suite.param)); });
+
+/// All metrics of the first episodes of `count` aircraft, under actions of 0.3, and what else was
+/// reported of them.
+struct Flown {
+  std::vector<Metrics> metrics;
+  std::vector<float> returns;
+};
+
+Flown FlyTiles(const EnvConfig& config, int count, int tile_size, bool with_metrics) {
+  VecEnv env(config, count, 7, tile_size);
+  Flown flown{std::vector<Metrics>(count), std::vector<float>(count)};
+  for (int tile = 0; tile < env.num_tiles(); ++tile) {
+    const int size = env.tile_count(tile);
+    std::vector<float> action(size * 4, 0.3f), reward(size), episode_return(size);
+    std::vector<std::uint8_t> termination(size);
+    std::vector<std::int32_t> steps(size);
+    Metrics metrics(size * kNumFlightMetrics);
+    StepOutput output;
+    output.reward = reward.data();
+    output.termination = termination.data();
+    output.episode_return = episode_return.data();
+    output.episode_steps = steps.data();
+    if (with_metrics) output.flight_metrics = metrics.data();
+    for (int decision = 0; decision * config.action_repeat < config.time_limit_steps; ++decision) {
+      env.Step(tile, action.data(), output);
+      for (int i = 0; i < size; ++i) {
+        Metrics& kept = flown.metrics[env.tile_begin(tile) + i];
+        if (termination[i] == 0 || !kept.empty()) continue;
+        kept.assign(metrics.begin() + i * kNumFlightMetrics,
+                    metrics.begin() + (i + 1) * kNumFlightMetrics);
+        flown.returns[env.tile_begin(tile) + i] = episode_return[i];
+      }
+    }
+  }
+  return flown;
+}
+
+EnvConfig ShortFlights() {
+  EnvConfig config;
+  config.action_repeat = 3;
+  config.time_limit_steps = config.heading.earliest_success_step = 100;
+  return config;
+}
+
+TEST(FlightMetricsOfEnvironmentTest, DependNeitherOnTilesNorDoTheyChangeAnything) {
+  const Flown narrow = FlyTiles(ShortFlights(), 300, 32, true);
+  const Flown wide = FlyTiles(ShortFlights(), 300, 300, true);
+  const Flown without = FlyTiles(ShortFlights(), 300, 300, false);
+  for (std::size_t i = 0; i < 300; ++i) {
+    ASSERT_EQ(narrow.metrics[i].size(), static_cast<std::size_t>(kNumFlightMetrics));
+    EXPECT_GT(narrow.metrics[i][kMeanMach], 0.5f);
+    EXPECT_EQ(narrow.metrics[i], wide.metrics[i]) << i;
+    EXPECT_EQ(wide.returns[i], without.returns[i]) << i;
+  }
+  EXPECT_NE(narrow.metrics[0], narrow.metrics[1]);
+}
+
+TEST(FlightMetricsOfEnvironmentTest, EpisodesBegunAmidTheirClockHaveNone) {
+  EnvConfig config = ShortFlights();
+  config.stagger_clocks = true;
+  int without = 0;
+  for (const Metrics& metrics : FlyTiles(config, 64, 64, true).metrics) {
+    without += std::isnan(metrics.at(kMeanMach));
+  }
+  EXPECT_GT(without, 55) << "clocks begin at 0 in one episode of 100";
+}
+
+}  // namespace
+}  // namespace skein
