@@ -88,11 +88,11 @@ class TileRecorder : private ControlStepObserver {
 
 }  // namespace
 
-std::vector<RecordedFlight> RecordFlights(const Policy& policy, const EnvConfig& config,
+std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& config,
                                           const EvaluationOptions& options, int count,
                                           WorkerPool& pool) {
   if (count < 1) throw Error("cannot record " + std::to_string(count) + " flights");
-  VecEnv env = MakeEvaluationEnv(policy, config, options);
+  VecEnv env = MakeEvaluationEnv(agent, config, options);
   std::vector<RecordedFlight> flights(std::min(count, options.episodes));
   int tiles = 0;
   while (tiles < env.num_tiles() && env.tile_begin(tiles) < static_cast<int>(flights.size())) {
@@ -104,7 +104,7 @@ std::vector<RecordedFlight> RecordFlights(const Policy& policy, const EnvConfig&
     std::vector<RecordedFlight*> recorded;
     for (int i = begin; i < end; ++i) recorded.push_back(&flights[i]);
     TileRecorder recorder(env, tile, std::move(recorded));
-    TilePilot pilot = MakeEvaluationPilot(policy, env, tile, options);
+    TilePilot pilot = MakeEvaluationPilot(agent, env, tile, options);
     while (!recorder.IsDone()) {
       // Whole tiles fly, the aircraft that are not recorded too: matrix products may round by
       // shape.

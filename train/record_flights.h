@@ -8,8 +8,8 @@
 #include "envs/env_config.h"
 #include "envs/termination.h"
 #include "envs/worker_pool.h"
+#include "train/agent.h"
 #include "train/evaluate.h"
-#include "train/policy.h"
 
 namespace skein {
 
@@ -33,7 +33,7 @@ struct RecordedFlight {
 
 /// The first `count` episodes (all, if there are fewer) of Evaluate with the same arguments, flown
 /// again control step by control step: bit for bit what was evaluated, whatever the threads.
-std::vector<RecordedFlight> RecordFlights(const Policy& policy, const EnvConfig& env,
+std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& env,
                                           const EvaluationOptions& options, int count,
                                           WorkerPool& pool);
 

@@ -4,19 +4,17 @@
 #include <vector>
 
 #include "envs/vec_env.h"
-#include "train/policy.h"
+#include "train/agent.h"
 
 namespace skein {
 
-/// A policy at the controls of one tile: it observes, remembers and decides for every aircraft.
-/// What it decides for one depends on the observations of that aircraft and, if actions are
-/// sampled, on (seed, aircraft, decision).
+/// An agent at the controls of one tile: it observes, remembers and decides for every aircraft.
+/// What it decides for one depends on the observations of that aircraft and, if there is chance in
+/// it, on (seed, aircraft, decision).
 class TilePilot {
  public:
-  /// `seed` is that of sampled actions; with `deterministic` the mean action is flown. Policy and
-  /// environment must outlive the pilot.
-  TilePilot(const Policy& policy, const VecEnv& env, int tile, std::uint64_t seed,
-            bool deterministic);
+  /// Agent and environment must outlive the pilot.
+  TilePilot(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed);
 
   /// Observes the tile and decides. Row-major [tile count][action_size], not clipped; valid until
   /// the next call.
@@ -26,14 +24,11 @@ class TilePilot {
   void Forget(int index);
 
  private:
-  const Policy& policy_;
+  const Agent& agent_;
   const VecEnv& env_;
-  int tile_, begin_, count_;
-  std::uint64_t seed_;
-  bool deterministic_;
-  std::uint32_t decision_ = 0;
-  std::vector<float> observation_, state_, action_, noise_, log_std_;
-  std::vector<std::uint32_t> decision_low_, decision_high_;
+  int tile_, count_;
+  Agent::Turn turn_;
+  std::vector<float> observation_, state_, action_;
 };
 
 }  // namespace skein

@@ -193,7 +193,8 @@ struct Trainer::Impl {
     options.episodes = evaluation.episodes;
     // The same episodes each time, and others than an evaluation with the run's own seed flies.
     options.seed = ~config.seed;
-    const EvaluationResult result = Evaluate(CurrentPolicy(), config.env, options, pool);
+    const EvaluationResult result =
+        Evaluate(Agent::MeanOf(CurrentPolicy()), config.env, options, pool);
     report.evaluation_success_rate = result.success_rate;
     report.best = result.success_rate > best_success_rate ||
                   (result.success_rate == best_success_rate && result.return_mean > best_return);

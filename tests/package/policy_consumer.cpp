@@ -11,7 +11,8 @@ int main() {
   skein::EvaluationOptions options;
   options.episodes = 32;
   skein::WorkerPool pool(1);
-  const skein::EvaluationResult result = skein::Evaluate(policy, config, options, pool);
+  const skein::EvaluationResult result =
+      skein::Evaluate(skein::Agent::MeanOf(policy), config, options, pool);
   std::printf("mean return of an untrained policy: %.1f\n", result.return_mean);
   return result.episodes == 32 ? 0 : 1;
 }

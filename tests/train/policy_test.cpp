@@ -8,7 +8,6 @@
 #include "simd/error.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/small_config.h"
-#include "train/evaluate.h"
 #include "train/tensor_file.h"
 #include "train/trainer.h"
 
@@ -139,52 +138,6 @@ TEST_F(PolicyTest, RefusesFilesThatAreNoPolicy) {
   file.tensors["actor/head.bias"].bytes.assign(16, 0xff);  // not-a-number
   file.Write(path_);
   EXPECT_THROW(Policy::Load(path_), Error);
-}
-
-TEST(EvaluateTest, CountsOneEpisodePerAircraftWhateverTheThreads) {
-  const TrainConfig config = SmallConfig();
-  const Policy policy = Policy::Untrained(config.network, 22, 4, 3);
-  EvaluationOptions options;
-  options.episodes = 150;
-  for (const bool deterministic : {true, false}) {
-    options.deterministic = deterministic;
-    WorkerPool one(1), three(3);
-    const EvaluationResult a = Evaluate(policy, config.env, options, one);
-    const EvaluationResult b = Evaluate(policy, config.env, options, three);
-    int total = 0;
-    for (const int count : a.terminations) total += count;
-    EXPECT_EQ(total, 150);
-    EXPECT_EQ(a.terminations[0], 0);
-    EXPECT_EQ(a.terminations, b.terminations);
-    EXPECT_EQ(a.return_mean, b.return_mean);
-    // Nobody reaches a target before step 300, and these episodes end at 100.
-    EXPECT_EQ(a.success_rate, 0);
-    EXPECT_TRUE(std::isnan(a.time_to_target_mean_s));
-  }
-}
-
-TEST(EvaluateTest, TimeToTargetIsTheClockOfTheEpisodesThatReachIt) {
-  EnvConfig env;
-  env.action_repeat = 5;
-  // Targets that every state within the limits has reached: success is a matter of the clock.
-  env.heading.altitude_tolerance_ft = 1e6;
-  env.heading.yaw_tolerance_deg = 180;
-  env.heading.speed_tolerance_fps = 1e6;
-  env.heading.earliest_success_step = 100;
-  EvaluationOptions options;
-  options.episodes = 40;
-  WorkerPool pool(1);
-  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3);
-  const EvaluationResult result = Evaluate(policy, env, options, pool);
-  EXPECT_EQ(result.success_rate, 1);
-  EXPECT_EQ(result.terminations[static_cast<int>(Termination::kResetTarget)], 40);
-  EXPECT_DOUBLE_EQ(result.time_to_target_mean_s, 100 * env.control_interval_s);
-}
-
-TEST(EvaluateTest, RefusesAPolicyOfAnotherTask) {
-  WorkerPool pool(1);
-  const Policy policy = Policy::Untrained(SmallConfig().network, 20, 4, 3);
-  EXPECT_THROW(Evaluate(policy, SmallConfig().env, {}, pool), Error);
 }
 
 }  // namespace

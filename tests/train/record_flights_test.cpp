@@ -22,11 +22,13 @@ class RecordFlightsTest : public ::testing::Test {
   }
 
   std::vector<RecordedFlight> Record(int count, WorkerPool& pool) const {
-    return RecordFlights(policy_, env_, options_, count, pool);
+    return RecordFlights(agent_, env_, options_, count, pool);
   }
 
   EnvConfig env_ = SmallConfig().env;
-  Policy policy_ = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  Agent mean_ = Agent::MeanOf(Policy::Untrained(SmallConfig().network, 22, 4, 3));
+  Agent sampling_ = Agent::SamplingFrom(Policy::Untrained(SmallConfig().network, 22, 4, 3));
+  Agent agent_ = mean_;
   EvaluationOptions options_;
   WorkerPool pool_{2};
 };
@@ -44,8 +46,8 @@ TEST_F(RecordFlightsTest, FliesWhatWasEvaluated) {
   // Some end early, in the middle of a decision too.
   env_.termination.max_load_factor = 1.4;
   for (const bool deterministic : {true, false}) {
-    options_.deterministic = deterministic;
-    const EvaluationResult evaluated = Evaluate(policy_, env_, options_, pool_);
+    agent_ = deterministic ? mean_ : sampling_;
+    const EvaluationResult evaluated = Evaluate(agent_, env_, options_, pool_);
     std::array<int, kNumTerminations> terminations{};
     double return_sum = 0;
     bool mid_decision = false;
@@ -68,7 +70,7 @@ TEST_F(RecordFlightsTest, FliesWhatWasEvaluated) {
 }
 
 TEST_F(RecordFlightsTest, DependsNeitherOnThreadsNorOnHowManyAreRecorded) {
-  options_.deterministic = false;
+  agent_ = sampling_;
   WorkerPool one(1), three(3);
   const std::vector<RecordedFlight> all = Record(kEpisodes, one);
   ASSERT_EQ(all.size(), static_cast<std::size_t>(kEpisodes));
@@ -82,7 +84,7 @@ TEST_F(RecordFlightsTest, DependsNeitherOnThreadsNorOnHowManyAreRecorded) {
 }
 
 TEST_F(RecordFlightsTest, HoldsActionsForADecision) {
-  options_.deterministic = false;
+  agent_ = sampling_;
   for (const RecordedFlight& flight : Record(4, pool_)) {
     int changes = 0;
     for (std::size_t i = 1; i < flight.steps.size(); ++i) {
@@ -117,7 +119,7 @@ TEST_F(RecordFlightsTest, StatesAreOfOneUnbrokenFlight) {
 
 TEST_F(RecordFlightsTest, TheLastStateIsTheOneThatEndedTheFlight) {
   env_.termination.max_load_factor = 1.2;
-  options_.deterministic = false;
+  agent_ = sampling_;
   int overloads = 0;
   for (const RecordedFlight& flight : Record(40, pool_)) {
     for (const RecordedStep& step : flight.steps) {
