@@ -15,20 +15,20 @@ namespace skein {
 /// episode's length. Each is the mean over the states after every control step of the episode
 /// (smoothness is of such a mean); formulas and what they assume: docs/metrics.md.
 enum FlightMetric : int {
-  kMeanLoadFactor,       ///< G: nz, g, signed
-  kMeanMach,             ///< TAS as a Mach number
-  kMeanClimbRate,        ///< ft/s, over the ground
-  kMeanAbsAlpha,         ///< deg
-  kMeanAbsBeta,          ///< deg
-  kMeanAbsP,             ///< rad/s
-  kMeanAbsQ,             ///< rad/s
-  kMeanAbsR,             ///< rad/s
-  kAltitudeMargin,       ///< ASM
-  kSpeedMargin,          ///< SSM
-  kOverloadMargin,       ///< OSM
-  kAlphaMargin,          ///< AOASM
-  kBetaMargin,           ///< AOSSM
-  kSmoothness,           ///< FSM, in (0, 1]
+  kMeanLoadFactor,  ///< G: nz, g, signed
+  kMeanMach,        ///< TAS as a Mach number
+  kMeanClimbRate,   ///< ft/s, over the ground
+  kMeanAbsAlpha,    ///< deg
+  kMeanAbsBeta,     ///< deg
+  kMeanAbsP,        ///< rad/s
+  kMeanAbsQ,        ///< rad/s
+  kMeanAbsR,        ///< rad/s
+  kAltitudeMargin,  ///< ASM
+  kSpeedMargin,     ///< SSM
+  kOverloadMargin,  ///< OSM
+  kAlphaMargin,     ///< AOASM
+  kBetaMargin,      ///< AOSSM
+  kSmoothness,      ///< FSM, in (0, 1]
   kNumFlightMetrics
 };
 

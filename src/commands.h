@@ -7,6 +7,7 @@ namespace skein {
 // Each adds one subcommand to `app`. Its callback does the work and throws Error on failure.
 void AddTrainCommand(CLI::App* app);
 void AddEvalCommand(CLI::App* app);
+void AddCompareCommand(CLI::App* app);
 void AddFdmCommand(CLI::App* app);
 void AddBenchCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "envs/vec_env.h"
 #include "simd/error.h"
 #include "src/run_directory.h"
 
@@ -23,6 +24,17 @@ std::string PolicyFileOf(const std::string& path) {
   for (const Checkpoint& checkpoint : CheckpointsIn(checkpoints)) newest = checkpoint.path;
   if (newest.empty()) throw Error(fmt::format("{}: the run has not saved a policy yet", path));
   return newest;
+}
+
+Policy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
+                  std::shared_ptr<const Pilot> controller) {
+  const Backend backend = config.train.learner.backend;
+  if (file != kUntrained) return Policy::Load(file).WithBackend(backend);
+  const EnvConfig& env = config.train.env;
+  const VecEnv flown(env, 1, seed, 1, controller);
+  return Policy::Untrained(config.train.network, flown.observation_size(), flown.action_size(),
+                           seed, env.action_repeat, std::move(controller))
+      .WithBackend(backend);
 }
 
 }  // namespace skein

@@ -75,10 +75,12 @@ int RunProgram(int argc, char** argv) {
       "Examples:\n"
       "  skein train heading                       train, evaluate, and say where everything lies\n"
       "  skein eval --policy runs/RUN --task heading --deterministic\n"
+      "  skein compare --task heading --agents policy:runs/RUN,random\n"
       "  skein fdm trim --altitude-ft 15000 --speed-fps 500\n"
       "Every command has --help. Exit codes: 0 success, 1 error, 2 wrong usage.");
   AddTrainCommand(&app);
   AddEvalCommand(&app);
+  AddCompareCommand(&app);
   AddFdmCommand(&app);
   AddBenchCommand(&app);
   AddInfoCommand(&app);

@@ -234,7 +234,7 @@ void TrainingRun::Finish() {
     return;
   }
   WriteFile(directory_.evaluation(), ToJson(report, path, config_, seed, true).dump(1) + "\n");
-  log_.Say(ToText(report));
+  log_.Say(ToText(report, true));
   log_.Say(fmt::format(
       "policy          {}\n"
       "evaluation      {}\n"

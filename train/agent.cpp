@@ -89,8 +89,7 @@ void Agent::CheckFits(const VecEnv& env) const {
   throw Error("the policy takes " + std::to_string(pilot_->observation_size()) +
               " observations and gives " + std::to_string(pilot_->action_size()) +
               " actions; task \"" + env.config().task + "\" has " +
-              std::to_string(env.observation_size()) + " and " +
-              std::to_string(env.action_size()));
+              std::to_string(env.observation_size()) + " and " + std::to_string(env.action_size()));
 }
 
 void Agent::Decide(const Turn& turn, int count, const float* observation, float* state,

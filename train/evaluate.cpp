@@ -18,7 +18,7 @@ constexpr std::uint64_t kEvaluationStream = 0xA5B35705E7C0FFEE;
 std::uint64_t HashOfStarts(const VecEnv& env) {
   FnvHash hash;
   for (int aircraft = 0; aircraft < env.num_aircraft(); ++aircraft) {
-    for (int column = 0; column < kNumColumns; ++column) {
+    for (int column = 0; column < kNumRecordedColumns; ++column) {
       const float value = env.StateOf(aircraft, column);
       hash.Add(&value, sizeof value);
     }

@@ -24,6 +24,7 @@ TEST(Usage, EveryCommandHasHelp) {
        std::vector<std::vector<std::string>>{{},
                                              {"train"},
                                              {"eval"},
+                                             {"compare"},
                                              {"fdm"},
                                              {"fdm", "trim"},
                                              {"fdm", "eval"},
@@ -110,7 +111,7 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_EQ(
       CallSkein({"trian", "heading"}).error,
       "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
-      "fdm, bench, info (see skein --help)\n");
+      "compare, fdm, bench, info (see skein --help)\n");
   EXPECT_THAT(
       CallSkein({"fdm", "fly"}).error,
       HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));

@@ -28,9 +28,7 @@ Policy SmallPolicy() {
   return Policy::Untrained(config, 22, 4, 3, 5);
 }
 
-TEST(AgentTest, IdleCommandsNothing) {
-  EXPECT_EQ(Decide(Agent::Idle(), {}, 3), Floats(12, 0.0f));
-}
+TEST(AgentTest, IdleCommandsNothing) { EXPECT_EQ(Decide(Agent::Idle(), {}, 3), Floats(12, 0.0f)); }
 
 TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndDecisionAlone) {
   const Agent agent = Agent::Random(50);

@@ -1,0 +1,71 @@
+#include "src/agent_names.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "simd/error.h"
+#include "src/nearest_name.h"
+#include "src/policy_file.h"
+
+namespace skein {
+namespace {
+
+constexpr const char* kSampledSuffix = "@sampled";
+constexpr double kRandomHold_s = 1;
+constexpr int kLongestHold = 1000;  // control steps, as of env.action_repeat
+
+/// What follows "kind:" in `name`; empty if there is no colon.
+std::string ArgumentOf(const std::string& name) {
+  const auto colon = name.find(':');
+  return colon == std::string::npos ? "" : name.substr(colon + 1);
+}
+
+std::string KindOf(const std::string& name) { return name.substr(0, name.find(':')); }
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() &&
+         text.compare(text.size() - end.size(), std::string::npos, end) == 0;
+}
+
+Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
+  std::string file = ArgumentOf(name);
+  const bool sampled = EndsWith(file, kSampledSuffix);
+  if (sampled) file.resize(file.size() - std::string(kSampledSuffix).size());
+  if (file.empty()) throw Error(fmt::format("agent {}: policy: needs a file or a run", name));
+  const Policy policy = LoadPolicy(PolicyFileOf(file), config, seed);
+  return sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
+}
+
+Agent RandomAgent(const std::string& name, double control_interval_s) {
+  double hold_s = kRandomHold_s;
+  if (name.find(':') != std::string::npos) {
+    const std::string text = ArgumentOf(name);
+    const char* const end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, hold_s);
+    if (failure != std::errc() || stop != end) hold_s = std::nan("");
+  }
+  const double steps = std::round(hold_s / control_interval_s);
+  if (!(steps >= 1 && steps <= kLongestHold)) {
+    throw Error(fmt::format("agent {}: commands are held for {} to {} s, as in random:0.5", name,
+                            control_interval_s, control_interval_s * kLongestHold));
+  }
+  return Agent::Random(static_cast<int>(steps));
+}
+
+}  // namespace
+
+const char* const kAgentForms = "policy:FILE_OR_RUN[@sampled], random[:SECONDS], idle";
+
+Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
+  const std::string kind = KindOf(name);
+  if (kind == "policy") return PolicyAgent(name, config, seed);
+  if (kind == "random") return RandomAgent(name, config.train.env.control_interval_s);
+  if (name == "idle") return Agent::Idle();
+  throw Error(fmt::format("unknown agent {}{}; known agents: {}", name,
+                          DidYouMean(kind, {"policy", "random", "idle"}), kAgentForms));
+}
+
+}  // namespace skein

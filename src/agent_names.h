@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "src/program_config.h"
+#include "train/agent.h"
+
+namespace skein {
+
+/// The forms of agents' names, for people.
+extern const char* const kAgentForms;
+
+/// The agent called `name` for the environment of `config`:
+///   policy:FILE_OR_RUN   a trained policy with its mean action ("@sampled" behind: as drawn)
+///   random, random:S     uniform commands, drawn anew every second, or every S seconds
+///   idle                 every command zero
+/// Throws Error that lists these on any other.
+Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed);
+
+}  // namespace skein

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "simd/error.h"
+#include "src/agent_names.h"
+#include "src/commands.h"
+#include "src/comparison.h"
+#include "src/configuration.h"
+#include "src/flight_options.h"
+#include "src/output_file.h"
+#include "src/presets.h"
+
+namespace skein {
+namespace {
+
+struct CompareOptions {
+  std::vector<std::string> agents;
+  std::string csv;
+  FlightOptions flight;
+};
+
+ProgramConfig Configure(const FlightOptions& flight) {
+  ProgramConfig config = ResolveConfig({flight.task, flight.preset, "", {}});
+  const int action_repeat = config.train.env.action_repeat;
+  ApplyOverrides(flight, &config);
+  if (config.train.env.action_repeat != action_repeat) {
+    throw Error("env.action_repeat: agents that are compared act each at their own rate");
+  }
+  return config;
+}
+
+std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
+                                   const ProgramConfig& config, std::uint64_t seed) {
+  std::vector<NamedAgent> agents;
+  std::set<std::string> known;
+  for (const std::string& name : names) {
+    if (!known.insert(name).second) throw Error(fmt::format("--agents: {} is there twice", name));
+    agents.push_back({name, FindAgent(name, config, seed)});
+  }
+  return agents;
+}
+
+/// "flights.csv" of agent "policy:runs/a" is "flights.policy-runs-a.csv".
+std::string FlightsPath(const std::string& path, const std::string& agent) {
+  std::string part = agent;
+  std::replace_if(
+      part.begin(), part.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '-');
+  const std::filesystem::path file(path);
+  return (file.parent_path() / (file.stem().string() + "." + part + file.extension().string()))
+      .string();
+}
+
+void CompareAgents(const CompareOptions& options) {
+  const FlightOptions& flight = options.flight;
+  const ProgramConfig config = Configure(flight);
+  const std::vector<NamedAgent> agents = FindAgents(options.agents, config, flight.seed);
+  WorkerPool pool(flight.threads);
+  const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);
+  if (!options.csv.empty()) {
+    WriteFile(options.csv, ComparisonCsvHeader() + ToCsv(comparison));
+  }
+  if (!flight.json.empty()) WriteFile(flight.json, ToJson(comparison, config).dump(1) + "\n");
+  fmt::print("{}\n", ToText(comparison));
+  if (flight.flights.empty()) return;
+  for (const NamedAgent& named : agents) {
+    EnvConfig env = config.train.env;
+    env.action_repeat = named.agent.action_repeat();
+    WriteFlights(flight, FlightsPath(flight.flights, named.name), "by " + named.name, named.agent,
+                 env, pool);
+  }
+}
+
+}  // namespace
+
+void AddCompareCommand(CLI::App* app) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command =
+      app->add_subcommand("compare", "Fly several agents over the same fresh episodes");
+  command
+      ->add_option("--agents", options->agents,
+                   fmt::format("who flies, separated by commas: {}", kAgentForms))
+      ->type_name("AGENT,...")
+      ->delimiter(',')
+      ->required();
+  FlightOptionTexts texts;
+  texts.task = fmt::format("what to fly: {}", fmt::join(PresetTasks(), ", "));
+  texts.preset = "environment settings to begin with (default: default)";
+  texts.json = "write all results here";
+  texts.flights =
+      "write every agent's first episodes, FILE.csv for agent A to FILE.A.csv, for scripts/plot "
+      "flights";
+  AddFlightOptions(command, texts, &options->flight);
+  command->get_option("--task")->required();
+  command->add_option("--csv", options->csv, "write a row for every agent here")
+      ->type_name("FILE");
+  command->footer(
+      "Initial states, targets and noise are the same for all: they depend on the seed and the "
+      "episode alone.\n"
+      "Every agent acts at its own rate, policies with their mean action unless @sampled. "
+      "Differences are paired,\n"
+      "episode by episode, against the first agent.\n"
+      "Example: skein compare --task heading --agents policy:runs/a,policy:runs/b,random "
+      "--episodes 1000 --csv table.csv\n"
+      "         skein compare --task heading --condition windy=60fps,moderate --agents "
+      "policy:runs/a,idle");
+  command->callback([options] { CompareAgents(*options); });
+}
+
+}  // namespace skein

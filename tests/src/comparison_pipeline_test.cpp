@@ -1,0 +1,154 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "src/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ComparisonPipeline : public ::testing::Test {
+ protected:
+  /// Everything that cannot be seen counts as reached, from step 60 on.
+  static std::vector<std::string> Command(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"compare"};
+    for (const char* setting :
+         {"task=heading", "episodes=40", "set=env.time_limit_steps=120",
+          "set=env.heading.earliest_success_step=60", "set=env.heading.altitude_tolerance_ft=2000",
+          "set=env.heading.yaw_tolerance_deg=120", "set=env.heading.speed_tolerance_fps=250"}) {
+      const std::string text = setting;
+      arguments.push_back("--" + text.substr(0, text.find('=')));
+      arguments.push_back(text.substr(text.find('=') + 1));
+    }
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  nlohmann::json Compare(const std::string& agents, const std::vector<std::string>& more = {}) {
+    const std::string path = scratch_ / "result.json";
+    std::vector<std::string> arguments = Command({"--agents", agents, "--json", path});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    output_ = result.output;
+    return nlohmann::json::parse(ReadFile(path));
+  }
+
+  const ScratchDirectory scratch_;
+  std::string output_;
+};
+
+TEST_F(ComparisonPipeline, EveryAgentFliesTheSameEpisodesWhateverTheOrderAndThreads) {
+  const auto forth = Compare("policy:untrained,random:0.2,idle", {"--threads", "1"});
+  const auto back = Compare("idle,random:0.2,policy:untrained", {"--threads", "3"});
+  EXPECT_EQ(forth["starts"], back["starts"]);
+  ASSERT_EQ(forth["agents"].size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(forth["agents"][i]["estimates"], back["agents"][2 - i]["estimates"]);
+    EXPECT_EQ(forth["agents"][i]["terminations"], back["agents"][2 - i]["terminations"]);
+  }
+  // Differences turn round with the order.
+  const auto& ahead = forth["agents"][2]["against_first"];
+  const auto& behind = back["agents"][2]["against_first"];
+  EXPECT_EQ(ahead["success_p_value"], behind["success_p_value"]);
+  EXPECT_DOUBLE_EQ(ahead["estimates"]["mach"]["value"].get<double>(),
+                   -behind["estimates"]["mach"]["value"].get<double>());
+  EXPECT_FALSE(forth["agents"][0].contains("against_first"));
+}
+
+TEST_F(ComparisonPipeline, FliesWhatEvalFlies) {
+  const auto compared = Compare("policy:untrained,policy:untrained@sampled", {"--seed", "5"});
+  const std::string path = scratch_ / "eval.json";
+  std::vector<std::string> arguments = Command({"--policy", "untrained", "--seed", "5", "--json",
+                                                path});
+  arguments[0] = "eval";
+  EXPECT_EQ(CallSkein(arguments).exit_code, 0);
+  const auto evaluated = nlohmann::json::parse(ReadFile(path));
+  EXPECT_EQ(compared["agents"][0]["estimates"], evaluated["deterministic"]["estimates"]);
+  EXPECT_EQ(compared["agents"][1]["estimates"], evaluated["sampled"]["estimates"]);
+  EXPECT_EQ(compared["environment"], evaluated["environment"]);
+}
+
+TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
+  const auto result = Compare("idle,random");
+  const auto& first = result["agents"][0];
+  const auto& second = result["agents"][1];
+  for (const auto& [key, difference] : second["against_first"]["estimates"].items()) {
+    const auto& a = first["estimates"][key];
+    const auto& b = second["estimates"][key];
+    if (a["count"] != 40 || b["count"] != 40) continue;  // the time, where not all succeeded
+    EXPECT_NEAR(difference["value"].get<double>(),
+                b["value"].get<double>() - a["value"].get<double>(),
+                1e-9 * (1 + std::abs(a["value"].get<double>())))
+        << key;
+    EXPECT_LE(difference["low"], difference["value"]) << key;
+    EXPECT_GE(difference["high"], difference["value"]) << key;
+  }
+}
+
+TEST_F(ComparisonPipeline, TheTableFitsATerminalAndTheCsvHasARowForEachAgent) {
+  const std::string csv = scratch_ / "table.csv";
+  Compare("idle,random,random:0.1,policy:untrained", {"--csv", csv});
+  std::istringstream lines(output_);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+  for (const char* word : {"success, %", "time to target, s", "FSM", "McNemar", "random:0.1"}) {
+    EXPECT_THAT(output_, HasSubstr(word));
+  }
+  std::istringstream rows(ReadFile(csv));
+  std::string row;
+  std::getline(rows, row);
+  const auto columns = std::count(row.begin(), row.end(), ',');
+  EXPECT_EQ(row.rfind("task,agent,episodes,seed,decision_interval_s,success_rate,", 0), 0u);
+  int agents = 0;
+  for (; std::getline(rows, row); ++agents) {
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), columns) << row;
+  }
+  EXPECT_EQ(agents, 4);
+}
+
+TEST_F(ComparisonPipeline, RecordsEveryAgentsFlights) {
+  Compare("idle,random:0.5", {"--flights", scratch_ / "flights.csv", "--flights-count", "2"});
+  const std::string idle = ReadFile(scratch_ / "flights.idle.csv");
+  const std::string random = ReadFile(scratch_ / "flights.random-0-5.csv");
+  EXPECT_NE(idle, random);
+  // Header and first row, the state at time 0 and the target, are the same.
+  const auto start = [](const std::string& text) {
+    return text.substr(0, text.find('\n', text.find('\n') + 1));
+  };
+  EXPECT_EQ(start(idle), start(random));
+}
+
+TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"idel", "unknown agent idel; did you mean idle?; known agents: policy:FILE_OR_RUN"},
+      {"idle:3", "unknown agent idle:3"},
+      {"policy", "policy: needs a file or a run"},
+      {"policy:" + (scratch_ / "absent.skein"), "absent.skein"},
+      {"policy:" + scratch_.path(), "not the directory of a run"},
+      {"random:often", "as in random:0.5"},
+      {"random:0.001", "as in random:0.5"},
+      {"idle,random,idle", "--agents: idle is there twice"}};
+  for (const auto& [agents, message] : wrong) {
+    const ProgramResult result = CallSkein(Command({"--agents", agents}));
+    EXPECT_EQ(result.exit_code, 1) << agents;
+    EXPECT_THAT(result.error, HasSubstr(message));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+  const ProgramResult rate =
+      CallSkein(Command({"--agents", "idle", "--set", "env.action_repeat=2"}));
+  EXPECT_THAT(rate.error, HasSubstr("env.action_repeat: agents that are compared"));
+  EXPECT_EQ(CallSkein({"compare", "--task", "heading"}).exit_code, 2) << "no agents";
+  EXPECT_EQ(CallSkein({"compare", "--agents", "idle"}).exit_code, 2) << "no task";
+}
+
+}  // namespace
+}  // namespace skein
