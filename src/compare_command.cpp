@@ -98,8 +98,7 @@ void AddCompareCommand(CLI::App* app) {
       "flights";
   AddFlightOptions(command, texts, &options->flight);
   command->get_option("--task")->required();
-  command->add_option("--csv", options->csv, "write a row for every agent here")
-      ->type_name("FILE");
+  command->add_option("--csv", options->csv, "write a row for every agent here")->type_name("FILE");
   command->footer(
       "Initial states, targets and noise are the same for all: they depend on the seed and the "
       "episode alone.\n"

@@ -51,8 +51,10 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
     env.action_repeat = named.agent.action_repeat();
     const FlownEpisodes flown = FlyEpisodes(named.agent, env, options, pool);
     if (pool.stopping()) return comparison;
-    ComparedAgent compared{named.name, env.action_repeat,
-                           SummariseFlights(flown.episodes, env.control_interval_s), {}};
+    ComparedAgent compared{named.name,
+                           env.action_repeat,
+                           SummariseFlights(flown.episodes, env.control_interval_s),
+                           {}};
     if (comparison.agents.empty()) {
       comparison.starts = flown.starts;
       first = flown.episodes;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "src/comparison.h"
 #include "src/evaluation_report.h"
@@ -62,7 +61,8 @@ class AgentColumns {
   }
 
   void Flights(std::string* text) const {
-    Row("", [](const ComparedAgent& agent) { return Heading(agent.name); }, text);
+    Row(
+        "", [](const ComparedAgent& agent) { return Heading(agent.name); }, text);
     for (std::size_t k = 0; k < Quantities().size(); ++k) {
       const auto cell = [k](const ComparedAgent& agent) {
         return FormatEstimate(Quantities()[k], agent.summary.estimates[k]);
@@ -100,35 +100,20 @@ class AgentColumns {
 
  private:
   static std::string McNemar(const ComparedAgent& agent) {
-    return agent.against_first.estimates.empty() ? "-" : PValue(agent.against_first.success_p_value);
+    return agent.against_first.estimates.empty() ? "-"
+                                                 : PValue(agent.against_first.success_p_value);
   }
 
   const Comparison& comparison_;
   std::size_t begin_, end_;
 };
 
-std::string CsvCells(const Estimate& estimate) {
-  std::string cells;
-  for (const double value : {estimate.value, estimate.low, estimate.high}) {
-    cells += std::isfinite(value) ? fmt::format(",{}", value) : ",";
-  }
-  return cells;
-}
-
-/// A cell of CSV, in quotes where it must be.
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 std::string ToText(const Comparison& comparison) {
-  std::string text = fmt::format(
-      "{}, the same {} episodes for all (seed {}); means with 95 % intervals\n", comparison.task,
-      comparison.episodes, comparison.seed);
+  std::string text =
+      fmt::format("{}, the same {} episodes for all (seed {}); means with 95 % intervals\n",
+                  comparison.task, comparison.episodes, comparison.seed);
   for (const ComparedAgent& agent : comparison.agents) {
     text += fmt::format("  {}: a decision every {:.4g} s\n", agent.name,
                         agent.action_repeat * comparison.control_interval_s);
@@ -195,12 +180,9 @@ Json ToJson(const Comparison& comparison, const ProgramConfig& config) {
     }
     agents.push_back(std::move(json));
   }
-  return {{"task", comparison.task},
-          {"episodes", comparison.episodes},
-          {"seed", comparison.seed},
-          {"starts", fmt::format("{:016x}", comparison.starts)},
-          {"agents", agents},
-          {"environment", EnvironmentJson(config)}};
+  return {{"task", comparison.task}, {"episodes", comparison.episodes},
+          {"seed", comparison.seed}, {"starts", fmt::format("{:016x}", comparison.starts)},
+          {"agents", agents},        {"environment", EnvironmentJson(config)}};
 }
 
 }  // namespace skein

@@ -97,8 +97,7 @@ Json ToJson(const FlightSummary& summary) {
 std::string FormatEstimate(const Quantity& quantity, const Estimate& estimate) {
   if (std::isnan(estimate.value)) return "-";
   const auto shown = [&](double value) {
-    std::string text =
-        fmt::format("{:.{}f}", value * quantity.shown_per_unit, quantity.decimals);
+    std::string text = fmt::format("{:.{}f}", value * quantity.shown_per_unit, quantity.decimals);
     const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
     return is_zero && text[0] == '-' ? text.substr(1) : text;
   };
@@ -109,6 +108,21 @@ std::string FormatEstimate(const Quantity& quantity, const Estimate& estimate) {
   }
   return fmt::format("{} ({}, {})", shown(estimate.value), shown(estimate.low),
                      shown(estimate.high));
+}
+
+std::string CsvCells(const Estimate& estimate) {
+  std::string cells;
+  for (const double value : {estimate.value, estimate.low, estimate.high}) {
+    cells += std::isfinite(value) ? fmt::format(",{}", value) : ",";
+  }
+  return cells;
+}
+
+std::string CsvText(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
 }
 
 std::string FormatTerminations(const EvaluationResult& result) {

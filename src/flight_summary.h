@@ -12,9 +12,9 @@ namespace skein {
 
 /// Something that every episode has a value of.
 struct Quantity {
-  std::string key;     ///< in files, with its unit
-  std::string symbol;  ///< in the paper's Table 6, or empty
-  std::string label;   ///< for people, with its unit
+  std::string key;        ///< in files, with its unit
+  std::string symbol;     ///< in the paper's Table 6, or empty
+  std::string label;      ///< for people, with its unit
   double shown_per_unit;  ///< what people see of it: 100 for percent
   int decimals;           ///< and how exactly
   /// Of an episode flown with EvaluationOptions::flight_metrics; NaN if it has none.
@@ -44,6 +44,10 @@ nlohmann::ordered_json ToJson(const Estimate& estimate);
 
 /// "15.83 +- 0.31"; where the interval lies to one side, "100.0 (99.6, 100.0)"; "-" for nothing.
 std::string FormatEstimate(const Quantity& quantity, const Estimate& estimate);
+/// The three numbers as cells of CSV, each with a comma ahead; empty where there is none.
+std::string CsvCells(const Estimate& estimate);
+/// A cell of CSV, in quotes where it must be.
+std::string CsvText(const std::string& text);
 /// "ResetTarget 998, UnreachTarget 2".
 std::string FormatTerminations(const EvaluationResult& result);
 

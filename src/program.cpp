@@ -81,6 +81,7 @@ int RunProgram(int argc, char** argv) {
   AddTrainCommand(&app);
   AddEvalCommand(&app);
   AddCompareCommand(&app);
+  AddStudyCommand(&app);
   AddFdmCommand(&app);
   AddBenchCommand(&app);
   AddInfoCommand(&app);

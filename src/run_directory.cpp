@@ -23,29 +23,6 @@ namespace fs = std::filesystem;
 constexpr const char* kCheckpointPrefix = "checkpoint-";
 constexpr const char* kExtension = ".skein";
 
-FileDescriptor Lock(const std::string& directory) {
-  FileDescriptor file(directory + "/lock", OpenMode::kAppend);
-  if (flock(file.value(), LOCK_EX | LOCK_NB) != 0) {
-    throw Error(errno == EWOULDBLOCK
-                    ? fmt::format("{}: another skein is training here", directory)
-                    : fmt::format("{}: cannot be locked: {}", directory, SystemReason()));
-  }
-  return file;
-}
-
-/// Makes `path` and what is missing above it, durably; returns it.
-const std::string& MakeDirectories(const std::string& path) {
-  const fs::path parent = fs::absolute(path).parent_path();
-  std::error_code failure;
-  if (!fs::exists(parent, failure)) MakeDirectories(parent.string());
-  const bool made = fs::create_directory(path, failure);
-  if (failure) {
-    throw Error(fmt::format("{}: cannot be made a directory: {}", path, failure.message()));
-  }
-  if (made) SyncDirectory(parent.string());
-  return path;
-}
-
 /// `path` without slashes at its end, which would double in the names of files below it.
 std::string WithoutTrailingSlashes(const std::string& path) {
   const auto last = path.find_last_not_of('/');
@@ -79,6 +56,28 @@ fs::file_time_type LastWritten(const std::string& run) {
 
 }  // namespace
 
+FileDescriptor LockDirectory(const std::string& directory) {
+  FileDescriptor file(directory + "/lock", OpenMode::kAppend);
+  if (flock(file.value(), LOCK_EX | LOCK_NB) != 0) {
+    throw Error(errno == EWOULDBLOCK
+                    ? fmt::format("{}: another skein is training here", directory)
+                    : fmt::format("{}: cannot be locked: {}", directory, SystemReason()));
+  }
+  return file;
+}
+
+const std::string& MakeDirectories(const std::string& path) {
+  const fs::path parent = fs::absolute(path).parent_path();
+  std::error_code failure;
+  if (!fs::exists(parent, failure)) MakeDirectories(parent.string());
+  const bool made = fs::create_directory(path, failure);
+  if (failure) {
+    throw Error(fmt::format("{}: cannot be made a directory: {}", path, failure.message()));
+  }
+  if (made) SyncDirectory(parent.string());
+  return path;
+}
+
 bool IsRunDirectory(const std::string& path) {
   std::error_code failure;
   return fs::is_regular_file(path + "/config.toml", failure);
@@ -106,7 +105,7 @@ RunDirectory RunDirectory::Open(const std::string& path) {
 }
 
 RunDirectory::RunDirectory(const std::string& path)
-    : path_(WithoutTrailingSlashes(path)), lock_(Lock(MakeDirectories(path_))) {
+    : path_(WithoutTrailingSlashes(path)), lock_(LockDirectory(MakeDirectories(path_))) {
   MakeDirectories(checkpoints());
 }
 

@@ -58,6 +58,13 @@ class RunDirectory {
   FileDescriptor lock_;
 };
 
+/// Takes the lock of a directory that training works in, for as long as the descriptor lives.
+/// Throws Error if another process holds it.
+FileDescriptor LockDirectory(const std::string& directory);
+
+/// Makes `path` and what is missing above it, durably; returns it.
+const std::string& MakeDirectories(const std::string& path);
+
 /// Whether `path` is the directory of a run.
 bool IsRunDirectory(const std::string& path);
 

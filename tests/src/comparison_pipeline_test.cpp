@@ -68,8 +68,8 @@ TEST_F(ComparisonPipeline, EveryAgentFliesTheSameEpisodesWhateverTheOrderAndThre
 TEST_F(ComparisonPipeline, FliesWhatEvalFlies) {
   const auto compared = Compare("policy:untrained,policy:untrained@sampled", {"--seed", "5"});
   const std::string path = scratch_ / "eval.json";
-  std::vector<std::string> arguments = Command({"--policy", "untrained", "--seed", "5", "--json",
-                                                path});
+  std::vector<std::string> arguments =
+      Command({"--policy", "untrained", "--seed", "5", "--json", path});
   arguments[0] = "eval";
   EXPECT_EQ(CallSkein(arguments).exit_code, 0);
   const auto evaluated = nlohmann::json::parse(ReadFile(path));

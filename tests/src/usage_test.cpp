@@ -25,6 +25,7 @@ TEST(Usage, EveryCommandHasHelp) {
                                              {"train"},
                                              {"eval"},
                                              {"compare"},
+                                             {"study"},
                                              {"fdm"},
                                              {"fdm", "trim"},
                                              {"fdm", "eval"},
@@ -111,7 +112,7 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_EQ(
       CallSkein({"trian", "heading"}).error,
       "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
-      "compare, fdm, bench, info (see skein --help)\n");
+      "compare, study, fdm, bench, info (see skein --help)\n");
   EXPECT_THAT(
       CallSkein({"fdm", "fly"}).error,
       HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));
