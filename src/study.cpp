@@ -114,8 +114,8 @@ class TableReader {
                        double max) const {
     const std::optional<double> number = node.value<double>();
     if (!number || !(*number >= min && *number <= max) || *number != std::floor(*number)) {
-      throw Error(fmt::format("{} must be a whole number in [{:.10g}, {:.10g}]", At(node, key), min,
-                              max));
+      throw Error(
+          fmt::format("{} must be a whole number in [{:.10g}, {:.10g}]", At(node, key), min, max));
     }
     return *number;
   }
@@ -139,11 +139,15 @@ void RefuseEmptyAndTwice(const std::vector<T>& values, const std::string& source
 
 constexpr double kMaxSeed = 0x1p53, kMaxEpisodes = 1e7;
 
+StudySettings ReadSettings(TableReader& reader) {
+  return {reader.Texts("condition"), reader.Texts("set")};
+}
+
 StudyLevel ReadLevel(const toml::table& table, const std::string& source) {
   TableReader reader(table, source);
   StudyLevel level;
   level.name = reader.Text("name", "");
-  level.assignments = reader.Texts("set");
+  level.settings = ReadSettings(reader);
   reader.RefuseOthers();
   if (level.name.empty()) {
     throw Error(fmt::format("{}:{}: a level needs a name", source, table.source().begin.line));
@@ -162,7 +166,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   for (const toml::table* training : reader.Tables("training")) {
     TableReader part(*training, source);
     study.training.steps = part.WholeNumber("steps", 1, kMaxSeed);
-    study.training.assignments = part.Texts("set");
+    study.training.settings = ReadSettings(part);
     study.training.per_level = part.Flag("per_level", true);
     part.RefuseOthers();
   }
@@ -183,12 +187,15 @@ Study ReadTable(const toml::table& table, const std::string& source) {
 }
 
 ProgramConfig Configure(const Study& study, const std::string& task,
-                        const std::vector<std::string>& more,
-                        const std::vector<std::string>& level) {
-  std::vector<std::string> assignments = study.assignments;
-  assignments.insert(assignments.end(), more.begin(), more.end());
-  assignments.insert(assignments.end(), level.begin(), level.end());
-  ProgramConfig config = ResolveConfig({task, study.preset, "", assignments});
+                        const std::vector<StudySettings>& parts) {
+  ConfigSources sources{task, study.preset, "", study.assignments};
+  for (const StudySettings& part : parts) {
+    sources.conditions.insert(sources.conditions.end(), part.conditions.begin(),
+                              part.conditions.end());
+    sources.assignments.insert(sources.assignments.end(), part.assignments.begin(),
+                               part.assignments.end());
+  }
+  ProgramConfig config = ResolveConfig(sources);
   CheckConsistent(config);
   return config;
 }
@@ -224,9 +231,9 @@ Study ReadStudy(const std::string& path) {
 
 ProgramConfig TrainingConfig(const Study& study, const std::string& task, const StudyLevel& level,
                              std::uint64_t seed) {
-  ProgramConfig config =
-      Configure(study, task, study.training.assignments,
-                study.training.per_level ? level.assignments : std::vector<std::string>());
+  std::vector<StudySettings> parts = {study.training.settings};
+  if (study.training.per_level) parts.push_back(level.settings);
+  ProgramConfig config = Configure(study, task, parts);
   if (study.training.steps) {
     Assign(FindSetting("run.total_steps", "steps"), *study.training.steps, "steps", &config);
   }
@@ -236,7 +243,7 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
 
 ProgramConfig EvaluationConfig(const Study& study, const std::string& task,
                                const StudyLevel& level) {
-  return Configure(study, task, {}, level.assignments);
+  return Configure(study, task, {level.settings});
 }
 
 }  // namespace skein

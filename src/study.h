@@ -9,10 +9,15 @@
 
 namespace skein {
 
-/// One condition of a study, under which agents are evaluated.
+/// Conditions (NAME=LEVEL, as of --condition) and assignments (KEY=VALUE, as of --set) on top.
+struct StudySettings {
+  std::vector<std::string> conditions, assignments;
+};
+
+/// One level of the conditions under which agents are evaluated.
 struct StudyLevel {
   std::string name;
-  std::vector<std::string> assignments;  ///< KEY=VALUE, as of --set
+  StudySettings settings;
 };
 
 /// What `skein study` trains and evaluates: every task under every level with every seed.
@@ -20,13 +25,13 @@ struct Study {
   std::vector<std::string> tasks;
   std::vector<std::uint64_t> seeds;  ///< of trainings
   std::vector<StudyLevel> levels;
-  std::vector<std::string> agents;       ///< flown beside the trained policies
+  std::vector<std::string> agents;  ///< flown beside the trained policies
   std::string preset = "default";
   std::vector<std::string> assignments;  ///< for trainings and evaluations
   struct Training {
-    std::optional<double> steps;           ///< control steps; else the preset's
-    std::vector<std::string> assignments;  ///< for trainings alone
-    bool per_level = true;  ///< a training for every level, under it; else one for all
+    std::optional<double> steps;  ///< control steps; else the preset's
+    StudySettings settings;       ///< for trainings alone
+    bool per_level = true;        ///< a training for every level, under it; else one for all
   } training;
   struct Evaluation {
     int episodes = 1000;

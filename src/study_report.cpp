@@ -13,9 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double NumberOf(const Json& json) {
-  return json.is_number() ? json.get<double>() : std::nan("");
-}
+double NumberOf(const Json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
 
 /// What the i-th agent of a comparison did.
 Estimate EstimateOf(const Json& comparison, std::size_t agent, const Quantity& quantity) {
@@ -99,9 +97,9 @@ std::string StudyText(const Json& results, std::size_t trained) {
       const Json& comparison = result["comparison"];
       const std::string label = fmt::format("  {}, {}", result["task"].get<std::string>(),
                                             result["level"].get<std::string>());
-      text += fmt::format("{:{}}{:>{}}", label, kLabelWidth,
-                          Spread(quantity, ValuesOfSeeds(comparison, trained, quantity)),
-                          kCellWidth);
+      text +=
+          fmt::format("{:{}}{:>{}}", label, kLabelWidth,
+                      Spread(quantity, ValuesOfSeeds(comparison, trained, quantity)), kCellWidth);
       for (std::size_t i = trained; i < comparison["agents"].size(); ++i) {
         text += fmt::format("{:>{}}", FormatEstimate(quantity, EstimateOf(comparison, i, quantity)),
                             kCellWidth);

@@ -130,8 +130,8 @@ bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
     std::vector<NamedAgent> agents;
     for (const std::uint64_t seed : study_.seeds) {
       const std::string run = RunPath(task, level, seed);
-      agents.push_back({NameOfSeed(seed),
-                        FindAgent("policy:" + run, config, study_.evaluation.seed)});
+      agents.push_back(
+          {NameOfSeed(seed), FindAgent("policy:" + run, config, study_.evaluation.seed)});
     }
     for (const std::string& agent : study_.agents) {
       agents.push_back({agent, FindAgent(agent, config, study_.evaluation.seed)});

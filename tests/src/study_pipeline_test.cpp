@@ -1,0 +1,177 @@
+// Runs studies as a user does, on trainings of a moment.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "src/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// Two levels and two seeds, in trainings of four iterations.
+const char* const kStudy = R"(
+tasks = ["heading"]
+seeds = [3, 4]
+agents = ["idle"]
+set = ["env.time_limit_steps=100", "env.heading.earliest_success_step=100"]
+
+[training]
+steps = 20480
+set = ["ppo.num_aircraft=64", "ppo.rollout_steps=16", "ppo.minibatches=2",
+       "network.hidden_size=16", "network.gru_size=16", "evaluation.interval_iterations=2",
+       "evaluation.episodes=8", "evaluation.final_episodes=8", "checkpoint.interval_iterations=1"]
+
+[evaluation]
+episodes = 20
+seed = 5
+
+[[level]]
+name = "quiet"
+[[level]]
+name = "loud, 0.1"
+condition = ["noisy=0.1"]
+)";
+
+class StudyPipeline : public ::testing::Test {
+ protected:
+  StudyPipeline() { WriteFile(file_, kStudy); }
+
+  std::vector<std::string> Command(const std::string& out) const {
+    return {"study", file_, "--out", out, "--threads", "1"};
+  }
+
+  void ExpectError(const std::string& text, const std::string& message) {
+    WriteFile(file_, text);
+    const ProgramResult result = CallSkein(Command(scratch_ / "wrong"));
+    EXPECT_EQ(result.exit_code, 1) << text;
+    EXPECT_THAT(result.error, HasSubstr(message));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+
+  const ScratchDirectory scratch_;
+  std::string file_ = scratch_ / "small.toml";
+};
+
+TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
+  const std::string out = scratch_ / "out";
+  const ProgramResult result = CallSkein(Command(out));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  for (const char* run : {"heading-quiet-seed3", "heading-quiet-seed4", "heading-loud--0.1-seed3",
+                          "heading-loud--0.1-seed4"}) {
+    EXPECT_TRUE(fs::exists(out + "/runs/" + run + "/evaluation.json")) << run;
+  }
+  const auto results = nlohmann::json::parse(ReadFile(out + "/results.json"));
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[1]["level"], "loud, 0.1");
+  for (const auto& level : results) {
+    ASSERT_EQ(level["comparison"]["agents"].size(), 3u);
+    EXPECT_EQ(level["comparison"]["agents"][1]["name"], "seed 4");
+    EXPECT_EQ(level["comparison"]["episodes"], 20);
+  }
+  EXPECT_EQ(results[0]["comparison"]["environment"]["env.observation_noise"], 0.01);
+  EXPECT_EQ(results[1]["comparison"]["environment"]["env.observation_noise"], 0.1);
+  // Under another level another policy came out.
+  EXPECT_NE(results[0]["comparison"]["agents"][0]["return_mean"],
+            results[1]["comparison"]["agents"][0]["return_mean"]);
+  std::istringstream rows(ReadFile(out + "/results.csv"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(rows, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 1u + 2 * 4);
+  EXPECT_EQ(lines[0].rfind("task,level,agent,episodes,seeds,success_rate,", 0), 0u);
+  EXPECT_EQ(lines[1].rfind("heading,quiet,trained,20,2,", 0), 0u);
+  EXPECT_EQ(lines[8].rfind("heading,\"loud, 0.1\",idle,20,,", 0), 0u);
+  for (const char* text : {"trained (2 seeds)", "heading, loud, 0.1", "results.csv"}) {
+    EXPECT_THAT(result.output, HasSubstr(text));
+  }
+}
+
+TEST_F(StudyPipeline, KilledAgainAndAgainItEndsAsInOneGo) {
+  const std::string whole = scratch_ / "whole", torn = scratch_ / "torn";
+  ASSERT_EQ(CallSkein(Command(whole)).exit_code, 0);
+  // Ends it at moments of every kind, by signals of both kinds.
+  const std::vector<std::pair<const char*, int>> moments = {
+      {"/runs/heading-quiet-seed3/lock", SIGKILL},
+      {"/runs/heading-quiet-seed3/checkpoints/checkpoint-000002.skein", SIGTERM},
+      {"/runs/heading-quiet-seed3/evaluation.json", SIGKILL},
+      {"/runs/heading-quiet-seed4/config.toml", SIGKILL},
+      {"/comparisons/heading-quiet.json", SIGKILL},
+      {"/runs/heading-loud--0.1-seed4/checkpoints/checkpoint-000003.skein", SIGTERM}};
+  for (const auto& [path, signal] : moments) {
+    RunningProgram program(Command(torn));
+    program.WaitUntil([&, file = torn + path] { return fs::exists(file); });
+    program.Signal(signal);
+    const ProgramResult result = program.Wait();
+    EXPECT_TRUE(result.exit_code == 0 || result.signal == signal) << path << result.error;
+  }
+  const ProgramResult last = CallSkein(Command(torn));
+  ASSERT_EQ(last.exit_code, 0) << last.error;
+  EXPECT_EQ(ReadFile(torn + "/results.csv"), ReadFile(whole + "/results.csv"));
+  EXPECT_EQ(ReadFile(torn + "/results.json"), ReadFile(whole + "/results.json"));
+}
+
+TEST_F(StudyPipeline, KeepsWhatIsFinishedAndRefusesWhatIsOtherwise) {
+  const std::string out = scratch_ / "out";
+  std::string text = kStudy;
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  WriteFile(file_, replace("seeds = [3, 4]", "seeds = [3]"));
+  ASSERT_EQ(CallSkein(Command(out)).exit_code, 0);
+  const std::string run = out + "/runs/heading-quiet-seed3/log.txt";
+  const std::string log = ReadFile(run);
+  // Another agent and more episodes need no training.
+  WriteFile(file_, replace("episodes = 20", "episodes = 30"));
+  ASSERT_EQ(CallSkein(Command(out)).exit_code, 0);
+  EXPECT_EQ(ReadFile(run), log);
+  EXPECT_EQ(nlohmann::json::parse(ReadFile(out + "/results.json"))[0]["comparison"]["episodes"],
+            30);
+  WriteFile(file_, replace("ppo.minibatches=2", "ppo.minibatches=4"));
+  const ProgramResult other = CallSkein(Command(out));
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.error, HasSubstr("ppo.minibatches"));
+}
+
+TEST_F(StudyPipeline, OneTrainingCanServeAllLevels) {
+  std::string text = kStudy;
+  const std::string steps = "steps = 20480";
+  text.replace(text.find(steps), steps.size(),
+               "steps = 20480\nper_level = false\ncondition = [\"noisy=0.05\"]");
+  WriteFile(file_, text);
+  const std::string out = scratch_ / "out";
+  ASSERT_EQ(CallSkein(Command(out)).exit_code, 0);
+  EXPECT_THAT(ReadFile(out + "/runs/heading-seed3/config.toml"),
+              HasSubstr("observation_noise = 0.05"));
+  EXPECT_FALSE(fs::exists(out + "/runs/heading-quiet-seed3"));
+  EXPECT_EQ(nlohmann::json::parse(ReadFile(out + "/results.json")).size(), 2u);
+}
+
+TEST_F(StudyPipeline, WrongStudiesAreErrorsOfOneLineBeforeAnyTraining) {
+  ExpectError("tasks = [\"heading\"]", "seeds must name at least one");
+  ExpectError("tasks = [\"heading\"]\nseeds = [1, 1]", "seeds names 1 twice");
+  ExpectError("tasks = \"heading\"\nseeds = [1]", ":1: tasks must be a list");
+  ExpectError("tasks = [\"heading\"]\nseeds = [1.5]", ":2: seeds must be a whole number");
+  ExpectError("tasks = [\"hedding\"]\nseeds = [1]", "did you mean heading?");
+  ExpectError("tasks = [\"heading\"]\nseed = [1]", ":2: unknown key seed; did you mean seeds?");
+  ExpectError("tasks = [\"heading\"]\nseeds = [1]\nagents = [\"ace\"]", "unknown agent ace");
+  ExpectError("tasks = [\"heading\"]\nseeds = [1]\n[[level]]\nset = []", "a level needs a name");
+  ExpectError("tasks = [\"heading\"]\nseeds = [1]\n[[level]]\nname = \"a b\"\n[[level]]\nname = "
+              "\"a-b\"",
+              "level names a-b twice");
+  ExpectError("tasks = [\"heading\"]\nseeds = [1]\nset = [\"env.nose=1\"]", "unknown key env.nose");
+  ExpectError("tasks = [", "not valid TOML");
+  EXPECT_FALSE(fs::exists((scratch_ / "wrong") + "/runs"));
+}
+
+}  // namespace
+}  // namespace skein
