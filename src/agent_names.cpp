@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "envs/autopilot/autopilot.h"
 #include "simd/error.h"
 #include "src/nearest_name.h"
 #include "src/policy_file.h"
@@ -55,17 +56,27 @@ Agent RandomAgent(const std::string& name, double control_interval_s) {
   return Agent::Random(static_cast<int>(steps));
 }
 
+Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
+  // The strongest stands for all: a comparison should not be won against less.
+  const std::string variant = name == "autopilot" ? "aggressive" : ArgumentOf(name);
+  return Agent::Of(MakeAutopilot(env, AutopilotOf(variant)));
+}
+
 }  // namespace
 
-const char* const kAgentForms = "policy:FILE_OR_RUN[@sampled], random[:SECONDS], idle";
+const char* const kAgentForms =
+    "autopilot[:aggressive|:traditional|:parallel|:public], policy:FILE_OR_RUN[@sampled], "
+    "random[:SECONDS], idle";
 
 Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   const std::string kind = KindOf(name);
   if (kind == "policy") return PolicyAgent(name, config, seed);
   if (kind == "random") return RandomAgent(name, config.train.env.control_interval_s);
   if (name == "idle") return Agent::Idle();
+  if (kind == "autopilot") return AutopilotAgent(name, config.train.env);
   throw Error(fmt::format("unknown agent {}{}; known agents: {}", name,
-                          DidYouMean(kind, {"policy", "random", "idle"}), kAgentForms));
+                          DidYouMean(kind, {"autopilot", "policy", "random", "idle"}),
+                          kAgentForms));
 }
 
 }  // namespace skein

@@ -97,7 +97,7 @@ TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
 
 TEST_F(ComparisonPipeline, TheTableFitsATerminalAndTheCsvHasARowForEachAgent) {
   const std::string csv = scratch_ / "table.csv";
-  Compare("idle,random,random:0.1,policy:untrained", {"--csv", csv});
+  Compare("autopilot,random,random:0.1,policy:untrained", {"--csv", csv});
   std::istringstream lines(output_);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   for (const char* word : {"success, %", "time to target, s", "FSM", "McNemar", "random:0.1"}) {
@@ -129,8 +129,9 @@ TEST_F(ComparisonPipeline, RecordsEveryAgentsFlights) {
 
 TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"idel", "unknown agent idel; did you mean idle?; known agents: policy:FILE_OR_RUN"},
+      {"idel", "unknown agent idel; did you mean idle?; known agents: autopilot"},
       {"idle:3", "unknown agent idle:3"},
+      {"autopilot:lazy", "unknown agent autopilot:lazy; known agents: autopilot[:aggressive|"},
       {"policy", "policy: needs a file or a run"},
       {"policy:" + (scratch_ / "absent.skein"), "absent.skein"},
       {"policy:" + scratch_.path(), "not the directory of a run"},

@@ -165,9 +165,10 @@ TEST_F(StudyPipeline, WrongStudiesAreErrorsOfOneLineBeforeAnyTraining) {
   ExpectError("tasks = [\"heading\"]\nseed = [1]", ":2: unknown key seed; did you mean seeds?");
   ExpectError("tasks = [\"heading\"]\nseeds = [1]\nagents = [\"ace\"]", "unknown agent ace");
   ExpectError("tasks = [\"heading\"]\nseeds = [1]\n[[level]]\nset = []", "a level needs a name");
-  ExpectError("tasks = [\"heading\"]\nseeds = [1]\n[[level]]\nname = \"a b\"\n[[level]]\nname = "
-              "\"a-b\"",
-              "level names a-b twice");
+  ExpectError(
+      "tasks = [\"heading\"]\nseeds = [1]\n[[level]]\nname = \"a b\"\n[[level]]\nname = "
+      "\"a-b\"",
+      "level names a-b twice");
   ExpectError("tasks = [\"heading\"]\nseeds = [1]\nset = [\"env.nose=1\"]", "unknown key env.nose");
   ExpectError("tasks = [", "not valid TOML");
   EXPECT_FALSE(fs::exists((scratch_ / "wrong") + "/runs"));
