@@ -21,8 +21,8 @@ double PowerRate(const PowerLag& lag, double power, double power_command);
 
 /// Installed thrust, lbf. Linear in power between idle and military and between military and
 /// maximum; altitude and Mach number are clamped to the tables (the F-16's end at Mach 1), and
-/// thrust is multiplied with the tables' growth if it grows. Idle thrust may be negative (the F-16's
-/// ram drag at low altitude and high speed, a propeller's braking), as published.
+/// thrust is multiplied with the tables' growth if it grows. Idle thrust may be negative (the
+/// F-16's ram drag at low altitude and high speed, a propeller's braking), as published.
 double Thrust(const EngineTables& engine, double power, double altitude_ft, double mach);
 
 /// Power in [0, 100] whose thrust comes nearest to `thrust_lbf`.

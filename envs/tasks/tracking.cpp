@@ -167,7 +167,8 @@ class TrackingTask : public Task {
   }
 
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
-    SKEIN_DISPATCH(TrackingErrors)(flight, task, config_.error_axes, unit_ft_, errors, error_stride);
+    SKEIN_DISPATCH(TrackingErrors)
+    (flight, task, config_.error_axes, unit_ft_, errors, error_stride);
   }
 
   void Judge(Tile flight, Tile task, const std::int32_t* /*steps_before*/,

@@ -131,7 +131,7 @@ TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {"idel", "unknown agent idel; did you mean idle?; known agents: autopilot"},
       {"idle:3", "unknown agent idle:3"},
-      {"autopilot:lazy", "unknown agent autopilot:lazy; known agents: autopilot[:aggressive|"},
+      {"autopilot:lazy", "unknown autopilot \"lazy\"; known: public, traditional, aggressive"},
       {"policy", "policy: needs a file or a run"},
       {"policy:" + (scratch_ / "absent.skein"), "absent.skein"},
       {"policy:" + scratch_.path(), "not the directory of a run"},

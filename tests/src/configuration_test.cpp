@@ -132,7 +132,7 @@ TEST(Configuration, ThePaperPresetOfControlHasThePapersFigures) {
 TEST(Configuration, ThePaperPresetOfTrackingHasThePapersFigures) {
   // NeuralPlane (NeurIPS 2024), Table 7; what it leaves open, and PPO, as for Heading.
   const TrainConfig tracking = ResolveConfig({"tracking", "paper", "", {}}).train;
-  EXPECT_EQ(tracking.total_steps, 300000000u * 50) << "the paper counts the planner's";
+  EXPECT_EQ(tracking.total_steps, std::int64_t{300000000} * 50) << "the paper counts the planner's";
   EXPECT_EQ(tracking.env.action_repeat, 50);
   EXPECT_EQ(tracking.env.tracking.distance_ft.min, 2000);
   EXPECT_EQ(tracking.env.tracking.distance_ft.max, 2000);

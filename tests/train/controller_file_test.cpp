@@ -207,8 +207,8 @@ TEST_F(PlannerTrainingTest, ACheckpointIsAWholePlanner) {
   EXPECT_EQ(loaded.action_repeat(), 10);
   EvaluationOptions options;
   options.episodes = 40;
-  const EvaluationResult a = Evaluate(loaded, config.env, options, pool);
-  const EvaluationResult b = Evaluate(trainer.policy(), config.env, options, pool);
+  const EvaluationResult a = Evaluate(Agent::MeanOf(loaded), config.env, options, pool);
+  const EvaluationResult b = Evaluate(Agent::MeanOf(trainer.policy()), config.env, options, pool);
   EXPECT_EQ(a.return_mean, b.return_mean);
   EXPECT_EQ(a.terminations, b.terminations);
 }
@@ -216,10 +216,9 @@ TEST_F(PlannerTrainingTest, ACheckpointIsAWholePlanner) {
 TEST_F(PlannerTrainingTest, RecordsWhatWasPlannedAndWhatWasFlown) {
   WorkerPool pool(2);
   const TrainConfig config = SmallPlannerConfig();
-  const Policy planner = Planner(SmallController());
+  const Agent planner = Agent::SamplingFrom(Planner(SmallController()));
   EvaluationOptions options;
   options.episodes = 20;
-  options.deterministic = false;
   const EvaluationResult evaluated = Evaluate(planner, config.env, options, pool);
   const auto flights = RecordFlights(planner, config.env, options, options.episodes, pool);
   double return_sum = 0;
