@@ -58,6 +58,7 @@ EnvConfig EvaluationConfig(const EnvConfig& config) {
   EnvConfig evaluated = config;
   evaluated.stagger_clocks = false;
   evaluated.control.training_tolerance_min = 1;
+  evaluated.tracking.training_tolerance_max = 1;
   return evaluated;
 }
 
@@ -116,6 +117,10 @@ void Validate(const EnvConfig& config) {
   RequireNotNegative("env.tracking.azimuth_deg", config.tracking.azimuth_deg);
   RequireNotNegative("env.tracking.elevation_deg", config.tracking.elevation_deg);
   RequirePositive("env.tracking.position_tolerance_ft", config.tracking.position_tolerance_ft);
+  Require(
+      config.tracking.training_tolerance_max >= 1 && config.tracking.training_tolerance_max <= 1000,
+      "env.tracking.training_tolerance_max", config.tracking.training_tolerance_max,
+      "in [1, 1000]");
   RequireNotNegative("env.planner.pitch_change_rad", config.planner.pitch_change_rad);
   RequireNotNegative("env.planner.yaw_change_rad", config.planner.yaw_change_rad);
   RequireNotNegative("env.planner.speed_change_fps", config.planner.speed_change_fps);

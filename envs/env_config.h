@@ -81,6 +81,9 @@ struct TrackingConfig {
   double azimuth_deg = 30;             ///< to either side of the nose: U(-x, x)
   double elevation_deg = 30;           ///< above and below the nose: U(-x, x)
   double position_tolerance_ft = 100;  ///< north, east and up
+  /// In training an episode's tolerance is the above times exp(U(0, ln x)), so that a planner
+  /// reaches some targets before it reaches all; evaluations take it as it is.
+  double training_tolerance_max = 1;
   TrackingAxes error_axes = TrackingAxes::kHeading;
 };
 

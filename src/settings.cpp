@@ -254,6 +254,12 @@ std::vector<Setting> MakeSettings() {
       {"env.tracking.position_tolerance_ft",
        [](C& c) -> F { return &c.train.env.tracking.position_tolerance_ft; }, positive,
        "distance north, east and up of the target that counts as reached"},
+      {"env.tracking.training_tolerance_max",
+       [](C& c) -> F { return &c.train.env.tracking.training_tolerance_max; },
+       {1, 1000},
+       "in training an episode's tolerance is that times exp(U(0, ln x)); evaluations take it as "
+       "it "
+       "is"},
       {"env.tracking.error_axes", [](C& c) -> F { return &c.train.env.tracking.error_axes; }, name,
        "what the errors are: ahead, right and up of the heading, or north, east and up"},
 

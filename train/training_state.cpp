@@ -93,6 +93,7 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("tracking.azimuth_deg", env.tracking.azimuth_deg);
     add("tracking.elevation_deg", env.tracking.elevation_deg);
     add("tracking.position_tolerance_ft", env.tracking.position_tolerance_ft);
+    add("tracking.training_tolerance_max", env.tracking.training_tolerance_max);
     add("tracking.error_axes", env.tracking.error_axes);
     add("planner.pitch_change_rad", env.planner.pitch_change_rad);
     add("planner.yaw_change_rad", env.planner.yaw_change_rad);

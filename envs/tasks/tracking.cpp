@@ -94,11 +94,9 @@ HWY_INLINE void CutBySlab(FlightVector begin, FlightVector end, FlightVector tol
   path.leaves = hn::Min(path.leaves, hn::Max(one, other));
 }
 
-void TrackingJudge(Tile flight, Tile task, double tolerance_ft, double unit_ft,
-                   const TaskVerdict& verdict) {
+void TrackingJudge(Tile flight, Tile task, double unit_ft, const TaskVerdict& verdict) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
-  const FlightVector tolerance = Constant(tolerance_ft);
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     const TrackingError begin = LastErrorOf(task, first);
     const TrackingError end = ErrorOf(flight, task, first);
@@ -107,6 +105,7 @@ void TrackingJudge(Tile flight, Tile task, double tolerance_ft, double unit_ft,
     const FlightVector cost = InUnits(hn::Sqrt(square), unit_ft);
     hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
 
+    const FlightVector tolerance = Column(task, kTrackingTolerance, first);
     PathInBox path{hn::Zero(d), Constant(1)};
     CutBySlab(begin.north, end.north, tolerance, path);
     CutBySlab(begin.east, end.east, tolerance, path);
@@ -164,6 +163,8 @@ class TrackingTask : public Task {
     set(kTrackingLastNorth, 0);
     set(kTrackingLastEast, 0);
     set(kTrackingLastAltitude, start.altitude_ft);
+    const double widening = random->Uniform(0, std::log(config_.training_tolerance_max));
+    set(kTrackingTolerance, config_.position_tolerance_ft * std::exp(widening));
   }
 
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
@@ -173,7 +174,7 @@ class TrackingTask : public Task {
 
   void Judge(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
              const TaskVerdict& verdict) const override {
-    SKEIN_DISPATCH(TrackingJudge)(flight, task, config_.position_tolerance_ft, unit_ft_, verdict);
+    SKEIN_DISPATCH(TrackingJudge)(flight, task, unit_ft_, verdict);
   }
 
  private:

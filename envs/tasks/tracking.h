@@ -7,7 +7,7 @@
 namespace skein {
 
 /// Task columns: the target's position, ft, altitude upwards; then the position at the end of the
-/// control step before, where the next one's path begins.
+/// control step before, where the next one's path begins; the tolerance, ft.
 enum TrackingColumn : int {
   kTrackingNorth,
   kTrackingEast,
@@ -15,15 +15,17 @@ enum TrackingColumn : int {
   kTrackingLastNorth,
   kTrackingLastEast,
   kTrackingLastAltitude,
+  kTrackingTolerance,
   kNumTrackingColumns
 };
 
 /// Fly to a point (NeuralPlane paper, Tracking). Errors are the target's position relative to the
 /// aircraft / units.altitude_error_ft, with its ReferenceUnits (F-16: 1 km): ahead, right and up of
 /// its heading, or north, east and up, as `TrackingConfig::error_axes` says. The reward of a step
-/// is minus their L2 norm, in either axes the distance. Reached when the straight path of a control
-/// step touches the box whose sides lie `position_tolerance_ft` north, east, south, west, above and
-/// below of the target.
+/// is minus their L2 norm, in either axes the distance. Reached when
+/// the straight path of a control step touches the box whose sides lie the episode's tolerance
+/// north, east, south, west, above and below of the target: `position_tolerance_ft`, or in training
+/// up to `training_tolerance_max` times as much.
 std::unique_ptr<Task> MakeTrackingTask(const EnvConfig& config);
 
 }  // namespace skein

@@ -113,6 +113,8 @@ TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
        }},
       {"env.tracking.azimuth_deg = ", [](EnvConfig* c) { c->tracking.azimuth_deg = -1; }},
       {"env.tracking.elevation_deg = ", [](EnvConfig* c) { c->tracking.elevation_deg = -1; }},
+      {"env.tracking.training_tolerance_max = ",
+       [](EnvConfig* c) { c->tracking.training_tolerance_max = 0.9; }},
       {"env.tracking.position_tolerance_ft = ",
        [](EnvConfig* c) { c->tracking.position_tolerance_ft = 0; }},
       {"env.planner.pitch_change_rad = ", [](EnvConfig* c) { c->planner.pitch_change_rad = -1; }},

@@ -134,6 +134,7 @@ TEST(Configuration, ThePaperPresetOfTrackingHasThePapersFigures) {
   const TrainConfig tracking = ResolveConfig({"tracking", "paper", "", {}}).train;
   EXPECT_EQ(tracking.total_steps, std::int64_t{300000000} * 50) << "the paper counts the planner's";
   EXPECT_EQ(tracking.env.action_repeat, 50);
+  EXPECT_EQ(tracking.env.tracking.training_tolerance_max, 1);
   EXPECT_EQ(tracking.env.tracking.distance_ft.min, 2000);
   EXPECT_EQ(tracking.env.tracking.distance_ft.max, 2000);
   EXPECT_EQ(tracking.env.tracking.error_axes, TrackingAxes::kEarth);

@@ -38,7 +38,8 @@ class TrackingTest : public testing::TestWithParam<simd::Target> {
     flight_.at(kEast, i) = static_cast<float>(position[1]);
     flight_.at(kDown, i) = static_cast<float>(-position[2]);
   }
-  void SetTarget(int i, const Position& position) {
+  void SetTarget(int i, const Position& position, double tolerance_ft = 100) {
+    targets_.at(kTrackingTolerance, i) = static_cast<float>(tolerance_ft);
     for (int k = 0; k < 3; ++k) {
       targets_.at(kTrackingNorth + k, i) =
           static_cast<float>(position[static_cast<std::size_t>(k)]);
@@ -231,13 +232,38 @@ TEST_P(TrackingTest, APathBeginsWhereTheLastOneEnded) {
   for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(reached_[i], 0);
 }
 
-TEST_P(TrackingTest, ToleranceIsTheConfigurations) {
+TEST_P(TrackingTest, TolerancesAreDrawnByEpisodeForTraining) {
   EnvConfig config = Config();
-  config.tracking.position_tolerance_ft = 10;
-  const std::unique_ptr<Task> strict = MakeTask(config);
-  Pass(0, {-30, 9, 0}, {30, 9, 0});
-  Pass(1, {-30, 11, 0}, {30, 11, 0});
-  Judge(*strict);
+  config.tracking.position_tolerance_ft = 20;
+  config.tracking.training_tolerance_max = 50;
+  const std::unique_ptr<Task> training = MakeTask(config);
+  double least = 1e9, most = 0, mean_logarithm = 0;
+  constexpr int kEpisodes = 2000;
+  for (std::uint32_t episode = 0; episode < kEpisodes; ++episode) {
+    simd::RandomStream random({5, 0, episode, 0, simd::RandomPurpose::kTarget});
+    training->Reset({20000, 1000, 0.1, 0.2}, &random, targets_.tile(), 0);
+    const double tolerance = targets_.at(kTrackingTolerance, 0);
+    least = std::min(least, tolerance);
+    most = std::max(most, tolerance);
+    mean_logarithm += std::log(tolerance / 20) / kEpisodes;
+  }
+  EXPECT_GE(least, 20);
+  EXPECT_LT(least, 20.5);
+  EXPECT_LE(most, 1000 * (1 + 1e-6));
+  EXPECT_GT(most, 980);
+  EXPECT_NEAR(mean_logarithm, std::log(50) / 2, 0.05);
+
+  simd::RandomStream random({5, 0, 0, 0, simd::RandomPurpose::kTarget});
+  MakeTask(EvaluationConfig(config))->Reset({20000, 1000, 0.1, 0.2}, &random, targets_.tile(), 0);
+  EXPECT_EQ(targets_.at(kTrackingTolerance, 0), 20);
+}
+
+TEST_P(TrackingTest, ToleranceIsTheEpisodes) {
+  for (const int i : {0, 1}) {
+    Pass(i, {-30, i == 0 ? 9.0 : 11.0, 0}, {30, i == 0 ? 9.0 : 11.0, 0});
+    targets_.at(kTrackingTolerance, i) = 10;
+  }
+  Judge(*task_);
   EXPECT_EQ(reached_[0], 1);
   EXPECT_EQ(reached_[1], 0);
 }
