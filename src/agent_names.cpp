@@ -14,6 +14,7 @@
 namespace skein {
 namespace {
 
+constexpr const char* kPolicy = "policy";
 constexpr const char* kSampledSuffix = "@sampled";
 constexpr double kRandomHold_s = 1;
 constexpr int kLongestHold = 1000;  // control steps, as of env.action_repeat
@@ -32,12 +33,8 @@ bool EndsWith(const std::string& text, const std::string& end) {
 }
 
 Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
-  std::string file = ArgumentOf(name);
-  const bool sampled = EndsWith(file, kSampledSuffix);
-  if (sampled) file.resize(file.size() - std::string(kSampledSuffix).size());
-  if (file.empty()) throw Error(fmt::format("agent {}: policy: needs a file or a run", name));
-  const Policy policy = LoadPolicy(PolicyFileOf(file), config, seed);
-  return sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
+  const Policy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
+  return EndsWith(name, kSampledSuffix) ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
 }
 
 Agent RandomAgent(const std::string& name, double control_interval_s) {
@@ -68,9 +65,19 @@ const char* const kAgentForms =
     "autopilot[:aggressive|:traditional|:parallel|:public], policy:FILE_OR_RUN[@sampled], "
     "random[:SECONDS], idle";
 
+std::string PolicyFileOfAgent(const std::string& name) {
+  if (KindOf(name) != kPolicy) return "";
+  std::string file = ArgumentOf(name);
+  if (EndsWith(file, kSampledSuffix)) {
+    file.resize(file.size() - std::string(kSampledSuffix).size());
+  }
+  if (file.empty()) throw Error(fmt::format("agent {}: policy: needs a file or a run", name));
+  return PolicyFileOf(file);
+}
+
 Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   const std::string kind = KindOf(name);
-  if (kind == "policy") return PolicyAgent(name, config, seed);
+  if (kind == kPolicy) return PolicyAgent(name, config, seed);
   if (kind == "random") return RandomAgent(name, config.train.env.control_interval_s);
   if (name == "idle") return Agent::Idle();
   if (kind == "autopilot") return AutopilotAgent(name, config.train.env);

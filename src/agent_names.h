@@ -8,6 +8,9 @@
 
 namespace skein {
 
+/// The file of a policy that is called "policy:FILE_OR_RUN[@sampled]"; empty for other agents.
+std::string PolicyFileOfAgent(const std::string& name);
+
 /// The forms of agents' names, for people.
 extern const char* const kAgentForms;
 

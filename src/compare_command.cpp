@@ -2,8 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -49,17 +47,28 @@ std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
 
 /// "flights.csv" of agent "policy:runs/a" is "flights.policy-runs-a.csv".
 std::string FlightsPath(const std::string& path, const std::string& agent) {
-  std::string part = agent;
-  std::replace_if(
-      part.begin(), part.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '-');
   const std::filesystem::path file(path);
-  return (file.parent_path() / (file.stem().string() + "." + part + file.extension().string()))
+  return (file.parent_path() /
+          (file.stem().string() + "." + FileNamePart(agent) + file.extension().string()))
       .string();
+}
+
+/// Throws Error if two agents' flights would go to the same file.
+void CheckFlightsPaths(const CompareOptions& options) {
+  if (options.flight.flights.empty()) return;
+  std::set<std::string> known;
+  for (const std::string& agent : options.agents) {
+    const std::string path = FlightsPath(options.flight.flights, agent);
+    if (!known.insert(path).second) {
+      throw Error(fmt::format("{}: the flights of two agents would go there", path));
+    }
+  }
 }
 
 void CompareAgents(const CompareOptions& options) {
   const FlightOptions& flight = options.flight;
   const ProgramConfig config = Configure(flight);
+  CheckFlightsPaths(options);
   const std::vector<NamedAgent> agents = FindAgents(options.agents, config, flight.seed);
   WorkerPool pool(flight.threads);
   const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);

@@ -8,6 +8,7 @@
 #include "simd/error.h"
 #include "src/policy_file.h"
 #include "train/autopilot_controller.h"
+#include "train/controller_file.h"
 #include "train/policy.h"
 
 namespace skein {
@@ -68,6 +69,15 @@ ChosenController ChooseController(const EnvConfig& env, const std::string& optio
     description += fmt::format(" (it does not say its task, which should be {})", kControllersTask);
   }
   return {policy, description};
+}
+
+std::shared_ptr<const Pilot> ControllerOfRun(const RunDirectory& directory,
+                                             const std::string& task) {
+  if (!IsPlanned(task)) return nullptr;
+  const std::string path = directory.controller();
+  std::shared_ptr<const Pilot> controller = LoadController(TensorFile::Read(path), path);
+  if (controller == nullptr) throw Error(fmt::format("{}: it holds no controller", path));
+  return controller;
 }
 
 }  // namespace skein

@@ -5,6 +5,7 @@
 
 #include "envs/env_config.h"
 #include "envs/pilot.h"
+#include "src/run_directory.h"
 
 namespace skein {
 
@@ -19,5 +20,10 @@ struct ChosenController {
 /// if it is empty. Throws Error if the task needs a controller and none is named, if it knows none,
 /// or if what is named cannot fly as one.
 ChosenController ChooseController(const EnvConfig& env, const std::string& option);
+
+/// What the planner of the run in `directory` began with; null if `task` is not planned. Throws
+/// Error if it cannot be read.
+std::shared_ptr<const Pilot> ControllerOfRun(const RunDirectory& directory,
+                                             const std::string& task);
 
 }  // namespace skein

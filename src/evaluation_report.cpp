@@ -34,7 +34,8 @@ EvaluationReport EvaluateBothWays(const Policy& policy, const EnvConfig& env, in
   return {fly(Agent::MeanOf(policy)), fly(Agent::SamplingFrom(policy))};
 }
 
-Json EnvironmentJson(const ProgramConfig& config) {
+Json EnvironmentJson(ProgramConfig config) {
+  config.train.env = EvaluationConfig(config.train.env);
   Json environment = Json::object();
   for (const Setting& setting : Settings()) {
     if (setting.key.compare(0, 4, "env.") == 0) {

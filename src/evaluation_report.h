@@ -27,8 +27,8 @@ EvaluationReport EvaluateBothWays(const Policy& policy, const EnvConfig& env, in
 nlohmann::ordered_json ToJson(const EvaluationReport& report, const std::string& policy,
                               const ProgramConfig& config, std::uint64_t seed, bool deterministic);
 
-/// Every `env.` key with its value.
-nlohmann::ordered_json EnvironmentJson(const ProgramConfig& config);
+/// Every `env.` key with its value in evaluations (EvaluationConfig).
+nlohmann::ordered_json EnvironmentJson(ProgramConfig config);
 
 /// Lines for people, without a newline at the end: both modes, and how the one asked for flew.
 std::string ToText(const EvaluationReport& report, bool deterministic);

@@ -3,6 +3,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -27,6 +29,15 @@ int StandardStream(const struct stat& file) {
 }
 
 }  // namespace
+
+std::string FileNamePart(const std::string& name) {
+  std::string part = name;
+  const auto is_odd = [](unsigned char c) {
+    return std::isalnum(c) == 0 && c != '.' && c != '_' && c != '-';
+  };
+  std::replace_if(part.begin(), part.end(), is_odd, '-');
+  return part;
+}
 
 void WriteFile(const std::string& path, const std::string& text) {
   struct stat status {};

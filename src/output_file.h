@@ -9,6 +9,9 @@ namespace skein {
 /// written to directly. Throws Error (path, reason of the system).
 void WriteFile(const std::string& path, const std::string& text);
 
+/// `name` with what file names had better not hold replaced by '-'.
+std::string FileNamePart(const std::string& name);
+
 /// The whole file, which may be a pipe. Throws Error if it cannot be read.
 std::string ReadFile(const std::string& path);
 

@@ -60,7 +60,7 @@ FileDescriptor LockDirectory(const std::string& directory) {
   FileDescriptor file(directory + "/lock", OpenMode::kAppend);
   if (flock(file.value(), LOCK_EX | LOCK_NB) != 0) {
     throw Error(errno == EWOULDBLOCK
-                    ? fmt::format("{}: another skein is training here", directory)
+                    ? fmt::format("{}: another skein is at work here", directory)
                     : fmt::format("{}: cannot be locked: {}", directory, SystemReason()));
   }
   return file;

@@ -5,7 +5,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -162,6 +161,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   study.seeds = reader.WholeNumbers("seeds", kMaxSeed);
   study.agents = reader.Texts("agents");
   study.preset = reader.Text("preset", study.preset);
+  study.controller = reader.Text("controller", "");
   study.assignments = reader.Texts("set");
   for (const toml::table* training : reader.Tables("training")) {
     TableReader part(*training, source);
@@ -202,15 +202,6 @@ ProgramConfig Configure(const Study& study, const std::string& task,
 
 }  // namespace
 
-std::string FileNamePart(const std::string& name) {
-  std::string part = name;
-  const auto is_odd = [](unsigned char c) {
-    return std::isalnum(c) == 0 && c != '.' && c != '_' && c != '-';
-  };
-  std::replace_if(part.begin(), part.end(), is_odd, '-');
-  return part;
-}
-
 Study ReadStudy(const std::string& path) {
   toml::table table;
   try {
@@ -241,8 +232,7 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
   return config;
 }
 
-ProgramConfig EvaluationConfig(const Study& study, const std::string& task,
-                               const StudyLevel& level) {
+ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level) {
   return Configure(study, task, {level.settings});
 }
 

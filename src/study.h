@@ -27,6 +27,7 @@ struct Study {
   std::vector<StudyLevel> levels;
   std::vector<std::string> agents;  ///< flown beside the trained policies
   std::string preset = "default";
+  std::string controller;                ///< below the planners of planned tasks (ChooseController)
   std::vector<std::string> assignments;  ///< for trainings and evaluations
   struct Training {
     std::optional<double> steps;  ///< control steps; else the preset's
@@ -48,10 +49,6 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
                              std::uint64_t seed);
 
 /// The environment in which agents are evaluated under `level`.
-ProgramConfig EvaluationConfig(const Study& study, const std::string& task,
-                               const StudyLevel& level);
-
-/// `name` with what file names had better not hold replaced by '-'.
-std::string FileNamePart(const std::string& name);
+ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level);
 
 }  // namespace skein

@@ -31,7 +31,7 @@ std::vector<double> ValuesOfSeeds(const Json& comparison, std::size_t trained,
   return values;
 }
 
-/// "99.8 (99.5 to 100.0)": the mean of the seeds, and the worst and best of them.
+/// "99.8 (99.5 to 100.0)": the mean of the seeds, and the lowest and highest of them.
 std::string Spread(const Quantity& quantity, const std::vector<double>& values) {
   Estimate mean = EstimateMean(values);
   mean.low = mean.high = std::nan("");
@@ -107,7 +107,7 @@ std::string StudyText(const Json& results, std::size_t trained) {
       end_line();
     }
   }
-  text += "trained: the mean of the seeds, and the worst and best of them";
+  text += "trained: the mean of the seeds, and the lowest and highest of them";
   return text;
 }
 

@@ -3,17 +3,23 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
+#include "envs/tasks/task.h"
 #include "simd/error.h"
 #include "src/agent_names.h"
 #include "src/comparison.h"
 #include "src/configuration.h"
+#include "src/controller_option.h"
 #include "src/evaluation_report.h"
 #include "src/output_file.h"
+#include "src/policy_file.h"
 #include "src/run_directory.h"
 #include "src/run_signals.h"
 #include "src/study_report.h"
 #include "src/training_run.h"
+#include "train/controller_file.h"
+#include "train/fnv_hash.h"
 
 namespace skein {
 namespace {
@@ -23,48 +29,71 @@ using Json = nlohmann::ordered_json;
 
 /// Removes what a process killed while it made a run's directory has left: no run is in it yet.
 void RemoveStub(const std::string& run) {
-  for (const char* name : {"/config.toml.tmp", "/lock", "/checkpoints"}) {
+  for (const char* name : {"/config.toml.tmp", "/controller.skein", "/controller.skein.tmp",
+                           "/lock", "/checkpoints"}) {
     std::error_code ignored;  // RunDirectory::Create says what is in the way
     fs::remove(run + name, ignored);
   }
 }
 
-/// The configuration of the run in `path`, which must be the one asked for.
-ProgramConfig ConfigOfRun(const std::string& path, ProgramConfig asked) {
+/// The configuration of the run in `directory`, which must be the one asked for.
+ProgramConfig ConfigOfRun(const RunDirectory& directory, ProgramConfig asked) {
   ProgramConfig config;
-  ApplyTomlFile(path + "/config.toml", &config);
+  ApplyTomlFile(directory.config(), &config);
+  config.train.controller = ControllerOfRun(directory, config.train.env.task);
   // What "auto" was on the machine that began it.
   if (asked.train.learner.precision == LearnerPrecision::kAuto) {
     asked.train.learner.precision = config.train.learner.precision;
   }
-  if (const auto differences = Differences(config, asked); !differences.empty()) {
+  std::vector<std::string> differences = Differences(config, asked);
+  if (!IsSameController(config.train.controller.get(), asked.train.controller.get())) {
+    differences.push_back("another controller");
+  }
+  if (!differences.empty()) {
     throw Error(fmt::format(
         "{}: was trained with another configuration than the study asks for: {}; choose another "
         "--out, or remove it",
-        path, differences.front()));
+        directory.path(), differences.front()));
   }
   return config;
 }
 
-std::string NameOfSeed(std::uint64_t seed) { return fmt::format("seed {}", seed); }
+struct AgentInStudy {
+  std::string shown;
+  std::string name;  ///< as of FindAgent
+};
 
-/// What a comparison's document says if it is of these agents in this environment.
-Json Identity(const Study& study, const ProgramConfig& config) {
-  Json agents = Json::array();
-  for (const std::uint64_t seed : study.seeds) agents.push_back(NameOfSeed(seed));
-  for (const std::string& agent : study.agents) agents.push_back(agent);
-  return {{"agents", agents},
-          {"episodes", study.evaluation.episodes},
-          {"seed", study.evaluation.seed},
-          {"environment", EnvironmentJson(config)}};
+/// The file's FNV hash for a policy; for other agents nothing, as their names say all.
+std::string Fingerprint(const std::string& agent) {
+  const std::string file = PolicyFileOfAgent(agent);
+  if (file.empty() || file == kUntrained) return "";
+  const std::string bytes = ReadFile(file);
+  FnvHash hash;
+  hash.Add(bytes.data(), bytes.size());
+  return hash.Hex();
 }
 
-bool HasIdentity(const Json& comparison, const Json& identity) {
-  Json agents = Json::array();
-  for (const Json& agent : comparison["agents"]) agents.push_back(agent["name"]);
-  return agents == identity["agents"] && comparison["episodes"] == identity["episodes"] &&
-         comparison["seed"] == identity["seed"] &&
-         comparison["environment"] == identity["environment"];
+/// What a comparison depends on.
+Json Identity(const std::vector<AgentInStudy>& agents, const Study& study,
+              const ProgramConfig& config) {
+  Json names = Json::array(), quantities = Json::array();
+  for (const AgentInStudy& agent : agents) {
+    names.push_back({{"name", agent.shown}, {"policy", Fingerprint(agent.name)}});
+  }
+  for (const Quantity& quantity : Quantities()) quantities.push_back(quantity.key);
+  return {{"agents", names},
+          {"episodes", study.evaluation.episodes},
+          {"seed", study.evaluation.seed},
+          {"environment", EnvironmentJson(config)},
+          {"quantities", quantities}};
+}
+
+/// The comparison in the file `path` if it is there, whole, and of this identity; else null.
+Json KnownComparison(const std::string& path, const Json& identity) {
+  if (!fs::exists(path)) return nullptr;
+  const Json document = Json::parse(ReadFile(path), nullptr, false);
+  if (!document.is_object() || document.value("identity", Json()) != identity) return nullptr;
+  return document;
 }
 
 }  // namespace
@@ -75,17 +104,34 @@ StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool&
       pool_(pool),
       lock_(LockDirectory(MakeDirectories(directory))),
       results_(Json::array()) {
+  bool plans = false;
   for (const std::string& task : study_.tasks) {
+    plans = plans || IsPlanned(task);
     for (const StudyLevel& level : study_.levels) {
-      TrainingConfig(study_, task, level, study_.seeds.front());
-      const ProgramConfig config = EvaluationConfig(study_, task, level);
+      TrainingConfigOf(task, level, study_.seeds.front());
+      const ProgramConfig config = LevelConfig(study_, task, level);
       for (const std::string& agent : study_.agents) {
         FindAgent(agent, config, study_.evaluation.seed);
       }
     }
   }
+  if (!plans && !study_.controller.empty()) {
+    throw Error("controller is for tasks that are planned, and the study has none");
+  }
   MakeDirectories(directory_ + "/runs");
   MakeDirectories(directory_ + "/comparisons");
+}
+
+ProgramConfig StudyRun::TrainingConfigOf(const std::string& task, const StudyLevel& level,
+                                         std::uint64_t seed) const {
+  ProgramConfig config = TrainingConfig(study_, task, level, seed);
+  if (!IsPlanned(task)) return config;
+  if (study_.controller.empty()) {
+    throw Error(fmt::format(
+        "task {} needs controller = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
+  }
+  config.train.controller = ChooseController(config.train.env, study_.controller).pilot;
+  return config;
 }
 
 std::string StudyRun::RunPath(const std::string& task, const StudyLevel& level,
@@ -109,13 +155,16 @@ bool StudyRun::Run() {
 
 bool StudyRun::Train(const std::string& task, const StudyLevel& level, std::uint64_t seed) {
   const std::string path = RunPath(task, level, seed);
-  const ProgramConfig config = TrainingConfig(study_, task, level, seed);
+  const ProgramConfig config = TrainingConfigOf(task, level, seed);
   if (!IsRunDirectory(path)) {
     RemoveStub(path);
     TrainingRun::Begin(config, path, pool_);
-  } else if (const ProgramConfig begun = ConfigOfRun(path, config);
-             !fs::exists(path + "/evaluation.json")) {
-    TrainingRun::Resume(begun, RunDirectory::Open(path), pool_);
+    return !pool_.stopping();
+  }
+  RunDirectory directory = RunDirectory::Open(path);
+  const ProgramConfig begun = ConfigOfRun(directory, config);
+  if (!fs::exists(directory.evaluation())) {
+    TrainingRun::Resume(begun, std::move(directory), pool_);
   }
   return !pool_.stopping();
 }
@@ -123,26 +172,27 @@ bool StudyRun::Train(const std::string& task, const StudyLevel& level, std::uint
 bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
   const std::string path =
       fmt::format("{}/comparisons/{}-{}.json", directory_, task, FileNamePart(level.name));
-  const ProgramConfig config = EvaluationConfig(study_, task, level);
-  Json document;
-  if (fs::exists(path)) document = Json::parse(ReadFile(path));
-  if (document.is_null() || !HasIdentity(document, Identity(study_, config))) {
-    std::vector<NamedAgent> agents;
-    for (const std::uint64_t seed : study_.seeds) {
-      const std::string run = RunPath(task, level, seed);
-      agents.push_back(
-          {NameOfSeed(seed), FindAgent("policy:" + run, config, study_.evaluation.seed)});
+  const ProgramConfig config = LevelConfig(study_, task, level);
+  std::vector<AgentInStudy> agents;
+  for (const std::uint64_t seed : study_.seeds) {
+    agents.push_back({fmt::format("seed {}", seed), "policy:" + RunPath(task, level, seed)});
+  }
+  for (const std::string& agent : study_.agents) agents.push_back({agent, agent});
+  const Json identity = Identity(agents, study_, config);
+  Json document = KnownComparison(path, identity);
+  if (document.is_null()) {
+    std::vector<NamedAgent> named;
+    for (const AgentInStudy& agent : agents) {
+      named.push_back({agent.shown, FindAgent(agent.name, config, study_.evaluation.seed)});
     }
-    for (const std::string& agent : study_.agents) {
-      agents.push_back({agent, FindAgent(agent, config, study_.evaluation.seed)});
-    }
-    fmt::print("{}, {}: flying {} agents over {} episodes\n", task, level.name, agents.size(),
+    fmt::print("{}, {}: flying {} agents over {} episodes\n", task, level.name, named.size(),
                study_.evaluation.episodes);
     const RunSignals signals(pool_);
     const Comparison comparison =
-        Compare(agents, config, study_.evaluation.episodes, study_.evaluation.seed, pool_);
+        Compare(named, config, study_.evaluation.episodes, study_.evaluation.seed, pool_);
     if (pool_.stopping()) return false;
     document = ToJson(comparison, config);
+    document["identity"] = identity;
     WriteFile(path, document.dump(1) + "\n");
   }
   results_.push_back({{"task", task}, {"level", level.name}, {"comparison", document}});

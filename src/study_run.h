@@ -28,6 +28,9 @@ class StudyRun {
   std::string ToText() const;
 
  private:
+  /// Throws Error if the task needs a controller and the study has none.
+  ProgramConfig TrainingConfigOf(const std::string& task, const StudyLevel& level,
+                                 std::uint64_t seed) const;
   std::string RunPath(const std::string& task, const StudyLevel& level, std::uint64_t seed) const;
   bool Train(const std::string& task, const StudyLevel& level, std::uint64_t seed);
   bool Evaluate(const std::string& task, const StudyLevel& level);

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 
-#include "envs/tasks/task.h"
 #include "simd/error.h"
 #include "src/commands.h"
 #include "src/conditions.h"
@@ -62,15 +61,6 @@ std::string RunToResume(const TrainOptions& options) {
                           options.task.empty() ? "" : " of " + options.task, kRunsRoot));
 }
 
-/// What the run began with.
-std::shared_ptr<const Pilot> ControllerOf(const RunDirectory& directory, const std::string& task) {
-  if (!IsPlanned(task)) return nullptr;
-  const std::string path = directory.controller();
-  std::shared_ptr<const Pilot> controller = LoadController(TensorFile::Read(path), path);
-  if (controller == nullptr) throw Error(fmt::format("{}: it holds no controller", path));
-  return controller;
-}
-
 void Resume(const TrainOptions& options) {
   RunDirectory directory = RunDirectory::Open(RunToResume(options));
   ProgramConfig config;
@@ -92,7 +82,7 @@ void Resume(const TrainOptions& options) {
         "instead",
         directory.path(), fmt::join(differences, ", ")));
   }
-  config.train.controller = ControllerOf(directory, config.train.env.task);
+  config.train.controller = ControllerOfRun(directory, config.train.env.task);
   if (!options.controller.empty()) {
     const ChosenController asked_controller =
         ChooseController(config.train.env, options.controller);
@@ -142,8 +132,9 @@ void AddTrainCommand(CLI::App* app) {
   CLI::Option* preset =
       command
           ->add_option("--preset", options->preset,
-                       "named configuration: default (tuned for a small machine) or paper (the "
-                       "NeuralPlane paper's settings at 50 Hz)")
+                       "named configuration: default (tuned for a small machine), paper (the "
+                       "NeuralPlane paper's settings at 50 Hz) or aerosonde (the default with "
+                       "another aircraft)")
           ->capture_default_str();
   CLI::Option* file = command
                           ->add_option("--config", options->config,

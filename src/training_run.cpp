@@ -52,12 +52,13 @@ void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wo
   RunDirectory directory = RunDirectory::Create(path);
   ProgramConfig resolved = config;
   resolved.train = trainer.config();
-  WriteFile(directory.config(), DumpToml(resolved));
   if (config.train.controller != nullptr) {
     TensorFile controller;
     StoreController(*config.train.controller, controller);
     controller.Write(directory.controller());
   }
+  // Last: it makes the directory one of a run.
+  WriteFile(directory.config(), DumpToml(resolved));
   TrainingRun run(resolved, std::move(directory), trainer, pool);
   if (!note.empty()) run.log_.Say(note);
   run.Run();

@@ -118,7 +118,7 @@ TEST_F(ComparisonPipeline, TheTableFitsATerminalAndTheCsvHasARowForEachAgent) {
 TEST_F(ComparisonPipeline, RecordsEveryAgentsFlights) {
   Compare("idle,random:0.5", {"--flights", scratch_ / "flights.csv", "--flights-count", "2"});
   const std::string idle = ReadFile(scratch_ / "flights.idle.csv");
-  const std::string random = ReadFile(scratch_ / "flights.random-0-5.csv");
+  const std::string random = ReadFile(scratch_ / "flights.random-0.5.csv");
   EXPECT_NE(idle, random);
   // Header and first row, the state at time 0 and the target, are the same.
   const auto start = [](const std::string& text) {

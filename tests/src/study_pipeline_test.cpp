@@ -95,6 +95,53 @@ TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
   }
 }
 
+TEST_F(StudyPipeline, FliesAgainWhatItTrainedAgain) {
+  const std::string out = scratch_ / "out";
+  ASSERT_EQ(CallSkein(Command(out)).exit_code, 0);
+  const auto hash = [&out] {
+    return nlohmann::json::parse(
+        ReadFile(out + "/results.json"))[0]["comparison"]["identity"]["agents"][0]["policy"];
+  };
+  const auto before = hash();
+  std::string longer = kStudy;
+  longer.replace(longer.find("20480"), 5, "25600");
+  WriteFile(file_, longer);
+  EXPECT_THAT(CallSkein(Command(out)).error, HasSubstr("was trained with another configuration"));
+  // Other trainings behind the same names.
+  fs::remove_all(out + "/runs");
+  const ProgramResult again = CallSkein(Command(out));
+  ASSERT_EQ(again.exit_code, 0) << again.error;
+  EXPECT_THAT(again.output, HasSubstr("heading, quiet: flying"));
+  EXPECT_NE(hash(), before);
+  // A comparison that is no longer whole.
+  WriteFile(out + "/comparisons/heading-loud--0.1.json", "{\"identity\": ");
+  const ProgramResult mended = CallSkein(Command(out));
+  ASSERT_EQ(mended.exit_code, 0) << mended.error;
+  EXPECT_THAT(mended.output, HasSubstr("heading, loud, 0.1: flying"));
+  EXPECT_THAT(mended.output, ::testing::Not(HasSubstr("heading, quiet: flying")));
+}
+
+TEST_F(StudyPipeline, PlannersAreTrainedOverTheController) {
+  std::string planned = kStudy;
+  planned.replace(planned.find("heading"), 7, "tracking");
+  planned.replace(planned.find(", \"env.heading"), 41, "");
+  const std::string without = planned;
+  planned.insert(0, "controller = \"autopilot\"\n");
+  const std::string out = scratch_ / "out";
+  WriteFile(file_, planned);
+  const ProgramResult result = CallSkein(Command(out));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_TRUE(fs::exists(out + "/runs/tracking-quiet-seed3/controller.skein"));
+  // Planners and stick agents flew the same episodes, and it is known what it depended on.
+  EXPECT_THAT(CallSkein(Command(out)).output, ::testing::Not(HasSubstr("flying")));
+  std::string other = planned;
+  other.replace(other.find("autopilot"), 9, "autopilot:traditional");
+  WriteFile(file_, other);
+  EXPECT_THAT(CallSkein(Command(out)).error, HasSubstr("another controller"));
+  ExpectError(without, "task tracking needs controller = ");
+  ExpectError(std::string("controller = \"autopilot\"\n") + kStudy, "for tasks that are planned");
+}
+
 TEST_F(StudyPipeline, KilledAgainAndAgainItEndsAsInOneGo) {
   const std::string whole = scratch_ / "whole", torn = scratch_ / "torn";
   ASSERT_EQ(CallSkein(Command(whole)).exit_code, 0);

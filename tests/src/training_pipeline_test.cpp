@@ -499,7 +499,7 @@ TEST_F(TrainingPipeline, TwoRunsDoNotShareADirectory) {
   ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
   const ProgramResult second = RunSkein({"train", "--resume", run_});
   EXPECT_EQ(second.exit_code, 1);
-  ExpectOneLine(second.error, "another skein is training here");
+  ExpectOneLine(second.error, "another skein is at work here");
   const ProgramResult third = RunSkein(TinyTraining(run_));
   EXPECT_EQ(third.exit_code, 1);
   ExpectOneLine(third.error, "--resume");
