@@ -10,6 +10,7 @@
 #include "simd/error.h"
 #include "src/nearest_name.h"
 #include "src/policy_file.h"
+#include "train/policy_environment.h"
 
 namespace skein {
 namespace {
@@ -34,6 +35,7 @@ bool EndsWith(const std::string& text, const std::string& end) {
 
 Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   const Policy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
+  CheckMadeFor(config.train.env, policy, "agent " + name);
   return EndsWith(name, kSampledSuffix) ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
 }
 

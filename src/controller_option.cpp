@@ -10,6 +10,7 @@
 #include "train/autopilot_controller.h"
 #include "train/controller_file.h"
 #include "train/policy.h"
+#include "train/policy_environment.h"
 
 namespace skein {
 namespace {
@@ -18,7 +19,7 @@ constexpr const char* kControllersTask = "control";
 constexpr const char* kAutopilot = "autopilot";
 constexpr const char* kPlannersVariant = "parallel";  ///< nose and speed at once, as a planner asks
 
-Policy LoadControlPolicy(const std::string& path) {
+Policy LoadControlPolicy(const EnvConfig& env, const std::string& path) {
   Policy policy = Policy::Load(path);
   if (!policy.task().empty() && policy.task() != kControllersTask) {
     throw Error(
@@ -33,6 +34,7 @@ Policy LoadControlPolicy(const std::string& path) {
                     path, policy.observation_size(), policy.action_size(), kControllersTask,
                     kObservationSize, kActionSize));
   }
+  CheckControllerMadeFor(env, policy, "--controller " + path);
   return policy;
 }
 
@@ -62,7 +64,7 @@ ChosenController ChooseController(const EnvConfig& env, const std::string& optio
     return ChooseAutopilot(env, option);
   }
   const std::string path = PolicyFileOf(option);
-  const auto policy = std::make_shared<const Policy>(LoadControlPolicy(path));
+  const auto policy = std::make_shared<const Policy>(LoadControlPolicy(env, path));
   std::string description = fmt::format("controller {}, an action every {} control steps; {}", path,
                                         policy->action_repeat(), Describe(policy->backend()));
   if (policy->task().empty()) {

@@ -9,6 +9,7 @@
 #include "envs/tasks/observation.h"
 #include "simd/error.h"
 #include "simd/random.h"
+#include "train/policy_environment.h"
 
 namespace skein {
 namespace {
@@ -82,6 +83,7 @@ std::shared_ptr<const Pilot> Agent::controller() const {
 }
 
 void Agent::CheckFits(const VecEnv& env) const {
+  CheckMadeFor(env.config(), *pilot_, "the policy");
   if (pilot_->observation_size() == env.observation_size() &&
       pilot_->action_size() == env.action_size()) {
     return;

@@ -31,7 +31,7 @@ class Agent {
   /// What flies when it is a planner; null if it flies itself.
   std::shared_ptr<const Pilot> controller() const;
 
-  /// Throws Error that names the task unless it observes and commands what `env` has.
+  /// Throws Error that says why not unless `env` is what it was made for, in sizes and meaning.
   void CheckFits(const VecEnv& env) const;
 
   /// Whose decision it is: what chance depends on.

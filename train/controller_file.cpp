@@ -17,24 +17,6 @@ constexpr const char* kTensorPrefix = "controller/";
 constexpr const char* kAutopilotKey = "autopilot";
 constexpr const char* kIntervalKey = "control_interval_s";
 
-template <typename Value>
-void InsertWithPrefix(const std::map<std::string, Value>& from, const std::string& prefix,
-                      std::map<std::string, Value>& to) {
-  for (const auto& [name, value] : from) to[prefix + name] = value;
-}
-
-/// What has the prefix, without it.
-template <typename Value>
-std::map<std::string, Value> ExtractPrefix(const std::map<std::string, Value>& from,
-                                           const std::string& prefix) {
-  std::map<std::string, Value> part;
-  for (auto it = from.lower_bound(prefix);
-       it != from.end() && it->first.compare(0, prefix.size(), prefix) == 0; ++it) {
-    part[it->first.substr(prefix.size())] = it->second;
-  }
-  return part;
-}
-
 TensorFile FileOf(const Pilot& controller) {
   TensorFile file;
   if (const auto* const autopilot = dynamic_cast<const AutopilotController*>(&controller)) {

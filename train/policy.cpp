@@ -20,6 +20,7 @@ constexpr const char* kHiddenLayersKey = "policy.hidden_layers";
 constexpr const char* kGruLayersKey = "policy.gru_layers";
 constexpr const char* kActivationKey = "policy.activation";
 constexpr const char* kTaskKey = "policy.task";
+constexpr const char* kEnvironmentPrefix = "policy.env.";
 constexpr int kMaxSize = 1 << 14;  ///< of any layer: a file cannot ask for more memory than this
 
 std::string Metadata(const TensorFile& file, const std::string& path, const std::string& key) {
@@ -87,6 +88,7 @@ void StorePolicy(const Policy::Parameters& parameters, TensorFile& file) {
   metadata["policy.action_size"] = std::to_string(parameters.shape.output_size);
   metadata["policy.action_repeat"] = std::to_string(parameters.action_repeat);
   if (!parameters.task.empty()) metadata[kTaskKey] = parameters.task;
+  InsertWithPrefix(parameters.environment, kEnvironmentPrefix, metadata);
   if (parameters.controller != nullptr) StoreController(*parameters.controller, file);
   const NetworkLayout layout(parameters.shape);
   for (std::size_t i = 0; i < layout.slices().size(); ++i) {
@@ -124,6 +126,7 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
                                  SizeIn(file, path, "policy.action_size"));
   parameters->action_repeat = SizeIn(file, path, "policy.action_repeat");
   if (Has(file, kTaskKey)) parameters->task = Metadata(file, path, kTaskKey);
+  parameters->environment = ExtractPrefix(file.metadata, kEnvironmentPrefix);
   parameters->controller = LoadController(file, path);
   const NetworkLayout layout(parameters->shape);
   for (const ParameterSlice& slice : layout.slices()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,7 +16,9 @@ struct Policy::Parameters {
   NetworkConfig config;
   NetworkShape shape;
   int action_repeat = 1;
-  std::string task;                         ///< what it was trained for; empty if unknown
+  std::string task;  ///< what it was trained for; empty if unknown
+  /// What else of it the policy cannot fly without (train/policy_environment.h), as far as known.
+  std::map<std::string, std::string> environment;
   std::shared_ptr<const Pilot> controller;  ///< of a planner, else null
   std::vector<float> values;                ///< the actor's flat parameters
 };

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -29,6 +30,25 @@ inline std::string ExactText(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.17g", value);
   return text;
+}
+
+/// Puts all of `from` into `to`, with `prefix` before the names.
+template <typename Value>
+void InsertWithPrefix(const std::map<std::string, Value>& from, const std::string& prefix,
+                      std::map<std::string, Value>& to) {
+  for (const auto& [name, value] : from) to[prefix + name] = value;
+}
+
+/// What has the prefix, without it.
+template <typename Value>
+std::map<std::string, Value> ExtractPrefix(const std::map<std::string, Value>& from,
+                                           const std::string& prefix) {
+  std::map<std::string, Value> part;
+  for (auto it = from.lower_bound(prefix);
+       it != from.end() && it->first.compare(0, prefix.size(), prefix) == 0; ++it) {
+    part[it->first.substr(prefix.size())] = it->second;
+  }
+  return part;
 }
 
 /// Adds `count` values as a tensor of `shape`. Skein runs on little-endian machines alone.

@@ -9,6 +9,7 @@
 #include "simd/error.h"
 #include "train/adam.h"
 #include "train/evaluate.h"
+#include "train/policy_environment.h"
 #include "train/policy_parameters.h"
 #include "train/popart.h"
 #include "train/ppo_update.h"
@@ -42,6 +43,9 @@ double ExplainedVariance(const Rollout& rollout) {
 
 const TrainConfig& Validated(const TrainConfig& config) {
   Validate(config.ppo);
+  if (config.controller != nullptr) {
+    CheckControllerMadeFor(config.env, *config.controller, "the controller");
+  }
   return config;
 }
 
@@ -128,6 +132,7 @@ struct Trainer::Impl {
     parameters->shape = actor_layout.shape();
     parameters->action_repeat = config.env.action_repeat;
     parameters->task = config.env.task;
+    parameters->environment = PolicyEnvironment(config.env);
     parameters->controller = config.controller;
     parameters->values.assign(actor.parameters(), actor.parameters() + actor.size());
     return Policy(std::move(parameters), config.learner.backend);

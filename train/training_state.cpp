@@ -7,6 +7,7 @@
 #include "simd/target.h"
 #include "train/controller_file.h"
 #include "train/fnv_hash.h"
+#include "train/policy_environment.h"
 #include "train/policy_parameters.h"
 #include "train/tensor_access.h"
 
@@ -214,6 +215,7 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
   policy.shape = actor.shape();
   policy.action_repeat = config.env.action_repeat;
   policy.task = config.env.task;
+  policy.environment = PolicyEnvironment(config.env);
   policy.controller = config.controller;
   policy.values = state.actor;
   StorePolicy(policy, file);

@@ -129,6 +129,24 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   const ProgramResult other = CallSkein({"eval", "--policy", run_, "--task", "heading"});
   EXPECT_EQ(other.exit_code, 1);
   ExpectOneLine(other.error, "env.task = control, but --task is heading");
+  // Nor as a file, though the sizes fit; nor another aircraft, nor below a planner of one.
+  const std::string policy = run_ + "/checkpoints/policy-final.skein";
+  const ProgramResult file = CallSkein({"eval", "--policy", policy, "--task", "heading"});
+  EXPECT_EQ(file.exit_code, 1);
+  ExpectOneLine(file.error, "env.task = control, but is to fly with env.task = heading");
+  const ProgramResult compared =
+      CallSkein({"compare", "--task", "heading", "--agents", "idle,policy:" + policy});
+  EXPECT_EQ(compared.exit_code, 1);
+  ExpectOneLine(compared.error, "agent policy:" + policy);
+  const ProgramResult aircraft =
+      CallSkein({"eval", "--policy", policy, "--task", "control", "--preset", "aerosonde"});
+  EXPECT_EQ(aircraft.exit_code, 1);
+  ExpectOneLine(aircraft.error, "env.aircraft = f16, but is to fly with env.aircraft = aerosonde");
+  const ProgramResult planned =
+      CallSkein({"train", "tracking", "--out", root_ + "/planned", "--controller", policy, "--set",
+                 "env.control_interval_s=0.01"});
+  EXPECT_EQ(planned.exit_code, 1);
+  ExpectOneLine(planned.error, "--controller " + policy + " was made with env.control_interval_s");
   const ProgramResult further = CallSkein({"train", "--resume", run_});
   EXPECT_EQ(further.exit_code, 0) << further.error;
 }

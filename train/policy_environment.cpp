@@ -1,0 +1,65 @@
+#include "train/policy_environment.h"
+
+#include <charconv>
+
+#include "envs/tasks/task.h"
+#include "simd/error.h"
+#include "train/policy_parameters.h"
+
+namespace skein {
+namespace {
+
+constexpr const char* kControllersTask = "control";
+
+/// The shortest text that is read back as the same double.
+std::string Text(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+void RequireSame(const std::string& key, const std::string& made_with, const std::string& value,
+                 const std::string& who) {
+  if (made_with == value) return;
+  throw Error(who + " was made with env." + key + " = " + made_with + ", but is to fly with env." +
+              key + " = " + value);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
+  std::map<std::string, std::string> environment;
+  environment["aircraft"] = env.aircraft;
+  environment["control_interval_s"] = Text(env.control_interval_s);
+  environment["flight_control"] =
+      env.flight_control == FlightControlMode::kFull ? "full" : "direct";
+  if (!IsPlanned(env.task)) return environment;
+  environment["planner.pitch_change_rad"] = Text(env.planner.pitch_change_rad);
+  environment["planner.yaw_change_rad"] = Text(env.planner.yaw_change_rad);
+  environment["planner.speed_change_fps"] = Text(env.planner.speed_change_fps);
+  if (env.task == "tracking") {
+    environment["tracking.error_axes"] =
+        env.tracking.error_axes == TrackingAxes::kHeading ? "heading" : "earth";
+  }
+  return environment;
+}
+
+void CheckMadeFor(const EnvConfig& env, const Pilot& pilot, const std::string& who) {
+  const auto* const policy = dynamic_cast<const Policy*>(&pilot);
+  if (policy == nullptr) return;
+  if (!policy->task().empty()) RequireSame("task", policy->task(), env.task, who);
+  const std::map<std::string, std::string>& made_with = policy->parameters()->environment;
+  for (const auto& [key, value] : PolicyEnvironment(env)) {
+    const auto found = made_with.find(key);
+    if (found != made_with.end()) RequireSame(key, found->second, value, who);
+  }
+  if (policy->controller() == nullptr) return;
+  CheckControllerMadeFor(env, *policy->controller(), who + "'s controller");
+}
+
+void CheckControllerMadeFor(const EnvConfig& env, const Pilot& controller, const std::string& who) {
+  EnvConfig below = env;
+  below.task = kControllersTask;
+  CheckMadeFor(below, controller, who);
+}
+
+}  // namespace skein

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "envs/env_config.h"
+#include "envs/pilot.h"
+
+namespace skein {
+
+/// What gives a policy's observations and actions their meaning, by configuration key less "env.",
+/// as text: what it cannot fly without. The task is not among them, nor is what may well differ
+/// from training: rates, conditions, targets, rewards.
+std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env);
+
+/// Throws Error that begins with `who` and names the first difference if `pilot` was made for
+/// another task or environment, or if a planner's controller was. What it does not say is not
+/// checked: untrained policies and older files say nothing, other pilots are made for what they
+/// fly.
+void CheckMadeFor(const EnvConfig& env, const Pilot& pilot, const std::string& who);
+
+/// The same of what flies for a planner in `env`.
+void CheckControllerMadeFor(const EnvConfig& env, const Pilot& controller, const std::string& who);
+
+}  // namespace skein
