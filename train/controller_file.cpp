@@ -1,6 +1,5 @@
 #include "train/controller_file.h"
 
-#include <cstdlib>
 #include <utility>
 
 #include "simd/error.h"
@@ -37,9 +36,12 @@ TensorFile FileOf(const Pilot& controller) {
 
 std::shared_ptr<const Pilot> AutopilotIn(const TensorFile& part, const std::string& path) {
   const auto interval = part.metadata.find(kIntervalKey);
+  // Of the environment that it flew in: whether another fits is for CheckMadeFor to say.
   EnvConfig env;
   env.control_interval_s =
-      interval == part.metadata.end() ? 0 : std::strtod(interval->second.c_str(), nullptr);
+      interval == part.metadata.end()
+          ? 0
+          : ToNumber(interval->second, path + ", its controller", kIntervalKey);
   if (!(env.control_interval_s > 0)) {
     throw Error(path + ", its controller: it does not say at which interval the autopilot flies");
   }

@@ -1,9 +1,7 @@
 #include "train/policy.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
 
 #include "simd/error.h"
 #include "train/controller_file.h"
@@ -30,13 +28,7 @@ std::string Metadata(const TensorFile& file, const std::string& path, const std:
 }
 
 double NumberIn(const TensorFile& file, const std::string& path, const std::string& key) {
-  const std::string text = Metadata(file, path, key);
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
-    throw Error(path + ": \"" + key + "\" is \"" + text + "\", which is no number");
-  }
-  return value;
+  return ToNumber(Metadata(file, path, key), path, key);
 }
 
 int WholeNumberIn(const TensorFile& file, const std::string& path, const std::string& key, int min,

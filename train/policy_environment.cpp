@@ -4,6 +4,7 @@
 
 #include "envs/tasks/task.h"
 #include "simd/error.h"
+#include "train/autopilot_controller.h"
 #include "train/policy_parameters.h"
 
 namespace skein {
@@ -22,6 +23,17 @@ void RequireSame(const std::string& key, const std::string& made_with, const std
   if (made_with == value) return;
   throw Error(who + " was made with env." + key + " = " + made_with + ", but is to fly with env." +
               key + " = " + value);
+}
+
+void CheckAutopilot(const EnvConfig& env, const AutopilotController& autopilot,
+                    const std::string& who) {
+  RequireSame("control_interval_s", Text(autopilot.control_interval_s()),
+              Text(env.control_interval_s), who);
+  try {
+    AutopilotController(autopilot.variant(), env);
+  } catch (const Error& error) {
+    throw Error(who + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -44,6 +56,10 @@ std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
 }
 
 void CheckMadeFor(const EnvConfig& env, const Pilot& pilot, const std::string& who) {
+  if (const auto* const autopilot = dynamic_cast<const AutopilotController*>(&pilot)) {
+    CheckAutopilot(env, *autopilot, who);
+    return;
+  }
   const auto* const policy = dynamic_cast<const Policy*>(&pilot);
   if (policy == nullptr) return;
   if (!policy->task().empty()) RequireSame("task", policy->task(), env.task, who);

@@ -15,8 +15,8 @@ std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env);
 
 /// Throws Error that begins with `who` and names the first difference if `pilot` was made for
 /// another task or environment, or if a planner's controller was. What it does not say is not
-/// checked: untrained policies and older files say nothing, other pilots are made for what they
-/// fly.
+/// checked: untrained policies and older files say nothing. An autopilot is asked for its gains;
+/// pilots of other kinds are made for what they fly.
 void CheckMadeFor(const EnvConfig& env, const Pilot& pilot, const std::string& who);
 
 /// The same of what flies for a planner in `env`.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <string>
@@ -30,6 +32,17 @@ inline std::string ExactText(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.17g", value);
   return text;
+}
+
+/// `text`, what metadata `key` holds, as a finite number; throws Error, naming `path`, if it is
+/// none.
+inline double ToNumber(const std::string& text, const std::string& path, const std::string& key) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
+    throw Error(path + ": \"" + key + "\" is \"" + text + "\", which is no number");
+  }
+  return value;
 }
 
 /// Puts all of `from` into `to`, with `prefix` before the names.

@@ -105,6 +105,12 @@ TEST_F(ControllerFileTest, AnAutopilotIsHeldByItsName) {
   file.metadata["controller.autopilot"] = "drunken";
   file.Write(path_);
   EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("drunken"));
+  file.metadata["controller.autopilot"] = "parallel";
+  for (const char* interval : {"0.02abc", "", "nan", "-0.02", "0"}) {
+    file.metadata["controller.control_interval_s"] = interval;
+    file.Write(path_);
+    EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("its controller")) << interval;
+  }
   EXPECT_THROW(AutopilotController("", {}), Error);
 }
 

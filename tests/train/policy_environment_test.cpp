@@ -8,6 +8,7 @@
 #include "simd/error.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/planner_config.h"
+#include "train/autopilot_controller.h"
 #include "train/evaluate.h"
 #include "train/tensor_file.h"
 #include "train/trainer.h"
@@ -115,6 +116,21 @@ TEST_F(PolicyEnvironmentTest, SoDoTheControllersOfPlanners) {
   training.controller = std::make_shared<const Policy>(Trained(SmallConfig()));
   EXPECT_THAT(MessageOf([&] { Trained(training); }),
               StartsWith("the controller was made with env.task = heading"));
+}
+
+TEST_F(PolicyEnvironmentTest, AnAutopilotFromAFileFliesOnlyWhatItHasGainsFor) {
+  const TrainConfig config = SmallPlannerConfig();
+  Policy::Untrained(config.network, 22, 3, 3, /*action_repeat=*/10,
+                    std::make_shared<const AutopilotController>("parallel", config.env))
+      .Save(path_);
+  const Policy planner = Policy::Load(path_);
+  EXPECT_EQ(ErrorOf(planner, config.env, [](EnvConfig&) {}), "");
+  for (const auto& [key, change] : kChangesOfMeaning) {
+    if (std::string(key) == "task") continue;
+    const std::string error = ErrorOf(planner, config.env, change);
+    EXPECT_THAT(error, StartsWith("the policy's controller"));
+    EXPECT_THAT(error, HasSubstr("env." + std::string(key) + " = "));
+  }
 }
 
 TEST_F(PolicyEnvironmentTest, WhatAFileDoesNotSayIsNotChecked) {
