@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <new>
 #include <string>
 
@@ -261,8 +262,12 @@ struct VecEnv::Impl {
       }
       FlightMetricSums& metrics = MetricSums(block);
       if (output.flight_metrics != nullptr) {
-        metrics.Report(i, block.step[i], config.control_interval_s,
-                       output.flight_metrics + i * kNumFlightMetrics);
+        float* const row = output.flight_metrics + i * kNumFlightMetrics;
+        metrics.Report(i, block.step[i], config.control_interval_s, row);
+        // Not every column that is not finite shows in them, nor is every infinity NaN.
+        if (scratch.termination[i] == static_cast<std::int32_t>(Termination::kNonFinite)) {
+          std::fill_n(row, kNumFlightMetrics, std::numeric_limits<float>::quiet_NaN());
+        }
       }
       metrics.Begin(i);
       BeginEpisode(block, i, block.episode[i] + 1);

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "envs/aircraft/f16/f16.h"
@@ -205,6 +208,46 @@ TEST(FlightMetricsOfEnvironmentTest, DependNeitherOnTilesNorDoTheyChangeAnything
     EXPECT_EQ(wide.returns[i], without.returns[i]) << i;
   }
   EXPECT_NE(narrow.metrics[0], narrow.metrics[1]);
+}
+
+/// Of the first decision of two aircraft, the first of which began it with `value` in `column`.
+std::vector<Metrics> FlyPoisoned(int column, float value) {
+  EnvConfig config = ShortFlights();
+  config.action_repeat = config.time_limit_steps;
+  VecEnv env(config, 2, 7);
+  std::vector<std::uint32_t> snapshot = env.Snapshot();
+  std::memcpy(&snapshot[column], &value, sizeof value);
+  env.Restore(snapshot);
+  std::vector<float> action(8, 0.0f), reward(2), episode_return(2), metrics(2 * kNumFlightMetrics);
+  std::vector<std::uint8_t> termination(2);
+  std::vector<std::int32_t> steps(2);
+  StepOutput output;
+  output.reward = reward.data();
+  output.termination = termination.data();
+  output.episode_return = episode_return.data();
+  output.episode_steps = steps.data();
+  output.flight_metrics = metrics.data();
+  env.Step(0, action.data(), output);
+  EXPECT_EQ(termination[0], static_cast<std::uint8_t>(Termination::kNonFinite)) << column;
+  EXPECT_EQ(termination[1], static_cast<std::uint8_t>(Termination::kUnreachTarget)) << column;
+  return {{metrics.begin(), metrics.begin() + kNumFlightMetrics},
+          {metrics.begin() + kNumFlightMetrics, metrics.end()}};
+}
+
+TEST(FlightMetricsOfEnvironmentTest, EpisodesThatAreNotFiniteHaveNone) {
+  constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  // No metric is made of the first four; the infinity makes an infinite altitude margin.
+  for (const auto& [column, value] : {std::pair<int, float>(kNorth, kNotANumber),
+                                      {kNorth, kInfinity},
+                                      {kFlapFilter, kNotANumber},
+                                      {kYawWashout, kInfinity},
+                                      {kDown, -kInfinity},
+                                      {kP, kNotANumber}}) {
+    const std::vector<Metrics> flown = FlyPoisoned(column, value);
+    for (const float metric : flown[0]) EXPECT_TRUE(std::isnan(metric)) << column;
+    for (const float metric : flown[1]) EXPECT_TRUE(std::isfinite(metric)) << column;
+  }
 }
 
 TEST(FlightMetricsOfEnvironmentTest, EpisodesBegunAmidTheirClockHaveNone) {
