@@ -1,7 +1,11 @@
 #include "envs/aircraft/derivative_aircraft_file.h"
 
+#include <cmath>
+#include <limits>
+#include <locale>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "envs/aircraft/engine.h"
@@ -11,6 +15,17 @@ namespace skein {
 namespace {
 
 using nlohmann::json;
+
+/// The sharpest stall whose blend, exponentials of it times angles up to 2.5 rad, stays finite.
+constexpr double kSharpestStall = 250;
+constexpr double kQuarterTurn_rad = 1.5707963267948966;
+
+std::string Text(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
 
 /// An object of the file, whose every key must be read once Finish is called; "source" and "about"
 /// are for the human reader.
@@ -24,6 +39,22 @@ class Section {
 
   void Read(const char* key, double* value) { *value = ToNumber(At(key), path_ + "." + key); }
 
+  /// A number above `low` and below `high`.
+  void ReadBetween(double low, double high, const char* key, double* value) {
+    Read(key, value);
+    if (*value > low && *value < high) return;
+    Refuse(key, *value,
+           "above " + Text(low) + (std::isinf(high) ? "" : " and below " + Text(high)));
+  }
+
+  void ReadPositive(const char* key, double* value) {
+    ReadBetween(0, std::numeric_limits<double>::infinity(), key, value);
+  }
+
+  [[noreturn]] void Refuse(const char* key, double value, const std::string& rule) const {
+    throw Error(path_ + "." + key + " is " + Text(value) + ", but must be " + rule);
+  }
+
   void Read(const char* key, FirstOrder* law) {
     ReadList(key, "b1, b0, a0 of (b1 s + b0) / (s + a0)", {&law->b1, &law->b0, &law->a0});
   }
@@ -31,12 +62,14 @@ class Section {
   void Read(const char* key, Ramp* ramp) {
     ReadList(key, "x_low, y_low, x_high, y_high",
              {&ramp->x_low, &ramp->y_low, &ramp->x_high, &ramp->y_high});
+    if (ramp->x_low < ramp->x_high) return;
+    Refuse(key, ramp->x_high, "above its x_low, " + Text(ramp->x_low));
   }
 
   void Read(const char* key, Actuator* actuator) {
     Section section = Below(key);
-    section.Read("bandwidth_per_s", &actuator->bandwidth_per_s);
-    section.Read("rate_limit_deg_per_s", &actuator->rate_limit_deg_per_s);
+    section.ReadPositive("bandwidth_per_s", &actuator->bandwidth_per_s);
+    section.ReadPositive("rate_limit_deg_per_s", &actuator->rate_limit_deg_per_s);
     section.Read("min_deg", &actuator->min_deg);
     section.Read("max_deg", &actuator->max_deg);
     section.Finish();
@@ -100,16 +133,20 @@ PowerLag ConstantLag(double rate_per_s) {
 }
 
 void ReadAirframe(Section section, DerivativeAircraft* aircraft) {
-  section.Read("mass_kg", &aircraft->mass_kg);
-  section.Read("Ixx_kg_m2", &aircraft->Ixx_kg_m2);
-  section.Read("Iyy_kg_m2", &aircraft->Iyy_kg_m2);
-  section.Read("Izz_kg_m2", &aircraft->Izz_kg_m2);
+  section.ReadPositive("mass_kg", &aircraft->mass_kg);
+  section.ReadPositive("Ixx_kg_m2", &aircraft->Ixx_kg_m2);
+  section.ReadPositive("Iyy_kg_m2", &aircraft->Iyy_kg_m2);
+  section.ReadPositive("Izz_kg_m2", &aircraft->Izz_kg_m2);
   section.Read("Ixz_kg_m2", &aircraft->Ixz_kg_m2);
-  section.Read("wing_area_m2", &aircraft->wing_area_m2);
-  section.Read("span_m", &aircraft->span_m);
-  section.Read("chord_m", &aircraft->chord_m);
+  section.ReadPositive("wing_area_m2", &aircraft->wing_area_m2);
+  section.ReadPositive("span_m", &aircraft->span_m);
+  section.ReadPositive("chord_m", &aircraft->chord_m);
   section.Read("cg_chord_fraction", &aircraft->cg_chord_fraction);
   section.Finish();
+  if (aircraft->Ixz_kg_m2 * aircraft->Ixz_kg_m2 >= aircraft->Ixx_kg_m2 * aircraft->Izz_kg_m2) {
+    section.Refuse("Ixz_kg_m2", aircraft->Ixz_kg_m2,
+                   "smaller: its square below the product of Ixx_kg_m2 and Izz_kg_m2");
+  }
 }
 
 void ReadLongitudinal(Section section, LongitudinalDerivatives* k) {
@@ -124,9 +161,9 @@ void ReadLongitudinal(Section section, LongitudinalDerivatives* k) {
   section.Read("Cm_alpha", &k->Cm_alpha);
   section.Read("Cm_q", &k->Cm_q);
   section.Read("Cm_elevator", &k->Cm_elevator);
-  section.Read("oswald_efficiency", &k->oswald_efficiency);
-  section.Read("stall_alpha_rad", &k->stall_alpha_rad);
-  section.Read("stall_sharpness", &k->stall_sharpness);
+  section.ReadPositive("oswald_efficiency", &k->oswald_efficiency);
+  section.ReadBetween(0, kQuarterTurn_rad, "stall_alpha_rad", &k->stall_alpha_rad);
+  section.ReadBetween(0, kSharpestStall, "stall_sharpness", &k->stall_sharpness);
   section.Finish();
 }
 
@@ -151,33 +188,50 @@ void ReadLateral(Section section, LateralDerivatives* k) {
 
 void ReadPropulsion(Section section, DerivativeAircraft* aircraft) {
   Propeller& propeller = aircraft->propeller;
-  section.Read("diameter_m", &propeller.diameter_m);
+  section.ReadPositive("diameter_m", &propeller.diameter_m);
   section.Read("CT_0", &propeller.CT_0);
   section.Read("CT_1", &propeller.CT_1);
   section.Read("CT_2", &propeller.CT_2);
-  section.Read("CQ_0", &propeller.CQ_0);
+  section.ReadPositive("CQ_0", &propeller.CQ_0);
   section.Read("CQ_1", &propeller.CQ_1);
   section.Read("CQ_2", &propeller.CQ_2);
-  section.Read("speed_constant_rpm_per_V", &propeller.speed_constant_rpm_per_V);
-  section.Read("resistance_ohm", &propeller.resistance_ohm);
+  section.ReadPositive("speed_constant_rpm_per_V", &propeller.speed_constant_rpm_per_V);
+  section.ReadPositive("resistance_ohm", &propeller.resistance_ohm);
   section.Read("no_load_current_A", &propeller.no_load_current_A);
-  section.Read("max_voltage_V", &propeller.max_voltage_V);
+  section.ReadPositive("max_voltage_V", &propeller.max_voltage_V);
 
   Section levels = section.Below("motor_throttle");
-  levels.Read("idle", &aircraft->propeller_levels.idle);
-  levels.Read("military", &aircraft->propeller_levels.military);
-  levels.Read("maximum", &aircraft->propeller_levels.maximum);
+  PropellerLevels& level = aircraft->propeller_levels;
+  levels.Read("idle", &level.idle);
+  levels.Read("military", &level.military);
+  levels.Read("maximum", &level.maximum);
   levels.Finish();
+  if (!(level.idle >= 0)) levels.Refuse("idle", level.idle, "zero or more");
+  if (!(level.military > level.idle)) levels.Refuse("military", level.military, "above idle");
+  if (!(level.maximum > level.military)) {
+    levels.Refuse("maximum", level.maximum, "above military");
+  }
+  if (!(level.maximum <= 1)) levels.Refuse("maximum", level.maximum, "at most 1");
+  // The motor's speed is the root of a quadratic, which there must be.
+  const EngineTables tables = TabulatePropeller(propeller, level);
+  for (const auto* thrusts : {&tables.idle_lbf, &tables.military_lbf, &tables.maximum_lbf}) {
+    for (const double thrust : *thrusts) {
+      if (!std::isfinite(thrust)) {
+        section.Refuse("CQ_2", propeller.CQ_2,
+                       "smaller: at no speed would the motor turn the propeller");
+      }
+    }
+  }
 
   Section gearing = section.Below("throttle_gearing");
   double knee_throttle = 0, knee_power = 0;
-  gearing.Read("knee_throttle", &knee_throttle);
-  gearing.Read("knee_power", &knee_power);
+  gearing.ReadBetween(0, 1, "knee_throttle", &knee_throttle);
+  gearing.ReadBetween(0, kMaximumPower, "knee_power", &knee_power);
   gearing.Finish();
   aircraft->throttle_gearing = GearingThrough(knee_throttle, knee_power);
 
   double rate_per_s = 0;
-  section.Read("power_rate_per_s", &rate_per_s);
+  section.ReadPositive("power_rate_per_s", &rate_per_s);
   aircraft->power_lag = ConstantLag(rate_per_s);
   section.Read("untrimmed_thrust_N", &aircraft->untrimmed_thrust_N);
   section.Finish();
@@ -187,9 +241,9 @@ void ReadFlightControl(Section section, FlightControlGains* g) {
   section.Read("alpha_min_deg", &g->alpha_min_deg);
   section.Read("alpha_max_deg", &g->alpha_max_deg);
   section.Read("alpha_filter", &g->alpha_filter);
-  section.Read("pitch_gain_pressure_psf", &g->pitch_gain_pressure_psf);
-  section.Read("roll_gain_pressure_psf", &g->roll_gain_pressure_psf);
-  section.Read("yaw_gain_pressure_psf", &g->yaw_gain_pressure_psf);
+  section.ReadPositive("pitch_gain_pressure_psf", &g->pitch_gain_pressure_psf);
+  section.ReadPositive("roll_gain_pressure_psf", &g->roll_gain_pressure_psf);
+  section.ReadPositive("yaw_gain_pressure_psf", &g->yaw_gain_pressure_psf);
   section.Read("max_load_factor_command", &g->max_load_factor_command);
   section.Read("max_load_factor_reduction", &g->max_load_factor_reduction);
   section.Read("min_load_factor_relative_reduction", &g->min_load_factor_relative_reduction);
@@ -240,9 +294,9 @@ void ReadFlightControl(Section section, FlightControlGains* g) {
 }
 
 void ReadUnits(Section section, DerivativeAircraft* aircraft) {
-  section.Read("altitude_error_m", &aircraft->altitude_error_unit_m);
-  section.Read("altitude_m", &aircraft->altitude_unit_m);
-  section.Read("speed_m_s", &aircraft->speed_unit_m_s);
+  section.ReadPositive("altitude_error_m", &aircraft->altitude_error_unit_m);
+  section.ReadPositive("altitude_m", &aircraft->altitude_unit_m);
+  section.ReadPositive("speed_m_s", &aircraft->speed_unit_m_s);
   section.Finish();
 }
 

@@ -19,7 +19,7 @@ struct AircraftFile {
 const std::vector<AircraftFile>& AircraftFiles();
 
 /// Reads the text of such a file. Throws Error that names the aircraft and the key of what is
-/// missing, unknown or not a number.
+/// missing, unknown, not a number, or one that cannot be flown with, such as a mass of zero.
 DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_view text);
 
 }  // namespace skein

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+#include <vector>
+
 #include "simd/error.h"
 
 namespace skein {
@@ -58,6 +62,77 @@ TEST(DerivativeAircraftFile, ErrorsNameTheAircraftAndTheKey) {
       "(b1 s + b0) / (s + a0)");
   EXPECT_EQ(ErrorOf(Changed("\"min_deg\": -25.0", "\"min_deg\": 0")),
             "aircraft glider.actuators.elevator must have min_deg below zero and max_deg above");
+}
+
+/// The aerosonde's file with another value of `key`.
+std::string With(const std::string& key, const std::string& value) {
+  std::string text = Aerosonde();
+  const std::string name = "\"" + key + "\": ";
+  const std::size_t begin = text.find(name) + name.size();
+  EXPECT_GE(begin, name.size()) << key;
+  const std::size_t end =
+      text[begin] == '[' ? text.find(']', begin) + 1 : text.find_first_of(",}\n", begin);
+  return text.replace(begin, end - begin, value);
+}
+
+TEST(DerivativeAircraftFile, WhatCannotBeFlownWithIsRefused) {
+  const std::pair<const char*, std::vector<const char*>> refused[] = {
+      {"mass_kg", {"0", "-1"}},
+      {"Iyy_kg_m2", {"0"}},
+      {"Ixz_kg_m2", {"1.21", "-1.21"}},
+      {"wing_area_m2", {"0"}},
+      {"span_m", {"0"}},
+      {"chord_m", {"0", "-0.1"}},
+      {"oswald_efficiency", {"0"}},
+      {"stall_alpha_rad", {"0", "2"}},
+      {"stall_sharpness", {"0", "1000"}},
+      {"CQ_0", {"0", "-0.005"}},
+      {"CQ_2", {"3"}},
+      {"speed_constant_rpm_per_V", {"0"}},
+      {"resistance_ohm", {"0"}},
+      {"idle", {"-0.1", "0.72", "0.8"}},
+      {"military", {"0.3", "0.2", "1", "1.5"}},
+      {"maximum", {"0.72", "0.5", "1.1"}},
+      {"knee_throttle", {"0", "1", "-0.1", "1.1"}},
+      {"knee_power", {"0", "100", "-1", "101"}},
+      {"power_rate_per_s", {"0"}},
+      {"bandwidth_per_s", {"0"}},
+      {"pitch_gain_pressure_psf", {"0"}},
+      {"pedal_fade", {"[15, 1, 15, 0]", "[25, 1, 15, 0]"}},
+      {"speed_m_s", {"0"}},
+  };
+  for (const auto& [key, values] : refused) {
+    for (const char* value : values) {
+      const std::string error = ErrorOf(With(key, value));
+      EXPECT_THAT(error, HasSubstr("aircraft glider.")) << key << " " << value;
+      EXPECT_THAT(error, HasSubstr(", but must be ")) << key << " " << value;
+      EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    }
+  }
+  EXPECT_EQ(ErrorOf(With("knee_throttle", "1")),
+            "aircraft glider.propulsion.throttle_gearing.knee_throttle is 1, but must be above 0 "
+            "and below 1");
+  EXPECT_EQ(ErrorOf(With("mass_kg", "0")),
+            "aircraft glider.airframe.mass_kg is 0, but must be above 0");
+}
+
+TEST(DerivativeAircraftFile, WhatIsReadIsFinite) {
+  // At and near the ends of what is read.
+  const std::pair<const char*, const char*> read[] = {
+      {"stall_sharpness", "249"}, {"stall_alpha_rad", "1.57"}, {"idle", "0"},
+      {"knee_throttle", "1e-3"},  {"knee_power", "99.9"},      {"mass_kg", "0.01"},
+  };
+  for (const auto& [key, value] : read) {
+    const Aircraft aircraft = MakeAircraft(ReadDerivativeAircraft("glider", With(key, value)));
+    for (const auto* table : {&aircraft.aerodynamics.Cx, &aircraft.aerodynamics.Cz,
+                              &aircraft.engine.idle_lbf, &aircraft.engine.maximum_lbf}) {
+      for (const double entry : *table) ASSERT_TRUE(std::isfinite(entry)) << key;
+    }
+    EXPECT_NEAR(
+        aircraft.throttle_gearing.afterburner_gain + aircraft.throttle_gearing.afterburner_offset,
+        100, 1e-9)
+        << key;
+  }
 }
 
 }  // namespace
