@@ -61,6 +61,7 @@ Activation ActivationIn(const TensorFile& file, const std::string& path) {
 /// The network beside what it was made from.
 struct Policy::Actor {
   std::shared_ptr<const Parameters> parameters;
+  std::shared_ptr<const Pilot> controller;  ///< that of the parameters, on the same backend
   BackendChoice backend;
   std::unique_ptr<RecurrentNetwork> network;
 };
@@ -134,9 +135,18 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
   return parameters;
 }
 
+std::shared_ptr<const Pilot> OnBackend(std::shared_ptr<const Pilot> pilot, Backend backend) {
+  const auto* const policy = dynamic_cast<const Policy*>(pilot.get());
+  if (policy == nullptr) return pilot;
+  const BackendChoice chosen = ChooseBackend(backend, policy->parameters()->shape);
+  if (chosen.backend == policy->backend().backend) return pilot;
+  return std::make_shared<const Policy>(policy->WithBackend(backend));
+}
+
 Policy::Policy(const std::shared_ptr<const Parameters>& parameters, Backend backend) {
   auto actor = std::make_shared<Actor>();
   actor->parameters = parameters;
+  actor->controller = OnBackend(parameters->controller, backend);
   actor->backend = ChooseBackend(backend, parameters->shape);
   actor->network = MakeNetwork(actor->backend.backend, NetworkLayout(parameters->shape));
   actor->network->SetParameters(parameters->values.data());
@@ -175,9 +185,7 @@ int Policy::action_size() const { return actor_->parameters->shape.output_size; 
 int Policy::state_size() const { return actor_->parameters->shape.state_size(); }
 int Policy::action_repeat() const { return actor_->parameters->action_repeat; }
 const std::string& Policy::task() const { return actor_->parameters->task; }
-const std::shared_ptr<const Pilot>& Policy::controller() const {
-  return actor_->parameters->controller;
-}
+const std::shared_ptr<const Pilot>& Policy::controller() const { return actor_->controller; }
 const std::shared_ptr<const Policy::Parameters>& Policy::parameters() const {
   return actor_->parameters;
 }

@@ -26,7 +26,7 @@ class Policy final : public Pilot {
   static Policy Untrained(const NetworkConfig& config, int observation_size, int action_size,
                           std::uint64_t seed, int action_repeat = 1,
                           std::shared_ptr<const Pilot> controller = nullptr);
-  /// The same actor, computed by another backend.
+  /// The same actor, computed by another backend, and the controller that it plans for.
   Policy WithBackend(Backend backend) const;
   /// Writes the actor, and the controller that it plans for, atomically.
   void Save(const std::string& path) const;

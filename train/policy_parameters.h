@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "train/backend.h"
 #include "train/network.h"
 #include "train/policy.h"
 #include "train/tensor_file.h"
@@ -22,6 +23,9 @@ struct Policy::Parameters {
   std::shared_ptr<const Pilot> controller;  ///< of a planner, else null
   std::vector<float> values;                ///< the actor's flat parameters
 };
+
+/// `pilot`, which may be null, computed by `backend` if it is a policy.
+std::shared_ptr<const Pilot> OnBackend(std::shared_ptr<const Pilot> pilot, Backend backend);
 
 /// Writes the actor's description and parameters into `file`, one tensor "actor/<name>" per slice,
 /// and its controller (train/controller_file.h).

@@ -56,7 +56,7 @@ struct Trainer::Impl {
       : config(Validated(training)),
         pool(workers),
         env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile,
-            config.controller),
+            OnBackend(config.controller, config.learner.backend)),
         actor_layout(ActorShape(config.network, env.observation_size(), env.action_size())),
         critic_layout(CriticShape(config.network, env.observation_size())),
         actor(InitialParameters(actor_layout, config.network.actor_head_scale,

@@ -173,6 +173,22 @@ TEST_F(PlannerTrainingTest, DependsOnWhoFlies) {
   EXPECT_NE(one.Signature(), two.Signature());
 }
 
+TEST_F(PlannerTrainingTest, ComputesTheControllerAsItLearnsWhateverComputedItBefore) {
+  WorkerPool pool(2);
+  for (const Backend learner : {Backend::kFused, Backend::kLibTorch}) {
+    std::vector<std::uint64_t> signatures;
+    for (const Backend before : {Backend::kFused, Backend::kLibTorch}) {
+      TrainConfig config = SmallPlannerConfig();
+      config.learner.backend = learner;
+      config.controller = std::make_shared<const Policy>(SmallController()->WithBackend(before));
+      Trainer trainer(config, pool);
+      trainer.Iterate();
+      signatures.push_back(trainer.Signature());
+    }
+    EXPECT_EQ(signatures[0], signatures[1]) << Name(learner);
+  }
+}
+
 TEST_F(PlannerTrainingTest, GoesOnBitForBitAfterRestoring) {
   WorkerPool pool(2);
   Trainer whole(SmallPlannerConfig(), pool);

@@ -83,6 +83,21 @@ TEST_F(PolicyTest, BackendsDecideAlike) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
 }
 
+TEST_F(PolicyTest, AControllerIsComputedAsItsPlannerIs) {
+  const auto fused =
+      std::make_shared<const Policy>(Policy::Untrained(SmallConfig().network, 22, 4, 3));
+  const Policy planner = Policy::Untrained(SmallConfig().network, 22, 3, 3, 10, fused);
+  EXPECT_EQ(planner.controller(), fused);
+  for (const Backend backend : {Backend::kLibTorch, Backend::kFused}) {
+    const Policy computed = planner.WithBackend(backend);
+    const auto controller = std::dynamic_pointer_cast<const Policy>(computed.controller());
+    ASSERT_NE(controller, nullptr);
+    EXPECT_EQ(controller->backend().backend, backend);
+    const std::vector<float> a = Decide(*fused, 9), b = Decide(*controller, 9);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
+  }
+}
+
 TEST_F(PolicyTest, ACheckpointIsAPolicyToo) {
   WorkerPool pool(1);
   Trainer trainer(SmallConfig(), pool);
