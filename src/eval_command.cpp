@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "simd/error.h"
 #include "src/commands.h"
@@ -26,14 +27,16 @@ struct EvalOptions {
 };
 
 /// What the policy was made for: the run's own configuration if it is given as a run, else the
-/// preset's.
-ProgramConfig BaseConfig(const EvalOptions& options) {
+/// preset's, of `policys_task` if no other is asked for.
+ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_task) {
   const FlightOptions& flight = options.flight;
   if (!IsRunDirectory(options.policy) || flight.preset_option->count() > 0) {
-    if (flight.task.empty()) {
-      throw Error("--task is needed to evaluate a policy that is not given as a run");
+    const std::string& task = flight.task.empty() ? policys_task : flight.task;
+    if (task.empty()) {
+      throw Error(
+          fmt::format("--task is needed: --policy {} does not say its own", options.policy));
     }
-    return ResolveConfig({flight.task, flight.preset, "", {}});
+    return ResolveConfig({task, flight.preset, "", {}});
   }
   ProgramConfig config;
   ApplyTomlFile(options.policy + "/config.toml", &config);
@@ -53,8 +56,10 @@ void Evaluate(const EvalOptions& options) {
   if (path != kUntrained && !options.controller.empty()) {
     throw Error("--controller is for --policy untrained: a trained planner brings its own");
   }
-  ProgramConfig config = BaseConfig(options);
-  if (path != kUntrained) config.train.env.action_repeat = Policy::Load(path).action_repeat();
+  std::optional<Policy> trained;
+  if (path != kUntrained) trained = Policy::Load(path);
+  ProgramConfig config = BaseConfig(options, trained ? trained->task() : "");
+  if (trained) config.train.env.action_repeat = trained->action_repeat();
   ApplyOverrides(flight, &config);
   std::shared_ptr<const Pilot> controller;
   if (!options.controller.empty()) {
@@ -94,8 +99,8 @@ void AddEvalCommand(CLI::App* app) {
       ->type_name("FILE_OR_RUN")
       ->required();
   FlightOptionTexts texts;
-  texts.task =
-      fmt::format("what to fly: {} (default: the run's task)", fmt::join(PresetTasks(), ", "));
+  texts.task = fmt::format("what to fly: {} (default: the task of the run or of the policy file)",
+                           fmt::join(PresetTasks(), ", "));
   texts.preset =
       "environment settings to begin with (default: the run's own; for a policy file, default)";
   texts.json = "write the results here";

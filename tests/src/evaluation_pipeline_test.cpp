@@ -111,7 +111,7 @@ TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.error, HasSubstr(arguments[2]));
   }
-  const ProgramResult no_task = CallSkein({"eval", "--policy", file});
+  const ProgramResult no_task = CallSkein({"eval", "--policy", "untrained"});
   EXPECT_EQ(no_task.exit_code, 1);
   EXPECT_THAT(no_task.error, HasSubstr("--task"));
 }

@@ -129,8 +129,13 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   const ProgramResult other = CallSkein({"eval", "--policy", run_, "--task", "heading"});
   EXPECT_EQ(other.exit_code, 1);
   ExpectOneLine(other.error, "env.task = control, but --task is heading");
-  // Nor as a file, though the sizes fit; nor another aircraft, nor below a planner of one.
+  // A file knows its task.
   const std::string policy = run_ + "/checkpoints/policy-final.skein";
+  const ProgramResult alone = CallSkein({"eval", "--policy", policy, "--episodes", "32"});
+  EXPECT_EQ(alone.exit_code, 0) << alone.error;
+  EXPECT_THAT(alone.output, HasSubstr("on control, 32 episodes"));
+  // It flies no other task, though the sizes fit, no other aircraft, and below no planner of
+  // another control interval.
   const ProgramResult file = CallSkein({"eval", "--policy", policy, "--task", "heading"});
   EXPECT_EQ(file.exit_code, 1);
   ExpectOneLine(file.error, "env.task = control, but is to fly with env.task = heading");
@@ -238,6 +243,9 @@ TEST_F(TrainingPipeline, ControllersThatDoNotFitAreNamed) {
   const ProgramResult trained = CallSkein(PlannerTraining(run_, old));
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
   EXPECT_THAT(trained.output, HasSubstr("it does not say its task"));
+  const ProgramResult unsaid = CallSkein({"eval", "--policy", old});
+  EXPECT_EQ(unsaid.exit_code, 1);
+  ExpectOneLine(unsaid.error, "--task is needed: --policy " + old);
   const ProgramResult other = CallSkein({"train", "--resume", run_, "--controller", heading});
   EXPECT_EQ(other.exit_code, 1);
   ExpectOneLine(other.error, "task heading");
