@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -46,8 +47,9 @@ ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_
 std::string Rates(const Policy& policy, const EnvConfig& env) {
   const std::string own = fmt::format("an action every {} control steps", env.action_repeat);
   if (policy.controller() == nullptr) return own;
+  // It decides with every decision of the planner's, too.
   return fmt::format("{} for a controller with one every {}", own,
-                     policy.controller()->action_repeat());
+                     std::min(env.action_repeat, policy.controller()->action_repeat()));
 }
 
 void Evaluate(const EvalOptions& options) {

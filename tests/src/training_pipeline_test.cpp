@@ -200,6 +200,13 @@ TEST_F(TrainingPipeline, APlannerTrainsOverAControlPolicyAndFliesByItself) {
   ASSERT_EQ(flown.exit_code, 0) << flown.error;
   EXPECT_THAT(flown.output, HasSubstr("an action every 10 control steps for a controller with one "
                                       "every 5"));
+  // A controller decides at the start of each of the planner's decisions, too.
+  const ProgramResult faster = CallSkein(
+      {"eval", "--policy", run_ + "/checkpoints/policy-final.skein", "--task", "tracking",
+       "--episodes", "32", "--set", "env.time_limit_steps=100", "--set", "env.action_repeat=2"});
+  ASSERT_EQ(faster.exit_code, 0) << faster.error;
+  EXPECT_THAT(faster.output,
+              HasSubstr("an action every 2 control steps for a controller with one every 2;"));
   EXPECT_THAT(ReadFile(flights), HasSubstr(",error_north_ft,error_east_ft,error_altitude_ft"));
   EXPECT_THAT(ReadFile(flights), HasSubstr(",action_target_pitch,"));
 }
