@@ -64,8 +64,8 @@ Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
 }  // namespace
 
 const char* const kAgentForms =
-    "autopilot[:aggressive|:traditional|:parallel|:public], policy:FILE_OR_RUN[@sampled], "
-    "random[:SECONDS], idle";
+    "autopilot[:aggressive|:traditional|:parallel|:public] (alone: aggressive; as a --controller: "
+    "parallel), policy:FILE_OR_RUN[@sampled], random[:SECONDS], idle";
 
 std::string PolicyFileOfAgent(const std::string& name) {
   if (KindOf(name) != kPolicy) return "";

@@ -16,7 +16,7 @@ extern const char* const kAgentForms;
 
 /// The agent called `name` for the environment of `config`:
 ///   policy:FILE_OR_RUN   a trained policy with its mean action ("@sampled" behind: as drawn)
-///   autopilot            the traditional autopilot, aggressive
+///   autopilot            the traditional autopilot, aggressive (as a --controller: parallel)
 ///   autopilot:VARIANT    or of another AutopilotVariant
 ///   random, random:S     uniform commands, drawn anew every second, or every S seconds
 ///   idle                 every command zero

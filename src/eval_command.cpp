@@ -112,8 +112,9 @@ void AddEvalCommand(CLI::App* app) {
   AddFlightOptions(command, texts, &options->flight);
   command
       ->add_option("--controller", options->controller,
-                   "with --policy untrained: the policy of task control, or autopilot[:VARIANT], "
-                   "that flies what the planner asks for; without it the sticks are flown")
+                   "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
+                   "(alone: parallel, though aggressive among --agents), that flies what the "
+                   "planner asks for; without it the sticks are flown")
       ->type_name("RUN_OR_POLICY");
   command->add_flag("--deterministic", options->deterministic,
                     "report the mean action first (default: sampled actions; both are flown)");

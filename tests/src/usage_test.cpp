@@ -45,6 +45,11 @@ TEST(Usage, EveryCommandHasHelp) {
   }
 }
 
+TEST(Usage, HelpSaysWhatAutopilotAloneMeans) {
+  EXPECT_THAT(CallSkein({"compare", "--help"}).output, HasSubstr("alone: aggressive"));
+  EXPECT_THAT(CallSkein({"eval", "--help"}).output, HasSubstr("alone: parallel"));
+}
+
 TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {},
