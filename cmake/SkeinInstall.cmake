@@ -9,6 +9,7 @@ if(SKEIN_BUILD_TRAIN)
   list(APPEND skein_targets skein_train)
   list(APPEND skein_rooms train)
   install(TARGETS skein RUNTIME)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/policies DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
 endif()
 
 install(TARGETS ${skein_targets} EXPORT skein)

@@ -1,0 +1,42 @@
+// Flies the policies of policies/ as a user does who has just cloned the repository.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "src/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+
+namespace skein {
+namespace {
+
+constexpr int kEpisodes = 300;
+
+struct ShippedPolicy {
+  const char* task;
+  double least_success;  ///< below what policies/README.md says, by what 300 episodes may be off
+};
+
+class ShippedPolicies : public ::testing::TestWithParam<ShippedPolicy> {};
+
+TEST_P(ShippedPolicies, ReachTheirTargets) {
+  const ScratchDirectory scratch;
+  const std::string task = GetParam().task, json = scratch / "table.json";
+  const std::string policy = std::string(SKEIN_SOURCE) + "/policies/" + task + ".skein";
+  const ProgramResult result =
+      CallSkein({"compare", "--task", task, "--agents", "policy:" + policy + ",random",
+                 "--episodes", std::to_string(kEpisodes), "--seed", "5", "--json", json});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const auto agents = nlohmann::json::parse(ReadFile(json))["agents"];
+  EXPECT_GE(agents[0]["success_rate"].get<double>(), GetParam().least_success);
+  EXPECT_LE(agents[1]["success_rate"].get<double>(), 0.05) << "chance";
+}
+
+INSTANTIATE_TEST_SUITE_P(Tasks, ShippedPolicies,
+                         ::testing::Values(ShippedPolicy{"heading", 0.97},
+                                           ShippedPolicy{"control", 0.97},
+                                           ShippedPolicy{"tracking", 0.92}),
+                         [](const auto& test) { return std::string(test.param.task); });
+
+}  // namespace
+}  // namespace skein
