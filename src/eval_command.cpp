@@ -45,7 +45,7 @@ ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_
 }
 
 std::string Rates(const Policy& policy, const EnvConfig& env) {
-  const std::string own = fmt::format("an action every {} control steps", env.action_repeat);
+  std::string own = fmt::format("an action every {} control steps", env.action_repeat);
   if (policy.controller() == nullptr) return own;
   // It decides with every decision of the planner's, too.
   return fmt::format("{} for a controller with one every {}", own,

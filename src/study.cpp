@@ -210,7 +210,7 @@ Study ReadStudy(const std::string& path) {
     throw Error(fmt::format("{}:{}: not valid TOML: {}", path, error.source().begin.line,
                             error.description()));
   }
-  const Study study = ReadTable(table, path);
+  Study study = ReadTable(table, path);
   RefuseEmptyAndTwice(study.tasks, path, "tasks");
   RefuseEmptyAndTwice(study.seeds, path, "seeds");
   if (!study.agents.empty()) RefuseEmptyAndTwice(study.agents, path, "agents");

@@ -91,7 +91,7 @@ Json Identity(const std::vector<AgentInStudy>& agents, const Study& study,
 /// The comparison in the file `path` if it is there, whole, and of this identity; else null.
 Json KnownComparison(const std::string& path, const Json& identity) {
   if (!fs::exists(path)) return nullptr;
-  const Json document = Json::parse(ReadFile(path), nullptr, false);
+  Json document = Json::parse(ReadFile(path), nullptr, false);
   if (!document.is_object() || document.value("identity", Json()) != identity) return nullptr;
   return document;
 }
