@@ -155,7 +155,7 @@ void AddTrainCommand(CLI::App* app) {
   command
       ->add_option("--controller", options->controller,
                    "for task tracking: the policy of task control that flies what the planner asks "
-                   "for (a file, or a run's best), or autopilot[:VARIANT]")
+                   "for (a file, or a run's best), or autopilot[:VARIANT] (alone: parallel)")
       ->type_name("RUN_OR_POLICY");
   CLI::Option* out = command
                          ->add_option("--out", options->out,
