@@ -10,6 +10,7 @@
 #include "simd/target.h"
 #include "src/commands.h"
 #include "src/configuration.h"
+#include "src/controller_option.h"
 #include "src/machine.h"
 #include "src/output_file.h"
 #include "src/progress.h"
@@ -27,15 +28,30 @@ struct BenchOptions {
   int steps = 30;
   int threads = 0;
   int iterations = 3;
+  std::string task = "heading";
   std::string preset = "default";
+  std::string controller;
   std::vector<std::string> assignments;
   std::string json;
 };
 
 TrainConfig BenchConfig(const BenchOptions& options) {
-  const ProgramConfig config = ResolveConfig({"heading", options.preset, "", options.assignments});
+  const ProgramConfig config =
+      ResolveConfig({options.task, options.preset, "", options.assignments});
   CheckConsistent(config);
   return config.train;
+}
+
+/// With the controller that a planner needs.
+TrainConfig LearnerBenchConfig(const BenchOptions& options) {
+  TrainConfig config = BenchConfig(options);
+  config.controller = ChooseController(config.env, options.controller).pilot;
+  return config;
+}
+
+/// What Environment::Step is of a rollout: a planner's has the controller in it.
+const char* NameSimulator(const TrainConfig& config) {
+  return config.controller == nullptr ? "the simulator" : "the simulator and the controller";
 }
 
 /// A fixed training of a few seconds: every part of an iteration takes part, at a size that says
@@ -186,7 +202,7 @@ Json Compare(const std::vector<LearnerRates>& learners, const Comparison& compar
 
 void BenchRollout(const BenchOptions& options) {
   WorkerPool pool(options.threads);
-  const TrainConfig config = BenchConfig(options);
+  const TrainConfig config = LearnerBenchConfig(options);
   const std::vector<LearnerRates> learners =
       MeasureLearners(LearnersOf(config), options.iterations, pool);
   fmt::print("rollout: {} aircraft, {} threads; {}\n", config.ppo.num_aircraft, pool.threads(),
@@ -194,8 +210,8 @@ void BenchRollout(const BenchOptions& options) {
   Json results = Compare(learners, {"decisions", &LearnerRates::rollout_decisions_per_s,
                                     &LearnerRates::rollout_flops_per_decision});
   const double control_steps = learners[0].rollout_decisions_per_s * config.env.action_repeat;
-  fmt::print("  {} control steps/s with the first; the simulator takes {:.0f} % of its time\n",
-             FormatCount(control_steps), 100 * learners[0].simulator_share);
+  fmt::print("  {} control steps/s with the first; {} takes {:.0f} % of its time\n",
+             FormatCount(control_steps), NameSimulator(config), 100 * learners[0].simulator_share);
   results["control_steps_per_s"] = control_steps;
   results["simulator_share"] = learners[0].simulator_share;
   Report(options, pool.threads(), results);
@@ -203,7 +219,7 @@ void BenchRollout(const BenchOptions& options) {
 
 void BenchUpdate(const BenchOptions& options) {
   WorkerPool pool(options.threads);
-  const TrainConfig config = BenchConfig(options);
+  const TrainConfig config = LearnerBenchConfig(options);
   const std::vector<LearnerRates> learners =
       MeasureLearners(LearnersOf(config), options.iterations, pool);
   fmt::print("update: {} threads; {}\n", pool.threads(), Describe(learners[0].backend));
@@ -220,7 +236,7 @@ double PeakMemoryGb() {
 
 void BenchIteration(const BenchOptions& options) {
   WorkerPool pool(options.threads);
-  const TrainConfig config = BenchConfig(options);
+  const TrainConfig config = LearnerBenchConfig(options);
   const LearnerRates rates = MeasureLearners({config}, options.iterations, pool)[0];
   const double steps = static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps *
                        config.env.action_repeat;
@@ -229,14 +245,15 @@ void BenchIteration(const BenchOptions& options) {
   fmt::print(
       "iteration: {} aircraft x {} decisions, {} epochs, {} threads; {}\n"
       "  {:.2f} s an iteration, {} control steps/s\n"
-      "  rollout {} decisions/s (the simulator {:.0f} % of it), gradients {} samples/s\n"
+      "  rollout {} decisions/s ({} {:.0f} % of it), gradients {} samples/s\n"
       "  these two alone would take {:.1f} % of the time; {:.2f} GB of memory at most\n"
       "  {} control steps would take {:.2f} h\n",
       config.ppo.num_aircraft, config.ppo.rollout_steps, config.ppo.epochs, pool.threads(),
       Describe(rates.backend), rates.iteration_s, FormatCount(steps_per_s),
-      FormatCount(rates.rollout_decisions_per_s), 100 * rates.simulator_share,
-      FormatCount(rates.gradient_samples_per_s), 100 * rates.efficiency, PeakMemoryGb(),
-      FormatCount(static_cast<double>(config.total_steps)), hours);
+      FormatCount(rates.rollout_decisions_per_s), NameSimulator(config),
+      100 * rates.simulator_share, FormatCount(rates.gradient_samples_per_s),
+      100 * rates.efficiency, PeakMemoryGb(), FormatCount(static_cast<double>(config.total_steps)),
+      hours);
   Report(options, pool.threads(),
          {{"backend", Name(rates.backend.backend)},
           {"precision", Name(rates.backend.precision)},
@@ -271,7 +288,7 @@ CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& 
 }
 
 void AddConfiguration(CLI::App* command, const std::shared_ptr<BenchOptions>& options) {
-  command->add_option("--preset", options->preset, "preset of task heading")->capture_default_str();
+  command->add_option("--preset", options->preset, "preset of the task")->capture_default_str();
   command->add_option("--set", options->assignments, "one configuration key; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -284,6 +301,11 @@ CLI::App* AddLearner(CLI::App* bench, const std::string& name, const std::string
   command->add_option("--iterations", options->iterations, "iterations timed; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command->add_option("--task", options->task, "what is flown")->capture_default_str();
+  command
+      ->add_option("--controller", options->controller,
+                   "for task tracking: what flies for the planner, as in skein train")
+      ->type_name("RUN_OR_POLICY");
   AddConfiguration(command, options);
   return command;
 }
@@ -326,7 +348,9 @@ void AddBenchCommand(CLI::App* app) {
       ->footer(
           "How much of an iteration rollout and gradients take: the rest is optimiser, advantages\n"
           "and what else lies between.\n"
-          "Example: skein bench iteration --preset paper --set ppo.rollout_steps=96");
+          "Examples:\n"
+          "  skein bench iteration --preset paper --set ppo.rollout_steps=96\n"
+          "  skein bench iteration --task tracking --controller policies/control.skein");
   AddBench(bench, "signature", "One hash of a fixed short training", options, BenchSignature)
       ->footer(
           "The same for any number of threads on one SIMD target: a change of the hash is a change "

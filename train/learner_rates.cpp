@@ -8,6 +8,7 @@
 #include "envs/vec_env.h"
 #include "simd/peak.h"
 #include "train/network.h"
+#include "train/policy.h"
 #include "train/trainer.h"
 
 namespace skein {
@@ -17,6 +18,16 @@ double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// Of the products of a planner's controller until the planner decides again; 0 without one, or
+/// for one that computes no networks.
+double ControllerFlopsPerDecision(const TrainConfig& config) {
+  const auto* policy = dynamic_cast<const Policy*>(config.controller.get());
+  if (policy == nullptr) return 0;
+  const double decisions = static_cast<double>(config.env.action_repeat) / policy->action_repeat();
+  return decisions * ForwardFlops(ActorShape(policy->config(), policy->observation_size(),
+                                             policy->action_size()));
 }
 
 /// One configuration in training, and its seconds by iteration.
@@ -60,7 +71,8 @@ struct Runner {
     rates.rollout_decisions_per_s = decisions / Median(rollout);
     rates.simulator_share = Median(simulator);
     rates.rollout_flops_per_decision =
-        forward_flops + config.env.action_repeat * config.env.substeps * kFlopsPerRk4Step;
+        forward_flops + ControllerFlopsPerDecision(config) +
+        config.env.action_repeat * config.env.substeps * kFlopsPerRk4Step;
     rates.update_samples_per_s = samples / Median(update);
     rates.gradient_samples_per_s = samples / Median(gradient);
     // Backward is two products for each one forward.

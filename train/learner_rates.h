@@ -12,8 +12,9 @@ namespace skein {
 struct LearnerRates {
   BackendChoice backend;               ///< what computed the networks
   double rollout_decisions_per_s = 0;  ///< simulator in the loop
-  double simulator_share = 0;          ///< of the rollout's time
-  /// Of the networks' products and of the RK4 steps until the next decision.
+  double simulator_share = 0;          ///< of the rollout's time, with a planner's controller
+  /// Of the networks' products, a controller's among them, and of the RK4 steps until the next
+  /// decision.
   double rollout_flops_per_decision = 0;
   double update_samples_per_s = 0;     ///< through forward, loss, backward and optimiser
   double gradient_samples_per_s = 0;   ///< through forward, loss and backward alone

@@ -230,15 +230,29 @@ TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
 TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
   const ScratchDirectory scratch;
   const std::string path = scratch / "result.json";
-  const ProgramResult result =
-      CallSkein({"bench", "iteration", "--iterations", "1", "--set", "ppo.num_aircraft=64", "--set",
-                 "ppo.rollout_steps=16", "--set", "ppo.minibatches=2", "--json", path});
-  EXPECT_EQ(result.exit_code, 0) << result.error;
-  const auto json = nlohmann::json::parse(ReadFile(path));
-  EXPECT_GT(json["efficiency"], 0);
-  EXPECT_LE(json["efficiency"], 1);
-  EXPECT_NEAR(json["budget_h"].get<double>() * 3600 * json["control_steps_per_s"].get<double>(),
-              json["budget_steps"].get<double>(), 1);
+  const std::vector<std::string> small = {
+      "bench", "iteration",           "--iterations", "1",
+      "--set", "ppo.num_aircraft=64", "--set",        "ppo.rollout_steps=16",
+      "--set", "ppo.minibatches=2",   "--json",       path};
+  const std::vector<std::string> planner = {"--task", "tracking", "--controller", "autopilot"};
+  for (const auto& task : {std::vector<std::string>{}, planner}) {
+    std::vector<std::string> arguments = small;
+    arguments.insert(arguments.end(), task.begin(), task.end());
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_EQ(result.output.find("the controller") != std::string::npos, !task.empty());
+    const auto json = nlohmann::json::parse(ReadFile(path));
+    EXPECT_GT(json["efficiency"], 0);
+    EXPECT_LE(json["efficiency"], 1);
+    EXPECT_NEAR(json["budget_h"].get<double>() * 3600 * json["control_steps_per_s"].get<double>(),
+                json["budget_steps"].get<double>(), 1);
+  }
+}
+
+TEST(Usage, BenchmarksOfPlannersNeedAController) {
+  const ProgramResult result = CallSkein({"bench", "rollout", "--task", "tracking"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.error.find("needs --controller"), std::string::npos) << result.error;
 }
 
 }  // namespace
