@@ -41,6 +41,10 @@ void RequireNotNegative(const std::string& key, double value) {
   Require(std::isfinite(value) && value >= 0, key, value, "zero or more");
 }
 
+void RequireShare(const std::string& key, double value) {
+  Require(value > 0 && value <= 1, key, value, "above 0 and at most 1");
+}
+
 void RequireFinite(const std::string& key, double value) {
   Require(std::isfinite(value), key, value, "a finite number");
 }
@@ -54,9 +58,17 @@ constexpr double kFastestWindFps = 500;
 
 }  // namespace
 
+const char* Name(TrackingAxes axes) {
+  for (const auto& [known, name] : kTrackingAxesNames) {
+    if (known == axes) return name;
+  }
+  throw Error("a configuration field holds a value without a name");
+}
+
 EnvConfig EvaluationConfig(const EnvConfig& config) {
   EnvConfig evaluated = config;
   evaluated.stagger_clocks = false;
+  evaluated.heading.training_tolerance_min = 1;
   evaluated.control.training_tolerance_min = 1;
   evaluated.tracking.training_tolerance_max = 1;
   return evaluated;
@@ -102,15 +114,14 @@ void Validate(const EnvConfig& config) {
       "no more than env.time_limit_steps, " + Text(config.time_limit_steps) +
           ": else no episode could succeed");
 
+  RequireShare("env.heading.training_tolerance_min", config.heading.training_tolerance_min);
   RequireNotNegative("env.control.pitch_change_rad", config.control.pitch_change_rad);
   RequireNotNegative("env.control.yaw_change_rad", config.control.yaw_change_rad);
   RequireNotNegative("env.control.speed_change_fps", config.control.speed_change_fps);
   RequirePositive("env.control.pitch_tolerance_deg", config.control.pitch_tolerance_deg);
   RequirePositive("env.control.yaw_tolerance_deg", config.control.yaw_tolerance_deg);
   RequirePositive("env.control.speed_tolerance_fps", config.control.speed_tolerance_fps);
-  Require(config.control.training_tolerance_min > 0 && config.control.training_tolerance_min <= 1,
-          "env.control.training_tolerance_min", config.control.training_tolerance_min,
-          "above 0 and at most 1");
+  RequireShare("env.control.training_tolerance_min", config.control.training_tolerance_min);
   RequireNotNegative("env.control.speed_error_weight", config.control.speed_error_weight);
 
   RequireRange("env.tracking.distance", "ft", config.tracking.distance_ft, 0, 1e6);

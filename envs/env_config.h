@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <utility>
 
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/flight_control_kernel.h"
@@ -42,6 +44,9 @@ struct HeadingConfig {
   double altitude_tolerance_ft = 100;
   double yaw_tolerance_deg = 5;
   double speed_tolerance_fps = 20;
+  /// In training an episode's tolerances are these times U(x, 1), which the agent does not see.
+  /// 1 is the paper's; with less it learns to come nearer than it must, and sooner.
+  double training_tolerance_min = 1;
   int earliest_success_step = 300;  ///< control steps
 };
 
@@ -72,8 +77,16 @@ struct ControlConfig {
 /// Axes in which Tracking shows where its target is.
 enum class TrackingAxes {
   kHeading,  ///< ahead, right and up of the aircraft's heading
-  kEarth,    ///< north, east and up, as in the paper: where the nose points is then not observed
+  /// Along the path over ground, right of it and above it, where right is level: as a satellite
+  /// receiver shows it. What drifts with the wind or flies nose up still flies along its path.
+  kPath,
+  kEarth,  ///< north, east and up, as in the paper: where the nose points is then not observed
 };
+inline constexpr std::array<std::pair<TrackingAxes, const char*>, 3> kTrackingAxesNames{
+    {{TrackingAxes::kHeading, "heading"},
+     {TrackingAxes::kPath, "path"},
+     {TrackingAxes::kEarth, "earth"}}};
+const char* Name(TrackingAxes axes);
 
 /// Targets of the Tracking task relative to the initial state, and when they count as reached.
 struct TrackingConfig {

@@ -35,7 +35,7 @@ bool EndsWith(const std::string& text, const std::string& end) {
 
 Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   const Policy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
-  CheckMadeFor(config.train.env, policy, "agent " + name);
+  CheckMadeFor(policy.EnvironmentFor(config.train.env), policy, "agent " + name);
   return EndsWith(name, kSampledSuffix) ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
 }
 
@@ -58,7 +58,9 @@ Agent RandomAgent(const std::string& name, double control_interval_s) {
 Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
   // The strongest stands for all: a comparison should not be won against less.
   const std::string variant = name == "autopilot" ? "aggressive" : ArgumentOf(name);
-  return Agent::Of(MakeAutopilot(env, AutopilotOf(variant)));
+  EnvConfig own = env;
+  own.tracking.error_axes = kAutopilotErrorAxes;
+  return Agent::Of(MakeAutopilot(own, AutopilotOf(variant)));
 }
 
 }  // namespace

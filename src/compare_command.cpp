@@ -26,10 +26,13 @@ struct CompareOptions {
 
 ProgramConfig Configure(const FlightOptions& flight) {
   ProgramConfig config = ResolveConfig({flight.task, flight.preset, "", {}});
-  const int action_repeat = config.train.env.action_repeat;
+  const EnvConfig preset = config.train.env;
   ApplyOverrides(flight, &config);
-  if (config.train.env.action_repeat != action_repeat) {
+  if (config.train.env.action_repeat != preset.action_repeat) {
     throw Error("env.action_repeat: agents that are compared act each at their own rate");
+  }
+  if (config.train.env.tracking.error_axes != preset.tracking.error_axes) {
+    throw Error("env.tracking.error_axes: agents that are compared see each in their own axes");
   }
   return config;
 }
@@ -79,10 +82,8 @@ void CompareAgents(const CompareOptions& options) {
   fmt::print("{}\n", ToText(comparison));
   if (flight.flights.empty()) return;
   for (const NamedAgent& named : agents) {
-    EnvConfig env = config.train.env;
-    env.action_repeat = named.agent.action_repeat();
     WriteFlights(flight, FlightsPath(flight.flights, named.name), "by " + named.name, named.agent,
-                 env, pool);
+                 named.agent.EnvironmentFor(config.train.env), pool);
   }
 }
 

@@ -36,19 +36,19 @@ PairedDifferences Differences(const std::vector<Episode>& first, const std::vect
 
 Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& config, int episodes,
                    std::uint64_t seed, WorkerPool& pool) {
-  EnvConfig env = config.train.env;
+  const EnvConfig& episodes_env = config.train.env;
   Comparison comparison;
-  comparison.task = env.task;
+  comparison.task = episodes_env.task;
   comparison.episodes = episodes;
   comparison.seed = seed;
-  comparison.control_interval_s = env.control_interval_s;
+  comparison.control_interval_s = episodes_env.control_interval_s;
   EvaluationOptions options;
   options.episodes = episodes;
   options.seed = seed;
   options.flight_metrics = true;
   std::vector<Episode> first;
   for (const NamedAgent& named : agents) {
-    env.action_repeat = named.agent.action_repeat();
+    const EnvConfig env = named.agent.EnvironmentFor(episodes_env);
     const FlownEpisodes flown = FlyEpisodes(named.agent, env, options, pool);
     if (pool.stopping()) return comparison;
     ComparedAgent compared{named.name,

@@ -61,7 +61,7 @@ void Evaluate(const EvalOptions& options) {
   std::optional<Policy> trained;
   if (path != kUntrained) trained = Policy::Load(path);
   ProgramConfig config = BaseConfig(options, trained ? trained->task() : "");
-  if (trained) config.train.env.action_repeat = trained->action_repeat();
+  if (trained) config.train.env = trained->EnvironmentFor(config.train.env);
   ApplyOverrides(flight, &config);
   std::shared_ptr<const Pilot> controller;
   if (!options.controller.empty()) {

@@ -28,9 +28,6 @@ constexpr Names<AtmosphereModel, 2> kAtmosphereNames = {
 constexpr Names<FlightControlMode, 2> kFlightControlNames = {
     {{FlightControlMode::kFull, "full"}, {FlightControlMode::kDirect, "direct"}}};
 
-constexpr Names<TrackingAxes, 2> kTrackingAxesNames = {
-    {{TrackingAxes::kHeading, "heading"}, {TrackingAxes::kEarth, "earth"}}};
-
 const auto& NamesOf(AtmosphereModel) { return kAtmosphereNames; }
 const auto& NamesOf(FlightControlMode) { return kFlightControlNames; }
 const auto& NamesOf(TrackingAxes) { return kTrackingAxesNames; }
@@ -200,6 +197,10 @@ std::vector<Setting> MakeSettings() {
       {"env.heading.speed_tolerance_fps",
        [](C& c) -> F { return &c.train.env.heading.speed_tolerance_fps; }, positive,
        "speed error that counts as reached"},
+      {"env.heading.training_tolerance_min",
+       [](C& c) -> F { return &c.train.env.heading.training_tolerance_min; },
+       {0, 1, true},
+       "in training an episode's tolerances are these times U(x, 1); evaluations take them whole"},
       {"env.heading.earliest_success_step",
        [](C& c) -> F { return &c.train.env.heading.earliest_success_step; }, count_or_none,
        "control step before which nothing counts as reached"},
@@ -261,7 +262,9 @@ std::vector<Setting> MakeSettings() {
        "it "
        "is"},
       {"env.tracking.error_axes", [](C& c) -> F { return &c.train.env.tracking.error_axes; }, name,
-       "what the errors are: ahead, right and up of the heading, or north, east and up"},
+       "what the errors are: ahead, right and up of the heading; along, right of and above the "
+       "path "
+       "over ground; or north, east and up"},
 
       {"env.planner.pitch_change_rad",
        [](C& c) -> F { return &c.train.env.planner.pitch_change_rad; },

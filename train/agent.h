@@ -25,8 +25,8 @@ class Agent {
   /// Every command zero: sticks centred, throttle in the middle.
   static Agent Idle();
 
-  /// Control steps for which it means an action to be held.
-  int action_repeat() const { return pilot_->action_repeat(); }
+  /// As of Pilot::EnvironmentFor.
+  EnvConfig EnvironmentFor(const EnvConfig& env) const { return pilot_->EnvironmentFor(env); }
   int state_size() const { return pilot_->state_size(); }
   /// What flies when it is a planner; null if it flies itself.
   std::shared_ptr<const Pilot> controller() const;

@@ -5,6 +5,7 @@
 
 #include "simd/error.h"
 #include "train/controller_file.h"
+#include "train/policy_environment.h"
 #include "train/policy_parameters.h"
 #include "train/ppo_loss.h"
 #include "train/recurrent_network.h"
@@ -184,6 +185,11 @@ const BackendChoice& Policy::backend() const { return actor_->backend; }
 int Policy::action_size() const { return actor_->parameters->shape.output_size; }
 int Policy::state_size() const { return actor_->parameters->shape.state_size(); }
 int Policy::action_repeat() const { return actor_->parameters->action_repeat; }
+EnvConfig Policy::EnvironmentFor(const EnvConfig& env) const {
+  EnvConfig own = Pilot::EnvironmentFor(env);
+  AdoptErrorAxes(actor_->parameters->environment, &own);
+  return own;
+}
 const std::string& Policy::task() const { return actor_->parameters->task; }
 const std::shared_ptr<const Pilot>& Policy::controller() const { return actor_->controller; }
 const std::shared_ptr<const Policy::Parameters>& Policy::parameters() const {

@@ -36,7 +36,8 @@ class Policy final : public Pilot {
   int action_size() const override;
   const BackendChoice& backend() const;  ///< what computes it
   int state_size() const override;
-  int action_repeat() const override;  ///< as it was trained
+  int action_repeat() const override;                             ///< as it was trained
+  EnvConfig EnvironmentFor(const EnvConfig& env) const override;  ///< as it was trained
   /// The task that it was trained for; empty if it was not, or by a version that did not say.
   const std::string& task() const;
   /// What flies when this is a planner; null if it flies itself.

@@ -11,6 +11,7 @@ namespace skein {
 namespace {
 
 constexpr const char* kControllersTask = "control";
+constexpr const char* kErrorAxes = "tracking.error_axes";
 
 /// The shortest text that is read back as the same double.
 std::string Text(double value) {
@@ -49,10 +50,17 @@ std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
   environment["planner.yaw_change_rad"] = Text(env.planner.yaw_change_rad);
   environment["planner.speed_change_fps"] = Text(env.planner.speed_change_fps);
   if (env.task == "tracking") {
-    environment["tracking.error_axes"] =
-        env.tracking.error_axes == TrackingAxes::kHeading ? "heading" : "earth";
+    environment[kErrorAxes] = Name(env.tracking.error_axes);
   }
   return environment;
+}
+
+void AdoptErrorAxes(const std::map<std::string, std::string>& made_with, EnvConfig* env) {
+  const auto found = made_with.find(kErrorAxes);
+  if (found == made_with.end()) return;
+  for (const auto& [axes, name] : kTrackingAxesNames) {
+    if (found->second == name) env->tracking.error_axes = axes;
+  }
 }
 
 void CheckMadeFor(const EnvConfig& env, const Pilot& pilot, const std::string& who) {

@@ -25,7 +25,7 @@ std::string Text(double value) { return ExactText(value); }
 std::string Text(AtmosphereModel model) {
   return model == AtmosphereModel::kStevensLewis ? "stevens_lewis" : "standard_1976";
 }
-std::string Text(TrackingAxes axes) { return axes == TrackingAxes::kHeading ? "heading" : "earth"; }
+std::string Text(TrackingAxes axes) { return Name(axes); }
 std::string Text(Activation activation) { return Name(activation); }
 std::string Text(Backend backend) { return Name(backend); }
 std::string Text(LearnerPrecision precision) { return Name(precision); }
@@ -77,6 +77,7 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("heading.altitude_tolerance_ft", env.heading.altitude_tolerance_ft);
     add("heading.yaw_tolerance_deg", env.heading.yaw_tolerance_deg);
     add("heading.speed_tolerance_fps", env.heading.speed_tolerance_fps);
+    add("heading.training_tolerance_min", env.heading.training_tolerance_min);
     add("heading.earliest_success_step", env.heading.earliest_success_step);
   } else if (env.task == "control") {
     add("control.pitch_change_rad", env.control.pitch_change_rad);

@@ -134,10 +134,9 @@ const Registration& AutopilotFor(const std::string& task) {
 }
 
 void CheckErrorAxes(const EnvConfig& config) {
-  if (config.task == "tracking" && config.tracking.error_axes != TrackingAxes::kHeading) {
-    throw Error(
-        "the autopilot flies with env.tracking.error_axes = \"heading\": it does not observe which "
-        "way north is");
+  if (config.task == "tracking" && config.tracking.error_axes != kAutopilotErrorAxes) {
+    throw Error(std::string("the autopilot flies with env.tracking.error_axes = \"") +
+                Name(kAutopilotErrorAxes) + '"');
   }
 }
 
@@ -150,6 +149,11 @@ class Autopilot : public Pilot {
   int action_size() const override { return kActionSize; }
   int state_size() const override { return law_.state_size; }
   int action_repeat() const override { return 1; }
+  EnvConfig EnvironmentFor(const EnvConfig& env) const override {
+    EnvConfig own = Pilot::EnvironmentFor(env);
+    own.tracking.error_axes = kAutopilotErrorAxes;
+    return own;
+  }
 
   void Fly(int count, const float* observation, float* state, float* action) const override {
     const simd::DenormalsFlushed flushed;

@@ -8,6 +8,9 @@
 
 namespace skein {
 
+/// In which it is shown Tracking's target.
+inline constexpr TrackingAxes kAutopilotErrorAxes = TrackingAxes::kHeading;
+
 /// The traditional autopilot of an environment's aircraft: TECS and L1 every `outer_interval_s`
 /// over dual-loop PID in every control step (ArduPilot's structure; docs/autopilot.md).
 /// `config.task` chooses what it flies: "heading", "control" or "tracking". It sees what any agent

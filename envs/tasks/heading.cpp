@@ -66,9 +66,11 @@ void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config, const Ref
                    hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));
     hn::StoreU(hn::Neg(hn::Sqrt(squares)), d, verdict.reward + first);
 
-    const auto close = hn::And(hn::Lt(hn::Abs(error.altitude), altitude_tolerance),
-                               hn::And(hn::Lt(hn::Abs(error.yaw), yaw_tolerance),
-                                       hn::Lt(hn::Abs(error.speed), speed_tolerance)));
+    const FlightVector share = Column(task, kTargetTolerance, first);
+    const auto close =
+        hn::And(hn::Lt(hn::Abs(error.altitude), hn::Mul(share, altitude_tolerance)),
+                hn::And(hn::Lt(hn::Abs(error.yaw), hn::Mul(share, yaw_tolerance)),
+                        hn::Lt(hn::Abs(error.speed), hn::Mul(share, speed_tolerance))));
     const auto early = hn::Gt(earliest, hn::LoadU(di, steps_before + first));
     const auto reached =
         hn::AndNot(hn::VecFromMask(di, early), hn::VecFromMask(di, hn::RebindMask(di, close)));
@@ -94,7 +96,7 @@ class HeadingTask : public Task {
       : config_(config), units_(units) {}
 
   int num_columns() const override { return kNumHeadingColumns; }
-  int num_targets() const override { return kNumHeadingColumns; }
+  int num_targets() const override { return kTargetSpeed + 1; }
   std::vector<TargetQuantity> target_quantities() const override {
     return {{"altitude_ft"}, {"yaw_deg", true}, {"true_airspeed_fps"}};
   }
@@ -110,6 +112,8 @@ class HeadingTask : public Task {
     task[kTargetYaw][index] = static_cast<float>(std::remainder(yaw, 2 * M_PI));
     task[kTargetSpeed][index] =
         static_cast<float>(around(start.true_airspeed_ft_s, config_.speed_change_fps));
+    task[kTargetTolerance][index] =
+        static_cast<float>(random->Uniform(config_.training_tolerance_min, 1));
   }
 
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {

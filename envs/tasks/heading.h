@@ -6,13 +6,21 @@
 
 namespace skein {
 
-/// Task columns: altitude ft, yaw rad in [-pi, pi], true airspeed ft/s.
-enum HeadingColumn : int { kTargetAltitude, kTargetYaw, kTargetSpeed, kNumHeadingColumns };
+/// Task columns: altitude ft, yaw rad in [-pi, pi], true airspeed ft/s; the episode's tolerances as
+/// a share of the configured ones.
+enum HeadingColumn : int {
+  kTargetAltitude,
+  kTargetYaw,
+  kTargetSpeed,
+  kTargetTolerance,
+  kNumHeadingColumns
+};
 
 /// Turn to a given heading, altitude and true airspeed (NeuralPlane paper, Heading). Errors are
 /// target minus actual: altitude / units.altitude_error_ft, yaw rad in [-pi, pi], speed /
 /// units.speed_ft_s, with the aircraft's ReferenceUnits (F-16: 1 km, 340 m/s). The reward of a step
-/// is minus their L2 norm.
+/// is minus their L2 norm. Reached within the tolerances, in training within the episode's share of
+/// them, at or after `HeadingConfig::earliest_success_step`.
 std::unique_ptr<Task> MakeHeadingTask(const EnvConfig& config);
 
 }  // namespace skein

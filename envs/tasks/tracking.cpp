@@ -64,12 +64,45 @@ HWY_INLINE void TurnIntoHeading(const Tile& flight, int first, FlightVector& nor
   east_or_right = hn::NegMulAdd(north, sine, hn::Mul(east, cosine));
 }
 
+/// Turns north, east and up into along, right of and above the path over ground. A path straight
+/// up or down, or none, has no course: north counts as it.
+HWY_INLINE void TurnIntoPath(const Tile& flight, int first, TrackingError& error) {
+  const auto get = [&](int column) HWY_ATTR { return Column(flight, column, first); };
+  const auto t = AttitudeMatrixOf(get(kQ0), get(kQx), get(kQy), get(kQz));
+  const FlightVector u = get(kU), v = get(kV), w = get(kW);
+  const auto component = [&](FlightVector of_u, FlightVector of_v, FlightVector of_w) HWY_ATTR {
+    return hn::MulAdd(of_u, u, hn::MulAdd(of_v, v, hn::Mul(of_w, w)));
+  };
+  const FlightVector north = component(t.t11, t.t21, t.t31);
+  const FlightVector east = component(t.t12, t.t22, t.t32);
+  const FlightVector down = component(t.t13, t.t23, t.t33);
+  const FlightVector level_squared = hn::MulAdd(north, north, hn::Mul(east, east));
+  FlightVector level, per_level, speed, per_speed;
+  Length(level_squared, level, per_level);
+  Length(hn::MulAdd(down, down, level_squared), speed, per_speed);
+  const auto has_course = hn::Gt(level_squared, Constant(1e-6));
+  const FlightVector course_cosine =
+      hn::IfThenElse(has_course, hn::Mul(north, per_level), Constant(1));
+  const FlightVector course_sine = hn::IfThenElseZero(has_course, hn::Mul(east, per_level));
+  const auto has_path = hn::Gt(speed, Constant(1e-3));
+  const FlightVector climb_cosine =
+      hn::IfThenElse(has_path, hn::Mul(level, per_speed), Constant(1));
+  const FlightVector climb_sine = hn::IfThenElseZero(has_path, hn::Neg(hn::Mul(down, per_speed)));
+
+  const FlightVector ahead =
+      hn::MulAdd(error.north, course_cosine, hn::Mul(error.east, course_sine));
+  error.east = hn::NegMulAdd(error.north, course_sine, hn::Mul(error.east, course_cosine));
+  error.north = hn::MulAdd(ahead, climb_cosine, hn::Mul(error.up, climb_sine));
+  error.up = hn::NegMulAdd(ahead, climb_sine, hn::Mul(error.up, climb_cosine));
+}
+
 void TrackingErrors(Tile flight, Tile task, TrackingAxes axes, double unit_ft, float* errors,
                     std::size_t error_stride) {
   const FlightTag d;
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     TrackingError error = ErrorOf(flight, task, first);
     if (axes == TrackingAxes::kHeading) TurnIntoHeading(flight, first, error.north, error.east);
+    if (axes == TrackingAxes::kPath) TurnIntoPath(flight, first, error);
     hn::StoreU(InUnits(error.north, unit_ft), d, errors + first);
     hn::StoreU(InUnits(error.east, unit_ft), d, errors + error_stride + first);
     hn::StoreU(InUnits(error.up, unit_ft), d, errors + 2 * error_stride + first);

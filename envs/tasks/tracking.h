@@ -20,9 +20,9 @@ enum TrackingColumn : int {
 };
 
 /// Fly to a point (NeuralPlane paper, Tracking). Errors are the target's position relative to the
-/// aircraft / units.altitude_error_ft, with its ReferenceUnits (F-16: 1 km): ahead, right and up of
-/// its heading, or north, east and up, as `TrackingConfig::error_axes` says. The reward of a step
-/// is minus their L2 norm, in either axes the distance. Reached when
+/// aircraft / units.altitude_error_ft, with its ReferenceUnits (F-16: 1 km): in
+/// the axes of `TrackingConfig::error_axes`. The reward of a step is minus their L2 norm, in all
+/// axes the distance. Reached when
 /// the straight path of a control step touches the box whose sides lie the episode's tolerance
 /// north, east, south, west, above and below of the target: `position_tolerance_ft`, or in training
 /// up to `training_tolerance_max` times as much.

@@ -93,6 +93,24 @@ TEST_F(PlannerPipeline, APlannerTrainsOverTheAutopilot) {
   ExpectOneLine(other.error, "keeps its controller");
 }
 
+TEST_F(PlannerPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
+  std::vector<std::string> in_earth = PlannerTraining(run_, "autopilot");
+  in_earth.insert(in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
+  ASSERT_EQ(CallSkein(in_earth).exit_code, 0);
+  ASSERT_EQ(CallSkein(PlannerTraining(reference_, "autopilot")).exit_code, 0);
+  const std::string agents = "policy:" + run_ + ",policy:" + reference_ + ",autopilot,random";
+  const std::vector<std::string> compare = {
+      "compare",    "--task", "tracking", "--agents", agents, "--set", "env.time_limit_steps=100",
+      "--episodes", "32"};
+  const ProgramResult compared = CallSkein(compare);
+  EXPECT_EQ(compared.exit_code, 0) << compared.error;
+  std::vector<std::string> all_in_earth = compare;
+  all_in_earth.insert(all_in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
+  const ProgramResult refused = CallSkein(all_in_earth);
+  EXPECT_EQ(refused.exit_code, 1);
+  ExpectOneLine(refused.error, "env.tracking.error_axes: agents that are compared");
+}
+
 TEST_F(PlannerPipeline, ControllersThatDoNotFitAreNamed) {
   const std::string heading = root_ + "/heading";
   ASSERT_EQ(CallSkein(TinyTraining(heading, {"--steps", "10240"})).exit_code, 0);

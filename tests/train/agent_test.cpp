@@ -32,7 +32,7 @@ TEST(AgentTest, IdleCommandsNothing) { EXPECT_EQ(Decide(Agent::Idle(), {}, 3), F
 
 TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndDecisionAlone) {
   const Agent agent = Agent::Random(50);
-  EXPECT_EQ(agent.action_repeat(), 50);
+  EXPECT_EQ(agent.EnvironmentFor({}).action_repeat, 50);
   constexpr int kCount = 20000;
   const Floats actions = Decide(agent, {1, 0, 0}, kCount);
   double sum = 0, squares = 0;
@@ -53,7 +53,7 @@ TEST(AgentTest, SampledActionsScatterAboutTheMean) {
   const Policy policy = SmallPolicy();
   const Floats mean = Decide(Agent::MeanOf(policy), {}, 1);
   const Agent sampling = Agent::SamplingFrom(policy);
-  EXPECT_EQ(sampling.action_repeat(), 5);
+  EXPECT_EQ(sampling.EnvironmentFor({}).action_repeat, 5);
   constexpr int kCount = 20000;
   const Floats actions = Decide(sampling, {1, 0, 0}, kCount);
   for (int k = 0; k < 4; ++k) {
@@ -88,7 +88,7 @@ TEST(AgentTest, AnyPilotCanBeFlown) {
     }
   };
   const Agent agent = Agent::Of(std::make_shared<CountingPilot>());
-  EXPECT_EQ(agent.action_repeat(), 10);
+  EXPECT_EQ(agent.EnvironmentFor({}).action_repeat, 10);
   EXPECT_EQ(agent.state_size(), 1);
   EXPECT_EQ(Decide(agent, {}, 2), Floats(8, 1.0f));
 }

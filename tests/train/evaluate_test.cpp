@@ -58,9 +58,7 @@ TEST(EvaluateTest, AllAgentsFlyTheSameEpisodes) {
   options.episodes = 150;
   options.seed = 8;
   const auto starts = [&](const Agent& agent) {
-    EnvConfig env = SmallConfig().env;
-    env.action_repeat = agent.action_repeat();
-    return FlyEpisodes(agent, env, options, pool).starts;
+    return FlyEpisodes(agent, agent.EnvironmentFor(SmallConfig().env), options, pool).starts;
   };
   const std::uint64_t first = starts(Agent::MeanOf(SmallPolicy()));
   EXPECT_EQ(starts(Agent::SamplingFrom(SmallPolicy())), first);

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "envs/autopilot/autopilot.h"
 #include "simd/error.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/planner_config.h"
@@ -148,6 +149,24 @@ TEST_F(PolicyEnvironmentTest, WhatAFileDoesNotSayIsNotChecked) {
       EXPECT_EQ(ErrorOf(policy, config.env, change), "") << key;
     }
   }
+}
+
+TEST_F(PolicyEnvironmentTest, AxesAndRateAreThePilotsOwn) {
+  TrainConfig config = SmallPlannerConfig();
+  config.env.tracking.error_axes = TrackingAxes::kPath;
+  const Policy policy = Trained(config);
+  EnvConfig episodes = config.env;
+  episodes.tracking.error_axes = TrackingAxes::kEarth;
+  episodes.tracking.azimuth_deg = 77;
+  episodes.action_repeat = 3;
+  const EnvConfig own = policy.EnvironmentFor(episodes);
+  EXPECT_EQ(own.tracking.error_axes, TrackingAxes::kPath);
+  EXPECT_EQ(own.action_repeat, config.env.action_repeat);
+  EXPECT_EQ(own.tracking.azimuth_deg, 77) << "the episodes are not";
+
+  const auto autopilot = MakeAutopilot(EnvConfig{}, AutopilotVariant::kTraditional);
+  EXPECT_EQ(autopilot->EnvironmentFor(episodes).tracking.error_axes, kAutopilotErrorAxes);
+  EXPECT_EQ(autopilot->EnvironmentFor(episodes).action_repeat, 1);
 }
 
 TEST_F(PolicyEnvironmentTest, CheckpointsSayItToo) {

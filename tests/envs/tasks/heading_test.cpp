@@ -23,7 +23,8 @@ class HeadingTest : public testing::TestWithParam<simd::Target> {
     const Eigen::Vector4d q = QuaternionFromEuler({roll, pitch, yaw});
     for (int k = 0; k < 4; ++k) flight_.at(kQ0 + k, i) = static_cast<float>(q[k]);
   }
-  void SetTarget(int i, double altitude_ft, double yaw, double speed_ft_s) {
+  void SetTarget(int i, double altitude_ft, double yaw, double speed_ft_s, double share = 1) {
+    targets_.at(kTargetTolerance, i) = static_cast<float>(share);
     targets_.at(kTargetAltitude, i) = static_cast<float>(altitude_ft);
     targets_.at(kTargetYaw, i) = static_cast<float>(yaw);
     targets_.at(kTargetSpeed, i) = static_cast<float>(speed_ft_s);
@@ -124,6 +125,49 @@ TEST_P(HeadingTest, IsReachedOnlyInsideAllTolerancesAndNotEarly) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(reached_[i], cases[i].reached ? 1 : 0) << "case " << i;
   }
+}
+
+TEST_P(HeadingTest, TolerancesAreTheEpisodesShare) {
+  struct Case {
+    double altitude_ft, yaw_deg, speed_ft_s;
+    bool reached;
+  };
+  const std::vector<Case> cases = {{49, 2.4, 9, true},   {-49, -2.4, -9, true}, {51, 0, 0, false},
+                                   {0, 2.6, 0, false},   {0, 0, 11, false},     {0, 0, -11, false},
+                                   {-51, 2.4, 9, false}, {0, -2.6, 0, false}};
+  for (int i = 0; i < static_cast<int>(cases.size()); ++i) {
+    const Case& c = cases[static_cast<std::size_t>(i)];
+    SetLevel(i, 0.5);
+    SetTarget(i, 20000 + c.altitude_ft, 0.5 + c.yaw_deg / kDegPerRad, 1000 + c.speed_ft_s, 0.5);
+  }
+  Judge();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_EQ(reached_[i], cases[i].reached ? 1 : 0) << "case " << i;
+  }
+}
+
+TEST_P(HeadingTest, SharesAreDrawnByEpisodeForTrainingAlone) {
+  config_.heading.training_tolerance_min = 0.2;
+  const std::unique_ptr<Task> training = MakeTask(config_);
+  const std::unique_ptr<Task> evaluation = MakeTask(EvaluationConfig(config_));
+  double least = 1, most = 0, mean = 0;
+  constexpr int kEpisodes = 2000;
+  for (std::uint32_t episode = 0; episode < kEpisodes; ++episode) {
+    const auto share_of = [this, episode](const Task& task) {
+      simd::RandomStream random({5, 0, episode, 0, simd::RandomPurpose::kTarget});
+      task.Reset({20000, 1100, 0, 1}, &random, targets_.tile(), 0);
+      return targets_.at(kTargetTolerance, 0);
+    };
+    EXPECT_EQ(share_of(*evaluation), 1);
+    const double share = share_of(*training);
+    least = std::min(least, share);
+    most = std::max(most, share);
+    mean += share / kEpisodes;
+  }
+  EXPECT_GE(least, 0.2);
+  EXPECT_LT(least, 0.21);
+  EXPECT_GT(most, 0.99);
+  EXPECT_NEAR(mean, 0.6, 0.02);
 }
 
 TEST_P(HeadingTest, TargetsAreDrawnAroundTheStart) {

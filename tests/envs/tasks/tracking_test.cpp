@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -104,6 +105,60 @@ TEST_P(TrackingTest, StraightUpNorthCountsAsTheHeading) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(errors[i], 2, kTolerance);
     EXPECT_NEAR(errors[flight_.stride() + i], -3, kTolerance);
+  }
+}
+
+TEST_P(TrackingTest, ErrorsInPathAxesAreAlongRightOfAndAboveThePathOverGround) {
+  // Whatever the attitude, with large angles of attack and sideslip between nose and path.
+  EnvConfig config = Config();
+  config.tracking.error_axes = TrackingAxes::kPath;
+  const std::unique_ptr<Task> path = MakeTask(config);
+  const Eigen::Vector3d position(1000, 2000, -20000), error(6, -1.5, 0.5);
+  for (int i = 0; i < kCount; ++i) {
+    const double course = std::remainder(0.37 * i, 2 * M_PI), climb = 0.08 * i - 1.4;
+    const Eigen::Vector3d along(std::cos(climb) * std::cos(course),
+                                std::cos(climb) * std::sin(course), -std::sin(climb));
+    const Eigen::Vector3d right(-std::sin(course), std::cos(course), 0);
+    const Eigen::Vector3d above = right.cross(along);
+    const EulerAngles attitude{0.5 * i, climb + 0.4, course - 0.3};
+    SetAttitude(i, attitude);
+    const Eigen::Vector3d velocity = BodyFromNed(QuaternionFromEuler(attitude)) * (1100 * along);
+    for (int k = 0; k < 3; ++k) flight_.at(kU + k, i) = static_cast<float>(velocity[k]);
+    SetPosition(i, {position[0], position[1], -position[2]});
+    const Eigen::Vector3d target =
+        position + kUnit * (error[0] * along + error[1] * right + error[2] * above);
+    SetTarget(i, {target[0], target[1], -target[2]});
+  }
+  std::vector<float> errors(kNumTaskErrors * flight_.stride());
+  path->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
+  for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(errors[k * flight_.stride() + i], error[static_cast<int>(k)], 2 * kTolerance)
+          << i << ", " << k;
+    }
+  }
+}
+
+TEST_P(TrackingTest, APathStraightUpCountsAsNorthboundAndNoPathAsLevel) {
+  EnvConfig config = Config();
+  config.tracking.error_axes = TrackingAxes::kPath;
+  const std::unique_ptr<Task> path = MakeTask(config);
+  // Level and northbound by attitude; up, down, at rest.
+  const float down[] = {-800, 800, 0};
+  const double expected[3][3] = {{5, -3, -2}, {-5, -3, 2}, {2, -3, 5}};
+  for (int i = 0; i < 3; ++i) {
+    SetAttitude(i, {0, 0, 0});
+    flight_.at(kU, i) = flight_.at(kV, i) = 0;
+    flight_.at(kW, i) = down[i];
+    SetPosition(i, {0, 0, 20000});
+    SetTarget(i, {2 * kUnit, -3 * kUnit, 20000 + 5 * kUnit});
+  }
+  std::vector<float> errors(kNumTaskErrors * flight_.stride());
+  path->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(errors[k * flight_.stride() + i], expected[i][k], kTolerance) << i << ", " << k;
+    }
   }
 }
 
