@@ -15,6 +15,7 @@
 #include "envs/worker_pool.h"
 #include "simd/error.h"
 #include "simd/random.h"
+#include "tests/envs/step_buffers.h"
 #include "tests/envs/test_pilot.h"
 #include "tests/envs/test_tile.h"
 
@@ -49,33 +50,12 @@ std::array<float, kPlannerActionSize> PlanOf(int aircraft, int decision) {
   return plan;
 }
 
-/// Buffers for one tile.
-struct Buffers {
-  Buffers(int count, int actions)
-      : observation(Index(count) * kSize),
-        final_observation(observation.size()),
-        action(Index(count) * Index(actions)),
-        reward(Index(count)),
-        episode_return(reward.size()),
-        termination(reward.size()),
-        episode_steps(reward.size()) {}
-
-  StepOutput output() {
-    return {reward.data(), termination.data(), episode_return.data(), episode_steps.data(),
-            final_observation.data()};
-  }
-
-  std::vector<float> observation, final_observation, action, reward, episode_return;
-  std::vector<std::uint8_t> termination;
-  std::vector<std::int32_t> episode_steps;
-};
-
 /// All that was seen and earned, aircraft by aircraft.
 using Log = std::vector<std::vector<float>>;
 
 void FlyTile(VecEnv* env, int tile, int first_decision, int decisions, Log* log) {
   const int count = env->tile_count(tile), begin = env->tile_begin(tile);
-  Buffers buffers(count, kPlannerActionSize);
+  StepBuffers buffers(count, kPlannerActionSize);
   for (int decision = first_decision; decision < first_decision + decisions; ++decision) {
     env->Observe(tile, buffers.observation.data());
     for (int i = 0; i < count; ++i) {
@@ -118,7 +98,7 @@ class TwoLoops {
     std::vector<double> reward(Index(count_));
     std::vector<std::array<double, 3>> targets;
     for (int i = 0; i < count_; ++i) targets.push_back(TargetOf(i, PlanOf(i, decision)));
-    Buffers buffers(count_, kActionSize), clean(count_, kActionSize);
+    StepBuffers buffers(count_, kActionSize), clean(count_, kActionSize);
     for (int step = 0; step < planned_.action_repeat; ++step) {
       if (step % pilot_.action_repeat() == 0) {
         env_.Observe(0, buffers.observation.data());
@@ -163,13 +143,21 @@ class TwoLoops {
     return clean;
   }
 
-  EulerAngles AttitudeOf(int i) const {
+  Eigen::Vector4d QuaternionOf(int i) const {
     Eigen::Vector4d q;
     for (int k = 0; k < 4; ++k) q[k] = env_.StateOf(i, kQ0 + k);
-    return EulerFromQuaternion(q);
+    return q;
   }
+  EulerAngles AttitudeOf(int i) const { return EulerFromQuaternion(QuaternionOf(i)); }
   double SpeedOf(int i) const {
-    return std::hypot(env_.StateOf(i, kU), env_.StateOf(i, kV), env_.StateOf(i, kW));
+    Eigen::Vector3d over_ground;
+    for (int k = 0; k < 3; ++k) over_ground[k] = env_.StateOf(i, kU + k);
+    return (over_ground - BodyFromNed(QuaternionOf(i)) * Wind()).norm();
+  }
+  /// North, east, down; it must have one speed and one direction.
+  Eigen::Vector3d Wind() const {
+    const double from = planned_.wind.from_deg.min / kDegPerRad;
+    return -planned_.wind.speed_fps.min * Eigen::Vector3d(std::cos(from), std::sin(from), 0);
   }
   std::array<double, 3> TargetOf(int i, const std::array<float, 3>& plan) const {
     const auto clipped = [&plan](int k) {
@@ -193,36 +181,52 @@ class TwoLoops {
   int ends_ = 0;
 };
 
-TEST(GuidedFlight, EqualsTwoPlainLoops) {
+/// Flies `config` both ways for ten decisions, in which every aircraft begins two new episodes.
+void ExpectTwoPlainLoops(const EnvConfig& config, int action_repeat) {
   // Errors in double against float32 in the hierarchy differ by 1e-7, which a few seconds of flight
   // and twenty decisions amplify; positions are of 2000 ft, rewards of twenty steps of 10 km.
   constexpr double kVelocityTolerance = 0.02, kRateTolerance = 2e-4, kPositionTolerance = 0.05;
   constexpr double kRewardTolerance = 1e-3;
   constexpr int kCount = 40, kDecisions = 10;
+  const TestPilot pilot(action_repeat);
+  VecEnv env(config, kCount, 3, 32, Controller(action_repeat));
+  TwoLoops expected(config, kCount, 3, pilot);
+  for (int decision = 0; decision < kDecisions; ++decision) {
+    const Log log = Fly(&env, decision, 1);
+    const std::vector<double> reward = expected.Decide(decision);
+    for (int i = 0; i < kCount; ++i) {
+      ASSERT_NEAR(log[Index(i)][kSize], reward[Index(i)], kRewardTolerance)
+          << "aircraft " << i << ", decision " << decision;
+      const auto near = [&](int column, double tolerance) {
+        ASSERT_NEAR(env.StateOf(i, column), expected.env().StateOf(i, column), tolerance)
+            << "aircraft " << i << ", decision " << decision << ", column " << column;
+      };
+      for (const int column : {kU, kV, kW}) near(column, kVelocityTolerance);
+      for (const int column : {kP, kQ, kR, kQ0, kQx, kQy, kQz}) near(column, kRateTolerance);
+      for (const int column : {kNorth, kEast, kDown}) near(column, kPositionTolerance);
+    }
+  }
+  EXPECT_EQ(expected.ends(), 2 * kCount) << "new episodes were begun";
+}
+
+TEST(GuidedFlight, EqualsTwoPlainLoops) {
   for (const double noise : {0.0, 0.02}) {
     for (const int action_repeat : {1, 4, 7}) {  // the last does not divide the decision
       EnvConfig config = Config();
       config.observation_noise = noise;
-      const TestPilot pilot(action_repeat);
-      VecEnv env(config, kCount, 3, 32, Controller(action_repeat));
-      TwoLoops expected(config, kCount, 3, pilot);
-      for (int decision = 0; decision < kDecisions; ++decision) {
-        const Log log = Fly(&env, decision, 1);
-        const std::vector<double> reward = expected.Decide(decision);
-        for (int i = 0; i < kCount; ++i) {
-          ASSERT_NEAR(log[Index(i)][kSize], reward[Index(i)], kRewardTolerance)
-              << "aircraft " << i << ", decision " << decision;
-          const auto near = [&](int column, double tolerance) {
-            ASSERT_NEAR(env.StateOf(i, column), expected.env().StateOf(i, column), tolerance)
-                << "aircraft " << i << ", decision " << decision << ", column " << column;
-          };
-          for (const int column : {kU, kV, kW}) near(column, kVelocityTolerance);
-          for (const int column : {kP, kQ, kR, kQ0, kQx, kQy, kQz}) near(column, kRateTolerance);
-          for (const int column : {kNorth, kEast, kDown}) near(column, kPositionTolerance);
-        }
-      }
-      EXPECT_EQ(expected.ends(), 2 * kCount) << "new episodes were begun";
+      ExpectTwoPlainLoops(config, action_repeat);
     }
+  }
+}
+
+TEST(GuidedFlight, EqualsTwoPlainLoopsInWind) {
+  // Target speeds are relative to the air.
+  EnvConfig config = Config();
+  config.wind.speed_fps = {80, 80};
+  config.wind.from_deg = {300, 300};
+  for (const TrackingAxes axes : {TrackingAxes::kHeading, TrackingAxes::kPath}) {
+    config.tracking.error_axes = axes;
+    ExpectTwoPlainLoops(config, 4);
   }
 }
 
@@ -266,7 +270,7 @@ TEST(GuidedFlight, APlanThatIsNotFiniteEndsItsOwnEpisodeOnly) {
   for (const float poison : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
     for (int k = 0; k < kPlannerActionSize; ++k) {
       VecEnv env(Config(), 40, 1, 64, Controller()), healthy(Config(), 40, 1, 64, Controller());
-      Buffers buffers(40, kPlannerActionSize), expected(40, kPlannerActionSize);
+      StepBuffers buffers(40, kPlannerActionSize), expected(40, kPlannerActionSize);
       buffers.action[Index(7 * kPlannerActionSize + k)] = poison;
       env.Step(0, buffers.action.data(), buffers.output());
       healthy.Step(0, expected.action.data(), expected.output());

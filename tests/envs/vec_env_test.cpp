@@ -16,6 +16,7 @@
 #include "envs/worker_pool.h"
 #include "simd/error.h"
 #include "simd/random.h"
+#include "tests/envs/step_buffers.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {
@@ -45,30 +46,9 @@ struct Log {
   }
 };
 
-/// Buffers for one tile.
-struct Buffers {
-  explicit Buffers(int count)
-      : observation(static_cast<std::size_t>(count) * kSize),
-        final_observation(observation.size()),
-        action(static_cast<std::size_t>(count) * 4),
-        reward(static_cast<std::size_t>(count)),
-        episode_return(reward.size()),
-        termination(reward.size()),
-        episode_steps(reward.size()) {}
-
-  StepOutput output() {
-    return {reward.data(), termination.data(), episode_return.data(), episode_steps.data(),
-            final_observation.data()};
-  }
-
-  std::vector<float> observation, final_observation, action, reward, episode_return;
-  std::vector<std::uint8_t> termination;
-  std::vector<std::int32_t> episode_steps;
-};
-
 void FlyTile(VecEnv* env, int tile, int first_decision, int decisions, std::vector<Log>* logs) {
   const int count = env->tile_count(tile), begin = env->tile_begin(tile);
-  Buffers buffers(count);
+  StepBuffers buffers(count);
   for (int decision = first_decision; decision < first_decision + decisions; ++decision) {
     env->Observe(tile, buffers.observation.data());
     for (int i = 0; i < count; ++i) {
@@ -225,7 +205,7 @@ TEST(VecEnv, FliesLikeTheClosedLoopInDoublePrecision) {
   for (int i = 0; i < kCount; ++i) {
     expected.emplace_back(plant, trim, config.flight_control, config.control_interval_s);
   }
-  Buffers buffers(kCount);
+  StepBuffers buffers(kCount);
   for (int step = 0; step < 100; ++step) {
     for (int i = 0; i < kCount; ++i) {
       const std::array<float, 4> action = ActionOf(i, step / 2);
@@ -273,7 +253,7 @@ TEST(VecEnv, TrimmedStartsStayTrimmedHandsOff) {
     EXPECT_LE(speed[static_cast<std::size_t>(i)], 1200 + 0.01);
   }
   // 0.2 s: thrust stays that of the trim by giving each aircraft its own throttle.
-  Buffers buffers(kCount);
+  StepBuffers buffers(kCount);
   for (int i = 0; i < kCount; ++i) {
     const float power = env.StateOf(i, kPower);
     const float throttle = power <= 50 ? power / 64.94f : (power + 117.38f) / 217.38f;
@@ -311,7 +291,7 @@ TEST(VecEnv, TimeLimitEndsAndRestartsEveryEpisode) {
   config.action_repeat = 8;
   VecEnv env(config, 10, 1);
   const std::vector<float> first_target = env.TargetOf(0);
-  Buffers buffers(10);
+  StepBuffers buffers(10);
   for (int decision = 0; decision < 9; ++decision) {
     env.Step(0, buffers.action.data(), buffers.output());
     const bool ends = decision % 3 == 2;
@@ -338,7 +318,7 @@ TEST(VecEnv, ControlEndsAtItsTargetAtOnce) {
   config.control.pitch_change_rad = config.control.yaw_change_rad =
       config.control.speed_change_fps = 0;
   VecEnv env(config, 3, 1);
-  Buffers buffers(3);
+  StepBuffers buffers(3);
   env.Step(0, buffers.action.data(), buffers.output());
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(buffers.termination[i], static_cast<int>(Termination::kResetTarget));
@@ -364,7 +344,7 @@ TEST(VecEnv, ControlFailsAtItsTimeLimit) {
     const double speed = std::hypot(env.StateOf(i, kU), env.StateOf(i, kV), env.StateOf(i, kW));
     expected.push_back(-10 * 5 * std::abs(env.TargetOf(i)[2] - speed) / (340 / 0.3048));
   }
-  Buffers buffers(40);
+  StepBuffers buffers(40);
   for (std::size_t i = 0; i < 40; ++i) buffers.action[4 * i] = -1;
   env.Step(0, buffers.action.data(), buffers.output());
   for (std::size_t i = 0; i < 40; ++i) {
@@ -398,7 +378,7 @@ TEST(VecEnv, TruncationKeepsTheLastObservation) {
   EnvConfig longer = config;
   longer.time_limit_steps = 1000;
   VecEnv reference(longer, kCount, 1);
-  Buffers buffers(kCount), reference_buffers(kCount);
+  StepBuffers buffers(kCount), reference_buffers(kCount);
   env.Step(0, buffers.action.data(), buffers.output());
   reference.Step(0, reference_buffers.action.data(), reference_buffers.output());
   reference.Observe(0, reference_buffers.observation.data());
@@ -419,10 +399,10 @@ TEST(VecEnv, ShowsTheStateInWhichAnEpisodeEnded) {
   EnvConfig longer = config;
   longer.time_limit_steps = 1000;
   VecEnv reference(longer, kCount, 1);
-  Buffers buffers(kCount), reference_buffers(kCount);
+  StepBuffers buffers(kCount), reference_buffers(kCount);
   constexpr float kUntouched = 12345;
   std::vector<float> state(kCount * kNumRecordedColumns), untouched(state.size(), kUntouched);
-  const auto step = [](VecEnv* flock, Buffers* out, std::vector<float>* final_state) {
+  const auto step = [](VecEnv* flock, StepBuffers* out, std::vector<float>* final_state) {
     StepOutput output = out->output();
     output.final_state = final_state->data();
     flock->Step(0, out->action.data(), output);
@@ -446,7 +426,7 @@ TEST(VecEnv, StaggeredClocksSpreadOverTheTimeLimit) {
   config.stagger_clocks = true;
   constexpr int kCount = 4000;
   VecEnv env(config, kCount, 1, kCount);
-  Buffers buffers(kCount);
+  StepBuffers buffers(kCount);
   std::vector<int> first_end(kCount, -1);
   for (int step = 0; step < 40; ++step) {
     env.Step(0, buffers.action.data(), buffers.output());
@@ -499,7 +479,7 @@ TEST(VecEnv, NonFiniteStateEndsOnlyItsOwnEpisode) {
 
 TEST(VecEnv, NonFiniteActionIsNonFinite) {
   VecEnv env(EnvConfig{}, 40, 1);
-  Buffers buffers(40);
+  StepBuffers buffers(40);
   buffers.action[3 * 4 + 2] = std::numeric_limits<float>::quiet_NaN();
   buffers.action[5 * 4] = std::numeric_limits<float>::infinity();
   env.Step(0, buffers.action.data(), buffers.output());
@@ -511,7 +491,7 @@ TEST(VecEnv, NonFiniteActionIsNonFinite) {
 
 TEST(VecEnv, ActionsAreClipped) {
   VecEnv one(EnvConfig{}, 2, 1), two(EnvConfig{}, 2, 1);
-  Buffers clipped(2), beyond(2);
+  StepBuffers clipped(2), beyond(2);
   clipped.action = {1, -1, 1, 1, -1, 1, -1, -1};
   beyond.action = {3, -1.5f, 9, 1.01f, -4, 2, -7, -1e20f};
   for (int step = 0; step < 10; ++step) {
@@ -527,7 +507,7 @@ TEST(VecEnv, NoiseHasTheConfiguredScaleAndIsNewEveryStep) {
   noisy_config.observation_noise = 0.05;
   constexpr int kCount = 500;
   VecEnv clean(clean_config, kCount, 1, kCount), noisy(noisy_config, kCount, 1, kCount);
-  Buffers clean_buffers(kCount), noisy_buffers(kCount);
+  StepBuffers clean_buffers(kCount), noisy_buffers(kCount);
   std::vector<double> previous;
   for (int step = 0; step < 3; ++step) {
     clean.Observe(0, clean_buffers.observation.data());

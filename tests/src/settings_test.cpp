@@ -6,24 +6,15 @@
 #include <set>
 
 #include "envs/tasks/task.h"
-#include "simd/error.h"
 #include "src/configuration.h"
 #include "src/output_file.h"
+#include "tests/error_message.h"
 #include "train/training_state.h"
 
 namespace skein {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string MessageOf(void (*action)()) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Settings, KeysAreUnique) {
   std::set<std::string> keys;

@@ -8,6 +8,7 @@
 
 #include "simd/error.h"
 #include "tests/envs/test_pilot.h"
+#include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/planner_config.h"
 #include "train/autopilot_controller.h"
@@ -41,16 +42,6 @@ Policy Planner(std::shared_ptr<const Pilot> controller) {
 std::string BytesOf(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-template <typename Action>
-std::string MessageOf(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 class ControllerFileTest : public testing::Test {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "envs/autopilot/autopilot.h"
-#include "simd/error.h"
+#include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/planner_config.h"
 #include "train/autopilot_controller.h"
@@ -21,16 +21,6 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 using Change = std::function<void(EnvConfig&)>;
-
-template <typename Action>
-std::string MessageOf(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 class PolicyEnvironmentTest : public testing::Test {
  protected:
