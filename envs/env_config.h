@@ -101,11 +101,14 @@ struct TrackingConfig {
 };
 
 /// What a planner's full action asks of the controller that flies (envs/guided_flight.h): changes
-/// of the present pitch, yaw and true airspeed.
+/// of the present pitch, yaw and true airspeed. And what it sees.
 struct PlannerConfig {
   double pitch_change_rad = 0.3;
   double yaw_change_rad = 0.3;
   double speed_change_fps = 30;
+  /// A planner sees the mean of all that its controller's sensors showed since it last decided, and
+  /// what they show now: a look for each of the controller's decisions. false: what they show now.
+  bool averages_observations = false;
 };
 
 /// Limits of the paper's Table 5 and the rewards for ending at one and at the target.

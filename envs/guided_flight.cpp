@@ -82,13 +82,44 @@ GuidedFlight::GuidedFlight(const EnvConfig& config, int num_aircraft,
     : planner_(config.planner),
       control_(MakeControlTask(config)),
       controller_(std::move(controller)),
-      memory_size_(controller_->state_size()) {
+      looks_size_(config.planner.averages_observations ? kObservationSize + 1 : 0) {
   RequireSize("observations", controller_->observation_size(), kObservationSize);
   RequireSize("actions", controller_->action_size(), kActionSize);
-  memory_.assign(Offset(num_aircraft), 0.0f);
+  const auto count = static_cast<std::size_t>(num_aircraft);
+  state_.assign(count * static_cast<std::size_t>(controller_->state_size()), 0.0f);
+  looks_.assign(count * static_cast<std::size_t>(looks_size_), 0.0f);
 }
 
-void GuidedFlight::Forget(int aircraft) { std::fill_n(memory(aircraft), memory_size_, 0.0f); }
+void GuidedFlight::Forget(int aircraft) {
+  std::fill_n(state(aircraft), controller_->state_size(), 0.0f);
+  ForgetLooks(aircraft, 1);
+}
+
+void GuidedFlight::ForgetLooks(int first, int count) {
+  std::fill_n(looks(first), static_cast<std::ptrdiff_t>(count) * looks_size_, 0.0f);
+}
+
+void GuidedFlight::AddLooks(int first, int count, const float* errors, const Decision& decision) {
+  for (int i = 0; i < count; ++i) {
+    float* const sum = looks(first + i);
+    const float* const look = decision.observation + i * kObservationSize;
+    for (int k = 0; k < kNumTaskErrors; ++k) {
+      // What is left of the controller's errors is their noise.
+      sum[k] += look[k] - decision.error[k][i] + errors[k * kMaxCount + i];
+    }
+    for (int k = kNumTaskErrors; k < kObservationSize; ++k) sum[k] += look[k];
+    sum[kObservationSize] += 1;
+  }
+}
+
+void GuidedFlight::Average(int first, int count, float* observation) const {
+  for (int i = 0; i < count; ++i) {
+    const float* const sum = looks_.data() + static_cast<std::ptrdiff_t>(first + i) * looks_size_;
+    const float share = 1 / (sum[kObservationSize] + 1);
+    float* const row = observation + i * kObservationSize;
+    for (int k = 0; k < kObservationSize; ++k) row[k] = (row[k] + sum[k]) * share;
+  }
+}
 
 void GuidedFlight::Plan(const float* action, Tile flight, Decision& decision) const {
   SKEIN_DISPATCH(PlanKernel)
@@ -102,7 +133,7 @@ void GuidedFlight::Decide(const KernelAircraft& aircraft, Tile flight,
   control_->Errors(flight, target, decision.error[0], kMaxCount);
   ObserveTile(aircraft, flight, decision.error[0], kMaxCount, noise, decision.observation);
   controller_->Fly(flight.count, decision.observation,
-                   memory(static_cast<int>(noise.first_aircraft)), decision.stick);
+                   state(static_cast<int>(noise.first_aircraft)), decision.stick);
 }
 
 }  // namespace skein

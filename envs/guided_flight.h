@@ -37,12 +37,19 @@ class GuidedFlight {
   /// stick actions.
   GuidedFlight(const EnvConfig& config, int num_aircraft, std::shared_ptr<const Pilot> controller);
 
-  /// Floats that the controller remembers of an aircraft, and where they lie; zeros at the
-  /// beginning of an episode.
-  int memory_size() const { return memory_size_; }
-  float* memory(int aircraft) { return memory_.data() + Offset(aircraft); }
+  /// Floats that are remembered of an aircraft, by the controller and of what it saw for the
+  /// planner, and where they lie; zeros at the beginning of an episode.
+  int memory_size() const { return controller_->state_size() + looks_size_; }
+  float* memory(int aircraft, int index) {
+    const int of_controller = controller_->state_size();
+    return index < of_controller ? state(aircraft) + index
+                                 : looks(aircraft) + (index - of_controller);
+  }
   /// A new episode of the aircraft begins.
   void Forget(int aircraft);
+
+  /// Whether the planner sees means of looks.
+  bool averages() const { return looks_size_ > 0; }
 
   /// Takes a planner's actions, row-major [flight.count][kPlannerActionSize], clipped to [-1, 1]:
   /// what each aircraft is to reach, from where it is now. An action that is not finite makes its
@@ -57,16 +64,29 @@ class GuidedFlight {
   void Decide(const KernelAircraft& aircraft, Tile flight, const ObservationNoise& noise,
               Decision& decision);
 
+  /// Begins the planner's means anew for the `count` aircraft from `first` on: it has seen what
+  /// came before.
+  void ForgetLooks(int first, int count);
+  /// Adds to them what the controller has just seen, with the planner's errors in place of the
+  /// controller's: kNumTaskErrors columns kMaxCount apart.
+  void AddLooks(int first, int count, const float* errors, const Decision& decision);
+  /// Turns observations of now, row-major, into means over all looks, this one included.
+  void Average(int first, int count, float* observation) const;
+
  private:
-  std::size_t Offset(int aircraft) const {
-    return static_cast<std::size_t>(aircraft) * static_cast<std::size_t>(memory_size_);
+  float* state(int aircraft) {
+    return state_.data() + static_cast<std::ptrdiff_t>(aircraft) * controller_->state_size();
+  }
+  float* looks(int aircraft) {
+    return looks_.data() + static_cast<std::ptrdiff_t>(aircraft) * looks_size_;
   }
 
   PlannerConfig planner_;
   std::unique_ptr<Task> control_;
   std::shared_ptr<const Pilot> controller_;
-  int memory_size_;
-  AlignedVector<float> memory_;  ///< [num_aircraft][memory_size]
+  int looks_size_;              ///< 0 if the planner sees the last look alone
+  AlignedVector<float> state_;  ///< the controller's, [num_aircraft][its state_size]
+  AlignedVector<float> looks_;  ///< sums of looks and their number, [num_aircraft][looks_size]
 };
 
 }  // namespace skein

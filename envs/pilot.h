@@ -16,7 +16,8 @@ class Pilot {
   virtual int action_repeat() const = 0;  ///< control steps for which it means an action to be held
 
   /// The environment as it observes `env` and acts in it, where a choice belongs to the pilot and
-  /// not to the episodes: how long it holds an action, in which axes it is shown Tracking's target.
+  /// not to the episodes: how long it holds an action, in which axes it is shown Tracking's target,
+  /// whether a planner sees means.
   virtual EnvConfig EnvironmentFor(const EnvConfig& env) const {
     EnvConfig own = env;
     own.action_repeat = action_repeat();

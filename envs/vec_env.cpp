@@ -216,6 +216,17 @@ struct VecEnv::Impl {
     alignas(kCacheLine) float errors[kNumTaskErrors * kBlock];
     task->Errors(block.flight, block.task, errors, kBlock);
     ObserveTile(*kernel_aircraft, block.flight, errors, kBlock, NoiseOf(block), observation);
+    if (guided != nullptr && guided->averages()) {
+      guided->Average(block.first_aircraft, block.count, observation);
+    }
+  }
+
+  /// Keeps what the controller has just seen for the planner's next observation.
+  void AddLooks(const Block& block, const DecisionScratch& scratch) const {
+    static_assert(kBlock == GuidedFlight::kMaxCount);
+    alignas(kCacheLine) float errors[kNumTaskErrors * kBlock];
+    task->Errors(block.flight, block.task, errors, kBlock);
+    guided->AddLooks(block.first_aircraft, block.count, errors, scratch.guidance);
   }
 
   /// Copies the observations of aircraft whose time ran out in this control step.
@@ -283,9 +294,14 @@ struct VecEnv::Impl {
       if (is_first) TakeActions(action, block.flight, scratch.pilot[0], kBlock);
       return action;
     }
-    if (is_first) guided->Plan(action, block.flight, scratch.guidance);
+    if (is_first) {
+      guided->Plan(action, block.flight, scratch.guidance);
+      guided->ForgetLooks(block.first_aircraft, block.count);
+    }
     if (guided->Decides(step)) {
       guided->Decide(*kernel_aircraft, block.flight, NoiseOf(block), scratch.guidance);
+      // The first look is the one that the planner has just decided by.
+      if (guided->averages() && !is_first) AddLooks(block, scratch);
       TakeActions(scratch.guidance.stick, block.flight, scratch.pilot[0], kBlock);
     }
     return scratch.guidance.stick;
@@ -373,7 +389,7 @@ struct VecEnv::Impl {
     for (int index = 0; index < num_aircraft; ++index) {
       const Block block = BlockHolding(index);
       for (std::size_t k = 0; k < words; ++k) visit(WordAt(block, k));
-      for (int k = 0; k < MemorySize(); ++k) visit(guided->memory(index) + k);
+      for (int k = 0; k < MemorySize(); ++k) visit(guided->memory(index, k));
     }
   }
 

@@ -277,6 +277,10 @@ std::vector<Setting> MakeSettings() {
       {"env.planner.speed_change_fps",
        [](C& c) -> F { return &c.train.env.planner.speed_change_fps; }, not_negative,
        "full action of a planner: target true airspeed beyond the present one"},
+      {"env.planner.averages_observations",
+       [](C& c) -> F { return &c.train.env.planner.averages_observations; }, name,
+       "true: a planner sees the mean of its controller's looks since it last decided; false: the "
+       "last"},
 
       {"env.termination.alpha_min_deg",
        [](C& c) -> F { return &c.train.env.termination.alpha_deg.min; },

@@ -187,7 +187,7 @@ int Policy::state_size() const { return actor_->parameters->shape.state_size(); 
 int Policy::action_repeat() const { return actor_->parameters->action_repeat; }
 EnvConfig Policy::EnvironmentFor(const EnvConfig& env) const {
   EnvConfig own = Pilot::EnvironmentFor(env);
-  AdoptErrorAxes(actor_->parameters->environment, &own);
+  AdoptView(actor_->parameters->environment, &own);
   return own;
 }
 const std::string& Policy::task() const { return actor_->parameters->task; }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kControllersTask = "control";
 constexpr const char* kErrorAxes = "tracking.error_axes";
+constexpr const char* kAveragesObservations = "planner.averages_observations";
 
 /// The shortest text that is read back as the same double.
 std::string Text(double value) {
@@ -49,17 +50,21 @@ std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
   environment["planner.pitch_change_rad"] = Text(env.planner.pitch_change_rad);
   environment["planner.yaw_change_rad"] = Text(env.planner.yaw_change_rad);
   environment["planner.speed_change_fps"] = Text(env.planner.speed_change_fps);
+  environment[kAveragesObservations] = env.planner.averages_observations ? "true" : "false";
   if (env.task == "tracking") {
     environment[kErrorAxes] = Name(env.tracking.error_axes);
   }
   return environment;
 }
 
-void AdoptErrorAxes(const std::map<std::string, std::string>& made_with, EnvConfig* env) {
-  const auto found = made_with.find(kErrorAxes);
-  if (found == made_with.end()) return;
-  for (const auto& [axes, name] : kTrackingAxesNames) {
-    if (found->second == name) env->tracking.error_axes = axes;
+void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* env) {
+  if (const auto found = made_with.find(kErrorAxes); found != made_with.end()) {
+    for (const auto& [axes, name] : kTrackingAxesNames) {
+      if (found->second == name) env->tracking.error_axes = axes;
+    }
+  }
+  if (const auto found = made_with.find(kAveragesObservations); found != made_with.end()) {
+    env->planner.averages_observations = found->second == "true";
   }
 }
 

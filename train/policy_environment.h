@@ -13,8 +13,9 @@ namespace skein {
 /// from training: rates, conditions, targets, rewards.
 std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env);
 
-/// Shows Tracking's target in the axes that a policy was made with, if PolicyEnvironment said them.
-void AdoptErrorAxes(const std::map<std::string, std::string>& made_with, EnvConfig* env);
+/// Shows a policy what it was made with, as far as PolicyEnvironment said it: Tracking's target in
+/// its axes, and to a planner means of looks or the last look.
+void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* env);
 
 /// Throws Error that begins with `who` and names the first difference if `pilot` was made for
 /// another task or environment, or if a planner's controller was. What it does not say is not

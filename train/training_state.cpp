@@ -100,6 +100,7 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("planner.pitch_change_rad", env.planner.pitch_change_rad);
     add("planner.yaw_change_rad", env.planner.yaw_change_rad);
     add("planner.speed_change_fps", env.planner.speed_change_fps);
+    add("planner.averages_observations", env.planner.averages_observations);
   }
   add("termination.alpha_min_deg", env.termination.alpha_deg.min);
   add("termination.alpha_max_deg", env.termination.alpha_deg.max);

@@ -93,15 +93,35 @@ class TwoLoops {
         clean_(CleanConfig(planned), count, seed, count),
         memory_(Index(count * pilot.state_size())) {}
 
+  /// What the planner is to see, row-major.
+  std::vector<float> Seen() {
+    StepBuffers now(count_, kActionSize);
+    env_.Observe(0, now.observation.data());
+    for (int i = 0; i < count_; ++i) {
+      for (int k = 0; k < kSize; ++k) {
+        float& value = now.observation[Index(i * kSize + k)];
+        value =
+            static_cast<float>((value + looks_[Index(i * kSize + k)]) / (num_looks_[Index(i)] + 1));
+      }
+    }
+    return now.observation;
+  }
+
   /// Rewards of one decision.
   std::vector<double> Decide(int decision) {
     std::vector<double> reward(Index(count_));
     std::vector<std::array<double, 3>> targets;
     for (int i = 0; i < count_; ++i) targets.push_back(TargetOf(i, PlanOf(i, decision)));
     StepBuffers buffers(count_, kActionSize), clean(count_, kActionSize);
+    looks_.assign(Index(count_ * kSize), 0);
+    num_looks_.assign(Index(count_), 0);
     for (int step = 0; step < planned_.action_repeat; ++step) {
       if (step % pilot_.action_repeat() == 0) {
         env_.Observe(0, buffers.observation.data());
+        if (planned_.planner.averages_observations && step > 0) {
+          for (std::size_t k = 0; k < looks_.size(); ++k) looks_[k] += buffers.observation[k];
+          for (int& looks : num_looks_) ++looks;
+        }
         clean_.Observe(0, clean.observation.data());
         for (int i = 0; i < count_; ++i) {
           const std::array<double, 3> errors = ErrorsOf(i, targets[Index(i)]);
@@ -124,6 +144,8 @@ class TwoLoops {
         EXPECT_EQ(step + 1, planned_.action_repeat);
         ++ends_;
         std::fill_n(memory_.begin() + i * pilot_.state_size(), pilot_.state_size(), 0.0f);
+        std::fill_n(looks_.begin() + i * kSize, kSize, 0);
+        num_looks_[Index(i)] = 0;
       }
     }
     return reward;
@@ -178,6 +200,8 @@ class TwoLoops {
   const Pilot& pilot_;
   VecEnv env_, clean_;
   std::vector<float> memory_;
+  std::vector<double> looks_ = std::vector<double>(Index(count_ * kSize));  ///< sums
+  std::vector<int> num_looks_ = std::vector<int>(Index(count_));
   int ends_ = 0;
 };
 
@@ -186,15 +210,20 @@ void ExpectTwoPlainLoops(const EnvConfig& config, int action_repeat) {
   // Errors in double against float32 in the hierarchy differ by 1e-7, which a few seconds of flight
   // and twenty decisions amplify; positions are of 2000 ft, rewards of twenty steps of 10 km.
   constexpr double kVelocityTolerance = 0.02, kRateTolerance = 2e-4, kPositionTolerance = 0.05;
-  constexpr double kRewardTolerance = 1e-3;
+  constexpr double kRewardTolerance = 1e-3, kObservationTolerance = 5e-4;
   constexpr int kCount = 40, kDecisions = 10;
   const TestPilot pilot(action_repeat);
   VecEnv env(config, kCount, 3, 32, Controller(action_repeat));
   TwoLoops expected(config, kCount, 3, pilot);
   for (int decision = 0; decision < kDecisions; ++decision) {
+    const std::vector<float> seen = expected.Seen();
     const Log log = Fly(&env, decision, 1);
     const std::vector<double> reward = expected.Decide(decision);
     for (int i = 0; i < kCount; ++i) {
+      for (int k = 0; k < kSize; ++k) {
+        ASSERT_NEAR(log[Index(i)][Index(k)], seen[Index(i * kSize + k)], kObservationTolerance)
+            << "aircraft " << i << ", decision " << decision << ", element " << k;
+      }
       ASSERT_NEAR(log[Index(i)][kSize], reward[Index(i)], kRewardTolerance)
           << "aircraft " << i << ", decision " << decision;
       const auto near = [&](int column, double tolerance) {
@@ -214,7 +243,10 @@ TEST(GuidedFlight, EqualsTwoPlainLoops) {
     for (const int action_repeat : {1, 4, 7}) {  // the last does not divide the decision
       EnvConfig config = Config();
       config.observation_noise = noise;
-      ExpectTwoPlainLoops(config, action_repeat);
+      for (const bool averages : {false, true}) {
+        config.planner.averages_observations = averages;
+        ExpectTwoPlainLoops(config, action_repeat);
+      }
     }
   }
 }
@@ -264,6 +296,19 @@ TEST(GuidedFlight, SnapshotsHoldWhatTheControllerRemembers) {
   EXPECT_EQ(other.Snapshot(), snapshot);
   EXPECT_EQ(Fly(&other, 3, 6), expected);
   EXPECT_THROW(sticks.Restore(snapshot), Error);
+}
+
+TEST(GuidedFlight, SnapshotsHoldWhatAPlannerHasNotSeenYet) {
+  EnvConfig config = Config();
+  config.planner.averages_observations = true;
+  VecEnv env(config, 70, 1, 64, Controller());
+  Fly(&env, 0, 3);
+  const std::vector<std::uint32_t> snapshot = env.Snapshot();
+  const Log expected = Fly(&env, 3, 6);
+  VecEnv other(config, 70, 1, 32, Controller());
+  Fly(&other, 0, 2);
+  other.Restore(snapshot);
+  EXPECT_EQ(Fly(&other, 3, 6), expected);
 }
 
 TEST(GuidedFlight, APlanThatIsNotFiniteEndsItsOwnEpisodeOnly) {

@@ -56,6 +56,8 @@ const std::pair<const char*, Change> kChangesOfMeaning[] = {
 
 const std::pair<const char*, Change> kChangesOfPlanning[] = {
     {"tracking.error_axes", [](EnvConfig& env) { env.tracking.error_axes = TrackingAxes::kEarth; }},
+    {"planner.averages_observations",
+     [](EnvConfig& env) { env.planner.averages_observations = true; }},
     {"planner.pitch_change_rad", [](EnvConfig& env) { env.planner.pitch_change_rad = 0.2; }},
     {"planner.yaw_change_rad", [](EnvConfig& env) { env.planner.yaw_change_rad = 0.2; }},
     {"planner.speed_change_fps", [](EnvConfig& env) { env.planner.speed_change_fps = 40; }},
@@ -144,6 +146,7 @@ TEST_F(PolicyEnvironmentTest, WhatAFileDoesNotSayIsNotChecked) {
 TEST_F(PolicyEnvironmentTest, AxesAndRateAreThePilotsOwn) {
   TrainConfig config = SmallPlannerConfig();
   config.env.tracking.error_axes = TrackingAxes::kPath;
+  config.env.planner.averages_observations = true;
   const Policy policy = Trained(config);
   EnvConfig episodes = config.env;
   episodes.tracking.error_axes = TrackingAxes::kEarth;
@@ -151,6 +154,7 @@ TEST_F(PolicyEnvironmentTest, AxesAndRateAreThePilotsOwn) {
   episodes.action_repeat = 3;
   const EnvConfig own = policy.EnvironmentFor(episodes);
   EXPECT_EQ(own.tracking.error_axes, TrackingAxes::kPath);
+  EXPECT_TRUE(own.planner.averages_observations);
   EXPECT_EQ(own.action_repeat, config.env.action_repeat);
   EXPECT_EQ(own.tracking.azimuth_deg, 77) << "the episodes are not";
 
