@@ -259,12 +259,10 @@ std::vector<Setting> MakeSettings() {
        [](C& c) -> F { return &c.train.env.tracking.training_tolerance_max; },
        {1, 1000},
        "in training an episode's tolerance is that times exp(U(0, ln x)); evaluations take it as "
-       "it "
-       "is"},
+       "it is"},
       {"env.tracking.error_axes", [](C& c) -> F { return &c.train.env.tracking.error_axes; }, name,
        "what the errors are: ahead, right and up of the heading; along, right of and above the "
-       "path "
-       "over ground; or north, east and up"},
+       "path over ground; or north, east and up"},
 
       {"env.planner.pitch_change_rad",
        [](C& c) -> F { return &c.train.env.planner.pitch_change_rad; },
