@@ -5,6 +5,7 @@
 #include <locale>
 #include <sstream>
 
+#include "envs/name_in.h"
 #include "simd/error.h"
 
 namespace skein {
@@ -58,12 +59,7 @@ constexpr double kFastestWindFps = 500;
 
 }  // namespace
 
-const char* Name(TrackingAxes axes) {
-  for (const auto& [known, name] : kTrackingAxesNames) {
-    if (known == axes) return name;
-  }
-  throw Error("a configuration field holds a value without a name");
-}
+const char* Name(TrackingAxes axes) { return NameIn(kTrackingAxesNames, axes); }
 
 EnvConfig EvaluationConfig(const EnvConfig& config) {
   EnvConfig evaluated = config;

@@ -2,20 +2,10 @@
 
 #include <string>
 
+#include "envs/name_in.h"
 #include "simd/error.h"
 
 namespace skein {
-namespace {
-
-template <typename Names, typename Enum>
-const char* NameIn(const Names& names, Enum value) {
-  for (const auto& [option, name] : names) {
-    if (option == value) return name;
-  }
-  throw Error("a configuration field holds a value without a name");
-}
-
-}  // namespace
 
 const char* Name(Activation activation) { return NameIn(kActivationNames, activation); }
 const char* Name(Backend backend) { return NameIn(kBackendNames, backend); }
