@@ -132,7 +132,7 @@ void BenchSimulator(const BenchOptions& options) {
   if (noisy.observation_noise > 0) {
     const SimulatorRate with_noise = environment(noisy);
     line("the whole environment, with noise", with_noise,
-         fmt::format(" (+{:.0f} %)", 100 * (with_noise.step_s / whole.step_s - 1)));
+         fmt::format(" ({:+.0f} %)", 100 * (with_noise.step_s / whole.step_s - 1)));
     results["environment_with_noise"] = ToJson(with_noise);
   }
   fmt::print("  (the paper's GPU: {:.0f} ms for an Euler step of 10^6 without flight control)\n",

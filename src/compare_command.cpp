@@ -56,8 +56,11 @@ std::string FlightsPath(const std::string& path, const std::string& agent) {
       .string();
 }
 
-/// Throws Error if two agents' flights would go to the same file.
-void CheckFlightsPaths(const CompareOptions& options) {
+/// Throws Error if a file that is asked for cannot be written, or if two agents' flights would go
+/// to the same one.
+void CheckOutputs(const CompareOptions& options) {
+  CheckWritable(options.csv);
+  CheckWritable(options.flight.json);
   if (options.flight.flights.empty()) return;
   std::set<std::string> known;
   for (const std::string& agent : options.agents) {
@@ -65,21 +68,22 @@ void CheckFlightsPaths(const CompareOptions& options) {
     if (!known.insert(path).second) {
       throw Error(fmt::format("{}: the flights of two agents would go there", path));
     }
+    CheckWritable(path);
   }
 }
 
 void CompareAgents(const CompareOptions& options) {
   const FlightOptions& flight = options.flight;
   const ProgramConfig config = Configure(flight);
-  CheckFlightsPaths(options);
+  CheckOutputs(options);
   const std::vector<NamedAgent> agents = FindAgents(options.agents, config, flight.seed);
   WorkerPool pool(flight.threads);
   const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);
+  fmt::print("{}\n", ToText(comparison));
   if (!options.csv.empty()) {
     WriteFile(options.csv, ComparisonCsvHeader() + ToCsv(comparison));
   }
   if (!flight.json.empty()) WriteFile(flight.json, ToJson(comparison, config).dump(1) + "\n");
-  fmt::print("{}\n", ToText(comparison));
   if (flight.flights.empty()) return;
   for (const NamedAgent& named : agents) {
     WriteFlights(flight, FlightsPath(flight.flights, named.name), "by " + named.name, named.agent,

@@ -75,6 +75,18 @@ SettingValue ParseValue(const std::string& text) {
 std::string TableOf(const std::string& key) { return key.substr(0, key.rfind('.')); }
 std::string LastPart(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
+/// Applies one `key=value` of `source`. The value is TOML; names need no quotes.
+void ApplyAssignment(const std::string& assignment, const std::string& source,
+                     ProgramConfig* config) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos) {
+    throw Error(fmt::format("{} {}: expected key=value", source, assignment));
+  }
+  const std::string key = Trimmed(assignment.substr(0, equals));
+  const Setting& setting = FindSetting(key, source);
+  Assign(setting, ParseValue(Trimmed(assignment.substr(equals + 1))), source, config);
+}
+
 }  // namespace
 
 void ApplyToml(const std::string& text, const std::string& source, ProgramConfig* config) {
@@ -92,23 +104,15 @@ void ApplyTomlFile(const std::string& path, ProgramConfig* config) {
   ApplyToml(ReadFile(path), path, config);
 }
 
-void ApplyAssignment(const std::string& assignment, ProgramConfig* config) {
-  const auto equals = assignment.find('=');
-  if (equals == std::string::npos) {
-    throw Error(fmt::format("--set {}: expected key=value", assignment));
-  }
-  const std::string key = Trimmed(assignment.substr(0, equals));
-  const Setting& setting = FindSetting(key, "--set");
-  Assign(setting, ParseValue(Trimmed(assignment.substr(equals + 1))), "--set", config);
-}
-
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
                                    ProgramConfig* config) {
   for (const std::string& assignment : ConditionAssignments(conditions)) {
-    ApplyAssignment(assignment, config);
+    ApplyAssignment(assignment, "--condition", config);
   }
-  for (const std::string& assignment : assignments) ApplyAssignment(assignment, config);
+  for (const std::string& assignment : assignments) {
+    ApplyAssignment(assignment, "--set", config);
+  }
 }
 
 void CheckConsistent(const ProgramConfig& config) {

@@ -14,10 +14,8 @@ void ApplyToml(const std::string& text, const std::string& source, ProgramConfig
 /// Applies the TOML file `path`. Throws Error if it cannot be read.
 void ApplyTomlFile(const std::string& path, ProgramConfig* config);
 
-/// Applies one `key=value` of the command line. The value is TOML; names need no quotes.
-void ApplyAssignment(const std::string& assignment, ProgramConfig* config);
-
-/// Applies conditions (src/conditions.h), then assignments.
+/// Applies conditions (src/conditions.h), then assignments `key=value`, whose values are TOML;
+/// names need no quotes.
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
                                    ProgramConfig* config);

@@ -68,16 +68,18 @@ void Evaluate(const EvalOptions& options) {
     controller = ChooseController(config.train.env, options.controller).pilot;
   }
   const Policy policy = LoadPolicy(path, config, flight.seed, controller);
+  CheckWritable(flight.json);
+  CheckWritable(flight.flights);
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
       EvaluateBothWays(policy, config.train.env, flight.episodes, flight.seed, pool);
+  fmt::print("{} on {}, {} episodes, seed {}, {}; {}\n{}\n", path, config.train.env.task,
+             flight.episodes, flight.seed, Rates(policy, config.train.env),
+             Describe(policy.backend()), ToText(report, options.deterministic));
   if (!flight.json.empty()) {
     WriteFile(flight.json,
               ToJson(report, path, config, flight.seed, options.deterministic).dump(1) + "\n");
   }
-  fmt::print("{} on {}, {} episodes, seed {}, {}; {}\n{}\n", path, config.train.env.task,
-             flight.episodes, flight.seed, Rates(policy, config.train.env),
-             Describe(policy.backend()), ToText(report, options.deterministic));
   if (flight.flights.empty()) return;
   // Those of the mode that is reported first.
   if (options.deterministic) {

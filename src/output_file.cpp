@@ -39,6 +39,22 @@ std::string FileNamePart(const std::string& name) {
   return part;
 }
 
+void CheckWritable(const std::string& path) {
+  if (path.empty()) return;
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) throw Error(path + ": cannot be written: it is a directory");
+    if (access(path.c_str(), W_OK) != 0) {
+      throw Error(path + ": cannot be written: " + SystemReason());
+    }
+    if (!S_ISREG(status.st_mode)) return;
+  }
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  if (access(parent.empty() ? "." : parent.c_str(), W_OK | X_OK) != 0) {
+    throw Error(path + ": cannot be written: " + SystemReason());
+  }
+}
+
 void WriteFile(const std::string& path, const std::string& text) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) {

@@ -9,6 +9,10 @@ namespace skein {
 /// written to directly. Throws Error (path, reason of the system).
 void WriteFile(const std::string& path, const std::string& text);
 
+/// Throws Error (path, reason) if WriteFile is sure to fail there: before the work whose result it
+/// is to hold. An empty path stands for no file.
+void CheckWritable(const std::string& path);
+
 /// `name` with what file names had better not hold replaced by '-'.
 std::string FileNamePart(const std::string& name);
 

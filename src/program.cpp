@@ -56,6 +56,17 @@ std::string WrongUsage(const CLI::App& app, const CLI::ParseError& error) {
                      DidYouMean(unknown.front(), names), fmt::join(names, ", "));
 }
 
+/// Makes an empty value of any option wrong usage: an unset variable of a shell is no choice.
+void RefuseEmptyValues(CLI::App* app) {
+  for (CLI::Option* option : app->get_options()) {
+    if (option->get_items_expected_max() == 0) continue;
+    option->check(
+        [](const std::string& value) { return value.empty() ? std::string("it is empty") : ""; },
+        "");
+  }
+  for (CLI::App* sub : app->get_subcommands({})) RefuseEmptyValues(sub);
+}
+
 /// The exit code of a command that went well, if what it said has reached the standard output.
 int ExitCode() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kExitSuccess;
@@ -85,6 +96,7 @@ int RunProgram(int argc, char** argv) {
   AddFdmCommand(&app);
   AddBenchCommand(&app);
   AddInfoCommand(&app);
+  RefuseEmptyValues(&app);
   try {
     app.parse(argc, argv);
     return ExitCode();

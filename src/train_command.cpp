@@ -188,7 +188,7 @@ void AddTrainCommand(CLI::App* app) {
       "  skein train heading\n"
       "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
       "  skein train control --set env.control.pitch_change_rad=0.9\n"
-      "  skein train tracking --controller runs/control\n"
+      "  skein train tracking --controller policies/control.skein\n"
       "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
       "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
       "noisy=0.01..0.05\n"

@@ -14,6 +14,7 @@
 #include "src/output_file.h"
 #include "src/progress.h"
 #include "train/controller_file.h"
+#include "train/tensor_file.h"
 
 namespace skein {
 namespace {
@@ -33,11 +34,20 @@ std::string CommandName() {
   return name.find('/') == std::string::npos ? "skein" : name;
 }
 
+bool IsDamaged(const std::string& path) {
+  try {
+    TensorFile::Read(path);
+    return false;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
 std::string CannotRestore(const Checkpoint& newest, const std::vector<Checkpoint>& all,
                           const char* reason) {
   std::string message = fmt::format("cannot resume: {}", reason);
   if (message.find(newest.path) == std::string::npos) message += " (" + newest.path + ")";
-  if (all.size() > 1) {
+  if (all.size() > 1 && IsDamaged(newest.path)) {
     message += fmt::format("; remove that file to go on from {}", all[all.size() - 2].path);
   }
   return message;
@@ -68,6 +78,10 @@ void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wo
   directory.RemoveTemporaries();
   Trainer trainer(config.train, pool);
   const std::vector<Checkpoint> checkpoints = directory.Checkpoints();
+  if (checkpoints.empty() && std::filesystem::exists(directory.final_policy())) {
+    throw Error(fmt::format("cannot resume: {} has been trained to its end and has no checkpoint",
+                            directory.path()));
+  }
   const std::string target = Name(simd::ActiveTarget());
   std::string saved_on = target;
   if (!checkpoints.empty()) {
@@ -242,9 +256,10 @@ void TrainingRun::Finish() {
       "metrics         {}  (tensorboard --logdir {})\n"
       "configuration   {}\n"
       "checkpoints     {}\n"
-      "again           {} eval --policy {} --task {} --deterministic",
+      "again           {} eval --policy {} --task {} --deterministic --episodes {} --seed {}",
       path, directory_.evaluation(), directory_.metrics(), directory_.path(), directory_.config(),
-      directory_.checkpoints(), CommandName(), directory_.path(), config_.train.env.task));
+      directory_.checkpoints(), CommandName(), directory_.path(), config_.train.env.task, episodes,
+      seed));
   log_.Sync();
 }
 

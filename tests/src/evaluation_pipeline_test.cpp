@@ -99,6 +99,22 @@ TEST_F(EvaluationPipeline, FlightsThatCannotBeWrittenAreAnError) {
   EXPECT_EQ(alone.exit_code, 2) << "a number of flights without a file for them";
 }
 
+TEST_F(EvaluationPipeline, FilesThatCannotBeWrittenAreAnErrorBeforeAnythingFlies) {
+  for (const std::string& path : {folder_ + "/absent/file", folder_}) {
+    for (const char* option : {"--json", "--flights"}) {
+      const ProgramResult result =
+          CallSkein({"eval", "--policy", "untrained", "--task", "heading", option, path});
+      EXPECT_EQ(result.exit_code, 1);
+      EXPECT_THAT(result.error, HasSubstr(path + ": cannot be written"));
+      EXPECT_EQ(result.output, "");
+    }
+    const ProgramResult compared =
+        CallSkein({"compare", "--task", "heading", "--agents", "idle", "--csv", path});
+    EXPECT_THAT(compared.error, HasSubstr(path + ": cannot be written"));
+    EXPECT_EQ(compared.output, "");
+  }
+}
+
 TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
   const std::string file = folder_ + "/foreign.skein";
   WriteFile(file, "GIF89a");

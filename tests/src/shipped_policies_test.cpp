@@ -32,6 +32,18 @@ TEST_P(ShippedPolicies, ReachTheirTargets) {
   EXPECT_LE(agents[1]["success_rate"].get<double>(), 0.05) << "chance";
 }
 
+TEST_P(ShippedPolicies, SayWhatTheyWereMadeFor) {
+  const std::string task = GetParam().task;
+  const std::string policy = std::string(SKEIN_SOURCE) + "/policies/" + task + ".skein";
+  const ProgramResult flown = CallSkein({"eval", "--policy", policy, "--episodes", "4"});
+  EXPECT_EQ(flown.exit_code, 0) << flown.error;
+  EXPECT_NE(flown.output.find(" on " + task + ", 4 episodes"), std::string::npos) << flown.output;
+  const ProgramResult other =
+      CallSkein({"eval", "--policy", policy, "--set", "env.flight_control=direct"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.error.find("env.flight_control = full"), std::string::npos) << other.error;
+}
+
 INSTANTIATE_TEST_SUITE_P(Tasks, ShippedPolicies,
                          ::testing::Values(ShippedPolicy{"heading", 0.97},
                                            ShippedPolicy{"control", 0.97},

@@ -404,6 +404,32 @@ TEST_F(TrainingPipeline, AResumedRunKeepsItsConfiguration) {
   EXPECT_EQ(CallSkein({"train", "--resume", reference_, "--preset", "paper"}).exit_code, 2);
 }
 
+TEST_F(TrainingPipeline, NoCheckpointIsToBeRemovedForAnotherReasonThanDamage) {
+  FlyReference();
+  const std::string path = reference_ + "/config.toml", own = ReadFile(path);
+  std::string edited = own;
+  edited.replace(edited.find("num_aircraft = 64"), 17, "num_aircraft = 32");
+  WriteFile(path, edited);
+  const ProgramResult resumed = RunSkein({"train", "--resume", reference_});
+  EXPECT_EQ(resumed.exit_code, 1);
+  ExpectOneLine(resumed.error, "ppo.num_aircraft");
+  EXPECT_EQ(resumed.error.find("remove"), std::string::npos) << resumed.error;
+
+  WriteFile(path, own);
+  const std::string metrics = ReadFile(reference_ + "/metrics.csv");
+  std::vector<fs::path> checkpoints;
+  for (const auto& entry : fs::directory_iterator(reference_ + "/checkpoints")) {
+    if (entry.path().filename().string().rfind("checkpoint-", 0) == 0) {
+      checkpoints.push_back(entry.path());
+    }
+  }
+  for (const fs::path& checkpoint : checkpoints) fs::remove(checkpoint);
+  const ProgramResult ended = RunSkein({"train", "--resume", reference_});
+  EXPECT_EQ(ended.exit_code, 1);
+  ExpectOneLine(ended.error, "has been trained to its end and has no checkpoint");
+  EXPECT_EQ(ReadFile(reference_ + "/metrics.csv"), metrics) << "nothing is lost";
+}
+
 TEST_F(TrainingPipeline, DamagedCheckpointsAreRefused) {
   FlyReference();
   const std::string path = reference_ + kLastCheckpoint;
