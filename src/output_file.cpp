@@ -28,6 +28,13 @@ int StandardStream(const struct stat& file) {
   return -1;
 }
 
+/// The file that is written in place of `path`: what a symbolic link leads to, else itself.
+std::string ReplacedFile(const std::string& path) {
+  std::error_code failure;
+  const bool is_link = std::filesystem::is_symlink(path, failure);
+  return is_link ? std::filesystem::weakly_canonical(path).string() : path;
+}
+
 }  // namespace
 
 std::string FileNamePart(const std::string& name) {
@@ -47,9 +54,9 @@ void CheckWritable(const std::string& path) {
     if (access(path.c_str(), W_OK) != 0) {
       throw Error(path + ": cannot be written: " + SystemReason());
     }
-    if (!S_ISREG(status.st_mode)) return;
+    if (!S_ISREG(status.st_mode) || StandardStream(status) >= 0) return;
   }
-  const std::string parent = std::filesystem::path(path).parent_path().string();
+  const std::string parent = std::filesystem::path(ReplacedFile(path)).parent_path().string();
   if (access(parent.empty() ? "." : parent.c_str(), W_OK | X_OK) != 0) {
     throw Error(path + ": cannot be written: " + SystemReason());
   }
@@ -70,10 +77,7 @@ void WriteFile(const std::string& path, const std::string& text) {
       return;
     }
   }
-  std::error_code failure;
-  const bool is_link = std::filesystem::is_symlink(path, failure);
-  ReplaceFile(is_link ? std::filesystem::weakly_canonical(path).string() : path,
-              [&](FileDescriptor& file) { file.Write(text); });
+  ReplaceFile(ReplacedFile(path), [&](FileDescriptor& file) { file.Write(text); });
 }
 
 std::string ReadFile(const std::string& path) {
