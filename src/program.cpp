@@ -42,29 +42,42 @@ std::string CommandPath(const CLI::App& app) {
   return path;
 }
 
-/// What is wrong with the command line. CLI11 only says that a subcommand is missing where one was
-/// misspelt.
+std::vector<std::string> OptionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// What is wrong with the command line. Names that are not known come first: CLI11 says that what
+/// is required is missing where it was misspelt.
 std::string WrongUsage(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* deepest = &app;
   while (!deepest->get_subcommands().empty()) deepest = deepest->get_subcommands().front();
+  const std::vector<std::string> unknown = deepest->remaining();
+  for (const std::string& argument : unknown) {
+    if (argument.rfind('-', 0) != 0) continue;
+    return "unknown option " + argument + DidYouMean(argument, OptionNames(*deepest));
+  }
   std::vector<std::string> names;
   for (const CLI::App* sub : deepest->get_subcommands({})) names.push_back(sub->get_name());
-  const std::vector<std::string> unknown = deepest->remaining();
   if (names.empty() || unknown.empty()) return FirstLine(error.what());
-  if (unknown.front().rfind('-', 0) == 0) return "unknown option " + unknown.front();
   return fmt::format("unknown command {}{}; known commands: {}", unknown.front(),
                      DidYouMean(unknown.front(), names), fmt::join(names, ", "));
 }
 
-/// Makes an empty value of any option wrong usage: an unset variable of a shell is no choice.
-void RefuseEmptyValues(CLI::App* app) {
-  for (CLI::Option* option : app->get_options()) {
-    if (option->get_items_expected_max() == 0) continue;
-    option->check(
-        [](const std::string& value) { return value.empty() ? std::string("it is empty") : ""; },
-        "");
+/// Throws on an empty argument and on "--option=": an unset variable of a shell is no choice.
+void RefuseEmptyValues(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument.empty()) {
+      throw CLI::ArgumentMismatch(fmt::format("the argument after {} is empty", argv[i - 1]));
+    }
+    if (argument.rfind("--", 0) == 0 && argument.find('=') == argument.size() - 1) {
+      throw CLI::ArgumentMismatch(argument + " has no value");
+    }
   }
-  for (CLI::App* sub : app->get_subcommands({})) RefuseEmptyValues(sub);
 }
 
 /// The exit code of a command that went well, if what it said has reached the standard output.
@@ -82,13 +95,6 @@ int RunProgram(int argc, char** argv) {
   CLI::App app("Skein: fixed-wing flight simulation and recurrent PPO on SIMD CPU cores", "skein");
   app.set_version_flag("--version", "skein " SKEIN_VERSION);
   app.require_subcommand(1);
-  app.footer(
-      "Examples:\n"
-      "  skein train heading                       train, evaluate, and say where everything lies\n"
-      "  skein eval --policy runs/RUN --task heading --deterministic\n"
-      "  skein compare --task heading --agents policy:runs/RUN,random\n"
-      "  skein fdm trim --altitude-ft 15000 --speed-fps 500\n"
-      "Every command has --help. Exit codes: 0 success, 1 error, 2 wrong usage.");
   AddTrainCommand(&app);
   AddEvalCommand(&app);
   AddCompareCommand(&app);
@@ -96,8 +102,16 @@ int RunProgram(int argc, char** argv) {
   AddFdmCommand(&app);
   AddBenchCommand(&app);
   AddInfoCommand(&app);
-  RefuseEmptyValues(&app);
+  // After the commands, which would inherit it.
+  app.footer(
+      "Examples:\n"
+      "  skein train heading                       train, evaluate, and say where everything lies\n"
+      "  skein eval --policy runs/RUN --task heading --deterministic\n"
+      "  skein compare --task heading --agents policy:runs/RUN,random\n"
+      "  skein fdm trim --altitude-ft 15000 --speed-fps 500\n"
+      "Every command has --help. Exit codes: 0 success, 1 error, 2 wrong usage.");
   try {
+    RefuseEmptyValues(argc, argv);
     app.parse(argc, argv);
     return ExitCode();
   } catch (const CLI::Success& success) {  // --help and --version

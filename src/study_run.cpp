@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "envs/tasks/task.h"
 #include "simd/error.h"
@@ -96,42 +99,49 @@ Json KnownComparison(const std::string& path, const Json& identity) {
   return document;
 }
 
+/// The configuration of one training. Throws Error if the task needs a controller and the study has
+/// none.
+ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const StudyLevel& level,
+                            std::uint64_t seed) {
+  ProgramConfig config = TrainingConfig(study, task, level, seed);
+  if (!IsPlanned(task)) return config;
+  if (study.controller.empty()) {
+    throw Error(fmt::format(
+        "task {} needs controller = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
+  }
+  config.train.controller = ChooseController(config.train.env, study.controller).pilot;
+  return config;
+}
+
+/// The study. Throws Error on a configuration or agent of it that cannot be.
+const Study& Checked(const Study& study) {
+  bool plans = false;
+  for (const std::string& task : study.tasks) {
+    plans = plans || IsPlanned(task);
+    for (const StudyLevel& level : study.levels) {
+      ConfigToTrain(study, task, level, study.seeds.front());
+      const ProgramConfig config = LevelConfig(study, task, level);
+      for (const std::string& agent : study.agents) {
+        FindAgent(agent, config, study.evaluation.seed);
+      }
+    }
+  }
+  if (!plans && !study.controller.empty()) {
+    throw Error("controller is for tasks that are planned, and the study has none");
+  }
+  return study;
+}
+
 }  // namespace
 
 StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool& pool)
-    : study_(study),
+    : study_(Checked(study)),
       directory_(directory),
       pool_(pool),
       lock_(LockDirectory(MakeDirectories(directory))),
       results_(Json::array()) {
-  bool plans = false;
-  for (const std::string& task : study_.tasks) {
-    plans = plans || IsPlanned(task);
-    for (const StudyLevel& level : study_.levels) {
-      TrainingConfigOf(task, level, study_.seeds.front());
-      const ProgramConfig config = LevelConfig(study_, task, level);
-      for (const std::string& agent : study_.agents) {
-        FindAgent(agent, config, study_.evaluation.seed);
-      }
-    }
-  }
-  if (!plans && !study_.controller.empty()) {
-    throw Error("controller is for tasks that are planned, and the study has none");
-  }
   MakeDirectories(directory_ + "/runs");
   MakeDirectories(directory_ + "/comparisons");
-}
-
-ProgramConfig StudyRun::TrainingConfigOf(const std::string& task, const StudyLevel& level,
-                                         std::uint64_t seed) const {
-  ProgramConfig config = TrainingConfig(study_, task, level, seed);
-  if (!IsPlanned(task)) return config;
-  if (study_.controller.empty()) {
-    throw Error(fmt::format(
-        "task {} needs controller = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
-  }
-  config.train.controller = ChooseController(config.train.env, study_.controller).pilot;
-  return config;
 }
 
 std::string StudyRun::RunPath(const std::string& task, const StudyLevel& level,
@@ -153,17 +163,34 @@ bool StudyRun::Run() {
   return true;
 }
 
+void StudyRun::SayTraining(const std::string& path) const {
+  std::vector<std::string> paths;
+  for (const std::string& task : study_.tasks) {
+    for (const StudyLevel& level : study_.levels) {
+      for (const std::uint64_t seed : study_.seeds) {
+        const std::string other = RunPath(task, level, seed);
+        if (std::find(paths.begin(), paths.end(), other) == paths.end()) paths.push_back(other);
+      }
+    }
+  }
+  const auto place = std::find(paths.begin(), paths.end(), path) - paths.begin();
+  fmt::print("training {} of {}: {}\n", place + 1, paths.size(), path);
+  std::fflush(stdout);
+}
+
 bool StudyRun::Train(const std::string& task, const StudyLevel& level, std::uint64_t seed) {
   const std::string path = RunPath(task, level, seed);
-  const ProgramConfig config = TrainingConfigOf(task, level, seed);
+  const ProgramConfig config = ConfigToTrain(study_, task, level, seed);
   if (!IsRunDirectory(path)) {
     RemoveStub(path);
+    SayTraining(path);
     TrainingRun::Begin(config, path, pool_);
     return !pool_.stopping();
   }
   RunDirectory directory = RunDirectory::Open(path);
   const ProgramConfig begun = ConfigOfRun(directory, config);
   if (!fs::exists(directory.evaluation())) {
+    SayTraining(path);
     TrainingRun::Resume(begun, std::move(directory), pool_);
   }
   return !pool_.stopping();

@@ -16,7 +16,7 @@ namespace skein {
 class StudyRun {
  public:
   /// Makes the directory and holds it exclusively. Throws Error on a configuration or agent of the
-  /// study that cannot be, before anything is trained.
+  /// study that cannot be, before there is a directory.
   StudyRun(const Study& study, const std::string& directory, WorkerPool& pool);
 
   /// Does what is left to do. Returns false if it was asked to stop (SIGINT, SIGTERM): the same
@@ -28,10 +28,9 @@ class StudyRun {
   std::string ToText() const;
 
  private:
-  /// Throws Error if the task needs a controller and the study has none.
-  ProgramConfig TrainingConfigOf(const std::string& task, const StudyLevel& level,
-                                 std::uint64_t seed) const;
   std::string RunPath(const std::string& task, const StudyLevel& level, std::uint64_t seed) const;
+  /// Says which of the study's trainings is the next.
+  void SayTraining(const std::string& path) const;
   bool Train(const std::string& task, const StudyLevel& level, std::uint64_t seed);
   bool Evaluate(const std::string& task, const StudyLevel& level);
   void WriteResults() const;

@@ -90,7 +90,9 @@ TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
   EXPECT_EQ(lines[0].rfind("task,level,agent,episodes,seeds,success_rate,", 0), 0u);
   EXPECT_EQ(lines[1].rfind("heading,quiet,trained,20,2,", 0), 0u);
   EXPECT_EQ(lines[8].rfind("heading,\"loud, 0.1\",idle,20,,", 0), 0u);
-  for (const char* text : {"trained (2 seeds)", "heading, loud, 0.1", "results.csv"}) {
+  for (const std::string& text : {"training 3 of 4: " + out + "/runs/heading-loud--0.1-seed3",
+                                  std::string("trained (2 seeds)"),
+                                  std::string("heading, loud, 0.1"), std::string("results.csv")}) {
     EXPECT_THAT(result.output, HasSubstr(text));
   }
 }
@@ -218,7 +220,7 @@ TEST_F(StudyPipeline, WrongStudiesAreErrorsOfOneLineBeforeAnyTraining) {
       "level names a-b twice");
   ExpectError("tasks = [\"heading\"]\nseeds = [1]\nset = [\"env.nose=1\"]", "unknown key env.nose");
   ExpectError("tasks = [", "not valid TOML");
-  EXPECT_FALSE(fs::exists((scratch_ / "wrong") + "/runs"));
+  EXPECT_FALSE(fs::exists(scratch_ / "wrong"));
 }
 
 }  // namespace

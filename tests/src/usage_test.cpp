@@ -18,6 +18,7 @@ namespace skein {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(Usage, EveryCommandHasHelp) {
   for (const std::vector<std::string>& command :
@@ -59,6 +60,7 @@ TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
            {"train", "heading", "--steps", "many"},
            {"train", "heading", "--threads", "0"},
            {"train", "heading", "--out", ""},
+           {"train", "--resume", ""},
            {"eval"},
            {"eval", "--policy", ""},
            {"eval", "--policy", "untrained", "--task", "heading", "--json="},
@@ -124,6 +126,20 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_THAT(
       CallSkein({"fdm", "fly"}).error,
       HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));
+}
+
+TEST(Usage, UnknownOptionsSuggestTheNearest) {
+  EXPECT_EQ(
+      CallSkein({"train", "heading", "--stpes", "5"}).error,
+      "skein: error: unknown option --stpes; did you mean --steps? (see skein train --help)\n");
+  // Though the misspelt one is required.
+  EXPECT_THAT(CallSkein({"fdm", "trim", "--altitude", "5", "--speed-fps", "500"}).error,
+              HasSubstr("unknown option --altitude; did you mean --altitude-ft?"));
+}
+
+TEST(Usage, ExamplesAreOfTheProgramOrOfTheCommandAskedFor) {
+  EXPECT_THAT(CallSkein({"--help"}).output, HasSubstr("skein train heading   "));
+  EXPECT_THAT(CallSkein({"fdm", "--help"}).output, Not(HasSubstr("skein train heading")));
 }
 
 TEST(Usage, UnknownTasksAndPresetsListTheKnownOnes) {
