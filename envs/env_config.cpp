@@ -111,6 +111,7 @@ void Validate(const EnvConfig& config) {
           ": else no episode could succeed");
 
   RequireShare("env.heading.training_tolerance_min", config.heading.training_tolerance_min);
+  RequireNotNegative("env.heading.speed_error_weight", config.heading.speed_error_weight);
   RequireNotNegative("env.control.pitch_change_rad", config.control.pitch_change_rad);
   RequireNotNegative("env.control.yaw_change_rad", config.control.yaw_change_rad);
   RequireNotNegative("env.control.speed_change_fps", config.control.speed_change_fps);

@@ -36,7 +36,8 @@ struct WindConfig {
   bool blows() const { return speed_fps.max > 0 || turbulence_fps.max > 0; }
 };
 
-/// Targets of the Heading task relative to the initial state, and when they count as reached.
+/// Targets of the Heading task relative to the initial state, when they count as reached, and what
+/// a speed error costs.
 struct HeadingConfig {
   double altitude_change_ft = 3000;  ///< initial altitude + U(-x, x)
   double yaw_change_rad = 3;         ///< initial yaw + U(-x, x), wrapped
@@ -48,6 +49,9 @@ struct HeadingConfig {
   /// 1 is the paper's; with less it learns to come nearer than it must, and sooner.
   double training_tolerance_min = 1;
   int earliest_success_step = 300;  ///< control steps
+  /// Reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm; the
+  /// paper's is 0. The speed is what most targets wait for, and weighs least in the norm.
+  double speed_error_weight = 0;
 };
 
 /// Targets of the Control task relative to the initial state, when they count as reached, and what

@@ -204,6 +204,9 @@ std::vector<Setting> MakeSettings() {
       {"env.heading.earliest_success_step",
        [](C& c) -> F { return &c.train.env.heading.earliest_success_step; }, count_or_none,
        "control step before which nothing counts as reached"},
+      {"env.heading.speed_error_weight",
+       [](C& c) -> F { return &c.train.env.heading.speed_error_weight; }, not_negative,
+       "reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm"},
 
       {"env.control.pitch_change_rad",
        [](C& c) -> F { return &c.train.env.control.pitch_change_rad; },

@@ -79,6 +79,7 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("heading.speed_tolerance_fps", env.heading.speed_tolerance_fps);
     add("heading.training_tolerance_min", env.heading.training_tolerance_min);
     add("heading.earliest_success_step", env.heading.earliest_success_step);
+    add("heading.speed_error_weight", env.heading.speed_error_weight);
   } else if (env.task == "control") {
     add("control.pitch_change_rad", env.control.pitch_change_rad);
     add("control.yaw_change_rad", env.control.yaw_change_rad);

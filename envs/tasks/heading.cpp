@@ -58,13 +58,15 @@ void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config, const Ref
   const FlightVector altitude_tolerance = Constant(config.altitude_tolerance_ft);
   const FlightVector yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
   const FlightVector speed_tolerance = Constant(config.speed_tolerance_fps);
+  const FlightVector speed_weight = Constant(config.speed_error_weight);
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
     const HeadingError error = ErrorOf(flight, task, first);
     const HeadingError scaled = Normalised(error, units);
     const FlightVector squares =
         hn::MulAdd(scaled.altitude, scaled.altitude,
                    hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));
-    hn::StoreU(hn::Neg(hn::Sqrt(squares)), d, verdict.reward + first);
+    const FlightVector cost = hn::MulAdd(speed_weight, hn::Abs(scaled.speed), hn::Sqrt(squares));
+    hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
 
     const FlightVector share = Column(task, kTargetTolerance, first);
     const auto close =

@@ -92,6 +92,19 @@ TEST_P(HeadingTest, RewardIsMinusTheNormOfTheErrors) {
   EXPECT_NEAR(reward_[0], -0.7, kTolerance);
 }
 
+TEST_P(HeadingTest, SpeedErrorsCostTheirWeightBesideTheNorm) {
+  config_.heading.speed_error_weight = 3;
+  task_ = MakeTask(config_);
+  for (const int side : {0, 1}) {
+    const double faster = (side == 0 ? 0.6 : -0.6) * 340 / 0.3048;
+    SetLevel(side, 0);
+    SetTarget(side, 20000 - 0.2 * kFtPerKm, 0.3, 1000 + faster);
+  }
+  Judge();
+  EXPECT_NEAR(reward_[0], -(0.7 + 3 * 0.6), 2 * kTolerance);
+  EXPECT_NEAR(reward_[1], reward_[0], 2 * kTolerance);
+}
+
 TEST_P(HeadingTest, MirroredErrorsGetTheSameReward) {
   for (const int side : {0, 1}) {
     const double sign = side == 0 ? 1 : -1;
