@@ -85,8 +85,7 @@ void Validate(const EnvConfig& config) {
           "env.observation_noise_max", config.observation_noise_max,
           "0 or no less than env.observation_noise, " + Text(config.observation_noise));
   RequireNotNegative("env.reward_scale", config.reward_scale);
-  Require(config.cg > 0 && config.cg < 1, "env.cg_chord_fraction", config.cg,
-          "between 0 and 1 (fraction of chord)");
+  RequireShare("env.cg_chord_fraction", config.cg);
   RequireNotNegative("env.engine_angular_momentum_slug_ft2_per_s", config.engine_angular_momentum);
 
   RequireRange("env.initial.altitude", "ft", config.initial.altitude_ft, 0, 60000);

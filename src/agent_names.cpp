@@ -1,6 +1,7 @@
 #include "src/agent_names.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
@@ -65,9 +66,12 @@ Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
 
 }  // namespace
 
-const char* const kAgentForms =
-    "autopilot[:aggressive|:traditional|:parallel|:public] (alone: aggressive; as a --controller: "
-    "parallel), policy:FILE_OR_RUN[@sampled], random[:SECONDS], idle";
+std::string AgentForms() {
+  return fmt::format(
+      "autopilot[:{}] (alone: aggressive; as a --controller: parallel), "
+      "policy:FILE_OR_RUN[@sampled], random[:SECONDS], idle",
+      fmt::join(AutopilotNames(), "|:"));
+}
 
 std::string PolicyFileOfAgent(const std::string& name) {
   if (KindOf(name) != kPolicy) return "";
@@ -87,7 +91,7 @@ Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint6
   if (kind == "autopilot") return AutopilotAgent(name, config.train.env);
   throw Error(fmt::format("unknown agent {}{}; known agents: {}", name,
                           DidYouMean(kind, {"autopilot", "policy", "random", "idle"}),
-                          kAgentForms));
+                          AgentForms()));
 }
 
 }  // namespace skein

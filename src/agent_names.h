@@ -12,7 +12,7 @@ namespace skein {
 std::string PolicyFileOfAgent(const std::string& name);
 
 /// The forms of agents' names, for people.
-extern const char* const kAgentForms;
+std::string AgentForms();
 
 /// The agent called `name` for the environment of `config`:
 ///   policy:FILE_OR_RUN   a trained policy with its mean action ("@sampled" behind: as drawn)

@@ -103,7 +103,7 @@ void BenchSimulator(const BenchOptions& options) {
   WorkerPool pool(options.threads);
   const EnvConfig noisy = BenchConfig(options).env;
   EnvConfig clean = noisy;
-  clean.observation_noise = 0;
+  clean.observation_noise = clean.observation_noise_max = 0;
   const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
   const auto plant = [&](PlantPart part) {
     return MeasurePlant(part, options.aircraft, options.steps, pool);
@@ -129,7 +129,7 @@ void BenchSimulator(const BenchOptions& options) {
                {"rk4", ToJson(rk4)},
                {"plant", ToJson(controlled)},
                {"environment", ToJson(whole)}};
-  if (noisy.observation_noise > 0) {
+  if (noisy.observation_noise > 0 || noisy.observation_noise_max > 0) {
     const SimulatorRate with_noise = environment(noisy);
     line("the whole environment, with noise", with_noise,
          fmt::format(" ({:+.0f} %)", 100 * (with_noise.step_s / whole.step_s - 1)));

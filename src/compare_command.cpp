@@ -34,6 +34,10 @@ ProgramConfig Configure(const FlightOptions& flight) {
   if (config.train.env.tracking.error_axes != preset.tracking.error_axes) {
     throw Error("env.tracking.error_axes: agents that are compared see each in their own axes");
   }
+  if (config.train.env.planner.averages_observations != preset.planner.averages_observations) {
+    throw Error(
+        "env.planner.averages_observations: planners that are compared look each as they did");
+  }
   return config;
 }
 
@@ -99,7 +103,7 @@ void AddCompareCommand(CLI::App* app) {
       app->add_subcommand("compare", "Fly several agents over the same fresh episodes");
   command
       ->add_option("--agents", options->agents,
-                   fmt::format("who flies, separated by commas: {}", kAgentForms))
+                   fmt::format("who flies, separated by commas: {}", AgentForms()))
       ->type_name("AGENT,...")
       ->delimiter(',')
       ->required();

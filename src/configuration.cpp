@@ -115,6 +115,12 @@ void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
   }
 }
 
+void RequireTask(const ProgramConfig& config, const std::string& task) {
+  if (config.train.env.task == task) return;
+  throw Error(fmt::format("the configuration says env.task = {}, but the task asked for is {}",
+                          config.train.env.task, task));
+}
+
 void CheckConsistent(const ProgramConfig& config) {
   Validate(config.train.env);
   Validate(config.train.ppo);
@@ -133,10 +139,7 @@ ProgramConfig ResolveConfig(const ConfigSources& sources) {
             &config);
   if (!sources.file.empty()) ApplyTomlFile(sources.file, &config);
   ApplyConditionsAndAssignments(sources.conditions, sources.assignments, &config);
-  if (config.train.env.task != sources.task) {
-    throw Error(fmt::format("the configuration says env.task = {}, but the task asked for is {}",
-                            config.train.env.task, sources.task));
-  }
+  RequireTask(config, sources.task);
   return config;
 }
 

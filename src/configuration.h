@@ -20,6 +20,9 @@ void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
                                    ProgramConfig* config);
 
+/// Throws Error if the configuration has come to name another task than the one asked for.
+void RequireTask(const ProgramConfig& config, const std::string& task);
+
 /// Throws Error on values that are each allowed but cannot go together.
 void CheckConsistent(const ProgramConfig& config);
 

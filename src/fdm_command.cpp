@@ -25,9 +25,11 @@ using Json = nlohmann::ordered_json;
 
 const std::map<std::string, FdmPrecision> kPrecisions = {{"float64", FdmPrecision::kFloat64},
                                                          {"float32", FdmPrecision::kFloat32}};
-const std::map<std::string, AtmosphereModel> kAtmospheres = {
-    {"stevens_lewis", AtmosphereModel::kStevensLewis},
-    {"standard_1976", AtmosphereModel::kStandard1976}};
+std::map<std::string, AtmosphereModel> Atmospheres() {
+  std::map<std::string, AtmosphereModel> atmospheres;
+  for (const auto& [model, name] : kAtmosphereNames) atmospheres[name] = model;
+  return atmospheres;
+}
 
 // Thrust is linear in power between table entries: what the inverse leaves is rounding.
 constexpr double kThrustToleranceLbf = 1e-3;
@@ -39,7 +41,7 @@ struct FileOptions {
   std::string atmosphere = "stevens_lewis";
 
   FdmModel Model() const {
-    return {aircraft, kAtmospheres.at(atmosphere), kPrecisions.at(precision)};
+    return {aircraft, Atmospheres().at(atmosphere), kPrecisions.at(precision)};
   }
 };
 
@@ -147,7 +149,7 @@ void FindTrim(TrimOptions options) {
   aircraft.airframe.engine_angular_momentum = options.parameters.engine_angular_momentum;
   options.request.flight_path_angle_rad = options.flight_path_deg / kDegPerRad;
   options.request.turn_rate_rad_s = options.turn_rate_deg_s / kDegPerRad;
-  const Plant plant(std::move(aircraft), kAtmospheres.at(options.atmosphere));
+  const Plant plant(std::move(aircraft), Atmospheres().at(options.atmosphere));
   const TrimPoint trim = Trim(plant, options.request);
   const PlantOutput output = plant.Evaluate(trim.state, trim.controls);
 
@@ -215,7 +217,7 @@ void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere)
   command
       ->add_option("--atmosphere", *atmosphere,
                    "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
-      ->check(CLI::IsMember(kAtmospheres))
+      ->check(CLI::IsMember(Atmospheres()))
       ->capture_default_str();
 }
 

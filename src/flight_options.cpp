@@ -48,10 +48,7 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
   const std::string task = options.task.empty() ? config->train.env.task : options.task;
   if (!options.config.empty()) ApplyTomlFile(options.config, config);
   ApplyConditionsAndAssignments(options.conditions, options.assignments, config);
-  if (config->train.env.task != task) {
-    throw Error(fmt::format("the configuration says env.task = {}, but --task is {}",
-                            config->train.env.task, task));
-  }
+  RequireTask(*config, task);
   CheckConsistent(*config);
 }
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <charconv>
 #include <ctime>
+#include <exception>
 #include <filesystem>
 #include <utility>
 
@@ -164,12 +165,18 @@ std::optional<std::string> LatestRun(const std::string& root, const std::string&
     if (IsRunDirectory(run)) runs.emplace_back(LastWritten(run), run);
   }
   std::sort(runs.rbegin(), runs.rend());
+  std::exception_ptr unreadable;
   for (const auto& [time, run] : runs) {
     if (task.empty()) return run;
-    ProgramConfig config;
-    ApplyTomlFile(run + "/config.toml", &config);
-    if (config.train.env.task == task) return run;
+    try {
+      ProgramConfig config;
+      ApplyTomlFile(run + "/config.toml", &config);
+      if (config.train.env.task == task) return run;
+    } catch (const Error&) {
+      if (unreadable == nullptr) unreadable = std::current_exception();
+    }
   }
+  if (unreadable != nullptr) std::rethrow_exception(unreadable);
   return std::nullopt;
 }
 

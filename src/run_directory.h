@@ -71,7 +71,8 @@ bool IsRunDirectory(const std::string& path);
 /// A directory for a new run under `root` that does not exist yet: <root>/<task>-<date>-<time>.
 std::string NewRunPath(const std::string& root, const std::string& task);
 
-/// The run under `root` that was written to last, of `task` unless that is empty.
+/// The run under `root` that was written to last, of `task` unless that is empty. Throws Error if
+/// there is none but one whose configuration cannot be read.
 std::optional<std::string> LatestRun(const std::string& root, const std::string& task);
 
 }  // namespace skein

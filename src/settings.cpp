@@ -22,12 +22,6 @@ constexpr double kMaxCount = 9007199254740992.0;
 template <typename Enum, std::size_t kCount>
 using Names = std::array<std::pair<Enum, const char*>, kCount>;
 
-constexpr Names<AtmosphereModel, 2> kAtmosphereNames = {
-    {{AtmosphereModel::kStevensLewis, "stevens_lewis"},
-     {AtmosphereModel::kStandard1976, "standard_1976"}}};
-constexpr Names<FlightControlMode, 2> kFlightControlNames = {
-    {{FlightControlMode::kFull, "full"}, {FlightControlMode::kDirect, "direct"}}};
-
 const auto& NamesOf(AtmosphereModel) { return kAtmosphereNames; }
 const auto& NamesOf(FlightControlMode) { return kFlightControlNames; }
 const auto& NamesOf(TrackingAxes) { return kTrackingAxesNames; }
@@ -78,8 +72,8 @@ std::vector<Setting> MakeSettings() {
   using C = ProgramConfig;
   using F = SettingField;
   const Bounds any{-kUnbounded, kUnbounded}, positive{0, kUnbounded, true},
-      not_negative{0, kUnbounded}, fraction{0, 1}, count{1, kMaxInt}, count_or_none{0, kMaxInt},
-      name{};
+      not_negative{0, kUnbounded}, fraction{0, 1}, share{0, 1, true}, count{1, kMaxInt},
+      count_or_none{0, kMaxInt}, name{};
   return {
       {"run.total_steps",
        [](C& c) -> F { return &c.train.total_steps; },
@@ -96,10 +90,10 @@ std::vector<Setting> MakeSettings() {
        "air: the published F-16 models' or the U.S. Standard Atmosphere 1976"},
       {"env.flight_control", [](C& c) -> F { return &c.train.env.flight_control; }, name,
        "the four-channel flight control system, or commands straight to the actuators"},
-      {"env.cg_chord_fraction", [](C& c) -> F { return &c.train.env.cg; }, fraction,
+      {"env.cg_chord_fraction", [](C& c) -> F { return &c.train.env.cg; }, share,
        "centre of gravity, fraction of the mean chord"},
       {"env.engine_angular_momentum_slug_ft2_per_s",
-       [](C& c) -> F { return &c.train.env.engine_angular_momentum; }, any,
+       [](C& c) -> F { return &c.train.env.engine_angular_momentum; }, not_negative,
        "gyroscopic effect of the engine; 0 leaves it out"},
       {"env.thrust_growth_above_mach_1", [](C& c) -> F { return &c.train.env.thrust_grows; }, name,
        "true: thrust grows above Mach 1; false: it is held at its value there"},
@@ -107,7 +101,7 @@ std::vector<Setting> MakeSettings() {
        "drag rises with the Mach number"},
       {"env.control_interval_s",
        [](C& c) -> F { return &c.train.env.control_interval_s; },
-       {0, 1, true},
+       {0, 0.04, true},
        "time between control steps"},
       {"env.substeps",
        [](C& c) -> F { return &c.train.env.substeps; },
@@ -132,19 +126,19 @@ std::vector<Setting> MakeSettings() {
 
       {"env.initial.altitude_min_ft",
        [](C& c) -> F { return &c.train.env.initial.altitude_ft.min; },
-       {0, 100000},
+       {0, 60000},
        "lowest initial altitude"},
       {"env.initial.altitude_max_ft",
        [](C& c) -> F { return &c.train.env.initial.altitude_ft.max; },
-       {0, 100000},
+       {0, 60000},
        "highest initial altitude"},
       {"env.initial.true_airspeed_min_fps",
        [](C& c) -> F { return &c.train.env.initial.true_airspeed_fps.min; },
-       {0, 5000, true},
+       {10, 3000},
        "lowest initial true airspeed"},
       {"env.initial.true_airspeed_max_fps",
        [](C& c) -> F { return &c.train.env.initial.true_airspeed_fps.max; },
-       {0, 5000, true},
+       {10, 3000},
        "highest initial true airspeed"},
       {"env.initial.trimmed", [](C& c) -> F { return &c.train.env.initial.trimmed; }, name,
        "true: steady flight; false: level, alpha 0, surfaces centred, a set thrust (F-16: 2000 "
@@ -198,8 +192,7 @@ std::vector<Setting> MakeSettings() {
        [](C& c) -> F { return &c.train.env.heading.speed_tolerance_fps; }, positive,
        "speed error that counts as reached"},
       {"env.heading.training_tolerance_min",
-       [](C& c) -> F { return &c.train.env.heading.training_tolerance_min; },
-       {0, 1, true},
+       [](C& c) -> F { return &c.train.env.heading.training_tolerance_min; }, share,
        "in training an episode's tolerances are these times U(x, 1); evaluations take them whole"},
       {"env.heading.earliest_success_step",
        [](C& c) -> F { return &c.train.env.heading.earliest_success_step; }, count_or_none,
@@ -231,8 +224,7 @@ std::vector<Setting> MakeSettings() {
        [](C& c) -> F { return &c.train.env.control.speed_tolerance_fps; }, positive,
        "speed error that counts as reached"},
       {"env.control.training_tolerance_min",
-       [](C& c) -> F { return &c.train.env.control.training_tolerance_min; },
-       {0, 1, true},
+       [](C& c) -> F { return &c.train.env.control.training_tolerance_min; }, share,
        "in training an episode's tolerances are these times U(x, 1); evaluations take them whole"},
       {"env.control.reward_includes_roll",
        [](C& c) -> F { return &c.train.env.control.reward_includes_roll; }, name,
@@ -242,10 +234,12 @@ std::vector<Setting> MakeSettings() {
        "reward lost per step and unit of speed error (F-16: 340 m/s), beside the angle's"},
 
       {"env.tracking.distance_min_ft",
-       [](C& c) -> F { return &c.train.env.tracking.distance_ft.min; }, not_negative,
+       [](C& c) -> F { return &c.train.env.tracking.distance_ft.min; },
+       {0, 1e6},
        "nearest target"},
       {"env.tracking.distance_max_ft",
-       [](C& c) -> F { return &c.train.env.tracking.distance_ft.max; }, not_negative,
+       [](C& c) -> F { return &c.train.env.tracking.distance_ft.max; },
+       {0, 1e6},
        "farthest target"},
       {"env.tracking.azimuth_deg",
        [](C& c) -> F { return &c.train.env.tracking.azimuth_deg; },
@@ -285,11 +279,11 @@ std::vector<Setting> MakeSettings() {
 
       {"env.termination.alpha_min_deg",
        [](C& c) -> F { return &c.train.env.termination.alpha_deg.min; },
-       {-90, 90},
+       {-180, 180},
        "ExtremeState below this angle of attack"},
       {"env.termination.alpha_max_deg",
        [](C& c) -> F { return &c.train.env.termination.alpha_deg.max; },
-       {-90, 90},
+       {-180, 180},
        "ExtremeState above this angle of attack"},
       {"env.termination.beta_min_deg",
        [](C& c) -> F { return &c.train.env.termination.beta_deg.min; },

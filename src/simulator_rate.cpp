@@ -132,16 +132,18 @@ SimulatorRate MeasureEnvironment(const EnvConfig& config, int aircraft, int step
     largest = std::max(largest, env.tile_count(tile));
   }
   const auto size = static_cast<std::size_t>(largest);
+  // The same for every worker: what flies where does not change with who flies it.
+  std::vector<float> sticks(size * actions);
   simd::RandomStream random({0, 0, 0, 0, simd::RandomPurpose::kActionNoise});
+  for (float& stick : sticks) stick = static_cast<float>(random.Uniform(-1, 1));
   for (Buffers& buffers : workers) {
     buffers = {std::vector<float>(size * observations),
-               std::vector<float>(size * actions),
+               sticks,
                std::vector<float>(size),
                std::vector<float>(size),
                std::vector<float>(size * observations),
                std::vector<std::uint8_t>(size),
                std::vector<std::int32_t>(size)};
-    for (float& action : buffers.action) action = static_cast<float>(random.Uniform(-1, 1));
   }
   return Measure(aircraft, steps, [&] {
     pool.ForEach(env.num_tiles(), [&](int tile, int worker) {

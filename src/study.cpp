@@ -9,6 +9,7 @@
 #include <set>
 
 #include "simd/error.h"
+#include "src/conditions.h"
 #include "src/configuration.h"
 #include "src/nearest_name.h"
 #include "src/output_file.h"
@@ -186,16 +187,17 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   return study;
 }
 
+/// The study's preset and assignments, then `parts`, each stronger than those before it.
 ProgramConfig Configure(const Study& study, const std::string& task,
                         const std::vector<StudySettings>& parts) {
-  ConfigSources sources{task, study.preset, "", study.assignments};
+  ProgramConfig config = ResolveConfig({task, study.preset, "", study.assignments});
+  std::vector<std::string> conditions;
   for (const StudySettings& part : parts) {
-    sources.conditions.insert(sources.conditions.end(), part.conditions.begin(),
-                              part.conditions.end());
-    sources.assignments.insert(sources.assignments.end(), part.assignments.begin(),
-                               part.assignments.end());
+    conditions.insert(conditions.end(), part.conditions.begin(), part.conditions.end());
+    ApplyConditionsAndAssignments(part.conditions, part.assignments, &config);
   }
-  ProgramConfig config = ResolveConfig(sources);
+  ConditionAssignments(conditions);  // refuses one that two parts give
+  RequireTask(config, task);
   CheckConsistent(config);
   return config;
 }

@@ -10,6 +10,7 @@
 
 #include "envs/tasks/task.h"
 #include "simd/error.h"
+#include "simd/target.h"
 #include "src/agent_names.h"
 #include "src/comparison.h"
 #include "src/configuration.h"
@@ -23,6 +24,7 @@
 #include "src/training_run.h"
 #include "train/controller_file.h"
 #include "train/fnv_hash.h"
+#include "train/policy_environment.h"
 
 namespace skein {
 namespace {
@@ -88,6 +90,7 @@ Json Identity(const std::vector<AgentInStudy>& agents, const Study& study,
           {"episodes", study.evaluation.episodes},
           {"seed", study.evaluation.seed},
           {"environment", EnvironmentJson(config)},
+          {"simd", Name(simd::ActiveTarget())},
           {"quantities", quantities}};
 }
 
@@ -113,14 +116,23 @@ ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const S
   return config;
 }
 
+/// Throws Error if a policy of `who` that is trained in `trained` cannot fly in `flown`.
+void CheckFlies(const EnvConfig& trained, EnvConfig flown, const std::string& who) {
+  const auto made_with = PolicyEnvironment(trained);
+  AdoptView(made_with, &flown);
+  CheckMadeWith(flown, made_with, who);
+}
+
 /// The study. Throws Error on a configuration or agent of it that cannot be.
 const Study& Checked(const Study& study) {
   bool plans = false;
   for (const std::string& task : study.tasks) {
     plans = plans || IsPlanned(task);
     for (const StudyLevel& level : study.levels) {
-      ConfigToTrain(study, task, level, study.seeds.front());
+      const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
       const ProgramConfig config = LevelConfig(study, task, level);
+      CheckFlies(trained.train.env, config.train.env,
+                 fmt::format("what is trained for {}, {}", task, level.name));
       for (const std::string& agent : study.agents) {
         FindAgent(agent, config, study.evaluation.seed);
       }

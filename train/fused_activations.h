@@ -10,7 +10,7 @@
 namespace skein {
 
 /// What FusedNetwork's forward pass of a tile leaves for its backward pass. One row per sample,
-/// time-major, padded to PaddedWidth (train/network_kernels.h).
+/// time-major, RowStride apart (train/network_kernels.h).
 struct FusedActivations {
   /// A LayerNorm behind a ReLU: its output and what its gradient needs.
   struct HiddenRows {

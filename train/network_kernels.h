@@ -18,7 +18,7 @@ constexpr std::int64_t RowStride(int width) { return PaddedWidth(width) + 16; }
 
 // The elementwise parts of a recurrent network, forward and backward, over row-major tiles; the
 // products between them are simd/matrix_product.h's. Unless said otherwise rows lie
-// PaddedWidth(columns) floats apart, and what is behind the columns is zero before and after.
+// RowStride(columns) floats apart, and what is behind the columns is zero before and after.
 // "Normalise" is LayerNorm without its affine part: (x - mean) / sqrt(variance + epsilon) of each
 // row; the affine part is folded into the map that follows (train/folded_parameters.h).
 // Not-a-number in an input shows in the output.

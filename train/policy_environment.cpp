@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "envs/name_in.h"
 #include "envs/tasks/task.h"
 #include "simd/error.h"
 #include "train/autopilot_controller.h"
@@ -44,8 +45,7 @@ std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
   std::map<std::string, std::string> environment;
   environment["aircraft"] = env.aircraft;
   environment["control_interval_s"] = Text(env.control_interval_s);
-  environment["flight_control"] =
-      env.flight_control == FlightControlMode::kFull ? "full" : "direct";
+  environment["flight_control"] = NameIn(kFlightControlNames, env.flight_control);
   if (!IsPlanned(env.task)) return environment;
   environment["planner.pitch_change_rad"] = Text(env.planner.pitch_change_rad);
   environment["planner.yaw_change_rad"] = Text(env.planner.yaw_change_rad);
@@ -76,13 +76,17 @@ void CheckMadeFor(const EnvConfig& env, const Pilot& pilot, const std::string& w
   const auto* const policy = dynamic_cast<const Policy*>(&pilot);
   if (policy == nullptr) return;
   if (!policy->task().empty()) RequireSame("task", policy->task(), env.task, who);
-  const std::map<std::string, std::string>& made_with = policy->parameters()->environment;
+  CheckMadeWith(env, policy->parameters()->environment, who);
+  if (policy->controller() == nullptr) return;
+  CheckControllerMadeFor(env, *policy->controller(), who + "'s controller");
+}
+
+void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string>& made_with,
+                   const std::string& who) {
   for (const auto& [key, value] : PolicyEnvironment(env)) {
     const auto found = made_with.find(key);
     if (found != made_with.end()) RequireSame(key, found->second, value, who);
   }
-  if (policy->controller() == nullptr) return;
-  CheckControllerMadeFor(env, *policy->controller(), who + "'s controller");
 }
 
 void CheckControllerMadeFor(const EnvConfig& env, const Pilot& controller, const std::string& who) {

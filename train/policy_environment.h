@@ -23,6 +23,10 @@ void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* e
 /// pilots of other kinds are made for what they fly.
 void CheckMadeFor(const EnvConfig& env, const Pilot& pilot, const std::string& who);
 
+/// The same of a policy that was made with `made_with` (PolicyEnvironment).
+void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string>& made_with,
+                   const std::string& who);
+
 /// The same of what flies for a planner in `env`.
 void CheckControllerMadeFor(const EnvConfig& env, const Pilot& controller, const std::string& who);
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "envs/name_in.h"
+#include "envs/tasks/task.h"
 #include "simd/error.h"
 #include "simd/target.h"
 #include "train/controller_file.h"
@@ -22,16 +24,12 @@ std::string Text(bool value) { return value ? "true" : "false"; }
 std::string Text(int value) { return std::to_string(value); }
 std::string Text(std::uint64_t value) { return std::to_string(value); }
 std::string Text(double value) { return ExactText(value); }
-std::string Text(AtmosphereModel model) {
-  return model == AtmosphereModel::kStevensLewis ? "stevens_lewis" : "standard_1976";
-}
+std::string Text(AtmosphereModel model) { return NameIn(kAtmosphereNames, model); }
 std::string Text(TrackingAxes axes) { return Name(axes); }
 std::string Text(Activation activation) { return Name(activation); }
 std::string Text(Backend backend) { return Name(backend); }
 std::string Text(LearnerPrecision precision) { return Name(precision); }
-std::string Text(FlightControlMode mode) {
-  return mode == FlightControlMode::kFull ? "full" : "direct";
-}
+std::string Text(FlightControlMode mode) { return NameIn(kFlightControlNames, mode); }
 
 void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& fields) {
   const auto add = [&](const char* name, const auto& value) {
@@ -98,6 +96,8 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("tracking.position_tolerance_ft", env.tracking.position_tolerance_ft);
     add("tracking.training_tolerance_max", env.tracking.training_tolerance_max);
     add("tracking.error_axes", env.tracking.error_axes);
+  }
+  if (IsPlanned(env.task)) {
     add("planner.pitch_change_rad", env.planner.pitch_change_rad);
     add("planner.yaw_change_rad", env.planner.yaw_change_rad);
     add("planner.speed_change_fps", env.planner.speed_change_fps);

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <array>
+#include <utility>
+
 namespace skein {
 
 enum class AtmosphereModel {
   kStevensLewis,  ///< the published F-16 models' polynomial atmosphere (Stevens and Lewis)
   kStandard1976,  ///< U.S. Standard Atmosphere 1976, geopotential, to 65,600 ft
 };
+inline constexpr std::array<std::pair<AtmosphereModel, const char*>, 2> kAtmosphereNames{
+    {{AtmosphereModel::kStevensLewis, "stevens_lewis"},
+     {AtmosphereModel::kStandard1976, "standard_1976"}}};
 
 struct Air {
   double density_slug_ft3 = 0;

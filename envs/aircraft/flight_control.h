@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "envs/aircraft/aircraft.h"
 #include "envs/dynamics/state.h"
@@ -12,6 +13,8 @@ enum class FlightControlMode {
   kDirect,  ///< pilot commands scaled to the surfaces' limits; leading-edge flap on its steady
             ///< schedule
 };
+inline constexpr std::array<std::pair<FlightControlMode, const char*>, 2> kFlightControlNames{
+    {{FlightControlMode::kFull, "full"}, {FlightControlMode::kDirect, "direct"}}};
 
 /// Throttle in [0, 1]; pitch (+ nose up), roll (+ right wing down), yaw (+ nose right) in [-1, 1].
 struct PilotCommands {

@@ -7,8 +7,6 @@ namespace skein {
 
 /// Feet, seconds and radians throughout; commands in [-1, 1] (throttle in [0, 1]).
 
-inline constexpr double kStandardGravity = 32.17;  ///< ft/s^2, as the plant's
-
 constexpr double Radians(double degrees) { return degrees * 0.017453292519943295; }
 
 /// Bandwidths of the estimator, rad/s: each estimate follows its kinematics at once and its

@@ -2,6 +2,7 @@
 // AP_RollController and AP_PitchController, onto a flight control system that takes roll rate and
 // load factor.
 
+#include "envs/aircraft/aircraft.h"
 #include "envs/autopilot/gains.h"
 
 #if defined(SKEIN_ENVS_AUTOPILOT_INNER_LOOPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -51,7 +52,7 @@ template <class T>
 HWY_INLINE T PitchStick(const InnerLoopGains& k, double dt, const FlightEstimate<T>& flight,
                         const Kinematics<T>& motion, T load_factor_demand,
                         InnerLoopMemory<T>& memory) {
-  const T speed_per_g = Max(flight.speed, kLeastSpeed) / kStandardGravity;
+  const T speed_per_g = Max(flight.speed, kLeastSpeed) / kGravityFtS2;
   const T rate = (load_factor_demand - motion.cos_pitch * motion.cos_roll) / speed_per_g;
   const T rate_error = (rate - flight.q) * speed_per_g;  // in g
   const T increment =

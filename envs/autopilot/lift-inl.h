@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "envs/aircraft/aircraft.h"
 #include "envs/autopilot/gains.h"
 
 #if defined(SKEIN_ENVS_AUTOPILOT_LIFT_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -32,7 +33,7 @@ struct LiftDemand {
 template <class T>
 HWY_INLINE LiftDemand<T> PointLift(const LiftGains& k, const Kinematics<T>& motion, T lateral,
                                    T vertical) {
-  constexpr double kG = kStandardGravity;
+  constexpr double kG = kGravityFtS2;
   const double most = k.max_load_factor * kG;
   const T cos_climb = Sqrt(Max(1 - motion.sin_climb * motion.sin_climb, 0));
   const T up =

@@ -1,6 +1,7 @@
 // The order in which Control's targets are brought about: speed and yaw first, the nose last. Nose
 // up the aircraft cannot gain speed, nose down it cannot lose it.
 
+#include "envs/aircraft/aircraft.h"
 #include "envs/autopilot/gains.h"
 
 #if defined(SKEIN_ENVS_AUTOPILOT_SEQUENCER_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -44,7 +45,7 @@ HWY_INLINE T ForeseenSpeedError(const SequencerGains& k, const ControlErrorEstim
   T sine, cosine;
   SinCos(pitch, sine, cosine);
   const T seconds = 0.5 * (Abs(error.pitch) / k.pitch_rate + 1);
-  return error.speed + k.speed_lead * kStandardGravity * sine * seconds;
+  return error.speed + k.speed_lead * kGravityFtS2 * sine * seconds;
 }
 
 /// The pitch that serves the speed: nose down to gain it, up to lose it, up near the ground.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "envs/aircraft/aircraft.h"
 #include "envs/autopilot/gains.h"
 
 #if defined(SKEIN_ENVS_AUTOPILOT_TECS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -62,9 +63,9 @@ HWY_INLINE void DecideThrottle(const TecsGains& k, double dt, const FlightEstima
 
   const T wanted_acceleration =
       Clip(demand.speed_error / k.time_constant_s, -k.max_acceleration, k.max_acceleration);
-  const T error = kStandardGravity * demand.height_error + flight.speed * demand.speed_error;
-  const T rate = kStandardGravity * demand.climb_rate + flight.speed * wanted_acceleration;
-  const T rate_error = rate - kStandardGravity * motion.up - flight.speed * acceleration;
+  const T error = kGravityFtS2 * demand.height_error + flight.speed * demand.speed_error;
+  const T rate = kGravityFtS2 * demand.climb_rate + flight.speed * wanted_acceleration;
+  const T rate_error = rate - kGravityFtS2 * motion.up - flight.speed * acceleration;
 
   const T level = Max(motion.cos_roll, 0.2);
   const T bank = k.bank_compensation * (1 / (level * level) - 1);

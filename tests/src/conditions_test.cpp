@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "envs/tasks/task.h"
 #include "envs/vec_env.h"
 #include "simd/error.h"
 #include "src/configuration.h"
@@ -25,7 +26,7 @@ std::string Complaint(const std::vector<std::string>& conditions) {
   return "";
 }
 
-EnvConfig Under(const std::vector<std::string>& conditions, const char* task = "heading") {
+EnvConfig Under(const std::vector<std::string>& conditions, const std::string& task = "heading") {
   const ProgramConfig config = ResolveConfig({task, "default", "", {}, conditions});
   CheckConsistent(config);
   return config.train.env;
@@ -76,7 +77,7 @@ TEST(Conditions, WindTakesASpeedAndASeverityOrNumbers) {
 }
 
 TEST(Conditions, EveryLevelOfEachOnEveryTaskCanBeFlown) {
-  for (const char* task : {"heading", "control"}) {
+  for (const std::string& task : TaskNames()) {
     for (const char* level : {"mild", "middle", "hard"}) {
       std::vector<std::string> together;
       for (const char* name : {"high_speed", "high_altitude", "windy", "noisy"}) {

@@ -139,6 +139,33 @@ TEST(Settings, DocumentationSaysWhereThePresetsOfOtherTasksDiffer) {
   }
 }
 
+TEST(Settings, EvaluationsTakeTolerancesWhole) {
+  int found = 0;
+  for (const Setting& setting : Settings()) {
+    if (setting.key.find(".training_tolerance_") == std::string::npos) continue;
+    ProgramConfig config = ResolveConfig({OwnerOf(setting), "default", "", {}});
+    config.train.env = EvaluationConfig(config.train.env);
+    EXPECT_EQ(FormatValue(setting, config), "1.0") << setting.key;
+    ++found;
+  }
+  EXPECT_EQ(found, static_cast<int>(TaskNames().size()));
+}
+
+TEST(Settings, TheEnvironmentAllowsWhatTheKeysAllow) {
+  // The ends of every range, where they are whole values of their own and go with all others.
+  for (const Setting& setting : Settings()) {
+    if (setting.key.rfind("env.", 0) != 0 || setting.key.rfind("env.initial.", 0) == 0) continue;
+    const Bounds& bounds = setting.bounds;
+    if (!(bounds.max < 1e7) || !(bounds.max > bounds.min)) continue;
+    if (setting.key.find("_min") != std::string::npos) continue;  // no more than its _max
+    ProgramConfig config = ResolveConfig({OwnerOf(setting), "default", "", {}});
+    config.train.env.termination.alpha_deg.min = 0;  // an arc of 180 deg at most
+    Assign(setting, bounds.max, "test", &config);
+    EXPECT_NO_THROW(Validate(config.train.env)) << setting.key;
+    EXPECT_THROW(Assign(setting, std::nextafter(bounds.max, HUGE_VAL), "test", &config), Error);
+  }
+}
+
 TEST(Settings, ACheckpointHoldsEveryKeyThatTrainingDependsOn) {
   std::set<std::string> keys;
   for (const Setting& setting : Settings()) {

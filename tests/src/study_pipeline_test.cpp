@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "src/output_file.h"
+#include "src/study.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 
@@ -95,6 +96,28 @@ TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
                                   std::string("heading, loud, 0.1"), std::string("results.csv")}) {
     EXPECT_THAT(result.output, HasSubstr(text));
   }
+}
+
+TEST_F(StudyPipeline, ALevelIsStrongerThanWhatAllConfigurationsBeginWith) {
+  WriteFile(file_, R"(
+tasks = ["heading"]
+seeds = [1]
+set = ["env.observation_noise=0.02"]
+[training]
+set = ["env.observation_noise=0.03", "ppo.epochs=7"]
+[[level]]
+name = "usual"
+[[level]]
+name = "noisy"
+condition = ["noisy=0.05"]
+)");
+  const Study study = ReadStudy(file_);
+  const auto noise = [](const ProgramConfig& config) { return config.train.env.observation_noise; };
+  EXPECT_EQ(noise(LevelConfig(study, "heading", study.levels[0])), 0.02);
+  EXPECT_EQ(noise(LevelConfig(study, "heading", study.levels[1])), 0.05);
+  EXPECT_EQ(noise(TrainingConfig(study, "heading", study.levels[0], 1)), 0.03);
+  EXPECT_EQ(noise(TrainingConfig(study, "heading", study.levels[1], 1)), 0.05);
+  EXPECT_EQ(TrainingConfig(study, "heading", study.levels[1], 1).train.ppo.epochs, 7);
 }
 
 TEST_F(StudyPipeline, FliesAgainWhatItTrainedAgain) {
@@ -219,6 +242,13 @@ TEST_F(StudyPipeline, WrongStudiesAreErrorsOfOneLineBeforeAnyTraining) {
       "\"a-b\"",
       "level names a-b twice");
   ExpectError("tasks = [\"heading\"]\nseeds = [1]\nset = [\"env.nose=1\"]", "unknown key env.nose");
+  ExpectError(
+      "tasks = [\"heading\"]\nseeds = [1]\n[training]\nset = [\"env.flight_control=direct\"]",
+      "env.flight_control = direct, but is to fly with env.flight_control = full");
+  ExpectError(
+      "tasks = [\"heading\"]\nseeds = [1]\n[training]\ncondition = [\"noisy=0.1\"]\n"
+      "[[level]]\nname = \"a\"\ncondition = [\"noisy=0.2\"]",
+      "noisy is given twice");
   ExpectError("tasks = [", "not valid TOML");
   EXPECT_FALSE(fs::exists(scratch_ / "wrong"));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simd/error.h"
+#include "tests/envs/step_buffers.h"
 #include "tests/train/small_config.h"
 
 namespace skein {
@@ -74,13 +75,17 @@ TEST(EvaluateTest, NoiseIsThatOfTheEpisodeWhateverTheRate) {
   EvaluationOptions options;
   options.episodes = 3;
   env.action_repeat = 1;
-  const VecEnv fast = MakeEvaluationEnv(Agent::Idle(), env, options);
+  VecEnv fast = MakeEvaluationEnv(Agent::Idle(), env, options);
   env.action_repeat = 5;
-  const VecEnv slow = MakeEvaluationEnv(Agent::Idle(), env, options);
-  std::vector<float> a(3 * 22), b(3 * 22);
-  fast.Observe(0, a.data());
-  slow.Observe(0, b.data());
-  EXPECT_EQ(a, b);
+  VecEnv slow = MakeEvaluationEnv(Agent::Idle(), env, options);
+  StepBuffers a(options.episodes), b(options.episodes);
+  for (int decision = 0; decision < 4; ++decision) {
+    fast.Observe(0, a.observation.data());
+    slow.Observe(0, b.observation.data());
+    EXPECT_EQ(a.observation, b.observation) << "decision " << decision;
+    for (int step = 0; step < 5; ++step) fast.Step(0, a.action.data(), a.output());
+    slow.Step(0, b.action.data(), b.output());
+  }
 }
 
 TEST(EvaluateTest, MeasuresFlightsOnlyIfAsked) {

@@ -105,7 +105,10 @@ class StepResponse : public testing::TestWithParam<AutopilotVariant> {
   static EnvConfig Quiet(const std::string& task) {
     EnvConfig config = Task(task);
     config.observation_noise = 0;
-    config.heading = {0, 0, 0, 1e-9, 1e-9, 1e-9, 1};
+    config.heading.altitude_change_ft = config.heading.yaw_change_rad = 0;
+    config.heading.speed_change_fps = 0;
+    config.heading.altitude_tolerance_ft = config.heading.yaw_tolerance_deg = 1e-9;
+    config.heading.speed_tolerance_fps = 1e-9;
     config.control.pitch_change_rad = config.control.yaw_change_rad = 0;
     config.control.speed_change_fps = 0;
     config.control.pitch_tolerance_deg = config.control.yaw_tolerance_deg = 1e-9;

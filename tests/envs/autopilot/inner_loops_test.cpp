@@ -42,7 +42,7 @@ TEST(InnerLoops, AskForWhatFullStickGives) {
 /// A pitch rate that already bends the path as asked leaves only the load factor to hold.
 TEST(InnerLoops, PitchRateOfThePathIsNoError) {
   Loops loops;
-  loops.flight.q = kStandardGravity / 1000 * (3 - 1);
+  loops.flight.q = kGravityFtS2 / 1000 * (3 - 1);
   EXPECT_DOUBLE_EQ(loops.Pitch(3), 2 / loops.gains.full_aft_load_factor);
   EXPECT_NEAR(loops.memory.load_factor, 0, 1e-15);
 }

@@ -7,7 +7,7 @@ namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr double kG = kStandardGravity;
+constexpr double kG = kGravityFtS2;
 
 Kinematics<double> Banked(double roll) {
   Kinematics<double> motion = {};

@@ -54,7 +54,7 @@ TEST(Sequencer, ForeseesWhatGravityTakes) {
   Nose nose;
   const double pitch = 0.4;
   const double seconds = 0.5 * (pitch / nose.gains.pitch_rate + 1);
-  const double loss = nose.gains.speed_lead * kStandardGravity * std::sin(pitch) * seconds;
+  const double loss = nose.gains.speed_lead * kGravityFtS2 * std::sin(pitch) * seconds;
   EXPECT_NEAR(nose.Decide(pitch, 0, -loss).pitch, pitch, 1e-12);
   Nose slower;
   EXPECT_NEAR(slower.Decide(pitch, 0, 0).speed_error, loss, 1e-9);

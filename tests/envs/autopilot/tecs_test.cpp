@@ -37,9 +37,9 @@ TEST(Tecs, HoldsLevelThrottleWithoutErrors) {
 TEST(Tecs, LeavesTheThrottleWhereTotalEnergyIsRight) {
   LevelFlight level;
   const double speed_error = -20;
-  const double height_error = -kSpeed * speed_error / kStandardGravity;
+  const double height_error = -kSpeed * speed_error / kGravityFtS2;
   // The climb that gives away speed at the rate at which the demand takes it.
-  const double climb = -kSpeed * speed_error / level.gains.time_constant_s / kStandardGravity;
+  const double climb = -kSpeed * speed_error / level.gains.time_constant_s / kGravityFtS2;
   EXPECT_NEAR(level.Throttle({speed_error, height_error, climb}), level.gains.level_throttle,
               1e-12);
 }

@@ -40,12 +40,13 @@ TEST(TaskRegistryTest, TasksTakeTheirSettingsFromTheConfiguration) {
   config.heading.altitude_change_ft = config.heading.yaw_change_rad =
       config.heading.speed_change_fps = 0;
   simd::RandomStream random({1, 2, 3, 4, simd::RandomPurpose::kTarget});
-  TestTile columns(2, 3);
-  MakeTask(config)->Reset({12000, 800, 0.1, -1.5}, &random, columns.tile(), 1);
+  const std::unique_ptr<Task> task = MakeTask(config);
+  TestTile columns(2, task->num_columns());
+  task->Reset({12000, 800, 0.1, -1.5}, &random, columns.tile(), 1);
   EXPECT_FLOAT_EQ(columns.at(0, 1), 12000);
   EXPECT_FLOAT_EQ(columns.at(1, 1), -1.5);
   EXPECT_FLOAT_EQ(columns.at(2, 1), 800);
-  for (int column = 0; column < 3; ++column) EXPECT_EQ(columns.at(column, 0), 0);
+  for (int column = 0; column < task->num_columns(); ++column) EXPECT_EQ(columns.at(column, 0), 0);
 }
 
 TEST(TaskRegistryTest, ControlTakesItsSettingsFromTheConfiguration) {

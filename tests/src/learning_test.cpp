@@ -1,0 +1,42 @@
+// Trainings of minutes, as a user starts them: that the default presets learn what they are for.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+
+namespace skein {
+namespace {
+
+/// Deterministic success over fresh episodes of a training of `task` over `steps` control steps.
+double TrainedSuccess(const std::string& task, const std::string& steps,
+                      const std::vector<std::string>& more = {}) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch / "run";
+  std::vector<std::string> arguments = {"train", task, "--steps", steps, "--out", out};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ProgramResult result = RunSkein(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  return nlohmann::json::parse(ReadFile(out + "/evaluation.json"))["success_rate"];
+}
+
+TEST(Learning, HeadingIsReachedAfterHalfOfItsBudget) {
+  EXPECT_GT(TrainedSuccess("heading", "5e7"), 0.9);
+}
+
+TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
+  EXPECT_GT(TrainedSuccess("control", "6e7"), 0.9);
+}
+
+TEST(Learning, APlannerReachesHalfOfItsPointsAfterAQuarterOfItsBudget) {
+  EXPECT_GT(TrainedSuccess("tracking", "1e8",
+                           {"--controller", SKEIN_SOURCE "/policies/control.skein"}),
+            0.5);
+}
+
+}  // namespace
+}  // namespace skein
