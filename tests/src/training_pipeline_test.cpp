@@ -91,7 +91,7 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
               HasSubstr(",error_pitch_deg,error_yaw_deg,error_true_airspeed_fps"));
   const ProgramResult other = CallSkein({"eval", "--policy", run_, "--task", "heading"});
   EXPECT_EQ(other.exit_code, 1);
-  ExpectOneLine(other.error, "env.task = control, but --task is heading");
+  ExpectOneLine(other.error, "env.task = control, but the task asked for is heading");
   // A file knows its task.
   const std::string policy = run_ + "/checkpoints/policy-final.skein";
   const ProgramResult alone = CallSkein({"eval", "--policy", policy, "--episodes", "32"});
