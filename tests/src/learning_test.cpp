@@ -33,9 +33,9 @@ TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
 }
 
 TEST(Learning, APlannerReachesHalfOfItsPointsAfterAQuarterOfItsBudget) {
-  EXPECT_GT(TrainedSuccess("tracking", "1e8",
-                           {"--controller", SKEIN_SOURCE "/policies/control.skein"}),
-            0.5);
+  EXPECT_GT(
+      TrainedSuccess("tracking", "1e8", {"--controller", SKEIN_SOURCE "/policies/control.skein"}),
+      0.5);
 }
 
 }  // namespace
