@@ -61,16 +61,10 @@ HWY_INLINE FlightVector Margin(FlightVector value, double middle, double half_ra
 
 /// Feet per second over the ground, upwards.
 HWY_INLINE FlightVector ClimbRate(const Tile& tile, int first) {
-  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
-  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
-  // The third row of the attitude matrix: what of the body's axes points down.
-  const FlightVector down_x = TwiceSum(qx, qz, hn::Neg(q0), qy);
-  const FlightVector down_y = TwiceSum(qy, qz, q0, qx);
-  const FlightVector down_z =
-      hn::MulAdd(q0, q0, hn::MulAdd(qz, qz, hn::NegMulAdd(qx, qx, hn::Neg(hn::Mul(qy, qy)))));
-  return hn::Neg(hn::MulAdd(
-      Column(tile, kU, first), down_x,
-      hn::MulAdd(Column(tile, kV, first), down_y, hn::Mul(Column(tile, kW, first), down_z))));
+  const DownInBody down = Down(tile, first);
+  const FlightVector below =
+      hn::MulAdd(Column(tile, kV, first), down.y, hn::Mul(Column(tile, kW, first), down.z));
+  return hn::MulSub(Column(tile, kU, first), down.sin_pitch, below);
 }
 
 /// Everything but smoothness.

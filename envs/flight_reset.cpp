@@ -1,9 +1,12 @@
 #include "envs/flight_reset.h"
 
 #include <cmath>
+#include <cstdio>
 
+#include "envs/air/atmosphere.h"
 #include "envs/aircraft/engine.h"
 #include "envs/dynamics/attitude.h"
+#include "simd/error.h"
 
 namespace skein {
 namespace {
@@ -27,13 +30,41 @@ std::optional<TrimTable> SolveTrims(const InitialConfig& initial, const Plant& p
                    initial.true_airspeed_fps.min, initial.true_airspeed_fps.max);
 }
 
+/// Throws Error if the slowest or the fastest start ends at once, by the Mach number there.
+void CheckMach(const EnvConfig& config) {
+  const auto mach = [&config](double speed_ft_s, double altitude_ft) {
+    return speed_ft_s / AirAt(config.atmosphere, altitude_ft).sound_speed_ft_s;
+  };
+  const auto refuse = [](const char* key, double speed_ft_s, double altitude_ft, double mach,
+                         const char* limit) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%s: %g ft/s at %g ft is Mach %.2f, beyond %s", key,
+                  speed_ft_s, altitude_ft, mach, limit);
+    throw Error(text);
+  };
+  const InitialConfig& initial = config.initial;
+  // The higher, the slower is sound.
+  const double fastest = mach(initial.true_airspeed_fps.max, initial.altitude_ft.max);
+  if (fastest > config.termination.max_mach) {
+    refuse("env.initial.true_airspeed_max_fps", initial.true_airspeed_fps.max,
+           initial.altitude_ft.max, fastest, "env.termination.max_mach");
+  }
+  const double slowest = mach(initial.true_airspeed_fps.min, initial.altitude_ft.min);
+  if (slowest < config.termination.min_mach) {
+    refuse("env.initial.true_airspeed_min_fps", initial.true_airspeed_fps.min,
+           initial.altitude_ft.min, slowest, "env.termination.min_mach");
+  }
+}
+
 }  // namespace
 
 FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
     : initial_(config.initial),
       plant_(aircraft, config.atmosphere),
       flight_control_(aircraft, config.flight_control, config.control_interval_s),
-      trims_(SolveTrims(config.initial, plant_)) {}
+      trims_(SolveTrims(config.initial, plant_)) {
+  CheckMach(config);
+}
 
 TrimmedStart FlightReset::UntrimmedAt(double altitude_ft, double true_airspeed_ft_s) const {
   const RigidBodyState state = LevelState(altitude_ft, true_airspeed_ft_s, 0, 0, 0);

@@ -267,10 +267,6 @@ struct VecEnv::Impl {
       if (scratch.termination[i] == static_cast<std::int32_t>(Termination::kNone)) continue;
       output.episode_return[i] = block.episode_return[i];
       output.episode_steps[i] = block.step[i];
-      for (int column = 0; output.final_state != nullptr && column < kNumRecordedColumns;
-           ++column) {
-        output.final_state[i * kNumRecordedColumns + column] = Recorded(block, column, i);
-      }
       FlightMetricSums& metrics = MetricSums(block);
       if (output.flight_metrics != nullptr) {
         float* const row = output.flight_metrics + i * kNumFlightMetrics;
@@ -464,9 +460,6 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
     part.episode_steps += begin;
     if (part.final_observation != nullptr) {
       part.final_observation += row * kObservationSize;
-    }
-    if (part.final_state != nullptr) {
-      part.final_state += row * kNumRecordedColumns;
     }
     if (part.flight_metrics != nullptr) {
       part.flight_metrics += row * kNumFlightMetrics;

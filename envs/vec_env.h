@@ -24,10 +24,6 @@ struct StepOutput {
   /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
   /// observation. May be null if the time limit is terminal.
   float* final_observation = nullptr;
-  /// Row-major [count][kNumRecordedColumns] (envs/dynamics/state.h), the wind zero in still air;
-  /// rows of episodes that ended get the state at the end of the decision, before the new episode
-  /// (else unchanged). May be null.
-  float* final_state = nullptr;
   ControlStepObserver* observer = nullptr;  ///< sees every control step on the way; may be null
   /// Row-major [count][kNumFlightMetrics] (envs/flight_metrics.h); rows of episodes that ended get
   /// how they were flown (else unchanged), NaN unless this was asked for in all of their steps. May

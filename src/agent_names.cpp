@@ -49,7 +49,7 @@ Agent RandomAgent(const std::string& name, double control_interval_s) {
     if (failure != std::errc() || stop != end) hold_s = std::nan("");
   }
   const double steps = std::round(hold_s / control_interval_s);
-  if (!(steps >= 1 && steps <= kLongestHold)) {
+  if (!(hold_s >= control_interval_s && steps <= kLongestHold)) {
     throw Error(fmt::format("agent {}: commands are held for {} to {} s, as in random:0.5", name,
                             control_interval_s, control_interval_s * kLongestHold));
   }

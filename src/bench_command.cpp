@@ -15,6 +15,7 @@
 #include "src/output_file.h"
 #include "src/progress.h"
 #include "src/simulator_rate.h"
+#include "src/whole_number.h"
 #include "train/learner_rates.h"
 #include "train/trainer.h"
 
@@ -77,7 +78,7 @@ void Report(const BenchOptions& options, int threads, Json results) {
   if (options.json.empty()) return;
   results["threads"] = threads;
   results["machine"] = DescribeMachine();
-  WriteFile(options.json, results.dump(1) + "\n");
+  WriteJson(options.json, results);
 }
 
 std::string ShareOfPeak(double gflops, double peak_gflops) {
@@ -121,8 +122,8 @@ void BenchSimulator(const BenchOptions& options) {
     fmt::print("  {:<38}  {:9.2f} ms a step, {} aircraft-steps/s{}\n", what, 1e3 * rate.step_s,
                FormatCount(rate.aircraft_steps_per_s), note);
   };
-  line("RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
-  line("flight control, actuators, engine, RK4", controlled, "");
+  line("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
+  line("F-16: ... with flight control, actuators", controlled, "");
   line("the whole environment, without noise", whole, "");
   Json results{{"aircraft", options.aircraft},
                {"steps", options.steps},
@@ -281,7 +282,7 @@ CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& 
                    const std::shared_ptr<BenchOptions>& options, void (*run)(const BenchOptions&)) {
   CLI::App* command = bench->add_subcommand(name, description);
   command->add_option("--threads", options->threads, "worker threads (default: one per CPU)")
-      ->check(CLI::Range(1, 1024));
+      ->transform(WholeNumber(1, 1024));
   command->add_option("--json", options->json, "also write the figures here")->type_name("FILE");
   command->callback([options, run] { run(*options); });
   return command;
@@ -299,7 +300,7 @@ CLI::App* AddLearner(CLI::App* bench, const std::string& name, const std::string
                      void (*run)(const BenchOptions&)) {
   CLI::App* command = AddBench(bench, name, description, options, run);
   command->add_option("--iterations", options->iterations, "iterations timed; the median counts")
-      ->check(CLI::Range(1, 1000))
+      ->transform(WholeNumber(1, 1000))
       ->capture_default_str();
   command->add_option("--task", options->task, "what is flown")->capture_default_str();
   command
@@ -319,10 +320,10 @@ void AddBenchCommand(CLI::App* app) {
   CLI::App* sim =
       AddBench(bench, "sim", "Aircraft-steps per second of the simulator", options, BenchSimulator);
   sim->add_option("--aircraft", options->aircraft, "aircraft stepped at once")
-      ->check(CLI::Range(1, 100000000))
+      ->transform(WholeNumber(1, 100000000))
       ->capture_default_str();
   sim->add_option("--steps", options->steps, "control steps timed; the median counts")
-      ->check(CLI::Range(1, 1000000))
+      ->transform(WholeNumber(1, 1000000))
       ->capture_default_str();
   AddConfiguration(sim, options);
   sim->footer(

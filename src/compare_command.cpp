@@ -25,19 +25,10 @@ struct CompareOptions {
 };
 
 ProgramConfig Configure(const FlightOptions& flight) {
-  ProgramConfig config = ResolveConfig({flight.task, flight.preset, "", {}});
-  const EnvConfig preset = config.train.env;
+  ProgramConfig config = ResolveConfig({flight.task, flight.preset, flight.config, {}});
+  const EnvConfig asked = config.train.env;
   ApplyOverrides(flight, &config);
-  if (config.train.env.action_repeat != preset.action_repeat) {
-    throw Error("env.action_repeat: agents that are compared act each at their own rate");
-  }
-  if (config.train.env.tracking.error_axes != preset.tracking.error_axes) {
-    throw Error("env.tracking.error_axes: agents that are compared see each in their own axes");
-  }
-  if (config.train.env.planner.averages_observations != preset.planner.averages_observations) {
-    throw Error(
-        "env.planner.averages_observations: planners that are compared look each as they did");
-  }
+  CheckEachAgentsOwn(config.train.env, asked);
   return config;
 }
 
@@ -60,26 +51,19 @@ std::string FlightsPath(const std::string& path, const std::string& agent) {
       .string();
 }
 
-/// Throws Error if a file that is asked for cannot be written, or if two agents' flights would go
-/// to the same one.
-void CheckOutputs(const CompareOptions& options) {
-  CheckWritable(options.csv);
-  CheckWritable(options.flight.json);
-  if (options.flight.flights.empty()) return;
-  std::set<std::string> known;
+std::vector<std::string> Outputs(const CompareOptions& options) {
+  std::vector<std::string> paths = {options.csv, options.flight.json};
+  if (options.flight.flights.empty()) return paths;
   for (const std::string& agent : options.agents) {
-    const std::string path = FlightsPath(options.flight.flights, agent);
-    if (!known.insert(path).second) {
-      throw Error(fmt::format("{}: the flights of two agents would go there", path));
-    }
-    CheckWritable(path);
+    paths.push_back(FlightsPath(options.flight.flights, agent));
   }
+  return paths;
 }
 
 void CompareAgents(const CompareOptions& options) {
   const FlightOptions& flight = options.flight;
   const ProgramConfig config = Configure(flight);
-  CheckOutputs(options);
+  CheckWritable(Outputs(options));
   const std::vector<NamedAgent> agents = FindAgents(options.agents, config, flight.seed);
   WorkerPool pool(flight.threads);
   const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);
@@ -87,7 +71,7 @@ void CompareAgents(const CompareOptions& options) {
   if (!options.csv.empty()) {
     WriteFile(options.csv, ComparisonCsvHeader() + ToCsv(comparison));
   }
-  if (!flight.json.empty()) WriteFile(flight.json, ToJson(comparison, config).dump(1) + "\n");
+  if (!flight.json.empty()) WriteJson(flight.json, ToJson(comparison, config));
   if (flight.flights.empty()) return;
   for (const NamedAgent& named : agents) {
     WriteFlights(flight, FlightsPath(flight.flights, named.name), "by " + named.name, named.agent,

@@ -1,6 +1,7 @@
 #include "src/comparison.h"
 
 #include "simd/error.h"
+#include "src/conditions.h"
 #include "train/evaluate.h"
 
 namespace skein {
@@ -34,6 +35,19 @@ PairedDifferences Differences(const std::vector<Episode>& first, const std::vect
 
 }  // namespace
 
+void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin) {
+  if (env.action_repeat != origin.action_repeat) {
+    throw Error("env.action_repeat: agents that are compared act each at their own rate");
+  }
+  if (env.tracking.error_axes != origin.tracking.error_axes) {
+    throw Error("env.tracking.error_axes: agents that are compared see each in their own axes");
+  }
+  if (env.planner.averages_observations != origin.planner.averages_observations) {
+    throw Error(
+        "env.planner.averages_observations: planners that are compared look each as they did");
+  }
+}
+
 Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& config, int episodes,
                    std::uint64_t seed, WorkerPool& pool) {
   const EnvConfig& episodes_env = config.train.env;
@@ -42,6 +56,7 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
   comparison.episodes = episodes;
   comparison.seed = seed;
   comparison.control_interval_s = episodes_env.control_interval_s;
+  comparison.conditions = DescribeConditions(episodes_env);
   EvaluationOptions options;
   options.episodes = episodes;
   options.seed = seed;

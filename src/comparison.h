@@ -39,9 +39,14 @@ struct Comparison {
   int episodes = 0;
   std::uint64_t seed = 0;
   double control_interval_s = 0;
+  std::string conditions;    ///< DescribeConditions
   std::uint64_t starts = 0;  ///< FlownEpisodes::starts, the same for all
   std::vector<ComparedAgent> agents;
 };
+
+/// Throws Error if `env` differs from the one that it was made from in what every agent brings
+/// along itself: its rate, and how a planner is shown what it sees.
+void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin);
 
 /// Flies every agent over the same episodes of `config`'s environment, each at its own rate. If the
 /// pool is stopping, ends early, and the result says nothing.
@@ -56,9 +61,9 @@ std::string ComparisonCsvHeader();
 /// A row for every agent.
 std::string ToCsv(const Comparison& comparison);
 
-/// Keys: task, episodes, seed, starts (hexadecimal), environment, agents: name, action_repeat, the
-/// keys of FlightSummary, and but for the first agent against_first (estimates by key,
-/// success_p_value).
+/// Keys: task, conditions, episodes, seed, starts (hexadecimal), environment, agents: name,
+/// action_repeat, the keys of FlightSummary, and but for the first agent against_first (estimates
+/// by key, success_p_value).
 nlohmann::ordered_json ToJson(const Comparison& comparison, const ProgramConfig& config);
 
 }  // namespace skein

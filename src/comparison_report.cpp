@@ -4,6 +4,7 @@
 
 #include "src/comparison.h"
 #include "src/evaluation_report.h"
+#include "src/text_table.h"
 
 namespace skein {
 namespace {
@@ -13,38 +14,12 @@ using Json = nlohmann::ordered_json;
 // 100 columns: what a row is of, and three agents.
 constexpr std::size_t kLabelWidth = 25, kCellWidth = 25, kAgentsPerTable = 3;
 
-/// As much of the end of a name as a cell holds.
-std::string Heading(const std::string& name) {
-  const std::size_t room = kCellWidth - 2;
-  return name.size() <= room ? name : ".." + name.substr(name.size() - room + 2);
-}
-
 std::string Label(const Quantity& quantity) {
   return quantity.symbol.empty() ? quantity.label
                                  : fmt::format("{:6}{}", quantity.symbol, quantity.label);
 }
 
 std::string PValue(double p) { return p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p); }
-
-/// Rows of one cell per agent.
-class Table {
- public:
-  explicit Table(std::string* text) : text_(text) {}
-
-  void Begin(const std::string& label) { Append(fmt::format("{:{}}", label, kLabelWidth)); }
-  void Cell(const std::string& cell) { Append(fmt::format("{:>{}}", cell, kCellWidth)); }
-  void End() {
-    line_.erase(line_.find_last_not_of(' ') + 1);
-    *text_ += line_ + "\n";
-    line_.clear();
-  }
-
- private:
-  void Append(const std::string& cell) { line_ += cell; }
-
-  std::string* text_;
-  std::string line_;
-};
 
 /// The agents [begin, end) of the comparison.
 class AgentColumns {
@@ -54,7 +29,7 @@ class AgentColumns {
 
   template <typename CellOf>
   void Row(const std::string& label, const CellOf& cell_of, std::string* text) const {
-    Table table(text);
+    TextTable table(kLabelWidth, kCellWidth, text);
     table.Begin(label);
     for (std::size_t i = begin_; i < end_; ++i) table.Cell(cell_of(comparison_.agents[i]));
     table.End();
@@ -62,7 +37,7 @@ class AgentColumns {
 
   void Flights(std::string* text) const {
     Row(
-        "", [](const ComparedAgent& agent) { return Heading(agent.name); }, text);
+        "", [](const ComparedAgent& agent) { return agent.name; }, text);
     for (std::size_t k = 0; k < Quantities().size(); ++k) {
       const auto cell = [k](const ComparedAgent& agent) {
         return FormatEstimate(Quantities()[k], agent.summary.estimates[k]);
@@ -112,8 +87,8 @@ class AgentColumns {
 
 std::string ToText(const Comparison& comparison) {
   std::string text =
-      fmt::format("{}, the same {} episodes for all (seed {}); means with 95 % intervals\n",
-                  comparison.task, comparison.episodes, comparison.seed);
+      fmt::format("{}, the same {} episodes for all (seed {}); means with 95 % intervals\n  {}\n",
+                  comparison.task, comparison.episodes, comparison.seed, comparison.conditions);
   for (const ComparedAgent& agent : comparison.agents) {
     text += fmt::format("  {}: a decision every {:.4g} s\n", agent.name,
                         agent.action_repeat * comparison.control_interval_s);
@@ -132,7 +107,7 @@ std::string ToText(const Comparison& comparison) {
 }
 
 std::string ComparisonCsvHeader() {
-  std::string header = "task,agent,episodes,seed,decision_interval_s";
+  std::string header = "task,conditions,agent,episodes,seed,decision_interval_s";
   for (const char* against : {"", "_less_first"}) {
     for (const Quantity& quantity : Quantities()) {
       header += fmt::format(",{0}{1},{0}{1}_low,{0}{1}_high", quantity.key, against);
@@ -148,8 +123,9 @@ std::string ComparisonCsvHeader() {
 std::string ToCsv(const Comparison& comparison) {
   std::string rows;
   for (const ComparedAgent& agent : comparison.agents) {
-    rows += fmt::format("{},{},{},{},{}", comparison.task, CsvText(agent.name), comparison.episodes,
-                        comparison.seed, agent.action_repeat * comparison.control_interval_s);
+    rows += fmt::format("{},{},{},{},{},{}", comparison.task, CsvText(comparison.conditions),
+                        CsvText(agent.name), comparison.episodes, comparison.seed,
+                        agent.action_repeat * comparison.control_interval_s);
     for (const Estimate& estimate : agent.summary.estimates) rows += CsvCells(estimate);
     if (agent.against_first.estimates.empty()) {
       rows += std::string(3 * Quantities().size() + 1, ',');
@@ -180,9 +156,13 @@ Json ToJson(const Comparison& comparison, const ProgramConfig& config) {
     }
     agents.push_back(std::move(json));
   }
-  return {{"task", comparison.task}, {"episodes", comparison.episodes},
-          {"seed", comparison.seed}, {"starts", fmt::format("{:016x}", comparison.starts)},
-          {"agents", agents},        {"environment", EnvironmentJson(config)}};
+  return {{"task", comparison.task},
+          {"episodes", comparison.episodes},
+          {"seed", comparison.seed},
+          {"starts", fmt::format("{:016x}", comparison.starts)},
+          {"conditions", comparison.conditions},
+          {"agents", agents},
+          {"environment", EnvironmentJson(config)}};
 }
 
 }  // namespace skein

@@ -76,7 +76,9 @@ std::pair<std::string, std::string> SplitRange(const std::string& text) {
 Range ParseRange(const std::string& text, const Units& units, const Request& request) {
   auto [low, high] = SplitRange(text);
   const std::size_t unit = high.find_last_of(kDigits), end = low.find_last_of(kDigits);
-  if (unit != std::string::npos && end + 1 == low.size()) low += high.substr(unit + 1);
+  const bool low_has_unit = end + 1 < low.size(), high_has_unit = unit + 1 < high.size();
+  if (low_has_unit && !high_has_unit) request.Refuse(text);  // 60kt..120: of what?
+  if (!low_has_unit && high_has_unit) low += high.substr(unit + 1);
   const Range range{ParseNumber(low, units, request), ParseNumber(high, units, request)};
   if (range.min > range.max) request.Refuse(text);
   return range;
@@ -149,6 +151,14 @@ Assignments Windy(const Request& request, const std::string& level) {
       append(part, "wind.turbulence", "_fps", ParseSeverity(part, request));
     }
   }
+  // What is not named is as in no wind, whatever the configuration has.
+  if (given == std::set<std::string>{"wind.from"}) request.Refuse(level);
+  const WindConfig still;
+  if (given.count("wind.speed") == 0) append("", "wind.speed", "_fps", still.speed_fps);
+  if (given.count("wind.from") == 0) append("", "wind.from", "_deg", still.from_deg);
+  if (given.count("wind.turbulence") == 0) {
+    append("", "wind.turbulence", "_fps", still.turbulence_fps);
+  }
   return assignments;
 }
 
@@ -212,6 +222,24 @@ std::vector<std::string> ConditionAssignments(const std::vector<std::string>& co
     all.insert(all.end(), assignments.begin(), assignments.end());
   }
   return all;
+}
+
+std::string DescribeConditions(const EnvConfig& env) {
+  const auto range = [](const Range& values, const char* unit) {
+    return values.min == values.max ? fmt::format("{}{}", values.min, unit)
+                                    : fmt::format("{} to {}{}", values.min, values.max, unit);
+  };
+  const WindConfig& wind = env.wind;
+  std::string air = wind.blows() ? "" : "; still air";
+  if (wind.speed_fps.max > 0) air += "; wind of " + range(wind.speed_fps, " ft/s");
+  if (wind.turbulence_fps.max > 0) {
+    air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
+  }
+  const double most_noise = std::max(env.observation_noise, env.observation_noise_max);
+  return fmt::format(
+      "{} from {} and {}{}; {}", env.aircraft, range(env.initial.altitude_ft, " ft"),
+      range(env.initial.true_airspeed_fps, " ft/s"), air,
+      most_noise > 0 ? "noise " + range({env.observation_noise, most_noise}, "") : "no noise");
 }
 
 std::string ConditionHelp() {

@@ -82,8 +82,7 @@ void ApplyAssignment(const std::string& assignment, const std::string& source,
   if (equals == std::string::npos) {
     throw Error(fmt::format("{} {}: expected key=value", source, assignment));
   }
-  const std::string key = Trimmed(assignment.substr(0, equals));
-  const Setting& setting = FindSetting(key, source);
+  const Setting& setting = FindSetting(KeyOf(assignment), source);
   Assign(setting, ParseValue(Trimmed(assignment.substr(equals + 1))), source, config);
 }
 
@@ -102,6 +101,10 @@ void ApplyToml(const std::string& text, const std::string& source, ProgramConfig
 
 void ApplyTomlFile(const std::string& path, ProgramConfig* config) {
   ApplyToml(ReadFile(path), path, config);
+}
+
+std::string KeyOf(const std::string& assignment) {
+  return Trimmed(assignment.substr(0, assignment.find('=')));
 }
 
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,

@@ -20,6 +20,9 @@ void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
                                    ProgramConfig* config);
 
+/// The key of an assignment `key=value`; of anything else, all of it.
+std::string KeyOf(const std::string& assignment);
+
 /// Throws Error if the configuration has come to name another task than the one asked for.
 void RequireTask(const ProgramConfig& config, const std::string& task);
 
@@ -42,7 +45,7 @@ ProgramConfig ResolveConfig(const ConfigSources& sources);
 /// Every key with its value as TOML that ApplyToml reads back exactly, each with its meaning.
 std::string DumpToml(const ProgramConfig& config);
 
-/// The keys whose values differ, as "key (ours here, theirs there)".
+/// The keys whose values differ, as "key (ours against theirs)".
 std::vector<std::string> Differences(const ProgramConfig& a, const ProgramConfig& b);
 
 /// A table of every key: type, range, default and meaning.

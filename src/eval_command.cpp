@@ -8,6 +8,7 @@
 
 #include "simd/error.h"
 #include "src/commands.h"
+#include "src/conditions.h"
 #include "src/configuration.h"
 #include "src/controller_option.h"
 #include "src/evaluation_report.h"
@@ -68,17 +69,16 @@ void Evaluate(const EvalOptions& options) {
     controller = ChooseController(config.train.env, options.controller).pilot;
   }
   const Policy policy = LoadPolicy(path, config, flight.seed, controller);
-  CheckWritable(flight.json);
-  CheckWritable(flight.flights);
+  CheckWritable({flight.json, flight.flights});
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
       EvaluateBothWays(policy, config.train.env, flight.episodes, flight.seed, pool);
-  fmt::print("{} on {}, {} episodes, seed {}, {}; {}\n{}\n", path, config.train.env.task,
+  fmt::print("{} on {}, {} episodes, seed {}, {}; {}\n{}\n{}\n", path, config.train.env.task,
              flight.episodes, flight.seed, Rates(policy, config.train.env),
-             Describe(policy.backend()), ToText(report, options.deterministic));
+             Describe(policy.backend()), DescribeConditions(config.train.env),
+             ToText(report, options.deterministic));
   if (!flight.json.empty()) {
-    WriteFile(flight.json,
-              ToJson(report, path, config, flight.seed, options.deterministic).dump(1) + "\n");
+    WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));
   }
   if (flight.flights.empty()) return;
   // Those of the mode that is reported first.

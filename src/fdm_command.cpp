@@ -113,7 +113,7 @@ void WriteTrajectories(const FileOptions& options, const FdmFile& file, Json* do
 
 void WriteDocument(const FileOptions& options, Json document) {
   document["precision"] = options.precision;
-  WriteFile(options.out, document.dump(1) + "\n");
+  WriteJson(options.out, document);
 }
 
 void Evaluate(const FileOptions& options) {
@@ -207,7 +207,7 @@ void FindTrim(TrimOptions options) {
       {"mach", output.air.mach},
       {"qbar_psf", output.air.dynamic_pressure_psf},
       {"residual", trim.residual}};
-  WriteFile(options.json, json.dump(1) + "\n");
+  WriteJson(options.json, json);
 }
 
 void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere) {

@@ -7,6 +7,7 @@
 #include "src/configuration.h"
 #include "src/flight_file.h"
 #include "src/output_file.h"
+#include "src/whole_number.h"
 
 namespace skein {
 
@@ -24,27 +25,33 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_option("--episodes", options->episodes, "number of episodes")
-      ->check(CLI::Range(1, 10000000))
+      ->transform(WholeNumber(1, 10000000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "seed of the episodes")
-      ->check(CLI::Range(0.0, 0x1p53))
+      ->transform(WholeNumber(0, 0x1p53))
       ->capture_default_str();
   command
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")
-      ->check(CLI::Range(1, 1024));
+      ->transform(WholeNumber(1, 1024));
   command->add_option("--json", options->json, texts.json)->type_name("FILE");
   CLI::Option* flights =
       command->add_option("--flights", options->flights, texts.flights)->type_name("FILE");
   command
       ->add_option("--flights-count", options->flights_count,
                    "how many of them (all, if there are fewer)")
-      ->check(CLI::Range(1, 1000))
+      ->transform(WholeNumber(1, 1000))
       ->needs(flights)
       ->capture_default_str();
 }
 
 void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
+  for (const std::string& assignment : options.assignments) {
+    for (const char* table : {"run.", "ppo.", "evaluation.", "checkpoint."}) {
+      if (KeyOf(assignment).rfind(table, 0) != 0) continue;
+      throw Error(fmt::format("--set {}: is of trainings and changes no flight", assignment));
+    }
+  }
   const std::string task = options.task.empty() ? config->train.env.task : options.task;
   if (!options.config.empty()) ApplyTomlFile(options.config, config);
   ApplyConditionsAndAssignments(options.conditions, options.assignments, config);

@@ -15,7 +15,7 @@ namespace {
 
 void PrintInfo(const std::string& json_path) {
   const nlohmann::ordered_json info = DescribeMachine();
-  if (!json_path.empty()) WriteFile(json_path, info.dump(1) + "\n");
+  if (!json_path.empty()) WriteJson(json_path, info);
   const auto text = [&info](const char* key) { return info[key].get<std::string>(); };
   fmt::print(
       "skein     {} ({}, {})\n"

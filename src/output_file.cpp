@@ -7,6 +7,8 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 
 #include "simd/error.h"
@@ -62,6 +64,21 @@ void CheckWritable(const std::string& path) {
   }
 }
 
+void CheckWritable(const std::vector<std::string>& paths) {
+  std::set<std::string> files;
+  for (const std::string& path : paths) {
+    CheckWritable(path);
+    struct stat status {};
+    const bool exists = stat(path.c_str(), &status) == 0;
+    if (path.empty() || (exists && (!S_ISREG(status.st_mode) || StandardStream(status) >= 0))) {
+      continue;
+    }
+    if (!files.insert(std::filesystem::weakly_canonical(path).string()).second) {
+      throw Error(path + ": two results would go there");
+    }
+  }
+}
+
 void WriteFile(const std::string& path, const std::string& text) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) {
@@ -78,6 +95,11 @@ void WriteFile(const std::string& path, const std::string& text) {
     }
   }
   ReplaceFile(ReplacedFile(path), [&](FileDescriptor& file) { file.Write(text); });
+}
+
+void WriteJson(const std::string& path, const nlohmann::ordered_json& document) {
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  WriteFile(path, document.dump(1, ' ', false, Handler::replace) + "\n");
 }
 
 std::string ReadFile(const std::string& path) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace skein {
 
@@ -9,9 +11,16 @@ namespace skein {
 /// written to directly. Throws Error (path, reason of the system).
 void WriteFile(const std::string& path, const std::string& text);
 
+/// The same of a document, indented. Text in it that is not UTF-8, which names of files may hold,
+/// is replaced by U+FFFD.
+void WriteJson(const std::string& path, const nlohmann::ordered_json& document);
+
 /// Throws Error (path, reason) if WriteFile is sure to fail there: before the work whose result it
 /// is to hold. An empty path stands for no file.
 void CheckWritable(const std::string& path);
+
+/// The same of every path, and if two of them would replace the same file.
+void CheckWritable(const std::vector<std::string>& paths);
 
 /// `name` with what file names had better not hold replaced by '-'.
 std::string FileNamePart(const std::string& name);

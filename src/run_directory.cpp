@@ -55,6 +55,17 @@ fs::file_time_type LastWritten(const std::string& run) {
   return latest;
 }
 
+/// Makes a directory, durably; false if it is there already.
+bool Make(const std::string& path) {
+  std::error_code failure;
+  const bool made = fs::create_directory(path, failure);
+  if (failure) {
+    throw Error(fmt::format("{}: cannot be made a directory: {}", path, failure.message()));
+  }
+  if (made) SyncDirectory(fs::absolute(path).parent_path().string());
+  return made;
+}
+
 }  // namespace
 
 FileDescriptor LockDirectory(const std::string& directory) {
@@ -71,11 +82,7 @@ const std::string& MakeDirectories(const std::string& path) {
   const fs::path parent = fs::absolute(path).parent_path();
   std::error_code failure;
   if (!fs::exists(parent, failure)) MakeDirectories(parent.string());
-  const bool made = fs::create_directory(path, failure);
-  if (failure) {
-    throw Error(fmt::format("{}: cannot be made a directory: {}", path, failure.message()));
-  }
-  if (made) SyncDirectory(parent.string());
+  Make(path);
   return path;
 }
 
@@ -94,6 +101,16 @@ RunDirectory RunDirectory::Create(const std::string& path) {
                           path)
             : fmt::format("{}: exists and is not an empty directory; choose another --out", path));
   }
+  return RunDirectory(path);
+}
+
+RunDirectory RunDirectory::CreateIn(const std::string& root, const std::string& task) {
+  MakeDirectories(root);
+  const std::string base =
+      fmt::format("{}/{}-{:%Y%m%d-%H%M%S}", root, task, fmt::localtime(std::time(nullptr)));
+  std::string path = base;
+  // Made and not asked for: another program may begin a run in the same second.
+  for (int copy = 2; !Make(path); ++copy) path = fmt::format("{}-{}", base, copy);
   return RunDirectory(path);
 }
 
@@ -149,20 +166,15 @@ void RunDirectory::RemoveTemporaries() const {
   }
 }
 
-std::string NewRunPath(const std::string& root, const std::string& task) {
-  const std::string base =
-      fmt::format("{}/{}-{:%Y%m%d-%H%M%S}", root, task, fmt::localtime(std::time(nullptr)));
-  std::string path = base;
-  for (int copy = 2; fs::exists(path); ++copy) path = fmt::format("{}-{}", base, copy);
-  return path;
-}
-
 std::optional<std::string> LatestRun(const std::string& root, const std::string& task) {
   std::error_code failure;
   std::vector<std::pair<fs::file_time_type, std::string>> runs;
   for (const auto& entry : fs::directory_iterator(root, failure)) {
     const std::string run = entry.path().string();
     if (IsRunDirectory(run)) runs.emplace_back(LastWritten(run), run);
+  }
+  if (failure && failure != std::errc::no_such_file_or_directory) {
+    throw Error(fmt::format("{}: cannot be read: {}", root, failure.message()));
   }
   std::sort(runs.rbegin(), runs.rend());
   std::exception_ptr unreadable;

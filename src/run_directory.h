@@ -19,6 +19,9 @@ struct Checkpoint {
 /// Throws Error if it cannot be read.
 std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 
+/// Where runs are that nobody names a directory for.
+inline constexpr const char* kRunsRoot = "runs";
+
 /// The directory of one training run, held exclusively while the object lives:
 ///   config.toml  controller.skein (of planners)  log.txt  metrics.csv  timing.csv
 ///   events.out.tfevents.*  evaluation.json checkpoints/checkpoint-<iteration>.skein,
@@ -28,6 +31,8 @@ class RunDirectory {
   /// Makes a new one. Throws Error if `path` exists and is not an empty directory, cannot be made,
   /// or is held by another process.
   static RunDirectory Create(const std::string& path);
+  /// Makes a new one in `root`: <root>/<task>-<date>-<time>, or with -2, -3 ... behind it.
+  static RunDirectory CreateIn(const std::string& root, const std::string& task);
   /// Opens one that holds a run. Throws Error if it does not, or another process holds it.
   static RunDirectory Open(const std::string& path);
 
@@ -67,9 +72,6 @@ const std::string& MakeDirectories(const std::string& path);
 
 /// Whether `path` is the directory of a run.
 bool IsRunDirectory(const std::string& path);
-
-/// A directory for a new run under `root` that does not exist yet: <root>/<task>-<date>-<time>.
-std::string NewRunPath(const std::string& root, const std::string& task);
 
 /// The run under `root` that was written to last, of `task` unless that is empty. Throws Error if
 /// there is none but one whose configuration cannot be read.

@@ -120,7 +120,10 @@ std::vector<Setting> MakeSettings() {
       {"env.observation_noise", [](C& c) -> F { return &c.train.env.observation_noise; },
        not_negative, "standard deviation of the noise on every observation"},
       {"env.observation_noise_max", [](C& c) -> F { return &c.train.env.observation_noise_max; },
-       not_negative, "if larger, every episode draws its standard deviation between the two"},
+       not_negative,
+       "if larger, every episode draws its standard deviation between the two (--condition noisy "
+       "sets "
+       "both)"},
       {"env.reward_scale", [](C& c) -> F { return &c.train.env.reward_scale; }, not_negative,
        "multiplies the step rewards, not the terminal ones"},
 

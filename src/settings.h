@@ -30,7 +30,7 @@ struct Setting {
   Bounds bounds;  ///< ignored for booleans and names
   std::string description;
 
-  /// "number", "integer", "true or false", or the names allowed.
+  /// "a number", "an integer", "true or false", or the names allowed.
   std::string TypeName() const;
   /// "(0, 1]" for numbers, else empty.
   std::string BoundsText() const;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "simd/error.h"
+#include "src/comparison.h"
 #include "src/conditions.h"
 #include "src/configuration.h"
 #include "src/nearest_name.h"
@@ -66,6 +67,13 @@ class TableReader {
       numbers.push_back(static_cast<std::uint64_t>(WholeNumberIn(*element, key, 0, max)));
     }
     return numbers;
+  }
+
+  /// The table of [key]; null if there is none.
+  const toml::table* Table(const std::string& key) {
+    const toml::node* const node = Find(key);
+    if (node == nullptr || node->is_table()) return node == nullptr ? nullptr : node->as_table();
+    throw Error(At(*node, key) + " must be one table, [" + key + "]");
   }
 
   /// The tables of [[key]], or the one of [key].
@@ -164,14 +172,14 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   study.preset = reader.Text("preset", study.preset);
   study.controller = reader.Text("controller", "");
   study.assignments = reader.Texts("set");
-  for (const toml::table* training : reader.Tables("training")) {
+  if (const toml::table* training = reader.Table("training")) {
     TableReader part(*training, source);
     study.training.steps = part.WholeNumber("steps", 1, kMaxSeed);
     study.training.settings = ReadSettings(part);
     study.training.per_level = part.Flag("per_level", true);
     part.RefuseOthers();
   }
-  for (const toml::table* evaluation : reader.Tables("evaluation")) {
+  if (const toml::table* evaluation = reader.Table("evaluation")) {
     TableReader part(*evaluation, source);
     study.evaluation.episodes = static_cast<int>(
         part.WholeNumber("episodes", 1, kMaxEpisodes).value_or(study.evaluation.episodes));
@@ -185,6 +193,34 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   reader.RefuseOthers();
   if (study.levels.empty()) study.levels.push_back({"default", {}});
   return study;
+}
+
+/// Throws Error on an assignment that the study would not follow.
+void RefuseUnheard(const Study& study, const std::string& source) {
+  std::vector<std::string> assignments = study.assignments;
+  const auto append = [&assignments](const StudySettings& settings) {
+    assignments.insert(assignments.end(), settings.assignments.begin(), settings.assignments.end());
+  };
+  append(study.training.settings);
+  for (const StudyLevel& level : study.levels) append(level.settings);
+  for (const std::string& assignment : assignments) {
+    if (KeyOf(assignment) == "run.seed") {
+      throw Error(fmt::format("{}: set {}: seeds says the seeds", source, assignment));
+    }
+    if (KeyOf(assignment) == "run.total_steps" && study.training.steps) {
+      throw Error(fmt::format("{}: set {}: training.steps says it already", source, assignment));
+    }
+  }
+  if (study.training.per_level) return;
+  for (const StudyLevel& level : study.levels) {
+    for (const std::string& assignment : level.settings.assignments) {
+      if (KeyOf(assignment).rfind("env.", 0) == 0) continue;
+      throw Error(
+          fmt::format("{}: set {} of level {}: nothing is trained for it (per_level is "
+                      "false), and its evaluation has keys of env alone",
+                      source, assignment, level.name));
+    }
+  }
 }
 
 /// The study's preset and assignments, then `parts`, each stronger than those before it.
@@ -219,6 +255,7 @@ Study ReadStudy(const std::string& path) {
   std::vector<std::string> files;
   for (const StudyLevel& level : study.levels) files.push_back(FileNamePart(level.name));
   RefuseEmptyAndTwice(files, path, "level");
+  RefuseUnheard(study, path);
   return study;
 }
 
@@ -235,7 +272,11 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
 }
 
 ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level) {
-  return Configure(study, task, {level.settings});
+  const ProgramConfig config = Configure(study, task, {level.settings});
+  if (!study.training.per_level) {
+    CheckEachAgentsOwn(config.train.env, Configure(study, task, {}).train.env);
+  }
+  return config;
 }
 
 }  // namespace skein

@@ -7,6 +7,7 @@
 #include "src/commands.h"
 #include "src/study.h"
 #include "src/study_run.h"
+#include "src/whole_number.h"
 
 namespace skein {
 namespace {
@@ -48,7 +49,7 @@ void AddStudyCommand(CLI::App* app) {
   command
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")
-      ->check(CLI::Range(1, 1024));
+      ->transform(WholeNumber(1, 1024));
   command->footer(
       "The same command goes on after an interruption of any kind, and skips what is finished.\n"
       "Example: skein study configs/studies/noise.toml");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/flight_summary.h"
+#include "src/text_table.h"
 
 namespace skein {
 namespace {
@@ -29,6 +30,16 @@ std::vector<double> ValuesOfSeeds(const Json& comparison, std::size_t trained,
     values.push_back(EstimateOf(comparison, i, quantity).value);
   }
   return values;
+}
+
+/// The mean of the seeds; of success with the part of the interval that shares can lie in.
+Estimate MeanOfSeeds(const Json& comparison, std::size_t trained, const Quantity& quantity) {
+  Estimate mean = EstimateMean(ValuesOfSeeds(comparison, trained, quantity));
+  if (&quantity == &Quantities()[kSuccessQuantity]) {
+    mean.low = std::clamp(mean.low, 0.0, 1.0);
+    mean.high = std::clamp(mean.high, 0.0, 1.0);
+  }
+  return mean;
 }
 
 /// "99.8 (99.5 to 100.0)": the mean of the seeds, and the lowest and highest of them.
@@ -62,7 +73,7 @@ std::string StudyCsv(const Json& results, std::size_t trained) {
     };
     begin("trained", fmt::format("{}", trained));
     for (const Quantity& quantity : Quantities()) {
-      text += CsvCells(EstimateMean(ValuesOfSeeds(comparison, trained, quantity)));
+      text += CsvCells(MeanOfSeeds(comparison, trained, quantity));
     }
     text += "\n";
     for (std::size_t i = 0; i < comparison["agents"].size(); ++i) {
@@ -77,34 +88,28 @@ std::string StudyCsv(const Json& results, std::size_t trained) {
 }
 
 std::string StudyText(const Json& results, std::size_t trained) {
-  constexpr std::size_t kLabelWidth = 28, kCellWidth = 24;
+  constexpr std::size_t kLabelWidth = 30, kCellWidth = 24;
   std::string text;
-  const auto end_line = [&text] {
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += "\n";
-  };
+  TextTable table(kLabelWidth, kCellWidth, &text);
   for (const int k : {kSuccessQuantity, kTimeQuantity}) {
     const Quantity& quantity = Quantities()[static_cast<std::size_t>(k)];
-    text += fmt::format("{:{}}{:>{}}", quantity.label, kLabelWidth,
-                        fmt::format("trained ({} seeds)", trained), kCellWidth);
+    table.Begin(quantity.label);
+    table.Cell(fmt::format("trained ({} seeds)", trained));
     const Json none = Json::array();
     const Json& agents = results.empty() ? none : results[0]["comparison"]["agents"];
     for (std::size_t i = trained; i < agents.size(); ++i) {
-      text += fmt::format("{:>{}}", agents[i]["name"].get<std::string>(), kCellWidth);
+      table.Cell(agents[i]["name"].get<std::string>());
     }
-    end_line();
+    table.End();
     for (const Json& result : results) {
       const Json& comparison = result["comparison"];
-      const std::string label = fmt::format("  {}, {}", result["task"].get<std::string>(),
-                                            result["level"].get<std::string>());
-      text +=
-          fmt::format("{:{}}{:>{}}", label, kLabelWidth,
-                      Spread(quantity, ValuesOfSeeds(comparison, trained, quantity)), kCellWidth);
+      table.Begin(fmt::format("  {}, {}", result["task"].get<std::string>(),
+                              result["level"].get<std::string>()));
+      table.Cell(Spread(quantity, ValuesOfSeeds(comparison, trained, quantity)));
       for (std::size_t i = trained; i < comparison["agents"].size(); ++i) {
-        text += fmt::format("{:>{}}", FormatEstimate(quantity, EstimateOf(comparison, i, quantity)),
-                            kCellWidth);
+        table.Cell(FormatEstimate(quantity, EstimateOf(comparison, i, quantity)));
       }
-      end_line();
+      table.End();
     }
   }
   text += "trained: the mean of the seeds, and the lowest and highest of them";

@@ -129,12 +129,15 @@ const Study& Checked(const Study& study) {
   for (const std::string& task : study.tasks) {
     plans = plans || IsPlanned(task);
     for (const StudyLevel& level : study.levels) {
-      const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
-      const ProgramConfig config = LevelConfig(study, task, level);
-      CheckFlies(trained.train.env, config.train.env,
-                 fmt::format("what is trained for {}, {}", task, level.name));
-      for (const std::string& agent : study.agents) {
-        FindAgent(agent, config, study.evaluation.seed);
+      try {
+        const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
+        const ProgramConfig config = LevelConfig(study, task, level);
+        CheckFlies(trained.train.env, config.train.env, "what is trained");
+        for (const std::string& agent : study.agents) {
+          FindAgent(agent, config, study.evaluation.seed);
+        }
+      } catch (const Error& error) {
+        throw Error(fmt::format("{}, level {}: {}", task, level.name, error.what()));
       }
     }
   }
@@ -144,16 +147,26 @@ const Study& Checked(const Study& study) {
   return study;
 }
 
+/// Makes it, or throws Error if there is something in it that is not a study.
+const std::string& MakeStudyDirectory(const std::string& path) {
+  std::error_code failure;
+  const bool is_new = !fs::exists(path, failure) || fs::is_empty(path, failure);
+  if (!is_new && !fs::is_directory(path + "/comparisons", failure)) {
+    throw Error(path + ": is not empty and holds no study; choose another --out");
+  }
+  return MakeDirectories(path);
+}
+
 }  // namespace
 
 StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool& pool)
     : study_(Checked(study)),
       directory_(directory),
       pool_(pool),
-      lock_(LockDirectory(MakeDirectories(directory))),
+      lock_(LockDirectory(MakeStudyDirectory(directory))),
       results_(Json::array()) {
-  MakeDirectories(directory_ + "/runs");
   MakeDirectories(directory_ + "/comparisons");
+  MakeDirectories(directory_ + "/runs");
 }
 
 std::string StudyRun::RunPath(const std::string& task, const StudyLevel& level,
@@ -232,7 +245,7 @@ bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
     if (pool_.stopping()) return false;
     document = ToJson(comparison, config);
     document["identity"] = identity;
-    WriteFile(path, document.dump(1) + "\n");
+    WriteJson(path, document);
   }
   results_.push_back({{"task", task}, {"level", level.name}, {"comparison", document}});
   return true;
@@ -240,7 +253,7 @@ bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
 
 void StudyRun::WriteResults() const {
   WriteFile(directory_ + "/results.csv", StudyCsv(results_, study_.seeds.size()));
-  WriteFile(directory_ + "/results.json", results_.dump(1) + "\n");
+  WriteJson(directory_ + "/results.json", results_);
 }
 
 std::string StudyRun::ToText() const { return StudyText(results_, study_.seeds.size()); }

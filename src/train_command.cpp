@@ -15,12 +15,11 @@
 #include "src/run_directory.h"
 #include "src/settings.h"
 #include "src/training_run.h"
+#include "src/whole_number.h"
 #include "train/controller_file.h"
 
 namespace skein {
 namespace {
-
-constexpr const char* kRunsRoot = "runs";
 
 struct TrainOptions {
   std::string task;
@@ -28,7 +27,7 @@ struct TrainOptions {
   std::string config;
   std::vector<std::string> conditions, assignments;
   std::optional<double> steps;
-  std::optional<std::int64_t> seed;
+  std::optional<double> seed;
   int threads = 0;
   std::string controller;
   std::string out;
@@ -115,9 +114,7 @@ void Train(const TrainOptions& options) {
   const ChosenController controller = ChooseController(config.train.env, options.controller);
   config.train.controller = controller.pilot;
   WorkerPool pool(options.threads);
-  TrainingRun::Begin(config,
-                     options.out.empty() ? NewRunPath(kRunsRoot, options.task) : options.out, pool,
-                     controller.description);
+  TrainingRun::Begin(config, options.out, pool, controller.description);
 }
 
 }  // namespace
@@ -175,7 +172,7 @@ void AddTrainCommand(CLI::App* app) {
   command
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")
-      ->check(CLI::Range(1, 1024));
+      ->transform(WholeNumber(1, 1024));
   command->add_flag("--help-keys", options->help_keys,
                     "list every configuration key with type, range, value and meaning, and exit");
   command->footer(

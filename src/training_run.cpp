@@ -34,6 +34,26 @@ std::string CommandName() {
   return name.find('/') == std::string::npos ? "skein" : name;
 }
 
+/// An argument as a shell takes it.
+std::string Quoted(const std::string& argument) {
+  const bool is_plain =
+      argument.find_first_not_of(
+          "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+=:,@") ==
+      std::string::npos;
+  if (is_plain) return argument;
+  std::string quoted = "'";
+  for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The budget in whole iterations.
+std::uint64_t LastStep(const TrainConfig& config) {
+  const auto iteration = static_cast<std::uint64_t>(config.ppo.num_aircraft) *
+                         static_cast<std::uint64_t>(config.ppo.rollout_steps) *
+                         static_cast<std::uint64_t>(config.env.action_repeat);
+  return (config.total_steps + iteration - 1) / iteration * iteration;
+}
+
 bool IsDamaged(const std::string& path) {
   try {
     TensorFile::Read(path);
@@ -59,7 +79,8 @@ void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wo
                         const std::string& note) {
   // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
   Trainer trainer(config.train, pool);
-  RunDirectory directory = RunDirectory::Create(path);
+  RunDirectory directory = path.empty() ? RunDirectory::CreateIn(kRunsRoot, config.train.env.task)
+                                        : RunDirectory::Create(path);
   ProgramConfig resolved = config;
   resolved.train = trainer.config();
   if (config.train.controller != nullptr) {
@@ -125,6 +146,18 @@ TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Tr
 }
 
 void TrainingRun::Run() {
+  try {
+    TrainAndEvaluate();
+  } catch (const Error& error) {
+    try {
+      log_.Note(fmt::format("error: {}", error.what()));
+    } catch (const Error&) {  // it may be the disk that is full
+    }
+    throw;
+  }
+}
+
+void TrainingRun::TrainAndEvaluate() {
   const std::uint64_t first_step = trainer_.env_steps();
   log_.Say(fmt::format("{} {} in {}: {} of {} steps, {} aircraft, seed {}, {} threads",
                        first_step == 0 ? "training" : "resuming", config_.train.env.task,
@@ -133,7 +166,7 @@ void TrainingRun::Run() {
                        config_.train.ppo.num_aircraft, config_.train.seed, pool_.threads()));
   log_.Say(Describe(trainer_.backend()));
   const Clock::time_point start = Clock::now();
-  ProgressMeter meter(first_step, config_.train.total_steps, start);
+  ProgressMeter meter(first_step, LastStep(config_.train), start);
   std::string dropped;
   while (!trainer_.finished() && !pool_.stopping()) {
     const IterationReport report = Iterate();
@@ -170,7 +203,7 @@ void TrainingRun::SayStopped(const std::string& dropped) {
                        strsignal(signals_.StopSignal()),
                        FormatCount(static_cast<double>(trainer_.env_steps())),
                        FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
-                       CommandName(), directory_.path()));
+                       Quoted(CommandName()), Quoted(directory_.path())));
 }
 
 IterationReport TrainingRun::Iterate() {
@@ -182,7 +215,6 @@ IterationReport TrainingRun::Iterate() {
     // Not named like a checkpoint: a run that went on from it would fail again.
     const std::string path = fmt::format("{}/before-failure-{:06}.skein", directory_.checkpoints(),
                                          trainer_.iteration());
-    log_.Note(fmt::format("error: {}", error.what()));
     try {
       trainer_.Save(path);
     } catch (const Error& failure) {
@@ -248,7 +280,7 @@ void TrainingRun::Finish() {
     SayStopped("; dropped the evaluation that was under way");
     return;
   }
-  WriteFile(directory_.evaluation(), ToJson(report, path, config_, seed, true).dump(1) + "\n");
+  WriteJson(directory_.evaluation(), ToJson(report, path, config_, seed, true));
   log_.Say(ToText(report, true));
   log_.Say(fmt::format(
       "policy          {}\n"
@@ -258,8 +290,8 @@ void TrainingRun::Finish() {
       "checkpoints     {}\n"
       "again           {} eval --policy {} --task {} --deterministic --episodes {} --seed {}",
       path, directory_.evaluation(), directory_.metrics(), directory_.path(), directory_.config(),
-      directory_.checkpoints(), CommandName(), directory_.path(), config_.train.env.task, episodes,
-      seed));
+      directory_.checkpoints(), Quoted(CommandName()), Quoted(directory_.path()),
+      config_.train.env.task, episodes, seed));
   log_.Sync();
 }
 

@@ -20,7 +20,8 @@ namespace skein {
 /// evaluation over fresh episodes.
 class TrainingRun {
  public:
-  /// A new run in a new directory. `note`, unless empty, goes into its log.
+  /// A new run in a new directory: `path`, or one in kRunsRoot if that is empty. `note`, unless
+  /// empty, goes into its log.
   static void Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
                     const std::string& note = "");
   /// Goes on from the directory's newest checkpoint, or from the start if it has none, over the
@@ -32,7 +33,9 @@ class TrainingRun {
   TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
               WorkerPool& pool);
 
+  /// To the end, or until it is stopped; says in the log what ended it.
   void Run();
+  void TrainAndEvaluate();
   IterationReport Iterate();
   void Record(const IterationReport& report);
   void SaveCheckpoint();

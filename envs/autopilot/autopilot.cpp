@@ -133,7 +133,15 @@ const Registration& AutopilotFor(const std::string& task) {
               "\", but \"heading\", \"control\" and \"tracking\"");
 }
 
-void CheckErrorAxes(const EnvConfig& config) {
+void CheckFlies(const EnvConfig& config) {
+  if (config.aircraft != "f16") {
+    throw Error("the autopilot flies env.aircraft = \"f16\", not \"" + config.aircraft + "\"");
+  }
+  if (config.flight_control != FlightControlMode::kFull) {
+    throw Error(
+        "the autopilot flies with env.flight_control = \"full\": its sticks ask for load "
+        "factor and roll rate");
+  }
   if (config.task == "tracking" && config.tracking.error_axes != kAutopilotErrorAxes) {
     throw Error(std::string("the autopilot flies with env.tracking.error_axes = \"") +
                 Name(kAutopilotErrorAxes) + '"');
@@ -169,7 +177,7 @@ class Autopilot : public Pilot {
 }  // namespace
 
 std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains) {
-  CheckErrorAxes(config);
+  CheckFlies(config);
   AutopilotTiming timing;
   timing.dt = config.control_interval_s;
   timing.steps_per_decision =
@@ -178,15 +186,6 @@ std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGai
 }
 
 std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant) {
-  if (config.aircraft != "f16") {
-    throw Error("the autopilot has gains for env.aircraft = \"f16\", not for \"" + config.aircraft +
-                "\"");
-  }
-  if (config.flight_control != FlightControlMode::kFull) {
-    throw Error(
-        "the autopilot flies with env.flight_control = \"full\": its sticks ask for load "
-        "factor and roll rate");
-  }
   return MakeAutopilot(config, GainsOf(variant));
 }
 

@@ -11,14 +11,15 @@ namespace skein {
 /// In which it is shown Tracking's target.
 inline constexpr TrackingAxes kAutopilotErrorAxes = TrackingAxes::kHeading;
 
-/// The traditional autopilot of an environment's aircraft: TECS and L1 every `outer_interval_s`
+/// The traditional autopilot of the F-16: TECS and L1 every `outer_interval_s`
 /// over dual-loop PID in every control step (ArduPilot's structure; docs/autopilot.md).
 /// `config.task` chooses what it flies: "heading", "control" or "tracking". It sees what any agent
-/// sees, the noisy observation. Throws Error on a task, an aircraft or a mode of flight control
-/// that it has no gains for.
+/// sees, the noisy observation. Throws Error on a task that it does not fly, another aircraft (its
+/// laws know this one's units of observation and its speeds), a mode of flight control whose sticks
+/// ask for something else than load factor and roll rate, and Tracking in other axes.
 std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant);
 
-/// The same with other gains, for any aircraft that load factor and roll rate command.
+/// The same with other gains.
 std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains);
 
 }  // namespace skein

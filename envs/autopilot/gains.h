@@ -35,8 +35,8 @@ struct TecsGains {
   double max_climb_rate = 500;      ///< ft/s, up and down
   double max_climb_angle = Radians(30);
   double time_constant_s = 5;
-  double max_acceleration = 25;  ///< ft/s^2 asked along the path
-  double throttle_damping = 0.5;
+  double max_acceleration = 25;   ///< ft/s^2 asked along the path
+  double throttle_damping = 0.5;  ///< of the rate of the energy error, dimensionless
   double integrator_gain = 0.1;   ///< 1/s
   double integrator_limit = 0.3;  ///< of throttle
   double level_throttle = 0.30;
@@ -60,19 +60,19 @@ struct LiftGains {
   double max_straight_bank = Radians(100);  ///< beyond it a roll goes the shorter way round
 };
 
-/// Attitude error -> rate demand -> stick. The sticks ask the flight control system for a load
-/// factor and a roll rate.
+/// Roll error -> rate demand -> stick; load factor demand -> rate demand -> stick. The sticks ask
+/// the flight control system for a load factor and a roll rate.
 struct InnerLoopGains {
   double roll_time_s = 0.5;
   double max_roll_rate = Radians(100);  ///< rad/s asked of the loop
   double full_stick_roll_rate = Radians(308);
-  double roll_feedforward = 1.35;  ///< full_stick_roll_rate gets about 70 % of what it asks
-  double roll_proportional = 0.5;
-  double roll_integral = 0.3;            ///< 1/s
-  double roll_integrator_limit = 0.666;  ///< of stick
-  double pitch_proportional = 0.3;
-  double pitch_integral = 0.3;                                    ///< 1/s
-  double pitch_integrator_limit = 2.664;                          ///< g
+  double roll_feedforward = 1.35;         ///< full_stick_roll_rate gets about 70 % of what it asks
+  double roll_proportional = 0.5;         ///< stick per share of full_stick_roll_rate
+  double roll_integral = 0.3;             ///< 1/s
+  double roll_integrator_limit = 0.666;   ///< of stick
+  double pitch_proportional = 0.3;        ///< g asked per g missing
+  double pitch_integral = 0.3;            ///< 1/s
+  double pitch_integrator_limit = 2.664;  ///< g
   double full_aft_load_factor = 8, full_forward_load_factor = 4;  ///< g beyond 1 at full stick
 };
 

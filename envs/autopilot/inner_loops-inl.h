@@ -1,6 +1,6 @@
-// The dual loops of roll and pitch: attitude error -> rate demand -> stick, as ArduPilot's
-// AP_RollController and AP_PitchController, onto a flight control system that takes roll rate and
-// load factor.
+// The inner loops, as ArduPilot's AP_RollController and AP_PitchController, onto a flight control
+// system that takes roll rate and load factor: roll error -> roll rate -> stick, and load factor
+// demand -> pitch rate -> stick.
 
 #include "envs/aircraft/aircraft.h"
 #include "envs/autopilot/gains.h"

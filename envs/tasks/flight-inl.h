@@ -66,25 +66,46 @@ HWY_INLINE FlightVector TwiceSum(FlightVector a, FlightVector b, FlightVector c,
   return hn::Add(sum, sum);
 }
 
-/// Pitch, rad, in [-pi/2, pi/2], from the sine and cosine both: as exact nose up as level.
-HWY_INLINE FlightVector Pitch(const Tile& tile, int first) {
+/// Where down is in body axes, the third row of the attitude matrix: (-sin(pitch), sin(roll)
+/// cos(pitch), cos(roll) cos(pitch)).
+struct DownInBody {
+  FlightVector sin_pitch;  ///< less the first component
+  FlightVector y, z;
+};
+
+HWY_INLINE DownInBody Down(const Tile& tile, int first) {
   const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
   const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
-  const FlightVector sine = TwiceSum(q0, qy, hn::Neg(qx), qz);
-  const FlightVector y = TwiceSum(qy, qz, q0, qx);
-  const FlightVector z =
-      hn::MulAdd(q0, q0, hn::MulAdd(qz, qz, hn::NegMulAdd(qx, qx, hn::Neg(hn::Mul(qy, qy)))));
-  const FlightVector cosine = hn::Sqrt(hn::MulAdd(y, y, hn::Mul(z, z)));
-  return Atan2(FlightTag(), sine, cosine);
+  DownInBody down;
+  down.sin_pitch = TwiceSum(q0, qy, hn::Neg(qx), qz);
+  down.y = TwiceSum(qy, qz, q0, qx);
+  down.z = hn::MulAdd(q0, q0, hn::MulAdd(qz, qz, hn::NegMulAdd(qx, qx, hn::Neg(hn::Mul(qy, qy)))));
+  return down;
+}
+
+/// Pitch, rad, in [-pi/2, pi/2], from the sine and cosine both: as exact nose up as level.
+HWY_INLINE FlightVector Pitch(const Tile& tile, int first) {
+  const DownInBody down = Down(tile, first);
+  const FlightVector cosine = hn::Sqrt(hn::MulAdd(down.y, down.y, hn::Mul(down.z, down.z)));
+  return Atan2(FlightTag(), down.sin_pitch, cosine);
+}
+
+/// Where the nose points over the ground, of the first row of the attitude matrix.
+struct NoseOverGround {
+  FlightVector north, east;
+};
+
+HWY_INLINE NoseOverGround Nose(const Tile& tile, int first) {
+  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
+  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
+  return {hn::MulAdd(q0, q0, hn::NegMulAdd(qz, qz, hn::NegMulAdd(qy, qy, hn::Mul(qx, qx)))),
+          TwiceSum(qx, qy, q0, qz)};
 }
 
 /// Yaw, rad, in [-pi, pi].
 HWY_INLINE FlightVector Yaw(const Tile& tile, int first) {
-  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
-  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
-  const FlightVector north =
-      hn::MulAdd(q0, q0, hn::NegMulAdd(qz, qz, hn::NegMulAdd(qy, qy, hn::Mul(qx, qx))));
-  return Atan2(FlightTag(), TwiceSum(qx, qy, q0, qz), north);
+  const NoseOverGround nose = Nose(tile, first);
+  return Atan2(FlightTag(), nose.east, nose.north);
 }
 
 /// An angle brought into [-pi, pi].

@@ -33,19 +33,13 @@ using ObservationColumns = float[kNoiseBlocks * 8][kMaxLanes];
 
 HWY_INLINE void ObserveAttitude(const Tile& tile, int first, ObservationColumns& columns) {
   const FlightTag d;
-  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
-  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
-  // The third row of the attitude matrix: -sin(pitch), sin(roll) cos(pitch), cos(roll) cos(pitch).
-  const FlightVector sin_pitch = TwiceSum(q0, qy, hn::Neg(qx), qz);
-  const FlightVector y = TwiceSum(qy, qz, q0, qx);
-  const FlightVector z =
-      hn::MulAdd(q0, q0, hn::MulAdd(qz, qz, hn::NegMulAdd(qx, qx, hn::Neg(hn::Mul(qy, qy)))));
+  const DownInBody down = Down(tile, first);
   // Nose straight up or down there is no roll: both its sine and cosine are then about zero.
   FlightVector cos_pitch, per_cos_pitch;
-  Length(hn::MulAdd(y, y, hn::Mul(z, z)), cos_pitch, per_cos_pitch);
-  hn::Store(hn::Mul(y, per_cos_pitch), d, columns[4]);
-  hn::Store(hn::Mul(z, per_cos_pitch), d, columns[5]);
-  hn::Store(sin_pitch, d, columns[6]);
+  Length(hn::MulAdd(down.y, down.y, hn::Mul(down.z, down.z)), cos_pitch, per_cos_pitch);
+  hn::Store(hn::Mul(down.y, per_cos_pitch), d, columns[4]);
+  hn::Store(hn::Mul(down.z, per_cos_pitch), d, columns[5]);
+  hn::Store(down.sin_pitch, d, columns[6]);
   hn::Store(cos_pitch, d, columns[7]);
 }
 

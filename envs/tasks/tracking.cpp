@@ -47,18 +47,14 @@ HWY_INLINE FlightVector InUnits(FlightVector distance, double unit_ft) {
 /// down has none: north counts as it.
 HWY_INLINE void TurnIntoHeading(const Tile& flight, int first, FlightVector& north_or_ahead,
                                 FlightVector& east_or_right) {
-  const FlightVector q0 = Column(flight, kQ0, first), qx = Column(flight, kQx, first);
-  const FlightVector qy = Column(flight, kQy, first), qz = Column(flight, kQz, first);
-  const FlightVector nose_north =
-      hn::MulAdd(q0, q0, hn::NegMulAdd(qz, qz, hn::NegMulAdd(qy, qy, hn::Mul(qx, qx))));
-  const FlightVector nose_east = TwiceSum(qx, qy, q0, qz);
-  const FlightVector square = hn::MulAdd(nose_north, nose_north, hn::Mul(nose_east, nose_east));
+  const NoseOverGround nose = Nose(flight, first);
+  const FlightVector square = hn::MulAdd(nose.north, nose.north, hn::Mul(nose.east, nose.east));
   const auto has_heading = hn::Gt(square, Constant(1e-12));
   FlightVector length, per_length;
   Length(square, length, per_length);
   const FlightVector cosine =
-      hn::IfThenElse(has_heading, hn::Mul(nose_north, per_length), Constant(1));
-  const FlightVector sine = hn::IfThenElseZero(has_heading, hn::Mul(nose_east, per_length));
+      hn::IfThenElse(has_heading, hn::Mul(nose.north, per_length), Constant(1));
+  const FlightVector sine = hn::IfThenElseZero(has_heading, hn::Mul(nose.east, per_length));
   const FlightVector north = north_or_ahead, east = east_or_right;
   north_or_ahead = hn::MulAdd(north, cosine, hn::Mul(east, sine));
   east_or_right = hn::NegMulAdd(north, sine, hn::Mul(east, cosine));

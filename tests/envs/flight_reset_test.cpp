@@ -77,6 +77,17 @@ TEST(FlightResetTest, DrawsAltitudeAndSpeedUniformly) {
   EXPECT_NEAR(product_sum / kDraws, 0, 5 * std::sqrt(1.0 / 9 / kDraws));
 }
 
+TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
+  EnvConfig config;
+  config.termination.max_mach = 1.1;  // 1200 ft/s at 20,000 ft is Mach 1.16
+  EXPECT_THROW(FlightReset(config, F16()), Error);
+  config.termination.max_mach = 1.2;
+  config.termination.min_mach = 0.95;  // 1000 ft/s at 19,000 ft is Mach 0.96
+  EXPECT_NO_THROW(FlightReset(config, F16()));
+  config.termination.min_mach = 0.97;
+  EXPECT_THROW(FlightReset(config, F16()), Error);
+}
+
 TEST(FlightResetTest, DependsOnTheStreamAlone) {
   const FlightReset one(EnvConfig{}, F16()), other(EnvConfig{}, F16());
   DrawOf(other, 5);

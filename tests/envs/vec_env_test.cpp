@@ -389,37 +389,6 @@ TEST(VecEnv, TruncationKeepsTheLastObservation) {
   }
 }
 
-TEST(VecEnv, ShowsTheStateInWhichAnEpisodeEnded) {
-  EnvConfig config;
-  config.time_limit_steps = config.heading.earliest_success_step = 10;
-  config.action_repeat = 10;
-  constexpr int kCount = 150;
-  VecEnv env(config, kCount, 1);
-  // The same flight with a later limit is in that state then.
-  EnvConfig longer = config;
-  longer.time_limit_steps = 1000;
-  VecEnv reference(longer, kCount, 1);
-  StepBuffers buffers(kCount), reference_buffers(kCount);
-  constexpr float kUntouched = 12345;
-  std::vector<float> state(kCount * kNumRecordedColumns), untouched(state.size(), kUntouched);
-  const auto step = [](VecEnv* flock, StepBuffers* out, std::vector<float>* final_state) {
-    StepOutput output = out->output();
-    output.final_state = final_state->data();
-    flock->Step(0, out->action.data(), output);
-  };
-  step(&env, &buffers, &state);
-  step(&reference, &reference_buffers, &untouched);
-  for (int i = 0; i < kCount; ++i) {
-    for (int column = 0; column < kNumRecordedColumns; ++column) {
-      ASSERT_EQ(state[static_cast<std::size_t>(i * kNumRecordedColumns + column)],
-                reference.StateOf(i, column))
-          << "aircraft " << i << ", column " << column;
-    }
-    EXPECT_EQ(env.StateOf(i, kNorth), 0);
-  }
-  EXPECT_EQ(untouched, std::vector<float>(state.size(), kUntouched));
-}
-
 TEST(VecEnv, StaggeredClocksSpreadOverTheTimeLimit) {
   EnvConfig config;
   config.time_limit_steps = config.heading.earliest_success_step = 40;

@@ -107,7 +107,8 @@ TEST_F(ComparisonPipeline, TheTableFitsATerminalAndTheCsvHasARowForEachAgent) {
   std::string row;
   std::getline(rows, row);
   const auto columns = std::count(row.begin(), row.end(), ',');
-  EXPECT_EQ(row.rfind("task,agent,episodes,seed,decision_interval_s,success_rate,", 0), 0u);
+  EXPECT_EQ(row.rfind("task,conditions,agent,episodes,seed,decision_interval_s,success_rate,", 0),
+            0u);
   int agents = 0;
   for (; std::getline(rows, row); ++agents) {
     EXPECT_EQ(std::count(row.begin(), row.end(), ','), columns) << row;
@@ -125,6 +126,15 @@ TEST_F(ComparisonPipeline, RecordsEveryAgentsFlights) {
     return text.substr(0, text.find('\n', text.find('\n') + 1));
   };
   EXPECT_EQ(start(idle), start(random));
+}
+
+TEST_F(ComparisonPipeline, FliesInTheEnvironmentOfAFileWhateverTheRateThere) {
+  const std::string file = scratch_ / "config.toml";
+  WriteFile(file, "[env]\naction_repeat = 7\nobservation_noise = 0.05\n");
+  const nlohmann::json result = Compare("idle", {"--config", file});
+  EXPECT_EQ(result["environment"]["env.observation_noise"], 0.05);
+  EXPECT_EQ(result["agents"][0]["action_repeat"], 1);
+  EXPECT_THAT(output_, HasSubstr("still air; noise 0.05"));
 }
 
 TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
@@ -147,6 +157,12 @@ TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
   const ProgramResult rate =
       CallSkein(Command({"--agents", "idle", "--set", "env.action_repeat=2"}));
   EXPECT_THAT(rate.error, HasSubstr("env.action_repeat: agents that are compared"));
+  const std::string file = scratch_ / "same";
+  const ProgramResult twice =
+      CallSkein(Command({"--agents", "idle", "--csv", file, "--json", file}));
+  EXPECT_THAT(twice.error, HasSubstr(file + ": two results would go there"));
+  const ProgramResult trained = CallSkein(Command({"--agents", "idle", "--set", "ppo.epochs=3"}));
+  EXPECT_THAT(trained.error, HasSubstr("--set ppo.epochs=3: is of trainings"));
   EXPECT_EQ(CallSkein({"compare", "--task", "heading"}).exit_code, 2) << "no agents";
   EXPECT_EQ(CallSkein({"compare", "--agents", "idle"}).exit_code, 2) << "no task";
 }

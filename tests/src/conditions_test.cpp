@@ -73,7 +73,25 @@ TEST(Conditions, WindTakesASpeedAndASeverityOrNumbers) {
   EXPECT_EQ(numbers.from_deg.min, 260);
 
   EXPECT_EQ(Under({"windy=moderate"}).wind.speed_fps.max, 0);
+  EXPECT_THAT(Complaint({"windy=60kt..120"}), HasSubstr("cannot read \"60kt..120\""));
+  EXPECT_THAT(Complaint({"windy=from=90deg"}), HasSubstr("cannot read"));
   EXPECT_EQ(Under({"windy=60fps"}).wind.turbulence_fps.max, 0);
+}
+
+TEST(Conditions, WindReplacesAllOfAnotherWind) {
+  ProgramConfig config =
+      ResolveConfig({"heading", "default", "", {}, {"windy=200fps,severe,from=90deg"}});
+  ApplyConditionsAndAssignments({"windy=light"}, {}, &config);
+  EXPECT_EQ(config.train.env.wind.speed_fps.max, 0);
+  EXPECT_EQ(config.train.env.wind.from_deg.max, 360);
+  EXPECT_EQ(config.train.env.wind.turbulence_fps.max, 3.7);
+}
+
+TEST(Conditions, AreDescribedInWords) {
+  EXPECT_EQ(DescribeConditions(Under({"windy=60fps", "noisy=0.01..0.05", "high_altitude=30kft"})),
+            "f16 from 30000 ft and 1000 to 1200 ft/s; wind of 60 ft/s; noise 0.01 to 0.05");
+  EXPECT_EQ(DescribeConditions(Under({"noisy=0"})),
+            "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; no noise");
 }
 
 TEST(Conditions, EveryLevelOfEachOnEveryTaskCanBeFlown) {

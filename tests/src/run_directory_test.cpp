@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "simd/error.h"
 #include "src/output_file.h"
@@ -79,10 +80,16 @@ TEST_F(RunDirectoryTest, LatestIsTheOneWrittenToLast) {
   EXPECT_FALSE(LatestRun(root_, "control").has_value());
 }
 
-TEST_F(RunDirectoryTest, NewPathsDoNotExist) {
-  const std::string path = NewRunPath(root_, "heading");
-  fs::create_directories(path);
-  EXPECT_NE(NewRunPath(root_, "heading"), path);
+TEST_F(RunDirectoryTest, RunsOfTheSameSecondHaveDirectoriesOfTheirOwn) {
+  const RunDirectory first = RunDirectory::CreateIn(root_ + "/runs", "heading");
+  const RunDirectory second = RunDirectory::CreateIn(root_ + "/runs", "heading");
+  EXPECT_EQ(first.path().rfind(root_ + "/runs/heading-", 0), 0u) << first.path();
+  EXPECT_NE(second.path(), first.path());
+}
+
+TEST_F(RunDirectoryTest, DocumentsMayHoldNamesThatAreNotUtf8) {
+  WriteJson(root_ + "/document", {{"path", "caf\xe9"}});
+  EXPECT_EQ(ReadFile(root_ + "/document"), "{\n \"path\": \"caf\xef\xbf\xbd\"\n}\n");
 }
 
 TEST_F(RunDirectoryTest, SymbolicLinksLeadToTheFileThatIsReplaced) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <regex>
 #include <set>
 
 #include "envs/tasks/task.h"
@@ -105,6 +107,12 @@ std::string OwnerOf(const Setting& setting) {
   return "heading";
 }
 
+std::size_t CountLines(const std::string& text, const std::string& beginning) {
+  const std::regex pattern("\n" + beginning);
+  return static_cast<std::size_t>(
+      std::distance(std::sregex_iterator(text.begin(), text.end(), pattern), {}));
+}
+
 TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
   const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
   for (const Setting& setting : Settings()) {
@@ -119,10 +127,13 @@ TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
                 HasSubstr("\n| `" + setting.key + "` | " + type + " | " + here + " | " +
                           (here == there ? "" : there) + " | " + setting.description + " |\n"));
   }
+  EXPECT_EQ(CountLines(text, "\\| `[a-z_0-9]+\\.[a-z_0-9.]+` \\| (a n|an i|true or|\")"),
+            Settings().size());
 }
 
 TEST(Settings, DocumentationSaysWhereThePresetsOfOtherTasksDiffer) {
   const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
+  std::size_t rows = 0;
   for (const std::string& task : TaskNames()) {
     for (const std::string preset : {"default", "paper"}) {
       const ProgramConfig heading = ResolveConfig({"heading", preset, "", {}});
@@ -134,9 +145,11 @@ TEST(Settings, DocumentationSaysWhereThePresetsOfOtherTasksDiffer) {
         if (value == FormatValue(setting, heading)) continue;
         EXPECT_THAT(text, HasSubstr("\n| `" + task + "` | `" + setting.key + "` | `" + preset +
                                     "` | " + value + " |\n"));
+        ++rows;
       }
     }
   }
+  EXPECT_EQ(CountLines(text, "\\| `[a-z]+` \\| `[a-z_.]+` \\| `(default|paper)` \\| "), rows);
 }
 
 TEST(Settings, EvaluationsTakeTolerancesWhole) {

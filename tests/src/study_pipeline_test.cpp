@@ -178,13 +178,16 @@ TEST_F(StudyPipeline, KilledAgainAndAgainItEndsAsInOneGo) {
       {"/runs/heading-quiet-seed4/config.toml", SIGKILL},
       {"/comparisons/heading-quiet.json", SIGKILL},
       {"/runs/heading-loud--0.1-seed4/checkpoints/checkpoint-000003.skein", SIGTERM}};
+  int kills = 0;
   for (const auto& [path, signal] : moments) {
     RunningProgram program(Command(torn));
     program.WaitUntil([&, file = torn + path] { return fs::exists(file); });
     program.Signal(signal);
     const ProgramResult result = program.Wait();
     EXPECT_TRUE(result.exit_code == 0 || result.signal == signal) << path << result.error;
+    kills += result.signal == SIGKILL;
   }
+  EXPECT_GE(kills, 1);
   const ProgramResult last = CallSkein(Command(torn));
   ASSERT_EQ(last.exit_code, 0) << last.error;
   EXPECT_EQ(ReadFile(torn + "/results.csv"), ReadFile(whole + "/results.csv"));
@@ -202,10 +205,15 @@ TEST_F(StudyPipeline, KeepsWhatIsFinishedAndRefusesWhatIsOtherwise) {
   ASSERT_EQ(CallSkein(Command(out)).exit_code, 0);
   const std::string run = out + "/runs/heading-quiet-seed3/log.txt";
   const std::string log = ReadFile(run);
-  // Another agent and more episodes need no training.
+  // Another agent and more episodes need no training, another seed and another level their own.
+  replace("agents = [\"idle\"]", "agents = [\"idle\", \"random\"]");
   WriteFile(file_, replace("episodes = 20", "episodes = 30"));
+  EXPECT_THAT(CallSkein(Command(out)).output, ::testing::Not(HasSubstr("training 1 of")));
+  replace("seeds = [3]", "seeds = [3, 4]");
+  WriteFile(file_, text += "[[level]]\nname = \"louder\"\ncondition = [\"noisy=0.2\"]\n");
   ASSERT_EQ(CallSkein(Command(out)).exit_code, 0);
   EXPECT_EQ(ReadFile(run), log);
+  EXPECT_TRUE(fs::exists(out + "/runs/heading-louder-seed4/evaluation.json"));
   EXPECT_EQ(nlohmann::json::parse(ReadFile(out + "/results.json"))[0]["comparison"]["episodes"],
             30);
   WriteFile(file_, replace("ppo.minibatches=2", "ppo.minibatches=4"));
@@ -226,6 +234,29 @@ TEST_F(StudyPipeline, OneTrainingCanServeAllLevels) {
               HasSubstr("observation_noise = 0.05"));
   EXPECT_FALSE(fs::exists(out + "/runs/heading-quiet-seed3"));
   EXPECT_EQ(nlohmann::json::parse(ReadFile(out + "/results.json")).size(), 2u);
+}
+
+TEST_F(StudyPipeline, WhatWouldNotBeFollowedIsRefused) {
+  const std::string begin = "tasks = [\"heading\"]\nseeds = [1]\n";
+  ExpectError(begin + "set = [\"run.seed = 2\"]", "seeds says the seeds");
+  ExpectError(begin + "[training]\nsteps = 100\nset = [\"run.total_steps=1e6\"]",
+              "training.steps says it already");
+  ExpectError(begin + "[[training]]\nsteps = 100\n[[training]]\nper_level = false",
+              "training must be one table");
+  const std::string one_for_all =
+      begin + "[training]\nper_level = false\n[[level]]\nname = \"a\"\n";
+  ExpectError(one_for_all + "set = [\"ppo.epochs=3\"]", "set ppo.epochs=3 of level a");
+  ExpectError(one_for_all + "set = [\"env.action_repeat=3\"]", "level a: env.action_repeat");
+}
+
+TEST_F(StudyPipeline, KeepsOutOfDirectoriesOfOthers) {
+  const std::string out = scratch_ / "mine";
+  fs::create_directory(out);
+  WriteFile(out + "/results.csv", "mine");
+  const ProgramResult result = CallSkein(Command(out));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.error, HasSubstr("holds no study"));
+  EXPECT_EQ(ReadFile(out + "/results.csv"), "mine");
 }
 
 TEST_F(StudyPipeline, WrongStudiesAreErrorsOfOneLineBeforeAnyTraining) {

@@ -216,8 +216,9 @@ TEST_F(TrainingPipeline, ThreadsDoNotChangeTheResult) {
 
 TEST_F(TrainingPipeline, KilledAnywhereAndResumedEqualsUninterrupted) {
   FlyReference();
-  std::random_device entropy;
-  std::mt19937 random(entropy());
+  const auto seed = std::random_device()();
+  SCOPED_TRACE("seed of the moments: " + std::to_string(seed));
+  std::mt19937 random(seed);
   bool finished = false;
   for (int kill = 0; kill < 4 && !finished; ++kill) {
     RunningProgram program(kill == 0 ? TinyTraining(run_)
@@ -275,8 +276,9 @@ TEST_F(TrainingPipeline, SigtermSavesAndEndsCleanly) {
 
 TEST_F(TrainingPipeline, StoppedAnywhereAndResumedEqualsUninterrupted) {
   FlyReference();
-  std::random_device entropy;
-  std::mt19937 random(entropy());
+  const auto seed = std::random_device()();
+  SCOPED_TRACE("seed of the moments: " + std::to_string(seed));
+  std::mt19937 random(seed);
   for (int stop = 0; stop < 6; ++stop) {
     // One checkpoint of its own says that a run handles signals.
     const auto saved = CheckpointsIn(run_ + "/checkpoints");

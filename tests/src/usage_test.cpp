@@ -86,6 +86,22 @@ TEST(Usage, FlagsThatStandForAKeyAreNamedInItsErrors) {
               HasSubstr("--seed: run.seed = -1 is out of range"));
 }
 
+TEST(Usage, CountsMayBeInAnyNotationOfANumber) {
+  const auto fly = [](const std::string& episodes) {
+    return CallSkein({"eval", "--policy", "untrained", "--task", "heading", "--episodes", episodes,
+                      "--set", "env.time_limit_steps=50", "--set",
+                      "env.heading.earliest_success_step=50"});
+  };
+  const ProgramResult ten = fly("1e1");
+  EXPECT_EQ(ten.exit_code, 0) << ten.error;
+  EXPECT_EQ(ten.output, fly("10").output);
+  for (const std::string& wrong : {"1.5", "1e9", "nan", "ten", "10x", ""}) {
+    const ProgramResult result = fly(wrong);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.error, HasSubstr("--episodes")) << wrong;
+  }
+}
+
 TEST(Usage, AnErrorIsOneLineWhateverIsInIt) {
   const ScratchDirectory scratch;
   const std::string path = scratch / "config.toml";

@@ -39,10 +39,11 @@ TEST(Autopilot, RefusesATaskThatItCannotFly) {
   EXPECT_THROW(MakeAutopilot(Task("landing"), AutopilotVariant::kTraditional), Error);
 }
 
-TEST(Autopilot, RefusesWhatItHasNoGainsFor) {
+TEST(Autopilot, RefusesWhatItCannotFly) {
   EnvConfig other = Task("heading");
-  other.aircraft = "glider";
+  other.aircraft = "aerosonde";
   EXPECT_THROW(MakeAutopilot(other, AutopilotVariant::kTraditional), Error);
+  EXPECT_THROW(MakeAutopilot(other, AutopilotGains()), Error);
   EnvConfig direct = Task("heading");
   direct.flight_control = FlightControlMode::kDirect;
   EXPECT_THROW(MakeAutopilot(direct, AutopilotVariant::kTraditional), Error);
