@@ -272,7 +272,7 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
 }
 
 ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level) {
-  const ProgramConfig config = Configure(study, task, {level.settings});
+  ProgramConfig config = Configure(study, task, {level.settings});
   if (!study.training.per_level) {
     CheckEachAgentsOwn(config.train.env, Configure(study, task, {}).train.env);
   }
