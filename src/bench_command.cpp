@@ -81,9 +81,9 @@ void Report(const BenchOptions& options, int threads, Json results) {
   WriteJson(options.json, results);
 }
 
-std::string ShareOfPeak(double gflops, double peak_gflops) {
-  return fmt::format("{:.1f} GFLOP/s, {:.1f} % of the measured peak of {:.1f} GFLOP/s", gflops,
-                     100 * gflops / peak_gflops, peak_gflops);
+std::string ShareOfPeak(double gflops, double peak_gflops, const char* type = "float32") {
+  return fmt::format("{:.1f} GFLOP/s, {:.1f} % of the measured peak of {:.1f} GFLOP/s in {}", gflops,
+                     100 * gflops / peak_gflops, peak_gflops, type);
 }
 
 Json WithShareOfPeak(Json results, double gflops, double peak_gflops) {
@@ -187,9 +187,12 @@ Json Compare(const std::vector<LearnerRates>& learners, const Comparison& compar
   for (const LearnerRates& rates : learners) {
     const double rate = rates.*comparison.rate;
     const double gflops = rate * (rates.*comparison.flops) / 1e9;
-    fmt::print("  {:<14} {} {}/s  {:5.2f} x LibTorch  ({})\n", ShortName(rates.backend),
+    // The other precisions have products in float32, too.
+    const bool is_bfloat16 =
+        rates.backend.precision == LearnerPrecision::kBfloat16 && simd::NativeBfloat16();
+    fmt::print("  {:<14} {:>6} {}/s  {:5.2f} x LibTorch  ({})\n", ShortName(rates.backend),
                FormatCount(rate), comparison.unit, rate / reference,
-               ShareOfPeak(gflops, rates.peak_gflops));
+               ShareOfPeak(gflops, rates.peak_gflops, is_bfloat16 ? "bfloat16" : "float32"));
     all.push_back(WithShareOfPeak({{"backend", Name(rates.backend.backend)},
                                    {"precision", Name(rates.backend.precision)},
                                    {std::string(comparison.unit) + "_per_s", rate},
