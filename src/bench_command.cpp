@@ -82,8 +82,8 @@ void Report(const BenchOptions& options, int threads, Json results) {
 }
 
 std::string ShareOfPeak(double gflops, double peak_gflops, const char* type = "float32") {
-  return fmt::format("{:.1f} GFLOP/s, {:.1f} % of the measured peak of {:.1f} GFLOP/s in {}", gflops,
-                     100 * gflops / peak_gflops, peak_gflops, type);
+  return fmt::format("{:.1f} GFLOP/s, {:.1f} % of the measured peak of {:.1f} GFLOP/s in {}",
+                     gflops, 100 * gflops / peak_gflops, peak_gflops, type);
 }
 
 Json WithShareOfPeak(Json results, double gflops, double peak_gflops) {
