@@ -32,7 +32,7 @@ std::optional<TrimTable> SolveTrims(const InitialConfig& initial, const Plant& p
 
 /// Throws Error if the slowest or the fastest start ends at once, by the Mach number there.
 void CheckMach(const EnvConfig& config) {
-  const auto mach = [&config](double speed_ft_s, double altitude_ft) {
+  const auto mach_at = [&config](double speed_ft_s, double altitude_ft) {
     return speed_ft_s / AirAt(config.atmosphere, altitude_ft).sound_speed_ft_s;
   };
   const auto refuse = [](const char* key, double speed_ft_s, double altitude_ft, double mach,
@@ -44,12 +44,12 @@ void CheckMach(const EnvConfig& config) {
   };
   const InitialConfig& initial = config.initial;
   // The higher, the slower is sound.
-  const double fastest = mach(initial.true_airspeed_fps.max, initial.altitude_ft.max);
+  const double fastest = mach_at(initial.true_airspeed_fps.max, initial.altitude_ft.max);
   if (fastest > config.termination.max_mach) {
     refuse("env.initial.true_airspeed_max_fps", initial.true_airspeed_fps.max,
            initial.altitude_ft.max, fastest, "env.termination.max_mach");
   }
-  const double slowest = mach(initial.true_airspeed_fps.min, initial.altitude_ft.min);
+  const double slowest = mach_at(initial.true_airspeed_fps.min, initial.altitude_ft.min);
   if (slowest < config.termination.min_mach) {
     refuse("env.initial.true_airspeed_min_fps", initial.true_airspeed_fps.min,
            initial.altitude_ft.min, slowest, "env.termination.min_mach");
