@@ -95,7 +95,7 @@ TEST(Usage, CountsMayBeInAnyNotationOfANumber) {
   const ProgramResult ten = fly("1e1");
   EXPECT_EQ(ten.exit_code, 0) << ten.error;
   EXPECT_EQ(ten.output, fly("10").output);
-  for (const std::string& wrong : {"1.5", "1e9", "nan", "ten", "10x", ""}) {
+  for (const char* wrong : {"1.5", "1e9", "nan", "ten", "10x", ""}) {
     const ProgramResult result = fly(wrong);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.error, HasSubstr("--episodes")) << wrong;
