@@ -13,7 +13,7 @@ namespace skein {
 std::vector<std::string> ConditionAssignments(const std::vector<std::string>& conditions);
 
 /// What conditions an environment is under, for people: "f16 from 19000 to 20000 ft and 1000 to
-/// 1200 ft/s, still air; noise 0.01".
+/// 1200 ft/s; still air; noise 0.01".
 std::string DescribeConditions(const EnvConfig& env);
 
 /// The help text of a command's option --condition.

@@ -32,7 +32,7 @@ TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
   EXPECT_GT(TrainedSuccess("control", "6e7"), 0.9);
 }
 
-TEST(Learning, APlannerReachesHalfOfItsPointsAfterAQuarterOfItsBudget) {
+TEST(Learning, APlannerReachesHalfOfItsPointsAfterASixthOfItsBudget) {
   EXPECT_GT(
       TrainedSuccess("tracking", "1e8", {"--controller", SKEIN_SOURCE "/policies/control.skein"}),
       0.5);
