@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bench/learner_meter.h"
-#include "simd/denormals.h"
-#include "train/learner_rates.h"
-#include "train/recurrent_network.h"
+#include "base/denormals.h"
+#include "train/ppo/learner_rates.h"
+#include "train/network/recurrent_network.h"
 
 namespace skein::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include "bench/lookup_tables.h"
 #include "bench/report.h"
 #include "envs/aircraft/table_lookup.h"
-#include "simd/denormals.h"
+#include "base/denormals.h"
 
 namespace skein::bench {
 namespace {

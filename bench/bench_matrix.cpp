@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "bench/libtorch_matmul.h"
-#include "simd/aligned_vector.h"
+#include "base/aligned_vector.h"
 #include "simd/matrix_product.h"
 #include "simd/peak.h"
-#include "train/libtorch_threads.h"
+#include "train/libtorch/libtorch_threads.h"
 
 namespace skein::bench {
 namespace {

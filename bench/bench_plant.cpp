@@ -8,8 +8,8 @@
 #include "bench/flock.h"
 #include "bench/plant_parts.h"
 #include "bench/report.h"
-#include "envs/worker_pool.h"
-#include "simd/denormals.h"
+#include "base/worker_pool.h"
+#include "base/denormals.h"
 
 namespace skein::bench {
 namespace {

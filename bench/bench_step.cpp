@@ -11,7 +11,7 @@
 #include "bench/environment_costs.h"
 #include "bench/report.h"
 #include "envs/vec_env.h"
-#include "envs/worker_pool.h"
+#include "base/worker_pool.h"
 #include "simd/random.h"
 
 namespace skein::bench {

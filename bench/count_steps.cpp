@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "envs/aircraft/f16/f16.h"
-#include "envs/aircraft/flight_control_kernel.h"
-#include "envs/dynamics/plant_kernel.h"
+#include "envs/aircraft/f16.h"
+#include "envs/kernels/flight_control_kernel.h"
+#include "envs/kernels/plant_kernel.h"
 #include "envs/vec_env.h"
-#include "simd/denormals.h"
-#include "simd/error.h"
+#include "base/denormals.h"
+#include "base/error.h"
 #include "simd/random.h"
 #include "simd/target.h"
 

@@ -8,7 +8,7 @@ namespace skein::bench {
 // What the parts of an environment's control step do for one aircraft, counted in their kernels;
 // see Cost for the rules.
 
-/// envs/aircraft/flight_control_kernel.cpp, mode full.
+/// envs/kernels/flight_control_kernel.cpp, mode full.
 inline constexpr Cost kFlightControlCost{57             // sensors
                                              + 11       // sticks, throttle
                                              + 2        // sensed alpha
@@ -25,7 +25,7 @@ inline constexpr Cost kFlightControlCost{57             // sensors
                                               + 4)      // surfaces
                                              + 4 * 8};  // density's cubic
 
-/// envs/tasks/heading.cpp and envs/tasks/judgement.cpp.
+/// envs/tasks/heading.cpp and envs/tasks/reward.cpp.
 inline constexpr Cost kJudgeCost{67 + 8     // errors; reward
                                      + 82   // is everything finite?
                                      + 19   // limits

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "envs/aircraft/f16/f16.h"
+#include "envs/aircraft/f16.h"
 
 namespace skein::bench {
 namespace {

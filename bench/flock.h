@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "envs/dynamics/plant_kernel.h"
-#include "envs/dynamics/state.h"
+#include "envs/kernels/plant_kernel.h"
+#include "envs/state/state.h"
 
 namespace skein::bench {
 

@@ -1,11 +1,11 @@
-// Rates of the elementwise kernels between the learner's products (train/network_kernels.h), on
+// Rates of the elementwise kernels between the learner's products (train/network/network_kernels.h), on
 // rows that stay in the first two levels of the cache, as many as the networks give them.
 
 #include <benchmark/benchmark.h>
 
 #include "bench/learner_meter.h"
-#include "simd/denormals.h"
-#include "train/network_kernels.h"
+#include "base/denormals.h"
+#include "train/network/network_kernels.h"
 
 namespace skein::bench {
 namespace {

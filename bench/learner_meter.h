@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simd/aligned_vector.h"
+#include "base/aligned_vector.h"
 #include "simd/matrix_product.h"
 
 namespace skein::bench {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "bench/learner_meter.h"
-#include "simd/denormals.h"
-#include "train/adam.h"
-#include "train/folded_parameters.h"
-#include "train/fused_network.h"
-#include "train/minibatch_step.h"
+#include "base/denormals.h"
+#include "train/ppo/adam.h"
+#include "train/network/folded_parameters.h"
+#include "train/network/fused_network.h"
+#include "train/ppo/minibatch_step.h"
 
 namespace skein::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -12,9 +12,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/dynamics/plant_kernel_block-inl.h"
-#include "envs/dynamics/plant_kernel_motion-inl.h"
-#include "envs/dynamics/plant_kernel_tables-inl.h"
+#include "envs/kernels/plant_kernel_block-inl.h"
+#include "envs/kernels/plant_kernel_motion-inl.h"
+#include "envs/kernels/plant_kernel_tables-inl.h"
 #include "simd/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();

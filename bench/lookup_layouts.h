@@ -2,8 +2,8 @@
 
 #include "bench/lookup_tables.h"
 #include "bench/report.h"
-#include "envs/dynamics/kernel_aircraft.h"
-#include "envs/dynamics/state.h"
+#include "envs/kernels/kernel_aircraft.h"
+#include "envs/state/state.h"
 
 namespace skein::bench {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "envs/dynamics/kernel_aircraft.h"
+#include "envs/kernels/kernel_aircraft.h"
 
 namespace skein::bench {
 

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "bench/report.h"
-#include "simd/error.h"
+#include "base/error.h"
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);

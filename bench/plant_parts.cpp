@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "envs/dynamics/kernel_aircraft.h"
+#include "envs/kernels/kernel_aircraft.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -12,10 +12,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/dynamics/plant_kernel_air-inl.h"
-#include "envs/dynamics/plant_kernel_block-inl.h"
-#include "envs/dynamics/plant_kernel_motion-inl.h"
-#include "envs/dynamics/plant_kernel_tables-inl.h"
+#include "envs/kernels/plant_kernel_air-inl.h"
+#include "envs/kernels/plant_kernel_block-inl.h"
+#include "envs/kernels/plant_kernel_motion-inl.h"
+#include "envs/kernels/plant_kernel_tables-inl.h"
 #include "simd/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "envs/dynamics/state.h"
+#include "envs/state/state.h"
 
 namespace skein {
 

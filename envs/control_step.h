@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "envs/dynamics/state.h"
+#include "envs/state/state.h"
 
 namespace skein {
 

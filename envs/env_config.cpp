@@ -5,8 +5,8 @@
 #include <locale>
 #include <sstream>
 
-#include "envs/name_in.h"
-#include "simd/error.h"
+#include "base/name_in.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "envs/air/atmosphere.h"
-#include "envs/aircraft/flight_control_kernel.h"
+#include "envs/kernels/flight_control_kernel.h"
 
 namespace skein {
 
@@ -27,7 +27,7 @@ struct InitialConfig {
 struct WindConfig {
   Range speed_fps{0, 0};   ///< of the steady wind, which is horizontal
   Range from_deg{0, 360};  ///< where it comes from: 0 is north, 90 is east
-  /// Standard deviation of Dryden turbulence (envs/air/dryden.h); 0 has none.
+  /// Standard deviation of Dryden turbulence (envs/wind/dryden.h); 0 has none.
   Range turbulence_fps{0, 0};
   /// The aircraft is trimmed in still air, keeps its velocity over ground and meets the steady wind
   /// as a step at the start of the episode. false: it is trimmed in the moving air.

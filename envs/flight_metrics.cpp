@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "envs/dynamics/attitude.h"
-#include "envs/dynamics/kernel_aircraft.h"
+#include "envs/state/attitude.h"
+#include "envs/kernels/kernel_aircraft.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -12,7 +12,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/dynamics/air-inl.h"
+#include "envs/kernels/air-inl.h"
 #include "envs/tasks/flight-inl.h"
 
 #ifndef SKEIN_ENVS_FLIGHT_METRICS_CONSTANTS_

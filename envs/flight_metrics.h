@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "envs/dynamics/plant_kernel.h"
-#include "envs/dynamics/state.h"
-#include "simd/aligned_vector.h"
+#include "envs/kernels/plant_kernel.h"
+#include "envs/state/state.h"
+#include "base/aligned_vector.h"
 
 namespace skein {
 

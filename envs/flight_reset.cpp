@@ -5,8 +5,8 @@
 
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/engine.h"
-#include "envs/dynamics/attitude.h"
-#include "simd/error.h"
+#include "envs/state/attitude.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

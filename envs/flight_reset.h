@@ -3,16 +3,16 @@
 #include <array>
 #include <optional>
 
-#include "envs/aircraft/flight_control.h"
-#include "envs/dynamics/plant.h"
-#include "envs/dynamics/trim_table.h"
+#include "envs/reference/flight_control.h"
+#include "envs/reference/plant.h"
+#include "envs/reference/trim_table.h"
 #include "envs/env_config.h"
 #include "envs/tasks/task.h"
 #include "simd/random.h"
 
 namespace skein {
 
-/// A fresh flight: every physical column of one aircraft (envs/dynamics/state.h), and what its
+/// A fresh flight: every physical column of one aircraft (envs/state/state.h), and what its
 /// targets are drawn relative to.
 struct FreshFlight {
   std::array<float, kNumColumns> columns{};

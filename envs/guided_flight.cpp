@@ -5,7 +5,7 @@
 
 #include "envs/tasks/control.h"
 #include "simd/dispatch.h"
-#include "simd/error.h"
+#include "base/error.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "envs/guided_flight.cpp"

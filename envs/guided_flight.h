@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "envs/actions.h"
-#include "envs/dynamics/state.h"
+#include "envs/state/state.h"
 #include "envs/env_config.h"
-#include "envs/pilot.h"
+#include "envs/policy.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"
-#include "simd/aligned_vector.h"
+#include "base/aligned_vector.h"
 
 namespace skein {
 

@@ -9,16 +9,16 @@
 
 #include "envs/actions.h"
 #include "envs/aircraft/registry.h"
-#include "envs/dynamics/plant_kernel.h"
+#include "envs/kernels/plant_kernel.h"
 #include "envs/flight_metrics.h"
 #include "envs/flight_reset.h"
 #include "envs/guided_flight.h"
-#include "envs/tasks/judgement.h"
+#include "envs/tasks/reward.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"
-#include "envs/wind.h"
-#include "simd/denormals.h"
-#include "simd/error.h"
+#include "envs/wind/wind.h"
+#include "base/denormals.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

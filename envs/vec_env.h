@@ -6,8 +6,8 @@
 
 #include "envs/control_step.h"
 #include "envs/env_config.h"
-#include "envs/pilot.h"
-#include "envs/termination.h"
+#include "envs/policy.h"
+#include "envs/tasks/termination.h"
 
 namespace skein {
 
@@ -72,7 +72,7 @@ class VecEnv {
   std::vector<std::uint32_t> Snapshot() const;
   void Restore(const std::vector<std::uint32_t>& snapshot);
 
-  /// One column of the physical state (envs/dynamics/state.h) of one aircraft, for recording
+  /// One column of the physical state (envs/state/state.h) of one aircraft, for recording
   /// flights and tests; in still air the wind's are zero.
   float StateOf(int aircraft, int column) const;
   /// The target of one aircraft: altitude ft, yaw rad, speed ft/s for Heading; pitch rad,

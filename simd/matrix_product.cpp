@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "simd/denormals.h"
-#include "simd/error.h"
+#include "base/denormals.h"
+#include "base/error.h"
 #include "simd/product_kernels.h"
 
 namespace skein::simd {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "simd/aligned_vector.h"
+#include "base/aligned_vector.h"
 #include "simd/target.h"
 
 namespace skein::simd {

@@ -12,7 +12,7 @@
 
 #include "simd/bfloat16_peak.h"
 #include "simd/dispatch.h"
-#include "simd/error.h"
+#include "base/error.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/peak.cpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein::simd {
 namespace {

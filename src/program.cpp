@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "src/commands.h"
-#include "src/nearest_name.h"
-#include "train/file_descriptor.h"
+#include "src/commands/commands.h"
+#include "src/config/nearest_name.h"
+#include "train/files/file_descriptor.h"
 
 namespace skein {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein {
 

@@ -11,7 +11,7 @@ namespace skein {
 /// Base tables hold totals with the leading-edge flap at its reference deflection, `_lef` tables
 /// totals with the flap at zero (elevator zero), `_r30` and `_a20` totals with rudder or ailerons
 /// deflected, `d..._lef` increments of damping derivatives from flap at reference to flap at zero.
-/// How they combine: envs/aircraft/aerodynamics.h. Arrangement of NASA TP-1538.
+/// How they combine: envs/reference/aerodynamics.h. Arrangement of NASA TP-1538.
 struct AerodynamicTables {
   /// Axes, degrees, strictly increasing.
   std::vector<double> alpha_deg;            ///< A: full range

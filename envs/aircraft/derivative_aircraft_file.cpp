@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "envs/aircraft/engine.h"
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "envs/aircraft/derivative_aircraft_file.h"
-#include "envs/aircraft/f16/f16.h"
-#include "simd/error.h"
+#include "envs/aircraft/f16.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

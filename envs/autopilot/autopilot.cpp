@@ -7,11 +7,11 @@
 #include <type_traits>
 
 #include "envs/actions.h"
-#include "envs/aircraft/f16/f16_units.h"
+#include "envs/aircraft/f16_units.h"
 #include "envs/tasks/observation.h"
-#include "simd/denormals.h"
+#include "base/denormals.h"
 #include "simd/dispatch.h"
-#include "simd/error.h"
+#include "base/error.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "envs/autopilot/autopilot.cpp"

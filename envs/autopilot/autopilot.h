@@ -4,7 +4,7 @@
 
 #include "envs/autopilot/gains.h"
 #include "envs/env_config.h"
-#include "envs/pilot.h"
+#include "envs/policy.h"
 
 namespace skein {
 

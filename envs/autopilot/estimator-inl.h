@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "envs/aircraft/f16/f16_units.h"
+#include "envs/aircraft/f16_units.h"
 #include "envs/autopilot/gains.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"

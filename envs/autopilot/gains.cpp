@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -3,7 +3,7 @@
 // memory, in which zeros are the beginning of an episode, and writes throttle, pitch, roll and yaw.
 
 #include "envs/actions.h"
-#include "envs/aircraft/f16/f16_units.h"
+#include "envs/aircraft/f16_units.h"
 #include "envs/autopilot/gains.h"
 
 #if defined(SKEIN_ENVS_AUTOPILOT_LAWS_INL_H_) == defined(HWY_TARGET_TOGGLE)

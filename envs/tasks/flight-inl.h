@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "envs/dynamics/state.h"
+#include "envs/state/state.h"
 
 #if defined(SKEIN_ENVS_TASKS_FLIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SKEIN_ENVS_TASKS_FLIGHT_INL_H_
@@ -13,7 +13,7 @@
 
 #include <hwy/highway.h>
 
-#include "envs/dynamics/air_velocity-inl.h"
+#include "envs/state/air_velocity-inl.h"
 #include "simd/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();

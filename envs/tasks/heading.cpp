@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "envs/aircraft/registry.h"
-#include "envs/dynamics/attitude.h"
+#include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "envs/aircraft/engine.h"
-#include "envs/dynamics/kernel_aircraft.h"
+#include "envs/kernels/kernel_aircraft.h"
 #include "envs/tasks/task.h"
 #include "simd/dispatch.h"
 #include "simd/random.h"
@@ -13,7 +13,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/dynamics/air-inl.h"
+#include "envs/kernels/air-inl.h"
 #include "envs/tasks/flight-inl.h"
 #include "simd/random-inl.h"
 

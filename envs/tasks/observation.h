@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "envs/dynamics/plant_kernel.h"
+#include "envs/kernels/plant_kernel.h"
 
 namespace skein {
 

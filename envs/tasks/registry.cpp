@@ -5,7 +5,7 @@
 #include "envs/tasks/heading.h"
 #include "envs/tasks/task.h"
 #include "envs/tasks/tracking.h"
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "envs/dynamics/state.h"
+#include "envs/state/state.h"
 #include "envs/env_config.h"
 #include "simd/random.h"
 

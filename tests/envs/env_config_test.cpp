@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

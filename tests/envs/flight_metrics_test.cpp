@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "envs/aircraft/f16/f16.h"
-#include "envs/dynamics/attitude.h"
+#include "envs/aircraft/f16.h"
+#include "envs/state/attitude.h"
 #include "envs/vec_env.h"
 #include "tests/envs/test_tile.h"
 

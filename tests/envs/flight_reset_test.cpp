@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "envs/aircraft/engine.h"
-#include "envs/aircraft/f16/f16.h"
-#include "envs/dynamics/attitude.h"
-#include "simd/error.h"
+#include "envs/aircraft/f16.h"
+#include "envs/state/attitude.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "envs/aircraft/f16/f16.h"
-#include "envs/dynamics/plant.h"
+#include "envs/aircraft/f16.h"
+#include "envs/reference/plant.h"
 
 namespace skein {
 

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "envs/dynamics/attitude.h"
+#include "envs/state/attitude.h"
 #include "envs/tasks/control.h"
 #include "envs/vec_env.h"
-#include "envs/worker_pool.h"
-#include "simd/error.h"
+#include "base/worker_pool.h"
+#include "base/error.h"
 #include "simd/random.h"
 #include "tests/envs/step_buffers.h"
-#include "tests/envs/test_pilot.h"
+#include "tests/envs/test_policy.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "envs/dynamics/state.h"
+#include "envs/state/state.h"
 #include "simd/target.h"
 
 namespace skein {

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "envs/aircraft/f16/f16.h"
-#include "envs/dynamics/attitude.h"
-#include "envs/dynamics/closed_loop.h"
+#include "envs/aircraft/f16.h"
+#include "envs/state/attitude.h"
+#include "envs/reference/closed_loop.h"
 #include "envs/tasks/task.h"
-#include "envs/worker_pool.h"
-#include "simd/error.h"
+#include "base/worker_pool.h"
+#include "base/error.h"
 #include "simd/random.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_tile.h"

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "envs/dynamics/state.h"
+#include "envs/state/state.h"
 #include "envs/vec_env.h"
 
 int main() {

@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include "envs/worker_pool.h"
-#include "train/evaluate.h"
-#include "train/policy.h"
+#include "base/worker_pool.h"
+#include "train/policy/evaluate.h"
+#include "train/policy/recurrent_policy.h"
 
 int main() {
   const skein::Policy policy = skein::Policy::Untrained({}, 22, 4, 1);

@@ -12,7 +12,7 @@
 
 #include "gtest/gtest.h"
 #include "simd/bfloat16.h"
-#include "simd/error.h"
+#include "base/error.h"
 #include "simd/target.h"
 
 namespace skein::simd {

@@ -1,7 +1,7 @@
 #include "simd/peak.h"
 
 #include "gtest/gtest.h"
-#include "simd/error.h"
+#include "base/error.h"
 #include "simd/target.h"
 
 namespace skein {

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <sstream>
 
-#include "src/output_file.h"
+#include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
-#include "train/policy.h"
+#include "train/policy/recurrent_policy.h"
 
 namespace skein {
 namespace {

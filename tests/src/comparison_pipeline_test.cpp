@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "src/output_file.h"
+#include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 

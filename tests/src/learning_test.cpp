@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/output_file.h"
+#include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 

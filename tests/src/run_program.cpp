@@ -9,7 +9,7 @@
 #include <csignal>
 #include <thread>
 
-#include "src/output_file.h"
+#include "src/files/output_file.h"
 #include "src/program.h"
 
 namespace skein {

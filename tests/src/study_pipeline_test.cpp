@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "src/output_file.h"
-#include "src/study.h"
+#include "src/files/output_file.h"
+#include "src/study/study.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 

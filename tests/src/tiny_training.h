@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "src/output_file.h"
-#include "src/run_directory.h"
+#include "src/files/output_file.h"
+#include "src/run/run_directory.h"
 
 namespace skein {
 

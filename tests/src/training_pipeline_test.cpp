@@ -13,12 +13,12 @@
 #include <random>
 #include <thread>
 
-#include "src/output_file.h"
-#include "src/run_directory.h"
+#include "src/files/output_file.h"
+#include "src/run/run_directory.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
-#include "train/backend.h"
+#include "train/network/backend.h"
 
 namespace skein {
 namespace {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simd/target.h"
-#include "src/output_file.h"
+#include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "train/learner_config.h"
+#include "train/ppo/learner_config.h"
 
 namespace skein {
 

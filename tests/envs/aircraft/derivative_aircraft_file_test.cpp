@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

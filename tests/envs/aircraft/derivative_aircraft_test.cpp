@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "envs/aircraft/aerodynamics.h"
+#include "envs/reference/aerodynamics.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
 
 namespace skein {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "envs/aircraft/f16/f16.h"
+#include "envs/aircraft/f16.h"
 
 namespace skein {
 namespace {

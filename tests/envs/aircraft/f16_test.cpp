@@ -1,4 +1,4 @@
-#include "envs/aircraft/f16/f16.h"
+#include "envs/aircraft/f16.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "envs/env_config.h"
-#include "simd/error.h"
+#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -5,12 +5,12 @@
 #include <random>
 #include <string>
 
-#include "envs/dynamics/attitude.h"
-#include "envs/dynamics/state.h"
+#include "envs/state/attitude.h"
+#include "envs/state/state.h"
 #include "envs/tasks/control.h"
 #include "envs/tasks/heading.h"
 #include "gtest/gtest.h"
-#include "simd/error.h"
+#include "base/error.h"
 #include "tests/envs/autopilot/flock.h"
 
 namespace skein {

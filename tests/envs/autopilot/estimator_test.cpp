@@ -2,7 +2,7 @@
 #include <random>
 
 #include "envs/autopilot/estimator-inl.h"
-#include "envs/dynamics/attitude.h"
+#include "envs/state/attitude.h"
 #include "gtest/gtest.h"
 
 namespace skein {

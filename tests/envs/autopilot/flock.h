@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "envs/autopilot/autopilot.h"
-#include "envs/termination.h"
+#include "envs/tasks/termination.h"
 #include "envs/vec_env.h"
 
 namespace skein {

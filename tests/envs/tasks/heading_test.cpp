@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "envs/dynamics/attitude.h"
+#include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "envs/aircraft/f16/f16.h"
-#include "envs/dynamics/attitude.h"
+#include "envs/aircraft/f16.h"
+#include "envs/state/attitude.h"
 #include "simd/random.h"
 #include "tests/envs/test_tile.h"
 

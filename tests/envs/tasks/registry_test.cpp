@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "envs/tasks/task.h"
-#include "simd/error.h"
+#include "base/error.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "envs/kernels/flight_control_constants.h"
+#include "envs/kernels/plant_kernel.h"
+
+namespace skein {
+
+/// Pilot commands of a tile: throttle in [0, 1]; roll (+ right wing down), pitch (+ nose up), yaw
+/// (+ nose right) in [-1, 1].
+/// Each `count` long, padded as Tile says.
+struct PilotColumns {
+  const float* throttle = nullptr;
+  const float* pitch = nullptr;
+  const float* roll = nullptr;
+  const float* yaw = nullptr;
+};
+
+/// One control step before the integration: reads the sensors from the tile's columns, runs the
+/// flight control laws, moves the actuators (exact first-order response, rate and position limits)
+/// and sets kPowerCommand. NaN in an aircraft stays there and reaches its surfaces.
+void ControlTile(const KernelAircraft& aircraft, const FlightControlConstants& constants, Tile tile,
+                 const PilotColumns& pilot);
+
+/// The same, with the constants made for this one call; `dt` in seconds.
+void ControlTile(const KernelAircraft& aircraft, Tile tile, const PilotColumns& pilot,
+                 FlightControlMode mode, float dt);
+
+}  // namespace skein

@@ -1,0 +1,238 @@
+#include "envs/kernels/plant_kernel.h"
+
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "envs/kernels/kernel_aircraft.h"
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/kernels/plant_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "envs/state/air_velocity-inl.h"
+#include "envs/kernels/plant_kernel_air-inl.h"
+#include "envs/kernels/plant_kernel_block-inl.h"
+#include "envs/kernels/plant_kernel_motion-inl.h"
+#include "envs/kernels/plant_kernel_tables-inl.h"
+#include "simd/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+using namespace plant_kernel;  // NOLINT: one room, split into files by phase
+
+/// One evaluation of the equations of motion for a block, phase by phase.
+template <bool kEngine, class State, class Observer>
+HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const State& state,
+                                const BlockControls& controls, const Observer& coefficients) {
+  FindFlow(aircraft, state, state.block);
+  FindAir<kEngine>(aircraft, state, state.block);
+  FindThrust<kEngine>(aircraft, state, controls, state.block);
+  if constexpr (kEngine) {
+    if (HWY_UNLIKELY(aircraft.depends_on_mach)) AddMachEffects(aircraft, state.block);
+  }
+  FindRates(aircraft.constants, state, *state.block, coefficients);
+}
+
+HWY_INLINE void FindSurfacesOfBlock(const KernelAircraft& aircraft, const BlockControls& controls,
+                                    Block* block) {
+  for (int lane = 0; lane < kBlock; lane += kLanes) FindSurfaces(aircraft, controls, lane, block);
+}
+
+/// What may look at the coefficients of a stage: this one does not.
+struct IgnoreCoefficients {
+  HWY_INLINE void operator()(int /*lane*/, const Coefficients& /*c*/) const {}
+};
+
+/// Keeps the specific forces, g.
+struct StoreLoadFactors {
+  const KernelConstants& k;
+  const Block& block;
+  float* nz;
+  float* ny;
+
+  HWY_INLINE void operator()(int lane, const Coefficients& c) const {
+    const FloatTag d;
+    const V g = hn::Mul(hn::Load(d, block.force + lane), Constant(k.inverse_weight));
+    hn::StoreU(hn::Neg(hn::Mul(g, c.Cz)), d, nz + lane);
+    hn::StoreU(hn::Mul(g, c.Cy), d, ny + lane);
+  }
+};
+
+/// Keeps the coefficients in columns.
+struct StoreCoefficients {
+  float* columns;
+  std::size_t stride;
+
+  HWY_INLINE void operator()(int lane, const Coefficients& c) const {
+    const V values[] = {c.Cx, c.Cy, c.Cz, c.Cl, c.Cm, c.Cn};
+    for (int k = 0; k < 6; ++k) {
+      hn::StoreU(values[k], FloatTag(), columns + static_cast<std::size_t>(k) * stride + lane);
+    }
+  }
+};
+
+/// Starts loading the columns of the block at `first`: more streams than the processor follows by
+/// itself.
+HWY_INLINE void PrefetchColumns(Tile tile, int first) {
+  if (first >= tile.count) return;
+  for (int column = 0; column <= kNy; ++column) {
+    const float* values = tile[column] + first;
+    hwy::Prefetch(values);
+    hwy::Prefetch(values + kBlock / 2);
+  }
+}
+
+inline constexpr std::size_t kCacheLine = 64;
+
+/// Memory to be fetched into the second-level cache, a part at a time: all at once would hold up
+/// the kernel's own loads.
+struct Prefetcher {
+  MemoryAhead ahead;
+  std::size_t part;  // bytes
+
+  HWY_INLINE void FetchPart() {
+    const std::size_t now = std::min(part, ahead.bytes);
+    for (std::size_t i = 0; i < now; i += kCacheLine) __builtin_prefetch(ahead.begin + i, 0, 2);
+    ahead.begin += now;
+    ahead.bytes -= now;
+  }
+};
+
+/// One RK4 step of a block.
+template <bool kEngine, bool kWindy, class Observer>
+HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& controls,
+                          float* base, std::size_t stride, float dt, const Observer& coefficients,
+                          Prefetcher* prefetcher, Block* block) {
+  const IgnoreCoefficients ignore;
+  prefetcher->FetchPart();
+  EvaluateBlock<kEngine>(aircraft, StageState<kFirstStage, kWindy>{base, stride, block, 0},
+                         controls, ignore);
+  for (int middle = 0; middle < 2; ++middle) {
+    prefetcher->FetchPart();
+    EvaluateBlock<kEngine>(aircraft, StageState<kMiddleStage, kWindy>{base, stride, block, dt / 2},
+                           controls, ignore);
+  }
+  prefetcher->FetchPart();
+  EvaluateBlock<kEngine>(aircraft, StageState<kLastStage, kWindy>{base, stride, block, dt},
+                         controls, coefficients);
+}
+
+void EvaluateTileKernel(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
+                        float* state_rate, float* coefficients) {
+  const FloatTag d;
+  Block block;
+  for (int first = 0; first < tile.count; first += kBlock) {
+    const BlockControls at{controls.thrust_lbf + first,   nullptr,
+                           controls.elevator_deg + first, controls.aileron_deg + first,
+                           controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
+    FindSurfacesOfBlock(aircraft, at, &block);
+    EvaluateBlock<false>(aircraft,
+                         StageState<kFirstStage>{tile.base + first, tile.stride, &block, 0}, at,
+                         StoreCoefficients{coefficients + first, tile.stride});
+    for (int column = 0; column < kNumRigidBody; ++column) {
+      float* rates = state_rate + static_cast<std::size_t>(column) * tile.stride + first;
+      for (int lane = 0; lane < kBlock; lane += kLanes) {
+        hn::StoreU(hn::Load(d, block.rate[column] + lane), d, rates + lane);
+      }
+    }
+  }
+}
+
+void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
+                            const ControlColumns& controls, float dt, int substeps) {
+  Block block;
+  Prefetcher prefetcher{};
+  for (int first = 0; first < tile.count; first += kBlock) {
+    const BlockControls at{controls.thrust_lbf + first,   nullptr,
+                           controls.elevator_deg + first, controls.aileron_deg + first,
+                           controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
+    FindSurfacesOfBlock(aircraft, at, &block);
+    for (int substep = 0; substep < substeps; ++substep) {
+      StepBlock<false, false>(aircraft, at, tile.base + first, tile.stride,
+                              dt / static_cast<float>(substeps), IgnoreCoefficients(), &prefetcher,
+                              &block);
+    }
+  }
+}
+
+template <bool kWindy>
+void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                MemoryAhead ahead) {
+  Block block;
+  const int parts = 4 * (tile.count + kBlock - 1) / kBlock;
+  Prefetcher prefetcher{
+      ahead, ahead.bytes / static_cast<std::size_t>(parts) / kCacheLine * kCacheLine + kCacheLine};
+  for (int first = 0; first < tile.count; first += kBlock) {
+    const BlockControls at{nullptr,
+                           tile[kPowerCommand] + first,
+                           tile[kElevator] + first,
+                           tile[kAileron] + first,
+                           tile[kRudder] + first,
+                           tile[kLeadingEdgeFlap] + first};
+    const StoreLoadFactors load_factors{aircraft.constants, block, tile[kNz] + first,
+                                        tile[kNy] + first};
+    PrefetchColumns(tile, first + kBlock);
+    FindSurfacesOfBlock(aircraft, at, &block);
+    for (int substep = 0; substep < substeps; ++substep) {
+      StepBlock<true, kWindy>(aircraft, at, tile.base + first, tile.stride,
+                              dt / static_cast<float>(substeps), load_factors, &prefetcher, &block);
+    }
+    if constexpr (kWindy) {
+      for (int lane = 0; lane < kBlock; lane += kLanes) {
+        UpdateAirVelocity(FloatTag(), tile, first + lane);
+      }
+    }
+  }
+}
+
+void StepTileInStillAir(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                        MemoryAhead ahead) {
+  StepTileIn<false>(aircraft, tile, dt, substeps, ahead);
+}
+
+void StepTileInWind(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                    MemoryAhead ahead) {
+  StepTileIn<true>(aircraft, tile, dt, substeps, ahead);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+
+HWY_EXPORT(EvaluateTileKernel);
+HWY_EXPORT(StepTileOpenLoopKernel);
+HWY_EXPORT(StepTileInStillAir);
+HWY_EXPORT(StepTileInWind);
+
+void EvaluateTile(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
+                  float* state_rate, float* coefficients) {
+  SKEIN_DISPATCH(EvaluateTileKernel)(aircraft, tile, controls, state_rate, coefficients);
+}
+
+void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
+                      float dt, int substeps) {
+  SKEIN_DISPATCH(StepTileOpenLoopKernel)(aircraft, tile, controls, dt, substeps);
+}
+
+void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+              MemoryAhead ahead) {
+  if (tile.windy) {
+    SKEIN_DISPATCH(StepTileInWind)(aircraft, tile, dt, substeps, ahead);
+  } else {
+    SKEIN_DISPATCH(StepTileInStillAir)(aircraft, tile, dt, substeps, ahead);
+  }
+}
+
+}  // namespace skein
+#endif

@@ -1,0 +1,16 @@
+#include "envs/reference/actuator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein {
+
+double StepActuator(const Actuator& actuator, double position_deg, double command_deg, double dt) {
+  const double target = std::clamp(command_deg, actuator.min_deg, actuator.max_deg);
+  const double reached = 1 - std::exp(-actuator.bandwidth_per_s * dt);
+  const double largest = actuator.rate_limit_deg_per_s * dt;
+  const double change = std::clamp((target - position_deg) * reached, -largest, largest);
+  return std::clamp(position_deg + change, actuator.min_deg, actuator.max_deg);
+}
+
+}  // namespace skein

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "envs/reference/flight_control.h"
+#include "envs/reference/plant.h"
+#include "envs/reference/trim.h"
+
+namespace skein {
+
+/// The whole aircraft in double precision, as a pilot flies it: flight control system, actuators,
+/// engine and rigid body. The specification of one control step of the vectorised environment:
+///   1. sensors: air data and rates of the present state; specific forces of the last RK4 stage of
+///   the
+///      step before (of the trim, at the start);
+///   2. flight control, and power command from the throttle;
+///   3. actuators, by the exact response over the step;
+///   4. RK4 of rigid body and engine power together, thrust by power, altitude and Mach number at
+///   every
+///      stage, surfaces held.
+class ClosedLoop {
+ public:
+  /// Starts at rest in `trim`, with power as far as the engine has it. `dt` is the control
+  /// interval, s; it is integrated in `substeps` steps. Keeps a reference to `plant`.
+  ClosedLoop(const Plant& plant, const TrimPoint& trim, FlightControlMode mode, double dt,
+             int substeps = 1);
+
+  /// One control step.
+  void Step(const PilotCommands& pilot);
+
+  /// Makes surface commands reach the actuators one control step late, as a computer's delay would.
+  void set_delayed(bool delayed) { delayed_ = delayed; }
+
+  /// The air's velocity from now on, north, east, down, ft/s; zero at first. The aircraft keeps its
+  /// velocity over ground.
+  void set_wind(const Eigen::Vector3d& wind) { wind_ = wind; }
+
+  const RigidBodyState& state() const { return state_; }
+  RigidBodyState& mutable_state() { return state_; }
+  const SurfaceAngles& surfaces() const { return surfaces_; }
+  const FlightControlState& flight_control_state() const { return flight_control_state_; }
+  double power() const { return power_; }
+  double nz() const { return nz_; }
+  double ny() const { return ny_; }
+  AirData air() const;
+
+ private:
+  struct Flight;  // what is integrated
+  FlightSensors Sense() const;
+  Flight RateOf(const Flight& flight, double power_command, PlantOutput* output) const;
+  void Integrate(double dt, double power_command);
+
+  const Plant& plant_;
+  FlightControl flight_control_;
+  double dt_;
+  int substeps_;
+  bool delayed_ = false;
+  Eigen::Vector3d wind_ = Eigen::Vector3d::Zero();
+  RigidBodyState state_;
+  double power_ = 0;
+  double nz_ = 1, ny_ = 0;
+  SurfaceAngles surfaces_;
+  SurfaceAngles previous_command_;
+  FlightControlState flight_control_state_;
+};
+
+}  // namespace skein

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "envs/reference/plant.h"
+
+namespace skein {
+
+/// The steady flight asked for.
+struct TrimRequest {
+  double altitude_ft = 0;
+  double true_airspeed_ft_s = 0;
+  double flight_path_angle_rad = 0;
+  double turn_rate_rad_s = 0;  ///< + to the right; the trim is then a coordinated turn
+};
+
+struct TrimPoint {
+  RigidBodyState state;  ///< at north = east = 0, heading north
+  Controls controls;     ///< leading-edge flap on its steady schedule
+  double power =
+      0;  ///< engine power (0..100) that gives controls.thrust_lbf, clipped to what the engine has
+  double alpha_rad = 0, bank_rad = 0, pitch_rad = 0;
+  double residual = 0;  ///< largest remaining acceleration, ft/s^2 or rad/s^2
+};
+
+/// Solves for steady flight. Throws Error when it does not converge to a residual below 1e-6 or
+/// when the solution needs deflections beyond the actuators' limits. Thrust beyond the engine's is
+/// the caller's to judge (see `power`).
+TrimPoint Trim(const Plant& plant, const TrimRequest& request);
+
+/// The same, starting from the trim of a neighbouring condition.
+TrimPoint Trim(const Plant& plant, const TrimRequest& request, const TrimPoint& start);
+
+}  // namespace skein

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+#include "envs/kernels/plant_kernel.h"
+#include "envs/env_config.h"
+#include "envs/tasks/task.h"
+#include "envs/tasks/termination.h"
+
+namespace skein {
+
+/// The book-keeping of a tile's episodes, one element per aircraft, padded as Tile says.
+struct EpisodeColumns {
+  std::int32_t* step = nullptr;         ///< control steps flown in this episode
+  std::int32_t* termination = nullptr;  ///< Termination; kNone while flying
+  float* decision_reward = nullptr;     ///< sum over the control steps of this decision
+  float* episode_return = nullptr;
+};
+
+/// What ends an episode, and its rewards, as the kernel takes them: made once per configuration.
+struct JudgementLimits {
+  explicit JudgementLimits(const EnvConfig& config);
+
+  /// An angle's range, which spans at most 180 degrees, by the directions of its ends.
+  struct AngleRange {
+    float sin_min = 0, cos_min = 1, sin_max = 0, cos_max = 1;
+  };
+  AngleRange alpha, beta;
+  float min_mach_squared, max_mach_squared;
+  float min_altitude_ft, max_load_factor;
+  float failure_reward, success_reward, time_limit_reward;
+  float reward_scale;
+  std::int32_t time_limit_steps;
+};
+
+/// Ends episodes after a control step: counts the step, finds the first Termination (in order of
+/// precedence) that holds, and adds the task's reward and the terminal reward. An aircraft whose
+/// episode has ended is left alone. A state or reward that is not finite is NonFinite, and its step
+/// reward counts as zero. At the time limit there is no terminal reward if it truncates.
+void JudgeTile(const KernelAircraft& aircraft, const JudgementLimits& limits, Tile tile,
+               const TaskVerdict& verdict, const EpisodeColumns& episodes);
+
+}  // namespace skein

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "envs/wind/dryden.h"
+#include "envs/env_config.h"
+
+namespace skein {
+
+/// The wind of an environment's episodes: for each a steady wind and turbulence drawn from the
+/// configured ranges.
+class Wind {
+ public:
+  explicit Wind(const WindConfig& config) : config_(config) {}
+
+  /// Whether tiles must be windy.
+  bool blows() const { return config_.blows(); }
+
+  /// Draws the wind of an episode of aircraft `index`, whose flight in still air the tile holds,
+  /// and sets its wind columns. Unless the wind is a step at reset, the aircraft's velocity over
+  /// ground becomes that with which it flies in the steady wind as it did in still air.
+  void Begin(Tile tile, int index, const GustKeys& keys) const;
+
+  /// The wind of the next control step, `dt` seconds long.
+  void Advance(Tile tile, float dt, const GustKeys& keys) const {
+    if (config_.turbulence_fps.max > 0) AdvanceGusts(tile, dt, keys);
+  }
+
+ private:
+  WindConfig config_;
+};
+
+}  // namespace skein

@@ -1,0 +1,97 @@
+#include "src/agents/agent_names.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "envs/autopilot/autopilot.h"
+#include "base/error.h"
+#include "src/config/nearest_name.h"
+#include "src/agents/policy_file.h"
+#include "train/policy/policy_environment.h"
+
+namespace skein {
+namespace {
+
+constexpr const char* kPolicy = "policy";
+constexpr const char* kSampledSuffix = "@sampled";
+constexpr double kRandomHold_s = 1;
+constexpr int kLongestHold = 1000;  // control steps, as of env.action_repeat
+
+/// What follows "kind:" in `name`; empty if there is no colon.
+std::string ArgumentOf(const std::string& name) {
+  const auto colon = name.find(':');
+  return colon == std::string::npos ? "" : name.substr(colon + 1);
+}
+
+std::string KindOf(const std::string& name) { return name.substr(0, name.find(':')); }
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() &&
+         text.compare(text.size() - end.size(), std::string::npos, end) == 0;
+}
+
+Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
+  const Policy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
+  CheckMadeFor(policy.EnvironmentFor(config.train.env), policy, "agent " + name);
+  return EndsWith(name, kSampledSuffix) ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
+}
+
+Agent RandomAgent(const std::string& name, double control_interval_s) {
+  double hold_s = kRandomHold_s;
+  if (name.find(':') != std::string::npos) {
+    const std::string text = ArgumentOf(name);
+    const char* const end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, hold_s);
+    if (failure != std::errc() || stop != end) hold_s = std::nan("");
+  }
+  const double steps = std::round(hold_s / control_interval_s);
+  if (!(hold_s >= control_interval_s && steps <= kLongestHold)) {
+    throw Error(fmt::format("agent {}: commands are held for {} to {} s, as in random:0.5", name,
+                            control_interval_s, control_interval_s * kLongestHold));
+  }
+  return Agent::Random(static_cast<int>(steps));
+}
+
+Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
+  // The strongest stands for all: a comparison should not be won against less.
+  const std::string variant = name == "autopilot" ? "aggressive" : ArgumentOf(name);
+  EnvConfig own = env;
+  own.tracking.error_axes = kAutopilotErrorAxes;
+  return Agent::Of(MakeAutopilot(own, AutopilotOf(variant)));
+}
+
+}  // namespace
+
+std::string AgentForms() {
+  return fmt::format(
+      "autopilot[:{}] (alone: aggressive; as a --controller: parallel), "
+      "policy:FILE_OR_RUN[@sampled], random[:SECONDS], idle",
+      fmt::join(AutopilotNames(), "|:"));
+}
+
+std::string PolicyFileOfAgent(const std::string& name) {
+  if (KindOf(name) != kPolicy) return "";
+  std::string file = ArgumentOf(name);
+  if (EndsWith(file, kSampledSuffix)) {
+    file.resize(file.size() - std::string(kSampledSuffix).size());
+  }
+  if (file.empty()) throw Error(fmt::format("agent {}: policy: needs a file or a run", name));
+  return PolicyFileOf(file);
+}
+
+Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
+  const std::string kind = KindOf(name);
+  if (kind == kPolicy) return PolicyAgent(name, config, seed);
+  if (kind == "random") return RandomAgent(name, config.train.env.control_interval_s);
+  if (name == "idle") return Agent::Idle();
+  if (kind == "autopilot") return AutopilotAgent(name, config.train.env);
+  throw Error(fmt::format("unknown agent {}{}; known agents: {}", name,
+                          DidYouMean(kind, {"autopilot", "policy", "random", "idle"}),
+                          AgentForms()));
+}
+
+}  // namespace skein

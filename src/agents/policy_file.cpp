@@ -1,0 +1,40 @@
+#include "src/agents/policy_file.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "envs/vec_env.h"
+#include "base/error.h"
+#include "src/run/run_directory.h"
+
+namespace skein {
+
+std::string PolicyFileOf(const std::string& path) {
+  if (!IsRunDirectory(path)) {
+    if (!std::filesystem::is_directory(path)) return path;
+    throw Error(
+        fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
+  }
+  const std::string checkpoints = path + "/checkpoints";
+  for (const char* name : {"/policy-best.skein", "/policy-final.skein"}) {
+    if (std::filesystem::exists(checkpoints + name)) return checkpoints + name;
+  }
+  std::string newest;
+  for (const Checkpoint& checkpoint : CheckpointsIn(checkpoints)) newest = checkpoint.path;
+  if (newest.empty()) throw Error(fmt::format("{}: the run has not saved a policy yet", path));
+  return newest;
+}
+
+Policy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
+                  std::shared_ptr<const Pilot> controller) {
+  const Backend backend = config.train.learner.backend;
+  if (file != kUntrained) return Policy::Load(file).WithBackend(backend);
+  const EnvConfig& env = config.train.env;
+  const VecEnv flown(env, 1, seed, 1, controller);
+  return Policy::Untrained(config.train.network, flown.observation_size(), flown.action_size(),
+                           seed, env.action_repeat, std::move(controller))
+      .WithBackend(backend);
+}
+
+}  // namespace skein

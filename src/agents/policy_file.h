@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "src/config/program_config.h"
+#include "train/policy/recurrent_policy.h"
+
+namespace skein {
+
+/// The word that stands for freshly initialised networks in place of a policy file.
+inline constexpr const char* kUntrained = "untrained";
+
+/// The file of the policy that `path` stands for: of the directory of a run its best policy, else
+/// the final one, else the newest checkpoint; otherwise `path` itself. Throws Error on a directory
+/// that holds no run, or a run that has not saved a policy yet.
+std::string PolicyFileOf(const std::string& path);
+
+/// The policy in `file`, or the untrained one of `config`, `seed` and `controller` (without one it
+/// flies itself); on the backend of `config`.
+Policy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
+                  std::shared_ptr<const Pilot> controller = nullptr);
+
+}  // namespace skein

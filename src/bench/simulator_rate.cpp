@@ -1,0 +1,159 @@
+#include "src/bench/simulator_rate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "envs/aircraft/engine.h"
+#include "envs/aircraft/f16.h"
+#include "envs/kernels/flight_control_kernel.h"
+#include "envs/kernels/plant_kernel.h"
+#include "envs/flight_reset.h"
+#include "envs/vec_env.h"
+#include "base/aligned_vector.h"
+#include "simd/random.h"
+
+namespace skein {
+namespace {
+
+constexpr int kTileSize = 128;  // stays in the innermost caches
+constexpr int kWarmUpSteps = 3;
+constexpr double kDt = 0.02;
+
+SimulatorRate Measure(int aircraft, int steps, const std::function<void()>& step) {
+  using Clock = std::chrono::steady_clock;
+  for (int i = 0; i < kWarmUpSteps; ++i) step();
+  std::vector<double> seconds;
+  for (int i = 0; i < steps; ++i) {
+    const auto start = Clock::now();
+    step();
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  const auto middle = seconds.begin() + steps / 2;
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  return {*middle, aircraft / *middle};
+}
+
+/// Where the aircraft are spread: inside the envelope in which steady flight exists.
+EnvConfig SpreadFlights() {
+  EnvConfig config;
+  config.control_interval_s = kDt;
+  config.initial.altitude_ft = {10000, 25000};
+  config.initial.true_airspeed_fps = {600, 1000};
+  return config;
+}
+
+/// Aircraft in trimmed flight with their pilots' commands, tile behind tile in memory.
+class TrimmedFlock {
+ public:
+  /// Made by the workers, so that pages are first touched where they are used.
+  TrimmedFlock(int count, WorkerPool& pool)
+      : count_(count), columns_(static_cast<std::size_t>(num_tiles()) * kFloatsPerTile) {
+    const EnvConfig config = SpreadFlights();
+    const Aircraft f16 = F16();
+    const FlightReset reset(config, f16);
+    kernel_ = MakeKernelAircraft(f16, config.atmosphere);
+    pool.ForEach(num_tiles(), [&](int tile, int) { Fill(reset, f16.throttle_gearing, tile); });
+  }
+
+  int num_tiles() const { return (count_ + kTileSize - 1) / kTileSize; }
+
+  void Step(PlantPart part, int index) {
+    const Tile tile = At(index);
+    if (part == PlantPart::kFlightControlAndRk4) {
+      const PilotColumns pilot{tile[kNumColumns], tile[kNumColumns + 1], tile[kNumColumns + 2],
+                               tile[kNumColumns + 3]};
+      ControlTile(*kernel_, tile, pilot, FlightControlMode::kFull, static_cast<float>(kDt));
+    }
+    MemoryAhead ahead;
+    if (index + 1 < num_tiles()) {
+      ahead = {reinterpret_cast<const std::byte*>(At(index + 1).base),
+               kFloatsPerTile * sizeof(float)};
+    }
+    StepTile(*kernel_, tile, static_cast<float>(kDt), 1, ahead);
+  }
+
+ private:
+  static constexpr int kNumPilot = 4;
+  static constexpr std::size_t kFloatsPerTile = (kNumColumns + kNumPilot) * TileStride(kTileSize);
+
+  Tile At(int index) {
+    return {columns_.data() + static_cast<std::size_t>(index) * kFloatsPerTile,
+            TileStride(kTileSize), std::min(kTileSize, count_ - index * kTileSize)};
+  }
+
+  void Fill(const FlightReset& reset, const ThrottleGearing& gearing, int index) {
+    const Tile tile = At(index);
+    simd::RandomStream random(
+        {0, static_cast<std::uint32_t>(index), 0, 0, simd::RandomPurpose::kInitialState});
+    for (std::size_t i = 0; i < tile.stride; ++i) {
+      const FreshFlight flight = reset.Draw(&random);
+      for (int column = 0; column < kNumColumns; ++column) {
+        tile[column][i] = flight.columns[static_cast<std::size_t>(column)];
+      }
+      // The sticks stay centred.
+      for (int k = 0; k < kNumPilot; ++k) tile[kNumColumns + k][i] = 0;
+      tile[kNumColumns][i] = static_cast<float>(ThrottleForPower(gearing, flight.columns[kPower]));
+    }
+  }
+
+  int count_;
+  AlignedVector<float> columns_;
+  std::shared_ptr<const KernelAircraft> kernel_;
+};
+
+}  // namespace
+
+SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& pool) {
+  TrimmedFlock flock(aircraft, pool);
+  return Measure(aircraft, steps, [&] {
+    pool.ForEach(flock.num_tiles(), [&](int tile, int) { flock.Step(part, tile); });
+  });
+}
+
+SimulatorRate MeasureEnvironment(const EnvConfig& config, int aircraft, int steps,
+                                 WorkerPool& pool) {
+  EnvConfig single = config;
+  single.action_repeat = 1;
+  VecEnv env(single, aircraft, 1, kTileSize);
+  const auto observations = static_cast<std::size_t>(env.observation_size());
+  const auto actions = static_cast<std::size_t>(env.action_size());
+  struct Buffers {
+    std::vector<float> observation, action, reward, episode_return, final_observation;
+    std::vector<std::uint8_t> termination;
+    std::vector<std::int32_t> episode_steps;
+  };
+  std::vector<Buffers> workers(static_cast<std::size_t>(pool.threads()));
+  int largest = 0;
+  for (int tile = 0; tile < env.num_tiles(); ++tile) {
+    largest = std::max(largest, env.tile_count(tile));
+  }
+  const auto size = static_cast<std::size_t>(largest);
+  // The same for every worker: what flies where does not change with who flies it.
+  std::vector<float> sticks(size * actions);
+  simd::RandomStream random({0, 0, 0, 0, simd::RandomPurpose::kActionNoise});
+  for (float& stick : sticks) stick = static_cast<float>(random.Uniform(-1, 1));
+  for (Buffers& buffers : workers) {
+    buffers = {std::vector<float>(size * observations),
+               sticks,
+               std::vector<float>(size),
+               std::vector<float>(size),
+               std::vector<float>(size * observations),
+               std::vector<std::uint8_t>(size),
+               std::vector<std::int32_t>(size)};
+  }
+  return Measure(aircraft, steps, [&] {
+    pool.ForEach(env.num_tiles(), [&](int tile, int worker) {
+      Buffers& buffers = workers[static_cast<std::size_t>(worker)];
+      env.Observe(tile, buffers.observation.data());
+      env.Step(tile, buffers.action.data(),
+               {buffers.reward.data(), buffers.termination.data(), buffers.episode_return.data(),
+                buffers.episode_steps.data(), buffers.final_observation.data()});
+    });
+  });
+}
+
+}  // namespace skein

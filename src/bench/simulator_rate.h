@@ -1,0 +1,25 @@
+#pragma once
+
+#include "envs/env_config.h"
+#include "base/worker_pool.h"
+
+namespace skein {
+
+/// How fast aircraft are stepped.
+struct SimulatorRate {
+  double step_s = 0;                ///< median time of one control step of all aircraft
+  double aircraft_steps_per_s = 0;  ///< all aircraft over that median
+};
+
+/// One RK4 step (0.02 s, four evaluations of the tables, the equations of motion and the engine) of
+/// `aircraft` F-16s, spread over altitudes and speeds in trimmed flight, with flight control and
+/// actuators before it or without; `steps` steps are timed after a few that are not.
+enum class PlantPart { kRk4, kFlightControlAndRk4 };
+SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& pool);
+
+/// The whole environment of `config`: observe, one control step with sticks that were drawn once,
+/// reward, terminate, reset.
+SimulatorRate MeasureEnvironment(const EnvConfig& config, int aircraft, int steps,
+                                 WorkerPool& pool);
+
+}  // namespace skein

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "base/error.h"
+#include "src/agents/agent_names.h"
+#include "src/commands/commands.h"
+#include "src/evaluation/comparison.h"
+#include "src/config/configuration.h"
+#include "src/commands/flight_options.h"
+#include "src/files/output_file.h"
+#include "src/config/presets.h"
+
+namespace skein {
+namespace {
+
+struct CompareOptions {
+  std::vector<std::string> agents;
+  std::string csv;
+  FlightOptions flight;
+};
+
+ProgramConfig Configure(const FlightOptions& flight) {
+  ProgramConfig config = ResolveConfig({flight.task, flight.preset, flight.config, {}});
+  const EnvConfig asked = config.train.env;
+  ApplyOverrides(flight, &config);
+  CheckEachAgentsOwn(config.train.env, asked);
+  return config;
+}
+
+std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
+                                   const ProgramConfig& config, std::uint64_t seed) {
+  std::vector<NamedAgent> agents;
+  std::set<std::string> known;
+  for (const std::string& name : names) {
+    if (!known.insert(name).second) throw Error(fmt::format("--agents: {} is there twice", name));
+    agents.push_back({name, FindAgent(name, config, seed)});
+  }
+  return agents;
+}
+
+/// "flights.csv" of agent "policy:runs/a" is "flights.policy-runs-a.csv".
+std::string FlightsPath(const std::string& path, const std::string& agent) {
+  const std::filesystem::path file(path);
+  return (file.parent_path() /
+          (file.stem().string() + "." + FileNamePart(agent) + file.extension().string()))
+      .string();
+}
+
+std::vector<std::string> Outputs(const CompareOptions& options) {
+  std::vector<std::string> paths = {options.csv, options.flight.json};
+  if (options.flight.flights.empty()) return paths;
+  for (const std::string& agent : options.agents) {
+    paths.push_back(FlightsPath(options.flight.flights, agent));
+  }
+  return paths;
+}
+
+void CompareAgents(const CompareOptions& options) {
+  const FlightOptions& flight = options.flight;
+  const ProgramConfig config = Configure(flight);
+  CheckWritable(Outputs(options));
+  const std::vector<NamedAgent> agents = FindAgents(options.agents, config, flight.seed);
+  WorkerPool pool(flight.threads);
+  const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);
+  fmt::print("{}\n", ToText(comparison));
+  if (!options.csv.empty()) {
+    WriteFile(options.csv, ComparisonCsvHeader() + ToCsv(comparison));
+  }
+  if (!flight.json.empty()) WriteJson(flight.json, ToJson(comparison, config));
+  if (flight.flights.empty()) return;
+  for (const NamedAgent& named : agents) {
+    WriteFlights(flight, FlightsPath(flight.flights, named.name), "by " + named.name, named.agent,
+                 named.agent.EnvironmentFor(config.train.env), pool);
+  }
+}
+
+}  // namespace
+
+void AddCompareCommand(CLI::App* app) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command =
+      app->add_subcommand("compare", "Fly several agents over the same fresh episodes");
+  command
+      ->add_option("--agents", options->agents,
+                   fmt::format("who flies, separated by commas: {}", AgentForms()))
+      ->type_name("AGENT,...")
+      ->delimiter(',')
+      ->required();
+  FlightOptionTexts texts;
+  texts.task = fmt::format("what to fly: {}", fmt::join(PresetTasks(), ", "));
+  texts.preset = "environment settings to begin with (default: default)";
+  texts.json = "write all results here";
+  texts.flights =
+      "write every agent's first episodes, FILE.csv for agent A to FILE.A.csv, for scripts/plot "
+      "flights";
+  AddFlightOptions(command, texts, &options->flight);
+  command->get_option("--task")->required();
+  command->add_option("--csv", options->csv, "write a row for every agent here")->type_name("FILE");
+  command->footer(
+      "Initial states, targets and noise are the same for all: they depend on the seed and the "
+      "episode alone.\n"
+      "Every agent acts at its own rate, policies with their mean action unless @sampled. "
+      "Differences are paired,\n"
+      "episode by episode, against the first agent.\n"
+      "Example: skein compare --task heading --agents policy:runs/a,policy:runs/b,random "
+      "--episodes 1000 --csv table.csv\n"
+      "         skein compare --task heading --condition windy=60fps,moderate --agents "
+      "policy:runs/a,idle");
+  command->callback([options] { CompareAgents(*options); });
+}
+
+}  // namespace skein

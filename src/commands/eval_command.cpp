@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "src/commands/commands.h"
+#include "src/config/conditions.h"
+#include "src/config/configuration.h"
+#include "src/agents/low_level_option.h"
+#include "src/evaluation/evaluation_report.h"
+#include "src/commands/flight_options.h"
+#include "src/files/output_file.h"
+#include "src/agents/policy_file.h"
+#include "src/config/presets.h"
+#include "src/run/run_directory.h"
+
+namespace skein {
+namespace {
+
+struct EvalOptions {
+  std::string policy;
+  std::string controller;
+  bool deterministic = false;
+  FlightOptions flight;
+};
+
+/// What the policy was made for: the run's own configuration if it is given as a run, else the
+/// preset's, of `policys_task` if no other is asked for.
+ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_task) {
+  const FlightOptions& flight = options.flight;
+  if (!IsRunDirectory(options.policy) || flight.preset_option->count() > 0) {
+    const std::string& task = flight.task.empty() ? policys_task : flight.task;
+    if (task.empty()) {
+      throw Error(
+          fmt::format("--task is needed: --policy {} does not say its own", options.policy));
+    }
+    return ResolveConfig({task, flight.preset, "", {}});
+  }
+  ProgramConfig config;
+  ApplyTomlFile(options.policy + "/config.toml", &config);
+  return config;
+}
+
+std::string Rates(const Policy& policy, const EnvConfig& env) {
+  std::string own = fmt::format("an action every {} control steps", env.action_repeat);
+  if (policy.controller() == nullptr) return own;
+  // It decides with every decision of the planner's, too.
+  return fmt::format("{} for a controller with one every {}", own,
+                     std::min(env.action_repeat, policy.controller()->action_repeat()));
+}
+
+void Evaluate(const EvalOptions& options) {
+  const FlightOptions& flight = options.flight;
+  const std::string path = PolicyFileOf(options.policy);
+  if (path != kUntrained && !options.controller.empty()) {
+    throw Error("--controller is for --policy untrained: a trained planner brings its own");
+  }
+  std::optional<Policy> trained;
+  if (path != kUntrained) trained = Policy::Load(path);
+  ProgramConfig config = BaseConfig(options, trained ? trained->task() : "");
+  if (trained) config.train.env = trained->EnvironmentFor(config.train.env);
+  ApplyOverrides(flight, &config);
+  std::shared_ptr<const Pilot> controller;
+  if (!options.controller.empty()) {
+    controller = ChooseController(config.train.env, options.controller).pilot;
+  }
+  const Policy policy = LoadPolicy(path, config, flight.seed, controller);
+  CheckWritable({flight.json, flight.flights});
+  WorkerPool pool(flight.threads);
+  const EvaluationReport report =
+      EvaluateBothWays(policy, config.train.env, flight.episodes, flight.seed, pool);
+  fmt::print("{} on {}, {} episodes, seed {}, {}; {}\n{}\n{}\n", path, config.train.env.task,
+             flight.episodes, flight.seed, Rates(policy, config.train.env),
+             Describe(policy.backend()), DescribeConditions(config.train.env),
+             ToText(report, options.deterministic));
+  if (!flight.json.empty()) {
+    WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));
+  }
+  if (flight.flights.empty()) return;
+  // Those of the mode that is reported first.
+  if (options.deterministic) {
+    WriteFlights(flight, flight.flights, "with the mean action", Agent::MeanOf(policy),
+                 config.train.env, pool);
+  } else {
+    WriteFlights(flight, flight.flights, "with sampled actions", Agent::SamplingFrom(policy),
+                 config.train.env, pool);
+  }
+}
+
+}  // namespace
+
+void AddEvalCommand(CLI::App* app) {
+  auto options = std::make_shared<EvalOptions>();
+  CLI::App* command = app->add_subcommand("eval", "Fly a policy over fresh episodes");
+  command
+      ->add_option("--policy", options->policy,
+                   "policy file, checkpoint, directory of a run (its best policy), or the word "
+                   "untrained (freshly initialised networks)")
+      ->type_name("FILE_OR_RUN")
+      ->required();
+  FlightOptionTexts texts;
+  texts.task = fmt::format("what to fly: {} (default: the task of the run or of the policy file)",
+                           fmt::join(PresetTasks(), ", "));
+  texts.preset =
+      "environment settings to begin with (default: the run's own; for a policy file, default)";
+  texts.json = "write the results here";
+  texts.flights =
+      "write the first episodes here, a CSV row for every control step, for scripts/plot flights "
+      "(mean or sampled actions, as --deterministic says)";
+  AddFlightOptions(command, texts, &options->flight);
+  command
+      ->add_option("--controller", options->controller,
+                   "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
+                   "(alone: parallel, though aggressive among --agents), that flies what the "
+                   "planner asks for; without it the sticks are flown")
+      ->type_name("RUN_OR_POLICY");
+  command->add_flag("--deterministic", options->deterministic,
+                    "report the mean action first (default: sampled actions; both are flown)");
+  command->footer(
+      "A policy file knows for how many control steps it holds an action; --set "
+      "env.action_repeat=N\n"
+      "flies it at another rate. Success counts episodes that reach the target.\n"
+      "Example: skein eval --policy runs/short --task heading --episodes 1000 --deterministic "
+      "--json result.json\n"
+      "         skein eval --policy runs/short --deterministic --flights flights.csv\n"
+      "         skein eval --policy runs/short --condition windy=60fps,moderate --condition "
+      "noisy=0.03");
+  command->callback([options] { Evaluate(*options); });
+}
+
+}  // namespace skein

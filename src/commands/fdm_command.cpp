@@ -1,0 +1,295 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "envs/aircraft/engine.h"
+#include "envs/aircraft/registry.h"
+#include "envs/state/attitude.h"
+#include "envs/reference/trim.h"
+#include "base/error.h"
+#include "src/commands/commands.h"
+#include "src/fdm/fdm_evaluation.h"
+#include "src/fdm/fdm_file.h"
+#include "src/files/output_file.h"
+
+namespace skein {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::map<std::string, FdmPrecision> kPrecisions = {{"float64", FdmPrecision::kFloat64},
+                                                         {"float32", FdmPrecision::kFloat32}};
+std::map<std::string, AtmosphereModel> Atmospheres() {
+  std::map<std::string, AtmosphereModel> atmospheres;
+  for (const auto& [model, name] : kAtmosphereNames) atmospheres[name] = model;
+  return atmospheres;
+}
+
+// Thrust is linear in power between table entries: what the inverse leaves is rounding.
+constexpr double kThrustToleranceLbf = 1e-3;
+
+struct FileOptions {
+  std::string in, out;
+  std::string aircraft = "f16";
+  std::string precision = "float64";
+  std::string atmosphere = "stevens_lewis";
+
+  FdmModel Model() const {
+    return {aircraft, Atmospheres().at(atmosphere), kPrecisions.at(precision)};
+  }
+};
+
+struct TrimOptions {
+  TrimRequest request;
+  double flight_path_deg = 0, turn_rate_deg_s = 0;
+  FdmParameters parameters;
+  std::string aircraft = "f16";
+  std::string atmosphere = "stevens_lewis";
+  std::string json;
+};
+
+template <std::size_t kCount>
+void CheckFinite(const std::array<double, kCount>& numbers, const std::string& where) {
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) {
+    throw Error(where + ": the equations of motion give a value that is not finite");
+  }
+}
+
+void WritePoints(const FileOptions& options, const char* name, const std::vector<FdmPoint>& points,
+                 Json* document) {
+  if (!document->contains(name)) return;
+  const auto results = EvaluatePoints(points, options.Model());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const FdmPointResult& result = results[i];
+    const std::string where = fmt::format("{}: {}[{}]", options.in, name, i);
+    CheckFinite(result.state_rate, where);
+    CheckFinite(result.coefficients, where);
+    CheckFinite(std::array<double, 4>{result.alpha_deg, result.beta_deg, result.mach,
+                                      result.dynamic_pressure_psf},
+                where);
+    Json& point = (*document)[name][i];
+    point["alpha_deg"] = result.alpha_deg;
+    point["beta_deg"] = result.beta_deg;
+    point["mach"] = result.mach;
+    point["qbar_psf"] = result.dynamic_pressure_psf;
+    point["coeffs"] = result.coefficients;
+    point["xdot"] = result.state_rate;
+  }
+}
+
+void WriteTrajectories(const FileOptions& options, const FdmFile& file, Json* document) {
+  // The control interval, and a step small enough to show the integration error of the first.
+  constexpr double kControlInterval = 0.02, kFineStep = 0.001;
+  for (std::size_t i = 0; i < file.trajectories.size(); ++i) {
+    const std::string where = fmt::format("{}: trajectories[{}]", options.in, i);
+    const auto fly = [&](double dt) {
+      try {
+        return FlyTrajectory(file.trajectories[i], dt, options.Model());
+      } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", where, error.what()));
+      }
+    };
+    const auto states = fly(kControlInterval), fine = fly(kFineStep);
+    FdmState difference{};
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      CheckFinite(states[k], fmt::format("{} at row {}", where, k));
+      CheckFinite(fine[k], fmt::format("{} at row {}", where, k));
+      for (std::size_t c = 0; c < difference.size(); ++c) {
+        difference[c] = std::max(difference[c], std::abs(states[k][c] - fine[k][c]));
+      }
+    }
+    Json& trajectory = (*document)["trajectories"][i];
+    trajectory["states_dt0_02"] = states;
+    trajectory["states_dt0_001"] = fine;
+    trajectory["max_abs_difference_between_the_two"] = difference;
+  }
+}
+
+void WriteDocument(const FileOptions& options, Json document) {
+  document["precision"] = options.precision;
+  WriteJson(options.out, document);
+}
+
+void Evaluate(const FileOptions& options) {
+  FdmFile file = ReadFdmFile(options.in);
+  Json document = std::move(file.document);
+  WritePoints(options, "points", file.points, &document);
+  WritePoints(options, "edge_points", file.edge_points, &document);
+  WriteTrajectories(options, file, &document);
+  WriteDocument(options, std::move(document));
+  fmt::print("evaluated {} points and {} edge points, flew {} trajectories in {}: {}\n",
+             file.points.size(), file.edge_points.size(), file.trajectories.size(),
+             options.precision, options.out);
+}
+
+void Simulate(const FileOptions& options) {
+  FdmFile file = ReadFdmFile(options.in);
+  if (!file.document.contains("trajectories")) {
+    throw Error(options.in + ": trajectories is missing; `skein fdm simulate` flies nothing else");
+  }
+  Json document = std::move(file.document);
+  // Not evaluated by this command, so they would only be the input's own figures.
+  document.erase("points");
+  document.erase("edge_points");
+  WriteTrajectories(options, file, &document);
+  WriteDocument(options, std::move(document));
+  fmt::print("flew {} trajectories in {}: {}\n", file.trajectories.size(), options.precision,
+             options.out);
+}
+
+void FindTrim(TrimOptions options) {
+  Aircraft aircraft = LoadAircraft(options.aircraft);
+  aircraft.airframe.cg = options.parameters.cg;
+  aircraft.airframe.engine_angular_momentum = options.parameters.engine_angular_momentum;
+  options.request.flight_path_angle_rad = options.flight_path_deg / kDegPerRad;
+  options.request.turn_rate_rad_s = options.turn_rate_deg_s / kDegPerRad;
+  const Plant plant(std::move(aircraft), Atmospheres().at(options.atmosphere));
+  const TrimPoint trim = Trim(plant, options.request);
+  const PlantOutput output = plant.Evaluate(trim.state, trim.controls);
+
+  // The trim's power is the nearest that the engine has; its thrust tells whether that is enough.
+  const double available_lbf =
+      Thrust(plant.aircraft().engine, trim.power, options.request.altitude_ft, output.air.mach);
+  const bool within_engine =
+      std::abs(available_lbf - trim.controls.thrust_lbf) <= kThrustToleranceLbf;
+
+  const double bank_deg = trim.bank_rad * kDegPerRad, alpha_deg = trim.alpha_rad * kDegPerRad;
+  const double beta_deg = output.air.beta_rad * kDegPerRad;
+  fmt::print(
+      "steady flight of {} at {} ft and {} ft/s, flight path {} deg, turn {} deg/s, cg {}\n"
+      "  thrust           {:14.6f} lbf   ({})\n"
+      "  alpha            {:14.6f} deg\n"
+      "  beta             {:14.6f} deg\n"
+      "  bank             {:14.6f} deg\n"
+      "  pitch            {:14.6f} deg\n"
+      "  elevator         {:14.6f} deg\n"
+      "  aileron          {:14.6f} deg\n"
+      "  rudder           {:14.6f} deg\n"
+      "  leading-edge flap{:14.6f} deg\n"
+      "  load factor      {:14.6f} g\n"
+      "  Mach             {:14.6f}\n"
+      "  dynamic pressure {:14.6f} lbf/ft2\n"
+      "  residual         {:14.3e} ft/s2 or rad/s2\n",
+      options.aircraft, options.request.altitude_ft, options.request.true_airspeed_ft_s,
+      options.flight_path_deg, options.turn_rate_deg_s, options.parameters.cg,
+      trim.controls.thrust_lbf,
+      within_engine ? fmt::format("engine power {:.4f} %", trim.power)
+                    : fmt::format("beyond the engine, which gives {:.1f} lbf here", available_lbf),
+      alpha_deg, beta_deg, bank_deg, trim.pitch_rad * kDegPerRad, trim.controls.elevator_deg,
+      trim.controls.aileron_deg, trim.controls.rudder_deg, trim.controls.leading_edge_flap_deg,
+      output.nz, output.air.mach, output.air.dynamic_pressure_psf, trim.residual);
+  if (options.json.empty()) return;
+  Json json = {
+      {"aircraft", options.aircraft},
+      {"altitude_ft", options.request.altitude_ft},
+      {"speed_fps", options.request.true_airspeed_ft_s},
+      {"flight_path_deg", options.flight_path_deg},
+      {"turn_rate_deg_s", options.turn_rate_deg_s},
+      {"params",
+       {{"xcg", options.parameters.cg}, {"heng", options.parameters.engine_angular_momentum}}},
+      {"state", std::vector<double>(trim.state.data(), trim.state.data() + trim.state.size())},
+      {"controls",
+       {trim.controls.thrust_lbf, trim.controls.elevator_deg, trim.controls.aileron_deg,
+        trim.controls.rudder_deg, trim.controls.leading_edge_flap_deg}},
+      {"power", trim.power},
+      {"within_engine", within_engine},
+      {"alpha_deg", alpha_deg},
+      {"beta_deg", beta_deg},
+      {"bank_deg", bank_deg},
+      {"pitch_deg", trim.pitch_rad * kDegPerRad},
+      {"load_factor_g", output.nz},
+      {"mach", output.air.mach},
+      {"qbar_psf", output.air.dynamic_pressure_psf},
+      {"residual", trim.residual}};
+  WriteJson(options.json, json);
+}
+
+void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere) {
+  command->add_option("--aircraft", *aircraft, "whose equations of motion")
+      ->check(CLI::IsMember(AircraftNames()))
+      ->capture_default_str();
+  command
+      ->add_option("--atmosphere", *atmosphere,
+                   "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
+      ->check(CLI::IsMember(Atmospheres()))
+      ->capture_default_str();
+}
+
+void AddFileCommand(CLI::App* fdm, const std::string& name, const std::string& description,
+                    const std::string& footer, void (*run)(const FileOptions&)) {
+  auto options = std::make_shared<FileOptions>();
+  CLI::App* command = fdm->add_subcommand(name, description);
+  command->add_option("--in", options->in, "JSON file to read (schema: docs/program.md)")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--out", options->out, "JSON file to write, same structure")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--precision", options->precision,
+                   "float64: the scalar plant; float32: the SIMD kernel (SKEIN_SIMD chooses its "
+                   "instruction set)")
+      ->check(CLI::IsMember(kPrecisions))
+      ->capture_default_str();
+  AddModel(command, &options->aircraft, &options->atmosphere);
+  command->footer(footer);
+  command->callback([options, run] { run(*options); });
+}
+
+void AddTrimCommand(CLI::App* fdm) {
+  auto options = std::make_shared<TrimOptions>();
+  CLI::App* command = fdm->add_subcommand("trim", "Find the controls of steady flight");
+  command->add_option("--altitude-ft", options->request.altitude_ft, "altitude, ft")->required();
+  command->add_option("--speed-fps", options->request.true_airspeed_ft_s, "true airspeed, ft/s")
+      ->required();
+  command
+      ->add_option("--flight-path-deg", options->flight_path_deg,
+                   "flight-path angle, deg, positive in a climb")
+      ->capture_default_str();
+  command
+      ->add_option("--turn-rate-deg-s", options->turn_rate_deg_s,
+                   "turn rate, deg/s, positive to the right; the turn is coordinated")
+      ->capture_default_str();
+  command
+      ->add_option("--xcg", options->parameters.cg, "centre of gravity, fraction of the mean chord")
+      ->capture_default_str();
+  command
+      ->add_option("--heng", options->parameters.engine_angular_momentum,
+                   "angular momentum of the engine, slug ft2/s")
+      ->capture_default_str();
+  AddModel(command, &options->aircraft, &options->atmosphere);
+  command->add_option("--json", options->json, "also write state, controls and air data here")
+      ->type_name("FILE");
+  command->footer(
+      "Signs: elevator + trailing edge down, aileron + rolls left, rudder + yaws left.\n"
+      "Example: skein fdm trim --altitude-ft 15000 --speed-fps 500");
+  command->callback([options] { FindTrim(*options); });
+}
+
+}  // namespace
+
+void AddFdmCommand(CLI::App* app) {
+  CLI::App* fdm = app->add_subcommand("fdm", "Ask the flight dynamics model directly");
+  fdm->require_subcommand(1);
+  AddTrimCommand(fdm);
+  AddFileCommand(
+      fdm, "eval", "Evaluate the equations of motion at the points of a file",
+      "Writes coeffs, xdot and air data of every entry of points and edge_points, and flies the\n"
+      "trajectories if there are any. Results found in the input are ignored.\n"
+      "Example: skein fdm eval --in tests/data/golden.json --out result.json",
+      Evaluate);
+  AddFileCommand(
+      fdm, "simulate", "Fly the trajectories of a file, open loop",
+      "Classic RK4 with steps of 0.02 s and 0.001 s; controls are trim_controls plus the pulses\n"
+      "active at the start of a step. States are written at the times of each trajectory's t.\n"
+      "Example: skein fdm simulate --in tests/data/golden.json --out flown.json",
+      Simulate);
+}
+
+}  // namespace skein

@@ -1,0 +1,73 @@
+#include "src/commands/flight_options.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "src/config/conditions.h"
+#include "src/config/configuration.h"
+#include "src/evaluation/flight_file.h"
+#include "src/files/output_file.h"
+#include "src/config/whole_number.h"
+
+namespace skein {
+
+void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {
+  command->add_option("--task", options->task, texts.task);
+  options->preset_option =
+      command->add_option("--preset", options->preset, texts.preset)->type_name("NAME");
+  command->add_option("--config", options->config, "TOML file on top of them")->type_name("FILE");
+  command->add_option("--condition", options->conditions, ConditionHelp())
+      ->type_name("NAME=LEVEL")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--set", options->assignments,
+                   "one configuration key, such as env.observation_noise=0.03; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--episodes", options->episodes, "number of episodes")
+      ->transform(WholeNumber(1, 10000000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the episodes")
+      ->transform(WholeNumber(0, 0x1p53))
+      ->capture_default_str();
+  command
+      ->add_option("--threads", options->threads,
+                   "worker threads; results do not depend on it (default: one per CPU)")
+      ->transform(WholeNumber(1, 1024));
+  command->add_option("--json", options->json, texts.json)->type_name("FILE");
+  CLI::Option* flights =
+      command->add_option("--flights", options->flights, texts.flights)->type_name("FILE");
+  command
+      ->add_option("--flights-count", options->flights_count,
+                   "how many of them (all, if there are fewer)")
+      ->transform(WholeNumber(1, 1000))
+      ->needs(flights)
+      ->capture_default_str();
+}
+
+void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
+  for (const std::string& assignment : options.assignments) {
+    for (const char* table : {"run.", "ppo.", "evaluation.", "checkpoint."}) {
+      if (KeyOf(assignment).rfind(table, 0) != 0) continue;
+      throw Error(fmt::format("--set {}: is of trainings and changes no flight", assignment));
+    }
+  }
+  const std::string task = options.task.empty() ? config->train.env.task : options.task;
+  if (!options.config.empty()) ApplyTomlFile(options.config, config);
+  ApplyConditionsAndAssignments(options.conditions, options.assignments, config);
+  RequireTask(*config, task);
+  CheckConsistent(*config);
+}
+
+void WriteFlights(const FlightOptions& options, const std::string& path, const std::string& manner,
+                  const Agent& agent, const EnvConfig& env, WorkerPool& pool) {
+  EvaluationOptions evaluation;
+  evaluation.episodes = options.episodes;
+  evaluation.seed = options.seed;
+  const std::vector<RecordedFlight> flights =
+      RecordFlights(agent, env, evaluation, options.flights_count, pool);
+  WriteFile(path, FlightsCsv(env, flights));
+  fmt::print("{}: {} flights {}\n", path, flights.size(), manner);
+}
+
+}  // namespace skein

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/config/program_config.h"
+#include "train/policy/record_flights.h"
+
+namespace skein {
+
+/// What the commands that fly episodes have in common: the environment and the episodes.
+struct FlightOptions {
+  std::string task;
+  std::string preset = "default";
+  CLI::Option* preset_option = nullptr;
+  std::string config;
+  std::vector<std::string> conditions, assignments;
+  int episodes = 1000;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::string json;
+  std::string flights;
+  int flights_count = 8;
+};
+
+/// What of their help the commands say differently.
+struct FlightOptionTexts {
+  std::string task, preset, json, flights;
+};
+
+/// Adds the options to a command; `options` must live as long as it.
+void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);
+
+/// The environment of `config` with --config, --condition and --set on top. Throws Error if they
+/// name another task than --task, or than `config` without it.
+void ApplyOverrides(const FlightOptions& options, ProgramConfig* config);
+
+/// Records the first episodes to `path`, and says so. `manner` is how they were flown.
+void WriteFlights(const FlightOptions& options, const std::string& path, const std::string& manner,
+                  const Agent& agent, const EnvConfig& env, WorkerPool& pool);
+
+}  // namespace skein

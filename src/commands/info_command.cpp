@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/commands/commands.h"
+#include "src/bench/machine.h"
+#include "src/files/output_file.h"
+
+namespace skein {
+namespace {
+
+void PrintInfo(const std::string& json_path) {
+  const nlohmann::ordered_json info = DescribeMachine();
+  if (!json_path.empty()) WriteJson(json_path, info);
+  const auto text = [&info](const char* key) { return info[key].get<std::string>(); };
+  fmt::print(
+      "skein     {} ({}, {})\n"
+      "cpu       {}\n"
+      "threads   {}\n"
+      "simd      {} (supported: {}; force one with SKEIN_SIMD)\n"
+      "learner   precision {} (native bf16: {}; choose one with learner.precision)\n"
+      "libtorch  {}\n",
+      text("version"), text("compiler"), text("build_type"), text("cpu"),
+      info["threads"].get<int>(), text("simd"),
+      fmt::join(info["simd_supported"].get<std::vector<std::string>>(), ", "), text("precision"),
+      info["native_bf16"].get<bool>() ? "yes" : "no", text("libtorch"));
+}
+
+}  // namespace
+
+void AddInfoCommand(CLI::App* app) {
+  auto json = std::make_shared<std::string>();
+  CLI::App* command =
+      app->add_subcommand("info", "Show version, processor, SIMD target, threads and LibTorch");
+  command->add_option("--json", *json, "also write it here")->type_name("FILE");
+  command->footer(
+      "The environment variable SKEIN_SIMD (avx512, avx2, sse4, scalar) forces a "
+      "target.");
+  command->callback([json] { PrintInfo(*json); });
+}
+
+}  // namespace skein

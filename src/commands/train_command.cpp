@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "src/commands/commands.h"
+#include "src/config/conditions.h"
+#include "src/config/configuration.h"
+#include "src/agents/low_level_option.h"
+#include "src/config/presets.h"
+#include "src/run/run_directory.h"
+#include "src/config/settings.h"
+#include "src/run/training_run.h"
+#include "src/config/whole_number.h"
+#include "train/policy/low_level_file.h"
+
+namespace skein {
+namespace {
+
+struct TrainOptions {
+  std::string task;
+  std::string preset = "default";
+  std::string config;
+  std::vector<std::string> conditions, assignments;
+  std::optional<double> steps;
+  std::optional<double> seed;
+  int threads = 0;
+  std::string controller;
+  std::string out;
+  std::string resume;
+  CLI::Option* resume_option = nullptr;
+  bool help_keys = false;
+};
+
+/// The flags that stand for one key each.
+void ApplyFlags(const TrainOptions& options, ProgramConfig* config) {
+  const auto assign = [config](const char* key, const SettingValue& value, const char* flag) {
+    Assign(FindSetting(key, flag), value, flag, config);
+  };
+  if (options.steps) assign("run.total_steps", *options.steps, "--steps");
+  if (options.seed) assign("run.seed", *options.seed, "--seed");
+}
+
+/// What the command line asks for, for a new run.
+ProgramConfig Configure(const TrainOptions& options, const std::string& task) {
+  ProgramConfig config = ResolveConfig(
+      {task, options.preset, options.config, options.assignments, options.conditions});
+  ApplyFlags(options, &config);
+  return config;
+}
+
+std::string RunToResume(const TrainOptions& options) {
+  if (!options.resume.empty() && options.resume != "latest") return options.resume;
+  if (const auto latest = LatestRun(kRunsRoot, options.task)) return *latest;
+  throw Error(fmt::format("nothing to resume: there is no run{} in {}/",
+                          options.task.empty() ? "" : " of " + options.task, kRunsRoot));
+}
+
+void Resume(const TrainOptions& options) {
+  RunDirectory directory = RunDirectory::Open(RunToResume(options));
+  ProgramConfig config;
+  ApplyTomlFile(directory.config(), &config);
+  CheckConsistent(config);
+  if (!options.task.empty() && options.task != config.train.env.task) {
+    throw Error(fmt::format("{}: is a run of task {}, not {}", directory.path(),
+                            config.train.env.task, options.task));
+  }
+  ProgramConfig asked = config;
+  ApplyConditionsAndAssignments(options.conditions, options.assignments, &asked);
+  ApplyFlags(options, &asked);
+  // Which precision suits the processor was decided when the run began.
+  LearnerPrecision& precision = asked.train.learner.precision;
+  if (precision == LearnerPrecision::kAuto) precision = config.train.learner.precision;
+  if (const auto differences = Differences(config, asked); !differences.empty()) {
+    throw Error(fmt::format(
+        "{}: a resumed run keeps its configuration, but this was asked for: {}; begin a new run "
+        "instead",
+        directory.path(), fmt::join(differences, ", ")));
+  }
+  config.train.controller = ControllerOfRun(directory, config.train.env.task);
+  if (!options.controller.empty()) {
+    const ChosenController asked_controller =
+        ChooseController(config.train.env, options.controller);
+    if (!IsSameController(asked_controller.pilot.get(), config.train.controller.get())) {
+      throw Error(
+          fmt::format("{}: a resumed run keeps its controller, but --controller {} is "
+                      "another one; begin a new run instead",
+                      directory.path(), options.controller));
+    }
+  }
+  WorkerPool pool(options.threads);
+  TrainingRun::Resume(config, std::move(directory), pool);
+}
+
+void Train(const TrainOptions& options) {
+  if (options.help_keys) {
+    const std::string task = options.task.empty() ? EnvConfig{}.task : options.task;
+    fmt::print("{}", DescribeKeys(Configure(options, task)));
+    return;
+  }
+  if (options.resume_option->count() > 0) {
+    Resume(options);
+    return;
+  }
+  if (options.task.empty()) {
+    throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
+  }
+  ProgramConfig config = Configure(options, options.task);
+  CheckConsistent(config);
+  const ChosenController controller = ChooseController(config.train.env, options.controller);
+  config.train.controller = controller.pilot;
+  WorkerPool pool(options.threads);
+  TrainingRun::Begin(config, options.out, pool, controller.description);
+}
+
+}  // namespace
+
+void AddTrainCommand(CLI::App* app) {
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App* command = app->add_subcommand("train", "Train a policy, then evaluate it");
+  command
+      ->add_option("task", options->task,
+                   fmt::format("what to fly: {}", fmt::join(PresetTasks(), ", ")))
+      ->type_name("TASK");
+  CLI::Option* preset =
+      command
+          ->add_option("--preset", options->preset,
+                       "named configuration: default (tuned for a small machine), paper (the "
+                       "NeuralPlane paper's settings at 50 Hz) or aerosonde (the default with "
+                       "another aircraft)")
+          ->capture_default_str();
+  CLI::Option* file = command
+                          ->add_option("--config", options->config,
+                                       "TOML file on top of the preset (keys: --help-keys)")
+                          ->type_name("FILE");
+  command->add_option("--condition", options->conditions, ConditionHelp())
+      ->type_name("NAME=LEVEL")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--set", options->assignments,
+                   "one configuration key, on top of preset and file; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--steps", options->steps,
+                      "budget in control steps (50 Hz) over all aircraft, such as 1.35e9; same as "
+                      "--set run.total_steps=...");
+  command->add_option("--seed", options->seed, "seed of the run; same as --set run.seed=...");
+  command
+      ->add_option("--controller", options->controller,
+                   "for task tracking: the policy of task control that flies what the planner asks "
+                   "for (a file, or a run's best), or autopilot[:VARIANT] (alone: parallel)")
+      ->type_name("RUN_OR_POLICY");
+  CLI::Option* out = command
+                         ->add_option("--out", options->out,
+                                      "directory of the run; it must not hold one already "
+                                      "(default: runs/TASK-DATE-TIME)")
+                         ->type_name("DIR");
+  options->resume_option =
+      command
+          ->add_option("--resume", options->resume,
+                       "go on with the run in DIR, or with the latest in runs/ (of TASK, if "
+                       "given), bit for bit as if it had never stopped")
+          ->type_name("[DIR|latest]")
+          ->expected(0, 1)
+          ->excludes(preset)
+          ->excludes(file)
+          ->excludes(out);
+  command
+      ->add_option("--threads", options->threads,
+                   "worker threads; results do not depend on it (default: one per CPU)")
+      ->transform(WholeNumber(1, 1024));
+  command->add_flag("--help-keys", options->help_keys,
+                    "list every configuration key with type, range, value and meaning, and exit");
+  command->footer(
+      "Weakest first: built-in defaults, preset, --config, --condition, --set, --steps and "
+      "--seed.\n"
+      "SIGINT (Ctrl-C) and SIGTERM drop the iteration under way, save and end with exit code 0; a "
+      "second\n"
+      "one ends at once. SIGUSR1 saves after the iteration and goes on.\n"
+      "Examples:\n"
+      "  skein train heading\n"
+      "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
+      "  skein train control --set env.control.pitch_change_rad=0.9\n"
+      "  skein train tracking --controller policies/control.skein\n"
+      "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
+      "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
+      "noisy=0.01..0.05\n"
+      "  skein train --resume runs/short");
+  command->callback([options] { Train(*options); });
+}
+
+}  // namespace skein

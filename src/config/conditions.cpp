@@ -1,0 +1,256 @@
+#include "src/config/conditions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "envs/wind/dryden.h"
+#include "envs/env_config.h"
+#include "base/error.h"
+#include "src/config/nearest_name.h"
+
+namespace skein {
+namespace {
+
+/// The speed of sound at 20,000 ft: what a Mach number of the condition high_speed stands for.
+constexpr double kSpeedOfMachOne = 1037;
+constexpr double kFpsPerKnot = 1852 / 0.3048 / 3600;
+constexpr double kFpsPerMetrePerSecond = 1 / 0.3048;
+
+/// A suffix of a number and what it multiplies it with.
+struct Unit {
+  const char* suffix;
+  double factor;
+};
+using Units = std::vector<Unit>;
+
+const Units kMachUnits = {{"", kSpeedOfMachOne}};
+const Units kAltitudeUnits = {{"kft", 1000}, {"ft", 1}, {"", 1000}};
+const Units kSpeedUnits = {
+    {"fps", 1}, {"kt", kFpsPerKnot}, {"m/s", kFpsPerMetrePerSecond}, {"", 1}};
+const Units kAngleUnits = {{"deg", 1}, {"", 1}};
+const Units kPlain = {{"", 1}};
+
+/// A condition as it was asked for, for messages.
+struct Request {
+  std::string name, level;
+  const char* form;  // what a level looks like
+
+  [[noreturn]] void Refuse(const std::string& part) const {
+    throw Error(fmt::format("--condition {}={}: cannot read \"{}\"; {} takes {}", name, level, part,
+                            name, form));
+  }
+};
+
+constexpr const char* kDigits = "0123456789.";
+
+bool StartsWithDigit(const std::string& text) { return text.find_first_of(kDigits) == 0; }
+
+/// `text` as a number with one of the units.
+double ParseNumber(const std::string& text, const Units& units, const Request& request) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, failure] = std::from_chars(text.data(), end, value);
+  if (failure != std::errc()) request.Refuse(text);
+  const std::string suffix(rest, end);
+  for (const Unit& unit : units) {
+    if (suffix == unit.suffix) return value * unit.factor;
+  }
+  request.Refuse(text);
+}
+
+/// "A..B" in its two parts; a text without ".." is both.
+std::pair<std::string, std::string> SplitRange(const std::string& text) {
+  const auto dots = text.find("..");
+  if (dots == std::string::npos) return {text, text};
+  return {text.substr(0, dots), text.substr(dots + 2)};
+}
+
+/// "A", "A..B" or "A..Bunit": then the unit is A's, too.
+Range ParseRange(const std::string& text, const Units& units, const Request& request) {
+  auto [low, high] = SplitRange(text);
+  const std::size_t unit = high.find_last_of(kDigits), end = low.find_last_of(kDigits);
+  const bool low_has_unit = end + 1 < low.size(), high_has_unit = unit + 1 < high.size();
+  if (low_has_unit && !high_has_unit) request.Refuse(text);  // 60kt..120: of what?
+  if (!low_has_unit && high_has_unit) low += high.substr(unit + 1);
+  const Range range{ParseNumber(low, units, request), ParseNumber(high, units, request)};
+  if (range.min > range.max) request.Refuse(text);
+  return range;
+}
+
+Range ParseSeverity(const std::string& text, const Request& request) {
+  const auto deviation = [&](const std::string& name) {
+    for (const TurbulenceSeverity& severity : kTurbulenceSeverities) {
+      if (name == severity.name) return severity.standard_deviation_fps;
+    }
+    request.Refuse(name);
+  };
+  const auto [low, high] = SplitRange(text);
+  const Range range{deviation(low), deviation(high)};
+  if (range.min > range.max) request.Refuse(text);
+  return range;
+}
+
+/// The two assignments of a range.
+void Append(const char* quantity, const char* unit, const Range& range,
+            std::vector<std::string>* assignments) {
+  assignments->push_back(fmt::format("env.{}_min{}={}", quantity, unit, range.min));
+  assignments->push_back(fmt::format("env.{}_max{}={}", quantity, unit, range.max));
+}
+
+using Assignments = std::vector<std::string>;
+
+Assignments HighSpeed(const Request& request, const std::string& level) {
+  Assignments assignments;
+  Append("initial.true_airspeed", "_fps", ParseRange(level, kMachUnits, request), &assignments);
+  return assignments;
+}
+
+Assignments HighAltitude(const Request& request, const std::string& level) {
+  Assignments assignments;
+  Append("initial.altitude", "_ft", ParseRange(level, kAltitudeUnits, request), &assignments);
+  return assignments;
+}
+
+Assignments Noisy(const Request& request, const std::string& level) {
+  const Range range = ParseRange(level, kPlain, request);
+  return {fmt::format("env.observation_noise={}", range.min),
+          fmt::format("env.observation_noise_max={}", range.max > range.min ? range.max : 0)};
+}
+
+Assignments Windy(const Request& request, const std::string& level) {
+  Assignments assignments;
+  std::set<std::string> given;
+  const auto append = [&](const std::string& part, const char* quantity, const char* unit,
+                          const Range& range) {
+    if (!given.insert(quantity).second) request.Refuse(part);
+    Append(quantity, unit, range, &assignments);
+  };
+  for (std::size_t begin = 0; begin <= level.size();) {
+    const std::size_t end = std::min(level.find(',', begin), level.size());
+    const std::string part = level.substr(begin, end - begin);
+    begin = end + 1;
+    const auto value_of = [&part](const char* label) -> std::optional<std::string> {
+      const std::size_t length = std::strlen(label);
+      if (part.compare(0, length, label) != 0) return std::nullopt;
+      return part.substr(length);
+    };
+    if (const auto from = value_of("from=")) {
+      append(part, "wind.from", "_deg", ParseRange(*from, kAngleUnits, request));
+    } else if (const auto sigma = value_of("sigma=")) {
+      append(part, "wind.turbulence", "_fps", ParseRange(*sigma, kSpeedUnits, request));
+    } else if (StartsWithDigit(part)) {
+      append(part, "wind.speed", "_fps", ParseRange(part, kSpeedUnits, request));
+    } else {
+      append(part, "wind.turbulence", "_fps", ParseSeverity(part, request));
+    }
+  }
+  // What is not named is as in no wind, whatever the configuration has.
+  if (given == std::set<std::string>{"wind.from"}) request.Refuse(level);
+  const WindConfig still;
+  if (given.count("wind.speed") == 0) append("", "wind.speed", "_fps", still.speed_fps);
+  if (given.count("wind.from") == 0) append("", "wind.from", "_deg", still.from_deg);
+  if (given.count("wind.turbulence") == 0) {
+    append("", "wind.turbulence", "_fps", still.turbulence_fps);
+  }
+  return assignments;
+}
+
+struct Condition {
+  const char* name;
+  const char* form;
+  const char* mild;
+  const char* middle;
+  const char* hard;
+  Assignments (*assign)(const Request& request, const std::string& level);
+
+  std::string LevelText(const std::string& level) const {
+    if (level == "mild") return mild;
+    if (level == "middle") return middle;
+    return level == "hard" ? hard : level;
+  }
+};
+
+const std::vector<Condition>& Conditions() {
+  static const std::vector<Condition> conditions = {
+      {"high_speed", "an initial Mach number or range (1.2, 1.2..1.4) or mild, middle, hard",
+       "1.0..1.2", "1.2..1.4", "1.4..1.8", HighSpeed},
+      {"high_altitude", "an initial altitude or range (32kft, 30..35kft) or mild, middle, hard",
+       "30..35kft", "35..40kft", "40..45kft", HighAltitude},
+      {"windy",
+       "a steady wind and turbulence by severity, each alone or a range (60fps,moderate; "
+       "0..120fps,light..severe; sigma=5fps,from=270deg) or mild, middle, hard",
+       "60fps,light", "120fps,moderate", "200fps,severe", Windy},
+      {"noisy", "a standard deviation or range (0.03, 0.01..0.05) or mild, middle, hard", "0.02",
+       "0.05", "0.1", Noisy}};
+  return conditions;
+}
+
+const Condition& FindCondition(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Condition& condition : Conditions()) {
+    if (name == condition.name) return condition;
+    names.emplace_back(condition.name);
+  }
+  throw Error(fmt::format("--condition: unknown condition {}{}; known: {}", name,
+                          DidYouMean(name, names), fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+std::vector<std::string> ConditionAssignments(const std::vector<std::string>& conditions) {
+  Assignments all;
+  std::set<std::string> names;
+  for (const std::string& text : conditions) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw Error(fmt::format("--condition {}: expected NAME=LEVEL, such as noisy=0.03", text));
+    }
+    const Request request{text.substr(0, equals), text.substr(equals + 1), ""};
+    const Condition& condition = FindCondition(request.name);
+    if (!names.insert(request.name).second) {
+      throw Error(fmt::format("--condition {}: {} is given twice", text, request.name));
+    }
+    const Assignments assignments = condition.assign({request.name, request.level, condition.form},
+                                                     condition.LevelText(request.level));
+    all.insert(all.end(), assignments.begin(), assignments.end());
+  }
+  return all;
+}
+
+std::string DescribeConditions(const EnvConfig& env) {
+  const auto range = [](const Range& values, const char* unit) {
+    return values.min == values.max ? fmt::format("{}{}", values.min, unit)
+                                    : fmt::format("{} to {}{}", values.min, values.max, unit);
+  };
+  const WindConfig& wind = env.wind;
+  std::string air = wind.blows() ? "" : "; still air";
+  if (wind.speed_fps.max > 0) air += "; wind of " + range(wind.speed_fps, " ft/s");
+  if (wind.turbulence_fps.max > 0) {
+    air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
+  }
+  const double most_noise = std::max(env.observation_noise, env.observation_noise_max);
+  return fmt::format(
+      "{} from {} and {}{}; {}", env.aircraft, range(env.initial.altitude_ft, " ft"),
+      range(env.initial.true_airspeed_fps, " ft/s"), air,
+      most_noise > 0 ? "noise " + range({env.observation_noise, most_noise}, "") : "no noise");
+}
+
+std::string ConditionHelp() {
+  std::string names;
+  for (const Condition& condition : Conditions()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", condition.name);
+  }
+  return fmt::format(
+      "fly under a condition: {}; LEVEL is a value, a range A..B from which every "
+      "episode draws, or mild, middle, hard; may be repeated (docs/conditions.md)",
+      names);
+}
+
+}  // namespace skein

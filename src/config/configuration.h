@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/config/program_config.h"
+
+namespace skein {
+
+/// Applies TOML text to `config`. Throws Error with `source` and the line: broken TOML, unknown
+/// keys (with the nearest known one), wrong types and values out of range.
+void ApplyToml(const std::string& text, const std::string& source, ProgramConfig* config);
+
+/// Applies the TOML file `path`. Throws Error if it cannot be read.
+void ApplyTomlFile(const std::string& path, ProgramConfig* config);
+
+/// Applies conditions (src/config/conditions.h), then assignments `key=value`, whose values are TOML;
+/// names need no quotes.
+void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
+                                   const std::vector<std::string>& assignments,
+                                   ProgramConfig* config);
+
+/// The key of an assignment `key=value`; of anything else, all of it.
+std::string KeyOf(const std::string& assignment);
+
+/// Throws Error if the configuration has come to name another task than the one asked for.
+void RequireTask(const ProgramConfig& config, const std::string& task);
+
+/// Throws Error on values that are each allowed but cannot go together.
+void CheckConsistent(const ProgramConfig& config);
+
+/// Where a configuration comes from, weakest first.
+struct ConfigSources {
+  std::string task;    ///< the preset's folder, and env.task
+  std::string preset;  ///< name of a preset of the task
+  std::string file;    ///< TOML file, or empty
+  std::vector<std::string> assignments;
+  std::vector<std::string> conditions = {};  ///< NAME=LEVEL, weaker than assignments
+};
+
+/// Defaults, then preset, then file, then conditions, then assignments. Throws Error if one of them
+/// names another task.
+ProgramConfig ResolveConfig(const ConfigSources& sources);
+
+/// Every key with its value as TOML that ApplyToml reads back exactly, each with its meaning.
+std::string DumpToml(const ProgramConfig& config);
+
+/// The keys whose values differ, as "key (ours against theirs)".
+std::vector<std::string> Differences(const ProgramConfig& a, const ProgramConfig& b);
+
+/// A table of every key: type, range, default and meaning.
+std::string DescribeKeys(const ProgramConfig& defaults);
+
+}  // namespace skein

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/worker_pool.h"
+#include "src/evaluation/estimate.h"
+#include "src/evaluation/flight_summary.h"
+#include "src/config/program_config.h"
+#include "train/policy/agent.h"
+
+namespace skein {
+
+/// An agent as the command line calls it.
+struct NamedAgent {
+  std::string name;
+  Agent agent;
+};
+
+/// How an agent flew beside the first one, on the same episodes.
+struct PairedDifferences {
+  /// This agent's value less the first one's, by Quantities(); the time to the target over the
+  /// episodes that both reached.
+  std::vector<Estimate> estimates;
+  double success_p_value = 1;  ///< McNemar's (CompareShares)
+};
+
+struct ComparedAgent {
+  std::string name;
+  int action_repeat = 1;
+  FlightSummary summary;
+  PairedDifferences against_first;  ///< of the first agent itself empty
+};
+
+struct Comparison {
+  std::string task;
+  int episodes = 0;
+  std::uint64_t seed = 0;
+  double control_interval_s = 0;
+  std::string conditions;    ///< DescribeConditions
+  std::uint64_t starts = 0;  ///< FlownEpisodes::starts, the same for all
+  std::vector<ComparedAgent> agents;
+};
+
+/// Throws Error if `env` differs from the one that it was made from in what every agent brings
+/// along itself: its rate, and how a planner is shown what it sees.
+void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin);
+
+/// Flies every agent over the same episodes of `config`'s environment, each at its own rate. If the
+/// pool is stopping, ends early, and the result says nothing.
+Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& config, int episodes,
+                   std::uint64_t seed, WorkerPool& pool);
+
+/// A table for people, 100 columns wide, an agent a column; without a newline at the end.
+std::string ToText(const Comparison& comparison);
+
+/// The columns of ToCsv, newline included.
+std::string ComparisonCsvHeader();
+/// A row for every agent.
+std::string ToCsv(const Comparison& comparison);
+
+/// Keys: task, conditions, episodes, seed, starts (hexadecimal), environment, agents: name,
+/// action_repeat, the keys of FlightSummary, and but for the first agent against_first (estimates
+/// by key, success_p_value).
+nlohmann::ordered_json ToJson(const Comparison& comparison, const ProgramConfig& config);
+
+}  // namespace skein

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/evaluation/comparison.h"
+#include "src/evaluation/evaluation_report.h"
+#include "src/files/text_table.h"
+
+namespace skein {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// 100 columns: what a row is of, and three agents.
+constexpr std::size_t kLabelWidth = 25, kCellWidth = 25, kAgentsPerTable = 3;
+
+std::string Label(const Quantity& quantity) {
+  return quantity.symbol.empty() ? quantity.label
+                                 : fmt::format("{:6}{}", quantity.symbol, quantity.label);
+}
+
+std::string PValue(double p) { return p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p); }
+
+/// The agents [begin, end) of the comparison.
+class AgentColumns {
+ public:
+  AgentColumns(const Comparison& comparison, std::size_t begin, std::size_t end)
+      : comparison_(comparison), begin_(begin), end_(end) {}
+
+  template <typename CellOf>
+  void Row(const std::string& label, const CellOf& cell_of, std::string* text) const {
+    TextTable table(kLabelWidth, kCellWidth, text);
+    table.Begin(label);
+    for (std::size_t i = begin_; i < end_; ++i) table.Cell(cell_of(comparison_.agents[i]));
+    table.End();
+  }
+
+  void Flights(std::string* text) const {
+    Row(
+        "", [](const ComparedAgent& agent) { return agent.name; }, text);
+    for (std::size_t k = 0; k < Quantities().size(); ++k) {
+      const auto cell = [k](const ComparedAgent& agent) {
+        return FormatEstimate(Quantities()[k], agent.summary.estimates[k]);
+      };
+      Row(Label(Quantities()[k]), cell, text);
+    }
+    for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
+      const auto count = [kind](const ComparedAgent& agent) {
+        return agent.summary.result.terminations[kind];
+      };
+      if (std::none_of(comparison_.agents.begin(), comparison_.agents.end(), count)) continue;
+      const auto cell = [&](const ComparedAgent& agent) { return fmt::format("{}", count(agent)); };
+      Row(fmt::format("ended by {}", kTerminationNames[kind]), cell, text);
+    }
+  }
+
+  void Differences(std::string* text) const {
+    const auto estimate = [](const ComparedAgent& agent, int quantity) {
+      if (agent.against_first.estimates.empty()) return std::string("-");
+      const auto k = static_cast<std::size_t>(quantity);
+      return FormatEstimate(Quantities()[k], agent.against_first.estimates[k]);
+    };
+    for (const int k : {kSuccessQuantity, kReturnQuantity, kTimeQuantity}) {
+      const auto cell = [&](const ComparedAgent& agent) { return estimate(agent, k); };
+      Row("  " + Quantities()[static_cast<std::size_t>(k)].label, cell, text);
+      if (k == kSuccessQuantity) Row("    McNemar's test", McNemar, text);
+    }
+    const auto both = [](const ComparedAgent& agent) {
+      return agent.against_first.estimates.empty()
+                 ? std::string("-")
+                 : fmt::format("{}", agent.against_first.estimates[kTimeQuantity].count);
+    };
+    Row("    episodes both reached", both, text);
+  }
+
+ private:
+  static std::string McNemar(const ComparedAgent& agent) {
+    return agent.against_first.estimates.empty() ? "-"
+                                                 : PValue(agent.against_first.success_p_value);
+  }
+
+  const Comparison& comparison_;
+  std::size_t begin_, end_;
+};
+
+}  // namespace
+
+std::string ToText(const Comparison& comparison) {
+  std::string text =
+      fmt::format("{}, the same {} episodes for all (seed {}); means with 95 % intervals\n  {}\n",
+                  comparison.task, comparison.episodes, comparison.seed, comparison.conditions);
+  for (const ComparedAgent& agent : comparison.agents) {
+    text += fmt::format("  {}: a decision every {:.4g} s\n", agent.name,
+                        agent.action_repeat * comparison.control_interval_s);
+  }
+  for (std::size_t begin = 0; begin < comparison.agents.size(); begin += kAgentsPerTable) {
+    const std::size_t end = std::min(begin + kAgentsPerTable, comparison.agents.size());
+    const AgentColumns columns(comparison, begin, end);
+    text += "\n";
+    columns.Flights(&text);
+    if (comparison.agents.size() == 1) continue;
+    text += fmt::format("paired, less {}:\n", comparison.agents[0].name);
+    columns.Differences(&text);
+  }
+  text.pop_back();
+  return text;
+}
+
+std::string ComparisonCsvHeader() {
+  std::string header = "task,conditions,agent,episodes,seed,decision_interval_s";
+  for (const char* against : {"", "_less_first"}) {
+    for (const Quantity& quantity : Quantities()) {
+      header += fmt::format(",{0}{1},{0}{1}_low,{0}{1}_high", quantity.key, against);
+    }
+  }
+  header += ",success_p_value";
+  for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
+    header += fmt::format(",ended_{}", kTerminationNames[kind]);
+  }
+  return header + "\n";
+}
+
+std::string ToCsv(const Comparison& comparison) {
+  std::string rows;
+  for (const ComparedAgent& agent : comparison.agents) {
+    rows += fmt::format("{},{},{},{},{},{}", comparison.task, CsvText(comparison.conditions),
+                        CsvText(agent.name), comparison.episodes, comparison.seed,
+                        agent.action_repeat * comparison.control_interval_s);
+    for (const Estimate& estimate : agent.summary.estimates) rows += CsvCells(estimate);
+    if (agent.against_first.estimates.empty()) {
+      rows += std::string(3 * Quantities().size() + 1, ',');
+    } else {
+      for (const Estimate& estimate : agent.against_first.estimates) rows += CsvCells(estimate);
+      rows += fmt::format(",{}", agent.against_first.success_p_value);
+    }
+    for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
+      rows += fmt::format(",{}", agent.summary.result.terminations[kind]);
+    }
+    rows += "\n";
+  }
+  return rows;
+}
+
+Json ToJson(const Comparison& comparison, const ProgramConfig& config) {
+  Json agents = Json::array();
+  for (const ComparedAgent& agent : comparison.agents) {
+    Json json = {{"name", agent.name}, {"action_repeat", agent.action_repeat}};
+    json.update(ToJson(agent.summary));
+    if (!agent.against_first.estimates.empty()) {
+      Json estimates = Json::object();
+      for (std::size_t k = 0; k < Quantities().size(); ++k) {
+        estimates[Quantities()[k].key] = ToJson(agent.against_first.estimates[k]);
+      }
+      json["against_first"] = {{"estimates", estimates},
+                               {"success_p_value", agent.against_first.success_p_value}};
+    }
+    agents.push_back(std::move(json));
+  }
+  return {{"task", comparison.task},
+          {"episodes", comparison.episodes},
+          {"seed", comparison.seed},
+          {"starts", fmt::format("{:016x}", comparison.starts)},
+          {"conditions", comparison.conditions},
+          {"agents", agents},
+          {"environment", EnvironmentJson(config)}};
+}
+
+}  // namespace skein

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "envs/env_config.h"
+#include "base/worker_pool.h"
+#include "src/evaluation/flight_summary.h"
+#include "src/config/program_config.h"
+#include "train/policy/recurrent_policy.h"
+
+namespace skein {
+
+/// One policy flown both ways on the same fresh episodes.
+struct EvaluationReport {
+  FlightSummary deterministic;  ///< with the mean action
+  FlightSummary sampled;        ///< with sampled actions
+};
+
+/// Flies `episodes` episodes of each kind; clocks are not staggered.
+EvaluationReport EvaluateBothWays(const Policy& policy, const EnvConfig& env, int episodes,
+                                  std::uint64_t seed, WorkerPool& pool);
+
+/// The document of `skein eval --json` and evaluation.json: policy, task, mode, seed, the keys of
+/// FlightSummary for the mode asked for, both modes in full, and the environment's settings.
+nlohmann::ordered_json ToJson(const EvaluationReport& report, const std::string& policy,
+                              const ProgramConfig& config, std::uint64_t seed, bool deterministic);
+
+/// Every `env.` key with its value in evaluations (EvaluationConfig).
+nlohmann::ordered_json EnvironmentJson(ProgramConfig config);
+
+/// Lines for people, without a newline at the end: both modes, and how the one asked for flew.
+std::string ToText(const EvaluationReport& report, bool deterministic);
+
+}  // namespace skein

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "envs/env_config.h"
+#include "train/policy/record_flights.h"
+
+namespace skein {
+
+/// The text of a file of flights (docs/file-formats.md): a header, and for every flight a row at
+/// time 0 and one at the end of each control step, in feet, seconds and degrees.
+std::string FlightsCsv(const EnvConfig& env, const std::vector<RecordedFlight>& flights);
+
+}  // namespace skein

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+using FdmState = std::array<double, 13>;    ///< order and units of envs/state/state.h
+using FdmControls = std::array<double, 5>;  ///< thrust [lbf]; elevator, aileron, rudder, flap [deg]
+
+/// The parameters that a point or a trajectory may set.
+struct FdmParameters {
+  double cg = 0.30;                    ///< `xcg`, fraction of the mean chord
+  double engine_angular_momentum = 0;  ///< `heng`, slug ft^2/s
+
+  bool operator==(const FdmParameters& other) const {
+    return cg == other.cg && engine_angular_momentum == other.engine_angular_momentum;
+  }
+};
+
+/// A state with its controls, at which the equations of motion are evaluated.
+struct FdmPoint {
+  FdmState state{};
+  FdmControls controls{};
+  FdmParameters parameters;
+};
+
+/// A change of one control, active while t_start <= t < t_end.
+struct FdmPulse {
+  int control_index = 0;
+  double t_start = 0, t_end = 0;  ///< s
+  double delta = 0;               ///< in the control's unit
+};
+
+/// An open-loop flight: the controls are the trim controls plus the pulses that are active at the
+/// start of a step.
+struct FdmTrajectory {
+  FdmState initial_state{};
+  FdmControls trim_controls{};
+  FdmParameters parameters;
+  std::vector<FdmPulse> pulses;
+  std::vector<double> t;  ///< s, increasing from 0; where states are recorded
+};
+
+/// What a file of `skein fdm` asks for, with the document it came from (docs/program.md has the
+/// schema). Results that the document already holds are ignored.
+struct FdmFile {  // NOLINT(bugprone-exception-escape): seen in the JSON library's move alone
+  nlohmann::ordered_json document;
+  std::vector<FdmPoint> points, edge_points;
+  std::vector<FdmTrajectory> trajectories;
+};
+
+/// Throws Error with one line that names the place ("points[3].state") of what is wrong.
+FdmFile ReadFdmFile(const std::string& path);
+
+}  // namespace skein

@@ -1,0 +1,109 @@
+#include "src/files/output_file.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+
+#include "base/error.h"
+#include "train/files/file_descriptor.h"
+
+namespace skein {
+namespace {
+
+/// The standard stream that `file` is, by whatever name (/dev/stdout, a redirection's file), or -1.
+/// Replacing such a file would take it from under the stream.
+int StandardStream(const struct stat& file) {
+  for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat stream {};
+    if (fstat(descriptor, &stream) == 0 && stream.st_dev == file.st_dev &&
+        stream.st_ino == file.st_ino) {
+      return descriptor;
+    }
+  }
+  return -1;
+}
+
+/// The file that is written in place of `path`: what a symbolic link leads to, else itself.
+std::string ReplacedFile(const std::string& path) {
+  std::error_code failure;
+  const bool is_link = std::filesystem::is_symlink(path, failure);
+  return is_link ? std::filesystem::weakly_canonical(path).string() : path;
+}
+
+}  // namespace
+
+std::string FileNamePart(const std::string& name) {
+  std::string part = name;
+  const auto is_odd = [](unsigned char c) {
+    return std::isalnum(c) == 0 && c != '.' && c != '_' && c != '-';
+  };
+  std::replace_if(part.begin(), part.end(), is_odd, '-');
+  return part;
+}
+
+void CheckWritable(const std::string& path) {
+  if (path.empty()) return;
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) throw Error(path + ": cannot be written: it is a directory");
+    if (access(path.c_str(), W_OK) != 0) {
+      throw Error(path + ": cannot be written: " + SystemReason());
+    }
+    if (!S_ISREG(status.st_mode) || StandardStream(status) >= 0) return;
+  }
+  const std::string parent = std::filesystem::path(ReplacedFile(path)).parent_path().string();
+  if (access(parent.empty() ? "." : parent.c_str(), W_OK | X_OK) != 0) {
+    throw Error(path + ": cannot be written: " + SystemReason());
+  }
+}
+
+void CheckWritable(const std::vector<std::string>& paths) {
+  std::set<std::string> files;
+  for (const std::string& path : paths) {
+    CheckWritable(path);
+    struct stat status {};
+    const bool exists = stat(path.c_str(), &status) == 0;
+    if (path.empty() || (exists && (!S_ISREG(status.st_mode) || StandardStream(status) >= 0))) {
+      continue;
+    }
+    if (!files.insert(std::filesystem::weakly_canonical(path).string()).second) {
+      throw Error(path + ": two results would go there");
+    }
+  }
+}
+
+void WriteFile(const std::string& path, const std::string& text) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) {
+    if (const int stream = StandardStream(status); stream >= 0) {
+      std::FILE* const out = stream == STDOUT_FILENO ? stdout : stderr;
+      if (std::fputs(text.c_str(), out) == EOF || std::fflush(out) != 0) {
+        throw Error(path + ": cannot be written: " + SystemReason());
+      }
+      return;
+    }
+    if (!S_ISREG(status.st_mode)) {
+      FileDescriptor(path, OpenMode::kWrite).Write(text);
+      return;
+    }
+  }
+  ReplaceFile(ReplacedFile(path), [&](FileDescriptor& file) { file.Write(text); });
+}
+
+void WriteJson(const std::string& path, const nlohmann::ordered_json& document) {
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  WriteFile(path, document.dump(1, ' ', false, Handler::replace) + "\n");
+}
+
+std::string ReadFile(const std::string& path) {
+  return FileDescriptor(path, OpenMode::kRead).ReadToEnd();
+}
+
+}  // namespace skein

@@ -1,0 +1,106 @@
+#include "src/run/metrics.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "src/files/output_file.h"
+
+namespace skein {
+namespace {
+
+std::string Cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+double EvaluationSuccess(const IterationReport& report) {
+  return report.evaluation_success_rate < 0 ? std::nan("") : report.evaluation_success_rate;
+}
+
+/// Every value of a row but the counters, by name: one list for CSV and TensorBoard.
+std::vector<std::pair<std::string, double>> Values(const IterationReport& report) {
+  return {{"return_mean", report.return_mean},
+          {"success_rate", report.success_rate},
+          {"evaluation_success_rate", EvaluationSuccess(report)},
+          {"policy_loss", report.policy_loss},
+          {"value_loss", report.value_loss},
+          {"entropy", report.entropy},
+          {"approximate_kl", report.approximate_kl},
+          {"clip_fraction", report.clip_fraction},
+          {"actor_gradient_norm", report.actor_gradient_norm},
+          {"critic_gradient_norm", report.critic_gradient_norm},
+          {"explained_variance", report.explained_variance},
+          {"learning_rate", report.learning_rate},
+          {"log_std_mean", report.log_std_mean}};
+}
+
+}  // namespace
+
+std::string MetricsHeader() {
+  std::string header = "iteration,env_steps,episodes";
+  for (const auto& [name, value] : Values({})) header += "," + name;
+  for (int kind = 1; kind < kNumTerminations; ++kind) {
+    header += fmt::format(",ended_{}", kTerminationNames[static_cast<std::size_t>(kind)]);
+  }
+  return header + ",best\n";
+}
+
+std::string MetricsRow(const IterationReport& report) {
+  std::string row = fmt::format("{},{},{}", report.iteration, report.env_steps, report.episodes);
+  for (const auto& [name, value] : Values(report)) row += "," + Cell(value);
+  for (int kind = 1; kind < kNumTerminations; ++kind) {
+    row += fmt::format(",{}", report.terminations[static_cast<std::size_t>(kind)]);
+  }
+  return row + (report.best ? ",1\n" : ",0\n");
+}
+
+std::string TimingHeader() {
+  return "iteration,env_steps,unix_time_s,rollout_s,update_s,evaluation_s\n";
+}
+
+std::string TimingRow(const IterationReport& report, double unix_time_s) {
+  return fmt::format("{},{},{:.3f},{:.6f},{:.6f},{:.6f}\n", report.iteration, report.env_steps,
+                     unix_time_s, report.rollout_seconds, report.update_seconds,
+                     report.evaluation_seconds);
+}
+
+std::vector<std::pair<std::string, double>> Scalars(const IterationReport& report) {
+  std::vector<std::pair<std::string, double>> scalars;
+  for (auto& [name, value] : Values(report)) {
+    if (std::isfinite(value)) scalars.emplace_back("train/" + name, value);
+  }
+  if (report.episodes > 0) {
+    for (int kind = 1; kind < kNumTerminations; ++kind) {
+      const auto index = static_cast<std::size_t>(kind);
+      scalars.emplace_back(
+          fmt::format("ended/{}", kTerminationNames[index]),
+          static_cast<double>(report.terminations[index]) / static_cast<double>(report.episodes));
+    }
+  }
+  scalars.emplace_back("time/rollout_s", report.rollout_seconds);
+  scalars.emplace_back("time/update_s", report.update_seconds);
+  return scalars;
+}
+
+std::uint64_t TrimRows(const std::string& path, std::uint64_t iteration) {
+  if (!std::filesystem::exists(path)) return 0;
+  const std::string text = ReadFile(path);
+  std::string kept;
+  std::uint64_t rows = 0;
+  bool header = true;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;  // torn by a kill in the middle of a write
+    const std::string line = text.substr(begin, end + 1 - begin);
+    if (header || std::strtoull(line.c_str(), nullptr, 10) <= iteration) {
+      kept += line;
+      if (!header) ++rows;
+    }
+    header = false;
+    begin = end + 1;
+  }
+  if (kept != text) WriteFile(path, kept);
+  return rows;
+}
+
+}  // namespace skein

@@ -1,0 +1,195 @@
+#include "src/run/run_directory.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <utility>
+
+#include "base/error.h"
+#include "src/config/configuration.h"
+#include "train/files/file_descriptor.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCheckpointPrefix = "checkpoint-";
+constexpr const char* kExtension = ".skein";
+
+/// `path` without slashes at its end, which would double in the names of files below it.
+std::string WithoutTrailingSlashes(const std::string& path) {
+  const auto last = path.find_last_not_of('/');
+  return last == std::string::npos ? path : path.substr(0, last + 1);
+}
+
+std::optional<std::uint64_t> IterationOf(const std::string& name) {
+  const std::string prefix = kCheckpointPrefix, extension = kExtension;
+  if (name.size() <= prefix.size() + extension.size() ||
+      name.compare(0, prefix.size(), prefix) != 0 ||
+      name.compare(name.size() - extension.size(), std::string::npos, extension) != 0) {
+    return std::nullopt;
+  }
+  std::uint64_t iteration = 0;
+  const char* end = name.data() + name.size() - extension.size();
+  const auto [stop, failure] = std::from_chars(name.data() + prefix.size(), end, iteration);
+  if (failure != std::errc() || stop != end) return std::nullopt;
+  return iteration;
+}
+
+/// The latest change of a run's files, as a sortable time.
+fs::file_time_type LastWritten(const std::string& run) {
+  fs::file_time_type latest = fs::file_time_type::min();
+  for (const char* name : {"/config.toml", "/metrics.csv", "/log.txt"}) {
+    std::error_code failure;
+    const auto time = fs::last_write_time(run + name, failure);
+    if (!failure) latest = std::max(latest, time);
+  }
+  return latest;
+}
+
+/// Makes a directory, durably; false if it is there already.
+bool Make(const std::string& path) {
+  std::error_code failure;
+  const bool made = fs::create_directory(path, failure);
+  if (failure) {
+    throw Error(fmt::format("{}: cannot be made a directory: {}", path, failure.message()));
+  }
+  if (made) SyncDirectory(fs::absolute(path).parent_path().string());
+  return made;
+}
+
+}  // namespace
+
+FileDescriptor LockDirectory(const std::string& directory) {
+  FileDescriptor file(directory + "/lock", OpenMode::kAppend);
+  if (flock(file.value(), LOCK_EX | LOCK_NB) != 0) {
+    throw Error(errno == EWOULDBLOCK
+                    ? fmt::format("{}: another skein is at work here", directory)
+                    : fmt::format("{}: cannot be locked: {}", directory, SystemReason()));
+  }
+  return file;
+}
+
+const std::string& MakeDirectories(const std::string& path) {
+  const fs::path parent = fs::absolute(path).parent_path();
+  std::error_code failure;
+  if (!fs::exists(parent, failure)) MakeDirectories(parent.string());
+  Make(path);
+  return path;
+}
+
+bool IsRunDirectory(const std::string& path) {
+  std::error_code failure;
+  return fs::is_regular_file(path + "/config.toml", failure);
+}
+
+RunDirectory RunDirectory::Create(const std::string& path) {
+  std::error_code failure;
+  if (fs::exists(path, failure) && !(fs::is_directory(path) && fs::is_empty(path, failure))) {
+    throw Error(
+        IsRunDirectory(path)
+            ? fmt::format("{0}: holds a run already; continue it with --resume {0}, or "
+                          "choose another --out",
+                          path)
+            : fmt::format("{}: exists and is not an empty directory; choose another --out", path));
+  }
+  return RunDirectory(path);
+}
+
+RunDirectory RunDirectory::CreateIn(const std::string& root, const std::string& task) {
+  MakeDirectories(root);
+  const std::string base =
+      fmt::format("{}/{}-{:%Y%m%d-%H%M%S}", root, task, fmt::localtime(std::time(nullptr)));
+  std::string path = base;
+  // Made and not asked for: another program may begin a run in the same second.
+  for (int copy = 2; !Make(path); ++copy) path = fmt::format("{}-{}", base, copy);
+  return RunDirectory(path);
+}
+
+RunDirectory RunDirectory::Open(const std::string& path) {
+  if (!IsRunDirectory(path)) {
+    throw Error(
+        fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
+  }
+  return RunDirectory(path);
+}
+
+RunDirectory::RunDirectory(const std::string& path)
+    : path_(WithoutTrailingSlashes(path)), lock_(LockDirectory(MakeDirectories(path_))) {
+  MakeDirectories(checkpoints());
+}
+
+std::string RunDirectory::checkpoint(std::uint64_t iteration) const {
+  return fmt::format("{}/{}{:06}{}", checkpoints(), kCheckpointPrefix, iteration, kExtension);
+}
+
+std::vector<Checkpoint> CheckpointsIn(const std::string& folder) {
+  std::vector<Checkpoint> found;
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    if (const auto iteration = IterationOf(entry.path().filename().string())) {
+      found.push_back({*iteration, entry.path().string()});
+    }
+  }
+  if (failure && failure != std::errc::no_such_file_or_directory) {
+    throw Error(fmt::format("{}: cannot be read: {}", folder, failure.message()));
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Checkpoint& a, const Checkpoint& b) { return a.iteration < b.iteration; });
+  return found;
+}
+
+void RunDirectory::Prune(int keep) const {
+  const std::vector<Checkpoint> all = Checkpoints();
+  for (std::size_t i = 0; i + static_cast<std::size_t>(keep) < all.size(); ++i) {
+    std::error_code failure;
+    fs::remove(all[i].path, failure);
+    if (failure) {
+      throw Error(fmt::format("{}: cannot be removed: {}", all[i].path, failure.message()));
+    }
+  }
+}
+
+void RunDirectory::RemoveTemporaries() const {
+  for (const std::string& folder : {path_, checkpoints()}) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_regular_file() && entry.path().extension() == ".tmp") fs::remove(entry.path());
+    }
+  }
+}
+
+std::optional<std::string> LatestRun(const std::string& root, const std::string& task) {
+  std::error_code failure;
+  std::vector<std::pair<fs::file_time_type, std::string>> runs;
+  for (const auto& entry : fs::directory_iterator(root, failure)) {
+    const std::string run = entry.path().string();
+    if (IsRunDirectory(run)) runs.emplace_back(LastWritten(run), run);
+  }
+  if (failure && failure != std::errc::no_such_file_or_directory) {
+    throw Error(fmt::format("{}: cannot be read: {}", root, failure.message()));
+  }
+  std::sort(runs.rbegin(), runs.rend());
+  std::exception_ptr unreadable;
+  for (const auto& [time, run] : runs) {
+    if (task.empty()) return run;
+    try {
+      ProgramConfig config;
+      ApplyTomlFile(run + "/config.toml", &config);
+      if (config.train.env.task == task) return run;
+    } catch (const Error&) {
+      if (unreadable == nullptr) unreadable = std::current_exception();
+    }
+  }
+  if (unreadable != nullptr) std::rethrow_exception(unreadable);
+  return std::nullopt;
+}
+
+}  // namespace skein

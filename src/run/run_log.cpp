@@ -1,0 +1,37 @@
+#include "src/run/run_log.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <sstream>
+
+namespace skein {
+
+void RunLog::Say(const std::string& text) {
+  display_.Print(text);
+  NoteBrokenOutput();
+  Note(text);
+}
+
+void RunLog::Show(const Progress& progress) {
+  display_.Update(progress);
+  NoteBrokenOutput();
+}
+
+void RunLog::NoteBrokenOutput() {
+  const std::string reason = display_.TakeFailure();
+  if (!reason.empty()) {
+    Note("warning: the standard output broke: " + reason + "; the run goes on, told only here");
+  }
+}
+
+void RunLog::Note(const std::string& text) {
+  const std::string time = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    file_.Write(fmt::format("{} {}\n", time, line));
+  }
+}
+
+}  // namespace skein

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "src/run/progress.h"
+#include "train/files/file_descriptor.h"
+
+namespace skein {
+
+/// What a run says: to log.txt with the time, and to the standard output, which may break (and that
+/// is noted) without ending the run. Throws Error if the file cannot be written.
+class RunLog {
+ public:
+  explicit RunLog(const std::string& path) : file_(path, OpenMode::kAppend) {}
+
+  /// To both; `text` may have several lines.
+  void Say(const std::string& text);
+  /// To the file alone.
+  void Note(const std::string& text);
+  /// To the output alone, replacing what was last shown on a terminal.
+  void Show(const Progress& progress);
+  void Sync() { file_.Sync(); }
+
+ private:
+  void NoteBrokenOutput();
+
+  FileDescriptor file_;
+  ProgressDisplay display_;
+};
+
+}  // namespace skein

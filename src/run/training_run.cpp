@@ -1,0 +1,298 @@
+#include "src/run/training_run.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "base/error.h"
+#include "simd/target.h"
+#include "src/config/configuration.h"
+#include "src/evaluation/evaluation_report.h"
+#include "src/files/output_file.h"
+#include "src/run/progress.h"
+#include "train/policy/low_level_file.h"
+#include "train/files/tensor_file.h"
+
+namespace skein {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Far from the seeds that people choose for training, so that the final episodes are fresh.
+constexpr std::uint64_t kFreshSeedOffset = 1000000007;
+
+double UnixTime() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+/// What starts this program again, for hints that can be copied.
+std::string CommandName() {
+  const std::string name = program_invocation_name;
+  return name.find('/') == std::string::npos ? "skein" : name;
+}
+
+/// An argument as a shell takes it.
+std::string Quoted(const std::string& argument) {
+  const bool is_plain =
+      argument.find_first_not_of(
+          "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+=:,@") ==
+      std::string::npos;
+  if (is_plain) return argument;
+  std::string quoted = "'";
+  for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The budget in whole iterations.
+std::uint64_t LastStep(const TrainConfig& config) {
+  const auto iteration = static_cast<std::uint64_t>(config.ppo.num_aircraft) *
+                         static_cast<std::uint64_t>(config.ppo.rollout_steps) *
+                         static_cast<std::uint64_t>(config.env.action_repeat);
+  return (config.total_steps + iteration - 1) / iteration * iteration;
+}
+
+bool IsDamaged(const std::string& path) {
+  try {
+    TensorFile::Read(path);
+    return false;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
+std::string CannotRestore(const Checkpoint& newest, const std::vector<Checkpoint>& all,
+                          const char* reason) {
+  std::string message = fmt::format("cannot resume: {}", reason);
+  if (message.find(newest.path) == std::string::npos) message += " (" + newest.path + ")";
+  if (all.size() > 1 && IsDamaged(newest.path)) {
+    message += fmt::format("; remove that file to go on from {}", all[all.size() - 2].path);
+  }
+  return message;
+}
+
+}  // namespace
+
+void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
+                        const std::string& note) {
+  // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
+  Trainer trainer(config.train, pool);
+  RunDirectory directory = path.empty() ? RunDirectory::CreateIn(kRunsRoot, config.train.env.task)
+                                        : RunDirectory::Create(path);
+  ProgramConfig resolved = config;
+  resolved.train = trainer.config();
+  if (config.train.controller != nullptr) {
+    TensorFile controller;
+    StoreController(*config.train.controller, controller);
+    controller.Write(directory.controller());
+  }
+  // Last: it makes the directory one of a run.
+  WriteFile(directory.config(), DumpToml(resolved));
+  TrainingRun run(resolved, std::move(directory), trainer, pool);
+  if (!note.empty()) run.log_.Say(note);
+  run.Run();
+}
+
+void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool) {
+  directory.RemoveTemporaries();
+  Trainer trainer(config.train, pool);
+  const std::vector<Checkpoint> checkpoints = directory.Checkpoints();
+  if (checkpoints.empty() && std::filesystem::exists(directory.final_policy())) {
+    throw Error(fmt::format("cannot resume: {} has been trained to its end and has no checkpoint",
+                            directory.path()));
+  }
+  const std::string target = Name(simd::ActiveTarget());
+  std::string saved_on = target;
+  if (!checkpoints.empty()) {
+    try {
+      saved_on = trainer.Restore(checkpoints.back().path);
+    } catch (const Error& error) {
+      throw Error(CannotRestore(checkpoints.back(), checkpoints, error.what()));
+    }
+  }
+  const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration());
+  TrimRows(directory.timing(), trainer.iteration());
+  TrainingRun run(config, std::move(directory), trainer, pool);
+  if (rows != trainer.iteration()) {
+    run.log_.Say(fmt::format("warning: metrics.csv has {} rows for {} iterations", rows,
+                             trainer.iteration()));
+  }
+  if (saved_on != target) {
+    run.log_.Say(
+        fmt::format("warning: saved with SIMD target {0}, going on with {1}: no longer bit for bit "
+                    "(SKEIN_SIMD={0} forces it)",
+                    saved_on, target));
+  }
+  run.Run();
+}
+
+TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
+                         WorkerPool& pool)
+    : config_(config),
+      directory_(std::move(directory)),
+      trainer_(trainer),
+      pool_(pool),
+      signals_(pool),
+      log_(directory_.log()),
+      metrics_(directory_.metrics(), OpenMode::kAppend),
+      timing_(directory_.timing(), OpenMode::kAppend),
+      events_(directory_.path(), UnixTime(), static_cast<std::int64_t>(trainer.env_steps()) + 1),
+      last_save_(Clock::now()),
+      saved_iteration_(trainer.iteration()) {
+  if (metrics_.size() == 0) metrics_.Write(MetricsHeader());
+  if (timing_.size() == 0) timing_.Write(TimingHeader());
+}
+
+void TrainingRun::Run() {
+  try {
+    TrainAndEvaluate();
+  } catch (const Error& error) {
+    try {
+      log_.Note(fmt::format("error: {}", error.what()));
+    } catch (const Error&) {  // it may be the disk that is full
+    }
+    throw;
+  }
+}
+
+void TrainingRun::TrainAndEvaluate() {
+  const std::uint64_t first_step = trainer_.env_steps();
+  log_.Say(fmt::format("{} {} in {}: {} of {} steps, {} aircraft, seed {}, {} threads",
+                       first_step == 0 ? "training" : "resuming", config_.train.env.task,
+                       directory_.path(), FormatCount(static_cast<double>(first_step)),
+                       FormatCount(static_cast<double>(config_.train.total_steps)),
+                       config_.train.ppo.num_aircraft, config_.train.seed, pool_.threads()));
+  log_.Say(Describe(trainer_.backend()));
+  const Clock::time_point start = Clock::now();
+  ProgressMeter meter(first_step, LastStep(config_.train), start);
+  std::string dropped;
+  while (!trainer_.finished() && !pool_.stopping()) {
+    const IterationReport report = Iterate();
+    if (report.dropped) {
+      dropped = fmt::format("; dropped the iteration that was under way and its {} steps",
+                            FormatCount(static_cast<double>(report.dropped_steps)));
+      break;
+    }
+    Record(report);
+    meter.Add(report, Clock::now());
+    log_.Show(meter.progress());
+    if (signals_.TakeSaveRequest()) {
+      SaveCheckpoint();
+      log_.Say(fmt::format("saved {} as asked", directory_.checkpoint(trainer_.iteration())));
+    } else if (CheckpointIsDue()) {
+      SaveCheckpoint();
+    }
+  }
+  if (saved_iteration_ != trainer_.iteration()) SaveCheckpoint();
+  log_.Note(FormatProgress(meter.progress()));
+  if (!trainer_.finished()) {
+    SayStopped(dropped);
+    return;
+  }
+  log_.Say(
+      fmt::format("trained for {} steps in {}",
+                  FormatCount(static_cast<double>(trainer_.env_steps() - first_step)),
+                  FormatDuration(std::chrono::duration<double>(Clock::now() - start).count())));
+  Finish();
+}
+
+void TrainingRun::SayStopped(const std::string& dropped) {
+  log_.Say(fmt::format("stopped by {} after {} of {} steps{}; go on with: {} train --resume {}",
+                       strsignal(signals_.StopSignal()),
+                       FormatCount(static_cast<double>(trainer_.env_steps())),
+                       FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
+                       Quoted(CommandName()), Quoted(directory_.path())));
+}
+
+IterationReport TrainingRun::Iterate() {
+  try {
+    IterationReport report = trainer_.Iterate();
+    report.iteration = trainer_.iteration();
+    return report;
+  } catch (const Error& error) {
+    // Not named like a checkpoint: a run that went on from it would fail again.
+    const std::string path = fmt::format("{}/before-failure-{:06}.skein", directory_.checkpoints(),
+                                         trainer_.iteration());
+    try {
+      trainer_.Save(path);
+    } catch (const Error& failure) {
+      throw Error(fmt::format("{}; the state from before could not be saved: {}", error.what(),
+                              failure.what()));
+    }
+    throw Error(fmt::format("{}; the state from before is in {}", error.what(), path));
+  }
+}
+
+void TrainingRun::Record(const IterationReport& report) {
+  const double now = UnixTime();
+  metrics_.Write(MetricsRow(report));
+  timing_.Write(TimingRow(report, now));
+  events_.Append(now, static_cast<std::int64_t>(report.env_steps), Scalars(report));
+  const int non_finite = report.terminations[static_cast<std::size_t>(Termination::kNonFinite)];
+  if (non_finite > 0) {
+    log_.Say(
+        fmt::format("warning: {} aircraft left the finite numbers in iteration {} and were "
+                    "reset",
+                    non_finite, report.iteration));
+  }
+  if (report.evaluation_success_rate >= 0) {
+    log_.Note(fmt::format("iteration {}, {} steps: deterministic success {:.1f} %{}",
+                          report.iteration, FormatCount(static_cast<double>(report.env_steps)),
+                          100 * report.evaluation_success_rate,
+                          report.best ? ", the best so far" : ""));
+  }
+  if (report.best) trainer_.policy().Save(directory_.best_policy());
+}
+
+bool TrainingRun::CheckpointIsDue() const {
+  const CheckpointConfig& config = config_.checkpoint;
+  if (config.interval_iterations > 0 &&
+      trainer_.iteration() % static_cast<std::uint64_t>(config.interval_iterations) == 0) {
+    return true;
+  }
+  return config.interval_s > 0 &&
+         std::chrono::duration<double>(Clock::now() - last_save_).count() >= config.interval_s;
+}
+
+void TrainingRun::SaveCheckpoint() {
+  // Rows first: a checkpoint must never be newer than the records that it continues.
+  metrics_.Sync();
+  timing_.Sync();
+  trainer_.Save(directory_.checkpoint(trainer_.iteration()));
+  saved_iteration_ = trainer_.iteration();
+  last_save_ = Clock::now();
+  directory_.Prune(config_.checkpoint.keep);
+}
+
+void TrainingRun::Finish() {
+  trainer_.policy().Save(directory_.final_policy());
+  const bool has_best = std::filesystem::exists(directory_.best_policy());
+  const std::string path = has_best ? directory_.best_policy() : directory_.final_policy();
+  const Policy policy = Policy::Load(path).WithBackend(config_.train.learner.backend);
+  const std::uint64_t seed = config_.train.seed + kFreshSeedOffset;
+  const int episodes = config_.final_evaluation_episodes;
+  log_.Say(fmt::format("evaluating {} over {} fresh episodes", path, episodes));
+  const EvaluationReport report =
+      EvaluateBothWays(policy, config_.train.env, episodes, seed, pool_);
+  if (pool_.stopping()) {
+    SayStopped("; dropped the evaluation that was under way");
+    return;
+  }
+  WriteJson(directory_.evaluation(), ToJson(report, path, config_, seed, true));
+  log_.Say(ToText(report, true));
+  log_.Say(fmt::format(
+      "policy          {}\n"
+      "evaluation      {}\n"
+      "metrics         {}  (tensorboard --logdir {})\n"
+      "configuration   {}\n"
+      "checkpoints     {}\n"
+      "again           {} eval --policy {} --task {} --deterministic --episodes {} --seed {}",
+      path, directory_.evaluation(), directory_.metrics(), directory_.path(), directory_.config(),
+      directory_.checkpoints(), Quoted(CommandName()), Quoted(directory_.path()),
+      config_.train.env.task, episodes, seed));
+  log_.Sync();
+}
+
+}  // namespace skein

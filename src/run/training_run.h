@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "base/worker_pool.h"
+#include "src/run/event_file.h"
+#include "src/run/metrics.h"
+#include "src/config/program_config.h"
+#include "src/run/run_directory.h"
+#include "src/run/run_log.h"
+#include "src/run/run_signals.h"
+#include "train/files/file_descriptor.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+
+/// One training run in its directory: iterations, records, checkpoints, signals, and at the end the
+/// evaluation over fresh episodes.
+class TrainingRun {
+ public:
+  /// A new run in a new directory: `path`, or one in kRunsRoot if that is empty. `note`, unless
+  /// empty, goes into its log.
+  static void Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
+                    const std::string& note = "");
+  /// Goes on from the directory's newest checkpoint, or from the start if it has none, over the
+  /// controller that the run began with. Throws Error if the checkpoint is damaged or made with
+  /// another configuration.
+  static void Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool);
+
+ private:
+  TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
+              WorkerPool& pool);
+
+  /// To the end, or until it is stopped; says in the log what ended it.
+  void Run();
+  void TrainAndEvaluate();
+  IterationReport Iterate();
+  void Record(const IterationReport& report);
+  void SaveCheckpoint();
+  bool CheckpointIsDue() const;
+  void Finish();
+  void SayStopped(const std::string& dropped);
+
+  ProgramConfig config_;
+  RunDirectory directory_;
+  Trainer& trainer_;
+  WorkerPool& pool_;
+  RunSignals signals_;
+  RunLog log_;
+  FileDescriptor metrics_, timing_;
+  EventFile events_;
+  std::chrono::steady_clock::time_point last_save_;
+  std::uint64_t saved_iteration_ = 0;
+};
+
+}  // namespace skein

@@ -1,0 +1,282 @@
+#include "src/study/study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.h"
+#include "src/evaluation/comparison.h"
+#include "src/config/conditions.h"
+#include "src/config/configuration.h"
+#include "src/config/nearest_name.h"
+#include "src/files/output_file.h"
+#include "src/config/presets.h"
+#include "src/config/settings.h"
+
+namespace skein {
+namespace {
+
+/// Reads one table key by key; what was not asked for is an error.
+class TableReader {
+ public:
+  TableReader(const toml::table& table, std::string source)
+      : table_(table), source_(std::move(source)) {}
+
+  const toml::node* Find(const std::string& key) {
+    known_.push_back(key);
+    return table_.get(key);
+  }
+
+  std::string Text(const std::string& key, const std::string& otherwise) {
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return otherwise;
+    if (const auto* text = node->as_string()) return text->get();
+    throw Error(At(*node, key) + " must be a text in quotes");
+  }
+
+  bool Flag(const std::string& key, bool otherwise) {
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return otherwise;
+    if (const auto* flag = node->as_boolean()) return flag->get();
+    throw Error(At(*node, key) + " must be true or false");
+  }
+
+  std::optional<double> WholeNumber(const std::string& key, double min, double max) {
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return std::nullopt;
+    return WholeNumberIn(*node, key, min, max);
+  }
+
+  std::vector<std::string> Texts(const std::string& key) {
+    std::vector<std::string> texts;
+    for (const toml::node* element : Elements(key)) {
+      const auto* text = element->as_string();
+      if (text == nullptr) throw Error(At(*element, key) + " must be a list of texts in quotes");
+      texts.push_back(text->get());
+    }
+    return texts;
+  }
+
+  std::vector<std::uint64_t> WholeNumbers(const std::string& key, double max) {
+    std::vector<std::uint64_t> numbers;
+    for (const toml::node* element : Elements(key)) {
+      numbers.push_back(static_cast<std::uint64_t>(WholeNumberIn(*element, key, 0, max)));
+    }
+    return numbers;
+  }
+
+  /// The table of [key]; null if there is none.
+  const toml::table* Table(const std::string& key) {
+    const toml::node* const node = Find(key);
+    if (node == nullptr || node->is_table()) return node == nullptr ? nullptr : node->as_table();
+    throw Error(At(*node, key) + " must be one table, [" + key + "]");
+  }
+
+  /// The tables of [[key]], or the one of [key].
+  std::vector<const toml::table*> Tables(const std::string& key) {
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return {};
+    if (node->is_table()) return {node->as_table()};
+    std::vector<const toml::table*> tables;
+    for (const toml::node* element : ElementsOf(*node, key)) {
+      if (!element->is_table()) throw Error(At(*element, key) + " must be tables, [[" + key + "]]");
+      tables.push_back(element->as_table());
+    }
+    return tables;
+  }
+
+  /// Throws Error on the first key that nobody asked for.
+  void RefuseOthers() const {
+    for (const auto& [name, node] : table_) {
+      const std::string key(name.str());
+      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+      throw Error(fmt::format("{}:{}: unknown key {}{}; known keys: {}", source_,
+                              node.source().begin.line, key, DidYouMean(key, known_),
+                              fmt::join(known_, ", ")));
+    }
+  }
+
+ private:
+  std::string At(const toml::node& node, const std::string& key) const {
+    return fmt::format("{}:{}: {}", source_, node.source().begin.line, key);
+  }
+
+  std::vector<const toml::node*> ElementsOf(const toml::node& node, const std::string& key) const {
+    const toml::array* const array = node.as_array();
+    if (array == nullptr) throw Error(At(node, key) + " must be a list, in brackets");
+    std::vector<const toml::node*> elements;
+    for (const toml::node& element : *array) elements.push_back(&element);
+    return elements;
+  }
+
+  std::vector<const toml::node*> Elements(const std::string& key) {
+    const toml::node* const node = Find(key);
+    return node == nullptr ? std::vector<const toml::node*>() : ElementsOf(*node, key);
+  }
+
+  double WholeNumberIn(const toml::node& node, const std::string& key, double min,
+                       double max) const {
+    const std::optional<double> number = node.value<double>();
+    if (!number || !(*number >= min && *number <= max) || *number != std::floor(*number)) {
+      throw Error(
+          fmt::format("{} must be a whole number in [{:.10g}, {:.10g}]", At(node, key), min, max));
+    }
+    return *number;
+  }
+
+  const toml::table& table_;
+  std::string source_;
+  std::vector<std::string> known_;
+};
+
+template <typename T>
+void RefuseEmptyAndTwice(const std::vector<T>& values, const std::string& source,
+                         const std::string& key) {
+  if (values.empty()) throw Error(fmt::format("{}: {} must name at least one", source, key));
+  std::set<T> known;
+  for (const T& value : values) {
+    if (!known.insert(value).second) {
+      throw Error(fmt::format("{}: {} names {} twice", source, key, value));
+    }
+  }
+}
+
+constexpr double kMaxSeed = 0x1p53, kMaxEpisodes = 1e7;
+
+StudySettings ReadSettings(TableReader& reader) {
+  return {reader.Texts("condition"), reader.Texts("set")};
+}
+
+StudyLevel ReadLevel(const toml::table& table, const std::string& source) {
+  TableReader reader(table, source);
+  StudyLevel level;
+  level.name = reader.Text("name", "");
+  level.settings = ReadSettings(reader);
+  reader.RefuseOthers();
+  if (level.name.empty()) {
+    throw Error(fmt::format("{}:{}: a level needs a name", source, table.source().begin.line));
+  }
+  return level;
+}
+
+Study ReadTable(const toml::table& table, const std::string& source) {
+  TableReader reader(table, source);
+  Study study;
+  study.tasks = reader.Texts("tasks");
+  study.seeds = reader.WholeNumbers("seeds", kMaxSeed);
+  study.agents = reader.Texts("agents");
+  study.preset = reader.Text("preset", study.preset);
+  study.controller = reader.Text("controller", "");
+  study.assignments = reader.Texts("set");
+  if (const toml::table* training = reader.Table("training")) {
+    TableReader part(*training, source);
+    study.training.steps = part.WholeNumber("steps", 1, kMaxSeed);
+    study.training.settings = ReadSettings(part);
+    study.training.per_level = part.Flag("per_level", true);
+    part.RefuseOthers();
+  }
+  if (const toml::table* evaluation = reader.Table("evaluation")) {
+    TableReader part(*evaluation, source);
+    study.evaluation.episodes = static_cast<int>(
+        part.WholeNumber("episodes", 1, kMaxEpisodes).value_or(study.evaluation.episodes));
+    study.evaluation.seed =
+        static_cast<std::uint64_t>(part.WholeNumber("seed", 0, kMaxSeed).value_or(0));
+    part.RefuseOthers();
+  }
+  for (const toml::table* level : reader.Tables("level")) {
+    study.levels.push_back(ReadLevel(*level, source));
+  }
+  reader.RefuseOthers();
+  if (study.levels.empty()) study.levels.push_back({"default", {}});
+  return study;
+}
+
+/// Throws Error on an assignment that the study would not follow.
+void RefuseUnheard(const Study& study, const std::string& source) {
+  std::vector<std::string> assignments = study.assignments;
+  const auto append = [&assignments](const StudySettings& settings) {
+    assignments.insert(assignments.end(), settings.assignments.begin(), settings.assignments.end());
+  };
+  append(study.training.settings);
+  for (const StudyLevel& level : study.levels) append(level.settings);
+  for (const std::string& assignment : assignments) {
+    if (KeyOf(assignment) == "run.seed") {
+      throw Error(fmt::format("{}: set {}: seeds says the seeds", source, assignment));
+    }
+    if (KeyOf(assignment) == "run.total_steps" && study.training.steps) {
+      throw Error(fmt::format("{}: set {}: training.steps says it already", source, assignment));
+    }
+  }
+  if (study.training.per_level) return;
+  for (const StudyLevel& level : study.levels) {
+    for (const std::string& assignment : level.settings.assignments) {
+      if (KeyOf(assignment).rfind("env.", 0) == 0) continue;
+      throw Error(
+          fmt::format("{}: set {} of level {}: nothing is trained for it (per_level is "
+                      "false), and its evaluation has keys of env alone",
+                      source, assignment, level.name));
+    }
+  }
+}
+
+/// The study's preset and assignments, then `parts`, each stronger than those before it.
+ProgramConfig Configure(const Study& study, const std::string& task,
+                        const std::vector<StudySettings>& parts) {
+  ProgramConfig config = ResolveConfig({task, study.preset, "", study.assignments});
+  std::vector<std::string> conditions;
+  for (const StudySettings& part : parts) {
+    conditions.insert(conditions.end(), part.conditions.begin(), part.conditions.end());
+    ApplyConditionsAndAssignments(part.conditions, part.assignments, &config);
+  }
+  ConditionAssignments(conditions);  // refuses one that two parts give
+  RequireTask(config, task);
+  CheckConsistent(config);
+  return config;
+}
+
+}  // namespace
+
+Study ReadStudy(const std::string& path) {
+  toml::table table;
+  try {
+    table = toml::parse(ReadFile(path), path);
+  } catch (const toml::parse_error& error) {
+    throw Error(fmt::format("{}:{}: not valid TOML: {}", path, error.source().begin.line,
+                            error.description()));
+  }
+  Study study = ReadTable(table, path);
+  RefuseEmptyAndTwice(study.tasks, path, "tasks");
+  RefuseEmptyAndTwice(study.seeds, path, "seeds");
+  if (!study.agents.empty()) RefuseEmptyAndTwice(study.agents, path, "agents");
+  std::vector<std::string> files;
+  for (const StudyLevel& level : study.levels) files.push_back(FileNamePart(level.name));
+  RefuseEmptyAndTwice(files, path, "level");
+  RefuseUnheard(study, path);
+  return study;
+}
+
+ProgramConfig TrainingConfig(const Study& study, const std::string& task, const StudyLevel& level,
+                             std::uint64_t seed) {
+  std::vector<StudySettings> parts = {study.training.settings};
+  if (study.training.per_level) parts.push_back(level.settings);
+  ProgramConfig config = Configure(study, task, parts);
+  if (study.training.steps) {
+    Assign(FindSetting("run.total_steps", "steps"), *study.training.steps, "steps", &config);
+  }
+  config.train.seed = seed;
+  return config;
+}
+
+ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level) {
+  ProgramConfig config = Configure(study, task, {level.settings});
+  if (!study.training.per_level) {
+    CheckEachAgentsOwn(config.train.env, Configure(study, task, {}).train.env);
+  }
+  return config;
+}
+
+}  // namespace skein

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/config/program_config.h"
+
+namespace skein {
+
+/// Conditions (NAME=LEVEL, as of --condition) and assignments (KEY=VALUE, as of --set) on top.
+struct StudySettings {
+  std::vector<std::string> conditions, assignments;
+};
+
+/// One level of the conditions under which agents are evaluated.
+struct StudyLevel {
+  std::string name;
+  StudySettings settings;
+};
+
+/// What `skein study` trains and evaluates: every task under every level with every seed.
+struct Study {
+  std::vector<std::string> tasks;
+  std::vector<std::uint64_t> seeds;  ///< of trainings
+  std::vector<StudyLevel> levels;
+  std::vector<std::string> agents;  ///< flown beside the trained policies
+  std::string preset = "default";
+  std::string controller;                ///< below the planners of planned tasks (ChooseController)
+  std::vector<std::string> assignments;  ///< for trainings and evaluations
+  struct Training {
+    std::optional<double> steps;  ///< control steps; else the preset's
+    StudySettings settings;       ///< for trainings alone
+    bool per_level = true;        ///< a training for every level, under it; else one for all
+  } training;
+  struct Evaluation {
+    int episodes = 1000;
+    std::uint64_t seed = 0;
+  } evaluation;
+};
+
+/// Reads the TOML file of a study (docs/program.md). Throws Error with file and line on unknown
+/// keys, wrong types and lists that are empty or name something twice.
+Study ReadStudy(const std::string& path);
+
+/// What a training under `level` runs with. Throws Error on a configuration that cannot be.
+ProgramConfig TrainingConfig(const Study& study, const std::string& task, const StudyLevel& level,
+                             std::uint64_t seed);
+
+/// The environment in which agents are evaluated under `level`.
+ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level);
+
+}  // namespace skein

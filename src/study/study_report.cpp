@@ -1,0 +1,119 @@
+#include "src/study/study_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "src/evaluation/flight_summary.h"
+#include "src/files/text_table.h"
+
+namespace skein {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double NumberOf(const Json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
+
+/// What the i-th agent of a comparison did.
+Estimate EstimateOf(const Json& comparison, std::size_t agent, const Quantity& quantity) {
+  const Json& estimate = comparison["agents"][agent]["estimates"][quantity.key];
+  return {NumberOf(estimate["value"]), NumberOf(estimate["low"]), NumberOf(estimate["high"]),
+          estimate["count"].get<int>()};
+}
+
+std::vector<double> ValuesOfSeeds(const Json& comparison, std::size_t trained,
+                                  const Quantity& quantity) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < trained; ++i) {
+    values.push_back(EstimateOf(comparison, i, quantity).value);
+  }
+  return values;
+}
+
+/// The mean of the seeds; of success with the part of the interval that shares can lie in.
+Estimate MeanOfSeeds(const Json& comparison, std::size_t trained, const Quantity& quantity) {
+  Estimate mean = EstimateMean(ValuesOfSeeds(comparison, trained, quantity));
+  if (&quantity == &Quantities()[kSuccessQuantity]) {
+    mean.low = std::clamp(mean.low, 0.0, 1.0);
+    mean.high = std::clamp(mean.high, 0.0, 1.0);
+  }
+  return mean;
+}
+
+/// "99.8 (99.5 to 100.0)": the mean of the seeds, and the lowest and highest of them.
+std::string Spread(const Quantity& quantity, const std::vector<double>& values) {
+  Estimate mean = EstimateMean(values);
+  mean.low = mean.high = std::nan("");
+  std::string text = FormatEstimate(quantity, mean);
+  std::vector<double> known;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+               [](double value) { return !std::isnan(value); });
+  if (known.size() < 2) return text;
+  const auto [low, high] = std::minmax_element(known.begin(), known.end());
+  return text + fmt::format(" ({:.{}f} to {:.{}f})", *low * quantity.shown_per_unit,
+                            quantity.decimals, *high * quantity.shown_per_unit, quantity.decimals);
+}
+
+}  // namespace
+
+std::string StudyCsv(const Json& results, std::size_t trained) {
+  std::string text = "task,level,agent,episodes,seeds";
+  for (const Quantity& quantity : Quantities()) {
+    text += fmt::format(",{0},{0}_low,{0}_high", quantity.key);
+  }
+  text += "\n";
+  for (const Json& result : results) {
+    const Json& comparison = result["comparison"];
+    const auto begin = [&](const std::string& agent, const std::string& seeds) {
+      text += fmt::format("{},{},{},{},{}", result["task"].get<std::string>(),
+                          CsvText(result["level"].get<std::string>()), CsvText(agent),
+                          comparison["episodes"].get<int>(), seeds);
+    };
+    begin("trained", fmt::format("{}", trained));
+    for (const Quantity& quantity : Quantities()) {
+      text += CsvCells(MeanOfSeeds(comparison, trained, quantity));
+    }
+    text += "\n";
+    for (std::size_t i = 0; i < comparison["agents"].size(); ++i) {
+      begin(comparison["agents"][i]["name"].get<std::string>(), i < trained ? "1" : "");
+      for (const Quantity& quantity : Quantities()) {
+        text += CsvCells(EstimateOf(comparison, i, quantity));
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+std::string StudyText(const Json& results, std::size_t trained) {
+  constexpr std::size_t kLabelWidth = 30, kCellWidth = 24;
+  std::string text;
+  TextTable table(kLabelWidth, kCellWidth, &text);
+  for (const int k : {kSuccessQuantity, kTimeQuantity}) {
+    const Quantity& quantity = Quantities()[static_cast<std::size_t>(k)];
+    table.Begin(quantity.label);
+    table.Cell(fmt::format("trained ({} seeds)", trained));
+    const Json none = Json::array();
+    const Json& agents = results.empty() ? none : results[0]["comparison"]["agents"];
+    for (std::size_t i = trained; i < agents.size(); ++i) {
+      table.Cell(agents[i]["name"].get<std::string>());
+    }
+    table.End();
+    for (const Json& result : results) {
+      const Json& comparison = result["comparison"];
+      table.Begin(fmt::format("  {}, {}", result["task"].get<std::string>(),
+                              result["level"].get<std::string>()));
+      table.Cell(Spread(quantity, ValuesOfSeeds(comparison, trained, quantity)));
+      for (std::size_t i = trained; i < comparison["agents"].size(); ++i) {
+        table.Cell(FormatEstimate(quantity, EstimateOf(comparison, i, quantity)));
+      }
+      table.End();
+    }
+  }
+  text += "trained: the mean of the seeds, and the lowest and highest of them";
+  return text;
+}
+
+}  // namespace skein

@@ -1,0 +1,116 @@
+#include "envs/kernels/kernel_aircraft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "envs/aircraft/f16.h"
+#include "envs/kernels/plant_kernel.h"
+#include "gtest/gtest.h"
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+std::shared_ptr<const KernelAircraft> Make(const Aircraft& aircraft) {
+  return MakeKernelAircraft(aircraft, AtmosphereModel::kStevensLewis);
+}
+
+/// The axis' own formula in double precision.
+double Position(const KernelAxis& axis, double x) {
+  const auto limit = [](double value, float low, float high) {
+    return std::clamp<double>(value, low, high);
+  };
+  return axis.offset + axis.cells_per_unit * limit(x, axis.low, axis.high) +
+         axis.inner_more_cells_per_unit * limit(x, axis.inner_low, axis.inner_high);
+}
+
+constexpr double kPositionTolerance = 5e-6;  // float32 constants times some tens of degrees
+
+void ExpectNodesAtIntegers(const std::vector<double>& nodes) {
+  const KernelAxis axis = MakeKernelAxis(nodes, "test");
+  EXPECT_EQ(axis.last_cell, static_cast<int>(nodes.size()) - 2);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    EXPECT_NEAR(Position(axis, nodes[i]), static_cast<double>(i), kPositionTolerance) << nodes[i];
+  }
+  const double middle = (nodes[0] + nodes[1]) / 2;
+  EXPECT_NEAR(Position(axis, middle), 0.5, kPositionTolerance);
+  EXPECT_NEAR(Position(axis, nodes.front() - 100), 0, kPositionTolerance);
+  EXPECT_NEAR(Position(axis, nodes.back() + 100), static_cast<double>(nodes.size()) - 1,
+              kPositionTolerance);
+}
+
+TEST(KernelAxis, NodesLieAtIntegersAndTheEndsClamp) {
+  const Aircraft aircraft = F16();
+  for (const auto& nodes : {aircraft.aerodynamics.alpha_deg, aircraft.aerodynamics.beta_deg,
+                            aircraft.aerodynamics.elevator_deg, aircraft.engine.mach}) {
+    ExpectNodesAtIntegers(nodes);
+  }
+  ExpectNodesAtIntegers({0, 1});
+  ExpectNodesAtIntegers({-3, -1, 0, 1, 2});        // wide cells below only
+  ExpectNodesAtIntegers({0.5, 0.6, 0.7, 1, 1.3});  // wide cells above only
+}
+
+TEST(KernelAxis, OtherArrangementsAreErrors) {
+  EXPECT_THROW(MakeKernelAxis({0}, "short"), Error);
+  EXPECT_THROW(MakeKernelAxis({0, 1, 1, 2}, "repeated"), Error);
+  EXPECT_THROW(MakeKernelAxis({0, 2, 1}, "falling"), Error);
+  EXPECT_THROW(MakeKernelAxis({0, 1, 3, 6}, "three widths"), Error);
+  EXPECT_THROW(MakeKernelAxis({0, 1, 3, 4}, "wide inside"), Error);
+}
+
+TEST(KernelAircraft, IncrementsBeyondTheFlapTablesAreThoseAtTheirEnd) {
+  const auto kernel = Make(F16());
+  const std::vector<double>& alpha = kernel->source.aerodynamics.alpha_deg;
+  const int last_flap = static_cast<int>(std::find(alpha.begin(), alpha.end(), 45) - alpha.begin());
+  const int lines_per_cell = static_cast<int>(kernel->slots_per_cell) / PatchLine::kNumSlots;
+  const int alpha_cells = static_cast<int>(kernel->slots_per_beta / kernel->slots_per_cell);
+  const int beta_cells = static_cast<int>(kernel->source.aerodynamics.beta_deg.size()) - 1;
+  ASSERT_LT(last_flap, alpha_cells);
+  for (int j = 0; j < beta_cells; ++j) {
+    for (int i = last_flap; i < alpha_cells; ++i) {
+      for (const int which : {kLateralFlap, kLateralAileronFlap, kLongitudinalFlap}) {
+        const PatchLine& end =
+            kernel->lines[(j * alpha_cells + last_flap) * lines_per_cell + which];
+        const PatchLine& line = kernel->lines[(j * alpha_cells + i) * lines_per_cell + which];
+        for (int n = 0; n < kPatchesPerLine; ++n) {
+          const auto term = [&](const PatchLine& patches, PatchTerm of) {
+            return patches.slot[of * kPatchesPerLine + n];
+          };
+          EXPECT_EQ(term(line, kCorner), term(end, kCorner));
+          EXPECT_EQ(term(line, kAlongBeta), term(end, kAlongBeta));
+          EXPECT_EQ(term(line, kAlongAlpha), 0);
+          EXPECT_EQ(term(line, kAlongBoth), 0);
+        }
+      }
+    }
+  }
+}
+
+TEST(KernelAircraft, TablesThatDoNotFitAreErrors) {
+  const auto expect_error = [](void (*spoil)(Aircraft*)) {
+    Aircraft aircraft = F16();
+    spoil(&aircraft);
+    EXPECT_THROW(Make(aircraft), Error);
+  };
+  EXPECT_NO_THROW(Make(F16()));
+  expect_error([](Aircraft* a) { a->aerodynamics.Cx.pop_back(); });
+  expect_error([](Aircraft* a) { a->aerodynamics.Cl_a20_lef.push_back(0); });
+  expect_error([](Aircraft* a) { a->aerodynamics.Clr.pop_back(); });
+  expect_error([](Aircraft* a) { a->aerodynamics.dClr_lef.clear(); });
+  expect_error([](Aircraft* a) { a->aerodynamics.eta_el.clear(); });
+  expect_error([](Aircraft* a) { a->aerodynamics.dCn_beta.clear(); });
+  expect_error([](Aircraft* a) { a->engine.idle_lbf.pop_back(); });
+  expect_error([](Aircraft* a) { a->engine.mach.back() += 1; });
+  expect_error([](Aircraft* a) { a->aerodynamics.alpha_deg[3] += 1; });
+  expect_error([](Aircraft* a) { a->aerodynamics.alpha_lef_deg[3] += 1; });
+  expect_error([](Aircraft* a) { a->aerodynamics.elevator_coarse_deg[1] = 5; });
+  expect_error([](Aircraft* a) {
+    for (double& beta : a->aerodynamics.beta_deg) beta *= 2;
+  });
+}
+
+}  // namespace
+}  // namespace skein

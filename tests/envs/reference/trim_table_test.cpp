@@ -1,0 +1,90 @@
+#include "envs/reference/trim_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "envs/aircraft/f16.h"
+#include "envs/reference/trim.h"
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+class TrimTableTest : public ::testing::Test {
+ protected:
+  TrimPoint Exact(double altitude_ft, double speed_ft_s) const {
+    TrimRequest request;
+    request.altitude_ft = altitude_ft;
+    request.true_airspeed_ft_s = speed_ft_s;
+    return Trim(plant_, request);
+  }
+
+  Plant plant_{F16(), AtmosphereModel::kStevensLewis};
+};
+
+TEST_F(TrimTableTest, HoldsTheTrimsAtItsNodes) {
+  const TrimTable table(plant_, 10000, 20000, 600, 1000, 3, 5);
+  for (double altitude : {10000.0, 15000.0, 20000.0}) {
+    for (double speed : {600.0, 700.0, 1000.0}) {
+      const TrimPoint exact = Exact(altitude, speed);
+      const TrimmedStart start = table.At(altitude, speed);
+      EXPECT_NEAR(start.alpha_rad, exact.alpha_rad, 1e-9);
+      EXPECT_NEAR(start.pitch_rad, exact.pitch_rad, 1e-9);
+      EXPECT_NEAR(start.bank_rad, exact.bank_rad, 1e-9);
+      EXPECT_NEAR(start.elevator_deg, exact.controls.elevator_deg, 1e-6);
+      EXPECT_NEAR(start.aileron_deg, exact.controls.aileron_deg, 1e-6);
+      EXPECT_NEAR(start.rudder_deg, exact.controls.rudder_deg, 1e-6);
+      EXPECT_NEAR(start.leading_edge_flap_deg, exact.controls.leading_edge_flap_deg, 1e-6);
+      EXPECT_NEAR(start.power, exact.power, 1e-6);
+      const PlantOutput output = plant_.Evaluate(exact.state, exact.controls);
+      EXPECT_NEAR(start.nz, output.nz, 1e-9);
+      EXPECT_NEAR(start.ny, output.ny, 1e-9);
+    }
+  }
+}
+
+// Over the ranges in which Heading episodes begin, interpolation costs less than the aircraft
+// notices: 0.02 deg of alpha is 0.01 g.
+TEST_F(TrimTableTest, InterpolatesCloselyOverTheUsualStarts) {
+  constexpr double kAlphaRad = 0.02 / kDegPerRad;
+  const TrimTable table(plant_, 19000, 20000, 1000, 1200);
+  std::mt19937_64 random(1);
+  for (int n = 0; n < 50; ++n) {
+    const double altitude = std::uniform_real_distribution<double>(19000, 20000)(random);
+    const double speed = std::uniform_real_distribution<double>(1000, 1200)(random);
+    const TrimPoint exact = Exact(altitude, speed);
+    const TrimmedStart start = table.At(altitude, speed);
+    EXPECT_NEAR(start.alpha_rad, exact.alpha_rad, kAlphaRad);
+    EXPECT_NEAR(start.elevator_deg, exact.controls.elevator_deg, 0.02);
+    EXPECT_NEAR(start.power, exact.power, 1);
+  }
+}
+
+TEST_F(TrimTableTest, TakesRangesOfOnePoint) {
+  const TrimPoint exact = Exact(15000, 500);
+  const TrimTable point(plant_, 15000, 15000, 500, 500);
+  EXPECT_NEAR(point.At(15000, 500).alpha_rad, exact.alpha_rad, 1e-12);
+  EXPECT_NEAR(point.At(0, 9999).alpha_rad, exact.alpha_rad, 1e-12);
+  const TrimTable row(plant_, 15000, 15000, 500, 700);
+  EXPECT_NEAR(row.At(15000, 700).alpha_rad, Exact(15000, 700).alpha_rad, 1e-9);
+  const TrimTable column(plant_, 10000, 15000, 500, 500);
+  EXPECT_NEAR(column.At(10000, 500).alpha_rad, Exact(10000, 500).alpha_rad, 1e-9);
+}
+
+TEST_F(TrimTableTest, RefusesWhatCannotBeFlownAndSaysWhere) {
+  try {
+    const TrimTable table(plant_, 45000, 45000, 150, 900);
+    FAIL() << "150 ft/s at 45000 ft cannot be flown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("45000 ft"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(TrimTable(plant_, 2, 1, 500, 600), Error);
+  EXPECT_THROW(TrimTable(plant_, 1, 2, std::nan(""), 600), Error);
+  EXPECT_THROW(TrimTable(plant_, 1, 2, 500, 600, 1, 2), Error);
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,137 @@
+#include "src/config/conditions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "envs/tasks/task.h"
+#include "envs/vec_env.h"
+#include "base/error.h"
+#include "src/config/configuration.h"
+
+namespace skein {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string Complaint(const std::vector<std::string>& conditions) {
+  try {
+    ConditionAssignments(conditions);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+EnvConfig Under(const std::vector<std::string>& conditions, const std::string& task = "heading") {
+  const ProgramConfig config = ResolveConfig({task, "default", "", {}, conditions});
+  CheckConsistent(config);
+  return config.train.env;
+}
+
+TEST(Conditions, AreConfigurationAssignments) {
+  EXPECT_THAT(ConditionAssignments({}), ElementsAre());
+  EXPECT_THAT(
+      ConditionAssignments({"high_altitude=30..35kft"}),
+      ElementsAre("env.initial.altitude_min_ft=30000", "env.initial.altitude_max_ft=35000"));
+  EXPECT_THAT(
+      ConditionAssignments({"high_altitude=32500ft"}),
+      ElementsAre("env.initial.altitude_min_ft=32500", "env.initial.altitude_max_ft=32500"));
+  EXPECT_THAT(ConditionAssignments({"noisy=0.03"}),
+              ElementsAre("env.observation_noise=0.03", "env.observation_noise_max=0"));
+  EXPECT_THAT(ConditionAssignments({"noisy=0.01..0.05"}),
+              ElementsAre("env.observation_noise=0.01", "env.observation_noise_max=0.05"));
+}
+
+TEST(Conditions, AMachNumberIsASpeedInUnitsOfThatOfSoundAt20000Feet) {
+  const EnvConfig env = Under({"high_speed=1.0..1.5"});
+  EXPECT_DOUBLE_EQ(env.initial.true_airspeed_fps.min, 1037);
+  EXPECT_DOUBLE_EQ(env.initial.true_airspeed_fps.max, 1555.5);
+}
+
+TEST(Conditions, WindTakesASpeedAndASeverityOrNumbers) {
+  const WindConfig both = Under({"windy=60fps,moderate"}).wind;
+  EXPECT_EQ(both.speed_fps.min, 60);
+  EXPECT_EQ(both.speed_fps.max, 60);
+  EXPECT_EQ(both.turbulence_fps.min, 7.3);
+  EXPECT_EQ(both.turbulence_fps.max, 7.3);
+  EXPECT_EQ(both.from_deg.min, 0);
+  EXPECT_EQ(both.from_deg.max, 360);
+
+  const WindConfig ranges = Under({"windy=light..severe,0..120fps"}).wind;
+  EXPECT_EQ(ranges.speed_fps.min, 0);
+  EXPECT_EQ(ranges.speed_fps.max, 120);
+  EXPECT_EQ(ranges.turbulence_fps.min, 3.7);
+  EXPECT_EQ(ranges.turbulence_fps.max, 21);
+
+  const WindConfig numbers = Under({"windy=30kt,sigma=2..5,from=260..280deg"}).wind;
+  EXPECT_NEAR(numbers.speed_fps.max, 50.634, 1e-3);
+  EXPECT_EQ(numbers.turbulence_fps.max, 5);
+  EXPECT_EQ(numbers.from_deg.min, 260);
+
+  EXPECT_EQ(Under({"windy=moderate"}).wind.speed_fps.max, 0);
+  EXPECT_THAT(Complaint({"windy=60kt..120"}), HasSubstr("cannot read \"60kt..120\""));
+  EXPECT_THAT(Complaint({"windy=from=90deg"}), HasSubstr("cannot read"));
+  EXPECT_EQ(Under({"windy=60fps"}).wind.turbulence_fps.max, 0);
+}
+
+TEST(Conditions, WindReplacesAllOfAnotherWind) {
+  ProgramConfig config =
+      ResolveConfig({"heading", "default", "", {}, {"windy=200fps,severe,from=90deg"}});
+  ApplyConditionsAndAssignments({"windy=light"}, {}, &config);
+  EXPECT_EQ(config.train.env.wind.speed_fps.max, 0);
+  EXPECT_EQ(config.train.env.wind.from_deg.max, 360);
+  EXPECT_EQ(config.train.env.wind.turbulence_fps.max, 3.7);
+}
+
+TEST(Conditions, AreDescribedInWords) {
+  EXPECT_EQ(DescribeConditions(Under({"windy=60fps", "noisy=0.01..0.05", "high_altitude=30kft"})),
+            "f16 from 30000 ft and 1000 to 1200 ft/s; wind of 60 ft/s; noise 0.01 to 0.05");
+  EXPECT_EQ(DescribeConditions(Under({"noisy=0"})),
+            "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; no noise");
+}
+
+TEST(Conditions, EveryLevelOfEachOnEveryTaskCanBeFlown) {
+  for (const std::string& task : TaskNames()) {
+    for (const char* level : {"mild", "middle", "hard"}) {
+      std::vector<std::string> together;
+      for (const char* name : {"high_speed", "high_altitude", "windy", "noisy"}) {
+        const std::string condition = std::string(name) + "=" + level;
+        EXPECT_NO_THROW(VecEnv(Under({condition}, task), 32, 1)) << task << " " << condition;
+        together.push_back(condition);
+      }
+      EXPECT_NO_THROW(VecEnv(Under(together, task), 32, 1)) << task << " " << level;
+    }
+  }
+}
+
+TEST(Conditions, SingleKeysAreStronger) {
+  const ProgramConfig config =
+      ResolveConfig({"heading",
+                     "default",
+                     "",
+                     {"env.wind.step_at_reset=false", "env.observation_noise=0"},
+                     {"windy=60fps", "noisy=0.03"}});
+  EXPECT_FALSE(config.train.env.wind.step_at_reset);
+  EXPECT_EQ(config.train.env.observation_noise, 0);
+}
+
+TEST(Conditions, WhatCannotBeReadIsNamedWithWhatCould) {
+  EXPECT_THAT(Complaint({"wndy=60fps"}), HasSubstr("unknown condition wndy; did you mean windy?"));
+  EXPECT_THAT(Complaint({"windy"}), HasSubstr("--condition windy: expected NAME=LEVEL"));
+  EXPECT_THAT(Complaint({"noisy=0.1", "noisy=0.2"}), HasSubstr("noisy is given twice"));
+  EXPECT_THAT(Complaint({"noisy=loud"}), HasSubstr("cannot read \"loud\"; noisy takes"));
+  EXPECT_THAT(Complaint({"windy=60mph"}), HasSubstr("cannot read \"60mph\""));
+  EXPECT_THAT(Complaint({"windy=60fps,moderat"}), HasSubstr("cannot read \"moderat\""));
+  EXPECT_THAT(Complaint({"windy=60fps,90fps"}), HasSubstr("cannot read \"90fps\""));
+  EXPECT_THAT(Complaint({"windy=severe..light"}), HasSubstr("cannot read \"severe..light\""));
+  EXPECT_THAT(Complaint({"high_speed=1.4..1.2"}), HasSubstr("cannot read \"1.4..1.2\""));
+  EXPECT_THAT(Complaint({"high_altitude="}), HasSubstr("cannot read \"\""));
+  EXPECT_THAT(Complaint({"windy=,light"}), HasSubstr("cannot read \"\""));
+}
+
+}  // namespace
+}  // namespace skein

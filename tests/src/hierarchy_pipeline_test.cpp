@@ -1,0 +1,165 @@
+// Trains planners over controllers as a user does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+#include "tests/src/tiny_training.h"
+#include "train/files/tensor_file.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class PlannerPipeline : public ::testing::Test {
+ protected:
+  const ScratchDirectory scratch_;
+  std::string root_ = scratch_.path();
+  std::string reference_ = root_ + "/reference", run_ = root_ + "/run";
+};
+
+/// Arguments of a training of task tracking over the policy `controller`.
+std::vector<std::string> PlannerTraining(const std::string& out, const std::string& controller) {
+  std::vector<std::string> arguments = TinyTraining(
+      out, {"--steps", std::to_string(64 * 16 * 10 * 3), "--set", "env.action_repeat=10"});
+  arguments[1] = "tracking";
+  if (!controller.empty()) arguments.insert(arguments.end(), {"--controller", controller});
+  return arguments;
+}
+
+TEST_F(PlannerPipeline, APlannerTrainsOverAControlPolicyAndFliesByItself) {
+  const std::string control = root_ + "/control";
+  std::vector<std::string> arguments = TinyTraining(control, {"--steps", "10240"});
+  arguments[1] = "control";
+  ASSERT_EQ(CallSkein(arguments).exit_code, 0);
+  const ProgramResult trained = CallSkein(PlannerTraining(reference_, control));
+  ASSERT_EQ(trained.exit_code, 0) << trained.error;
+  EXPECT_THAT(trained.output, HasSubstr("controller " + control + "/checkpoints/policy-"));
+
+  // Interrupted, its controller gone from where it was, it comes to the same end.
+  {
+    RunningProgram program(PlannerTraining(run_, control));
+    ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+    program.Signal(SIGTERM);
+    ASSERT_EQ(program.Wait().exit_code, 0);
+  }
+  const std::string moved = root_ + "/moved";
+  fs::rename(control, moved);
+  const ProgramResult resumed = CallSkein(
+      {"train", "--resume", run_, "--controller", moved + "/checkpoints/policy-best.skein"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  for (const char* file : {"/metrics.csv", "/checkpoints/policy-final.skein", "/controller.skein",
+                           "/checkpoints/checkpoint-000003.skein"}) {
+    ExpectSameFile(reference_ + file, run_ + file);
+  }
+
+  // The file alone is enough.
+  const std::string flights = root_ + "/tracking.csv";
+  fs::remove_all(moved);
+  const ProgramResult flown =
+      CallSkein({"eval", "--policy", run_ + "/checkpoints/policy-final.skein", "--task", "tracking",
+                 "--episodes", "32", "--set", "env.time_limit_steps=100", "--flights", flights});
+  ASSERT_EQ(flown.exit_code, 0) << flown.error;
+  EXPECT_THAT(flown.output, HasSubstr("an action every 10 control steps for a controller with one "
+                                      "every 5"));
+  // A controller decides at the start of each of the planner's decisions, too.
+  const ProgramResult faster = CallSkein(
+      {"eval", "--policy", run_ + "/checkpoints/policy-final.skein", "--task", "tracking",
+       "--episodes", "32", "--set", "env.time_limit_steps=100", "--set", "env.action_repeat=2"});
+  ASSERT_EQ(faster.exit_code, 0) << faster.error;
+  EXPECT_THAT(faster.output,
+              HasSubstr("an action every 2 control steps for a controller with one every 2;"));
+  EXPECT_THAT(ReadFile(flights), HasSubstr(",error_north_ft,error_east_ft,error_altitude_ft"));
+  EXPECT_THAT(ReadFile(flights), HasSubstr(",action_target_pitch,"));
+}
+
+TEST_F(PlannerPipeline, APlannerTrainsOverTheAutopilot) {
+  const ProgramResult trained = CallSkein(PlannerTraining(run_, "autopilot"));
+  ASSERT_EQ(trained.exit_code, 0) << trained.error;
+  EXPECT_THAT(trained.output, HasSubstr("the traditional autopilot, parallel"));
+  const std::string policy = run_ + "/checkpoints/policy-final.skein";
+  const ProgramResult flown = CallSkein({"eval", "--policy", policy, "--task", "tracking",
+                                         "--episodes", "32", "--set", "env.time_limit_steps=100"});
+  ASSERT_EQ(flown.exit_code, 0) << flown.error;
+  EXPECT_THAT(flown.output, HasSubstr("for a controller with one every 1;"));
+  const ProgramResult other =
+      CallSkein({"train", "--resume", run_, "--controller", "autopilot:traditional"});
+  EXPECT_EQ(other.exit_code, 1);
+  ExpectOneLine(other.error, "keeps its controller");
+}
+
+TEST_F(PlannerPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
+  std::vector<std::string> in_earth = PlannerTraining(run_, "autopilot");
+  in_earth.insert(in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
+  ASSERT_EQ(CallSkein(in_earth).exit_code, 0);
+  ASSERT_EQ(CallSkein(PlannerTraining(reference_, "autopilot")).exit_code, 0);
+  const std::string agents = "policy:" + run_ + ",policy:" + reference_ + ",autopilot,random";
+  const std::vector<std::string> compare = {
+      "compare",    "--task", "tracking", "--agents", agents, "--set", "env.time_limit_steps=100",
+      "--episodes", "32"};
+  const ProgramResult compared = CallSkein(compare);
+  EXPECT_EQ(compared.exit_code, 0) << compared.error;
+  std::vector<std::string> all_in_earth = compare;
+  all_in_earth.insert(all_in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
+  const ProgramResult refused = CallSkein(all_in_earth);
+  EXPECT_EQ(refused.exit_code, 1);
+  ExpectOneLine(refused.error, "env.tracking.error_axes: agents that are compared");
+}
+
+TEST_F(PlannerPipeline, ControllersThatDoNotFitAreNamed) {
+  const std::string heading = root_ + "/heading";
+  ASSERT_EQ(CallSkein(TinyTraining(heading, {"--steps", "10240"})).exit_code, 0);
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 1) << part;
+    ExpectOneLine(result.error, part);
+    EXPECT_FALSE(fs::exists(run_)) << part;
+  };
+  refused(PlannerTraining(run_, ""), "needs --controller");
+  refused(PlannerTraining(run_, heading), "a policy of task heading");
+  refused(PlannerTraining(run_, root_ + "/absent.skein"), root_ + "/absent.skein");
+  refused(TinyTraining(run_, {"--controller", heading}), "not for heading");
+  refused({"train", "--resume", heading, "--controller", heading}, "not for heading");
+  refused({"eval", "--policy", heading, "--controller", heading}, "--policy untrained");
+
+  // A policy that does not say its task, as older ones do not, is taken at its word.
+  const std::string old = root_ + "/old.skein";
+  TensorFile file = TensorFile::Read(heading + "/checkpoints/policy-best.skein");
+  ASSERT_EQ(file.metadata.erase("policy.task"), 1u);
+  file.Write(old);
+  const ProgramResult trained = CallSkein(PlannerTraining(run_, old));
+  ASSERT_EQ(trained.exit_code, 0) << trained.error;
+  EXPECT_THAT(trained.output, HasSubstr("it does not say its task"));
+  const ProgramResult unsaid = CallSkein({"eval", "--policy", old});
+  EXPECT_EQ(unsaid.exit_code, 1);
+  ExpectOneLine(unsaid.error, "--task is needed: --policy " + old);
+  const ProgramResult other = CallSkein({"train", "--resume", run_, "--controller", heading});
+  EXPECT_EQ(other.exit_code, 1);
+  ExpectOneLine(other.error, "task heading");
+  // And a planner is no controller.
+  const ProgramResult nested =
+      CallSkein(PlannerTraining(root_ + "/nested", run_ + "/checkpoints/policy-final.skein"));
+  EXPECT_EQ(nested.exit_code, 1);
+  ExpectOneLine(nested.error, "a policy of task tracking");
+  const ProgramResult unknown = CallSkein(PlannerTraining(root_ + "/none", "autopilot:drunken"));
+  EXPECT_EQ(unknown.exit_code, 1);
+  ExpectOneLine(unknown.error, "parallel");
+  // Untrained, both ways of flying Tracking.
+  for (const bool planned : {true, false}) {
+    std::vector<std::string> untrained = {"eval",   "--policy", "untrained",
+                                          "--task", "tracking", "--episodes",
+                                          "32",     "--set",    "env.time_limit_steps=100"};
+    if (planned) untrained.insert(untrained.end(), {"--controller", old});
+    const ProgramResult flown = CallSkein(untrained);
+    EXPECT_EQ(flown.exit_code, 0) << flown.error;
+    EXPECT_EQ(flown.output.find("for a controller") != std::string::npos, planned);
+  }
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,391 @@
+#include "train/network/recurrent_network.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simd/target.h"
+#include "tests/train/network/gradient_comparison.h"
+#include "tests/train/network/sample_tile.h"
+#include "train/network/folded_parameters.h"
+#include "train/network/fused_network.h"
+#include "train/libtorch/libtorch_network.h"
+
+namespace skein {
+namespace {
+
+/// Float32 sums of some hundred terms against float64: a few hundred roundings of 6e-8.
+constexpr double kGradientTolerance = 2e-5;
+constexpr double kLossTolerance = 1e-5;
+/// Central differences in float64 with a step of 1e-5: small enough to miss the kinks of ReLU and
+/// clip, truncation of order 1e-10, rounding 1e-16 / 1e-5.
+constexpr double kDifferenceTolerance = 1e-7;
+
+const NetworkShape kActor{6, 32, 16, 3, true};
+const NetworkShape kCritic{6, 32, 16, 1, false};
+
+/// Depths, and widths that are whole vectors or not, of actors and critics.
+std::vector<NetworkShape> OddShapes() {
+  return {
+      {6, 32, 16, 3, true, 0, 1}, {6, 20, 33, 3, true, 1, 2},    {6, 33, 20, 1, false, 3, 1},
+      {5, 7, 5, 2, true, 2, 3},   {22, 100, 100, 4, true, 2, 1}, {6, 16, 17, 1, false, 0, 3},
+      {6, 1, 1, 1, false, 1, 1},
+  };
+}
+
+std::string NameOf(const NetworkShape& shape) {
+  return std::to_string(shape.hidden_layers) + " x " + std::to_string(shape.hidden_size) + ", " +
+         std::to_string(shape.gru_layers) + " x " + std::to_string(shape.gru_size) + ", " +
+         Name(shape.activation);
+}
+
+/// Every slice by itself, so that no large one hides an error in a small one; below a hundredth of
+/// the whole gradient a slice is held to the rounding of that.
+void ExpectSlicesAgree(const NetworkLayout& layout, const std::vector<float>& gradient,
+                       const std::vector<double>& reference) {
+  double norm = 0;
+  for (const double value : reference) norm += value * value;
+  norm = std::sqrt(norm);
+  for (std::size_t i = 0; i < layout.slices().size(); ++i) {
+    const ParameterSlice& slice = layout.slices()[i];
+    const std::int64_t end =
+        i + 1 < layout.slices().size() ? layout.slices()[i + 1].offset : layout.size();
+    double difference = 0, slice_norm = 0;
+    for (std::int64_t at = slice.offset; at < end; ++at) {
+      difference += (gradient[at] - reference[at]) * (gradient[at] - reference[at]);
+      slice_norm += reference[at] * reference[at];
+    }
+    EXPECT_LT(std::sqrt(difference),
+              kGradientTolerance * std::max(std::sqrt(slice_norm), 0.01 * norm))
+        << slice.name;
+  }
+}
+
+void ExpectForwardAgrees(Backend backend, const NetworkLayout& layout,
+                         const std::vector<float>& parameters, const SequenceTile& tile,
+                         const ReferenceGradient& reference, NetworkWorkspace& workspace) {
+  const auto network = MakeNetwork(backend, layout);
+  network->SetParameters(parameters.data());
+  network->Forward(tile, workspace);
+  for (std::size_t i = 0; i < reference.output.size(); ++i) {
+    ASSERT_NEAR(workspace.output()[i], reference.output[i], kLossTolerance);
+  }
+  for (std::size_t i = 0; i < reference.state.size(); ++i) {
+    ASSERT_NEAR(workspace.final_state()[i], reference.state[i], kLossTolerance);
+  }
+}
+
+class RecurrentNetworkTest : public testing::TestWithParam<simd::Target> {
+ protected:
+  void SetUp() override { simd::ForceTarget(GetParam()); }
+  void TearDown() override { simd::ForceTarget(simd::SupportedTargets().front()); }
+};
+
+TEST_P(RecurrentNetworkTest, AgreesWithAutogradInDoublePrecision) {
+  for (const NetworkShape& shape : {kActor, kCritic}) {
+    const NetworkLayout layout(shape);
+    const std::vector<float> parameters = DisturbedParameters(layout);
+    const RandomTile samples(shape, 8, 12);
+    for (const bool option : {false, true}) {
+      LossSettings settings = FullLossSettings(96);
+      settings.tanh_mean = option;
+      settings.clip_value_loss = option;
+      const ReferenceGradient reference =
+          ComputeReferenceGradient(layout, parameters, samples.tile(), settings);
+      for (const Backend backend : {Backend::kFused, Backend::kLibTorch}) {
+        LossSums sums;
+        const std::vector<float> gradient =
+            GradientBy(backend, layout, parameters, samples.tile(), settings, &sums);
+        EXPECT_LT(RelativeDifference(gradient, reference.gradient), kGradientTolerance)
+            << Name(backend);
+        EXPECT_NEAR(sums.policy_loss, reference.sums.policy_loss, kLossTolerance);
+        EXPECT_NEAR(sums.value_loss, reference.sums.value_loss, kLossTolerance);
+        EXPECT_NEAR(sums.entropy, reference.sums.entropy, kLossTolerance);
+        EXPECT_NEAR(sums.approximate_kl, reference.sums.approximate_kl, kLossTolerance);
+        EXPECT_NEAR(sums.clip_fraction, reference.sums.clip_fraction, kLossTolerance);
+      }
+    }
+  }
+}
+
+TEST_P(RecurrentNetworkTest, EveryShapeAgreesWithDoublePrecision) {
+  NetworkWorkspace workspace;  // of all shapes, one after the other
+  for (const NetworkShape& shape : OddShapes()) {
+    SCOPED_TRACE(NameOf(shape));
+    const NetworkLayout layout(shape);
+    const std::vector<float> parameters = DisturbedParameters(layout);
+    const RandomTile samples(shape, 8, 12);
+    const LossSettings settings = FullLossSettings(96);
+    const ReferenceGradient reference =
+        ComputeReferenceGradient(layout, parameters, samples.tile(), settings);
+    for (const Backend backend : {Backend::kFused, Backend::kLibTorch}) {
+      SCOPED_TRACE(Name(backend));
+      ExpectForwardAgrees(backend, layout, parameters, samples.tile().sequence, reference,
+                          workspace);
+      LossSums sums;
+      const std::vector<float> gradient =
+          GradientBy(backend, layout, parameters, samples.tile(), settings, &sums);
+      ExpectSlicesAgree(layout, gradient, reference.gradient);
+      EXPECT_NEAR(sums.policy_loss, reference.sums.policy_loss, kLossTolerance);
+      EXPECT_NEAR(sums.value_loss, reference.sums.value_loss, kLossTolerance);
+    }
+  }
+}
+
+/// What pads the widths is zero after any number of tiles, so that sums over rows do not see it.
+TEST_P(RecurrentNetworkTest, PaddingStaysExactlyZero) {
+  const NetworkShape shape{6, 20, 9, 3, true, 1, 2};
+  const NetworkLayout layout(shape);
+  const FoldedLayout folded(layout);
+  FusedNetwork network(layout);
+  network.SetParameters(DisturbedParameters(layout).data());
+  NetworkWorkspace workspace;
+  std::vector<float> accumulator(network.accumulator_size(), 0.0f);
+  for (const unsigned seed : {1u, 2u}) {
+    const RandomTile samples(shape, 8, 12, seed);
+    network.AccumulateGradient(samples.tile(), FullLossSettings(96), workspace, accumulator.data());
+  }
+  std::vector<FoldedMap> maps;
+  for (int i = 0; i <= layout.head(); ++i) maps.push_back(folded.map(i));
+  for (int i = 0; i < shape.gru_layers; ++i) {
+    maps.push_back(folded.gru(i).input);
+    maps.push_back(folded.gru(i).hidden);
+  }
+  int padding = 0, others = 0;
+  for (const FoldedMap& map : maps) {
+    for (int row = 0; row < map.out; ++row) {
+      for (int j = 0; j < map.in; ++j) {
+        const bool is_padding = map.FlatRow(row) < 0 || j >= map.flat_in;
+        const float value = accumulator[map.weight + static_cast<std::int64_t>(row) * map.in + j];
+        (is_padding ? padding : others) += value != 0;
+      }
+      if (map.FlatRow(row) < 0) padding += accumulator[map.bias + row] != 0;
+    }
+  }
+  EXPECT_EQ(padding, 0);
+  EXPECT_GT(others, 0);
+}
+
+TEST_P(RecurrentNetworkTest, FinalStateContinuesTheSequence) {
+  const NetworkShape shape{6, 20, 9, 3, true, 1, 3};
+  const NetworkLayout layout(shape);
+  for (const Backend backend : {Backend::kFused, Backend::kLibTorch}) {
+    const auto network = MakeNetwork(backend, layout);
+    network->SetParameters(DisturbedParameters(layout).data());
+    const RandomTile samples(shape, 6, 5);
+    NetworkWorkspace whole, part;
+    network->Forward(samples.tile().sequence, whole);
+    SequenceTile step = samples.tile().sequence;
+    step.steps = 1;
+    std::vector<float> state = samples.state;
+    for (int i = 0; i < 6; ++i) {
+      step.initial_state = state.data();
+      network->Forward(step, part);
+      state.assign(part.final_state(), part.final_state() + state.size());
+      step.observation += 5 * shape.observation_size;
+      step.keep += 5;
+    }
+    // The same sums, in products of other sizes.
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      EXPECT_NEAR(state[i], whole.final_state()[i], kLossTolerance);
+    }
+    for (int i = 0; i < 5 * 3; ++i) {
+      EXPECT_NEAR(part.output()[i], whole.output()[5 * 5 * 3 + i], kLossTolerance);
+    }
+  }
+}
+
+TEST_P(RecurrentNetworkTest, ResetInsideAChunkEqualsTwoSequences) {
+  const NetworkShape shape{6, 20, 9, 3, true, 1, 2};
+  const NetworkLayout layout(shape);
+  const std::vector<float> parameters = DisturbedParameters(layout);
+  RandomTile samples(shape, 8, 1);
+  constexpr int kReset = 3;
+  for (int step = 0; step < 8; ++step) samples.keep[step] = step == kReset ? 0.0f : 1.0f;
+  const LossSettings settings = FullLossSettings(8);
+  const std::vector<float> whole =
+      GradientBy(Backend::kFused, layout, parameters, samples.tile(), settings);
+
+  SampleTile first = samples.tile(), second = samples.tile();
+  first.sequence.steps = kReset;
+  second.sequence.steps = 8 - kReset;
+  const std::vector<float> zero_state(shape.state_size(), 0.0f);
+  const std::vector<float> keeps(8, 1.0f);
+  second.sequence.initial_state = zero_state.data();
+  second.sequence.keep = keeps.data();
+  second.sequence.observation += kReset * shape.observation_size;
+  second.actor.action += kReset * shape.output_size;
+  second.actor.old_log_prob += kReset;
+  second.actor.advantage += kReset;
+  const std::vector<float> a = GradientBy(Backend::kFused, layout, parameters, first, settings);
+  const std::vector<float> b = GradientBy(Backend::kFused, layout, parameters, second, settings);
+  std::vector<double> sum(a.begin(), a.end());
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += b[i];
+  EXPECT_LT(RelativeDifference(whole, sum), kGradientTolerance);
+}
+
+/// Quiet, and with a payload that is lost if the lower half of its bits is cut off.
+std::vector<float> NotANumbers() {
+  const std::uint32_t bits = 0x7f800001u;
+  float low_payload;
+  std::memcpy(&low_payload, &bits, sizeof bits);
+  return {std::nanf(""), low_payload};
+}
+
+TEST_P(RecurrentNetworkTest, NotANumberIsNeverSwallowed) {
+  for (const NetworkShape& shape : {kActor, kCritic}) {
+    const NetworkLayout layout(shape);
+    const std::vector<float> parameters = DisturbedParameters(layout);
+    for (const LearnerPrecision precision : kRunnablePrecisions) {
+      SCOPED_TRACE(Name(precision));
+      const auto expect_shows = [&](const RandomTile& samples) {
+        LossSums sums;
+        const std::vector<float> gradient =
+            GradientBy(Backend::kFused, layout, parameters, samples.tile(), FullLossSettings(12),
+                       &sums, PrecisionOf(shape, precision));
+        EXPECT_TRUE(std::isnan(sums.value_loss + sums.policy_loss));
+        EXPECT_TRUE(std::isnan(std::accumulate(gradient.begin(), gradient.end(), 0.0)));
+      };
+      for (const float value : NotANumbers()) {
+        for (const int at : {2, 6 * 12 - 1}) {
+          RandomTile samples(shape, 4, 3);
+          samples.observation[at] = value;
+          expect_shows(samples);
+        }
+        RandomTile state(shape, 4, 3);
+        state.keep.assign(12, 1.0f);
+        state.state[0] = value;
+        expect_shows(state);
+        RandomTile losses(shape, 4, 3);
+        (shape.gaussian ? losses.advantage : losses.target)[11] = value;
+        expect_shows(losses);
+      }
+    }
+  }
+}
+
+/// Every shape without and with what a loss may have: tanh of the mean, clipped values.
+std::vector<std::pair<NetworkShape, bool>> WithBothOptions(
+    const std::vector<NetworkShape>& shapes) {
+  std::vector<std::pair<NetworkShape, bool>> pairs;
+  for (const NetworkShape& shape : shapes) {
+    pairs.emplace_back(shape, false);
+    pairs.emplace_back(shape, true);
+  }
+  return pairs;
+}
+
+/// The fused kernels' gradient against differences of their own losses: per slice along a random
+/// direction, so that every parameter takes part.
+TEST_P(RecurrentNetworkTest, AgreesWithFiniteDifferencesOfItsOwnLoss) {
+  // Losses of float32 samples, summed in float64, over a step of a thousandth; a ReLU that a step
+  // takes over its kink adds of that order, too.
+  constexpr double kStep = 1e-3, kTolerance = 1e-3;
+  for (const auto& [shape, option] :
+       WithBothOptions({{5, 7, 5, 2, true, 1, 2}, {5, 6, 4, 1, false, 1, 1}})) {
+    SCOPED_TRACE(NameOf(shape));
+    const NetworkLayout layout(shape);
+    const RandomTile samples(shape, 5, 8);
+    LossSettings settings = FullLossSettings(40);
+    settings.tanh_mean = settings.clip_value_loss = option;
+    const std::vector<float> middle = DisturbedParameters(layout);
+    const auto loss = [&](const std::vector<float>& parameters) {
+      LossSums sums;
+      GradientBy(Backend::kFused, layout, parameters, samples.tile(), settings, &sums);
+      return sums.policy_loss - settings.entropy_coefficient * sums.entropy +
+             settings.value_coefficient * sums.value_loss;
+    };
+    const std::vector<float> gradient =
+        GradientBy(Backend::kFused, layout, middle, samples.tile(), settings);
+    std::mt19937 generator(3);
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < layout.slices().size(); ++i) {
+      const ParameterSlice& slice = layout.slices()[i];
+      const std::int64_t end =
+          i + 1 < layout.slices().size() ? layout.slices()[i + 1].offset : layout.size();
+      std::vector<double> direction(end - slice.offset);
+      double squares = 0;
+      for (double& value : direction) squares += std::pow(value = normal(generator), 2);
+      std::vector<float> above = middle, below = middle;
+      double expected = 0;
+      for (std::size_t j = 0; j < direction.size(); ++j) {
+        const std::size_t at = slice.offset + j;
+        above[at] += static_cast<float>(kStep * direction[j] / std::sqrt(squares));
+        below[at] -= static_cast<float>(kStep * direction[j] / std::sqrt(squares));
+        expected += gradient[at] * (static_cast<double>(above[at]) - below[at]) / (2 * kStep);
+      }
+      EXPECT_NEAR((loss(above) - loss(below)) / (2 * kStep), expected, kTolerance) << slice.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, RecurrentNetworkTest, testing::ValuesIn(simd::SupportedTargets()),
+                         [](const auto& target) { return std::string(simd::Name(target.param)); });
+
+/// One parameter of every slice and more of the larger ones, of the reference in float64.
+TEST(ReferenceGradientTest, AgreesWithFiniteDifferences) {
+  auto cases = WithBothOptions({kActor, kCritic, {5, 7, 5, 2, true, 1, 2}});
+  for (const auto& [activation, name] : kActivationNames) {
+    cases.push_back({{5, 6, 4, 1, false, 1, 1, activation}, false});
+    cases.push_back({{5, 6, 4, 2, true, 0, 2, activation}, true});
+  }
+  for (const auto& [shape, option] : cases) {
+    SCOPED_TRACE(NameOf(shape));
+    const NetworkLayout layout(shape);
+    const RandomTile samples(shape, 5, 4);
+    LossSettings settings = FullLossSettings(20);
+    settings.tanh_mean = settings.clip_value_loss = option;
+    std::vector<float> parameters = DisturbedParameters(layout);
+    const ReferenceGradient reference =
+        ComputeReferenceGradient(layout, parameters, samples.tile(), settings);
+    const auto loss = [&] {
+      return ComputeReferenceGradient(layout, parameters, samples.tile(), settings).loss;
+    };
+    for (std::size_t i = 0; i < layout.slices().size(); ++i) {
+      const ParameterSlice& slice = layout.slices()[i];
+      const std::int64_t end =
+          i + 1 < layout.slices().size() ? layout.slices()[i + 1].offset : layout.size();
+      for (const std::int64_t at : {slice.offset, (slice.offset + end - 1) / 2}) {
+        float& parameter = parameters[at];
+        const float middle = parameter;
+        const float step = 1e-5f;
+        parameter = middle + step;
+        const double above = parameter, high = loss();
+        parameter = middle - step;
+        const double below = parameter, low = loss();
+        parameter = middle;
+        EXPECT_NEAR((high - low) / (above - below), reference.gradient[at], kDifferenceTolerance)
+            << slice.name;
+      }
+    }
+  }
+}
+
+TEST(LibTorchNetworkTest, EveryActivationAgreesWithDoublePrecision) {
+  NetworkWorkspace workspace;
+  for (const auto& [activation, name] : kActivationNames) {
+    NetworkShape shape{6, 20, 9, 3, true, 2, 2, activation};
+    SCOPED_TRACE(name);
+    const NetworkLayout layout(shape);
+    const std::vector<float> parameters = DisturbedParameters(layout);
+    const RandomTile samples(shape, 8, 12);
+    const ReferenceGradient reference =
+        ComputeReferenceGradient(layout, parameters, samples.tile(), FullLossSettings(96));
+    ExpectForwardAgrees(Backend::kLibTorch, layout, parameters, samples.tile().sequence, reference,
+                        workspace);
+    EXPECT_LT(RelativeDifference(GradientBy(Backend::kLibTorch, layout, parameters, samples.tile(),
+                                            FullLossSettings(96)),
+                                 reference.gradient),
+              kGradientTolerance);
+  }
+}
+
+}  // namespace
+}  // namespace skein

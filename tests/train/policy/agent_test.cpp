@@ -1,0 +1,97 @@
+#include "train/policy/agent.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/train/small_config.h"
+
+namespace skein {
+namespace {
+
+using Floats = std::vector<float>;
+
+/// One decision for `count` aircraft with the same observations.
+Floats Decide(const Agent& agent, const Agent::Turn& turn, int count) {
+  const Floats observation(count * 22, 0.2f);
+  Floats state(count * agent.state_size()), action(count * 4, 9);
+  agent.Decide(turn, count, observation.data(), state.data(), action.data());
+  return action;
+}
+
+Floats Row(const Floats& rows, int i) { return {rows.begin() + 4 * i, rows.begin() + 4 * i + 4}; }
+
+Policy SmallPolicy() {
+  NetworkConfig config = SmallConfig().network;
+  config.initial_log_std = -1;
+  return Policy::Untrained(config, 22, 4, 3, 5);
+}
+
+TEST(AgentTest, IdleCommandsNothing) { EXPECT_EQ(Decide(Agent::Idle(), {}, 3), Floats(12, 0.0f)); }
+
+TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndDecisionAlone) {
+  const Agent agent = Agent::Random(50);
+  EXPECT_EQ(agent.EnvironmentFor({}).action_repeat, 50);
+  constexpr int kCount = 20000;
+  const Floats actions = Decide(agent, {1, 0, 0}, kCount);
+  double sum = 0, squares = 0;
+  for (const float action : actions) {
+    EXPECT_LE(std::abs(action), 1);
+    sum += action;
+    squares += static_cast<double>(action) * action;
+  }
+  // Five standard deviations of the means of 80,000 uniform numbers.
+  EXPECT_NEAR(sum / (4 * kCount), 0, 5 * std::sqrt(1.0 / 3 / (4 * kCount)));
+  EXPECT_NEAR(squares / (4 * kCount), 1.0 / 3, 5 * std::sqrt(4.0 / 45 / (4 * kCount)));
+  EXPECT_EQ(Row(Decide(agent, {1, 7, 0}, 1), 0), Row(actions, 7));
+  EXPECT_NE(Row(Decide(agent, {1, 7, 1}, 1), 0), Row(actions, 7));
+  EXPECT_NE(Row(Decide(agent, {2, 7, 0}, 1), 0), Row(actions, 7));
+}
+
+TEST(AgentTest, SampledActionsScatterAboutTheMean) {
+  const Policy policy = SmallPolicy();
+  const Floats mean = Decide(Agent::MeanOf(policy), {}, 1);
+  const Agent sampling = Agent::SamplingFrom(policy);
+  EXPECT_EQ(sampling.EnvironmentFor({}).action_repeat, 5);
+  constexpr int kCount = 20000;
+  const Floats actions = Decide(sampling, {1, 0, 0}, kCount);
+  for (int k = 0; k < 4; ++k) {
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kCount; ++i) {
+      const double deviation = actions[4 * i + k] - mean[k];
+      sum += deviation;
+      squares += deviation * deviation;
+    }
+    const double sigma = std::exp(-1);
+    EXPECT_NEAR(sum / kCount, 0, 5 * sigma / std::sqrt(kCount));
+    EXPECT_NEAR(std::sqrt(squares / kCount), sigma, 5 * sigma / std::sqrt(2 * kCount));
+  }
+  // To the last bits of matrix products, which may round by shape.
+  const Floats alone = Decide(sampling, {1, 7, 0}, 1);
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(alone[k], Row(actions, 7)[k], 1e-5);
+}
+
+TEST(AgentTest, AnyPilotCanBeFlown) {
+  /// Remembers how often it has decided.
+  class CountingPilot final : public Pilot {
+   public:
+    int observation_size() const override { return 22; }
+    int action_size() const override { return 4; }
+    int state_size() const override { return 1; }
+    int action_repeat() const override { return 10; }
+    void Fly(int count, const float*, float* state, float* action) const override {
+      for (int i = 0; i < count; ++i) {
+        state[i] += 1;
+        for (int k = 0; k < 4; ++k) action[4 * i + k] = state[i];
+      }
+    }
+  };
+  const Agent agent = Agent::Of(std::make_shared<CountingPilot>());
+  EXPECT_EQ(agent.EnvironmentFor({}).action_repeat, 10);
+  EXPECT_EQ(agent.state_size(), 1);
+  EXPECT_EQ(Decide(agent, {}, 2), Floats(8, 1.0f));
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,255 @@
+#include "train/policy/low_level_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "base/error.h"
+#include "tests/envs/test_policy.h"
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+#include "tests/train/hierarchy_config.h"
+#include "train/policy/autopilot_policy.h"
+#include "train/policy/evaluate.h"
+#include "train/policy/record_flights.h"
+#include "train/files/tensor_file.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::vector<float> FlyTwice(const Pilot& pilot) {
+  constexpr int kCount = 9;
+  std::vector<float> observation(static_cast<std::size_t>(kCount) * pilot.observation_size());
+  for (std::size_t i = 0; i < observation.size(); ++i) observation[i] = std::sin(0.7f * i);
+  std::vector<float> state(static_cast<std::size_t>(kCount) * pilot.state_size(), 0.0f);
+  std::vector<float> action(static_cast<std::size_t>(kCount) * pilot.action_size());
+  pilot.Fly(kCount, observation.data(), state.data(), action.data());
+  pilot.Fly(kCount, observation.data(), state.data(), action.data());
+  action.insert(action.end(), state.begin(), state.end());
+  return action;
+}
+
+Policy Planner(std::shared_ptr<const Pilot> controller) {
+  return Policy::Untrained(SmallConfig().network, 22, 3, 3, 10, std::move(controller));
+}
+
+std::string BytesOf(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class ControllerFileTest : public testing::Test {
+ protected:
+  const ScratchDirectory scratch_;
+  const std::string path_ = scratch_ / "planner.skein";
+};
+
+TEST_F(ControllerFileTest, APlannersFileHoldsItsController) {
+  const Policy planner = Planner(SmallController());
+  planner.Save(path_);
+  const Policy loaded = Policy::Load(path_);
+  EXPECT_EQ(loaded.action_size(), 3);
+  ASSERT_NE(loaded.controller(), nullptr);
+  EXPECT_EQ(loaded.controller()->action_repeat(), 4);
+  EXPECT_EQ(FlyTwice(*loaded.controller()), FlyTwice(*SmallController()));
+  EXPECT_EQ(FlyTwice(loaded), FlyTwice(planner));
+  loaded.Save(scratch_ / "again");
+  EXPECT_EQ(BytesOf(scratch_ / "again"), BytesOf(path_));
+}
+
+TEST_F(ControllerFileTest, OtherPoliciesHaveNone) {
+  SmallController()->Save(path_);
+  EXPECT_EQ(Policy::Load(path_).controller(), nullptr);
+  for (const auto& [name, tensor] : TensorFile::Read(path_).tensors) {
+    EXPECT_THAT(name, StartsWith("actor/"));
+  }
+}
+
+TEST_F(ControllerFileTest, DamageInTheControllerIsNamed) {
+  Planner(SmallController()).Save(path_);
+  TensorFile file = TensorFile::Read(path_);
+  ASSERT_EQ(file.tensors.erase("controller/actor/head.bias"), 1u);
+  file.Write(path_);
+  EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("its controller"));
+}
+
+TEST_F(ControllerFileTest, AnAutopilotIsHeldByItsName) {
+  EnvConfig env;
+  env.control_interval_s = 0.01;
+  const auto autopilot = std::make_shared<const AutopilotController>("parallel", env);
+  Planner(autopilot).Save(path_);
+  const Policy loaded = Policy::Load(path_);
+  ASSERT_NE(loaded.controller(), nullptr);
+  EXPECT_EQ(FlyTwice(*loaded.controller()), FlyTwice(*autopilot));
+  EXPECT_TRUE(IsSameController(loaded.controller().get(), autopilot.get()));
+  const AutopilotController slower("parallel", {}), other("aggressive", env);
+  EXPECT_FALSE(IsSameController(&slower, autopilot.get()));
+  EXPECT_FALSE(IsSameController(&other, autopilot.get()));
+  EXPECT_FALSE(IsSameController(SmallController().get(), autopilot.get()));
+  TensorFile file = TensorFile::Read(path_);
+  file.metadata["controller.autopilot"] = "drunken";
+  file.Write(path_);
+  EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("drunken"));
+  file.metadata["controller.autopilot"] = "parallel";
+  for (const char* interval : {"0.02abc", "", "nan", "-0.02", "0"}) {
+    file.metadata["controller.control_interval_s"] = interval;
+    file.Write(path_);
+    EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("its controller")) << interval;
+  }
+  EXPECT_THROW(AutopilotController("", {}), Error);
+}
+
+TEST_F(ControllerFileTest, ControllersThatNoFileHoldsAreRefused) {
+  TensorFile file;
+  EXPECT_THROW(StoreController(TestPilot(4), file), Error);
+  // A planner does not fly.
+  EXPECT_THROW(StoreController(Planner(SmallController()), file), Error);
+  EXPECT_TRUE(file.tensors.empty());
+}
+
+TEST_F(ControllerFileTest, ControllersAreTheSameByWhatTheyAre) {
+  EXPECT_TRUE(IsSameController(nullptr, nullptr));
+  EXPECT_FALSE(IsSameController(SmallController().get(), nullptr));
+  EXPECT_TRUE(IsSameController(SmallController().get(), SmallController().get()));
+  EXPECT_FALSE(IsSameController(SmallController(1).get(), SmallController(2).get()));
+  const Policy slower = Policy::Untrained(SmallConfig().network, 22, 4, 11, 5);
+  EXPECT_FALSE(IsSameController(SmallController().get(), &slower));
+}
+
+TEST(PolicyAsPilot, FliesTheMeanActionClipped) {
+  NetworkConfig config = SmallConfig().network;
+  config.tanh_mean = false;
+  config.actor_head_scale = 5;
+  const Policy policy = Policy::Untrained(config, 22, 4, 3);
+  std::vector<float> observation(22 * 5), state(16 * 5), same_state(16 * 5), mean(20), action(20);
+  for (std::size_t i = 0; i < observation.size(); ++i) observation[i] = std::sin(0.7f * i);
+  policy.Act(5, observation.data(), state.data(), mean.data());
+  policy.Fly(5, observation.data(), same_state.data(), action.data());
+  EXPECT_EQ(state, same_state);
+  int clipped = 0;
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    EXPECT_EQ(action[i], std::clamp(mean[i], -1.0f, 1.0f));
+    clipped += std::abs(mean[i]) > 1;
+  }
+  EXPECT_GT(clipped, 0);
+}
+
+class PlannerTrainingTest : public ControllerFileTest {};
+
+TEST_F(PlannerTrainingTest, EveryBitIsTheSameForAnyNumberOfThreads) {
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 5}) {
+    WorkerPool pool(threads);
+    Trainer trainer(SmallPlannerConfig(), pool);
+    while (!trainer.finished()) trainer.Iterate();
+    if (first == 0) first = trainer.Signature();
+    EXPECT_EQ(trainer.Signature(), first) << threads << " threads";
+  }
+}
+
+TEST_F(PlannerTrainingTest, DependsOnWhoFlies) {
+  WorkerPool pool(2);
+  TrainConfig other = SmallPlannerConfig();
+  other.controller = SmallController(12);
+  Trainer one(SmallPlannerConfig(), pool), two(other, pool);
+  EXPECT_EQ(one.Signature(), two.Signature()) << "equal at the start";
+  one.Iterate();
+  two.Iterate();
+  EXPECT_NE(one.Signature(), two.Signature());
+}
+
+TEST_F(PlannerTrainingTest, ComputesTheControllerAsItLearnsWhateverComputedItBefore) {
+  WorkerPool pool(2);
+  for (const Backend learner : {Backend::kFused, Backend::kLibTorch}) {
+    std::vector<std::uint64_t> signatures;
+    for (const Backend before : {Backend::kFused, Backend::kLibTorch}) {
+      TrainConfig config = SmallPlannerConfig();
+      config.learner.backend = learner;
+      config.controller = std::make_shared<const Policy>(SmallController()->WithBackend(before));
+      Trainer trainer(config, pool);
+      trainer.Iterate();
+      signatures.push_back(trainer.Signature());
+    }
+    EXPECT_EQ(signatures[0], signatures[1]) << Name(learner);
+  }
+}
+
+TEST_F(PlannerTrainingTest, GoesOnBitForBitAfterRestoring) {
+  WorkerPool pool(2);
+  Trainer whole(SmallPlannerConfig(), pool);
+  whole.Iterate();
+  whole.Save(path_);
+  Trainer resumed(SmallPlannerConfig(), pool);
+  resumed.Restore(path_);
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  while (!whole.finished()) {
+    whole.Iterate();
+    resumed.Iterate();
+  }
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  whole.Save(scratch_ / "a");
+  resumed.Save(scratch_ / "b");
+  EXPECT_EQ(BytesOf(scratch_ / "a"), BytesOf(scratch_ / "b"));
+}
+
+TEST_F(PlannerTrainingTest, RefusesACheckpointOverAnotherController) {
+  WorkerPool pool(1);
+  Trainer(SmallPlannerConfig(), pool).Save(path_);
+  TrainConfig other = SmallPlannerConfig();
+  other.controller = SmallController(12);
+  Trainer trainer(other, pool);
+  const std::uint64_t before = trainer.Signature();
+  EXPECT_THAT(MessageOf([&] { trainer.Restore(path_); }), HasSubstr("another controller"));
+  EXPECT_EQ(trainer.Signature(), before);
+}
+
+TEST_F(PlannerTrainingTest, ACheckpointIsAWholePlanner) {
+  WorkerPool pool(2);
+  const TrainConfig config = SmallPlannerConfig();
+  Trainer trainer(config, pool);
+  trainer.Iterate();
+  trainer.Save(path_);
+  const Policy loaded = Policy::Load(path_);
+  EXPECT_EQ(loaded.task(), "tracking");
+  EXPECT_EQ(loaded.action_repeat(), 10);
+  EvaluationOptions options;
+  options.episodes = 40;
+  const EvaluationResult a = Evaluate(Agent::MeanOf(loaded), config.env, options, pool);
+  const EvaluationResult b = Evaluate(Agent::MeanOf(trainer.policy()), config.env, options, pool);
+  EXPECT_EQ(a.return_mean, b.return_mean);
+  EXPECT_EQ(a.terminations, b.terminations);
+}
+
+TEST_F(PlannerTrainingTest, RecordsWhatWasPlannedAndWhatWasFlown) {
+  WorkerPool pool(2);
+  const TrainConfig config = SmallPlannerConfig();
+  const Agent planner = Agent::SamplingFrom(Planner(SmallController()));
+  EvaluationOptions options;
+  options.episodes = 20;
+  const EvaluationResult evaluated = Evaluate(planner, config.env, options, pool);
+  const auto flights = RecordFlights(planner, config.env, options, options.episodes, pool);
+  double return_sum = 0;
+  for (const RecordedFlight& flight : flights) {
+    for (std::size_t i = 0; i < flight.steps.size(); ++i) {
+      const RecordedStep& step = flight.steps[i];
+      ASSERT_EQ(step.action.size(), 3u);
+      return_sum += step.reward;
+      if (i == 0) continue;
+      const RecordedStep& before = flight.steps[i - 1];
+      EXPECT_EQ(step.action != before.action, i % 10 == 0) << i;
+      // Within a decision of ten steps the controller decides at 0, 4 and 8.
+      EXPECT_EQ(step.stick != before.stick, i % 10 % 4 == 0) << i;
+    }
+  }
+  // Sums of a hundred rewards of order ten, in another order.
+  EXPECT_NEAR(return_sum / options.episodes, evaluated.return_mean, 1e-2);
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,183 @@
+#include "train/policy/policy_environment.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "envs/autopilot/autopilot.h"
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+#include "tests/train/hierarchy_config.h"
+#include "train/policy/autopilot_policy.h"
+#include "train/policy/evaluate.h"
+#include "train/files/tensor_file.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+using Change = std::function<void(EnvConfig&)>;
+
+class PolicyEnvironmentTest : public testing::Test {
+ protected:
+  /// The policy of a training in `config`, by way of its file.
+  Policy Trained(const TrainConfig& config) const {
+    WorkerPool pool(1);
+    Trainer(config, pool).policy().Save(path_);
+    return Policy::Load(path_);
+  }
+  /// Of `policy` flown in `env` with `change`.
+  static std::string ErrorOf(const Policy& policy, EnvConfig env, const Change& change) {
+    change(env);
+    EvaluationOptions options;
+    options.episodes = 1;
+    return MessageOf([&] { MakeEvaluationEnv(Agent::MeanOf(policy), env, options); });
+  }
+
+  const ScratchDirectory scratch_;
+  const std::string path_ = scratch_ / "policy.skein";
+};
+
+const std::pair<const char*, Change> kChangesOfMeaning[] = {
+    {"task", [](EnvConfig& env) { env.task = "control"; }},
+    {"aircraft",
+     [](EnvConfig& env) {
+       env.aircraft = "aerosonde";
+       env.initial = {{1500, 1500}, {80, 80}, false};
+       env.termination.min_altitude_ft = 0;
+     }},
+    {"control_interval_s", [](EnvConfig& env) { env.control_interval_s = 0.01; }},
+    {"flight_control", [](EnvConfig& env) { env.flight_control = FlightControlMode::kDirect; }},
+};
+
+const std::pair<const char*, Change> kChangesOfPlanning[] = {
+    {"tracking.error_axes", [](EnvConfig& env) { env.tracking.error_axes = TrackingAxes::kEarth; }},
+    {"planner.averages_observations",
+     [](EnvConfig& env) { env.planner.averages_observations = true; }},
+    {"planner.pitch_change_rad", [](EnvConfig& env) { env.planner.pitch_change_rad = 0.2; }},
+    {"planner.yaw_change_rad", [](EnvConfig& env) { env.planner.yaw_change_rad = 0.2; }},
+    {"planner.speed_change_fps", [](EnvConfig& env) { env.planner.speed_change_fps = 40; }},
+};
+
+TEST_F(PolicyEnvironmentTest, PoliciesFlyOnlyWhatTheyWereMadeFor) {
+  const TrainConfig config = SmallConfig();
+  const Policy policy = Trained(config);
+  for (const auto& [key, change] : kChangesOfMeaning) {
+    EXPECT_THAT(ErrorOf(policy, config.env, change),
+                StartsWith("the policy was made with env." + std::string(key) + " = "));
+  }
+  EXPECT_EQ(ErrorOf(policy, config.env,
+                    [](EnvConfig& env) {
+                      env.action_repeat = 1;
+                      env.observation_noise = 0.1;
+                      env.heading.yaw_change_rad = 1;
+                      env.planner.yaw_change_rad = 1;  // of no planner
+                    }),
+            "");
+}
+
+TEST_F(PolicyEnvironmentTest, PlannersFlyOnlyWhatTheyWereMadeFor) {
+  const TrainConfig config = SmallPlannerConfig();
+  const Policy planner = Trained(config);
+  for (const auto& [key, change] : kChangesOfPlanning) {
+    EXPECT_THAT(ErrorOf(planner, config.env, change),
+                StartsWith("the policy was made with env." + std::string(key) + " = "));
+  }
+  EXPECT_EQ(ErrorOf(planner, config.env, [](EnvConfig& env) { env.tracking.azimuth_deg = 9; }), "");
+}
+
+TEST_F(PolicyEnvironmentTest, SoDoTheControllersOfPlanners) {
+  TrainConfig config = SmallConfig();
+  config.env.task = "control";
+  config.env.control_interval_s = 0.01;
+  const auto controller = std::make_shared<const Policy>(Trained(config));
+  const Policy planner =
+      Policy::Untrained(config.network, 22, 3, 3, /*action_repeat=*/10, controller);
+  EnvConfig env = SmallPlannerConfig().env;
+  EXPECT_THAT(ErrorOf(planner, env, [](EnvConfig&) {}),
+              StartsWith("the policy's controller was made with env.control_interval_s = 0.01"));
+  EXPECT_EQ(ErrorOf(planner, env, [](EnvConfig& flown) { flown.control_interval_s = 0.01; }), "");
+
+  TrainConfig training = SmallPlannerConfig();
+  training.controller = controller;
+  EXPECT_THAT(MessageOf([&] { Trained(training); }),
+              StartsWith("the controller was made with env.control_interval_s = 0.01"));
+  training.controller = std::make_shared<const Policy>(Trained(SmallConfig()));
+  EXPECT_THAT(MessageOf([&] { Trained(training); }),
+              StartsWith("the controller was made with env.task = heading"));
+}
+
+TEST_F(PolicyEnvironmentTest, AnAutopilotFromAFileFliesOnlyWhatItHasGainsFor) {
+  const TrainConfig config = SmallPlannerConfig();
+  Policy::Untrained(config.network, 22, 3, 3, /*action_repeat=*/10,
+                    std::make_shared<const AutopilotController>("parallel", config.env))
+      .Save(path_);
+  const Policy planner = Policy::Load(path_);
+  EXPECT_EQ(ErrorOf(planner, config.env, [](EnvConfig&) {}), "");
+  for (const auto& [key, change] : kChangesOfMeaning) {
+    if (std::string(key) == "task") continue;
+    const std::string error = ErrorOf(planner, config.env, change);
+    EXPECT_THAT(error, StartsWith("the policy's controller"));
+    EXPECT_THAT(error, HasSubstr("env." + std::string(key) + " = "));
+  }
+}
+
+TEST_F(PolicyEnvironmentTest, WhatAFileDoesNotSayIsNotChecked) {
+  const TrainConfig config = SmallConfig();
+  Trained(config);
+  TensorFile file = TensorFile::Read(path_);
+  ASSERT_EQ(file.metadata.erase("policy.task"), 1u);
+  for (const char* key : {"aircraft", "control_interval_s", "flight_control"}) {
+    ASSERT_EQ(file.metadata.erase("policy.env." + std::string(key)), 1u) << key;
+  }
+  file.Write(path_);
+  const Policy untrained = Policy::Untrained(config.network, 22, 4, 3);
+  for (const Policy& policy : {Policy::Load(path_), untrained}) {
+    for (const auto& [key, change] : kChangesOfMeaning) {
+      EXPECT_EQ(ErrorOf(policy, config.env, change), "") << key;
+    }
+  }
+}
+
+TEST_F(PolicyEnvironmentTest, AxesAndRateAreThePilotsOwn) {
+  TrainConfig config = SmallPlannerConfig();
+  config.env.tracking.error_axes = TrackingAxes::kPath;
+  config.env.planner.averages_observations = true;
+  const Policy policy = Trained(config);
+  EnvConfig episodes = config.env;
+  episodes.tracking.error_axes = TrackingAxes::kEarth;
+  episodes.tracking.azimuth_deg = 77;
+  episodes.action_repeat = 3;
+  const EnvConfig own = policy.EnvironmentFor(episodes);
+  EXPECT_EQ(own.tracking.error_axes, TrackingAxes::kPath);
+  EXPECT_TRUE(own.planner.averages_observations);
+  EXPECT_EQ(own.action_repeat, config.env.action_repeat);
+  EXPECT_EQ(own.tracking.azimuth_deg, 77) << "the episodes are not";
+
+  const auto autopilot = MakeAutopilot(EnvConfig{}, AutopilotVariant::kTraditional);
+  EXPECT_EQ(autopilot->EnvironmentFor(episodes).tracking.error_axes, kAutopilotErrorAxes);
+  EXPECT_EQ(autopilot->EnvironmentFor(episodes).action_repeat, 1);
+}
+
+TEST_F(PolicyEnvironmentTest, CheckpointsSayItToo) {
+  WorkerPool pool(1);
+  const TrainConfig config = SmallPlannerConfig();
+  Trainer trainer(config, pool);
+  trainer.Save(path_);
+  const TensorFile checkpoint = TensorFile::Read(path_);
+  trainer.policy().Save(path_);
+  const TensorFile policy = TensorFile::Read(path_);
+  EXPECT_GT(policy.metadata.count("policy.env.tracking.error_axes"), 0u);
+  for (const auto& [key, value] : policy.metadata) {
+    if (key == "checksum") continue;
+    ASSERT_EQ(checkpoint.metadata.count(key), 1u) << key;
+    EXPECT_EQ(checkpoint.metadata.at(key), value);
+  }
+}
+
+}  // namespace
+}  // namespace skein

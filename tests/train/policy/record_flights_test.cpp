@@ -1,0 +1,140 @@
+#include "train/policy/record_flights.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "tests/train/small_config.h"
+
+namespace skein {
+namespace {
+
+constexpr int kEpisodes = 150;  // more than a tile
+
+class RecordFlightsTest : public ::testing::Test {
+ protected:
+  RecordFlightsTest() {
+    options_.episodes = kEpisodes;
+    options_.seed = 4;
+  }
+
+  std::vector<RecordedFlight> Record(int count, WorkerPool& pool) const {
+    return RecordFlights(agent_, env_, options_, count, pool);
+  }
+
+  EnvConfig env_ = SmallConfig().env;
+  Agent mean_ = Agent::MeanOf(Policy::Untrained(SmallConfig().network, 22, 4, 3));
+  Agent sampling_ = Agent::SamplingFrom(Policy::Untrained(SmallConfig().network, 22, 4, 3));
+  Agent agent_ = mean_;
+  EvaluationOptions options_;
+  WorkerPool pool_{2};
+};
+
+bool Same(const RecordedFlight& a, const RecordedFlight& b) {
+  return a.initial_state == b.initial_state && a.target == b.target &&
+         std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(),
+                    [](const RecordedStep& x, const RecordedStep& y) {
+                      return x.state == y.state && x.action == y.action && x.reward == y.reward &&
+                             x.termination == y.termination;
+                    });
+}
+
+TEST_F(RecordFlightsTest, FliesWhatWasEvaluated) {
+  // Some end early, in the middle of a decision too.
+  env_.termination.max_load_factor = 1.4;
+  for (const bool deterministic : {true, false}) {
+    agent_ = deterministic ? mean_ : sampling_;
+    const EvaluationResult evaluated = Evaluate(agent_, env_, options_, pool_);
+    std::array<int, kNumTerminations> terminations{};
+    double return_sum = 0;
+    bool mid_decision = false;
+    for (const RecordedFlight& flight : Record(kEpisodes, pool_)) {
+      ASSERT_FALSE(flight.steps.empty());
+      for (const RecordedStep& step : flight.steps) {
+        EXPECT_EQ(step.termination != Termination::kNone, &step == &flight.steps.back());
+        return_sum += step.reward;
+      }
+      ++terminations[static_cast<std::size_t>(flight.steps.back().termination)];
+      mid_decision |= flight.steps.size() % env_.action_repeat != 0;
+    }
+    EXPECT_EQ(terminations, evaluated.terminations);
+    // Sums of at most 100 rewards of order one (and one of 200), in another order.
+    EXPECT_NEAR(return_sum / kEpisodes, evaluated.return_mean, 1e-3);
+    if (!deterministic) {
+      EXPECT_TRUE(mid_decision);
+    }
+  }
+}
+
+TEST_F(RecordFlightsTest, DependsNeitherOnThreadsNorOnHowManyAreRecorded) {
+  agent_ = sampling_;
+  WorkerPool one(1), three(3);
+  const std::vector<RecordedFlight> all = Record(kEpisodes, one);
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(kEpisodes));
+  for (const int count : {1, 5, 140}) {
+    const std::vector<RecordedFlight> some = Record(count, three);
+    ASSERT_EQ(some.size(), static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < some.size(); ++i) EXPECT_TRUE(Same(some[i], all[i])) << i;
+  }
+  EXPECT_FALSE(Same(all[0], all[1]));
+  EXPECT_EQ(Record(kEpisodes + 1, one).size(), all.size());
+}
+
+TEST_F(RecordFlightsTest, HoldsActionsForADecision) {
+  agent_ = sampling_;
+  for (const RecordedFlight& flight : Record(4, pool_)) {
+    int changes = 0;
+    for (std::size_t i = 1; i < flight.steps.size(); ++i) {
+      const bool changes_here = flight.steps[i].action != flight.steps[i - 1].action;
+      EXPECT_EQ(changes_here, i % env_.action_repeat == 0) << "step " << i;
+      changes += changes_here;
+      for (const float value : flight.steps[i].action) EXPECT_LE(std::abs(value), 1);
+    }
+    EXPECT_GT(changes, 0);
+  }
+}
+
+TEST_F(RecordFlightsTest, StatesAreOfOneUnbrokenFlight) {
+  // Position moves with the velocity: by the trapezoidal rule up to the third order of a step, and
+  // float32 positions of 20,000 ft.
+  constexpr double kToleranceFt = 0.02;
+  for (const RecordedFlight& flight : Record(6, pool_)) {
+    const std::array<float, kNumRecordedColumns>* before = &flight.initial_state;
+    for (const RecordedStep& step : flight.steps) {
+      const auto speed = [](const std::array<float, kNumRecordedColumns>& state) {
+        return std::hypot(state[kU], state[kV], state[kW]);
+      };
+      const double moved =
+          std::hypot(step.state[kNorth] - (*before)[kNorth], step.state[kEast] - (*before)[kEast],
+                     step.state[kDown] - (*before)[kDown]);
+      const double flown = env_.control_interval_s * 0.5 * (speed(*before) + speed(step.state));
+      ASSERT_NEAR(moved, flown, kToleranceFt) << "step " << &step - flight.steps.data();
+      before = &step.state;
+    }
+  }
+}
+
+TEST_F(RecordFlightsTest, TheLastStateIsTheOneThatEndedTheFlight) {
+  env_.termination.max_load_factor = 1.2;
+  agent_ = sampling_;
+  int overloads = 0;
+  for (const RecordedFlight& flight : Record(40, pool_)) {
+    for (const RecordedStep& step : flight.steps) {
+      EXPECT_EQ(step.state[kNz] > 1.2f, step.termination == Termination::kOverload);
+      overloads += step.termination == Termination::kOverload;
+    }
+  }
+  EXPECT_GT(overloads, 5);
+}
+
+TEST_F(RecordFlightsTest, RefusesToRecordNothing) {
+  EXPECT_THROW(Record(0, pool_), Error);
+  options_.episodes = 0;
+  EXPECT_THROW(Record(1, pool_), Error);
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,159 @@
+#include "train/policy/recurrent_policy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "base/error.h"
+#include "tests/scratch_directory.h"
+#include "tests/train/small_config.h"
+#include "train/files/tensor_file.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+namespace {
+
+std::vector<float> Decide(const Policy& policy, int count) {
+  std::vector<float> observation(static_cast<std::size_t>(count) * policy.observation_size());
+  for (std::size_t i = 0; i < observation.size(); ++i) observation[i] = std::sin(0.7f * i);
+  std::vector<float> state(static_cast<std::size_t>(count) * policy.state_size(), 0.0f);
+  std::vector<float> mean(static_cast<std::size_t>(count) * policy.action_size());
+  policy.Act(count, observation.data(), state.data(), mean.data());
+  policy.Act(count, observation.data(), state.data(), mean.data());
+  mean.insert(mean.end(), state.begin(), state.end());
+  return mean;
+}
+
+class PolicyTest : public testing::Test {
+ protected:
+  const ScratchDirectory scratch_;
+  const std::string path_ = scratch_ / "policy.skein";
+};
+
+TEST_F(PolicyTest, FileGivesTheSameDecisions) {
+  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3, 5);
+  policy.Save(path_);
+  const Policy loaded = Policy::Load(path_);
+  EXPECT_EQ(loaded.observation_size(), 22);
+  EXPECT_EQ(loaded.action_size(), 4);
+  EXPECT_EQ(loaded.state_size(), 16);
+  EXPECT_EQ(loaded.action_repeat(), 5);
+  EXPECT_EQ(Decide(loaded, 9), Decide(policy, 9));
+}
+
+TEST_F(PolicyTest, FilesKeepEveryShape) {
+  NetworkConfig config;
+  config.hidden_size = 33;
+  config.gru_size = 10;
+  for (const int depth : {0, 1, 3}) {
+    for (const Activation activation : {Activation::kRelu, Activation::kSilu}) {
+      config.hidden_layers = depth;
+      config.gru_layers = depth + 1;
+      config.activation = activation;
+      const Policy policy = Policy::Untrained(config, 22, 4, 3);
+      policy.Save(path_);
+      const Policy loaded = Policy::Load(path_);
+      EXPECT_EQ(loaded.config().hidden_layers, depth);
+      EXPECT_EQ(loaded.config().activation, activation);
+      EXPECT_EQ(loaded.state_size(), 10 * (depth + 1));
+      EXPECT_EQ(Decide(loaded, 5), Decide(policy, 5));
+    }
+  }
+}
+
+TEST_F(PolicyTest, ReadsFilesFromBeforeNetworksHadDepths) {
+  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  policy.Save(path_);
+  TensorFile file = TensorFile::Read(path_);
+  for (const char* key : {"policy.hidden_layers", "policy.gru_layers", "policy.activation"}) {
+    EXPECT_EQ(file.metadata.erase(key), 1u) << key;
+  }
+  file.Write(path_);
+  EXPECT_EQ(Decide(Policy::Load(path_), 5), Decide(policy, 5));
+}
+
+TEST_F(PolicyTest, BackendsDecideAlike) {
+  const Policy fused = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  const Policy libtorch = fused.WithBackend(Backend::kLibTorch);
+  EXPECT_EQ(fused.backend().backend, Backend::kFused);
+  EXPECT_EQ(libtorch.backend().backend, Backend::kLibTorch);
+  const std::vector<float> a = Decide(fused, 9), b = Decide(libtorch, 9);
+  // A few float32 roundings of values of order one.
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
+}
+
+TEST_F(PolicyTest, AControllerIsComputedAsItsPlannerIs) {
+  const auto fused =
+      std::make_shared<const Policy>(Policy::Untrained(SmallConfig().network, 22, 4, 3));
+  const Policy planner = Policy::Untrained(SmallConfig().network, 22, 3, 3, 10, fused);
+  EXPECT_EQ(planner.controller(), fused);
+  for (const Backend backend : {Backend::kLibTorch, Backend::kFused}) {
+    const Policy computed = planner.WithBackend(backend);
+    const auto controller = std::dynamic_pointer_cast<const Policy>(computed.controller());
+    ASSERT_NE(controller, nullptr);
+    EXPECT_EQ(controller->backend().backend, backend);
+    const std::vector<float> a = Decide(*fused, 9), b = Decide(*controller, 9);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
+  }
+}
+
+TEST_F(PolicyTest, ACheckpointIsAPolicyToo) {
+  WorkerPool pool(1);
+  Trainer trainer(SmallConfig(), pool);
+  trainer.Iterate();
+  trainer.Save(path_);
+  EXPECT_EQ(Decide(Policy::Load(path_), 5), Decide(trainer.policy(), 5));
+}
+
+TEST_F(PolicyTest, UntrainedIsWhatTrainingBeginsWith) {
+  const TrainConfig config = SmallConfig();
+  WorkerPool pool(1);
+  EXPECT_EQ(Decide(Policy::Untrained(config.network, 22, 4, config.seed), 3),
+            Decide(Trainer(config, pool).policy(), 3));
+}
+
+TEST_F(PolicyTest, SeveralThreadsDecideAtOnce) {
+  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  const std::vector<float> expected = Decide(policy, 40);
+  std::vector<std::vector<float>> results(4);
+  std::vector<std::thread> threads;
+  for (auto& result : results) threads.emplace_back([&] { result = Decide(policy, 40); });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& result : results) EXPECT_EQ(result, expected);
+}
+
+TEST_F(PolicyTest, RefusesFilesThatAreNoPolicy) {
+  const auto refused = [&](const char* key, const char* value) {
+    Policy::Untrained(SmallConfig().network, 22, 4, 3).Save(path_);
+    TensorFile file = TensorFile::Read(path_);
+    if (value == nullptr) {
+      file.metadata.erase(key);
+    } else {
+      file.metadata[key] = value;
+    }
+    file.Write(path_);
+    EXPECT_THROW(Policy::Load(path_), Error) << key;
+  };
+  refused("policy.format", "skein-policy-99");
+  refused("policy.format", nullptr);
+  refused("policy.hidden_size", "64");
+  refused("policy.hidden_size", "33");
+  refused("policy.hidden_size", "1e9");
+  refused("policy.gru_size", "-16");
+  refused("policy.gru_size", "nan");
+  refused("policy.hidden_layers", "9");
+  refused("policy.hidden_layers", "3");
+  refused("policy.gru_layers", "0");
+  refused("policy.activation", "RELU");
+  refused("policy.action_size", "");
+  refused("policy.action_repeat", "0");
+  Policy::Untrained(SmallConfig().network, 22, 4, 3).Save(path_);
+  TensorFile file = TensorFile::Read(path_);
+  file.tensors["actor/head.bias"].bytes.assign(16, 0xff);  // not-a-number
+  file.Write(path_);
+  EXPECT_THROW(Policy::Load(path_), Error);
+}
+
+}  // namespace
+}  // namespace skein

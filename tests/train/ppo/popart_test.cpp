@@ -1,0 +1,63 @@
+#include "train/ppo/popart.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/train/network/sample_tile.h"
+#include "train/network/fused_network.h"
+
+namespace skein {
+namespace {
+
+/// Values of some hundred in float32.
+constexpr double kValueTolerance = 1e-3;
+
+TEST(PopArtTest, ValuesStayAsTheyWereWhenTheMomentsMove) {
+  const NetworkLayout layout({5, 32, 16, 1, false});
+  std::vector<float> parameters = DisturbedParameters(layout);
+  RandomTile samples(layout.shape(), 4, 6);
+  FusedNetwork network(layout);
+  NetworkWorkspace workspace;
+  PopArt popart;
+  const auto values = [&] {
+    network.SetParameters(parameters.data());
+    network.Forward(samples.tile().sequence, workspace);
+    const ValueScale scale = popart.scale();
+    std::vector<double> result;
+    for (int i = 0; i < 24; ++i) result.push_back(scale.mean + scale.std * workspace.output()[i]);
+    return result;
+  };
+  for (const float spread : {200.0f, 20.0f, 3.0f}) {
+    const std::vector<double> before = values();
+    std::vector<float> targets = samples.Normal(500, spread);
+    for (float& target : targets) target += spread;
+    UpdatePopArt(targets, 0.3, layout, parameters.data(), popart);
+    const std::vector<double> after = values();
+    for (int i = 0; i < 24; ++i) EXPECT_NEAR(after[i], before[i], kValueTolerance);
+  }
+}
+
+TEST(PopArtTest, FirstMomentsAreTakenWholeAndLaterOnesByRate) {
+  const NetworkLayout layout({5, 16, 16, 1, false});
+  std::vector<float> parameters(layout.size(), 0.0f);
+  PopArt popart;
+  UpdatePopArt({1, 3}, 0.1, layout, parameters.data(), popart);
+  EXPECT_DOUBLE_EQ(popart.scale().mean, 2);
+  EXPECT_DOUBLE_EQ(popart.scale().std, 1);
+  UpdatePopArt({12, 12}, 0.1, layout, parameters.data(), popart);
+  EXPECT_DOUBLE_EQ(popart.scale().mean, 3);
+  EXPECT_NEAR(popart.scale().std, std::sqrt(0.9 * 5 + 0.1 * 144 - 9), 1e-12);
+}
+
+TEST(PopArtTest, ConstantTargetsDoNotDivideByZero) {
+  const NetworkLayout layout({5, 16, 16, 1, false});
+  std::vector<float> parameters = DisturbedParameters(layout);
+  PopArt popart;
+  UpdatePopArt({4, 4, 4}, 0.1, layout, parameters.data(), popart);
+  EXPECT_EQ(popart.scale().std, PopArt::kMinStd);
+  for (const float parameter : parameters) EXPECT_TRUE(std::isfinite(parameter));
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,170 @@
+#include "train/ppo/rollout.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "base/error.h"
+#include "tests/train/small_config.h"
+#include "train/network/fused_network.h"
+#include "train/network/ppo_loss.h"
+
+namespace skein {
+namespace {
+
+/// A few float32 roundings of values of some tens.
+constexpr double kAdvantageTolerance = 1e-4;
+/// The same network on tiles of other sizes: float32 products summed in another order.
+constexpr double kLogProbTolerance = 1e-4;
+
+/// The definition, term by term: A_t = sum over l of (gamma lambda)^l delta_{t+l} to the episode's
+/// end.
+double AdvantageByDefinition(const Rollout& rollout, int step, int aircraft, double gamma,
+                             double lambda) {
+  double advantage = 0, factor = 1;
+  for (int t = step; t < rollout.steps; ++t) {
+    const std::int64_t row = rollout.row(t, aircraft);
+    const double next = rollout.ends[row]        ? 0
+                        : t + 1 == rollout.steps ? rollout.bootstrap[aircraft]
+                                                 : rollout.value[row + rollout.aircraft];
+    advantage += factor * (rollout.reward[row] + gamma * next - rollout.value[row]);
+    if (rollout.ends[row]) break;
+    factor *= gamma * lambda;
+  }
+  return advantage;
+}
+
+TEST(AdvantagesTest, AgreeWithTheirDefinition) {
+  PpoConfig config;
+  config.num_aircraft = 7;
+  config.rollout_steps = 24;
+  Rollout rollout(config, 2, 1, 16);
+  std::mt19937 generator(1);
+  std::normal_distribution<float> normal;
+  for (auto* const column : {&rollout.reward, &rollout.value, &rollout.bootstrap}) {
+    for (float& value : *column) value = normal(generator);
+  }
+  for (std::uint8_t& end : rollout.ends) end = generator() % 6 == 0;
+  ComputeAdvantages(0, 7, 0.97, 0.9, rollout);
+  for (int step = 0; step < 24; ++step) {
+    for (int aircraft = 0; aircraft < 7; ++aircraft) {
+      const std::int64_t row = rollout.row(step, aircraft);
+      EXPECT_NEAR(rollout.advantage[row], AdvantageByDefinition(rollout, step, aircraft, 0.97, 0.9),
+                  kAdvantageTolerance);
+      EXPECT_FLOAT_EQ(rollout.target[row], rollout.advantage[row] + rollout.value[row]);
+    }
+  }
+}
+
+TEST(AdvantagesTest, RolloutStepsMustBeWholeChunks) {
+  PpoConfig config;
+  config.rollout_steps = 20;
+  EXPECT_THROW(Rollout(config, 22, 4, 16), Error);
+}
+
+/// A rollout of a small configuration with everything that made it.
+struct Flight {
+  explicit Flight(const TrainConfig& training)
+      : config(training),
+        pool(2),
+        env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile),
+        actor_layout(ActorShape(config.network, env.observation_size(), env.action_size())),
+        critic_layout(CriticShape(config.network, env.observation_size())),
+        actor(actor_layout),
+        critic(critic_layout),
+        actor_parameters(InitialParameters(actor_layout, 0.5, 0, 1, 0)),
+        rollout(config.ppo, env.observation_size(), env.action_size(),
+                actor_layout.shape().state_size()),
+        state(config.ppo.num_aircraft, actor_layout.shape().state_size()) {
+    actor.SetParameters(actor_parameters.data());
+    critic.SetParameters(InitialParameters(critic_layout, 1, 0, 1, 1).data());
+  }
+
+  EpisodeStatistics Fly() {
+    RolloutSettings settings;
+    settings.seed = config.seed;
+    settings.first_decision = decisions;
+    decisions += config.ppo.rollout_steps;
+    const std::vector<float> log_std(4, 0.0f);
+    return CollectRollout(env, actor, critic, log_std, settings, pool, state, rollout);
+  }
+
+  TrainConfig config;
+  WorkerPool pool;
+  VecEnv env;
+  NetworkLayout actor_layout, critic_layout;
+  FusedNetwork actor, critic;
+  std::vector<float> actor_parameters;
+  Rollout rollout;
+  RecurrentState state;
+  std::uint64_t decisions = 0;
+};
+
+TEST(RolloutTest, LogProbabilitiesRecomputedFromChunksAreTheRolloutsOwn) {
+  Flight flight(SmallConfig());
+  flight.Fly();
+  flight.Fly();  // the second begins in the middle of episodes
+  const Rollout& rollout = flight.rollout;
+  ASSERT_GT(std::count(rollout.ends.begin(), rollout.ends.end(), 1), 0);
+  const int aircraft = rollout.aircraft, length = rollout.chunk_length;
+  NetworkWorkspace workspace;
+  std::vector<float> mean(static_cast<std::size_t>(length) * aircraft * 4),
+      log_prob(mean.size() / 4);
+  const std::vector<float> log_std(4, 0.0f);
+  for (int chunk = 0; chunk < rollout.chunks(); ++chunk) {
+    const std::int64_t row = rollout.row(chunk * length, 0);
+    flight.actor.Forward(
+        {length, aircraft, rollout.observation.data() + row * rollout.observation_size,
+         rollout.actor_state.data() + rollout.row(chunk, 0) * rollout.state_size,
+         rollout.keep.data() + row},
+        workspace);
+    GaussianMean(static_cast<std::int64_t>(mean.size()), true, workspace.output(), mean.data());
+    LogProbability(length * aircraft, 4, mean.data(), log_std.data(),
+                   rollout.action.data() + row * 4, log_prob.data());
+    for (int i = 0; i < length * aircraft; ++i) {
+      ASSERT_NEAR(log_prob[i], rollout.log_prob[row + i], kLogProbTolerance);
+    }
+  }
+}
+
+TEST(RolloutTest, EpisodesBeginWhereOthersEnded) {
+  Flight flight(SmallConfig());
+  flight.Fly();
+  const Rollout& rollout = flight.rollout;
+  for (int step = 0; step + 1 < rollout.steps; ++step) {
+    for (int i = 0; i < rollout.aircraft; ++i) {
+      EXPECT_EQ(rollout.keep[rollout.row(step + 1, i)], rollout.ends[rollout.row(step, i)] ? 0 : 1);
+    }
+  }
+  for (int i = 0; i < rollout.aircraft; ++i) EXPECT_EQ(rollout.keep[i], 0);
+}
+
+TEST(RolloutTest, TruncationAddsTheValueOfWhatWasSeenLast) {
+  TrainConfig terminal = SmallConfig(), truncated = SmallConfig();
+  truncated.env.truncate_at_time_limit = true;
+  Flight one(terminal), other(truncated);
+  one.Fly();
+  other.Fly();
+  int cut = 0, alike = 0;
+  for (int step = 0; step < one.rollout.steps; ++step) {
+    for (int i = 0; i < one.rollout.aircraft; ++i) {
+      const std::int64_t row = one.rollout.row(step, i);
+      if (!one.rollout.ends[row]) {
+        EXPECT_EQ(one.rollout.reward[row], other.rollout.reward[row]);
+        ++alike;
+        continue;
+      }
+      // The failure's -200 is replaced by a fresh critic's value, which is of order one.
+      EXPECT_TRUE(other.rollout.ends[row]);
+      EXPECT_GT(other.rollout.reward[row] - one.rollout.reward[row], 150);
+      ++cut;
+    }
+  }
+  EXPECT_GT(cut, 0);
+  EXPECT_GT(alike, 0);
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,356 @@
+#include "train/ppo/trainer.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include "base/error.h"
+#include "simd/target.h"
+#include "tests/scratch_directory.h"
+#include "tests/train/network/gradient_comparison.h"
+#include "tests/train/small_config.h"
+#include "train/policy/policy_parameters.h"
+#include "train/ppo/training_state.h"
+
+namespace skein {
+namespace {
+
+class TrainerTest : public testing::Test {
+ protected:
+  static std::string BytesOf(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  static std::string RefusalOf(const TrainConfig& config, const std::string& path) {
+    WorkerPool pool(1);
+    Trainer trainer(config, pool);
+    const std::uint64_t before = trainer.Signature();
+    try {
+      trainer.Restore(path);
+    } catch (const Error& error) {
+      EXPECT_EQ(trainer.Signature(), before);
+      return error.what();
+    }
+    return "";
+  }
+
+  const ScratchDirectory scratch_;
+  const std::string path_ = scratch_ / "checkpoint.skein";
+};
+
+class TrainerPrecisionTest : public TrainerTest,
+                             public testing::WithParamInterface<LearnerPrecision> {
+ protected:
+  static TrainConfig Config() {
+    TrainConfig config = SmallConfig();
+    config.learner.precision = GetParam();
+    return config;
+  }
+};
+
+TEST_P(TrainerPrecisionTest, EveryBitIsTheSameForAnyNumberOfThreads) {
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 8}) {
+    WorkerPool pool(threads);
+    Trainer trainer(Config(), pool);
+    while (!trainer.finished()) trainer.Iterate();
+    if (first == 0) first = trainer.Signature();
+    EXPECT_EQ(trainer.Signature(), first) << threads << " threads";
+  }
+}
+
+TEST_P(TrainerPrecisionTest, GoesOnBitForBitAfterRestoring) {
+  WorkerPool pool(2);
+  Trainer whole(Config(), pool);
+  whole.Iterate();
+  whole.Save(path_);
+  Trainer resumed(Config(), pool);
+  resumed.Restore(path_);
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  while (!whole.finished()) {
+    const IterationReport expected = whole.Iterate();
+    const IterationReport report = resumed.Iterate();
+    EXPECT_EQ(report.iteration, expected.iteration);
+    EXPECT_EQ(report.env_steps, expected.env_steps);
+    EXPECT_EQ(report.episodes, expected.episodes);
+    EXPECT_EQ(report.policy_loss, expected.policy_loss);
+    EXPECT_EQ(report.learning_rate, expected.learning_rate);
+    EXPECT_EQ(report.evaluation_success_rate, expected.evaluation_success_rate);
+    EXPECT_EQ(report.best, expected.best);
+  }
+  EXPECT_TRUE(resumed.finished());
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  whole.Save(scratch_ / "a");
+  resumed.Save(scratch_ / "b");
+  EXPECT_EQ(BytesOf(scratch_ / "a"), BytesOf(scratch_ / "b"));
+}
+
+TEST_F(TrainerTest, RefusesACheckpointOfAnotherConfigurationAndNamesTheField) {
+  WorkerPool pool(1);
+  Trainer trainer(SmallConfig(), pool);
+  trainer.Save(path_);
+  TrainConfig other = SmallConfig();
+  other.ppo.gamma = 0.98;
+  EXPECT_NE(RefusalOf(other, path_).find("ppo.gamma"), std::string::npos);
+  other = SmallConfig();
+  other.env.heading.yaw_change_rad = 1;
+  EXPECT_NE(RefusalOf(other, path_).find("env.heading.yaw_change_rad"), std::string::npos);
+  other = SmallConfig();
+  other.network.gru_size = 32;
+  EXPECT_NE(RefusalOf(other, path_).find("network.gru_size"), std::string::npos);
+  trainer.policy().Save(scratch_ / "policy");
+  EXPECT_NE(RefusalOf(SmallConfig(), scratch_ / "policy").find("not a checkpoint"),
+            std::string::npos);
+  EXPECT_EQ(RefusalOf(SmallConfig(), path_), "");
+}
+
+TEST_F(TrainerTest, RefusesACheckpointWhosePolicyHasOtherSizes) {
+  WorkerPool pool(1);
+  Trainer(SmallConfig(), pool).Save(path_);
+  TensorFile file = TensorFile::Read(path_);
+  // Forged: a larger policy than the configuration says would not fit into the trainer's memory.
+  Policy::Parameters larger;
+  larger.config = SmallConfig().network;
+  larger.config.hidden_size = 64;
+  larger.shape = ActorShape(larger.config, 22, 4);
+  larger.values.assign(NetworkLayout(larger.shape).size(), 0.5f);
+  StorePolicy(larger, file);
+  file.Write(path_);
+  EXPECT_NE(RefusalOf(SmallConfig(), path_).find("other sizes"), std::string::npos);
+}
+
+TEST_F(TrainerTest, RestoringTellsTheSimdTargetOfTheCheckpoint) {
+  WorkerPool pool(1);
+  Trainer trainer(SmallConfig(), pool);
+  trainer.Save(path_);
+  EXPECT_EQ(trainer.Restore(path_), Name(simd::ActiveTarget()));
+  TensorFile file = TensorFile::Read(path_);
+  file.metadata[kSimdTargetKey] = "another";
+  file.Write(path_);
+  EXPECT_EQ(trainer.Restore(path_), "another");
+}
+
+TEST_P(TrainerPrecisionTest, AnExplosionLeavesTheStateOfBefore) {
+  TrainConfig config = Config();
+  config.ppo.learning_rate = 1e30;
+  config.ppo.max_gradient_norm = 1e6;
+  config.evaluation.interval_iterations = 0;
+  WorkerPool pool(2);
+  Trainer trainer(config, pool);
+  std::uint64_t before = 0;
+  const auto train = [&] {
+    while (!trainer.finished()) {
+      before = trainer.Signature();
+      trainer.Iterate();
+    }
+  };
+  EXPECT_THROW(train(), Error);
+  EXPECT_EQ(trainer.Signature(), before);
+  trainer.Save(path_);
+  Trainer restored(config, pool);
+  restored.Restore(path_);
+  EXPECT_EQ(restored.Signature(), before);
+}
+
+TEST_F(TrainerTest, AStopAnywhereLeavesTheStateOfBefore) {
+  using Clock = std::chrono::steady_clock;
+  // The second iteration has a rollout, an update and an evaluation to be stopped in.
+  constexpr int kMoments = 16;
+  Clock::duration whole_time{};
+  std::uint64_t before = 0, after = 0;
+  {
+    WorkerPool pool(2);
+    Trainer trainer(SmallConfig(), pool);
+    trainer.Iterate();
+    trainer.Save(path_);
+    before = trainer.Signature();
+    const Clock::time_point start = Clock::now();
+    EXPECT_GE(trainer.Iterate().evaluation_success_rate, 0);
+    whole_time = Clock::now() - start;
+    after = trainer.Signature();
+  }
+  int dropped = 0;
+  for (int moment = 0; moment < kMoments; ++moment) {
+    WorkerPool pool(2);
+    Trainer trainer(SmallConfig(), pool);
+    trainer.Restore(path_);
+    std::thread stop([&] {
+      std::this_thread::sleep_for(whole_time * moment / kMoments);
+      pool.RequestStop();
+    });
+    const IterationReport report = trainer.Iterate();
+    stop.join();
+    EXPECT_EQ(trainer.Signature(), report.dropped ? before : after) << "moment " << moment;
+    EXPECT_LE(report.dropped_steps, 96u * 16 * 5);
+    if (!report.dropped) continue;
+    ++dropped;
+    EXPECT_EQ(trainer.iteration(), 1u);
+    trainer.Save(scratch_ / "stopped");
+    EXPECT_EQ(BytesOf(scratch_ / "stopped"), BytesOf(path_));
+  }
+  EXPECT_GT(dropped, 0);
+}
+
+TEST_F(TrainerTest, AStoppingPoolFliesNothing) {
+  WorkerPool pool(2);
+  Trainer trainer(SmallConfig(), pool);
+  const std::uint64_t before = trainer.Signature();
+  pool.RequestStop();
+  const IterationReport report = trainer.Iterate();
+  EXPECT_TRUE(report.dropped);
+  EXPECT_EQ(report.dropped_steps, 0u);
+  EXPECT_EQ(trainer.Signature(), before);
+}
+
+TEST_P(TrainerPrecisionTest, NotANumberInAnyTileLeavesTheStateOfBefore) {
+  TrainConfig config = Config();
+  config.evaluation.interval_iterations = 0;
+  config.ppo.popart = false;
+  WorkerPool pool(2);
+  Trainer trainer(config, pool);
+  trainer.Iterate();
+  trainer.Save(path_);
+  const NetworkLayout actor(ActorShape(config.network, 22, 4)),
+      critic(CriticShape(config.network, 22));
+  const TrainingState whole = LoadCheckpoint(TensorFile::Read(path_), path_, config, actor, critic);
+  for (const auto states : {&RecurrentState::actor, &RecurrentState::critic}) {
+    for (const int aircraft : {0, 50, 95}) {
+      // Forged: a state that is no number spoils what its aircraft alone adds.
+      TrainingState forged = whole;
+      (forged.recurrent.*states)[aircraft * config.network.gru_size + 3] = std::nanf("");
+      StoreCheckpoint(config, actor, forged).Write(path_);
+      trainer.Restore(path_);
+      const std::uint64_t before = trainer.Signature();
+      try {
+        trainer.Iterate();
+        ADD_FAILURE() << "aircraft " << aircraft;
+      } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("exploded"), std::string::npos) << error.what();
+      }
+      EXPECT_EQ(trainer.Signature(), before);
+    }
+  }
+}
+
+TEST_P(TrainerPrecisionTest, TheFirstUpdateMovesALittleFromTheRolloutsPolicy) {
+  TrainConfig config = Config();
+  config.ppo.learning_rate = 1e-12;  // so that every minibatch still sees the rollout's policy
+  config.evaluation.interval_iterations = 0;
+  WorkerPool pool(1);
+  const IterationReport report = Trainer(config, pool).Iterate();
+  // Rollouts and updates compute in the same precision: log-probabilities differ by float32
+  // rounding of values of about ten, KL by its square.
+  EXPECT_NEAR(report.approximate_kl, 0, 1e-7);
+  EXPECT_EQ(report.clip_fraction, 0);
+}
+
+TEST_P(TrainerPrecisionTest, ConfigurationSaysWhatRunsAndLibTorchRunsInFloat32) {
+  WorkerPool pool(1);
+  TrainConfig config = Config();
+  EXPECT_EQ(Trainer(config, pool).config().learner.precision, GetParam());
+  EXPECT_EQ(Trainer(config, pool).backend().precision, GetParam());
+  config.learner.backend = Backend::kLibTorch;
+  EXPECT_EQ(Trainer(config, pool).config().learner.precision, LearnerPrecision::kFloat32);
+}
+
+INSTANTIATE_TEST_SUITE_P(Precisions, TrainerPrecisionTest, testing::ValuesIn(kRunnablePrecisions),
+                         [](const auto& precision) { return Name(precision.param); });
+
+TEST_F(TrainerTest, EveryPrecisionIsAnotherTraining) {
+  WorkerPool pool(2);
+  std::set<std::uint64_t> signatures;
+  for (const LearnerPrecision precision : kRunnablePrecisions) {
+    TrainConfig config = SmallConfig();
+    config.learner.precision = precision;
+    Trainer trainer(config, pool);
+    trainer.Iterate();
+    signatures.insert(trainer.Signature());
+  }
+  EXPECT_EQ(signatures.size(), kRunnablePrecisions.size());
+}
+
+TEST_F(TrainerTest, AutomaticPrecisionIsResolvedAndStaysInCheckpoints) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  config.learner.precision = LearnerPrecision::kAuto;
+  Trainer trainer(config, pool);
+  EXPECT_EQ(trainer.config().learner.precision, DefaultPrecision());
+  trainer.Save(path_);
+  EXPECT_EQ(RefusalOf(config, path_), "");
+  config.learner.precision = LearnerPrecision::kMixed;
+  EXPECT_EQ(RefusalOf(config, path_),
+            path_ + ": made with learner.precision = " + Name(DefaultPrecision()) +
+                ", but the configuration says mixed");
+}
+
+TEST_F(TrainerTest, LearningRateFallsLinearlyToItsFraction) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  config.ppo.final_learning_rate_fraction = 0.5;
+  Trainer trainer(config, pool);
+  const double expected[] = {0.875, 0.75, 0.625, 0.5};
+  for (const double fraction : expected) {
+    EXPECT_NEAR(trainer.Iterate().learning_rate, fraction * config.ppo.learning_rate, 1e-12);
+  }
+  EXPECT_TRUE(trainer.finished());
+}
+
+TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
+  TrainConfig config = SmallConfig();
+  config.network.hidden_layers = 1;
+  config.network.hidden_size = 20;
+  config.network.gru_layers = 2;
+  config.network.gru_size = 9;
+  config.learner.precision = LearnerPrecision::kFloat32;
+  config.ppo.epochs = 1;
+  config.ppo.minibatches = 1;
+  config.evaluation.interval_iterations = 0;
+  WorkerPool pool(2);
+  Trainer fused_trainer(config, pool);
+  EXPECT_EQ(fused_trainer.backend().backend, Backend::kFused);
+  const IterationReport fused = fused_trainer.Iterate();
+  config.learner.backend = Backend::kLibTorch;
+  Trainer libtorch_trainer(config, pool);
+  EXPECT_EQ(libtorch_trainer.backend().backend, Backend::kLibTorch);
+  const IterationReport libtorch = libtorch_trainer.Iterate();
+  EXPECT_NEAR(fused.actor_gradient_norm, libtorch.actor_gradient_norm,
+              1e-3 * libtorch.actor_gradient_norm);
+  EXPECT_NEAR(fused.critic_gradient_norm, libtorch.critic_gradient_norm,
+              1e-3 * libtorch.critic_gradient_norm);
+  EXPECT_NEAR(fused.value_loss, libtorch.value_loss, 1e-3 * libtorch.value_loss);
+}
+
+TEST_F(TrainerTest, EveryShapeTrainsAndGoesOnBitForBit) {
+  WorkerPool pool(2);
+  TrainConfig config = SmallConfig();
+  config.network.hidden_size = 20;
+  config.network.gru_layers = 2;
+  config.network.gru_size = 11;
+  for (const Activation activation : {Activation::kRelu, Activation::kTanh}) {
+    config.network.activation = activation;
+    Trainer whole(config, pool);
+    EXPECT_EQ(whole.backend().backend,
+              activation == Activation::kRelu ? Backend::kFused : Backend::kLibTorch);
+    whole.Iterate();
+    whole.Save(path_);
+    Trainer resumed(config, pool);
+    resumed.Restore(path_);
+    whole.Iterate();
+    resumed.Iterate();
+    EXPECT_EQ(resumed.Signature(), whole.Signature());
+  }
+}
+
+TEST_F(TrainerTest, RefusesMoreMinibatchesThanChunks) {
+  TrainConfig config = SmallConfig();
+  config.ppo.minibatches = 1000;
+  WorkerPool pool(1);
+  EXPECT_THROW(Trainer(config, pool), Error);
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,133 @@
+#include "train/files/file_descriptor.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+int FlagsOf(OpenMode mode) {
+  switch (mode) {
+    case OpenMode::kRead:
+      return O_RDONLY;
+    case OpenMode::kReplace:
+      return O_WRONLY | O_CREAT | O_TRUNC;
+    case OpenMode::kWrite:
+      return O_WRONLY;
+    case OpenMode::kAppend:
+      return O_WRONLY | O_CREAT | O_APPEND;
+    case OpenMode::kDirectory:
+      break;
+  }
+  return O_RDONLY | O_DIRECTORY;
+}
+
+}  // namespace
+
+std::string SystemReason() { return std::strerror(errno); }
+
+FileDescriptor::FileDescriptor(const std::string& path, OpenMode mode, const std::string& name)
+    : name_(name.empty() ? path : name),
+      value_(open(path.c_str(), FlagsOf(mode) | O_CLOEXEC, 0666)) {
+  if (value_ < 0) Fail("cannot be opened");
+}
+
+FileDescriptor::FileDescriptor(FileDescriptor&& other) noexcept
+    : name_(std::move(other.name_)), value_(std::exchange(other.value_, -1)) {}
+
+FileDescriptor::~FileDescriptor() {
+  if (value_ >= 0) close(value_);
+}
+
+std::uint64_t FileDescriptor::size() const {
+  struct stat status {};
+  if (fstat(value_, &status) != 0) Fail("cannot be examined");
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+void FileDescriptor::Write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(value_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) Fail("cannot be written");
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+std::size_t FileDescriptor::ReadSome(char* bytes, std::size_t size) {
+  ssize_t count = -1;
+  do {
+    count = read(value_, bytes, size);
+  } while (count < 0 && errno == EINTR);
+  if (count < 0) Fail("cannot be read");
+  return static_cast<std::size_t>(count);
+}
+
+void FileDescriptor::ReadExactly(char* bytes, std::size_t size) {
+  while (size > 0) {
+    const std::size_t count = ReadSome(bytes, size);
+    if (count == 0) throw Error(name_ + ": cannot be read: it ends too early");
+    bytes += count;
+    size -= count;
+  }
+}
+
+std::string FileDescriptor::ReadToEnd() {
+  std::string text;
+  std::array<char, 65536> part;
+  for (;;) {
+    const std::size_t count = ReadSome(part.data(), part.size());
+    if (count == 0) return text;
+    text.append(part.data(), count);
+  }
+}
+
+void FileDescriptor::Sync() {
+  if (fsync(value_) != 0) Fail("cannot be synced");
+}
+
+void FileDescriptor::Close() {
+  if (close(std::exchange(value_, -1)) != 0) Fail("cannot be closed");
+}
+
+void FileDescriptor::Fail(const char* what) const {
+  throw Error(name_ + ": " + what + ": " + SystemReason());
+}
+
+void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write) {
+  const std::string temporary = path + ".tmp";
+  try {
+    FileDescriptor file(temporary, OpenMode::kReplace, path);
+    write(file);
+    file.Sync();
+    file.Close();
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+      throw Error(path + ": cannot be replaced: " + SystemReason());
+    }
+  } catch (...) {
+    unlink(temporary.c_str());
+    throw;
+  }
+  const std::string directory = std::filesystem::path(path).parent_path().string();
+  SyncDirectory(directory.empty() ? "." : directory);
+}
+
+void SyncDirectory(const std::string& path) {
+  const FileDescriptor directory(path, OpenMode::kDirectory);
+  // Some file systems have nothing to sync in a directory, and say so by EINVAL.
+  if (fsync(directory.value()) != 0 && errno != EINVAL) {
+    throw Error(path + ": cannot be synced: " + SystemReason());
+  }
+}
+
+}  // namespace skein

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+
+#include "simd/matrix_product.h"
+#include "train/network/folded_parameters.h"
+
+namespace skein {
+
+/// Of the products in a network's forward and backward pass.
+struct NetworkPrecision {
+  simd::Precision forward = simd::Precision::kFloat32;
+  simd::Precision backward = simd::Precision::kFloat32;
+};
+
+/// One affine map of a network on rows of samples, forward and backward. Strides are floats between
+/// rows. Const functions may run on several threads at once, each with its own workspace.
+class AffineMap {
+ public:
+  AffineMap(const FoldedMap& place, const NetworkPrecision& precision)
+      : place_(place), precision_(precision) {}
+
+  /// Widths, and where weight and bias lie in folded vectors.
+  const FoldedMap& place() const { return place_; }
+
+  void SetParameters(const float* folded);
+
+  /// out = W in, plus `bias` unless that is null, plus what was in `out` if `accumulate`.
+  void Forward(std::int64_t rows, const float* in, std::int64_t in_stride, const float* bias,
+               bool accumulate, float* out, std::int64_t out_stride,
+               simd::ProductWorkspace* workspace) const;
+
+  /// input_gradient = W^T output_gradient, plus what was in it if `accumulate`.
+  void BackwardToInput(std::int64_t rows, const float* output_gradient, std::int64_t output_stride,
+                       bool accumulate, float* input_gradient, std::int64_t input_stride,
+                       simd::ProductWorkspace* workspace) const;
+
+  /// Adds the sum over rows of output_gradient in^T to the weight's gradient.
+  void BackwardToWeight(std::int64_t rows, const float* in, std::int64_t in_stride,
+                        const float* output_gradient, std::int64_t output_stride,
+                        float* folded_gradient, simd::ProductWorkspace* workspace) const;
+
+ private:
+  FoldedMap place_;
+  NetworkPrecision precision_;
+  simd::PackedMatrix forward_, backward_;
+};
+
+}  // namespace skein

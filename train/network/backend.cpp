@@ -1,0 +1,81 @@
+#include "train/network/backend.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "simd/target.h"
+
+namespace skein {
+namespace {
+
+NetworkPrecision ProductsOf(LearnerPrecision precision) {
+  constexpr simd::Precision kFloat32 = simd::Precision::kFloat32;
+  constexpr simd::Precision kBfloat16 = simd::Precision::kBfloat16;
+  switch (precision) {
+    case LearnerPrecision::kFloat32:
+      return {kFloat32, kFloat32};
+    case LearnerPrecision::kMixed:
+      return {kFloat32, kBfloat16};
+    case LearnerPrecision::kBfloat16:
+      return {kBfloat16, kBfloat16};
+    default:
+      throw Error(std::string("precision \"") + Name(precision) + "\" is not one network's");
+  }
+}
+
+std::string DescribePrecision(LearnerPrecision precision) {
+  if (precision == LearnerPrecision::kFloat32) return "in fp32";
+  std::string text = precision == LearnerPrecision::kFast
+                         ? "the actor in mixed precision and the critic in bf16"
+                         : std::string("in ") + Name(precision);
+  return text + (simd::NativeBfloat16() ? "" : ", emulated: this processor has no bf16 products");
+}
+
+}  // namespace
+
+std::string FusedLimitation(const NetworkShape& shape) {
+  if (shape.activation == Activation::kRelu) return "";
+  return std::string("network.activation = \"") + Name(shape.activation) + "\"";
+}
+
+BackendChoice ChooseBackend(Backend asked, const NetworkShape& shape, LearnerPrecision precision) {
+  BackendChoice choice;
+  choice.backend = asked;
+  choice.asked_precision = precision;
+  if (asked == Backend::kFused) choice.fallback_reason = FusedLimitation(shape);
+  if (!choice.fallback_reason.empty()) choice.backend = Backend::kLibTorch;
+  if (choice.backend == Backend::kFused) {
+    choice.precision = precision == LearnerPrecision::kAuto ? DefaultPrecision() : precision;
+  }
+  return choice;
+}
+
+LearnerPrecision DefaultPrecision() {
+  return simd::NativeBfloat16() ? LearnerPrecision::kFast : LearnerPrecision::kFloat32;
+}
+
+NetworkPrecision ActorPrecision(LearnerPrecision precision) {
+  return ProductsOf(precision == LearnerPrecision::kFast ? LearnerPrecision::kMixed : precision);
+}
+
+NetworkPrecision CriticPrecision(LearnerPrecision precision) {
+  return ProductsOf(precision == LearnerPrecision::kFast ? LearnerPrecision::kBfloat16 : precision);
+}
+
+std::string Describe(const BackendChoice& choice) {
+  if (choice.backend == Backend::kFused) {
+    return "networks by the fused kernels, " + DescribePrecision(choice.precision);
+  }
+  std::string text =
+      choice.fallback_reason.empty()
+          ? "networks by LibTorch, as asked"
+          : "networks by LibTorch, slower: the fused kernels do not know " + choice.fallback_reason;
+  const LearnerPrecision asked = choice.asked_precision;
+  if (asked != LearnerPrecision::kAuto && asked != choice.precision) {
+    text +=
+        std::string("; in fp32, not ") + Name(asked) + ": LibTorch computes in nothing else here";
+  }
+  return text;
+}
+
+}  // namespace skein

@@ -1,0 +1,349 @@
+#include "train/network/fused_network.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "train/network/backend.h"
+#include "train/network/network_kernels.h"
+
+namespace skein {
+namespace {
+
+// Rows that go through a layer's product and what follows it together: their values stay in the
+// first two levels of the cache, while the layer's weights are read once for all of them.
+constexpr std::int64_t kRowBlock = 96;
+
+/// Calls visit(first, count) for the blocks of `rows` rows.
+template <typename Visit>
+void ForEachRowBlock(std::int64_t rows, const Visit& visit) {
+  for (std::int64_t first = 0; first < rows; first += kRowBlock) {
+    visit(first, std::min(kRowBlock, rows - first));
+  }
+}
+
+/// Floats between rows of gates: four gates, and a cache line so that rows do not all fall into the
+/// same sets of the cache.
+std::int64_t GateStride(int padded_gru) { return 4 * padded_gru + 16; }
+
+void Grow(AlignedVector<float>& vector, std::int64_t size) {
+  if (static_cast<std::int64_t>(vector.size()) < size) vector.resize(size);
+}
+
+/// One layer's part of the states [batch][layers][size], times keep, into padded rows.
+void LoadState(int batch, int layers, int layer, int size, const float* keep, const float* state,
+               float* rows) {
+  const int padded = PaddedWidth(size);
+  const std::int64_t stride = RowStride(size);
+  for (std::int64_t i = 0; i < batch; ++i) {
+    const float* const from = state + (i * layers + layer) * size;
+    float* const to = rows + i * stride;
+    for (int j = 0; j < size; ++j) to[j] = keep[i] * from[j];
+    std::fill(to + size, to + padded, 0.0f);
+  }
+}
+
+void StoreState(int batch, int layers, int layer, int size, const float* rows, float* state) {
+  const std::int64_t stride = RowStride(size);
+  for (std::int64_t i = 0; i < batch; ++i) {
+    std::copy_n(rows + i * stride, size, state + (i * layers + layer) * size);
+  }
+}
+
+void AddTo(std::int64_t count, const float* values, float* sums) {
+  for (std::int64_t i = 0; i < count; ++i) sums[i] += values[i];
+}
+
+}  // namespace
+
+void FusedActivations::Reserve(const NetworkShape& shape, int steps, int batch) {
+  const std::int64_t rows = static_cast<std::int64_t>(steps) * batch;
+  const std::int64_t width = RowStride(shape.hidden_size), state = RowStride(shape.gru_size);
+  const int size = PaddedWidth(shape.gru_size);
+  Grow(observation, rows * RowStride(shape.observation_size));
+  // Workspaces serve several networks: memory of larger ones stays.
+  hidden.resize(std::max<std::size_t>(hidden.size(), 2 * shape.hidden_layers));
+  for (int i = 0; i < 2 * shape.hidden_layers; ++i) {
+    Grow(hidden[i].normalised, rows * width);
+    Grow(hidden[i].inverse_std, rows);
+    Grow(hidden[i].zero_level, rows);
+  }
+  gru.resize(std::max<std::size_t>(gru.size(), shape.gru_layers));
+  for (int i = 0; i < shape.gru_layers; ++i) {
+    Grow(gru[i].gates, rows * GateStride(size));
+    Grow(gru[i].previous, rows * state);
+    Grow(gru[i].state, rows * state);
+  }
+  Grow(normalised_state, rows * state);
+  Grow(state_inverse_std, rows);
+  Grow(output_gradient, rows * shape.output_size);
+  for (AlignedVector<float>& buffer : state_gradient) Grow(buffer, rows * state);
+  for (AlignedVector<float>& buffer : block_gradient) {
+    Grow(buffer, kRowBlock * std::max(width, state));
+  }
+  Grow(gate_sums, 4 * size);
+}
+
+FusedNetwork::FusedNetwork(const NetworkLayout& layout, const NetworkPrecision& precision)
+    : layout_(layout),
+      folded_layout_(layout),
+      head_(folded_layout_.map(layout.head()), precision),
+      folded_(folded_layout_.size()) {
+  const NetworkShape& shape = layout.shape();
+  const std::string limitation = FusedLimitation(shape);
+  if (!limitation.empty()) throw Error("the fused kernels do not know " + limitation);
+  for (int i = 0; i < layout.head(); ++i) {
+    if (i != layout.gru_input()) hidden_.emplace_back(folded_layout_.map(i), precision);
+  }
+  const int size = PaddedWidth(shape.gru_size);
+  for (int i = 0; i < shape.gru_layers; ++i) {
+    const FoldedGru& maps = folded_layout_.gru(i);
+    gru_.push_back({AffineMap(maps.input, precision), AffineMap(maps.hidden, precision),
+                    AlignedVector<float>(3 * size), AlignedVector<float>(size)});
+  }
+}
+
+void FusedNetwork::SetParameters(const float* parameters) {
+  parameters_.assign(parameters, parameters + layout_.size());
+  folded_layout_.Fold(parameters, folded_.data());
+  for (AffineMap& map : hidden_) map.SetParameters(folded_.data());
+  const int size = PaddedWidth(layout_.shape().gru_size);
+  for (Gru& gru : gru_) {
+    gru.input.SetParameters(folded_.data());
+    gru.hidden.SetParameters(folded_.data());
+    const float* const hidden_bias = folded(gru.hidden.place().bias);  // r, z, n
+    std::copy_n(folded(gru.input.place().bias), 3 * size, gru.gate_bias.begin());
+    AddTo(2 * size, hidden_bias, gru.gate_bias.data() + size);
+    std::copy_n(hidden_bias + 2 * size, size, gru.new_bias.begin());
+  }
+  head_.SetParameters(folded_.data());
+}
+
+const float* FusedNetwork::InputOf(int index, const FusedActivations& activations) const {
+  if (index == layout_.shape().hidden_layers) return activations.normalised_state.data();
+  return index == 0 ? activations.observation.data()
+                    : activations.hidden[index - 1].normalised.data();
+}
+
+const float* FusedNetwork::GruInputOf(int layer, const FusedActivations& activations) const {
+  if (layer > 0) return activations.gru[layer - 1].state.data();
+  const int before = layout_.shape().hidden_layers;
+  return before == 0 ? activations.observation.data()
+                     : activations.hidden[before - 1].normalised.data();
+}
+
+void FusedNetwork::HiddenForward(int index, std::int64_t first, std::int64_t count,
+                                 FusedActivations& activations) const {
+  const AffineMap& map = hidden_[index];
+  const std::int64_t in = RowStride(map.place().in), out = RowStride(map.place().out);
+  FusedActivations::HiddenRows& rows = activations.hidden[index];
+  float* const values = rows.normalised.data() + first * out;
+  map.Forward(count, InputOf(index, activations) + first * in, in, folded(map.place().bias), false,
+              values, out, &activations.products);
+  ReluNormalise(count, layout_.shape().hidden_size, values, rows.inverse_std.data() + first,
+                rows.zero_level.data() + first);
+}
+
+void FusedNetwork::GatesForward(int layer, std::int64_t first, std::int64_t count,
+                                FusedActivations& activations) const {
+  const AffineMap& map = gru_[layer].input;
+  const std::int64_t in = RowStride(map.place().in);
+  const std::int64_t stride = GateStride(PaddedWidth(layout_.shape().gru_size));
+  map.Forward(count, GruInputOf(layer, activations) + first * in, in, gru_[layer].gate_bias.data(),
+              false, activations.gru[layer].gates.data() + first * stride, stride,
+              &activations.products);
+}
+
+void FusedNetwork::GruForward(int layer, const SequenceTile& tile,
+                              FusedActivations& activations) const {
+  const NetworkShape& shape = layout_.shape();
+  const Gru& gru = gru_[layer];
+  const std::int64_t batch = tile.batch;
+  const int size = PaddedWidth(shape.gru_size);
+  const std::int64_t stride = GateStride(size), state = RowStride(size);
+  FusedActivations::GruRows& rows = activations.gru[layer];
+  for (int step = 0; step < tile.steps; ++step) {
+    const std::int64_t begin = step * batch;
+    float* const previous = rows.previous.data() + begin * state;
+    if (step == 0) {
+      LoadState(tile.batch, shape.gru_layers, layer, shape.gru_size, tile.keep, tile.initial_state,
+                previous);
+    } else {
+      ScaleRows(batch, size, tile.keep + begin, rows.state.data() + (begin - batch) * state,
+                previous);
+    }
+    ForEachRowBlock(batch, [&](std::int64_t first, std::int64_t count) {
+      float* const gates = rows.gates.data() + (begin + first) * stride;
+      for (std::int64_t i = 0; i < count; ++i) {
+        std::copy_n(gru.new_bias.begin(), size, gates + i * stride + 3 * size);
+      }
+      gru.hidden.Forward(count, previous + first * state, state, nullptr, true, gates + size,
+                         stride, &activations.products);
+      GruStep(count, size, previous + first * state, gates, stride,
+              rows.state.data() + (begin + first) * state);
+    });
+  }
+}
+
+void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace) const {
+  const NetworkShape& shape = layout_.shape();
+  const std::int64_t rows = tile.rows();
+  const int observations = shape.observation_size;
+  const std::int64_t stride = RowStride(shape.gru_size);
+  FusedActivations& activations = workspace.fused_;
+  activations.Reserve(shape, tile.steps, tile.batch);
+  Grow(workspace.output_, rows * shape.output_size);
+  Grow(workspace.final_state_, static_cast<std::int64_t>(tile.batch) * shape.state_size());
+
+  ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+    NormaliseRows(count, observations, tile.observation + first * observations,
+                  activations.observation.data() + first * RowStride(observations));
+    for (int i = 0; i < shape.hidden_layers; ++i) HiddenForward(i, first, count, activations);
+    GatesForward(0, first, count, activations);
+  });
+  for (int i = 0; i < shape.gru_layers; ++i) {
+    if (i > 0) {
+      ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+        GatesForward(i, first, count, activations);
+      });
+    }
+    GruForward(i, tile, activations);
+    StoreState(tile.batch, shape.gru_layers, i, shape.gru_size,
+               activations.gru[i].state.data() + (rows - tile.batch) * stride,
+               workspace.final_state_.data());
+  }
+  const float* const state = activations.gru[shape.gru_layers - 1].state.data();
+  ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+    NormaliseWithStd(count, shape.gru_size, state + first * stride,
+                     activations.normalised_state.data() + first * stride,
+                     activations.state_inverse_std.data() + first);
+    for (int i = shape.hidden_layers; i < 2 * shape.hidden_layers; ++i) {
+      HiddenForward(i, first, count, activations);
+    }
+    const std::int64_t in = RowStride(head_.place().in), outputs = shape.output_size;
+    head_.Forward(count, InputOf(2 * shape.hidden_layers, activations) + first * in, in,
+                  folded(head_.place().bias), false, workspace.output_.data() + first * outputs,
+                  outputs, &activations.products);
+  });
+}
+
+LossSums FusedNetwork::AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
+                                          NetworkWorkspace& workspace, float* accumulator) const {
+  Forward(tile.sequence, workspace);
+  const std::int64_t rows = tile.sequence.rows(), log_std = folded_layout_.log_std();
+  float* const output_gradient = workspace.fused_.output_gradient.data();
+  const LossSums sums =
+      layout_.shape().gaussian
+          ? ActorLoss(rows, layout_.shape().output_size, settings, workspace.output(),
+                      folded(log_std), tile.actor, output_gradient, accumulator + log_std)
+          : CriticLoss(rows, settings, workspace.output(), tile.target, tile.old_value,
+                       output_gradient);
+  Backward(tile.sequence, output_gradient, workspace.fused_, accumulator);
+  return sums;
+}
+
+void FusedNetwork::FinishGradient(const float* accumulator, float* gradient) const {
+  folded_layout_.UnfoldGradient(parameters_.data(), accumulator, gradient);
+}
+
+void FusedNetwork::HiddenBackward(int index, float* input_gradient, std::int64_t first,
+                                  std::int64_t count, FusedActivations& activations,
+                                  float* gradient, float* folded_gradient) const {
+  const AffineMap& map = hidden_[index];
+  const std::int64_t in = RowStride(map.place().in), out = RowStride(map.place().out);
+  const FusedActivations::HiddenRows& rows = activations.hidden[index];
+  ReluNormaliseBackward(count, layout_.shape().hidden_size, rows.normalised.data() + first * out,
+                        rows.inverse_std.data() + first, rows.zero_level.data() + first, gradient,
+                        folded_gradient + map.place().bias);
+  map.BackwardToWeight(count, InputOf(index, activations) + first * in, in, gradient, out,
+                       folded_gradient, &activations.products);
+  if (input_gradient == nullptr) return;
+  map.BackwardToInput(count, gradient, out, false, input_gradient, in, &activations.products);
+}
+
+void FusedNetwork::GruBackward(int layer, const SequenceTile& tile, FusedActivations& activations,
+                               float* state_gradient, float* folded_gradient) const {
+  const Gru& gru = gru_[layer];
+  const std::int64_t rows = tile.rows(), batch = tile.batch;
+  const int size = PaddedWidth(layout_.shape().gru_size);
+  const std::int64_t stride = GateStride(size), state = RowStride(size);
+  const FusedActivations::GruRows& own = activations.gru[layer];
+  float* const all_gates = activations.gru[layer].gates.data();
+  float* const sums = activations.gate_sums.data();
+  std::fill_n(sums, 4 * size, 0.0f);
+  for (int step = tile.steps - 1; step >= 0; --step) {
+    ForEachRowBlock(batch, [&](std::int64_t offset, std::int64_t count) {
+      const std::int64_t first = step * batch + offset;
+      float* const gates = all_gates + first * stride;
+      float* const gradient = state_gradient + first * state;
+      GruStepBackward(count, size, own.previous.data() + first * state, gates, stride, gradient,
+                      sums);
+      if (step == 0) return;
+      gru.hidden.BackwardToInput(count, gates + size, stride, true, gradient, state,
+                                 &activations.products);
+      AddScaledRows(count, size, tile.keep + first, gradient, gradient - batch * state);
+    });
+  }
+  gru.hidden.BackwardToWeight(rows, own.previous.data(), state, all_gates + size, stride,
+                              folded_gradient, &activations.products);
+  AddTo(3 * size, sums, folded_gradient + gru.input.place().bias);
+  AddTo(3 * size, sums + size, folded_gradient + gru.hidden.place().bias);
+}
+
+void FusedNetwork::Backward(const SequenceTile& tile, const float* output_gradient,
+                            FusedActivations& activations, float* folded_gradient) const {
+  const NetworkShape& shape = layout_.shape();
+  const std::int64_t rows = tile.rows();
+  const int outputs = shape.output_size;
+  const std::int64_t stride = GateStride(PaddedWidth(shape.gru_size));
+  const std::int64_t state = RowStride(shape.gru_size);
+  float* const by_state = activations.state_gradient[0].data();
+  float* const block[2] = {activations.block_gradient[0].data(),
+                           activations.block_gradient[1].data()};
+
+  ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+    const float* const by_output = output_gradient + first * outputs;
+    float* const by_block_state = by_state + first * state;
+    const int layers = 2 * shape.hidden_layers;
+    const std::int64_t in = RowStride(head_.place().in);
+    AddColumnSums(count, outputs, by_output, outputs, folded_gradient + head_.place().bias);
+    head_.BackwardToWeight(count, InputOf(layers, activations) + first * in, in, by_output, outputs,
+                           folded_gradient, &activations.products);
+    int current = 0;
+    head_.BackwardToInput(count, by_output, outputs, false,
+                          shape.hidden_layers == 0 ? by_block_state : block[current], in,
+                          &activations.products);
+    for (int i = layers - 1; i >= shape.hidden_layers; --i, current ^= 1) {
+      float* const by_input = i == shape.hidden_layers ? by_block_state : block[current ^ 1];
+      HiddenBackward(i, by_input, first, count, activations, block[current], folded_gradient);
+    }
+    NormaliseBackward(count, shape.gru_size, activations.normalised_state.data() + first * state,
+                      activations.state_inverse_std.data() + first, by_block_state);
+  });
+
+  for (int i = shape.gru_layers - 1; i >= 0; --i) {
+    const int current = (shape.gru_layers - 1 - i) % 2;
+    GruBackward(i, tile, activations, activations.state_gradient[current].data(), folded_gradient);
+    const AffineMap& map = gru_[i].input;
+    const std::int64_t in = RowStride(map.place().in);
+    ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+      const float* const gates = activations.gru[i].gates.data() + first * stride;
+      map.BackwardToWeight(count, GruInputOf(i, activations) + first * in, in, gates, stride,
+                           folded_gradient, &activations.products);
+      if (i > 0) {
+        map.BackwardToInput(count, gates, stride, false,
+                            activations.state_gradient[current ^ 1].data() + first * state, state,
+                            &activations.products);
+        return;
+      }
+      // Nothing needs the gradient by the observation.
+      if (shape.hidden_layers == 0) return;
+      map.BackwardToInput(count, gates, stride, false, block[0], in, &activations.products);
+      for (int k = shape.hidden_layers - 1, now = 0; k >= 0; --k, now ^= 1) {
+        HiddenBackward(k, k > 0 ? block[now ^ 1] : nullptr, first, count, activations, block[now],
+                       folded_gradient);
+      }
+    });
+  }
+}
+
+}  // namespace skein

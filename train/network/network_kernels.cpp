@@ -1,0 +1,373 @@
+#include "train/network/network_kernels.h"
+
+#include <cmath>
+
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "train/network/network_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::ScalableTag<float>;
+using Vector = hn::Vec<Floats>;
+
+HWY_INLINE float Sum(Vector v) {
+  const Floats d;
+  return hn::GetLane(hn::SumOfLanes(d, v));
+}
+
+/// 1 / (1 + exp(-x)); Exp limits its argument where the result is 0 or 1 to float32.
+HWY_INLINE Vector Sigmoid(Vector x) {
+  const Floats d;
+  return Reciprocal(d, hn::Add(hn::Set(d, 1.0f), Exp(d, hn::Neg(x))));
+}
+
+HWY_INLINE Vector Tanh(Vector x) {
+  const Floats d;
+  const Vector two = hn::Set(d, 2.0f);
+  return hn::MulSub(two, Sigmoid(hn::Mul(two, x)), hn::Set(d, 1.0f));
+}
+
+/// `v` with zeros in lanes that lie behind the columns, where it holds the columns from `j` on.
+template <bool kPadded>
+HWY_INLINE Vector WithinColumns(int columns, int j, Vector v) {
+  if constexpr (!kPadded) return v;
+  const Floats d;
+  const int left = columns - j;
+  return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left > 0 ? left : 0)), v);
+}
+
+/// Rows that are normalised together: their sums, chains of dependent additions, run side by side.
+constexpr int kRowsTogether = 4;
+
+/// Normalises the kRows rows from `first` on, with kRelu their rectified values. A row's sums run
+/// in one order, however many rows there are.
+template <int kRows, bool kRelu, bool kPadded>
+HWY_INLINE void NormaliseTogether(std::int64_t first, int columns, const float* in, float* out,
+                                  float* inverse_std, float* zero_level) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
+  in += first * stride;
+  out += first * stride;
+  inverse_std += first;
+  Vector sum[kRows], squares[kRows];
+  for (int i = 0; i < kRows; ++i) sum[i] = squares[i] = hn::Zero(d);
+  for (int j = 0; j < width; j += lanes) {
+    for (int i = 0; i < kRows; ++i) {
+      Vector x = hn::LoadU(d, in + i * stride + j);
+      if constexpr (kRelu) {
+        // Unlike a maximum with zero, this keeps not-a-number on every target.
+        x = hn::IfThenZeroElse(hn::Lt(x, hn::Zero(d)), x);
+        hn::StoreU(x, d, out + i * stride + j);
+      }
+      sum[i] = hn::Add(sum[i], x);
+    }
+  }
+  const float* const values = kRelu ? out : in;
+  const auto deviation = [&](int i, int j, Vector mean) HWY_ATTR {
+    return WithinColumns<kPadded>(columns, j, hn::Sub(hn::LoadU(d, values + i * stride + j), mean));
+  };
+  float mean[kRows];
+  for (int i = 0; i < kRows; ++i) mean[i] = Sum(sum[i]) / static_cast<float>(columns);
+  for (int j = 0; j < width; j += lanes) {
+    for (int i = 0; i < kRows; ++i) {
+      const Vector x = deviation(i, j, hn::Set(d, mean[i]));
+      squares[i] = hn::MulAdd(x, x, squares[i]);
+    }
+  }
+  for (int i = 0; i < kRows; ++i) {
+    const float variance = Sum(squares[i]) / static_cast<float>(columns);
+    inverse_std[i] = 1.0f / std::sqrt(variance + kLayerNormEpsilon);
+    if constexpr (kRelu) zero_level[first + i] = -mean[i] * inverse_std[i];
+  }
+  for (int j = 0; j < width; j += lanes) {
+    for (int i = 0; i < kRows; ++i) {
+      const Vector x = deviation(i, j, hn::Set(d, mean[i]));
+      hn::StoreU(hn::Mul(x, hn::Set(d, inverse_std[i])), d, out + i * stride + j);
+    }
+  }
+}
+
+template <bool kRelu, bool kPadded>
+void NormaliseAll(std::int64_t rows, int columns, const float* in, float* out, float* inverse_std,
+                  float* zero_level) {
+  std::int64_t i = 0;
+  for (; i + kRowsTogether <= rows; i += kRowsTogether) {
+    NormaliseTogether<kRowsTogether, kRelu, kPadded>(i, columns, in, out, inverse_std, zero_level);
+  }
+  for (; i < rows; ++i) {
+    NormaliseTogether<1, kRelu, kPadded>(i, columns, in, out, inverse_std, zero_level);
+  }
+}
+
+void ReluNormaliseKernel(std::int64_t rows, int columns, float* values, float* inverse_std,
+                         float* zero_level) {
+  const auto kernel =
+      PaddedWidth(columns) == columns ? NormaliseAll<true, false> : NormaliseAll<true, true>;
+  kernel(rows, columns, values, values, inverse_std, zero_level);
+}
+
+void NormaliseWithStdKernel(std::int64_t rows, int columns, const float* in, float* out,
+                            float* inverse_std) {
+  const auto kernel =
+      PaddedWidth(columns) == columns ? NormaliseAll<false, false> : NormaliseAll<false, true>;
+  kernel(rows, columns, in, out, inverse_std, nullptr);
+}
+
+/// The gradient through NormaliseTogether: `gradient` (by the normalised values) becomes the one by
+/// the values, of which with kRelu the column sums are added to `bias_gradient`, row by row.
+template <int kRows, bool kRelu, bool kPadded>
+HWY_INLINE void NormaliseBackwardTogether(std::int64_t first, int columns, const float* normalised,
+                                          const float* inverse_std, const float* zero_level,
+                                          float* gradient, float* bias_gradient) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
+  normalised += first * stride;
+  gradient += first * stride;
+  // LayerNorm's gradient subtracts the means of the gradient, and of gradient times normalised.
+  Vector sum[kRows], projection[kRows];
+  for (int i = 0; i < kRows; ++i) sum[i] = projection[i] = hn::Zero(d);
+  for (int j = 0; j < width; j += lanes) {
+    for (int i = 0; i < kRows; ++i) {
+      const Vector g = hn::LoadU(d, gradient + i * stride + j);
+      sum[i] = hn::Add(sum[i], g);
+      projection[i] = hn::MulAdd(g, hn::LoadU(d, normalised + i * stride + j), projection[i]);
+    }
+  }
+  for (int i = 0; i < kRows; ++i) {
+    sum[i] = hn::Set(d, Sum(sum[i]) / static_cast<float>(columns));
+    projection[i] = hn::Set(d, Sum(projection[i]) / static_cast<float>(columns));
+  }
+  for (int j = 0; j < width; j += lanes) {
+    Vector bias = hn::Zero(d);
+    if constexpr (kRelu) bias = hn::LoadU(d, bias_gradient + j);
+    for (int i = 0; i < kRows; ++i) {
+      const Vector x = hn::LoadU(d, normalised + i * stride + j);
+      const Vector g = hn::LoadU(d, gradient + i * stride + j);
+      const Vector centred = hn::NegMulAdd(x, projection[i], hn::Sub(g, sum[i]));
+      Vector result = hn::Mul(hn::Set(d, inverse_std[first + i]), centred);
+      if constexpr (kRelu) {
+        const Vector zero = hn::Set(d, zero_level[first + i]);
+        result = hn::IfThenElseZero(hn::Gt(x, zero), result);
+      }
+      result = WithinColumns<kPadded>(columns, j, result);
+      hn::StoreU(result, d, gradient + i * stride + j);
+      if constexpr (kRelu) bias = hn::Add(bias, result);
+    }
+    if constexpr (kRelu) hn::StoreU(bias, d, bias_gradient + j);
+  }
+}
+
+template <bool kRelu, bool kPadded>
+void NormaliseBackwardAll(std::int64_t rows, int columns, const float* normalised,
+                          const float* inverse_std, const float* zero_level, float* gradient,
+                          float* bias_gradient) {
+  std::int64_t i = 0;
+  for (; i + kRowsTogether <= rows; i += kRowsTogether) {
+    NormaliseBackwardTogether<kRowsTogether, kRelu, kPadded>(i, columns, normalised, inverse_std,
+                                                             zero_level, gradient, bias_gradient);
+  }
+  for (; i < rows; ++i) {
+    NormaliseBackwardTogether<1, kRelu, kPadded>(i, columns, normalised, inverse_std, zero_level,
+                                                 gradient, bias_gradient);
+  }
+}
+
+void ReluNormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
+                                 const float* inverse_std, const float* zero_level, float* gradient,
+                                 float* bias_gradient) {
+  const auto kernel = PaddedWidth(columns) == columns ? NormaliseBackwardAll<true, false>
+                                                      : NormaliseBackwardAll<true, true>;
+  kernel(rows, columns, normalised, inverse_std, zero_level, gradient, bias_gradient);
+}
+
+void NormaliseBackwardKernel(std::int64_t rows, int columns, const float* normalised,
+                             const float* inverse_std, float* gradient) {
+  const auto kernel = PaddedWidth(columns) == columns ? NormaliseBackwardAll<false, false>
+                                                      : NormaliseBackwardAll<false, true>;
+  kernel(rows, columns, normalised, inverse_std, nullptr, gradient, nullptr);
+}
+
+void ScaleRowsKernel(std::int64_t rows, int columns, const float* keep, const float* in,
+                     float* out) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    const Vector factor = hn::Set(d, keep[i]);
+    for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
+      hn::StoreU(hn::Mul(factor, hn::LoadU(d, in + j)), d, out + j);
+    }
+  }
+}
+
+void AddScaledRowsKernel(std::int64_t rows, int columns, const float* keep, const float* in,
+                         float* out) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
+  const std::int64_t stride = RowStride(columns);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    const Vector factor = hn::Set(d, keep[i]);
+    for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
+      hn::StoreU(hn::MulAdd(factor, hn::LoadU(d, in + j), hn::LoadU(d, out + j)), d, out + j);
+    }
+  }
+}
+
+void GruStepKernel(std::int64_t rows, int size, const float* previous, float* gates,
+                   std::int64_t stride, float* next) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const std::int64_t row_stride = RowStride(size);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    float* const gate_n = gates + i * stride;
+    float* const gate_r = gate_n + size;
+    float* const gate_z = gate_r + size;
+    const float* const gate_q = gate_z + size;
+    // The long chains of the new gate begin where those of its reset gate have ended: in loops of
+    // their own they run side by side.
+    for (int j = 0; j < 2 * size; j += lanes) {
+      hn::StoreU(Sigmoid(hn::LoadU(d, gate_r + j)), d, gate_r + j);  // r, and z behind it
+    }
+    for (int j = 0; j < size; j += lanes) {
+      const Vector r = hn::LoadU(d, gate_r + j), z = hn::LoadU(d, gate_z + j);
+      const Vector n = Tanh(hn::MulAdd(r, hn::LoadU(d, gate_q + j), hn::LoadU(d, gate_n + j)));
+      const Vector h = hn::LoadU(d, previous + i * row_stride + j);
+      hn::StoreU(n, d, gate_n + j);
+      hn::StoreU(hn::MulAdd(z, hn::Sub(h, n), n), d, next + i * row_stride + j);
+    }
+  }
+}
+
+HWY_INLINE void AddTo(Vector value, float* sum) {
+  const Floats d;
+  hn::StoreU(hn::Add(hn::LoadU(d, sum), value), d, sum);
+}
+
+void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, float* gates,
+                           std::int64_t stride, float* state_gradient, float* gate_sums) {
+  const Floats d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const Vector one = hn::Set(d, 1.0f);
+  const std::int64_t row_stride = RowStride(size);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    float* const gate_n = gates + i * stride;
+    float* const gate_r = gate_n + size;
+    float* const gate_z = gate_r + size;
+    float* const gate_q = gate_z + size;
+    for (int j = 0; j < size; j += lanes) {
+      const Vector n = hn::LoadU(d, gate_n + j), r = hn::LoadU(d, gate_r + j);
+      const Vector z = hn::LoadU(d, gate_z + j), q = hn::LoadU(d, gate_q + j);
+      const Vector g = hn::LoadU(d, state_gradient + i * row_stride + j);
+      const Vector h = hn::LoadU(d, previous + i * row_stride + j);
+      const Vector g_new = hn::Mul(g, hn::Sub(one, z));
+      const Vector g_old = hn::Mul(g, z);
+      const Vector dz = hn::Mul(hn::Mul(g_new, z), hn::Sub(h, n));
+      const Vector dn = hn::Mul(g_new, hn::NegMulAdd(n, n, one));
+      const Vector dq = hn::Mul(dn, r);
+      const Vector dr = hn::Mul(hn::Mul(dq, q), hn::Sub(one, r));
+      hn::StoreU(dn, d, gate_n + j);
+      hn::StoreU(dr, d, gate_r + j);
+      hn::StoreU(dz, d, gate_z + j);
+      hn::StoreU(dq, d, gate_q + j);
+      hn::StoreU(g_old, d, state_gradient + i * row_stride + j);
+      AddTo(dn, gate_sums + j);
+      AddTo(dr, gate_sums + size + j);
+      AddTo(dz, gate_sums + 2 * size + j);
+      AddTo(dq, gate_sums + 3 * size + j);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+
+HWY_EXPORT(ReluNormaliseKernel);
+HWY_EXPORT(ReluNormaliseBackwardKernel);
+HWY_EXPORT(NormaliseWithStdKernel);
+HWY_EXPORT(NormaliseBackwardKernel);
+HWY_EXPORT(ScaleRowsKernel);
+HWY_EXPORT(AddScaledRowsKernel);
+HWY_EXPORT(GruStepKernel);
+HWY_EXPORT(GruStepBackwardKernel);
+
+void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out) {
+  const std::int64_t stride = RowStride(columns);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    const float* const row = in + i * columns;
+    float sum = 0, squares = 0;
+    for (int j = 0; j < columns; ++j) sum += row[j];
+    const float mean = sum / static_cast<float>(columns);
+    for (int j = 0; j < columns; ++j) squares += (row[j] - mean) * (row[j] - mean);
+    const float inverse_std =
+        1.0f / std::sqrt(squares / static_cast<float>(columns) + kLayerNormEpsilon);
+    for (int j = 0; j < columns; ++j) out[i * stride + j] = (row[j] - mean) * inverse_std;
+  }
+}
+
+void ReluNormalise(std::int64_t rows, int columns, float* values, float* inverse_std,
+                   float* zero_level) {
+  SKEIN_DISPATCH(ReluNormaliseKernel)(rows, columns, values, inverse_std, zero_level);
+}
+
+void ReluNormaliseBackward(std::int64_t rows, int columns, const float* normalised,
+                           const float* inverse_std, const float* zero_level, float* gradient,
+                           float* bias_gradient) {
+  SKEIN_DISPATCH(ReluNormaliseBackwardKernel)
+  (rows, columns, normalised, inverse_std, zero_level, gradient, bias_gradient);
+}
+
+void NormaliseWithStd(std::int64_t rows, int columns, const float* in, float* out,
+                      float* inverse_std) {
+  SKEIN_DISPATCH(NormaliseWithStdKernel)(rows, columns, in, out, inverse_std);
+}
+
+void NormaliseBackward(std::int64_t rows, int columns, const float* normalised,
+                       const float* inverse_std, float* gradient) {
+  SKEIN_DISPATCH(NormaliseBackwardKernel)(rows, columns, normalised, inverse_std, gradient);
+}
+
+void ScaleRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out) {
+  SKEIN_DISPATCH(ScaleRowsKernel)(rows, columns, keep, in, out);
+}
+
+void AddScaledRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out) {
+  SKEIN_DISPATCH(AddScaledRowsKernel)(rows, columns, keep, in, out);
+}
+
+void GruStep(std::int64_t rows, int size, const float* previous, float* gates, std::int64_t stride,
+             float* next) {
+  SKEIN_DISPATCH(GruStepKernel)(rows, size, previous, gates, stride, next);
+}
+
+void GruStepBackward(std::int64_t rows, int size, const float* previous, float* gates,
+                     std::int64_t stride, float* state_gradient, float* gate_sums) {
+  SKEIN_DISPATCH(GruStepBackwardKernel)
+  (rows, size, previous, gates, stride, state_gradient, gate_sums);
+}
+
+void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,
+                   float* sums) {
+  for (std::int64_t i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) sums[j] += in[i * stride + j];
+  }
+}
+
+}  // namespace skein
+#endif  // HWY_ONCE

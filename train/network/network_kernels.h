@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+
+namespace skein {
+
+/// What LayerNorm adds to the variance.
+inline constexpr float kLayerNormEpsilon = 1e-5f;
+
+/// Rows of a tile are whole vectors of every SIMD target: widths are rounded up to this.
+inline constexpr int kWidthGranularity = 16;
+constexpr int PaddedWidth(int width) {
+  return (width + kWidthGranularity - 1) / kWidthGranularity * kWidthGranularity;
+}
+/// Floats between rows of `width` values: a cache line more than the padded width, since rows a
+/// power of two apart would all fall into the same few sets of the cache.
+constexpr std::int64_t RowStride(int width) { return PaddedWidth(width) + 16; }
+
+// The elementwise parts of a recurrent network, forward and backward, over row-major tiles; the
+// products between them are simd/matrix_product.h's. Unless said otherwise rows lie
+// RowStride(columns) floats apart, and what is behind the columns is zero before and after.
+// "Normalise" is LayerNorm without its affine part: (x - mean) / sqrt(variance + epsilon) of each
+// row; the affine part is folded into the map that follows (train/network/folded_parameters.h).
+// Not-a-number in an input shows in the output.
+
+/// Rows of `in` are `columns` floats apart; what is behind the columns of `out` is left alone.
+void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out);
+
+/// values = normalise(relu(values)). `inverse_std` and `zero_level` get one value per row:
+/// 1 / sqrt(variance + epsilon), and what a zero before the normalisation became, so that a ReLU
+/// was active just where values > zero_level.
+void ReluNormalise(std::int64_t rows, int columns, float* values, float* inverse_std,
+                   float* zero_level);
+
+/// gradient (by the normalised values) becomes the gradient by the values before the ReLU; its
+/// column sums are added to `bias_gradient`.
+void ReluNormaliseBackward(std::int64_t rows, int columns, const float* normalised,
+                           const float* inverse_std, const float* zero_level, float* gradient,
+                           float* bias_gradient);
+
+/// out = normalise(in), with 1 / sqrt(variance + epsilon) of each row.
+void NormaliseWithStd(std::int64_t rows, int columns, const float* in, float* out,
+                      float* inverse_std);
+
+/// gradient (by the normalised values) becomes the gradient by the values before normalisation.
+void NormaliseBackward(std::int64_t rows, int columns, const float* normalised,
+                       const float* inverse_std, float* gradient);
+
+/// out[row] = keep[row] * in[row].
+void ScaleRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out);
+
+/// out[row] += keep[row] * in[row].
+void AddScaledRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out);
+
+/// One step of a GRU (Cho et al. 2014, in the form of cuDNN and LibTorch: the reset gate acts on
+/// the hidden product of the new gate). `size` is a padded width: a unit without weights, bias and
+/// state stays exactly zero. `gates` rows of `stride` floats hold [n | r | z | q], each `size`
+/// wide: on entry in r and z the sums of both products and biases, in n those of the input, in q
+/// those of the state; on return the activations, and q as it was. next = (1 - z) n + z previous.
+void GruStep(std::int64_t rows, int size, const float* previous, float* gates, std::int64_t stride,
+             float* next);
+
+/// Back through GruStep: `gates` become the gradients by [n | r | z | q] before activation, whose
+/// column sums are added to `gate_sums`; `state_gradient` (by next) becomes the direct part of the
+/// gradient by previous, z times it.
+void GruStepBackward(std::int64_t rows, int size, const float* previous, float* gates,
+                     std::int64_t stride, float* state_gradient, float* gate_sums);
+
+/// sums[j] += sum over rows of in[row][j]. Any number of columns, rows `stride` floats apart.
+void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,
+                   float* sums);
+
+}  // namespace skein

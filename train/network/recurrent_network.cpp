@@ -1,0 +1,14 @@
+#include "train/network/recurrent_network.h"
+
+#include "train/network/fused_network.h"
+#include "train/libtorch/libtorch_network.h"
+
+namespace skein {
+
+std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout,
+                                              const NetworkPrecision& precision) {
+  if (backend == Backend::kFused) return std::make_unique<FusedNetwork>(layout, precision);
+  return std::make_unique<LibTorchNetwork>(layout);
+}
+
+}  // namespace skein

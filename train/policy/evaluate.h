@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "envs/env_config.h"
+#include "envs/flight_metrics.h"
+#include "envs/tasks/termination.h"
+#include "envs/vec_env.h"
+#include "base/worker_pool.h"
+#include "train/policy/agent.h"
+#include "train/policy/tile_agent.h"
+
+namespace skein {
+
+struct EvaluationOptions {
+  int episodes = 1000;
+  std::uint64_t seed = 0;
+  bool flight_metrics = false;  ///< measure how episodes were flown, too
+};
+
+/// How one episode went.
+struct Episode {
+  Termination termination = Termination::kNone;
+  float episode_return = 0;
+  std::int32_t steps = 0;  ///< control steps
+  /// By FlightMetric. NaN unless asked for, and of an episode that ended as NonFinite.
+  std::array<float, kNumFlightMetrics> metrics{};
+};
+
+/// One episode per aircraft, by their numbers, so that short episodes are not counted more often
+/// than long ones.
+struct FlownEpisodes {
+  std::vector<Episode> episodes;
+  /// FNV hash of every episode's initial state and target: equal for all agents that fly the same
+  /// episodes.
+  std::uint64_t starts = 0;
+};
+
+/// Means over episodes.
+struct EvaluationResult {
+  int episodes = 0;
+  double success_rate = 0;
+  double return_mean = 0;
+  double time_to_target_mean_s = 0;  ///< over successful episodes; NaN if none
+  std::array<int, kNumTerminations> terminations{};
+};
+
+/// Initial states, targets, noise and wind of the i-th episode depend on (env, options.seed, i)
+/// alone, not on the agent. If the pool is stopping, ends within a decision, and the result says
+/// nothing. Throws Error where the agent does not fit the task.
+FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& env,
+                          const EvaluationOptions& options, WorkerPool& pool);
+
+EvaluationResult Summarise(const std::vector<Episode>& episodes, double control_interval_s);
+
+/// Both.
+EvaluationResult Evaluate(const Agent& agent, const EnvConfig& env,
+                          const EvaluationOptions& options, WorkerPool& pool);
+
+/// What FlyEpisodes flies: an aircraft for every episode, its first; by the agent's controller if
+/// it has one. Throws Error where the agent does not fit the task.
+VecEnv MakeEvaluationEnv(const Agent& agent, const EnvConfig& env,
+                         const EvaluationOptions& options);
+/// And who flies a tile of it.
+TilePilot MakeEvaluationPilot(const Agent& agent, const VecEnv& env, int tile,
+                              const EvaluationOptions& options);
+
+}  // namespace skein

@@ -1,0 +1,117 @@
+#include "train/policy/record_flights.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "envs/control_step.h"
+#include "envs/vec_env.h"
+#include "base/error.h"
+#include "train/policy/tile_agent.h"
+
+namespace skein {
+namespace {
+
+std::array<float, kNumRecordedColumns> StateOf(const VecEnv& env, int aircraft) {
+  std::array<float, kNumRecordedColumns> state;
+  for (int column = 0; column < kNumRecordedColumns; ++column) {
+    state[column] = env.StateOf(aircraft, column);
+  }
+  return state;
+}
+
+float Clipped(float command) { return std::clamp(command, -1.0f, 1.0f); }
+
+/// Flies the first episodes of a tile's first `flights.size()` aircraft.
+class TileRecorder : private ControlStepObserver {
+ public:
+  TileRecorder(VecEnv& env, int tile, std::vector<RecordedFlight*> flights)
+      : env_(env),
+        tile_(tile),
+        begin_(env.tile_begin(tile)),
+        flights_(std::move(flights)),
+        flying_(flights_.size(), true),
+        reward_(env.tile_count(tile)),
+        episode_return_(reward_.size()),
+        final_observation_(reward_.size() * env.observation_size()),
+        termination_(reward_.size()),
+        steps_(reward_.size()) {
+    for (std::size_t i = 0; i < flights_.size(); ++i) {
+      const int aircraft = begin_ + static_cast<int>(i);
+      flights_[i]->initial_state = StateOf(env_, aircraft);
+      flights_[i]->target = env_.TargetOf(aircraft);
+    }
+  }
+
+  bool IsDone() const { return std::find(flying_.begin(), flying_.end(), true) == flying_.end(); }
+
+  /// One decision: the tile's actions.
+  void Step(const std::vector<float>& action) {
+    action_ = action.data();
+    StepOutput output{reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
+                      final_observation_.data()};
+    output.observer = this;
+    env_.Step(tile_, action.data(), output);
+  }
+
+ private:
+  void See(const ControlStep& seen) override {
+    const int actions = env_.action_size();
+    for (int i = 0; i < seen.state.count; ++i) {
+      const int index = seen.first_aircraft - begin_ + i;
+      if (index >= static_cast<int>(flights_.size()) || !flying_[index]) continue;
+      RecordedStep& step = flights_[index]->steps.emplace_back();
+      step.termination = static_cast<Termination>(seen.termination[i]);
+      flying_[index] = step.termination == Termination::kNone;
+      // In still air the wind stays zero.
+      const int columns = seen.state.windy ? kNumRecordedColumns : kNumColumns;
+      for (int column = 0; column < columns; ++column) step.state[column] = seen.state[column][i];
+      for (int k = 0; k < actions; ++k) {
+        step.action.push_back(Clipped(action_[index * actions + k]));
+      }
+      for (int k = 0; k < kActionSize; ++k) {
+        step.stick[k] = Clipped(seen.stick[i * kActionSize + k]);
+      }
+      step.reward = seen.reward[i];
+    }
+  }
+
+  VecEnv& env_;
+  int tile_, begin_;
+  std::vector<RecordedFlight*> flights_;
+  std::vector<bool> flying_;
+  const float* action_ = nullptr;  // of the decision under way
+  std::vector<float> reward_, episode_return_, final_observation_;
+  std::vector<std::uint8_t> termination_;
+  std::vector<std::int32_t> steps_;
+};
+
+}  // namespace
+
+std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& config,
+                                          const EvaluationOptions& options, int count,
+                                          WorkerPool& pool) {
+  if (count < 1) throw Error("cannot record " + std::to_string(count) + " flights");
+  VecEnv env = MakeEvaluationEnv(agent, config, options);
+  std::vector<RecordedFlight> flights(std::min(count, options.episodes));
+  int tiles = 0;
+  while (tiles < env.num_tiles() && env.tile_begin(tiles) < static_cast<int>(flights.size())) {
+    ++tiles;
+  }
+  pool.ForEach(tiles, [&](int tile, int) {
+    const int begin = env.tile_begin(tile);
+    const int end = std::min(begin + env.tile_count(tile), static_cast<int>(flights.size()));
+    std::vector<RecordedFlight*> recorded;
+    for (int i = begin; i < end; ++i) recorded.push_back(&flights[i]);
+    TileRecorder recorder(env, tile, std::move(recorded));
+    TilePilot pilot = MakeEvaluationPilot(agent, env, tile, options);
+    while (!recorder.IsDone()) {
+      // Whole tiles fly, the aircraft that are not recorded too: matrix products may round by
+      // shape.
+      recorder.Step(pilot.Decide());
+    }
+  });
+  return flights;
+}
+
+}  // namespace skein

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "envs/actions.h"
+#include "envs/state/state.h"
+#include "envs/env_config.h"
+#include "envs/tasks/termination.h"
+#include "base/worker_pool.h"
+#include "train/policy/agent.h"
+#include "train/policy/evaluate.h"
+
+namespace skein {
+
+/// The end of one control step.
+struct RecordedStep {
+  std::array<float, kNumRecordedColumns> state{};  ///< envs/state/state.h
+  std::vector<float> action;  ///< the policy's, held during the step, clipped to [-1, 1]
+  /// What the pilot's stick and throttle got, clipped to [-1, 1]: the action, or the controller's
+  /// that flies for a planner.
+  std::array<float, kActionSize> stick{};
+  float reward = 0;  ///< of the step, terminal reward included
+  Termination termination = Termination::kNone;
+};
+
+/// One whole episode.
+struct RecordedFlight {
+  std::array<float, kNumRecordedColumns> initial_state{};
+  std::vector<float> target;  ///< Task::target_quantities
+  std::vector<RecordedStep> steps;
+};
+
+/// The first `count` episodes (all, if there are fewer) of Evaluate with the same arguments, flown
+/// again control step by control step: bit for bit what was evaluated, whatever the threads.
+std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& env,
+                                          const EvaluationOptions& options, int count,
+                                          WorkerPool& pool);
+
+}  // namespace skein

@@ -1,0 +1,29 @@
+#include "train/policy/tile_agent.h"
+
+#include <algorithm>
+
+namespace skein {
+
+TilePilot::TilePilot(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed)
+    : agent_(agent),
+      env_(env),
+      tile_(tile),
+      count_(env.tile_count(tile)),
+      turn_{seed, static_cast<std::uint32_t>(env.tile_begin(tile)), 0},
+      observation_(static_cast<std::size_t>(count_) * env.observation_size()),
+      state_(static_cast<std::size_t>(count_) * agent.state_size(), 0.0f),
+      action_(static_cast<std::size_t>(count_) * env.action_size()) {}
+
+const std::vector<float>& TilePilot::Decide() {
+  env_.Observe(tile_, observation_.data());
+  agent_.Decide(turn_, count_, observation_.data(), state_.data(), action_.data());
+  ++turn_.decision;
+  return action_;
+}
+
+void TilePilot::Forget(int index) {
+  std::fill_n(state_.begin() + static_cast<std::int64_t>(index) * agent_.state_size(),
+              agent_.state_size(), 0.0f);
+}
+
+}  // namespace skein

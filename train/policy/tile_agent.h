@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "envs/vec_env.h"
+#include "train/policy/agent.h"
+
+namespace skein {
+
+/// An agent at the controls of one tile: it observes, remembers and decides for every aircraft.
+/// What it decides for one depends on the observations of that aircraft and, if there is chance in
+/// it, on (seed, aircraft, decision).
+class TilePilot {
+ public:
+  /// Agent and environment must outlive the pilot.
+  TilePilot(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed);
+
+  /// Observes the tile and decides. Row-major [tile count][action_size], not clipped; valid until
+  /// the next call.
+  const std::vector<float>& Decide();
+
+  /// The tile's `index`-th aircraft has begun a new episode: nothing of the old one is remembered.
+  void Forget(int index);
+
+ private:
+  const Agent& agent_;
+  const VecEnv& env_;
+  int tile_, count_;
+  Agent::Turn turn_;
+  std::vector<float> observation_, state_, action_;
+};
+
+}  // namespace skein

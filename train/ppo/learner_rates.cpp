@@ -1,0 +1,108 @@
+#include "train/ppo/learner_rates.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "envs/kernels/plant_kernel.h"
+#include "envs/vec_env.h"
+#include "simd/peak.h"
+#include "train/network/network.h"
+#include "train/policy/recurrent_policy.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+namespace {
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Of the products of a planner's controller until the planner decides again; 0 without one, or
+/// for one that computes no networks.
+double ControllerFlopsPerDecision(const TrainConfig& config) {
+  const auto* policy = dynamic_cast<const Policy*>(config.controller.get());
+  if (policy == nullptr) return 0;
+  const double decisions = static_cast<double>(config.env.action_repeat) / policy->action_repeat();
+  return decisions * ForwardFlops(ActorShape(policy->config(), policy->observation_size(),
+                                             policy->action_size()));
+}
+
+/// One configuration in training, and its seconds by iteration.
+struct Runner {
+  Runner(const TrainConfig& config, WorkerPool& pool)
+      : trainer(std::make_unique<Trainer>(config, pool)), threads(pool.threads()) {
+    trainer->Iterate();
+  }
+
+  void Iterate() {
+    const auto start = std::chrono::steady_clock::now();
+    const IterationReport report = trainer->Iterate();
+    whole.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    rollout.push_back(report.rollout_seconds);
+    simulator.push_back(report.simulator_seconds / report.rollout_seconds);
+    update.push_back(report.update_seconds);
+    gradient.push_back(report.gradient_seconds);
+    efficiency.push_back((report.rollout_seconds + report.gradient_seconds) / whole.back());
+    peak.push_back(MedianPeak());
+  }
+
+  double MedianPeak() const {
+    if (trainer->backend().precision == LearnerPrecision::kBfloat16) {
+      if (const auto bfloat16 = simd::MeasureBfloat16Peak(threads)) return bfloat16->median_gflops;
+    }
+    return simd::MeasurePeak(threads).median_gflops;
+  }
+
+  LearnerRates Rates() const {
+    const TrainConfig& config = trainer->config();
+    const double decisions =
+        static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps;
+    const double samples = decisions * config.ppo.epochs;
+    const VecEnv env(config.env, 1, config.seed, 1, config.controller);
+    const double forward_flops =
+        ForwardFlops(ActorShape(config.network, env.observation_size(), env.action_size())) +
+        ForwardFlops(CriticShape(config.network, env.observation_size()));
+    LearnerRates rates;
+    rates.backend = trainer->backend();
+    rates.rollout_decisions_per_s = decisions / Median(rollout);
+    rates.simulator_share = Median(simulator);
+    rates.rollout_flops_per_decision =
+        forward_flops + ControllerFlopsPerDecision(config) +
+        config.env.action_repeat * config.env.substeps * kFlopsPerRk4Step;
+    rates.update_samples_per_s = samples / Median(update);
+    rates.gradient_samples_per_s = samples / Median(gradient);
+    // Backward is two products for each one forward.
+    rates.update_flops_per_sample = 3 * forward_flops;
+    rates.peak_gflops = Median(peak);
+    rates.iteration_s = Median(whole);
+    rates.efficiency = Median(efficiency);
+    return rates;
+  }
+
+  std::unique_ptr<Trainer> trainer;
+  int threads;
+  std::vector<double> whole, rollout, simulator, update, gradient, efficiency, peak;
+};
+
+}  // namespace
+
+std::vector<LearnerRates> MeasureLearners(const std::vector<TrainConfig>& configs, int iterations,
+                                          WorkerPool& pool) {
+  std::vector<Runner> runners;
+  for (TrainConfig config : configs) {
+    config.evaluation.interval_iterations = 0;
+    runners.emplace_back(config, pool);
+  }
+  for (int i = 0; i < iterations; ++i) {
+    for (Runner& runner : runners) runner.Iterate();
+  }
+  std::vector<LearnerRates> rates;
+  for (const Runner& runner : runners) rates.push_back(runner.Rates());
+  return rates;
+}
+
+}  // namespace skein

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "base/worker_pool.h"
+#include "train/network/backend.h"
+#include "train/ppo/learner_config.h"
+
+namespace skein {
+
+/// Rates of the parts of an iteration, medians over iterations.
+struct LearnerRates {
+  BackendChoice backend;               ///< what computed the networks
+  double rollout_decisions_per_s = 0;  ///< simulator in the loop
+  double simulator_share = 0;          ///< of the rollout's time, with a planner's controller
+  /// Of the networks' products, a controller's among them, and of the RK4 steps until the next
+  /// decision.
+  double rollout_flops_per_decision = 0;
+  double update_samples_per_s = 0;     ///< through forward, loss, backward and optimiser
+  double gradient_samples_per_s = 0;   ///< through forward, loss and backward alone
+  double update_flops_per_sample = 0;  ///< of the products, forward and backward, both networks
+  double iteration_s = 0;              ///< rollout, update and all between
+  /// What the multiply-add units gave between iterations, with the operands of this learner's
+  /// products: of bfloat16 for LearnerPrecision::kBfloat16 where the processor multiplies those.
+  double peak_gflops = 0;
+  /// Of an iteration, the share that rollout and gradients alone would take.
+  double efficiency = 0;
+};
+
+/// Trains every configuration for `iterations` iterations after one to warm up, in turns with each
+/// other and with the measurements of the peak, so that all meet the same machine. Their
+/// evaluations are left out.
+std::vector<LearnerRates> MeasureLearners(const std::vector<TrainConfig>& configs, int iterations,
+                                          WorkerPool& pool);
+
+}  // namespace skein

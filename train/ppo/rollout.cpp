@@ -1,0 +1,274 @@
+#include "train/ppo/rollout.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "simd/random.h"
+#include "train/network/ppo_loss.h"
+
+namespace skein {
+namespace {
+
+/// Memory of one worker for one tile.
+struct TileScratch {
+  NetworkWorkspace workspace;
+  std::vector<float> noise, mean, episode_return, final_observation, cut_value;
+  std::vector<std::uint8_t> termination;
+  std::vector<std::int32_t> episode_steps;
+  std::vector<std::uint32_t> decision_low, decision_high;
+
+  void Resize(int count, int observation_size, int action_size) {
+    noise.resize(static_cast<std::size_t>(count) * action_size);
+    mean.resize(static_cast<std::size_t>(count) * action_size);
+    final_observation.resize(static_cast<std::size_t>(count) * observation_size);
+    cut_value.resize(count);
+    episode_return.resize(count);
+    termination.resize(count);
+    episode_steps.resize(count);
+    decision_low.resize(count);
+    decision_high.resize(count);
+  }
+};
+
+/// One tile's flight through a rollout.
+class TileRollout {
+ public:
+  TileRollout(VecEnv& env, int tile, const RecurrentNetwork& actor, const RecurrentNetwork& critic,
+              const std::vector<float>& log_std, const RolloutSettings& settings,
+              const WorkerPool& pool, TileScratch& scratch, RecurrentState& state, Rollout& rollout)
+      : env_(env),
+        tile_(tile),
+        begin_(env.tile_begin(tile)),
+        count_(env.tile_count(tile)),
+        actor_(actor),
+        critic_(critic),
+        log_std_(log_std),
+        settings_(settings),
+        pool_(pool),
+        scratch_(scratch),
+        rollout_(rollout),
+        actor_state_(state.actor.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
+        critic_state_(state.critic.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
+        keep_(state.keep.data() + begin_) {
+    scratch.Resize(count_, rollout.observation_size, rollout.action_size);
+  }
+
+  EpisodeStatistics Fly() {
+    for (int step = 0; step < rollout_.steps; ++step) {
+      if (pool_.stopping()) return statistics_;
+      StoreChunkStart(step);
+      Decide(step);
+      Step(step);
+      statistics_.decisions += count_;
+    }
+    env_.Observe(tile_, scratch_.final_observation.data());
+    EvaluateCritic(scratch_.final_observation.data(), critic_state_, keep_,
+                   rollout_.bootstrap.data() + begin_);
+    ComputeAdvantages(begin_, begin_ + count_, settings_.gamma, settings_.gae_lambda, rollout_);
+    return statistics_;
+  }
+
+ private:
+  /// Runs a part of the simulator on the clock.
+  template <typename Part>
+  void Simulate(const Part& part) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    part();
+    statistics_.simulator_seconds += std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  std::int64_t Row(int step) const { return rollout_.row(step, begin_); }
+  float* Observation(int step) const {
+    return rollout_.observation.data() + Row(step) * rollout_.observation_size;
+  }
+
+  void StoreChunkStart(int step) {
+    if (step % rollout_.chunk_length != 0) return;
+    const std::int64_t values = static_cast<std::int64_t>(count_) * rollout_.state_size;
+    const std::int64_t offset =
+        rollout_.row(step / rollout_.chunk_length, begin_) * rollout_.state_size;
+    std::copy_n(actor_state_, values, rollout_.actor_state.begin() + offset);
+    std::copy_n(critic_state_, values, rollout_.critic_state.begin() + offset);
+  }
+
+  /// Values of `observation` for the recurrent state; the state after it is left in the workspace.
+  void EvaluateCritic(const float* observation, const float* state, const float* keep,
+                      float* value) {
+    critic_.Forward({1, count_, observation, state, keep}, scratch_.workspace);
+    const ValueScale& scale = settings_.value_scale;
+    for (int i = 0; i < count_; ++i) {
+      value[i] = static_cast<float>(scale.mean + scale.std * scratch_.workspace.output()[i]);
+    }
+  }
+
+  void Decide(int step) {
+    const std::int64_t row = Row(step),
+                       states = static_cast<std::int64_t>(count_) * rollout_.state_size;
+    const int size = rollout_.action_size;
+    float* const observation = Observation(step);
+    Simulate([&] { env_.Observe(tile_, observation); });
+    std::copy_n(keep_, count_, rollout_.keep.begin() + row);
+
+    EvaluateCritic(observation, critic_state_, keep_, rollout_.value.data() + row);
+    std::copy_n(scratch_.workspace.final_state(), states, critic_state_);
+    actor_.Forward({1, count_, observation, actor_state_, keep_}, scratch_.workspace);
+    std::copy_n(scratch_.workspace.final_state(), states, actor_state_);
+    GaussianMean(static_cast<std::int64_t>(count_) * size, settings_.tanh_mean,
+                 scratch_.workspace.output(), scratch_.mean.data());
+
+    const std::uint64_t decision = settings_.first_decision + step;
+    std::fill(scratch_.decision_low.begin(), scratch_.decision_low.end(),
+              static_cast<std::uint32_t>(decision));
+    std::fill(scratch_.decision_high.begin(), scratch_.decision_high.end(),
+              static_cast<std::uint32_t>(decision >> 32));
+    simd::FillNormals(settings_.seed, static_cast<std::uint32_t>(begin_),
+                      scratch_.decision_low.data(), scratch_.decision_high.data(),
+                      simd::RandomPurpose::kActionNoise, count_, size, scratch_.noise.data());
+    float* const action = rollout_.action.data() + row * size;
+    for (int i = 0; i < count_; ++i) {
+      for (int j = 0; j < size; ++j) {
+        action[i * size + j] =
+            scratch_.mean[i * size + j] + std::exp(log_std_[j]) * scratch_.noise[i * size + j];
+      }
+    }
+    LogProbability(count_, size, scratch_.mean.data(), log_std_.data(), action,
+                   rollout_.log_prob.data() + row);
+  }
+
+  void Step(int step) {
+    const std::int64_t row = Row(step);
+    float* const reward = rollout_.reward.data() + row;
+    StepOutput output;
+    output.reward = reward;
+    output.termination = scratch_.termination.data();
+    output.episode_return = scratch_.episode_return.data();
+    output.episode_steps = scratch_.episode_steps.data();
+    const bool truncates = env_.config().truncate_at_time_limit;
+    if (truncates) output.final_observation = scratch_.final_observation.data();
+    Simulate(
+        [&] { env_.Step(tile_, rollout_.action.data() + row * rollout_.action_size, output); });
+    bool truncated = false;
+    for (int i = 0; i < count_; ++i) {
+      const auto termination = static_cast<Termination>(scratch_.termination[i]);
+      const bool ends = termination != Termination::kNone;
+      rollout_.ends[row + i] = ends;
+      truncated |= truncates && termination == Termination::kUnreachTarget;
+      if (!ends) continue;
+      ++statistics_.episodes;
+      ++statistics_.terminations[scratch_.termination[i]];
+      statistics_.return_sum += scratch_.episode_return[i];
+    }
+    if (truncated) AddTruncatedValues(reward);
+    for (int i = 0; i < count_; ++i) keep_[i] = rollout_.ends[row + i] ? 0.0f : 1.0f;
+  }
+
+  /// An episode cut off at the time limit would have gone on: its last reward takes the value of
+  /// what it saw last.
+  void AddTruncatedValues(float* reward) {
+    // Rows of other aircraft hold nothing of this step; they are computed and dropped.
+    for (int i = 0; i < count_; ++i) {
+      if (scratch_.termination[i] != static_cast<std::uint8_t>(Termination::kUnreachTarget)) {
+        std::fill_n(scratch_.final_observation.begin() +
+                        static_cast<std::int64_t>(i) * rollout_.observation_size,
+                    rollout_.observation_size, 0.0f);
+      }
+    }
+    // The episode goes on in this evaluation, whatever begins with the next step.
+    const std::vector<float> going_on(count_, 1.0f);
+    EvaluateCritic(scratch_.final_observation.data(), critic_state_, going_on.data(),
+                   scratch_.cut_value.data());
+    for (int i = 0; i < count_; ++i) {
+      if (scratch_.termination[i] == static_cast<std::uint8_t>(Termination::kUnreachTarget)) {
+        reward[i] += static_cast<float>(settings_.gamma) * scratch_.cut_value[i];
+      }
+    }
+  }
+
+  VecEnv& env_;
+  int tile_, begin_, count_;
+  const RecurrentNetwork& actor_;
+  const RecurrentNetwork& critic_;
+  const std::vector<float>& log_std_;
+  const RolloutSettings& settings_;
+  const WorkerPool& pool_;
+  TileScratch& scratch_;
+  Rollout& rollout_;
+  float* actor_state_;
+  float* critic_state_;
+  float* keep_;
+  EpisodeStatistics statistics_;
+};
+
+}  // namespace
+
+Rollout::Rollout(const PpoConfig& config, int observations, int actions, int states)
+    : steps(config.rollout_steps),
+      aircraft(config.num_aircraft),
+      chunk_length(config.chunk_length),
+      observation_size(observations),
+      action_size(actions),
+      state_size(states) {
+  Validate(config);
+  observation.resize(samples() * observation_size);
+  action.resize(samples() * action_size);
+  for (auto* const column : {&log_prob, &value, &reward, &keep, &advantage, &target}) {
+    column->resize(samples());
+  }
+  ends.resize(samples());
+  bootstrap.resize(aircraft);
+  const std::int64_t stored = static_cast<std::int64_t>(chunks()) * aircraft * state_size;
+  actor_state.resize(stored);
+  critic_state.resize(stored);
+}
+
+RecurrentState::RecurrentState(int aircraft, int state_size)
+    : actor(static_cast<std::size_t>(aircraft) * state_size, 0.0f),
+      critic(static_cast<std::size_t>(aircraft) * state_size, 0.0f),
+      keep(aircraft, 0.0f) {}
+
+EpisodeStatistics& EpisodeStatistics::operator+=(const EpisodeStatistics& other) {
+  decisions += other.decisions;
+  episodes += other.episodes;
+  return_sum += other.return_sum;
+  simulator_seconds += other.simulator_seconds;
+  for (int i = 0; i < kNumTerminations; ++i) terminations[i] += other.terminations[i];
+  return *this;
+}
+
+EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
+                                 const RecurrentNetwork& critic, const std::vector<float>& log_std,
+                                 const RolloutSettings& settings, WorkerPool& pool,
+                                 RecurrentState& state, Rollout& rollout) {
+  std::vector<TileScratch> scratch(pool.threads());
+  std::vector<EpisodeStatistics> statistics(env.num_tiles());
+  pool.ForEach(env.num_tiles(), [&](int tile, int worker) {
+    statistics[tile] = TileRollout(env, tile, actor, critic, log_std, settings, pool,
+                                   scratch[worker], state, rollout)
+                           .Fly();
+  });
+  EpisodeStatistics total;
+  for (const EpisodeStatistics& part : statistics) total += part;
+  return total;
+}
+
+void ComputeAdvantages(int begin, int end, double gamma, double lambda, Rollout& rollout) {
+  const auto discount = static_cast<float>(gamma);
+  const auto decay = static_cast<float>(gamma * lambda);
+  for (int step = rollout.steps - 1; step >= 0; --step) {
+    const bool last = step == rollout.steps - 1;
+    for (int i = begin; i < end; ++i) {
+      const std::int64_t row = rollout.row(step, i), next = row + rollout.aircraft;
+      const float goes_on = rollout.ends[row] ? 0.0f : 1.0f;
+      const float next_value = last ? rollout.bootstrap[i] : rollout.value[next];
+      const float next_advantage = last ? 0.0f : rollout.advantage[next];
+      const float delta =
+          rollout.reward[row] + discount * goes_on * next_value - rollout.value[row];
+      rollout.advantage[row] = delta + decay * goes_on * next_advantage;
+      rollout.target[row] = rollout.advantage[row] + rollout.value[row];
+    }
+  }
+}
+
+}  // namespace skein

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "envs/vec_env.h"
+#include "base/worker_pool.h"
+#include "train/ppo/learner_config.h"
+#include "train/network/recurrent_network.h"
+
+namespace skein {
+
+/// What PPO learns from: one row per decision step, one column per aircraft; [step][aircraft].
+/// `state_size` is that of both networks, NetworkShape::state_size.
+struct Rollout {
+  /// Throws Error where Validate(config) does.
+  Rollout(const PpoConfig& config, int observation_size, int action_size, int state_size);
+
+  std::int64_t samples() const { return static_cast<std::int64_t>(steps) * aircraft; }
+  int chunks() const { return steps / chunk_length; }  ///< per aircraft
+  std::int64_t row(int step, int index) const {
+    return static_cast<std::int64_t>(step) * aircraft + index;
+  }
+
+  int steps, aircraft, chunk_length, observation_size, action_size, state_size;
+  std::vector<float> observation;  ///< [steps][aircraft][observation_size]
+  std::vector<float> action;       ///< [steps][aircraft][action_size], before clipping
+  std::vector<float> log_prob, value;
+  std::vector<float> reward;             ///< with the bootstrap of truncated episodes
+  std::vector<float> keep;               ///< 0 where an episode begins with this step, else 1
+  std::vector<std::uint8_t> ends;        ///< 1 where an episode ended with this step
+  std::vector<float> bootstrap;          ///< [aircraft]: value of what follows the last step
+  std::vector<float> advantage, target;  ///< target: advantage + value
+  std::vector<float> actor_state, critic_state;  ///< [chunks][aircraft][state_size] at chunk starts
+};
+
+/// Where the recurrent networks stand between rollouts.
+struct RecurrentState {
+  RecurrentState(int aircraft, int state_size);
+
+  std::vector<float> actor, critic;  ///< [aircraft][state_size]
+  std::vector<float> keep;           ///< [aircraft]: 0 if an episode begins with the next step
+};
+
+/// What was flown in a rollout, and the episodes that ended in it.
+struct EpisodeStatistics {
+  std::uint64_t decisions = 0;  ///< by all aircraft together; all of the rollout's unless stopped
+  std::uint64_t episodes = 0;
+  double return_sum = 0;
+  std::array<int, kNumTerminations> terminations{};
+  double simulator_seconds = 0;  ///< that threads spent in the environment; no two runs' are equal
+
+  EpisodeStatistics& operator+=(const EpisodeStatistics& other);
+};
+
+/// The critic's output v stands for the value mean + std v (PopArt; 0 and 1 without).
+struct ValueScale {
+  double mean = 0, std = 1;
+};
+
+struct RolloutSettings {
+  std::uint64_t seed = 0;
+  std::uint64_t first_decision =
+      0;  ///< number of the rollout's first decision since training began
+  double gamma = 0.99, gae_lambda = 0.95;
+  bool tanh_mean = true;
+  ValueScale value_scale;
+};
+
+/// Flies `rollout.steps` decisions with every aircraft and fills `rollout`, advantages included.
+/// A task per tile of the environment flies its whole rollout without waiting for others. If the
+/// pool is stopping, tiles fly no further decision and `rollout` is incomplete.
+EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
+                                 const RecurrentNetwork& critic, const std::vector<float>& log_std,
+                                 const RolloutSettings& settings, WorkerPool& pool,
+                                 RecurrentState& state, Rollout& rollout);
+
+/// Generalised advantage estimation (Schulman et al. 2016, equation 16) and value targets of the
+/// aircraft [begin, end): delta = r + gamma V' - V, A = delta + gamma lambda A', where V' and A'
+/// are zero past the end of an episode.
+void ComputeAdvantages(int begin, int end, double gamma, double lambda, Rollout& rollout);
+
+}  // namespace skein

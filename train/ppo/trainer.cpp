@@ -1,0 +1,276 @@
+#include "train/ppo/trainer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "envs/vec_env.h"
+#include "base/error.h"
+#include "train/ppo/adam.h"
+#include "train/policy/evaluate.h"
+#include "train/policy/policy_environment.h"
+#include "train/policy/policy_parameters.h"
+#include "train/ppo/popart.h"
+#include "train/ppo/ppo_update.h"
+#include "train/ppo/rollout.h"
+#include "train/ppo/training_state.h"
+
+namespace skein {
+namespace {
+
+constexpr double kCriticHeadScale = 1;
+
+double SecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double ExplainedVariance(const Rollout& rollout) {
+  double target_sum = 0, target_squares = 0, error_sum = 0, error_squares = 0;
+  for (std::int64_t i = 0; i < rollout.samples(); ++i) {
+    const double target = rollout.target[i], error = target - rollout.value[i];
+    target_sum += target;
+    target_squares += target * target;
+    error_sum += error;
+    error_squares += error * error;
+  }
+  const auto count = static_cast<double>(rollout.samples());
+  const double target_variance = target_squares / count - std::pow(target_sum / count, 2);
+  const double error_variance = error_squares / count - std::pow(error_sum / count, 2);
+  return target_variance > 0 ? 1 - error_variance / target_variance
+                             : std::numeric_limits<double>::quiet_NaN();
+}
+
+const TrainConfig& Validated(const TrainConfig& config) {
+  Validate(config.ppo);
+  if (config.controller != nullptr) {
+    CheckControllerMadeFor(config.env, *config.controller, "the controller");
+  }
+  return config;
+}
+
+}  // namespace
+
+struct Trainer::Impl {
+  Impl(const TrainConfig& training, WorkerPool& workers)
+      : config(Validated(training)),
+        pool(workers),
+        env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile,
+            OnBackend(config.controller, config.learner.backend)),
+        actor_layout(ActorShape(config.network, env.observation_size(), env.action_size())),
+        critic_layout(CriticShape(config.network, env.observation_size())),
+        actor(InitialParameters(actor_layout, config.network.actor_head_scale,
+                                config.network.initial_log_std, config.seed, kActorStream),
+              config.ppo.adam_epsilon),
+        critic(InitialParameters(critic_layout, kCriticHeadScale, 0, config.seed, kCriticStream),
+               config.ppo.adam_epsilon),
+        backend(
+            ChooseBackend(config.learner.backend, actor_layout.shape(), config.learner.precision)),
+        actor_network(
+            MakeNetwork(backend.backend, actor_layout, ActorPrecision(backend.precision))),
+        critic_network(
+            MakeNetwork(backend.backend, critic_layout, CriticPrecision(backend.precision))),
+        rollout(config.ppo, env.observation_size(), env.action_size(),
+                actor_layout.shape().state_size()),
+        recurrent(config.ppo.num_aircraft, actor_layout.shape().state_size()),
+        update(config, backend, actor_layout, critic_layout, pool) {
+    config.learner.precision = backend.precision;
+  }
+
+  std::uint64_t env_steps() const {
+    return decisions * config.ppo.num_aircraft * config.env.action_repeat;
+  }
+
+  double LearningRate() const {
+    const double done = config.total_steps == 0
+                            ? 0
+                            : std::min(1.0, static_cast<double>(env_steps()) /
+                                                static_cast<double>(config.total_steps));
+    return config.ppo.learning_rate * (1 - done * (1 - config.ppo.final_learning_rate_fraction));
+  }
+
+  TrainingState State() const {
+    TrainingState state;
+    state.actor.assign(actor.parameters(), actor.parameters() + actor.size());
+    state.critic.assign(critic.parameters(), critic.parameters() + critic.size());
+    state.actor_adam = actor.state();
+    state.critic_adam = critic.state();
+    state.popart = popart;
+    state.recurrent = recurrent;
+    state.env = env.Snapshot();
+    state.iteration = iteration;
+    state.decisions = decisions;
+    state.best_success_rate = best_success_rate;
+    state.best_return = best_return;
+    return state;
+  }
+
+  void SetState(const TrainingState& state) {
+    // Sizes are right, LoadCheckpoint has seen to it, but for the environment's, which it asks
+    // about itself: first, so that nothing has moved if it throws.
+    env.Restore(state.env);
+    std::copy(state.actor.begin(), state.actor.end(), actor.parameters());
+    std::copy(state.critic.begin(), state.critic.end(), critic.parameters());
+    actor.Restore(state.actor_adam);
+    critic.Restore(state.critic_adam);
+    popart = state.popart;
+    recurrent = state.recurrent;
+    iteration = state.iteration;
+    decisions = state.decisions;
+    best_success_rate = state.best_success_rate;
+    best_return = state.best_return;
+  }
+
+  std::vector<float> LogStd() const {
+    const float* const log_std = actor.parameters() + actor_layout.log_std();
+    return {log_std, log_std + actor_layout.shape().output_size};
+  }
+
+  Policy CurrentPolicy() const {
+    auto parameters = std::make_shared<Policy::Parameters>();
+    parameters->config = config.network;
+    parameters->shape = actor_layout.shape();
+    parameters->action_repeat = config.env.action_repeat;
+    parameters->task = config.env.task;
+    parameters->environment = PolicyEnvironment(config.env);
+    parameters->controller = config.controller;
+    parameters->values.assign(actor.parameters(), actor.parameters() + actor.size());
+    return Policy(std::move(parameters), config.learner.backend);
+  }
+
+  /// Returns the control steps flown.
+  std::uint64_t Fly(IterationReport& report) {
+    const auto start = std::chrono::steady_clock::now();
+    actor_network->SetParameters(actor.parameters());
+    critic_network->SetParameters(critic.parameters());
+    RolloutSettings settings;
+    settings.seed = config.seed;
+    settings.first_decision = decisions;
+    settings.gamma = config.ppo.gamma;
+    settings.gae_lambda = config.ppo.gae_lambda;
+    settings.tanh_mean = config.network.tanh_mean;
+    settings.value_scale = popart.scale();
+    const EpisodeStatistics episodes = CollectRollout(env, *actor_network, *critic_network,
+                                                      LogStd(), settings, pool, recurrent, rollout);
+    decisions += config.ppo.rollout_steps;
+    const auto count = static_cast<double>(episodes.episodes);
+    report.episodes = episodes.episodes;
+    report.terminations = episodes.terminations;
+    report.return_mean = episodes.return_sum / count;  // 0 / 0 says that there are none
+    report.success_rate =
+        episodes.terminations[static_cast<int>(Termination::kResetTarget)] / count;
+    report.explained_variance = ExplainedVariance(rollout);
+    report.rollout_seconds = SecondsSince(start);
+    report.simulator_seconds = episodes.simulator_seconds / pool.threads();
+    return episodes.decisions * config.env.action_repeat;
+  }
+
+  void Learn(IterationReport& report) {
+    if (pool.stopping()) return;
+    const auto start = std::chrono::steady_clock::now();
+    report.learning_rate = LearningRate();
+    if (config.ppo.popart) {
+      UpdatePopArt(rollout.target, config.ppo.popart_rate, critic_layout, critic.parameters(),
+                   popart);
+    }
+    const UpdateReport done =
+        update.Run(rollout, popart.scale(), iteration, report.learning_rate, actor, critic);
+    report.gradient_seconds = done.gradient_seconds;
+    report.policy_loss = done.losses.policy_loss;
+    report.value_loss = done.losses.value_loss;
+    report.entropy = done.losses.entropy;
+    report.approximate_kl = done.losses.approximate_kl;
+    report.clip_fraction = done.losses.clip_fraction;
+    report.actor_gradient_norm = done.actor_gradient_norm;
+    report.critic_gradient_norm = done.critic_gradient_norm;
+    const std::vector<float> log_std = LogStd();
+    for (const float value : log_std) report.log_std_mean += value / log_std.size();
+    report.update_seconds = SecondsSince(start);
+  }
+
+  void EvaluateIfDue(IterationReport& report) {
+    if (pool.stopping()) return;
+    const PeriodicEvaluationConfig& evaluation = config.evaluation;
+    if (evaluation.interval_iterations <= 0) return;
+    if (iteration % evaluation.interval_iterations != 0 && env_steps() < config.total_steps) return;
+    const auto start = std::chrono::steady_clock::now();
+    EvaluationOptions options;
+    options.episodes = evaluation.episodes;
+    // The same episodes each time, and others than an evaluation with the run's own seed flies.
+    options.seed = ~config.seed;
+    const EvaluationResult result =
+        Evaluate(Agent::MeanOf(CurrentPolicy()), config.env, options, pool);
+    report.evaluation_success_rate = result.success_rate;
+    report.best = result.success_rate > best_success_rate ||
+                  (result.success_rate == best_success_rate && result.return_mean > best_return);
+    if (report.best) {
+      best_success_rate = result.success_rate;
+      best_return = result.return_mean;
+    }
+    report.evaluation_seconds = SecondsSince(start);
+  }
+
+  TrainConfig config;
+  WorkerPool& pool;
+  VecEnv env;
+  NetworkLayout actor_layout, critic_layout;
+  AdamOptimiser actor, critic;
+  BackendChoice backend;
+  std::unique_ptr<RecurrentNetwork> actor_network, critic_network;  ///< frozen during a rollout
+  Rollout rollout;
+  RecurrentState recurrent;
+  PpoUpdate update;
+  PopArt popart;
+  std::uint64_t iteration = 0;
+  std::uint64_t decisions = 0;
+  double best_success_rate = -1, best_return = 0;
+};
+
+Trainer::Trainer(const TrainConfig& config, WorkerPool& pool)
+    : impl_(std::make_unique<Impl>(config, pool)) {}
+Trainer::~Trainer() = default;
+
+const TrainConfig& Trainer::config() const { return impl_->config; }
+std::uint64_t Trainer::env_steps() const { return impl_->env_steps(); }
+std::uint64_t Trainer::iteration() const { return impl_->iteration; }
+bool Trainer::finished() const { return impl_->env_steps() >= impl_->config.total_steps; }
+
+const BackendChoice& Trainer::backend() const { return impl_->backend; }
+
+IterationReport Trainer::Iterate() {
+  const TrainingState before = impl_->State();
+  try {
+    IterationReport report;
+    const std::uint64_t flown = impl_->Fly(report);
+    impl_->Learn(report);
+    report.iteration = ++impl_->iteration;
+    report.env_steps = impl_->env_steps();
+    impl_->EvaluateIfDue(report);
+    if (!impl_->pool.stopping()) return report;
+    impl_->SetState(before);
+    IterationReport dropped;
+    dropped.dropped = true;
+    dropped.dropped_steps = flown;
+    return dropped;
+  } catch (...) {
+    impl_->SetState(before);
+    throw;
+  }
+}
+
+Policy Trainer::policy() const { return impl_->CurrentPolicy(); }
+
+void Trainer::Save(const std::string& path) const {
+  StoreCheckpoint(impl_->config, impl_->actor_layout, impl_->State()).Write(path);
+}
+
+std::string Trainer::Restore(const std::string& path) {
+  const TensorFile file = TensorFile::Read(path);
+  impl_->SetState(
+      LoadCheckpoint(file, path, impl_->config, impl_->actor_layout, impl_->critic_layout));
+  return file.metadata.at(kSimdTargetKey);
+}
+
+std::uint64_t Trainer::Signature() const { return Hash(impl_->State()); }
+
+}  // namespace skein

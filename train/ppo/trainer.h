@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "envs/tasks/termination.h"
+#include "base/worker_pool.h"
+#include "train/network/backend.h"
+#include "train/ppo/learner_config.h"
+#include "train/policy/recurrent_policy.h"
+
+namespace skein {
+
+/// What one iteration (rollout and update) did. All but the seconds is bit-identical for any number
+/// of threads.
+struct IterationReport {
+  /// The pool was asked to stop: nothing was done after all, and of the other fields only
+  /// dropped_steps means anything.
+  bool dropped = false;
+  std::uint64_t dropped_steps = 0;  ///< control steps flown in vain
+  std::uint64_t iteration = 0;
+  std::uint64_t env_steps = 0;  ///< control steps flown since the start of training
+  std::uint64_t episodes = 0;   ///< episodes that ended in this iteration
+  double return_mean = 0;       ///< of those; NaN if none
+  double success_rate = 0;      ///< of those; NaN if none
+  std::array<int, kNumTerminations> terminations{};
+  double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0, clip_fraction = 0;
+  double actor_gradient_norm = 0, critic_gradient_norm = 0;
+  double explained_variance = 0;
+  double learning_rate = 0;
+  double log_std_mean = 0;
+  double evaluation_success_rate =
+      -1;             ///< deterministic success if this iteration evaluated, else -1
+  bool best = false;  ///< this iteration's evaluation is the best so far
+  double rollout_seconds = 0, update_seconds = 0, evaluation_seconds = 0;
+  double simulator_seconds = 0;  ///< of the rollout, mean of the threads
+  double gradient_seconds = 0;   ///< of the update: forward, losses and backward
+};
+
+/// Recurrent PPO on a VecEnv. A run is a function of the configuration: same bits for any thread
+/// count, interrupted or not.
+class Trainer {
+ public:
+  Trainer(const TrainConfig& config, WorkerPool& pool);
+  ~Trainer();
+
+  /// The configuration, its precision as it was chosen (train/network/backend.h).
+  const TrainConfig& config() const;
+  std::uint64_t env_steps() const;
+  std::uint64_t iteration() const;
+  bool finished() const;                 ///< the step budget is used up
+  const BackendChoice& backend() const;  ///< what computes the networks
+
+  /// One rollout and update. Throws Error if a loss or gradient is not finite or explodes; the
+  /// whole state is then that before the iteration, and can be saved. So it is if the pool was
+  /// asked to stop, which takes no longer than a decision of a tile of aircraft or the gradient of
+  /// a tile of samples.
+  IterationReport Iterate();
+
+  Policy policy() const;
+
+  /// Everything needed to go on bit for bit, written atomically (temporary file, fsync, rename,
+  /// directory fsync).
+  void Save(const std::string& path) const;
+  /// Returns the SIMD target that the checkpoint was made on: on another one training goes on, but
+  /// not bit for bit. Throws Error if the file is damaged or was made with another configuration of
+  /// networks, environment or learner, or another controller; nothing has changed then.
+  std::string Restore(const std::string& path);
+
+  /// A 64-bit hash (FNV-1a) of parameters, optimiser, value statistics and environment state.
+  std::uint64_t Signature() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace skein

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "train/ppo/adam.h"
+#include "train/ppo/learner_config.h"
+#include "train/ppo/popart.h"
+#include "train/ppo/rollout.h"
+#include "train/files/tensor_file.h"
+
+namespace skein {
+
+/// All that a training run depends on beside its configuration.
+struct TrainingState {
+  std::vector<float> actor, critic;  ///< flat parameters
+  AdamState actor_adam, critic_adam;
+  PopArt popart;
+  RecurrentState recurrent{0, 0};
+  std::vector<std::uint32_t> env;  ///< VecEnv's snapshot, clocks and returns of episodes included
+  std::uint64_t iteration = 0;
+  std::uint64_t decisions = 0;  ///< per aircraft
+  double best_success_rate = -1, best_return = 0;
+};
+
+/// Metadata key of a checkpoint: the SIMD target that it was made on.
+inline constexpr const char* kSimdTargetKey = "checkpoint.simd_target";
+
+/// Every field of a configuration that training depends on, as text, by the name of its
+/// configuration key (`skein train --help-keys`).
+std::map<std::string, std::string> DescribeConfig(const TrainConfig& config);
+
+/// Writes a checkpoint: configuration, state, and the actor as a policy that Policy::Load reads.
+TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor,
+                           const TrainingState& state);
+
+/// Throws Error, naming `path`, if the file is no checkpoint, was made with another configuration
+/// (naming the first field that differs) or controller, or holds values of another size (of `env`,
+/// VecEnv is the judge).
+TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
+                             const TrainConfig& config, const NetworkLayout& actor,
+                             const NetworkLayout& critic);
+
+/// FNV-1a over every value of the state.
+std::uint64_t Hash(const TrainingState& state);
+
+}  // namespace skein
