@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/worker_pool.h"
 
 #include <oneapi/tbb/blocked_range.h>

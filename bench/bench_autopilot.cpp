@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The autopilot's control step on one tile that stays in the innermost caches, and as a yardstick
 // the environment's that it flies: observation, flight control, RK4, reward, terminations.
 
@@ -39,7 +40,7 @@ class FlownTile {
 
   void Begin() { env_.Restore(start_); }
   void Observe() { env_.Observe(0, observation_.data()); }
-  void Fly() { autopilot_->Fly(kTileSize, observation_.data(), memory_.data(), action_.data()); }
+  void Fly() { autopilot_->Act(kTileSize, observation_.data(), memory_.data(), action_.data()); }
   void Step() {
     StepOutput output;
     output.reward = reward_.data();
@@ -62,7 +63,7 @@ class FlownTile {
 
   EnvConfig config_;
   VecEnv env_;
-  std::unique_ptr<Pilot> autopilot_;
+  std::unique_ptr<Policy> autopilot_;
   std::vector<std::uint32_t> start_;
   std::vector<float> observation_, memory_, action_, reward_, episode_return_;
   std::vector<std::uint8_t> termination_;

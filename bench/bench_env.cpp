@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // The environment's parts around the plant, on one tile that stays in the innermost caches: flight
 // control, judging, observation, noise, beginnings of episodes. RK4 is the yardstick. Observations
-// and their noise are made once per decision, the others in every control step.
+// and their noise are made once per policy step, the others in every control step.
 
 #include <benchmark/benchmark.h>
 
@@ -8,18 +9,18 @@
 #include <memory>
 #include <vector>
 
+#include "base/denormals.h"
 #include "bench/environment_costs.h"
 #include "bench/noise_part.h"
 #include "bench/report.h"
 #include "envs/aircraft/f16.h"
+#include "envs/flight_reset.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
-#include "envs/flight_reset.h"
-#include "envs/tasks/reward.h"
 #include "envs/tasks/observation.h"
+#include "envs/tasks/reward.h"
 #include "envs/tasks/task.h"
 #include "envs/vec_env.h"
-#include "base/denormals.h"
 #include "simd/random.h"
 
 namespace skein::bench {
@@ -58,7 +59,7 @@ struct TrimmedTile {
       std::vector<float>(stride * static_cast<std::size_t>(task->num_columns()));
   std::vector<float> pilot = std::vector<float>(stride, 0.1f);
   std::vector<float> errors = std::vector<float>(stride * kNumTaskErrors);
-  std::vector<float> reward = std::vector<float>(stride), decision = reward, total = reward;
+  std::vector<float> reward = std::vector<float>(stride), policy_step = reward, total = reward;
   std::vector<std::int32_t> reached = std::vector<std::int32_t>(stride), step = reached,
                             termination = reached, episode = reached;
   std::vector<float> observation =
@@ -106,12 +107,13 @@ BENCHMARK(BM_FlightControl)->UseManualTime();
 
 void BM_Judge(benchmark::State& state) {
   TrimmedTile t;
-  const TaskVerdict verdict{t.reward.data(), t.reached.data()};
-  const JudgementLimits limits(t.config);
+  const StepResult step_result{t.reward.data(), t.reached.data()};
+  const TerminationLimits limits(t.config);
   TimeRounds(state, kJudgeCost, [&] {
-    t.task->Judge(t.tile(), t.task_tile(), t.step.data(), verdict);
-    JudgeTile(*t.aircraft, limits, t.tile(), verdict,
-              {t.step.data(), t.termination.data(), t.decision.data(), t.total.data()});
+    t.task->ComputeReward(t.tile(), t.task_tile(), t.step.data(), step_result);
+    ComputeRewardAndTermination(
+        *t.aircraft, limits, t.tile(), step_result,
+        {t.step.data(), t.termination.data(), t.policy_step.data(), t.total.data()});
   });
 }
 BENCHMARK(BM_Judge)->UseManualTime();

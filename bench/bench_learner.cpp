@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rates of the learner's whole computations: gradients of a tile, inference of a rollout's tile,
 // the GRU alone, and whole iterations. Its parts are in learner_kernels.cpp and learner_step.cpp.
 
@@ -6,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "bench/learner_meter.h"
 #include "base/denormals.h"
-#include "train/ppo/learner_rates.h"
+#include "bench/learner_meter.h"
 #include "train/network/recurrent_network.h"
+#include "train/ppo/learner_rates.h"
 
 namespace skein::bench {
 namespace {
@@ -41,9 +42,9 @@ struct Samples {
         action(Normal(Rows(batch, steps) * kActionSize)),
         advantage(Normal(Rows(batch, steps))),
         target(Normal(Rows(batch, steps))),
-        keep(Rows(batch, steps), 1.0f),
+        not_done(Rows(batch, steps), 1.0f),
         log_prob(Rows(batch, steps), -5.5f) {
-    tile.sequence = {steps, batch, observation.data(), initial_state.data(), keep.data()};
+    tile.sequence = {steps, batch, observation.data(), initial_state.data(), not_done.data()};
     tile.actor = {action.data(), log_prob.data(), advantage.data()};
     tile.target = tile.old_value = target.data();
     settings.sample_weight = 1.0 / static_cast<double>(tile.sequence.rows());
@@ -53,7 +54,7 @@ struct Samples {
   }
 
   AlignedVector<float> observation, initial_state, action, advantage, target;
-  std::vector<float> keep, log_prob;
+  std::vector<float> not_done, log_prob;
   SampleTile tile;
   LossSettings settings;
 };
@@ -108,7 +109,7 @@ SKEIN_GRADIENT(fast, Backend::kFused, LearnerPrecision::kFast)->Arg(384);
 SKEIN_GRADIENT(libtorch, Backend::kLibTorch, LearnerPrecision::kFloat32)->Arg(384)->Arg(4096);
 #undef SKEIN_GRADIENT
 
-/// One decision of actor and critic for a rollout tile of `range(0)` aircraft.
+/// One policy step of actor and critic for a rollout tile of `range(0)` aircraft.
 void Inference(benchmark::State& state, LearnerPrecision precision) {
   const simd::DenormalsFlushed flushed;
   const std::vector<NetworkShape> shapes = ActorAndCritic();
@@ -200,7 +201,7 @@ void Iteration(benchmark::State& state) {
   for (auto _ : state) {
     const LearnerRates rates = MeasureLearners({config}, kIterations, pool)[0];
     state.SetIterationTime(rates.iteration_s);
-    state.counters["decisions/s"] = rates.rollout_decisions_per_s;
+    state.counters["policy steps/s"] = rates.rollout_policy_steps_per_s;
     state.counters["samples/s"] = rates.update_samples_per_s;
     state.counters["gradient_samples/s"] = rates.gradient_samples_per_s;
     state.counters["%_of_FMA_peak"] = 100 * rates.gradient_samples_per_s *

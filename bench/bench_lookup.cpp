@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The aerodynamic tables' functions for the four stages of a step, by arrangement of the tables.
 // Every arrangement is checked against the plant kernel's before it is timed.
 
@@ -9,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "base/denormals.h"
 #include "bench/flock.h"
 #include "bench/lookup_layouts.h"
 #include "bench/lookup_tables.h"
 #include "bench/report.h"
 #include "envs/aircraft/table_lookup.h"
-#include "base/denormals.h"
 
 namespace skein::bench {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The learner's products of matrices on one core: own kernels in both precisions beside LibTorch's.
 // All take turns in every iteration, as the machine's speed varies; rates are of the medians.
 
@@ -11,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/libtorch_matmul.h"
 #include "base/aligned_vector.h"
+#include "bench/libtorch_matmul.h"
 #include "simd/matrix_product.h"
 #include "simd/peak.h"
 #include "train/libtorch/libtorch_threads.h"

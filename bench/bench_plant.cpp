@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plant kernel: its parts one by one, whole evaluations, whole RK4 steps.
 
 #include <benchmark/benchmark.h>
@@ -5,11 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/denormals.h"
+#include "base/worker_pool.h"
 #include "bench/flock.h"
 #include "bench/plant_parts.h"
 #include "bench/report.h"
-#include "base/worker_pool.h"
-#include "base/denormals.h"
 
 namespace skein::bench {
 namespace {

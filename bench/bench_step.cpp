@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole control steps of the Heading environment under random actions (observation, flight control,
 // actuators, engine, RK4, reward, terminations, resets), at 10^2 to 10^7 aircraft.
 
@@ -8,10 +9,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/worker_pool.h"
 #include "bench/environment_costs.h"
 #include "bench/report.h"
 #include "envs/vec_env.h"
-#include "base/worker_pool.h"
 #include "simd/random.h"
 
 namespace skein::bench {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fixed number of steps of one part of the simulator, on one thread and without timing, for
 // scripts/count_instructions: two runs with different numbers of steps differ by those steps alone.
 
@@ -9,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "base/denormals.h"
+#include "base/error.h"
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/vec_env.h"
-#include "base/denormals.h"
-#include "base/error.h"
 #include "simd/random.h"
 #include "simd/target.h"
 

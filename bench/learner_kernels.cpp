@@ -1,10 +1,12 @@
-// Rates of the elementwise kernels between the learner's products (train/network/network_kernels.h), on
-// rows that stay in the first two levels of the cache, as many as the networks give them.
+// SPDX-License-Identifier: Apache-2.0
+// Rates of the elementwise kernels between the learner's products
+// (train/network/network_kernels.h), on rows that stay in the first two levels of the cache, as
+// many as the networks give them.
 
 #include <benchmark/benchmark.h>
 
-#include "bench/learner_meter.h"
 #include "base/denormals.h"
+#include "bench/learner_meter.h"
 #include "train/network/network_kernels.h"
 
 namespace skein::bench {
@@ -23,7 +25,7 @@ struct Rows {
   AlignedVector<float> gates = Normal(kRows * gate_stride);
   AlignedVector<float> inverse_std = AlignedVector<float>(kRows, 1.0f);
   AlignedVector<float> zero_level = AlignedVector<float>(kRows, 0.0f);
-  AlignedVector<float> keep = AlignedVector<float>(kRows, 1.0f);
+  AlignedVector<float> not_done = AlignedVector<float>(kRows, 1.0f);
   AlignedVector<float> sums = AlignedVector<float>(4 * kColumns, 0.0f);
 
   static constexpr std::int64_t gate_stride = 4 * kColumns + 16;
@@ -73,13 +75,13 @@ void NormaliseBackward(benchmark::State& state) {
 
 void ScaleRows(benchmark::State& state) {
   Pass(state, kChunks, kColumns, [](Rows& rows) {
-    skein::ScaleRows(kChunks, kColumns, rows.keep.data(), rows.a.data(), rows.b.data());
+    skein::ScaleRows(kChunks, kColumns, rows.not_done.data(), rows.a.data(), rows.b.data());
   });
 }
 
 void AddScaledRows(benchmark::State& state) {
   Pass(state, kChunks, kColumns, [](Rows& rows) {
-    skein::AddScaledRows(kChunks, kColumns, rows.keep.data(), rows.a.data(), rows.b.data());
+    skein::AddScaledRows(kChunks, kColumns, rows.not_done.data(), rows.a.data(), rows.b.data());
   });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times of what a minibatch does once, whatever its size, for one network: the actor of the default
 // settings.
 
@@ -6,11 +7,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "bench/learner_meter.h"
 #include "base/denormals.h"
-#include "train/ppo/adam.h"
+#include "bench/learner_meter.h"
 #include "train/network/folded_parameters.h"
 #include "train/network/fused_network.h"
+#include "train/ppo/adam.h"
 #include "train/ppo/minibatch_step.h"
 
 namespace skein::bench {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bench/libtorch_matmul.h"
 
 #include <ATen/ATen.h>

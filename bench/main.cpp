@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
 
 #include <iostream>
 
-#include "bench/report.h"
 #include "base/error.h"
+#include "bench/report.h"
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);

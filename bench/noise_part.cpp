@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bench/noise_part.h"
 
 #include "envs/tasks/observation.h"

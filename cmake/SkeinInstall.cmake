@@ -1,10 +1,11 @@
+# SPDX-License-Identifier: Apache-2.0
 # Install rules and the exported package: find_package(skein) gives skein::simd, skein::envs and, where the learner was
 # built, skein::train.
 include(CMakePackageConfigHelpers)
 
 set(SKEIN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
-set(skein_targets skein_settings skein_simd skein_envs)
-set(skein_rooms simd envs)
+set(skein_targets skein_settings skein_base skein_simd skein_envs)
+set(skein_rooms base simd envs)
 if(SKEIN_BUILD_TRAIN)
   list(APPEND skein_targets skein_train)
   list(APPEND skein_rooms train)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Compile settings shared by every target of Skein.
 add_library(skein_settings INTERFACE)
 set_target_properties(skein_settings PROPERTIES EXPORT_NAME settings)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "envs/state/state.h"
@@ -10,7 +11,7 @@ inline constexpr int kActionSize = 4;
 /// Turns a tile's actions, row-major [tile.count][kActionSize], into pilot commands: kActionSize
 /// columns `pilot_stride` apart, clipped to [-1, 1], the throttle brought to [0, 1]. Where the last
 /// aircraft does not fill a vector, the rest of its lanes get centred commands. An action that is
-/// not finite makes its aircraft's kU NaN, so that its episode ends as NonFinite.
+/// not finite makes its aircraft's kU NaN, so that its episode ends as non_finite.
 void TakeActions(const float* action, Tile tile, float* pilot, std::size_t pilot_stride);
 
 }  // namespace skein

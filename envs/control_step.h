@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ struct ControlStep {
   const std::int32_t* termination = nullptr;  ///< Termination; kNone while flying
 };
 
-/// Sees the control steps of decisions as they are flown: those of an aircraft in their order.
+/// Sees the control steps of policy steps as they are flown: those of an aircraft in their order.
 class ControlStepObserver {
  public:
   virtual ~ControlStepObserver() = default;

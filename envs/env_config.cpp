@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/env_config.h"
 
 #include <cmath>
@@ -5,8 +6,8 @@
 #include <locale>
 #include <sstream>
 
-#include "base/name_in.h"
 #include "base/error.h"
+#include "base/name_in.h"
 
 namespace skein {
 namespace {
@@ -128,9 +129,9 @@ void Validate(const EnvConfig& config) {
       config.tracking.training_tolerance_max >= 1 && config.tracking.training_tolerance_max <= 1000,
       "env.tracking.training_tolerance_max", config.tracking.training_tolerance_max,
       "in [1, 1000]");
-  RequireNotNegative("env.planner.pitch_change_rad", config.planner.pitch_change_rad);
-  RequireNotNegative("env.planner.yaw_change_rad", config.planner.yaw_change_rad);
-  RequireNotNegative("env.planner.speed_change_fps", config.planner.speed_change_fps);
+  RequireNotNegative("env.high_level.pitch_change_rad", config.high_level.pitch_change_rad);
+  RequireNotNegative("env.high_level.yaw_change_rad", config.high_level.yaw_change_rad);
+  RequireNotNegative("env.high_level.speed_change_fps", config.high_level.speed_change_fps);
 
   RequireRange("env.termination.alpha", "deg", config.termination.alpha_deg, -180, 180);
   RequireRange("env.termination.beta", "deg", config.termination.beta_deg, -90, 90);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -33,7 +34,7 @@ struct WindConfig {
   /// as a step at the start of the episode. false: it is trimmed in the moving air.
   bool step_at_reset = true;
 
-  bool blows() const { return speed_fps.max > 0 || turbulence_fps.max > 0; }
+  bool enabled() const { return speed_fps.max > 0 || turbulence_fps.max > 0; }
 };
 
 /// Targets of the Heading task relative to the initial state, when they count as reached, and what
@@ -65,8 +66,8 @@ struct ControlConfig {
   double yaw_tolerance_deg = 5;
   double speed_tolerance_fps = 20;
   /// In training an episode's tolerances are these times U(x, 1), which the agent does not see.
-  /// 1 is the paper's; with less it learns to come nearer than it must, as a controller under a
-  /// planner has to.
+  /// 1 is the paper's; with less it learns to come nearer than it must, as a low-level policy under
+  /// a high-level policy has to.
   double training_tolerance_min = 1;
   /// true: the reward's angle is that to the target attitude, wings level, as the paper's; false:
   /// that between the nose and where it should point. Roll does not count for the target, but has
@@ -98,20 +99,21 @@ struct TrackingConfig {
   double azimuth_deg = 30;             ///< to either side of the nose: U(-x, x)
   double elevation_deg = 30;           ///< above and below the nose: U(-x, x)
   double position_tolerance_ft = 100;  ///< north, east and up
-  /// In training an episode's tolerance is the above times exp(U(0, ln x)), so that a planner
-  /// reaches some targets before it reaches all; evaluations take it as it is.
+  /// In training an episode's tolerance is the above times exp(U(0, ln x)), so that a high-level
+  /// policy reaches some targets before it reaches all; evaluations take it as it is.
   double training_tolerance_max = 1;
   TrackingAxes error_axes = TrackingAxes::kHeading;
 };
 
-/// What a planner's full action asks of the controller that flies (envs/guided_flight.h): changes
-/// of the present pitch, yaw and true airspeed. And what it sees.
-struct PlannerConfig {
+/// What a high-level policy's full action asks of the low-level policy that flies
+/// (envs/guided_flight.h): changes of the present pitch, yaw and true airspeed. And what it sees.
+struct HighLevelConfig {
   double pitch_change_rad = 0.3;
   double yaw_change_rad = 0.3;
   double speed_change_fps = 30;
-  /// A planner sees the mean of all that its controller's sensors showed since it last decided, and
-  /// what they show now: a look for each of the controller's decisions. false: what they show now.
+  /// A high-level policy sees the mean of all that its low-level policy's sensors showed since it
+  /// last decided, and what they show now: a look for each of the low-level policy's policy steps.
+  /// false: what they show now.
   bool averages_observations = false;
 };
 
@@ -154,7 +156,7 @@ struct EnvConfig {
   HeadingConfig heading;
   ControlConfig control;
   TrackingConfig tracking;
-  PlannerConfig planner;
+  HighLevelConfig high_level;
   TerminationConfig termination;
 };
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/flight_metrics.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "envs/state/attitude.h"
 #include "envs/kernels/kernel_aircraft.h"
+#include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE

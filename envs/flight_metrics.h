@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -5,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/state.h"
-#include "base/aligned_vector.h"
 
 namespace skein {
 

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/flight_reset.h"
 
 #include <cmath>
 #include <cstdio>
 
+#include "base/error.h"
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/engine.h"
 #include "envs/state/attitude.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 #include <optional>
 
+#include "envs/env_config.h"
 #include "envs/reference/flight_control.h"
 #include "envs/reference/plant.h"
 #include "envs/reference/trim_table.h"
-#include "envs/env_config.h"
 #include "envs/tasks/task.h"
 #include "simd/random.h"
 

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/guided_flight.h"
 
 #include <algorithm>
 #include <string>
 
+#include "base/error.h"
 #include "envs/tasks/control.h"
 #include "simd/dispatch.h"
-#include "base/error.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "envs/guided_flight.cpp"
@@ -21,16 +22,16 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-void PlanKernel(const PlannerConfig& config, const float* action, Tile flight, Tile target) {
+void PlanKernel(const HighLevelConfig& config, const float* action, Tile flight, Tile target) {
   const FlightTag d;
   constexpr int kMaxLanes = 16;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const FlightVector one = Constant(1), zero = hn::Zero(d), vertical = Constant(1.5707963267948966);
-  alignas(64) float last_rows[kMaxLanes * kPlannerActionSize] = {};
+  alignas(64) float last_rows[kMaxLanes * kHighLevelActionSize] = {};
   for (int first = 0; first < flight.count; first += lanes) {
-    const float* rows = action + first * kPlannerActionSize;
+    const float* rows = action + first * kHighLevelActionSize;
     if (flight.count - first < lanes) {
-      std::copy(rows, action + flight.count * kPlannerActionSize, last_rows);
+      std::copy(rows, action + flight.count * kHighLevelActionSize, last_rows);
       rows = last_rows;
     }
     FlightVector pitch, yaw, speed;
@@ -67,45 +68,47 @@ namespace {
 HWY_EXPORT(PlanKernel);
 
 static_assert(kControlPitch == 0 && kControlYaw == 1 && kControlSpeed == 2 &&
-              kPlannerActionSize == 3);
+              kHighLevelActionSize == 3);
 
 void RequireSize(const char* what, int size, int expected) {
   if (size == expected) return;
-  throw Error("environment: the controller has " + std::to_string(size) + " " + what +
-              ", but one that flies for a planner has " + std::to_string(expected));
+  throw Error("environment: the low-level policy has " + std::to_string(size) + " " + what +
+              ", but one that flies for a high-level policy has " + std::to_string(expected));
 }
 
 }  // namespace
 
 GuidedFlight::GuidedFlight(const EnvConfig& config, int num_aircraft,
-                           std::shared_ptr<const Pilot> controller)
-    : planner_(config.planner),
+                           std::shared_ptr<const Policy> low_level)
+    : high_level_(config.high_level),
       control_(MakeControlTask(config)),
-      controller_(std::move(controller)),
-      looks_size_(config.planner.averages_observations ? kObservationSize + 1 : 0) {
-  RequireSize("observations", controller_->observation_size(), kObservationSize);
-  RequireSize("actions", controller_->action_size(), kActionSize);
+      low_level_(std::move(low_level)),
+      observation_sums_size_(config.high_level.averages_observations ? kObservationSize + 1 : 0) {
+  RequireSize("observations", low_level_->observation_size(), kObservationSize);
+  RequireSize("actions", low_level_->action_size(), kActionSize);
   const auto count = static_cast<std::size_t>(num_aircraft);
-  state_.assign(count * static_cast<std::size_t>(controller_->state_size()), 0.0f);
-  looks_.assign(count * static_cast<std::size_t>(looks_size_), 0.0f);
+  state_.assign(count * static_cast<std::size_t>(low_level_->state_size()), 0.0f);
+  observation_sums_.assign(count * static_cast<std::size_t>(observation_sums_size_), 0.0f);
 }
 
 void GuidedFlight::Forget(int aircraft) {
-  std::fill_n(state(aircraft), controller_->state_size(), 0.0f);
-  ForgetLooks(aircraft, 1);
+  std::fill_n(state(aircraft), low_level_->state_size(), 0.0f);
+  ResetObservationMean(aircraft, 1);
 }
 
-void GuidedFlight::ForgetLooks(int first, int count) {
-  std::fill_n(looks(first), static_cast<std::ptrdiff_t>(count) * looks_size_, 0.0f);
+void GuidedFlight::ResetObservationMean(int first, int count) {
+  std::fill_n(observation_sums(first), static_cast<std::ptrdiff_t>(count) * observation_sums_size_,
+              0.0f);
 }
 
-void GuidedFlight::AddLooks(int first, int count, const float* errors, const Decision& decision) {
+void GuidedFlight::AccumulateObservations(int first, int count, const float* errors,
+                                          const PolicyStep& policy_step) {
   for (int i = 0; i < count; ++i) {
-    float* const sum = looks(first + i);
-    const float* const look = decision.observation + i * kObservationSize;
+    float* const sum = observation_sums(first + i);
+    const float* const look = policy_step.observation + i * kObservationSize;
     for (int k = 0; k < kNumTaskErrors; ++k) {
-      // What is left of the controller's errors is their noise.
-      sum[k] += look[k] - decision.error[k][i] + errors[k * kMaxCount + i];
+      // What is left of the low-level policy's errors is their noise.
+      sum[k] += look[k] - policy_step.error[k][i] + errors[k * kMaxCount + i];
     }
     for (int k = kNumTaskErrors; k < kObservationSize; ++k) sum[k] += look[k];
     sum[kObservationSize] += 1;
@@ -114,26 +117,27 @@ void GuidedFlight::AddLooks(int first, int count, const float* errors, const Dec
 
 void GuidedFlight::Average(int first, int count, float* observation) const {
   for (int i = 0; i < count; ++i) {
-    const float* const sum = looks_.data() + static_cast<std::ptrdiff_t>(first + i) * looks_size_;
+    const float* const sum =
+        observation_sums_.data() + static_cast<std::ptrdiff_t>(first + i) * observation_sums_size_;
     const float share = 1 / (sum[kObservationSize] + 1);
     float* const row = observation + i * kObservationSize;
     for (int k = 0; k < kObservationSize; ++k) row[k] = (row[k] + sum[k]) * share;
   }
 }
 
-void GuidedFlight::Plan(const float* action, Tile flight, Decision& decision) const {
+void GuidedFlight::Plan(const float* action, Tile flight, PolicyStep& policy_step) const {
   SKEIN_DISPATCH(PlanKernel)
-  (planner_, action, flight, {decision.target[0], kMaxCount, flight.count});
+  (high_level_, action, flight, {policy_step.target[0], kMaxCount, flight.count});
 }
 
-void GuidedFlight::Decide(const KernelAircraft& aircraft, Tile flight,
-                          const ObservationNoise& noise, Decision& decision) {
+void GuidedFlight::Act(const KernelAircraft& aircraft, Tile flight, const ObservationNoise& noise,
+                       PolicyStep& policy_step) {
   // Of the Control task's columns, those that its errors are made of.
-  const Tile target{decision.target[0], kMaxCount, flight.count};
-  control_->Errors(flight, target, decision.error[0], kMaxCount);
-  ObserveTile(aircraft, flight, decision.error[0], kMaxCount, noise, decision.observation);
-  controller_->Fly(flight.count, decision.observation,
-                   state(static_cast<int>(noise.first_aircraft)), decision.stick);
+  const Tile target{policy_step.target[0], kMaxCount, flight.count};
+  control_->Errors(flight, target, policy_step.error[0], kMaxCount);
+  ObserveTile(aircraft, flight, policy_step.error[0], kMaxCount, noise, policy_step.observation);
+  low_level_->Act(flight.count, policy_step.observation,
+                  state(static_cast<int>(noise.first_aircraft)), policy_step.stick);
 }
 
 }  // namespace skein

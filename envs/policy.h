@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "envs/env_config.h"
@@ -6,9 +7,9 @@ namespace skein {
 
 /// Something that flies aircraft by what they observe: a trained policy, an autopilot. Immutable,
 /// and safe to use from several threads: what it remembers of each aircraft lies with the caller.
-class Pilot {
+class Policy {
  public:
-  virtual ~Pilot() = default;
+  virtual ~Policy() = default;
 
   virtual int observation_size() const = 0;
   virtual int action_size() const = 0;
@@ -17,17 +18,17 @@ class Pilot {
 
   /// The environment as it observes `env` and acts in it, where a choice belongs to the pilot and
   /// not to the episodes: how long it holds an action, in which axes it is shown Tracking's target,
-  /// whether a planner sees means.
+  /// whether a high-level policy sees means.
   virtual EnvConfig EnvironmentFor(const EnvConfig& env) const {
     EnvConfig own = env;
     own.action_repeat = action_repeat();
     return own;
   }
 
-  /// One decision for `count` aircraft: reads observation [count][observation_size], updates state
-  /// [count][state_size], in which a row of zeros is the beginning of an episode, and writes action
-  /// [count][action_size]. Every aircraft's action depends on its own rows alone.
-  virtual void Fly(int count, const float* observation, float* state, float* action) const = 0;
+  /// One policy step for `count` aircraft: reads observation [count][observation_size], updates
+  /// state [count][state_size], in which a row of zeros is the beginning of an episode, and writes
+  /// action [count][action_size]. Every aircraft's action depends on its own rows alone.
+  virtual void Act(int count, const float* observation, float* state, float* action) const = 0;
 };
 
 }  // namespace skein

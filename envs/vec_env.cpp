@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/vec_env.h"
 
 #include <algorithm>
@@ -7,23 +8,23 @@
 #include <new>
 #include <string>
 
+#include "base/denormals.h"
+#include "base/error.h"
 #include "envs/actions.h"
 #include "envs/aircraft/registry.h"
-#include "envs/kernels/plant_kernel.h"
 #include "envs/flight_metrics.h"
 #include "envs/flight_reset.h"
 #include "envs/guided_flight.h"
-#include "envs/tasks/reward.h"
+#include "envs/kernels/plant_kernel.h"
 #include "envs/tasks/observation.h"
+#include "envs/tasks/reward.h"
 #include "envs/tasks/task.h"
 #include "envs/wind/wind.h"
-#include "base/denormals.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {
 
-// Aircraft that go through all of a decision's control steps together: their columns stay in the
+// Aircraft that go through all of a policy step's control steps together: their columns stay in the
 // innermost caches.
 constexpr int kBlock = 128;
 static_assert(kBlock <= GuidedFlight::kMaxCount);
@@ -45,14 +46,14 @@ AlignedBytes AllocateZeros(std::size_t size) {
 
 int RoundUp(int count, int multiple) { return (count + multiple - 1) / multiple * multiple; }
 
-/// What a block needs during a decision only.
-struct alignas(kCacheLine) DecisionScratch {
+/// What a block needs during a policy step only.
+struct alignas(kCacheLine) PolicyStepScratch {
   float pilot[kActionSize][kBlock];
   float step_reward[kBlock];
-  float decision_reward[kBlock];
+  float policy_step_reward[kBlock];
   std::int32_t reached[kBlock];
   std::int32_t termination[kBlock];
-  GuidedFlight::Decision guidance;  // with a controller
+  GuidedFlight::PolicyStep guidance;  // with a low-level policy
 
   PilotColumns pilot_columns() const { return {pilot[0], pilot[1], pilot[2], pilot[3]}; }
 };
@@ -92,7 +93,7 @@ struct VecEnv::Impl {
   };
 
   Impl(const EnvConfig& environment, int aircraft_count, std::uint64_t random_seed,
-       int requested_tile_size, std::shared_ptr<const Pilot> controller)
+       int requested_tile_size, std::shared_ptr<const Policy> low_level)
       : config(Validated(environment)),
         num_aircraft(aircraft_count),
         seed(random_seed),
@@ -103,7 +104,7 @@ struct VecEnv::Impl {
         limits(config),
         reset(config, aircraft),
         wind(config.wind),
-        flight_columns(wind.blows() ? kNumWindyColumns : kNumColumns) {
+        flight_columns(wind.enabled() ? kNumWindyColumns : kNumColumns) {
     if (aircraft_count < 1) {
       throw Error("environment: " + std::to_string(aircraft_count) +
                   " aircraft, but there must be at least 1");
@@ -112,8 +113,8 @@ struct VecEnv::Impl {
       throw Error("environment: tiles of " + std::to_string(requested_tile_size) +
                   " aircraft, but a tile must have at least 1");
     }
-    if (controller != nullptr) {
-      guided = std::make_unique<GuidedFlight>(config, num_aircraft, std::move(controller));
+    if (low_level != nullptr) {
+      guided = std::make_unique<GuidedFlight>(config, num_aircraft, std::move(low_level));
     }
     tile_size = RoundUp(std::min(requested_tile_size, num_aircraft), kLaneMultiple);
     num_tiles = (num_aircraft + tile_size - 1) / tile_size;
@@ -143,7 +144,7 @@ struct VecEnv::Impl {
     float* const base = reinterpret_cast<float*>(bytes) + lane;
     const int count = std::min(kBlock - lane, CountOf(tile) - begin);
     Block block;
-    block.flight = {base, stride, count, wind.blows()};
+    block.flight = {base, stride, count, wind.enabled()};
     block.task = {block.flight[flight_columns], stride, count};
     block.episode_return = block.task[task->num_columns()];
     block.step = reinterpret_cast<std::int32_t*>(block.episode_return + stride);
@@ -176,7 +177,7 @@ struct VecEnv::Impl {
     for (int column = 0; column < kNumColumns; ++column) {
       block.flight[column][i] = flight.columns[static_cast<std::size_t>(column)];
     }
-    if (wind.blows()) wind.Begin(block.flight, i, KeysOf(block));
+    if (wind.enabled()) wind.Begin(block.flight, i, KeysOf(block));
     simd::RandomStream target = Stream(block, i, simd::RandomPurpose::kTarget);
     task->Reset(flight.start, &target, block.task, i);
     if (config.stagger_clocks && episode == 0) {
@@ -221,19 +222,19 @@ struct VecEnv::Impl {
     }
   }
 
-  /// Keeps what the controller has just seen for the planner's next observation.
-  void AddLooks(const Block& block, const DecisionScratch& scratch) const {
+  /// Keeps what the low-level policy has just seen for the high-level policy's next observation.
+  void AccumulateObservations(const Block& block, const PolicyStepScratch& scratch) const {
     static_assert(kBlock == GuidedFlight::kMaxCount);
     alignas(kCacheLine) float errors[kNumTaskErrors * kBlock];
     task->Errors(block.flight, block.task, errors, kBlock);
-    guided->AddLooks(block.first_aircraft, block.count, errors, scratch.guidance);
+    guided->AccumulateObservations(block.first_aircraft, block.count, errors, scratch.guidance);
   }
 
   /// Copies the observations of aircraft whose time ran out in this control step.
-  void ObserveTruncated(const Block& block, const DecisionScratch& scratch, bool* written,
+  void ObserveTruncated(const Block& block, const PolicyStepScratch& scratch, bool* written,
                         float* final_observation) const {
     const auto is_new = [&](int i) {
-      return scratch.termination[i] == static_cast<std::int32_t>(Termination::kUnreachTarget) &&
+      return scratch.termination[i] == static_cast<std::int32_t>(Termination::kTimeLimit) &&
              !written[i];
     };
     bool any = false;
@@ -261,7 +262,7 @@ struct VecEnv::Impl {
   }
 
   /// Reports the episodes that ended and begins new ones.
-  void RestartEnded(const Block& block, const DecisionScratch& scratch,
+  void RestartEnded(const Block& block, const PolicyStepScratch& scratch,
                     const StepOutput& output) const {
     for (int i = 0; i < block.count; ++i) {
       if (scratch.termination[i] == static_cast<std::int32_t>(Termination::kNone)) continue;
@@ -281,10 +282,10 @@ struct VecEnv::Impl {
     }
   }
 
-  /// Has the controller, if there is one, decide when it is due. Returns the stick actions that
-  /// hold during the control step.
+  /// Has the low-level policy, if there is one, decide when it is due. Returns the stick actions
+  /// that hold during the control step.
   const float* TakeSticks(const Block& block, const float* action, int step,
-                          DecisionScratch& scratch) const {
+                          PolicyStepScratch& scratch) const {
     const bool is_first = step == 0;
     if (guided == nullptr) {
       if (is_first) TakeActions(action, block.flight, scratch.pilot[0], kBlock);
@@ -292,47 +293,48 @@ struct VecEnv::Impl {
     }
     if (is_first) {
       guided->Plan(action, block.flight, scratch.guidance);
-      guided->ForgetLooks(block.first_aircraft, block.count);
+      guided->ResetObservationMean(block.first_aircraft, block.count);
     }
-    if (guided->Decides(step)) {
-      guided->Decide(*kernel_aircraft, block.flight, NoiseOf(block), scratch.guidance);
-      // The first look is the one that the planner has just decided by.
-      if (guided->averages() && !is_first) AddLooks(block, scratch);
+    if (guided->IsPolicyStep(step)) {
+      guided->Act(*kernel_aircraft, block.flight, NoiseOf(block), scratch.guidance);
+      // The first look is the one that the high-level policy has just decided by.
+      if (guided->averages() && !is_first) AccumulateObservations(block, scratch);
       TakeActions(scratch.guidance.stick, block.flight, scratch.pilot[0], kBlock);
     }
     return scratch.guidance.stick;
   }
 
   /// Judges a control step, and shows it to the observer, if there is one.
-  void Judge(const Block& block, const TaskVerdict& verdict, const EpisodeColumns& episodes,
-             const float* stick, ControlStepObserver* observer) const {
-    task->Judge(block.flight, block.task, block.step, verdict);
+  void ComputeReward(const Block& block, const StepResult& step_result,
+                     const EpisodeColumns& episodes, const float* stick,
+                     ControlStepObserver* observer) const {
+    task->ComputeReward(block.flight, block.task, block.step, step_result);
     if (observer == nullptr) {
-      JudgeTile(*kernel_aircraft, limits, block.flight, verdict, episodes);
+      ComputeRewardAndTermination(*kernel_aircraft, limits, block.flight, step_result, episodes);
       return;
     }
     alignas(kCacheLine) float reward[kBlock] = {};
     EpisodeColumns step = episodes;
-    step.decision_reward = reward;
-    JudgeTile(*kernel_aircraft, limits, block.flight, verdict, step);
-    for (int i = 0; i < block.count; ++i) episodes.decision_reward[i] += reward[i];
+    step.policy_step_reward = reward;
+    ComputeRewardAndTermination(*kernel_aircraft, limits, block.flight, step_result, step);
+    for (int i = 0; i < block.count; ++i) episodes.policy_step_reward[i] += reward[i];
     observer->See({block.first_aircraft, block.flight, stick, reward, episodes.termination});
   }
 
   /// `output` points at the block's first aircraft.
   void Step(const Block& block, const float* action, const StepOutput& output) const {
-    DecisionScratch scratch;
-    std::fill(std::begin(scratch.decision_reward), std::end(scratch.decision_reward), 0.0f);
+    PolicyStepScratch scratch;
+    std::fill(std::begin(scratch.policy_step_reward), std::end(scratch.policy_step_reward), 0.0f);
     std::fill(std::begin(scratch.termination), std::end(scratch.termination), 0);
-    const TaskVerdict verdict{scratch.step_reward, scratch.reached};
-    const EpisodeColumns episodes{block.step, scratch.termination, scratch.decision_reward,
+    const StepResult step_result{scratch.step_reward, scratch.reached};
+    const EpisodeColumns episodes{block.step, scratch.termination, scratch.policy_step_reward,
                                   block.episode_return};
     const bool keeps_final = config.truncate_at_time_limit && output.final_observation != nullptr;
     bool written[kBlock] = {};
     const float dt = static_cast<float>(config.control_interval_s);
     for (int step = 0; step < config.action_repeat; ++step) {
       const float* const stick = TakeSticks(block, action, step, scratch);
-      if (wind.blows()) wind.Advance(block.flight, dt, KeysOf(block));
+      if (wind.enabled()) wind.Advance(block.flight, dt, KeysOf(block));
       ControlTile(*kernel_aircraft, flight_control, block.flight, scratch.pilot_columns());
       // The next block's memory is needed after this one's last control step.
       const bool is_last = step + 1 == config.action_repeat;
@@ -341,10 +343,10 @@ struct VecEnv::Impl {
       if (output.flight_metrics != nullptr) {
         MetricSums(block).Add(*kernel_aircraft, block.flight, scratch.termination);
       }
-      Judge(block, verdict, episodes, stick, output.observer);
+      ComputeReward(block, step_result, episodes, stick, output.observer);
       if (keeps_final) ObserveTruncated(block, scratch, written, output.final_observation);
     }
-    std::copy_n(scratch.decision_reward, block.count, output.reward);
+    std::copy_n(scratch.policy_step_reward, block.count, output.reward);
     std::copy_n(scratch.termination, block.count, output.termination);
     // Endings are rare: most blocks have none.
     std::int32_t any_ended = 0;
@@ -404,11 +406,11 @@ struct VecEnv::Impl {
   Aircraft aircraft;
   std::shared_ptr<const KernelAircraft> kernel_aircraft;
   FlightControlConstants flight_control;
-  JudgementLimits limits;
+  TerminationLimits limits;
   FlightReset reset;
   Wind wind;
   int flight_columns;
-  std::unique_ptr<GuidedFlight> guided;  // null without a controller
+  std::unique_ptr<GuidedFlight> guided;  // null without a low-level policy
 
   int tile_size = 0;
   int num_tiles = 0;
@@ -425,8 +427,8 @@ struct VecEnv::Impl {
 };
 
 VecEnv::VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size,
-               std::shared_ptr<const Pilot> controller)
-    : impl_(std::make_unique<Impl>(config, num_aircraft, seed, tile_size, std::move(controller))) {}
+               std::shared_ptr<const Policy> low_level)
+    : impl_(std::make_unique<Impl>(config, num_aircraft, seed, tile_size, std::move(low_level))) {}
 VecEnv::~VecEnv() = default;
 VecEnv::VecEnv(VecEnv&&) noexcept = default;
 
@@ -437,7 +439,7 @@ int VecEnv::tile_begin(int tile) const { return tile * impl_->tile_size; }
 int VecEnv::tile_count(int tile) const { return impl_->CountOf(tile); }
 int VecEnv::observation_size() const { return kObservationSize; }
 int VecEnv::action_size() const {
-  return impl_->guided != nullptr ? kPlannerActionSize : kActionSize;
+  return impl_->guided != nullptr ? kHighLevelActionSize : kActionSize;
 }
 
 void VecEnv::Observe(int tile, float* observation) const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace skein {
 
-/// What one decision did to each aircraft of a tile. Arrays of `tile_count(tile)`, owned by the
+/// What one policy step did to each aircraft of a tile. Arrays of `tile_count(tile)`, owned by the
 /// caller.
 struct StepOutput {
   float* reward = nullptr;  ///< sum over the held control steps, terminal reward included
@@ -35,15 +36,15 @@ struct StepOutput {
 /// once, each by one. Every number depends only on (config, seed, aircraft index, actions): not on
 /// tile size, threads or neighbours.
 ///
-/// Without a controller, actions are the pilot's. With one, they are a planner's, and the
-/// controller flies (envs/guided_flight.h).
+/// Without a low-level policy, actions are the pilot's. With one, they are a high-level policy's,
+/// and the low-level policy flies (envs/guided_flight.h).
 class VecEnv {
  public:
   /// Aircraft get the global indices [0, num_aircraft). `tile_size` is rounded up to a multiple
   /// of 32. Throws Error on a configuration that cannot be flown. All aircraft start in a fresh
   /// episode.
   VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size = 256,
-         std::shared_ptr<const Pilot> controller = nullptr);
+         std::shared_ptr<const Policy> low_level = nullptr);
   ~VecEnv();
   VecEnv(VecEnv&&) noexcept;
 
@@ -53,18 +54,18 @@ class VecEnv {
   int tile_begin(int tile) const;  ///< global index of the tile's first aircraft
   int tile_count(int tile) const;
   int observation_size() const;  ///< 22
-  int action_size() const;       ///< 4; 3 with a controller
+  int action_size() const;       ///< 4; 3 with a low-level policy
 
   /// Writes the tile's observations, row-major [count][observation_size], noise included.
   void Observe(int tile, float* observation) const;
 
   /// Holds actions (row-major [count][action_size], clipped to [-1, 1]) for config().action_repeat
   /// control steps: throttle (-1 is idle, 1 is maximum), pitch (+ nose up), roll (+ right), yaw (+
-  /// nose right). With a controller: pitch, yaw and speed that it is to reach, as changes of what
-  /// they are now (EnvConfig::planner); it decides anew every controller->action_repeat() control
-  /// steps, and remembers nothing of an earlier episode. An episode that ends during them takes no
-  /// further reward, and its aircraft begins a new one at the end of the decision. An action that
-  /// is not finite ends its aircraft's episode as NonFinite.
+  /// nose right). With a low-level policy: pitch, yaw and speed that it is to reach, as changes of
+  /// what they are now (EnvConfig::high-level policy); it decides anew every low-level
+  /// policy->action_repeat() control steps, and remembers nothing of an earlier episode. An episode
+  /// that ends during them takes no further reward, and its aircraft begins a new one at the end of
+  /// the policy step. An action that is not finite ends its aircraft's episode as non_finite.
   void Step(int tile, const float* action, const StepOutput& output);
 
   /// The whole mutable state (for checkpoints), aircraft by aircraft whatever the tiles, and back.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compiled for AVX512_BF16 and run only where NativeBfloat16(): everything is in an anonymous
 // namespace and nothing of the standard library is called, so that no function built for that
 // processor can end up in place of one that others run, too.

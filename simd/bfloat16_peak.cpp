@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compiled for AVX512_BF16: see bfloat16_kernels.cpp.
 
 #include "simd/bfloat16_peak.h"

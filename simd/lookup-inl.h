@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cell numbers, and lookups in tables small enough for registers.
 
 #if defined(SKEIN_SIMD_LOOKUP_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vector mathematics that Highway 1.0.3 lacks, for float32 vectors of any target. Each function
 // states its range and its largest error; tests/simd/math_test.cpp checks both against double
 // precision on every target. ULP are of the float32 result. Unless a function says otherwise a NaN

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "simd/peak.h"
 
 #include <algorithm>
@@ -10,9 +11,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/error.h"
 #include "simd/bfloat16_peak.h"
 #include "simd/dispatch.h"
-#include "base/error.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/peak.cpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Philox4x32-10 and Box-Muller on vectors, for kernels (see simd/dispatch.h).
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transposition of a square of float32 held in as many vectors as a vector has lanes.
 
 #if defined(SKEIN_SIMD_TRANSPOSE_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/aircraft/derivative_aircraft_file.h"
 
 #include <cmath>
@@ -8,8 +9,8 @@
 #include <sstream>
 #include <utility>
 
-#include "envs/aircraft/engine.h"
 #include "base/error.h"
+#include "envs/aircraft/engine.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/aircraft/f16.h"
 
 #include <cstddef>
@@ -6,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "envs/aircraft/f16_units.h"
 #include "base/error.h"
+#include "envs/aircraft/f16_units.h"
 
 namespace skein {
 namespace data {

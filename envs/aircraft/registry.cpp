@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/aircraft/registry.h"
 
 #include <array>
 
+#include "base/error.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/aircraft/f16.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {

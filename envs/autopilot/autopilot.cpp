@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/autopilot/autopilot.h"
 
 #include <algorithm>
@@ -6,12 +7,12 @@
 #include <string>
 #include <type_traits>
 
+#include "base/denormals.h"
+#include "base/error.h"
 #include "envs/actions.h"
 #include "envs/aircraft/f16_units.h"
 #include "envs/tasks/observation.h"
-#include "base/denormals.h"
 #include "simd/dispatch.h"
-#include "base/error.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "envs/autopilot/autopilot.cpp"
@@ -48,7 +49,7 @@ HWY_INLINE void FlyGroup(const AutopilotGains& gains, const AutopilotTiming& tim
   std::memcpy(static_cast<void*>(&memory), columns, sizeof(memory));
 
   Lanes commands[kActionSize];
-  Law<Lanes>::Fly(gains, timing, observed, memory, commands);
+  Law<Lanes>::Act(gains, timing, observed, memory, commands);
 
   std::memcpy(columns, static_cast<const void*>(&memory), sizeof(memory));
   RowsFromColumns(d, columns, kStateSize, state);
@@ -148,7 +149,7 @@ void CheckFlies(const EnvConfig& config) {
   }
 }
 
-class Autopilot : public Pilot {
+class Autopilot : public Policy {
  public:
   Autopilot(const Registration& law, const AutopilotGains& gains, const AutopilotTiming& timing)
       : law_(law), gains_(gains), timing_(timing) {}
@@ -158,12 +159,12 @@ class Autopilot : public Pilot {
   int state_size() const override { return law_.state_size; }
   int action_repeat() const override { return 1; }
   EnvConfig EnvironmentFor(const EnvConfig& env) const override {
-    EnvConfig own = Pilot::EnvironmentFor(env);
+    EnvConfig own = Policy::EnvironmentFor(env);
     own.tracking.error_axes = kAutopilotErrorAxes;
     return own;
   }
 
-  void Fly(int count, const float* observation, float* state, float* action) const override {
+  void Act(int count, const float* observation, float* state, float* action) const override {
     const simd::DenormalsFlushed flushed;
     law_.fly()(gains_, timing_, count, observation, state, action);
   }
@@ -176,16 +177,16 @@ class Autopilot : public Pilot {
 
 }  // namespace
 
-std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains) {
+std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains) {
   CheckFlies(config);
   AutopilotTiming timing;
   timing.dt = config.control_interval_s;
-  timing.steps_per_decision =
+  timing.steps_per_policy_step =
       std::max(1, static_cast<int>(std::lround(gains.outer_interval_s / timing.dt)));
   return std::make_unique<Autopilot>(AutopilotFor(config.task), gains, timing);
 }
 
-std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant) {
+std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant) {
   return MakeAutopilot(config, GainsOf(variant));
 }
 

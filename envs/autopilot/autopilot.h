@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -17,9 +18,9 @@ inline constexpr TrackingAxes kAutopilotErrorAxes = TrackingAxes::kHeading;
 /// sees, the noisy observation. Throws Error on a task that it does not fly, another aircraft (its
 /// laws know this one's units of observation and its speeds), a mode of flight control whose sticks
 /// ask for something else than load factor and roll rate, and Tracking in other axes.
-std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant);
+std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant);
 
 /// The same with other gains.
-std::unique_ptr<Pilot> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains);
+std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains);
 
 }  // namespace skein

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When an aircraft's autopilot decides: outer loops run in every few control steps, the first one
 // included.
 
@@ -24,10 +25,10 @@ struct Now {
 /// Advances a clock that says in how many steps the outer loops run next, of `steps_per_decision`;
 /// 0 before the first step.
 template <class T>
-HWY_INLINE auto Tick(int steps_per_decision, T& clock) {
+HWY_INLINE auto Tick(int steps_per_policy_step, T& clock) {
   auto begins = clock < 0.5;
   auto decides = clock < 1.5;
-  clock = Select(decides, static_cast<double>(steps_per_decision), clock - 1);
+  clock = Select(decides, static_cast<double>(steps_per_policy_step), clock - 1);
   return Now<decltype(decides)>{begins, decides};
 }
 

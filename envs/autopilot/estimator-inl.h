@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the autopilot takes the aircraft to do: its noisy observation, held against the kinematics
 // of flight. Angular rates and the path of the aircraft pass at once, noise does not.
 

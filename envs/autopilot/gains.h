@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -22,7 +23,7 @@ struct EstimatorGains {
   double damping = 1.4142135623730951;  ///< twice the damping ratio of the second-order filters
 };
 
-/// Lateral guidance: ArduPilot's L1 controller holding a heading.
+/// Lateral guidance: ArduPilot's L1 low-level policy holding a heading.
 struct L1Gains {
   double period_s = 17;
 };
@@ -111,17 +112,19 @@ struct AutopilotGains {
 
 /// How time passes for an autopilot.
 struct AutopilotTiming {
-  double dt = 0.02;            ///< of control steps, s
-  int steps_per_decision = 5;  ///< control steps from one decision of the outer loops to the next
+  double dt = 0.02;  ///< of control steps, s
+  int steps_per_policy_step =
+      5;  ///< control steps from one policy step of the outer loops to the next
 
-  double decision_dt() const { return dt * steps_per_decision; }
+  double policy_step_dt() const { return dt * steps_per_policy_step; }
 };
 
 enum class AutopilotVariant {
   kPublic,  ///< ArduPilot's limits to start from: 45 deg of bank, 15 deg of climb, no sequencer
   kTraditional,  ///< wings never beyond 78 deg
   kAggressive,   ///< points its lift anywhere, inverted too
-  kParallel,     ///< kAggressive without sequencer: what a planner of pitch and yaw wants under it
+  kParallel,     ///< kAggressive without sequencer: what a high-level policy of pitch and yaw wants
+                 ///< under it
 };
 
 AutopilotGains GainsOf(AutopilotVariant variant);

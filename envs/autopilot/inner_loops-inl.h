@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inner loops, as ArduPilot's AP_RollController and AP_PitchController, onto a flight control
 // system that takes roll rate and load factor: roll error -> roll rate -> stick, and load factor
 // demand -> pitch rate -> stick.

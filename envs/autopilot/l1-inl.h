@@ -1,4 +1,5 @@
-// ArduPilot's L1 controller holding a heading.
+// SPDX-License-Identifier: Apache-2.0
+// ArduPilot's L1 low-level policy holding a heading.
 
 #include "envs/autopilot/gains.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An autopilot for each task, of the parts beside this file. Law<T>::Fly is one control step of one
 // aircraft (T = double) or of a vector of them (T = Lanes): it reads an observation, updates the
 // memory, in which zeros are the beginning of an episode, and writes throttle, pitch, roll and yaw.
@@ -60,14 +61,14 @@ struct HeadingLaw {
   struct Memory {
     CommonMemory<T> common;
     T altitude_error, yaw_error, speed_error;  ///< estimates, target minus actual, ft, rad, ft/s
-    T lateral;                                 ///< ft/s^2, between decisions
-    T climb;                                   ///< rad, between decisions
+    T lateral;                                 ///< ft/s^2, between policy steps
+    T climb;                                   ///< rad, between policy steps
   };
 
-  static HWY_INLINE void Fly(const AutopilotGains& k, const AutopilotTiming& timing,
+  static HWY_INLINE void Act(const AutopilotGains& k, const AutopilotTiming& timing,
                              const T* observation, Memory& memory, T* action) {
     const double dt = timing.dt;
-    const auto now = Tick(timing.steps_per_decision, memory.common.clock);
+    const auto now = Tick(timing.steps_per_policy_step, memory.common.clock);
     const Measurement<T> measured = MeasurementOf(observation);
     FlightEstimate<T>& flight = memory.common.flight;
     const Kinematics<T> motion = Estimate(k.estimator, dt, measured, now.begins, flight);
@@ -81,7 +82,7 @@ struct HeadingLaw {
     const T climb_rate = ClimbRateFor(k.tecs, memory.altitude_error, flight.speed);
     Assign(now.decides, memory.lateral, TurnToHeading(k.l1, memory.yaw_error, flight.speed));
     Assign(now.decides, memory.climb, ArcSine(climb_rate / Max(flight.speed, kLeastSpeed)));
-    DecideThrottle(k.tecs, timing.decision_dt(), flight, motion,
+    DecideThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
                    {memory.speed_error, memory.altitude_error, climb_rate}, now,
                    memory.common.tecs);
 
@@ -96,14 +97,14 @@ struct ControlLaw {
     CommonMemory<T> common;
     ControlErrorEstimate<T> error;
     SequencerMemory<T> sequencer;
-    T lateral;  ///< ft/s^2, between decisions
-    T pitch;    ///< rad, between decisions
+    T lateral;  ///< ft/s^2, between policy steps
+    T pitch;    ///< rad, between policy steps
   };
 
-  static HWY_INLINE void Fly(const AutopilotGains& k, const AutopilotTiming& timing,
+  static HWY_INLINE void Act(const AutopilotGains& k, const AutopilotTiming& timing,
                              const T* observation, Memory& memory, T* action) {
     const double dt = timing.dt;
-    const auto now = Tick(timing.steps_per_decision, memory.common.clock);
+    const auto now = Tick(timing.steps_per_policy_step, memory.common.clock);
     const Measurement<T> measured = MeasurementOf(observation);
     FlightEstimate<T>& flight = memory.common.flight;
     const Kinematics<T> motion = Estimate(k.estimator, dt, measured, now.begins, flight);
@@ -113,13 +114,13 @@ struct ControlLaw {
                                       k.estimator.attitude * dt, now.begins);
     EstimateSpeedError(k.estimator, dt, flight, measured.errors[2], now.begins, memory.error.speed);
 
-    const SequencerDemand<T> demand = Sequence(k.sequencer, timing.decision_dt(), flight, motion,
+    const SequencerDemand<T> demand = Sequence(k.sequencer, timing.policy_step_dt(), flight, motion,
                                                memory.error, now, memory.sequencer);
     Assign(now.decides, memory.lateral, TurnToHeading(k.l1, memory.error.yaw, flight.speed));
     Assign(now.decides, memory.pitch, demand.pitch);
     // Height is no target: the energy that is wanted is kinetic.
-    DecideThrottle(k.tecs, timing.decision_dt(), flight, motion, {demand.speed_error, 0, motion.up},
-                   now, memory.common.tecs);
+    DecideThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
+                   {demand.speed_error, 0, motion.up}, now, memory.common.tecs);
 
     const T vertical = flight.speed * (memory.pitch - flight.pitch) / k.lift.pitch_time_s;
     MoveSticks(k, dt, motion, memory.lateral, vertical, memory.common, action);
@@ -134,10 +135,10 @@ struct TrackingLaw {
     T held_speed;  ///< ft/s
   };
 
-  static HWY_INLINE void Fly(const AutopilotGains& k, const AutopilotTiming& timing,
+  static HWY_INLINE void Act(const AutopilotGains& k, const AutopilotTiming& timing,
                              const T* observation, Memory& memory, T* action) {
     const double dt = timing.dt;
-    const auto now = Tick(timing.steps_per_decision, memory.common.clock);
+    const auto now = Tick(timing.steps_per_policy_step, memory.common.clock);
     const Measurement<T> measured = MeasurementOf(observation);
     FlightEstimate<T>& flight = memory.common.flight;
     const Kinematics<T> motion = Estimate(k.estimator, dt, measured, now.begins, flight);
@@ -146,7 +147,7 @@ struct TrackingLaw {
                    measured.errors[2] * kAltitudeErrorUnitFt, now.begins, memory.target);
     Assign(now.begins, memory.held_speed, flight.speed);
 
-    DecideThrottle(k.tecs, timing.decision_dt(), flight, motion,
+    DecideThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
                    {memory.held_speed - flight.speed, 0, motion.up}, now, memory.common.tecs);
     const Acceleration<T> wanted = Pursue(k.pursuit, motion, memory.target);
     MoveSticks(k, dt, motion, wanted.lateral, wanted.vertical, memory.common, action);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the lift should point: from wanted accelerations across the flight path to bank and load
 // factor.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flying to a point: L1 guidance in three dimensions, towards a target ahead of the aircraft.
 
 #include "envs/autopilot/gains.h"

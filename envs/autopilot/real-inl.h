@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers that the autopilot's laws are written in: a double, to be read and compared with, or
 // the float32 of as many aircraft as a vector has lanes (`Lanes`). Functions of the same name do
 // the same for both.

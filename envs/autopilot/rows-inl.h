@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of memory, one per aircraft, to columns of vectors and back.
 
 #if defined(SKEIN_ENVS_AUTOPILOT_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order in which Control's targets are brought about: speed and yaw first, the nose last. Nose
 // up the aircraft cannot gain speed, nose down it cannot lose it.
 
@@ -21,7 +22,7 @@ namespace HWY_NAMESPACE {
 template <class T>
 struct SequencerMemory {
   T seconds_at_target;  ///< since the nose was sent to its target; 0 while speed and yaw come first
-  T yaw_error;          ///< at the last decision, rad
+  T yaw_error;          ///< at the last policy step, rad
 };
 
 /// Target minus actual, rad and ft/s.
@@ -57,7 +58,7 @@ HWY_INLINE T PitchForSpeed(const SequencerGains& k, const FlightEstimate<T>& fli
   return Select(flight.altitude < k.low_altitude, Max(pitch, k.low_altitude_pitch), pitch);
 }
 
-/// A decision, every `dt` seconds, of the aircraft that decide now.
+/// A policy step, every `dt` seconds, of the aircraft that decide now.
 template <class T, class Mask>
 HWY_INLINE SequencerDemand<T> Sequence(const SequencerGains& k, double dt,
                                        const FlightEstimate<T>& flight, const Kinematics<T>& motion,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Total energy control: the throttle follows the aircraft's total energy; height alone is left to
 // pitch. ArduPilot's TECS with a speed weight of 0. Energies are specific, ft^2/s^2.
 
@@ -25,7 +26,7 @@ template <class T>
 struct TecsMemory {
   T speed, acceleration;  ///< of a filter of its own, ft/s, ft/s^2
   T integrator;           ///< of throttle
-  T throttle;             ///< 0..1, between its decisions
+  T throttle;             ///< 0..1, between its policy steps
 };
 
 /// What the aircraft's energy should become.
@@ -50,7 +51,7 @@ HWY_INLINE T ClimbRateFor(const TecsGains& k, T height_error, T speed) {
   return Select(height_error < 0, -1, 1) * Min(rate, most);
 }
 
-/// A decision, every `dt` seconds, of the aircraft that decide now: leaves the throttle in
+/// A policy step, every `dt` seconds, of the aircraft that decide now: leaves the throttle in
 /// `memory`. In the order of AP_TECS::_update_throttle: what the demanded energy rate needs, more
 /// in a bank, a part of the energy error, damping by the rate's error, an integrator that stops
 /// while the throttle is at the limit that it pushes to.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The atmosphere models of envs/air/atmosphere.h in vectors.
 
 #if defined(SKEIN_ENVS_KERNELS_AIR_INL_H_) == defined(HWY_TARGET_TOGGLE)

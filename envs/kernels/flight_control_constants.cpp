@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/flight_control_constants.h"
 
 #include <cmath>

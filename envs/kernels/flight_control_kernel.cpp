@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/flight_control_kernel.h"
 
-#include "envs/state/attitude.h"
 #include "envs/kernels/kernel_aircraft.h"
+#include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/kernel_aircraft.h"
 
 #include <algorithm>
@@ -6,11 +7,11 @@
 #include <memory>
 #include <string>
 
+#include "base/error.h"
 #include "envs/air/atmosphere_constants.h"
 #include "envs/aircraft/engine.h"
 #include "envs/kernels/kernel_tables.h"
 #include "envs/kernels/plant_kernel.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {

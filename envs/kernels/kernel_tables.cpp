@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/kernel_tables.h"
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "envs/aircraft/table_lookup.h"
 #include "base/error.h"
+#include "envs/aircraft/table_lookup.h"
 
 namespace skein {
 namespace {

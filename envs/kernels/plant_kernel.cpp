@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/plant_kernel.h"
 
 #include <hwy/cache_control.h>
@@ -13,11 +14,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/state/air_velocity-inl.h"
 #include "envs/kernels/plant_kernel_air-inl.h"
 #include "envs/kernels/plant_kernel_block-inl.h"
 #include "envs/kernels/plant_kernel_motion-inl.h"
 #include "envs/kernels/plant_kernel_tables-inl.h"
+#include "envs/state/air_velocity-inl.h"
 #include "simd/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();

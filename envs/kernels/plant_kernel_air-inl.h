@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // First phase of the plant kernel: air data and thrust.
 
 #if defined(SKEIN_ENVS_KERNELS_PLANT_KERNEL_AIR_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the phases of the plant kernel share: the scratch memory of one block of aircraft and the
 // state at one stage of the integration.
 
@@ -13,8 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "envs/state/air_velocity-inl.h"
 #include "envs/kernels/kernel_aircraft.h"
+#include "envs/state/air_velocity-inl.h"
 #include "envs/state/state.h"
 #include "simd/lookup-inl.h"
 #include "simd/math-inl.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Second phase of the plant kernel: the coefficients' build-up and the equations of motion. The
 // laws are those of envs/reference/aerodynamics.cpp and envs/reference/plant.cpp.
 
@@ -10,8 +11,8 @@
 
 #include <hwy/highway.h>
 
-#include "envs/state/air_velocity-inl.h"
 #include "envs/kernels/plant_kernel_block-inl.h"
+#include "envs/state/air_velocity-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plant kernel's reading of the aerodynamic tables. Each aircraft's lines are loaded whole and
 // added up with vectors across functions; transpositions then bring vectors across aircraft back.
 

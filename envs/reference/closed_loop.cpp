@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/reference/closed_loop.h"
 
 #include <cmath>
 
-#include "envs/reference/actuator.h"
 #include "envs/aircraft/engine.h"
+#include "envs/reference/actuator.h"
 #include "envs/state/state.h"
 
 namespace skein {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/reference/plant.h"
 
 #include <Eigen/Geometry>
@@ -5,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "envs/reference/aerodynamics.h"
 #include "envs/aircraft/table_lookup.h"
+#include "envs/reference/aerodynamics.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/reference/trim.h"
 
 #include <Eigen/LU>
@@ -7,11 +8,11 @@
 #include <cstdio>
 #include <string>
 
+#include "base/error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/reference/flight_control.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/reference/trim_table.h"
 
 #include <cmath>
 #include <string>
 
+#include "base/error.h"
 #include "envs/aircraft/table_lookup.h"
 #include "envs/reference/trim.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Velocity relative to the air on vectors of aircraft, for kernels (see simd/dispatch.h).
 
 #include "envs/state/state.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/control.h"
 
 #include <cmath>
@@ -91,7 +92,7 @@ void ControlErrors(Tile flight, Tile task, const ReferenceUnits& units, float* e
 }
 
 void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const ReferenceUnits& units,
-                  const TaskVerdict& verdict) {
+                  const StepResult& step_result) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
   const auto one = hn::Set(di, 1);
@@ -107,13 +108,13 @@ void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const Ref
     const FlightVector angle =
         config.reward_includes_roll ? RotationAngle(relative) : NoseAngle(relative);
     const FlightVector cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error, units), angle);
-    hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
+    hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
 
     const auto reached = hn::And(hn::Lt(hn::Abs(error.pitch), hn::Mul(share, pitch_tolerance)),
                                  hn::And(hn::Lt(hn::Abs(error.yaw), hn::Mul(share, yaw_tolerance)),
                                          hn::Lt(speed_error, hn::Mul(share, speed_tolerance))));
     hn::StoreU(hn::And(hn::VecFromMask(di, hn::RebindMask(di, reached)), one), di,
-               verdict.reached + first);
+               step_result.reached + first);
   }
 }
 
@@ -168,9 +169,9 @@ class ControlTask : public Task {
     SKEIN_DISPATCH(ControlErrors)(flight, task, units_, errors, error_stride);
   }
 
-  void Judge(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
-             const TaskVerdict& verdict) const override {
-    SKEIN_DISPATCH(ControlJudge)(flight, task, config_, units_, verdict);
+  void ComputeReward(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
+                     const StepResult& step_result) const override {
+    SKEIN_DISPATCH(ControlJudge)(flight, task, config_, units_, step_result);
   }
 
  private:

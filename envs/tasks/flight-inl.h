@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quantities of flight that tasks share, on vectors of consecutive aircraft (see simd/dispatch.h).
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/heading.h"
 
 #include <cmath>
@@ -50,7 +51,7 @@ void HeadingErrors(Tile flight, Tile task, const ReferenceUnits& units, float* e
 }
 
 void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config, const ReferenceUnits& units,
-                  const std::int32_t* steps_before, const TaskVerdict& verdict) {
+                  const std::int32_t* steps_before, const StepResult& step_result) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
   const auto one = hn::Set(di, 1);
@@ -66,7 +67,7 @@ void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config, const Ref
         hn::MulAdd(scaled.altitude, scaled.altitude,
                    hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));
     const FlightVector cost = hn::MulAdd(speed_weight, hn::Abs(scaled.speed), hn::Sqrt(squares));
-    hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
+    hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
 
     const FlightVector share = Column(task, kTargetTolerance, first);
     const auto close =
@@ -76,7 +77,7 @@ void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config, const Ref
     const auto early = hn::Gt(earliest, hn::LoadU(di, steps_before + first));
     const auto reached =
         hn::AndNot(hn::VecFromMask(di, early), hn::VecFromMask(di, hn::RebindMask(di, close)));
-    hn::StoreU(hn::And(reached, one), di, verdict.reached + first);
+    hn::StoreU(hn::And(reached, one), di, step_result.reached + first);
   }
 }
 
@@ -122,9 +123,9 @@ class HeadingTask : public Task {
     SKEIN_DISPATCH(HeadingErrors)(flight, task, units_, errors, error_stride);
   }
 
-  void Judge(Tile flight, Tile task, const std::int32_t* steps_before,
-             const TaskVerdict& verdict) const override {
-    SKEIN_DISPATCH(HeadingJudge)(flight, task, config_, units_, steps_before, verdict);
+  void ComputeReward(Tile flight, Tile task, const std::int32_t* steps_before,
+                     const StepResult& step_result) const override {
+    SKEIN_DISPATCH(HeadingJudge)(flight, task, config_, units_, steps_before, step_result);
   }
 
  private:

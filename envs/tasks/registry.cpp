@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
 
+#include "base/error.h"
 #include "envs/tasks/control.h"
 #include "envs/tasks/heading.h"
 #include "envs/tasks/task.h"
 #include "envs/tasks/tracking.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 struct Registration {
   const char* name;
   std::unique_ptr<Task> (*make)(const EnvConfig& config);
-  bool is_planned;
+  bool is_hierarchical;
 };
 
 constexpr std::array<Registration, 3> kTasks = {{{"heading", MakeHeadingTask, false},
@@ -28,9 +29,9 @@ std::vector<std::string> TaskNames() {
   return names;
 }
 
-bool IsPlanned(const std::string& name) {
+bool IsHierarchical(const std::string& name) {
   return std::any_of(kTasks.begin(), kTasks.end(), [&name](const Registration& task) {
-    return name == task.name && task.is_planned;
+    return name == task.name && task.is_hierarchical;
   });
 }
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/reward.h"
 
 #include <cmath>
 
-#include "envs/state/attitude.h"
 #include "envs/kernels/kernel_aircraft.h"
+#include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -42,7 +43,7 @@ HWY_INLINE FlightMask IsFinite(const Tile& tile, FlightVector reward, int first)
 
 /// Whether the angle of the vector (along, across), across = tan(angle) along, lies outside
 /// `range`: on the wrong side of either end's direction.
-HWY_INLINE FlightMask IsOutside(const JudgementLimits::AngleRange& range, FlightVector along,
+HWY_INLINE FlightMask IsOutside(const TerminationLimits::AngleRange& range, FlightVector along,
                                 FlightVector across) {
   return hn::Or(
       hn::Lt(hn::Mul(across, Constant(range.cos_min)), hn::Mul(along, Constant(range.sin_min))),
@@ -59,7 +60,7 @@ struct Verdict {
   }
 };
 
-HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const JudgementLimits& limits,
+HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const TerminationLimits& limits,
                                    const Tile& tile, FlightMask is_finite, FlightMask is_reached,
                                    FlightMask is_out_of_time, int first) {
   const FlightTag d;
@@ -80,17 +81,17 @@ HWY_INLINE Verdict FindTermination(const KernelAircraft& aircraft, const Judgeme
   const auto is_low = hn::Lt(altitude, Constant(limits.min_altitude_ft));
   const auto is_overloaded = hn::Gt(Column(tile, kNz, first), Constant(limits.max_load_factor));
 
-  Verdict verdict{hn::Zero(d), hn::Zero(d)};
+  Verdict step_result{hn::Zero(d), hn::Zero(d)};
   // Later ones take precedence.
-  verdict.SetWhere(is_out_of_time, Termination::kUnreachTarget, limits.time_limit_reward);
-  verdict.SetWhere(is_reached, Termination::kResetTarget, limits.success_reward);
-  verdict.SetWhere(is_overloaded, Termination::kOverload, limits.failure_reward);
-  verdict.SetWhere(is_slow, Termination::kLowSpeed, limits.failure_reward);
-  verdict.SetWhere(is_low, Termination::kLowAltitude, limits.failure_reward);
-  verdict.SetWhere(is_fast, Termination::kHighSpeed, limits.failure_reward);
-  verdict.SetWhere(is_extreme, Termination::kExtremeState, limits.failure_reward);
-  verdict.SetWhere(hn::Not(is_finite), Termination::kNonFinite, limits.failure_reward);
-  return verdict;
+  step_result.SetWhere(is_out_of_time, Termination::kTimeLimit, limits.time_limit_reward);
+  step_result.SetWhere(is_reached, Termination::kTargetReached, limits.success_reward);
+  step_result.SetWhere(is_overloaded, Termination::kOverload, limits.failure_reward);
+  step_result.SetWhere(is_slow, Termination::kLowSpeed, limits.failure_reward);
+  step_result.SetWhere(is_low, Termination::kLowAltitude, limits.failure_reward);
+  step_result.SetWhere(is_fast, Termination::kHighSpeed, limits.failure_reward);
+  step_result.SetWhere(is_extreme, Termination::kExtremeState, limits.failure_reward);
+  step_result.SetWhere(hn::Not(is_finite), Termination::kNonFinite, limits.failure_reward);
+  return step_result;
 }
 
 HWY_INLINE void AddWhere(FlightMask where, FlightVector value, float* column) {
@@ -99,8 +100,10 @@ HWY_INLINE void AddWhere(FlightMask where, FlightVector value, float* column) {
   hn::StoreU(hn::IfThenElse(where, hn::Add(old, value), old), d, column);
 }
 
-void JudgeTileKernel(const KernelAircraft& aircraft, const JudgementLimits& limits, Tile tile,
-                     const TaskVerdict& verdict, const EpisodeColumns& episodes) {
+void ComputeRewardAndTerminationKernel(const KernelAircraft& aircraft,
+                                       const TerminationLimits& limits, Tile tile,
+                                       const StepResult& step_result,
+                                       const EpisodeColumns& episodes) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
   const auto zero = hn::Zero(di);
@@ -113,8 +116,8 @@ void JudgeTileKernel(const KernelAircraft& aircraft, const JudgementLimits& limi
     const auto step = hn::Sub(steps_before, hn::VecFromMask(di, is_flying));
     hn::StoreU(step, di, episodes.step + first);
 
-    const FlightVector step_reward = hn::LoadU(d, verdict.reward + first);
-    const auto reached = hn::LoadU(di, verdict.reached + first);
+    const FlightVector step_reward = hn::LoadU(d, step_result.reward + first);
+    const auto reached = hn::LoadU(di, step_result.reached + first);
     const FlightMask is_finite = IsFinite(tile, step_reward, first);
     const Verdict found =
         FindTermination(aircraft, limits, tile, is_finite, hn::RebindMask(d, hn::Gt(reached, zero)),
@@ -126,7 +129,7 @@ void JudgeTileKernel(const KernelAircraft& aircraft, const JudgementLimits& limi
         hn::Add(hn::IfThenElseZero(is_finite, hn::Mul(step_reward, Constant(limits.reward_scale))),
                 found.reward);
     const FlightMask counts = hn::RebindMask(d, is_flying);
-    AddWhere(counts, reward, episodes.decision_reward + first);
+    AddWhere(counts, reward, episodes.policy_step_reward + first);
     AddWhere(counts, reward, episodes.episode_return + first);
   }
 }
@@ -141,7 +144,7 @@ namespace skein {
 
 namespace {
 
-JudgementLimits::AngleRange Directions(const Range& range_deg) {
+TerminationLimits::AngleRange Directions(const Range& range_deg) {
   const double min = range_deg.min / kDegPerRad, max = range_deg.max / kDegPerRad;
   return {static_cast<float>(std::sin(min)), static_cast<float>(std::cos(min)),
           static_cast<float>(std::sin(max)), static_cast<float>(std::cos(max))};
@@ -149,7 +152,7 @@ JudgementLimits::AngleRange Directions(const Range& range_deg) {
 
 }  // namespace
 
-JudgementLimits::JudgementLimits(const EnvConfig& config)
+TerminationLimits::TerminationLimits(const EnvConfig& config)
     : alpha(Directions(config.termination.alpha_deg)),
       beta(Directions(config.termination.beta_deg)),
       min_mach_squared(
@@ -164,11 +167,12 @@ JudgementLimits::JudgementLimits(const EnvConfig& config)
       reward_scale(static_cast<float>(config.reward_scale)),
       time_limit_steps(config.time_limit_steps) {}
 
-HWY_EXPORT(JudgeTileKernel);
+HWY_EXPORT(ComputeRewardAndTerminationKernel);
 
-void JudgeTile(const KernelAircraft& aircraft, const JudgementLimits& limits, Tile tile,
-               const TaskVerdict& verdict, const EpisodeColumns& episodes) {
-  SKEIN_DISPATCH(JudgeTileKernel)(aircraft, limits, tile, verdict, episodes);
+void ComputeRewardAndTermination(const KernelAircraft& aircraft, const TerminationLimits& limits,
+                                 Tile tile, const StepResult& step_result,
+                                 const EpisodeColumns& episodes) {
+  SKEIN_DISPATCH(ComputeRewardAndTerminationKernel)(aircraft, limits, tile, step_result, episodes);
 }
 
 }  // namespace skein

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 
-#include "envs/kernels/plant_kernel.h"
 #include "envs/env_config.h"
+#include "envs/kernels/plant_kernel.h"
 #include "envs/tasks/task.h"
 #include "envs/tasks/termination.h"
 
@@ -13,13 +14,13 @@ namespace skein {
 struct EpisodeColumns {
   std::int32_t* step = nullptr;         ///< control steps flown in this episode
   std::int32_t* termination = nullptr;  ///< Termination; kNone while flying
-  float* decision_reward = nullptr;     ///< sum over the control steps of this decision
+  float* policy_step_reward = nullptr;  ///< sum over the control steps of this policy step
   float* episode_return = nullptr;
 };
 
 /// What ends an episode, and its rewards, as the kernel takes them: made once per configuration.
-struct JudgementLimits {
-  explicit JudgementLimits(const EnvConfig& config);
+struct TerminationLimits {
+  explicit TerminationLimits(const EnvConfig& config);
 
   /// An angle's range, which spans at most 180 degrees, by the directions of its ends.
   struct AngleRange {
@@ -35,9 +36,10 @@ struct JudgementLimits {
 
 /// Ends episodes after a control step: counts the step, finds the first Termination (in order of
 /// precedence) that holds, and adds the task's reward and the terminal reward. An aircraft whose
-/// episode has ended is left alone. A state or reward that is not finite is NonFinite, and its step
-/// reward counts as zero. At the time limit there is no terminal reward if it truncates.
-void JudgeTile(const KernelAircraft& aircraft, const JudgementLimits& limits, Tile tile,
-               const TaskVerdict& verdict, const EpisodeColumns& episodes);
+/// episode has ended is left alone. A state or reward that is not finite is non_finite, and its
+/// step reward counts as zero. At the time limit there is no terminal reward if it truncates.
+void ComputeRewardAndTermination(const KernelAircraft& aircraft, const TerminationLimits& limits,
+                                 Tile tile, const StepResult& step_result,
+                                 const EpisodeColumns& episodes);
 
 }  // namespace skein

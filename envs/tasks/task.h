@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -6,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "envs/state/state.h"
 #include "envs/env_config.h"
+#include "envs/state/state.h"
 #include "simd/random.h"
 
 namespace skein {
@@ -24,7 +25,7 @@ inline constexpr int kNumTaskErrors = 3;
 
 /// What one control step was worth, by the task alone; one element per aircraft, padded as Tile
 /// says.
-struct TaskVerdict {
+struct StepResult {
   float* reward = nullptr;          ///< before reward_scale, without terminal rewards
   std::int32_t* reached = nullptr;  ///< 1 where the target counts as reached, else 0
 };
@@ -57,15 +58,16 @@ class Task {
 
   /// Judges the state after a control step. `steps_before` is each aircraft's control steps in this
   /// episode before it.
-  virtual void Judge(Tile flight, Tile task, const std::int32_t* steps_before,
-                     const TaskVerdict& verdict) const = 0;
+  virtual void ComputeReward(Tile flight, Tile task, const std::int32_t* steps_before,
+                             const StepResult& step_result) const = 0;
 };
 
 /// Names that EnvConfig::task may have.
 std::vector<std::string> TaskNames();
 
-/// Whether the task is trained by a planner over a controller, not by flying itself.
-bool IsPlanned(const std::string& task);
+/// Whether the task is trained by a high-level policy over a low-level policy, not by flying
+/// itself.
+bool IsHierarchical(const std::string& task);
 
 /// Throws Error on an unknown name; the message lists the known ones.
 std::unique_ptr<Task> MakeTask(const EnvConfig& config);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -5,7 +6,7 @@
 
 namespace skein {
 
-/// Why an episode ended (the paper's Table 5, and NonFinite). The order is their precedence.
+/// Why an episode ended (the paper's Table 5, and non_finite). The order is their precedence.
 enum class Termination : std::uint8_t {
   kNone,
   kNonFinite,
@@ -14,13 +15,13 @@ enum class Termination : std::uint8_t {
   kLowAltitude,
   kLowSpeed,
   kOverload,
-  kResetTarget,    ///< the target was reached: success
-  kUnreachTarget,  ///< time limit
+  kTargetReached,  ///< the target was reached: success
+  kTimeLimit,      ///< time limit
 };
 
 inline constexpr int kNumTerminations = 9;
 inline constexpr std::array<const char*, kNumTerminations> kTerminationNames = {
-    "None",     "NonFinite", "ExtremeState", "HighSpeed",    "LowAltitude",
-    "LowSpeed", "Overload",  "ResetTarget",  "UnreachTarget"};
+    "None",      "non_finite", "extreme_state",  "high_speed", "low_altitude",
+    "low_speed", "overload",   "target_reached", "time_limit"};
 
 }  // namespace skein

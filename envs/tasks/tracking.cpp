@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/tracking.h"
 
 #include <cmath>
@@ -123,7 +124,7 @@ HWY_INLINE void CutBySlab(FlightVector begin, FlightVector end, FlightVector tol
   path.leaves = hn::Min(path.leaves, hn::Max(one, other));
 }
 
-void TrackingJudge(Tile flight, Tile task, double unit_ft, const TaskVerdict& verdict) {
+void TrackingJudge(Tile flight, Tile task, double unit_ft, const StepResult& step_result) {
   const FlightTag d;
   const hn::RebindToSigned<FlightTag> di;
   for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
@@ -132,7 +133,7 @@ void TrackingJudge(Tile flight, Tile task, double unit_ft, const TaskVerdict& ve
     const FlightVector square =
         hn::MulAdd(end.north, end.north, hn::MulAdd(end.east, end.east, hn::Mul(end.up, end.up)));
     const FlightVector cost = InUnits(hn::Sqrt(square), unit_ft);
-    hn::StoreU(hn::Neg(cost), d, verdict.reward + first);
+    hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
 
     const FlightVector tolerance = Column(task, kTrackingTolerance, first);
     PathInBox path{hn::Zero(d), Constant(1)};
@@ -142,7 +143,7 @@ void TrackingJudge(Tile flight, Tile task, double unit_ft, const TaskVerdict& ve
     // Minima and maxima may lose a NaN; the cost has it still.
     const auto reached = hn::And(hn::Le(path.enters, path.leaves), hn::Eq(cost, cost));
     hn::StoreU(hn::And(hn::VecFromMask(di, hn::RebindMask(di, reached)), hn::Set(di, 1)), di,
-               verdict.reached + first);
+               step_result.reached + first);
 
     hn::StoreU(Column(flight, kNorth, first), d, task[kTrackingLastNorth] + first);
     hn::StoreU(Column(flight, kEast, first), d, task[kTrackingLastEast] + first);
@@ -201,9 +202,9 @@ class TrackingTask : public Task {
     (flight, task, config_.error_axes, unit_ft_, errors, error_stride);
   }
 
-  void Judge(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
-             const TaskVerdict& verdict) const override {
-    SKEIN_DISPATCH(TrackingJudge)(flight, task, unit_ft_, verdict);
+  void ComputeReward(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
+                     const StepResult& step_result) const override {
+    SKEIN_DISPATCH(TrackingJudge)(flight, task, unit_ft_, step_result);
   }
 
  private:

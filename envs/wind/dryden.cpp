@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/wind/dryden.h"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include "envs/wind/dryden_constants.h"
 #include "envs/state/attitude.h"
+#include "envs/wind/dryden_constants.h"
 #include "simd/dispatch.h"
 #include "simd/random.h"
 

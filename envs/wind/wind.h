@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 
-#include "envs/wind/dryden.h"
 #include "envs/env_config.h"
+#include "envs/wind/dryden.h"
 
 namespace skein {
 
@@ -14,7 +15,7 @@ class Wind {
   explicit Wind(const WindConfig& config) : config_(config) {}
 
   /// Whether tiles must be windy.
-  bool blows() const { return config_.blows(); }
+  bool enabled() const { return config_.enabled(); }
 
   /// Draws the wind of an episode of aircraft `index`, whose flight in still air the tile holds,
   /// and sets its wind columns. Unless the wind is a step at reset, the aircraft's velocity over

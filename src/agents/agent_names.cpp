@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/agents/agent_names.h"
 
 #include <fmt/format.h>
@@ -7,10 +8,10 @@
 #include <cmath>
 #include <optional>
 
-#include "envs/autopilot/autopilot.h"
 #include "base/error.h"
-#include "src/config/nearest_name.h"
+#include "envs/autopilot/autopilot.h"
 #include "src/agents/policy_file.h"
+#include "src/config/nearest_name.h"
 #include "train/policy/policy_environment.h"
 
 namespace skein {
@@ -35,7 +36,7 @@ bool EndsWith(const std::string& text, const std::string& end) {
 }
 
 Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
-  const Policy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
+  const RecurrentPolicy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
   CheckMadeFor(policy.EnvironmentFor(config.train.env), policy, "agent " + name);
   return EndsWith(name, kSampledSuffix) ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
 }
@@ -68,7 +69,7 @@ Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
 
 std::string AgentForms() {
   return fmt::format(
-      "autopilot[:{}] (alone: aggressive; as a --controller: parallel), "
+      "autopilot[:{}] (alone: aggressive; as a --low-level: parallel), "
       "policy:FILE_OR_RUN[@sampled], random[:SECONDS], idle",
       fmt::join(AutopilotNames(), "|:"));
 }
@@ -87,7 +88,7 @@ Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint6
   const std::string kind = KindOf(name);
   if (kind == kPolicy) return PolicyAgent(name, config, seed);
   if (kind == "random") return RandomAgent(name, config.train.env.control_interval_s);
-  if (name == "idle") return Agent::Idle();
+  if (name == "idle") return Agent::Zero();
   if (kind == "autopilot") return AutopilotAgent(name, config.train.env);
   throw Error(fmt::format("unknown agent {}{}; known agents: {}", name,
                           DidYouMean(kind, {"autopilot", "policy", "random", "idle"}),

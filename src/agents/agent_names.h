@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ std::string AgentForms();
 
 /// The agent called `name` for the environment of `config`:
 ///   policy:FILE_OR_RUN   a trained policy with its mean action ("@sampled" behind: as drawn)
-///   autopilot            the traditional autopilot, aggressive (as a --controller: parallel)
+///   autopilot            the traditional autopilot, aggressive (as a --low-level: parallel)
 ///   autopilot:VARIANT    or of another AutopilotVariant
 ///   random, random:S     uniform commands, drawn anew every second, or every S seconds
 ///   idle                 every command zero

@@ -1,85 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/agents/low_level_option.h"
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "envs/actions.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"
-#include "base/error.h"
 #include "src/agents/policy_file.h"
 #include "train/policy/autopilot_policy.h"
 #include "train/policy/low_level_file.h"
-#include "train/policy/recurrent_policy.h"
 #include "train/policy/policy_environment.h"
+#include "train/policy/recurrent_policy.h"
 
 namespace skein {
 namespace {
 
-constexpr const char* kControllersTask = "control";
+constexpr const char* kLowLevelPolicysTask = "control";
 constexpr const char* kAutopilot = "autopilot";
-constexpr const char* kPlannersVariant = "parallel";  ///< nose and speed at once, as a planner asks
+constexpr const char* kHighLevelsVariant =
+    "parallel";  ///< nose and speed at once, as a high-level policy asks
 
-Policy LoadControlPolicy(const EnvConfig& env, const std::string& path) {
-  Policy policy = Policy::Load(path);
-  if (!policy.task().empty() && policy.task() != kControllersTask) {
+RecurrentPolicy LoadControlPolicy(const EnvConfig& env, const std::string& path) {
+  RecurrentPolicy policy = RecurrentPolicy::Load(path);
+  if (!policy.task().empty() && policy.task() != kLowLevelPolicysTask) {
     throw Error(
-        fmt::format("--controller {}: a policy of task {}, but a planner needs one of "
+        fmt::format("--low-level {}: a policy of task {}, but a high-level policy needs one of "
                     "task {} below it",
-                    path, policy.task(), kControllersTask));
+                    path, policy.task(), kLowLevelPolicysTask));
   }
   if (policy.observation_size() != kObservationSize || policy.action_size() != kActionSize) {
     throw Error(
-        fmt::format("--controller {}: it takes {} observations and gives {} actions, but "
+        fmt::format("--low-level {}: it takes {} observations and gives {} actions, but "
                     "a policy of task {} has {} and {}",
-                    path, policy.observation_size(), policy.action_size(), kControllersTask,
+                    path, policy.observation_size(), policy.action_size(), kLowLevelPolicysTask,
                     kObservationSize, kActionSize));
   }
-  CheckControllerMadeFor(env, policy, "--controller " + path);
+  CheckLowLevelMadeFor(env, policy, "--low-level " + path);
   return policy;
 }
 
-ChosenController ChooseAutopilot(const EnvConfig& env, const std::string& option) {
+ChosenLowLevelPolicy ChooseAutopilot(const EnvConfig& env, const std::string& option) {
   const std::string variant =
-      option == kAutopilot ? kPlannersVariant : option.substr(option.find(':') + 1);
-  return {std::make_shared<const AutopilotController>(variant, env),
-          fmt::format("controller: the traditional autopilot, {}", variant)};
+      option == kAutopilot ? kHighLevelsVariant : option.substr(option.find(':') + 1);
+  return {std::make_shared<const AutopilotPolicy>(variant, env),
+          fmt::format("low-level policy: the traditional autopilot, {}", variant)};
 }
 
 }  // namespace
 
-ChosenController ChooseController(const EnvConfig& env, const std::string& option) {
+ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option) {
   const std::string& task = env.task;
   if (option.empty()) {
-    if (!IsPlanned(task)) return {};
-    throw Error(
-        fmt::format("task {0} needs --controller RUN_OR_POLICY, a trained policy of task "
-                    "{1} that flies what the planner asks for (`skein train {1}` makes one), or "
-                    "--controller autopilot",
-                    task, kControllersTask));
+    if (!IsHierarchical(task)) return {};
+    throw Error(fmt::format(
+        "task {0} needs --low-level RUN_OR_POLICY, a trained policy of task "
+        "{1} that flies what the high-level policy asks for (`skein train {1}` makes one), or "
+        "--low-level autopilot",
+        task, kLowLevelPolicysTask));
   }
-  if (!IsPlanned(task)) {
-    throw Error(fmt::format("--controller is for tasks that are planned, not for {}", task));
+  if (!IsHierarchical(task)) {
+    throw Error(fmt::format("--low-level is for tasks that are planned, not for {}", task));
   }
   if (option == kAutopilot || option.rfind(kAutopilot + std::string(":"), 0) == 0) {
     return ChooseAutopilot(env, option);
   }
   const std::string path = PolicyFileOf(option);
-  const auto policy = std::make_shared<const Policy>(LoadControlPolicy(env, path));
-  std::string description = fmt::format("controller {}, an action every {} control steps; {}", path,
-                                        policy->action_repeat(), Describe(policy->backend()));
+  const auto policy = std::make_shared<const RecurrentPolicy>(LoadControlPolicy(env, path));
+  std::string description = fmt::format("low-level policy {}, an action every {} control steps; {}",
+                                        path, policy->action_repeat(), Describe(policy->backend()));
   if (policy->task().empty()) {
-    description += fmt::format(" (it does not say its task, which should be {})", kControllersTask);
+    description +=
+        fmt::format(" (it does not say its task, which should be {})", kLowLevelPolicysTask);
   }
   return {policy, description};
 }
 
-std::shared_ptr<const Pilot> ControllerOfRun(const RunDirectory& directory,
-                                             const std::string& task) {
-  if (!IsPlanned(task)) return nullptr;
-  const std::string path = directory.controller();
-  std::shared_ptr<const Pilot> controller = LoadController(TensorFile::Read(path), path);
-  if (controller == nullptr) throw Error(fmt::format("{}: it holds no controller", path));
-  return controller;
+std::shared_ptr<const Policy> LowLevelPolicyOfRun(const RunDirectory& directory,
+                                                  const std::string& task) {
+  if (!IsHierarchical(task)) return nullptr;
+  const std::string path = directory.low_level();
+  std::shared_ptr<const Policy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
+  if (low_level == nullptr) throw Error(fmt::format("{}: it holds no low-level policy", path));
+  return low_level;
 }
 
 }  // namespace skein

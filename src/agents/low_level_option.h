@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -9,21 +10,21 @@
 
 namespace skein {
 
-/// A controller that was asked for on the command line.
-struct ChosenController {
-  std::shared_ptr<const Pilot> pilot;  ///< null where none flies
-  std::string description;             ///< a line for people
+/// A low-level policy that was asked for on the command line.
+struct ChosenLowLevelPolicy {
+  std::shared_ptr<const Policy> pilot;  ///< null where none flies
+  std::string description;              ///< a line for people
 };
 
-/// What flies for a planner of the environment's task: the policy that `option` names (a run of
-/// task control, or a file of one), an autopilot ("autopilot", or "autopilot:VARIANT"), or nothing
-/// if it is empty. Throws Error if the task needs a controller and none is named, if it knows none,
-/// or if what is named cannot fly as one.
-ChosenController ChooseController(const EnvConfig& env, const std::string& option);
+/// What flies for a high-level policy of the environment's task: the policy that `option` names (a
+/// run of task control, or a file of one), an autopilot ("autopilot", or "autopilot:VARIANT"), or
+/// nothing if it is empty. Throws Error if the task needs a low-level policy and none is named, if
+/// it knows none, or if what is named cannot fly as one.
+ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option);
 
-/// What the planner of the run in `directory` began with; null if `task` is not planned. Throws
-/// Error if it cannot be read.
-std::shared_ptr<const Pilot> ControllerOfRun(const RunDirectory& directory,
-                                             const std::string& task);
+/// What the high-level policy of the run in `directory` began with; null if `task` is not planned.
+/// Throws Error if it cannot be read.
+std::shared_ptr<const Policy> LowLevelPolicyOfRun(const RunDirectory& directory,
+                                                  const std::string& task);
 
 }  // namespace skein

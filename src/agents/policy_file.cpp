@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/agents/policy_file.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 
-#include "envs/vec_env.h"
 #include "base/error.h"
+#include "envs/vec_env.h"
 #include "src/run/run_directory.h"
 
 namespace skein {
@@ -26,14 +27,15 @@ std::string PolicyFileOf(const std::string& path) {
   return newest;
 }
 
-Policy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
-                  std::shared_ptr<const Pilot> controller) {
+RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
+                           std::shared_ptr<const Policy> low_level) {
   const Backend backend = config.train.learner.backend;
-  if (file != kUntrained) return Policy::Load(file).WithBackend(backend);
+  if (file != kUntrained) return RecurrentPolicy::Load(file).WithBackend(backend);
   const EnvConfig& env = config.train.env;
-  const VecEnv flown(env, 1, seed, 1, controller);
-  return Policy::Untrained(config.train.network, flown.observation_size(), flown.action_size(),
-                           seed, env.action_repeat, std::move(controller))
+  const VecEnv flown(env, 1, seed, 1, low_level);
+  return RecurrentPolicy::Untrained(config.train.network, flown.observation_size(),
+                                    flown.action_size(), seed, env.action_repeat,
+                                    std::move(low_level))
       .WithBackend(backend);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,9 @@ inline constexpr const char* kUntrained = "untrained";
 /// that holds no run, or a run that has not saved a policy yet.
 std::string PolicyFileOf(const std::string& path);
 
-/// The policy in `file`, or the untrained one of `config`, `seed` and `controller` (without one it
-/// flies itself); on the backend of `config`.
-Policy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
-                  std::shared_ptr<const Pilot> controller = nullptr);
+/// The policy in `file`, or the untrained one of `config`, `seed` and `low-level policy` (without
+/// one it flies itself); on the backend of `config`.
+RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
+                           std::shared_ptr<const Policy> low_level = nullptr);
 
 }  // namespace skein

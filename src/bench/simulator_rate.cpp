@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/bench/simulator_rate.h"
 
 #include <algorithm>
@@ -7,13 +8,13 @@
 #include <memory>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
+#include "envs/flight_reset.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
-#include "envs/flight_reset.h"
 #include "envs/vec_env.h"
-#include "base/aligned_vector.h"
 #include "simd/random.h"
 
 namespace skein {

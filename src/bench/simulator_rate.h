@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "envs/env_config.h"
 #include "base/worker_pool.h"
+#include "envs/env_config.h"
 
 namespace skein {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -8,14 +9,14 @@
 #include "envs/kernels/plant_kernel.h"
 #include "simd/peak.h"
 #include "simd/target.h"
-#include "src/commands/commands.h"
-#include "src/config/configuration.h"
 #include "src/agents/low_level_option.h"
 #include "src/bench/machine.h"
+#include "src/bench/simulator_rate.h"
+#include "src/commands/commands.h"
+#include "src/config/configuration.h"
+#include "src/config/whole_number.h"
 #include "src/files/output_file.h"
 #include "src/run/progress.h"
-#include "src/bench/simulator_rate.h"
-#include "src/config/whole_number.h"
 #include "train/ppo/learner_rates.h"
 #include "train/ppo/trainer.h"
 
@@ -31,7 +32,7 @@ struct BenchOptions {
   int iterations = 3;
   std::string task = "heading";
   std::string preset = "default";
-  std::string controller;
+  std::string low_level;
   std::vector<std::string> assignments;
   std::string json;
 };
@@ -43,16 +44,16 @@ TrainConfig BenchConfig(const BenchOptions& options) {
   return config.train;
 }
 
-/// With the controller that a planner needs.
+/// With the low-level policy that a high-level policy needs.
 TrainConfig LearnerBenchConfig(const BenchOptions& options) {
   TrainConfig config = BenchConfig(options);
-  config.controller = ChooseController(config.env, options.controller).pilot;
+  config.low_level = ChooseLowLevelPolicy(config.env, options.low_level).pilot;
   return config;
 }
 
-/// What Environment::Step is of a rollout: a planner's has the controller in it.
+/// What Environment::Step is of a rollout: a high-level policy's has the low-level policy in it.
 const char* NameSimulator(const TrainConfig& config) {
-  return config.controller == nullptr ? "the simulator" : "the simulator and the controller";
+  return config.low_level == nullptr ? "the simulator" : "the simulator and the low-level policy";
 }
 
 /// A fixed training of a few seconds: every part of an iteration takes part, at a size that says
@@ -211,9 +212,9 @@ void BenchRollout(const BenchOptions& options) {
       MeasureLearners(LearnersOf(config), options.iterations, pool);
   fmt::print("rollout: {} aircraft, {} threads; {}\n", config.ppo.num_aircraft, pool.threads(),
              Describe(learners[0].backend));
-  Json results = Compare(learners, {"decisions", &LearnerRates::rollout_decisions_per_s,
-                                    &LearnerRates::rollout_flops_per_decision});
-  const double control_steps = learners[0].rollout_decisions_per_s * config.env.action_repeat;
+  Json results = Compare(learners, {"policy steps", &LearnerRates::rollout_policy_steps_per_s,
+                                    &LearnerRates::rollout_flops_per_policy_step});
+  const double control_steps = learners[0].rollout_policy_steps_per_s * config.env.action_repeat;
   fmt::print("  {} control steps/s with the first; {} takes {:.0f} % of its time\n",
              FormatCount(control_steps), NameSimulator(config), 100 * learners[0].simulator_share);
   results["control_steps_per_s"] = control_steps;
@@ -247,14 +248,14 @@ void BenchIteration(const BenchOptions& options) {
   const double steps_per_s = steps / rates.iteration_s;
   const double hours = static_cast<double>(config.total_steps) / steps_per_s / 3600;
   fmt::print(
-      "iteration: {} aircraft x {} decisions, {} epochs, {} threads; {}\n"
+      "iteration: {} aircraft x {} policy steps, {} epochs, {} threads; {}\n"
       "  {:.2f} s an iteration, {} control steps/s\n"
-      "  rollout {} decisions/s ({} {:.0f} % of it), gradients {} samples/s\n"
+      "  rollout {} policy steps/s ({} {:.0f} % of it), gradients {} samples/s\n"
       "  these two alone would take {:.1f} % of the time; {:.2f} GB of memory at most\n"
       "  {} control steps would take {:.2f} h\n",
       config.ppo.num_aircraft, config.ppo.rollout_steps, config.ppo.epochs, pool.threads(),
       Describe(rates.backend), rates.iteration_s, FormatCount(steps_per_s),
-      FormatCount(rates.rollout_decisions_per_s), NameSimulator(config),
+      FormatCount(rates.rollout_policy_steps_per_s), NameSimulator(config),
       100 * rates.simulator_share, FormatCount(rates.gradient_samples_per_s),
       100 * rates.efficiency, PeakMemoryGb(), FormatCount(static_cast<double>(config.total_steps)),
       hours);
@@ -263,7 +264,7 @@ void BenchIteration(const BenchOptions& options) {
           {"precision", Name(rates.backend.precision)},
           {"iteration_s", rates.iteration_s},
           {"control_steps_per_s", steps_per_s},
-          {"decisions_per_s", rates.rollout_decisions_per_s},
+          {"decisions_per_s", rates.rollout_policy_steps_per_s},
           {"simulator_share", rates.simulator_share},
           {"gradient_samples_per_s", rates.gradient_samples_per_s},
           {"efficiency", rates.efficiency},
@@ -307,8 +308,8 @@ CLI::App* AddLearner(CLI::App* bench, const std::string& name, const std::string
       ->capture_default_str();
   command->add_option("--task", options->task, "what is flown")->capture_default_str();
   command
-      ->add_option("--controller", options->controller,
-                   "for task tracking: what flies for the planner, as in skein train")
+      ->add_option("--low-level", options->low_level,
+                   "for task tracking: what flies for the high-level policy, as in skein train")
       ->type_name("RUN_OR_POLICY");
   AddConfiguration(command, options);
   return command;
@@ -354,7 +355,7 @@ void AddBenchCommand(CLI::App* app) {
           "and what else lies between.\n"
           "Examples:\n"
           "  skein bench iteration --preset paper --set ppo.rollout_steps=96\n"
-          "  skein bench iteration --task tracking --controller policies/control.skein");
+          "  skein bench iteration --task tracking --low-level policies/control.skein");
   AddBench(bench, "signature", "One hash of a fixed short training", options, BenchSignature)
       ->footer(
           "The same for any number of threads on one SIMD target: a change of the hash is a change "

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,11 +10,11 @@
 #include "base/error.h"
 #include "src/agents/agent_names.h"
 #include "src/commands/commands.h"
-#include "src/evaluation/comparison.h"
-#include "src/config/configuration.h"
 #include "src/commands/flight_options.h"
-#include "src/files/output_file.h"
+#include "src/config/configuration.h"
 #include "src/config/presets.h"
+#include "src/evaluation/comparison.h"
+#include "src/files/output_file.h"
 
 namespace skein {
 namespace {

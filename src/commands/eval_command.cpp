@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,15 +8,15 @@
 #include <optional>
 
 #include "base/error.h"
+#include "src/agents/low_level_option.h"
+#include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
+#include "src/commands/flight_options.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
-#include "src/agents/low_level_option.h"
-#include "src/evaluation/evaluation_report.h"
-#include "src/commands/flight_options.h"
-#include "src/files/output_file.h"
-#include "src/agents/policy_file.h"
 #include "src/config/presets.h"
+#include "src/evaluation/evaluation_report.h"
+#include "src/files/output_file.h"
 #include "src/run/run_directory.h"
 
 namespace skein {
@@ -23,7 +24,7 @@ namespace {
 
 struct EvalOptions {
   std::string policy;
-  std::string controller;
+  std::string low_level;
   bool deterministic = false;
   FlightOptions flight;
 };
@@ -45,30 +46,31 @@ ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_
   return config;
 }
 
-std::string Rates(const Policy& policy, const EnvConfig& env) {
+std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {
   std::string own = fmt::format("an action every {} control steps", env.action_repeat);
-  if (policy.controller() == nullptr) return own;
-  // It decides with every decision of the planner's, too.
-  return fmt::format("{} for a controller with one every {}", own,
-                     std::min(env.action_repeat, policy.controller()->action_repeat()));
+  if (policy.low_level() == nullptr) return own;
+  // It decides with every policy step of the high-level policy's, too.
+  return fmt::format("{} for a low-level policy with one every {}", own,
+                     std::min(env.action_repeat, policy.low_level()->action_repeat()));
 }
 
 void Evaluate(const EvalOptions& options) {
   const FlightOptions& flight = options.flight;
   const std::string path = PolicyFileOf(options.policy);
-  if (path != kUntrained && !options.controller.empty()) {
-    throw Error("--controller is for --policy untrained: a trained planner brings its own");
+  if (path != kUntrained && !options.low_level.empty()) {
+    throw Error(
+        "--low-level is for --policy untrained: a trained high-level policy brings its own");
   }
-  std::optional<Policy> trained;
-  if (path != kUntrained) trained = Policy::Load(path);
+  std::optional<RecurrentPolicy> trained;
+  if (path != kUntrained) trained = RecurrentPolicy::Load(path);
   ProgramConfig config = BaseConfig(options, trained ? trained->task() : "");
   if (trained) config.train.env = trained->EnvironmentFor(config.train.env);
   ApplyOverrides(flight, &config);
-  std::shared_ptr<const Pilot> controller;
-  if (!options.controller.empty()) {
-    controller = ChooseController(config.train.env, options.controller).pilot;
+  std::shared_ptr<const Policy> low_level;
+  if (!options.low_level.empty()) {
+    low_level = ChooseLowLevelPolicy(config.train.env, options.low_level).pilot;
   }
-  const Policy policy = LoadPolicy(path, config, flight.seed, controller);
+  const RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);
   CheckWritable({flight.json, flight.flights});
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
@@ -113,10 +115,10 @@ void AddEvalCommand(CLI::App* app) {
       "(mean or sampled actions, as --deterministic says)";
   AddFlightOptions(command, texts, &options->flight);
   command
-      ->add_option("--controller", options->controller,
+      ->add_option("--low-level", options->low_level,
                    "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
                    "(alone: parallel, though aggressive among --agents), that flies what the "
-                   "planner asks for; without it the sticks are flown")
+                   "high-level policy asks for; without it the sticks are flown")
       ->type_name("RUN_OR_POLICY");
   command->add_flag("--deterministic", options->deterministic,
                     "report the mean action first (default: sampled actions; both are flown)");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,11 +9,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
-#include "envs/state/attitude.h"
 #include "envs/reference/trim.h"
-#include "base/error.h"
+#include "envs/state/attitude.h"
 #include "src/commands/commands.h"
 #include "src/fdm/fdm_evaluation.h"
 #include "src/fdm/fdm_file.h"

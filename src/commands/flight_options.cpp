@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/commands/flight_options.h"
 
 #include <fmt/format.h>
@@ -5,9 +6,9 @@
 #include "base/error.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
+#include "src/config/whole_number.h"
 #include "src/evaluation/flight_file.h"
 #include "src/files/output_file.h"
-#include "src/config/whole_number.h"
 
 namespace skein {
 

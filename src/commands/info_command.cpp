@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -6,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "src/commands/commands.h"
 #include "src/bench/machine.h"
+#include "src/commands/commands.h"
 #include "src/files/output_file.h"
 
 namespace skein {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -5,9 +6,9 @@
 #include <memory>
 
 #include "src/commands/commands.h"
+#include "src/config/whole_number.h"
 #include "src/study/study.h"
 #include "src/study/study_run.h"
-#include "src/config/whole_number.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,15 +8,15 @@
 #include <optional>
 
 #include "base/error.h"
+#include "src/agents/low_level_option.h"
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
-#include "src/agents/low_level_option.h"
 #include "src/config/presets.h"
-#include "src/run/run_directory.h"
 #include "src/config/settings.h"
-#include "src/run/training_run.h"
 #include "src/config/whole_number.h"
+#include "src/run/run_directory.h"
+#include "src/run/training_run.h"
 #include "train/policy/low_level_file.h"
 
 namespace skein {
@@ -29,7 +30,7 @@ struct TrainOptions {
   std::optional<double> steps;
   std::optional<double> seed;
   int threads = 0;
-  std::string controller;
+  std::string low_level;
   std::string out;
   std::string resume;
   CLI::Option* resume_option = nullptr;
@@ -81,15 +82,15 @@ void Resume(const TrainOptions& options) {
         "instead",
         directory.path(), fmt::join(differences, ", ")));
   }
-  config.train.controller = ControllerOfRun(directory, config.train.env.task);
-  if (!options.controller.empty()) {
-    const ChosenController asked_controller =
-        ChooseController(config.train.env, options.controller);
-    if (!IsSameController(asked_controller.pilot.get(), config.train.controller.get())) {
+  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env.task);
+  if (!options.low_level.empty()) {
+    const ChosenLowLevelPolicy asked_low_level =
+        ChooseLowLevelPolicy(config.train.env, options.low_level);
+    if (!IsSameLowLevelPolicy(asked_low_level.pilot.get(), config.train.low_level.get())) {
       throw Error(
-          fmt::format("{}: a resumed run keeps its controller, but --controller {} is "
+          fmt::format("{}: a resumed run keeps its low-level policy, but --low-level {} is "
                       "another one; begin a new run instead",
-                      directory.path(), options.controller));
+                      directory.path(), options.low_level));
     }
   }
   WorkerPool pool(options.threads);
@@ -111,10 +112,10 @@ void Train(const TrainOptions& options) {
   }
   ProgramConfig config = Configure(options, options.task);
   CheckConsistent(config);
-  const ChosenController controller = ChooseController(config.train.env, options.controller);
-  config.train.controller = controller.pilot;
+  const ChosenLowLevelPolicy low_level = ChooseLowLevelPolicy(config.train.env, options.low_level);
+  config.train.low_level = low_level.pilot;
   WorkerPool pool(options.threads);
-  TrainingRun::Begin(config, options.out, pool, controller.description);
+  TrainingRun::Begin(config, options.out, pool, low_level.description);
 }
 
 }  // namespace
@@ -150,8 +151,9 @@ void AddTrainCommand(CLI::App* app) {
                       "--set run.total_steps=...");
   command->add_option("--seed", options->seed, "seed of the run; same as --set run.seed=...");
   command
-      ->add_option("--controller", options->controller,
-                   "for task tracking: the policy of task control that flies what the planner asks "
+      ->add_option("--low-level", options->low_level,
+                   "for task tracking: the policy of task control that flies what the high-level "
+                   "policy asks "
                    "for (a file, or a run's best), or autopilot[:VARIANT] (alone: parallel)")
       ->type_name("RUN_OR_POLICY");
   CLI::Option* out = command
@@ -185,7 +187,7 @@ void AddTrainCommand(CLI::App* app) {
       "  skein train heading\n"
       "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
       "  skein train control --set env.control.pitch_change_rad=0.9\n"
-      "  skein train tracking --controller policies/control.skein\n"
+      "  skein train tracking --low-level policies/control.skein\n"
       "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
       "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
       "noisy=0.01..0.05\n"

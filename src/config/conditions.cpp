@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/config/conditions.h"
 
 #include <fmt/format.h>
@@ -10,9 +11,9 @@
 #include <set>
 #include <utility>
 
-#include "envs/wind/dryden.h"
-#include "envs/env_config.h"
 #include "base/error.h"
+#include "envs/env_config.h"
+#include "envs/wind/dryden.h"
 #include "src/config/nearest_name.h"
 
 namespace skein {
@@ -230,7 +231,7 @@ std::string DescribeConditions(const EnvConfig& env) {
                                     : fmt::format("{} to {}{}", values.min, values.max, unit);
   };
   const WindConfig& wind = env.wind;
-  std::string air = wind.blows() ? "" : "; still air";
+  std::string air = wind.enabled() ? "" : "; still air";
   if (wind.speed_fps.max > 0) air += "; wind of " + range(wind.speed_fps, " ft/s");
   if (wind.turbulence_fps.max > 0) {
     air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");

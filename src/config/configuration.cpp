@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/config/configuration.h"
 
 #include <fmt/format.h>
@@ -7,9 +8,9 @@
 
 #include "base/error.h"
 #include "src/config/conditions.h"
-#include "src/files/output_file.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/files/output_file.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -14,8 +15,8 @@ void ApplyToml(const std::string& text, const std::string& source, ProgramConfig
 /// Applies the TOML file `path`. Throws Error if it cannot be read.
 void ApplyTomlFile(const std::string& path, ProgramConfig* config);
 
-/// Applies conditions (src/config/conditions.h), then assignments `key=value`, whose values are TOML;
-/// names need no quotes.
+/// Applies conditions (src/config/conditions.h), then assignments `key=value`, whose values are
+/// TOML; names need no quotes.
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
                                    ProgramConfig* config);

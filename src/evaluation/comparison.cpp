@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/evaluation/comparison.h"
 
 #include "base/error.h"
@@ -21,8 +22,8 @@ PairedDifferences Differences(const std::vector<Episode>& first, const std::vect
   }
   int only_first = 0, only_second = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
-    const bool by_first = first[i].termination == Termination::kResetTarget;
-    const bool by_second = second[i].termination == Termination::kResetTarget;
+    const bool by_first = first[i].termination == Termination::kTargetReached;
+    const bool by_second = second[i].termination == Termination::kTargetReached;
     only_first += by_first && !by_second;
     only_second += by_second && !by_first;
   }
@@ -42,9 +43,10 @@ void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin) {
   if (env.tracking.error_axes != origin.tracking.error_axes) {
     throw Error("env.tracking.error_axes: agents that are compared see each in their own axes");
   }
-  if (env.planner.averages_observations != origin.planner.averages_observations) {
+  if (env.high_level.averages_observations != origin.high_level.averages_observations) {
     throw Error(
-        "env.planner.averages_observations: planners that are compared look each as they did");
+        "env.high_level.averages_observations: high-level policies that are compared look each as "
+        "they did");
   }
 }
 

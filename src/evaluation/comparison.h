@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -6,9 +7,9 @@
 #include <vector>
 
 #include "base/worker_pool.h"
+#include "src/config/program_config.h"
 #include "src/evaluation/estimate.h"
 #include "src/evaluation/flight_summary.h"
-#include "src/config/program_config.h"
 #include "train/policy/agent.h"
 
 namespace skein {
@@ -45,7 +46,7 @@ struct Comparison {
 };
 
 /// Throws Error if `env` differs from the one that it was made from in what every agent brings
-/// along itself: its rate, and how a planner is shown what it sees.
+/// along itself: its rate, and how a high-level policy is shown what it sees.
 void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin);
 
 /// Flies every agent over the same episodes of `config`'s environment, each at its own rate. If the

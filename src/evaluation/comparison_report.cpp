@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,7 +91,7 @@ std::string ToText(const Comparison& comparison) {
       fmt::format("{}, the same {} episodes for all (seed {}); means with 95 % intervals\n  {}\n",
                   comparison.task, comparison.episodes, comparison.seed, comparison.conditions);
   for (const ComparedAgent& agent : comparison.agents) {
-    text += fmt::format("  {}: a decision every {:.4g} s\n", agent.name,
+    text += fmt::format("  {}: a policy step every {:.4g} s\n", agent.name,
                         agent.action_repeat * comparison.control_interval_s);
   }
   for (std::size_t begin = 0; begin < comparison.agents.size(); begin += kAgentsPerTable) {

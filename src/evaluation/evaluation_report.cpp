@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/evaluation/evaluation_report.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ std::string Line(const char* mode, const FlightSummary& summary) {
 
 }  // namespace
 
-EvaluationReport EvaluateBothWays(const Policy& policy, const EnvConfig& env, int episodes,
+EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
                                   std::uint64_t seed, WorkerPool& pool) {
   EvaluationOptions options;
   options.episodes = episodes;

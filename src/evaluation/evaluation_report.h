@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "envs/env_config.h"
 #include "base/worker_pool.h"
-#include "src/evaluation/flight_summary.h"
+#include "envs/env_config.h"
 #include "src/config/program_config.h"
+#include "src/evaluation/flight_summary.h"
 #include "train/policy/recurrent_policy.h"
 
 namespace skein {
@@ -19,7 +20,7 @@ struct EvaluationReport {
 };
 
 /// Flies `episodes` episodes of each kind; clocks are not staggered.
-EvaluationReport EvaluateBothWays(const Policy& policy, const EnvConfig& env, int episodes,
+EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
                                   std::uint64_t seed, WorkerPool& pool);
 
 /// The document of `skein eval --json` and evaluation.json: policy, task, mode, seed, the keys of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/evaluation/flight_file.h"
 
 #include <fmt/format.h>
@@ -8,13 +9,13 @@
 #include <memory>
 #include <utility>
 
+#include "base/error.h"
 #include "envs/actions.h"
 #include "envs/aircraft/aircraft.h"
-#include "envs/state/attitude.h"
-#include "envs/reference/plant.h"
 #include "envs/guided_flight.h"
+#include "envs/reference/plant.h"
+#include "envs/state/attitude.h"
 #include "envs/tasks/task.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {
@@ -23,8 +24,8 @@ using State = std::array<float, kNumRecordedColumns>;
 using Quantity = std::pair<const char*, double>;
 
 constexpr std::array<const char*, kActionSize> kStickNames = {"throttle", "pitch", "roll", "yaw"};
-constexpr std::array<const char*, kPlannerActionSize> kPlanNames = {"target_pitch", "target_yaw",
-                                                                    "target_speed"};
+constexpr std::array<const char*, kHighLevelActionSize> kPlanNames = {"target_pitch", "target_yaw",
+                                                                      "target_speed"};
 
 /// What a state is called and worth in the units of people, in the order of the file's columns.
 std::vector<Quantity> Readings(AtmosphereModel atmosphere, const State& state) {
@@ -72,8 +73,10 @@ double ValueOf(const std::vector<Quantity>& readings, const std::string& name) {
 /// Writes the rows of one configuration's flights.
 class FlightTable {
  public:
-  FlightTable(const EnvConfig& env, bool is_planned)
-      : env_(env), is_planned_(is_planned), targets_(MakeTask(env)->target_quantities()) {}
+  FlightTable(const EnvConfig& env, bool is_hierarchical)
+      : env_(env),
+        is_hierarchical_(is_hierarchical),
+        targets_(MakeTask(env)->target_quantities()) {}
 
   std::string Header() const {
     std::string header = "episode,time_s";
@@ -81,7 +84,7 @@ class FlightTable {
       header += fmt::format(",{}", name);
     }
     for (const char* name : kStickNames) header += fmt::format(",action_{}", name);
-    if (is_planned_) {
+    if (is_hierarchical_) {
       for (const char* name : kPlanNames) header += fmt::format(",action_{}", name);
     }
     for (const TargetQuantity& target : targets_)
@@ -101,10 +104,10 @@ class FlightTable {
         Readings(env_.atmosphere, step == nullptr ? flight.initial_state : step->state);
     for (const auto& [name, value] : readings) cell(value);
     if (step == nullptr) {
-      text->append(kStickNames.size() + (is_planned_ ? kPlanNames.size() : 0), ',');
+      text->append(kStickNames.size() + (is_hierarchical_ ? kPlanNames.size() : 0), ',');
     } else {
       for (const float command : step->stick) cell(command);
-      if (is_planned_) {
+      if (is_hierarchical_) {
         for (const float command : step->action) cell(command);
       }
     }
@@ -129,20 +132,20 @@ class FlightTable {
   }
 
   const EnvConfig& env_;
-  bool is_planned_;
+  bool is_hierarchical_;
   std::vector<TargetQuantity> targets_;
 };
 
-/// Whether a planner's actions were recorded.
-bool IsPlanned(const std::vector<RecordedFlight>& flights) {
+/// Whether a high-level policy's actions were recorded.
+bool IsHierarchical(const std::vector<RecordedFlight>& flights) {
   return !flights.empty() && !flights.front().steps.empty() &&
-         flights.front().steps.front().action.size() == kPlannerActionSize;
+         flights.front().steps.front().action.size() == kHighLevelActionSize;
 }
 
 }  // namespace
 
 std::string FlightsCsv(const EnvConfig& env, const std::vector<RecordedFlight>& flights) {
-  const FlightTable table(env, IsPlanned(flights));
+  const FlightTable table(env, IsHierarchical(flights));
   std::string text = table.Header();
   for (std::size_t episode = 0; episode < flights.size(); ++episode) {
     const RecordedFlight& flight = flights[episode];

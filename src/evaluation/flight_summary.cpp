@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/evaluation/flight_summary.h"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ int DecimalsOf(int metric) {
 
 std::vector<Quantity> MakeQuantities() {
   const auto succeeded = [](const Episode& episode) {
-    return episode.termination == Termination::kResetTarget;
+    return episode.termination == Termination::kTargetReached;
   };
   std::vector<Quantity> quantities = {
       {"success_rate", "", "success, %", 100, 1,
@@ -65,7 +66,7 @@ FlightSummary SummariseFlights(const std::vector<Episode>& episodes, double cont
     summary.estimates.push_back(EstimateMean(values));
   }
   summary.estimates[kSuccessQuantity] = EstimateShare(
-      summary.result.terminations[static_cast<std::size_t>(Termination::kResetTarget)],
+      summary.result.terminations[static_cast<std::size_t>(Termination::kTargetReached)],
       summary.result.episodes);
   return summary;
 }

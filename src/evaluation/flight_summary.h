@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>
@@ -48,7 +49,7 @@ std::string FormatEstimate(const Quantity& quantity, const Estimate& estimate);
 std::string CsvCells(const Estimate& estimate);
 /// A cell of CSV, in quotes where it must be.
 std::string CsvText(const std::string& text);
-/// "ResetTarget 998, UnreachTarget 2".
+/// "target_reached 998, time_limit 2".
 std::string FormatTerminations(const EvaluationResult& result);
 
 /// The figures of the paper's Table 6 in two columns, for people; without a newline at the end.

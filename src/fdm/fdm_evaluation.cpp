@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/fdm/fdm_evaluation.h"
 
 #include <fmt/format.h>
@@ -7,12 +8,12 @@
 #include <memory>
 #include <utility>
 
-#include "envs/aircraft/registry.h"
-#include "envs/state/attitude.h"
-#include "envs/reference/plant.h"
-#include "envs/kernels/plant_kernel.h"
 #include "base/aligned_vector.h"
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
+#include "envs/kernels/plant_kernel.h"
+#include "envs/reference/plant.h"
+#include "envs/state/attitude.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/fdm/fdm_file.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 inline constexpr const char* kRunsRoot = "runs";
 
 /// The directory of one training run, held exclusively while the object lives:
-///   config.toml  controller.skein (of planners)  log.txt  metrics.csv  timing.csv
+///   config.toml  controller.skein (of high-level policies)  log.txt  metrics.csv  timing.csv
 ///   events.out.tfevents.*  evaluation.json checkpoints/checkpoint-<iteration>.skein,
 ///   policy-best.skein, policy-final.skein
 class RunDirectory {
@@ -38,7 +39,7 @@ class RunDirectory {
 
   const std::string& path() const { return path_; }
   std::string config() const { return path_ + "/config.toml"; }
-  std::string controller() const { return path_ + "/controller.skein"; }
+  std::string low_level() const { return path_ + "/controller.skein"; }
   std::string log() const { return path_ + "/log.txt"; }
   std::string metrics() const { return path_ + "/metrics.csv"; }
   std::string timing() const { return path_ + "/timing.csv"; }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/run/training_run.h"
 
 #include <fmt/format.h>
@@ -13,8 +14,8 @@
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/run/progress.h"
-#include "train/policy/low_level_file.h"
 #include "train/files/tensor_file.h"
+#include "train/policy/low_level_file.h"
 
 namespace skein {
 namespace {
@@ -83,10 +84,10 @@ void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wo
                                         : RunDirectory::Create(path);
   ProgramConfig resolved = config;
   resolved.train = trainer.config();
-  if (config.train.controller != nullptr) {
-    TensorFile controller;
-    StoreController(*config.train.controller, controller);
-    controller.Write(directory.controller());
+  if (config.train.low_level != nullptr) {
+    TensorFile low_level;
+    StoreLowLevelPolicy(*config.train.low_level, low_level);
+    low_level.Write(directory.low_level());
   }
   // Last: it makes the directory one of a run.
   WriteFile(directory.config(), DumpToml(resolved));
@@ -270,7 +271,8 @@ void TrainingRun::Finish() {
   trainer_.policy().Save(directory_.final_policy());
   const bool has_best = std::filesystem::exists(directory_.best_policy());
   const std::string path = has_best ? directory_.best_policy() : directory_.final_policy();
-  const Policy policy = Policy::Load(path).WithBackend(config_.train.learner.backend);
+  const RecurrentPolicy policy =
+      RecurrentPolicy::Load(path).WithBackend(config_.train.learner.backend);
   const std::uint64_t seed = config_.train.seed + kFreshSeedOffset;
   const int episodes = config_.final_evaluation_episodes;
   log_.Say(fmt::format("evaluating {} over {} fresh episodes", path, episodes));

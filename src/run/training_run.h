@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <chrono>
@@ -5,9 +6,9 @@
 #include <string>
 
 #include "base/worker_pool.h"
+#include "src/config/program_config.h"
 #include "src/run/event_file.h"
 #include "src/run/metrics.h"
-#include "src/config/program_config.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_log.h"
 #include "src/run/run_signals.h"
@@ -25,8 +26,8 @@ class TrainingRun {
   static void Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
                     const std::string& note = "");
   /// Goes on from the directory's newest checkpoint, or from the start if it has none, over the
-  /// controller that the run began with. Throws Error if the checkpoint is damaged or made with
-  /// another configuration.
+  /// low-level policy that the run began with. Throws Error if the checkpoint is damaged or made
+  /// with another configuration.
   static void Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool);
 
  private:

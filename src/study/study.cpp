@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/study/study.h"
 
 #include <fmt/format.h>
@@ -9,13 +10,13 @@
 #include <set>
 
 #include "base/error.h"
-#include "src/evaluation/comparison.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/nearest_name.h"
-#include "src/files/output_file.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/evaluation/comparison.h"
+#include "src/files/output_file.h"
 
 namespace skein {
 namespace {
@@ -170,7 +171,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   study.seeds = reader.WholeNumbers("seeds", kMaxSeed);
   study.agents = reader.Texts("agents");
   study.preset = reader.Text("preset", study.preset);
-  study.controller = reader.Text("controller", "");
+  study.low_level = reader.Text("low_level", "");
   study.assignments = reader.Texts("set");
   if (const toml::table* training = reader.Table("training")) {
     TableReader part(*training, source);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ struct Study {
   std::vector<StudyLevel> levels;
   std::vector<std::string> agents;  ///< flown beside the trained policies
   std::string preset = "default";
-  std::string controller;                ///< below the planners of planned tasks (ChooseController)
+  std::string low_level;  ///< below the high-level policies of planned tasks (ChooseController)
   std::vector<std::string> assignments;  ///< for trainings and evaluations
   struct Training {
     std::optional<double> steps;  ///< control steps; else the preset's

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/study/study_run.h"
 
 #include <fmt/format.h>
@@ -8,22 +9,22 @@
 #include <utility>
 #include <vector>
 
-#include "envs/tasks/task.h"
 #include "base/error.h"
+#include "envs/tasks/task.h"
 #include "simd/target.h"
 #include "src/agents/agent_names.h"
-#include "src/evaluation/comparison.h"
-#include "src/config/configuration.h"
 #include "src/agents/low_level_option.h"
+#include "src/agents/policy_file.h"
+#include "src/config/configuration.h"
+#include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
-#include "src/agents/policy_file.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
-#include "src/study/study_report.h"
 #include "src/run/training_run.h"
-#include "train/policy/low_level_file.h"
+#include "src/study/study_report.h"
 #include "train/files/fnv_hash.h"
+#include "train/policy/low_level_file.h"
 #include "train/policy/policy_environment.h"
 
 namespace skein {
@@ -45,14 +46,14 @@ void RemoveStub(const std::string& run) {
 ProgramConfig ConfigOfRun(const RunDirectory& directory, ProgramConfig asked) {
   ProgramConfig config;
   ApplyTomlFile(directory.config(), &config);
-  config.train.controller = ControllerOfRun(directory, config.train.env.task);
+  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env.task);
   // What "auto" was on the machine that began it.
   if (asked.train.learner.precision == LearnerPrecision::kAuto) {
     asked.train.learner.precision = config.train.learner.precision;
   }
   std::vector<std::string> differences = Differences(config, asked);
-  if (!IsSameController(config.train.controller.get(), asked.train.controller.get())) {
-    differences.push_back("another controller");
+  if (!IsSameLowLevelPolicy(config.train.low_level.get(), asked.train.low_level.get())) {
+    differences.push_back("another low-level policy");
   }
   if (!differences.empty()) {
     throw Error(fmt::format(
@@ -102,17 +103,17 @@ Json KnownComparison(const std::string& path, const Json& identity) {
   return document;
 }
 
-/// The configuration of one training. Throws Error if the task needs a controller and the study has
-/// none.
+/// The configuration of one training. Throws Error if the task needs a low-level policy and the
+/// study has none.
 ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const StudyLevel& level,
                             std::uint64_t seed) {
   ProgramConfig config = TrainingConfig(study, task, level, seed);
-  if (!IsPlanned(task)) return config;
-  if (study.controller.empty()) {
+  if (!IsHierarchical(task)) return config;
+  if (study.low_level.empty()) {
     throw Error(fmt::format(
-        "task {} needs controller = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
+        "task {} needs low_level = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
   }
-  config.train.controller = ChooseController(config.train.env, study.controller).pilot;
+  config.train.low_level = ChooseLowLevelPolicy(config.train.env, study.low_level).pilot;
   return config;
 }
 
@@ -127,7 +128,7 @@ void CheckFlies(const EnvConfig& trained, EnvConfig flown, const std::string& wh
 const Study& Checked(const Study& study) {
   bool plans = false;
   for (const std::string& task : study.tasks) {
-    plans = plans || IsPlanned(task);
+    plans = plans || IsHierarchical(task);
     for (const StudyLevel& level : study.levels) {
       try {
         const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
@@ -141,8 +142,8 @@ const Study& Checked(const Study& study) {
       }
     }
   }
-  if (!plans && !study.controller.empty()) {
-    throw Error("controller is for tasks that are planned, and the study has none");
+  if (!plans && !study.low_level.empty()) {
+    throw Error("low-level policy is for tasks that are planned, and the study has none");
   }
   return study;
 }

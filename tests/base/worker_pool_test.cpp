@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/worker_pool.h"
 
 #include <atomic>
@@ -7,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "gtest/gtest.h"
 #include "base/error.h"
+#include "gtest/gtest.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/env_config.h"
 
 #include <gtest/gtest.h>
@@ -123,9 +124,11 @@ TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
        [](EnvConfig* c) { c->tracking.training_tolerance_max = 0.9; }},
       {"env.tracking.position_tolerance_ft = ",
        [](EnvConfig* c) { c->tracking.position_tolerance_ft = 0; }},
-      {"env.planner.pitch_change_rad = ", [](EnvConfig* c) { c->planner.pitch_change_rad = -1; }},
-      {"env.planner.yaw_change_rad = ", [](EnvConfig* c) { c->planner.yaw_change_rad = -1; }},
-      {"env.planner.speed_change_fps = ", [](EnvConfig* c) { c->planner.speed_change_fps = -1; }},
+      {"env.high_level.pitch_change_rad = ",
+       [](EnvConfig* c) { c->high_level.pitch_change_rad = -1; }},
+      {"env.high_level.yaw_change_rad = ", [](EnvConfig* c) { c->high_level.yaw_change_rad = -1; }},
+      {"env.high_level.speed_change_fps = ",
+       [](EnvConfig* c) { c->high_level.speed_change_fps = -1; }},
       {"env.termination.alpha_min_deg = ",
        [](EnvConfig* c) {
          c->termination.alpha_deg = {45, -20};

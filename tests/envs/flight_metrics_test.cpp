@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/flight_metrics.h"
 
 #include <gtest/gtest.h>
@@ -176,7 +177,8 @@ Flown FlyTiles(const EnvConfig& config, int count, int tile_size, bool with_metr
     output.episode_return = episode_return.data();
     output.episode_steps = steps.data();
     if (with_metrics) output.flight_metrics = metrics.data();
-    for (int decision = 0; decision * config.action_repeat < config.time_limit_steps; ++decision) {
+    for (int policy_step = 0; policy_step * config.action_repeat < config.time_limit_steps;
+         ++policy_step) {
       env.Step(tile, action.data(), output);
       for (int i = 0; i < size; ++i) {
         Metrics& kept = flown.metrics[env.tile_begin(tile) + i];
@@ -210,7 +212,7 @@ TEST(FlightMetricsOfEnvironmentTest, DependNeitherOnTilesNorDoTheyChangeAnything
   EXPECT_NE(narrow.metrics[0], narrow.metrics[1]);
 }
 
-/// Of the first decision of two aircraft, the first of which began it with `value` in `column`.
+/// Of the first policy step of two aircraft, the first of which began it with `value` in `column`.
 std::vector<Metrics> FlyPoisoned(int column, float value) {
   EnvConfig config = ShortFlights();
   config.action_repeat = config.time_limit_steps;
@@ -229,7 +231,7 @@ std::vector<Metrics> FlyPoisoned(int column, float value) {
   output.flight_metrics = metrics.data();
   env.Step(0, action.data(), output);
   EXPECT_EQ(termination[0], static_cast<std::uint8_t>(Termination::kNonFinite)) << column;
-  EXPECT_EQ(termination[1], static_cast<std::uint8_t>(Termination::kUnreachTarget)) << column;
+  EXPECT_EQ(termination[1], static_cast<std::uint8_t>(Termination::kTimeLimit)) << column;
   return {{metrics.begin(), metrics.begin() + kNumFlightMetrics},
           {metrics.begin() + kNumFlightMetrics, metrics.end()}};
 }

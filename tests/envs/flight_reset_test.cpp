@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/flight_reset.h"
 
 #include <gtest/gtest.h>
@@ -5,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "base/error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
 #include "envs/state/attitude.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/guided_flight.h"
 
 #include <gtest/gtest.h>
@@ -9,11 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
+#include "base/worker_pool.h"
 #include "envs/state/attitude.h"
 #include "envs/tasks/control.h"
 #include "envs/vec_env.h"
-#include "base/worker_pool.h"
-#include "base/error.h"
 #include "simd/random.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_policy.h"
@@ -27,7 +28,7 @@ constexpr int kSize = kObservationSize;
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-/// Short episodes: four decisions of 20 control steps.
+/// Short episodes: four policy steps of 20 control steps.
 EnvConfig Config() {
   EnvConfig config;
   config.task = "tracking";
@@ -36,16 +37,16 @@ EnvConfig Config() {
   return config;
 }
 
-std::shared_ptr<const Pilot> Controller(int action_repeat = 4) {
-  return std::make_shared<const TestPilot>(action_repeat);
+std::shared_ptr<const Policy> LowLevelPolicy(int action_repeat = 4) {
+  return std::make_shared<const TestPolicy>(action_repeat);
 }
 
-/// Plans that depend on nothing but the aircraft and the decision; some beyond full.
-std::array<float, kPlannerActionSize> PlanOf(int aircraft, int decision) {
+/// Plans that depend on nothing but the aircraft and the policy step; some beyond full.
+std::array<float, kHighLevelActionSize> PlanOf(int aircraft, int policy_step) {
   simd::RandomStream random({9, static_cast<std::uint32_t>(aircraft),
-                             static_cast<std::uint32_t>(decision), 0,
+                             static_cast<std::uint32_t>(policy_step), 0,
                              simd::RandomPurpose::kActionNoise});
-  std::array<float, kPlannerActionSize> plan;
+  std::array<float, kHighLevelActionSize> plan;
   for (float& value : plan) value = static_cast<float>(random.Uniform(-1.2, 1.2));
   return plan;
 }
@@ -53,14 +54,15 @@ std::array<float, kPlannerActionSize> PlanOf(int aircraft, int decision) {
 /// All that was seen and earned, aircraft by aircraft.
 using Log = std::vector<std::vector<float>>;
 
-void FlyTile(VecEnv* env, int tile, int first_decision, int decisions, Log* log) {
+void FlyTile(VecEnv* env, int tile, int first_policy_step, int policy_steps, Log* log) {
   const int count = env->tile_count(tile), begin = env->tile_begin(tile);
-  StepBuffers buffers(count, kPlannerActionSize);
-  for (int decision = first_decision; decision < first_decision + decisions; ++decision) {
+  StepBuffers buffers(count, kHighLevelActionSize);
+  for (int policy_step = first_policy_step; policy_step < first_policy_step + policy_steps;
+       ++policy_step) {
     env->Observe(tile, buffers.observation.data());
     for (int i = 0; i < count; ++i) {
-      const auto plan = PlanOf(begin + i, decision);
-      std::copy(plan.begin(), plan.end(), buffers.action.begin() + i * kPlannerActionSize);
+      const auto plan = PlanOf(begin + i, policy_step);
+      std::copy(plan.begin(), plan.end(), buffers.action.begin() + i * kHighLevelActionSize);
     }
     env->Step(tile, buffers.action.data(), buffers.output());
     for (int i = 0; i < count; ++i) {
@@ -73,10 +75,10 @@ void FlyTile(VecEnv* env, int tile, int first_decision, int decisions, Log* log)
   }
 }
 
-Log Fly(VecEnv* env, int first_decision, int decisions) {
+Log Fly(VecEnv* env, int first_policy_step, int policy_steps) {
   Log log(Index(env->num_aircraft()));
   for (int tile = 0; tile < env->num_tiles(); ++tile) {
-    FlyTile(env, tile, first_decision, decisions, &log);
+    FlyTile(env, tile, first_policy_step, policy_steps, &log);
   }
   return log;
 }
@@ -85,7 +87,7 @@ Log Fly(VecEnv* env, int first_decision, int decisions) {
 /// that sets targets, an inner one in which the pilot sees their errors.
 class TwoLoops {
  public:
-  TwoLoops(const EnvConfig& planned, int count, std::uint64_t seed, const Pilot& pilot)
+  TwoLoops(const EnvConfig& planned, int count, std::uint64_t seed, const Policy& pilot)
       : planned_(planned),
         count_(count),
         pilot_(pilot),
@@ -93,34 +95,35 @@ class TwoLoops {
         clean_(CleanConfig(planned), count, seed, count),
         memory_(Index(count * pilot.state_size())) {}
 
-  /// What the planner is to see, row-major.
+  /// What the high-level policy is to see, row-major.
   std::vector<float> Seen() {
     StepBuffers now(count_, kActionSize);
     env_.Observe(0, now.observation.data());
     for (int i = 0; i < count_; ++i) {
       for (int k = 0; k < kSize; ++k) {
         float& value = now.observation[Index(i * kSize + k)];
-        value =
-            static_cast<float>((value + looks_[Index(i * kSize + k)]) / (num_looks_[Index(i)] + 1));
+        value = static_cast<float>((value + observation_sums_[Index(i * kSize + k)]) /
+                                   (num_observation_sums_[Index(i)] + 1));
       }
     }
     return now.observation;
   }
 
-  /// Rewards of one decision.
-  std::vector<double> Decide(int decision) {
+  /// Rewards of one policy step.
+  std::vector<double> Decide(int policy_step) {
     std::vector<double> reward(Index(count_));
     std::vector<std::array<double, 3>> targets;
-    for (int i = 0; i < count_; ++i) targets.push_back(TargetOf(i, PlanOf(i, decision)));
+    for (int i = 0; i < count_; ++i) targets.push_back(TargetOf(i, PlanOf(i, policy_step)));
     StepBuffers buffers(count_, kActionSize), clean(count_, kActionSize);
-    looks_.assign(Index(count_ * kSize), 0);
-    num_looks_.assign(Index(count_), 0);
+    observation_sums_.assign(Index(count_ * kSize), 0);
+    num_observation_sums_.assign(Index(count_), 0);
     for (int step = 0; step < planned_.action_repeat; ++step) {
       if (step % pilot_.action_repeat() == 0) {
         env_.Observe(0, buffers.observation.data());
-        if (planned_.planner.averages_observations && step > 0) {
-          for (std::size_t k = 0; k < looks_.size(); ++k) looks_[k] += buffers.observation[k];
-          for (int& looks : num_looks_) ++looks;
+        if (planned_.high_level.averages_observations && step > 0) {
+          for (std::size_t k = 0; k < observation_sums_.size(); ++k)
+            observation_sums_[k] += buffers.observation[k];
+          for (int& looks : num_observation_sums_) ++looks;
         }
         clean_.Observe(0, clean.observation.data());
         for (int i = 0; i < count_; ++i) {
@@ -131,7 +134,7 @@ class TwoLoops {
             buffers.observation[at] += static_cast<float>(errors[Index(k)]) - clean.observation[at];
           }
         }
-        pilot_.Fly(count_, buffers.observation.data(), memory_.data(), buffers.action.data());
+        pilot_.Act(count_, buffers.observation.data(), memory_.data(), buffers.action.data());
       }
       env_.Step(0, buffers.action.data(), buffers.output());
       clean_.Step(0, buffers.action.data(), clean.output());
@@ -139,13 +142,13 @@ class TwoLoops {
         reward[Index(i)] += buffers.reward[Index(i)];
         const auto end = static_cast<Termination>(buffers.termination[Index(i)]);
         if (end == Termination::kNone) continue;
-        // Elsewhere a new episode would have to wait for the end of the decision.
-        EXPECT_EQ(end, Termination::kUnreachTarget);
+        // Elsewhere a new episode would have to wait for the end of the policy step.
+        EXPECT_EQ(end, Termination::kTimeLimit);
         EXPECT_EQ(step + 1, planned_.action_repeat);
         ++ends_;
         std::fill_n(memory_.begin() + i * pilot_.state_size(), pilot_.state_size(), 0.0f);
-        std::fill_n(looks_.begin() + i * kSize, kSize, 0);
-        num_looks_[Index(i)] = 0;
+        std::fill_n(observation_sums_.begin() + i * kSize, kSize, 0);
+        num_observation_sums_[Index(i)] = 0;
       }
     }
     return reward;
@@ -197,38 +200,38 @@ class TwoLoops {
 
   EnvConfig planned_;
   int count_;
-  const Pilot& pilot_;
+  const Policy& pilot_;
   VecEnv env_, clean_;
   std::vector<float> memory_;
-  std::vector<double> looks_ = std::vector<double>(Index(count_ * kSize));  ///< sums
-  std::vector<int> num_looks_ = std::vector<int>(Index(count_));
+  std::vector<double> observation_sums_ = std::vector<double>(Index(count_ * kSize));  ///< sums
+  std::vector<int> num_observation_sums_ = std::vector<int>(Index(count_));
   int ends_ = 0;
 };
 
-/// Flies `config` both ways for ten decisions, in which every aircraft begins two new episodes.
+/// Flies `config` both ways for ten policy steps, in which every aircraft begins two new episodes.
 void ExpectTwoPlainLoops(const EnvConfig& config, int action_repeat) {
   // Errors in double against float32 in the hierarchy differ by 1e-7, which a few seconds of flight
-  // and twenty decisions amplify; positions are of 2000 ft, rewards of twenty steps of 10 km.
+  // and twenty policy steps amplify; positions are of 2000 ft, rewards of twenty steps of 10 km.
   constexpr double kVelocityTolerance = 0.02, kRateTolerance = 2e-4, kPositionTolerance = 0.05;
   constexpr double kRewardTolerance = 1e-3, kObservationTolerance = 5e-4;
-  constexpr int kCount = 40, kDecisions = 10;
-  const TestPilot pilot(action_repeat);
-  VecEnv env(config, kCount, 3, 32, Controller(action_repeat));
+  constexpr int kCount = 40, kPolicySteps = 10;
+  const TestPolicy pilot(action_repeat);
+  VecEnv env(config, kCount, 3, 32, LowLevelPolicy(action_repeat));
   TwoLoops expected(config, kCount, 3, pilot);
-  for (int decision = 0; decision < kDecisions; ++decision) {
+  for (int policy_step = 0; policy_step < kPolicySteps; ++policy_step) {
     const std::vector<float> seen = expected.Seen();
-    const Log log = Fly(&env, decision, 1);
-    const std::vector<double> reward = expected.Decide(decision);
+    const Log log = Fly(&env, policy_step, 1);
+    const std::vector<double> reward = expected.Decide(policy_step);
     for (int i = 0; i < kCount; ++i) {
       for (int k = 0; k < kSize; ++k) {
         ASSERT_NEAR(log[Index(i)][Index(k)], seen[Index(i * kSize + k)], kObservationTolerance)
-            << "aircraft " << i << ", decision " << decision << ", element " << k;
+            << "aircraft " << i << ", policy step " << policy_step << ", element " << k;
       }
       ASSERT_NEAR(log[Index(i)][kSize], reward[Index(i)], kRewardTolerance)
-          << "aircraft " << i << ", decision " << decision;
+          << "aircraft " << i << ", policy step " << policy_step;
       const auto near = [&](int column, double tolerance) {
         ASSERT_NEAR(env.StateOf(i, column), expected.env().StateOf(i, column), tolerance)
-            << "aircraft " << i << ", decision " << decision << ", column " << column;
+            << "aircraft " << i << ", policy step " << policy_step << ", column " << column;
       };
       for (const int column : {kU, kV, kW}) near(column, kVelocityTolerance);
       for (const int column : {kP, kQ, kR, kQ0, kQx, kQy, kQz}) near(column, kRateTolerance);
@@ -240,11 +243,11 @@ void ExpectTwoPlainLoops(const EnvConfig& config, int action_repeat) {
 
 TEST(GuidedFlight, EqualsTwoPlainLoops) {
   for (const double noise : {0.0, 0.02}) {
-    for (const int action_repeat : {1, 4, 7}) {  // the last does not divide the decision
+    for (const int action_repeat : {1, 4, 7}) {  // the last does not divide the policy step
       EnvConfig config = Config();
       config.observation_noise = noise;
       for (const bool averages : {false, true}) {
-        config.planner.averages_observations = averages;
+        config.high_level.averages_observations = averages;
         ExpectTwoPlainLoops(config, action_repeat);
       }
     }
@@ -262,15 +265,17 @@ TEST(GuidedFlight, EqualsTwoPlainLoopsInWind) {
   }
 }
 
-TEST(GuidedFlight, PlannersTakeThreeActions) {
-  EXPECT_EQ(VecEnv(Config(), 1, 1, 32, Controller()).action_size(), 3);
-  EXPECT_EQ(VecEnv(Config(), 1, 1, 32, Controller()).observation_size(), kSize);
+TEST(GuidedFlight, HighLevelsTakeThreeActions) {
+  EXPECT_EQ(VecEnv(Config(), 1, 1, 32, LowLevelPolicy()).action_size(), 3);
+  EXPECT_EQ(VecEnv(Config(), 1, 1, 32, LowLevelPolicy()).observation_size(), kSize);
   EXPECT_EQ(VecEnv(Config(), 1, 1).action_size(), 4);
 }
 
 TEST(GuidedFlight, DependsNeitherOnTilesNorOnThreads) {
-  VecEnv small(Config(), 300, 1, 32, Controller()), middle(Config(), 300, 1, 160, Controller()),
-      large(Config(), 300, 1, 4096, Controller()), parallel(Config(), 300, 1, 32, Controller());
+  VecEnv small(Config(), 300, 1, 32, LowLevelPolicy()),
+      middle(Config(), 300, 1, 160, LowLevelPolicy()),
+      large(Config(), 300, 1, 4096, LowLevelPolicy()),
+      parallel(Config(), 300, 1, 32, LowLevelPolicy());
   const Log log = Fly(&small, 0, 12);
   EXPECT_EQ(log, Fly(&middle, 0, 12));
   EXPECT_EQ(log, Fly(&large, 0, 12));
@@ -282,15 +287,15 @@ TEST(GuidedFlight, DependsNeitherOnTilesNorOnThreads) {
   EXPECT_EQ(log, threaded);
 }
 
-TEST(GuidedFlight, SnapshotsHoldWhatTheControllerRemembers) {
-  // Three decisions into episodes of four.
-  VecEnv env(Config(), 70, 1, 64, Controller());
+TEST(GuidedFlight, SnapshotsHoldWhatTheLowLevelPolicyRemembers) {
+  // Three policy steps into episodes of four.
+  VecEnv env(Config(), 70, 1, 64, LowLevelPolicy());
   Fly(&env, 0, 3);
   const std::vector<std::uint32_t> snapshot = env.Snapshot();
   VecEnv sticks(Config(), 70, 1, 64);
   EXPECT_EQ(snapshot.size(), sticks.Snapshot().size() + 70 * 2);
   const Log expected = Fly(&env, 3, 6);
-  VecEnv other(Config(), 70, 1, 32, Controller());
+  VecEnv other(Config(), 70, 1, 32, LowLevelPolicy());
   Fly(&other, 0, 2);
   other.Restore(snapshot);
   EXPECT_EQ(other.Snapshot(), snapshot);
@@ -298,14 +303,14 @@ TEST(GuidedFlight, SnapshotsHoldWhatTheControllerRemembers) {
   EXPECT_THROW(sticks.Restore(snapshot), Error);
 }
 
-TEST(GuidedFlight, SnapshotsHoldWhatAPlannerHasNotSeenYet) {
+TEST(GuidedFlight, SnapshotsHoldWhatAHighLevelHasNotSeenYet) {
   EnvConfig config = Config();
-  config.planner.averages_observations = true;
-  VecEnv env(config, 70, 1, 64, Controller());
+  config.high_level.averages_observations = true;
+  VecEnv env(config, 70, 1, 64, LowLevelPolicy());
   Fly(&env, 0, 3);
   const std::vector<std::uint32_t> snapshot = env.Snapshot();
   const Log expected = Fly(&env, 3, 6);
-  VecEnv other(config, 70, 1, 32, Controller());
+  VecEnv other(config, 70, 1, 32, LowLevelPolicy());
   Fly(&other, 0, 2);
   other.Restore(snapshot);
   EXPECT_EQ(Fly(&other, 3, 6), expected);
@@ -313,10 +318,11 @@ TEST(GuidedFlight, SnapshotsHoldWhatAPlannerHasNotSeenYet) {
 
 TEST(GuidedFlight, APlanThatIsNotFiniteEndsItsOwnEpisodeOnly) {
   for (const float poison : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
-    for (int k = 0; k < kPlannerActionSize; ++k) {
-      VecEnv env(Config(), 40, 1, 64, Controller()), healthy(Config(), 40, 1, 64, Controller());
-      StepBuffers buffers(40, kPlannerActionSize), expected(40, kPlannerActionSize);
-      buffers.action[Index(7 * kPlannerActionSize + k)] = poison;
+    for (int k = 0; k < kHighLevelActionSize; ++k) {
+      VecEnv env(Config(), 40, 1, 64, LowLevelPolicy()),
+          healthy(Config(), 40, 1, 64, LowLevelPolicy());
+      StepBuffers buffers(40, kHighLevelActionSize), expected(40, kHighLevelActionSize);
+      buffers.action[Index(7 * kHighLevelActionSize + k)] = poison;
       env.Step(0, buffers.action.data(), buffers.output());
       healthy.Step(0, expected.action.data(), expected.output());
       for (int i = 0; i < 40; ++i) {
@@ -333,18 +339,18 @@ TEST(GuidedFlight, APlanThatIsNotFiniteEndsItsOwnEpisodeOnly) {
   }
 }
 
-TEST(GuidedFlight, RefusesAControllerOfAnotherMake) {
-  const auto message = [](const TestPilot& pilot) -> std::string {
+TEST(GuidedFlight, RefusesALowLevelPolicyOfAnotherMake) {
+  const auto message = [](const TestPolicy& pilot) -> std::string {
     try {
-      VecEnv(Config(), 4, 1, 32, std::make_shared<const TestPilot>(pilot));
+      VecEnv(Config(), 4, 1, 32, std::make_shared<const TestPolicy>(pilot));
     } catch (const Error& error) {
       return error.what();
     }
     return "";
   };
-  EXPECT_NE(message(TestPilot(1, 21, 4)).find("21 observations"), std::string::npos);
-  EXPECT_NE(message(TestPilot(1, 22, 3)).find("3 actions"), std::string::npos);
-  EXPECT_EQ(message(TestPilot(1)), "");
+  EXPECT_NE(message(TestPolicy(1, 21, 4)).find("21 observations"), std::string::npos);
+  EXPECT_NE(message(TestPolicy(1, 22, 3)).find("3 actions"), std::string::npos);
+  EXPECT_EQ(message(TestPolicy(1)), "");
 }
 
 class PlanTest : public testing::TestWithParam<simd::Target> {
@@ -359,10 +365,11 @@ class PlanTest : public testing::TestWithParam<simd::Target> {
     flight.Fill(kW, 600);
     std::vector<float> actions(3 * (kLast + 1), 0.0f);
     std::copy(action.begin(), action.end(), actions.begin() + 3 * kLast);
-    GuidedFlight guided(config_, kLast + 1, Controller());
-    GuidedFlight::Decision decision;
-    guided.Plan(actions.data(), flight.tile(), decision);
-    return {decision.target[0][kLast], decision.target[1][kLast], decision.target[2][kLast]};
+    GuidedFlight guided(config_, kLast + 1, LowLevelPolicy());
+    GuidedFlight::PolicyStep policy_step;
+    guided.Plan(actions.data(), flight.tile(), policy_step);
+    return {policy_step.target[0][kLast], policy_step.target[1][kLast],
+            policy_step.target[2][kLast]};
   }
   void ExpectTarget(const std::array<float, 3>& target, double pitch, double yaw, double speed) {
     // Float32 rounding of radians, and of 1000 ft/s.
@@ -392,9 +399,9 @@ TEST_P(PlanTest, YawWrapsAndPitchStopsAtTheVertical) {
 }
 
 TEST_P(PlanTest, ChangesAreTheConfigurations) {
-  config_.planner.pitch_change_rad = 0.1;
-  config_.planner.yaw_change_rad = 1;
-  config_.planner.speed_change_fps = 200;
+  config_.high_level.pitch_change_rad = 0.1;
+  config_.high_level.yaw_change_rad = 1;
+  config_.high_level.speed_change_fps = 200;
   ExpectTarget(Plan({0, 0.2, -1}, {1, 0.5f, -1}), 0.3, -0.5, 800);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -11,10 +12,10 @@ namespace skein {
 /// A gentle pilot of the Control task: proportional in pitch and speed, rolling towards the yaw
 /// that is asked for. It remembers how often it has decided, and the pitch errors that it has seen,
 /// which it adds up and flies by.
-class TestPilot : public Pilot {
+class TestPolicy : public Policy {
  public:
-  explicit TestPilot(int action_repeat, int observation_size = kObservationSize,
-                     int action_size = kActionSize)
+  explicit TestPolicy(int action_repeat, int observation_size = kObservationSize,
+                      int action_size = kActionSize)
       : action_repeat_(action_repeat),
         observation_size_(observation_size),
         action_size_(action_size) {}
@@ -24,7 +25,7 @@ class TestPilot : public Pilot {
   int state_size() const override { return 2; }
   int action_repeat() const override { return action_repeat_; }
 
-  void Fly(int count, const float* observation, float* state, float* action) const override {
+  void Act(int count, const float* observation, float* state, float* action) const override {
     for (int i = 0; i < count; ++i) {
       const float* const seen = observation + i * kObservationSize;
       float* const memory = state + i * 2;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/vec_env.h"
 
 #include <gtest/gtest.h>
@@ -9,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "envs/aircraft/f16.h"
-#include "envs/state/attitude.h"
-#include "envs/reference/closed_loop.h"
-#include "envs/tasks/task.h"
-#include "base/worker_pool.h"
 #include "base/error.h"
+#include "base/worker_pool.h"
+#include "envs/aircraft/f16.h"
+#include "envs/reference/closed_loop.h"
+#include "envs/state/attitude.h"
+#include "envs/tasks/task.h"
 #include "simd/random.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_tile.h"
@@ -24,10 +25,10 @@ namespace {
 
 constexpr int kSize = 22;
 
-/// Actions that depend on nothing but the aircraft and the decision.
-std::array<float, 4> ActionOf(int aircraft, int decision) {
+/// Actions that depend on nothing but the aircraft and the policy step.
+std::array<float, 4> ActionOf(int aircraft, int policy_step) {
   simd::RandomStream random({9, static_cast<std::uint32_t>(aircraft),
-                             static_cast<std::uint32_t>(decision / 10), 0,
+                             static_cast<std::uint32_t>(policy_step / 10), 0,
                              simd::RandomPurpose::kActionNoise});
   std::array<float, 4> action;
   for (float& value : action) value = static_cast<float>(random.Uniform(-1, 1));
@@ -35,7 +36,7 @@ std::array<float, 4> ActionOf(int aircraft, int decision) {
   return action;
 }
 
-/// Everything that a run of decisions gave to one aircraft.
+/// Everything that a run of policy steps gave to one aircraft.
 struct Log {
   std::vector<float> observations, rewards, returns;
   std::vector<int> terminations, steps;
@@ -46,13 +47,15 @@ struct Log {
   }
 };
 
-void FlyTile(VecEnv* env, int tile, int first_decision, int decisions, std::vector<Log>* logs) {
+void FlyTile(VecEnv* env, int tile, int first_policy_step, int policy_steps,
+             std::vector<Log>* logs) {
   const int count = env->tile_count(tile), begin = env->tile_begin(tile);
   StepBuffers buffers(count);
-  for (int decision = first_decision; decision < first_decision + decisions; ++decision) {
+  for (int policy_step = first_policy_step; policy_step < first_policy_step + policy_steps;
+       ++policy_step) {
     env->Observe(tile, buffers.observation.data());
     for (int i = 0; i < count; ++i) {
-      const std::array<float, 4> action = ActionOf(begin + i, decision);
+      const std::array<float, 4> action = ActionOf(begin + i, policy_step);
       std::copy(action.begin(), action.end(), buffers.action.begin() + i * 4);
     }
     env->Step(tile, buffers.action.data(), buffers.output());
@@ -70,10 +73,10 @@ void FlyTile(VecEnv* env, int tile, int first_decision, int decisions, std::vect
   }
 }
 
-std::vector<Log> Fly(VecEnv* env, int first_decision, int decisions) {
+std::vector<Log> Fly(VecEnv* env, int first_policy_step, int policy_steps) {
   std::vector<Log> logs(static_cast<std::size_t>(env->num_aircraft()));
   for (int tile = 0; tile < env->num_tiles(); ++tile) {
-    FlyTile(env, tile, first_decision, decisions, &logs);
+    FlyTile(env, tile, first_policy_step, policy_steps, &logs);
   }
   return logs;
 }
@@ -183,7 +186,7 @@ TEST(VecEnv, ScalarAndVectorTargetsAgree) {
       ASSERT_EQ(other[i].observations.size(), logs[0][i].observations.size());
       for (std::size_t k = 0; k < other[i].observations.size(); ++k) {
         ASSERT_NEAR(other[i].observations[k], logs[0][i].observations[k], kTolerance)
-            << "aircraft " << i << ", decision " << k / kSize << ", element " << k % kSize;
+            << "aircraft " << i << ", policy step " << k / kSize << ", element " << k % kSize;
       }
     }
   }
@@ -292,17 +295,17 @@ TEST(VecEnv, TimeLimitEndsAndRestartsEveryEpisode) {
   VecEnv env(config, 10, 1);
   const std::vector<float> first_target = env.TargetOf(0);
   StepBuffers buffers(10);
-  for (int decision = 0; decision < 9; ++decision) {
+  for (int policy_step = 0; policy_step < 9; ++policy_step) {
     env.Step(0, buffers.action.data(), buffers.output());
-    const bool ends = decision % 3 == 2;
+    const bool ends = policy_step % 3 == 2;
     for (std::size_t i = 0; i < 10; ++i) {
       EXPECT_EQ(buffers.termination[i],
-                static_cast<int>(ends ? Termination::kUnreachTarget : Termination::kNone));
+                static_cast<int>(ends ? Termination::kTimeLimit : Termination::kNone));
       if (!ends) continue;
       EXPECT_EQ(buffers.episode_steps[i], 20);
       EXPECT_LT(buffers.reward[i], -200);
       EXPECT_LT(buffers.episode_return[i], buffers.reward[i]);
-      EXPECT_GT(buffers.reward[i], -200 - 4 * 5);  // four steps counted in the last decision
+      EXPECT_GT(buffers.reward[i], -200 - 4 * 5);  // four steps counted in the last policy step
       EXPECT_EQ(env.StateOf(static_cast<int>(i), kNorth), 0);
     }
   }
@@ -321,7 +324,7 @@ TEST(VecEnv, ControlEndsAtItsTargetAtOnce) {
   StepBuffers buffers(3);
   env.Step(0, buffers.action.data(), buffers.output());
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(buffers.termination[i], static_cast<int>(Termination::kResetTarget));
+    EXPECT_EQ(buffers.termination[i], static_cast<int>(Termination::kTargetReached));
     EXPECT_LE(buffers.reward[i], 200);
     EXPECT_GT(buffers.reward[i], 200 - kFarthest * (1 + 5));
     EXPECT_EQ(buffers.episode_steps[i], 1);
@@ -348,7 +351,7 @@ TEST(VecEnv, ControlFailsAtItsTimeLimit) {
   for (std::size_t i = 0; i < 40; ++i) buffers.action[4 * i] = -1;
   env.Step(0, buffers.action.data(), buffers.output());
   for (std::size_t i = 0; i < 40; ++i) {
-    EXPECT_EQ(buffers.termination[i], static_cast<int>(Termination::kUnreachTarget));
+    EXPECT_EQ(buffers.termination[i], static_cast<int>(Termination::kTimeLimit));
     EXPECT_NEAR(buffers.reward[i], -200 + expected[i], kSlowing) << i;
   }
 }
@@ -385,7 +388,7 @@ TEST(VecEnv, TruncationKeepsTheLastObservation) {
   EXPECT_EQ(buffers.final_observation, reference_buffers.observation);
   EXPECT_EQ(buffers.reward, reference_buffers.reward);
   for (const std::uint8_t termination : buffers.termination) {
-    EXPECT_EQ(termination, static_cast<int>(Termination::kUnreachTarget));
+    EXPECT_EQ(termination, static_cast<int>(Termination::kTimeLimit));
   }
 }
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installs the build tree into a scratch prefix, then configures, builds and runs a project that uses it.
 file(REMOVE_RECURSE ${SCRATCH})
 function(run)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
 #include "base/worker_pool.h"
@@ -5,7 +6,7 @@
 #include "train/policy/recurrent_policy.h"
 
 int main() {
-  const skein::Policy policy = skein::Policy::Untrained({}, 22, 4, 1);
+  const skein::RecurrentPolicy policy = skein::RecurrentPolicy::Untrained({}, 22, 4, 1);
   skein::EnvConfig config;
   config.time_limit_steps = config.heading.earliest_success_step = 100;
   skein::EvaluationOptions options;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Runs SCRIPT with ARGUMENTS, without installed Python packages and with SEARCH_PATH (if any) as the PATH, and checks its
 # exit code and that PATTERN matches all it printed.
 find_program(PYTHON python3)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "simd/matrix_product.h"
 
 #include <algorithm>
@@ -10,9 +11,9 @@
 #include <tuple>
 #include <vector>
 
+#include "base/error.h"
 #include "gtest/gtest.h"
 #include "simd/bfloat16.h"
-#include "base/error.h"
 #include "simd/target.h"
 
 namespace skein::simd {

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "simd/peak.h"
 
-#include "gtest/gtest.h"
 #include "base/error.h"
+#include "gtest/gtest.h"
 #include "simd/target.h"
 
 namespace skein {

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "simd/target.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
+#include "base/error.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "simd/dispatch.h"
-#include "base/error.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/simd/target_test.cpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scripts/act, the reference of how a policy file is to be read elsewhere, against the program's
 // own networks.
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@
 namespace skein {
 namespace {
 
-constexpr int kDecisions = 5;
+constexpr int kPolicySteps = 5;
 
 /// What `command` prints; it must succeed.
 std::string OutputOf(const std::string& command) {
@@ -23,10 +24,10 @@ std::string OutputOf(const std::string& command) {
   return output;
 }
 
-/// Observations of a flight of kDecisions decisions.
+/// Observations of a flight of kDecisions policy steps.
 std::vector<std::vector<float>> Observations(int size) {
-  std::vector<std::vector<float>> observations(kDecisions);
-  for (int t = 0; t < kDecisions; ++t) {
+  std::vector<std::vector<float>> observations(kPolicySteps);
+  for (int t = 0; t < kPolicySteps; ++t) {
     for (int i = 0; i < size; ++i) {
       observations[static_cast<std::size_t>(t)].push_back(
           0.25f * static_cast<float>((i * 7 + t * 3) % 11 - 5));
@@ -36,7 +37,7 @@ std::vector<std::vector<float>> Observations(int size) {
 }
 
 void ExpectTheSameActions(const std::string& path) {
-  const Policy policy = Policy::Load(path);
+  const RecurrentPolicy policy = RecurrentPolicy::Load(path);
   const auto observations = Observations(policy.observation_size());
   std::ostringstream rows;
   for (const auto& observation : observations) {
@@ -52,7 +53,7 @@ void ExpectTheSameActions(const std::string& path) {
   std::vector<float> state(static_cast<std::size_t>(policy.state_size()));
   std::vector<float> action(static_cast<std::size_t>(policy.action_size()));
   for (const auto& observation : observations) {
-    policy.Fly(1, observation.data(), state.data(), action.data());
+    policy.Act(1, observation.data(), state.data(), action.data());
     for (const float expected : action) {
       float value = 0;
       char comma = 0;
@@ -61,7 +62,7 @@ void ExpectTheSameActions(const std::string& path) {
       printed >> std::noskipws >> comma >> std::skipws;
     }
   }
-  EXPECT_FALSE(printed >> std::ws >> action[0]) << "as many decisions as observations";
+  EXPECT_FALSE(printed >> std::ws >> action[0]) << "as many policy steps as observations";
 }
 
 class ActScript : public ::testing::Test {
@@ -85,7 +86,7 @@ TEST_F(ActScript, KnowsNetworksOfOtherSizes) {
   config.tanh_mean = false;
   config.actor_head_scale = 1;
   const ScratchDirectory scratch;
-  Policy::Untrained(config, 9, 2, 3).Save(scratch / "policy.skein");
+  RecurrentPolicy::Untrained(config, 9, 2, 3).Save(scratch / "policy.skein");
   ExpectTheSameActions(scratch / "policy.skein");
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,7 +57,7 @@ TEST_F(EvaluationPipeline, CountsEveryEpisodeOnce) {
   for (const auto& [kind, count] : result["terminations"].items()) ended += count.get<int>();
   EXPECT_EQ(ended, 64);
   EXPECT_EQ(result["success_rate"].get<double>() * 64,
-            result["terminations"]["ResetTarget"].get<double>());
+            result["terminations"]["target_reached"].get<double>());
 }
 
 TEST_F(EvaluationPipeline, DependsOnTheSeedAndNotOnThreads) {
@@ -75,8 +76,8 @@ TEST_F(EvaluationPipeline, RecordsFlightsAndChangesNothingByIt) {
   EXPECT_EQ(text.rfind("episode,time_s,north_ft,", 0), 0u);
   // Each flight's last row names its end.
   std::size_t ends = 0;
-  for (const char* kind : {"ResetTarget\n", "UnreachTarget\n", "Overload\n", "ExtremeState\n",
-                           "LowAltitude\n", "LowSpeed\n", "HighSpeed\n", "NonFinite\n"}) {
+  for (const char* kind : {"target_reached\n", "time_limit\n", "overload\n", "extreme_state\n",
+                           "low_altitude\n", "low_speed\n", "high_speed\n", "non_finite\n"}) {
     for (std::size_t at = text.find(kind); at != std::string::npos; at = text.find(kind, at + 1)) {
       ++ends;
     }

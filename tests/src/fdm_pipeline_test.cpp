@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `skein fdm` on the golden points and trajectories of the double-precision reference.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

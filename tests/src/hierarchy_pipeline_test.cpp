@@ -1,4 +1,5 @@
-// Trains planners over controllers as a user does.
+// SPDX-License-Identifier: Apache-2.0
+// Trains high-level policies over low-level policies as a user does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,34 +17,34 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class PlannerPipeline : public ::testing::Test {
+class HighLevelPipeline : public ::testing::Test {
  protected:
   const ScratchDirectory scratch_;
   std::string root_ = scratch_.path();
   std::string reference_ = root_ + "/reference", run_ = root_ + "/run";
 };
 
-/// Arguments of a training of task tracking over the policy `controller`.
-std::vector<std::string> PlannerTraining(const std::string& out, const std::string& controller) {
+/// Arguments of a training of task tracking over the policy `low-level policy`.
+std::vector<std::string> HighLevelTraining(const std::string& out, const std::string& low_level) {
   std::vector<std::string> arguments = TinyTraining(
       out, {"--steps", std::to_string(64 * 16 * 10 * 3), "--set", "env.action_repeat=10"});
   arguments[1] = "tracking";
-  if (!controller.empty()) arguments.insert(arguments.end(), {"--controller", controller});
+  if (!low_level.empty()) arguments.insert(arguments.end(), {"--low-level", low_level});
   return arguments;
 }
 
-TEST_F(PlannerPipeline, APlannerTrainsOverAControlPolicyAndFliesByItself) {
+TEST_F(HighLevelPipeline, AHighLevelTrainsOverAControlPolicyAndFliesByItself) {
   const std::string control = root_ + "/control";
   std::vector<std::string> arguments = TinyTraining(control, {"--steps", "10240"});
   arguments[1] = "control";
   ASSERT_EQ(CallSkein(arguments).exit_code, 0);
-  const ProgramResult trained = CallSkein(PlannerTraining(reference_, control));
+  const ProgramResult trained = CallSkein(HighLevelTraining(reference_, control));
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
-  EXPECT_THAT(trained.output, HasSubstr("controller " + control + "/checkpoints/policy-"));
+  EXPECT_THAT(trained.output, HasSubstr("low-level policy " + control + "/checkpoints/policy-"));
 
-  // Interrupted, its controller gone from where it was, it comes to the same end.
+  // Interrupted, its low-level policy gone from where it was, it comes to the same end.
   {
-    RunningProgram program(PlannerTraining(run_, control));
+    RunningProgram program(HighLevelTraining(run_, control));
     ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
     program.Signal(SIGTERM);
     ASSERT_EQ(program.Wait().exit_code, 0);
@@ -51,7 +52,7 @@ TEST_F(PlannerPipeline, APlannerTrainsOverAControlPolicyAndFliesByItself) {
   const std::string moved = root_ + "/moved";
   fs::rename(control, moved);
   const ProgramResult resumed = CallSkein(
-      {"train", "--resume", run_, "--controller", moved + "/checkpoints/policy-best.skein"});
+      {"train", "--resume", run_, "--low-level", moved + "/checkpoints/policy-best.skein"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
   for (const char* file : {"/metrics.csv", "/checkpoints/policy-final.skein", "/controller.skein",
                            "/checkpoints/checkpoint-000003.skein"}) {
@@ -65,39 +66,41 @@ TEST_F(PlannerPipeline, APlannerTrainsOverAControlPolicyAndFliesByItself) {
       CallSkein({"eval", "--policy", run_ + "/checkpoints/policy-final.skein", "--task", "tracking",
                  "--episodes", "32", "--set", "env.time_limit_steps=100", "--flights", flights});
   ASSERT_EQ(flown.exit_code, 0) << flown.error;
-  EXPECT_THAT(flown.output, HasSubstr("an action every 10 control steps for a controller with one "
-                                      "every 5"));
-  // A controller decides at the start of each of the planner's decisions, too.
+  EXPECT_THAT(flown.output,
+              HasSubstr("an action every 10 control steps for a low-level policy with one "
+                        "every 5"));
+  // A low-level policy decides at the start of each of the high-level policy's policy steps, too.
   const ProgramResult faster = CallSkein(
       {"eval", "--policy", run_ + "/checkpoints/policy-final.skein", "--task", "tracking",
        "--episodes", "32", "--set", "env.time_limit_steps=100", "--set", "env.action_repeat=2"});
   ASSERT_EQ(faster.exit_code, 0) << faster.error;
-  EXPECT_THAT(faster.output,
-              HasSubstr("an action every 2 control steps for a controller with one every 2;"));
+  EXPECT_THAT(
+      faster.output,
+      HasSubstr("an action every 2 control steps for a low-level policy with one every 2;"));
   EXPECT_THAT(ReadFile(flights), HasSubstr(",error_north_ft,error_east_ft,error_altitude_ft"));
   EXPECT_THAT(ReadFile(flights), HasSubstr(",action_target_pitch,"));
 }
 
-TEST_F(PlannerPipeline, APlannerTrainsOverTheAutopilot) {
-  const ProgramResult trained = CallSkein(PlannerTraining(run_, "autopilot"));
+TEST_F(HighLevelPipeline, AHighLevelTrainsOverTheAutopilot) {
+  const ProgramResult trained = CallSkein(HighLevelTraining(run_, "autopilot"));
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
   EXPECT_THAT(trained.output, HasSubstr("the traditional autopilot, parallel"));
   const std::string policy = run_ + "/checkpoints/policy-final.skein";
   const ProgramResult flown = CallSkein({"eval", "--policy", policy, "--task", "tracking",
                                          "--episodes", "32", "--set", "env.time_limit_steps=100"});
   ASSERT_EQ(flown.exit_code, 0) << flown.error;
-  EXPECT_THAT(flown.output, HasSubstr("for a controller with one every 1;"));
+  EXPECT_THAT(flown.output, HasSubstr("for a low-level policy with one every 1;"));
   const ProgramResult other =
-      CallSkein({"train", "--resume", run_, "--controller", "autopilot:traditional"});
+      CallSkein({"train", "--resume", run_, "--low-level", "autopilot:traditional"});
   EXPECT_EQ(other.exit_code, 1);
-  ExpectOneLine(other.error, "keeps its controller");
+  ExpectOneLine(other.error, "keeps its low-level policy");
 }
 
-TEST_F(PlannerPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
-  std::vector<std::string> in_earth = PlannerTraining(run_, "autopilot");
+TEST_F(HighLevelPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
+  std::vector<std::string> in_earth = HighLevelTraining(run_, "autopilot");
   in_earth.insert(in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
   ASSERT_EQ(CallSkein(in_earth).exit_code, 0);
-  ASSERT_EQ(CallSkein(PlannerTraining(reference_, "autopilot")).exit_code, 0);
+  ASSERT_EQ(CallSkein(HighLevelTraining(reference_, "autopilot")).exit_code, 0);
   const std::string agents = "policy:" + run_ + ",policy:" + reference_ + ",autopilot,random";
   const std::vector<std::string> compare = {
       "compare",    "--task", "tracking", "--agents", agents, "--set", "env.time_limit_steps=100",
@@ -111,7 +114,7 @@ TEST_F(PlannerPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
   ExpectOneLine(refused.error, "env.tracking.error_axes: agents that are compared");
 }
 
-TEST_F(PlannerPipeline, ControllersThatDoNotFitAreNamed) {
+TEST_F(HighLevelPipeline, ControllersThatDoNotFitAreNamed) {
   const std::string heading = root_ + "/heading";
   ASSERT_EQ(CallSkein(TinyTraining(heading, {"--steps", "10240"})).exit_code, 0);
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part) {
@@ -120,33 +123,33 @@ TEST_F(PlannerPipeline, ControllersThatDoNotFitAreNamed) {
     ExpectOneLine(result.error, part);
     EXPECT_FALSE(fs::exists(run_)) << part;
   };
-  refused(PlannerTraining(run_, ""), "needs --controller");
-  refused(PlannerTraining(run_, heading), "a policy of task heading");
-  refused(PlannerTraining(run_, root_ + "/absent.skein"), root_ + "/absent.skein");
-  refused(TinyTraining(run_, {"--controller", heading}), "not for heading");
-  refused({"train", "--resume", heading, "--controller", heading}, "not for heading");
-  refused({"eval", "--policy", heading, "--controller", heading}, "--policy untrained");
+  refused(HighLevelTraining(run_, ""), "needs --low-level");
+  refused(HighLevelTraining(run_, heading), "a policy of task heading");
+  refused(HighLevelTraining(run_, root_ + "/absent.skein"), root_ + "/absent.skein");
+  refused(TinyTraining(run_, {"--low-level", heading}), "not for heading");
+  refused({"train", "--resume", heading, "--low-level", heading}, "not for heading");
+  refused({"eval", "--policy", heading, "--low-level", heading}, "--policy untrained");
 
   // A policy that does not say its task, as older ones do not, is taken at its word.
   const std::string old = root_ + "/old.skein";
   TensorFile file = TensorFile::Read(heading + "/checkpoints/policy-best.skein");
   ASSERT_EQ(file.metadata.erase("policy.task"), 1u);
   file.Write(old);
-  const ProgramResult trained = CallSkein(PlannerTraining(run_, old));
+  const ProgramResult trained = CallSkein(HighLevelTraining(run_, old));
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
   EXPECT_THAT(trained.output, HasSubstr("it does not say its task"));
   const ProgramResult unsaid = CallSkein({"eval", "--policy", old});
   EXPECT_EQ(unsaid.exit_code, 1);
   ExpectOneLine(unsaid.error, "--task is needed: --policy " + old);
-  const ProgramResult other = CallSkein({"train", "--resume", run_, "--controller", heading});
+  const ProgramResult other = CallSkein({"train", "--resume", run_, "--low-level", heading});
   EXPECT_EQ(other.exit_code, 1);
   ExpectOneLine(other.error, "task heading");
-  // And a planner is no controller.
+  // And a high-level policy is no low-level policy.
   const ProgramResult nested =
-      CallSkein(PlannerTraining(root_ + "/nested", run_ + "/checkpoints/policy-final.skein"));
+      CallSkein(HighLevelTraining(root_ + "/nested", run_ + "/checkpoints/policy-final.skein"));
   EXPECT_EQ(nested.exit_code, 1);
   ExpectOneLine(nested.error, "a policy of task tracking");
-  const ProgramResult unknown = CallSkein(PlannerTraining(root_ + "/none", "autopilot:drunken"));
+  const ProgramResult unknown = CallSkein(HighLevelTraining(root_ + "/none", "autopilot:drunken"));
   EXPECT_EQ(unknown.exit_code, 1);
   ExpectOneLine(unknown.error, "parallel");
   // Untrained, both ways of flying Tracking.
@@ -154,10 +157,10 @@ TEST_F(PlannerPipeline, ControllersThatDoNotFitAreNamed) {
     std::vector<std::string> untrained = {"eval",   "--policy", "untrained",
                                           "--task", "tracking", "--episodes",
                                           "32",     "--set",    "env.time_limit_steps=100"};
-    if (planned) untrained.insert(untrained.end(), {"--controller", old});
+    if (planned) untrained.insert(untrained.end(), {"--low-level", old});
     const ProgramResult flown = CallSkein(untrained);
     EXPECT_EQ(flown.exit_code, 0) << flown.error;
-    EXPECT_EQ(flown.output.find("for a controller") != std::string::npos, planned);
+    EXPECT_EQ(flown.output.find("for a low-level policy") != std::string::npos, planned);
   }
 }
 

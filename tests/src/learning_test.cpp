@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Trainings of minutes, as a user starts them: that the default presets learn what they are for.
 #include <gtest/gtest.h>
 
@@ -32,9 +33,9 @@ TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
   EXPECT_GT(TrainedSuccess("control", "6e7"), 0.9);
 }
 
-TEST(Learning, APlannerReachesHalfOfItsPointsAfterASixthOfItsBudget) {
+TEST(Learning, AHighLevelReachesHalfOfItsPointsAfterASixthOfItsBudget) {
   EXPECT_GT(
-      TrainedSuccess("tracking", "1e8", {"--controller", SKEIN_SOURCE "/policies/control.skein"}),
+      TrainedSuccess("tracking", "1e8", {"--low-level", SKEIN_SOURCE "/policies/control.skein"}),
       0.5);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flies the policies of policies/ as a user does who has just cloned the repository.
 #include <gtest/gtest.h>
 

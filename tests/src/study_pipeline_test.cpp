@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs studies as a user does, on trainings of a moment.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -146,12 +147,12 @@ TEST_F(StudyPipeline, FliesAgainWhatItTrainedAgain) {
   EXPECT_THAT(mended.output, ::testing::Not(HasSubstr("heading, quiet: flying")));
 }
 
-TEST_F(StudyPipeline, PlannersAreTrainedOverTheController) {
+TEST_F(StudyPipeline, HighLevelsAreTrainedOverTheLowLevelPolicy) {
   std::string planned = kStudy;
   planned.replace(planned.find("heading"), 7, "tracking");
   planned.replace(planned.find(", \"env.heading"), 41, "");
   const std::string without = planned;
-  planned.insert(0, "controller = \"autopilot\"\n");
+  planned.insert(0, "low_level = \"autopilot\"\n");
   const std::string out = scratch_ / "out";
   WriteFile(file_, planned);
   const ProgramResult result = CallSkein(Command(out));
@@ -162,9 +163,9 @@ TEST_F(StudyPipeline, PlannersAreTrainedOverTheController) {
   std::string other = planned;
   other.replace(other.find("autopilot"), 9, "autopilot:traditional");
   WriteFile(file_, other);
-  EXPECT_THAT(CallSkein(Command(out)).error, HasSubstr("another controller"));
-  ExpectError(without, "task tracking needs controller = ");
-  ExpectError(std::string("controller = \"autopilot\"\n") + kStudy, "for tasks that are planned");
+  EXPECT_THAT(CallSkein(Command(out)).error, HasSubstr("another low-level policy"));
+  ExpectError(without, "task tracking needs low_level = ");
+  ExpectError(std::string("low_level = \"autopilot\"\n") + kStudy, "for tasks that are planned");
 }
 
 TEST_F(StudyPipeline, KilledAgainAndAgainItEndsAsInOneGo) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the program as a user does, on trainings of about a second.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,8 +98,8 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   const ProgramResult alone = CallSkein({"eval", "--policy", policy, "--episodes", "32"});
   EXPECT_EQ(alone.exit_code, 0) << alone.error;
   EXPECT_THAT(alone.output, HasSubstr("on control, 32 episodes"));
-  // It flies no other task, though the sizes fit, no other aircraft, and below no planner of
-  // another control interval.
+  // It flies no other task, though the sizes fit, no other aircraft, and below no high-level policy
+  // of another control interval.
   const ProgramResult file = CallSkein({"eval", "--policy", policy, "--task", "heading"});
   EXPECT_EQ(file.exit_code, 1);
   ExpectOneLine(file.error, "env.task = control, but is to fly with env.task = heading");
@@ -111,10 +112,10 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   EXPECT_EQ(aircraft.exit_code, 1);
   ExpectOneLine(aircraft.error, "env.aircraft = f16, but is to fly with env.aircraft = aerosonde");
   const ProgramResult planned =
-      CallSkein({"train", "tracking", "--out", root_ + "/planned", "--controller", policy, "--set",
+      CallSkein({"train", "tracking", "--out", root_ + "/planned", "--low-level", policy, "--set",
                  "env.control_interval_s=0.01"});
   EXPECT_EQ(planned.exit_code, 1);
-  ExpectOneLine(planned.error, "--controller " + policy + " was made with env.control_interval_s");
+  ExpectOneLine(planned.error, "--low-level " + policy + " was made with env.control_interval_s");
   const ProgramResult further = CallSkein({"train", "--resume", run_});
   EXPECT_EQ(further.exit_code, 0) << further.error;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line: help, wrong usage, and the commands without a pipeline of their own.
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -269,13 +270,13 @@ TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
       "bench", "iteration",           "--iterations", "1",
       "--set", "ppo.num_aircraft=64", "--set",        "ppo.rollout_steps=16",
       "--set", "ppo.minibatches=2",   "--json",       path};
-  const std::vector<std::string> planner = {"--task", "tracking", "--controller", "autopilot"};
-  for (const auto& task : {std::vector<std::string>{}, planner}) {
+  const std::vector<std::string> high_level = {"--task", "tracking", "--low-level", "autopilot"};
+  for (const auto& task : {std::vector<std::string>{}, high_level}) {
     std::vector<std::string> arguments = small;
     arguments.insert(arguments.end(), task.begin(), task.end());
     const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.error;
-    EXPECT_EQ(result.output.find("the controller") != std::string::npos, !task.empty());
+    EXPECT_EQ(result.output.find("the low-level policy") != std::string::npos, !task.empty());
     const auto json = nlohmann::json::parse(ReadFile(path));
     EXPECT_GT(json["efficiency"], 0);
     EXPECT_LE(json["efficiency"], 1);
@@ -284,10 +285,10 @@ TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
   }
 }
 
-TEST(Usage, BenchmarksOfPlannersNeedAController) {
+TEST(Usage, BenchmarksOfHighLevelsNeedALowLevelPolicy) {
   const ProgramResult result = CallSkein({"bench", "rollout", "--task", "tracking"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.error.find("needs --controller"), std::string::npos) << result.error;
+  EXPECT_NE(result.error.find("needs --low-level"), std::string::npos) << result.error;
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -8,17 +9,17 @@
 namespace skein {
 
 /// A fresh pilot of the Control task that decides every four control steps.
-inline std::shared_ptr<const Policy> SmallController(std::uint64_t seed = 11) {
-  return std::make_shared<const Policy>(
-      Policy::Untrained(SmallConfig().network, 22, 4, seed, /*action_repeat=*/4));
+inline std::shared_ptr<const RecurrentPolicy> SmallLowLevelPolicy(std::uint64_t seed = 11) {
+  return std::make_shared<const RecurrentPolicy>(
+      RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, seed, /*action_repeat=*/4));
 }
 
-/// SmallConfig for a planner of Tracking over SmallController.
-inline TrainConfig SmallPlannerConfig() {
+/// SmallConfig for a high-level policy of Tracking over SmallController.
+inline TrainConfig SmallHighLevelConfig() {
   TrainConfig config = SmallConfig();
   config.env.task = "tracking";
   config.env.action_repeat = 10;
-  config.controller = SmallController();
+  config.low_level = SmallLowLevelPolicy();
   config.total_steps = 96 * 16 * 10 * 3;
   return config;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/libtorch/libtorch_network.h"
 
 #include <c10/core/InferenceMode.h>
@@ -52,13 +53,13 @@ torch::Tensor Activate(Activation activation, const torch::Tensor& in) {
 /// States [steps][batch][gru_size] of a GRU layer from its input map's values,
 /// [steps][batch][3 gru_size], and its state before the first step.
 torch::Tensor GruStates(const torch::Tensor& flat, const GruLayer& layer, int gru_size,
-                        const torch::Tensor& inputs, const torch::Tensor& keep,
+                        const torch::Tensor& inputs, const torch::Tensor& not_done,
                         torch::Tensor state) {
   const torch::Tensor weight = View(flat, layer.hidden_weight, {3 * gru_size, gru_size});
   const torch::Tensor bias = View(flat, layer.hidden_bias, {3 * gru_size});
   std::vector<torch::Tensor> states;
   for (std::int64_t step = 0; step < inputs.size(0); ++step) {
-    const torch::Tensor previous = state * keep[step];
+    const torch::Tensor previous = state * not_done[step];
     const auto from_input = inputs[step].chunk(3, 1);
     const auto from_state = at::linear(previous, weight, bias).chunk(3, 1);
     const torch::Tensor r = at::sigmoid(from_input[0] + from_state[0]);
@@ -88,7 +89,7 @@ Outputs ForwardOf(const NetworkLayout& layout, const torch::Tensor& flat,
     }
   };
   pass_hidden(0);
-  const torch::Tensor keep = FromMemory(tile.keep, {tile.steps, tile.batch, 1}, type);
+  const torch::Tensor not_done = FromMemory(tile.not_done, {tile.steps, tile.batch, 1}, type);
   const torch::Tensor initial =
       FromMemory(tile.initial_state, {tile.batch, shape.gru_layers, gru}, type);
   std::vector<torch::Tensor> last;
@@ -99,8 +100,8 @@ Outputs ForwardOf(const NetworkLayout& layout, const torch::Tensor& flat,
                : at::linear(x, View(flat, layer.input_weight, {3 * gru, layer.in}),
                             View(flat, layer.input_bias, {3 * gru}));
     const torch::Tensor states =
-        GruStates(flat, layer, shape.gru_size, inputs.view({tile.steps, tile.batch, 3 * gru}), keep,
-                  initial.select(1, i));
+        GruStates(flat, layer, shape.gru_size, inputs.view({tile.steps, tile.batch, 3 * gru}),
+                  not_done, initial.select(1, i));
     last.push_back(states[tile.steps - 1]);
     x = states.view({tile.rows(), gru});
   }

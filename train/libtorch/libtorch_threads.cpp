@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/libtorch/libtorch_threads.h"
 
 #include <ATen/Parallel.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/network/fused_network.h"
 
 #include <algorithm>
@@ -30,14 +31,14 @@ void Grow(AlignedVector<float>& vector, std::int64_t size) {
 }
 
 /// One layer's part of the states [batch][layers][size], times keep, into padded rows.
-void LoadState(int batch, int layers, int layer, int size, const float* keep, const float* state,
-               float* rows) {
+void LoadState(int batch, int layers, int layer, int size, const float* not_done,
+               const float* state, float* rows) {
   const int padded = PaddedWidth(size);
   const std::int64_t stride = RowStride(size);
   for (std::int64_t i = 0; i < batch; ++i) {
     const float* const from = state + (i * layers + layer) * size;
     float* const to = rows + i * stride;
-    for (int j = 0; j < size; ++j) to[j] = keep[i] * from[j];
+    for (int j = 0; j < size; ++j) to[j] = not_done[i] * from[j];
     std::fill(to + size, to + padded, 0.0f);
   }
 }
@@ -165,10 +166,10 @@ void FusedNetwork::GruForward(int layer, const SequenceTile& tile,
     const std::int64_t begin = step * batch;
     float* const previous = rows.previous.data() + begin * state;
     if (step == 0) {
-      LoadState(tile.batch, shape.gru_layers, layer, shape.gru_size, tile.keep, tile.initial_state,
-                previous);
+      LoadState(tile.batch, shape.gru_layers, layer, shape.gru_size, tile.not_done,
+                tile.initial_state, previous);
     } else {
-      ScaleRows(batch, size, tile.keep + begin, rows.state.data() + (begin - batch) * state,
+      ScaleRows(batch, size, tile.not_done + begin, rows.state.data() + (begin - batch) * state,
                 previous);
     }
     ForEachRowBlock(batch, [&](std::int64_t first, std::int64_t count) {
@@ -280,7 +281,7 @@ void FusedNetwork::GruBackward(int layer, const SequenceTile& tile, FusedActivat
       if (step == 0) return;
       gru.hidden.BackwardToInput(count, gates + size, stride, true, gradient, state,
                                  &activations.products);
-      AddScaledRows(count, size, tile.keep + first, gradient, gradient - batch * state);
+      AddScaledRows(count, size, tile.not_done + first, gradient, gradient - batch * state);
     });
   }
   gru.hidden.BackwardToWeight(rows, own.previous.data(), state, all_gates + size, stride,

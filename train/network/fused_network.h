@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@ namespace skein {
 /// A recurrent network computed tile by tile without an autograd graph, by own matrix products and
 /// elementwise kernels and hand-derived gradients. A layer goes through its product and what
 /// follows it a few rows at a time, which stay in the innermost caches. The affine part of each
-/// LayerNorm is folded into the map behind it (train/network/folded_parameters.h), so that it costs nothing
-/// per sample. Any depth and width; ReLU alone.
+/// LayerNorm is folded into the map behind it (train/network/folded_parameters.h), so that it costs
+/// nothing per sample. Any depth and width; ReLU alone.
 class FusedNetwork : public RecurrentNetwork {
  public:
   /// Throws Error where FusedLimitation (train/network/backend.h) names one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/network/network_kernels.h"
 
 #include <cmath>
@@ -199,26 +200,26 @@ void NormaliseBackwardKernel(std::int64_t rows, int columns, const float* normal
   kernel(rows, columns, normalised, inverse_std, nullptr, gradient, nullptr);
 }
 
-void ScaleRowsKernel(std::int64_t rows, int columns, const float* keep, const float* in,
+void ScaleRowsKernel(std::int64_t rows, int columns, const float* not_done, const float* in,
                      float* out) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    const Vector factor = hn::Set(d, keep[i]);
+    const Vector factor = hn::Set(d, not_done[i]);
     for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
       hn::StoreU(hn::Mul(factor, hn::LoadU(d, in + j)), d, out + j);
     }
   }
 }
 
-void AddScaledRowsKernel(std::int64_t rows, int columns, const float* keep, const float* in,
+void AddScaledRowsKernel(std::int64_t rows, int columns, const float* not_done, const float* in,
                          float* out) {
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    const Vector factor = hn::Set(d, keep[i]);
+    const Vector factor = hn::Set(d, not_done[i]);
     for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
       hn::StoreU(hn::MulAdd(factor, hn::LoadU(d, in + j), hn::LoadU(d, out + j)), d, out + j);
     }
@@ -343,12 +344,13 @@ void NormaliseBackward(std::int64_t rows, int columns, const float* normalised,
   SKEIN_DISPATCH(NormaliseBackwardKernel)(rows, columns, normalised, inverse_std, gradient);
 }
 
-void ScaleRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out) {
-  SKEIN_DISPATCH(ScaleRowsKernel)(rows, columns, keep, in, out);
+void ScaleRows(std::int64_t rows, int columns, const float* not_done, const float* in, float* out) {
+  SKEIN_DISPATCH(ScaleRowsKernel)(rows, columns, not_done, in, out);
 }
 
-void AddScaledRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out) {
-  SKEIN_DISPATCH(AddScaledRowsKernel)(rows, columns, keep, in, out);
+void AddScaledRows(std::int64_t rows, int columns, const float* not_done, const float* in,
+                   float* out) {
+  SKEIN_DISPATCH(AddScaledRowsKernel)(rows, columns, not_done, in, out);
 }
 
 void GruStep(std::int64_t rows, int size, const float* previous, float* gates, std::int64_t stride,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -47,10 +48,11 @@ void NormaliseBackward(std::int64_t rows, int columns, const float* normalised,
                        const float* inverse_std, float* gradient);
 
 /// out[row] = keep[row] * in[row].
-void ScaleRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out);
+void ScaleRows(std::int64_t rows, int columns, const float* not_done, const float* in, float* out);
 
 /// out[row] += keep[row] * in[row].
-void AddScaledRows(std::int64_t rows, int columns, const float* keep, const float* in, float* out);
+void AddScaledRows(std::int64_t rows, int columns, const float* not_done, const float* in,
+                   float* out);
 
 /// One step of a GRU (Cho et al. 2014, in the form of cuDNN and LibTorch: the reset gate acts on
 /// the hidden product of the new gate). `size` is a padded width: a unit without weights, bias and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/network/ppo_loss.h"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/network/recurrent_network.h"
 
-#include "train/network/fused_network.h"
 #include "train/libtorch/libtorch_network.h"
+#include "train/network/fused_network.h"
 
 namespace skein {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ struct SequenceTile {
   const float* initial_state = nullptr;  ///< [batch][gru_layers][gru_size]
   /// [steps][batch]: 0 where an episode begins at that step, so that the state is zero there;
   /// else 1.
-  const float* keep = nullptr;
+  const float* not_done = nullptr;
 
   std::int64_t rows() const { return static_cast<std::int64_t>(steps) * batch; }
 };
@@ -72,8 +73,8 @@ class RecurrentNetwork {
   virtual void FinishGradient(const float* accumulator, float* gradient) const = 0;
 };
 
-/// Throws Error if `backend` cannot compute the shape; ChooseBackend (train/network/backend.h) asks first.
-/// LibTorch takes no notice of the precision.
+/// Throws Error if `backend` cannot compute the shape; ChooseBackend (train/network/backend.h) asks
+/// first. LibTorch takes no notice of the precision.
 std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout,
                                               const NetworkPrecision& precision = {});
 

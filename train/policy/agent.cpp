@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/agent.h"
 
 #include <algorithm>
@@ -5,9 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "envs/actions.h"
 #include "envs/tasks/observation.h"
-#include "base/error.h"
 #include "simd/random.h"
 #include "train/policy/policy_environment.h"
 
@@ -15,7 +16,7 @@ namespace skein {
 namespace {
 
 /// Leaves every command at zero.
-class IdlePilot final : public Pilot {
+class IdlePilot final : public Policy {
  public:
   explicit IdlePilot(int action_repeat) : action_repeat_(action_repeat) {}
 
@@ -23,7 +24,7 @@ class IdlePilot final : public Pilot {
   int action_size() const override { return kActionSize; }
   int state_size() const override { return 0; }
   int action_repeat() const override { return action_repeat_; }
-  void Fly(int count, const float*, float*, float* action) const override {
+  void Act(int count, const float*, float*, float* action) const override {
     std::fill_n(action, static_cast<std::ptrdiff_t>(count) * kActionSize, 0.0f);
   }
 
@@ -35,8 +36,9 @@ void AddNormals(const Agent::Turn& turn, int count, const std::vector<float>& lo
                 float* action) {
   const std::size_t size = log_std.size();
   std::vector<float> deviates(count * size);
-  const std::vector<std::uint32_t> decision_low(count, turn.decision), decision_high(count, 0);
-  simd::FillNormals(turn.seed, turn.first_aircraft, decision_low.data(), decision_high.data(),
+  const std::vector<std::uint32_t> policy_step_low(count, turn.policy_step),
+      policy_step_high(count, 0);
+  simd::FillNormals(turn.seed, turn.first_aircraft, policy_step_low.data(), policy_step_high.data(),
                     simd::RandomPurpose::kActionNoise, count, static_cast<int>(size),
                     deviates.data());
   for (std::size_t i = 0; i < deviates.size(); ++i) {
@@ -49,7 +51,7 @@ void FillUniform(const Agent::Turn& turn, int count, int size, float* action) {
     simd::RandomKey key;
     key.seed = turn.seed;
     key.a = turn.first_aircraft + static_cast<std::uint32_t>(i);
-    key.b = turn.decision;
+    key.b = turn.policy_step;
     key.purpose = simd::RandomPurpose::kActionNoise;
     simd::RandomStream stream(key);
     for (int k = 0; k < size; ++k) *action++ = static_cast<float>(stream.Uniform(-1, 1));
@@ -58,28 +60,28 @@ void FillUniform(const Agent::Turn& turn, int count, int size, float* action) {
 
 }  // namespace
 
-Agent::Agent(std::shared_ptr<const Pilot> pilot, Chance chance)
-    : pilot_(std::move(pilot)), chance_(chance) {}
+Agent::Agent(std::shared_ptr<const Policy> pilot, Sampling sampling)
+    : pilot_(std::move(pilot)), sampling_(sampling) {}
 
-Agent::Agent(const Policy& policy, Chance chance)
-    : policy_(std::make_shared<Policy>(policy)), chance_(chance) {
+Agent::Agent(const RecurrentPolicy& policy, Sampling sampling)
+    : policy_(std::make_shared<RecurrentPolicy>(policy)), sampling_(sampling) {
   pilot_ = policy_;
 }
 
-Agent Agent::Of(std::shared_ptr<const Pilot> pilot) { return {std::move(pilot), Chance::kNone}; }
+Agent Agent::Of(std::shared_ptr<const Policy> pilot) { return {std::move(pilot), Sampling::kNone}; }
 
-Agent Agent::MeanOf(const Policy& policy) { return {policy, Chance::kNone}; }
+Agent Agent::MeanOf(const RecurrentPolicy& policy) { return {policy, Sampling::kNone}; }
 
-Agent Agent::SamplingFrom(const Policy& policy) { return {policy, Chance::kNormal}; }
+Agent Agent::SamplingFrom(const RecurrentPolicy& policy) { return {policy, Sampling::kNormal}; }
 
 Agent Agent::Random(int action_repeat) {
-  return {std::make_shared<IdlePilot>(action_repeat), Chance::kUniform};
+  return {std::make_shared<IdlePilot>(action_repeat), Sampling::kUniform};
 }
 
-Agent Agent::Idle() { return Of(std::make_shared<IdlePilot>(1)); }
+Agent Agent::Zero() { return Of(std::make_shared<IdlePilot>(1)); }
 
-std::shared_ptr<const Pilot> Agent::controller() const {
-  return policy_ == nullptr ? nullptr : policy_->controller();
+std::shared_ptr<const Policy> Agent::low_level() const {
+  return policy_ == nullptr ? nullptr : policy_->low_level();
 }
 
 void Agent::CheckFits(const VecEnv& env) const {
@@ -94,19 +96,19 @@ void Agent::CheckFits(const VecEnv& env) const {
               std::to_string(env.observation_size()) + " and " + std::to_string(env.action_size()));
 }
 
-void Agent::Decide(const Turn& turn, int count, const float* observation, float* state,
-                   float* action) const {
-  switch (chance_) {
-    case Chance::kNone:
-      pilot_->Fly(count, observation, state, action);
+void Agent::Act(const Turn& turn, int count, const float* observation, float* state,
+                float* action) const {
+  switch (sampling_) {
+    case Sampling::kNone:
+      pilot_->Act(count, observation, state, action);
       return;
-    case Chance::kNormal: {
+    case Sampling::kNormal: {
       std::vector<float> log_std(policy_->action_size());
-      policy_->Act(count, observation, state, action, log_std.data());
+      policy_->ActionMean(count, observation, state, action, log_std.data());
       AddNormals(turn, count, log_std, action);
       return;
     }
-    case Chance::kUniform:
+    case Sampling::kUniform:
       FillUniform(turn, count, pilot_->action_size(), action);
       return;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/autopilot_policy.h"
 
 #include "envs/autopilot/autopilot.h"
@@ -5,7 +6,7 @@
 namespace skein {
 namespace {
 
-std::unique_ptr<const Pilot> ControlAutopilot(const std::string& variant, const EnvConfig& env) {
+std::unique_ptr<const Policy> ControlAutopilot(const std::string& variant, const EnvConfig& env) {
   EnvConfig config = env;
   config.task = "control";
   return MakeAutopilot(config, AutopilotOf(variant));
@@ -13,7 +14,7 @@ std::unique_ptr<const Pilot> ControlAutopilot(const std::string& variant, const 
 
 }  // namespace
 
-AutopilotController::AutopilotController(const std::string& variant, const EnvConfig& env)
+AutopilotPolicy::AutopilotPolicy(const std::string& variant, const EnvConfig& env)
     : variant_(variant),
       control_interval_s_(env.control_interval_s),
       autopilot_(ControlAutopilot(variant, env)) {}

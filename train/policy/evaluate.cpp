@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/evaluate.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "envs/state/state.h"
 #include "base/error.h"
+#include "envs/state/state.h"
 #include "train/files/fnv_hash.h"
 
 namespace skein {
@@ -45,9 +46,9 @@ void FlyTile(const Agent& agent, VecEnv& env, int tile, const EvaluationOptions&
   output.final_observation = final_observation.data();
   if (options.flight_metrics) output.flight_metrics = metrics.data();
 
-  TilePilot pilot = MakeEvaluationPilot(agent, env, tile, options);
+  TileAgent pilot = MakeEvaluationAgent(agent, env, tile, options);
   for (int flying = count; flying > 0 && !pool.stopping();) {
-    env.Step(tile, pilot.Decide().data(), output);
+    env.Step(tile, pilot.Act().data(), output);
     for (int i = 0; i < count; ++i) {
       if (termination[i] == static_cast<std::uint8_t>(Termination::kNone)) continue;
       pilot.Forget(i);
@@ -71,12 +72,12 @@ VecEnv MakeEvaluationEnv(const Agent& agent, const EnvConfig& config,
                          const EvaluationOptions& options) {
   if (options.episodes <= 0) throw Error("an evaluation needs at least one episode");
   VecEnv env(EvaluationConfig(config), options.episodes, options.seed ^ kEvaluationStream,
-             kTileSize, agent.controller());
+             kTileSize, agent.low_level());
   agent.CheckFits(env);
   return env;
 }
 
-TilePilot MakeEvaluationPilot(const Agent& agent, const VecEnv& env, int tile,
+TileAgent MakeEvaluationAgent(const Agent& agent, const VecEnv& env, int tile,
                               const EvaluationOptions& options) {
   return {agent, env, tile, options.seed ^ kEvaluationStream};
 }
@@ -102,7 +103,7 @@ EvaluationResult Summarise(const std::vector<Episode>& episodes, double control_
   for (const Episode& episode : episodes) {
     ++result.terminations[static_cast<std::size_t>(episode.termination)];
     result.return_mean += episode.episode_return;
-    if (episode.termination != Termination::kResetTarget) continue;
+    if (episode.termination != Termination::kTargetReached) continue;
     ++successes;
     success_steps += episode.steps;
   }

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "base/worker_pool.h"
 #include "envs/env_config.h"
 #include "envs/flight_metrics.h"
 #include "envs/tasks/termination.h"
 #include "envs/vec_env.h"
-#include "base/worker_pool.h"
 #include "train/policy/agent.h"
 #include "train/policy/tile_agent.h"
 
@@ -25,7 +26,7 @@ struct Episode {
   Termination termination = Termination::kNone;
   float episode_return = 0;
   std::int32_t steps = 0;  ///< control steps
-  /// By FlightMetric. NaN unless asked for, and of an episode that ended as NonFinite.
+  /// By FlightMetric. NaN unless asked for, and of an episode that ended as non_finite.
   std::array<float, kNumFlightMetrics> metrics{};
 };
 
@@ -48,7 +49,7 @@ struct EvaluationResult {
 };
 
 /// Initial states, targets, noise and wind of the i-th episode depend on (env, options.seed, i)
-/// alone, not on the agent. If the pool is stopping, ends within a decision, and the result says
+/// alone, not on the agent. If the pool is stopping, ends within a policy step, and the result says
 /// nothing. Throws Error where the agent does not fit the task.
 FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& env,
                           const EvaluationOptions& options, WorkerPool& pool);
@@ -59,12 +60,12 @@ EvaluationResult Summarise(const std::vector<Episode>& episodes, double control_
 EvaluationResult Evaluate(const Agent& agent, const EnvConfig& env,
                           const EvaluationOptions& options, WorkerPool& pool);
 
-/// What FlyEpisodes flies: an aircraft for every episode, its first; by the agent's controller if
-/// it has one. Throws Error where the agent does not fit the task.
+/// What FlyEpisodes flies: an aircraft for every episode, its first; by the agent's low-level
+/// policy if it has one. Throws Error where the agent does not fit the task.
 VecEnv MakeEvaluationEnv(const Agent& agent, const EnvConfig& env,
                          const EvaluationOptions& options);
 /// And who flies a tile of it.
-TilePilot MakeEvaluationPilot(const Agent& agent, const VecEnv& env, int tile,
+TileAgent MakeEvaluationAgent(const Agent& agent, const VecEnv& env, int tile,
                               const EvaluationOptions& options);
 
 }  // namespace skein

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -8,16 +9,16 @@
 
 namespace skein {
 
-/// Writes the controller that a planner was trained over into the planner's file: its metadata with
-/// "controller." and its tensors with "controller/" before their names. Throws Error if it is none
-/// that a file can hold.
-void StoreController(const Pilot& controller, TensorFile& file);
+/// Writes the low-level policy that a high-level policy was trained over into the high-level
+/// policy's file: its metadata with "controller." and its tensors with "controller/" before their
+/// names. Throws Error if it is none that a file can hold.
+void StoreLowLevelPolicy(const Policy& low_level, TensorFile& file);
 
-/// The controller in a file that StoreController wrote to; null if there is none. Throws Error,
-/// naming `path`, on one that is damaged.
-std::shared_ptr<const Pilot> LoadController(const TensorFile& file, const std::string& path);
+/// The low-level policy in a file that StoreController wrote to; null if there is none. Throws
+/// Error, naming `path`, on one that is damaged.
+std::shared_ptr<const Policy> LoadLowLevelPolicy(const TensorFile& file, const std::string& path);
 
-/// Whether two controllers would be written alike. Either may be null.
-bool IsSameController(const Pilot* a, const Pilot* b);
+/// Whether two low-level policies would be written alike. Either may be null.
+bool IsSameLowLevelPolicy(const Policy* a, const Policy* b);
 
 }  // namespace skein

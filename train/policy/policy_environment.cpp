@@ -1,19 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/policy_environment.h"
 
 #include <charconv>
 
+#include "base/error.h"
 #include "base/name_in.h"
 #include "envs/tasks/task.h"
-#include "base/error.h"
 #include "train/policy/autopilot_policy.h"
 #include "train/policy/policy_parameters.h"
 
 namespace skein {
 namespace {
 
-constexpr const char* kControllersTask = "control";
+constexpr const char* kLowLevelPolicysTask = "control";
 constexpr const char* kErrorAxes = "tracking.error_axes";
-constexpr const char* kAveragesObservations = "planner.averages_observations";
+constexpr const char* kAveragesObservations = "high_level.averages_observations";
 
 /// The shortest text that is read back as the same double.
 std::string Text(double value) {
@@ -28,12 +29,12 @@ void RequireSame(const std::string& key, const std::string& made_with, const std
               key + " = " + value);
 }
 
-void CheckAutopilot(const EnvConfig& env, const AutopilotController& autopilot,
+void CheckAutopilot(const EnvConfig& env, const AutopilotPolicy& autopilot,
                     const std::string& who) {
   RequireSame("control_interval_s", Text(autopilot.control_interval_s()),
               Text(env.control_interval_s), who);
   try {
-    AutopilotController(autopilot.variant(), env);
+    AutopilotPolicy(autopilot.variant(), env);
   } catch (const Error& error) {
     throw Error(who + ": " + error.what());
   }
@@ -46,11 +47,11 @@ std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
   environment["aircraft"] = env.aircraft;
   environment["control_interval_s"] = Text(env.control_interval_s);
   environment["flight_control"] = NameIn(kFlightControlNames, env.flight_control);
-  if (!IsPlanned(env.task)) return environment;
-  environment["planner.pitch_change_rad"] = Text(env.planner.pitch_change_rad);
-  environment["planner.yaw_change_rad"] = Text(env.planner.yaw_change_rad);
-  environment["planner.speed_change_fps"] = Text(env.planner.speed_change_fps);
-  environment[kAveragesObservations] = env.planner.averages_observations ? "true" : "false";
+  if (!IsHierarchical(env.task)) return environment;
+  environment["high_level.pitch_change_rad"] = Text(env.high_level.pitch_change_rad);
+  environment["high_level.yaw_change_rad"] = Text(env.high_level.yaw_change_rad);
+  environment["high_level.speed_change_fps"] = Text(env.high_level.speed_change_fps);
+  environment[kAveragesObservations] = env.high_level.averages_observations ? "true" : "false";
   if (env.task == "tracking") {
     environment[kErrorAxes] = Name(env.tracking.error_axes);
   }
@@ -64,21 +65,21 @@ void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* e
     }
   }
   if (const auto found = made_with.find(kAveragesObservations); found != made_with.end()) {
-    env->planner.averages_observations = found->second == "true";
+    env->high_level.averages_observations = found->second == "true";
   }
 }
 
-void CheckMadeFor(const EnvConfig& env, const Pilot& pilot, const std::string& who) {
-  if (const auto* const autopilot = dynamic_cast<const AutopilotController*>(&pilot)) {
+void CheckMadeFor(const EnvConfig& env, const Policy& pilot, const std::string& who) {
+  if (const auto* const autopilot = dynamic_cast<const AutopilotPolicy*>(&pilot)) {
     CheckAutopilot(env, *autopilot, who);
     return;
   }
-  const auto* const policy = dynamic_cast<const Policy*>(&pilot);
+  const auto* const policy = dynamic_cast<const RecurrentPolicy*>(&pilot);
   if (policy == nullptr) return;
   if (!policy->task().empty()) RequireSame("task", policy->task(), env.task, who);
   CheckMadeWith(env, policy->parameters()->environment, who);
-  if (policy->controller() == nullptr) return;
-  CheckControllerMadeFor(env, *policy->controller(), who + "'s controller");
+  if (policy->low_level() == nullptr) return;
+  CheckLowLevelMadeFor(env, *policy->low_level(), who + "'s low-level policy");
 }
 
 void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string>& made_with,
@@ -89,10 +90,10 @@ void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string
   }
 }
 
-void CheckControllerMadeFor(const EnvConfig& env, const Pilot& controller, const std::string& who) {
+void CheckLowLevelMadeFor(const EnvConfig& env, const Policy& low_level, const std::string& who) {
   EnvConfig below = env;
-  below.task = kControllersTask;
-  CheckMadeFor(below, controller, who);
+  below.task = kLowLevelPolicysTask;
+  CheckMadeFor(below, low_level, who);
 }
 
 }  // namespace skein

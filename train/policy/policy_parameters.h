@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <map>
@@ -5,34 +6,35 @@
 #include <string>
 #include <vector>
 
+#include "train/files/tensor_file.h"
 #include "train/network/backend.h"
 #include "train/network/network.h"
 #include "train/policy/recurrent_policy.h"
-#include "train/files/tensor_file.h"
 
 namespace skein {
 
 /// What a Policy is made of.
-struct Policy::Parameters {
+struct RecurrentPolicy::Parameters {
   NetworkConfig config;
   NetworkShape shape;
   int action_repeat = 1;
   std::string task;  ///< what it was trained for; empty if unknown
-  /// What else of it the policy cannot fly without (train/policy/policy_environment.h), as far as known.
+  /// What else of it the policy cannot fly without (train/policy/policy_environment.h), as far as
+  /// known.
   std::map<std::string, std::string> environment;
-  std::shared_ptr<const Pilot> controller;  ///< of a planner, else null
+  std::shared_ptr<const Policy> low_level;  ///< of a high-level policy, else null
   std::vector<float> values;                ///< the actor's flat parameters
 };
 
 /// `pilot`, which may be null, computed by `backend` if it is a policy.
-std::shared_ptr<const Pilot> OnBackend(std::shared_ptr<const Pilot> pilot, Backend backend);
+std::shared_ptr<const Policy> OnBackend(std::shared_ptr<const Policy> pilot, Backend backend);
 
 /// Writes the actor's description and parameters into `file`, one tensor "actor/<name>" per slice,
-/// and its controller (train/policy/low_level_file.h).
-void StorePolicy(const Policy::Parameters& parameters, TensorFile& file);
+/// and its low-level policy (train/policy/low_level_file.h).
+void StorePolicy(const RecurrentPolicy::Parameters& parameters, TensorFile& file);
 
 /// The actor in a file that StorePolicy wrote to. Throws Error, naming `path`, if there is none.
-std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
-                                                     const std::string& path);
+std::shared_ptr<const RecurrentPolicy::Parameters> LoadPolicy(const TensorFile& file,
+                                                              const std::string& path);
 
 }  // namespace skein

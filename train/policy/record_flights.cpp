@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/record_flights.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
 
+#include "base/error.h"
 #include "envs/control_step.h"
 #include "envs/vec_env.h"
-#include "base/error.h"
 #include "train/policy/tile_agent.h"
 
 namespace skein {
@@ -45,7 +46,7 @@ class TileRecorder : private ControlStepObserver {
 
   bool IsDone() const { return std::find(flying_.begin(), flying_.end(), true) == flying_.end(); }
 
-  /// One decision: the tile's actions.
+  /// One policy step: the tile's actions.
   void Step(const std::vector<float>& action) {
     action_ = action.data();
     StepOutput output{reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
@@ -80,7 +81,7 @@ class TileRecorder : private ControlStepObserver {
   int tile_, begin_;
   std::vector<RecordedFlight*> flights_;
   std::vector<bool> flying_;
-  const float* action_ = nullptr;  // of the decision under way
+  const float* action_ = nullptr;  // of the policy step under way
   std::vector<float> reward_, episode_return_, final_observation_;
   std::vector<std::uint8_t> termination_;
   std::vector<std::int32_t> steps_;
@@ -104,11 +105,11 @@ std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& c
     std::vector<RecordedFlight*> recorded;
     for (int i = begin; i < end; ++i) recorded.push_back(&flights[i]);
     TileRecorder recorder(env, tile, std::move(recorded));
-    TilePilot pilot = MakeEvaluationPilot(agent, env, tile, options);
+    TileAgent pilot = MakeEvaluationAgent(agent, env, tile, options);
     while (!recorder.IsDone()) {
       // Whole tiles fly, the aircraft that are not recorded too: matrix products may round by
       // shape.
-      recorder.Step(pilot.Decide());
+      recorder.Step(pilot.Act());
     }
   });
   return flights;

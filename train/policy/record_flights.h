@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "envs/actions.h"
-#include "envs/state/state.h"
-#include "envs/env_config.h"
-#include "envs/tasks/termination.h"
 #include "base/worker_pool.h"
+#include "envs/actions.h"
+#include "envs/env_config.h"
+#include "envs/state/state.h"
+#include "envs/tasks/termination.h"
 #include "train/policy/agent.h"
 #include "train/policy/evaluate.h"
 
@@ -17,8 +18,8 @@ namespace skein {
 struct RecordedStep {
   std::array<float, kNumRecordedColumns> state{};  ///< envs/state/state.h
   std::vector<float> action;  ///< the policy's, held during the step, clipped to [-1, 1]
-  /// What the pilot's stick and throttle got, clipped to [-1, 1]: the action, or the controller's
-  /// that flies for a planner.
+  /// What the pilot's stick and throttle got, clipped to [-1, 1]: the action, or the low-level
+  /// policy's that flies for a high-level policy.
   std::array<float, kActionSize> stick{};
   float reward = 0;  ///< of the step, terminal reward included
   Termination termination = Termination::kNone;

@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/recurrent_policy.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "train/files/tensor_access.h"
+#include "train/network/ppo_loss.h"
+#include "train/network/recurrent_network.h"
 #include "train/policy/low_level_file.h"
 #include "train/policy/policy_environment.h"
 #include "train/policy/policy_parameters.h"
-#include "train/network/ppo_loss.h"
-#include "train/network/recurrent_network.h"
-#include "train/files/tensor_access.h"
 
 namespace skein {
 namespace {
@@ -60,14 +61,14 @@ Activation ActivationIn(const TensorFile& file, const std::string& path) {
 }  // namespace
 
 /// The network beside what it was made from.
-struct Policy::Actor {
+struct RecurrentPolicy::Actor {
   std::shared_ptr<const Parameters> parameters;
-  std::shared_ptr<const Pilot> controller;  ///< that of the parameters, on the same backend
+  std::shared_ptr<const Policy> low_level;  ///< that of the parameters, on the same backend
   BackendChoice backend;
   std::unique_ptr<RecurrentNetwork> network;
 };
 
-void StorePolicy(const Policy::Parameters& parameters, TensorFile& file) {
+void StorePolicy(const RecurrentPolicy::Parameters& parameters, TensorFile& file) {
   auto& metadata = file.metadata;
   metadata["policy.format"] = kFormat;
   metadata[kHiddenLayersKey] = std::to_string(parameters.config.hidden_layers);
@@ -83,7 +84,7 @@ void StorePolicy(const Policy::Parameters& parameters, TensorFile& file) {
   metadata["policy.action_repeat"] = std::to_string(parameters.action_repeat);
   if (!parameters.task.empty()) metadata[kTaskKey] = parameters.task;
   InsertWithPrefix(parameters.environment, kEnvironmentPrefix, metadata);
-  if (parameters.controller != nullptr) StoreController(*parameters.controller, file);
+  if (parameters.low_level != nullptr) StoreLowLevelPolicy(*parameters.low_level, file);
   const NetworkLayout layout(parameters.shape);
   for (std::size_t i = 0; i < layout.slices().size(); ++i) {
     const ParameterSlice& slice = layout.slices()[i];
@@ -94,14 +95,14 @@ void StorePolicy(const Policy::Parameters& parameters, TensorFile& file) {
   }
 }
 
-std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
-                                                     const std::string& path) {
+std::shared_ptr<const RecurrentPolicy::Parameters> LoadPolicy(const TensorFile& file,
+                                                              const std::string& path) {
   const std::string format = Metadata(file, path, "policy.format");
   if (format != kFormat) {
     throw Error(path + ": its policy format is \"" + format + "\"; this program reads \"" +
                 kFormat + "\"");
   }
-  auto parameters = std::make_shared<Policy::Parameters>();
+  auto parameters = std::make_shared<RecurrentPolicy::Parameters>();
   NetworkConfig& config = parameters->config;
   // Files from before networks had these hold the one shape there was, which is the default.
   if (Has(file, kHiddenLayersKey)) {
@@ -121,7 +122,7 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
   parameters->action_repeat = SizeIn(file, path, "policy.action_repeat");
   if (Has(file, kTaskKey)) parameters->task = Metadata(file, path, kTaskKey);
   parameters->environment = ExtractPrefix(file.metadata, kEnvironmentPrefix);
-  parameters->controller = LoadController(file, path);
+  parameters->low_level = LoadLowLevelPolicy(file, path);
   const NetworkLayout layout(parameters->shape);
   for (const ParameterSlice& slice : layout.slices()) {
     const std::vector<float> values =
@@ -136,74 +137,79 @@ std::shared_ptr<const Policy::Parameters> LoadPolicy(const TensorFile& file,
   return parameters;
 }
 
-std::shared_ptr<const Pilot> OnBackend(std::shared_ptr<const Pilot> pilot, Backend backend) {
-  const auto* const policy = dynamic_cast<const Policy*>(pilot.get());
+std::shared_ptr<const Policy> OnBackend(std::shared_ptr<const Policy> pilot, Backend backend) {
+  const auto* const policy = dynamic_cast<const RecurrentPolicy*>(pilot.get());
   if (policy == nullptr) return pilot;
   const BackendChoice chosen = ChooseBackend(backend, policy->parameters()->shape);
   if (chosen.backend == policy->backend().backend) return pilot;
-  return std::make_shared<const Policy>(policy->WithBackend(backend));
+  return std::make_shared<const RecurrentPolicy>(policy->WithBackend(backend));
 }
 
-Policy::Policy(const std::shared_ptr<const Parameters>& parameters, Backend backend) {
+RecurrentPolicy::RecurrentPolicy(const std::shared_ptr<const Parameters>& parameters,
+                                 Backend backend) {
   auto actor = std::make_shared<Actor>();
   actor->parameters = parameters;
-  actor->controller = OnBackend(parameters->controller, backend);
+  actor->low_level = OnBackend(parameters->low_level, backend);
   actor->backend = ChooseBackend(backend, parameters->shape);
   actor->network = MakeNetwork(actor->backend.backend, NetworkLayout(parameters->shape));
   actor->network->SetParameters(parameters->values.data());
   actor_ = std::move(actor);
 }
 
-Policy Policy::WithBackend(Backend backend) const { return Policy(actor_->parameters, backend); }
-
-Policy Policy::Load(const std::string& path) {
-  return Policy(LoadPolicy(TensorFile::Read(path), path));
+RecurrentPolicy RecurrentPolicy::WithBackend(Backend backend) const {
+  return RecurrentPolicy(actor_->parameters, backend);
 }
 
-Policy Policy::Untrained(const NetworkConfig& config, int observation_size, int action_size,
-                         std::uint64_t seed, int action_repeat,
-                         std::shared_ptr<const Pilot> controller) {
+RecurrentPolicy RecurrentPolicy::Load(const std::string& path) {
+  return RecurrentPolicy(LoadPolicy(TensorFile::Read(path), path));
+}
+
+RecurrentPolicy RecurrentPolicy::Untrained(const NetworkConfig& config, int observation_size,
+                                           int action_size, std::uint64_t seed, int action_repeat,
+                                           std::shared_ptr<const Policy> low_level) {
   auto parameters = std::make_shared<Parameters>();
   parameters->config = config;
   parameters->shape = ActorShape(config, observation_size, action_size);
   parameters->action_repeat = action_repeat;
-  parameters->controller = std::move(controller);
+  parameters->low_level = std::move(low_level);
   parameters->values = InitialParameters(NetworkLayout(parameters->shape), config.actor_head_scale,
                                          config.initial_log_std, seed, kActorStream);
-  return Policy(std::move(parameters));
+  return RecurrentPolicy(std::move(parameters));
 }
 
-void Policy::Save(const std::string& path) const {
+void RecurrentPolicy::Save(const std::string& path) const {
   TensorFile file;
   StorePolicy(*actor_->parameters, file);
   file.Write(path);
 }
 
-const NetworkConfig& Policy::config() const { return actor_->parameters->config; }
-int Policy::observation_size() const { return actor_->parameters->shape.observation_size; }
-const BackendChoice& Policy::backend() const { return actor_->backend; }
-int Policy::action_size() const { return actor_->parameters->shape.output_size; }
-int Policy::state_size() const { return actor_->parameters->shape.state_size(); }
-int Policy::action_repeat() const { return actor_->parameters->action_repeat; }
-EnvConfig Policy::EnvironmentFor(const EnvConfig& env) const {
-  EnvConfig own = Pilot::EnvironmentFor(env);
+const NetworkConfig& RecurrentPolicy::config() const { return actor_->parameters->config; }
+int RecurrentPolicy::observation_size() const { return actor_->parameters->shape.observation_size; }
+const BackendChoice& RecurrentPolicy::backend() const { return actor_->backend; }
+int RecurrentPolicy::action_size() const { return actor_->parameters->shape.output_size; }
+int RecurrentPolicy::state_size() const { return actor_->parameters->shape.state_size(); }
+int RecurrentPolicy::action_repeat() const { return actor_->parameters->action_repeat; }
+EnvConfig RecurrentPolicy::EnvironmentFor(const EnvConfig& env) const {
+  EnvConfig own = Policy::EnvironmentFor(env);
   AdoptView(actor_->parameters->environment, &own);
   return own;
 }
-const std::string& Policy::task() const { return actor_->parameters->task; }
-const std::shared_ptr<const Pilot>& Policy::controller() const { return actor_->controller; }
-const std::shared_ptr<const Policy::Parameters>& Policy::parameters() const {
+const std::string& RecurrentPolicy::task() const { return actor_->parameters->task; }
+const std::shared_ptr<const Policy>& RecurrentPolicy::low_level() const {
+  return actor_->low_level;
+}
+const std::shared_ptr<const RecurrentPolicy::Parameters>& RecurrentPolicy::parameters() const {
   return actor_->parameters;
 }
 
-void Policy::Act(int count, const float* observation, float* state, float* mean,
-                 float* log_std) const {
-  // One workspace per thread, kept for the next decision.
+void RecurrentPolicy::ActionMean(int count, const float* observation, float* state, float* mean,
+                                 float* log_std) const {
+  // One workspace per thread, kept for the next policy step.
   static thread_local NetworkWorkspace workspace;
-  static thread_local std::vector<float> keep;
-  if (static_cast<int>(keep.size()) < count) keep.resize(count, 1.0f);
+  static thread_local std::vector<float> not_done;
+  if (static_cast<int>(not_done.size()) < count) not_done.resize(count, 1.0f);
   const Parameters& parameters = *actor_->parameters;
-  actor_->network->Forward({1, count, observation, state, keep.data()}, workspace);
+  actor_->network->Forward({1, count, observation, state, not_done.data()}, workspace);
   const std::int64_t size = parameters.shape.output_size;
   std::copy_n(workspace.final_state(),
               static_cast<std::int64_t>(count) * parameters.shape.state_size(), state);
@@ -213,8 +219,8 @@ void Policy::Act(int count, const float* observation, float* state, float* mean,
   }
 }
 
-void Policy::Fly(int count, const float* observation, float* state, float* action) const {
-  Act(count, observation, state, action);
+void RecurrentPolicy::Act(int count, const float* observation, float* state, float* action) const {
+  ActionMean(count, observation, state, action);
   for (int i = 0; i < count * action_size(); ++i) action[i] = std::clamp(action[i], -1.0f, 1.0f);
 }
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/tile_agent.h"
 
 #include <algorithm>
 
 namespace skein {
 
-TilePilot::TilePilot(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed)
+TileAgent::TileAgent(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed)
     : agent_(agent),
       env_(env),
       tile_(tile),
@@ -14,14 +15,14 @@ TilePilot::TilePilot(const Agent& agent, const VecEnv& env, int tile, std::uint6
       state_(static_cast<std::size_t>(count_) * agent.state_size(), 0.0f),
       action_(static_cast<std::size_t>(count_) * env.action_size()) {}
 
-const std::vector<float>& TilePilot::Decide() {
+const std::vector<float>& TileAgent::Act() {
   env_.Observe(tile_, observation_.data());
-  agent_.Decide(turn_, count_, observation_.data(), state_.data(), action_.data());
-  ++turn_.decision;
+  agent_.Act(turn_, count_, observation_.data(), state_.data(), action_.data());
+  ++turn_.policy_step;
   return action_;
 }
 
-void TilePilot::Forget(int index) {
+void TileAgent::Forget(int index) {
   std::fill_n(state_.begin() + static_cast<std::int64_t>(index) * agent_.state_size(),
               agent_.state_size(), 0.0f);
 }

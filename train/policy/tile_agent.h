@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -10,15 +11,15 @@ namespace skein {
 
 /// An agent at the controls of one tile: it observes, remembers and decides for every aircraft.
 /// What it decides for one depends on the observations of that aircraft and, if there is chance in
-/// it, on (seed, aircraft, decision).
-class TilePilot {
+/// it, on (seed, aircraft, policy step).
+class TileAgent {
  public:
   /// Agent and environment must outlive the pilot.
-  TilePilot(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed);
+  TileAgent(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed);
 
   /// Observes the tile and decides. Row-major [tile count][action_size], not clipped; valid until
   /// the next call.
-  const std::vector<float>& Decide();
+  const std::vector<float>& Act();
 
   /// The tile's `index`-th aircraft has begun a new episode: nothing of the old one is remembered.
   void Forget(int index);

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/learner_config.h"
 
 #include <string>
 
-#include "base/name_in.h"
 #include "base/error.h"
+#include "base/name_in.h"
 
 namespace skein {
 

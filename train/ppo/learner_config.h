@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -40,7 +41,7 @@ struct NetworkConfig {
 
 struct PpoConfig {
   int num_aircraft = 1536;
-  int rollout_steps = 64;  ///< decisions per aircraft and iteration
+  int rollout_steps = 64;  ///< policy steps per aircraft and iteration
   int chunk_length = 8;    ///< truncated backpropagation through time
   int epochs = 2;
   int minibatches = 16;
@@ -48,7 +49,7 @@ struct PpoConfig {
   double final_learning_rate_fraction =
       0.02;  ///< linear in steps done to this fraction at the budget's end; 1 keeps it constant
   double adam_epsilon = 1e-5;
-  double gamma = 0.99;  ///< per decision
+  double gamma = 0.99;  ///< per policy step
   double gae_lambda = 0.95;
   double clip = 0.2;
   double max_gradient_norm = 2;  ///< actor and critic separately
@@ -114,8 +115,8 @@ struct TrainConfig {
   PpoConfig ppo;
   LearnerConfig learner;
   PeriodicEvaluationConfig evaluation;
-  /// What flies, frozen, while a planner is trained; null where the policy itself flies.
-  std::shared_ptr<const Pilot> controller;
+  /// What flies, frozen, while a high-level policy is trained; null where the policy itself flies.
+  std::shared_ptr<const Policy> low_level;
   std::uint64_t total_steps = 0;  ///< budget in control steps (environment steps at 50 Hz)
   std::uint64_t seed = 1;
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/learner_rates.h"
 
 #include <algorithm>
@@ -20,14 +21,15 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-/// Of the products of a planner's controller until the planner decides again; 0 without one, or
-/// for one that computes no networks.
-double ControllerFlopsPerDecision(const TrainConfig& config) {
-  const auto* policy = dynamic_cast<const Policy*>(config.controller.get());
+/// Of the products of a high-level policy's low-level policy until the high-level policy decides
+/// again; 0 without one, or for one that computes no networks.
+double LowLevelPolicyFlopsPerPolicyStep(const TrainConfig& config) {
+  const auto* policy = dynamic_cast<const RecurrentPolicy*>(config.low_level.get());
   if (policy == nullptr) return 0;
-  const double decisions = static_cast<double>(config.env.action_repeat) / policy->action_repeat();
-  return decisions * ForwardFlops(ActorShape(policy->config(), policy->observation_size(),
-                                             policy->action_size()));
+  const double policy_steps =
+      static_cast<double>(config.env.action_repeat) / policy->action_repeat();
+  return policy_steps * ForwardFlops(ActorShape(policy->config(), policy->observation_size(),
+                                                policy->action_size()));
 }
 
 /// One configuration in training, and its seconds by iteration.
@@ -59,19 +61,19 @@ struct Runner {
 
   LearnerRates Rates() const {
     const TrainConfig& config = trainer->config();
-    const double decisions =
+    const double policy_steps =
         static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps;
-    const double samples = decisions * config.ppo.epochs;
-    const VecEnv env(config.env, 1, config.seed, 1, config.controller);
+    const double samples = policy_steps * config.ppo.epochs;
+    const VecEnv env(config.env, 1, config.seed, 1, config.low_level);
     const double forward_flops =
         ForwardFlops(ActorShape(config.network, env.observation_size(), env.action_size())) +
         ForwardFlops(CriticShape(config.network, env.observation_size()));
     LearnerRates rates;
     rates.backend = trainer->backend();
-    rates.rollout_decisions_per_s = decisions / Median(rollout);
+    rates.rollout_policy_steps_per_s = policy_steps / Median(rollout);
     rates.simulator_share = Median(simulator);
-    rates.rollout_flops_per_decision =
-        forward_flops + ControllerFlopsPerDecision(config) +
+    rates.rollout_flops_per_policy_step =
+        forward_flops + LowLevelPolicyFlopsPerPolicyStep(config) +
         config.env.action_repeat * config.env.substeps * kFlopsPerRk4Step;
     rates.update_samples_per_s = samples / Median(update);
     rates.gradient_samples_per_s = samples / Median(gradient);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -10,12 +11,13 @@ namespace skein {
 
 /// Rates of the parts of an iteration, medians over iterations.
 struct LearnerRates {
-  BackendChoice backend;               ///< what computed the networks
-  double rollout_decisions_per_s = 0;  ///< simulator in the loop
-  double simulator_share = 0;          ///< of the rollout's time, with a planner's controller
-  /// Of the networks' products, a controller's among them, and of the RK4 steps until the next
-  /// decision.
-  double rollout_flops_per_decision = 0;
+  BackendChoice backend;                  ///< what computed the networks
+  double rollout_policy_steps_per_s = 0;  ///< simulator in the loop
+  double simulator_share =
+      0;  ///< of the rollout's time, with a high-level policy's low-level policy
+  /// Of the networks' products, a low-level policy's among them, and of the RK4 steps until the
+  /// next policy step.
+  double rollout_flops_per_policy_step = 0;
   double update_samples_per_s = 0;     ///< through forward, loss, backward and optimiser
   double gradient_samples_per_s = 0;   ///< through forward, loss and backward alone
   double update_flops_per_sample = 0;  ///< of the products, forward and backward, both networks

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/ppo_update.h"
 
 #include <algorithm>
@@ -46,13 +47,13 @@ void RequireSane(const char* network, double loss, double norm) {
 /// Chunks of a tile in time-major order, and what the networks need to compute them.
 struct PpoUpdate::Gathered {
   NetworkWorkspace workspace;
-  AlignedVector<float> observation, state, keep, action, log_prob, advantage, target, old_value;
+  AlignedVector<float> observation, state, not_done, action, log_prob, advantage, target, old_value;
 
   void Resize(const Rollout& rollout, std::int64_t rows, int chunks) {
     observation.resize(rows * rollout.observation_size);
     state.resize(static_cast<std::int64_t>(chunks) * rollout.state_size);
     action.resize(rows * rollout.action_size);
-    for (auto* const column : {&keep, &log_prob, &advantage, &target, &old_value}) {
+    for (auto* const column : {&not_done, &log_prob, &advantage, &target, &old_value}) {
       column->resize(rows);
     }
   }
@@ -106,7 +107,7 @@ void PpoUpdate::RunShard(Side& side, const Rollout& rollout, const ValueScale& s
         std::copy_n(rollout.observation.begin() + from * rollout.observation_size,
                     rollout.observation_size,
                     own.observation.begin() + to * rollout.observation_size);
-        own.keep[to] = rollout.keep[from];
+        own.not_done[to] = rollout.not_done[from];
         if (is_actor) {
           std::copy_n(rollout.action.begin() + from * rollout.action_size, rollout.action_size,
                       own.action.begin() + to * rollout.action_size);
@@ -121,7 +122,7 @@ void PpoUpdate::RunShard(Side& side, const Rollout& rollout, const ValueScale& s
     }
     SampleTile tile;
     tile.sequence = {rollout.chunk_length, batch, own.observation.data(), own.state.data(),
-                     own.keep.data()};
+                     own.not_done.data()};
     tile.actor = {own.action.data(), own.log_prob.data(), own.advantage.data()};
     tile.target = own.target.data();
     tile.old_value = own.old_value.data();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -5,9 +6,9 @@
 #include <vector>
 
 #include "base/worker_pool.h"
-#include "train/ppo/adam.h"
 #include "train/network/backend.h"
 #include "train/network/recurrent_network.h"
+#include "train/ppo/adam.h"
 #include "train/ppo/rollout.h"
 
 namespace skein {
@@ -27,8 +28,8 @@ class PpoUpdate {
             const NetworkLayout& critic, WorkerPool& pool);
 
   /// `iteration` keys the shuffles. Throws Error if a loss or a gradient is not finite, or a
-  /// gradient's norm exceeds kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may then
-  /// have moved. So they may if the pool is stopping: the update then ends within a tile,
+  /// gradient's norm exceeds kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may
+  /// then have moved. So they may if the pool is stopping: the update then ends within a tile,
   /// unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
                    double learning_rate, AdamOptimiser& actor, AdamOptimiser& critic);

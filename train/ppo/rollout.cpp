@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/rollout.h"
 
 #include <algorithm>
@@ -13,21 +14,21 @@ namespace {
 /// Memory of one worker for one tile.
 struct TileScratch {
   NetworkWorkspace workspace;
-  std::vector<float> noise, mean, episode_return, final_observation, cut_value;
+  std::vector<float> noise, mean, episode_return, final_observation, truncation_value;
   std::vector<std::uint8_t> termination;
   std::vector<std::int32_t> episode_steps;
-  std::vector<std::uint32_t> decision_low, decision_high;
+  std::vector<std::uint32_t> policy_step_low, policy_step_high;
 
   void Resize(int count, int observation_size, int action_size) {
     noise.resize(static_cast<std::size_t>(count) * action_size);
     mean.resize(static_cast<std::size_t>(count) * action_size);
     final_observation.resize(static_cast<std::size_t>(count) * observation_size);
-    cut_value.resize(count);
+    truncation_value.resize(count);
     episode_return.resize(count);
     termination.resize(count);
     episode_steps.resize(count);
-    decision_low.resize(count);
-    decision_high.resize(count);
+    policy_step_low.resize(count);
+    policy_step_high.resize(count);
   }
 };
 
@@ -50,7 +51,7 @@ class TileRollout {
         rollout_(rollout),
         actor_state_(state.actor.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
         critic_state_(state.critic.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
-        keep_(state.keep.data() + begin_) {
+        keep_(state.not_done.data() + begin_) {
     scratch.Resize(count_, rollout.observation_size, rollout.action_size);
   }
 
@@ -60,7 +61,7 @@ class TileRollout {
       StoreChunkStart(step);
       Decide(step);
       Step(step);
-      statistics_.decisions += count_;
+      statistics_.policy_steps += count_;
     }
     env_.Observe(tile_, scratch_.final_observation.data());
     EvaluateCritic(scratch_.final_observation.data(), critic_state_, keep_,
@@ -94,9 +95,9 @@ class TileRollout {
   }
 
   /// Values of `observation` for the recurrent state; the state after it is left in the workspace.
-  void EvaluateCritic(const float* observation, const float* state, const float* keep,
+  void EvaluateCritic(const float* observation, const float* state, const float* not_done,
                       float* value) {
-    critic_.Forward({1, count_, observation, state, keep}, scratch_.workspace);
+    critic_.Forward({1, count_, observation, state, not_done}, scratch_.workspace);
     const ValueScale& scale = settings_.value_scale;
     for (int i = 0; i < count_; ++i) {
       value[i] = static_cast<float>(scale.mean + scale.std * scratch_.workspace.output()[i]);
@@ -109,7 +110,7 @@ class TileRollout {
     const int size = rollout_.action_size;
     float* const observation = Observation(step);
     Simulate([&] { env_.Observe(tile_, observation); });
-    std::copy_n(keep_, count_, rollout_.keep.begin() + row);
+    std::copy_n(keep_, count_, rollout_.not_done.begin() + row);
 
     EvaluateCritic(observation, critic_state_, keep_, rollout_.value.data() + row);
     std::copy_n(scratch_.workspace.final_state(), states, critic_state_);
@@ -118,13 +119,13 @@ class TileRollout {
     GaussianMean(static_cast<std::int64_t>(count_) * size, settings_.tanh_mean,
                  scratch_.workspace.output(), scratch_.mean.data());
 
-    const std::uint64_t decision = settings_.first_decision + step;
-    std::fill(scratch_.decision_low.begin(), scratch_.decision_low.end(),
-              static_cast<std::uint32_t>(decision));
-    std::fill(scratch_.decision_high.begin(), scratch_.decision_high.end(),
-              static_cast<std::uint32_t>(decision >> 32));
+    const std::uint64_t policy_step = settings_.first_policy_step + step;
+    std::fill(scratch_.policy_step_low.begin(), scratch_.policy_step_low.end(),
+              static_cast<std::uint32_t>(policy_step));
+    std::fill(scratch_.policy_step_high.begin(), scratch_.policy_step_high.end(),
+              static_cast<std::uint32_t>(policy_step >> 32));
     simd::FillNormals(settings_.seed, static_cast<std::uint32_t>(begin_),
-                      scratch_.decision_low.data(), scratch_.decision_high.data(),
+                      scratch_.policy_step_low.data(), scratch_.policy_step_high.data(),
                       simd::RandomPurpose::kActionNoise, count_, size, scratch_.noise.data());
     float* const action = rollout_.action.data() + row * size;
     for (int i = 0; i < count_; ++i) {
@@ -154,7 +155,7 @@ class TileRollout {
       const auto termination = static_cast<Termination>(scratch_.termination[i]);
       const bool ends = termination != Termination::kNone;
       rollout_.ends[row + i] = ends;
-      truncated |= truncates && termination == Termination::kUnreachTarget;
+      truncated |= truncates && termination == Termination::kTimeLimit;
       if (!ends) continue;
       ++statistics_.episodes;
       ++statistics_.terminations[scratch_.termination[i]];
@@ -169,7 +170,7 @@ class TileRollout {
   void AddTruncatedValues(float* reward) {
     // Rows of other aircraft hold nothing of this step; they are computed and dropped.
     for (int i = 0; i < count_; ++i) {
-      if (scratch_.termination[i] != static_cast<std::uint8_t>(Termination::kUnreachTarget)) {
+      if (scratch_.termination[i] != static_cast<std::uint8_t>(Termination::kTimeLimit)) {
         std::fill_n(scratch_.final_observation.begin() +
                         static_cast<std::int64_t>(i) * rollout_.observation_size,
                     rollout_.observation_size, 0.0f);
@@ -178,10 +179,10 @@ class TileRollout {
     // The episode goes on in this evaluation, whatever begins with the next step.
     const std::vector<float> going_on(count_, 1.0f);
     EvaluateCritic(scratch_.final_observation.data(), critic_state_, going_on.data(),
-                   scratch_.cut_value.data());
+                   scratch_.truncation_value.data());
     for (int i = 0; i < count_; ++i) {
-      if (scratch_.termination[i] == static_cast<std::uint8_t>(Termination::kUnreachTarget)) {
-        reward[i] += static_cast<float>(settings_.gamma) * scratch_.cut_value[i];
+      if (scratch_.termination[i] == static_cast<std::uint8_t>(Termination::kTimeLimit)) {
+        reward[i] += static_cast<float>(settings_.gamma) * scratch_.truncation_value[i];
       }
     }
   }
@@ -213,7 +214,7 @@ Rollout::Rollout(const PpoConfig& config, int observations, int actions, int sta
   Validate(config);
   observation.resize(samples() * observation_size);
   action.resize(samples() * action_size);
-  for (auto* const column : {&log_prob, &value, &reward, &keep, &advantage, &target}) {
+  for (auto* const column : {&log_prob, &value, &reward, &not_done, &advantage, &target}) {
     column->resize(samples());
   }
   ends.resize(samples());
@@ -226,10 +227,10 @@ Rollout::Rollout(const PpoConfig& config, int observations, int actions, int sta
 RecurrentState::RecurrentState(int aircraft, int state_size)
     : actor(static_cast<std::size_t>(aircraft) * state_size, 0.0f),
       critic(static_cast<std::size_t>(aircraft) * state_size, 0.0f),
-      keep(aircraft, 0.0f) {}
+      not_done(aircraft, 0.0f) {}
 
 EpisodeStatistics& EpisodeStatistics::operator+=(const EpisodeStatistics& other) {
-  decisions += other.decisions;
+  policy_steps += other.policy_steps;
   episodes += other.episodes;
   return_sum += other.return_sum;
   simulator_seconds += other.simulator_seconds;

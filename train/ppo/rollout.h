@@ -1,17 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "envs/vec_env.h"
 #include "base/worker_pool.h"
-#include "train/ppo/learner_config.h"
+#include "envs/vec_env.h"
 #include "train/network/recurrent_network.h"
+#include "train/ppo/learner_config.h"
 
 namespace skein {
 
-/// What PPO learns from: one row per decision step, one column per aircraft; [step][aircraft].
+/// What PPO learns from: one row per policy step step, one column per aircraft; [step][aircraft].
 /// `state_size` is that of both networks, NetworkShape::state_size.
 struct Rollout {
   /// Throws Error where Validate(config) does.
@@ -28,7 +29,7 @@ struct Rollout {
   std::vector<float> action;       ///< [steps][aircraft][action_size], before clipping
   std::vector<float> log_prob, value;
   std::vector<float> reward;             ///< with the bootstrap of truncated episodes
-  std::vector<float> keep;               ///< 0 where an episode begins with this step, else 1
+  std::vector<float> not_done;           ///< 0 where an episode begins with this step, else 1
   std::vector<std::uint8_t> ends;        ///< 1 where an episode ended with this step
   std::vector<float> bootstrap;          ///< [aircraft]: value of what follows the last step
   std::vector<float> advantage, target;  ///< target: advantage + value
@@ -40,12 +41,13 @@ struct RecurrentState {
   RecurrentState(int aircraft, int state_size);
 
   std::vector<float> actor, critic;  ///< [aircraft][state_size]
-  std::vector<float> keep;           ///< [aircraft]: 0 if an episode begins with the next step
+  std::vector<float> not_done;       ///< [aircraft]: 0 if an episode begins with the next step
 };
 
 /// What was flown in a rollout, and the episodes that ended in it.
 struct EpisodeStatistics {
-  std::uint64_t decisions = 0;  ///< by all aircraft together; all of the rollout's unless stopped
+  std::uint64_t policy_steps =
+      0;  ///< by all aircraft together; all of the rollout's unless stopped
   std::uint64_t episodes = 0;
   double return_sum = 0;
   std::array<int, kNumTerminations> terminations{};
@@ -61,16 +63,16 @@ struct ValueScale {
 
 struct RolloutSettings {
   std::uint64_t seed = 0;
-  std::uint64_t first_decision =
-      0;  ///< number of the rollout's first decision since training began
+  std::uint64_t first_policy_step =
+      0;  ///< number of the rollout's first policy step since training began
   double gamma = 0.99, gae_lambda = 0.95;
   bool tanh_mean = true;
   ValueScale value_scale;
 };
 
-/// Flies `rollout.steps` decisions with every aircraft and fills `rollout`, advantages included.
+/// Flies `rollout.steps` policy steps with every aircraft and fills `rollout`, advantages included.
 /// A task per tile of the environment flies its whole rollout without waiting for others. If the
-/// pool is stopping, tiles fly no further decision and `rollout` is incomplete.
+/// pool is stopping, tiles fly no further policy step and `rollout` is incomplete.
 EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
                                  const RecurrentNetwork& critic, const std::vector<float>& log_std,
                                  const RolloutSettings& settings, WorkerPool& pool,

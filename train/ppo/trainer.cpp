@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/trainer.h"
 
 #include <algorithm>
@@ -5,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "envs/vec_env.h"
 #include "base/error.h"
-#include "train/ppo/adam.h"
+#include "envs/vec_env.h"
 #include "train/policy/evaluate.h"
 #include "train/policy/policy_environment.h"
 #include "train/policy/policy_parameters.h"
+#include "train/ppo/adam.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/ppo_update.h"
 #include "train/ppo/rollout.h"
@@ -43,8 +44,8 @@ double ExplainedVariance(const Rollout& rollout) {
 
 const TrainConfig& Validated(const TrainConfig& config) {
   Validate(config.ppo);
-  if (config.controller != nullptr) {
-    CheckControllerMadeFor(config.env, *config.controller, "the controller");
+  if (config.low_level != nullptr) {
+    CheckLowLevelMadeFor(config.env, *config.low_level, "the low-level policy");
   }
   return config;
 }
@@ -56,7 +57,7 @@ struct Trainer::Impl {
       : config(Validated(training)),
         pool(workers),
         env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile,
-            OnBackend(config.controller, config.learner.backend)),
+            OnBackend(config.low_level, config.learner.backend)),
         actor_layout(ActorShape(config.network, env.observation_size(), env.action_size())),
         critic_layout(CriticShape(config.network, env.observation_size())),
         actor(InitialParameters(actor_layout, config.network.actor_head_scale,
@@ -78,7 +79,7 @@ struct Trainer::Impl {
   }
 
   std::uint64_t env_steps() const {
-    return decisions * config.ppo.num_aircraft * config.env.action_repeat;
+    return policy_steps * config.ppo.num_aircraft * config.env.action_repeat;
   }
 
   double LearningRate() const {
@@ -99,7 +100,7 @@ struct Trainer::Impl {
     state.recurrent = recurrent;
     state.env = env.Snapshot();
     state.iteration = iteration;
-    state.decisions = decisions;
+    state.policy_steps = policy_steps;
     state.best_success_rate = best_success_rate;
     state.best_return = best_return;
     return state;
@@ -116,7 +117,7 @@ struct Trainer::Impl {
     popart = state.popart;
     recurrent = state.recurrent;
     iteration = state.iteration;
-    decisions = state.decisions;
+    policy_steps = state.policy_steps;
     best_success_rate = state.best_success_rate;
     best_return = state.best_return;
   }
@@ -126,43 +127,43 @@ struct Trainer::Impl {
     return {log_std, log_std + actor_layout.shape().output_size};
   }
 
-  Policy CurrentPolicy() const {
-    auto parameters = std::make_shared<Policy::Parameters>();
+  RecurrentPolicy CurrentPolicy() const {
+    auto parameters = std::make_shared<RecurrentPolicy::Parameters>();
     parameters->config = config.network;
     parameters->shape = actor_layout.shape();
     parameters->action_repeat = config.env.action_repeat;
     parameters->task = config.env.task;
     parameters->environment = PolicyEnvironment(config.env);
-    parameters->controller = config.controller;
+    parameters->low_level = config.low_level;
     parameters->values.assign(actor.parameters(), actor.parameters() + actor.size());
-    return Policy(std::move(parameters), config.learner.backend);
+    return RecurrentPolicy(std::move(parameters), config.learner.backend);
   }
 
   /// Returns the control steps flown.
-  std::uint64_t Fly(IterationReport& report) {
+  std::uint64_t CollectExperience(IterationReport& report) {
     const auto start = std::chrono::steady_clock::now();
     actor_network->SetParameters(actor.parameters());
     critic_network->SetParameters(critic.parameters());
     RolloutSettings settings;
     settings.seed = config.seed;
-    settings.first_decision = decisions;
+    settings.first_policy_step = policy_steps;
     settings.gamma = config.ppo.gamma;
     settings.gae_lambda = config.ppo.gae_lambda;
     settings.tanh_mean = config.network.tanh_mean;
     settings.value_scale = popart.scale();
     const EpisodeStatistics episodes = CollectRollout(env, *actor_network, *critic_network,
                                                       LogStd(), settings, pool, recurrent, rollout);
-    decisions += config.ppo.rollout_steps;
+    policy_steps += config.ppo.rollout_steps;
     const auto count = static_cast<double>(episodes.episodes);
     report.episodes = episodes.episodes;
     report.terminations = episodes.terminations;
     report.return_mean = episodes.return_sum / count;  // 0 / 0 says that there are none
     report.success_rate =
-        episodes.terminations[static_cast<int>(Termination::kResetTarget)] / count;
+        episodes.terminations[static_cast<int>(Termination::kTargetReached)] / count;
     report.explained_variance = ExplainedVariance(rollout);
     report.rollout_seconds = SecondsSince(start);
     report.simulator_seconds = episodes.simulator_seconds / pool.threads();
-    return episodes.decisions * config.env.action_repeat;
+    return episodes.policy_steps * config.env.action_repeat;
   }
 
   void Learn(IterationReport& report) {
@@ -222,7 +223,7 @@ struct Trainer::Impl {
   PpoUpdate update;
   PopArt popart;
   std::uint64_t iteration = 0;
-  std::uint64_t decisions = 0;
+  std::uint64_t policy_steps = 0;
   double best_success_rate = -1, best_return = 0;
 };
 
@@ -241,7 +242,7 @@ IterationReport Trainer::Iterate() {
   const TrainingState before = impl_->State();
   try {
     IterationReport report;
-    const std::uint64_t flown = impl_->Fly(report);
+    const std::uint64_t flown = impl_->CollectExperience(report);
     impl_->Learn(report);
     report.iteration = ++impl_->iteration;
     report.env_steps = impl_->env_steps();
@@ -258,7 +259,7 @@ IterationReport Trainer::Iterate() {
   }
 }
 
-Policy Trainer::policy() const { return impl_->CurrentPolicy(); }
+RecurrentPolicy Trainer::policy() const { return impl_->CurrentPolicy(); }
 
 void Trainer::Save(const std::string& path) const {
   StoreCheckpoint(impl_->config, impl_->actor_layout, impl_->State()).Write(path);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -5,11 +6,11 @@
 #include <memory>
 #include <string>
 
-#include "envs/tasks/termination.h"
 #include "base/worker_pool.h"
+#include "envs/tasks/termination.h"
 #include "train/network/backend.h"
-#include "train/ppo/learner_config.h"
 #include "train/policy/recurrent_policy.h"
+#include "train/ppo/learner_config.h"
 
 namespace skein {
 
@@ -55,18 +56,18 @@ class Trainer {
 
   /// One rollout and update. Throws Error if a loss or gradient is not finite or explodes; the
   /// whole state is then that before the iteration, and can be saved. So it is if the pool was
-  /// asked to stop, which takes no longer than a decision of a tile of aircraft or the gradient of
-  /// a tile of samples.
+  /// asked to stop, which takes no longer than a policy step of a tile of aircraft or the gradient
+  /// of a tile of samples.
   IterationReport Iterate();
 
-  Policy policy() const;
+  RecurrentPolicy policy() const;
 
   /// Everything needed to go on bit for bit, written atomically (temporary file, fsync, rename,
   /// directory fsync).
   void Save(const std::string& path) const;
   /// Returns the SIMD target that the checkpoint was made on: on another one training goes on, but
   /// not bit for bit. Throws Error if the file is damaged or was made with another configuration of
-  /// networks, environment or learner, or another controller; nothing has changed then.
+  /// networks, environment or learner, or another low-level policy; nothing has changed then.
   std::string Restore(const std::string& path);
 
   /// A 64-bit hash (FNV-1a) of parameters, optimiser, value statistics and environment state.

@@ -1,17 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/training_state.h"
 
 #include <array>
 #include <utility>
 
+#include "base/error.h"
 #include "base/name_in.h"
 #include "envs/tasks/task.h"
-#include "base/error.h"
 #include "simd/target.h"
-#include "train/policy/low_level_file.h"
 #include "train/files/fnv_hash.h"
+#include "train/files/tensor_access.h"
+#include "train/policy/low_level_file.h"
 #include "train/policy/policy_environment.h"
 #include "train/policy/policy_parameters.h"
-#include "train/files/tensor_access.h"
 
 namespace skein {
 namespace {
@@ -53,7 +54,7 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
   if (env.thrust_grows) add("thrust_growth_above_mach_1", env.thrust_grows);
   if (env.drag_rises) add("drag_rise", env.drag_rises);
   if (env.observation_noise_max > 0) add("observation_noise_max", env.observation_noise_max);
-  if (env.wind.blows()) {
+  if (env.wind.enabled()) {
     add("wind.speed_min_fps", env.wind.speed_fps.min);
     add("wind.speed_max_fps", env.wind.speed_fps.max);
     add("wind.from_min_deg", env.wind.from_deg.min);
@@ -97,11 +98,11 @@ void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& field
     add("tracking.training_tolerance_max", env.tracking.training_tolerance_max);
     add("tracking.error_axes", env.tracking.error_axes);
   }
-  if (IsPlanned(env.task)) {
-    add("planner.pitch_change_rad", env.planner.pitch_change_rad);
-    add("planner.yaw_change_rad", env.planner.yaw_change_rad);
-    add("planner.speed_change_fps", env.planner.speed_change_fps);
-    add("planner.averages_observations", env.planner.averages_observations);
+  if (IsHierarchical(env.task)) {
+    add("high_level.pitch_change_rad", env.high_level.pitch_change_rad);
+    add("high_level.yaw_change_rad", env.high_level.yaw_change_rad);
+    add("high_level.speed_change_fps", env.high_level.speed_change_fps);
+    add("high_level.averages_observations", env.high_level.averages_observations);
   }
   add("termination.alpha_min_deg", env.termination.alpha_deg.min);
   add("termination.alpha_max_deg", env.termination.alpha_deg.max);
@@ -125,11 +126,11 @@ void VisitFloats(State& state, const Visit& visit) {
   visit("critic_adam/second_moment", state.critic_adam.second_moment);
   visit("recurrent/actor", state.recurrent.actor);
   visit("recurrent/critic", state.recurrent.critic);
-  visit("recurrent/keep", state.recurrent.keep);
+  visit("recurrent/keep", state.recurrent.not_done);
 }
 
 std::array<std::uint64_t, 5> Counters(const TrainingState& state) {
-  return {state.iteration, state.decisions, static_cast<std::uint64_t>(state.actor_adam.step),
+  return {state.iteration, state.policy_steps, static_cast<std::uint64_t>(state.actor_adam.step),
           static_cast<std::uint64_t>(state.critic_adam.step), state.popart.started ? 1u : 0u};
 }
 
@@ -213,13 +214,13 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
   for (const auto& [name, value] : DescribeConfig(config)) {
     file.metadata[kConfigPrefix + name] = value;
   }
-  Policy::Parameters policy;
+  RecurrentPolicy::Parameters policy;
   policy.config = config.network;
   policy.shape = actor.shape();
   policy.action_repeat = config.env.action_repeat;
   policy.task = config.env.task;
   policy.environment = PolicyEnvironment(config.env);
-  policy.controller = config.controller;
+  policy.low_level = config.low_level;
   policy.values = state.actor;
   StorePolicy(policy, file);
   VisitFloats(state, [&](const char* name, const std::vector<float>& values) {
@@ -246,12 +247,12 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
     throw Error(path + ": the checkpoint does not say on which SIMD target it was made");
   }
   RequireSameConfig(file, path, config);
-  const std::shared_ptr<const Policy::Parameters> policy = LoadPolicy(file, path);
+  const std::shared_ptr<const RecurrentPolicy::Parameters> policy = LoadPolicy(file, path);
   if (!(policy->shape == actor.shape())) {
     throw Error(path + ": its policy has other sizes than the configuration's");
   }
-  if (!IsSameController(policy->controller.get(), config.controller.get())) {
-    throw Error(path + ": made with another controller than the one that flies now");
+  if (!IsSameLowLevelPolicy(policy->low_level.get(), config.low_level.get())) {
+    throw Error(path + ": made with another low-level policy than the one that flies now");
   }
   TrainingState state;
   state.actor = policy->values;
@@ -272,7 +273,7 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
   const std::vector<std::uint64_t> counters = LoadTensor<std::uint64_t>(
       file, path, "counters", {std::tuple_size_v<decltype(Counters(state))>});
   state.iteration = counters[0];
-  state.decisions = counters[1];
+  state.policy_steps = counters[1];
   state.actor_adam.step = static_cast<std::int64_t>(counters[2]);
   state.critic_adam.step = static_cast<std::int64_t>(counters[3]);
   state.popart.started = counters[4] != 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -5,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "train/files/tensor_file.h"
 #include "train/ppo/adam.h"
 #include "train/ppo/learner_config.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/rollout.h"
-#include "train/files/tensor_file.h"
 
 namespace skein {
 
@@ -21,7 +22,7 @@ struct TrainingState {
   RecurrentState recurrent{0, 0};
   std::vector<std::uint32_t> env;  ///< VecEnv's snapshot, clocks and returns of episodes included
   std::uint64_t iteration = 0;
-  std::uint64_t decisions = 0;  ///< per aircraft
+  std::uint64_t policy_steps = 0;  ///< per aircraft
   double best_success_rate = -1, best_return = 0;
 };
 
@@ -37,8 +38,8 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
                            const TrainingState& state);
 
 /// Throws Error, naming `path`, if the file is no checkpoint, was made with another configuration
-/// (naming the first field that differs) or controller, or holds values of another size (of `env`,
-/// VecEnv is the judge).
+/// (naming the first field that differs) or low-level policy, or holds values of another size (of
+/// `env`, VecEnv is the judge).
 TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
                              const TrainConfig& config, const NetworkLayout& actor,
                              const NetworkLayout& critic);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/aircraft/derivative_aircraft.h"
 
 #include <gtest/gtest.h>
@@ -5,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "envs/reference/aerodynamics.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
+#include "envs/reference/aerodynamics.h"
 
 namespace skein {
 namespace {

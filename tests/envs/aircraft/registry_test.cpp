@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/aircraft/registry.h"
 
 #include <gmock/gmock.h>
@@ -7,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "envs/env_config.h"
 #include "base/error.h"
+#include "envs/env_config.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vectorised autopilot against its own laws in float64, and what it owes its callers.
 
 #include <cmath>
@@ -22,7 +23,7 @@ namespace {
 constexpr int kCount = 37;  // two vectors of sixteen and a rest
 const char* const kTasks[] = {"heading", "control", "tracking"};
 
-std::unique_ptr<Pilot> Autopilot(const std::string& task, AutopilotVariant variant) {
+std::unique_ptr<Policy> Autopilot(const std::string& task, AutopilotVariant variant) {
   EnvConfig config;
   config.task = task;
   return MakeAutopilot(config, variant);
@@ -67,17 +68,17 @@ class WanderingObservations {
 
 /// The state and the actions of aircraft that observe what wanders.
 struct Flown {
-  Flown(const Pilot& pilot, int count)
+  Flown(const Policy& pilot, int count)
       : state(static_cast<std::size_t>(count * pilot.state_size())),
         action(static_cast<std::size_t>(count * pilot.action_size())) {}
   std::vector<float> state, action;
 };
 
-Flown FlyFor(const Pilot& pilot, int steps) {
+Flown FlyFor(const Policy& pilot, int steps) {
   WanderingObservations observed(kCount);
   Flown flown(pilot, kCount);
   for (int step = 0; step < steps; ++step) {
-    pilot.Fly(kCount, observed.rows().data(), flown.state.data(), flown.action.data());
+    pilot.Act(kCount, observed.rows().data(), flown.state.data(), flown.action.data());
     observed.Advance();
   }
   return flown;
@@ -94,7 +95,7 @@ std::vector<double> FlyInDouble(AutopilotVariant variant, int steps) {
       double row[kObservationSize];
       std::copy_n(observed.rows().begin() + static_cast<std::ptrdiff_t>(i) * kObservationSize,
                   kObservationSize, row);
-      Law<double>::Fly(GainsOf(variant), AutopilotTiming(), row, memory[i],
+      Law<double>::Act(GainsOf(variant), AutopilotTiming(), row, memory[i],
                        &action[i * kActionSize]);
     }
     observed.Advance();
@@ -140,7 +141,7 @@ TEST_P(AutopilotKernel, NoAircraftDependsOnItsNeighbours) {
   for (int step = 0; step < 50; ++step) {
     for (int first = 0; first < kCount;) {
       const int count = std::min(1 + (first + step) % 19, kCount - first);
-      pilot->Fly(count, observed.rows().data() + first * kObservationSize,
+      pilot->Act(count, observed.rows().data() + first * kObservationSize,
                  apart.state.data() + first * pilot->state_size(),
                  apart.action.data() + first * kActionSize);
       first += count;
@@ -159,8 +160,8 @@ TEST_P(AutopilotKernel, WhatIsNotFiniteStaysWithItsAircraft) {
   std::fill_n(rows.begin() + 5 * kObservationSize, kObservationSize,
               std::numeric_limits<float>::quiet_NaN());
   for (int step = 0; step < 10; ++step) {
-    pilot->Fly(kCount, observed.rows().data(), well.state.data(), well.action.data());
-    pilot->Fly(kCount, rows.data(), sick.state.data(), sick.action.data());
+    pilot->Act(kCount, observed.rows().data(), well.state.data(), well.action.data());
+    pilot->Act(kCount, rows.data(), sick.state.data(), sick.action.data());
   }
   for (std::size_t k = 0; k < well.action.size(); ++k) {
     if (k / kActionSize == 5) continue;
@@ -181,8 +182,8 @@ TEST_P(AutopilotKernel, IsSymmetric) {
         // The error in yaw or to the right; roll, sideslip, roll rate and yaw rate.
         for (const std::size_t k : {1, 4, 11, 13, 15}) mirrored[i * kObservationSize + k] *= -1;
       }
-      pilot->Fly(kCount, observed.rows().data(), right.state.data(), right.action.data());
-      pilot->Fly(kCount, mirrored.data(), left.state.data(), left.action.data());
+      pilot->Act(kCount, observed.rows().data(), right.state.data(), right.action.data());
+      pilot->Act(kCount, mirrored.data(), left.state.data(), left.action.data());
       for (std::size_t k = 0; k < right.action.size(); ++k) {
         const float sign = k % kActionSize == 2 ? -1 : 1;
         ASSERT_EQ(right.action[k], sign * left.action[k]) << step << " " << k;
@@ -203,7 +204,7 @@ TEST_P(AutopilotKernel, OuterLoopsDecideInEveryFifthStep) {
   Flown flown(*pilot, kCount);
   std::vector<float> throttle;
   for (int step = 0; step < 21; ++step) {
-    pilot->Fly(kCount, observed.rows().data(), flown.state.data(), flown.action.data());
+    pilot->Act(kCount, observed.rows().data(), flown.state.data(), flown.action.data());
     observed.Advance();
     std::vector<float> now;
     for (std::size_t i = 0; i < kCount; ++i) now.push_back(flown.action[i * kActionSize]);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/autopilot/autopilot.h"
 
 #include <cmath>
@@ -5,12 +6,12 @@
 #include <random>
 #include <string>
 
+#include "base/error.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
 #include "envs/tasks/control.h"
 #include "envs/tasks/heading.h"
 #include "gtest/gtest.h"
-#include "base/error.h"
 #include "tests/envs/autopilot/flock.h"
 
 namespace skein {
@@ -229,7 +230,7 @@ TEST_P(StepResponse, PathsToAPointAreStraight) {
       path[i] += Speed(flock.env(), aircraft) * config.control_interval_s;
       ended[i] = flock.HasEnded(aircraft);
       if (!ended[i]) continue;
-      EXPECT_EQ(flock.termination(aircraft), Termination::kResetTarget) << i;
+      EXPECT_EQ(flock.termination(aircraft), Termination::kTargetReached) << i;
       EXPECT_LT(path[i], 1.03 * 20000) << i;
     }
   }

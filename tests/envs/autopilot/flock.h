@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -29,7 +30,7 @@ class Flock {
   /// One control step of all.
   void Step() {
     env_.Observe(0, observation_.data());
-    pilot_->Fly(count_, observation_.data(), state_.data(), action_.data());
+    pilot_->Act(count_, observation_.data(), state_.data(), action_.data());
     StepOutput output;
     output.reward = reward_.data();
     output.termination = termination_.data();
@@ -59,7 +60,7 @@ class Flock {
   }
 
   VecEnv env_;
-  std::unique_ptr<Pilot> pilot_;
+  std::unique_ptr<Policy> pilot_;
   int count_;
   std::vector<float> observation_, state_, action_, reward_, episode_return_;
   std::vector<std::uint8_t> termination_;
@@ -82,7 +83,7 @@ inline FlockScore FirstEpisodes(const EnvConfig& config, const AutopilotGains& g
     for (int i = 0; i < count; ++i) {
       if (ended[static_cast<std::size_t>(i)] || !flock.HasEnded(i)) continue;
       ended[static_cast<std::size_t>(i)] = true;
-      if (flock.termination(i) != Termination::kResetTarget) continue;
+      if (flock.termination(i) != Termination::kTargetReached) continue;
       ++reached;
       steps += flock.episode_steps(i);
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include "envs/autopilot/sequencer-inl.h"
@@ -64,9 +65,9 @@ TEST(Sequencer, BeginsAgainWhenTheTargetIsNotReachedInTime) {
   Nose nose;
   nose.gains.speed_lead = 0;
   EXPECT_EQ(nose.Decide(0.1, 0, 0).pitch, 0.1);
-  int decisions = 0;
-  while (nose.Decide(0.1, 0, -100).pitch == 0.1) ++decisions;
-  EXPECT_NEAR(decisions * kDt, nose.gains.patience_s, 2 * kDt);
+  int policy_steps = 0;
+  while (nose.Decide(0.1, 0, -100).pitch == 0.1) ++policy_steps;
+  EXPECT_NEAR(policy_steps * kDt, nose.gains.patience_s, 2 * kDt);
 }
 
 TEST(Sequencer, StaysAtTheTargetWhileItIsNearEnough) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include "envs/autopilot/tecs-inl.h"
@@ -91,7 +92,7 @@ TEST(Tecs, IntegratorStaysWithinItsLimit) {
   EXPECT_LE(level.memory.integrator, level.gains.integrator_limit);
 }
 
-TEST(Tecs, ChangesNothingBetweenDecisions) {
+TEST(Tecs, ChangesNothingBetweenPolicySteps) {
   LevelFlight level;
   const double throttle = level.Throttle({2, 0, 0});
   const double integrator = level.memory.integrator;

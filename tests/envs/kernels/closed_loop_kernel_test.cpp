@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Properties of the whole aircraft as the kernels fly it (flight control, actuators, engine, RK4 in
 // float32) over the flight envelope. The same properties of the float64 aircraft are in
 // closed_loop_test.cpp.
@@ -10,15 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "base/denormals.h"
+#include "base/error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/flight_control_kernel.h"
-#include "envs/state/attitude.h"
-#include "envs/reference/closed_loop.h"
 #include "envs/kernels/plant_kernel.h"
+#include "envs/reference/closed_loop.h"
 #include "envs/reference/trim.h"
-#include "base/denormals.h"
-#include "base/error.h"
+#include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {

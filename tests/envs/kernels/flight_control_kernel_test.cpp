@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/flight_control_kernel.h"
 
 #include <gtest/gtest.h>
@@ -6,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "envs/reference/actuator.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
+#include "envs/reference/actuator.h"
 #include "envs/state/attitude.h"
 #include "simd/random.h"
 #include "tests/envs/every_aircraft.h"

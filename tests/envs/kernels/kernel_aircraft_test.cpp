@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/kernel_aircraft.h"
 
 #include <algorithm>
@@ -6,10 +7,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/error.h"
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/plant_kernel.h"
 #include "gtest/gtest.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {

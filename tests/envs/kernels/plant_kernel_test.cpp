@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/plant_kernel.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
 #include "envs/aircraft/registry.h"
-#include "envs/state/attitude.h"
 #include "envs/reference/plant.h"
+#include "envs/state/attitude.h"
 #include "gtest/gtest.h"
 #include "simd/target.h"
 #include "tests/envs/every_aircraft.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Aerosonde as it flies: against the check values that Beard and McLain publish with their
 // book's simulation files (mavsim_python, chap4_check.py and chap5_check.py), and its flight
 // control over its envelope.

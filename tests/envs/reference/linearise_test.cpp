@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/reference/linearise.h"
 
 #include <gtest/gtest.h>
@@ -6,8 +7,8 @@
 #include <complex>
 
 #include "envs/aircraft/f16.h"
-#include "envs/state/state.h"
 #include "envs/reference/trim.h"
+#include "envs/state/state.h"
 
 namespace skein {
 namespace {

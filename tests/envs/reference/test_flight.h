@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Dense>
@@ -7,8 +8,8 @@
 #include <vector>
 
 #include "envs/aircraft/engine.h"
-#include "envs/state/attitude.h"
 #include "envs/reference/closed_loop.h"
+#include "envs/state/attitude.h"
 #include "envs/state/state.h"
 
 namespace skein {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/reference/trim_table.h"
 
 #include <gtest/gtest.h>
@@ -6,9 +7,9 @@
 #include <random>
 #include <string>
 
+#include "base/error.h"
 #include "envs/aircraft/f16.h"
 #include "envs/reference/trim.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/reference/trim.h"
 
 #include <gtest/gtest.h>
@@ -5,11 +6,11 @@
 #include <cmath>
 #include <string>
 
+#include "base/error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
-#include "base/error.h"
 
 namespace skein {
 namespace {
@@ -40,7 +41,7 @@ TEST(Trim, ReproducesThePublishedTrimOfTheMinnesotaModel) {
 }
 
 // The same model with the centre of gravity at 0.25 chord, 10000 ft and 700 ft/s, as published with
-// a model predictive controller; digits as printed, found by a search as above.
+// a model predictive low-level policy; digits as printed, found by a search as above.
 TEST(Trim, ReproducesThePublishedTrimWithTheForwardCentreOfGravity) {
   const TrimPoint trim = Trim(F16At(0.25), Level(10000, 700));
   EXPECT_NEAR(trim.controls.thrust_lbf, 2886.6468, 0.2);

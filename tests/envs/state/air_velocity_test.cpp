@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every kernel that measures the air takes the velocity relative to it: what it does in wind is, to
 // the bit, what it does in still air with that velocity. StepTile is in plant_kernel_test.cpp.
 
@@ -11,8 +12,8 @@
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/state/attitude.h"
-#include "envs/tasks/reward.h"
 #include "envs/tasks/observation.h"
+#include "envs/tasks/reward.h"
 #include "envs/tasks/task.h"
 #include "simd/random.h"
 #include "tests/envs/test_tile.h"
@@ -84,10 +85,11 @@ TEST_P(AirVelocityTest, Terminations) {
   config.termination.beta_deg = {-6, 6};
   config.termination.max_mach = 1;
   const auto judge = [&](TestTile* flight) {
-    std::vector<float> reward(flight->stride()), decision(reward), total(reward);
+    std::vector<float> reward(flight->stride()), policy_step(reward), total(reward);
     std::vector<std::int32_t> reached(flight->stride()), step(reached), termination(reached);
-    JudgeTile(*kernel_, JudgementLimits(config), flight->tile(), {reward.data(), reached.data()},
-              {step.data(), termination.data(), decision.data(), total.data()});
+    ComputeRewardAndTermination(
+        *kernel_, TerminationLimits(config), flight->tile(), {reward.data(), reached.data()},
+        {step.data(), termination.data(), policy_step.data(), total.data()});
     termination.resize(kCount);
     return termination;
   };
@@ -117,9 +119,10 @@ TEST_P(AirVelocityTest, TargetsOfTrueAirspeed) {
 
     std::vector<float> reward(still_.stride()), windy_reward(reward);
     std::vector<std::int32_t> reached(still_.stride()), windy_reached(reached), steps(reached);
-    task->Judge(still_.tile(), columns.tile(), steps.data(), {reward.data(), reached.data()});
-    task->Judge(windy_.tile(), columns.tile(), steps.data(),
-                {windy_reward.data(), windy_reached.data()});
+    task->ComputeReward(still_.tile(), columns.tile(), steps.data(),
+                        {reward.data(), reached.data()});
+    task->ComputeReward(windy_.tile(), columns.tile(), steps.data(),
+                        {windy_reward.data(), windy_reached.data()});
     EXPECT_EQ(windy_reward, reward) << name;
     EXPECT_EQ(windy_reached, reached) << name;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/control.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +59,8 @@ class ControlTest : public testing::TestWithParam<simd::Target> {
     return errors;
   }
   void JudgeBy(const Task& task) {
-    task.Judge(flight_.tile(), targets_.tile(), steps_.data(), {reward_.data(), reached_.data()});
+    task.ComputeReward(flight_.tile(), targets_.tile(), steps_.data(),
+                       {reward_.data(), reached_.data()});
   }
 
   static constexpr int kCount = 37;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/heading.h"
 
 #include <gtest/gtest.h>
@@ -41,8 +42,9 @@ class HeadingTest : public testing::TestWithParam<simd::Target> {
     task_->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
     return errors;
   }
-  void Judge() {
-    task_->Judge(flight_.tile(), targets_.tile(), steps_.data(), {reward_.data(), reached_.data()});
+  void ComputeReward() {
+    task_->ComputeReward(flight_.tile(), targets_.tile(), steps_.data(),
+                         {reward_.data(), reached_.data()});
   }
 
   static constexpr int kCount = 37;
@@ -88,7 +90,7 @@ TEST_P(HeadingTest, YawErrorTakesTheShortWayRound) {
 TEST_P(HeadingTest, RewardIsMinusTheNormOfTheErrors) {
   SetLevel(0, 0);
   SetTarget(0, 20000 - 0.2 * kFtPerKm, 0.3, 1000 + 0.6 * 340 / 0.3048);
-  Judge();
+  ComputeReward();
   EXPECT_NEAR(reward_[0], -0.7, kTolerance);
 }
 
@@ -100,7 +102,7 @@ TEST_P(HeadingTest, SpeedErrorsCostTheirWeightBesideTheNorm) {
     SetLevel(side, 0);
     SetTarget(side, 20000 - 0.2 * kFtPerKm, 0.3, 1000 + faster);
   }
-  Judge();
+  ComputeReward();
   EXPECT_NEAR(reward_[0], -(0.7 + 3 * 0.6), 2 * kTolerance);
   EXPECT_NEAR(reward_[1], reward_[0], 2 * kTolerance);
 }
@@ -111,7 +113,7 @@ TEST_P(HeadingTest, MirroredErrorsGetTheSameReward) {
     SetLevel(side, sign * 0.8);
     SetTarget(side, 20500, sign * -1.1, 1100);
   }
-  Judge();
+  ComputeReward();
   EXPECT_EQ(reward_[0], reward_[1]);
 }
 
@@ -134,7 +136,7 @@ TEST_P(HeadingTest, IsReachedOnlyInsideAllTolerancesAndNotEarly) {
               1000 + c.speed_ft_s);
     steps_[static_cast<std::size_t>(i)] = c.steps_before;
   }
-  Judge();
+  ComputeReward();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(reached_[i], cases[i].reached ? 1 : 0) << "case " << i;
   }
@@ -153,7 +155,7 @@ TEST_P(HeadingTest, TolerancesAreTheEpisodesShare) {
     SetLevel(i, 0.5);
     SetTarget(i, 20000 + c.altitude_ft, 0.5 + c.yaw_deg / kDegPerRad, 1000 + c.speed_ft_s, 0.5);
   }
-  Judge();
+  ComputeReward();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(reached_[i], cases[i].reached ? 1 : 0) << "case " << i;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/observation.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "envs/tasks/task.h"
 #include "base/error.h"
+#include "envs/tasks/task.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/reward.h"
 
 #include <gtest/gtest.h>
@@ -31,9 +32,10 @@ class JudgementTest : public testing::TestWithParam<simd::Target> {
     flight_.at(kDown, i) = static_cast<float>(-altitude_ft);
     flight_.at(kNz, i) = 1;
   }
-  void Judge() {
-    JudgeTile(*kernel_, JudgementLimits(config_), flight_.tile(), {reward_.data(), reached_.data()},
-              {step_.data(), termination_.data(), decision_.data(), return_.data()});
+  void ComputeReward() {
+    ComputeRewardAndTermination(
+        *kernel_, TerminationLimits(config_), flight_.tile(), {reward_.data(), reached_.data()},
+        {step_.data(), termination_.data(), policy_step_.data(), return_.data()});
   }
   Termination Of(int i) const {
     return static_cast<Termination>(termination_[static_cast<std::size_t>(i)]);
@@ -49,17 +51,17 @@ class JudgementTest : public testing::TestWithParam<simd::Target> {
   std::vector<std::int32_t> reached_ = std::vector<std::int32_t>(flight_.stride());
   std::vector<std::int32_t> step_ = std::vector<std::int32_t>(flight_.stride(), 10);
   std::vector<std::int32_t> termination_ = std::vector<std::int32_t>(flight_.stride());
-  std::vector<float> decision_ = std::vector<float>(flight_.stride());
+  std::vector<float> policy_step_ = std::vector<float>(flight_.stride());
   std::vector<float> return_ = std::vector<float>(flight_.stride(), -3);
 };
 
 TEST_P(JudgementTest, FlyingOnCostsTheTaskRewardAndAStep) {
   config_.reward_scale = 0.5;
-  Judge();
+  ComputeReward();
   for (std::size_t i = 0; i < kCount; ++i) {
     EXPECT_EQ(termination_[i], static_cast<std::int32_t>(Termination::kNone));
     EXPECT_EQ(step_[i], 11);
-    EXPECT_FLOAT_EQ(decision_[i], -0.25f);
+    EXPECT_FLOAT_EQ(policy_step_[i], -0.25f);
     EXPECT_FLOAT_EQ(return_[i], -3.25f);
   }
 }
@@ -98,12 +100,12 @@ TEST_P(JudgementTest, EveryLimitEndsTheEpisodeOnItsFarSideOnly) {
     SetFlight(i, c.speed, c.alpha_deg, c.beta_deg, c.altitude_ft);
     flight_.at(kNz, i) = static_cast<float>(c.nz);
   }
-  Judge();
+  ComputeReward();
   for (int i = 0; i < static_cast<int>(cases.size()); ++i) {
     const Case& c = cases[static_cast<std::size_t>(i)];
     EXPECT_EQ(Of(i), c.expected) << "case " << i;
     const double terminal = c.expected == Termination::kNone ? 0 : -200;
-    EXPECT_FLOAT_EQ(decision_[static_cast<std::size_t>(i)], static_cast<float>(-0.5 + terminal));
+    EXPECT_FLOAT_EQ(policy_step_[static_cast<std::size_t>(i)], static_cast<float>(-0.5 + terminal));
   }
 }
 
@@ -115,33 +117,33 @@ TEST_P(JudgementTest, SuccessAndTimeLimit) {
   reached_[3] = 1;
   reached_[4] = 1;
   flight_.at(kNz, 4) = 11;
-  Judge();
+  ComputeReward();
   EXPECT_EQ(Of(0), Termination::kNone);
-  EXPECT_EQ(Of(1), Termination::kUnreachTarget);
-  EXPECT_FLOAT_EQ(decision_[1], -200.5f);
-  EXPECT_EQ(Of(2), Termination::kResetTarget);
-  EXPECT_FLOAT_EQ(decision_[2], 199.5f);
-  EXPECT_EQ(Of(3), Termination::kResetTarget);
+  EXPECT_EQ(Of(1), Termination::kTimeLimit);
+  EXPECT_FLOAT_EQ(policy_step_[1], -200.5f);
+  EXPECT_EQ(Of(2), Termination::kTargetReached);
+  EXPECT_FLOAT_EQ(policy_step_[2], 199.5f);
+  EXPECT_EQ(Of(3), Termination::kTargetReached);
   EXPECT_EQ(Of(4), Termination::kOverload);
 }
 
 TEST_P(JudgementTest, TruncationHasNoTerminalReward) {
   config_.truncate_at_time_limit = true;
   step_[0] = 2499;
-  Judge();
-  EXPECT_EQ(Of(0), Termination::kUnreachTarget);
-  EXPECT_FLOAT_EQ(decision_[0], -0.5f);
+  ComputeReward();
+  EXPECT_EQ(Of(0), Termination::kTimeLimit);
+  EXPECT_FLOAT_EQ(policy_step_[0], -0.5f);
 }
 
 TEST_P(JudgementTest, AnEndedEpisodeIsLeftAlone) {
-  termination_[7] = static_cast<std::int32_t>(Termination::kResetTarget);
-  decision_[7] = 12;
+  termination_[7] = static_cast<std::int32_t>(Termination::kTargetReached);
+  policy_step_[7] = 12;
   SetFlight(7, 1000, 80, 0, kAltitude);
   flight_.at(kP, 7) = std::numeric_limits<float>::quiet_NaN();
-  Judge();
-  EXPECT_EQ(Of(7), Termination::kResetTarget);
+  ComputeReward();
+  EXPECT_EQ(Of(7), Termination::kTargetReached);
   EXPECT_EQ(step_[7], 10);
-  EXPECT_EQ(decision_[7], 12);
+  EXPECT_EQ(policy_step_[7], 12);
   EXPECT_EQ(return_[7], -3);
 }
 
@@ -153,17 +155,17 @@ TEST_P(JudgementTest, AnythingNotFiniteEndsOnlyItsOwnEpisode) {
     const float before = flight_.at(column, 5);
     flight_.at(column, 5) = bad[column % 3];
     std::fill(termination_.begin(), termination_.end(), 0);
-    std::fill(decision_.begin(), decision_.end(), 0.0f);
-    Judge();
+    std::fill(policy_step_.begin(), policy_step_.end(), 0.0f);
+    ComputeReward();
     for (int i = 0; i < kCount; ++i) {
       EXPECT_EQ(Of(i), i == 5 ? Termination::kNonFinite : Termination::kNone) << column;
     }
-    EXPECT_FLOAT_EQ(decision_[5], -200);
+    EXPECT_FLOAT_EQ(policy_step_[5], -200);
     flight_.at(column, 5) = before;
   }
   std::fill(termination_.begin(), termination_.end(), 0);
   reward_[6] = bad[0];
-  Judge();
+  ComputeReward();
   EXPECT_EQ(Of(6), Termination::kNonFinite);
   EXPECT_TRUE(std::isfinite(return_[6]));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/tracking.h"
 
 #include <gtest/gtest.h>
@@ -46,8 +47,9 @@ class TrackingTest : public testing::TestWithParam<simd::Target> {
           static_cast<float>(position[static_cast<std::size_t>(k)]);
     }
   }
-  void Judge(const Task& task) {
-    task.Judge(flight_.tile(), targets_.tile(), steps_.data(), {reward_.data(), reached_.data()});
+  void ComputeReward(const Task& task) {
+    task.ComputeReward(flight_.tile(), targets_.tile(), steps_.data(),
+                       {reward_.data(), reached_.data()});
   }
   /// Flies one control step from `begin` to `end`, both relative to the target.
   void Pass(int i, const Position& begin, const Position& end) {
@@ -188,7 +190,7 @@ TEST_P(TrackingTest, RewardIsMinusTheDistanceInKilometres) {
     SetPosition(i, {500, -700, 18000});
     SetTarget(i, {500 + a[0] * kUnit, -700 + a[1] * kUnit, 18000 + a[2] * kUnit});
   }
-  Judge(*task_);
+  ComputeReward(*task_);
   const double distance[] = {7, 0, 4, 5, 0.03};
   for (std::size_t i = 0; i < away.size(); ++i) EXPECT_NEAR(reward_[i], -distance[i], kTolerance);
 }
@@ -227,7 +229,7 @@ TEST_P(TrackingTest, IsReachedWhereThePathTouchesTheBox) {
     const Case& c = cases[static_cast<std::size_t>(i)];
     Pass(i, c.begin, c.end);
   }
-  Judge(*task_);
+  ComputeReward(*task_);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(reached_[i], cases[i].reached ? 1 : 0) << cases[i].what;
   }
@@ -237,7 +239,7 @@ TEST_P(TrackingTest, IsReachedWhereThePathTouchesTheBox) {
     const Case& c = cases[static_cast<std::size_t>(i)];
     Pass(i, turned(c.begin), turned(c.end));
   }
-  Judge(*task_);
+  ComputeReward(*task_);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(reached_[i], cases[i].reached ? 1 : 0) << cases[i].what << ", turned";
   }
@@ -267,7 +269,7 @@ TEST_P(TrackingTest, APathEqualsManyPointsOnIt) {
         least = std::min(least, farthest);
       }
     }
-    Judge(*task_);
+    ComputeReward(*task_);
     for (std::size_t i = 0; i < kCount; ++i) {
       if (std::abs(nearest[i] - 100) < kClear) continue;
       EXPECT_EQ(reached_[i], nearest[i] < 100 ? 1 : 0) << "nearest " << nearest[i];
@@ -280,10 +282,10 @@ TEST_P(TrackingTest, APathEqualsManyPointsOnIt) {
 
 TEST_P(TrackingTest, APathBeginsWhereTheLastOneEnded) {
   for (int i = 0; i < kCount; ++i) Pass(i, {500, 0, 0}, {-150.0 - i, 0, 0});
-  Judge(*task_);
+  ComputeReward(*task_);
   for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(reached_[i], 1);
   // The box lies behind now.
-  Judge(*task_);
+  ComputeReward(*task_);
   for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(reached_[i], 0);
 }
 
@@ -318,7 +320,7 @@ TEST_P(TrackingTest, ToleranceIsTheEpisodes) {
     Pass(i, {-30, i == 0 ? 9.0 : 11.0, 0}, {30, i == 0 ? 9.0 : 11.0, 0});
     targets_.at(kTrackingTolerance, i) = 10;
   }
-  Judge(*task_);
+  ComputeReward(*task_);
   EXPECT_EQ(reached_[0], 1);
   EXPECT_EQ(reached_[1], 0);
 }
@@ -327,7 +329,7 @@ TEST_P(TrackingTest, AStateThatIsNotFiniteIsNotReached) {
   for (const int column : {kNorth, kEast, kDown}) {
     Pass(0, {0, 0, 0}, {1, 1, 1});
     flight_.at(column, 0) = std::nanf("");
-    Judge(*task_);
+    ComputeReward(*task_);
     EXPECT_EQ(reached_[0], 0) << column;
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "envs/wind/wind.h"
 
 #include <gtest/gtest.h>
@@ -31,12 +32,12 @@ EnvConfig Steady(double speed_fps, double from_deg, bool step_at_reset) {
 }
 
 /// Flies every aircraft with the same gentle sticks.
-void Fly(VecEnv* env, int decisions) {
+void Fly(VecEnv* env, int policy_steps) {
   std::vector<float> action, reward(kCount), episode_return(kCount);
   for (int i = 0; i < kCount; ++i) action.insert(action.end(), {0.2f, 0.05f, 0.1f, 0});
   std::vector<std::uint8_t> termination(kCount);
   std::vector<std::int32_t> steps(kCount);
-  for (int k = 0; k < decisions; ++k) {
+  for (int k = 0; k < policy_steps; ++k) {
     env->Step(0, action.data(),
               {reward.data(), termination.data(), episode_return.data(), steps.data()});
     for (const std::uint8_t end : termination) ASSERT_EQ(end, 0);

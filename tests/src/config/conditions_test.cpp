@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/config/conditions.h"
 
 #include <gmock/gmock.h>
@@ -6,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "envs/tasks/task.h"
 #include "envs/vec_env.h"
-#include "base/error.h"
 #include "src/config/configuration.h"
 
 namespace skein {

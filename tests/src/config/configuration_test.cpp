@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/config/configuration.h"
 
 #include <gmock/gmock.h>
@@ -8,9 +9,9 @@
 #include <set>
 
 #include "base/error.h"
-#include "src/files/output_file.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 
 namespace skein {
@@ -132,7 +133,8 @@ TEST(Configuration, ThePaperPresetOfControlHasThePapersFigures) {
 TEST(Configuration, ThePaperPresetOfTrackingHasThePapersFigures) {
   // NeuralPlane (NeurIPS 2024), Table 7; what it leaves open, and PPO, as for Heading.
   const TrainConfig tracking = ResolveConfig({"tracking", "paper", "", {}}).train;
-  EXPECT_EQ(tracking.total_steps, std::int64_t{300000000} * 50) << "the paper counts the planner's";
+  EXPECT_EQ(tracking.total_steps, std::int64_t{300000000} * 50)
+      << "the paper counts the high-level policy's";
   EXPECT_EQ(tracking.env.action_repeat, 50);
   EXPECT_EQ(tracking.env.tracking.training_tolerance_max, 1);
   EXPECT_EQ(tracking.env.tracking.distance_ft.min, 2000);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/config/settings.h"
 
 #include <gmock/gmock.h>
@@ -100,7 +101,7 @@ TEST(Settings, WholeNumbersServeAsIntegersAndIntegersAsNumbers) {
 
 /// The task whose presets show the key: its own, or Heading, which comes first.
 std::string OwnerOf(const Setting& setting) {
-  if (setting.key.rfind("env.planner.", 0) == 0) return "tracking";
+  if (setting.key.rfind("env.high_level.", 0) == 0) return "tracking";
   for (const std::string& task : TaskNames()) {
     if (setting.key.rfind("env." + task + ".", 0) == 0) return task;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "src/evaluation/flight_file.h"
 
 #include <gtest/gtest.h>
@@ -137,7 +138,7 @@ TEST_F(FlightFileTest, HasARowForTheStartAndOneForEveryStep) {
   const char* const episodes[] = {"0", "0", "1", "1", "1"};
   const char* const times[] = {"0", "0.01", "0", "0.01", "0.02"};
   const char* const rewards[] = {"", "-0.5", "", "-0.5", "-200.5"};
-  const char* const ends[] = {"", "", "", "", "Overload"};
+  const char* const ends[] = {"", "", "", "", "overload"};
   const char* const rolls[] = {"", "0.5", "", "0.5", "0.5"};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(rows[i].at("episode"), episodes[i]);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every precision of the fused kernels against autograd in float64: gradients of random tiles and
 // of a training's own rollout, and its log-probabilities.
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ class SequenceOf {
     };
     tile_.sequence = {steps, 1, column(tile.sequence.observation, shape.observation_size),
                       tile.sequence.initial_state + index * shape.state_size(),
-                      column(tile.sequence.keep, 1)};
+                      column(tile.sequence.not_done, 1)};
     tile_.actor = {column(tile.actor.action, shape.output_size), column(tile.actor.old_log_prob, 1),
                    column(tile.actor.advantage, 1)};
     tile_.target = column(tile.target, 1);
@@ -181,9 +182,10 @@ class TrainedRollout {
     scaled(rollout_.value, &old_value_);
     const std::vector<float>& states = actor ? rollout_.actor_state : rollout_.critic_state;
     SampleTile tile;
-    tile.sequence = {
-        length, aircraft, rollout_.observation.data() + row * rollout_.observation_size,
-        states.data() + rollout_.row(chunk, 0) * rollout_.state_size, rollout_.keep.data() + row};
+    tile.sequence = {length, aircraft,
+                     rollout_.observation.data() + row * rollout_.observation_size,
+                     states.data() + rollout_.row(chunk, 0) * rollout_.state_size,
+                     rollout_.not_done.data() + row};
     tile.actor = {rollout_.action.data() + row * rollout_.action_size,
                   rollout_.log_prob.data() + row, rollout_.advantage.data() + row};
     tile.target = target_.data();
@@ -208,7 +210,7 @@ class TrainedRollout {
     const float* const log_std = before_.actor.data() + actor_layout_.log_std();
     RolloutSettings settings;
     settings.seed = config_.seed;
-    settings.first_decision = before_.decisions;
+    settings.first_policy_step = before_.policy_steps;
     settings.tanh_mean = config_.network.tanh_mean;
     settings.value_scale = before_.popart.scale();
     env_.Restore(before_.env);
@@ -253,7 +255,8 @@ int ResetsInsideChunks(const Rollout& rollout) {
   int resets = 0;
   for (int step = 0; step < rollout.steps; ++step) {
     if (step % rollout.chunk_length == 0) continue;
-    for (int i = 0; i < rollout.aircraft; ++i) resets += rollout.keep[rollout.row(step, i)] == 0;
+    for (int i = 0; i < rollout.aircraft; ++i)
+      resets += rollout.not_done[rollout.row(step, i)] == 0;
   }
   return resets;
 }

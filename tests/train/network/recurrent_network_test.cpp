@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/network/recurrent_network.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +15,9 @@
 #include "simd/target.h"
 #include "tests/train/network/gradient_comparison.h"
 #include "tests/train/network/sample_tile.h"
+#include "train/libtorch/libtorch_network.h"
 #include "train/network/folded_parameters.h"
 #include "train/network/fused_network.h"
-#include "train/libtorch/libtorch_network.h"
 
 namespace skein {
 namespace {
@@ -190,7 +191,7 @@ TEST_P(RecurrentNetworkTest, FinalStateContinuesTheSequence) {
       network->Forward(step, part);
       state.assign(part.final_state(), part.final_state() + state.size());
       step.observation += 5 * shape.observation_size;
-      step.keep += 5;
+      step.not_done += 5;
     }
     // The same sums, in products of other sizes.
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -208,7 +209,7 @@ TEST_P(RecurrentNetworkTest, ResetInsideAChunkEqualsTwoSequences) {
   const std::vector<float> parameters = DisturbedParameters(layout);
   RandomTile samples(shape, 8, 1);
   constexpr int kReset = 3;
-  for (int step = 0; step < 8; ++step) samples.keep[step] = step == kReset ? 0.0f : 1.0f;
+  for (int step = 0; step < 8; ++step) samples.not_done[step] = step == kReset ? 0.0f : 1.0f;
   const LossSettings settings = FullLossSettings(8);
   const std::vector<float> whole =
       GradientBy(Backend::kFused, layout, parameters, samples.tile(), settings);
@@ -219,7 +220,7 @@ TEST_P(RecurrentNetworkTest, ResetInsideAChunkEqualsTwoSequences) {
   const std::vector<float> zero_state(shape.state_size(), 0.0f);
   const std::vector<float> keeps(8, 1.0f);
   second.sequence.initial_state = zero_state.data();
-  second.sequence.keep = keeps.data();
+  second.sequence.not_done = keeps.data();
   second.sequence.observation += kReset * shape.observation_size;
   second.actor.action += kReset * shape.output_size;
   second.actor.old_log_prob += kReset;
@@ -260,7 +261,7 @@ TEST_P(RecurrentNetworkTest, NotANumberIsNeverSwallowed) {
           expect_shows(samples);
         }
         RandomTile state(shape, 4, 3);
-        state.keep.assign(12, 1.0f);
+        state.not_done.assign(12, 1.0f);
         state.state[0] = value;
         expect_shows(state);
         RandomTile losses(shape, 4, 3);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -23,13 +24,13 @@ class RandomTile {
     advantage = Normal(rows, 1);
     target = Normal(rows, 1);
     old_value = Normal(rows, 1);
-    keep.resize(rows);
-    for (float& value : keep) value = generator_() % 10 == 0 ? 0.0f : 1.0f;
+    not_done.resize(rows);
+    for (float& value : not_done) value = generator_() % 10 == 0 ? 0.0f : 1.0f;
   }
 
   SampleTile tile() const {
     SampleTile tile;
-    tile.sequence = {steps_, batch_, observation.data(), state.data(), keep.data()};
+    tile.sequence = {steps_, batch_, observation.data(), state.data(), not_done.data()};
     tile.actor = {action.data(), log_prob.data(), advantage.data()};
     tile.target = target.data();
     tile.old_value = old_value.data();
@@ -43,7 +44,7 @@ class RandomTile {
     return values;
   }
 
-  std::vector<float> observation, state, keep, action, log_prob, advantage, target, old_value;
+  std::vector<float> observation, state, not_done, action, log_prob, advantage, target, old_value;
 
  private:
   int steps_, batch_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/agent.h"
 
 #include <gtest/gtest.h>
@@ -12,25 +13,25 @@ namespace {
 
 using Floats = std::vector<float>;
 
-/// One decision for `count` aircraft with the same observations.
+/// One policy step for `count` aircraft with the same observations.
 Floats Decide(const Agent& agent, const Agent::Turn& turn, int count) {
   const Floats observation(count * 22, 0.2f);
   Floats state(count * agent.state_size()), action(count * 4, 9);
-  agent.Decide(turn, count, observation.data(), state.data(), action.data());
+  agent.Act(turn, count, observation.data(), state.data(), action.data());
   return action;
 }
 
 Floats Row(const Floats& rows, int i) { return {rows.begin() + 4 * i, rows.begin() + 4 * i + 4}; }
 
-Policy SmallPolicy() {
+RecurrentPolicy SmallPolicy() {
   NetworkConfig config = SmallConfig().network;
   config.initial_log_std = -1;
-  return Policy::Untrained(config, 22, 4, 3, 5);
+  return RecurrentPolicy::Untrained(config, 22, 4, 3, 5);
 }
 
-TEST(AgentTest, IdleCommandsNothing) { EXPECT_EQ(Decide(Agent::Idle(), {}, 3), Floats(12, 0.0f)); }
+TEST(AgentTest, IdleCommandsNothing) { EXPECT_EQ(Decide(Agent::Zero(), {}, 3), Floats(12, 0.0f)); }
 
-TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndDecisionAlone) {
+TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndPolicyStepAlone) {
   const Agent agent = Agent::Random(50);
   EXPECT_EQ(agent.EnvironmentFor({}).action_repeat, 50);
   constexpr int kCount = 20000;
@@ -50,7 +51,7 @@ TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndDecisionAlone) {
 }
 
 TEST(AgentTest, SampledActionsScatterAboutTheMean) {
-  const Policy policy = SmallPolicy();
+  const RecurrentPolicy policy = SmallPolicy();
   const Floats mean = Decide(Agent::MeanOf(policy), {}, 1);
   const Agent sampling = Agent::SamplingFrom(policy);
   EXPECT_EQ(sampling.EnvironmentFor({}).action_repeat, 5);
@@ -74,20 +75,20 @@ TEST(AgentTest, SampledActionsScatterAboutTheMean) {
 
 TEST(AgentTest, AnyPilotCanBeFlown) {
   /// Remembers how often it has decided.
-  class CountingPilot final : public Pilot {
+  class CountingPolicy final : public Policy {
    public:
     int observation_size() const override { return 22; }
     int action_size() const override { return 4; }
     int state_size() const override { return 1; }
     int action_repeat() const override { return 10; }
-    void Fly(int count, const float*, float* state, float* action) const override {
+    void Act(int count, const float*, float* state, float* action) const override {
       for (int i = 0; i < count; ++i) {
         state[i] += 1;
         for (int k = 0; k < 4; ++k) action[4 * i + k] = state[i];
       }
     }
   };
-  const Agent agent = Agent::Of(std::make_shared<CountingPilot>());
+  const Agent agent = Agent::Of(std::make_shared<CountingPolicy>());
   EXPECT_EQ(agent.EnvironmentFor({}).action_repeat, 10);
   EXPECT_EQ(agent.state_size(), 1);
   EXPECT_EQ(Decide(agent, {}, 2), Floats(8, 1.0f));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/evaluate.h"
 
 #include <gtest/gtest.h>
@@ -11,14 +12,16 @@
 namespace skein {
 namespace {
 
-Policy SmallPolicy() { return Policy::Untrained(SmallConfig().network, 22, 4, 3); }
+RecurrentPolicy SmallPolicy() {
+  return RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3);
+}
 
 TEST(EvaluateTest, CountsOneEpisodePerAircraftWhateverTheThreads) {
   const TrainConfig config = SmallConfig();
   EvaluationOptions options;
   options.episodes = 150;
   for (const Agent& agent : {Agent::MeanOf(SmallPolicy()), Agent::SamplingFrom(SmallPolicy()),
-                             Agent::Random(5), Agent::Idle()}) {
+                             Agent::Random(5), Agent::Zero()}) {
     WorkerPool one(1), three(3);
     const EvaluationResult a = Evaluate(agent, config.env, options, one);
     const EvaluationResult b = Evaluate(agent, config.env, options, three);
@@ -47,7 +50,7 @@ TEST(EvaluateTest, TimeToTargetIsTheClockOfTheEpisodesThatReachIt) {
   WorkerPool pool(1);
   const EvaluationResult result = Evaluate(Agent::MeanOf(SmallPolicy()), env, options, pool);
   EXPECT_EQ(result.success_rate, 1);
-  EXPECT_EQ(result.terminations[static_cast<int>(Termination::kResetTarget)], 40);
+  EXPECT_EQ(result.terminations[static_cast<int>(Termination::kTargetReached)], 40);
   EXPECT_DOUBLE_EQ(result.time_to_target_mean_s, 100 * env.control_interval_s);
 }
 
@@ -64,9 +67,9 @@ TEST(EvaluateTest, AllAgentsFlyTheSameEpisodes) {
   const std::uint64_t first = starts(Agent::MeanOf(SmallPolicy()));
   EXPECT_EQ(starts(Agent::SamplingFrom(SmallPolicy())), first);
   EXPECT_EQ(starts(Agent::Random(25)), first);
-  EXPECT_EQ(starts(Agent::Idle()), first);
+  EXPECT_EQ(starts(Agent::Zero()), first);
   options.seed = 9;
-  EXPECT_NE(starts(Agent::Idle()), first);
+  EXPECT_NE(starts(Agent::Zero()), first);
 }
 
 TEST(EvaluateTest, NoiseIsThatOfTheEpisodeWhateverTheRate) {
@@ -75,14 +78,14 @@ TEST(EvaluateTest, NoiseIsThatOfTheEpisodeWhateverTheRate) {
   EvaluationOptions options;
   options.episodes = 3;
   env.action_repeat = 1;
-  VecEnv fast = MakeEvaluationEnv(Agent::Idle(), env, options);
+  VecEnv fast = MakeEvaluationEnv(Agent::Zero(), env, options);
   env.action_repeat = 5;
-  VecEnv slow = MakeEvaluationEnv(Agent::Idle(), env, options);
+  VecEnv slow = MakeEvaluationEnv(Agent::Zero(), env, options);
   StepBuffers a(options.episodes), b(options.episodes);
-  for (int decision = 0; decision < 4; ++decision) {
+  for (int policy_step = 0; policy_step < 4; ++policy_step) {
     fast.Observe(0, a.observation.data());
     slow.Observe(0, b.observation.data());
-    EXPECT_EQ(a.observation, b.observation) << "decision " << decision;
+    EXPECT_EQ(a.observation, b.observation) << "policy step " << policy_step;
     for (int step = 0; step < 5; ++step) fast.Step(0, a.action.data(), a.output());
     slow.Step(0, b.action.data(), b.output());
   }
@@ -107,7 +110,7 @@ TEST(EvaluateTest, MeasuresFlightsOnlyIfAsked) {
 
 TEST(EvaluateTest, SummaryCountsByHand) {
   Episode reached, lost;
-  reached.termination = Termination::kResetTarget;
+  reached.termination = Termination::kTargetReached;
   reached.steps = 400;
   reached.episode_return = 190;
   lost.termination = Termination::kLowAltitude;
@@ -123,7 +126,7 @@ TEST(EvaluateTest, SummaryCountsByHand) {
 
 TEST(EvaluateTest, RefusesAnAgentOfAnotherTask) {
   WorkerPool pool(1);
-  const Policy policy = Policy::Untrained(SmallConfig().network, 20, 4, 3);
+  const RecurrentPolicy policy = RecurrentPolicy::Untrained(SmallConfig().network, 20, 4, 3);
   EXPECT_THROW(Evaluate(Agent::MeanOf(policy), SmallConfig().env, {}, pool), Error);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/low_level_file.h"
 
 #include <gmock/gmock.h>
@@ -11,10 +12,10 @@
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/hierarchy_config.h"
+#include "train/files/tensor_file.h"
 #include "train/policy/autopilot_policy.h"
 #include "train/policy/evaluate.h"
 #include "train/policy/record_flights.h"
-#include "train/files/tensor_file.h"
 #include "train/ppo/trainer.h"
 
 namespace skein {
@@ -23,20 +24,20 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::vector<float> FlyTwice(const Pilot& pilot) {
+std::vector<float> FlyTwice(const Policy& pilot) {
   constexpr int kCount = 9;
   std::vector<float> observation(static_cast<std::size_t>(kCount) * pilot.observation_size());
   for (std::size_t i = 0; i < observation.size(); ++i) observation[i] = std::sin(0.7f * i);
   std::vector<float> state(static_cast<std::size_t>(kCount) * pilot.state_size(), 0.0f);
   std::vector<float> action(static_cast<std::size_t>(kCount) * pilot.action_size());
-  pilot.Fly(kCount, observation.data(), state.data(), action.data());
-  pilot.Fly(kCount, observation.data(), state.data(), action.data());
+  pilot.Act(kCount, observation.data(), state.data(), action.data());
+  pilot.Act(kCount, observation.data(), state.data(), action.data());
   action.insert(action.end(), state.begin(), state.end());
   return action;
 }
 
-Policy Planner(std::shared_ptr<const Pilot> controller) {
-  return Policy::Untrained(SmallConfig().network, 22, 3, 3, 10, std::move(controller));
+RecurrentPolicy HighLevel(std::shared_ptr<const Policy> low_level) {
+  return RecurrentPolicy::Untrained(SmallConfig().network, 22, 3, 3, 10, std::move(low_level));
 }
 
 std::string BytesOf(const std::string& path) {
@@ -44,93 +45,94 @@ std::string BytesOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-class ControllerFileTest : public testing::Test {
+class LowLevelPolicyFileTest : public testing::Test {
  protected:
   const ScratchDirectory scratch_;
-  const std::string path_ = scratch_ / "planner.skein";
+  const std::string path_ = scratch_ / "high_level.skein";
 };
 
-TEST_F(ControllerFileTest, APlannersFileHoldsItsController) {
-  const Policy planner = Planner(SmallController());
-  planner.Save(path_);
-  const Policy loaded = Policy::Load(path_);
+TEST_F(LowLevelPolicyFileTest, AHighLevelsFileHoldsItsLowLevelPolicy) {
+  const RecurrentPolicy high_level = HighLevel(SmallLowLevelPolicy());
+  high_level.Save(path_);
+  const RecurrentPolicy loaded = RecurrentPolicy::Load(path_);
   EXPECT_EQ(loaded.action_size(), 3);
-  ASSERT_NE(loaded.controller(), nullptr);
-  EXPECT_EQ(loaded.controller()->action_repeat(), 4);
-  EXPECT_EQ(FlyTwice(*loaded.controller()), FlyTwice(*SmallController()));
-  EXPECT_EQ(FlyTwice(loaded), FlyTwice(planner));
+  ASSERT_NE(loaded.low_level(), nullptr);
+  EXPECT_EQ(loaded.low_level()->action_repeat(), 4);
+  EXPECT_EQ(FlyTwice(*loaded.low_level()), FlyTwice(*SmallLowLevelPolicy()));
+  EXPECT_EQ(FlyTwice(loaded), FlyTwice(high_level));
   loaded.Save(scratch_ / "again");
   EXPECT_EQ(BytesOf(scratch_ / "again"), BytesOf(path_));
 }
 
-TEST_F(ControllerFileTest, OtherPoliciesHaveNone) {
-  SmallController()->Save(path_);
-  EXPECT_EQ(Policy::Load(path_).controller(), nullptr);
+TEST_F(LowLevelPolicyFileTest, OtherPoliciesHaveNone) {
+  SmallLowLevelPolicy()->Save(path_);
+  EXPECT_EQ(RecurrentPolicy::Load(path_).low_level(), nullptr);
   for (const auto& [name, tensor] : TensorFile::Read(path_).tensors) {
     EXPECT_THAT(name, StartsWith("actor/"));
   }
 }
 
-TEST_F(ControllerFileTest, DamageInTheControllerIsNamed) {
-  Planner(SmallController()).Save(path_);
+TEST_F(LowLevelPolicyFileTest, DamageInTheLowLevelPolicyIsNamed) {
+  HighLevel(SmallLowLevelPolicy()).Save(path_);
   TensorFile file = TensorFile::Read(path_);
   ASSERT_EQ(file.tensors.erase("controller/actor/head.bias"), 1u);
   file.Write(path_);
-  EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("its controller"));
+  EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }), HasSubstr("its low-level policy"));
 }
 
-TEST_F(ControllerFileTest, AnAutopilotIsHeldByItsName) {
+TEST_F(LowLevelPolicyFileTest, AnAutopilotIsHeldByItsName) {
   EnvConfig env;
   env.control_interval_s = 0.01;
-  const auto autopilot = std::make_shared<const AutopilotController>("parallel", env);
-  Planner(autopilot).Save(path_);
-  const Policy loaded = Policy::Load(path_);
-  ASSERT_NE(loaded.controller(), nullptr);
-  EXPECT_EQ(FlyTwice(*loaded.controller()), FlyTwice(*autopilot));
-  EXPECT_TRUE(IsSameController(loaded.controller().get(), autopilot.get()));
-  const AutopilotController slower("parallel", {}), other("aggressive", env);
-  EXPECT_FALSE(IsSameController(&slower, autopilot.get()));
-  EXPECT_FALSE(IsSameController(&other, autopilot.get()));
-  EXPECT_FALSE(IsSameController(SmallController().get(), autopilot.get()));
+  const auto autopilot = std::make_shared<const AutopilotPolicy>("parallel", env);
+  HighLevel(autopilot).Save(path_);
+  const RecurrentPolicy loaded = RecurrentPolicy::Load(path_);
+  ASSERT_NE(loaded.low_level(), nullptr);
+  EXPECT_EQ(FlyTwice(*loaded.low_level()), FlyTwice(*autopilot));
+  EXPECT_TRUE(IsSameLowLevelPolicy(loaded.low_level().get(), autopilot.get()));
+  const AutopilotPolicy slower("parallel", {}), other("aggressive", env);
+  EXPECT_FALSE(IsSameLowLevelPolicy(&slower, autopilot.get()));
+  EXPECT_FALSE(IsSameLowLevelPolicy(&other, autopilot.get()));
+  EXPECT_FALSE(IsSameLowLevelPolicy(SmallLowLevelPolicy().get(), autopilot.get()));
   TensorFile file = TensorFile::Read(path_);
   file.metadata["controller.autopilot"] = "drunken";
   file.Write(path_);
-  EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("drunken"));
+  EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }), HasSubstr("drunken"));
   file.metadata["controller.autopilot"] = "parallel";
   for (const char* interval : {"0.02abc", "", "nan", "-0.02", "0"}) {
     file.metadata["controller.control_interval_s"] = interval;
     file.Write(path_);
-    EXPECT_THAT(MessageOf([&] { Policy::Load(path_); }), HasSubstr("its controller")) << interval;
+    EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }), HasSubstr("its low-level policy"))
+        << interval;
   }
-  EXPECT_THROW(AutopilotController("", {}), Error);
+  EXPECT_THROW(AutopilotPolicy("", {}), Error);
 }
 
-TEST_F(ControllerFileTest, ControllersThatNoFileHoldsAreRefused) {
+TEST_F(LowLevelPolicyFileTest, ControllersThatNoFileHoldsAreRefused) {
   TensorFile file;
-  EXPECT_THROW(StoreController(TestPilot(4), file), Error);
-  // A planner does not fly.
-  EXPECT_THROW(StoreController(Planner(SmallController()), file), Error);
+  EXPECT_THROW(StoreLowLevelPolicy(TestPolicy(4), file), Error);
+  // A high-level policy does not fly.
+  EXPECT_THROW(StoreLowLevelPolicy(HighLevel(SmallLowLevelPolicy()), file), Error);
   EXPECT_TRUE(file.tensors.empty());
 }
 
-TEST_F(ControllerFileTest, ControllersAreTheSameByWhatTheyAre) {
-  EXPECT_TRUE(IsSameController(nullptr, nullptr));
-  EXPECT_FALSE(IsSameController(SmallController().get(), nullptr));
-  EXPECT_TRUE(IsSameController(SmallController().get(), SmallController().get()));
-  EXPECT_FALSE(IsSameController(SmallController(1).get(), SmallController(2).get()));
-  const Policy slower = Policy::Untrained(SmallConfig().network, 22, 4, 11, 5);
-  EXPECT_FALSE(IsSameController(SmallController().get(), &slower));
+TEST_F(LowLevelPolicyFileTest, ControllersAreTheSameByWhatTheyAre) {
+  EXPECT_TRUE(IsSameLowLevelPolicy(nullptr, nullptr));
+  EXPECT_FALSE(IsSameLowLevelPolicy(SmallLowLevelPolicy().get(), nullptr));
+  EXPECT_TRUE(IsSameLowLevelPolicy(SmallLowLevelPolicy().get(), SmallLowLevelPolicy().get()));
+  EXPECT_FALSE(IsSameLowLevelPolicy(SmallLowLevelPolicy(1).get(), SmallLowLevelPolicy(2).get()));
+  const RecurrentPolicy slower = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 11, 5);
+  EXPECT_FALSE(IsSameLowLevelPolicy(SmallLowLevelPolicy().get(), &slower));
 }
 
 TEST(PolicyAsPilot, FliesTheMeanActionClipped) {
   NetworkConfig config = SmallConfig().network;
   config.tanh_mean = false;
   config.actor_head_scale = 5;
-  const Policy policy = Policy::Untrained(config, 22, 4, 3);
+  const RecurrentPolicy policy = RecurrentPolicy::Untrained(config, 22, 4, 3);
   std::vector<float> observation(22 * 5), state(16 * 5), same_state(16 * 5), mean(20), action(20);
   for (std::size_t i = 0; i < observation.size(); ++i) observation[i] = std::sin(0.7f * i);
-  policy.Act(5, observation.data(), state.data(), mean.data());
-  policy.Fly(5, observation.data(), same_state.data(), action.data());
+  policy.ActionMean(5, observation.data(), state.data(), mean.data());
+  policy.Act(5, observation.data(), same_state.data(), action.data());
   EXPECT_EQ(state, same_state);
   int clipped = 0;
   for (std::size_t i = 0; i < mean.size(); ++i) {
@@ -140,38 +142,39 @@ TEST(PolicyAsPilot, FliesTheMeanActionClipped) {
   EXPECT_GT(clipped, 0);
 }
 
-class PlannerTrainingTest : public ControllerFileTest {};
+class HighLevelTrainingTest : public LowLevelPolicyFileTest {};
 
-TEST_F(PlannerTrainingTest, EveryBitIsTheSameForAnyNumberOfThreads) {
+TEST_F(HighLevelTrainingTest, EveryBitIsTheSameForAnyNumberOfThreads) {
   std::uint64_t first = 0;
   for (const int threads : {1, 2, 5}) {
     WorkerPool pool(threads);
-    Trainer trainer(SmallPlannerConfig(), pool);
+    Trainer trainer(SmallHighLevelConfig(), pool);
     while (!trainer.finished()) trainer.Iterate();
     if (first == 0) first = trainer.Signature();
     EXPECT_EQ(trainer.Signature(), first) << threads << " threads";
   }
 }
 
-TEST_F(PlannerTrainingTest, DependsOnWhoFlies) {
+TEST_F(HighLevelTrainingTest, DependsOnWhoFlies) {
   WorkerPool pool(2);
-  TrainConfig other = SmallPlannerConfig();
-  other.controller = SmallController(12);
-  Trainer one(SmallPlannerConfig(), pool), two(other, pool);
+  TrainConfig other = SmallHighLevelConfig();
+  other.low_level = SmallLowLevelPolicy(12);
+  Trainer one(SmallHighLevelConfig(), pool), two(other, pool);
   EXPECT_EQ(one.Signature(), two.Signature()) << "equal at the start";
   one.Iterate();
   two.Iterate();
   EXPECT_NE(one.Signature(), two.Signature());
 }
 
-TEST_F(PlannerTrainingTest, ComputesTheControllerAsItLearnsWhateverComputedItBefore) {
+TEST_F(HighLevelTrainingTest, ComputesTheLowLevelPolicyAsItLearnsWhateverComputedItBefore) {
   WorkerPool pool(2);
   for (const Backend learner : {Backend::kFused, Backend::kLibTorch}) {
     std::vector<std::uint64_t> signatures;
     for (const Backend before : {Backend::kFused, Backend::kLibTorch}) {
-      TrainConfig config = SmallPlannerConfig();
+      TrainConfig config = SmallHighLevelConfig();
       config.learner.backend = learner;
-      config.controller = std::make_shared<const Policy>(SmallController()->WithBackend(before));
+      config.low_level =
+          std::make_shared<const RecurrentPolicy>(SmallLowLevelPolicy()->WithBackend(before));
       Trainer trainer(config, pool);
       trainer.Iterate();
       signatures.push_back(trainer.Signature());
@@ -180,12 +183,12 @@ TEST_F(PlannerTrainingTest, ComputesTheControllerAsItLearnsWhateverComputedItBef
   }
 }
 
-TEST_F(PlannerTrainingTest, GoesOnBitForBitAfterRestoring) {
+TEST_F(HighLevelTrainingTest, GoesOnBitForBitAfterRestoring) {
   WorkerPool pool(2);
-  Trainer whole(SmallPlannerConfig(), pool);
+  Trainer whole(SmallHighLevelConfig(), pool);
   whole.Iterate();
   whole.Save(path_);
-  Trainer resumed(SmallPlannerConfig(), pool);
+  Trainer resumed(SmallHighLevelConfig(), pool);
   resumed.Restore(path_);
   EXPECT_EQ(resumed.Signature(), whole.Signature());
   while (!whole.finished()) {
@@ -198,24 +201,24 @@ TEST_F(PlannerTrainingTest, GoesOnBitForBitAfterRestoring) {
   EXPECT_EQ(BytesOf(scratch_ / "a"), BytesOf(scratch_ / "b"));
 }
 
-TEST_F(PlannerTrainingTest, RefusesACheckpointOverAnotherController) {
+TEST_F(HighLevelTrainingTest, RefusesACheckpointOverAnotherLowLevelPolicy) {
   WorkerPool pool(1);
-  Trainer(SmallPlannerConfig(), pool).Save(path_);
-  TrainConfig other = SmallPlannerConfig();
-  other.controller = SmallController(12);
+  Trainer(SmallHighLevelConfig(), pool).Save(path_);
+  TrainConfig other = SmallHighLevelConfig();
+  other.low_level = SmallLowLevelPolicy(12);
   Trainer trainer(other, pool);
   const std::uint64_t before = trainer.Signature();
-  EXPECT_THAT(MessageOf([&] { trainer.Restore(path_); }), HasSubstr("another controller"));
+  EXPECT_THAT(MessageOf([&] { trainer.Restore(path_); }), HasSubstr("another low-level policy"));
   EXPECT_EQ(trainer.Signature(), before);
 }
 
-TEST_F(PlannerTrainingTest, ACheckpointIsAWholePlanner) {
+TEST_F(HighLevelTrainingTest, ACheckpointIsAWholeHighLevel) {
   WorkerPool pool(2);
-  const TrainConfig config = SmallPlannerConfig();
+  const TrainConfig config = SmallHighLevelConfig();
   Trainer trainer(config, pool);
   trainer.Iterate();
   trainer.Save(path_);
-  const Policy loaded = Policy::Load(path_);
+  const RecurrentPolicy loaded = RecurrentPolicy::Load(path_);
   EXPECT_EQ(loaded.task(), "tracking");
   EXPECT_EQ(loaded.action_repeat(), 10);
   EvaluationOptions options;
@@ -226,14 +229,14 @@ TEST_F(PlannerTrainingTest, ACheckpointIsAWholePlanner) {
   EXPECT_EQ(a.terminations, b.terminations);
 }
 
-TEST_F(PlannerTrainingTest, RecordsWhatWasPlannedAndWhatWasFlown) {
+TEST_F(HighLevelTrainingTest, RecordsWhatWasPlannedAndWhatWasFlown) {
   WorkerPool pool(2);
-  const TrainConfig config = SmallPlannerConfig();
-  const Agent planner = Agent::SamplingFrom(Planner(SmallController()));
+  const TrainConfig config = SmallHighLevelConfig();
+  const Agent high_level = Agent::SamplingFrom(HighLevel(SmallLowLevelPolicy()));
   EvaluationOptions options;
   options.episodes = 20;
-  const EvaluationResult evaluated = Evaluate(planner, config.env, options, pool);
-  const auto flights = RecordFlights(planner, config.env, options, options.episodes, pool);
+  const EvaluationResult evaluated = Evaluate(high_level, config.env, options, pool);
+  const auto flights = RecordFlights(high_level, config.env, options, options.episodes, pool);
   double return_sum = 0;
   for (const RecordedFlight& flight : flights) {
     for (std::size_t i = 0; i < flight.steps.size(); ++i) {
@@ -243,7 +246,7 @@ TEST_F(PlannerTrainingTest, RecordsWhatWasPlannedAndWhatWasFlown) {
       if (i == 0) continue;
       const RecordedStep& before = flight.steps[i - 1];
       EXPECT_EQ(step.action != before.action, i % 10 == 0) << i;
-      // Within a decision of ten steps the controller decides at 0, 4 and 8.
+      // Within a policy step of ten steps the low-level policy decides at 0, 4 and 8.
       EXPECT_EQ(step.stick != before.stick, i % 10 % 4 == 0) << i;
     }
   }

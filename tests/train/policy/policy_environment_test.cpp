@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/policy_environment.h"
 
 #include <gmock/gmock.h>
@@ -9,9 +10,9 @@
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/hierarchy_config.h"
+#include "train/files/tensor_file.h"
 #include "train/policy/autopilot_policy.h"
 #include "train/policy/evaluate.h"
-#include "train/files/tensor_file.h"
 #include "train/ppo/trainer.h"
 
 namespace skein {
@@ -25,13 +26,13 @@ using Change = std::function<void(EnvConfig&)>;
 class PolicyEnvironmentTest : public testing::Test {
  protected:
   /// The policy of a training in `config`, by way of its file.
-  Policy Trained(const TrainConfig& config) const {
+  RecurrentPolicy Trained(const TrainConfig& config) const {
     WorkerPool pool(1);
     Trainer(config, pool).policy().Save(path_);
-    return Policy::Load(path_);
+    return RecurrentPolicy::Load(path_);
   }
   /// Of `policy` flown in `env` with `change`.
-  static std::string ErrorOf(const Policy& policy, EnvConfig env, const Change& change) {
+  static std::string ErrorOf(const RecurrentPolicy& policy, EnvConfig env, const Change& change) {
     change(env);
     EvaluationOptions options;
     options.episodes = 1;
@@ -56,16 +57,16 @@ const std::pair<const char*, Change> kChangesOfMeaning[] = {
 
 const std::pair<const char*, Change> kChangesOfPlanning[] = {
     {"tracking.error_axes", [](EnvConfig& env) { env.tracking.error_axes = TrackingAxes::kEarth; }},
-    {"planner.averages_observations",
-     [](EnvConfig& env) { env.planner.averages_observations = true; }},
-    {"planner.pitch_change_rad", [](EnvConfig& env) { env.planner.pitch_change_rad = 0.2; }},
-    {"planner.yaw_change_rad", [](EnvConfig& env) { env.planner.yaw_change_rad = 0.2; }},
-    {"planner.speed_change_fps", [](EnvConfig& env) { env.planner.speed_change_fps = 40; }},
+    {"high_level.averages_observations",
+     [](EnvConfig& env) { env.high_level.averages_observations = true; }},
+    {"high_level.pitch_change_rad", [](EnvConfig& env) { env.high_level.pitch_change_rad = 0.2; }},
+    {"high_level.yaw_change_rad", [](EnvConfig& env) { env.high_level.yaw_change_rad = 0.2; }},
+    {"high_level.speed_change_fps", [](EnvConfig& env) { env.high_level.speed_change_fps = 40; }},
 };
 
 TEST_F(PolicyEnvironmentTest, PoliciesFlyOnlyWhatTheyWereMadeFor) {
   const TrainConfig config = SmallConfig();
-  const Policy policy = Trained(config);
+  const RecurrentPolicy policy = Trained(config);
   for (const auto& [key, change] : kChangesOfMeaning) {
     EXPECT_THAT(ErrorOf(policy, config.env, change),
                 StartsWith("the policy was made with env." + std::string(key) + " = "));
@@ -75,53 +76,56 @@ TEST_F(PolicyEnvironmentTest, PoliciesFlyOnlyWhatTheyWereMadeFor) {
                       env.action_repeat = 1;
                       env.observation_noise = 0.1;
                       env.heading.yaw_change_rad = 1;
-                      env.planner.yaw_change_rad = 1;  // of no planner
+                      env.high_level.yaw_change_rad = 1;  // of no high-level policy
                     }),
             "");
 }
 
-TEST_F(PolicyEnvironmentTest, PlannersFlyOnlyWhatTheyWereMadeFor) {
-  const TrainConfig config = SmallPlannerConfig();
-  const Policy planner = Trained(config);
+TEST_F(PolicyEnvironmentTest, HighLevelsFlyOnlyWhatTheyWereMadeFor) {
+  const TrainConfig config = SmallHighLevelConfig();
+  const RecurrentPolicy high_level = Trained(config);
   for (const auto& [key, change] : kChangesOfPlanning) {
-    EXPECT_THAT(ErrorOf(planner, config.env, change),
+    EXPECT_THAT(ErrorOf(high_level, config.env, change),
                 StartsWith("the policy was made with env." + std::string(key) + " = "));
   }
-  EXPECT_EQ(ErrorOf(planner, config.env, [](EnvConfig& env) { env.tracking.azimuth_deg = 9; }), "");
+  EXPECT_EQ(ErrorOf(high_level, config.env, [](EnvConfig& env) { env.tracking.azimuth_deg = 9; }),
+            "");
 }
 
-TEST_F(PolicyEnvironmentTest, SoDoTheControllersOfPlanners) {
+TEST_F(PolicyEnvironmentTest, SoDoTheLowLevelPolicysOfHighLevels) {
   TrainConfig config = SmallConfig();
   config.env.task = "control";
   config.env.control_interval_s = 0.01;
-  const auto controller = std::make_shared<const Policy>(Trained(config));
-  const Policy planner =
-      Policy::Untrained(config.network, 22, 3, 3, /*action_repeat=*/10, controller);
-  EnvConfig env = SmallPlannerConfig().env;
-  EXPECT_THAT(ErrorOf(planner, env, [](EnvConfig&) {}),
-              StartsWith("the policy's controller was made with env.control_interval_s = 0.01"));
-  EXPECT_EQ(ErrorOf(planner, env, [](EnvConfig& flown) { flown.control_interval_s = 0.01; }), "");
+  const auto low_level = std::make_shared<const RecurrentPolicy>(Trained(config));
+  const RecurrentPolicy high_level =
+      RecurrentPolicy::Untrained(config.network, 22, 3, 3, /*action_repeat=*/10, low_level);
+  EnvConfig env = SmallHighLevelConfig().env;
+  EXPECT_THAT(
+      ErrorOf(high_level, env, [](EnvConfig&) {}),
+      StartsWith("the policy's low-level policy was made with env.control_interval_s = 0.01"));
+  EXPECT_EQ(ErrorOf(high_level, env, [](EnvConfig& flown) { flown.control_interval_s = 0.01; }),
+            "");
 
-  TrainConfig training = SmallPlannerConfig();
-  training.controller = controller;
+  TrainConfig training = SmallHighLevelConfig();
+  training.low_level = low_level;
   EXPECT_THAT(MessageOf([&] { Trained(training); }),
-              StartsWith("the controller was made with env.control_interval_s = 0.01"));
-  training.controller = std::make_shared<const Policy>(Trained(SmallConfig()));
+              StartsWith("the low-level policy was made with env.control_interval_s = 0.01"));
+  training.low_level = std::make_shared<const RecurrentPolicy>(Trained(SmallConfig()));
   EXPECT_THAT(MessageOf([&] { Trained(training); }),
-              StartsWith("the controller was made with env.task = heading"));
+              StartsWith("the low-level policy was made with env.task = heading"));
 }
 
 TEST_F(PolicyEnvironmentTest, AnAutopilotFromAFileFliesOnlyWhatItHasGainsFor) {
-  const TrainConfig config = SmallPlannerConfig();
-  Policy::Untrained(config.network, 22, 3, 3, /*action_repeat=*/10,
-                    std::make_shared<const AutopilotController>("parallel", config.env))
+  const TrainConfig config = SmallHighLevelConfig();
+  RecurrentPolicy::Untrained(config.network, 22, 3, 3, /*action_repeat=*/10,
+                             std::make_shared<const AutopilotPolicy>("parallel", config.env))
       .Save(path_);
-  const Policy planner = Policy::Load(path_);
-  EXPECT_EQ(ErrorOf(planner, config.env, [](EnvConfig&) {}), "");
+  const RecurrentPolicy high_level = RecurrentPolicy::Load(path_);
+  EXPECT_EQ(ErrorOf(high_level, config.env, [](EnvConfig&) {}), "");
   for (const auto& [key, change] : kChangesOfMeaning) {
     if (std::string(key) == "task") continue;
-    const std::string error = ErrorOf(planner, config.env, change);
-    EXPECT_THAT(error, StartsWith("the policy's controller"));
+    const std::string error = ErrorOf(high_level, config.env, change);
+    EXPECT_THAT(error, StartsWith("the policy's low-level policy"));
     EXPECT_THAT(error, HasSubstr("env." + std::string(key) + " = "));
   }
 }
@@ -135,8 +139,8 @@ TEST_F(PolicyEnvironmentTest, WhatAFileDoesNotSayIsNotChecked) {
     ASSERT_EQ(file.metadata.erase("policy.env." + std::string(key)), 1u) << key;
   }
   file.Write(path_);
-  const Policy untrained = Policy::Untrained(config.network, 22, 4, 3);
-  for (const Policy& policy : {Policy::Load(path_), untrained}) {
+  const RecurrentPolicy untrained = RecurrentPolicy::Untrained(config.network, 22, 4, 3);
+  for (const RecurrentPolicy& policy : {RecurrentPolicy::Load(path_), untrained}) {
     for (const auto& [key, change] : kChangesOfMeaning) {
       EXPECT_EQ(ErrorOf(policy, config.env, change), "") << key;
     }
@@ -144,17 +148,17 @@ TEST_F(PolicyEnvironmentTest, WhatAFileDoesNotSayIsNotChecked) {
 }
 
 TEST_F(PolicyEnvironmentTest, AxesAndRateAreThePilotsOwn) {
-  TrainConfig config = SmallPlannerConfig();
+  TrainConfig config = SmallHighLevelConfig();
   config.env.tracking.error_axes = TrackingAxes::kPath;
-  config.env.planner.averages_observations = true;
-  const Policy policy = Trained(config);
+  config.env.high_level.averages_observations = true;
+  const RecurrentPolicy policy = Trained(config);
   EnvConfig episodes = config.env;
   episodes.tracking.error_axes = TrackingAxes::kEarth;
   episodes.tracking.azimuth_deg = 77;
   episodes.action_repeat = 3;
   const EnvConfig own = policy.EnvironmentFor(episodes);
   EXPECT_EQ(own.tracking.error_axes, TrackingAxes::kPath);
-  EXPECT_TRUE(own.planner.averages_observations);
+  EXPECT_TRUE(own.high_level.averages_observations);
   EXPECT_EQ(own.action_repeat, config.env.action_repeat);
   EXPECT_EQ(own.tracking.azimuth_deg, 77) << "the episodes are not";
 
@@ -165,7 +169,7 @@ TEST_F(PolicyEnvironmentTest, AxesAndRateAreThePilotsOwn) {
 
 TEST_F(PolicyEnvironmentTest, CheckpointsSayItToo) {
   WorkerPool pool(1);
-  const TrainConfig config = SmallPlannerConfig();
+  const TrainConfig config = SmallHighLevelConfig();
   Trainer trainer(config, pool);
   trainer.Save(path_);
   const TensorFile checkpoint = TensorFile::Read(path_);

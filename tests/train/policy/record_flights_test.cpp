@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/record_flights.h"
 
 #include <gtest/gtest.h>
@@ -26,8 +27,9 @@ class RecordFlightsTest : public ::testing::Test {
   }
 
   EnvConfig env_ = SmallConfig().env;
-  Agent mean_ = Agent::MeanOf(Policy::Untrained(SmallConfig().network, 22, 4, 3));
-  Agent sampling_ = Agent::SamplingFrom(Policy::Untrained(SmallConfig().network, 22, 4, 3));
+  Agent mean_ = Agent::MeanOf(RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3));
+  Agent sampling_ =
+      Agent::SamplingFrom(RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3));
   Agent agent_ = mean_;
   EvaluationOptions options_;
   WorkerPool pool_{2};
@@ -43,14 +45,14 @@ bool Same(const RecordedFlight& a, const RecordedFlight& b) {
 }
 
 TEST_F(RecordFlightsTest, FliesWhatWasEvaluated) {
-  // Some end early, in the middle of a decision too.
+  // Some end early, in the middle of a policy step too.
   env_.termination.max_load_factor = 1.4;
   for (const bool deterministic : {true, false}) {
     agent_ = deterministic ? mean_ : sampling_;
     const EvaluationResult evaluated = Evaluate(agent_, env_, options_, pool_);
     std::array<int, kNumTerminations> terminations{};
     double return_sum = 0;
-    bool mid_decision = false;
+    bool mid_policy_step = false;
     for (const RecordedFlight& flight : Record(kEpisodes, pool_)) {
       ASSERT_FALSE(flight.steps.empty());
       for (const RecordedStep& step : flight.steps) {
@@ -58,13 +60,13 @@ TEST_F(RecordFlightsTest, FliesWhatWasEvaluated) {
         return_sum += step.reward;
       }
       ++terminations[static_cast<std::size_t>(flight.steps.back().termination)];
-      mid_decision |= flight.steps.size() % env_.action_repeat != 0;
+      mid_policy_step |= flight.steps.size() % env_.action_repeat != 0;
     }
     EXPECT_EQ(terminations, evaluated.terminations);
     // Sums of at most 100 rewards of order one (and one of 200), in another order.
     EXPECT_NEAR(return_sum / kEpisodes, evaluated.return_mean, 1e-3);
     if (!deterministic) {
-      EXPECT_TRUE(mid_decision);
+      EXPECT_TRUE(mid_policy_step);
     }
   }
 }
@@ -83,7 +85,7 @@ TEST_F(RecordFlightsTest, DependsNeitherOnThreadsNorOnHowManyAreRecorded) {
   EXPECT_EQ(Record(kEpisodes + 1, one).size(), all.size());
 }
 
-TEST_F(RecordFlightsTest, HoldsActionsForADecision) {
+TEST_F(RecordFlightsTest, HoldsActionsForAPolicyStep) {
   agent_ = sampling_;
   for (const RecordedFlight& flight : Record(4, pool_)) {
     int changes = 0;

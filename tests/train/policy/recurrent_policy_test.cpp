@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/policy/recurrent_policy.h"
 
 #include <gtest/gtest.h>
@@ -14,13 +15,13 @@
 namespace skein {
 namespace {
 
-std::vector<float> Decide(const Policy& policy, int count) {
+std::vector<float> Decide(const RecurrentPolicy& policy, int count) {
   std::vector<float> observation(static_cast<std::size_t>(count) * policy.observation_size());
   for (std::size_t i = 0; i < observation.size(); ++i) observation[i] = std::sin(0.7f * i);
   std::vector<float> state(static_cast<std::size_t>(count) * policy.state_size(), 0.0f);
   std::vector<float> mean(static_cast<std::size_t>(count) * policy.action_size());
-  policy.Act(count, observation.data(), state.data(), mean.data());
-  policy.Act(count, observation.data(), state.data(), mean.data());
+  policy.ActionMean(count, observation.data(), state.data(), mean.data());
+  policy.ActionMean(count, observation.data(), state.data(), mean.data());
   mean.insert(mean.end(), state.begin(), state.end());
   return mean;
 }
@@ -31,10 +32,10 @@ class PolicyTest : public testing::Test {
   const std::string path_ = scratch_ / "policy.skein";
 };
 
-TEST_F(PolicyTest, FileGivesTheSameDecisions) {
-  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3, 5);
+TEST_F(PolicyTest, FileGivesTheSamePolicySteps) {
+  const RecurrentPolicy policy = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3, 5);
   policy.Save(path_);
-  const Policy loaded = Policy::Load(path_);
+  const RecurrentPolicy loaded = RecurrentPolicy::Load(path_);
   EXPECT_EQ(loaded.observation_size(), 22);
   EXPECT_EQ(loaded.action_size(), 4);
   EXPECT_EQ(loaded.state_size(), 16);
@@ -51,9 +52,9 @@ TEST_F(PolicyTest, FilesKeepEveryShape) {
       config.hidden_layers = depth;
       config.gru_layers = depth + 1;
       config.activation = activation;
-      const Policy policy = Policy::Untrained(config, 22, 4, 3);
+      const RecurrentPolicy policy = RecurrentPolicy::Untrained(config, 22, 4, 3);
       policy.Save(path_);
-      const Policy loaded = Policy::Load(path_);
+      const RecurrentPolicy loaded = RecurrentPolicy::Load(path_);
       EXPECT_EQ(loaded.config().hidden_layers, depth);
       EXPECT_EQ(loaded.config().activation, activation);
       EXPECT_EQ(loaded.state_size(), 10 * (depth + 1));
@@ -63,19 +64,19 @@ TEST_F(PolicyTest, FilesKeepEveryShape) {
 }
 
 TEST_F(PolicyTest, ReadsFilesFromBeforeNetworksHadDepths) {
-  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  const RecurrentPolicy policy = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3);
   policy.Save(path_);
   TensorFile file = TensorFile::Read(path_);
   for (const char* key : {"policy.hidden_layers", "policy.gru_layers", "policy.activation"}) {
     EXPECT_EQ(file.metadata.erase(key), 1u) << key;
   }
   file.Write(path_);
-  EXPECT_EQ(Decide(Policy::Load(path_), 5), Decide(policy, 5));
+  EXPECT_EQ(Decide(RecurrentPolicy::Load(path_), 5), Decide(policy, 5));
 }
 
 TEST_F(PolicyTest, BackendsDecideAlike) {
-  const Policy fused = Policy::Untrained(SmallConfig().network, 22, 4, 3);
-  const Policy libtorch = fused.WithBackend(Backend::kLibTorch);
+  const RecurrentPolicy fused = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3);
+  const RecurrentPolicy libtorch = fused.WithBackend(Backend::kLibTorch);
   EXPECT_EQ(fused.backend().backend, Backend::kFused);
   EXPECT_EQ(libtorch.backend().backend, Backend::kLibTorch);
   const std::vector<float> a = Decide(fused, 9), b = Decide(libtorch, 9);
@@ -83,17 +84,18 @@ TEST_F(PolicyTest, BackendsDecideAlike) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
 }
 
-TEST_F(PolicyTest, AControllerIsComputedAsItsPlannerIs) {
-  const auto fused =
-      std::make_shared<const Policy>(Policy::Untrained(SmallConfig().network, 22, 4, 3));
-  const Policy planner = Policy::Untrained(SmallConfig().network, 22, 3, 3, 10, fused);
-  EXPECT_EQ(planner.controller(), fused);
+TEST_F(PolicyTest, ALowLevelPolicyIsComputedAsItsHighLevelIs) {
+  const auto fused = std::make_shared<const RecurrentPolicy>(
+      RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3));
+  const RecurrentPolicy high_level =
+      RecurrentPolicy::Untrained(SmallConfig().network, 22, 3, 3, 10, fused);
+  EXPECT_EQ(high_level.low_level(), fused);
   for (const Backend backend : {Backend::kLibTorch, Backend::kFused}) {
-    const Policy computed = planner.WithBackend(backend);
-    const auto controller = std::dynamic_pointer_cast<const Policy>(computed.controller());
-    ASSERT_NE(controller, nullptr);
-    EXPECT_EQ(controller->backend().backend, backend);
-    const std::vector<float> a = Decide(*fused, 9), b = Decide(*controller, 9);
+    const RecurrentPolicy computed = high_level.WithBackend(backend);
+    const auto low_level = std::dynamic_pointer_cast<const RecurrentPolicy>(computed.low_level());
+    ASSERT_NE(low_level, nullptr);
+    EXPECT_EQ(low_level->backend().backend, backend);
+    const std::vector<float> a = Decide(*fused, 9), b = Decide(*low_level, 9);
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
   }
 }
@@ -103,18 +105,18 @@ TEST_F(PolicyTest, ACheckpointIsAPolicyToo) {
   Trainer trainer(SmallConfig(), pool);
   trainer.Iterate();
   trainer.Save(path_);
-  EXPECT_EQ(Decide(Policy::Load(path_), 5), Decide(trainer.policy(), 5));
+  EXPECT_EQ(Decide(RecurrentPolicy::Load(path_), 5), Decide(trainer.policy(), 5));
 }
 
 TEST_F(PolicyTest, UntrainedIsWhatTrainingBeginsWith) {
   const TrainConfig config = SmallConfig();
   WorkerPool pool(1);
-  EXPECT_EQ(Decide(Policy::Untrained(config.network, 22, 4, config.seed), 3),
+  EXPECT_EQ(Decide(RecurrentPolicy::Untrained(config.network, 22, 4, config.seed), 3),
             Decide(Trainer(config, pool).policy(), 3));
 }
 
 TEST_F(PolicyTest, SeveralThreadsDecideAtOnce) {
-  const Policy policy = Policy::Untrained(SmallConfig().network, 22, 4, 3);
+  const RecurrentPolicy policy = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3);
   const std::vector<float> expected = Decide(policy, 40);
   std::vector<std::vector<float>> results(4);
   std::vector<std::thread> threads;
@@ -125,7 +127,7 @@ TEST_F(PolicyTest, SeveralThreadsDecideAtOnce) {
 
 TEST_F(PolicyTest, RefusesFilesThatAreNoPolicy) {
   const auto refused = [&](const char* key, const char* value) {
-    Policy::Untrained(SmallConfig().network, 22, 4, 3).Save(path_);
+    RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3).Save(path_);
     TensorFile file = TensorFile::Read(path_);
     if (value == nullptr) {
       file.metadata.erase(key);
@@ -133,7 +135,7 @@ TEST_F(PolicyTest, RefusesFilesThatAreNoPolicy) {
       file.metadata[key] = value;
     }
     file.Write(path_);
-    EXPECT_THROW(Policy::Load(path_), Error) << key;
+    EXPECT_THROW(RecurrentPolicy::Load(path_), Error) << key;
   };
   refused("policy.format", "skein-policy-99");
   refused("policy.format", nullptr);
@@ -148,11 +150,11 @@ TEST_F(PolicyTest, RefusesFilesThatAreNoPolicy) {
   refused("policy.activation", "RELU");
   refused("policy.action_size", "");
   refused("policy.action_repeat", "0");
-  Policy::Untrained(SmallConfig().network, 22, 4, 3).Save(path_);
+  RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3).Save(path_);
   TensorFile file = TensorFile::Read(path_);
   file.tensors["actor/head.bias"].bytes.assign(16, 0xff);  // not-a-number
   file.Write(path_);
-  EXPECT_THROW(Policy::Load(path_), Error);
+  EXPECT_THROW(RecurrentPolicy::Load(path_), Error);
 }
 
 }  // namespace

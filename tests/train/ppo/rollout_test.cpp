@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/rollout.h"
 
 #include <gtest/gtest.h>
@@ -85,8 +86,8 @@ struct Flight {
   EpisodeStatistics Fly() {
     RolloutSettings settings;
     settings.seed = config.seed;
-    settings.first_decision = decisions;
-    decisions += config.ppo.rollout_steps;
+    settings.first_policy_step = policy_steps;
+    policy_steps += config.ppo.rollout_steps;
     const std::vector<float> log_std(4, 0.0f);
     return CollectRollout(env, actor, critic, log_std, settings, pool, state, rollout);
   }
@@ -99,7 +100,7 @@ struct Flight {
   std::vector<float> actor_parameters;
   Rollout rollout;
   RecurrentState state;
-  std::uint64_t decisions = 0;
+  std::uint64_t policy_steps = 0;
 };
 
 TEST(RolloutTest, LogProbabilitiesRecomputedFromChunksAreTheRolloutsOwn) {
@@ -118,7 +119,7 @@ TEST(RolloutTest, LogProbabilitiesRecomputedFromChunksAreTheRolloutsOwn) {
     flight.actor.Forward(
         {length, aircraft, rollout.observation.data() + row * rollout.observation_size,
          rollout.actor_state.data() + rollout.row(chunk, 0) * rollout.state_size,
-         rollout.keep.data() + row},
+         rollout.not_done.data() + row},
         workspace);
     GaussianMean(static_cast<std::int64_t>(mean.size()), true, workspace.output(), mean.data());
     LogProbability(length * aircraft, 4, mean.data(), log_std.data(),
@@ -135,10 +136,11 @@ TEST(RolloutTest, EpisodesBeginWhereOthersEnded) {
   const Rollout& rollout = flight.rollout;
   for (int step = 0; step + 1 < rollout.steps; ++step) {
     for (int i = 0; i < rollout.aircraft; ++i) {
-      EXPECT_EQ(rollout.keep[rollout.row(step + 1, i)], rollout.ends[rollout.row(step, i)] ? 0 : 1);
+      EXPECT_EQ(rollout.not_done[rollout.row(step + 1, i)],
+                rollout.ends[rollout.row(step, i)] ? 0 : 1);
     }
   }
-  for (int i = 0; i < rollout.aircraft; ++i) EXPECT_EQ(rollout.keep[i], 0);
+  for (int i = 0; i < rollout.aircraft; ++i) EXPECT_EQ(rollout.not_done[i], 0);
 }
 
 TEST(RolloutTest, TruncationAddsTheValueOfWhatWasSeenLast) {

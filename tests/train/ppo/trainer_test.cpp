@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/trainer.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +114,7 @@ TEST_F(TrainerTest, RefusesACheckpointWhosePolicyHasOtherSizes) {
   Trainer(SmallConfig(), pool).Save(path_);
   TensorFile file = TensorFile::Read(path_);
   // Forged: a larger policy than the configuration says would not fit into the trainer's memory.
-  Policy::Parameters larger;
+  RecurrentPolicy::Parameters larger;
   larger.config = SmallConfig().network;
   larger.config.hidden_size = 64;
   larger.shape = ActorShape(larger.config, 22, 4);
