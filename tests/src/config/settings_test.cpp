@@ -115,7 +115,7 @@ std::size_t CountLines(const std::string& text, const std::string& beginning) {
 }
 
 TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
-  const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
+  const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/reference/configuration.md");
   for (const Setting& setting : Settings()) {
     // A task's own keys as its presets set them, all others as Heading's do.
     const std::string task = OwnerOf(setting);
@@ -133,7 +133,7 @@ TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
 }
 
 TEST(Settings, DocumentationSaysWhereThePresetsOfOtherTasksDiffer) {
-  const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/program.md");
+  const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/reference/configuration.md");
   std::size_t rows = 0;
   for (const std::string& task : TaskNames()) {
     for (const std::string preset : {"default", "paper"}) {
