@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "train/ppo/learner_config.h"
+#include "train/ppo/train_config.h"
 
 namespace skein {
 

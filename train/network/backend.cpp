@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/name_in.h"
 #include "simd/target.h"
 
 namespace skein {
@@ -33,6 +34,9 @@ std::string DescribePrecision(LearnerPrecision precision) {
 }
 
 }  // namespace
+
+const char* Name(Backend backend) { return NameIn(kBackendNames, backend); }
+const char* Name(LearnerPrecision precision) { return NameIn(kPrecisionNames, precision); }
 
 std::string FusedLimitation(const NetworkShape& shape) {
   if (shape.activation == Activation::kRelu) return "";

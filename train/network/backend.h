@@ -1,12 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
+#include <utility>
 
 #include "train/network/affine_map.h"
 #include "train/network/network.h"
 
 namespace skein {
+
+/// What computes the networks, forward and backward.
+enum class Backend {
+  kFused,     ///< own kernels, tile by tile
+  kLibTorch,  ///< LibTorch's operations and autograd: the reference, two to three times slower
+};
+
+/// Names in configurations and files.
+inline constexpr std::array<std::pair<Backend, const char*>, 2> kBackendNames{
+    {{Backend::kFused, "fused"}, {Backend::kLibTorch, "libtorch"}}};
+const char* Name(Backend backend);
+
+/// Of the operands of a network's products; sums and all the rest are float32.
+enum class LearnerPrecision {
+  kAuto,  ///< kFast where the processor multiplies bfloat16 itself, else kFloat32
+  kFloat32,
+  kMixed,     ///< forward float32, backward bfloat16
+  kBfloat16,  ///< both bfloat16
+  kFast,      ///< actor kMixed, critic kBfloat16
+};
+
+/// Names in configurations and files.
+inline constexpr std::array<std::pair<LearnerPrecision, const char*>, 5> kPrecisionNames{
+    {{LearnerPrecision::kAuto, "auto"},
+     {LearnerPrecision::kFloat32, "fp32"},
+     {LearnerPrecision::kMixed, "mixed"},
+     {LearnerPrecision::kBfloat16, "bf16"},
+     {LearnerPrecision::kFast, "fast"}}};
+const char* Name(LearnerPrecision precision);
 
 /// What computes a network, and why, if it is not what was asked for.
 struct BackendChoice {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "train/ppo/learner_config.h"
+#include "train/network/network_config.h"
 
 namespace skein {
 

@@ -6,6 +6,7 @@
 
 #include "base/aligned_vector.h"
 #include "train/network/affine_map.h"
+#include "train/network/backend.h"
 #include "train/network/fused_activations.h"
 #include "train/network/network.h"
 #include "train/network/ppo_loss.h"

@@ -6,7 +6,6 @@
 
 #include "envs/policy.h"
 #include "train/network/backend.h"
-#include "train/ppo/learner_config.h"
 
 namespace skein {
 

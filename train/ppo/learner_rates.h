@@ -5,7 +5,7 @@
 
 #include "base/worker_pool.h"
 #include "train/network/backend.h"
-#include "train/ppo/learner_config.h"
+#include "train/ppo/train_config.h"
 
 namespace skein {
 

@@ -10,6 +10,7 @@
 #include "train/network/recurrent_network.h"
 #include "train/ppo/adam.h"
 #include "train/ppo/rollout.h"
+#include "train/ppo/train_config.h"
 
 namespace skein {
 

@@ -8,7 +8,7 @@
 #include "base/worker_pool.h"
 #include "envs/vec_env.h"
 #include "train/network/recurrent_network.h"
-#include "train/ppo/learner_config.h"
+#include "train/ppo/ppo_config.h"
 
 namespace skein {
 

@@ -10,7 +10,7 @@
 #include "envs/tasks/termination.h"
 #include "train/network/backend.h"
 #include "train/policy/recurrent_policy.h"
-#include "train/ppo/learner_config.h"
+#include "train/ppo/train_config.h"
 
 namespace skein {
 

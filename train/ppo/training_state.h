@@ -8,9 +8,9 @@
 
 #include "train/files/tensor_file.h"
 #include "train/ppo/adam.h"
-#include "train/ppo/learner_config.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/rollout.h"
+#include "train/ppo/train_config.h"
 
 namespace skein {
 

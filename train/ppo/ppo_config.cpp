@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "train/ppo/learner_config.h"
+#include "train/ppo/ppo_config.h"
 
+#include <cstdint>
 #include <string>
 
 #include "base/error.h"
-#include "base/name_in.h"
 
 namespace skein {
-
-const char* Name(Activation activation) { return NameIn(kActivationNames, activation); }
-const char* Name(Backend backend) { return NameIn(kBackendNames, backend); }
-const char* Name(LearnerPrecision precision) { return NameIn(kPrecisionNames, precision); }
 
 void Validate(const PpoConfig& config) {
   const auto require_positive = [](const char* key, int value) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace skein {
+
+struct PpoConfig {
+  int num_aircraft = 1536;
+  int rollout_steps = 64;  ///< policy steps per aircraft and iteration
+  int chunk_length = 8;    ///< truncated backpropagation through time
+  int epochs = 2;
+  int minibatches = 16;
+  double learning_rate = 1e-3;
+  double final_learning_rate_fraction =
+      0.02;  ///< linear in steps done to this fraction at the budget's end; 1 keeps it constant
+  double adam_epsilon = 1e-5;
+  double gamma = 0.99;  ///< per policy step
+  double gae_lambda = 0.95;
+  double clip = 0.2;
+  double max_gradient_norm = 2;  ///< actor and critic separately
+  double entropy_coefficient = 1e-3;
+  double value_coefficient = 1;
+  bool clip_value_loss = false;
+  bool normalise_advantages = true;
+  bool popart = true;        ///< false: value targets unscaled, as in the paper
+  double popart_rate = 0.1;  ///< moving average of the value targets' moments
+};
+
+/// Throws Error on values that do not go together: a rollout is a whole number of chunks per
+/// aircraft, and every minibatch has a chunk.
+void Validate(const PpoConfig& config);
+
+}  // namespace skein
