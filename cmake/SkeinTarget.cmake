@@ -3,7 +3,7 @@
 add_library(skein_settings INTERFACE)
 set_target_properties(skein_settings PROPERTIES EXPORT_NAME settings)
 target_include_directories(skein_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/skein>)
+                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(skein_settings INTERFACE cxx_std_17)
 
 # Floating point stays strict: contraction is explicit in the kernels, NaN checks and reproducibility survive.

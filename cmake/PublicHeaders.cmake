@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+# The public API: the only headers that are installed, under include/skein/. What one of them includes must be here, too.
+set(SKEIN_PUBLIC_HEADERS
+    # What all rooms share.
+    base/aligned_vector.h
+    base/error.h
+    base/worker_pool.h
+    # Thousands of aircraft at once.
+    envs/actions.h
+    envs/control_step.h
+    envs/env_config.h
+    envs/flight_metrics.h
+    envs/kernels/flight_control_constants.h
+    envs/kernels/flight_control_kernel.h
+    envs/kernels/plant_kernel.h
+    envs/policy.h
+    envs/state/state.h
+    envs/tasks/termination.h
+    envs/vec_env.h
+    # Aircraft, autopilots and the air.
+    envs/air/atmosphere.h
+    envs/aircraft/aerodynamic_tables.h
+    envs/aircraft/aircraft.h
+    envs/aircraft/flight_control_gains.h
+    envs/aircraft/registry.h
+    envs/autopilot/autopilot.h
+    envs/autopilot/gains.h
+    # One aircraft in float64.
+    envs/reference/closed_loop.h
+    envs/reference/flight_control.h
+    envs/reference/linearise.h
+    envs/reference/plant.h
+    envs/reference/trim.h)
+
+if(SKEIN_BUILD_TRAIN)
+  list(
+    APPEND
+    SKEIN_PUBLIC_HEADERS
+    simd/matrix_product.h
+    simd/target.h
+    train/network/affine_map.h
+    train/network/backend.h
+    train/network/folded_parameters.h
+    train/network/network.h
+    # Policies: load, fly, evaluate, record.
+    train/policy/agent.h
+    train/policy/evaluate.h
+    train/policy/record_flights.h
+    train/policy/recurrent_policy.h
+    train/policy/tile_agent.h
+    # Training.
+    train/ppo/learner_config.h
+    train/ppo/trainer.h)
+endif()
