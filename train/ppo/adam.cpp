@@ -1,80 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/adam.h"
 
-#include <torch/optim/adam.h>
-#include <torch/types.h>
+#include <cmath>
+#include <string>
 
-#include <algorithm>
-
-#include "train/libtorch/libtorch_threads.h"
+#include "base/error.h"
+#include "train/ppo/adam_kernel.h"
 
 namespace skein {
 namespace {
 
-std::vector<float> ToVector(const torch::Tensor& tensor) {
-  return {tensor.data_ptr<float>(), tensor.data_ptr<float>() + tensor.numel()};
-}
+constexpr double kBeta1 = 0.9, kBeta2 = 0.999;
 
-torch::Tensor ToTensor(const std::vector<float>& values) {
-  return torch::from_blob(const_cast<float*>(values.data()),
-                          {static_cast<std::int64_t>(values.size())}, torch::kFloat32)
-      .clone();
+AlignedVector<float> Padded(const std::vector<float>& values) {
+  AlignedVector<float> padded(values.begin(), values.end());
+  const auto size = static_cast<std::int64_t>(values.size());
+  padded.resize((size + kAdamPadding - 1) / kAdamPadding * kAdamPadding, 0.0f);
+  return padded;
 }
 
 }  // namespace
 
-struct AdamOptimiser::Impl {
-  torch::Tensor parameters;
-  std::unique_ptr<torch::optim::Adam> adam;
-
-  /// LibTorch makes an optimiser's memory at its first step; this makes it at once.
-  torch::optim::AdamParamState& Memory() {
-    auto& memory = adam->state()[c10::guts::to_string(parameters.unsafeGetTensorImpl())];
-    if (!memory) {
-      auto fresh = std::make_unique<torch::optim::AdamParamState>();
-      fresh->step(0);
-      fresh->exp_avg(torch::zeros_like(parameters));
-      fresh->exp_avg_sq(torch::zeros_like(parameters));
-      memory = std::move(fresh);
-    }
-    return static_cast<torch::optim::AdamParamState&>(*memory);
-  }
-};
-
 AdamOptimiser::AdamOptimiser(const std::vector<float>& parameters, double epsilon)
-    : impl_(std::make_unique<Impl>()) {
-  UseOneLibTorchThread();
-  impl_->parameters = ToTensor(parameters).requires_grad_(true);
-  impl_->parameters.mutable_grad() = torch::zeros(impl_->parameters.sizes());
-  impl_->adam = std::make_unique<torch::optim::Adam>(std::vector<torch::Tensor>{impl_->parameters},
-                                                     torch::optim::AdamOptions().eps(epsilon));
-  impl_->Memory();
-}
-
-AdamOptimiser::~AdamOptimiser() = default;
-AdamOptimiser::AdamOptimiser(AdamOptimiser&&) noexcept = default;
-
-std::int64_t AdamOptimiser::size() const { return impl_->parameters.numel(); }
-float* AdamOptimiser::parameters() { return impl_->parameters.data_ptr<float>(); }
-const float* AdamOptimiser::parameters() const { return impl_->parameters.data_ptr<float>(); }
-float* AdamOptimiser::gradient() { return impl_->parameters.mutable_grad().data_ptr<float>(); }
+    : size_(static_cast<std::int64_t>(parameters.size())),
+      epsilon_(epsilon),
+      parameters_(Padded(parameters)),
+      gradient_(parameters_.size(), 0.0f),
+      first_moment_(parameters_.size(), 0.0f),
+      second_moment_(parameters_.size(), 0.0f) {}
 
 void AdamOptimiser::Step(double learning_rate) {
-  static_cast<torch::optim::AdamOptions&>(impl_->adam->param_groups()[0].options())
-      .lr(learning_rate);
-  impl_->adam->step();
+  ++step_;
+  const auto t = static_cast<double>(step_);
+  AdamStep step;
+  step.size = static_cast<std::int64_t>(parameters_.size());
+  step.parameters = parameters_.data();
+  step.first_moment = first_moment_.data();
+  step.second_moment = second_moment_.data();
+  step.gradient = gradient_.data();
+  step.beta1 = static_cast<float>(kBeta1);
+  step.one_minus_beta1 = static_cast<float>(1 - kBeta1);
+  step.beta2 = static_cast<float>(kBeta2);
+  step.one_minus_beta2 = static_cast<float>(1 - kBeta2);
+  step.root_correction = static_cast<float>(std::sqrt(1 - std::pow(kBeta2, t)));
+  step.epsilon = static_cast<float>(epsilon_);
+  step.step_size = static_cast<float>(learning_rate / (1 - std::pow(kBeta1, t)));
+  TakeAdamStep(step);
 }
 
 AdamState AdamOptimiser::state() const {
-  const torch::optim::AdamParamState& memory = impl_->Memory();
-  return {memory.step(), ToVector(memory.exp_avg()), ToVector(memory.exp_avg_sq())};
+  return {step_,
+          {first_moment_.begin(), first_moment_.begin() + size_},
+          {second_moment_.begin(), second_moment_.begin() + size_}};
 }
 
 void AdamOptimiser::Restore(const AdamState& state) {
-  torch::optim::AdamParamState& memory = impl_->Memory();
-  memory.step(state.step);
-  memory.exp_avg(ToTensor(state.first_moment));
-  memory.exp_avg_sq(ToTensor(state.second_moment));
+  for (const auto* const moment : {&state.first_moment, &state.second_moment}) {
+    if (static_cast<std::int64_t>(moment->size()) == size_) continue;
+    throw Error("Adam's moments have " + std::to_string(moment->size()) + " values for " +
+                std::to_string(size_) + " parameters");
+  }
+  step_ = state.step;
+  first_moment_ = Padded(state.first_moment);
+  second_moment_ = Padded(state.second_moment);
 }
 
 }  // namespace skein

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
+
+#include "base/aligned_vector.h"
 
 namespace skein {
 
@@ -13,27 +14,32 @@ struct AdamState {
   std::vector<float> first_moment, second_moment;
 };
 
-/// A flat parameter vector and LibTorch's Adam on it (Kingma and Ba 2015; betas 0.9 and 0.999).
+/// A flat parameter vector, its gradient, and Adam on them (Kingma and Ba 2015, "Adam: a method for
+/// stochastic optimization", Algorithm 1, with betas 0.9 and 0.999). Bias is corrected as in
+/// PyTorch's Adam: epsilon is added to the corrected root. Deterministic, in float32, on the
+/// calling thread.
 class AdamOptimiser {
  public:
+  /// `epsilon` must be positive.
   AdamOptimiser(const std::vector<float>& parameters, double epsilon);
-  ~AdamOptimiser();
-  AdamOptimiser(AdamOptimiser&&) noexcept;
 
-  std::int64_t size() const;
-  float* parameters();
-  const float* parameters() const;
-  float* gradient();
+  std::int64_t size() const { return size_; }
+  float* parameters() { return parameters_.data(); }
+  const float* parameters() const { return parameters_.data(); }
+  float* gradient() { return gradient_.data(); }
 
   void Step(double learning_rate);
 
   AdamState state() const;
-  /// Sizes must be those of the parameters.
+  /// Throws Error unless sizes are those of the parameters.
   void Restore(const AdamState& state);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::int64_t size_ = 0;
+  double epsilon_;
+  std::int64_t step_ = 0;
+  // Padded by zeros to whole vectors of every SIMD target; zeros stay zeros.
+  AlignedVector<float> parameters_, gradient_, first_moment_, second_moment_;
 };
 
 }  // namespace skein
