@@ -42,6 +42,7 @@ if(SKEIN_BUILD_TRAIN)
     train/network/backend.h
     train/network/folded_parameters.h
     train/network/network.h
+    train/network/network_config.h
     # Policies: load, fly, evaluate, record.
     train/policy/agent.h
     train/policy/evaluate.h
@@ -50,5 +51,7 @@ if(SKEIN_BUILD_TRAIN)
     train/policy/tile_agent.h
     # Training.
     train/ppo/learner_config.h
+    train/ppo/ppo_config.h
+    train/ppo/train_config.h
     train/ppo/trainer.h)
 endif()
