@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Training curves: mean and band over the seeds of a setting, a panel for every task."""
+import math
+import os
+
+from plotting import svg
+from plotting.axes import Panel, in_words, padded, ticks
+from plotting.records import PlotError, read_autopilot, read_curve, read_seconds_per_step, read_task
+
+BAND_OPACITY = 0.22
+LEFT, TOP, ASIDE, PANEL_HEIGHT = 64, 108, 70, 300
+TASK_TITLES = {"heading": "Heading: a new altitude, heading and speed",
+               "control": "Control: a new pitch, heading and speed",
+               "tracking": "Tracking: a point in space"}
+COLUMN_TITLES = {"evaluation_success_rate": "Episodes that reach their target, flown by the mean action, %",
+                 "success_rate": "Training episodes that reach their target, sampled actions, %",
+                 "return_mean": "Mean return of the training episodes"}
+
+
+class Setting:
+    """Runs that differ in their seed alone: the mean of a column over them, and its lowest and highest."""
+
+    def __init__(self, runs, name, column, scale):
+        self.task, self.name, self.runs = read_task(runs[0]), name, runs
+        curves = [[(steps / 1e6, value * scale) for steps, value in read_curve(run, column)] for run in runs]
+        first, last = max(c[0][0] for c in curves), min(c[-1][0] for c in curves)
+        steps = sorted({x for curve in curves for x, _ in curve if first <= x <= last})
+        columns = [[interpolated(curve, x) for curve in curves] for x in steps]
+        self.mean = [(x, sum(values) / len(values)) for x, values in zip(steps, columns)]
+        self.low = [(x, min(values)) for x, values in zip(steps, columns)]
+        self.high = [(x, max(values)) for x, values in zip(steps, columns)]
+
+    def minutes_per_million(self):
+        """The mean over the runs that have recorded times; None without any."""
+        rates = [rate for rate in map(read_seconds_per_step, self.runs) if rate]
+        return sum(rates) / len(rates) * 1e6 / 60 if rates else None
+
+
+def interpolated(curve, x):
+    """The curve's value at x, which lies between its first point and its last."""
+    before = max((point for point in curve if point[0] <= x), key=lambda point: point[0])
+    after = min((point for point in curve if point[0] >= x), key=lambda point: point[0])
+    if before[0] == after[0]:
+        return before[1]
+    return before[1] + (after[1] - before[1]) * (x - before[0]) / (after[0] - before[0])
+
+
+def by_task(texts, what):
+    """{task: number} of ["heading=5.8", ...]; a number alone is for the task "", that is, for any."""
+    result = {}
+    for text in texts:
+        task, _, value = text.rpartition("=")
+        try:
+            result[task] = float(value)
+        except ValueError:
+            result[task] = math.nan
+        if not math.isfinite(result[task]):
+            raise PlotError(f"{what} {text}: give a number, or TASK=NUMBER")
+    return result
+
+
+def settings_of(options, scale):
+    """The runs, grouped: by task, or if told so, as many in a row as there are seeds."""
+    if options.seeds:
+        groups = [options.runs[i:i + options.seeds] for i in range(0, len(options.runs), options.seeds)]
+    else:
+        tasks = {}
+        for run in options.runs:
+            tasks.setdefault(read_task(run), []).append(run)
+        groups = list(tasks.values())
+    names = options.names or [os.path.basename(os.path.normpath(runs[0])) for runs in groups]
+    if len(names) != len(groups):
+        raise PlotError(f"--names: {len(names)} names for {len(groups)} settings")
+    return [Setting(runs, name, options.column, scale) for runs, name in zip(groups, names)]
+
+
+def autopilots(options, scale):
+    """{task: (words, value)} of the autopilots' figures."""
+    result = {task: ("autopilot", value) for task, value in by_task(options.autopilot, "--autopilot").items()}
+    for path in options.comparison:
+        task, name, rate = read_autopilot(path)
+        variant = name.partition(":")[2] or "aggressive"
+        result[task] = (f"{variant} autopilot", rate * scale)
+    return result
+
+
+def draw_minutes(panel, per_million, machine):
+    """Minutes on the upper edge."""
+    last = panel.x_range[1] * per_million
+    scale = Panel(panel.left, panel.top, panel.width, panel.height, (0.0, last), (0, 1))
+    for value in ticks(0.0, last):
+        x = scale.x(value)
+        panel.elements.append(svg.line([(x, panel.top), (x, panel.top - 5)], svg.GREY, 1))
+        panel.elements.append(svg.text(x, panel.top - 10, f"{value:,.5g}", "middle", 12))
+    panel.elements.append(svg.line([(panel.left, panel.top), (panel.right, panel.top)], svg.GREY, 1))
+    panel.elements.append(svg.text((panel.left + panel.right) / 2, panel.top - 28, f"minutes{machine}", "middle"))
+
+
+def draw_autopilot(panel, words, value, unit):
+    panel.curve([(panel.x_range[0], value), (panel.x_range[1], value)], svg.INK, 1.5, ' stroke-dasharray="7 4"')
+    label = f"{words}: {value:.1f}{unit}"
+    panel.elements.append(svg.haloed(panel.left + 8, panel.y(value) + 17, label))
+
+
+def draw_setting(panel, setting, colour):
+    panel.band(setting.low, setting.high, colour, BAND_OPACITY)
+    panel.curve(setting.mean, colour, 2.2)
+    for x, y in setting.mean:
+        panel.elements.append(svg.circle((panel.x(x), panel.y(y)), 2.6, colour))
+
+
+def task_panel(left, width, settings, y_range, colours):
+    """The panel of one task with its grid and curves."""
+    steps = (0.0, max(setting.mean[-1][0] for setting in settings))
+    panel = Panel(left, TOP, width, PANEL_HEIGHT, steps, y_range)
+    across, up = ticks(*steps), ticks(*y_range)
+    panel.grid(across, up)
+    panel.label_bottom(across)
+    panel.label_left(up)
+    panel.frame_bottom()
+    title = TASK_TITLES.get(settings[0].task, settings[0].task.capitalize())
+    panel.elements.append(svg.bold(left, 52, title))
+    panel.elements.append(svg.text(left + width / 2, panel.bottom + 38, "control steps, million", "middle"))
+    for setting in settings:
+        draw_setting(panel, setting, colours[setting.name])
+    return panel
+
+
+def legend_entries(settings, colours):
+    seeds = max(len(setting.runs) for setting in settings)
+    mean = f"mean of {seeds} seeds" if seeds > 1 else "one seed"
+    several = len(settings) > 1
+    entries = [(svg.line_sample(colours[s.name], 2.2), f"{s.name}, {mean}" if several else mean) for s in settings]
+    if seeds > 1:
+        shade = svg.GREY if several else colours[settings[0].name]
+        entries.append((svg.band_sample(shade, BAND_OPACITY), "lowest to highest seed"))
+    return entries
+
+
+def colours_of(settings, tasks):
+    """A colour for each setting; one for all if the panels' titles tell them apart."""
+    shades = svg.COLOURS if len(settings) > len(tasks) else svg.COLOURS[:1]
+    return {setting.name: shades[i % len(shades)] for i, setting in enumerate(settings)}
+
+
+def draw_scales(panel, setting, minutes, autopilot, machine, unit):
+    """Minutes above, and the autopilot's figure across, where they are known."""
+    asked = minutes.get(setting.task, minutes.get(""))
+    per_million = asked / panel.x_range[1] if asked else setting.minutes_per_million()
+    if per_million:
+        draw_minutes(panel, per_million, f" on {machine}" if machine else "")
+    figure = autopilot.get(setting.task, autopilot.get(""))
+    if figure:
+        draw_autopilot(panel, *figure, unit)
+
+
+def draw(options):
+    scale, unit = (100.0, " %") if options.column.endswith("success_rate") else (1.0, "")
+    settings = settings_of(options, scale)
+    y_range = (0.0, 105.0) if unit else padded([y for s in settings for _, y in s.low + s.high])
+    tasks = list(dict.fromkeys(setting.task for setting in settings))
+    colours = colours_of(settings, tasks)
+    minutes, autopilot = by_task(options.minutes, "--minutes"), autopilots(options, scale)
+    width = 700 if len(tasks) == 1 else 400
+    elements, left = [], LEFT
+    for task in tasks:
+        own = [setting for setting in settings if setting.task == task]
+        panel = task_panel(left, width, own, y_range, colours)
+        draw_scales(panel, own[0], minutes, autopilot, options.machine, unit)
+        elements += panel.elements
+        left += width + ASIDE
+    shown = settings if len(settings) > len(tasks) else settings[:1]
+    lines, bottom = svg.legend(LEFT, TOP + PANEL_HEIGHT + 70, legend_entries(shown, colours), left - ASIDE)
+    title = options.title or COLUMN_TITLES.get(options.column, in_words(options.column).capitalize())
+    svg.write(options.out, left - ASIDE + 30, bottom + 22, title, elements + lines)
