@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -13,8 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "src/commands/command_tree.h"
 #include "src/commands/commands.h"
+#include "src/config/configuration.h"
 #include "src/config/nearest_name.h"
+#include "src/usage_error.h"
+#include "src/version.h"
 #include "train/files/file_descriptor.h"
 
 namespace skein {
@@ -43,14 +46,6 @@ std::string CommandPath(const CLI::App& app) {
   return path;
 }
 
-std::vector<std::string> OptionNames(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
 /// What is wrong with the command line. Names that are not known come first: CLI11 says that what
 /// is required is missing where it was misspelt.
 std::string WrongUsage(const CLI::App& app, const CLI::ParseError& error) {
@@ -59,13 +54,11 @@ std::string WrongUsage(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> unknown = deepest->remaining();
   for (const std::string& argument : unknown) {
     if (argument.rfind('-', 0) != 0) continue;
+    if (argument.rfind("--controller", 0) == 0) return "--controller is now called --low-level";
     return "unknown option " + argument + DidYouMean(argument, OptionNames(*deepest));
   }
-  std::vector<std::string> names;
-  for (const CLI::App* sub : deepest->get_subcommands({})) names.push_back(sub->get_name());
-  if (names.empty() || unknown.empty()) return FirstLine(error.what());
-  return fmt::format("unknown command {}{}; known commands: {}", unknown.front(),
-                     DidYouMean(unknown.front(), names), fmt::join(names, ", "));
+  if (CommandsOf(*deepest).empty() || unknown.empty()) return FirstLine(error.what());
+  return UnknownCommand(*deepest, unknown.front());
 }
 
 /// Throws on an empty argument and on "--option=": an unset variable of a shell is no choice.
@@ -89,28 +82,47 @@ int ExitCode() {
   return kExitFailure;
 }
 
-}  // namespace
+std::string VersionText() {
+  const BuildInfo& build = Build();
+  return fmt::format("skein {} (commit {}, {}, {})", build.version, build.commit, build.compiler,
+                     build.type);
+}
 
-int RunProgram(int argc, char** argv) {
-  OccupyStandardStreams();
-  CLI::App app("Skein: fixed-wing flight simulation and recurrent PPO on SIMD CPU cores", "skein");
-  app.set_version_flag("--version", "skein " SKEIN_VERSION);
-  app.require_subcommand(1);
-  AddTrainCommand(&app);
-  AddEvalCommand(&app);
-  AddCompareCommand(&app);
-  AddStudyCommand(&app);
-  AddFdmCommand(&app);
-  AddBenchCommand(&app);
-  AddInfoCommand(&app);
+void AddCommands(CLI::App* app) {
+  app->set_version_flag("--version", VersionText);
+  app->add_flag_callback(
+      "--help-keys",
+      [] {
+        fmt::print("{}", DescribeKeys(ProgramConfig{}));
+        throw CLI::Success();
+      },
+      "list every configuration key and exit (skein train TASK --help-keys: with its preset)");
+  app->require_subcommand(1);
+  AddTrainCommand(app);
+  AddEvalCommand(app);
+  AddCompareCommand(app);
+  AddStudyCommand(app);
+  AddFdmCommand(app);
+  AddBenchCommand(app);
+  AddListCommand(app);
+  AddInfoCommand(app);
+  AddHelpCommand(app);
   // After the commands, which would inherit it.
-  app.footer(
+  app->footer(
       "Examples:\n"
       "  skein train heading                       train, evaluate, and say where everything lies\n"
       "  skein eval --policy runs/RUN --task heading --deterministic\n"
       "  skein compare --task heading --agents policy:runs/RUN,random\n"
       "  skein fdm trim --altitude-ft 15000 --speed-fps 500\n"
-      "Every command has --help. Exit codes: 0 success, 1 error, 2 wrong usage.");
+      "Every command has --help. Exit codes: 0 success, 1 failure, 2 wrong usage.");
+}
+
+}  // namespace
+
+int RunProgram(int argc, char** argv) {
+  OccupyStandardStreams();
+  CLI::App app("Skein: fixed-wing flight simulation and recurrent PPO on SIMD CPU cores", "skein");
+  AddCommands(&app);
   try {
     RefuseEmptyValues(argc, argv);
     app.parse(argc, argv);
@@ -120,6 +132,9 @@ int RunProgram(int argc, char** argv) {
     return ExitCode();
   } catch (const CLI::ParseError& error) {
     PrintError(fmt::format("{} (see {} --help)", WrongUsage(app, error), CommandPath(app)));
+    return kExitUsage;
+  } catch (const UsageError& error) {
+    PrintError(error.what());
     return kExitUsage;
   } catch (const std::bad_alloc&) {
     PrintError("out of memory; fewer aircraft or shorter rollouts need less");

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <optional>
 
-#include "base/error.h"
 #include "envs/autopilot/autopilot.h"
 #include "src/agents/policy_file.h"
 #include "src/config/nearest_name.h"
+#include "src/usage_error.h"
 #include "train/policy/policy_environment.h"
 
 namespace skein {
@@ -51,8 +51,8 @@ Agent RandomAgent(const std::string& name, double control_interval_s) {
   }
   const double steps = std::round(hold_s / control_interval_s);
   if (!(hold_s >= control_interval_s && steps <= kLongestHold)) {
-    throw Error(fmt::format("agent {}: commands are held for {} to {} s, as in random:0.5", name,
-                            control_interval_s, control_interval_s * kLongestHold));
+    throw UsageError(fmt::format("agent {}: actions are held for {} to {} s, as in random:0.5",
+                                 name, control_interval_s, control_interval_s * kLongestHold));
   }
   return Agent::Random(static_cast<int>(steps));
 }
@@ -62,16 +62,24 @@ Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
   const std::string variant = name == "autopilot" ? "aggressive" : ArgumentOf(name);
   EnvConfig own = env;
   own.tracking.error_axes = kAutopilotErrorAxes;
-  return Agent::Of(MakeAutopilot(own, AutopilotOf(variant)));
+  return AsUsage([&] { return Agent::Of(MakeAutopilot(own, AutopilotOf(variant))); });
 }
 
 }  // namespace
 
-std::string AgentForms() {
-  return fmt::format(
-      "autopilot[:{}] (alone: aggressive; as a --low-level: parallel), "
-      "policy:FILE_OR_RUN[@sampled], random[:SECONDS], idle",
-      fmt::join(AutopilotNames(), "|:"));
+std::vector<AgentForm> AgentForms() {
+  return {{fmt::format("autopilot[:{}]", fmt::join(AutopilotNames(), "|:")),
+           "the traditional autopilot (alone: aggressive; as a --low-level: parallel)"},
+          {"policy:FILE_OR_RUN[@sampled]", "a trained policy with its mean action, or as sampled"},
+          {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
+          {"zero", "zero actions"}};
+}
+
+std::string AgentNames() {
+  std::vector<std::string> names;
+  for (const AgentForm& form : AgentForms()) names.push_back(form.name);
+  return fmt::format("{} (autopilot alone: aggressive; as a --low-level: parallel)",
+                     fmt::join(names, ", "));
 }
 
 std::string PolicyFileOfAgent(const std::string& name) {
@@ -80,7 +88,7 @@ std::string PolicyFileOfAgent(const std::string& name) {
   if (EndsWith(file, kSampledSuffix)) {
     file.resize(file.size() - std::string(kSampledSuffix).size());
   }
-  if (file.empty()) throw Error(fmt::format("agent {}: policy: needs a file or a run", name));
+  if (file.empty()) throw UsageError(fmt::format("agent {}: policy: needs a file or a run", name));
   return PolicyFileOf(file);
 }
 
@@ -88,11 +96,12 @@ Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint6
   const std::string kind = KindOf(name);
   if (kind == kPolicy) return PolicyAgent(name, config, seed);
   if (kind == "random") return RandomAgent(name, config.train.env.control_interval_s);
-  if (name == "idle") return Agent::Zero();
+  if (name == "zero") return Agent::Zero();
   if (kind == "autopilot") return AutopilotAgent(name, config.train.env);
-  throw Error(fmt::format("unknown agent {}{}; known agents: {}", name,
-                          DidYouMean(kind, {"autopilot", "policy", "random", "idle"}),
-                          AgentForms()));
+  if (name == "idle") throw UsageError("agent idle is now called zero");
+  throw UsageError(fmt::format("unknown agent {}{}; known agents: {}", name,
+                               DidYouMean(kind, {"autopilot", "policy", "random", "zero"}),
+                               AgentNames()));
 }
 
 }  // namespace skein

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "src/config/program_config.h"
 #include "train/policy/agent.h"
@@ -12,16 +13,19 @@ namespace skein {
 /// The file of a policy that is called "policy:FILE_OR_RUN[@sampled]"; empty for other agents.
 std::string PolicyFileOfAgent(const std::string& name);
 
-/// The forms of agents' names, for people.
-std::string AgentForms();
+/// How an agent may be called, for people.
+struct AgentForm {
+  std::string name;     ///< "random[:SECONDS]"
+  std::string meaning;  ///< what flies
+};
 
-/// The agent called `name` for the environment of `config`:
-///   policy:FILE_OR_RUN   a trained policy with its mean action ("@sampled" behind: as drawn)
-///   autopilot            the traditional autopilot, aggressive (as a --low-level: parallel)
-///   autopilot:VARIANT    or of another AutopilotVariant
-///   random, random:S     uniform commands, drawn anew every second, or every S seconds
-///   idle                 every command zero
-/// Throws Error that lists these on any other.
+/// Every form of an agent's name.
+std::vector<AgentForm> AgentForms();
+/// Their names on one line, for help and errors.
+std::string AgentNames();
+
+/// The agent called `name` (AgentForms) for the environment of `config`. Throws UsageError on a
+/// name of no form, and Error on a policy that cannot be read or is not made for the environment.
 Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed);
 
 }  // namespace skein

@@ -8,6 +8,7 @@
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task.h"
 #include "src/agents/policy_file.h"
+#include "src/usage_error.h"
 #include "train/policy/autopilot_policy.h"
 #include "train/policy/low_level_file.h"
 #include "train/policy/policy_environment.h"
@@ -16,24 +17,24 @@
 namespace skein {
 namespace {
 
-constexpr const char* kLowLevelPolicysTask = "control";
+constexpr const char* kLowLevelTask = "control";
 constexpr const char* kAutopilot = "autopilot";
-constexpr const char* kHighLevelsVariant =
-    "parallel";  ///< nose and speed at once, as a high-level policy asks
+/// Steers attitude and speed at once, as a high-level policy commands them.
+constexpr const char* kLowLevelVariant = "parallel";
 
 RecurrentPolicy LoadControlPolicy(const EnvConfig& env, const std::string& path) {
   RecurrentPolicy policy = RecurrentPolicy::Load(path);
-  if (!policy.task().empty() && policy.task() != kLowLevelPolicysTask) {
+  if (!policy.task().empty() && policy.task() != kLowLevelTask) {
     throw Error(
         fmt::format("--low-level {}: a policy of task {}, but a high-level policy needs one of "
                     "task {} below it",
-                    path, policy.task(), kLowLevelPolicysTask));
+                    path, policy.task(), kLowLevelTask));
   }
   if (policy.observation_size() != kObservationSize || policy.action_size() != kActionSize) {
     throw Error(
         fmt::format("--low-level {}: it takes {} observations and gives {} actions, but "
                     "a policy of task {} has {} and {}",
-                    path, policy.observation_size(), policy.action_size(), kLowLevelPolicysTask,
+                    path, policy.observation_size(), policy.action_size(), kLowLevelTask,
                     kObservationSize, kActionSize));
   }
   CheckLowLevelMadeFor(env, policy, "--low-level " + path);
@@ -42,8 +43,8 @@ RecurrentPolicy LoadControlPolicy(const EnvConfig& env, const std::string& path)
 
 ChosenLowLevelPolicy ChooseAutopilot(const EnvConfig& env, const std::string& option) {
   const std::string variant =
-      option == kAutopilot ? kHighLevelsVariant : option.substr(option.find(':') + 1);
-  return {std::make_shared<const AutopilotPolicy>(variant, env),
+      option == kAutopilot ? kLowLevelVariant : option.substr(option.find(':') + 1);
+  return {AsUsage([&] { return std::make_shared<const AutopilotPolicy>(variant, env); }),
           fmt::format("low-level policy: the traditional autopilot, {}", variant)};
 }
 
@@ -53,14 +54,14 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
   const std::string& task = env.task;
   if (option.empty()) {
     if (!IsHierarchical(task)) return {};
-    throw Error(fmt::format(
-        "task {0} needs --low-level RUN_OR_POLICY, a trained policy of task "
-        "{1} that flies what the high-level policy asks for (`skein train {1}` makes one), or "
-        "--low-level autopilot",
-        task, kLowLevelPolicysTask));
+    throw UsageError(
+        fmt::format("task {0} needs --low-level RUN_OR_POLICY, a low-level policy trained on task "
+                    "{1} (`skein train {1}` makes one), or --low-level autopilot",
+                    task, kLowLevelTask));
   }
   if (!IsHierarchical(task)) {
-    throw Error(fmt::format("--low-level is for tasks that are planned, not for {}", task));
+    throw UsageError(
+        fmt::format("--low-level is for tasks of a high-level policy, not for {}", task));
   }
   if (option == kAutopilot || option.rfind(kAutopilot + std::string(":"), 0) == 0) {
     return ChooseAutopilot(env, option);
@@ -70,8 +71,7 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
   std::string description = fmt::format("low-level policy {}, an action every {} control steps; {}",
                                         path, policy->action_repeat(), Describe(policy->backend()));
   if (policy->task().empty()) {
-    description +=
-        fmt::format(" (it does not say its task, which should be {})", kLowLevelPolicysTask);
+    description += fmt::format(" (it does not say its task, which should be {})", kLowLevelTask);
   }
   return {policy, description};
 }

@@ -10,19 +10,19 @@
 
 namespace skein {
 
-/// A low-level policy that was asked for on the command line.
+/// The low-level policy that the command line asks for.
 struct ChosenLowLevelPolicy {
-  std::shared_ptr<const Policy> pilot;  ///< null where none flies
-  std::string description;              ///< a line for people
+  std::shared_ptr<const Policy> policy;  ///< null where there is none
+  std::string description;               ///< a line for people
 };
 
-/// What flies for a high-level policy of the environment's task: the policy that `option` names (a
-/// run of task control, or a file of one), an autopilot ("autopilot", or "autopilot:VARIANT"), or
-/// nothing if it is empty. Throws Error if the task needs a low-level policy and none is named, if
-/// it knows none, or if what is named cannot fly as one.
+/// The low-level policy for the environment's task: the policy that `option` names (a run of task
+/// control, or a policy file of it), an autopilot ("autopilot", or "autopilot:VARIANT"), or none if
+/// it is empty. Throws UsageError if the task needs one and none is named, or the reverse; Error if
+/// what is named cannot be one.
 ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option);
 
-/// What the high-level policy of the run in `directory` began with; null if `task` is not planned.
+/// The low-level policy that the run in `directory` began with; null if `task` has none.
 /// Throws Error if it cannot be read.
 std::shared_ptr<const Policy> LowLevelPolicyOfRun(const RunDirectory& directory,
                                                   const std::string& task);

@@ -18,8 +18,8 @@ inline constexpr const char* kUntrained = "untrained";
 /// that holds no run, or a run that has not saved a policy yet.
 std::string PolicyFileOf(const std::string& path);
 
-/// The policy in `file`, or the untrained one of `config`, `seed` and `low-level policy` (without
-/// one it flies itself); on the backend of `config`.
+/// The policy in `file`, or the untrained one of `config` and `seed`, a high-level policy over
+/// `low_level` if that is not null; on the backend of `config`.
 RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
                            std::shared_ptr<const Policy> low_level = nullptr);
 

@@ -5,6 +5,7 @@
 
 #include "base/worker_pool.h"
 #include "simd/target.h"
+#include "src/version.h"
 #include "train/network/backend.h"
 
 namespace skein {
@@ -22,16 +23,17 @@ std::string CpuName() {
 nlohmann::ordered_json DescribeMachine() {
   auto supported = nlohmann::ordered_json::array();
   for (const simd::Target target : simd::SupportedTargets()) supported.push_back(Name(target));
-  return {{"version", SKEIN_VERSION},
-          {"compiler", SKEIN_COMPILER},
-          {"build_type", SKEIN_BUILD_TYPE},
+  return {{"version", Build().version},
+          {"commit", Build().commit},
+          {"compiler", Build().compiler},
+          {"build_type", Build().type},
           {"cpu", CpuName()},
           {"threads", WorkerPool().threads()},
           {"simd", Name(simd::ActiveTarget())},
           {"simd_supported", supported},
           {"native_bf16", simd::NativeBfloat16()},
           {"precision", Name(DefaultPrecision())},
-          {"libtorch", SKEIN_LIBTORCH_VERSION}};
+          {"libtorch", Build().libtorch}};
 }
 
 }  // namespace skein

@@ -9,9 +9,9 @@ namespace skein {
 /// "Intel(R) Xeon(R) ..." as the system names the processor, or "unknown".
 std::string CpuName();
 
-/// What a figure depends on: version, compiler, processor, SIMD target in use and supported ones,
-/// threads that commands use unless told otherwise, LibTorch. The document of `skein info --json`,
-/// and part of every benchmark's.
+/// What a figure depends on: version, commit, compiler, processor, SIMD target in use and supported
+/// ones, threads that commands use unless told otherwise, LibTorch. The document of `skein info
+/// --json`, and part of every benchmark's.
 nlohmann::ordered_json DescribeMachine();
 
 }  // namespace skein

@@ -17,6 +17,7 @@
 #include "src/config/whole_number.h"
 #include "src/files/output_file.h"
 #include "src/run/progress.h"
+#include "src/usage_error.h"
 #include "train/ppo/learner_rates.h"
 #include "train/ppo/trainer.h"
 
@@ -38,20 +39,23 @@ struct BenchOptions {
 };
 
 TrainConfig BenchConfig(const BenchOptions& options) {
-  const ProgramConfig config =
-      ResolveConfig({options.task, options.preset, "", options.assignments});
-  CheckConsistent(config);
-  return config.train;
+  return AsUsage([&] {
+    const ProgramConfig config =
+        ResolveConfig({options.task, options.preset, "", options.assignments});
+    CheckConsistent(config);
+    return config.train;
+  });
 }
 
 /// With the low-level policy that a high-level policy needs.
 TrainConfig LearnerBenchConfig(const BenchOptions& options) {
   TrainConfig config = BenchConfig(options);
-  config.low_level = ChooseLowLevelPolicy(config.env, options.low_level).pilot;
+  config.low_level = ChooseLowLevelPolicy(config.env, options.low_level).policy;
   return config;
 }
 
-/// What Environment::Step is of a rollout: a high-level policy's has the low-level policy in it.
+/// What the environment's step is in a rollout: that of a high-level policy has the low-level
+/// policy in it.
 const char* NameSimulator(const TrainConfig& config) {
   return config.low_level == nullptr ? "the simulator" : "the simulator and the low-level policy";
 }
@@ -175,7 +179,8 @@ std::string ShortName(const BackendChoice& backend) {
 
 /// One rate of several learners, the last of them LibTorch's.
 struct Comparison {
-  const char* unit;  ///< what is counted
+  const char* unit;  ///< what is counted, for people
+  const char* key;   ///< of the rate in files
   double LearnerRates::*rate;
   double LearnerRates::*flops;
 };
@@ -196,7 +201,7 @@ Json Compare(const std::vector<LearnerRates>& learners, const Comparison& compar
                ShareOfPeak(gflops, rates.peak_gflops, is_bfloat16 ? "bfloat16" : "float32"));
     all.push_back(WithShareOfPeak({{"backend", Name(rates.backend.backend)},
                                    {"precision", Name(rates.backend.precision)},
-                                   {std::string(comparison.unit) + "_per_s", rate},
+                                   {comparison.key, rate},
                                    {"times_libtorch", rate / reference}},
                                   gflops, rates.peak_gflops));
   }
@@ -212,8 +217,9 @@ void BenchRollout(const BenchOptions& options) {
       MeasureLearners(LearnersOf(config), options.iterations, pool);
   fmt::print("rollout: {} aircraft, {} threads; {}\n", config.ppo.num_aircraft, pool.threads(),
              Describe(learners[0].backend));
-  Json results = Compare(learners, {"policy steps", &LearnerRates::rollout_policy_steps_per_s,
-                                    &LearnerRates::rollout_flops_per_policy_step});
+  Json results = Compare(
+      learners, {"policy steps", "policy_steps_per_s", &LearnerRates::rollout_policy_steps_per_s,
+                 &LearnerRates::rollout_flops_per_policy_step});
   const double control_steps = learners[0].rollout_policy_steps_per_s * config.env.action_repeat;
   fmt::print("  {} control steps/s with the first; {} takes {:.0f} % of its time\n",
              FormatCount(control_steps), NameSimulator(config), 100 * learners[0].simulator_share);
@@ -229,7 +235,7 @@ void BenchUpdate(const BenchOptions& options) {
       MeasureLearners(LearnersOf(config), options.iterations, pool);
   fmt::print("update: {} threads; {}\n", pool.threads(), Describe(learners[0].backend));
   Report(options, pool.threads(),
-         Compare(learners, {"samples", &LearnerRates::update_samples_per_s,
+         Compare(learners, {"samples", "samples_per_s", &LearnerRates::update_samples_per_s,
                             &LearnerRates::update_flops_per_sample}));
 }
 
@@ -264,7 +270,7 @@ void BenchIteration(const BenchOptions& options) {
           {"precision", Name(rates.backend.precision)},
           {"iteration_s", rates.iteration_s},
           {"control_steps_per_s", steps_per_s},
-          {"decisions_per_s", rates.rollout_policy_steps_per_s},
+          {"policy_steps_per_s", rates.rollout_policy_steps_per_s},
           {"simulator_share", rates.simulator_share},
           {"gradient_samples_per_s", rates.gradient_samples_per_s},
           {"efficiency", rates.efficiency},
@@ -309,7 +315,7 @@ CLI::App* AddLearner(CLI::App* bench, const std::string& name, const std::string
   command->add_option("--task", options->task, "what is flown")->capture_default_str();
   command
       ->add_option("--low-level", options->low_level,
-                   "for task tracking: what flies for the high-level policy, as in skein train")
+                   "for task tracking: the low-level policy, as of skein train")
       ->type_name("RUN_OR_POLICY");
   AddConfiguration(command, options);
   return command;
@@ -337,7 +343,7 @@ void AddBenchCommand(CLI::App* app) {
       "without\n"
       "and with observation noise.\n"
       "Example: skein bench sim --aircraft 1000000 --steps 30 --threads 2");
-  AddLearner(bench, "rollout", "Decisions per second of policy and simulator together", options,
+  AddLearner(bench, "rollout", "Policy steps per second of policy and simulator together", options,
              BenchRollout)
       ->footer(
           "The fused kernels beside LibTorch, iteration by iteration in turns; medians.\n"

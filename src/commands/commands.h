@@ -13,5 +13,7 @@ void AddStudyCommand(CLI::App* app);
 void AddFdmCommand(CLI::App* app);
 void AddBenchCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);
+void AddListCommand(CLI::App* app);
+void AddHelpCommand(CLI::App* app);
 
 }  // namespace skein

@@ -7,7 +7,6 @@
 #include <memory>
 #include <set>
 
-#include "base/error.h"
 #include "src/agents/agent_names.h"
 #include "src/commands/commands.h"
 #include "src/commands/flight_options.h"
@@ -15,6 +14,7 @@
 #include "src/config/presets.h"
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
+#include "src/usage_error.h"
 
 namespace skein {
 namespace {
@@ -26,11 +26,13 @@ struct CompareOptions {
 };
 
 ProgramConfig Configure(const FlightOptions& flight) {
-  ProgramConfig config = ResolveConfig({flight.task, flight.preset, flight.config, {}});
-  const EnvConfig asked = config.train.env;
-  ApplyOverrides(flight, &config);
-  CheckEachAgentsOwn(config.train.env, asked);
-  return config;
+  return AsUsage([&] {
+    ProgramConfig config = ResolveConfig({flight.task, flight.preset, flight.config, {}});
+    const EnvConfig asked = config.train.env;
+    ApplyOverrides(flight, &config);
+    CheckEachAgentsOwn(config.train.env, asked);
+    return config;
+  });
 }
 
 std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
@@ -38,7 +40,9 @@ std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
   std::vector<NamedAgent> agents;
   std::set<std::string> known;
   for (const std::string& name : names) {
-    if (!known.insert(name).second) throw Error(fmt::format("--agents: {} is there twice", name));
+    if (!known.insert(name).second) {
+      throw UsageError(fmt::format("--agents: {} is there twice", name));
+    }
     agents.push_back({name, FindAgent(name, config, seed)});
   }
   return agents;
@@ -88,7 +92,7 @@ void AddCompareCommand(CLI::App* app) {
       app->add_subcommand("compare", "Fly several agents over the same fresh episodes");
   command
       ->add_option("--agents", options->agents,
-                   fmt::format("who flies, separated by commas: {}", AgentForms()))
+                   fmt::format("who flies, separated by commas: {}", AgentNames()))
       ->type_name("AGENT,...")
       ->delimiter(',')
       ->required();
@@ -111,7 +115,7 @@ void AddCompareCommand(CLI::App* app) {
       "Example: skein compare --task heading --agents policy:runs/a,policy:runs/b,random "
       "--episodes 1000 --csv table.csv\n"
       "         skein compare --task heading --condition windy=60fps,moderate --agents "
-      "policy:runs/a,idle");
+      "policy:runs/a,zero");
   command->callback([options] { CompareAgents(*options); });
 }
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 
-#include "base/error.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
@@ -18,6 +17,7 @@
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
+#include "src/usage_error.h"
 
 namespace skein {
 namespace {
@@ -36,10 +36,10 @@ ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_
   if (!IsRunDirectory(options.policy) || flight.preset_option->count() > 0) {
     const std::string& task = flight.task.empty() ? policys_task : flight.task;
     if (task.empty()) {
-      throw Error(
+      throw UsageError(
           fmt::format("--task is needed: --policy {} does not say its own", options.policy));
     }
-    return ResolveConfig({task, flight.preset, "", {}});
+    return AsUsage([&] { return ResolveConfig({task, flight.preset, "", {}}); });
   }
   ProgramConfig config;
   ApplyTomlFile(options.policy + "/config.toml", &config);
@@ -49,7 +49,7 @@ ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_
 std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {
   std::string own = fmt::format("an action every {} control steps", env.action_repeat);
   if (policy.low_level() == nullptr) return own;
-  // It decides with every policy step of the high-level policy's, too.
+  // It acts anew with every policy step of the high-level policy, too.
   return fmt::format("{} for a low-level policy with one every {}", own,
                      std::min(env.action_repeat, policy.low_level()->action_repeat()));
 }
@@ -58,7 +58,7 @@ void Evaluate(const EvalOptions& options) {
   const FlightOptions& flight = options.flight;
   const std::string path = PolicyFileOf(options.policy);
   if (path != kUntrained && !options.low_level.empty()) {
-    throw Error(
+    throw UsageError(
         "--low-level is for --policy untrained: a trained high-level policy brings its own");
   }
   std::optional<RecurrentPolicy> trained;
@@ -68,7 +68,7 @@ void Evaluate(const EvalOptions& options) {
   ApplyOverrides(flight, &config);
   std::shared_ptr<const Policy> low_level;
   if (!options.low_level.empty()) {
-    low_level = ChooseLowLevelPolicy(config.train.env, options.low_level).pilot;
+    low_level = ChooseLowLevelPolicy(config.train.env, options.low_level).policy;
   }
   const RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);
   CheckWritable({flight.json, flight.flights});
@@ -117,8 +117,8 @@ void AddEvalCommand(CLI::App* app) {
   command
       ->add_option("--low-level", options->low_level,
                    "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
-                   "(alone: parallel, though aggressive among --agents), that flies what the "
-                   "high-level policy asks for; without it the sticks are flown")
+                   "(alone: parallel, though aggressive among --agents) that is the low-level "
+                   "policy; without it the untrained policy gives stick commands")
       ->type_name("RUN_OR_POLICY");
   command->add_flag("--deterministic", options->deterministic,
                     "report the mean action first (default: sampled actions; both are flown)");

@@ -226,7 +226,7 @@ void AddFileCommand(CLI::App* fdm, const std::string& name, const std::string& d
                     const std::string& footer, void (*run)(const FileOptions&)) {
   auto options = std::make_shared<FileOptions>();
   CLI::App* command = fdm->add_subcommand(name, description);
-  command->add_option("--in", options->in, "JSON file to read (schema: docs/program.md)")
+  command->add_option("--in", options->in, "JSON file to read (schema: docs/reference/commands.md)")
       ->type_name("FILE")
       ->required();
   command->add_option("--out", options->out, "JSON file to write, same structure")

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/whole_number.h"
 #include "src/evaluation/flight_file.h"
 #include "src/files/output_file.h"
+#include "src/usage_error.h"
 
 namespace skein {
 
@@ -50,14 +50,16 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
   for (const std::string& assignment : options.assignments) {
     for (const char* table : {"run.", "ppo.", "evaluation.", "checkpoint."}) {
       if (KeyOf(assignment).rfind(table, 0) != 0) continue;
-      throw Error(fmt::format("--set {}: is of trainings and changes no flight", assignment));
+      throw UsageError(fmt::format("--set {}: is of trainings and changes no flight", assignment));
     }
   }
   const std::string task = options.task.empty() ? config->train.env.task : options.task;
-  if (!options.config.empty()) ApplyTomlFile(options.config, config);
-  ApplyConditionsAndAssignments(options.conditions, options.assignments, config);
-  RequireTask(*config, task);
-  CheckConsistent(*config);
+  AsUsage([&] {
+    if (!options.config.empty()) ApplyTomlFile(options.config, config);
+    ApplyConditionsAndAssignments(options.conditions, options.assignments, config);
+    RequireTask(*config, task);
+    CheckConsistent(*config);
+  });
 }
 
 void WriteFlights(const FlightOptions& options, const std::string& path, const std::string& manner,

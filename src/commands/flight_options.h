@@ -34,8 +34,8 @@ struct FlightOptionTexts {
 /// Adds the options to a command; `options` must live as long as it.
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);
 
-/// The environment of `config` with --config, --condition and --set on top. Throws Error if they
-/// name another task than --task, or than `config` without it.
+/// The environment of `config` with --config, --condition and --set on top. Throws UsageError if
+/// they cannot be, or name another task than --task (without it: than `config`).
 void ApplyOverrides(const FlightOptions& options, ProgramConfig* config);
 
 /// Records the first episodes to `path`, and says so. `manner` is how they were flown.

@@ -19,13 +19,13 @@ void PrintInfo(const std::string& json_path) {
   if (!json_path.empty()) WriteJson(json_path, info);
   const auto text = [&info](const char* key) { return info[key].get<std::string>(); };
   fmt::print(
-      "skein     {} ({}, {})\n"
+      "skein     {} (commit {}, {}, {})\n"
       "cpu       {}\n"
       "threads   {}\n"
       "simd      {} (supported: {}; force one with SKEIN_SIMD)\n"
       "learner   precision {} (native bf16: {}; choose one with learner.precision)\n"
       "libtorch  {}\n",
-      text("version"), text("compiler"), text("build_type"), text("cpu"),
+      text("version"), text("commit"), text("compiler"), text("build_type"), text("cpu"),
       info["threads"].get<int>(), text("simd"),
       fmt::join(info["simd_supported"].get<std::vector<std::string>>(), ", "), text("precision"),
       info["native_bf16"].get<bool>() ? "yes" : "no", text("libtorch"));

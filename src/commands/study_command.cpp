@@ -9,6 +9,7 @@
 #include "src/config/whole_number.h"
 #include "src/study/study.h"
 #include "src/study/study_run.h"
+#include "src/usage_error.h"
 
 namespace skein {
 namespace {
@@ -20,14 +21,14 @@ struct StudyOptions {
 };
 
 void CarryOut(const StudyOptions& options) {
-  const Study study = ReadStudy(options.file);
+  const Study study = AsUsage([&] { return ReadStudy(options.file); });
   const std::string directory =
       options.out.empty() ? "studies/" + std::filesystem::path(options.file).stem().string()
                           : options.out;
   WorkerPool pool(options.threads);
   StudyRun run(study, directory, pool);
   if (!run.Run()) {
-    fmt::print("stopped; go on with: skein study {} --out {}\n", options.file, directory);
+    fmt::print("stopped; resume with: skein study {} --out {}\n", options.file, directory);
     return;
   }
   fmt::print("{}\nresults         {}/results.csv, results.json\n", run.ToText(), directory);
@@ -39,7 +40,8 @@ void AddStudyCommand(CLI::App* app) {
   auto options = std::make_shared<StudyOptions>();
   CLI::App* command = app->add_subcommand(
       "study", "Train and evaluate a grid: tasks, levels of a condition, seeds");
-  command->add_option("file", options->file, "TOML file that says what (docs/program.md)")
+  command
+      ->add_option("file", options->file, "TOML file that says what (docs/reference/commands.md)")
       ->type_name("FILE")
       ->required();
   command
@@ -52,7 +54,7 @@ void AddStudyCommand(CLI::App* app) {
                    "worker threads; results do not depend on it (default: one per CPU)")
       ->transform(WholeNumber(1, 1024));
   command->footer(
-      "The same command goes on after an interruption of any kind, and skips what is finished.\n"
+      "The same command resumes after an interruption of any kind, and skips what is finished.\n"
       "Example: skein study configs/studies/noise.toml");
   command->callback([options] { CarryOut(*options); });
 }

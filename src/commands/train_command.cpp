@@ -17,6 +17,7 @@
 #include "src/config/whole_number.h"
 #include "src/run/run_directory.h"
 #include "src/run/training_run.h"
+#include "src/usage_error.h"
 #include "train/policy/low_level_file.h"
 
 namespace skein {
@@ -48,10 +49,13 @@ void ApplyFlags(const TrainOptions& options, ProgramConfig* config) {
 
 /// What the command line asks for, for a new run.
 ProgramConfig Configure(const TrainOptions& options, const std::string& task) {
-  ProgramConfig config = ResolveConfig(
-      {task, options.preset, options.config, options.assignments, options.conditions});
-  ApplyFlags(options, &config);
-  return config;
+  return AsUsage([&] {
+    ProgramConfig config = ResolveConfig(
+        {task, options.preset, options.config, options.assignments, options.conditions});
+    ApplyFlags(options, &config);
+    CheckConsistent(config);
+    return config;
+  });
 }
 
 std::string RunToResume(const TrainOptions& options) {
@@ -67,17 +71,20 @@ void Resume(const TrainOptions& options) {
   ApplyTomlFile(directory.config(), &config);
   CheckConsistent(config);
   if (!options.task.empty() && options.task != config.train.env.task) {
-    throw Error(fmt::format("{}: is a run of task {}, not {}", directory.path(),
-                            config.train.env.task, options.task));
+    throw UsageError(fmt::format("{}: is a run of task {}, not {}", directory.path(),
+                                 config.train.env.task, options.task));
   }
-  ProgramConfig asked = config;
-  ApplyConditionsAndAssignments(options.conditions, options.assignments, &asked);
-  ApplyFlags(options, &asked);
+  ProgramConfig asked = AsUsage([&] {
+    ProgramConfig changed = config;
+    ApplyConditionsAndAssignments(options.conditions, options.assignments, &changed);
+    ApplyFlags(options, &changed);
+    return changed;
+  });
   // Which precision suits the processor was decided when the run began.
   LearnerPrecision& precision = asked.train.learner.precision;
   if (precision == LearnerPrecision::kAuto) precision = config.train.learner.precision;
   if (const auto differences = Differences(config, asked); !differences.empty()) {
-    throw Error(fmt::format(
+    throw UsageError(fmt::format(
         "{}: a resumed run keeps its configuration, but this was asked for: {}; begin a new run "
         "instead",
         directory.path(), fmt::join(differences, ", ")));
@@ -86,8 +93,8 @@ void Resume(const TrainOptions& options) {
   if (!options.low_level.empty()) {
     const ChosenLowLevelPolicy asked_low_level =
         ChooseLowLevelPolicy(config.train.env, options.low_level);
-    if (!IsSameLowLevelPolicy(asked_low_level.pilot.get(), config.train.low_level.get())) {
-      throw Error(
+    if (!IsSameLowLevelPolicy(asked_low_level.policy.get(), config.train.low_level.get())) {
+      throw UsageError(
           fmt::format("{}: a resumed run keeps its low-level policy, but --low-level {} is "
                       "another one; begin a new run instead",
                       directory.path(), options.low_level));
@@ -111,9 +118,8 @@ void Train(const TrainOptions& options) {
     throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
   }
   ProgramConfig config = Configure(options, options.task);
-  CheckConsistent(config);
   const ChosenLowLevelPolicy low_level = ChooseLowLevelPolicy(config.train.env, options.low_level);
-  config.train.low_level = low_level.pilot;
+  config.train.low_level = low_level.policy;
   WorkerPool pool(options.threads);
   TrainingRun::Begin(config, options.out, pool, low_level.description);
 }
@@ -152,9 +158,8 @@ void AddTrainCommand(CLI::App* app) {
   command->add_option("--seed", options->seed, "seed of the run; same as --set run.seed=...");
   command
       ->add_option("--low-level", options->low_level,
-                   "for task tracking: the policy of task control that flies what the high-level "
-                   "policy asks "
-                   "for (a file, or a run's best), or autopilot[:VARIANT] (alone: parallel)")
+                   "for task tracking: the low-level policy, trained on task control (a file, or a "
+                   "run's best), or autopilot[:VARIANT] (alone: parallel)")
       ->type_name("RUN_OR_POLICY");
   CLI::Option* out = command
                          ->add_option("--out", options->out,
@@ -163,9 +168,9 @@ void AddTrainCommand(CLI::App* app) {
                          ->type_name("DIR");
   options->resume_option =
       command
-          ->add_option("--resume", options->resume,
-                       "go on with the run in DIR, or with the latest in runs/ (of TASK, if "
-                       "given), bit for bit as if it had never stopped")
+          ->add_option(
+              "--resume", options->resume,
+              "resume the run in DIR, or the latest in runs/ (of TASK, if given), bit-exactly")
           ->type_name("[DIR|latest]")
           ->expected(0, 1)
           ->excludes(preset)
@@ -178,11 +183,11 @@ void AddTrainCommand(CLI::App* app) {
   command->add_flag("--help-keys", options->help_keys,
                     "list every configuration key with type, range, value and meaning, and exit");
   command->footer(
-      "Weakest first: built-in defaults, preset, --config, --condition, --set, --steps and "
-      "--seed.\n"
-      "SIGINT (Ctrl-C) and SIGTERM drop the iteration under way, save and end with exit code 0; a "
-      "second\n"
-      "one ends at once. SIGUSR1 saves after the iteration and goes on.\n"
+      "From lowest to highest precedence: built-in defaults, preset, --config, --condition, "
+      "--set,\n"
+      "--steps and --seed. SIGINT (Ctrl-C) and SIGTERM drop the iteration under way, save, and "
+      "end\n"
+      "with exit code 0; a second one ends at once. SIGUSR1 saves after the iteration.\n"
       "Examples:\n"
       "  skein train heading\n"
       "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"

@@ -243,6 +243,15 @@ std::string DescribeConditions(const EnvConfig& env) {
       most_noise > 0 ? "noise " + range({env.observation_noise, most_noise}, "") : "no noise");
 }
 
+std::vector<ConditionForm> ConditionForms() {
+  std::vector<ConditionForm> forms;
+  for (const Condition& condition : Conditions()) {
+    forms.push_back(
+        {condition.name, condition.form, condition.mild, condition.middle, condition.hard});
+  }
+  return forms;
+}
+
 std::string ConditionHelp() {
   std::string names;
   for (const Condition& condition : Conditions()) {

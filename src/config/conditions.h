@@ -17,6 +17,18 @@ std::vector<std::string> ConditionAssignments(const std::vector<std::string>& co
 /// 1200 ft/s; still air; noise 0.01".
 std::string DescribeConditions(const EnvConfig& env);
 
+/// A condition and what its levels stand for, for people.
+struct ConditionForm {
+  const char* name;
+  const char* level;  ///< what a level looks like
+  const char* mild;
+  const char* middle;
+  const char* hard;
+};
+
+/// Every condition.
+std::vector<ConditionForm> ConditionForms();
+
 /// The help text of a command's option --condition.
 std::string ConditionHelp();
 

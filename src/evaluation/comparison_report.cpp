@@ -108,7 +108,7 @@ std::string ToText(const Comparison& comparison) {
 }
 
 std::string ComparisonCsvHeader() {
-  std::string header = "task,conditions,agent,episodes,seed,decision_interval_s";
+  std::string header = "task,conditions,agent,episodes,seed,policy_step_s";
   for (const char* against : {"", "_less_first"}) {
     for (const Quantity& quantity : Quantities()) {
       header += fmt::format(",{0}{1},{0}{1}_low,{0}{1}_high", quantity.key, against);

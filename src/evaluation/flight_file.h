@@ -9,8 +9,8 @@
 
 namespace skein {
 
-/// The text of a file of flights (docs/file-formats.md): a header, and for every flight a row at
-/// time 0 and one at the end of each control step, in feet, seconds and degrees.
+/// The text of a file of flights (docs/reference/file-formats.md): a header, and for every flight a
+/// row at time 0 and one at the end of each control step, in feet, seconds and degrees.
 std::string FlightsCsv(const EnvConfig& env, const std::vector<RecordedFlight>& flights);
 
 }  // namespace skein

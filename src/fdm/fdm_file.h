@@ -45,8 +45,8 @@ struct FdmTrajectory {
   std::vector<double> t;  ///< s, increasing from 0; where states are recorded
 };
 
-/// What a file of `skein fdm` asks for, with the document it came from (docs/program.md has the
-/// schema). Results that the document already holds are ignored.
+/// What a file of `skein fdm` asks for, with the document it came from (docs/reference/commands.md
+/// has the schema). Results that the document already holds are ignored.
 struct FdmFile {  // NOLINT(bugprone-exception-escape): seen in the JSON library's move alone
   nlohmann::ordered_json document;
   std::vector<FdmPoint> points, edge_points;

@@ -79,6 +79,13 @@ FileDescriptor LockDirectory(const std::string& directory) {
   return file;
 }
 
+bool IsHeld(const std::string& directory) {
+  std::error_code failure;
+  if (!fs::exists(directory + "/lock", failure)) return false;
+  const FileDescriptor file(directory + "/lock", OpenMode::kRead);
+  return flock(file.value(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
 const std::string& MakeDirectories(const std::string& path) {
   const fs::path parent = fs::absolute(path).parent_path();
   std::error_code failure;
@@ -126,6 +133,12 @@ RunDirectory RunDirectory::Open(const std::string& path) {
 RunDirectory::RunDirectory(const std::string& path)
     : path_(WithoutTrailingSlashes(path)), lock_(LockDirectory(MakeDirectories(path_))) {
   MakeDirectories(checkpoints());
+}
+
+std::string RunDirectory::low_level() const {
+  const std::string path = path_ + "/low_level.skein", older = path_ + "/controller.skein";
+  std::error_code failure;
+  return !fs::exists(path, failure) && fs::exists(older, failure) ? older : path;
 }
 
 std::string RunDirectory::checkpoint(std::uint64_t iteration) const {

@@ -24,7 +24,7 @@ std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 inline constexpr const char* kRunsRoot = "runs";
 
 /// The directory of one training run, held exclusively while the object lives:
-///   config.toml  controller.skein (of high-level policies)  log.txt  metrics.csv  timing.csv
+///   config.toml  low_level.skein (of high-level policies)  log.txt  metrics.csv  timing.csv
 ///   events.out.tfevents.*  evaluation.json checkpoints/checkpoint-<iteration>.skein,
 ///   policy-best.skein, policy-final.skein
 class RunDirectory {
@@ -39,7 +39,8 @@ class RunDirectory {
 
   const std::string& path() const { return path_; }
   std::string config() const { return path_ + "/config.toml"; }
-  std::string low_level() const { return path_ + "/controller.skein"; }
+  /// Where the low-level policy is: runs of version 0.1 have it as controller.skein.
+  std::string low_level() const;
   std::string log() const { return path_ + "/log.txt"; }
   std::string metrics() const { return path_ + "/metrics.csv"; }
   std::string timing() const { return path_ + "/timing.csv"; }
@@ -67,6 +68,9 @@ class RunDirectory {
 /// Takes the lock of a directory that training works in, for as long as the descriptor lives.
 /// Throws Error if another process holds it.
 FileDescriptor LockDirectory(const std::string& directory);
+
+/// Whether a process holds that lock now.
+bool IsHeld(const std::string& directory);
 
 /// Makes `path` and what is missing above it, durably; returns it.
 const std::string& MakeDirectories(const std::string& path);

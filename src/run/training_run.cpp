@@ -122,7 +122,7 @@ void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wo
   }
   if (saved_on != target) {
     run.log_.Say(
-        fmt::format("warning: saved with SIMD target {0}, going on with {1}: no longer bit for bit "
+        fmt::format("warning: saved with SIMD target {0}, resuming with {1}: no longer bit-exact "
                     "(SKEIN_SIMD={0} forces it)",
                     saved_on, target));
   }

@@ -17,6 +17,7 @@
 #include "src/config/settings.h"
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
+#include "src/usage_error.h"
 
 namespace skein {
 namespace {
@@ -88,6 +89,12 @@ class TableReader {
       tables.push_back(element->as_table());
     }
     return tables;
+  }
+
+  /// Throws Error if `old`, which is now called `name`, is there.
+  void RefuseOld(const std::string& old, const std::string& name) const {
+    const toml::node* const node = table_.get(old);
+    if (node != nullptr) throw Error(At(*node, old) + " is now called " + name);
   }
 
   /// Throws Error on the first key that nobody asked for.
@@ -171,6 +178,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   study.seeds = reader.WholeNumbers("seeds", kMaxSeed);
   study.agents = reader.Texts("agents");
   study.preset = reader.Text("preset", study.preset);
+  reader.RefuseOld("controller", "low_level");
   study.low_level = reader.Text("low_level", "");
   study.assignments = reader.Texts("set");
   if (const toml::table* training = reader.Table("training")) {
@@ -224,19 +232,21 @@ void RefuseUnheard(const Study& study, const std::string& source) {
   }
 }
 
-/// The study's preset and assignments, then `parts`, each stronger than those before it.
+/// The study's preset and assignments, then `parts`, each of higher precedence than those before.
 ProgramConfig Configure(const Study& study, const std::string& task,
                         const std::vector<StudySettings>& parts) {
-  ProgramConfig config = ResolveConfig({task, study.preset, "", study.assignments});
-  std::vector<std::string> conditions;
-  for (const StudySettings& part : parts) {
-    conditions.insert(conditions.end(), part.conditions.begin(), part.conditions.end());
-    ApplyConditionsAndAssignments(part.conditions, part.assignments, &config);
-  }
-  ConditionAssignments(conditions);  // refuses one that two parts give
-  RequireTask(config, task);
-  CheckConsistent(config);
-  return config;
+  return AsUsage([&] {
+    ProgramConfig config = ResolveConfig({task, study.preset, "", study.assignments});
+    std::vector<std::string> conditions;
+    for (const StudySettings& part : parts) {
+      conditions.insert(conditions.end(), part.conditions.begin(), part.conditions.end());
+      ApplyConditionsAndAssignments(part.conditions, part.assignments, &config);
+    }
+    ConditionAssignments(conditions);  // refuses one that two parts give
+    RequireTask(config, task);
+    CheckConsistent(config);
+    return config;
+  });
 }
 
 }  // namespace

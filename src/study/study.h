@@ -28,7 +28,7 @@ struct Study {
   std::vector<StudyLevel> levels;
   std::vector<std::string> agents;  ///< flown beside the trained policies
   std::string preset = "default";
-  std::string low_level;  ///< below the high-level policies of planned tasks (ChooseController)
+  std::string low_level;  ///< for tasks of a high-level policy (ChooseLowLevelPolicy)
   std::vector<std::string> assignments;  ///< for trainings and evaluations
   struct Training {
     std::optional<double> steps;  ///< control steps; else the preset's
@@ -41,8 +41,8 @@ struct Study {
   } evaluation;
 };
 
-/// Reads the TOML file of a study (docs/program.md). Throws Error with file and line on unknown
-/// keys, wrong types and lists that are empty or name something twice.
+/// Reads the TOML file of a study (docs/reference/commands.md). Throws Error with file and line on
+/// unknown keys, wrong types and lists that are empty or name something twice.
 Study ReadStudy(const std::string& path);
 
 /// What a training under `level` runs with. Throws Error on a configuration that cannot be.

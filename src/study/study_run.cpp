@@ -23,6 +23,7 @@
 #include "src/run/run_signals.h"
 #include "src/run/training_run.h"
 #include "src/study/study_report.h"
+#include "src/usage_error.h"
 #include "train/files/fnv_hash.h"
 #include "train/policy/low_level_file.h"
 #include "train/policy/policy_environment.h"
@@ -35,8 +36,8 @@ using Json = nlohmann::ordered_json;
 
 /// Removes what a process killed while it made a run's directory has left: no run is in it yet.
 void RemoveStub(const std::string& run) {
-  for (const char* name : {"/config.toml.tmp", "/controller.skein", "/controller.skein.tmp",
-                           "/lock", "/checkpoints"}) {
+  for (const char* name :
+       {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp", "/lock", "/checkpoints"}) {
     std::error_code ignored;  // RunDirectory::Create says what is in the way
     fs::remove(run + name, ignored);
   }
@@ -110,10 +111,10 @@ ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const S
   ProgramConfig config = TrainingConfig(study, task, level, seed);
   if (!IsHierarchical(task)) return config;
   if (study.low_level.empty()) {
-    throw Error(fmt::format(
+    throw UsageError(fmt::format(
         "task {} needs low_level = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
   }
-  config.train.low_level = ChooseLowLevelPolicy(config.train.env, study.low_level).pilot;
+  config.train.low_level = ChooseLowLevelPolicy(config.train.env, study.low_level).policy;
   return config;
 }
 
@@ -126,9 +127,9 @@ void CheckFlies(const EnvConfig& trained, EnvConfig flown, const std::string& wh
 
 /// The study. Throws Error on a configuration or agent of it that cannot be.
 const Study& Checked(const Study& study) {
-  bool plans = false;
+  bool has_high_level = false;
   for (const std::string& task : study.tasks) {
-    plans = plans || IsHierarchical(task);
+    has_high_level = has_high_level || IsHierarchical(task);
     for (const StudyLevel& level : study.levels) {
       try {
         const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
@@ -137,13 +138,15 @@ const Study& Checked(const Study& study) {
         for (const std::string& agent : study.agents) {
           FindAgent(agent, config, study.evaluation.seed);
         }
+      } catch (const UsageError& error) {
+        throw UsageError(fmt::format("{}, level {}: {}", task, level.name, error.what()));
       } catch (const Error& error) {
         throw Error(fmt::format("{}, level {}: {}", task, level.name, error.what()));
       }
     }
   }
-  if (!plans && !study.low_level.empty()) {
-    throw Error("low-level policy is for tasks that are planned, and the study has none");
+  if (!has_high_level && !study.low_level.empty()) {
+    throw UsageError("low_level is for tasks of a high-level policy, and the study has none");
   }
   return study;
 }

@@ -49,8 +49,8 @@ class ComparisonPipeline : public ::testing::Test {
 };
 
 TEST_F(ComparisonPipeline, EveryAgentFliesTheSameEpisodesWhateverTheOrderAndThreads) {
-  const auto forth = Compare("policy:untrained,random:0.2,idle", {"--threads", "1"});
-  const auto back = Compare("idle,random:0.2,policy:untrained", {"--threads", "3"});
+  const auto forth = Compare("policy:untrained,random:0.2,zero", {"--threads", "1"});
+  const auto back = Compare("zero,random:0.2,policy:untrained", {"--threads", "3"});
   EXPECT_EQ(forth["starts"], back["starts"]);
   ASSERT_EQ(forth["agents"].size(), 3u);
   for (int i = 0; i < 3; ++i) {
@@ -80,7 +80,7 @@ TEST_F(ComparisonPipeline, FliesWhatEvalFlies) {
 }
 
 TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
-  const auto result = Compare("idle,random");
+  const auto result = Compare("zero,random");
   const auto& first = result["agents"][0];
   const auto& second = result["agents"][1];
   for (const auto& [key, difference] : second["against_first"]["estimates"].items()) {
@@ -108,8 +108,7 @@ TEST_F(ComparisonPipeline, TheTableFitsATerminalAndTheCsvHasARowForEachAgent) {
   std::string row;
   std::getline(rows, row);
   const auto columns = std::count(row.begin(), row.end(), ',');
-  EXPECT_EQ(row.rfind("task,conditions,agent,episodes,seed,decision_interval_s,success_rate,", 0),
-            0u);
+  EXPECT_EQ(row.rfind("task,conditions,agent,episodes,seed,policy_step_s,success_rate,", 0), 0u);
   int agents = 0;
   for (; std::getline(rows, row); ++agents) {
     EXPECT_EQ(std::count(row.begin(), row.end(), ','), columns) << row;
@@ -118,21 +117,21 @@ TEST_F(ComparisonPipeline, TheTableFitsATerminalAndTheCsvHasARowForEachAgent) {
 }
 
 TEST_F(ComparisonPipeline, RecordsEveryAgentsFlights) {
-  Compare("idle,random:0.5", {"--flights", scratch_ / "flights.csv", "--flights-count", "2"});
-  const std::string idle = ReadFile(scratch_ / "flights.idle.csv");
+  Compare("zero,random:0.5", {"--flights", scratch_ / "flights.csv", "--flights-count", "2"});
+  const std::string zero = ReadFile(scratch_ / "flights.zero.csv");
   const std::string random = ReadFile(scratch_ / "flights.random-0.5.csv");
-  EXPECT_NE(idle, random);
+  EXPECT_NE(zero, random);
   // Header and first row, the state at time 0 and the target, are the same.
   const auto start = [](const std::string& text) {
     return text.substr(0, text.find('\n', text.find('\n') + 1));
   };
-  EXPECT_EQ(start(idle), start(random));
+  EXPECT_EQ(start(zero), start(random));
 }
 
 TEST_F(ComparisonPipeline, FliesInTheEnvironmentOfAFileWhateverTheRateThere) {
   const std::string file = scratch_ / "config.toml";
   WriteFile(file, "[env]\naction_repeat = 7\nobservation_noise = 0.05\n");
-  const nlohmann::json result = Compare("idle", {"--config", file});
+  const nlohmann::json result = Compare("zero", {"--config", file});
   EXPECT_EQ(result["environment"]["env.observation_noise"], 0.05);
   EXPECT_EQ(result["agents"][0]["action_repeat"], 1);
   EXPECT_THAT(output_, HasSubstr("still air; noise 0.05"));
@@ -140,32 +139,39 @@ TEST_F(ComparisonPipeline, FliesInTheEnvironmentOfAFileWhateverTheRateThere) {
 
 TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"idel", "unknown agent idel; did you mean idle?; known agents: autopilot"},
-      {"idle:3", "unknown agent idle:3"},
+      {"zreo", "unknown agent zreo; did you mean zero?; known agents: autopilot"},
+      {"zero:3", "unknown agent zero:3"},
+      {"idle", "agent idle is now called zero"},
       {"autopilot:lazy", "unknown autopilot \"lazy\"; known: public, traditional, aggressive"},
       {"policy", "policy: needs a file or a run"},
-      {"policy:" + (scratch_ / "absent.skein"), "absent.skein"},
-      {"policy:" + scratch_.path(), "not the directory of a run"},
       {"random:often", "as in random:0.5"},
       {"random:0.001", "as in random:0.5"},
-      {"idle,random,idle", "--agents: idle is there twice"}};
+      {"zero,random,zero", "--agents: zero is there twice"}};
   for (const auto& [agents, message] : wrong) {
     const ProgramResult result = CallSkein(Command({"--agents", agents}));
-    EXPECT_EQ(result.exit_code, 1) << agents;
+    EXPECT_EQ(result.exit_code, 2) << agents;
     EXPECT_THAT(result.error, HasSubstr(message));
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
   }
+  const std::vector<std::pair<std::string, std::string>> absent = {
+      {"policy:" + (scratch_ / "absent.skein"), "absent.skein"},
+      {"policy:" + scratch_.path(), "not the directory of a run"}};
+  for (const auto& [agents, message] : absent) {
+    const ProgramResult result = CallSkein(Command({"--agents", agents}));
+    EXPECT_EQ(result.exit_code, 1) << agents;
+    EXPECT_THAT(result.error, HasSubstr(message));
+  }
   const ProgramResult rate =
-      CallSkein(Command({"--agents", "idle", "--set", "env.action_repeat=2"}));
+      CallSkein(Command({"--agents", "zero", "--set", "env.action_repeat=2"}));
   EXPECT_THAT(rate.error, HasSubstr("env.action_repeat: agents that are compared"));
   const std::string file = scratch_ / "same";
   const ProgramResult twice =
-      CallSkein(Command({"--agents", "idle", "--csv", file, "--json", file}));
+      CallSkein(Command({"--agents", "zero", "--csv", file, "--json", file}));
   EXPECT_THAT(twice.error, HasSubstr(file + ": two results would go there"));
-  const ProgramResult trained = CallSkein(Command({"--agents", "idle", "--set", "ppo.epochs=3"}));
+  const ProgramResult trained = CallSkein(Command({"--agents", "zero", "--set", "ppo.epochs=3"}));
   EXPECT_THAT(trained.error, HasSubstr("--set ppo.epochs=3: is of trainings"));
   EXPECT_EQ(CallSkein({"compare", "--task", "heading"}).exit_code, 2) << "no agents";
-  EXPECT_EQ(CallSkein({"compare", "--agents", "idle"}).exit_code, 2) << "no task";
+  EXPECT_EQ(CallSkein({"compare", "--agents", "zero"}).exit_code, 2) << "no task";
 }
 
 }  // namespace

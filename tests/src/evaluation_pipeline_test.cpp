@@ -110,7 +110,7 @@ TEST_F(EvaluationPipeline, FilesThatCannotBeWrittenAreAnErrorBeforeAnythingFlies
       EXPECT_EQ(result.output, "");
     }
     const ProgramResult compared =
-        CallSkein({"compare", "--task", "heading", "--agents", "idle", "--csv", path});
+        CallSkein({"compare", "--task", "heading", "--agents", "zero", "--csv", path});
     EXPECT_THAT(compared.error, HasSubstr(path + ": cannot be written"));
     EXPECT_EQ(compared.output, "");
   }
@@ -129,7 +129,7 @@ TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
     EXPECT_THAT(result.error, HasSubstr(arguments[2]));
   }
   const ProgramResult no_task = CallSkein({"eval", "--policy", "untrained"});
-  EXPECT_EQ(no_task.exit_code, 1);
+  EXPECT_EQ(no_task.exit_code, 2);
   EXPECT_THAT(no_task.error, HasSubstr("--task"));
 }
 

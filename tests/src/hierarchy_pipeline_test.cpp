@@ -54,7 +54,7 @@ TEST_F(HighLevelPipeline, AHighLevelTrainsOverAControlPolicyAndFliesByItself) {
   const ProgramResult resumed = CallSkein(
       {"train", "--resume", run_, "--low-level", moved + "/checkpoints/policy-best.skein"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
-  for (const char* file : {"/metrics.csv", "/checkpoints/policy-final.skein", "/controller.skein",
+  for (const char* file : {"/metrics.csv", "/checkpoints/policy-final.skein", "/low_level.skein",
                            "/checkpoints/checkpoint-000003.skein"}) {
     ExpectSameFile(reference_ + file, run_ + file);
   }
@@ -92,7 +92,7 @@ TEST_F(HighLevelPipeline, AHighLevelTrainsOverTheAutopilot) {
   EXPECT_THAT(flown.output, HasSubstr("for a low-level policy with one every 1;"));
   const ProgramResult other =
       CallSkein({"train", "--resume", run_, "--low-level", "autopilot:traditional"});
-  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_EQ(other.exit_code, 2);
   ExpectOneLine(other.error, "keeps its low-level policy");
 }
 
@@ -110,22 +110,23 @@ TEST_F(HighLevelPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
   std::vector<std::string> all_in_earth = compare;
   all_in_earth.insert(all_in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
   const ProgramResult refused = CallSkein(all_in_earth);
-  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(refused.exit_code, 2);
   ExpectOneLine(refused.error, "env.tracking.error_axes: agents that are compared");
 }
 
-TEST_F(HighLevelPipeline, ControllersThatDoNotFitAreNamed) {
+TEST_F(HighLevelPipeline, LowLevelPoliciesThatDoNotFitAreNamed) {
   const std::string heading = root_ + "/heading";
   ASSERT_EQ(CallSkein(TinyTraining(heading, {"--steps", "10240"})).exit_code, 0);
-  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part) {
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part,
+                           int exit_code = 2) {
     const ProgramResult result = CallSkein(arguments);
-    EXPECT_EQ(result.exit_code, 1) << part;
+    EXPECT_EQ(result.exit_code, exit_code) << part;
     ExpectOneLine(result.error, part);
     EXPECT_FALSE(fs::exists(run_)) << part;
   };
   refused(HighLevelTraining(run_, ""), "needs --low-level");
-  refused(HighLevelTraining(run_, heading), "a policy of task heading");
-  refused(HighLevelTraining(run_, root_ + "/absent.skein"), root_ + "/absent.skein");
+  refused(HighLevelTraining(run_, heading), "a policy of task heading", 1);
+  refused(HighLevelTraining(run_, root_ + "/absent.skein"), root_ + "/absent.skein", 1);
   refused(TinyTraining(run_, {"--low-level", heading}), "not for heading");
   refused({"train", "--resume", heading, "--low-level", heading}, "not for heading");
   refused({"eval", "--policy", heading, "--low-level", heading}, "--policy untrained");
@@ -139,7 +140,7 @@ TEST_F(HighLevelPipeline, ControllersThatDoNotFitAreNamed) {
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
   EXPECT_THAT(trained.output, HasSubstr("it does not say its task"));
   const ProgramResult unsaid = CallSkein({"eval", "--policy", old});
-  EXPECT_EQ(unsaid.exit_code, 1);
+  EXPECT_EQ(unsaid.exit_code, 2);
   ExpectOneLine(unsaid.error, "--task is needed: --policy " + old);
   const ProgramResult other = CallSkein({"train", "--resume", run_, "--low-level", heading});
   EXPECT_EQ(other.exit_code, 1);
@@ -150,7 +151,7 @@ TEST_F(HighLevelPipeline, ControllersThatDoNotFitAreNamed) {
   EXPECT_EQ(nested.exit_code, 1);
   ExpectOneLine(nested.error, "a policy of task tracking");
   const ProgramResult unknown = CallSkein(HighLevelTraining(root_ + "/none", "autopilot:drunken"));
-  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_EQ(unknown.exit_code, 2);
   ExpectOneLine(unknown.error, "parallel");
   // Untrained, both ways of flying Tracking.
   for (const bool planned : {true, false}) {

@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 const char* const kStudy = R"(
 tasks = ["heading"]
 seeds = [3, 4]
-agents = ["idle"]
+agents = ["zero"]
 set = ["env.time_limit_steps=100", "env.heading.earliest_success_step=100"]
 
 [training]
@@ -55,7 +55,7 @@ class StudyPipeline : public ::testing::Test {
   void ExpectError(const std::string& text, const std::string& message) {
     WriteFile(file_, text);
     const ProgramResult result = CallSkein(Command(scratch_ / "wrong"));
-    EXPECT_EQ(result.exit_code, 1) << text;
+    EXPECT_EQ(result.exit_code, 2) << text;
     EXPECT_THAT(result.error, HasSubstr(message));
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
   }
@@ -91,7 +91,7 @@ TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
   ASSERT_EQ(lines.size(), 1u + 2 * 4);
   EXPECT_EQ(lines[0].rfind("task,level,agent,episodes,seeds,success_rate,", 0), 0u);
   EXPECT_EQ(lines[1].rfind("heading,quiet,trained,20,2,", 0), 0u);
-  EXPECT_EQ(lines[8].rfind("heading,\"loud, 0.1\",idle,20,,", 0), 0u);
+  EXPECT_EQ(lines[8].rfind("heading,\"loud, 0.1\",zero,20,,", 0), 0u);
   for (const std::string& text : {"training 3 of 4: " + out + "/runs/heading-loud--0.1-seed3",
                                   std::string("trained (2 seeds)"),
                                   std::string("heading, loud, 0.1"), std::string("results.csv")}) {
@@ -157,7 +157,7 @@ TEST_F(StudyPipeline, HighLevelsAreTrainedOverTheLowLevelPolicy) {
   WriteFile(file_, planned);
   const ProgramResult result = CallSkein(Command(out));
   ASSERT_EQ(result.exit_code, 0) << result.error;
-  EXPECT_TRUE(fs::exists(out + "/runs/tracking-quiet-seed3/controller.skein"));
+  EXPECT_TRUE(fs::exists(out + "/runs/tracking-quiet-seed3/low_level.skein"));
   // Planners and stick agents flew the same episodes, and it is known what it depended on.
   EXPECT_THAT(CallSkein(Command(out)).output, ::testing::Not(HasSubstr("flying")));
   std::string other = planned;
@@ -165,7 +165,8 @@ TEST_F(StudyPipeline, HighLevelsAreTrainedOverTheLowLevelPolicy) {
   WriteFile(file_, other);
   EXPECT_THAT(CallSkein(Command(out)).error, HasSubstr("another low-level policy"));
   ExpectError(without, "task tracking needs low_level = ");
-  ExpectError(std::string("low_level = \"autopilot\"\n") + kStudy, "for tasks that are planned");
+  ExpectError(std::string("low_level = \"autopilot\"\n") + kStudy,
+              "for tasks of a high-level policy");
 }
 
 TEST_F(StudyPipeline, KilledAgainAndAgainItEndsAsInOneGo) {
@@ -207,7 +208,7 @@ TEST_F(StudyPipeline, KeepsWhatIsFinishedAndRefusesWhatIsOtherwise) {
   const std::string run = out + "/runs/heading-quiet-seed3/log.txt";
   const std::string log = ReadFile(run);
   // Another agent and more episodes need no training, another seed and another level their own.
-  replace("agents = [\"idle\"]", "agents = [\"idle\", \"random\"]");
+  replace("agents = [\"zero\"]", "agents = [\"zero\", \"random\"]");
   WriteFile(file_, replace("episodes = 20", "episodes = 30"));
   EXPECT_THAT(CallSkein(Command(out)).output, ::testing::Not(HasSubstr("training 1 of")));
   replace("seeds = [3]", "seeds = [3, 4]");
@@ -281,6 +282,8 @@ TEST_F(StudyPipeline, WrongStudiesAreErrorsOfOneLineBeforeAnyTraining) {
       "tasks = [\"heading\"]\nseeds = [1]\n[training]\ncondition = [\"noisy=0.1\"]\n"
       "[[level]]\nname = \"a\"\ncondition = [\"noisy=0.2\"]",
       "noisy is given twice");
+  ExpectError("tasks = [\"heading\"]\nseeds = [1]\ncontroller = \"x\"",
+              ":3: controller is now called low_level");
   ExpectError("tasks = [", "not valid TOML");
   EXPECT_FALSE(fs::exists(scratch_ / "wrong"));
 }

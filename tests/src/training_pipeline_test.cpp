@@ -91,7 +91,7 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   EXPECT_THAT(ReadFile(flights),
               HasSubstr(",error_pitch_deg,error_yaw_deg,error_true_airspeed_fps"));
   const ProgramResult other = CallSkein({"eval", "--policy", run_, "--task", "heading"});
-  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_EQ(other.exit_code, 2);
   ExpectOneLine(other.error, "env.task = control, but the task asked for is heading");
   // A file knows its task.
   const std::string policy = run_ + "/checkpoints/policy-final.skein";
@@ -104,7 +104,7 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   EXPECT_EQ(file.exit_code, 1);
   ExpectOneLine(file.error, "env.task = control, but is to fly with env.task = heading");
   const ProgramResult compared =
-      CallSkein({"compare", "--task", "heading", "--agents", "idle,policy:" + policy});
+      CallSkein({"compare", "--task", "heading", "--agents", "zero,policy:" + policy});
   EXPECT_EQ(compared.exit_code, 1);
   ExpectOneLine(compared.error, "agent policy:" + policy);
   const ProgramResult aircraft =
@@ -167,7 +167,7 @@ TEST_F(TrainingPipeline, OldNamesOfBackendsAreErrorsThatNameTheNewOnes) {
   for (const std::string name : {"tiled", "autograd"}) {
     const ProgramResult result =
         CallSkein(TinyTraining(run_, {"--set", "learner.backend=" + name}));
-    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.exit_code, 2);
     ExpectOneLine(result.error, "learner.backend must be \"fused\" or \"libtorch\", not");
     EXPECT_FALSE(fs::exists(run_));
   }
@@ -186,13 +186,13 @@ TEST_F(TrainingPipeline, ARunSaysAndKeepsItsPrecision) {
   EXPECT_EQ(CallSkein({"train", "--resume", run_}).exit_code, 0);
   const ProgramResult other =
       CallSkein({"train", "--resume", run_, "--set", "learner.precision=bf16"});
-  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_EQ(other.exit_code, 2);
   ExpectOneLine(other.error, "learner.precision (\"mixed\" against \"bf16\")");
 }
 
 TEST_F(TrainingPipeline, AnUnknownPrecisionIsAnErrorThatNamesTheKnownOnes) {
   const ProgramResult result = CallSkein(TinyTraining(run_, {"--set", "learner.precision=fp16"}));
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 2);
   ExpectOneLine(result.error, "learner.precision");
   for (const auto& [precision, name] : kPrecisionNames) {
     EXPECT_THAT(result.error, HasSubstr(std::string("\"") + name + "\""));
@@ -395,14 +395,14 @@ TEST_F(TrainingPipeline, AResumedRunKeepsItsConfiguration) {
   EXPECT_EQ(chosen.exit_code, 0) << chosen.error;
   const ProgramResult rounded =
       RunSkein({"train", "--resume", reference_, "--set", "learner.precision=mixed"});
-  EXPECT_EQ(rounded.exit_code, 1);
+  EXPECT_EQ(rounded.exit_code, 2);
   ExpectOneLine(rounded.error, "learner.precision");
   const ProgramResult other =
       RunSkein({"train", "--resume", reference_, "--set", "ppo.num_aircraft=128"});
-  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_EQ(other.exit_code, 2);
   ExpectOneLine(other.error, "ppo.num_aircraft (64 against 128)");
   const ProgramResult longer = RunSkein({"train", "--resume", reference_, "--steps", "1e6"});
-  EXPECT_EQ(longer.exit_code, 1);
+  EXPECT_EQ(longer.exit_code, 2);
   ExpectOneLine(longer.error, "run.total_steps");
   EXPECT_EQ(CallSkein({"train", "--resume", reference_, "--preset", "paper"}).exit_code, 2);
 }
@@ -500,7 +500,7 @@ TEST_F(TrainingPipeline, AnotherSimdTargetIsWarnedOf) {
   const auto scalar = [] { setenv("SKEIN_SIMD", "scalar", 1); };
   const ProgramResult other = RunSkein({"train", "--resume", reference_}, scalar);
   EXPECT_EQ(other.exit_code, 0) << other.error;
-  EXPECT_THAT(other.output, HasSubstr("no longer bit for bit"));
+  EXPECT_THAT(other.output, HasSubstr("no longer bit-exact"));
 }
 
 TEST_F(TrainingPipeline, ALossThatIsNotFiniteStopsTheRunAndLeavesTheStateBefore) {
@@ -532,7 +532,7 @@ TEST_F(TrainingPipeline, ConfigurationErrorsLeaveNoDirectoryBehind) {
   for (const char* assignment :
        {"ppo.gama=0.9", "ppo.gamma=high", "ppo.gamma=2", "env.aircraft=balloon", "nonsense"}) {
     const ProgramResult result = CallSkein(TinyTraining(run_, {"--set", assignment}));
-    EXPECT_EQ(result.exit_code, 1) << assignment;
+    EXPECT_EQ(result.exit_code, 2) << assignment;
     ExpectOneLine(result.error, "");
     EXPECT_FALSE(fs::exists(run_)) << assignment;
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -37,14 +38,56 @@ TEST(Usage, EveryCommandHasHelp) {
                                              {"bench", "rollout"},
                                              {"bench", "update"},
                                              {"bench", "signature"},
-                                             {"info"}}) {
+                                             {"list"},
+                                             {"info"},
+                                             {"help"}}) {
     std::vector<std::string> arguments = command;
     arguments.push_back("--help");
     const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, HasSubstr("Usage: skein"));
     EXPECT_EQ(result.error, "");
+    if (command == std::vector<std::string>{"help"}) continue;
+    std::vector<std::string> words = {"help"};
+    words.insert(words.end(), command.begin(), command.end());
+    EXPECT_EQ(CallSkein(words).output, result.output) << "skein help COMMAND is its --help";
   }
+}
+
+TEST(Usage, VersionNamesTheCommitAndTheBuild) {
+  const ProgramResult result = CallSkein({"--version"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output,
+              testing::MatchesRegex("skein [0-9]+\\.[0-9]+\\.[0-9]+ \\(commit "
+                                    "([0-9a-f]{10,}(-dirty)?|unknown), .+, .+\\)\n"));
+}
+
+TEST(Usage, ListNamesWhatThereIs) {
+  const auto list = [](const std::string& what) {
+    const ProgramResult result = CallSkein({"list", what});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return result.output;
+  };
+  EXPECT_THAT(list("tasks"), HasSubstr("heading   altitude_ft, yaw_deg, true_airspeed_fps"));
+  EXPECT_THAT(list("presets"), HasSubstr("heading   aerosonde, default, paper"));
+  EXPECT_THAT(list("conditions"), HasSubstr("60fps,light"));
+  EXPECT_THAT(list("aircraft"), HasSubstr("aerosonde"));
+  EXPECT_THAT(list("agents"), HasSubstr("zero "));
+  const ProgramResult all = CallSkein({"list"});
+  for (const char* what : {"tasks", "presets", "conditions", "policies", "runs", "agents"}) {
+    EXPECT_THAT(all.output, HasSubstr(list(what))) << what;
+  }
+  EXPECT_EQ(CallSkein({"list", "pilots"}).exit_code, 2);
+}
+
+TEST(Usage, ListSaysWhichFilesAreNoPolicies) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directory(scratch / "policies");
+  WriteFile(scratch / "policies/broken.skein", "no policy");
+  const ProgramResult result =
+      RunSkein({"list", "policies"}, [&] { std::filesystem::current_path(scratch.path()); });
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("policies/broken.skein  "));
 }
 
 TEST(Usage, HelpSaysWhatAutopilotAloneMeans) {
@@ -79,6 +122,37 @@ TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
   }
 }
 
+TEST(Usage, AskingForWhatCannotBeExitsWithTwo) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"train", "heding"},
+           {"train", "heading", "--preset", "fast"},
+           {"train", "heading", "--set", "ppo.gama=1"},
+           {"train", "heading", "--set", "ppo.gamma=2"},
+           {"train", "heading", "--condition", "rainy=mild"},
+           {"train", "heading", "--condition", "windy=often"},
+           {"train", "heading", "--low-level", "autopilot"},
+           {"train", "tracking"},
+           {"train", "tracking", "--low-level", "autopilot:lazy"},
+           {"eval", "--policy", "untrained"},
+           {"eval", "--policy", "untrained", "--task", "heading", "--set", "ppo.epochs=3"},
+           {"compare", "--task", "heading", "--agents", "ace"},
+           {"compare", "--task", "heading", "--agents", "zero,zero"},
+           {"bench", "sim", "--set", "nonsense"},
+           {"help", "fly"}}) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.error;
+    EXPECT_EQ(result.error.rfind("skein: error: ", 0), 0u) << result.error;
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+}
+
+TEST(Usage, OldNamesAreErrorsThatSayTheNewOnes) {
+  EXPECT_THAT(CallSkein({"train", "tracking", "--controller", "x"}).error,
+              HasSubstr("--controller is now called --low-level"));
+  EXPECT_THAT(CallSkein({"compare", "--task", "heading", "--agents", "idle"}).error,
+              HasSubstr("agent idle is now called zero"));
+}
+
 TEST(Usage, FlagsThatStandForAKeyAreNamedInItsErrors) {
   EXPECT_THAT(CallSkein({"train", "heading", "--steps", "0"}).error,
               HasSubstr("--steps: run.total_steps = 0 is out of range; it must be in [1, 2^53]"));
@@ -108,7 +182,7 @@ TEST(Usage, AnErrorIsOneLineWhateverIsInIt) {
   const std::string path = scratch / "config.toml";
   WriteFile(path, "[ppo]\n\"a\\nb\" = 1\n");
   const ProgramResult result = CallSkein({"train", "heading", "--config", path});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.error, HasSubstr(path + ":2: unknown key ppo.a"));
   EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
 }
@@ -139,7 +213,7 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_EQ(
       CallSkein({"trian", "heading"}).error,
       "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
-      "compare, study, fdm, bench, info (see skein --help)\n");
+      "compare, study, fdm, bench, list, info, help (see skein --help)\n");
   EXPECT_THAT(
       CallSkein({"fdm", "fly"}).error,
       HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));
@@ -172,6 +246,13 @@ TEST(Usage, HelpKeysListsEveryKeyWithItsValue) {
   EXPECT_THAT(result.output, HasSubstr("env.action_repeat = 5\n"));
   EXPECT_THAT(CallSkein({"train", "--help-keys", "--set", "env.action_repeat=7"}).output,
               HasSubstr("env.action_repeat = 7\n"));
+}
+
+TEST(Usage, HelpKeysNeedsNoCommand) {
+  const ProgramResult result = CallSkein({"--help-keys"});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("ppo.gamma = "));
+  EXPECT_THAT(result.output, HasSubstr("env.task = "));
 }
 
 TEST(Usage, InfoNamesWhatItRunsOn) {
@@ -254,7 +335,7 @@ TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
   rollout.insert(rollout.end(), small.begin(), small.end());
   update.insert(update.end(), small.begin(), small.end());
   const auto rollouts = measure(rollout);
-  EXPECT_GT(rollouts["decisions_per_s"], 0);
+  EXPECT_GT(rollouts["policy_steps_per_s"], 0);
   EXPECT_GT(rollouts["simulator_share"], 0);
   EXPECT_LT(rollouts["simulator_share"], 1);
   const auto updates = measure(update);
@@ -287,7 +368,7 @@ TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
 
 TEST(Usage, BenchmarksOfHighLevelsNeedALowLevelPolicy) {
   const ProgramResult result = CallSkein({"bench", "rollout", "--task", "tracking"});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.error.find("needs --low-level"), std::string::npos) << result.error;
 }
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// The commands directly below `app`, in their order.
+std::vector<const CLI::App*> CommandsOf(const CLI::App& app);
+
+/// The options of a command by their long names, "--threads"; positional arguments are left out.
+std::vector<std::string> OptionNames(const CLI::App& app);
+
+/// The command of `app` called `name`; null if there is none.
+const CLI::App* FindCommand(const CLI::App& app, const std::string& name);
+
+/// "unknown command trian; did you mean train?; known commands: train, eval".
+std::string UnknownCommand(const CLI::App& app, const std::string& name);
+
+}  // namespace skein

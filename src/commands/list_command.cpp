@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "envs/aircraft/registry.h"
+#include "envs/tasks/task.h"
+#include "src/agents/agent_names.h"
+#include "src/commands/commands.h"
+#include "src/config/conditions.h"
+#include "src/config/presets.h"
+#include "src/run/run_summary.h"
+#include "train/policy/policy_parameters.h"
+
+namespace skein {
+namespace {
+
+using Row = std::vector<std::string>;
+using Rows = std::vector<Row>;
+
+constexpr const char* kPoliciesRoot = "policies";
+
+std::string PresetNames(const std::string& task) {
+  std::vector<std::string> names;
+  for (const Preset& preset : Presets()) {
+    if (preset.task == task) names.emplace_back(preset.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+Rows Tasks() {
+  Rows rows = {{"task", "target", "flown by"}};
+  for (const std::string& name : TaskNames()) {
+    EnvConfig config;
+    config.task = name;
+    std::vector<std::string> targets;
+    for (const TargetQuantity& target : MakeTask(config)->target_quantities()) {
+      targets.emplace_back(target.column);
+    }
+    rows.push_back(
+        {name, fmt::format("{}", fmt::join(targets, ", ")),
+         IsHierarchical(name) ? "a high-level policy over a low-level policy" : "one policy"});
+  }
+  return rows;
+}
+
+Rows PresetRows() {
+  Rows rows = {{"task", "presets (--preset)"}};
+  for (const std::string& task : PresetTasks()) rows.push_back({task, PresetNames(task)});
+  return rows;
+}
+
+Rows Conditions() {
+  Rows rows = {{"condition", "mild", "middle", "hard"}};
+  for (const ConditionForm& form : ConditionForms()) {
+    rows.push_back({form.name, form.mild, form.middle, form.hard});
+  }
+  for (const ConditionForm& form : ConditionForms()) {
+    rows.push_back({fmt::format("{}: {}", form.name, form.level)});
+  }
+  return rows;
+}
+
+Rows AircraftRows() {
+  Rows rows = {{"aircraft", "mass, lb", "span, ft"}};
+  for (const std::string& name : AircraftNames()) {
+    constexpr double kGravity_ft_s2 = 32.174;
+    const Airframe airframe = LoadAircraft(name).airframe;
+    rows.push_back({name, fmt::format("{:.1f}", airframe.mass_slug * kGravity_ft_s2),
+                    fmt::format("{:.1f}", airframe.span_ft)});
+  }
+  return rows;
+}
+
+Rows Agents() {
+  Rows rows = {{"agent", "what flies"}};
+  for (const AgentForm& form : AgentForms()) rows.push_back({form.name, form.meaning});
+  return rows;
+}
+
+Row PolicyRow(const std::string& path) {
+  try {
+    const auto policy = LoadPolicy(TensorFile::Read(path), path);
+    const auto aircraft = policy->environment.find("aircraft");
+    return {path, policy->task.empty() ? "unknown" : policy->task,
+            aircraft == policy->environment.end() ? "unknown" : aircraft->second,
+            fmt::format("{} control steps", policy->action_repeat)};
+  } catch (const Error& error) {
+    return {path, error.what()};
+  }
+}
+
+Rows Policies() {
+  std::vector<std::string> paths;
+  std::error_code absent;
+  for (const auto& entry : std::filesystem::directory_iterator(kPoliciesRoot, absent)) {
+    if (entry.path().extension() == ".skein") paths.push_back(entry.path().string());
+  }
+  std::sort(paths.begin(), paths.end());
+  Rows rows = {{"policy", "task", "aircraft", "holds an action for"}};
+  for (const std::string& path : paths) rows.push_back(PolicyRow(path));
+  if (paths.empty()) rows.push_back({fmt::format("(none in {}/ here)", kPoliciesRoot)});
+  return rows;
+}
+
+Rows Runs() {
+  Rows rows = {{"run", "task", "aircraft", "control steps", "success", "state"}};
+  for (const RunSummary& run : SummariseRuns(kRunsRoot)) {
+    rows.push_back({run.path, run.task, run.aircraft, run.steps, run.success, run.state});
+  }
+  if (rows.size() == 1) rows.push_back({fmt::format("(none in {}/ here)", kRunsRoot)});
+  return rows;
+}
+
+struct Listing {
+  const char* name;
+  Rows (*rows)();
+};
+constexpr Listing kListings[] = {
+    {"tasks", Tasks},       {"presets", PresetRows}, {"conditions", Conditions},
+    {"policies", Policies}, {"runs", Runs},          {"aircraft", AircraftRows},
+    {"agents", Agents}};
+
+/// Left-aligned columns, each as wide as its widest cell; the last one as it is.
+void PrintTable(const Rows& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+      widths[i] = std::max(widths[i], row[i].size());
+    }
+  }
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      line += i + 1 == row.size() ? row[i] : fmt::format("{:{}}  ", row[i], widths[i]);
+    }
+    fmt::print("{}\n", line);
+  }
+}
+
+void Print(const std::string& what) {
+  bool first = true;
+  for (const Listing& listing : kListings) {
+    if (!what.empty() && what != listing.name) continue;
+    if (!first) fmt::print("\n");
+    first = false;
+    PrintTable(listing.rows());
+  }
+}
+
+}  // namespace
+
+void AddListCommand(CLI::App* app) {
+  auto what = std::make_shared<std::string>();
+  CLI::App* command = app->add_subcommand(
+      "list", "List tasks, presets, conditions, policies, runs, aircraft and agents");
+  std::vector<std::string> names;
+  for (const Listing& listing : kListings) names.emplace_back(listing.name);
+  command->add_option("what", *what, "what to list (default: all)")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember(names));
+  command->footer(
+      "Policies are those of the folder policies/, runs those of runs/, both of the working "
+      "directory.\n"
+      "Example: skein list conditions");
+  command->callback([what] { Print(*what); });
+}
+
+}  // namespace skein

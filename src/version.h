@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace skein {
+
+/// What this program was built from and how.
+struct BuildInfo {
+  const char* version;   ///< "0.2.0"
+  const char* commit;    ///< of the source tree, "-dirty" behind it if changed; or "unknown"
+  const char* compiler;  ///< "GNU 12.2.0"
+  const char* type;      ///< of the build: "Release"
+  const char* libtorch;  ///< the version built against
+};
+
+const BuildInfo& Build();
+
+}  // namespace skein
