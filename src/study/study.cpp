@@ -285,7 +285,8 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
 ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level) {
   ProgramConfig config = Configure(study, task, {level.settings});
   if (!study.training.per_level) {
-    CheckEachAgentsOwn(config.train.env, Configure(study, task, {}).train.env);
+    const EnvConfig without_level = Configure(study, task, {}).train.env;
+    AsUsage([&] { CheckEachAgentsOwn(config.train.env, without_level); });
   }
   return config;
 }

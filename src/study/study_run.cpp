@@ -134,7 +134,7 @@ const Study& Checked(const Study& study) {
       try {
         const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
         const ProgramConfig config = LevelConfig(study, task, level);
-        CheckFlies(trained.train.env, config.train.env, "what is trained");
+        AsUsage([&] { CheckFlies(trained.train.env, config.train.env, "what is trained"); });
         for (const std::string& agent : study.agents) {
           FindAgent(agent, config, study.evaluation.seed);
         }
