@@ -1,26 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # scripts/check_sources finds each kind of fault in a repository that has just that one, and none in a good one.
-find_program(PYTHON python3)
+include(${CMAKE_CURRENT_LIST_DIR}/scratch_repository.cmake)
 if(NOT PYTHON)
-  message("skipped: no python3")
   return()
 endif()
 set(licence "// SPDX-License-Identifier: Apache-2.0\n")
-
-# expect(EXIT_CODE PATTERN path text [path text ...]): of a repository of these files.
-function(expect exit_code pattern)
-  file(REMOVE_RECURSE ${SCRATCH})
-  while(ARGN)
-    list(POP_FRONT ARGN path text)
-    file(WRITE ${SCRATCH}/${path} "${text}\n")
-  endwhile()
-  execute_process(COMMAND git init -q ${SCRATCH} COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND ${PYTHON} -I -S ${SCRIPT} ${SCRATCH} RESULT_VARIABLE result OUTPUT_VARIABLE output
-                  ERROR_VARIABLE output)
-  if(NOT result EQUAL exit_code OR NOT output MATCHES "${pattern}")
-    message(FATAL_ERROR "${pattern} expected, but exit code ${result} and:\n${output}")
-  endif()
-endfunction()
 
 expect(0 "^$" base/error.h "${licence}" envs/wind/wind.h "${licence}#include \"base/error.h\"")
 expect(1 "base/error.h includes envs/wind.h: includes run down only" base/error.h
