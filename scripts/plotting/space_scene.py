@@ -114,7 +114,8 @@ def target_words(all_tracks, tolerance):
 
 def legend_entries(recordings, all_tracks, options, enlarged, ground):
     entries = [(aircraft_sample(recordings[0].colour),
-                f"{recordings[0].name}: an aircraft every {options.interval:g} s, {enlarged:.0f} times its size")]
+                f"{recordings[0].name}: an aircraft every {options.interval:g} s, {enlarged:.0f} times its size, "
+                "pale from below")]
     entries += [(svg.line_sample(recording.colour, 1.8), recording.name) for recording in recordings[1:]]
     entries.append((target_sample(all_tracks[0].has_target_in_space()), target_words(all_tracks, options.tolerance)))
     entries.append((lambda x, y: [svg.text(x + 28, y + 4, "12 s", "end", 12)], "time to the target"))

@@ -7,8 +7,11 @@ from plotting import svg
 from plotting.axes import Panel, in_words, padded, ticks
 from plotting.records import PlotError, read_autopilot, read_curve, read_seconds_per_step, read_task
 
-BAND_OPACITY = 0.22
-LEFT, TOP, ASIDE, PANEL_HEIGHT = 64, 108, 70, 300
+BAND_OPACITY = 0.18
+LEFT, TOP, ASIDE, PANEL_HEIGHT = 64, 76, 70, 300
+MINUTES_HEIGHT = 32  # above a panel
+PERCENT_RANGE = (0.0, 112.0)  # leaves room for words above 100
+TICK_PIXELS = 85  # about, from one to the next
 TASK_TITLES = {"heading": "Heading: a new altitude, heading and speed",
                "control": "Control: a new pitch, heading and speed",
                "tracking": "Tracking: a point in space"}
@@ -74,21 +77,21 @@ def settings_of(options, scale):
     return [Setting(runs, name, options.column, scale) for runs, name in zip(groups, names)]
 
 
-def autopilots(options, scale):
+def autopilots(options, scale, unit):
     """{task: (words, value)} of the autopilots' figures."""
-    result = {task: ("autopilot", value) for task, value in by_task(options.autopilot, "--autopilot").items()}
+    figures = {task: ("autopilot", value) for task, value in by_task(options.autopilot, "--autopilot").items()}
     for path in options.comparison:
         task, name, rate = read_autopilot(path)
         variant = name.partition(":")[2] or "aggressive"
-        result[task] = (f"{variant} autopilot", rate * scale)
-    return result
+        figures[task] = (f"{variant} autopilot", rate * scale)
+    return {task: (f"{name}: {value:.1f}{unit}", value) for task, (name, value) in figures.items()}
 
 
 def draw_minutes(panel, per_million, machine):
     """Minutes on the upper edge."""
     last = panel.x_range[1] * per_million
     scale = Panel(panel.left, panel.top, panel.width, panel.height, (0.0, last), (0, 1))
-    for value in ticks(0.0, last):
+    for value in ticks(0.0, last, panel.width / TICK_PIXELS):
         x = scale.x(value)
         panel.elements.append(svg.line([(x, panel.top), (x, panel.top - 5)], svg.GREY, 1))
         panel.elements.append(svg.text(x, panel.top - 10, f"{value:,.5g}", "middle", 12))
@@ -96,10 +99,9 @@ def draw_minutes(panel, per_million, machine):
     panel.elements.append(svg.text((panel.left + panel.right) / 2, panel.top - 28, f"minutes{machine}", "middle"))
 
 
-def draw_autopilot(panel, words, value, unit):
+def draw_autopilot(panel, words, value):
     panel.curve([(panel.x_range[0], value), (panel.x_range[1], value)], svg.INK, 1.5, ' stroke-dasharray="7 4"')
-    label = f"{words}: {value:.1f}{unit}"
-    panel.elements.append(svg.haloed(panel.left + 8, panel.y(value) + 17, label))
+    panel.elements.append(svg.haloed(panel.right - 6, panel.y(value) - 8, words, "end"))
 
 
 def draw_setting(panel, setting, colour):
@@ -109,11 +111,12 @@ def draw_setting(panel, setting, colour):
         panel.elements.append(svg.circle((panel.x(x), panel.y(y)), 2.6, colour))
 
 
-def task_panel(left, width, settings, y_range, colours):
-    """The panel of one task with its grid and curves."""
+def task_panel(place, settings, y_range, colours, autopilot):
+    """The panel of one task with its grid and curves, at place = (left, top, width); autopilot may be None."""
+    left, top, width = place
     steps = (0.0, max(setting.mean[-1][0] for setting in settings))
-    panel = Panel(left, TOP, width, PANEL_HEIGHT, steps, y_range)
-    across, up = ticks(*steps), ticks(*y_range)
+    panel = Panel(left, top, width, PANEL_HEIGHT, steps, y_range)
+    across, up = ticks(*steps, width / TICK_PIXELS), ticks(*y_range, 6)
     panel.grid(across, up)
     panel.label_bottom(across)
     panel.label_left(up)
@@ -121,6 +124,8 @@ def task_panel(left, width, settings, y_range, colours):
     title = TASK_TITLES.get(settings[0].task, settings[0].task.capitalize())
     panel.elements.append(svg.bold(left, 52, title))
     panel.elements.append(svg.text(left + width / 2, panel.bottom + 38, "control steps, million", "middle"))
+    if autopilot:
+        draw_autopilot(panel, *autopilot)
     for setting in settings:
         draw_setting(panel, setting, colours[setting.name])
     return panel
@@ -143,33 +148,34 @@ def colours_of(settings, tasks):
     return {setting.name: shades[i % len(shades)] for i, setting in enumerate(settings)}
 
 
-def draw_scales(panel, setting, minutes, autopilot, machine, unit):
-    """Minutes above, and the autopilot's figure across, where they are known."""
-    asked = minutes.get(setting.task, minutes.get(""))
-    per_million = asked / panel.x_range[1] if asked else setting.minutes_per_million()
-    if per_million:
-        draw_minutes(panel, per_million, f" on {machine}" if machine else "")
-    figure = autopilot.get(setting.task, autopilot.get(""))
-    if figure:
-        draw_autopilot(panel, *figure, unit)
+def minutes_of(settings, options):
+    """{task: minutes for a million steps}, as given or as recorded; without tasks of which neither is known."""
+    given, result = by_task(options.minutes, "--minutes"), {}
+    for setting in settings:
+        whole = given.get(setting.task, given.get(""))
+        rate = whole / setting.mean[-1][0] if whole else setting.minutes_per_million()
+        if rate:
+            result.setdefault(setting.task, rate)
+    return result
 
 
 def draw(options):
     scale, unit = (100.0, " %") if options.column.endswith("success_rate") else (1.0, "")
     settings = settings_of(options, scale)
-    y_range = (0.0, 105.0) if unit else padded([y for s in settings for _, y in s.low + s.high])
+    y_range = PERCENT_RANGE if unit else padded([y for s in settings for _, y in s.low + s.high])
     tasks = list(dict.fromkeys(setting.task for setting in settings))
-    colours = colours_of(settings, tasks)
-    minutes, autopilot = by_task(options.minutes, "--minutes"), autopilots(options, scale)
-    width = 700 if len(tasks) == 1 else 400
-    elements, left = [], LEFT
+    colours, minutes = colours_of(settings, tasks), minutes_of(settings, options)
+    autopilot = autopilots(options, scale, unit)
+    left, top, width = LEFT, TOP + (MINUTES_HEIGHT if minutes else 0), 700 if len(tasks) == 1 else 400
+    elements = []
     for task in tasks:
-        own = [setting for setting in settings if setting.task == task]
-        panel = task_panel(left, width, own, y_range, colours)
-        draw_scales(panel, own[0], minutes, autopilot, options.machine, unit)
+        own, figure = [s for s in settings if s.task == task], autopilot.get(task, autopilot.get(""))
+        panel = task_panel((left, top, width), own, y_range, colours, figure)
+        if task in minutes:
+            draw_minutes(panel, minutes[task], f" on {options.machine}" if options.machine else "")
         elements += panel.elements
         left += width + ASIDE
     shown = settings if len(settings) > len(tasks) else settings[:1]
-    lines, bottom = svg.legend(LEFT, TOP + PANEL_HEIGHT + 70, legend_entries(shown, colours), left - ASIDE)
+    lines, bottom = svg.legend(LEFT, top + PANEL_HEIGHT + 70, legend_entries(shown, colours), left - ASIDE)
     title = options.title or COLUMN_TITLES.get(options.column, in_words(options.column).capitalize())
     svg.write(options.out, left - ASIDE + 30, bottom + 22, title, elements + lines)
