@@ -16,6 +16,7 @@
 #include <hwy/highway.h>
 
 #include "simd/math-inl.h"
+#include "tests/tolerance.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -103,6 +104,17 @@ HWY_EXPORT(Atan2Column);
 using Column = std::vector<float>;
 using ColumnFunction = void (*)(const Column&, Column&);
 
+// The errors that simd/math-inl.h promises, in ULP or absolute.
+constexpr Tolerance kReciprocal{2, "ULP, float32 rounding of Newton's step"};
+constexpr Tolerance kArcTangent{4, "ULP, float32 polynomial"};
+constexpr Tolerance kQuotientArcTangent{5, "ULP, float32 polynomial of a quotient"};
+constexpr Tolerance kExpAndLog{2, "ULP, float32 polynomial"};
+constexpr Tolerance kBitAngle{1.2e-7, "float32 polynomial of an exact angle"};
+constexpr Tolerance kSine{2e-7, "float32 polynomial of a reduced angle"};
+constexpr Tolerance kExponent{1e-5, "float32 rounding of 88"};
+constexpr Tolerance kDegrees{3e-5, "float32 rounding of 180 deg"};
+constexpr Tolerance kRadians{5e-7, "float32 rounding of pi"};
+
 constexpr double kRadToDeg = 57.295779513082320877;
 constexpr int kSamples = 1 << 18;  // a multiple of every vector length
 
@@ -166,22 +178,22 @@ double WorstAbsolute(ColumnFunction function, const std::function<double(double)
 TEST_P(MathTest, Reciprocal) {
   const auto exact = [](double x) { return 1 / x; };
   const auto function = SKEIN_DISPATCH(ReciprocalColumn);
-  EXPECT_LE(WorstUlp(function, exact, Geometric(0x1p-125, 0x1p125)), 2);
-  EXPECT_LE(WorstUlp(function, exact, Linear(-2, -1)), 2);
+  EXPECT_LE(WorstUlp(function, exact, Geometric(0x1p-125, 0x1p125)), kReciprocal);
+  EXPECT_LE(WorstUlp(function, exact, Linear(-2, -1)), kReciprocal);
 }
 
 TEST_P(MathTest, ReciprocalSqrt) {
   const auto exact = [](double x) { return 1 / std::sqrt(x); };
   const auto function = SKEIN_DISPATCH(ReciprocalSqrtColumn);
-  EXPECT_LE(WorstUlp(function, exact, Geometric(0x1p-125, 0x1p125)), 2);
-  EXPECT_LE(WorstUlp(function, exact, Linear(1, 4)), 2);
+  EXPECT_LE(WorstUlp(function, exact, Geometric(0x1p-125, 0x1p125)), kReciprocal);
+  EXPECT_LE(WorstUlp(function, exact, Linear(1, 4)), kReciprocal);
 }
 
 TEST_P(MathTest, AtanDegrees) {
   const auto exact = [](double t) { return std::atan(t) * kRadToDeg; };
   const auto function = SKEIN_DISPATCH(AtanDegreesColumn);
-  EXPECT_LE(WorstUlp(function, exact, Linear(-1, 1)), 4);
-  EXPECT_LE(WorstUlp(function, exact, Geometric(1e-30, 1)), 4);
+  EXPECT_LE(WorstUlp(function, exact, Linear(-1, 1)), kArcTangent);
+  EXPECT_LE(WorstUlp(function, exact, Geometric(1e-30, 1)), kArcTangent);
 }
 
 /// The angle that SinCosOfBits takes the bits of `x` for, radians.
@@ -199,11 +211,11 @@ TEST_P(MathTest, SinCosOfBits) {
     EXPECT_LE(
         WorstAbsolute(
             SKEIN_DISPATCH(SinOfBitsColumn), [](double a) { return std::sin(AngleOfBits(a)); }, x),
-        1.2e-7);
+        kBitAngle);
     EXPECT_LE(
         WorstAbsolute(
             SKEIN_DISPATCH(CosOfBitsColumn), [](double a) { return std::cos(AngleOfBits(a)); }, x),
-        1.2e-7);
+        kBitAngle);
   }
 }
 
@@ -212,34 +224,34 @@ TEST_P(MathTest, SinCos) {
     const Column x = Linear(-range, range);
     EXPECT_LE(WorstAbsolute(
                   SKEIN_DISPATCH(SinColumn), [](double a) { return std::sin(a); }, x),
-              2e-7);
+              kSine);
     EXPECT_LE(WorstAbsolute(
                   SKEIN_DISPATCH(CosColumn), [](double a) { return std::cos(a); }, x),
-              2e-7);
+              kSine);
   }
 }
 
 TEST_P(MathTest, Exp) {
   const auto exact = [](double x) { return std::exp(x); };
-  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(ExpColumn), exact, Linear(-87, 88)), 2);
-  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(ExpColumn), exact, Linear(-1, 1)), 2);
+  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(ExpColumn), exact, Linear(-87, 88)), kExpAndLog);
+  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(ExpColumn), exact, Linear(-1, 1)), kExpAndLog);
 }
 
 TEST_P(MathTest, ExpLimitsItsArgument) {
   const Column x(16, 1000.0f), minus_x(16, -1000.0f);
   Column y(16);
   SKEIN_DISPATCH(ExpColumn)(x, y);
-  EXPECT_NEAR(std::log(static_cast<double>(y[0])), 88, 1e-5);
+  EXPECT_NEAR(std::log(static_cast<double>(y[0])), 88, kExponent);
   SKEIN_DISPATCH(ExpColumn)(minus_x, y);
-  EXPECT_NEAR(std::log(static_cast<double>(y[0])), -87, 1e-5);
+  EXPECT_NEAR(std::log(static_cast<double>(y[0])), -87, kExponent);
 }
 
 TEST_P(MathTest, Log) {
   const auto exact = [](double x) { return std::log(x); };
   EXPECT_LE(WorstUlp(SKEIN_DISPATCH(LogColumn), exact,
                      Geometric(std::numeric_limits<float>::min(), 3e38)),
-            2);
-  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(LogColumn), exact, Linear(0.5, 2)), 2);
+            kExpAndLog);
+  EXPECT_LE(WorstUlp(SKEIN_DISPATCH(LogColumn), exact, Linear(0.5, 2)), kExpAndLog);
 }
 
 TEST_P(MathTest, Atan2OnCirclesOfEverySize) {
@@ -254,10 +266,11 @@ TEST_P(MathTest, Atan2OnCirclesOfEverySize) {
     SKEIN_DISPATCH(Atan2Column)(y, x, radians);
     for (int i = 0; i < kSamples; ++i) {
       const double exact = std::atan2(static_cast<double>(y[i]), static_cast<double>(x[i]));
-      ASSERT_NEAR(degrees[i], exact * kRadToDeg, 3e-5);
-      ASSERT_NEAR(radians[i], exact, 5e-7);
+      ASSERT_NEAR(degrees[i], exact * kRadToDeg, kDegrees);
+      ASSERT_NEAR(radians[i], exact, kRadians);
       if (std::abs(y[i]) <= x[i]) {
-        ASSERT_LE(std::abs(degrees[i] - exact * kRadToDeg), 5 * Ulp(exact * kRadToDeg));
+        ASSERT_LE(std::abs(degrees[i] - exact * kRadToDeg),
+                  kQuotientArcTangent * Ulp(exact * kRadToDeg));
       }
     }
   }
@@ -269,7 +282,7 @@ TEST_P(MathTest, Atan2OnTheAxes) {
   for (const auto& c : cases) {
     Column y(16, c[0]), x(16, c[1]), z(16);
     SKEIN_DISPATCH(Atan2DegreesColumn)(y, x, z);
-    EXPECT_NEAR(z[0], c[2], 3e-5) << c[0] << ", " << c[1];
+    EXPECT_NEAR(z[0], c[2], kDegrees) << c[0] << ", " << c[1];
   }
 }
 

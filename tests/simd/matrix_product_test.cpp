@@ -15,6 +15,7 @@
 #include "gtest/gtest.h"
 #include "simd/bfloat16.h"
 #include "simd/target.h"
+#include "tests/tolerance.h"
 
 namespace skein::simd {
 namespace {
@@ -83,10 +84,11 @@ struct Sum {
   double value = 0, magnitude = 0;
 };
 
+constexpr Tolerance kUnitRoundoff{0x1p-24, "float32 rounding of one operation"};
+
 /// A float32 sum of `terms` terms, in any order, is off by no more than this (Higham, Accuracy and
 /// Stability of Numerical Algorithms, section 3.1), with a rounding for each product, too.
 double Bound(const Sum& sum, std::int64_t terms) {
-  constexpr double kUnitRoundoff = 0x1p-24;
   return 1.01 * static_cast<double>(terms + 2) * kUnitRoundoff * sum.magnitude;
 }
 

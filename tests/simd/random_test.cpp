@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "simd/target.h"
+#include "tests/tolerance.h"
 
 namespace skein::simd {
 namespace {
+
+constexpr Tolerance kStandardErrors{5, "standard errors: one false alarm in a million"};
 
 // Known answers of Random123 (kat_vectors, philox4x32 with 10 rounds).
 TEST(Philox4x32, GivesPublishedKnownAnswers) {
@@ -45,9 +48,8 @@ TEST(RandomStream, UniformsFillTheUnitInterval) {
     least = std::min(least, x);
     most = std::max(most, x);
   }
-  // Five standard errors of the moments of a uniform variable.
-  EXPECT_NEAR(sum / kCount, 1.0 / 2, 5 * std::sqrt(1.0 / 12 / kCount));
-  EXPECT_NEAR(squares / kCount, 1.0 / 3, 5 * std::sqrt(4.0 / 45 / kCount));
+  EXPECT_NEAR(sum / kCount, 1.0 / 2, kStandardErrors * std::sqrt(1.0 / 12 / kCount));
+  EXPECT_NEAR(squares / kCount, 1.0 / 3, kStandardErrors * std::sqrt(4.0 / 45 / kCount));
   EXPECT_GE(least, 0);
   EXPECT_LT(most, 1);
   EXPECT_LT(least, 1e-3);
@@ -78,8 +80,7 @@ class FillNormalsTest : public testing::TestWithParam<Target> {
 };
 
 TEST_P(FillNormalsTest, AppliesBoxMullerToTheScalarWords) {
-  // Logarithm, sine and cosine in float32, times a radius of up to 5.8.
-  constexpr double kTolerance = 5e-6;
+  constexpr Tolerance kFloat32{2e-6, "logarithm, sine and cosine in float32, times up to 5.8"};
   constexpr int kCount = 37, kSize = 22;
   constexpr std::uint32_t kFirst = 1000;
   const std::vector<float> normals = Draw(99, kFirst, kCount, kSize);
@@ -94,7 +95,7 @@ TEST_P(FillNormalsTest, AppliesBoxMullerToTheScalarWords) {
       const double in_quadrant = static_cast<std::int32_t>(angle_word << 2) * 0x1.0p-31;
       const double angle = M_PI / 2 * (angle_word >> 30) + M_PI / 4 * in_quadrant;
       const double expected = radius * (j % 2 == 0 ? std::cos(angle) : std::sin(angle));
-      EXPECT_NEAR(normals[static_cast<std::size_t>(i) * kSize + j], expected, kTolerance);
+      EXPECT_NEAR(normals[static_cast<std::size_t>(i) * kSize + j], expected, kFloat32);
     }
   }
 }
@@ -115,14 +116,14 @@ TEST_P(FillNormalsTest, HasTheMomentsAndTailsOfANormal) {
     beyond4 += std::abs(x) > 4;
     most = std::max(most, std::abs(static_cast<double>(x)));
   }
-  // Five standard errors: the variances of x, x^2, x^3, x^4 are 1, 2, 15, 96.
-  EXPECT_NEAR(sum[1] / n, 0, 5 * std::sqrt(1 / n));
-  EXPECT_NEAR(sum[2] / n, 1, 5 * std::sqrt(2 / n));
-  EXPECT_NEAR(sum[3] / n, 0, 5 * std::sqrt(15 / n));
-  EXPECT_NEAR(sum[4] / n, 3, 5 * std::sqrt(96 / n));
+  // The variances of x, x^2, x^3, x^4 are 1, 2, 15, 96.
+  EXPECT_NEAR(sum[1] / n, 0, kStandardErrors * std::sqrt(1 / n));
+  EXPECT_NEAR(sum[2] / n, 1, kStandardErrors * std::sqrt(2 / n));
+  EXPECT_NEAR(sum[3] / n, 0, kStandardErrors * std::sqrt(15 / n));
+  EXPECT_NEAR(sum[4] / n, 3, kStandardErrors * std::sqrt(96 / n));
   const double tail2 = std::erfc(2 / std::sqrt(2.0)), tail4 = std::erfc(4 / std::sqrt(2.0));
-  EXPECT_NEAR(beyond2 / n, tail2, 5 * std::sqrt(tail2 / n));
-  EXPECT_NEAR(beyond4 / n, tail4, 5 * std::sqrt(tail4 / n));
+  EXPECT_NEAR(beyond2 / n, tail2, kStandardErrors * std::sqrt(tail2 / n));
+  EXPECT_NEAR(beyond4 / n, tail4, kStandardErrors * std::sqrt(tail4 / n));
   EXPECT_LE(most, 5.78);
 }
 
@@ -135,7 +136,7 @@ double Correlation(const std::vector<float>& x, const std::vector<float>& y) {
 TEST_P(FillNormalsTest, DifferentKeysAreUncorrelated) {
   constexpr int kCount = 5000, kSize = 20;
   const std::vector<float> base = Draw(1, 0, kCount, kSize);
-  const double bound = 5 / std::sqrt(static_cast<double>(base.size()));
+  const double bound = kStandardErrors / std::sqrt(static_cast<double>(base.size()));
   EXPECT_NEAR(Correlation(base, Draw(2, 0, kCount, kSize)), 0, bound);
   EXPECT_NEAR(Correlation(base, Draw(1, kCount, kCount, kSize)), 0, bound);
   EXPECT_NEAR(Correlation(base, Draw(1, 0, kCount, kSize, 12)), 0, bound);

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tests/tolerance.h"
+
 namespace skein {
 namespace {
 
@@ -19,8 +21,8 @@ constexpr StandardRow kStandardRows[] = {
     {11000, 216.65, 22632.1, 0.36392},
     {15000, 216.65, 12044.6, 0.19367},
 };
-// The published figures have five or six digits; the rest is rounding of unit conversions.
-constexpr double kPublishedTolerance = 5e-5;
+constexpr Tolerance kPublishedDigits{5e-5, "five digits of the table and of unit conversions"};
+constexpr Tolerance kCentralDifference{1e-8, "second differences over a foot, rounded"};
 
 double GeometricFt(double geopotential_m) {
   constexpr double kEarthRadiusM = 6356766;
@@ -31,11 +33,11 @@ TEST(Atmosphere, Standard1976MatchesThePublishedTable) {
   for (const StandardRow& row : kStandardRows) {
     SCOPED_TRACE(row.geopotential_m);
     const Air air = AirAt(AtmosphereModel::kStandard1976, GeometricFt(row.geopotential_m));
-    EXPECT_NEAR(air.temperature_degR / 1.8 / row.temperature_K, 1, kPublishedTolerance);
-    EXPECT_NEAR(air.pressure_lbf_ft2 * 47.880259 / row.pressure_Pa, 1, kPublishedTolerance);
-    EXPECT_NEAR(air.density_slug_ft3 * 515.378818 / row.density_kg_m3, 1, kPublishedTolerance);
+    EXPECT_NEAR(air.temperature_degR / 1.8 / row.temperature_K, 1, kPublishedDigits);
+    EXPECT_NEAR(air.pressure_lbf_ft2 * 47.880259 / row.pressure_Pa, 1, kPublishedDigits);
+    EXPECT_NEAR(air.density_slug_ft3 * 515.378818 / row.density_kg_m3, 1, kPublishedDigits);
     const double sound = std::sqrt(1.4 * 287.053 * row.temperature_K) / 0.3048;
-    EXPECT_NEAR(air.sound_speed_ft_s / sound, 1, kPublishedTolerance);
+    EXPECT_NEAR(air.sound_speed_ft_s / sound, 1, kPublishedDigits);
   }
 }
 
@@ -48,7 +50,8 @@ TEST(Atmosphere, Standard1976IsHydrostaticAndContinuous) {
     const Air above = AirAt(AtmosphereModel::kStandard1976, altitude + kStepFt);
     const double ratio = 20855531.5 / (20855531.5 + altitude);
     const double slope = (above.pressure_lbf_ft2 - below.pressure_lbf_ft2) / (2 * kStepFt);
-    EXPECT_NEAR(slope / (-32.17405 * ratio * ratio * at.density_slug_ft3), 1, 1e-5) << altitude;
+    EXPECT_NEAR(slope / (-32.17405 * ratio * ratio * at.density_slug_ft3), 1, kCentralDifference)
+        << altitude;
   }
 }
 
@@ -57,6 +60,8 @@ TEST(Atmosphere, Standard1976IsHydrostaticAndContinuous) {
 struct Difference {
   double altitude_ft, density, temperature_degR, sound, pressure;
 };
+constexpr Tolerance kDigits{0.01, "two decimals shown"};
+constexpr Tolerance kDigitsAbove{0.06, "one decimal shown"};
 constexpr Difference kDifferences[] = {
     {0, 0.00, 0.33, 0.03, -0.02},       {10000, 0.13, -0.51, -0.06, -0.07},
     {20000, 0.17, -1.39, -0.16, -0.23}, {30000, 0.10, -2.30, -0.28, -0.54},
@@ -66,12 +71,12 @@ constexpr Difference kDifferences[] = {
 TEST(Atmosphere, StevensLewisLiesAsFarFromTheStandardAsKnown) {
   for (const Difference& known : kDifferences) {
     SCOPED_TRACE(known.altitude_ft);
-    const double digits = known.altitude_ft < 35000 ? 0.01 : 0.06;
+    const double digits = known.altitude_ft < 35000 ? kDigits : kDigitsAbove;
     const Air a = AirAt(AtmosphereModel::kStevensLewis, known.altitude_ft);
     const Air b = AirAt(AtmosphereModel::kStandard1976, known.altitude_ft);
     EXPECT_NEAR(100 * (a.density_slug_ft3 / b.density_slug_ft3 - 1), known.density, digits);
-    EXPECT_NEAR(a.temperature_degR - b.temperature_degR, known.temperature_degR, 0.01);
-    EXPECT_NEAR(100 * (a.sound_speed_ft_s / b.sound_speed_ft_s - 1), known.sound, 0.01);
+    EXPECT_NEAR(a.temperature_degR - b.temperature_degR, known.temperature_degR, kDigits);
+    EXPECT_NEAR(100 * (a.sound_speed_ft_s / b.sound_speed_ft_s - 1), known.sound, kDigits);
     EXPECT_NEAR(100 * (a.pressure_lbf_ft2 / b.pressure_lbf_ft2 - 1), known.pressure, digits);
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -118,6 +119,7 @@ TEST(DerivativeAircraftFile, WhatCannotBeFlownWithIsRefused) {
 }
 
 TEST(DerivativeAircraftFile, WhatIsReadIsFinite) {
+  constexpr Tolerance kRounding{1e-9, "float64 rounding of 100"};
   // At and near the ends of what is read.
   const std::pair<const char*, const char*> read[] = {
       {"stall_sharpness", "249"}, {"stall_alpha_rad", "1.57"}, {"idle", "0"},
@@ -131,7 +133,7 @@ TEST(DerivativeAircraftFile, WhatIsReadIsFinite) {
     }
     EXPECT_NEAR(
         aircraft.throttle_gearing.afterburner_gain + aircraft.throttle_gearing.afterburner_offset,
-        100, 1e-9)
+        100, kRounding)
         << key;
   }
 }

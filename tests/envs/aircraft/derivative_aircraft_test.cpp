@@ -8,9 +8,15 @@
 
 #include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/reference/aerodynamics.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
+
+constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+constexpr Tolerance kSameSums{1e-15, "float64 rounding of the same sums"};
+constexpr Tolerance kStallBlend{1e-8, "what the smooth stall leaves at 0.1 rad"};
+constexpr Tolerance kDigits{1e-6, "six decimals known"};
 
 class DerivativeAircraftTest : public ::testing::Test {
  protected:
@@ -44,10 +50,9 @@ AerodynamicCoefficients Formulas(const DerivativeAircraft& source, double aspect
 }
 
 TEST_F(DerivativeAircraftTest, TablesHoldTheDerivatives) {
-  constexpr double kRounding = 1e-12;
-  // Alpha cells of 1.25 deg: an eighth of their square times the second derivative, at most 2
-  // CL_alpha of Cx. Lift stalls from 20 deg on.
-  constexpr double kBetweenNodes = 8e-4;
+  // An eighth of the cell's square times the second derivative, at most 2 CL_alpha of Cx. Lift
+  // stalls from 20 deg on.
+  constexpr Tolerance kBetweenNodes{8e-4, "cells of 1.25 deg of alpha"};
   std::mt19937 random(3);
   const auto uniform = [&random](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -78,7 +83,7 @@ TEST_F(DerivativeAircraftTest, TablesAreExactAtTheirNodesThroughTheStall) {
     c.q_hat = 0.01;
     const AerodynamicCoefficients error =
         EvaluateAerodynamics(aircraft_, c) - Formulas(source_, aspect_ratio_, c);
-    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12) << alpha_deg;
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), kRounding) << alpha_deg;
   }
 }
 
@@ -91,28 +96,28 @@ TEST_F(DerivativeAircraftTest, TheFlapThatIsNotThereDoesNothing) {
   EXPECT_LT((EvaluateAerodynamics(aircraft_, up) - EvaluateAerodynamics(aircraft_, down))
                 .cwiseAbs()
                 .maxCoeff(),
-            1e-15);
+            kSameSums);
 }
 
 TEST_F(DerivativeAircraftTest, LiftIsLinearBelowTheStallAndAFlatPlatesAbove) {
   const LongitudinalDerivatives& k = source_.longitudinal;
-  EXPECT_NEAR(LiftCoefficient(k, 0.1), k.CL_0 + k.CL_alpha * 0.1, 1e-7);
-  EXPECT_NEAR(LiftCoefficient(k, -0.1), k.CL_0 - k.CL_alpha * 0.1, 1e-7);
+  EXPECT_NEAR(LiftCoefficient(k, 0.1), k.CL_0 + k.CL_alpha * 0.1, kStallBlend);
+  EXPECT_NEAR(LiftCoefficient(k, -0.1), k.CL_0 - k.CL_alpha * 0.1, kStallBlend);
   const double steep = 1.2;
   const double plate = 2 * std::sin(steep) * std::sin(steep) * std::cos(steep);
-  EXPECT_NEAR(LiftCoefficient(k, steep), plate, 1e-12);
-  EXPECT_NEAR(LiftCoefficient(k, -steep), -plate, 1e-12);
+  EXPECT_NEAR(LiftCoefficient(k, steep), plate, kRounding);
+  EXPECT_NEAR(LiftCoefficient(k, -steep), -plate, kRounding);
   EXPECT_GT(LiftCoefficient(k, 0.42), LiftCoefficient(k, 0.55));
 }
 
 TEST_F(DerivativeAircraftTest, MassAndGeometryAreThoseOfTheBookInFootAndSlug) {
   const Airframe& a = aircraft_.airframe;
-  EXPECT_NEAR(a.mass_slug, 0.753739, 1e-6);  // 24.25 lb
-  EXPECT_NEAR(a.wing_area_ft2, 5.920151, 1e-6);
-  EXPECT_NEAR(a.span_ft, 9.5, 1e-12);
-  EXPECT_NEAR(a.chord_ft, 0.623163, 1e-6);
-  EXPECT_NEAR(a.Iyy, 0.837133, 1e-6);
-  EXPECT_NEAR(a.Ixz / a.Ixx, 0.1204 / 0.8244, 1e-12);
+  EXPECT_NEAR(a.mass_slug, 0.753739, kDigits);  // 24.25 lb
+  EXPECT_NEAR(a.wing_area_ft2, 5.920151, kDigits);
+  EXPECT_NEAR(a.span_ft, 9.5, kRounding);
+  EXPECT_NEAR(a.chord_ft, 0.623163, kDigits);
+  EXPECT_NEAR(a.Iyy, 0.837133, kDigits);
+  EXPECT_NEAR(a.Ixz / a.Ixx, 0.1204 / 0.8244, kRounding);
 }
 
 }  // namespace

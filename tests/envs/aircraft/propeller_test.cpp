@@ -11,9 +11,15 @@
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
 #include "envs/aircraft/units.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
+
+constexpr Tolerance kRounding{1e-9, "float64 rounding"};
+constexpr Tolerance kThinAir{1e-6, "thrust of air of 1e-9 kg/m^3"};
+constexpr Tolerance kBetweenNodesN{0.45, "cells of 4.8 m/s and 5000 ft, of 80 N"};
+constexpr Tolerance kStraightPiecesN{1.6, "three straight pieces for a parabola"};
 
 class AerosondePropeller : public ::testing::Test {
  protected:
@@ -27,22 +33,20 @@ class AerosondePropeller : public ::testing::Test {
 // density.
 TEST_F(AerosondePropeller, GivesThePublishedThrust) {
   constexpr double kBookDensity = 1.2682;
-  EXPECT_NEAR(PropellerThrust(propeller_, 0.5, 25, kBookDensity), -12.43072534597213, 1e-9);
-  EXPECT_NEAR(PropellerThrust(propeller_, 1, 25, kBookDensity), 37.7794805541605, 1e-9);
+  EXPECT_NEAR(PropellerThrust(propeller_, 0.5, 25, kBookDensity), -12.43072534597213, kRounding);
+  EXPECT_NEAR(PropellerThrust(propeller_, 1, 25, kBookDensity), 37.7794805541605, kRounding);
   EXPECT_NEAR(PropellerThrust(propeller_, 1, 27.39323489287441, kBookDensity), 31.31315544701058,
-              1e-9);
+              kRounding);
 }
 
 // What the speed is found from: the propeller takes the torque that the motor gives. Without air
 // there is none, and the motor turns as fast as its voltage less the no-load current's asks for.
 TEST_F(AerosondePropeller, ThrustVanishesWithTheAir) {
-  EXPECT_NEAR(PropellerThrust(propeller_, 1, 25, 1e-9), 0, 1e-6);
+  EXPECT_NEAR(PropellerThrust(propeller_, 1, 25, 1e-9), 0, kThinAir);
   EXPECT_GT(PropellerThrust(propeller_, 1, 0, 1.225), PropellerThrust(propeller_, 1, 10, 1.225));
 }
 
 TEST_F(AerosondePropeller, TablesHoldItsThrustAtEveryLevelOfPower) {
-  // Of up to 80 N: Mach cells of 4.8 m/s and altitude cells of 5000 ft.
-  constexpr double kToleranceN = 0.45;
   const struct {
     double power, motor_throttle;
   } levels[] = {{0, aircraft_.propeller_levels.idle},
@@ -56,7 +60,7 @@ TEST_F(AerosondePropeller, TablesHoldItsThrustAtEveryLevelOfPower) {
         EXPECT_NEAR(Thrust(flown_.engine, level.power, altitude_ft, mach) * kNewtonsPerLbf,
                     PropellerThrust(propeller_, level.motor_throttle, speed,
                                     air.density_slug_ft3 * kKgM3PerSlugFt3),
-                    kToleranceN)
+                    kBetweenNodesN)
             << altitude_ft << " ft, " << speed << " m/s";
       }
     }
@@ -66,7 +70,6 @@ TEST_F(AerosondePropeller, TablesHoldItsThrustAtEveryLevelOfPower) {
 // Between the levels thrust is linear in power, and power in the throttle on either side of a knee:
 // three straight pieces for what is nearly a parabola.
 TEST_F(AerosondePropeller, TheThrottleCommandsNearlyTheMotors) {
-  constexpr double kToleranceN = 1.6;
   const PropellerLevels& levels = aircraft_.propeller_levels;
   const Air air = AirAt(AtmosphereModel::kStandard1976, 0);
   double worst = 0;
@@ -81,7 +84,7 @@ TEST_F(AerosondePropeller, TheThrottleCommandsNearlyTheMotors) {
       worst = std::max(worst, std::abs(flown - exact));
     }
   }
-  EXPECT_LT(worst, kToleranceN + 0.45);
+  EXPECT_LT(worst, kStraightPiecesN + kBetweenNodesN);
   RecordProperty("worst_mN", static_cast<int>(1000 * worst));
 }
 
@@ -96,7 +99,7 @@ TEST_F(AerosondePropeller, PowerFollowsWithOneLag) {
 TEST_F(AerosondePropeller, ThrottleForPowerInvertsTheGearing) {
   for (double power = 0; power <= 100; power += 2.5) {
     const double throttle = ThrottleForPower(flown_.throttle_gearing, power);
-    EXPECT_NEAR(PowerCommand(flown_.throttle_gearing, throttle), power, 1e-9);
+    EXPECT_NEAR(PowerCommand(flown_.throttle_gearing, throttle), power, kRounding);
   }
 }
 

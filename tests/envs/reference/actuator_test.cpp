@@ -5,10 +5,13 @@
 
 #include <cmath>
 
+#include "tests/tolerance.h"
+
 namespace skein {
 namespace {
 
-constexpr double kRounding = 1e-13;
+constexpr Tolerance kRounding{1e-13, "float64 rounding"};
+constexpr Tolerance kSettled{1e-9, "what a lag leaves after 20 s"};
 const Actuator kElevator{20.2, 60, -25, 25};
 
 TEST(Actuator, FollowsTheExactLagWhateverTheStep) {
@@ -28,7 +31,7 @@ TEST(Actuator, MovesNoFasterThanItsRateLimit) {
 TEST(Actuator, StopsAtItsLimits) {
   double position = 0;
   for (int i = 0; i < 1000; ++i) position = StepActuator(kElevator, position, 1e6, 0.02);
-  EXPECT_NEAR(position, 25, 1e-9);
+  EXPECT_NEAR(position, 25, kSettled);
   EXPECT_EQ(StepActuator(kElevator, 90, 90, 0.02), 25);
 }
 

@@ -7,11 +7,12 @@
 #include <random>
 
 #include "envs/aircraft/f16.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr Tolerance kRounding{1e-12, "float64 rounding"};
 
 class Aerodynamics : public ::testing::Test {
  protected:

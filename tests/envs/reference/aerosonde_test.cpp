@@ -18,6 +18,7 @@
 #include "envs/reference/plant.h"
 #include "envs/reference/trim.h"
 #include "tests/envs/reference/test_flight.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -63,25 +64,31 @@ Controls BookControls(double elevator, double aileron, double rudder) {
 
 // Trim at 25 m/s: alpha 0.0500 rad, elevator -0.1248 rad; thrust as of their throttle 0.6768.
 TEST(Aerosonde, TrimsWhereTheBookDoes) {
+  constexpr Tolerance kGravity{2e-4, "gravity: 32.17 ft/s^2, there 9.81 m/s^2"};
+  constexpr Tolerance kGravityInElevator{5e-4, "gravity: 32.17 ft/s^2, there 9.81 m/s^2"};
+  constexpr Tolerance kSymmetry{1e-9, "residual of the trim"};
+  constexpr Tolerance kBetweenNodesThrust{0.15, "drag between the nodes of alpha, 7e-4 of 218 N"};
   TrimRequest request;
   request.altitude_ft = BookAltitude();
   request.true_airspeed_ft_s = 25 * kFeetPerMetre;
   const TrimPoint trim = Trim(BookPlant(), request);
-  EXPECT_NEAR(trim.alpha_rad, 0.0500110, 2e-4);  // gravity: 32.17 ft/s^2 there 9.81 m/s^2
-  EXPECT_NEAR(trim.controls.elevator_deg / kDegPerRad, -0.124778, 5e-4);
-  EXPECT_NEAR(trim.controls.aileron_deg, 0, 1e-9);  // theirs holds the propeller's torque: 0.1 deg
-  EXPECT_NEAR(trim.controls.rudder_deg, 0, 1e-9);
+  EXPECT_NEAR(trim.alpha_rad, 0.0500110, kGravity);
+  EXPECT_NEAR(trim.controls.elevator_deg / kDegPerRad, -0.124778, kGravityInElevator);
+  // Theirs holds the propeller's torque: 0.1 deg of aileron.
+  EXPECT_NEAR(trim.controls.aileron_deg, 0, kSymmetry);
+  EXPECT_NEAR(trim.controls.rudder_deg, 0, kSymmetry);
   const Propeller propeller =
       ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text).propeller;
-  // Drag between the nodes of alpha: 7e-4 of 218 N.
   EXPECT_NEAR(trim.controls.thrust_lbf * kNewtonsPerLbf,
-              PropellerThrust(propeller, 0.676752, 25, 1.2682), 0.15);
+              PropellerThrust(propeller, 0.676752, 25, 1.2682), kBetweenNodesThrust);
 }
 
 // "Case with wind" of their chapter 4: forces and moments at airspeed 27.39 m/s, alpha 0.0526 and
 // beta 0.0228 rad, with rates and all surfaces deflected; their thrust, weight and propeller torque
 // taken off.
 TEST(Aerosonde, GivesTheBooksForcesAndMoments) {
+  constexpr Tolerance kBetweenNodes{0.2, "between the nodes of alpha, 1e-3 of 218 N"};
+  constexpr Tolerance kDigits{1e-5, "eight digits given"};
   const double speed = 27.39323489287441, alpha = 0.05259649205640062, beta = 0.022801214339060967;
   RigidBodyState state = BookState(speed * std::cos(alpha) * std::cos(beta), speed * std::sin(beta),
                                    speed * std::sin(alpha) * std::cos(beta));
@@ -92,20 +99,23 @@ TEST(Aerosonde, GivesTheBooksForcesAndMoments) {
   const double e0 = 0.938688796, e1 = 0.247421558, e2 = 0.0656821468, e3 = 0.23093673;
   const double weight = 11 * 9.81;
   const double thrust = 31.31315544701058, torque = 1.58778287798956;
-  // As above: alpha between nodes.
   EXPECT_NEAR(qbar_S * output.coefficients[0],
-              36.22803068339798 - thrust - weight * 2 * (e1 * e3 - e2 * e0), 0.2);
+              36.22803068339798 - thrust - weight * 2 * (e1 * e3 - e2 * e0), kBetweenNodes);
   EXPECT_NEAR(qbar_S * output.coefficients[1], 48.44092504137796 - weight * 2 * (e2 * e3 + e1 * e0),
-              1e-3);
+              kDigits);
   EXPECT_NEAR(qbar_S * output.coefficients[2],
-              -39.39246596662818 - weight * (e3 * e3 + e0 * e0 - e1 * e1 - e2 * e2), 0.2);
-  EXPECT_NEAR(qbar_S * 2.8956 * output.coefficients[3], 0.10867448074086083 + torque, 1e-3);
-  EXPECT_NEAR(qbar_S * 0.18994 * output.coefficients[4], 0.1249623335264915, 1e-3);
-  EXPECT_NEAR(qbar_S * 2.8956 * output.coefficients[5], -0.09481002421995177, 1e-3);
+              -39.39246596662818 - weight * (e3 * e3 + e0 * e0 - e1 * e1 - e2 * e2), kBetweenNodes);
+  EXPECT_NEAR(qbar_S * 2.8956 * output.coefficients[3], 0.10867448074086083 + torque, kDigits);
+  EXPECT_NEAR(qbar_S * 0.18994 * output.coefficients[4], 0.1249623335264915, kDigits);
+  EXPECT_NEAR(qbar_S * 2.8956 * output.coefficients[5], -0.09481002421995177, kDigits);
 }
 
 // The state-space models of their chapter 5, at their trim.
 TEST(Aerosonde, LinearisesToTheBooksModels) {
+  // Between nodes of alpha, slopes are the cell's: of Cx up to 0.12 per rad off its own.
+  constexpr Tolerance kCellSlope{0.01, "slopes are those of alpha's cells"};
+  constexpr Tolerance kCellSlopeOfCx{0.1, "slopes are those of alpha's cells"};
+  constexpr Tolerance kLateral{1e-3, "conversion of the book's angles"};
   const double theta = 0.05001119;
   RigidBodyState state = BookState(24.968743, 0, 1.249755);
   state[kQ0] = std::cos(theta / 2);
@@ -121,25 +131,24 @@ TEST(Aerosonde, LinearisesToTheBooksModels) {
     int row, column;
     double expected, tolerance;
   } entries[] = {
-      // Between nodes of alpha, slopes are the cell's: of Cx up to 0.12 per rad off its own.
-      {kU, kU, -0.20676658 + per_speed * u_share, 0.01},
-      {kU, kW, 0.50039026 + per_speed * w_share, 0.1},
-      {kU, kQ, -1.21983882 * ft, 0.01 * ft},
-      {kW, kU, -0.56064206, 0.02},
-      {kW, kW, -4.46393561, 0.02},
-      {kW, kQ, 24.37105023 * ft, 0.01 * ft},
-      {kQ, kU, 0.19993539 / ft, 0.01 / ft},
-      {kQ, kW, -3.99297865 / ft, 0.01 / ft},
-      {kQ, kQ, -5.29473836, 0.005},
-      {kV, kV, -0.776772629, 1e-3},
-      {kV, kP, 1.24975500 * ft, 1e-3 * ft},
-      {kV, kR, -24.9687430 * ft, 1e-3 * ft},
-      {kP, kV, -3.86671935 / ft, 1e-3 / ft},
-      {kP, kP, -22.6288510, 1e-3},
-      {kP, kR, 10.9050409, 1e-3},
-      {kR, kV, 0.783077145 / ft, 1e-3 / ft},
-      {kR, kP, -0.115091678, 1e-3},
-      {kR, kR, -1.22765475, 1e-3},
+      {kU, kU, -0.20676658 + per_speed * u_share, kCellSlope},
+      {kU, kW, 0.50039026 + per_speed * w_share, kCellSlopeOfCx},
+      {kU, kQ, -1.21983882 * ft, kCellSlope * ft},
+      {kW, kU, -0.56064206, 2 * kCellSlope},
+      {kW, kW, -4.46393561, 2 * kCellSlope},
+      {kW, kQ, 24.37105023 * ft, kCellSlope * ft},
+      {kQ, kU, 0.19993539 / ft, kCellSlope / ft},
+      {kQ, kW, -3.99297865 / ft, kCellSlope / ft},
+      {kQ, kQ, -5.29473836, kCellSlope / 2},
+      {kV, kV, -0.776772629, kLateral},
+      {kV, kP, 1.24975500 * ft, kLateral * ft},
+      {kV, kR, -24.9687430 * ft, kLateral * ft},
+      {kP, kV, -3.86671935 / ft, kLateral / ft},
+      {kP, kP, -22.6288510, kLateral},
+      {kP, kR, 10.9050409, kLateral},
+      {kR, kV, 0.783077145 / ft, kLateral / ft},
+      {kR, kP, -0.115091678, kLateral},
+      {kR, kR, -1.22765475, kLateral},
   };
   for (const auto& entry : entries) {
     EXPECT_NEAR(model.A(entry.row, entry.column), entry.expected, entry.tolerance)
@@ -150,15 +159,15 @@ TEST(Aerosonde, LinearisesToTheBooksModels) {
     int row, input;
     double expected, tolerance;
   } inputs[] = {
-      {kU, kElevatorInput, -0.13840016 * ft, 0.01 * ft},
-      {kW, kElevatorInput, -2.58618345 * ft, 0.01 * ft},
-      {kQ, kElevatorInput, -36.11239041, 0.01},
-      {kV, kAileronInput, -1.48617191 * ft, 0.001 * ft},
-      {kP, kAileronInput, -130.88368125, 0.01},
-      {kR, kAileronInput, -5.01173513, 0.001},
-      {kV, kRudderInput, 3.76496884 * ft, 0.001 * ft},
-      {kP, kRudderInput, -1.79637441, 0.001},
-      {kR, kRudderInput, -24.88134191, 0.001},
+      {kU, kElevatorInput, -0.13840016 * ft, kCellSlope * ft},
+      {kW, kElevatorInput, -2.58618345 * ft, kCellSlope * ft},
+      {kQ, kElevatorInput, -36.11239041, kCellSlope},
+      {kV, kAileronInput, -1.48617191 * ft, kLateral * ft},
+      {kP, kAileronInput, -130.88368125, 10 * kLateral},
+      {kR, kAileronInput, -5.01173513, kLateral},
+      {kV, kRudderInput, 3.76496884 * ft, kLateral * ft},
+      {kP, kRudderInput, -1.79637441, kLateral},
+      {kR, kRudderInput, -24.88134191, kLateral},
   };
   for (const auto& input : inputs) {
     EXPECT_NEAR(model.B(input.row, input.input) * kDegPerRad, input.expected, input.tolerance)
@@ -178,6 +187,9 @@ std::complex<double> Mode(const Eigen::VectorXcd& eigenvalues, std::complex<doub
 // Natural modes at 25 m/s against the reduced-order models of the book's section 5.6, from
 // stability derivatives.
 TEST(Aerosonde, HasTheModesOfItsDerivatives) {
+  constexpr Tolerance kReducedOrder{0.05, "reduced order, relative"};
+  constexpr Tolerance kWithoutAlpha{0.35, "the book's phugoid leaves out alpha's part"};
+  constexpr Tolerance kWithoutRoll{0.25, "the book's Dutch roll leaves out the roll"};
   const Plant plant(LoadAircraft("aerosonde"), kAtmosphere);
   TrimRequest request;
   request.true_airspeed_ft_s = 25 * kFeetPerMetre;
@@ -191,19 +203,19 @@ TEST(Aerosonde, HasTheModesOfItsDerivatives) {
   const double sum = A(kW, kW) + A(kQ, kQ);
   const double product = A(kW, kW) * A(kQ, kQ) - u * A(kQ, kW);
   const std::complex<double> short_period = sum / 2 + i * std::sqrt(product - sum * sum / 4);
-  EXPECT_LT(std::abs(Mode(modes, short_period) - short_period), 0.05 * std::abs(short_period));
+  EXPECT_LT(std::abs(Mode(modes, short_period) - short_period),
+            kReducedOrder * std::abs(short_period));
 
   const std::complex<double> phugoid =
       A(kU, kU) / 2 + i * std::sqrt(-A(kW, kU) * kGravityFtS2 / u - A(kU, kU) * A(kU, kU) / 4);
-  // The book's phugoid leaves out alpha's part: right to within a third.
-  EXPECT_LT(std::abs(Mode(modes, phugoid) - phugoid), 0.35 * std::abs(phugoid));
+  EXPECT_LT(std::abs(Mode(modes, phugoid) - phugoid), kWithoutAlpha * std::abs(phugoid));
 
-  EXPECT_NEAR(Mode(modes, A(kP, kP)).real(), A(kP, kP), 0.05 * std::abs(A(kP, kP)));
+  EXPECT_NEAR(Mode(modes, A(kP, kP)).real(), A(kP, kP), kReducedOrder * std::abs(A(kP, kP)));
 
   const double yaw_sum = A(kV, kV) + A(kR, kR);
   const std::complex<double> dutch_roll =
       yaw_sum / 2 + i * std::sqrt(A(kV, kV) * A(kR, kR) + u * A(kR, kV) - yaw_sum * yaw_sum / 4);
-  EXPECT_LT(std::abs(Mode(modes, dutch_roll) - dutch_roll), 0.25 * std::abs(dutch_roll));
+  EXPECT_LT(std::abs(Mode(modes, dutch_roll) - dutch_roll), kWithoutRoll * std::abs(dutch_roll));
 
   // The spiral diverges, slowly.
   const double spiral = Mode(modes, 0.09).real();

@@ -17,6 +17,7 @@
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
 #include "tests/envs/reference/test_flight.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -272,6 +273,10 @@ TEST(ClosedLoop, CombinedSticksRarelyOverload) {
   RecordProperty("overloads", count);
 }
 
+constexpr Tolerance kAtRest{1e-2, "a load factor of cos(pitch) where one is held"};
+constexpr Tolerance kAtRestRudder{1e-5, "a load factor of cos(pitch) where one is held"};
+constexpr Tolerance kDetent{2e-3, "the gearing's step of 0.0012 at the detent"};
+
 // At the trim the first steps change nothing but what a load factor of cos(pitch) instead of one
 // asks for: the sensors, filters and surfaces start where the flight is.
 TEST(ClosedLoop, StartsAtRest) {
@@ -281,28 +286,30 @@ TEST(ClosedLoop, StartsAtRest) {
   PilotCommands pilot;
   pilot.throttle = ThrottleForPower(plant.aircraft().throttle_gearing, trim.power);
   for (int i = 0; i < 50; ++i) loop.Step(pilot);
-  EXPECT_LT((loop.state().head<6>() - trim.state.head<6>()).norm(), 1e-2);
-  EXPECT_NEAR(loop.surfaces().elevator_deg, trim.controls.elevator_deg, 1e-2);
-  EXPECT_NEAR(loop.surfaces().rudder_deg, trim.controls.rudder_deg, 1e-3);
-  EXPECT_NEAR(loop.power(), trim.power, 2e-3);
+  EXPECT_LT((loop.state().head<6>() - trim.state.head<6>()).norm(), kAtRest);
+  EXPECT_NEAR(loop.surfaces().elevator_deg, trim.controls.elevator_deg, kAtRest);
+  EXPECT_NEAR(loop.surfaces().rudder_deg, trim.controls.rudder_deg, kAtRestRudder);
+  EXPECT_NEAR(loop.power(), trim.power, kDetent);
 }
 
 TEST(ClosedLoop, AccelerometersReadWhatHoldsTheAircraftUp) {
+  constexpr Tolerance kRounding{1e-9, "residual of the trim"};
   const Plant plant = F16At(0.30);
   const TrimPoint trim = TrimAt(plant, 20000, 700);
   const ClosedLoop loop(plant, trim, FlightControlMode::kFull, kDt);
-  EXPECT_NEAR(loop.nz(), std::cos(trim.pitch_rad) * std::cos(trim.bank_rad), 1e-9);
-  EXPECT_NEAR(loop.ny(), -std::cos(trim.pitch_rad) * std::sin(trim.bank_rad), 1e-9);
+  EXPECT_NEAR(loop.nz(), std::cos(trim.pitch_rad) * std::cos(trim.bank_rad), kRounding);
+  EXPECT_NEAR(loop.ny(), -std::cos(trim.pitch_rad) * std::sin(trim.bank_rad), kRounding);
 }
 
 // Sub-steps change the flight by the integrator's error alone.
 TEST(ClosedLoop, SubstepsHardlyMatter) {
+  constexpr Tolerance kIntegratorError{2e-5, "RK4 over steps of 0.02 s, deg"};
   const Plant plant = F16At(0.30);
   const TrimPoint trim = TrimAt(plant, 20000, 900);
   const auto final_alpha = [&](int substeps) {
     return Fly(plant, trim, 3, Held(0.5, 0.3, 0.2), {0, false, substeps}).alpha.back();
   };
-  EXPECT_NEAR(final_alpha(1), final_alpha(4), 5e-3);
+  EXPECT_NEAR(final_alpha(1), final_alpha(4), kIntegratorError);
 }
 
 TEST(ClosedLoop, DirectModeFliesWithoutAugmentation) {
@@ -315,7 +322,7 @@ TEST(ClosedLoop, DirectModeFliesWithoutAugmentation) {
   pilot.roll = -trim.controls.aileron_deg / 21.5;
   pilot.yaw = -trim.controls.rudder_deg / 30;
   for (int i = 0; i < 100; ++i) loop.Step(pilot);
-  EXPECT_LT((loop.state().head<6>() - trim.state.head<6>()).norm(), 1e-2);
+  EXPECT_LT((loop.state().head<6>() - trim.state.head<6>()).norm(), kAtRest);
   pilot.pitch += 0.1;
   for (int i = 0; i < 25; ++i) loop.Step(pilot);
   EXPECT_GT(loop.nz(), 1.1);
@@ -344,18 +351,19 @@ TEST(ClosedLoop, FlightTrimmedInASteadyWindIsFlightInStillAirCarriedAway) {
     calm.Step(pilot);
     windy.Step(pilot);
   }
-  // Rounding, and the integration of a velocity that turns with the body: RK4's own error.
-  constexpr double kTolerance = 1e-5;
+  constexpr Tolerance kTurningVelocity{1e-7, "RK4 of a velocity that turns with the body"};
+  constexpr Tolerance kCarriedAway{2e-3, "the same, of 1000 ft/s and 1e4 ft"};
   RigidBodyState carried = calm.state();
   carried.segment<3>(kU) += body_from_ned(calm) * wind;
   carried.segment<3>(kNorth) += kSteps * kDt * wind;
-  EXPECT_LT((windy.state() - carried).cwiseAbs().maxCoeff(), kTolerance * 1000);
-  EXPECT_NEAR(windy.air().alpha_rad, calm.air().alpha_rad, kTolerance);
-  EXPECT_NEAR(windy.air().beta_rad, calm.air().beta_rad, kTolerance);
-  EXPECT_NEAR(windy.air().true_airspeed_ft_s / calm.air().true_airspeed_ft_s, 1, kTolerance);
+  EXPECT_LT((windy.state() - carried).cwiseAbs().maxCoeff(), kCarriedAway);
+  EXPECT_NEAR(windy.air().alpha_rad, calm.air().alpha_rad, kTurningVelocity);
+  EXPECT_NEAR(windy.air().beta_rad, calm.air().beta_rad, kTurningVelocity);
+  EXPECT_NEAR(windy.air().true_airspeed_ft_s / calm.air().true_airspeed_ft_s, 1, kTurningVelocity);
 }
 
 TEST(ClosedLoop, AStepOfWindKeepsTheVelocityOverGround) {
+  constexpr Tolerance kHeadwind{1e-5, "the trimmed path lies a little off north"};
   const Plant plant(F16(), AtmosphereModel::kStevensLewis);
   TrimRequest request;
   request.altitude_ft = 20000;
@@ -364,7 +372,7 @@ TEST(ClosedLoop, AStepOfWindKeepsTheVelocityOverGround) {
   ClosedLoop loop(plant, trim, FlightControlMode::kFull, kDt);
   loop.set_wind({-100, 0, 0});  // from the north, where the nose points
   EXPECT_EQ(loop.state(), trim.state);
-  EXPECT_NEAR(loop.air().true_airspeed_ft_s, 1000, 0.01);
+  EXPECT_NEAR(loop.air().true_airspeed_ft_s, 1000, kHeadwind);
 }
 
 }  // namespace

@@ -7,12 +7,16 @@
 #include <complex>
 
 #include "envs/aircraft/f16.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
 constexpr double kDt = 0.02;
-constexpr double kRounding = 1e-12;
+constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+constexpr Tolerance kSettled{1e-9, "what the filters leave after 8 s"};
+constexpr Tolerance kFilterStart{0.02, "the filter's first steps"};
+constexpr Tolerance kDiscreteLeak{0.01, "steps of 0.02 s"};
 
 FlightSensors Level() {
   FlightSensors sensors;
@@ -98,7 +102,7 @@ TEST_F(FlightControlTest, StickAsksForLoadFactor) {
   Run({0, 0.25, 0, 0}, sensors, 400);
   const double settled = At(kPitchIntegrator);
   Run({0, 0.25, 0, 0}, sensors, 50);
-  EXPECT_NEAR(At(kPitchIntegrator), settled, 1e-9);
+  EXPECT_NEAR(At(kPitchIntegrator), settled, kSettled);
 }
 
 // With m = max(|roll|, |yaw|): at most 8 - 3 m g above level, at least g_min (1 - m / 2).
@@ -111,12 +115,12 @@ TEST_F(FlightControlTest, CombinedSticksLimitTheLoadFactorCommand) {
     return At(kLoadFactorCommandFilter) / (1 - Discretise({0, 8.3, 8.3}, kDt).n0);
   };
   const double g_min = -1 - 3 * (250.0 - 100) / 400;
-  EXPECT_NEAR(commanded(1, 0, 0), 8, 1e-9);
-  EXPECT_NEAR(commanded(1, 1, 0), 5, 1e-9);
-  EXPECT_NEAR(commanded(1, 0.2, -0.5), 6.5, 1e-9);
-  EXPECT_NEAR(commanded(-1, 0, 0), g_min, 1e-9);
-  EXPECT_NEAR(commanded(-1, 0, 1), g_min / 2, 1e-9);
-  EXPECT_NEAR(commanded(-0.2, 0, 1), 0.2 * g_min, 1e-9);
+  EXPECT_NEAR(commanded(1, 0, 0), 8, kSettled);
+  EXPECT_NEAR(commanded(1, 1, 0), 5, kSettled);
+  EXPECT_NEAR(commanded(1, 0.2, -0.5), 6.5, kSettled);
+  EXPECT_NEAR(commanded(-1, 0, 0), g_min, kSettled);
+  EXPECT_NEAR(commanded(-1, 0, 1), g_min / 2, kSettled);
+  EXPECT_NEAR(commanded(-0.2, 0, 1), 0.2 * g_min, kSettled);
 }
 
 TEST_F(FlightControlTest, RollIntegratorWorksOnlyHandsOffAndAtLowAlpha) {
@@ -124,7 +128,7 @@ TEST_F(FlightControlTest, RollIntegratorWorksOnlyHandsOffAndAtLowAlpha) {
   rolling.roll_rate_deg_s = 2;
   Run({}, rolling, 50);
   // p_f settles within a few steps; 0.2 * 2 deg/s * 1 s, less the filter's start.
-  EXPECT_NEAR(At(kRollIntegrator), 0.4, 0.02);
+  EXPECT_NEAR(At(kRollIntegrator), 0.4, kFilterStart);
   state_ = system_.InitialState(Level(), kTrim);
   Run({0, 0, 0.1, 0}, rolling, 50);
   EXPECT_EQ(At(kRollIntegrator), 0);
@@ -132,7 +136,7 @@ TEST_F(FlightControlTest, RollIntegratorWorksOnlyHandsOffAndAtLowAlpha) {
   state_ = system_.InitialState(rolling, kTrim);
   At(kRollIntegrator) = 1;
   Run({}, rolling, 50);
-  EXPECT_NEAR(At(kRollIntegrator), std::exp(-0.5), 0.01);  // leaks at 0.5 1/s
+  EXPECT_NEAR(At(kRollIntegrator), std::exp(-0.5), kDiscreteLeak);  // leaks at 0.5 1/s
 }
 
 TEST_F(FlightControlTest, IntegratorsAreBounded) {

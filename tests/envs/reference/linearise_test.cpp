@@ -9,6 +9,7 @@
 #include "envs/aircraft/f16.h"
 #include "envs/reference/trim.h"
 #include "envs/state/state.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -35,9 +36,8 @@ struct Modes {
   Eigen::VectorXcd eigenvalues;
 };
 
-// The known modes have three decimals; the differences' step adds a little where a table's kink is
-// near.
-constexpr double kDigits = 2e-3;
+constexpr Tolerance kDigits{2e-3, "three decimals known, and steps near the tables' kinks"};
+constexpr Tolerance kSecondOrder{1e-3, "of the change: its square"};
 
 TEST(Linearise, FindsTheKnownModes) {
   const struct {
@@ -84,7 +84,7 @@ TEST(Linearise, PredictsSmallDepartures) {
   const RigidBodyState actual = plant.Evaluate(trim.state + change, controls).state_rate -
                                 plant.Evaluate(trim.state, trim.controls).state_rate;
   const RigidBodyState predicted = model.A * change + model.B * input;
-  EXPECT_LT((actual - predicted).norm(), 1e-3 * actual.norm());
+  EXPECT_LT((actual - predicted).norm(), kSecondOrder * actual.norm());
   EXPECT_GT(actual.norm(), 0.1);
 }
 

@@ -13,16 +13,17 @@
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
 #include "tests/envs/golden.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
-// Two double-precision implementations differ by the order of their sums only.
-constexpr double kPointTolerance = 1e-9;
-// Over 500 steps those differences grow with the aircraft's own modes.
-constexpr double kTrajectoryTolerance = 1e-6;
-// Identities that hold to rounding, in units of the quantities compared (about 1).
-constexpr double kRounding = 1e-12;
+constexpr Tolerance kSumOrder{1e-12, "two float64 implementations sum in another order"};
+constexpr Tolerance kGrownDifference{1e-9, "differences grow with the modes over 500 steps"};
+constexpr Tolerance kRounding{1e-12, "float64 rounding of quantities of about 1"};
+constexpr Tolerance kPositionRounding{1e-9, "float64 rounding of 1e4 ft"};
+constexpr Tolerance kDragRounding{1e-9, "float64 rounding of interpolated rises"};
+constexpr Tolerance kAccelerationRounding{1e-6, "float64 rounding of forces of 1e4 lbf"};
 
 void ExpectClose(double actual, double expected, double tolerance) {
   EXPECT_NEAR(actual, expected, tolerance * (1 + std::abs(expected)));
@@ -36,18 +37,15 @@ void CheckPoints(const nlohmann::json& points) {
         PlantOf(point.at("params"))
             .Evaluate(StateOf(point.at("state")), ControlsOf(point.at("controls")));
     for (int i = 0; i < 6; ++i) {
-      ExpectClose(output.coefficients[i], point.at("coeffs")[i].get<double>(), kPointTolerance);
+      ExpectClose(output.coefficients[i], point.at("coeffs")[i].get<double>(), kSumOrder);
     }
     for (int i = 0; i < kNumRigidBody; ++i) {
-      ExpectClose(output.state_rate[i], point.at("xdot")[i].get<double>(), kPointTolerance);
+      ExpectClose(output.state_rate[i], point.at("xdot")[i].get<double>(), kSumOrder);
     }
-    ExpectClose(output.air.alpha_rad * kDegPerRad, point.at("alpha_deg").get<double>(),
-                kPointTolerance);
-    ExpectClose(output.air.beta_rad * kDegPerRad, point.at("beta_deg").get<double>(),
-                kPointTolerance);
-    ExpectClose(output.air.mach, point.at("mach").get<double>(), kPointTolerance);
-    ExpectClose(output.air.dynamic_pressure_psf, point.at("qbar_psf").get<double>(),
-                kPointTolerance);
+    ExpectClose(output.air.alpha_rad * kDegPerRad, point.at("alpha_deg").get<double>(), kSumOrder);
+    ExpectClose(output.air.beta_rad * kDegPerRad, point.at("beta_deg").get<double>(), kSumOrder);
+    ExpectClose(output.air.mach, point.at("mach").get<double>(), kSumOrder);
+    ExpectClose(output.air.dynamic_pressure_psf, point.at("qbar_psf").get<double>(), kSumOrder);
   }
 }
 
@@ -91,7 +89,7 @@ TEST(Plant, MatchesIndependentTrajectories) {
       }
       const RigidBodyState expected = StateOf(rows[row]);
       for (int i = 0; i < kNumRigidBody; ++i) {
-        ASSERT_NEAR(state[i], expected[i], kTrajectoryTolerance) << "row " << row << " state " << i;
+        ASSERT_NEAR(state[i], expected[i], kGrownDifference) << "row " << row << " state " << i;
       }
     }
   }
@@ -124,8 +122,8 @@ TEST(Plant, IsIndependentOfHeadingAndPosition) {
     const RigidBodyState a = plant.Evaluate(state, controls).state_rate;
     const RigidBodyState b = plant.Evaluate(moved, controls).state_rate;
     EXPECT_LT((a.head<6>() - b.head<6>()).norm(), kRounding * (1 + a.head<6>().norm()));
-    EXPECT_NEAR(a.segment<2>(kNorth).norm(), b.segment<2>(kNorth).norm(), 1e3 * kRounding);
-    EXPECT_NEAR(a[kDown], b[kDown], 1e3 * kRounding);
+    EXPECT_NEAR(a.segment<2>(kNorth).norm(), b.segment<2>(kNorth).norm(), kPositionRounding);
+    EXPECT_NEAR(a[kDown], b[kDown], kPositionRounding);
   }
 }
 
@@ -168,7 +166,7 @@ TEST(Plant, InertiaDoesNoWork) {
 // the order of the integrator.
 TEST(Plant, KeepsEnergyAndAngularMomentumWithoutAir) {
   constexpr double kDt = 0.02;
-  constexpr double kIntegratorTolerance = 1e-6;  // relative, over 10 s at 1 rad/s
+  constexpr Tolerance kIntegratorError{1e-9, "RK4 over 10 s at 1 rad/s, relative"};
   const Plant plant(F16(), AtmosphereModel::kStandard1976);
   const Airframe& a = plant.aircraft().airframe;
   Eigen::Matrix3d inertia;
@@ -184,9 +182,9 @@ TEST(Plant, KeepsEnergyAndAngularMomentumWithoutAir) {
   const double energy_before = energy(state);
   const Eigen::Vector3d momentum_before = angular_momentum(state);
   for (int i = 0; i < 500; ++i) state = plant.StepRk4(state, Controls{}, kDt);
-  EXPECT_NEAR(energy(state) / energy_before, 1, kIntegratorTolerance);
+  EXPECT_NEAR(energy(state) / energy_before, 1, kIntegratorError);
   EXPECT_LT((angular_momentum(state) - momentum_before).norm(),
-            kIntegratorTolerance * momentum_before.norm());
+            kIntegratorError * momentum_before.norm());
 }
 
 // Moving the centre of gravity moves pitching and yawing moments by force times arm, nothing else.
@@ -242,11 +240,11 @@ TEST(Plant, DragRisesWithTheMachNumberIfAskedTo) {
     state[kDown] = -20000;
     state[kQ0] = 1;
     const PlantOutput without = level.Evaluate(state, {}), with = rising.Evaluate(state, {});
-    EXPECT_NEAR(without.coefficients[0] - with.coefficients[0], rise, 1e-9) << mach;
+    EXPECT_NEAR(without.coefficients[0] - with.coefficients[0], rise, kDragRounding) << mach;
     EXPECT_EQ(with.coefficients.tail<5>(), without.coefficients.tail<5>()) << mach;
     const double force = rise * with.air.dynamic_pressure_psf * aircraft.airframe.wing_area_ft2;
     EXPECT_NEAR(without.state_rate[kU] - with.state_rate[kU], force / aircraft.airframe.mass_slug,
-                1e-6)
+                kAccelerationRounding)
         << mach;
   }
 }

@@ -10,9 +10,14 @@
 #include "base/error.h"
 #include "envs/aircraft/f16.h"
 #include "envs/reference/trim.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
+
+constexpr Tolerance kRounding{1e-9, "residual of the trims"};
+constexpr Tolerance kControlRounding{1e-9, "residual of the trims, in deg and % of power"};
+constexpr Tolerance kSameTrim{1e-12, "float64 rounding of the same trim"};
 
 class TrimTableTest : public ::testing::Test {
  protected:
@@ -32,17 +37,18 @@ TEST_F(TrimTableTest, HoldsTheTrimsAtItsNodes) {
     for (double speed : {600.0, 700.0, 1000.0}) {
       const TrimPoint exact = Exact(altitude, speed);
       const TrimmedStart start = table.At(altitude, speed);
-      EXPECT_NEAR(start.alpha_rad, exact.alpha_rad, 1e-9);
-      EXPECT_NEAR(start.pitch_rad, exact.pitch_rad, 1e-9);
-      EXPECT_NEAR(start.bank_rad, exact.bank_rad, 1e-9);
-      EXPECT_NEAR(start.elevator_deg, exact.controls.elevator_deg, 1e-6);
-      EXPECT_NEAR(start.aileron_deg, exact.controls.aileron_deg, 1e-6);
-      EXPECT_NEAR(start.rudder_deg, exact.controls.rudder_deg, 1e-6);
-      EXPECT_NEAR(start.leading_edge_flap_deg, exact.controls.leading_edge_flap_deg, 1e-6);
-      EXPECT_NEAR(start.power, exact.power, 1e-6);
+      EXPECT_NEAR(start.alpha_rad, exact.alpha_rad, kRounding);
+      EXPECT_NEAR(start.pitch_rad, exact.pitch_rad, kRounding);
+      EXPECT_NEAR(start.bank_rad, exact.bank_rad, kRounding);
+      EXPECT_NEAR(start.elevator_deg, exact.controls.elevator_deg, kControlRounding);
+      EXPECT_NEAR(start.aileron_deg, exact.controls.aileron_deg, kControlRounding);
+      EXPECT_NEAR(start.rudder_deg, exact.controls.rudder_deg, kControlRounding);
+      EXPECT_NEAR(start.leading_edge_flap_deg, exact.controls.leading_edge_flap_deg,
+                  kControlRounding);
+      EXPECT_NEAR(start.power, exact.power, kControlRounding);
       const PlantOutput output = plant_.Evaluate(exact.state, exact.controls);
-      EXPECT_NEAR(start.nz, output.nz, 1e-9);
-      EXPECT_NEAR(start.ny, output.ny, 1e-9);
+      EXPECT_NEAR(start.nz, output.nz, kRounding);
+      EXPECT_NEAR(start.ny, output.ny, kRounding);
     }
   }
 }
@@ -50,7 +56,9 @@ TEST_F(TrimTableTest, HoldsTheTrimsAtItsNodes) {
 // Over the ranges in which Heading episodes begin, interpolation costs less than the aircraft
 // notices: 0.02 deg of alpha is 0.01 g.
 TEST_F(TrimTableTest, InterpolatesCloselyOverTheUsualStarts) {
-  constexpr double kAlphaRad = 0.02 / kDegPerRad;
+  constexpr Tolerance kAlphaRad{0.02 / kDegPerRad, "bilinear between nodes"};
+  constexpr Tolerance kElevatorDeg{2e-3, "bilinear between nodes"};
+  constexpr Tolerance kPower{0.2, "bilinear between nodes, where power rises steeply"};
   const TrimTable table(plant_, 19000, 20000, 1000, 1200);
   std::mt19937_64 random(1);
   for (int n = 0; n < 50; ++n) {
@@ -59,20 +67,20 @@ TEST_F(TrimTableTest, InterpolatesCloselyOverTheUsualStarts) {
     const TrimPoint exact = Exact(altitude, speed);
     const TrimmedStart start = table.At(altitude, speed);
     EXPECT_NEAR(start.alpha_rad, exact.alpha_rad, kAlphaRad);
-    EXPECT_NEAR(start.elevator_deg, exact.controls.elevator_deg, 0.02);
-    EXPECT_NEAR(start.power, exact.power, 1);
+    EXPECT_NEAR(start.elevator_deg, exact.controls.elevator_deg, kElevatorDeg);
+    EXPECT_NEAR(start.power, exact.power, kPower);
   }
 }
 
 TEST_F(TrimTableTest, TakesRangesOfOnePoint) {
   const TrimPoint exact = Exact(15000, 500);
   const TrimTable point(plant_, 15000, 15000, 500, 500);
-  EXPECT_NEAR(point.At(15000, 500).alpha_rad, exact.alpha_rad, 1e-12);
-  EXPECT_NEAR(point.At(0, 9999).alpha_rad, exact.alpha_rad, 1e-12);
+  EXPECT_NEAR(point.At(15000, 500).alpha_rad, exact.alpha_rad, kSameTrim);
+  EXPECT_NEAR(point.At(0, 9999).alpha_rad, exact.alpha_rad, kSameTrim);
   const TrimTable row(plant_, 15000, 15000, 500, 700);
-  EXPECT_NEAR(row.At(15000, 700).alpha_rad, Exact(15000, 700).alpha_rad, 1e-9);
+  EXPECT_NEAR(row.At(15000, 700).alpha_rad, Exact(15000, 700).alpha_rad, kRounding);
   const TrimTable column(plant_, 10000, 15000, 500, 500);
-  EXPECT_NEAR(column.At(10000, 500).alpha_rad, Exact(10000, 500).alpha_rad, 1e-9);
+  EXPECT_NEAR(column.At(10000, 500).alpha_rad, Exact(10000, 500).alpha_rad, kRounding);
 }
 
 TEST_F(TrimTableTest, RefusesWhatCannotBeFlownAndSaysWhere) {

@@ -11,6 +11,7 @@
 #include "envs/aircraft/f16.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -30,43 +31,54 @@ TrimRequest Level(double altitude_ft, double speed_ft_s) {
 
 // University of Minnesota model, 9843 ft and 393.72 ft/s, as found by a search (fminsearch) that
 // stopped with residuals of about 1e-3 ft/s^2 and held the wings level, leaving the side force
-// unbalanced: the tolerances are those of that search.
+// unbalanced.
+constexpr Tolerance kSearchThrust{0.2, "residual of the published search, lbf"};
+constexpr Tolerance kSearchDeflection{3e-4, "residual of the published search, deg"};
+constexpr Tolerance kSearchRudder{1e-3, "side force that the published search leaves, deg"};
+constexpr Tolerance kSearchAlpha{1e-5, "residual of the published search, rad"};
 TEST(Trim, ReproducesThePublishedTrimOfTheMinnesotaModel) {
   const TrimPoint trim = Trim(F16At(0.30), Level(9843, 393.72));
-  EXPECT_NEAR(trim.controls.thrust_lbf, 2279.085, 0.2);
-  EXPECT_NEAR(trim.controls.elevator_deg, -2.979732, 2e-4);
-  EXPECT_NEAR(trim.controls.aileron_deg, 0.008746, 2e-4);
-  EXPECT_NEAR(trim.controls.rudder_deg, 0.068030, 1e-3);
-  EXPECT_NEAR(trim.alpha_rad, 0.1156095, 1e-5);
+  EXPECT_NEAR(trim.controls.thrust_lbf, 2279.085, kSearchThrust);
+  EXPECT_NEAR(trim.controls.elevator_deg, -2.979732, kSearchDeflection);
+  EXPECT_NEAR(trim.controls.aileron_deg, 0.008746, kSearchDeflection);
+  EXPECT_NEAR(trim.controls.rudder_deg, 0.068030, kSearchRudder);
+  EXPECT_NEAR(trim.alpha_rad, 0.1156095, kSearchAlpha);
 }
 
 // The same model with the centre of gravity at 0.25 chord, 10000 ft and 700 ft/s, as published with
 // a model predictive low-level policy; digits as printed, found by a search as above.
 TEST(Trim, ReproducesThePublishedTrimWithTheForwardCentreOfGravity) {
+  constexpr Tolerance kPrintedDeflection{1e-4, "digits printed"};
+  constexpr Tolerance kPrintedFlap{1e-3, "digits printed, at the search's alpha"};
   const TrimPoint trim = Trim(F16At(0.25), Level(10000, 700));
-  EXPECT_NEAR(trim.controls.thrust_lbf, 2886.6468, 0.2);
-  EXPECT_NEAR(trim.controls.elevator_deg, -2.0385, 3e-4);
-  EXPECT_NEAR(trim.controls.aileron_deg, -0.087577, 1e-4);
-  EXPECT_NEAR(trim.controls.rudder_deg, -0.03877, 1e-4);
-  EXPECT_NEAR(trim.controls.leading_edge_flap_deg, 0.3986, 1e-3);
+  EXPECT_NEAR(trim.controls.thrust_lbf, 2886.6468, kSearchThrust);
+  EXPECT_NEAR(trim.controls.elevator_deg, -2.0385, kSearchDeflection);
+  EXPECT_NEAR(trim.controls.aileron_deg, -0.087577, kPrintedDeflection);
+  EXPECT_NEAR(trim.controls.rudder_deg, -0.03877, kPrintedDeflection);
+  EXPECT_NEAR(trim.controls.leading_edge_flap_deg, 0.3986, kPrintedFlap);
 }
 
 // Its angle of attack is published beside it for the centre of gravity at 0.30 chord.
 TEST(Trim, ReproducesThePublishedAngleOfAttackAt700FeetPerSecond) {
-  EXPECT_NEAR(Trim(F16At(0.30), Level(10000, 700)).alpha_rad * kDegPerRad, 1.0721, 5e-4);
+  constexpr Tolerance kPrintedAlpha{5e-4, "digits printed"};
+  EXPECT_NEAR(Trim(F16At(0.30), Level(10000, 700)).alpha_rad * kDegPerRad, 1.0721, kPrintedAlpha);
 }
 
 // An independent implementation of this model; its pitch angle leaves the bank out of the climb
 // constraint, which weighs 0.14 lbf of thrust and nothing else.
 TEST(Trim, AgreesWithAnIndependentTrim) {
+  constexpr Tolerance kBankInClimb{0.15, "the bank in its climb constraint, lbf"};
+  constexpr Tolerance kIndependentDigits{1e-5, "digits known"};
+  constexpr Tolerance kIndependentFlap{1e-4, "digits known"};
+  constexpr Tolerance kBankDigits{1e-3, "digits known"};
   const TrimPoint trim = Trim(F16At(0.30), Level(15000, 500));
-  EXPECT_NEAR(trim.controls.thrust_lbf, 2109.8057, 0.15);
-  EXPECT_NEAR(trim.controls.elevator_deg, -2.244318, 1e-5);
-  EXPECT_NEAR(trim.controls.aileron_deg, -0.09363, 1e-5);
-  EXPECT_NEAR(trim.controls.rudder_deg, 0.09423, 1e-5);
-  EXPECT_NEAR(trim.controls.leading_edge_flap_deg, 6.2825, 1e-4);
-  EXPECT_NEAR(trim.alpha_rad * kDegPerRad, 4.53134, 1e-5);
-  EXPECT_NEAR(trim.bank_rad * kDegPerRad, 0.757, 1e-3);
+  EXPECT_NEAR(trim.controls.thrust_lbf, 2109.8057, kBankInClimb);
+  EXPECT_NEAR(trim.controls.elevator_deg, -2.244318, kIndependentDigits);
+  EXPECT_NEAR(trim.controls.aileron_deg, -0.09363, kIndependentDigits);
+  EXPECT_NEAR(trim.controls.rudder_deg, 0.09423, kIndependentDigits);
+  EXPECT_NEAR(trim.controls.leading_edge_flap_deg, 6.2825, kIndependentFlap);
+  EXPECT_NEAR(trim.alpha_rad * kDegPerRad, 4.53134, kIndependentDigits);
+  EXPECT_NEAR(trim.bank_rad * kDegPerRad, 0.757, kBankDigits);
 }
 
 class TrimmedFlight : public ::testing::TestWithParam<TrimRequest> {};
@@ -74,18 +86,21 @@ class TrimmedFlight : public ::testing::TestWithParam<TrimRequest> {};
 // Steady flight is steady: speed, climb and turn rate are those asked for, and ten seconds later
 // the aircraft still flies so (its modes are slow or stable at these points).
 TEST_P(TrimmedFlight, StaysAsAskedFor) {
-  constexpr double kSteady = 1e-7;  // of ft/s and rad/s, over ten seconds
+  constexpr Tolerance kSteady{1e-7, "residuals grown over ten seconds"};
+  constexpr Tolerance kResidual{1e-10, "residual at which the search ends"};
+  constexpr Tolerance kSpeedRounding{1e-9, "float64 rounding of 1000 ft/s"};
+  constexpr Tolerance kRounding{1e-12, "float64 rounding"};
   const TrimRequest& request = GetParam();
   const Plant plant = F16At(0.30);
   const TrimPoint trim = Trim(plant, request);
-  EXPECT_LT(trim.residual, 1e-10);
+  EXPECT_LT(trim.residual, kResidual);
   // The atmosphere changes under a climb: the balance is instantaneous there.
   const PlantOutput now = plant.Evaluate(trim.state, trim.controls);
-  EXPECT_LT(now.state_rate.head<6>().cwiseAbs().maxCoeff(), 1e-10);
-  EXPECT_NEAR(now.air.true_airspeed_ft_s, request.true_airspeed_ft_s, 1e-9);
+  EXPECT_LT(now.state_rate.head<6>().cwiseAbs().maxCoeff(), kResidual);
+  EXPECT_NEAR(now.air.true_airspeed_ft_s, request.true_airspeed_ft_s, kSpeedRounding);
   EXPECT_NEAR(-now.state_rate[kDown],
-              request.true_airspeed_ft_s * std::sin(request.flight_path_angle_rad), 1e-9);
-  EXPECT_NEAR(now.air.beta_rad, 0, 1e-12);
+              request.true_airspeed_ft_s * std::sin(request.flight_path_angle_rad), kSpeedRounding);
+  EXPECT_NEAR(now.air.beta_rad, 0, kRounding);
   if (request.flight_path_angle_rad == 0) {
     RigidBodyState state = trim.state;
     for (int i = 0; i < 500; ++i) state = plant.StepRk4(state, trim.controls, 0.02);
@@ -106,7 +121,10 @@ INSTANTIATE_TEST_SUITE_P(
 // and the inclination of the thrust leave (the asymmetric tables alone ask for half a degree of
 // bank).
 TEST(Trim, TurnsAreCoordinatedAndNearlySymmetric) {
-  constexpr double kAsymmetryDeg = 1.5;
+  constexpr Tolerance kAsymmetryDeg{1.5, "asymmetric tables, side force and inclined thrust"};
+  constexpr Tolerance kAsymmetryAlphaRad{2e-4, "asymmetric tables"};
+  constexpr Tolerance kAsymmetryElevatorDeg{0.02, "asymmetric tables"};
+  constexpr Tolerance kAsymmetryThrust{1e-3, "asymmetric tables, relative"};
   const Plant plant = F16At(0.30);
   for (double turn_rate : {0.02, 0.05, 0.1}) {
     TrimRequest request = Level(15000, 600);
@@ -117,13 +135,14 @@ TEST(Trim, TurnsAreCoordinatedAndNearlySymmetric) {
     const double bank_deg = std::atan(600 * turn_rate / kGravityFtS2) * kDegPerRad;
     EXPECT_NEAR(right.bank_rad * kDegPerRad, bank_deg, kAsymmetryDeg);
     EXPECT_NEAR(left.bank_rad * kDegPerRad, -bank_deg, kAsymmetryDeg);
-    EXPECT_NEAR(right.alpha_rad, left.alpha_rad, 2e-3);
-    EXPECT_NEAR(right.controls.elevator_deg, left.controls.elevator_deg, 0.05);
-    EXPECT_NEAR(right.controls.thrust_lbf / left.controls.thrust_lbf, 1, 0.01);
+    EXPECT_NEAR(right.alpha_rad, left.alpha_rad, kAsymmetryAlphaRad);
+    EXPECT_NEAR(right.controls.elevator_deg, left.controls.elevator_deg, kAsymmetryElevatorDeg);
+    EXPECT_NEAR(right.controls.thrust_lbf / left.controls.thrust_lbf, 1, kAsymmetryThrust);
   }
 }
 
 TEST(Trim, ClimbingTakesTheThrustOfTheSlope) {
+  constexpr Tolerance kChangeOfDrag{0.02, "drag changes with the load, of the weight's share"};
   const Plant plant = F16At(0.30);
   const double weight = plant.aircraft().airframe.mass_slug * kGravityFtS2;
   TrimRequest request = Level(15000, 600);
@@ -131,26 +150,29 @@ TEST(Trim, ClimbingTakesTheThrustOfTheSlope) {
   for (double angle : {-0.1, 0.05, 0.1}) {
     request.flight_path_angle_rad = angle;
     const double thrust = Trim(plant, request).controls.thrust_lbf;
-    EXPECT_NEAR(thrust - level, weight * std::sin(angle), 0.02 * weight * std::abs(angle));
+    EXPECT_NEAR(thrust - level, weight * std::sin(angle), kChangeOfDrag * weight * std::abs(angle));
   }
 }
 
 TEST(Trim, PowerGivesTheThrustOrAllThereIs) {
+  constexpr Tolerance kThrustRounding{1e-6, "float64 rounding there and back"};
   const Plant plant = F16At(0.30);
   const TrimPoint easy = Trim(plant, Level(15000, 500));
   const double mach = plant.Evaluate(easy.state, easy.controls).air.mach;
   EXPECT_NEAR(Thrust(plant.aircraft().engine, easy.power, 15000, mach), easy.controls.thrust_lbf,
-              1e-6);
+              kThrustRounding);
   EXPECT_EQ(Trim(plant, Level(40000, 320)).power, 100);
 }
 
 TEST(Trim, StartingFromANeighbourGivesTheSameFlight) {
+  constexpr Tolerance kStateRounding{1e-8, "residual at which the search ends"};
+  constexpr Tolerance kThrustRounding{1e-6, "residual at which the search ends, lbf"};
   const Plant plant = F16At(0.35);
   const TrimPoint neighbour = Trim(plant, Level(20000, 650));
   const TrimPoint direct = Trim(plant, Level(21000, 600));
   const TrimPoint warm = Trim(plant, Level(21000, 600), neighbour);
-  EXPECT_LT((direct.state - warm.state).norm(), 1e-8);
-  EXPECT_NEAR(direct.controls.thrust_lbf, warm.controls.thrust_lbf, 1e-6);
+  EXPECT_LT((direct.state - warm.state).norm(), kStateRounding);
+  EXPECT_NEAR(direct.controls.thrust_lbf, warm.controls.thrust_lbf, kThrustRounding);
 }
 
 TEST(Trim, RefusesWhatCannotBeFlownAndSaysWhere) {
