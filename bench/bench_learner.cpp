@@ -9,7 +9,7 @@
 
 #include "base/denormals.h"
 #include "bench/learner_meter.h"
-#include "train/network/recurrent_network.h"
+#include "train/network/backend_module.h"
 #include "train/ppo/learner_rates.h"
 
 namespace skein::bench {
@@ -73,6 +73,10 @@ NetworkPrecision PrecisionOf(int network, LearnerPrecision precision) {
 
 /// Forward, losses and backward of actor and critic on one tile of `range(0)` samples.
 void Gradient(benchmark::State& state, Backend backend, LearnerPrecision precision) {
+  if (backend == Backend::kLibTorch && LibTorchVersion().empty()) {
+    state.SkipWithError("built without LibTorch");
+    return;
+  }
   const simd::DenormalsFlushed flushed;
   const std::vector<NetworkShape> shapes = ActorAndCritic();
   const Samples samples(shapes[0], static_cast<int>(state.range(0)) / kChunkLength, kChunkLength);

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # Install rules and the exported package: find_package(skein) gives skein::simd, skein::envs and, where the learner was
-# built, skein::train.
+# built, skein::policy and skein::train.
 include(CMakePackageConfigHelpers)
 include(PublicHeaders)
 
 set(SKEIN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
 set(skein_targets skein_settings skein_base skein_simd skein_envs)
 if(SKEIN_BUILD_TRAIN)
-  list(APPEND skein_targets skein_train)
+  list(APPEND skein_targets skein_policy skein_train)
   install(TARGETS skein RUNTIME)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/policies DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
 endif()

@@ -6,8 +6,7 @@ namespace skein {
 extern const char* const kCommit;  // of the generated commit.cpp (cmake/Commit.cmake)
 
 const BuildInfo& Build() {
-  static const BuildInfo build{SKEIN_VERSION, kCommit, SKEIN_COMPILER, SKEIN_BUILD_TYPE,
-                               SKEIN_LIBTORCH_VERSION};
+  static const BuildInfo build{SKEIN_VERSION, kCommit, SKEIN_COMPILER, SKEIN_BUILD_TYPE};
   return build;
 }
 

@@ -9,7 +9,6 @@ struct BuildInfo {
   const char* commit;    ///< of the source tree, "-dirty" behind it if changed; or "unknown"
   const char* compiler;  ///< "GNU 12.2.0"
   const char* type;      ///< of the build: "Release"
-  const char* libtorch;  ///< the version built against
 };
 
 const BuildInfo& Build();

@@ -7,6 +7,7 @@
 #include "simd/target.h"
 #include "src/version.h"
 #include "train/network/backend.h"
+#include "train/network/backend_module.h"
 
 namespace skein {
 
@@ -21,19 +22,21 @@ std::string CpuName() {
 }
 
 nlohmann::ordered_json DescribeMachine() {
+  const std::string libtorch = LibTorchVersion();
   auto supported = nlohmann::ordered_json::array();
   for (const simd::Target target : simd::SupportedTargets()) supported.push_back(Name(target));
-  return {{"version", Build().version},
-          {"commit", Build().commit},
-          {"compiler", Build().compiler},
-          {"build_type", Build().type},
-          {"cpu", CpuName()},
-          {"threads", WorkerPool().threads()},
-          {"simd", Name(simd::ActiveTarget())},
-          {"simd_supported", supported},
-          {"native_bf16", simd::NativeBfloat16()},
-          {"precision", Name(DefaultPrecision())},
-          {"libtorch", Build().libtorch}};
+  return {
+      {"version", Build().version},
+      {"commit", Build().commit},
+      {"compiler", Build().compiler},
+      {"build_type", Build().type},
+      {"cpu", CpuName()},
+      {"threads", WorkerPool().threads()},
+      {"simd", Name(simd::ActiveTarget())},
+      {"simd_supported", supported},
+      {"native_bf16", simd::NativeBfloat16()},
+      {"precision", Name(DefaultPrecision())},
+      {"libtorch", libtorch.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(libtorch)}};
 }
 
 }  // namespace skein

@@ -10,7 +10,8 @@ namespace skein {
 std::string CpuName();
 
 /// What a figure depends on: version, commit, compiler, processor, SIMD target in use and supported
-/// ones, threads that commands use unless told otherwise, LibTorch. The document of `skein info
+/// ones, threads that commands use unless told otherwise, LibTorch (null without its module). The
+/// document of `skein info
 /// --json`, and part of every benchmark's.
 nlohmann::ordered_json DescribeMachine();
 

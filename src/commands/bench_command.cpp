@@ -18,6 +18,7 @@
 #include "src/files/output_file.h"
 #include "src/run/progress.h"
 #include "src/usage_error.h"
+#include "train/network/backend_module.h"
 #include "train/ppo/learner_rates.h"
 #include "train/ppo/trainer.h"
 
@@ -147,7 +148,7 @@ void BenchSimulator(const BenchOptions& options) {
 }
 
 /// What learner benchmarks compare: the fused kernels in the configuration's precision first, in
-/// every other one that this processor knows, and LibTorch in tiles that suit it.
+/// every other one that this processor knows, and LibTorch, if it is there, in tiles that suit it.
 std::vector<TrainConfig> LearnersOf(const TrainConfig& config) {
   // LibTorch's best sizes: each of its operations walks through a whole tile.
   constexpr int kLibTorchTileSamples = 4096, kLibTorchRolloutTile = 512;
@@ -165,6 +166,7 @@ std::vector<TrainConfig> LearnersOf(const TrainConfig& config) {
     learners.back().learner.precision = precision;
   }
   if (config.learner.backend == Backend::kLibTorch) return {config};
+  if (LibTorchVersion().empty()) return learners;
   learners.push_back(config);
   learners.back().learner.backend = Backend::kLibTorch;
   learners.back().learner.tile_samples = kLibTorchTileSamples;
@@ -177,7 +179,7 @@ std::string ShortName(const BackendChoice& backend) {
   return std::string("fused, ") + Name(backend.precision);
 }
 
-/// One rate of several learners, the last of them LibTorch's.
+/// One rate of several learners, the last of them LibTorch's if it is there.
 struct Comparison {
   const char* unit;  ///< what is counted, for people
   const char* key;   ///< of the rate in files
@@ -188,6 +190,7 @@ struct Comparison {
 /// Prints a line for each learner, and gives the first one's figures with all of them as
 /// "learners".
 Json Compare(const std::vector<LearnerRates>& learners, const Comparison& comparison) {
+  const bool has_reference = learners.back().backend.backend == Backend::kLibTorch;
   const double reference = learners.back().*comparison.rate;
   auto all = Json::array();
   for (const LearnerRates& rates : learners) {
@@ -196,14 +199,16 @@ Json Compare(const std::vector<LearnerRates>& learners, const Comparison& compar
     // The other precisions have products in float32, too.
     const bool is_bfloat16 =
         rates.backend.precision == LearnerPrecision::kBfloat16 && simd::NativeBfloat16();
-    fmt::print("  {:<14} {:>6} {}/s  {:5.2f} x LibTorch  ({})\n", ShortName(rates.backend),
-               FormatCount(rate), comparison.unit, rate / reference,
+    fmt::print("  {:<14} {:>6} {}/s  {}({})\n", ShortName(rates.backend), FormatCount(rate),
+               comparison.unit,
+               has_reference ? fmt::format("{:5.2f} x LibTorch  ", rate / reference) : "",
                ShareOfPeak(gflops, rates.peak_gflops, is_bfloat16 ? "bfloat16" : "float32"));
-    all.push_back(WithShareOfPeak({{"backend", Name(rates.backend.backend)},
-                                   {"precision", Name(rates.backend.precision)},
-                                   {comparison.key, rate},
-                                   {"times_libtorch", rate / reference}},
-                                  gflops, rates.peak_gflops));
+    all.push_back(
+        WithShareOfPeak({{"backend", Name(rates.backend.backend)},
+                         {"precision", Name(rates.backend.precision)},
+                         {comparison.key, rate},
+                         {"times_libtorch", has_reference ? Json(rate / reference) : Json()}},
+                        gflops, rates.peak_gflops));
   }
   Json results = all[0];
   results["learners"] = all;

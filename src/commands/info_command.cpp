@@ -17,6 +17,9 @@ namespace {
 void PrintInfo(const std::string& json_path) {
   const nlohmann::ordered_json info = DescribeMachine();
   if (!json_path.empty()) WriteJson(json_path, info);
+  const std::string libtorch = info["libtorch"].is_null()
+                                   ? "not installed: networks by the fused kernels alone"
+                                   : info["libtorch"].get<std::string>();
   const auto text = [&info](const char* key) { return info[key].get<std::string>(); };
   fmt::print(
       "skein     {} (commit {}, {}, {})\n"
@@ -28,7 +31,7 @@ void PrintInfo(const std::string& json_path) {
       text("version"), text("commit"), text("compiler"), text("build_type"), text("cpu"),
       info["threads"].get<int>(), text("simd"),
       fmt::join(info["simd_supported"].get<std::vector<std::string>>(), ", "), text("precision"),
-      info["native_bf16"].get<bool>() ? "yes" : "no", text("libtorch"));
+      info["native_bf16"].get<bool>() ? "yes" : "no", libtorch);
 }
 
 }  // namespace

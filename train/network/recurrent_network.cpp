@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/network/recurrent_network.h"
 
-#include "train/libtorch/libtorch_network.h"
+#include "train/network/backend_module.h"
 #include "train/network/fused_network.h"
 
 namespace skein {
@@ -9,7 +9,7 @@ namespace skein {
 std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout,
                                               const NetworkPrecision& precision) {
   if (backend == Backend::kFused) return std::make_unique<FusedNetwork>(layout, precision);
-  return std::make_unique<LibTorchNetwork>(layout);
+  return LoadBackendModule().MakeNetwork(layout);
 }
 
 }  // namespace skein

@@ -75,7 +75,7 @@ class RecurrentNetwork {
 };
 
 /// Throws Error if `backend` cannot compute the shape; ChooseBackend (train/network/backend.h) asks
-/// first. LibTorch takes no notice of the precision.
+/// first; or if LibTorch's module is not there. LibTorch takes no notice of the precision.
 std::unique_ptr<RecurrentNetwork> MakeNetwork(Backend backend, const NetworkLayout& layout,
                                               const NetworkPrecision& precision = {});
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "simd/target.h"
+#include "tests/train/libtorch.h"
 #include "train/network/recurrent_network.h"
 
 namespace skein {
@@ -29,6 +30,7 @@ TEST(ChooseBackendTest, GivesWhatWasAskedForWhereItCan) {
 }
 
 TEST(ChooseBackendTest, FallsBackToLibTorchAndSaysWhy) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
   for (const auto& [activation, name] : kActivationNames) {
     if (activation == Activation::kRelu) continue;
     const NetworkShape shape = ShapeWith(activation);

@@ -12,6 +12,7 @@
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/hierarchy_config.h"
+#include "tests/train/libtorch.h"
 #include "train/files/tensor_file.h"
 #include "train/policy/autopilot_policy.h"
 #include "train/policy/evaluate.h"
@@ -167,6 +168,7 @@ TEST_F(HighLevelTrainingTest, DependsOnWhoFlies) {
 }
 
 TEST_F(HighLevelTrainingTest, ComputesTheLowLevelPolicyAsItLearnsWhateverComputedItBefore) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
   WorkerPool pool(2);
   for (const Backend learner : {Backend::kFused, Backend::kLibTorch}) {
     std::vector<std::uint64_t> signatures;

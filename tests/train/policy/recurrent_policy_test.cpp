@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "tests/scratch_directory.h"
+#include "tests/train/libtorch.h"
 #include "tests/train/small_config.h"
 #include "train/files/tensor_file.h"
 #include "train/ppo/trainer.h"
@@ -75,6 +76,7 @@ TEST_F(PolicyTest, ReadsFilesFromBeforeNetworksHadDepths) {
 }
 
 TEST_F(PolicyTest, BackendsDecideAlike) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
   const RecurrentPolicy fused = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3);
   const RecurrentPolicy libtorch = fused.WithBackend(Backend::kLibTorch);
   EXPECT_EQ(fused.backend().backend, Backend::kFused);
@@ -85,6 +87,7 @@ TEST_F(PolicyTest, BackendsDecideAlike) {
 }
 
 TEST_F(PolicyTest, ALowLevelPolicyIsComputedAsItsHighLevelIs) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
   const auto fused = std::make_shared<const RecurrentPolicy>(
       RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3));
   const RecurrentPolicy high_level =

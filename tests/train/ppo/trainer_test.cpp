@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "simd/target.h"
 #include "tests/scratch_directory.h"
+#include "tests/train/libtorch.h"
 #include "tests/train/network/gradient_comparison.h"
 #include "tests/train/small_config.h"
 #include "train/policy/policy_parameters.h"
@@ -250,6 +251,7 @@ TEST_P(TrainerPrecisionTest, TheFirstUpdateMovesALittleFromTheRolloutsPolicy) {
 }
 
 TEST_P(TrainerPrecisionTest, ConfigurationSaysWhatRunsAndLibTorchRunsInFloat32) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
   WorkerPool pool(1);
   TrainConfig config = Config();
   EXPECT_EQ(Trainer(config, pool).config().learner.precision, GetParam());
@@ -301,6 +303,7 @@ TEST_F(TrainerTest, LearningRateFallsLinearlyToItsFraction) {
 }
 
 TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
   TrainConfig config = SmallConfig();
   config.network.hidden_layers = 1;
   config.network.hidden_size = 20;
@@ -326,6 +329,7 @@ TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
 }
 
 TEST_F(TrainerTest, EveryShapeTrainsAndGoesOnBitForBit) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
   WorkerPool pool(2);
   TrainConfig config = SmallConfig();
   config.network.hidden_size = 20;

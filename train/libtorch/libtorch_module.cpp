@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <torch/version.h>
+
+#include <cstring>
+
+#include "train/libtorch/libtorch_network.h"
+#include "train/network/backend_module.h"
+
+namespace skein {
+namespace {
+
+class LibTorchModule final : public BackendModule {
+ public:
+  std::string LibraryVersion() const override { return TORCH_VERSION; }
+  std::unique_ptr<RecurrentNetwork> MakeNetwork(const NetworkLayout& layout) const override {
+    return std::make_unique<LibTorchNetwork>(layout);
+  }
+};
+
+}  // namespace
+}  // namespace skein
+
+extern "C" const skein::BackendModule* skein_backend_module(const char* build) {
+  static const skein::LibTorchModule module;
+  return std::strcmp(build, SKEIN_BUILD_ID) == 0 ? &module : nullptr;
+}
