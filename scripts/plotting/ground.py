@@ -6,6 +6,7 @@ from plotting import svg
 from plotting.axes import ticks
 from plotting.projection import moved
 
+ARROW_PIXELS = 60.0  # length of the arrow to the north if it were seen from above
 FILL, GRID = "#F4F2EC", "#D5D0C2"
 NORTH, EAST, UP = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -20,6 +21,7 @@ class Ground:
     """A level rectangle under all `points` (north, east, up; ft), and the altitudes up to the highest."""
 
     def __init__(self, points):
+        self.points = points
         spans = [(min(p[i] for p in points), max(p[i] for p in points)) for i in range(3)]
         self.step = ticks(0.0, max(high - low for low, high in spans[:2]) or 1.0, 7)[1]
         self.north, self.east = [widened(*span, self.step) for span in spans[:2]]
@@ -109,18 +111,20 @@ def draw_altitudes(view, ground):
 
 
 def draw_north_arrow(view, ground):
-    """Flat on the ground, in the corner that is nearest to the viewer among those to the right."""
-    rightmost = sorted(ground.corners(), key=lambda corner: -view.place(corner)[0])[:2]
-    north, east, _ = max(rightmost, key=view.nearness)
-    inward_north = 1 if north == ground.north[0] else -1
-    inward_east = 1 if east == ground.east[0] else -1
-    size = 0.4 * ground.step
-    middle = moved((north, east, ground.floor), (0.8 * inward_north * ground.step, NORTH),
-                   (0.5 * inward_east * ground.step, EAST))
+    """Flat on the ground, in the corner that is farthest from all shadows."""
+    size = ARROW_PIXELS / 2 / view.scale
+    places = [moved(corner, (2.0 * size * inward(corner[0], ground.north), NORTH),
+                    (1.5 * size * inward(corner[1], ground.east), EAST)) for corner in ground.corners()]
+    middle = max(places, key=lambda place: min(math.dist(place[:2], point[:2]) for point in ground.points))
     shape = [(1.0, 0.0), (-0.9, 0.42), (-0.5, 0.0), (-0.9, -0.42)]
     points = [view.place(moved(middle, (size * x, NORTH), (size * y, EAST))) for x, y in shape]
     x, y = view.place(moved(middle, (1.75 * size, NORTH)))
     return [svg.polygon(points, svg.GREY), svg.text(x, y + 5, "N", "middle", 13, svg.GREY, ' font-weight="bold"')]
+
+
+def inward(end, span):
+    """The sign of the way from an end of a span into it."""
+    return 1.0 if end == span[0] else -1.0
 
 
 def draw(view, ground):

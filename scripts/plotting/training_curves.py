@@ -11,6 +11,7 @@ BAND_OPACITY = 0.18
 LEFT, TOP, ASIDE, PANEL_HEIGHT = 64, 76, 70, 300
 MINUTES_HEIGHT = 32  # above a panel
 PERCENT_RANGE = (0.0, 112.0)  # leaves room for words above 100
+MOST_DOTS = 40  # that still show where a curve has points
 TICK_PIXELS = 85  # about, from one to the next
 TASK_TITLES = {"heading": "Heading: a new altitude, heading and speed",
                "control": "Control: a new pitch, heading and speed",
@@ -48,7 +49,7 @@ def interpolated(curve, x):
     return before[1] + (after[1] - before[1]) * (x - before[0]) / (after[0] - before[0])
 
 
-def by_task(texts, what):
+def by_task(texts, option):
     """{task: number} of ["heading=5.8", ...]; a number alone is for the task "", that is, for any."""
     result = {}
     for text in texts:
@@ -58,7 +59,7 @@ def by_task(texts, what):
         except ValueError:
             result[task] = math.nan
         if not math.isfinite(result[task]):
-            raise PlotError(f"{what} {text}: give a number, or TASK=NUMBER")
+            raise PlotError(f"{option} {text}: give a number, or TASK=NUMBER")
     return result
 
 
@@ -107,7 +108,7 @@ def draw_autopilot(panel, words, value):
 def draw_setting(panel, setting, colour):
     panel.band(setting.low, setting.high, colour, BAND_OPACITY)
     panel.curve(setting.mean, colour, 2.2)
-    for x, y in setting.mean:
+    for x, y in setting.mean if len(setting.mean) <= MOST_DOTS else []:
         panel.elements.append(svg.circle((panel.x(x), panel.y(y)), 2.6, colour))
 
 
@@ -153,6 +154,8 @@ def minutes_of(settings, options):
     given, result = by_task(options.minutes, "--minutes"), {}
     for setting in settings:
         whole = given.get(setting.task, given.get(""))
+        if whole is not None and whole <= 0:
+            raise PlotError(f"--minutes {whole:g}: a training takes more than no time")
         rate = whole / setting.mean[-1][0] if whole else setting.minutes_per_million()
         if rate:
             result.setdefault(setting.task, rate)
