@@ -3,10 +3,10 @@
 from plotting import svg
 from plotting.projection import dot, moved
 
-LENGTH_FT = 49.0
+LENGTH_FT, HALF_SPAN_FT = 49.0, 15.5
 # The right half from nose to tail, (forward, right) of the middle, ft; and the fin, (forward, up).
-OUTLINE = [(25, 0), (20, 1.4), (13, 2.2), (8, 3.4), (4, 4.4), (-6, 15.5), (-10, 15.5), (-10.5, 4.4), (-14.5, 4.2),
-           (-20.5, 9.2), (-23.5, 9.2), (-22.5, 2.4), (-24, 1.8)]
+OUTLINE = [(25, 0), (20, 1.4), (13, 2.2), (8, 3.4), (4, 4.4), (-6, HALF_SPAN_FT), (-10, HALF_SPAN_FT), (-10.5, 4.4),
+           (-14.5, 4.2), (-20.5, 9.2), (-23.5, 9.2), (-22.5, 2.4), (-24, 1.8)]
 FIN = [(-6, 1.5), (-16.5, 11.5), (-22.5, 11.5), (-20.5, 1.5)]
 CANOPY = [(16, 0), (14, 1.1), (9, 1.3), (6, 0)]
 

@@ -15,10 +15,6 @@ def in_words(column):
     return column.replace("_", " ")
 
 
-def unit_of(column):
-    return next((unit for ending, unit in UNITS if column.endswith(ending)), "")
-
-
 def ticks(low, high, count=5):
     """Round numbers between low and high, about `count` of them."""
     rough = (high - low) / count or 1.0

@@ -90,17 +90,19 @@ class Recording:
 
 
 def read_recordings(options, wanted):
-    """The recordings of all files; their columns are the same."""
+    """The recordings of all files, which are of one task."""
     names = options.names or [agent_of(path) for path in options.files]
     if len(names) != len(options.files):
         raise PlotError(f"--names: {len(names)} names for {len(options.files)} files")
     recordings = [Recording(path, name, svg.COLOURS[i % len(svg.COLOURS)], wanted, options.episodes)
                   for i, (path, name) in enumerate(zip(options.files, names))]
     first = recordings[0].flights[0]
-    for recording in recordings:
-        for flight in recording.flights[:1]:
-            if list(flight.values) != list(first.values) and flight.targets != first.targets:
-                raise PlotError(f"{flight.path}: flights of another task than in {first.path}; draw them apart")
+    for flight in (recording.flights[0] for recording in recordings):
+        if flight.targets != first.targets:
+            raise PlotError(f"{flight.path}: flights of another task than in {first.path}; draw them apart")
+    for column in options.tolerance:
+        if column not in first.targets:
+            raise PlotError(f"--tolerance: {column} has no target; {', '.join(first.targets) or 'nothing'} has")
     return recordings
 
 

@@ -53,6 +53,11 @@ def thousands(value):
     return f"{value / 1000:,.5g}"
 
 
+def inward(end, span):
+    """The sign of the way from an end of a span into it."""
+    return 1.0 if end == span[0] else -1.0
+
+
 def draw_grid(view, ground):
     (south, north), (west, east), floor = ground.north, ground.east, ground.floor
     lines = [((n, west, floor), (n, east, floor)) for n in ground.marks(ground.north)]
@@ -88,8 +93,7 @@ def draw_numbers(view, ground):
     east = max(ground.east, key=lambda e: view.nearness((0.0, e, 0.0)))
     along_north = [(n, (n, east, floor)) for n in ground.marks(ground.north)]
     along_east = [(e, (north, e, floor)) for e in ground.marks(ground.east)]
-    to_east = (0.0, 1.0 if east == ground.east[1] else -1.0, 0.0)
-    to_north = (1.0 if north == ground.north[1] else -1.0, 0.0, 0.0)
+    to_east, to_north = (0.0, -inward(east, ground.east), 0.0), (-inward(north, ground.north), 0.0, 0.0)
     elements = []
     for marks, outward, words in ((along_north, to_east, "north, 1000 ft"), (along_east, to_north, "east, 1000 ft")):
         ends = marks[0][1], marks[-1][1]
@@ -120,11 +124,6 @@ def draw_north_arrow(view, ground):
     points = [view.place(moved(middle, (size * x, NORTH), (size * y, EAST))) for x, y in shape]
     x, y = view.place(moved(middle, (1.75 * size, NORTH)))
     return [svg.polygon(points, svg.GREY), svg.text(x, y + 5, "N", "middle", 13, svg.GREY, ' font-weight="bold"')]
-
-
-def inward(end, span):
-    """The sign of the way from an end of a span into it."""
-    return 1.0 if end == span[0] else -1.0
 
 
 def draw(view, ground):

@@ -11,7 +11,6 @@ from plotting.tracks import COLUMNS, Track
 WIDTH, LEFT, RIGHT, TOP = 1000, 70, 100, 62
 OTHERS_SIZE = 0.75  # of the aircraft of further files
 RIBBON_SPAN = 0.5  # width of the ribbon in wing spans
-HALF_SPAN_FT = 15.5
 LABEL_WEIGHT = 10  # of covering a label, an aircraft or an arrow, where a point of a path counts 1
 LABEL_PLACES = [(dx * reach, dy * reach + 4, anchor) for reach in (1, 1.5, 2.2)
                 for dx, dy, anchor in ((20, 0, "start"), (-20, 0, "end"), (16, -16, "start"), (-16, -16, "end"),
@@ -57,7 +56,7 @@ def draw_flights(view, all_tracks, enlarged, interval):
     pieces = []
     for track in all_tracks:
         if track.is_first:
-            pieces += tracks.ribbon(view, track, RIBBON_SPAN * HALF_SPAN_FT * enlarged)
+            pieces += tracks.ribbon(view, track, RIBBON_SPAN * aircraft_glyph.HALF_SPAN_FT * enlarged)
             pieces += tracks.aircraft(view, track, enlarged, track.instants(interval)[1:])
         else:
             pieces += tracks.path(view, track)
@@ -106,7 +105,8 @@ def target_words(all_tracks, tolerance):
     track = all_tracks[0]
     if track.has_target_in_space():
         return "target" + (f", box ±{tolerance['altitude_ft']:g} ft" if "altitude_ft" in tolerance else "")
-    words = "target heading" + ("" if track.asked("altitude_ft") is None else " at target altitude")
+    words = "target heading" + ("" if track.asked("pitch_deg") is None else " and pitch")
+    words += "" if track.asked("altitude_ft") is None else " at target altitude"
     known = [f"±{tolerance[column]:g}{unit}" for column, unit in (("yaw_deg", "°"), ("altitude_ft", " ft"))
              if column in tolerance]
     return words + (f" ({', '.join(known)})" if known else "")

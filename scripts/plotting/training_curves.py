@@ -26,6 +26,9 @@ class Setting:
 
     def __init__(self, runs, name, column, scale):
         self.task, self.name, self.runs = read_task(runs[0]), name, runs
+        for run in runs:
+            if read_task(run) != self.task:
+                raise PlotError(f"{run}: of another task than {runs[0]}, with which --seeds puts it together")
         curves = [[(steps / 1e6, value * scale) for steps, value in read_curve(run, column)] for run in runs]
         first, last = max(c[0][0] for c in curves), min(c[-1][0] for c in curves)
         steps = sorted({x for curve in curves for x, _ in curve if first <= x <= last})
@@ -83,8 +86,7 @@ def autopilots(options, scale, unit):
     figures = {task: ("autopilot", value) for task, value in by_task(options.autopilot, "--autopilot").items()}
     for path in options.comparison:
         task, name, rate = read_autopilot(path)
-        variant = name.partition(":")[2] or "aggressive"
-        figures[task] = (f"{variant} autopilot", rate * scale)
+        figures[task] = (f"{name.partition(':')[2]} autopilot".lstrip(), rate * scale)
     return {task: (f"{name}: {value:.1f}{unit}", value) for task, (name, value) in figures.items()}
 
 
@@ -128,17 +130,18 @@ def task_panel(place, settings, y_range, colours, autopilot):
     if autopilot:
         draw_autopilot(panel, *autopilot)
     for setting in settings:
-        draw_setting(panel, setting, colours[setting.name])
+        draw_setting(panel, setting, colours[setting])
     return panel
 
 
 def legend_entries(settings, colours):
-    seeds = max(len(setting.runs) for setting in settings)
-    mean = f"mean of {seeds} seeds" if seeds > 1 else "one seed"
-    several = len(settings) > 1
-    entries = [(svg.line_sample(colours[s.name], 2.2), f"{s.name}, {mean}" if several else mean) for s in settings]
-    if seeds > 1:
-        shade = svg.GREY if several else colours[settings[0].name]
+    several, entries = len(settings) > 1, []
+    for setting in settings:
+        seeds = f"mean of {len(setting.runs)} seeds" if len(setting.runs) > 1 else "one seed"
+        words = f"{setting.name}, {seeds}" if several else seeds
+        entries.append((svg.line_sample(colours[setting], 2.2), words))
+    if any(len(setting.runs) > 1 for setting in settings):
+        shade = svg.GREY if several else colours[settings[0]]
         entries.append((svg.band_sample(shade, BAND_OPACITY), "lowest to highest seed"))
     return entries
 
@@ -146,7 +149,7 @@ def legend_entries(settings, colours):
 def colours_of(settings, tasks):
     """A colour for each setting; one for all if the panels' titles tell them apart."""
     shades = svg.COLOURS if len(settings) > len(tasks) else svg.COLOURS[:1]
-    return {setting.name: shades[i % len(shades)] for i, setting in enumerate(settings)}
+    return {setting: shades[i % len(shades)] for i, setting in enumerate(settings)}
 
 
 def minutes_of(settings, options):

@@ -31,7 +31,8 @@ def flight_rows(episode, target_yaw):
         yaw, t = 150 + 0.6 * k, 0.1 * k
         wrapped = math.remainder(yaw, 360)
         yield [episode, t, -1000 * t, 100 * t, 20000 + 200 * t, 60, 5, wrapped, "" if k == 0 else 0.5,
-               22000, target_yaw, 2000 - 200 * t, math.remainder(target_yaw - yaw, 360), "target_reached" if k == 100 else ""]
+               22000, target_yaw, 2000 - 200 * t, math.remainder(target_yaw - yaw, 360),
+               "target_reached" if k == 100 else ""]
 
 
 class Folder(unittest.TestCase):
@@ -179,6 +180,11 @@ class Pictures(Folder):
         with self.assertRaisesRegex(PlotError, "b.csv: flights of another task"):
             time_histories.draw(self.flight_options(files))
 
+    def test_tolerances_are_those_of_targets(self):
+        files = [self.write_flights("a.csv")]
+        with self.assertRaisesRegex(PlotError, "speed has no target; altitude_ft, yaw_deg has"):
+            space_scene.draw(self.flight_options(files, tolerance={"speed": 20.0}))
+
 
 class Curves(Folder):
     def write_run(self, name, values, task="heading"):
@@ -202,6 +208,11 @@ class Curves(Folder):
             for (_, value), expected in zip(curve, wanted, strict=True):
                 self.assertAlmostEqual(value, expected)
         self.assertAlmostEqual(setting.minutes_per_million(), 1.0)  # 120 s for two million
+
+    def test_seeds_of_several_tasks_are_not_averaged(self):
+        runs = [self.write_run("a", [0.1, 0.5]), self.write_run("b", [0.2, 0.7], "control")]
+        with self.assertRaisesRegex(PlotError, "b: of another task"):
+            training_curves.draw(self.options(runs, seeds=2))
 
     def test_each_task_has_a_panel(self):
         runs = [self.write_run("a", [0.1, 0.5]), self.write_run("b", [0.2, 0.7], "control")]
