@@ -18,7 +18,7 @@
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/tasks/observation.h"
-#include "envs/tasks/reward.h"
+#include "envs/tasks/reward_and_termination.h"
 #include "envs/tasks/task.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"

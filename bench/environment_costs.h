@@ -26,7 +26,7 @@ inline constexpr Cost kFlightControlCost{57             // sensors
                                               + 4)      // surfaces
                                              + 4 * 8};  // density's cubic
 
-/// envs/tasks/heading.cpp and envs/tasks/reward.cpp.
+/// envs/tasks/heading.cpp and envs/tasks/reward_and_termination.cpp.
 inline constexpr Cost kJudgeCost{67 + 8     // errors; reward
                                      + 82   // is everything finite?
                                      + 19   // limits

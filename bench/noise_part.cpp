@@ -11,23 +11,22 @@
 #include <hwy/highway.h>
 
 #include "simd/random-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 void DrawNoiseKernel(std::uint64_t seed, int count, const std::int32_t* episode,
                      const std::int32_t* step, float* sums) {
-  const hn::ScalableTag<float> d;
-  const hn::RebindToSigned<decltype(d)> di;
-  const hn::RebindToUnsigned<decltype(d)> du;
+  const FloatTag d;
+  const IntTag di;
+  const UintTag du;
   constexpr int kBlocks = (kObservationSize + 7) / 8;
   const PhiloxKeys keys(seed);
-  for (int first = 0; first < count; first += static_cast<int>(hn::Lanes(d))) {
-    hn::Vec<decltype(d)> deviates[8 * kBlocks];
+  for (int first = 0; first < count; first += kLanes) {
+    V deviates[8 * kBlocks];
     CoarseNormals<kBlocks>(d, keys, hn::Iota(du, static_cast<std::uint32_t>(first)),
                            hn::BitCast(du, hn::LoadU(di, episode + first)),
                            hn::BitCast(du, hn::LoadU(di, step + first)),

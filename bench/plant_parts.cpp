@@ -13,11 +13,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/kernels/plant_kernel_air-inl.h"
+#include "envs/kernels/plant_kernel_air_data-inl.h"
 #include "envs/kernels/plant_kernel_block-inl.h"
-#include "envs/kernels/plant_kernel_motion-inl.h"
+#include "envs/kernels/plant_kernel_engine-inl.h"
+#include "envs/kernels/plant_kernel_equations-inl.h"
 #include "envs/kernels/plant_kernel_tables-inl.h"
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -25,7 +27,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 using namespace plant_kernel;  // NOLINT: as in plant_kernel.cpp
-static_assert(bench::kPlantBlock == kBlock, "the public header's blocks are the kernel's");
+static_assert(bench::kPlantBlock == kLanesPerBlock, "the public header's blocks are the kernel's");
 
 struct IgnoreCoefficients {
   HWY_INLINE void operator()(int /*lane*/, const Coefficients& /*c*/) const {}
@@ -41,21 +43,22 @@ BlockControls ControlsOf(const Tile& tile, int first) {
 }
 
 /// Keeps the compiler from leaving out what fills the block, or from doing it once for all rounds.
-HWY_INLINE void Touch(Block* block) {
+HWY_INLINE void Touch(KernelBlock* block) {
   benchmark::DoNotOptimize(block);
   benchmark::ClobberMemory();
 }
 
 void RunStagePartKernel(bench::StagePart part, const KernelAircraft& aircraft, Tile tile,
                         int rounds) {
-  Block block;
+  KernelBlock block;
   const BlockControls controls = ControlsOf(tile, 0);
   const StageState<kFirstStage> first{tile.base, tile.stride, &block, 0};
-  for (int lane = 0; lane < kBlock; lane += kLanes) FindSurfaces(aircraft, controls, lane, &block);
-  FindFlow(aircraft, first, &block);
-  FindAir<true>(aircraft, first, &block);
-  FindThrust<true>(aircraft, first, controls, &block);
-  FindRates(aircraft.constants, first, block, IgnoreCoefficients());
+  for (int lane = 0; lane < kLanesPerBlock; lane += kLanes)
+    LocateSurfaces(aircraft, controls, lane, &block);
+  MeasureFlowAngles(aircraft, first, &block);
+  MeasureDynamicPressure<true>(aircraft, first, &block);
+  ThrustAndPowerRate<true>(aircraft, first, controls, &block);
+  EvaluateStateRates(aircraft.constants, first, block, IgnoreCoefficients());
 
   // A step of no time: the rounds find the state as it is.
   const StageState<kMiddleStage> middle{tile.base, tile.stride, &block, 0};
@@ -63,14 +66,14 @@ void RunStagePartKernel(bench::StagePart part, const KernelAircraft& aircraft, T
   for (int round = 0; round < rounds; ++round) {
     switch (part) {
       case bench::StagePart::kAirData:
-        FindFlow(aircraft, middle, &block);
-        FindAir<true>(aircraft, middle, &block);
+        MeasureFlowAngles(aircraft, middle, &block);
+        MeasureDynamicPressure<true>(aircraft, middle, &block);
         break;
       case bench::StagePart::kEngine:
-        FindThrust<true>(aircraft, middle, controls, &block);
+        ThrustAndPowerRate<true>(aircraft, middle, controls, &block);
         break;
       case bench::StagePart::kBuildUpAndEquations:
-        FindRates(aircraft.constants, middle, block, IgnoreCoefficients());
+        EvaluateStateRates(aircraft.constants, middle, block, IgnoreCoefficients());
         break;
     }
     Touch(&block);
@@ -79,28 +82,29 @@ void RunStagePartKernel(bench::StagePart part, const KernelAircraft& aircraft, T
 
 void FindTableCellsKernel(const KernelAircraft& aircraft, Tile tile, std::int32_t* cell_slot,
                           std::int32_t* alpha_cell) {
-  Block block;
-  for (int first = 0; first < tile.count; first += kBlock) {
+  KernelBlock block;
+  for (int first = 0; first < tile.count; first += kLanesPerBlock) {
     const BlockControls controls = ControlsOf(tile, first);
-    for (int lane = 0; lane < kBlock; lane += kLanes) {
-      FindSurfaces(aircraft, controls, lane, &block);
+    for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
+      LocateSurfaces(aircraft, controls, lane, &block);
     }
-    FindFlow(aircraft, StageState<kFirstStage>{tile.base + first, tile.stride, &block, 0}, &block);
-    std::copy_n(block.cell_slot, kBlock, cell_slot + first);
-    std::copy_n(block.alpha_cell, kBlock, alpha_cell + first);
+    MeasureFlowAngles(aircraft, StageState<kFirstStage>{tile.base + first, tile.stride, &block, 0},
+                      &block);
+    std::copy_n(block.cell_slot, kLanesPerBlock, cell_slot + first);
+    std::copy_n(block.alpha_cell, kLanesPerBlock, alpha_cell + first);
   }
 }
 
 void ReadTablesOfKernel(const KernelAircraft& aircraft, Tile tile, const std::int32_t* cell_slot,
                         const std::int32_t* alpha_cell) {
   const IntTag di;
-  Block block;
-  for (int first = 0; first < tile.count; first += kBlock) {
+  KernelBlock block;
+  for (int first = 0; first < tile.count; first += kLanesPerBlock) {
     const BlockControls controls = ControlsOf(tile, first);
-    for (int lane = 0; lane < kBlock; lane += kLanes) {
-      FindSurfaces(aircraft, controls, lane, &block);
+    for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
+      LocateSurfaces(aircraft, controls, lane, &block);
     }
-    for (int lane = 0; lane < kBlock; lane += kLanes) {
+    for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
       ReadTables(aircraft, hn::LoadU(di, cell_slot + first + lane),
                  hn::LoadU(di, alpha_cell + first + lane), lane, &block);
     }

@@ -11,23 +11,20 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "simd/vocabulary-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-void TakeActionsKernel(const float* action, Tile tile, float* pilot, std::size_t pilot_stride) {
-  const hn::ScalableTag<float> d;
-  using V = hn::Vec<decltype(d)>;
-  constexpr int kMaxLanes = 16;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f), zero = hn::Zero(d);
-  alignas(64) float last_rows[kMaxLanes * kActionSize] = {};
-  for (int first = 0; first < tile.count; first += lanes) {
+void TakeActionsKernel(const float* action, Tile tile, float* command, std::size_t command_stride) {
+  const FloatTag d;
+  const V one = Constant(1), half = Constant(0.5), zero = hn::Zero(d);
+  alignas(64) float last_rows[kLanes * kActionSize] = {};
+  for (int first = 0; first < tile.count; first += kLanes) {
     const float* rows = action + first * kActionSize;
-    if (tile.count - first < lanes) {
+    if (tile.count - first < kLanes) {
       std::copy(rows, action + tile.count * kActionSize, last_rows);
       rows = last_rows;
     }
@@ -36,9 +33,9 @@ void TakeActionsKernel(const float* action, Tile tile, float* pilot, std::size_t
     V poison = zero;
     for (int k = 0; k < kActionSize; ++k) {
       poison = hn::MulAdd(zero, x[k], poison);
-      V command = hn::Min(hn::Max(x[k], hn::Neg(one)), one);
-      if (k == 0) command = hn::MulAdd(half, command, half);
-      hn::StoreU(command, d, pilot + static_cast<std::size_t>(k) * pilot_stride + first);
+      V clipped = hn::Min(hn::Max(x[k], hn::Neg(one)), one);
+      if (k == 0) clipped = hn::MulAdd(half, clipped, half);
+      hn::StoreU(clipped, d, command + static_cast<std::size_t>(k) * command_stride + first);
     }
     // Zero, or NaN where any of the four is not finite.
     float* const u = tile[kU] + first;
@@ -56,8 +53,8 @@ namespace skein {
 
 HWY_EXPORT(TakeActionsKernel);
 
-void TakeActions(const float* action, Tile tile, float* pilot, std::size_t pilot_stride) {
-  SKEIN_DISPATCH(TakeActionsKernel)(action, tile, pilot, pilot_stride);
+void TakeActions(const float* action, Tile tile, float* command, std::size_t command_stride) {
+  SKEIN_DISPATCH(TakeActionsKernel)(action, tile, command, command_stride);
 }
 
 }  // namespace skein

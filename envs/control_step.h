@@ -11,12 +11,13 @@ namespace skein {
 struct ControlStep {
   int first_aircraft = 0;         ///< global index
   Tile state;                     ///< at its end; `state.count` aircraft
-  const float* stick = nullptr;   ///< row-major [count][kActionSize], held during it, not clipped
+  const float* action = nullptr;  ///< row-major [count][kActionSize], held during it, not clipped
   const float* reward = nullptr;  ///< of the step, terminal reward included; 0 after the end
   const std::int32_t* termination = nullptr;  ///< Termination; kNone while flying
 };
 
-/// Sees the control steps of policy steps as they are flown: those of an aircraft in their order.
+/// Is shown the control steps of policy steps as they are flown: those of an aircraft in their
+/// order.
 class ControlStepObserver {
  public:
   virtual ~ControlStepObserver() = default;

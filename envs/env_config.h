@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "envs/air/atmosphere.h"
-#include "envs/kernels/flight_control_kernel.h"
+#include "envs/reference/flight_control.h"
 
 namespace skein {
 
@@ -106,7 +106,8 @@ struct TrackingConfig {
 };
 
 /// What a high-level policy's full action asks of the low-level policy that flies
-/// (envs/guided_flight.h): changes of the present pitch, yaw and true airspeed. And what it sees.
+/// (envs/low_level_flight.h): changes of the present pitch, yaw and true airspeed. And what it
+/// sees.
 struct HighLevelConfig {
   double pitch_change_rad = 0.3;
   double yaw_change_rad = 0.3;

@@ -13,8 +13,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/kernels/air-inl.h"
+#include "envs/kernels/atmosphere-inl.h"
 #include "envs/tasks/flight-inl.h"
+#include "simd/vocabulary-inl.h"
 
 #ifndef SKEIN_ENVS_FLIGHT_METRICS_CONSTANTS_
 #define SKEIN_ENVS_FLIGHT_METRICS_CONSTANTS_
@@ -50,36 +51,32 @@ namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using FlightMask = hn::Mask<FlightTag>;
-
 /// 1 at `middle`, falling to 0 at a distance of `half_range`.
-HWY_INLINE FlightVector Margin(FlightVector value, double middle, double half_range) {
-  const FlightVector distance = hn::Abs(hn::Sub(value, Constant(middle)));
+HWY_INLINE V Margin(V value, double middle, double half_range) {
+  const V distance = hn::Abs(hn::Sub(value, Constant(middle)));
   return hn::NegMulAdd(distance, Constant(1 / half_range), Constant(1));
 }
 
 /// Feet per second over the ground, upwards.
-HWY_INLINE FlightVector ClimbRate(const Tile& tile, int first) {
+HWY_INLINE V ClimbRate(const Tile& tile, int first) {
   const DownInBody down = Down(tile, first);
-  const FlightVector below =
+  const V below =
       hn::MulAdd(Column(tile, kV, first), down.y, hn::Mul(Column(tile, kW, first), down.z));
   return hn::MulSub(Column(tile, kU, first), down.sin_pitch, below);
 }
 
 /// Everything but smoothness.
 HWY_INLINE void Measure(const KernelAircraft& aircraft, const Tile& tile, int first,
-                        FlightVector (&values)[kNumFlightMetrics]) {
-  const FlightTag d;
+                        V (&values)[kNumFlightMetrics]) {
+  const FloatTag d;
   const VelocityVectors velocity = Velocity(tile, first);
-  const FlightVector altitude = hn::Neg(Column(tile, kDown, first));
-  FlightVector sound_speed, per_sound_speed;
+  const V altitude = hn::Neg(Column(tile, kDown, first));
+  V sound_speed, per_sound_speed;
   Length(AirAtAltitude(d, aircraft, altitude).sound_speed_squared, sound_speed, per_sound_speed);
-  const FlightVector load_factor = Column(tile, kNz, first);
-  const FlightVector mach = hn::Mul(velocity.speed, per_sound_speed);
-  const FlightVector alpha = Atan2Degrees(d, velocity.w, velocity.u);
-  const FlightVector beta = Atan2Degrees(d, velocity.v, velocity.forward);
+  const V load_factor = Column(tile, kNz, first);
+  const V mach = hn::Mul(velocity.speed, per_sound_speed);
+  const V alpha = AlphaDegrees(d, velocity.air);
+  const V beta = Atan2Degrees(d, velocity.air.v, velocity.forward);
   values[kMeanLoadFactor] = load_factor;
   values[kMeanMach] = mach;
   values[kMeanClimbRate] = ClimbRate(tile, first);
@@ -95,50 +92,48 @@ HWY_INLINE void Measure(const KernelAircraft& aircraft, const Tile& tile, int fi
 }
 
 /// The norm of the smoothed quantities' second difference, which moves on by a step where `flying`.
-HWY_INLINE FlightVector SecondDifference(const Tile& tile, const Tile& sums, FlightMask flying,
-                                         int first) {
-  const FlightTag d;
-  FlightVector square = hn::Zero(d);
+HWY_INLINE V SecondDifference(const Tile& tile, const Tile& sums, Mask flying, int first) {
+  const FloatTag d;
+  V square = hn::Zero(d);
   for (int k = 0; k < kNumSmoothed; ++k) {
     const bool is_rate = k < 3;
-    const FlightVector now = hn::Mul(Column(tile, is_rate ? kP + k : kNz, first),
-                                     Constant(1 / (is_rate ? kPi : kLargestLoadFactor)));
-    const FlightVector before = Column(sums, kBefore + k, first);
-    const FlightVector two_before = Column(sums, kTwoBefore + k, first);
-    const FlightVector second = hn::Add(hn::Sub(now, before), hn::Sub(two_before, before));
+    const V now = hn::Mul(Column(tile, is_rate ? kP + k : kNz, first),
+                          Constant(1 / (is_rate ? kPi : kLargestLoadFactor)));
+    const V before = Column(sums, kBefore + k, first);
+    const V two_before = Column(sums, kTwoBefore + k, first);
+    const V second = hn::Add(hn::Sub(now, before), hn::Sub(two_before, before));
     square = hn::MulAdd(second, second, square);
     hn::StoreU(hn::IfThenElse(flying, before, two_before), d, sums[kTwoBefore + k] + first);
     hn::StoreU(hn::IfThenElse(flying, now, before), d, sums[kBefore + k] + first);
   }
-  const FlightVector steps = Column(sums, kSteps, first);
+  const V steps = Column(sums, kSteps, first);
   return hn::IfThenElseZero(hn::Ge(steps, Constant(2)), hn::Sqrt(square));
 }
 
 /// Adds with what rounding loses carried along (Kahan 1965): the sums of a long episode are as
 /// exact as its steps.
-HWY_INLINE void AddWhere(FlightMask where, FlightVector value, float* sum_row, float* lost_row) {
-  const FlightTag d;
-  const FlightVector sum = hn::LoadU(d, sum_row), lost = hn::LoadU(d, lost_row);
-  const FlightVector corrected = hn::Sub(value, lost);
-  const FlightVector total = hn::Add(sum, corrected);
+HWY_INLINE void AddWhere(Mask where, V value, float* sum_row, float* lost_row) {
+  const FloatTag d;
+  const V sum = hn::LoadU(d, sum_row), lost = hn::LoadU(d, lost_row);
+  const V corrected = hn::Sub(value, lost);
+  const V total = hn::Add(sum, corrected);
   hn::StoreU(hn::IfThenElse(where, total, sum), d, sum_row);
   hn::StoreU(hn::IfThenElse(where, hn::Sub(hn::Sub(total, sum), corrected), lost), d, lost_row);
 }
 
 void AddFlightMetrics(const KernelAircraft& aircraft, Tile tile, const std::int32_t* termination,
                       Tile sums) {
-  const FlightTag d;
-  const hn::RebindToSigned<FlightTag> di;
-  for (int first = 0; first < tile.count; first += static_cast<int>(hn::Lanes(d))) {
-    const FlightMask flying =
-        hn::RebindMask(d, hn::Eq(hn::LoadU(di, termination + first), hn::Zero(di)));
-    FlightVector values[kNumFlightMetrics];
+  const FloatTag d;
+  const IntTag di;
+  for (int first = 0; first < tile.count; first += kLanes) {
+    const Mask flying = hn::RebindMask(d, hn::Eq(hn::LoadU(di, termination + first), hn::Zero(di)));
+    V values[kNumFlightMetrics];
     Measure(aircraft, tile, first, values);
     values[kSmoothness] = SecondDifference(tile, sums, flying, first);
     for (int k = 0; k < kNumFlightMetrics; ++k) {
       AddWhere(flying, values[k], sums[kSum + k] + first, sums[kLost + k] + first);
     }
-    const FlightVector steps = Column(sums, kSteps, first);
+    const V steps = Column(sums, kSteps, first);
     hn::StoreU(hn::Add(steps, hn::IfThenElseZero(flying, Constant(1))), d, sums[kSteps] + first);
   }
 }

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "base/aligned_vector.h"
-#include "envs/kernels/plant_kernel.h"
 #include "envs/state/state.h"
 
 namespace skein {
+
+struct KernelAircraft;  // envs/kernels/kernel_aircraft.h
 
 /// How an episode was flown: the paper's Table 6 but for the time to the target, which is an
 /// episode's length. Each is the mean over the states after every control step of the episode
@@ -58,8 +59,6 @@ class FlightMetricSums {
 
   /// The `index`-th aircraft begins an episode.
   void Begin(int index);
-  /// Forgets all episodes under way.
-  void Clear() { columns_.clear(); }
 
  private:
   AlignedVector<float> columns_;  ///< empty until Add

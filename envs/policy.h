@@ -5,8 +5,9 @@
 
 namespace skein {
 
-/// Something that flies aircraft by what they observe: a trained policy, an autopilot. Immutable,
-/// and safe to use from several threads: what it remembers of each aircraft lies with the caller.
+/// What chooses the actions of aircraft by their observations: a trained policy, an autopilot.
+/// Immutable, and safe to use from several threads: its memory of each aircraft lies with the
+/// caller.
 class Policy {
  public:
   virtual ~Policy() = default;
@@ -14,11 +15,11 @@ class Policy {
   virtual int observation_size() const = 0;
   virtual int action_size() const = 0;
   virtual int state_size() const = 0;     ///< floats of memory per aircraft
-  virtual int action_repeat() const = 0;  ///< control steps for which it means an action to be held
+  virtual int action_repeat() const = 0;  ///< control steps for which its actions are to be held
 
-  /// The environment as it observes `env` and acts in it, where a choice belongs to the pilot and
-  /// not to the episodes: how long it holds an action, in which axes it is shown Tracking's target,
-  /// whether a high-level policy sees means.
+  /// `env` with the choices that belong to the policy and not to the episodes: for how long it
+  /// holds an action, in which axes it observes Tracking's target, whether a high-level policy
+  /// observes means.
   virtual EnvConfig EnvironmentFor(const EnvConfig& env) const {
     EnvConfig own = env;
     own.action_repeat = action_repeat();

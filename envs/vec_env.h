@@ -5,39 +5,19 @@
 #include <memory>
 #include <vector>
 
-#include "envs/control_step.h"
 #include "envs/env_config.h"
 #include "envs/policy.h"
+#include "envs/step_output.h"
 #include "envs/tasks/termination.h"
 
 namespace skein {
 
-/// What one policy step did to each aircraft of a tile. Arrays of `tile_count(tile)`, owned by the
-/// caller.
-struct StepOutput {
-  float* reward = nullptr;  ///< sum over the held control steps, terminal reward included
-  /// Termination; kNone while flying. An episode that ended by truncation has kUnreachTarget.
-  std::uint8_t* termination = nullptr;
-  float* episode_return =
-      nullptr;  ///< undiscounted return of the episode that ended (else unchanged)
-  std::int32_t* episode_steps =
-      nullptr;  ///< clock of the episode that ended, control steps (else unchanged)
-  /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
-  /// observation. May be null if the time limit is terminal.
-  float* final_observation = nullptr;
-  ControlStepObserver* observer = nullptr;  ///< sees every control step on the way; may be null
-  /// Row-major [count][kNumFlightMetrics] (envs/flight_metrics.h); rows of episodes that ended get
-  /// how they were flown (else unchanged), NaN unless this was asked for in all of their steps. May
-  /// be null, and costs nothing then.
-  float* flight_metrics = nullptr;
-};
-
 /// N aircraft flying one task, as independent tiles. Tiles may be driven from different threads at
 /// once, each by one. Every number depends only on (config, seed, aircraft index, actions): not on
-/// tile size, threads or neighbours.
+/// tile size, threads or the other aircraft.
 ///
-/// Without a low-level policy, actions are the pilot's. With one, they are a high-level policy's,
-/// and the low-level policy flies (envs/guided_flight.h).
+/// Without a low-level policy, actions are throttle and sticks. With one, they are a high-level
+/// policy's, and the low-level policy flies.
 class VecEnv {
  public:
   /// Aircraft get the global indices [0, num_aircraft). `tile_size` is rounded up to a multiple
@@ -62,8 +42,8 @@ class VecEnv {
   /// Holds actions (row-major [count][action_size], clipped to [-1, 1]) for config().action_repeat
   /// control steps: throttle (-1 is idle, 1 is maximum), pitch (+ nose up), roll (+ right), yaw (+
   /// nose right). With a low-level policy: pitch, yaw and speed that it is to reach, as changes of
-  /// what they are now (EnvConfig::high-level policy); it decides anew every low-level
-  /// policy->action_repeat() control steps, and remembers nothing of an earlier episode. An episode
+  /// what they are now (EnvConfig::high_level); its own policy steps last as many control steps as
+  /// its action_repeat(), and it remembers nothing of an earlier episode. An episode
   /// that ends during them takes no further reward, and its aircraft begins a new one at the end of
   /// the policy step. An action that is not finite ends its aircraft's episode as non_finite.
   void Step(int tile, const float* action, const StepOutput& output);

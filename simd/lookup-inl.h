@@ -10,11 +10,11 @@
 
 #include <hwy/highway.h>
 
+#include "simd/vocabulary-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// The integer part of x for |x| < 2^31; any integer for others, NaN too. hn::ConvertTo spends four
 /// more operations on making that integer the nearest one.
 template <class D, class V = hn::Vec<D>>

@@ -16,11 +16,11 @@
 
 #include <cstdint>
 
+#include "simd/vocabulary-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// c[0] + c[1] x + ... + c[Terms - 1] x^(Terms - 1) by Horner's rule.
 template <class D, std::size_t Terms, class V = hn::Vec<D>>
 HWY_INLINE V Polynomial(D d, V x, const float (&c)[Terms]) {

@@ -20,16 +20,16 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "simd/vocabulary-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// Does `rounds` rounds of multiply-adds and returns their floating-point operations; `sink` gets a
 /// result, so that the work cannot be left out.
 double MultiplyAdd(std::int64_t rounds, float* sink) {
-  const hn::ScalableTag<float> d;
+  const FloatTag d;
   // Twelve independent chains keep two units of latency five busy.
   auto a0 = hn::Set(d, 0.1f), a1 = a0, a2 = a0, a3 = a0, a4 = a0, a5 = a0;
   auto a6 = a0, a7 = a0, a8 = a0, a9 = a0, a10 = a0, a11 = a0;
@@ -60,28 +60,27 @@ double MultiplyAdd(std::int64_t rounds, float* sink) {
   const auto high = hn::Add(hn::Add(hn::Add(a6, a7), hn::Add(a8, a9)), hn::Add(a10, a11));
   *sink = hn::GetLane(hn::Add(low, high));
   constexpr double kChains = 12, kOperations = 2;
-  return static_cast<double>(rounds) * kChains * kOperations * static_cast<double>(hn::Lanes(d));
+  return static_cast<double>(rounds) * kChains * kOperations * kLanes;
 }
 
 /// Loads a buffer of the innermost cache again and again and returns the bytes; `sink` as above.
 double LoadVectors(std::int64_t rounds, float* sink) {
-  const hn::ScalableTag<float> d;
+  const FloatTag d;
   // Half of the smallest first-level caches.
   constexpr std::size_t kFloats = 4096;
   alignas(64) static float buffer[kFloats] = {};
-  const std::size_t lanes = hn::Lanes(d);
   // Loads go into logical operations of one cycle, of which as many run at once as loads.
   auto a0 = hn::Zero(d), a1 = a0, a2 = a0, a3 = a0, a4 = a0, a5 = a0, a6 = a0, a7 = a0;
   for (std::int64_t i = 0; i < rounds; ++i) {
-    for (std::size_t k = 0; k < kFloats; k += 8 * lanes) {
+    for (std::size_t k = 0; k < kFloats; k += 8 * kLanes) {
       a0 = hn::Or(a0, hn::Load(d, buffer + k));
-      a1 = hn::Or(a1, hn::Load(d, buffer + k + lanes));
-      a2 = hn::Or(a2, hn::Load(d, buffer + k + 2 * lanes));
-      a3 = hn::Or(a3, hn::Load(d, buffer + k + 3 * lanes));
-      a4 = hn::Or(a4, hn::Load(d, buffer + k + 4 * lanes));
-      a5 = hn::Or(a5, hn::Load(d, buffer + k + 5 * lanes));
-      a6 = hn::Or(a6, hn::Load(d, buffer + k + 6 * lanes));
-      a7 = hn::Or(a7, hn::Load(d, buffer + k + 7 * lanes));
+      a1 = hn::Or(a1, hn::Load(d, buffer + k + kLanes));
+      a2 = hn::Or(a2, hn::Load(d, buffer + k + 2 * kLanes));
+      a3 = hn::Or(a3, hn::Load(d, buffer + k + 3 * kLanes));
+      a4 = hn::Or(a4, hn::Load(d, buffer + k + 4 * kLanes));
+      a5 = hn::Or(a5, hn::Load(d, buffer + k + 5 * kLanes));
+      a6 = hn::Or(a6, hn::Load(d, buffer + k + 6 * kLanes));
+      a7 = hn::Or(a7, hn::Load(d, buffer + k + 7 * kLanes));
 #if HWY_COMPILER_GCC
       // Keep the compiler from making wider vectors of the loads.
       asm volatile(""
@@ -103,7 +102,7 @@ double LoadVectors(std::int64_t rounds, float* sink) {
 /// A chain of integer multiplications and returns the cycles that it takes; `sink` as above. Beside
 /// it runs a multiply-add in every other cycle, since wide vectors slow some processors' clocks.
 double MultiplyInAChain(std::int64_t rounds, float* sink) {
-  const hn::ScalableTag<float> d;
+  const FloatTag d;
   // Chains of their own, so that none is longer than that of the integers.
   auto a0 = hn::Set(d, 0.1f), a1 = hn::Set(d, 0.2f), a2 = hn::Set(d, 0.3f);
   auto a3 = hn::Set(d, 0.4f), a4 = hn::Set(d, 0.5f), a5 = hn::Set(d, 0.6f);

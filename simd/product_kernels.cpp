@@ -12,16 +12,15 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "simd/vocabulary-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using simd::PanelProduct;
 using simd::RowBlock;
-using Floats = hn::ScalableTag<float>;
-using Vector = hn::Vec<Floats>;
 
 // Sums of a tile, and vectors of a whole panel: with the vectors of B and a broadcast of A they
 // fill the registers, 32 on avx512 and 16 on the others.
@@ -32,28 +31,27 @@ constexpr int kSums = 12, kPanelVectors = 2;
 #else
 constexpr int kSums = 8, kPanelVectors = 2;
 #endif
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(Floats()));
 
 /// out = init + A B for kRows rows and kVectors vectors of columns.
 template <int kRows, int kVectors, bool kTransposed>
 HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64_t a_stride,
                      const float* HWY_RESTRICT b, std::int64_t b_stride, const float* init,
                      std::int64_t init_stride, float* out, std::int64_t out_stride) {
-  const Floats d;
+  const FloatTag d;
   // One loop, not two: g++ unrolls nested ones too late to keep the sums in registers.
-  Vector sum[kRows * kVectors];
+  V sum[kRows * kVectors];
   HWY_UNROLL(64)
   for (int t = 0; t < kRows * kVectors; ++t) {
     sum[t] = hn::LoadU(d, init + t / kVectors * init_stride + t % kVectors * kLanes);
   }
   HWY_UNROLL(2)
   for (std::int64_t k = 0; k < depth; ++k) {
-    Vector right[kVectors];
+    V right[kVectors];
     HWY_UNROLL(16)
     for (int j = 0; j < kVectors; ++j) right[j] = hn::LoadU(d, b + j * kLanes);
     HWY_UNROLL(16)
     for (int i = 0; i < kRows; ++i) {
-      const Vector left = hn::Set(d, kTransposed ? a[i] : a[i * a_stride]);
+      const V left = hn::Set(d, kTransposed ? a[i] : a[i * a_stride]);
       HWY_UNROLL(16)
       for (int j = 0; j < kVectors; ++j) {
         sum[i * kVectors + j] = hn::MulAdd(left, right[j], sum[i * kVectors + j]);
@@ -112,9 +110,9 @@ void MultiplyPanelOf(const PanelProduct& p) {
 void MultiplyPanel(const PanelProduct& p) { MultiplyPanelOf<kPanelVectors>(p); }
 
 /// simd::RoundToBfloat16 as a float32.
-HWY_INLINE Vector Rounded(Vector x) {
-  const Floats d;
-  const hn::RebindToSigned<Floats> di;  // magnitudes: compared as signed integers
+HWY_INLINE V Rounded(V x) {
+  const FloatTag d;
+  const IntTag di;  // magnitudes: compared as signed integers
   const auto bits = hn::BitCast(di, x);
   const auto magnitude = hn::And(bits, hn::Set(di, 0x7fffffff));
   const auto odd = hn::And(hn::ShiftRight<16>(bits), hn::Set(di, 1));
@@ -130,16 +128,16 @@ HWY_INLINE Vector Rounded(Vector x) {
 /// Copies `columns` floats, as they are or rounded, and zeros up to the next multiple of kLanes.
 template <bool kRound>
 HWY_INLINE void PackRow(std::int64_t columns, const float* in, float* out) {
-  const Floats d;
+  const FloatTag d;
   std::int64_t j = 0;
   for (; j + kLanes <= columns; j += kLanes) {
-    const Vector x = hn::LoadU(d, in + j);
+    const V x = hn::LoadU(d, in + j);
     hn::Store(kRound ? Rounded(x) : x, d, out + j);
   }
   if (j == columns) return;
   HWY_ALIGN float edge[kLanes] = {};
   std::memcpy(edge, in + j, (columns - j) * sizeof(float));
-  const Vector x = hn::Load(d, edge);
+  const V x = hn::Load(d, edge);
   hn::Store(kRound ? Rounded(x) : x, d, out + j);
 }
 
@@ -162,13 +160,13 @@ void PackRowsRounded(const RowBlock& block, std::int64_t words_stride, void* wor
 }
 
 void RoundRows(const RowBlock& block, std::int64_t words_stride, void* words) {
-  const Floats d;
+  const FloatTag d;
   for (std::int64_t i = 0; i < block.rows; ++i) {
     const float* const in = block.data + i * block.stride;
     float* const out = static_cast<float*>(words) + i * words_stride;
     std::int64_t j = 0;
     for (; j + kLanes <= block.columns; j += kLanes) {
-      const Vector rounded = Rounded(hn::LoadU(d, in + j));
+      const V rounded = Rounded(hn::LoadU(d, in + j));
 #if HWY_TARGET == HWY_SCALAR
       out[j ^ 1] = hn::GetLane(rounded);
 #else

@@ -15,12 +15,11 @@
 #include <hwy/highway.h>
 
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// The keys of Philox's rounds: the same for all counters of a seed.
 struct PhiloxKeys {
   explicit PhiloxKeys(std::uint64_t seed) {

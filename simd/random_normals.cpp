@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -11,26 +12,23 @@
 #include <hwy/highway.h>
 
 #include "simd/random-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 void FillNormalsKernel(std::uint64_t seed, std::uint32_t first, const std::uint32_t* b,
                        const std::uint32_t* c, simd::RandomPurpose purpose, int count, int size,
                        float* out) {
-  const hn::ScalableTag<float> d;
-  const hn::ScalableTag<std::uint32_t> du;
+  const FloatTag d;
+  const UintTag du;
   const PhiloxKeys keys(seed);
-  constexpr int kMaxLanes = 16;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  alignas(64) std::uint32_t block_b[kMaxLanes] = {}, block_c[kMaxLanes] = {};
-  alignas(64) float block_normals[4][kMaxLanes];
-  for (int begin = 0; begin < count; begin += lanes) {
-    const int valid = count - begin < lanes ? count - begin : lanes;
+  alignas(64) std::uint32_t block_b[kLanes] = {}, block_c[kLanes] = {};
+  alignas(64) float block_normals[4][kLanes];
+  for (int begin = 0; begin < count; begin += kLanes) {
+    const int valid = std::min(count - begin, kLanes);
     for (int lane = 0; lane < valid; ++lane) {
       block_b[lane] = b[begin + lane];
       block_c[lane] = c[begin + lane];
@@ -38,7 +36,7 @@ void FillNormalsKernel(std::uint64_t seed, std::uint32_t first, const std::uint3
     const auto a = hn::Iota(du, first + static_cast<std::uint32_t>(begin));
     const auto vector_b = hn::Load(du, block_b), vector_c = hn::Load(du, block_c);
     for (int element = 0; element < size; element += 4) {
-      hn::Vec<decltype(d)> normals[4];
+      V normals[4];
       NormalBlock(d, keys, a, vector_b, vector_c, purpose, static_cast<std::uint32_t>(element / 4),
                   normals);
       for (int k = 0; k < 4; ++k) hn::Store(normals[k], d, block_normals[k]);

@@ -10,11 +10,11 @@
 
 #include <hwy/highway.h>
 
+#include "simd/vocabulary-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 #if HWY_TARGET != HWY_SCALAR
 /// Transposes the 4 x 4 squares within the 128-bit blocks of rows[0..3].
 template <class D, class V = hn::Vec<D>>

@@ -21,49 +21,46 @@
 
 #include "envs/autopilot/laws-inl.h"
 #include "envs/autopilot/rows-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr int kLanes = HWY_LANES(float);
-
 /// A full vector of aircraft.
 template <template <class> class Law>
-HWY_INLINE void FlyGroup(const AutopilotGains& gains, const AutopilotTiming& timing,
-                         const float* observation, float* state, float* action) {
+HWY_INLINE void ActForGroup(const AutopilotGains& gains, const AutopilotTiming& timing,
+                            const float* observation, float* state, float* action) {
   using Memory = typename Law<Lanes>::Memory;
   static_assert(std::is_trivially_copyable_v<Memory> && sizeof(Memory) % sizeof(Lanes) == 0);
   constexpr int kStateSize = sizeof(Memory) / sizeof(Lanes);
-  const LaneTag d;
+  const FloatTag d;
   alignas(64) float columns[std::max(kStateSize, kObservationSize) * kLanes];
 
   Lanes observed[kObservationSize];
-  ColumnsFromRows(d, observation, kObservationSize, columns);
+  ColumnsFromRows(observation, kObservationSize, columns);
   std::memcpy(static_cast<void*>(observed), columns, sizeof(observed));
   Memory memory;
-  ColumnsFromRows(d, state, kStateSize, columns);
+  ColumnsFromRows(state, kStateSize, columns);
   std::memcpy(static_cast<void*>(&memory), columns, sizeof(memory));
 
-  Lanes commands[kActionSize];
-  Law<Lanes>::Act(gains, timing, observed, memory, commands);
+  Lanes actions[kActionSize];
+  Law<Lanes>::Act(gains, timing, observed, memory, actions);
 
   std::memcpy(columns, static_cast<const void*>(&memory), sizeof(memory));
-  RowsFromColumns(d, columns, kStateSize, state);
-  hn::StoreInterleaved4(commands[0].v, commands[1].v, commands[2].v, commands[3].v, d, action);
+  RowsFromColumns(columns, kStateSize, state);
+  hn::StoreInterleaved4(actions[0].v, actions[1].v, actions[2].v, actions[3].v, d, action);
 }
 
 template <template <class> class Law>
-HWY_INLINE void FlyAll(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
-                       const float* observation, float* state, float* action) {
+HWY_INLINE void ActForAll(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
+                          const float* observation, float* state, float* action) {
   constexpr int kStateSize = sizeof(typename Law<Lanes>::Memory) / sizeof(Lanes);
   int first = 0;
   for (; first + kLanes <= count; first += kLanes) {
-    FlyGroup<Law>(gains, timing, observation + first * kObservationSize, state + first * kStateSize,
-                  action + first * kActionSize);
+    ActForGroup<Law>(gains, timing, observation + first * kObservationSize,
+                     state + first * kStateSize, action + first * kActionSize);
   }
   const int rest = count - first;
   if (rest == 0) return;
@@ -71,22 +68,22 @@ HWY_INLINE void FlyAll(const AutopilotGains& gains, const AutopilotTiming& timin
   float last_action[kLanes * kActionSize];
   std::copy_n(observation + first * kObservationSize, rest * kObservationSize, last_observation);
   std::copy_n(state + first * kStateSize, rest * kStateSize, last_state);
-  FlyGroup<Law>(gains, timing, last_observation, last_state, last_action);
+  ActForGroup<Law>(gains, timing, last_observation, last_state, last_action);
   std::copy_n(last_state, rest * kStateSize, state + first * kStateSize);
   std::copy_n(last_action, rest * kActionSize, action + first * kActionSize);
 }
 
-void FlyHeading(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
-                const float* observation, float* state, float* action) {
-  FlyAll<HeadingLaw>(gains, timing, count, observation, state, action);
+void ActInHeading(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
+                  const float* observation, float* state, float* action) {
+  ActForAll<HeadingLaw>(gains, timing, count, observation, state, action);
 }
-void FlyControl(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
-                const float* observation, float* state, float* action) {
-  FlyAll<ControlLaw>(gains, timing, count, observation, state, action);
+void ActInControl(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
+                  const float* observation, float* state, float* action) {
+  ActForAll<ControlLaw>(gains, timing, count, observation, state, action);
 }
-void FlyTracking(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
-                 const float* observation, float* state, float* action) {
-  FlyAll<TrackingLaw>(gains, timing, count, observation, state, action);
+void ActInTracking(const AutopilotGains& gains, const AutopilotTiming& timing, int count,
+                   const float* observation, float* state, float* action) {
+  ActForAll<TrackingLaw>(gains, timing, count, observation, state, action);
 }
 
 template <template <class> class Law>
@@ -106,24 +103,24 @@ HWY_AFTER_NAMESPACE();
 namespace skein {
 namespace {
 
-HWY_EXPORT(FlyHeading);
-HWY_EXPORT(FlyControl);
-HWY_EXPORT(FlyTracking);
+HWY_EXPORT(ActInHeading);
+HWY_EXPORT(ActInControl);
+HWY_EXPORT(ActInTracking);
 
-using FlyFunction = void (*)(const AutopilotGains&, const AutopilotTiming&, int, const float*,
+using ActFunction = void (*)(const AutopilotGains&, const AutopilotTiming&, int, const float*,
                              float*, float*);
 
 /// An autopilot of one task.
 struct Registration {
   const char* task;
   int state_size;
-  FlyFunction (*fly)();  ///< the build for the active target
+  ActFunction (*act)();  ///< the build for the active target
 };
 
 const Registration kAutopilots[] = {
-    {"heading", HWY_NAMESPACE::kHeadingStateSize, [] { return SKEIN_DISPATCH(FlyHeading); }},
-    {"control", HWY_NAMESPACE::kControlStateSize, [] { return SKEIN_DISPATCH(FlyControl); }},
-    {"tracking", HWY_NAMESPACE::kTrackingStateSize, [] { return SKEIN_DISPATCH(FlyTracking); }},
+    {"heading", HWY_NAMESPACE::kHeadingStateSize, [] { return SKEIN_DISPATCH(ActInHeading); }},
+    {"control", HWY_NAMESPACE::kControlStateSize, [] { return SKEIN_DISPATCH(ActInControl); }},
+    {"tracking", HWY_NAMESPACE::kTrackingStateSize, [] { return SKEIN_DISPATCH(ActInTracking); }},
 };
 
 const Registration& AutopilotFor(const std::string& task) {
@@ -166,7 +163,7 @@ class Autopilot : public Policy {
 
   void Act(int count, const float* observation, float* state, float* action) const override {
     const simd::DenormalsFlushed flushed;
-    law_.fly()(gains_, timing_, count, observation, state, action);
+    law_.act()(gains_, timing_, count, observation, state, action);
   }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When an aircraft's autopilot decides: outer loops run in every few control steps, the first one
-// included.
+// Policy steps of an aircraft's autopilot: its outer loops run in every few control steps, the
+// first one included.
 
 #if defined(SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_
@@ -18,18 +18,18 @@ namespace HWY_NAMESPACE {
 /// What this control step is to an aircraft.
 template <class Mask>
 struct Now {
-  Mask begins;   ///< the first of its episode
-  Mask decides;  ///< one of the outer loops; the first is
+  Mask begins;          ///< the first of its episode
+  Mask is_policy_step;  ///< of the outer loops; the first is one
 };
 
-/// Advances a clock that says in how many steps the outer loops run next, of `steps_per_decision`;
-/// 0 before the first step.
+/// Advances a clock that says in how many steps the outer loops run next, of
+/// `steps_per_policy_step`; 0 before the first step.
 template <class T>
 HWY_INLINE auto Tick(int steps_per_policy_step, T& clock) {
   auto begins = clock < 0.5;
-  auto decides = clock < 1.5;
-  clock = Select(decides, static_cast<double>(steps_per_policy_step), clock - 1);
-  return Now<decltype(decides)>{begins, decides};
+  auto is_policy_step = clock < 1.5;
+  clock = Select(is_policy_step, static_cast<double>(steps_per_policy_step), clock - 1);
+  return Now<decltype(is_policy_step)>{begins, is_policy_step};
 }
 
 }  // namespace HWY_NAMESPACE

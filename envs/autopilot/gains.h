@@ -23,7 +23,7 @@ struct EstimatorGains {
   double damping = 1.4142135623730951;  ///< twice the damping ratio of the second-order filters
 };
 
-/// Lateral guidance: ArduPilot's L1 low-level policy holding a heading.
+/// Lateral guidance: ArduPilot's L1 controller holding a heading.
 struct L1Gains {
   double period_s = 17;
 };

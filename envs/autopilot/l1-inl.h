@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ArduPilot's L1 low-level policy holding a heading.
+// ArduPilot's L1 controller holding a heading.
 
 #include "envs/autopilot/gains.h"
 

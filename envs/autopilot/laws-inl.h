@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An autopilot for each task, of the parts beside this file. Law<T>::Fly is one control step of one
+// An autopilot for each task, of the parts beside this file. Law<T>::Act is one control step of one
 // aircraft (T = double) or of a vector of them (T = Lanes): it reads an observation, updates the
 // memory, in which zeros are the beginning of an episode, and writes throttle, pitch, roll and yaw.
 
@@ -34,11 +34,11 @@ struct CommonMemory {
   InnerLoopMemory<T> inner_loop;
 };
 
-/// The sticks that bring about `lateral` and `vertical` accelerations, ft/s^2, and the throttle as
-/// decided. The flight control system coordinates turns: the pedals stay centred.
+/// The actions that bring about `lateral` and `vertical` accelerations, ft/s^2, and the throttle of
+/// the last policy step. The flight control system coordinates turns: the pedals stay centred.
 template <class T>
-HWY_INLINE void MoveSticks(const AutopilotGains& k, double dt, const Kinematics<T>& motion,
-                           T lateral, T vertical, CommonMemory<T>& memory, T* action) {
+HWY_INLINE void StickActions(const AutopilotGains& k, double dt, const Kinematics<T>& motion,
+                             T lateral, T vertical, CommonMemory<T>& memory, T* action) {
   const LiftDemand<T> lift = PointLift(k.lift, motion, lateral, vertical);
   action[0] = 2 * memory.tecs.throttle - 1;
   action[1] =
@@ -80,14 +80,14 @@ struct HeadingLaw {
     EstimateSpeedError(k.estimator, dt, flight, measured.errors[2], now.begins, memory.speed_error);
 
     const T climb_rate = ClimbRateFor(k.tecs, memory.altitude_error, flight.speed);
-    Assign(now.decides, memory.lateral, TurnToHeading(k.l1, memory.yaw_error, flight.speed));
-    Assign(now.decides, memory.climb, ArcSine(climb_rate / Max(flight.speed, kLeastSpeed)));
-    DecideThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
+    Assign(now.is_policy_step, memory.lateral, TurnToHeading(k.l1, memory.yaw_error, flight.speed));
+    Assign(now.is_policy_step, memory.climb, ArcSine(climb_rate / Max(flight.speed, kLeastSpeed)));
+    UpdateThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
                    {memory.speed_error, memory.altitude_error, climb_rate}, now,
                    memory.common.tecs);
 
     const T vertical = flight.speed * (memory.climb - motion.climb) / k.lift.flight_path_time_s;
-    MoveSticks(k, dt, motion, memory.lateral, vertical, memory.common, action);
+    StickActions(k, dt, motion, memory.lateral, vertical, memory.common, action);
   }
 };
 
@@ -116,14 +116,14 @@ struct ControlLaw {
 
     const SequencerDemand<T> demand = Sequence(k.sequencer, timing.policy_step_dt(), flight, motion,
                                                memory.error, now, memory.sequencer);
-    Assign(now.decides, memory.lateral, TurnToHeading(k.l1, memory.error.yaw, flight.speed));
-    Assign(now.decides, memory.pitch, demand.pitch);
+    Assign(now.is_policy_step, memory.lateral, TurnToHeading(k.l1, memory.error.yaw, flight.speed));
+    Assign(now.is_policy_step, memory.pitch, demand.pitch);
     // Height is no target: the energy that is wanted is kinetic.
-    DecideThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
+    UpdateThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
                    {demand.speed_error, 0, motion.up}, now, memory.common.tecs);
 
     const T vertical = flight.speed * (memory.pitch - flight.pitch) / k.lift.pitch_time_s;
-    MoveSticks(k, dt, motion, memory.lateral, vertical, memory.common, action);
+    StickActions(k, dt, motion, memory.lateral, vertical, memory.common, action);
   }
 };
 
@@ -147,10 +147,10 @@ struct TrackingLaw {
                    measured.errors[2] * kAltitudeErrorUnitFt, now.begins, memory.target);
     Assign(now.begins, memory.held_speed, flight.speed);
 
-    DecideThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
+    UpdateThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
                    {memory.held_speed - flight.speed, 0, motion.up}, now, memory.common.tecs);
     const Acceleration<T> wanted = Pursue(k.pursuit, motion, memory.target);
-    MoveSticks(k, dt, motion, wanted.lateral, wanted.vertical, memory.common, action);
+    StickActions(k, dt, motion, wanted.lateral, wanted.vertical, memory.common, action);
   }
 };
 

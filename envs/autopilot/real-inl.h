@@ -15,40 +15,37 @@
 #include <hwy/highway.h>
 
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using LaneTag = hn::ScalableTag<float>;
 
 /// One float32 of each of consecutive aircraft. Constants convert to it.
 struct Lanes {
-  hn::Vec<LaneTag> v;
+  V v;
 
   Lanes() = default;
-  HWY_INLINE explicit Lanes(hn::Vec<LaneTag> vector) : v(vector) {}
-  HWY_INLINE Lanes(double value) : v(hn::Set(LaneTag(), static_cast<float>(value))) {}  // NOLINT
+  HWY_INLINE explicit Lanes(V vector) : v(vector) {}
+  HWY_INLINE Lanes(double value) : v(hn::Set(FloatTag(), static_cast<float>(value))) {}  // NOLINT
 
   friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return Lanes(hn::Add(a.v, b.v)); }
   friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return Lanes(hn::Sub(a.v, b.v)); }
   friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(hn::Mul(a.v, b.v)); }
   friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) {
-    return Lanes(hn::Mul(a.v, Reciprocal(LaneTag(), b.v)));
+    return Lanes(hn::Mul(a.v, Reciprocal(FloatTag(), b.v)));
   }
   friend HWY_INLINE Lanes operator-(Lanes a) { return Lanes(hn::Neg(a.v)); }
 };
 
 /// A truth of each of consecutive aircraft.
-using LaneMask = hn::Mask<LaneTag>;
 
-HWY_INLINE LaneMask operator<(Lanes a, Lanes b) { return hn::Lt(a.v, b.v); }
-HWY_INLINE LaneMask operator>(Lanes a, Lanes b) { return hn::Gt(a.v, b.v); }
-HWY_INLINE LaneMask And(LaneMask a, LaneMask b) { return hn::And(a, b); }
-HWY_INLINE LaneMask Or(LaneMask a, LaneMask b) { return hn::Or(a, b); }
-HWY_INLINE LaneMask Not(LaneMask a) { return hn::Not(a); }
-HWY_INLINE Lanes Select(LaneMask where, Lanes yes, Lanes no) {
+HWY_INLINE Mask operator<(Lanes a, Lanes b) { return hn::Lt(a.v, b.v); }
+HWY_INLINE Mask operator>(Lanes a, Lanes b) { return hn::Gt(a.v, b.v); }
+HWY_INLINE Mask And(Mask a, Mask b) { return hn::And(a, b); }
+HWY_INLINE Mask Or(Mask a, Mask b) { return hn::Or(a, b); }
+HWY_INLINE Mask Not(Mask a) { return hn::Not(a); }
+HWY_INLINE Lanes Select(Mask where, Lanes yes, Lanes no) {
   return Lanes(hn::IfThenElse(where, yes.v, no.v));
 }
 HWY_INLINE Lanes Abs(Lanes x) { return Lanes(hn::Abs(x.v)); }
@@ -56,9 +53,9 @@ HWY_INLINE Lanes Min(Lanes a, Lanes b) { return Lanes(hn::Min(a.v, b.v)); }
 HWY_INLINE Lanes Max(Lanes a, Lanes b) { return Lanes(hn::Max(a.v, b.v)); }
 HWY_INLINE Lanes Sqrt(Lanes x) { return Lanes(hn::Sqrt(x.v)); }
 HWY_INLINE Lanes Round(Lanes x) { return Lanes(hn::Round(x.v)); }
-HWY_INLINE Lanes ArcTangent(Lanes y, Lanes x) { return Lanes(Atan2(LaneTag(), y.v, x.v)); }
+HWY_INLINE Lanes ArcTangent(Lanes y, Lanes x) { return Lanes(Atan2(FloatTag(), y.v, x.v)); }
 HWY_INLINE void SinCos(Lanes angle, Lanes& sine, Lanes& cosine) {
-  SinCos(LaneTag(), angle.v, sine.v, cosine.v);
+  SinCos(FloatTag(), angle.v, sine.v, cosine.v);
 }
 
 HWY_INLINE bool And(bool a, bool b) { return a && b; }

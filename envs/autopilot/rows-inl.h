@@ -9,38 +9,35 @@
 #endif
 
 #include "simd/transpose-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// Columns [row_size][Lanes(d)], aligned, of as many rows as a vector has lanes. `row_size` is at
+/// Columns [row_size][kLanes], aligned, of as many rows as a vector has lanes. `row_size` is at
 /// least as many.
-template <class D>
-HWY_INLINE void ColumnsFromRows(D d, const float* rows, int row_size, float* columns) {
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int begin = 0; begin < row_size; begin += lanes) {
+HWY_INLINE void ColumnsFromRows(const float* rows, int row_size, float* columns) {
+  const FloatTag d;
+  for (int begin = 0; begin < row_size; begin += kLanes) {
     // The last square overlaps the one before, not the next row.
-    const int k = begin + lanes <= row_size ? begin : row_size - lanes;
-    hn::Vec<D> square[HWY_LANES(float)];
-    for (int i = 0; i < lanes; ++i) square[i] = hn::LoadU(d, rows + i * row_size + k);
+    const int k = begin + kLanes <= row_size ? begin : row_size - kLanes;
+    V square[kLanes];
+    for (int i = 0; i < kLanes; ++i) square[i] = hn::LoadU(d, rows + i * row_size + k);
     Transpose(d, square);
-    for (int i = 0; i < lanes; ++i) hn::Store(square[i], d, columns + (k + i) * lanes);
+    for (int i = 0; i < kLanes; ++i) hn::Store(square[i], d, columns + (k + i) * kLanes);
   }
 }
 
 /// The reverse.
-template <class D>
-HWY_INLINE void RowsFromColumns(D d, const float* columns, int row_size, float* rows) {
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int begin = 0; begin < row_size; begin += lanes) {
-    const int k = begin + lanes <= row_size ? begin : row_size - lanes;
-    hn::Vec<D> square[HWY_LANES(float)];
-    for (int i = 0; i < lanes; ++i) square[i] = hn::Load(d, columns + (k + i) * lanes);
+HWY_INLINE void RowsFromColumns(const float* columns, int row_size, float* rows) {
+  const FloatTag d;
+  for (int begin = 0; begin < row_size; begin += kLanes) {
+    const int k = begin + kLanes <= row_size ? begin : row_size - kLanes;
+    V square[kLanes];
+    for (int i = 0; i < kLanes; ++i) square[i] = hn::Load(d, columns + (k + i) * kLanes);
     Transpose(d, square);
-    for (int i = 0; i < lanes; ++i) hn::StoreU(square[i], d, rows + i * row_size + k);
+    for (int i = 0; i < kLanes; ++i) hn::StoreU(square[i], d, rows + i * row_size + k);
   }
 }
 

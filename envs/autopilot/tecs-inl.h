@@ -51,12 +51,12 @@ HWY_INLINE T ClimbRateFor(const TecsGains& k, T height_error, T speed) {
   return Select(height_error < 0, -1, 1) * Min(rate, most);
 }
 
-/// A policy step, every `dt` seconds, of the aircraft that decide now: leaves the throttle in
-/// `memory`. In the order of AP_TECS::_update_throttle: what the demanded energy rate needs, more
-/// in a bank, a part of the energy error, damping by the rate's error, an integrator that stops
-/// while the throttle is at the limit that it pushes to.
+/// A policy step, every `dt` seconds, of the aircraft whose outer loops run now: leaves the
+/// throttle in `memory`. In the order of AP_TECS::_update_throttle: what the demanded energy rate
+/// needs, more in a bank, a part of the energy error, damping by the rate's error, an integrator
+/// that stops while the throttle is at the limit that it pushes to.
 template <class T, class Mask>
-HWY_INLINE void DecideThrottle(const TecsGains& k, double dt, const FlightEstimate<T>& flight,
+HWY_INLINE void UpdateThrottle(const TecsGains& k, double dt, const FlightEstimate<T>& flight,
                                const Kinematics<T>& motion, const EnergyDemand<T>& demand,
                                const Now<Mask>& now, TecsMemory<T>& memory) {
   T speed = memory.speed, acceleration = memory.acceleration;
@@ -78,11 +78,11 @@ HWY_INLINE void DecideThrottle(const TecsGains& k, double dt, const FlightEstima
   const auto pushes = Or(And(wanted > 1, error > 0), And(wanted < 0, error < 0));
   const T integrated =
       memory.integrator + dt * k.integrator_gain * per_throttle / k.time_constant_s * error;
-  Assign(And(now.decides, Not(pushes)), memory.integrator,
+  Assign(And(now.is_policy_step, Not(pushes)), memory.integrator,
          Clip(integrated, -k.integrator_limit, k.integrator_limit));
-  Assign(now.decides, memory.throttle, Clip(wanted, 0, 1));
-  Assign(now.decides, memory.acceleration, acceleration);
-  Assign(now.decides, memory.speed, speed);
+  Assign(now.is_policy_step, memory.throttle, Clip(wanted, 0, 1));
+  Assign(now.is_policy_step, memory.acceleration, acceleration);
+  Assign(now.is_policy_step, memory.speed, speed);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -10,21 +10,15 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/kernels/air-inl.h"
+#include "envs/kernels/atmosphere-inl.h"
 #include "envs/state/air_velocity-inl.h"
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using FloatTag = hn::ScalableTag<float>;
-using V = hn::Vec<FloatTag>;
-
-HWY_INLINE V Constant(float value) { return hn::Set(FloatTag(), value); }
 
 /// x limited to [low, high]; NaN stays NaN, so that a sick aircraft shows.
 HWY_INLINE V Clip(V x, V low, V high) {
@@ -199,15 +193,18 @@ HWY_INLINE V PowerCommandOf(const FlightControlConstants& k, V throttle) {
 HWY_INLINE Sensors Sense(const KernelAircraft& aircraft, const Group& group) {
   const FloatTag d;
   Sensors sensors;
-  const auto [u, v, w] = AirVelocity(d, group.tile, group.first);
+  const BodyVelocity<V> velocity = AirVelocity(d, group.tile, group.first);
   const V degrees = Constant(static_cast<float>(kDegPerRad));
-  sensors.alpha_deg = Atan2Degrees(d, w, u);
+  sensors.alpha_deg = AlphaDegrees(d, velocity);
   sensors.p_deg_s = hn::Mul(group.Get(kP), degrees);
   sensors.q_deg_s = hn::Mul(group.Get(kQ), degrees);
   sensors.r_deg_s = hn::Mul(group.Get(kR), degrees);
   sensors.nz = group.Get(kNz);
   sensors.ny = group.Get(kNy);
   const AirVectors<V> air = AirAtAltitude(d, aircraft, hn::Neg(group.Get(kDown)));
+  // In another order than SquaresOf, which rounds differently: with these bits policies were
+  // trained.
+  const auto [u, v, w] = velocity;
   const V speed_squared = hn::MulAdd(u, u, hn::MulAdd(v, v, hn::Mul(w, w)));
   sensors.qbar = hn::Mul(hn::Mul(Constant(0.5), air.density), speed_squared);
   sensors.static_pressure = air.pressure;
@@ -222,7 +219,7 @@ template <FlightControlMode kMode>
 void ControlTileIn(const KernelAircraft& aircraft, const FlightControlConstants& k, Tile tile,
                    const PilotColumns& pilot) {
   const FloatTag d;
-  for (int first = 0; first < tile.count; first += static_cast<int>(hn::Lanes(d))) {
+  for (int first = 0; first < tile.count; first += kLanes) {
     const Group group{tile, first};
     const Sensors sensors = Sense(aircraft, group);
     const Sticks sticks{Stick(pilot.pitch, first), Stick(pilot.roll, first),

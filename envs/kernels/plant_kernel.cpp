@@ -14,12 +14,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/kernels/plant_kernel_air-inl.h"
+#include "envs/kernels/plant_kernel_air_data-inl.h"
 #include "envs/kernels/plant_kernel_block-inl.h"
-#include "envs/kernels/plant_kernel_motion-inl.h"
+#include "envs/kernels/plant_kernel_engine-inl.h"
+#include "envs/kernels/plant_kernel_equations-inl.h"
 #include "envs/kernels/plant_kernel_tables-inl.h"
 #include "envs/state/air_velocity-inl.h"
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -32,18 +34,19 @@ using namespace plant_kernel;  // NOLINT: one room, split into files by phase
 template <bool kEngine, class State, class Observer>
 HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const State& state,
                                 const BlockControls& controls, const Observer& coefficients) {
-  FindFlow(aircraft, state, state.block);
-  FindAir<kEngine>(aircraft, state, state.block);
-  FindThrust<kEngine>(aircraft, state, controls, state.block);
+  MeasureFlowAngles(aircraft, state, state.block);
+  MeasureDynamicPressure<kEngine>(aircraft, state, state.block);
+  ThrustAndPowerRate<kEngine>(aircraft, state, controls, state.block);
   if constexpr (kEngine) {
     if (HWY_UNLIKELY(aircraft.depends_on_mach)) AddMachEffects(aircraft, state.block);
   }
-  FindRates(aircraft.constants, state, *state.block, coefficients);
+  EvaluateStateRates(aircraft.constants, state, *state.block, coefficients);
 }
 
-HWY_INLINE void FindSurfacesOfBlock(const KernelAircraft& aircraft, const BlockControls& controls,
-                                    Block* block) {
-  for (int lane = 0; lane < kBlock; lane += kLanes) FindSurfaces(aircraft, controls, lane, block);
+HWY_INLINE void LocateSurfacesOfBlock(const KernelAircraft& aircraft, const BlockControls& controls,
+                                      KernelBlock* block) {
+  for (int lane = 0; lane < kLanesPerBlock; lane += kLanes)
+    LocateSurfaces(aircraft, controls, lane, block);
 }
 
 /// What may look at the coefficients of a stage: this one does not.
@@ -54,13 +57,13 @@ struct IgnoreCoefficients {
 /// Keeps the specific forces, g.
 struct StoreLoadFactors {
   const KernelConstants& k;
-  const Block& block;
+  const KernelBlock& block;
   float* nz;
   float* ny;
 
   HWY_INLINE void operator()(int lane, const Coefficients& c) const {
     const FloatTag d;
-    const V g = hn::Mul(hn::Load(d, block.force + lane), Constant(k.inverse_weight));
+    const V g = hn::Mul(hn::Load(d, block.qbar_S + lane), Constant(k.inverse_weight));
     hn::StoreU(hn::Neg(hn::Mul(g, c.Cz)), d, nz + lane);
     hn::StoreU(hn::Mul(g, c.Cy), d, ny + lane);
   }
@@ -86,7 +89,7 @@ HWY_INLINE void PrefetchColumns(Tile tile, int first) {
   for (int column = 0; column <= kNy; ++column) {
     const float* values = tile[column] + first;
     hwy::Prefetch(values);
-    hwy::Prefetch(values + kBlock / 2);
+    hwy::Prefetch(values + kLanesPerBlock / 2);
   }
 }
 
@@ -110,7 +113,7 @@ struct Prefetcher {
 template <bool kEngine, bool kWindy, class Observer>
 HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& controls,
                           float* base, std::size_t stride, float dt, const Observer& coefficients,
-                          Prefetcher* prefetcher, Block* block) {
+                          Prefetcher* prefetcher, KernelBlock* block) {
   const IgnoreCoefficients ignore;
   prefetcher->FetchPart();
   EvaluateBlock<kEngine>(aircraft, StageState<kFirstStage, kWindy>{base, stride, block, 0},
@@ -128,18 +131,18 @@ HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& c
 void EvaluateTileKernel(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
                         float* state_rate, float* coefficients) {
   const FloatTag d;
-  Block block;
-  for (int first = 0; first < tile.count; first += kBlock) {
+  KernelBlock block;
+  for (int first = 0; first < tile.count; first += kLanesPerBlock) {
     const BlockControls at{controls.thrust_lbf + first,   nullptr,
                            controls.elevator_deg + first, controls.aileron_deg + first,
                            controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
-    FindSurfacesOfBlock(aircraft, at, &block);
+    LocateSurfacesOfBlock(aircraft, at, &block);
     EvaluateBlock<false>(aircraft,
                          StageState<kFirstStage>{tile.base + first, tile.stride, &block, 0}, at,
                          StoreCoefficients{coefficients + first, tile.stride});
     for (int column = 0; column < kNumRigidBody; ++column) {
       float* rates = state_rate + static_cast<std::size_t>(column) * tile.stride + first;
-      for (int lane = 0; lane < kBlock; lane += kLanes) {
+      for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
         hn::StoreU(hn::Load(d, block.rate[column] + lane), d, rates + lane);
       }
     }
@@ -148,13 +151,13 @@ void EvaluateTileKernel(const KernelAircraft& aircraft, Tile tile, const Control
 
 void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
                             const ControlColumns& controls, float dt, int substeps) {
-  Block block;
+  KernelBlock block;
   Prefetcher prefetcher{};
-  for (int first = 0; first < tile.count; first += kBlock) {
+  for (int first = 0; first < tile.count; first += kLanesPerBlock) {
     const BlockControls at{controls.thrust_lbf + first,   nullptr,
                            controls.elevator_deg + first, controls.aileron_deg + first,
                            controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
-    FindSurfacesOfBlock(aircraft, at, &block);
+    LocateSurfacesOfBlock(aircraft, at, &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<false, false>(aircraft, at, tile.base + first, tile.stride,
                               dt / static_cast<float>(substeps), IgnoreCoefficients(), &prefetcher,
@@ -166,11 +169,11 @@ void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
 template <bool kWindy>
 void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
                 MemoryAhead ahead) {
-  Block block;
-  const int parts = 4 * (tile.count + kBlock - 1) / kBlock;
+  KernelBlock block;
+  const int parts = 4 * (tile.count + kLanesPerBlock - 1) / kLanesPerBlock;
   Prefetcher prefetcher{
       ahead, ahead.bytes / static_cast<std::size_t>(parts) / kCacheLine * kCacheLine + kCacheLine};
-  for (int first = 0; first < tile.count; first += kBlock) {
+  for (int first = 0; first < tile.count; first += kLanesPerBlock) {
     const BlockControls at{nullptr,
                            tile[kPowerCommand] + first,
                            tile[kElevator] + first,
@@ -179,14 +182,14 @@ void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substep
                            tile[kLeadingEdgeFlap] + first};
     const StoreLoadFactors load_factors{aircraft.constants, block, tile[kNz] + first,
                                         tile[kNy] + first};
-    PrefetchColumns(tile, first + kBlock);
-    FindSurfacesOfBlock(aircraft, at, &block);
+    PrefetchColumns(tile, first + kLanesPerBlock);
+    LocateSurfacesOfBlock(aircraft, at, &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<true, kWindy>(aircraft, at, tile.base + first, tile.stride,
                               dt / static_cast<float>(substeps), load_factors, &prefetcher, &block);
     }
     if constexpr (kWindy) {
-      for (int lane = 0; lane < kBlock; lane += kLanes) {
+      for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
         UpdateAirVelocity(FloatTag(), tile, first + lane);
       }
     }

@@ -19,27 +19,19 @@
 #include "envs/state/state.h"
 #include "simd/lookup-inl.h"
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace plant_kernel {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::ScalableTag<float>;
-using IntTag = hn::RebindToSigned<FloatTag>;
-using V = hn::Vec<FloatTag>;
-using VI = hn::Vec<IntTag>;
-
-inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 /// Aircraft that go through each phase together: the loads of one half's tables overlap with the
 /// arithmetic of the other's.
-inline constexpr int kBlock = 32;
-inline constexpr int kVectors = kBlock / kLanes;
+inline constexpr int kLanesPerBlock = 32;
+inline constexpr int kVectors = kLanesPerBlock / kLanes;
 /// Integrated columns: the rigid body and the engine's power, kPower.
 inline constexpr int kNumIntegrated = kPower + 1;
-
-HWY_INLINE V Constant(float value) { return hn::Set(FloatTag(), value); }
 
 /// Sets of four functions of alpha and beta: the lateral and the longitudinal.
 enum PatchSet : int { kLateral, kLongitudinal, kNumPatchSets };
@@ -50,32 +42,34 @@ enum PatchSet : int { kLateral, kLongitudinal, kNumPatchSets };
 /// the surfaces stand still. So a step reads the tables once, at its first stage, and adds up the
 /// increments by the surfaces' positions: what is left are a few bilinear patches for each
 /// aircraft. A stage that finds an aircraft in another cell reads that one's tables again.
-struct alignas(64) Block {
+struct alignas(64) KernelBlock {
   // Held during a step.
-  float flap_up[kBlock];                                        // 1 with the flap up, 0 at full
-  float aileron[kBlock], aileron_flap[kBlock], rudder[kBlock];  // of the tables' deflections
-  float elevator_fraction[kBlock], elevator_effect[kBlock];
-  std::int32_t elevator_slot[kBlock];  // the interval's first slot, relative to the cell's
+  float flap_up[kLanesPerBlock];  // 1 with the flap up, 0 at full
+  float aileron[kLanesPerBlock], aileron_flap[kLanesPerBlock],
+      rudder[kLanesPerBlock];  // of the tables' deflections
+  float elevator_fraction[kLanesPerBlock], elevator_effect[kLanesPerBlock];
+  std::int32_t elevator_slot[kLanesPerBlock];  // the interval's first slot, relative to the cell's
 
   // The cells that aircraft are in and the functions there.
-  std::int32_t cell_slot[kBlock];  // first slot of the aerodynamic cell
-  std::int32_t alpha_cell[kBlock];
-  std::int32_t thrust_cell[kBlock];  // and segment of power: see Thrust
-  float patch[kNumPatchSets][PatchLine::kNumSlots][kBlock];
-  float alpha_value[kNumAlphaFunctions][kBlock], alpha_step[kNumAlphaFunctions][kBlock];
-  float thrust_low[4][kBlock], thrust_gain[4][kBlock];
+  std::int32_t cell_slot[kLanesPerBlock];  // first slot of the aerodynamic cell
+  std::int32_t alpha_cell[kLanesPerBlock];
+  std::int32_t thrust_cell[kLanesPerBlock];  // and segment of power: see Thrust
+  float patch[kNumPatchSets][PatchLine::kNumSlots][kLanesPerBlock];
+  float alpha_value[kNumAlphaFunctions][kLanesPerBlock],
+      alpha_step[kNumAlphaFunctions][kLanesPerBlock];
+  float thrust_low[4][kLanesPerBlock], thrust_gain[4][kLanesPerBlock];
 
   // What one phase leaves for the next.
-  float alpha_fraction[kBlock], beta_fraction[kBlock];
-  float speed_squared[kBlock];  // ft^2/s^2
-  float inverse_speed[kBlock];  // s/ft
-  float mach[kBlock];
-  float force[kBlock];   // dynamic pressure times wing area, lbf
-  float thrust[kBlock];  // lbf
+  float alpha_fraction[kLanesPerBlock], beta_fraction[kLanesPerBlock];
+  float speed_squared[kLanesPerBlock];  // ft^2/s^2
+  float inverse_speed[kLanesPerBlock];  // s/ft
+  float mach[kLanesPerBlock];
+  float qbar_S[kLanesPerBlock];  // dynamic pressure times wing area, lbf
+  float thrust[kLanesPerBlock];  // lbf
 
   // The last stage's rates, and the weighted sum of the stages'.
-  float rate[kNumIntegrated][kBlock];
-  float rate_sum[kNumIntegrated][kBlock];
+  float rate[kNumIntegrated][kLanesPerBlock];
+  float rate_sum[kNumIntegrated][kLanesPerBlock];
 };
 
 /// Columns of a block's controls, at its first aircraft. `thrust_lbf` where thrust is given, power
@@ -99,7 +93,7 @@ struct StageState {
   static constexpr Stage kStage = kStageOf;
   float* base;  // of the block's state columns
   std::size_t stride;
-  Block* block;
+  KernelBlock* block;
   float step;  // s; at the last stage the whole step
 
   HWY_INLINE float* Column(int column, int lane) const {
@@ -185,7 +179,7 @@ HWY_INLINE Cell CellAt(const KernelAxis& axis, V position) {
 }
 
 /// Always a cell of the axis, also for NaN: tables are never read outside.
-HWY_INLINE Cell FindCell(const KernelAxis& axis, V x) {
+HWY_INLINE Cell Locate(const KernelAxis& axis, V x) {
   const FloatTag d;
   const V whole = ClampTo(d, x, axis.low, axis.high);
   const V inner = ClampTo(d, x, axis.inner_low, axis.inner_high);
@@ -195,7 +189,7 @@ HWY_INLINE Cell FindCell(const KernelAxis& axis, V x) {
 }
 
 /// The same for an axis whose cells all have one width.
-HWY_INLINE Cell FindUniformCell(const KernelAxis& axis, V x) {
+HWY_INLINE Cell LocateUniform(const KernelAxis& axis, V x) {
   const V whole = ClampTo(FloatTag(), x, axis.low, axis.high);
   return CellAt(axis, hn::MulAdd(whole, Constant(axis.cells_per_unit), Constant(axis.offset)));
 }

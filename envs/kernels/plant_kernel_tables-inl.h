@@ -17,6 +17,7 @@
 
 #include "envs/kernels/plant_kernel_block-inl.h"
 #include "simd/transpose-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -24,8 +25,8 @@ namespace HWY_NAMESPACE {
 namespace plant_kernel {
 
 /// What the surfaces' positions mean to the tables; held during a step.
-HWY_INLINE void FindSurfaces(const KernelAircraft& aircraft, const BlockControls& controls,
-                             int lane, Block* block) {
+HWY_INLINE void LocateSurfaces(const KernelAircraft& aircraft, const BlockControls& controls,
+                               int lane, KernelBlock* block) {
   const FloatTag d;
   const IntTag di;
   const KernelConstants& k = aircraft.constants;
@@ -39,7 +40,7 @@ HWY_INLINE void FindSurfaces(const KernelAircraft& aircraft, const BlockControls
   hn::Store(hn::Mul(aileron, flap_up), d, block->aileron_flap + lane);
   hn::Store(rudder, d, block->rudder + lane);
 
-  const Cell elevator = FindCell(aircraft.elevator, read(controls.elevator_deg));
+  const Cell elevator = Locate(aircraft.elevator, read(controls.elevator_deg));
   const CellTable& effect = aircraft.elevator_effect;
   hn::Store(elevator.fraction, d, block->elevator_fraction + lane);
   hn::Store(hn::MulAdd(elevator.fraction, Lookup32(d, effect.step, elevator.index),
@@ -52,7 +53,7 @@ HWY_INLINE void FindSurfaces(const KernelAircraft& aircraft, const BlockControls
 
 /// Slots `slot` to `slot + kLanes` of the set's patches for one aircraft of the block.
 template <PatchSet kSet>
-HWY_INLINE V AddUpSlots(const KernelAircraft& aircraft, const Block& block, int i, int slot) {
+HWY_INLINE V AddUpSlots(const KernelAircraft& aircraft, const KernelBlock& block, int i, int slot) {
   const FloatTag d;
   const float* surfaces = aircraft.lines.data()->slot + block.cell_slot[i] + slot;
   const float* elevator = surfaces + block.elevator_slot[i];
@@ -75,15 +76,15 @@ HWY_INLINE V AddUpSlots(const KernelAircraft& aircraft, const Block& block, int 
 
 /// One row per aircraft, unrolled so that the rows stay in registers.
 template <PatchSet kSet, std::size_t... kAircraft>
-HWY_INLINE void AddUpRows(const KernelAircraft& aircraft, const Block& block, int lane, int slot,
-                          V* rows, std::index_sequence<kAircraft...> /*aircraft*/) {
+HWY_INLINE void AddUpRows(const KernelAircraft& aircraft, const KernelBlock& block, int lane,
+                          int slot, V* rows, std::index_sequence<kAircraft...> /*aircraft*/) {
   ((rows[kAircraft] = AddUpSlots<kSet>(aircraft, block, lane + static_cast<int>(kAircraft), slot)),
    ...);
 }
 
 /// The set's patches of the aircraft in lanes `lane` to `lane + kLanes`.
 template <PatchSet kSet>
-HWY_INLINE void ReadPatches(const KernelAircraft& aircraft, int lane, Block* block) {
+HWY_INLINE void ReadPatches(const KernelAircraft& aircraft, int lane, KernelBlock* block) {
   const FloatTag d;
   for (int slot = 0; slot < PatchLine::kNumSlots; slot += kLanes) {
     V rows[kLanes];
@@ -99,7 +100,7 @@ HWY_INLINE void ReadPatches(const KernelAircraft& aircraft, int lane, Block* blo
 
 /// The same for one aircraft.
 template <PatchSet kSet>
-HWY_INLINE void ReadPatchesOf(const KernelAircraft& aircraft, int i, Block* block) {
+HWY_INLINE void ReadPatchesOf(const KernelAircraft& aircraft, int i, KernelBlock* block) {
   alignas(64) float slots[PatchLine::kNumSlots];
   for (int slot = 0; slot < PatchLine::kNumSlots; slot += kLanes) {
     hn::Store(AddUpSlots<kSet>(aircraft, *block, i, slot), FloatTag(), slots + slot);
@@ -109,7 +110,7 @@ HWY_INLINE void ReadPatchesOf(const KernelAircraft& aircraft, int i, Block* bloc
 
 /// The functions of alpha, at the flap's position, in vectors of aircraft.
 HWY_INLINE void ReadAlphaFunctions(const KernelAircraft& aircraft, VI alpha_cell, int lane,
-                                   Block* block) {
+                                   KernelBlock* block) {
   const FloatTag d;
   const V flap_up = hn::Load(d, block->flap_up + lane);
   hn::Store(alpha_cell, IntTag(), block->alpha_cell + lane);
@@ -129,7 +130,7 @@ HWY_INLINE void ReadAlphaFunctions(const KernelAircraft& aircraft, VI alpha_cell
 
 /// Reads the tables of those aircraft in lanes `lane` to `lane + kLanes` that changed their cell.
 inline HWY_NOINLINE void ReadChangedTables(const KernelAircraft& aircraft, VI cell_slot,
-                                           VI alpha_cell, int lane, Block* block) {
+                                           VI alpha_cell, int lane, KernelBlock* block) {
   const IntTag di;
   alignas(64) std::int32_t found[kLanes];
   hn::Store(cell_slot, di, found);
@@ -148,7 +149,7 @@ inline HWY_NOINLINE void ReadChangedTables(const KernelAircraft& aircraft, VI ce
 /// Reads the tables of the aircraft in lanes `lane` to `lane + kLanes`, whose cells begin at
 /// `cell_slot`.
 HWY_INLINE void ReadTables(const KernelAircraft& aircraft, VI cell_slot, VI alpha_cell, int lane,
-                           Block* block) {
+                           KernelBlock* block) {
   hn::Store(cell_slot, IntTag(), block->cell_slot + lane);
   ReadPatches<kLateral>(aircraft, lane, block);
   ReadPatches<kLongitudinal>(aircraft, lane, block);

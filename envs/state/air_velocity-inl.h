@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Velocity relative to the air on vectors of aircraft, for kernels (see simd/dispatch.h).
+// Velocity relative to the air on vectors of aircraft, and what the flow angles come from, for
+// kernels (see simd/dispatch.h).
 
 #include "envs/state/state.h"
 
@@ -12,11 +13,12 @@
 
 #include <hwy/highway.h>
 
+#include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// The matrix that takes north, east, down to body axes, row by row.
 template <class V>
 struct AttitudeMatrix {
@@ -74,7 +76,26 @@ HWY_INLINE BodyVelocity<V> AirVelocity(D d, const Tile& tile, int first) {
           hn::LoadU(d, tile[column + 2] + first)};
 }
 
-/// Brings a windy tile's columns of it up to date with its state and wind.
+/// Squares of the airspeed, ft^2/s^2: of its part in the plane of symmetry, u^2 + w^2, and of all.
+template <class V>
+struct AirspeedSquares {
+  V in_plane, whole;
+};
+
+template <class V>
+HWY_INLINE AirspeedSquares<V> SquaresOf(const BodyVelocity<V>& air) {
+  const V in_plane = hn::MulAdd(air.u, air.u, hn::Mul(air.w, air.w));
+  return {in_plane, hn::MulAdd(air.v, air.v, in_plane)};
+}
+
+/// Angle of attack, deg, in (-180, 180].
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V AlphaDegrees(D d, const BodyVelocity<V>& air) {
+  return Atan2Degrees(d, air.w, air.u);
+}
+
+/// Brings a windy tile's columns of the velocity relative to the air up to date with its state and
+/// wind.
 template <class D>
 HWY_INLINE void UpdateAirVelocity(D d, const Tile& tile, int first) {
   const auto get = [&](int column) HWY_ATTR { return hn::LoadU(d, tile[column] + first); };

@@ -13,17 +13,16 @@
 #include <hwy/highway.h>
 
 #include "envs/tasks/flight-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// Target minus actual, in rad and ft/s.
 struct ControlError {
-  FlightVector pitch, yaw, speed;
+  V pitch, yaw, speed;
 };
 
 HWY_INLINE ControlError ErrorOf(const Tile& flight, const Tile& task, int first) {
@@ -34,23 +33,21 @@ HWY_INLINE ControlError ErrorOf(const Tile& flight, const Tile& task, int first)
   return error;
 }
 
-HWY_INLINE FlightVector NormalisedSpeed(FlightVector speed, const ReferenceUnits& units) {
+HWY_INLINE V NormalisedSpeed(V speed, const ReferenceUnits& units) {
   return hn::Mul(speed, Constant(1 / units.speed_ft_s));
 }
 
 /// The rotation from the attitude to the target's: conj(q) t, as scalar and vector part.
 struct RelativeAttitude {
-  FlightVector scalar, x, y, z;
+  V scalar, x, y, z;
 };
 
 HWY_INLINE RelativeAttitude RelativeTo(const Tile& flight, const Tile& task, int first) {
-  const FlightVector q0 = Column(flight, kQ0, first), qx = Column(flight, kQx, first);
-  const FlightVector qy = Column(flight, kQy, first), qz = Column(flight, kQz, first);
-  const FlightVector t0 = Column(task, kControlQ0, first), tx = Column(task, kControlQx, first);
-  const FlightVector ty = Column(task, kControlQy, first), tz = Column(task, kControlQz, first);
-  const auto sum = [](FlightVector a, FlightVector b, FlightVector c, FlightVector e) {
-    return hn::MulAdd(a, b, hn::Mul(c, e));
-  };
+  const V q0 = Column(flight, kQ0, first), qx = Column(flight, kQx, first);
+  const V qy = Column(flight, kQy, first), qz = Column(flight, kQz, first);
+  const V t0 = Column(task, kControlQ0, first), tx = Column(task, kControlQx, first);
+  const V ty = Column(task, kControlQy, first), tz = Column(task, kControlQz, first);
+  const auto sum = [](V a, V b, V c, V e) { return hn::MulAdd(a, b, hn::Mul(c, e)); };
   RelativeAttitude relative;
   relative.scalar = hn::Add(sum(q0, t0, qx, tx), sum(qy, ty, qz, tz));
   // Differences of products that nearly cancel where the angle is small.
@@ -62,28 +59,27 @@ HWY_INLINE RelativeAttitude RelativeTo(const Tile& flight, const Tile& task, int
 
 /// The angle of the rotation, rad. By the arc tangent of its parts: the arc cosine of the scalar
 /// part alone would lose half of the digits where the angle is small.
-HWY_INLINE FlightVector RotationAngle(const RelativeAttitude& r) {
-  const FlightVector length =
-      hn::Sqrt(hn::MulAdd(r.x, r.x, hn::MulAdd(r.y, r.y, hn::Mul(r.z, r.z))));
+HWY_INLINE V RotationAngle(const RelativeAttitude& r) {
+  const V length = hn::Sqrt(hn::MulAdd(r.x, r.x, hn::MulAdd(r.y, r.y, hn::Mul(r.z, r.z))));
   // A quaternion and its negative are one attitude: the nearer of the two.
-  const FlightVector half = Atan2(FlightTag(), length, hn::Abs(r.scalar));
+  const V half = Atan2(FloatTag(), length, hn::Abs(r.scalar));
   return hn::Add(half, half);
 }
 
 /// The angle between the nose and where the target's points, rad: the rotation turns body x into
 /// the vector (along, 2 (x y + s z), 2 (x z - s y)).
-HWY_INLINE FlightVector NoseAngle(const RelativeAttitude& r) {
-  const FlightVector along = hn::MulAdd(
+HWY_INLINE V NoseAngle(const RelativeAttitude& r) {
+  const V along = hn::MulAdd(
       r.scalar, r.scalar, hn::MulAdd(r.x, r.x, hn::Neg(hn::MulAdd(r.y, r.y, hn::Mul(r.z, r.z)))));
-  const FlightVector right = TwiceSum(r.x, r.y, r.scalar, r.z);
-  const FlightVector down = TwiceSum(r.x, r.z, hn::Neg(r.scalar), r.y);
-  return Atan2(FlightTag(), hn::Sqrt(hn::MulAdd(right, right, hn::Mul(down, down))), along);
+  const V right = TwiceSum(r.x, r.y, r.scalar, r.z);
+  const V down = TwiceSum(r.x, r.z, hn::Neg(r.scalar), r.y);
+  return Atan2(FloatTag(), hn::Sqrt(hn::MulAdd(right, right, hn::Mul(down, down))), along);
 }
 
 void ControlErrors(Tile flight, Tile task, const ReferenceUnits& units, float* errors,
                    std::size_t error_stride) {
-  const FlightTag d;
-  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+  const FloatTag d;
+  for (int first = 0; first < flight.count; first += kLanes) {
     const ControlError error = ErrorOf(flight, task, first);
     hn::StoreU(error.pitch, d, errors + first);
     hn::StoreU(error.yaw, d, errors + error_stride + first);
@@ -91,23 +87,22 @@ void ControlErrors(Tile flight, Tile task, const ReferenceUnits& units, float* e
   }
 }
 
-void ControlJudge(Tile flight, Tile task, const ControlConfig& config, const ReferenceUnits& units,
-                  const StepResult& step_result) {
-  const FlightTag d;
-  const hn::RebindToSigned<FlightTag> di;
+void ControlReward(Tile flight, Tile task, const ControlConfig& config, const ReferenceUnits& units,
+                   const StepResult& step_result) {
+  const FloatTag d;
+  const IntTag di;
   const auto one = hn::Set(di, 1);
-  const FlightVector pitch_tolerance = Constant(config.pitch_tolerance_deg / kDegPerRad);
-  const FlightVector yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
-  const FlightVector speed_tolerance = Constant(config.speed_tolerance_fps);
-  const FlightVector speed_weight = Constant(config.speed_error_weight);
-  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+  const V pitch_tolerance = Constant(config.pitch_tolerance_deg / kDegPerRad);
+  const V yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
+  const V speed_tolerance = Constant(config.speed_tolerance_fps);
+  const V speed_weight = Constant(config.speed_error_weight);
+  for (int first = 0; first < flight.count; first += kLanes) {
     const ControlError error = ErrorOf(flight, task, first);
-    const FlightVector speed_error = hn::Abs(error.speed);
-    const FlightVector share = Column(task, kControlTolerance, first);
+    const V speed_error = hn::Abs(error.speed);
+    const V share = Column(task, kControlTolerance, first);
     const RelativeAttitude relative = RelativeTo(flight, task, first);
-    const FlightVector angle =
-        config.reward_includes_roll ? RotationAngle(relative) : NoseAngle(relative);
-    const FlightVector cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error, units), angle);
+    const V angle = config.reward_includes_roll ? RotationAngle(relative) : NoseAngle(relative);
+    const V cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error, units), angle);
     hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
 
     const auto reached = hn::And(hn::Lt(hn::Abs(error.pitch), hn::Mul(share, pitch_tolerance)),
@@ -128,7 +123,7 @@ namespace skein {
 namespace {
 
 HWY_EXPORT(ControlErrors);
-HWY_EXPORT(ControlJudge);
+HWY_EXPORT(ControlReward);
 
 /// Reflects a pitch beyond the vertical back: the elevation at which its nose points.
 double Folded(double pitch_rad) { return std::asin(std::sin(pitch_rad)); }
@@ -171,7 +166,7 @@ class ControlTask : public Task {
 
   void ComputeReward(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
                      const StepResult& step_result) const override {
-    SKEIN_DISPATCH(ControlJudge)(flight, task, config_, units_, step_result);
+    SKEIN_DISPATCH(ControlReward)(flight, task, config_, units_, step_result);
   }
 
  private:

@@ -27,8 +27,8 @@ enum ControlColumn : int {
 /// the aircraft's ReferenceUnits (F-16: 340 m/s). The reward of a step is minus an angle in rad,
 /// from 0 to pi, minus `speed_error_weight` times the absolute speed error in the same unit. The
 /// angle is that between the nose and where it should point, or (`reward_includes_roll`) of the one
-/// rotation that takes the attitude to the target's. Reached is judged by pitch, yaw and speed
-/// alone: at any roll.
+/// rotation that takes the attitude to the target's. The target is reached by pitch, yaw and
+/// speed alone: at any roll.
 std::unique_ptr<Task> MakeControlTask(const EnvConfig& config);
 
 }  // namespace skein

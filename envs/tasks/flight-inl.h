@@ -16,67 +16,56 @@
 
 #include "envs/state/air_velocity-inl.h"
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using FlightTag = hn::ScalableTag<float>;
-using FlightVector = hn::Vec<FlightTag>;
-
-HWY_INLINE FlightVector Constant(double value) {
-  return hn::Set(FlightTag(), static_cast<float>(value));
-}
-
-HWY_INLINE FlightVector Column(const Tile& tile, int column, int first) {
-  return hn::LoadU(FlightTag(), tile[column] + first);
+HWY_INLINE V Column(const Tile& tile, int column, int first) {
+  return hn::LoadU(FloatTag(), tile[column] + first);
 }
 
 /// Velocity relative to the air in body axes, ft/s, and the reciprocals of its lengths. Lengths are
 /// taken as at least 1e-6, so that ratios stay finite.
 struct VelocityVectors {
-  FlightVector u, v, w;
-  FlightVector forward, per_forward;  ///< sqrt(u^2 + w^2)
-  FlightVector speed, per_speed;
+  BodyVelocity<V> air;
+  V forward, per_forward;  ///< sqrt(u^2 + w^2)
+  V speed, per_speed;
 };
 
 /// The square root of `square` and its reciprocal.
-HWY_INLINE void Length(FlightVector square, FlightVector& length, FlightVector& per_length) {
-  const FlightVector positive = hn::Max(square, Constant(1e-12));
-  per_length = ReciprocalSqrt(FlightTag(), positive);
+HWY_INLINE void Length(V square, V& length, V& per_length) {
+  const V positive = hn::Max(square, Constant(1e-12));
+  per_length = ReciprocalSqrt(FloatTag(), positive);
   length = hn::Mul(positive, per_length);
 }
 
 HWY_INLINE VelocityVectors Velocity(const Tile& tile, int first) {
   VelocityVectors velocity;
-  const auto air = AirVelocity(FlightTag(), tile, first);
-  velocity.u = air.u;
-  velocity.v = air.v;
-  velocity.w = air.w;
-  const FlightVector forward_squared =
-      hn::MulAdd(velocity.u, velocity.u, hn::Mul(velocity.w, velocity.w));
-  Length(forward_squared, velocity.forward, velocity.per_forward);
-  Length(hn::MulAdd(velocity.v, velocity.v, forward_squared), velocity.speed, velocity.per_speed);
+  velocity.air = AirVelocity(FloatTag(), tile, first);
+  const AirspeedSquares<V> squares = SquaresOf(velocity.air);
+  Length(squares.in_plane, velocity.forward, velocity.per_forward);
+  Length(squares.whole, velocity.speed, velocity.per_speed);
   return velocity;
 }
 
 /// 2 (a b + c d).
-HWY_INLINE FlightVector TwiceSum(FlightVector a, FlightVector b, FlightVector c, FlightVector d) {
-  const FlightVector sum = hn::MulAdd(a, b, hn::Mul(c, d));
+HWY_INLINE V TwiceSum(V a, V b, V c, V d) {
+  const V sum = hn::MulAdd(a, b, hn::Mul(c, d));
   return hn::Add(sum, sum);
 }
 
 /// Where down is in body axes, the third row of the attitude matrix: (-sin(pitch), sin(roll)
 /// cos(pitch), cos(roll) cos(pitch)).
 struct DownInBody {
-  FlightVector sin_pitch;  ///< less the first component
-  FlightVector y, z;
+  V sin_pitch;  ///< less the first component
+  V y, z;
 };
 
 HWY_INLINE DownInBody Down(const Tile& tile, int first) {
-  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
-  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
+  const V q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
+  const V qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
   DownInBody down;
   down.sin_pitch = TwiceSum(q0, qy, hn::Neg(qx), qz);
   down.y = TwiceSum(qy, qz, q0, qx);
@@ -85,35 +74,35 @@ HWY_INLINE DownInBody Down(const Tile& tile, int first) {
 }
 
 /// Pitch, rad, in [-pi/2, pi/2], from the sine and cosine both: as exact nose up as level.
-HWY_INLINE FlightVector Pitch(const Tile& tile, int first) {
+HWY_INLINE V Pitch(const Tile& tile, int first) {
   const DownInBody down = Down(tile, first);
-  const FlightVector cosine = hn::Sqrt(hn::MulAdd(down.y, down.y, hn::Mul(down.z, down.z)));
-  return Atan2(FlightTag(), down.sin_pitch, cosine);
+  const V cosine = hn::Sqrt(hn::MulAdd(down.y, down.y, hn::Mul(down.z, down.z)));
+  return Atan2(FloatTag(), down.sin_pitch, cosine);
 }
 
 /// Where the nose points over the ground, of the first row of the attitude matrix.
 struct NoseOverGround {
-  FlightVector north, east;
+  V north, east;
 };
 
 HWY_INLINE NoseOverGround Nose(const Tile& tile, int first) {
-  const FlightVector q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
-  const FlightVector qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
+  const V q0 = Column(tile, kQ0, first), qx = Column(tile, kQx, first);
+  const V qy = Column(tile, kQy, first), qz = Column(tile, kQz, first);
   return {hn::MulAdd(q0, q0, hn::NegMulAdd(qz, qz, hn::NegMulAdd(qy, qy, hn::Mul(qx, qx)))),
           TwiceSum(qx, qy, q0, qz)};
 }
 
 /// Yaw, rad, in [-pi, pi].
-HWY_INLINE FlightVector Yaw(const Tile& tile, int first) {
+HWY_INLINE V Yaw(const Tile& tile, int first) {
   const NoseOverGround nose = Nose(tile, first);
-  return Atan2(FlightTag(), nose.east, nose.north);
+  return Atan2(FloatTag(), nose.east, nose.north);
 }
 
 /// An angle brought into [-pi, pi].
-HWY_INLINE FlightVector WrapAngle(FlightVector angle) {
-  const FlightVector turns = hn::Round(hn::Mul(angle, Constant(0.15915494309189535)));
+HWY_INLINE V WrapAngle(V angle) {
+  const V turns = hn::Round(hn::Mul(angle, Constant(0.15915494309189535)));
   // 2 pi in two parts: the first times a small integer is exact.
-  const FlightVector coarse = hn::NegMulAdd(turns, Constant(6.28125), angle);
+  const V coarse = hn::NegMulAdd(turns, Constant(6.28125), angle);
   return hn::NegMulAdd(turns, Constant(0.0019353071795864769), coarse);
 }
 

@@ -13,17 +13,16 @@
 #include <hwy/highway.h>
 
 #include "envs/tasks/flight-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// Target minus actual, in ft, rad and ft/s.
 struct HeadingError {
-  FlightVector altitude, yaw, speed;
+  V altitude, yaw, speed;
 };
 
 HWY_INLINE HeadingError ErrorOf(const Tile& flight, const Tile& task, int first) {
@@ -41,8 +40,8 @@ HWY_INLINE HeadingError Normalised(const HeadingError& error, const ReferenceUni
 
 void HeadingErrors(Tile flight, Tile task, const ReferenceUnits& units, float* errors,
                    std::size_t error_stride) {
-  const FlightTag d;
-  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+  const FloatTag d;
+  for (int first = 0; first < flight.count; first += kLanes) {
     const HeadingError error = Normalised(ErrorOf(flight, task, first), units);
     hn::StoreU(error.altitude, d, errors + first);
     hn::StoreU(error.yaw, d, errors + error_stride + first);
@@ -50,26 +49,26 @@ void HeadingErrors(Tile flight, Tile task, const ReferenceUnits& units, float* e
   }
 }
 
-void HeadingJudge(Tile flight, Tile task, const HeadingConfig& config, const ReferenceUnits& units,
-                  const std::int32_t* steps_before, const StepResult& step_result) {
-  const FlightTag d;
-  const hn::RebindToSigned<FlightTag> di;
+void HeadingReward(Tile flight, Tile task, const HeadingConfig& config, const ReferenceUnits& units,
+                   const std::int32_t* steps_before, const StepResult& step_result) {
+  const FloatTag d;
+  const IntTag di;
   const auto one = hn::Set(di, 1);
   const auto earliest = hn::Set(di, config.earliest_success_step - 1);
-  const FlightVector altitude_tolerance = Constant(config.altitude_tolerance_ft);
-  const FlightVector yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
-  const FlightVector speed_tolerance = Constant(config.speed_tolerance_fps);
-  const FlightVector speed_weight = Constant(config.speed_error_weight);
-  for (int first = 0; first < flight.count; first += static_cast<int>(hn::Lanes(d))) {
+  const V altitude_tolerance = Constant(config.altitude_tolerance_ft);
+  const V yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
+  const V speed_tolerance = Constant(config.speed_tolerance_fps);
+  const V speed_weight = Constant(config.speed_error_weight);
+  for (int first = 0; first < flight.count; first += kLanes) {
     const HeadingError error = ErrorOf(flight, task, first);
     const HeadingError scaled = Normalised(error, units);
-    const FlightVector squares =
+    const V squares =
         hn::MulAdd(scaled.altitude, scaled.altitude,
                    hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));
-    const FlightVector cost = hn::MulAdd(speed_weight, hn::Abs(scaled.speed), hn::Sqrt(squares));
+    const V cost = hn::MulAdd(speed_weight, hn::Abs(scaled.speed), hn::Sqrt(squares));
     hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
 
-    const FlightVector share = Column(task, kTargetTolerance, first);
+    const V share = Column(task, kTargetTolerance, first);
     const auto close =
         hn::And(hn::Lt(hn::Abs(error.altitude), hn::Mul(share, altitude_tolerance)),
                 hn::And(hn::Lt(hn::Abs(error.yaw), hn::Mul(share, yaw_tolerance)),
@@ -91,7 +90,7 @@ namespace skein {
 namespace {
 
 HWY_EXPORT(HeadingErrors);
-HWY_EXPORT(HeadingJudge);
+HWY_EXPORT(HeadingReward);
 
 class HeadingTask : public Task {
  public:
@@ -125,7 +124,7 @@ class HeadingTask : public Task {
 
   void ComputeReward(Tile flight, Tile task, const std::int32_t* steps_before,
                      const StepResult& step_result) const override {
-    SKEIN_DISPATCH(HeadingJudge)(flight, task, config_, units_, steps_before, step_result);
+    SKEIN_DISPATCH(HeadingReward)(flight, task, config_, units_, steps_before, step_result);
   }
 
  private:

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "envs/kernels/plant_kernel.h"
+#include "envs/state/state.h"
 
 namespace skein {
+
+struct KernelAircraft;  // envs/kernels/kernel_aircraft.h
 
 /// An aircraft's observation, float32, in the ReferenceUnits of its type:
 ///   0-2   the task's errors (Task::Errors)

@@ -23,8 +23,8 @@ struct FlightStart {
 /// Task errors at the head of every observation.
 inline constexpr int kNumTaskErrors = 3;
 
-/// What one control step was worth, by the task alone; one element per aircraft, padded as Tile
-/// says.
+/// The task's part of one control step's reward, and whether the target counts as reached; one
+/// element per aircraft, padded as Tile says.
 struct StepResult {
   float* reward = nullptr;          ///< before reward_scale, without terminal rewards
   std::int32_t* reached = nullptr;  ///< 1 where the target counts as reached, else 0
@@ -56,8 +56,8 @@ class Task {
   /// The first three observations, as columns `error_stride` apart.
   virtual void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const = 0;
 
-  /// Judges the state after a control step. `steps_before` is each aircraft's control steps in this
-  /// episode before it.
+  /// Rewards the state after a control step, and says where it reaches the target. `steps_before`
+  /// is each aircraft's control steps in this episode before it.
   virtual void ComputeReward(Tile flight, Tile task, const std::int32_t* steps_before,
                              const StepResult& step_result) const = 0;
 };

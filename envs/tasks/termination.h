@@ -6,7 +6,8 @@
 
 namespace skein {
 
-/// Why an episode ended (the paper's Table 5, and non_finite). The order is their precedence.
+/// Why an episode ended: the conditions of the NeuralPlane paper's Table 5, whose code calls the
+/// last two ResetTarget and UnreachTarget, and non_finite. The order is their precedence.
 enum class Termination : std::uint8_t {
   kNone,
   kNonFinite,
@@ -15,8 +16,8 @@ enum class Termination : std::uint8_t {
   kLowAltitude,
   kLowSpeed,
   kOverload,
-  kTargetReached,  ///< the target was reached: success
-  kTimeLimit,      ///< time limit
+  kTargetReached,  ///< success
+  kTimeLimit,
 };
 
 inline constexpr int kNumTerminations = 9;

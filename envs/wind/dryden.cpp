@@ -18,18 +18,12 @@
 #include "envs/state/air_velocity-inl.h"
 #include "simd/math-inl.h"
 #include "simd/random-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using GustTag = hn::ScalableTag<float>;
-using V = hn::Vec<GustTag>;
-
-HWY_INLINE V Constant(double value) { return hn::Set(GustTag(), static_cast<float>(value)); }
 
 /// DrydenScalesAt.
 struct Scales {
@@ -37,7 +31,7 @@ struct Scales {
 };
 
 HWY_INLINE Scales ScalesAt(V altitude_ft) {
-  const GustTag d;
+  const FloatTag d;
   const V low = ClampTo(d, altitude_ft, static_cast<float>(dryden::kLowestFt),
                         static_cast<float>(dryden::kLowFt));
   const V over = hn::Sub(ClampTo(d, altitude_ft, static_cast<float>(dryden::kLowFt),
@@ -64,7 +58,7 @@ struct Response {
 /// gamma functions 1 - e^-x (1 + x + ... ), which cancel to nothing at small x: here they come from
 /// their series, which serves to x = 2.
 HWY_INLINE Response ResponseTo(V way) {
-  const GustTag d;
+  const FloatTag d;
   way = ClampTo(d, way, 1e-6f, 1.0f);
   const V x = hn::Add(way, way);
   // r3 = (e^x - 1 - x - x^2/2) / x^3, and likewise r2 and r1.
@@ -90,7 +84,7 @@ HWY_INLINE Response ResponseTo(V way) {
 
 /// Moves a transverse gust's two states on. Returns the gust, of unit variance.
 HWY_INLINE V AdvanceTransverse(const Response& response, float* first, float* lagged, V n1, V n2) {
-  const GustTag d;
+  const FloatTag d;
   const V x1 = hn::LoadU(d, first), x2 = hn::LoadU(d, lagged);
   const V next1 = hn::MulAdd(response.decay, x1, hn::Mul(response.first, n1));
   const V noise = hn::MulAdd(response.along, n1, hn::Mul(response.second, n2));
@@ -101,11 +95,11 @@ HWY_INLINE V AdvanceTransverse(const Response& response, float* first, float* la
 }
 
 void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys) {
-  const GustTag d;
-  const hn::RebindToSigned<GustTag> di;
-  const hn::RebindToUnsigned<GustTag> du;
+  const FloatTag d;
+  const IntTag di;
+  const UintTag du;
   const PhiloxKeys philox(keys.seed);
-  for (int first = 0; first < tile.count; first += static_cast<int>(hn::Lanes(d))) {
+  for (int first = 0; first < tile.count; first += kLanes) {
     const auto get = [&](int column) HWY_ATTR { return hn::LoadU(d, tile[column] + first); };
     const auto aircraft = hn::Iota(du, keys.first_aircraft + static_cast<std::uint32_t>(first));
     const auto episode = hn::BitCast(du, hn::LoadU(di, keys.episode + first));

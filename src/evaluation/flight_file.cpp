@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "envs/actions.h"
 #include "envs/aircraft/aircraft.h"
-#include "envs/guided_flight.h"
+#include "envs/low_level_flight.h"
 #include "envs/reference/plant.h"
 #include "envs/state/attitude.h"
 #include "envs/tasks/task.h"

@@ -9,9 +9,9 @@
 
 namespace skein {
 
-/// A gentle pilot of the Control task: proportional in pitch and speed, rolling towards the yaw
-/// that is asked for. It remembers how often it has decided, and the pitch errors that it has seen,
-/// which it adds up and flies by.
+/// A gentle policy for the Control task: proportional in pitch and speed, rolling towards the yaw
+/// that is asked for. Its state is the number of its policy steps and the sum of the pitch errors
+/// that it has observed, by which it acts, too.
 class TestPolicy : public Policy {
  public:
   explicit TestPolicy(int action_repeat, int observation_size = kObservationSize,
@@ -27,16 +27,16 @@ class TestPolicy : public Policy {
 
   void Act(int count, const float* observation, float* state, float* action) const override {
     for (int i = 0; i < count; ++i) {
-      const float* const seen = observation + i * kObservationSize;
+      const float* const observed = observation + i * kObservationSize;
       float* const memory = state + i * 2;
       memory[0] += 1;
-      memory[1] += seen[0];
-      const float roll = std::clamp(seen[1], -0.5f, 0.5f) - seen[4];
-      float* const stick = action + i * kActionSize;
-      stick[0] = 0.2f + 4 * seen[2];
-      stick[1] = 0.8f * seen[0] + 0.05f * memory[1];
-      stick[2] = 0.6f * roll;
-      stick[3] = 0.001f * memory[0];
+      memory[1] += observed[0];
+      const float roll = std::clamp(observed[1], -0.5f, 0.5f) - observed[4];
+      float* const command = action + i * kActionSize;
+      command[0] = 0.2f + 4 * observed[2];
+      command[1] = 0.8f * observed[0] + 0.05f * memory[1];
+      command[2] = 0.6f * roll;
+      command[3] = 0.001f * memory[0];
     }
   }
 

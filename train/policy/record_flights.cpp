@@ -71,7 +71,7 @@ class TileRecorder : private ControlStepObserver {
         step.action.push_back(Clipped(action_[index * actions + k]));
       }
       for (int k = 0; k < kActionSize; ++k) {
-        step.stick[k] = Clipped(seen.stick[i * kActionSize + k]);
+        step.stick[k] = Clipped(seen.action[i * kActionSize + k]);
       }
       step.reward = seen.reward[i];
     }

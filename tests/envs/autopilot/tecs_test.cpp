@@ -19,7 +19,7 @@ struct LevelFlight {
     motion.cos_roll = 1;
   }
   double Throttle(const EnergyDemand<double>& demand, const Now<bool>& now = kFirst) {
-    DecideThrottle(gains, kDt, flight, motion, demand, now, memory);
+    UpdateThrottle(gains, kDt, flight, motion, demand, now, memory);
     return memory.throttle;
   }
 

@@ -13,7 +13,7 @@
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/state/attitude.h"
 #include "envs/tasks/observation.h"
-#include "envs/tasks/reward.h"
+#include "envs/tasks/reward_and_termination.h"
 #include "envs/tasks/task.h"
 #include "simd/random.h"
 #include "tests/envs/test_tile.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "envs/guided_flight.h"
+#include "envs/low_level_flight.h"
 
 #include <gtest/gtest.h>
 
@@ -41,17 +41,18 @@ std::shared_ptr<const Policy> LowLevelPolicy(int action_repeat = 4) {
   return std::make_shared<const TestPolicy>(action_repeat);
 }
 
-/// Plans that depend on nothing but the aircraft and the policy step; some beyond full.
-std::array<float, kHighLevelActionSize> PlanOf(int aircraft, int policy_step) {
+/// High-level actions that depend on nothing but the aircraft and the policy step; some beyond
+/// full.
+std::array<float, kHighLevelActionSize> HighLevelActionOf(int aircraft, int policy_step) {
   simd::RandomStream random({9, static_cast<std::uint32_t>(aircraft),
                              static_cast<std::uint32_t>(policy_step), 0,
                              simd::RandomPurpose::kActionNoise});
-  std::array<float, kHighLevelActionSize> plan;
-  for (float& value : plan) value = static_cast<float>(random.Uniform(-1.2, 1.2));
-  return plan;
+  std::array<float, kHighLevelActionSize> action;
+  for (float& value : action) value = static_cast<float>(random.Uniform(-1.2, 1.2));
+  return action;
 }
 
-/// All that was seen and earned, aircraft by aircraft.
+/// All observations and rewards, aircraft by aircraft.
 using Log = std::vector<std::vector<float>>;
 
 void FlyTile(VecEnv* env, int tile, int first_policy_step, int policy_steps, Log* log) {
@@ -61,8 +62,8 @@ void FlyTile(VecEnv* env, int tile, int first_policy_step, int policy_steps, Log
        ++policy_step) {
     env->Observe(tile, buffers.observation.data());
     for (int i = 0; i < count; ++i) {
-      const auto plan = PlanOf(begin + i, policy_step);
-      std::copy(plan.begin(), plan.end(), buffers.action.begin() + i * kHighLevelActionSize);
+      const auto action = HighLevelActionOf(begin + i, policy_step);
+      std::copy(action.begin(), action.end(), buffers.action.begin() + i * kHighLevelActionSize);
     }
     env->Step(tile, buffers.action.data(), buffers.output());
     for (int i = 0; i < count; ++i) {
@@ -83,47 +84,48 @@ Log Fly(VecEnv* env, int first_policy_step, int policy_steps) {
   return log;
 }
 
-/// The hierarchy as two plain loops around an environment that takes stick actions: an outer one
-/// that sets targets, an inner one in which the pilot sees their errors.
+/// The hierarchy as two plain loops around an environment that takes throttle and sticks: an outer
+/// one that sets targets, an inner one in which the low-level policy observes their errors.
 class TwoLoops {
  public:
-  TwoLoops(const EnvConfig& planned, int count, std::uint64_t seed, const Policy& pilot)
-      : planned_(planned),
+  TwoLoops(const EnvConfig& config, int count, std::uint64_t seed, const Policy& low_level)
+      : config_(config),
         count_(count),
-        pilot_(pilot),
-        env_(StickConfig(planned), count, seed, count),
-        clean_(CleanConfig(planned), count, seed, count),
-        memory_(Index(count * pilot.state_size())) {}
+        low_level_(low_level),
+        env_(SingleStepConfig(config), count, seed, count),
+        clean_(CleanConfig(config), count, seed, count),
+        memory_(Index(count * low_level.state_size())) {}
 
-  /// What the high-level policy is to see, row-major.
-  std::vector<float> Seen() {
+  /// What the high-level policy is to observe, row-major.
+  std::vector<float> Observe() {
     StepBuffers now(count_, kActionSize);
     env_.Observe(0, now.observation.data());
     for (int i = 0; i < count_; ++i) {
       for (int k = 0; k < kSize; ++k) {
         float& value = now.observation[Index(i * kSize + k)];
         value = static_cast<float>((value + observation_sums_[Index(i * kSize + k)]) /
-                                   (num_observation_sums_[Index(i)] + 1));
+                                   (num_samples_[Index(i)] + 1));
       }
     }
     return now.observation;
   }
 
   /// Rewards of one policy step.
-  std::vector<double> Decide(int policy_step) {
+  std::vector<double> Step(int policy_step) {
     std::vector<double> reward(Index(count_));
     std::vector<std::array<double, 3>> targets;
-    for (int i = 0; i < count_; ++i) targets.push_back(TargetOf(i, PlanOf(i, policy_step)));
+    for (int i = 0; i < count_; ++i)
+      targets.push_back(TargetOf(i, HighLevelActionOf(i, policy_step)));
     StepBuffers buffers(count_, kActionSize), clean(count_, kActionSize);
     observation_sums_.assign(Index(count_ * kSize), 0);
-    num_observation_sums_.assign(Index(count_), 0);
-    for (int step = 0; step < planned_.action_repeat; ++step) {
-      if (step % pilot_.action_repeat() == 0) {
+    num_samples_.assign(Index(count_), 0);
+    for (int step = 0; step < config_.action_repeat; ++step) {
+      if (step % low_level_.action_repeat() == 0) {
         env_.Observe(0, buffers.observation.data());
-        if (planned_.high_level.averages_observations && step > 0) {
+        if (config_.high_level.averages_observations && step > 0) {
           for (std::size_t k = 0; k < observation_sums_.size(); ++k)
             observation_sums_[k] += buffers.observation[k];
-          for (int& looks : num_observation_sums_) ++looks;
+          for (int& samples : num_samples_) ++samples;
         }
         clean_.Observe(0, clean.observation.data());
         for (int i = 0; i < count_; ++i) {
@@ -134,7 +136,7 @@ class TwoLoops {
             buffers.observation[at] += static_cast<float>(errors[Index(k)]) - clean.observation[at];
           }
         }
-        pilot_.Act(count_, buffers.observation.data(), memory_.data(), buffers.action.data());
+        low_level_.Act(count_, buffers.observation.data(), memory_.data(), buffers.action.data());
       }
       env_.Step(0, buffers.action.data(), buffers.output());
       clean_.Step(0, buffers.action.data(), clean.output());
@@ -144,11 +146,11 @@ class TwoLoops {
         if (end == Termination::kNone) continue;
         // Elsewhere a new episode would have to wait for the end of the policy step.
         EXPECT_EQ(end, Termination::kTimeLimit);
-        EXPECT_EQ(step + 1, planned_.action_repeat);
+        EXPECT_EQ(step + 1, config_.action_repeat);
         ++ends_;
-        std::fill_n(memory_.begin() + i * pilot_.state_size(), pilot_.state_size(), 0.0f);
+        std::fill_n(memory_.begin() + i * low_level_.state_size(), low_level_.state_size(), 0.0f);
         std::fill_n(observation_sums_.begin() + i * kSize, kSize, 0);
-        num_observation_sums_[Index(i)] = 0;
+        num_samples_[Index(i)] = 0;
       }
     }
     return reward;
@@ -158,12 +160,12 @@ class TwoLoops {
   int ends() const { return ends_; }
 
  private:
-  static EnvConfig StickConfig(EnvConfig config) {
+  static EnvConfig SingleStepConfig(EnvConfig config) {
     config.action_repeat = 1;
     return config;
   }
   static EnvConfig CleanConfig(const EnvConfig& config) {
-    EnvConfig clean = StickConfig(config);
+    EnvConfig clean = SingleStepConfig(config);
     clean.observation_noise = 0;
     return clean;
   }
@@ -181,12 +183,12 @@ class TwoLoops {
   }
   /// North, east, down; it must have one speed and one direction.
   Eigen::Vector3d Wind() const {
-    const double from = planned_.wind.from_deg.min / kDegPerRad;
-    return -planned_.wind.speed_fps.min * Eigen::Vector3d(std::cos(from), std::sin(from), 0);
+    const double from = config_.wind.from_deg.min / kDegPerRad;
+    return -config_.wind.speed_fps.min * Eigen::Vector3d(std::cos(from), std::sin(from), 0);
   }
-  std::array<double, 3> TargetOf(int i, const std::array<float, 3>& plan) const {
-    const auto clipped = [&plan](int k) {
-      return std::clamp(static_cast<double>(plan[Index(k)]), -1.0, 1.0);
+  std::array<double, 3> TargetOf(int i, const std::array<float, 3>& action) const {
+    const auto clipped = [&action](int k) {
+      return std::clamp(static_cast<double>(action[Index(k)]), -1.0, 1.0);
     };
     const EulerAngles attitude = AttitudeOf(i);
     return {attitude.pitch + 0.3 * clipped(0), attitude.yaw + 0.3 * clipped(1),
@@ -198,13 +200,13 @@ class TwoLoops {
             (target[2] - SpeedOf(i)) / kSpeedUnit};
   }
 
-  EnvConfig planned_;
+  EnvConfig config_;
   int count_;
-  const Policy& pilot_;
+  const Policy& low_level_;
   VecEnv env_, clean_;
   std::vector<float> memory_;
   std::vector<double> observation_sums_ = std::vector<double>(Index(count_ * kSize));  ///< sums
-  std::vector<int> num_observation_sums_ = std::vector<int>(Index(count_));
+  std::vector<int> num_samples_ = std::vector<int>(Index(count_));
   int ends_ = 0;
 };
 
@@ -215,16 +217,17 @@ void ExpectTwoPlainLoops(const EnvConfig& config, int action_repeat) {
   constexpr double kVelocityTolerance = 0.02, kRateTolerance = 2e-4, kPositionTolerance = 0.05;
   constexpr double kRewardTolerance = 1e-3, kObservationTolerance = 5e-4;
   constexpr int kCount = 40, kPolicySteps = 10;
-  const TestPolicy pilot(action_repeat);
+  const TestPolicy low_level(action_repeat);
   VecEnv env(config, kCount, 3, 32, LowLevelPolicy(action_repeat));
-  TwoLoops expected(config, kCount, 3, pilot);
+  TwoLoops expected(config, kCount, 3, low_level);
   for (int policy_step = 0; policy_step < kPolicySteps; ++policy_step) {
-    const std::vector<float> seen = expected.Seen();
+    const std::vector<float> observation = expected.Observe();
     const Log log = Fly(&env, policy_step, 1);
-    const std::vector<double> reward = expected.Decide(policy_step);
+    const std::vector<double> reward = expected.Step(policy_step);
     for (int i = 0; i < kCount; ++i) {
       for (int k = 0; k < kSize; ++k) {
-        ASSERT_NEAR(log[Index(i)][Index(k)], seen[Index(i * kSize + k)], kObservationTolerance)
+        ASSERT_NEAR(log[Index(i)][Index(k)], observation[Index(i * kSize + k)],
+                    kObservationTolerance)
             << "aircraft " << i << ", policy step " << policy_step << ", element " << k;
       }
       ASSERT_NEAR(log[Index(i)][kSize], reward[Index(i)], kRewardTolerance)
@@ -241,7 +244,7 @@ void ExpectTwoPlainLoops(const EnvConfig& config, int action_repeat) {
   EXPECT_EQ(expected.ends(), 2 * kCount) << "new episodes were begun";
 }
 
-TEST(GuidedFlight, EqualsTwoPlainLoops) {
+TEST(LowLevelFlight, EqualsTwoPlainLoops) {
   for (const double noise : {0.0, 0.02}) {
     for (const int action_repeat : {1, 4, 7}) {  // the last does not divide the policy step
       EnvConfig config = Config();
@@ -254,7 +257,7 @@ TEST(GuidedFlight, EqualsTwoPlainLoops) {
   }
 }
 
-TEST(GuidedFlight, EqualsTwoPlainLoopsInWind) {
+TEST(LowLevelFlight, EqualsTwoPlainLoopsInWind) {
   // Target speeds are relative to the air.
   EnvConfig config = Config();
   config.wind.speed_fps = {80, 80};
@@ -265,13 +268,13 @@ TEST(GuidedFlight, EqualsTwoPlainLoopsInWind) {
   }
 }
 
-TEST(GuidedFlight, HighLevelsTakeThreeActions) {
+TEST(LowLevelFlight, HighLevelPoliciesHaveThreeActions) {
   EXPECT_EQ(VecEnv(Config(), 1, 1, 32, LowLevelPolicy()).action_size(), 3);
   EXPECT_EQ(VecEnv(Config(), 1, 1, 32, LowLevelPolicy()).observation_size(), kSize);
   EXPECT_EQ(VecEnv(Config(), 1, 1).action_size(), 4);
 }
 
-TEST(GuidedFlight, DependsNeitherOnTilesNorOnThreads) {
+TEST(LowLevelFlight, DependsNeitherOnTilesNorOnThreads) {
   VecEnv small(Config(), 300, 1, 32, LowLevelPolicy()),
       middle(Config(), 300, 1, 160, LowLevelPolicy()),
       large(Config(), 300, 1, 4096, LowLevelPolicy()),
@@ -287,23 +290,23 @@ TEST(GuidedFlight, DependsNeitherOnTilesNorOnThreads) {
   EXPECT_EQ(log, threaded);
 }
 
-TEST(GuidedFlight, SnapshotsHoldWhatTheLowLevelPolicyRemembers) {
+TEST(LowLevelFlight, SnapshotsHoldTheLowLevelPolicysState) {
   // Three policy steps into episodes of four.
   VecEnv env(Config(), 70, 1, 64, LowLevelPolicy());
   Fly(&env, 0, 3);
   const std::vector<std::uint32_t> snapshot = env.Snapshot();
-  VecEnv sticks(Config(), 70, 1, 64);
-  EXPECT_EQ(snapshot.size(), sticks.Snapshot().size() + 70 * 2);
+  VecEnv without(Config(), 70, 1, 64);
+  EXPECT_EQ(snapshot.size(), without.Snapshot().size() + 70 * 2);
   const Log expected = Fly(&env, 3, 6);
   VecEnv other(Config(), 70, 1, 32, LowLevelPolicy());
   Fly(&other, 0, 2);
   other.Restore(snapshot);
   EXPECT_EQ(other.Snapshot(), snapshot);
   EXPECT_EQ(Fly(&other, 3, 6), expected);
-  EXPECT_THROW(sticks.Restore(snapshot), Error);
+  EXPECT_THROW(without.Restore(snapshot), Error);
 }
 
-TEST(GuidedFlight, SnapshotsHoldWhatAHighLevelHasNotSeenYet) {
+TEST(LowLevelFlight, SnapshotsHoldObservationSums) {
   EnvConfig config = Config();
   config.high_level.averages_observations = true;
   VecEnv env(config, 70, 1, 64, LowLevelPolicy());
@@ -316,7 +319,7 @@ TEST(GuidedFlight, SnapshotsHoldWhatAHighLevelHasNotSeenYet) {
   EXPECT_EQ(Fly(&other, 3, 6), expected);
 }
 
-TEST(GuidedFlight, APlanThatIsNotFiniteEndsItsOwnEpisodeOnly) {
+TEST(LowLevelFlight, AnActionThatIsNotFiniteEndsItsOwnEpisodeOnly) {
   for (const float poison : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
     for (int k = 0; k < kHighLevelActionSize; ++k) {
       VecEnv env(Config(), 40, 1, 64, LowLevelPolicy()),
@@ -339,10 +342,10 @@ TEST(GuidedFlight, APlanThatIsNotFiniteEndsItsOwnEpisodeOnly) {
   }
 }
 
-TEST(GuidedFlight, RefusesALowLevelPolicyOfAnotherMake) {
-  const auto message = [](const TestPolicy& pilot) -> std::string {
+TEST(LowLevelFlight, RefusesALowLevelPolicyOfOtherSizes) {
+  const auto message = [](const TestPolicy& low_level) -> std::string {
     try {
-      VecEnv(Config(), 4, 1, 32, std::make_shared<const TestPolicy>(pilot));
+      VecEnv(Config(), 4, 1, 32, std::make_shared<const TestPolicy>(low_level));
     } catch (const Error& error) {
       return error.what();
     }
@@ -353,10 +356,10 @@ TEST(GuidedFlight, RefusesALowLevelPolicyOfAnotherMake) {
   EXPECT_EQ(message(TestPolicy(1)), "");
 }
 
-class PlanTest : public testing::TestWithParam<simd::Target> {
+class SetTargetsTest : public testing::TestWithParam<simd::Target> {
  protected:
   /// The target (pitch, yaw, speed) of one aircraft that flies 800 ft/s ahead and 600 down.
-  std::array<float, 3> Plan(const EulerAngles& attitude, const std::array<float, 3>& action) {
+  std::array<float, 3> TargetOf(const EulerAngles& attitude, const std::array<float, 3>& action) {
     constexpr int kLast = 4;  // of a group that fills no vector
     TestTile flight(kLast + 1);
     const Eigen::Vector4d q = QuaternionFromEuler(attitude);
@@ -365,11 +368,10 @@ class PlanTest : public testing::TestWithParam<simd::Target> {
     flight.Fill(kW, 600);
     std::vector<float> actions(3 * (kLast + 1), 0.0f);
     std::copy(action.begin(), action.end(), actions.begin() + 3 * kLast);
-    GuidedFlight guided(config_, kLast + 1, LowLevelPolicy());
-    GuidedFlight::PolicyStep policy_step;
-    guided.Plan(actions.data(), flight.tile(), policy_step);
-    return {policy_step.target[0][kLast], policy_step.target[1][kLast],
-            policy_step.target[2][kLast]};
+    LowLevelFlight low_level(config_, kLast + 1, LowLevelPolicy());
+    LowLevelFlight::Scratch scratch;
+    low_level.SetTargets(actions.data(), flight.tile(), scratch);
+    return {scratch.target[0][kLast], scratch.target[1][kLast], scratch.target[2][kLast]};
   }
   void ExpectTarget(const std::array<float, 3>& target, double pitch, double yaw, double speed) {
     // Float32 rounding of radians, and of 1000 ft/s.
@@ -382,30 +384,30 @@ class PlanTest : public testing::TestWithParam<simd::Target> {
   EnvConfig config_ = Config();
 };
 
-TEST_P(PlanTest, TargetsAreChangesOfThePresentState) {
-  ExpectTarget(Plan({0.7, 0.2, -1}, {0, 0, 0}), 0.2, -1, 1000);
-  ExpectTarget(Plan({0.7, 0.2, -1}, {1, -0.5f, 0.1f}), 0.5, -1.15, 1003);
-  ExpectTarget(Plan({-2, -0.2, 2}, {-0.5f, 1, -1}), -0.35, 2.3, 970);
+TEST_P(SetTargetsTest, TargetsAreChangesOfThePresentState) {
+  ExpectTarget(TargetOf({0.7, 0.2, -1}, {0, 0, 0}), 0.2, -1, 1000);
+  ExpectTarget(TargetOf({0.7, 0.2, -1}, {1, -0.5f, 0.1f}), 0.5, -1.15, 1003);
+  ExpectTarget(TargetOf({-2, -0.2, 2}, {-0.5f, 1, -1}), -0.35, 2.3, 970);
 }
 
-TEST_P(PlanTest, ActionsAreClipped) {
-  ExpectTarget(Plan({0, 0.2, -1}, {5, -3, 100}), 0.5, -1.3, 1030);
+TEST_P(SetTargetsTest, ActionsAreClipped) {
+  ExpectTarget(TargetOf({0, 0.2, -1}, {5, -3, 100}), 0.5, -1.3, 1030);
 }
 
-TEST_P(PlanTest, YawWrapsAndPitchStopsAtTheVertical) {
-  ExpectTarget(Plan({0, 0, 3}, {0, 1, 0}), 0, 3.3 - 2 * M_PI, 1000);
-  ExpectTarget(Plan({0, 1.4, 1}, {1, 0, 0}), M_PI / 2, 1, 1000);
-  ExpectTarget(Plan({0, -1.5, 1}, {-1, 0, 0}), -M_PI / 2, 1, 1000);
+TEST_P(SetTargetsTest, YawWrapsAndPitchStopsAtTheVertical) {
+  ExpectTarget(TargetOf({0, 0, 3}, {0, 1, 0}), 0, 3.3 - 2 * M_PI, 1000);
+  ExpectTarget(TargetOf({0, 1.4, 1}, {1, 0, 0}), M_PI / 2, 1, 1000);
+  ExpectTarget(TargetOf({0, -1.5, 1}, {-1, 0, 0}), -M_PI / 2, 1, 1000);
 }
 
-TEST_P(PlanTest, ChangesAreTheConfigurations) {
+TEST_P(SetTargetsTest, ChangesAreTheConfigurations) {
   config_.high_level.pitch_change_rad = 0.1;
   config_.high_level.yaw_change_rad = 1;
   config_.high_level.speed_change_fps = 200;
-  ExpectTarget(Plan({0, 0.2, -1}, {1, 0.5f, -1}), 0.3, -0.5, 800);
+  ExpectTarget(TargetOf({0, 0.2, -1}, {1, 0.5f, -1}), 0.3, -0.5, 800);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, PlanTest, testing::ValuesIn(simd::SupportedTargets()),
+INSTANTIATE_TEST_SUITE_P(Targets, SetTargetsTest, testing::ValuesIn(simd::SupportedTargets()),
                          [](const auto& test) { return std::string(Name(test.param)); });
 
 }  // namespace

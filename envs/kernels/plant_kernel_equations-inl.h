@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Second phase of the plant kernel: the coefficients' build-up and the equations of motion. The
-// laws are those of envs/reference/aerodynamics.cpp and envs/reference/plant.cpp.
+// Last phase of the plant kernel: the coefficients' build-up and the equations of motion. The laws
+// are those of envs/reference/aerodynamics.cpp and envs/reference/plant.cpp.
 
-#if defined(SKEIN_ENVS_KERNELS_PLANT_KERNEL_MOTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SKEIN_ENVS_KERNELS_PLANT_KERNEL_MOTION_INL_H_
-#undef SKEIN_ENVS_KERNELS_PLANT_KERNEL_MOTION_INL_H_
+#if defined(SKEIN_ENVS_KERNELS_PLANT_KERNEL_EQUATIONS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKEIN_ENVS_KERNELS_PLANT_KERNEL_EQUATIONS_INL_H_
+#undef SKEIN_ENVS_KERNELS_PLANT_KERNEL_EQUATIONS_INL_H_
 #else
-#define SKEIN_ENVS_KERNELS_PLANT_KERNEL_MOTION_INL_H_
+#define SKEIN_ENVS_KERNELS_PLANT_KERNEL_EQUATIONS_INL_H_
 #endif
 
 #include <hwy/highway.h>
 
 #include "envs/kernels/plant_kernel_block-inl.h"
 #include "envs/state/air_velocity-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -25,7 +26,7 @@ struct Coefficients {
 
 /// Evaluates what ReadTables left for one vector of aircraft.
 struct CoefficientReader {
-  const Block& block;
+  const KernelBlock& block;
   int lane;
   V alpha_fraction, beta_fraction;
 
@@ -47,8 +48,8 @@ struct CoefficientReader {
 };
 
 template <class State>
-HWY_INLINE Coefficients BuildUp(const KernelConstants& k, const State& state, int lane,
-                                const Block& block) {
+HWY_INLINE Coefficients EvaluateAerodynamics(const KernelConstants& k, const State& state, int lane,
+                                             const KernelBlock& block) {
   const FloatTag d;
   const CoefficientReader c{block, lane, hn::Load(d, block.alpha_fraction + lane),
                             hn::Load(d, block.beta_fraction + lane)};
@@ -79,20 +80,20 @@ HWY_INLINE Coefficients BuildUp(const KernelConstants& k, const State& state, in
 
 /// Rates of the thirteen rigid-body columns for the aircraft in lanes `lane` to `lane + kLanes`.
 template <class State>
-HWY_INLINE void Move(const KernelConstants& k, const State& state, const Coefficients& c, int lane,
-                     const Block& block) {
+HWY_INLINE void EquationsOfMotion(const KernelConstants& k, const State& state,
+                                  const Coefficients& c, int lane, const KernelBlock& block) {
   const FloatTag d;
   const auto put = [&](int column, V rate) HWY_ATTR { state.Put(column, lane, rate); };
   const V u = state.Get(kU, lane), v = state.Get(kV, lane), w = state.Get(kW, lane);
   const V p = state.Get(kP, lane), q = state.Get(kQ, lane), r = state.Get(kR, lane);
   const V q0 = state.Get(kQ0, lane), qx = state.Get(kQx, lane);
   const V qy = state.Get(kQy, lane), qz = state.Get(kQz, lane);
-  const V force = hn::Load(d, block.force + lane);
+  const V qbar_S = hn::Load(d, block.qbar_S + lane);
 
   const AttitudeMatrix<V> t = AttitudeMatrixOf(q0, qx, qy, qz);
   const V gravity = Constant(k.gravity);
   const V inverse_mass = Constant(k.inverse_mass);
-  const V per_mass = hn::Mul(force, inverse_mass);
+  const V per_mass = hn::Mul(qbar_S, inverse_mass);
   const V thrust = hn::Mul(hn::Load(d, block.thrust + lane), inverse_mass);
   V rate = hn::MulAdd(gravity, t.t13, hn::MulAdd(r, v, hn::MulAdd(per_mass, c.Cx, thrust)));
   put(kU, hn::NegMulAdd(q, w, rate));
@@ -101,14 +102,14 @@ HWY_INLINE void Move(const KernelConstants& k, const State& state, const Coeffic
   rate = hn::MulAdd(gravity, t.t33, hn::MulAdd(q, u, hn::Mul(per_mass, c.Cz)));
   put(kW, hn::NegMulAdd(p, v, rate));
 
-  const V force_Cl = hn::Mul(force, c.Cl), force_Cn = hn::Mul(force, c.Cn);
-  rate = hn::MulAdd(force_Cl, Constant(k.p_Cl), hn::Mul(force_Cn, Constant(k.p_Cn)));
+  const V qbar_S_Cl = hn::Mul(qbar_S, c.Cl), qbar_S_Cn = hn::Mul(qbar_S, c.Cn);
+  rate = hn::MulAdd(qbar_S_Cl, Constant(k.p_Cl), hn::Mul(qbar_S_Cn, Constant(k.p_Cn)));
   V gyration = hn::MulAdd(p, Constant(k.p_pq), hn::MulAdd(r, Constant(k.p_qr), Constant(k.p_q)));
   put(kP, hn::MulAdd(q, gyration, rate));
-  rate = hn::MulAdd(force_Cn, Constant(k.r_Cn), hn::Mul(force_Cl, Constant(k.r_Cl)));
+  rate = hn::MulAdd(qbar_S_Cn, Constant(k.r_Cn), hn::Mul(qbar_S_Cl, Constant(k.r_Cl)));
   gyration = hn::MulAdd(p, Constant(k.r_pq), hn::MulAdd(r, Constant(k.r_qr), Constant(k.r_q)));
   put(kR, hn::MulAdd(q, gyration, rate));
-  rate = hn::Mul(hn::Mul(force, c.Cm), Constant(k.q_Cm));
+  rate = hn::Mul(hn::Mul(qbar_S, c.Cm), Constant(k.q_Cm));
   rate = hn::MulAdd(r, hn::MulAdd(p, Constant(k.q_pr), Constant(k.q_r)), rate);
   put(kQ, hn::NegMulAdd(Constant(k.q_pp), hn::NegMulAdd(r, r, hn::Mul(p, p)), rate));
 
@@ -126,12 +127,12 @@ HWY_INLINE void Move(const KernelConstants& k, const State& state, const Coeffic
 
 /// Rates at one stage. `coefficients(lane, Coefficients)` sees what they come from.
 template <class State, class Observer>
-HWY_INLINE void FindRates(const KernelConstants& k, const State& state, const Block& block,
-                          const Observer& coefficients) {
-  for (int lane = 0; lane < kBlock; lane += kLanes) {
-    const Coefficients c = BuildUp(k, state, lane, block);
+HWY_INLINE void EvaluateStateRates(const KernelConstants& k, const State& state,
+                                   const KernelBlock& block, const Observer& coefficients) {
+  for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
+    const Coefficients c = EvaluateAerodynamics(k, state, lane, block);
     coefficients(lane, c);
-    Move(k, state, c, lane, block);
+    EquationsOfMotion(k, state, c, lane, block);
   }
 }
 
@@ -140,4 +141,4 @@ HWY_INLINE void FindRates(const KernelConstants& k, const State& state, const Bl
 }  // namespace skein
 HWY_AFTER_NAMESPACE();
 
-#endif  // SKEIN_ENVS_KERNELS_PLANT_KERNEL_MOTION_INL_H_
+#endif  // SKEIN_ENVS_KERNELS_PLANT_KERNEL_EQUATIONS_INL_H_

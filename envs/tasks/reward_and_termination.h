@@ -4,11 +4,13 @@
 #include <cstdint>
 
 #include "envs/env_config.h"
-#include "envs/kernels/plant_kernel.h"
+#include "envs/state/state.h"
 #include "envs/tasks/task.h"
 #include "envs/tasks/termination.h"
 
 namespace skein {
+
+struct KernelAircraft;  // envs/kernels/kernel_aircraft.h
 
 /// The book-keeping of a tile's episodes, one element per aircraft, padded as Tile says.
 struct EpisodeColumns {

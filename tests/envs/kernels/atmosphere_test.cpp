@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "envs/air/atmosphere.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -6,7 +8,6 @@
 #include <tuple>
 #include <vector>
 
-#include "envs/air/atmosphere.h"
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/kernel_aircraft.h"
 #include "envs/kernels/plant_kernel.h"
@@ -15,11 +16,11 @@
 #include "tests/envs/test_tile.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/envs/kernels/air_test.cpp"
+#define HWY_TARGET_INCLUDE "tests/envs/kernels/atmosphere_test.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "envs/kernels/air-inl.h"
+#include "envs/kernels/atmosphere-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -53,7 +54,7 @@ HWY_EXPORT(AirColumn);
 
 using Column = std::vector<float>;
 
-class AirTest : public testing::TestWithParam<std::tuple<simd::Target, AtmosphereModel>> {
+class AtmosphereTest : public testing::TestWithParam<std::tuple<simd::Target, AtmosphereModel>> {
  protected:
   AtmosphereModel model() const { return std::get<1>(GetParam()); }
 
@@ -81,12 +82,12 @@ class AirTest : public testing::TestWithParam<std::tuple<simd::Target, Atmospher
   ScopedTarget target_{std::get<0>(GetParam())};
 };
 
-TEST_P(AirTest, AgreesWithTheFloat64Model) {
+TEST_P(AtmosphereTest, AgreesWithTheFloat64Model) {
   EXPECT_LE(WorstError(-5000, 60000), 2e-6);
   EXPECT_LE(WorstError(60000, 100000), 1e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryTarget, AirTest,
+INSTANTIATE_TEST_SUITE_P(EveryTarget, AtmosphereTest,
                          testing::Combine(testing::ValuesIn(simd::SupportedTargets()),
                                           testing::Values(AtmosphereModel::kStevensLewis,
                                                           AtmosphereModel::kStandard1976)),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "envs/tasks/reward.h"
+#include "envs/tasks/reward_and_termination.h"
 
 #include <gtest/gtest.h>
 

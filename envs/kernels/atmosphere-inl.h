@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere models of envs/air/atmosphere.h in vectors.
 
-#if defined(SKEIN_ENVS_KERNELS_AIR_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SKEIN_ENVS_KERNELS_AIR_INL_H_
-#undef SKEIN_ENVS_KERNELS_AIR_INL_H_
+#if defined(SKEIN_ENVS_KERNELS_ATMOSPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKEIN_ENVS_KERNELS_ATMOSPHERE_INL_H_
+#undef SKEIN_ENVS_KERNELS_ATMOSPHERE_INL_H_
 #else
-#define SKEIN_ENVS_KERNELS_AIR_INL_H_
+#define SKEIN_ENVS_KERNELS_ATMOSPHERE_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -13,12 +13,11 @@
 #include "envs/kernels/kernel_aircraft.h"
 #include "simd/lookup-inl.h"
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 template <class V>
 struct AirVectors {
   V density;              ///< slug/ft^3
@@ -63,4 +62,4 @@ HWY_INLINE AirVectors<V> AirAtAltitude(D d, const KernelAircraft& aircraft, V al
 }  // namespace skein
 HWY_AFTER_NAMESPACE();
 
-#endif  // SKEIN_ENVS_KERNELS_AIR_INL_H_
+#endif  // SKEIN_ENVS_KERNELS_ATMOSPHERE_INL_H_

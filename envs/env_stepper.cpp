@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/env_stepper.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "envs/actions.h"
+#include "envs/aircraft/registry.h"
+#include "envs/tasks/observation.h"
+#include "envs/tasks/termination.h"
+#include "simd/random.h"
+
+namespace skein {
+namespace {
+
+constexpr std::size_t kCacheLine = 64;
+
+Aircraft ConfiguredAircraft(const EnvConfig& config) {
+  Aircraft aircraft = LoadAircraft(config.aircraft);
+  aircraft.airframe.cg = config.cg;
+  aircraft.airframe.engine_angular_momentum = config.engine_angular_momentum;
+  const auto require = [&](bool asked, const MachFunction& function, const char* key) {
+    if (!asked || !function.mach.empty()) return;
+    throw Error("configuration: " + std::string(key) + " = true, but the aircraft " +
+                config.aircraft + " has no data for it; it must be false");
+  };
+  require(config.thrust_grows, aircraft.engine.growth, "env.thrust_growth_above_mach_1");
+  require(config.drag_rises, aircraft.drag_rise, "env.drag_rise");
+  aircraft.engine.grows = config.thrust_grows;
+  aircraft.drag_rises = config.drag_rises;
+  return aircraft;
+}
+
+const EnvConfig& Validated(const EnvConfig& config) {
+  Validate(config);
+  return config;
+}
+
+bool Is(std::int32_t termination, Termination which) {
+  return termination == static_cast<std::int32_t>(which);
+}
+
+}  // namespace
+
+/// What a block needs during a policy step only.
+struct alignas(kCacheLine) EnvStepper::Scratch {
+  float command[kActionSize][kAircraftPerBlock];  // throttle and sticks
+  float step_reward[kAircraftPerBlock];
+  float policy_step_reward[kAircraftPerBlock] = {};
+  std::int32_t reached[kAircraftPerBlock];
+  std::int32_t termination[kAircraftPerBlock] = {};
+  bool final_observed[kAircraftPerBlock] = {};
+  LowLevelFlight::Scratch low_level;
+
+  PilotColumns commands() const { return {command[0], command[1], command[2], command[3]}; }
+};
+
+EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_aircraft,
+                       std::shared_ptr<const Policy> low_level)
+    : config_(Validated(config)),
+      seed_(seed),
+      task_(MakeTask(config_)),
+      aircraft_(ConfiguredAircraft(config_)),
+      kernel_aircraft_(MakeKernelAircraft(aircraft_, config_.atmosphere)),
+      flight_control_(aircraft_, config_.flight_control, config_.control_interval_s),
+      limits_(config_),
+      reset_(config_, aircraft_),
+      wind_(config_.wind) {
+  static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
+  if (low_level != nullptr) {
+    low_level_ = std::make_unique<LowLevelFlight>(config_, num_aircraft, std::move(low_level));
+  }
+}
+
+void EnvStepper::ResetMetrics(std::size_t num_blocks) {
+  metric_sums_.assign(num_blocks, FlightMetricSums());
+}
+
+void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode) {
+  block.episode[i] = episode;
+  block.step[i] = 0;
+  block.episode_return[i] = 0;
+  if (low_level_ != nullptr) low_level_->Reset(block.first_aircraft + i);
+  const auto stream = [&](simd::RandomPurpose purpose) {
+    return simd::RandomStream({seed_, static_cast<std::uint32_t>(block.first_aircraft + i),
+                               static_cast<std::uint32_t>(episode), 0, purpose});
+  };
+  simd::RandomStream initial = stream(simd::RandomPurpose::kInitialState);
+  const FreshFlight flight = reset_.Draw(&initial);
+  for (int column = 0; column < kNumColumns; ++column) {
+    block.flight[column][i] = flight.columns[static_cast<std::size_t>(column)];
+  }
+  if (wind_.enabled()) wind_.Begin(block.flight, i, GustKeysOf(block));
+  simd::RandomStream target = stream(simd::RandomPurpose::kTarget);
+  task_->Reset(flight.start, &target, block.task, i);
+  if (config_.stagger_clocks && episode == 0) {
+    simd::RandomStream clock = stream(simd::RandomPurpose::kClockStagger);
+    block.step[i] = static_cast<std::int32_t>(clock.Uniform(0, config_.time_limit_steps));
+  }
+}
+
+GustKeys EnvStepper::GustKeysOf(const EnvBlock& block) const {
+  return {seed_, static_cast<std::uint32_t>(block.first_aircraft), block.episode, block.step};
+}
+
+ObservationNoise EnvStepper::NoiseOf(const EnvBlock& block) const {
+  ObservationNoise noise;
+  noise.standard_deviation = config_.observation_noise;
+  noise.max_standard_deviation = config_.observation_noise_max;
+  noise.seed = seed_;
+  noise.first_aircraft = static_cast<std::uint32_t>(block.first_aircraft);
+  noise.episode = block.episode;
+  noise.step = block.step;
+  return noise;
+}
+
+void EnvStepper::Observe(const EnvBlock& block, float* observation) const {
+  alignas(kCacheLine) float errors[kNumTaskErrors * kAircraftPerBlock];
+  task_->Errors(block.flight, block.task, errors, kAircraftPerBlock);
+  ObserveTile(*kernel_aircraft_, block.flight, errors, kAircraftPerBlock, NoiseOf(block),
+              observation);
+  if (low_level_ != nullptr && low_level_->averages_observations()) {
+    low_level_->AverageObservations(block.first_aircraft, block.count, observation);
+  }
+}
+
+/// Turns the actions that hold during the control step into commands, and returns them: `action`,
+/// or those of the low-level policy, which acts when its policy step begins.
+const float* EnvStepper::StickActions(const EnvBlock& block, const float* action, int step,
+                                      Scratch& scratch) {
+  const bool is_first = step == 0;
+  if (low_level_ == nullptr) {
+    if (is_first) TakeActions(action, block.flight, scratch.command[0], kAircraftPerBlock);
+    return action;
+  }
+  if (is_first) {
+    low_level_->SetTargets(action, block.flight, scratch.low_level);
+    low_level_->ResetObservationMean(block.first_aircraft, block.count);
+  }
+  if (low_level_->IsPolicyStep(step)) {
+    low_level_->Act(*kernel_aircraft_, block.flight, NoiseOf(block), scratch.low_level);
+    // The first sample is the one in the observation that the high-level policy has just acted by.
+    if (low_level_->averages_observations() && !is_first) {
+      alignas(kCacheLine) float errors[kNumTaskErrors * kAircraftPerBlock];
+      task_->Errors(block.flight, block.task, errors, kAircraftPerBlock);
+      low_level_->AccumulateObservations(block.first_aircraft, block.count, errors,
+                                         scratch.low_level);
+    }
+    TakeActions(scratch.low_level.action, block.flight, scratch.command[0], kAircraftPerBlock);
+  }
+  return scratch.low_level.action;
+}
+
+/// Rewards a control step and ends episodes, and shows it to the observer, if there is one.
+void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
+                               ControlStepObserver* observer, Scratch& scratch) const {
+  const StepResult step_result{scratch.step_reward, scratch.reached};
+  EpisodeColumns episodes{block.step, scratch.termination, scratch.policy_step_reward,
+                          block.episode_return};
+  task_->ComputeReward(block.flight, block.task, block.step, step_result);
+  if (observer == nullptr) {
+    ComputeRewardAndTermination(*kernel_aircraft_, limits_, block.flight, step_result, episodes);
+    return;
+  }
+  alignas(kCacheLine) float reward[kAircraftPerBlock] = {};
+  episodes.policy_step_reward = reward;
+  ComputeRewardAndTermination(*kernel_aircraft_, limits_, block.flight, step_result, episodes);
+  for (int i = 0; i < block.count; ++i) scratch.policy_step_reward[i] += reward[i];
+  observer->See({block.first_aircraft, block.flight, action, reward, episodes.termination});
+}
+
+/// Copies the observations of aircraft whose time ran out in this control step.
+void EnvStepper::ObserveTruncated(const EnvBlock& block, Scratch& scratch,
+                                  float* final_observation) const {
+  const auto is_new = [&](int i) {
+    return Is(scratch.termination[i], Termination::kTimeLimit) && !scratch.final_observed[i];
+  };
+  bool any = false;
+  for (int i = 0; i < block.count; ++i) any = any || is_new(i);
+  if (!any) return;
+  float observation[kAircraftPerBlock * kObservationSize];
+  Observe(block, observation);
+  for (int i = 0; i < block.count; ++i) {
+    if (!is_new(i)) continue;
+    std::copy_n(observation + i * kObservationSize, kObservationSize,
+                final_observation + i * kObservationSize);
+    scratch.final_observed[i] = true;
+  }
+}
+
+/// Reports the episodes that ended and begins new ones.
+void EnvStepper::RestartEnded(const EnvBlock& block, const Scratch& scratch,
+                              const StepOutput& output) {
+  FlightMetricSums& metrics = metric_sums_[block.index];
+  for (int i = 0; i < block.count; ++i) {
+    if (Is(scratch.termination[i], Termination::kNone)) continue;
+    output.episode_return[i] = block.episode_return[i];
+    output.episode_steps[i] = block.step[i];
+    if (output.flight_metrics != nullptr) {
+      float* const row = output.flight_metrics + i * kNumFlightMetrics;
+      metrics.Report(i, block.step[i], config_.control_interval_s, row);
+      // Not every column that is not finite shows in them, nor is every infinity NaN.
+      if (Is(scratch.termination[i], Termination::kNonFinite)) {
+        std::fill_n(row, kNumFlightMetrics, std::numeric_limits<float>::quiet_NaN());
+      }
+    }
+    metrics.Begin(i);
+    BeginEpisode(block, i, block.episode[i] + 1);
+  }
+}
+
+void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutput& output,
+                      MemoryAhead ahead) {
+  Scratch scratch;
+  const bool keeps_final = config_.truncate_at_time_limit && output.final_observation != nullptr;
+  const float dt = static_cast<float>(config_.control_interval_s);
+  for (int step = 0; step < config_.action_repeat; ++step) {
+    const float* const stick_action = StickActions(block, action, step, scratch);
+    if (wind_.enabled()) wind_.Advance(block.flight, dt, GustKeysOf(block));
+    ControlTile(*kernel_aircraft_, flight_control_, block.flight, scratch.commands());
+    // What lies ahead is needed after the last control step.
+    const bool is_last = step + 1 == config_.action_repeat;
+    StepTile(*kernel_aircraft_, block.flight, dt, config_.substeps,
+             is_last ? ahead : MemoryAhead());
+    if (output.flight_metrics != nullptr) {
+      metric_sums_[block.index].Add(*kernel_aircraft_, block.flight, scratch.termination);
+    }
+    ComputeReward(block, stick_action, output.observer, scratch);
+    if (keeps_final) ObserveTruncated(block, scratch, output.final_observation);
+  }
+  std::copy_n(scratch.policy_step_reward, block.count, output.reward);
+  std::copy_n(scratch.termination, block.count, output.termination);
+  // Endings are rare: most blocks have none.
+  std::int32_t any_ended = 0;
+  for (int i = 0; i < block.count; ++i) any_ended |= scratch.termination[i];
+  if (any_ended != 0) RestartEnded(block, scratch, output);
+}
+
+}  // namespace skein

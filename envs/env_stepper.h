@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "envs/aircraft/aircraft.h"
+#include "envs/env_config.h"
+#include "envs/env_storage.h"
+#include "envs/flight_metrics.h"
+#include "envs/flight_reset.h"
+#include "envs/kernels/flight_control_kernel.h"
+#include "envs/kernels/plant_kernel.h"
+#include "envs/low_level_flight.h"
+#include "envs/policy.h"
+#include "envs/step_output.h"
+#include "envs/tasks/reward_and_termination.h"
+#include "envs/tasks/task.h"
+#include "envs/wind/wind.h"
+
+namespace skein {
+
+/// What happens to blocks of an environment's aircraft: episodes begin, are observed, stepped and
+/// ended. Blocks lie with the caller; different ones may be stepped from different threads at once.
+class EnvStepper {
+ public:
+  /// Throws Error on a configuration that cannot be flown, and on a low-level policy that does not
+  /// fit it. `low_level` may be null.
+  EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_aircraft,
+             std::shared_ptr<const Policy> low_level);
+
+  const EnvConfig& config() const { return config_; }
+  const Task& task() const { return *task_; }
+  bool is_windy() const { return wind_.enabled(); }
+  /// Null without a low-level policy.
+  LowLevelFlight* low_level() { return low_level_.get(); }
+  const LowLevelFlight* low_level() const { return low_level_.get(); }
+
+  /// Begins the given episode of the block's `i`-th aircraft.
+  void BeginEpisode(const EnvBlock& block, int i, std::int32_t episode);
+
+  /// Writes the block's observations, row-major, noise included.
+  void Observe(const EnvBlock& block, float* observation) const;
+
+  /// One policy step. `action` and `output` point at the block's first aircraft; `ahead` is the
+  /// memory that the caller works on next. Padding lanes are left to the caller.
+  void Step(const EnvBlock& block, const float* action, const StepOutput& output,
+            MemoryAhead ahead);
+
+  /// All `num_blocks` blocks of the environment hold new flights: no episode under way has metrics.
+  void ResetMetrics(std::size_t num_blocks);
+
+ private:
+  struct Scratch;
+
+  ObservationNoise NoiseOf(const EnvBlock& block) const;
+  GustKeys GustKeysOf(const EnvBlock& block) const;
+  const float* StickActions(const EnvBlock& block, const float* action, int step, Scratch& scratch);
+  void ComputeReward(const EnvBlock& block, const float* action, ControlStepObserver* observer,
+                     Scratch& scratch) const;
+  void ObserveTruncated(const EnvBlock& block, Scratch& scratch, float* final_observation) const;
+  void RestartEnded(const EnvBlock& block, const Scratch& scratch, const StepOutput& output);
+
+  EnvConfig config_;
+  std::uint64_t seed_;
+  std::unique_ptr<Task> task_;
+  Aircraft aircraft_;
+  std::shared_ptr<const KernelAircraft> kernel_aircraft_;
+  FlightControlConstants flight_control_;
+  TerminationLimits limits_;
+  FlightReset reset_;
+  Wind wind_;
+  std::unique_ptr<LowLevelFlight> low_level_;
+  /// By block, of its episodes under way: no part of the environment's state.
+  std::vector<FlightMetricSums> metric_sums_;
+};
+
+}  // namespace skein

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/env_storage.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <string>
+
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+constexpr int kLaneMultiple = 32;
+constexpr std::size_t kCacheLine = 64;
+
+int RoundUp(int count, int multiple) { return (count + multiple - 1) / multiple * multiple; }
+
+std::byte* AllocateZeros(std::size_t size) {
+  void* const memory = ::operator new[](size, std::align_val_t{kCacheLine});
+  return static_cast<std::byte*>(std::memset(memory, 0, size));
+}
+
+}  // namespace
+
+void EnvStorage::AlignedDelete::operator()(std::byte* bytes) const {
+  ::operator delete[](bytes, std::align_val_t{kCacheLine});
+}
+
+EnvStorage::EnvStorage(int num_aircraft, int requested_tile_size, int task_columns, bool windy)
+    : num_aircraft_(num_aircraft),
+      flight_columns_(windy ? kNumWindyColumns : kNumColumns),
+      task_columns_(task_columns),
+      windy_(windy) {
+  tile_size_ = RoundUp(std::min(requested_tile_size, num_aircraft), kLaneMultiple);
+  num_tiles_ = (num_aircraft + tile_size_ - 1) / tile_size_;
+  blocks_per_tile_ = (tile_size_ + kAircraftPerBlock - 1) / kAircraftPerBlock;
+  stride_ = TileStride(std::min(tile_size_, kAircraftPerBlock));
+  num_blocks_ = static_cast<std::size_t>(blocks_per_tile_) * static_cast<std::size_t>(num_tiles_);
+  block_bytes_ = words_per_aircraft() * stride_ * sizeof(float);
+  memory_.reset(AllocateZeros(block_bytes_ * num_blocks_));
+}
+
+int EnvStorage::tile_count(int tile) const {
+  return std::min(tile_size_, num_aircraft_ - tile * tile_size_);
+}
+
+EnvBlock EnvStorage::BlockAt(int tile, int begin) {
+  const int lane = begin % kAircraftPerBlock;
+  EnvBlock block;
+  block.index = static_cast<std::size_t>(tile * blocks_per_tile_ + begin / kAircraftPerBlock);
+  block.first_aircraft = tile * tile_size_ + begin;
+  block.count = std::min(kAircraftPerBlock - lane, tile_count(tile) - begin);
+  float* const base = reinterpret_cast<float*>(memory_.get() + block_bytes_ * block.index) + lane;
+  block.flight = {base, stride_, block.count, windy_};
+  block.task = {block.flight[flight_columns_], stride_, block.count};
+  block.episode_return = block.task[task_columns_];
+  block.step = reinterpret_cast<std::int32_t*>(block.episode_return + stride_);
+  block.episode = block.step + stride_;
+  return block;
+}
+
+EnvBlock EnvStorage::BlockFrom(int aircraft) {
+  if (aircraft < 0 || aircraft >= num_aircraft_) {
+    throw Error("environment: no aircraft " + std::to_string(aircraft) + " among " +
+                std::to_string(num_aircraft_));
+  }
+  return BlockAt(aircraft / tile_size_, aircraft % tile_size_);
+}
+
+MemoryAhead EnvStorage::MemoryAfter(const EnvBlock& block) const {
+  if (block.index + 1 >= num_blocks_) return {};
+  return {memory_.get() + block_bytes_ * (block.index + 1), block_bytes_};
+}
+
+std::size_t EnvStorage::words_per_aircraft() const {
+  // Columns, the episode's return, its clock and its number.
+  return static_cast<std::size_t>(flight_columns_ + task_columns_ + 1 + 2);
+}
+
+void* EnvStorage::WordAt(const EnvBlock& block, std::size_t index) const {
+  const std::size_t floats = words_per_aircraft() - 2;
+  if (index < floats) return block.flight[static_cast<int>(index)];
+  return index == floats ? block.step : block.episode;
+}
+
+void EnvStorage::Save(int aircraft, std::uint32_t* words) {
+  const EnvBlock block = BlockFrom(aircraft);
+  for (std::size_t k = 0; k < words_per_aircraft(); ++k) {
+    std::memcpy(words + k, WordAt(block, k), sizeof *words);
+  }
+}
+
+void EnvStorage::Restore(int aircraft, const std::uint32_t* words) {
+  const EnvBlock block = BlockFrom(aircraft);
+  for (std::size_t k = 0; k < words_per_aircraft(); ++k) {
+    std::memcpy(WordAt(block, k), words + k, sizeof *words);
+  }
+}
+
+void EnvStorage::FillPadding(const EnvBlock& block) {
+  const int padded = RoundUp(block.count, kLaneMultiple);
+  if (padded == block.count) return;
+  const auto copy_first = [&](const Tile& tile, int columns) {
+    for (int column = 0; column < columns; ++column) {
+      std::fill(tile[column] + block.count, tile[column] + padded, tile[column][0]);
+    }
+  };
+  copy_first(block.flight, flight_columns_);
+  copy_first(block.task, task_columns_);
+  std::fill(block.step + block.count, block.step + padded, 0);
+  std::fill(block.episode_return + block.count, block.episode_return + padded, 0.0f);
+}
+
+}  // namespace skein
