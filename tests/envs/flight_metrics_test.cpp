@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "envs/air/atmosphere.h"
 #include "envs/aircraft/f16.h"
+#include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
 #include "envs/vec_env.h"
 #include "tests/envs/test_tile.h"
@@ -140,7 +142,7 @@ TEST_P(FlightMetricsTest, OnlyWholeEpisodesHaveMetrics) {
   Add();
   EXPECT_EQ(Report(0, 1)[kMeanLoadFactor], 1);
   EXPECT_EQ(Report(1, 3)[kMeanLoadFactor], 1);
-  sums_.Clear();
+  sums_ = FlightMetricSums();
   EXPECT_TRUE(std::isnan(Report(0, 1)[kMeanMach]));
 }
 

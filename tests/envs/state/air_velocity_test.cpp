@@ -11,6 +11,7 @@
 
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/flight_control_kernel.h"
+#include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/reward_and_termination.h"

@@ -8,7 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include "envs/air/atmosphere.h"
 #include "envs/aircraft/f16.h"
+#include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
 
