@@ -9,8 +9,8 @@
 
 namespace skein {
 
-/// The environment variable SKEIN_TOLERANCE_SCALE, 1 without it. With 0.01, say, tests fail and show
-/// how far results really are from what they are held against.
+/// The environment variable SKEIN_TOLERANCE_SCALE, 1 without it. With 0.01, say, tests fail and
+/// show how far results really are from what they are held against.
 inline double ToleranceScale() {
   static const double scale = [] {
     const char* text = std::getenv("SKEIN_TOLERANCE_SCALE");
@@ -41,5 +41,8 @@ class Tolerance {
   double value_;
   const char* reason_;
 };
+
+/// For what is drawn at random.
+inline constexpr Tolerance kStandardErrors{5, "standard errors: one false alarm in two million"};
 
 }  // namespace skein

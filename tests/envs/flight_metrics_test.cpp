@@ -17,6 +17,7 @@
 #include "envs/state/attitude.h"
 #include "envs/vec_env.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -55,8 +56,11 @@ class FlightMetricsTest : public testing::TestWithParam<simd::Target> {
   FlightMetricSums sums_;
 };
 
-// float32 states and kernels of a few ULP.
-constexpr double kTolerance = 2e-5;
+constexpr Tolerance kFloat32{2e-6, "float32 states, and kernels of a few ULP"};
+constexpr Tolerance kDegrees{1e-4, "the same, in degrees"};
+constexpr Tolerance kClimbRate{1e-4, "float32 rotation of 900 ft/s"};
+constexpr Tolerance kSteadyChange{2e-6, "float32 rounding of second differences over 0.02 s"};
+constexpr Tolerance kSecondDifferences{1e-6, "float32 rounding of states"};
 
 TEST_P(FlightMetricsTest, MeansAreOfTheStatesByTheFormulasOfTable6) {
   const double sound = AirAt(AtmosphereModel::kStevensLewis, 20000).sound_speed_ft_s;
@@ -74,21 +78,21 @@ TEST_P(FlightMetricsTest, MeansAreOfTheStatesByTheFormulasOfTable6) {
   flight_.at(kR, i) = 0.04f;
   Add();
   const Metrics m = Report(i, 2);
-  EXPECT_NEAR(m[kMeanLoadFactor], 1.5, kTolerance);
-  EXPECT_NEAR(m[kMeanMach], 1.45, kTolerance);
-  EXPECT_NEAR(m[kMeanAbsAlpha], 6, 1e-4);
-  EXPECT_NEAR(m[kMeanAbsBeta], 4, 1e-4);
-  EXPECT_NEAR(m[kMeanAbsP], 0.2, kTolerance);
-  EXPECT_NEAR(m[kMeanAbsQ], 0.2, kTolerance);
-  EXPECT_NEAR(m[kMeanAbsR], 0.03, kTolerance);
+  EXPECT_NEAR(m[kMeanLoadFactor], 1.5, kFloat32);
+  EXPECT_NEAR(m[kMeanMach], 1.45, kFloat32);
+  EXPECT_NEAR(m[kMeanAbsAlpha], 6, kDegrees);
+  EXPECT_NEAR(m[kMeanAbsBeta], 4, kDegrees);
+  EXPECT_NEAR(m[kMeanAbsP], 0.2, kFloat32);
+  EXPECT_NEAR(m[kMeanAbsQ], 0.2, kFloat32);
+  EXPECT_NEAR(m[kMeanAbsR], 0.03, kFloat32);
   // 17500 ft are 5334 m.
-  EXPECT_NEAR(m[kAltitudeMargin], 1.0668, kTolerance);
+  EXPECT_NEAR(m[kAltitudeMargin], 1.0668, kFloat32);
   // 0.9 is 0.605 below the middle, 2 is 0.495 above.
-  EXPECT_NEAR(m[kSpeedMargin], 1 - 0.55 / 1.505, kTolerance);
-  EXPECT_NEAR(m[kOverloadMargin], 0.65, kTolerance);
+  EXPECT_NEAR(m[kSpeedMargin], 1 - 0.55 / 1.505, kFloat32);
+  EXPECT_NEAR(m[kOverloadMargin], 0.65, kFloat32);
   // -4 deg is 16.5 below the middle of 12.5, 8 deg 4.5.
-  EXPECT_NEAR(m[kAlphaMargin], 1 - 10.5 / 32.5, kTolerance);
-  EXPECT_NEAR(m[kBetaMargin], 1 - 4.0 / 30, kTolerance);
+  EXPECT_NEAR(m[kAlphaMargin], 1 - 10.5 / 32.5, kFloat32);
+  EXPECT_NEAR(m[kBetaMargin], 1 - 4.0 / 30, kFloat32);
   EXPECT_EQ(m[kSmoothness], 1) << "two states have no second difference";
 }
 
@@ -101,7 +105,7 @@ TEST_P(FlightMetricsTest, ClimbRateIsOverTheGroundInAnyAttitude) {
   const double expected = -(BodyFromNed(attitude).transpose() * body)[2];
   Add();
   EXPECT_GT(expected, 300);
-  EXPECT_NEAR(Report(0, 1)[kMeanClimbRate], expected, 1e-3);
+  EXPECT_NEAR(Report(0, 1)[kMeanClimbRate], expected, kClimbRate);
 }
 
 TEST_P(FlightMetricsTest, SmoothnessIsOfTheSecondDifferences) {
@@ -112,14 +116,14 @@ TEST_P(FlightMetricsTest, SmoothnessIsOfTheSecondDifferences) {
   };
   // Steady change is smooth.
   for (const int step : {0, 1, 2, 3}) fly(0.1 * step, 1 + 0.5 * step);
-  EXPECT_NEAR(Report(0, 4)[kSmoothness], 1, 1e-4);
+  EXPECT_NEAR(Report(0, 4)[kSmoothness], 1, kSteadyChange);
   // A step of 3 g and one of 0.4 pi rad/s: second differences (0.4, 0.3), then (-0.4, -0.3), after
   // two of zero.
   sums_.Begin(0);
   for (int step = 0; step < 4; ++step) fly(0, 1);
   fly(0.4 * 3.14159265, 4);
   fly(0.4 * 3.14159265, 4);
-  EXPECT_NEAR(Report(0, 6)[kSmoothness], 1 / (1 + (0.5 + 0.5) / 4 / kInterval), 1e-5);
+  EXPECT_NEAR(Report(0, 6)[kSmoothness], 1 / (1 + (0.5 + 0.5) / 4 / kInterval), kSecondDifferences);
 }
 
 TEST_P(FlightMetricsTest, EpisodesThatHaveEndedAddNothing) {
@@ -151,7 +155,8 @@ TEST_P(FlightMetricsTest, SumsOfLongEpisodesKeepTheirDigits) {
   flight_.at(kP, 0) = 0.1f;
   for (int step = 0; step < kSteps; ++step) Add();
   // A plain float32 sum of as many is off by 1e-4.
-  EXPECT_NEAR(Report(0, kSteps)[kMeanAbsP] / 0.1f, 1, 2e-7);
+  constexpr Tolerance kCompensatedSum{2e-7, "float32 rounding of the result alone"};
+  EXPECT_NEAR(Report(0, kSteps)[kMeanAbsP] / 0.1f, 1, kCompensatedSum);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, FlightMetricsTest, testing::ValuesIn(simd::SupportedTargets()),

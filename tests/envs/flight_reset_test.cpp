@@ -10,6 +10,7 @@
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
 #include "envs/state/attitude.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -50,6 +51,9 @@ PlantOutput EvaluateFresh(const Plant& plant, const FreshFlight& flight) {
 
 constexpr int kDraws = 400;
 
+constexpr Tolerance kFloat32{1e-6, "float32 rounding"};
+constexpr Tolerance kStartRounding{1e-3, "float32 rounding of 2e4 ft and 1000 ft/s"};
+
 TEST(FlightResetTest, DrawsAltitudeAndSpeedUniformly) {
   EnvConfig config;
   config.initial.altitude_ft = {15000, 25000};
@@ -61,21 +65,20 @@ TEST(FlightResetTest, DrawsAltitudeAndSpeedUniformly) {
     // In units of the ranges' halves, from their middles. Float32 rounds at their ends.
     const double altitude = (-At(flight, kDown) - 20000) / 5000;
     const double speed = (BodyOf(flight).segment<3>(kU).norm() - 900) / 200;
-    constexpr double kEnd = 1 + 1e-6;
+    const double kEnd = 1 + kFloat32;
     EXPECT_LE(std::abs(altitude), kEnd);
     EXPECT_LE(std::abs(speed), kEnd);
-    EXPECT_NEAR(flight.start.altitude_ft, -At(flight, kDown), 1e-3);
-    EXPECT_NEAR(flight.start.true_airspeed_ft_s, 900 + 200 * speed, 1e-3);
+    EXPECT_NEAR(flight.start.altitude_ft, -At(flight, kDown), kStartRounding);
+    EXPECT_NEAR(flight.start.true_airspeed_ft_s, 900 + 200 * speed, kStartRounding);
     altitude_sum += altitude;
     speed_sum += speed;
     product_sum += altitude * speed;
   }
-  // Five standard deviations of the mean of a uniform variable on [-1, 1], and of the product of
-  // two independent ones.
-  const double mean_tolerance = 5 * std::sqrt(1.0 / 3 / kDraws);
+  // Of the mean of a uniform variable on [-1, 1], and of the product of two independent ones.
+  const double mean_tolerance = kStandardErrors * std::sqrt(1.0 / 3 / kDraws);
   EXPECT_NEAR(altitude_sum / kDraws, 0, mean_tolerance);
   EXPECT_NEAR(speed_sum / kDraws, 0, mean_tolerance);
-  EXPECT_NEAR(product_sum / kDraws, 0, 5 * std::sqrt(1.0 / 9 / kDraws));
+  EXPECT_NEAR(product_sum / kDraws, 0, kStandardErrors * std::sqrt(1.0 / 9 / kDraws));
 }
 
 TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
@@ -106,9 +109,9 @@ TEST(FlightResetTest, FliesNorthFromTheOriginWithoutTurning) {
       for (const int column : {kNorth, kEast, kP, kQ, kR, kV}) EXPECT_EQ(At(flight, column), 0);
       const RigidBodyState state = BodyOf(flight);
       const EulerAngles attitude = EulerFromQuaternion(state.segment<4>(kQ0));
-      EXPECT_NEAR((state.segment<4>(kQ0).norm()), 1, 1e-6);
-      EXPECT_NEAR(attitude.yaw, 0, 1e-6);
-      EXPECT_NEAR(attitude.pitch, flight.start.pitch_rad, 1e-6);
+      EXPECT_NEAR((state.segment<4>(kQ0).norm()), 1, kFloat32);
+      EXPECT_NEAR(attitude.yaw, 0, kFloat32);
+      EXPECT_NEAR(attitude.pitch, flight.start.pitch_rad, kFloat32);
       EXPECT_EQ(flight.start.yaw_rad, 0);
       EXPECT_EQ(At(flight, kPowerCommand), At(flight, kPower));
     }
@@ -116,9 +119,11 @@ TEST(FlightResetTest, FliesNorthFromTheOriginWithoutTurning) {
 }
 
 TEST(FlightResetTest, TrimmedStartsAreSteadyFlight) {
-  // Interpolation between trims, and the kinks of the tables between them: 0.02 g, of which a
-  // start without trim has fifty times as much, and turning of at most 1 deg/s^2 or so.
-  constexpr double kAcceleration = 0.6, kAngularAcceleration = 0.02, kClimb = 0.5;
+  // A start without trim has 1 g, three hundred times as much.
+  constexpr Tolerance kAcceleration{0.1, "trims between nodes, and the tables' kinks"};
+  constexpr Tolerance kAngularAcceleration{3e-3, "trims between nodes, and the tables' kinks"};
+  constexpr Tolerance kClimb{1e-4, "float32 columns"};
+  constexpr Tolerance kLoadFactor{3e-3, "trims between nodes"};
   const EnvConfig config;
   const Plant plant(F16(), config.atmosphere);
   const FlightReset reset(config, F16());
@@ -130,14 +135,14 @@ TEST(FlightResetTest, TrimmedStartsAreSteadyFlight) {
       EXPECT_NEAR(output.state_rate[column], 0, kAngularAcceleration);
     }
     EXPECT_NEAR(output.state_rate[kDown], 0, kClimb);
-    EXPECT_NEAR(output.nz, At(flight, kNz), 0.01);
-    EXPECT_NEAR(output.ny, At(flight, kNy), 0.01);
+    EXPECT_NEAR(output.nz, At(flight, kNz), kLoadFactor);
+    EXPECT_NEAR(output.ny, At(flight, kNy), kLoadFactor);
   }
 }
 
 TEST(FlightResetTest, FlightControlIsAtRest) {
-  // Of float32 columns, over a second of readings that do not change.
-  constexpr double kToleranceDeg = 2e-3;
+  constexpr Tolerance kAtRest{1e-5, "float32 columns, over a second of the same readings"};
+  constexpr Tolerance kFlap{0.05, "float32 columns, through the flap's slow filter"};
   for (const bool trimmed : {true, false}) {
     EnvConfig config;
     config.initial.trimmed = trimmed;
@@ -160,20 +165,22 @@ TEST(FlightResetTest, FlightControlIsAtRest) {
       // Lag and lead filters that were not at rest would move; the pitch integrator may, slowly, by
       // the load factor that differs from one (an untrimmed start is not in equilibrium).
       const SurfaceAngles first = flight_control.Step({}, sensors, &filters);
-      EXPECT_NEAR(first.elevator_deg, at_reset.elevator_deg, kToleranceDeg);
-      EXPECT_NEAR(first.aileron_deg, at_reset.aileron_deg, kToleranceDeg);
-      EXPECT_NEAR(first.rudder_deg, at_reset.rudder_deg, kToleranceDeg);
+      EXPECT_NEAR(first.elevator_deg, at_reset.elevator_deg, kAtRest);
+      EXPECT_NEAR(first.aileron_deg, at_reset.aileron_deg, kAtRest);
+      EXPECT_NEAR(first.rudder_deg, at_reset.rudder_deg, kAtRest);
       if (!trimmed) continue;
       SurfaceAngles last = first;
       for (int step = 0; step < 50; ++step) last = flight_control.Step({}, sensors, &filters);
-      EXPECT_NEAR(last.aileron_deg, at_reset.aileron_deg, kToleranceDeg);
-      EXPECT_NEAR(last.rudder_deg, at_reset.rudder_deg, kToleranceDeg);
-      EXPECT_NEAR(last.leading_edge_flap_deg, at_reset.leading_edge_flap_deg, 0.05);
+      EXPECT_NEAR(last.aileron_deg, at_reset.aileron_deg, kAtRest);
+      EXPECT_NEAR(last.rudder_deg, at_reset.rudder_deg, kAtRest);
+      EXPECT_NEAR(last.leading_edge_flap_deg, at_reset.leading_edge_flap_deg, kFlap);
     }
   }
 }
 
 TEST(FlightResetTest, UntrimmedStartsAreLevelWithThePapersThrust) {
+  constexpr Tolerance kThrust{1e-3, "thrust of a float32 power"};
+  constexpr Tolerance kReading{2e-6, "float32 columns"};
   EnvConfig config;
   config.initial.trimmed = false;
   const Plant plant(F16(), config.atmosphere);
@@ -181,15 +188,14 @@ TEST(FlightResetTest, UntrimmedStartsAreLevelWithThePapersThrust) {
   for (std::uint32_t episode = 0; episode < 20; ++episode) {
     const FreshFlight flight = DrawOf(reset, episode);
     const double mach = MeasureAir(config.atmosphere, BodyOf(flight)).mach;
-    // Thrust from a float32 power.
     EXPECT_NEAR(Thrust(plant.aircraft().engine, At(flight, kPower), -At(flight, kDown), mach), 2000,
-                0.1);
+                kThrust);
     for (const int column : {kW, kElevator, kAileron, kRudder, kLeadingEdgeFlap, kQx, kQy}) {
       EXPECT_EQ(At(flight, column), 0) << column;
     }
     const PlantOutput output = EvaluateFresh(plant, flight);
-    EXPECT_NEAR(output.nz, At(flight, kNz), 1e-4);
-    EXPECT_NEAR(output.ny, At(flight, kNy), 1e-4);
+    EXPECT_NEAR(output.nz, At(flight, kNz), kReading);
+    EXPECT_NEAR(output.ny, At(flight, kNy), kReading);
   }
 }
 
@@ -200,7 +206,7 @@ TEST(FlightResetTest, RangesOfOnePointAndDirectControlDo) {
   config.initial.true_airspeed_fps = {800, 800};
   const FreshFlight flight = DrawOf(FlightReset(config, F16()), 0);
   EXPECT_EQ(At(flight, kDown), -12000);
-  EXPECT_NEAR(std::hypot(At(flight, kU), At(flight, kW)), 800, 1e-3);
+  EXPECT_NEAR(std::hypot(At(flight, kU), At(flight, kW)), 800, kStartRounding);
 }
 
 TEST(FlightResetTest, RefusesStartsThatCannotBeTrimmed) {

@@ -19,6 +19,7 @@
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_policy.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -212,10 +213,12 @@ class TwoLoops {
 
 /// Flies `config` both ways for ten policy steps, in which every aircraft begins two new episodes.
 void ExpectTwoPlainLoops(const EnvConfig& config, int action_repeat) {
-  // Errors in double against float32 in the hierarchy differ by 1e-7, which a few seconds of flight
-  // and twenty policy steps amplify; positions are of 2000 ft, rewards of twenty steps of 10 km.
-  constexpr double kVelocityTolerance = 0.02, kRateTolerance = 2e-4, kPositionTolerance = 0.05;
-  constexpr double kRewardTolerance = 1e-3, kObservationTolerance = 5e-4;
+  // Errors in double against float32 in the hierarchy differ by 1e-7 at first.
+  constexpr Tolerance kVelocity{0.02, "float32, amplified by seconds of flight"};
+  constexpr Tolerance kRate{2e-4, "float32, amplified by seconds of flight"};
+  constexpr Tolerance kPosition{0.05, "float32 of 2000 ft, amplified by seconds of flight"};
+  constexpr Tolerance kReward{1e-3, "float32 of twenty steps of 10 km"};
+  constexpr Tolerance kObservation{5e-4, "float32, amplified by seconds of flight"};
   constexpr int kCount = 40, kPolicySteps = 10;
   const TestPolicy low_level(action_repeat);
   VecEnv env(config, kCount, 3, 32, LowLevelPolicy(action_repeat));
@@ -226,19 +229,18 @@ void ExpectTwoPlainLoops(const EnvConfig& config, int action_repeat) {
     const std::vector<double> reward = expected.Step(policy_step);
     for (int i = 0; i < kCount; ++i) {
       for (int k = 0; k < kSize; ++k) {
-        ASSERT_NEAR(log[Index(i)][Index(k)], observation[Index(i * kSize + k)],
-                    kObservationTolerance)
+        ASSERT_NEAR(log[Index(i)][Index(k)], observation[Index(i * kSize + k)], kObservation)
             << "aircraft " << i << ", policy step " << policy_step << ", element " << k;
       }
-      ASSERT_NEAR(log[Index(i)][kSize], reward[Index(i)], kRewardTolerance)
+      ASSERT_NEAR(log[Index(i)][kSize], reward[Index(i)], kReward)
           << "aircraft " << i << ", policy step " << policy_step;
       const auto near = [&](int column, double tolerance) {
         ASSERT_NEAR(env.StateOf(i, column), expected.env().StateOf(i, column), tolerance)
             << "aircraft " << i << ", policy step " << policy_step << ", column " << column;
       };
-      for (const int column : {kU, kV, kW}) near(column, kVelocityTolerance);
-      for (const int column : {kP, kQ, kR, kQ0, kQx, kQy, kQz}) near(column, kRateTolerance);
-      for (const int column : {kNorth, kEast, kDown}) near(column, kPositionTolerance);
+      for (const int column : {kU, kV, kW}) near(column, kVelocity);
+      for (const int column : {kP, kQ, kR, kQ0, kQx, kQy, kQz}) near(column, kRate);
+      for (const int column : {kNorth, kEast, kDown}) near(column, kPosition);
     }
   }
   EXPECT_EQ(expected.ends(), 2 * kCount) << "new episodes were begun";
@@ -374,10 +376,11 @@ class SetTargetsTest : public testing::TestWithParam<simd::Target> {
     return {scratch.target[0][kLast], scratch.target[1][kLast], scratch.target[2][kLast]};
   }
   void ExpectTarget(const std::array<float, 3>& target, double pitch, double yaw, double speed) {
-    // Float32 rounding of radians, and of 1000 ft/s.
-    EXPECT_NEAR(target[0], pitch, 1e-6);
-    EXPECT_NEAR(target[1], yaw, 1e-6);
-    EXPECT_NEAR(target[2], speed, 2e-4);
+    constexpr Tolerance kAngle{1e-6, "float32 rounding of radians"};
+    constexpr Tolerance kSpeed{2e-4, "float32 rounding of 1000 ft/s"};
+    EXPECT_NEAR(target[0], pitch, kAngle);
+    EXPECT_NEAR(target[1], yaw, kAngle);
+    EXPECT_NEAR(target[2], speed, kSpeed);
   }
 
   ScopedTarget target_{GetParam()};

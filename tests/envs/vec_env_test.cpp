@@ -19,6 +19,7 @@
 #include "simd/random.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -171,9 +172,8 @@ TEST(VecEnv, SnapshotContinuesBitForBit) {
 }
 
 TEST(VecEnv, ScalarAndVectorTargetsAgree) {
-  // One second of flight amplifies float32 rounding (and fused against separate multiply-add) from
-  // 1e-7 to this, of observations near one.
-  constexpr double kTolerance = 5e-4;
+  // Of observations near one; rounding is 1e-7, with fused against separate multiply-add.
+  constexpr Tolerance kAmplified{5e-4, "float32 rounding, amplified by a second of flight"};
   EnvConfig config;
   std::vector<std::vector<Log>> logs;
   for (const simd::Target target : simd::SupportedTargets()) {
@@ -185,7 +185,7 @@ TEST(VecEnv, ScalarAndVectorTargetsAgree) {
     for (std::size_t i = 0; i < other.size(); ++i) {
       ASSERT_EQ(other[i].observations.size(), logs[0][i].observations.size());
       for (std::size_t k = 0; k < other[i].observations.size(); ++k) {
-        ASSERT_NEAR(other[i].observations[k], logs[0][i].observations[k], kTolerance)
+        ASSERT_NEAR(other[i].observations[k], logs[0][i].observations[k], kAmplified)
             << "aircraft " << i << ", policy step " << k / kSize << ", element " << k % kSize;
       }
     }
@@ -193,10 +193,10 @@ TEST(VecEnv, ScalarAndVectorTargetsAgree) {
 }
 
 TEST(VecEnv, FliesLikeTheClosedLoopInDoublePrecision) {
-  // Float32 against double over two seconds of moderate flight: rounding of positions (2e-3 ft at
-  // 20,000 ft) and of the integrators, amplified by the pitch loop.
-  constexpr double kVelocityTolerance = 0.02, kRateTolerance = 2e-4, kPositionTolerance = 0.1;
-  constexpr double kSurfaceTolerance = 0.02;
+  constexpr Tolerance kVelocity{0.02, "float32 over two seconds, amplified by the pitch loop"};
+  constexpr Tolerance kRate{2e-4, "float32 over two seconds, amplified by the pitch loop"};
+  constexpr Tolerance kPosition{0.1, "float32 of 20,000 ft, 2e-3 ft a step"};
+  constexpr Tolerance kSurface{0.02, "float32 integrators, amplified by the pitch loop"};
   EnvConfig config;
   config.initial.altitude_ft = {20000, 20000};
   config.initial.true_airspeed_fps = {1100, 1100};
@@ -224,25 +224,29 @@ TEST(VecEnv, FliesLikeTheClosedLoopInDoublePrecision) {
         ASSERT_NEAR(env.StateOf(i, column), value, tolerance)
             << "step " << step << ", aircraft " << i << ", column " << column;
       };
-      for (const int column : {kU, kV, kW}) near(column, loop.state()[column], kVelocityTolerance);
-      for (const int column : {kP, kQ, kR}) near(column, loop.state()[column], kRateTolerance);
+      for (const int column : {kU, kV, kW}) near(column, loop.state()[column], kVelocity);
+      for (const int column : {kP, kQ, kR}) near(column, loop.state()[column], kRate);
       for (const int column : {kNorth, kEast, kDown}) {
-        near(column, loop.state()[column], kPositionTolerance);
+        near(column, loop.state()[column], kPosition);
       }
       for (const int column : {kQ0, kQx, kQy, kQz}) {
-        near(column, loop.state()[column], kRateTolerance);
+        near(column, loop.state()[column], kRate);
       }
-      near(kPower, loop.power(), kSurfaceTolerance);
-      near(kElevator, loop.surfaces().elevator_deg, kSurfaceTolerance);
-      near(kAileron, loop.surfaces().aileron_deg, kSurfaceTolerance);
-      near(kRudder, loop.surfaces().rudder_deg, kSurfaceTolerance);
-      near(kLeadingEdgeFlap, loop.surfaces().leading_edge_flap_deg, kSurfaceTolerance);
-      near(kNz, loop.nz(), kSurfaceTolerance);
+      near(kPower, loop.power(), kSurface);
+      near(kElevator, loop.surfaces().elevator_deg, kSurface);
+      near(kAileron, loop.surfaces().aileron_deg, kSurface);
+      near(kRudder, loop.surfaces().rudder_deg, kSurface);
+      near(kLeadingEdgeFlap, loop.surfaces().leading_edge_flap_deg, kSurface);
+      near(kNz, loop.nz(), kSurface);
     }
   }
 }
 
 TEST(VecEnv, TrimmedStartsStayTrimmedHandsOff) {
+  constexpr Tolerance kFloat32Start{0.01, "float32 rounding of 20,000 ft"};
+  constexpr Tolerance kSteady{0.02, "trims between nodes, over 0.2 s"};
+  constexpr Tolerance kLoadFactor{2e-3, "trims between nodes"};
+  constexpr Tolerance kRollRate{3e-4, "trims between nodes"};
   EnvConfig config;
   constexpr int kCount = 256;
   VecEnv env(config, kCount, 3);
@@ -250,10 +254,10 @@ TEST(VecEnv, TrimmedStartsStayTrimmedHandsOff) {
   for (int i = 0; i < kCount; ++i) {
     speed[static_cast<std::size_t>(i)] = std::hypot(env.StateOf(i, kU), env.StateOf(i, kW));
     altitude[static_cast<std::size_t>(i)] = -env.StateOf(i, kDown);
-    EXPECT_GE(altitude[static_cast<std::size_t>(i)], 19000 - 0.01);
-    EXPECT_LE(altitude[static_cast<std::size_t>(i)], 20000 + 0.01);
-    EXPECT_GE(speed[static_cast<std::size_t>(i)], 1000 - 0.01);
-    EXPECT_LE(speed[static_cast<std::size_t>(i)], 1200 + 0.01);
+    EXPECT_GE(altitude[static_cast<std::size_t>(i)], 19000 - kFloat32Start);
+    EXPECT_LE(altitude[static_cast<std::size_t>(i)], 20000 + kFloat32Start);
+    EXPECT_GE(speed[static_cast<std::size_t>(i)], 1000 - kFloat32Start);
+    EXPECT_LE(speed[static_cast<std::size_t>(i)], 1200 + kFloat32Start);
   }
   // 0.2 s: thrust stays that of the trim by giving each aircraft its own throttle.
   StepBuffers buffers(kCount);
@@ -264,12 +268,11 @@ TEST(VecEnv, TrimmedStartsStayTrimmedHandsOff) {
   }
   for (int step = 0; step < 10; ++step) env.Step(0, buffers.action.data(), buffers.output());
   for (int i = 0; i < kCount; ++i) {
-    // The trim is interpolated between nodes, and the thrust table's slope changes between them.
     EXPECT_NEAR(std::hypot(env.StateOf(i, kU), env.StateOf(i, kW)),
-                speed[static_cast<std::size_t>(i)], 0.1);
-    EXPECT_NEAR(-env.StateOf(i, kDown), altitude[static_cast<std::size_t>(i)], 0.1);
-    EXPECT_NEAR(env.StateOf(i, kNz), 1, 0.01);
-    EXPECT_NEAR(env.StateOf(i, kP), 0, 1e-3);
+                speed[static_cast<std::size_t>(i)], kSteady);
+    EXPECT_NEAR(-env.StateOf(i, kDown), altitude[static_cast<std::size_t>(i)], kSteady);
+    EXPECT_NEAR(env.StateOf(i, kNz), 1, kLoadFactor);
+    EXPECT_NEAR(env.StateOf(i, kP), 0, kRollRate);
   }
 }
 
@@ -340,8 +343,8 @@ TEST(VecEnv, ControlFailsAtItsTimeLimit) {
   config.time_limit_steps = 10;
   config.action_repeat = 10;
   VecEnv env(config, 40, 1);
-  // Ten steps of about 5 x speed error / 340 m/s; idle thrust slows by less than 10 ft/s meanwhile.
-  constexpr double kSlowing = 10 * 5 * 10 / (340 / 0.3048);
+  // Ten steps of about 5 x speed error / 340 m/s.
+  constexpr Tolerance kSlowing{10 * 5 * 10 / (340 / 0.3048), "idle slows by less than 10 ft/s"};
   std::vector<double> expected;
   for (int i = 0; i < 40; ++i) {
     const double speed = std::hypot(env.StateOf(i, kU), env.StateOf(i, kV), env.StateOf(i, kW));
@@ -366,7 +369,8 @@ TEST(VecEnv, ReturnIsTheSumOfRewards) {
     double sum = 0;
     for (const float reward : log.rewards) sum += reward;
     ASSERT_EQ(log.returns.size(), 1u);
-    EXPECT_NEAR(log.returns[0], sum, 1e-3);
+    constexpr Tolerance kFloat32Sum{1e-3, "a float32 sum of rewards"};
+    EXPECT_NEAR(log.returns[0], sum, kFloat32Sum);
   }
 }
 
@@ -411,7 +415,7 @@ TEST(VecEnv, StaggeredClocksSpreadOverTheTimeLimit) {
     ASSERT_GE(end, 0);
     ++ends[static_cast<std::size_t>(end)];
   }
-  for (const int count : ends) EXPECT_NEAR(count, 100, 6 * std::sqrt(100.0));
+  for (const int count : ends) EXPECT_NEAR(count, 100, 1.2 * kStandardErrors * std::sqrt(100.0));
 }
 
 /// Replaces one float of one aircraft's state.
@@ -492,8 +496,8 @@ TEST(VecEnv, NoiseHasTheConfiguredScaleAndIsNewEveryStep) {
       if (!previous.empty()) product += noise[k] * previous[k];
     }
     const double n = static_cast<double>(noise.size());
-    EXPECT_NEAR(std::sqrt(squares / n), 0.05, 5 * 0.05 / std::sqrt(2 * n));
-    EXPECT_NEAR(product / n, 0, 5 * 0.05 * 0.05 / std::sqrt(n));
+    EXPECT_NEAR(std::sqrt(squares / n), 0.05, kStandardErrors * 0.05 / std::sqrt(2 * n));
+    EXPECT_NEAR(product / n, 0, kStandardErrors * 0.05 * 0.05 / std::sqrt(n));
     previous = noise;
     clean.Step(0, clean_buffers.action.data(), clean_buffers.output());
     noisy.Step(0, noisy_buffers.action.data(), noisy_buffers.output());

@@ -15,8 +15,6 @@
 namespace skein::simd {
 namespace {
 
-constexpr Tolerance kStandardErrors{5, "standard errors: one false alarm in a million"};
-
 // Known answers of Random123 (kat_vectors, philox4x32 with 10 rounds).
 TEST(Philox4x32, GivesPublishedKnownAnswers) {
   using Words = std::array<std::uint32_t, 4>;

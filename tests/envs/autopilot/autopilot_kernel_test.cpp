@@ -15,6 +15,7 @@
 #include "gtest/gtest.h"
 #include "simd/target.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace HWY_NAMESPACE {
@@ -109,9 +110,8 @@ std::vector<double> Expected(const std::string& task, AutopilotVariant variant, 
   return FlyInDouble<TrackingLaw>(variant, steps);
 }
 
-/// Float32 carried through 200 steps of integrators and filters, times the gain from an angle to
-/// full stick, about 20. An aircraft at a switch may decide otherwise: none does here.
-constexpr double kTolerance = 2e-4;
+/// An aircraft at a switch may decide otherwise: none does here.
+constexpr Tolerance kFloat32{2e-4, "float32 through 200 steps, times 20 from angle to full stick"};
 
 class AutopilotKernel : public testing::TestWithParam<const char*> {};
 
@@ -125,7 +125,7 @@ TEST_P(AutopilotKernel, EqualsTheLawsInFloat64OnEveryTarget) {
       const ScopedTarget scoped(target);
       const Flown flown = FlyFor(*pilot, kSteps);
       for (std::size_t k = 0; k < expected.size(); ++k) {
-        ASSERT_NEAR(flown.action[k], expected[k], kTolerance)
+        ASSERT_NEAR(flown.action[k], expected[k], kFloat32)
             << simd::Name(target) << " aircraft " << k / kActionSize << " command "
             << k % kActionSize;
       }

@@ -5,6 +5,7 @@
 #include "envs/autopilot/estimator-inl.h"
 #include "envs/state/attitude.h"
 #include "gtest/gtest.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace HWY_NAMESPACE {
@@ -22,6 +23,8 @@ Measurement<double> SteadyFlight(double roll, double pitch, double alpha, double
   measured.beta = beta;
   return measured;
 }
+
+constexpr Tolerance kRounding{1e-9, "float64 rounding"};
 
 TEST(Estimator, BeginsAtTheMeasurement) {
   const Measurement<double> measured = SteadyFlight(0.3, -0.2, 0.1, 0.02);
@@ -44,7 +47,6 @@ TEST(Estimator, ResolvesTheAirspeedAsTheAttitudeDoes) {
   // With a yaw of zero, heading axes are north, east and up.
   const Eigen::Vector3d ned =
       1000 * BodyFromNed(QuaternionFromEuler({0.8, 0.3, 0})).transpose() * body;
-  constexpr double kRounding = 1e-9;
   EXPECT_NEAR(motion.ahead, ned[0], kRounding);
   EXPECT_NEAR(motion.right, ned[1], kRounding);
   EXPECT_NEAR(motion.up, -ned[2], kRounding);
@@ -62,12 +64,13 @@ TEST(Estimator, FollowsASteadyRollWithoutLag) {
     roll += kDt * measured.p;
     measured.roll = std::remainder(roll, 2 * M_PI);
     Estimate(EstimatorGains(), kDt, measured, false, flight);
-    ASSERT_NEAR(std::remainder(flight.roll - roll, 2 * M_PI), 0, 1e-9) << step;
-    ASSERT_LE(std::abs(flight.roll), M_PI + 1e-9);
+    ASSERT_NEAR(std::remainder(flight.roll - roll, 2 * M_PI), 0, kRounding) << step;
+    ASSERT_LE(std::abs(flight.roll), M_PI + kRounding);
   }
 }
 
 TEST(Estimator, KnowsASteadyAcceleration) {
+  constexpr Tolerance kTransient{1e-6, "what the filter leaves after 10 s"};
   FlightEstimate<double> flight = {};
   Measurement<double> measured = SteadyFlight(0, 0, 0, 0);
   Estimate(EstimatorGains(), kDt, measured, true, flight);
@@ -75,13 +78,14 @@ TEST(Estimator, KnowsASteadyAcceleration) {
     measured.true_airspeed = 1000 + 20 * kDt * step;
     Estimate(EstimatorGains(), kDt, measured, false, flight);
   }
-  EXPECT_NEAR(flight.acceleration, 20, 0.01);
-  EXPECT_NEAR(flight.speed, measured.true_airspeed, 0.01);
+  EXPECT_NEAR(flight.acceleration, 20, kTransient);
+  EXPECT_NEAR(flight.speed, measured.true_airspeed, kTransient);
 }
 
 /// White noise of the default size: a lag of bandwidth w lets the share sqrt(w dt / 2) of it
 /// through, a sixth for the fastest that carries an angle or a length.
 TEST(Estimator, StopsNoise) {
+  constexpr Tolerance kSampling{0.2, "a sample of 20000 correlated steps, relative"};
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.01);
   FlightEstimate<double> flight = {};
@@ -95,7 +99,7 @@ TEST(Estimator, StopsNoise) {
     speed_squares += (flight.speed - 1000) * (flight.speed - 1000);
   }
   const double expected = std::sqrt(EstimatorGains().attitude * kDt / 2);
-  EXPECT_NEAR(std::sqrt(roll_squares / kSteps) / 0.01, expected, 0.2 * expected);
+  EXPECT_NEAR(std::sqrt(roll_squares / kSteps) / 0.01, expected, kSampling * expected);
   EXPECT_LT(std::sqrt(speed_squares / kSteps), 0.3 * 0.01 * kSpeedUnitFtS);
 }
 

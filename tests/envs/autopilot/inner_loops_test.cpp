@@ -3,6 +3,7 @@
 
 #include "envs/autopilot/inner_loops-inl.h"
 #include "gtest/gtest.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace HWY_NAMESPACE {
@@ -42,10 +43,11 @@ TEST(InnerLoops, AskForWhatFullStickGives) {
 
 /// A pitch rate that already bends the path as asked leaves only the load factor to hold.
 TEST(InnerLoops, PitchRateOfThePathIsNoError) {
+  constexpr Tolerance kRounding{1e-15, "float64 rounding"};
   Loops loops;
   loops.flight.q = kGravityFtS2 / 1000 * (3 - 1);
   EXPECT_DOUBLE_EQ(loops.Pitch(3), 2 / loops.gains.full_aft_load_factor);
-  EXPECT_NEAR(loops.memory.load_factor, 0, 1e-15);
+  EXPECT_NEAR(loops.memory.load_factor, 0, kRounding);
 }
 
 TEST(InnerLoops, RollTheShorterWayRoundOnlyToInvertedFlight) {

@@ -3,6 +3,7 @@
 
 #include "envs/autopilot/l1-inl.h"
 #include "gtest/gtest.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace HWY_NAMESPACE {
@@ -10,9 +11,10 @@ namespace {
 
 /// Turning at a = V yaw_rate, small errors decay at 2 sqrt(2) pi / period.
 TEST(L1, SmallErrorsDecayAtTheRateOfThePeriod) {
+  constexpr Tolerance kSmallAngle{1e-8, "an error of 1e-4 rad is not quite small"};
   const L1Gains gains;
   const double rate = TurnToHeading(gains, 1e-4, 1000.0) / 1000 / 1e-4;
-  EXPECT_NEAR(rate, 2 * std::sqrt(2) * M_PI / gains.period_s, 1e-6);
+  EXPECT_NEAR(rate, 2 * std::sqrt(2) * M_PI / gains.period_s, kSmallAngle);
 }
 
 TEST(L1, TurnsTowardsTheHeading) {

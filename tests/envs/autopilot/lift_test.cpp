@@ -3,6 +3,7 @@
 
 #include "envs/autopilot/lift-inl.h"
 #include "gtest/gtest.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace HWY_NAMESPACE {
@@ -32,13 +33,15 @@ TEST(Lift, LevelFlightNeedsOneG) {
   }
 }
 
+constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+
 /// A level turn: tan(bank) = a / g, n = 1 / cos(bank).
 TEST(Lift, CoordinatesALevelTurn) {
   for (const LiftGains& gains : {LiftGains(), OverBanking()}) {
     const double bank = std::atan(3.0);
     const auto lift = PointLift(gains, Banked(bank), 3 * kG, 0.0);
-    EXPECT_NEAR(lift.roll, bank, 1e-12);
-    EXPECT_NEAR(lift.load_factor, 1 / std::cos(bank), 1e-12);
+    EXPECT_NEAR(lift.roll, bank, kRounding);
+    EXPECT_NEAR(lift.load_factor, 1 / std::cos(bank), kRounding);
   }
 }
 
@@ -55,6 +58,7 @@ TEST(Lift, IsSymmetric) {
 
 /// Whatever is asked, no more than the largest load factor is needed at the bank it asks for.
 TEST(Lift, GivesTheVerticalPrecedenceWithinTheLoadFactor) {
+  constexpr Tolerance kForceRounding{1e-6, "float64 rounding of differences of squares"};
   const LiftGains gains = OverBanking();
   for (const double vertical : {-130.0, 0.0, 100.0, 180.0}) {
     const double up = kG + vertical;
@@ -63,7 +67,7 @@ TEST(Lift, GivesTheVerticalPrecedenceWithinTheLoadFactor) {
     const auto lift = PointLift(gains, Banked(first.roll), 1e4, vertical);
     EXPECT_LE(lift.load_factor, gains.max_load_factor);
     if (lift.load_factor < gains.max_load_factor) {
-      EXPECT_NEAR(lift.load_factor * std::cos(lift.roll) * kG, used, 1e-6);
+      EXPECT_NEAR(lift.load_factor * std::cos(lift.roll) * kG, used, kForceRounding);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include "Eigen/Geometry"
 #include "envs/autopilot/pursuit-inl.h"
 #include "gtest/gtest.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace HWY_NAMESPACE {
@@ -30,18 +31,21 @@ TargetEstimate<double> At(double ahead, double right, double up) {
   return target;
 }
 
+constexpr Tolerance kRounding{1e-9, "float64 rounding of 1e4 ft"};
+constexpr Tolerance kAccelerationRounding{1e-6, "float64 rounding of squares of speeds"};
+
 TEST(Pursuit, FliesStraightToWhatLiesAhead) {
   const auto wanted = Pursue(PursuitGains(), Moving(900, 100, 300), At(9000, 1000, 3000));
-  EXPECT_NEAR(wanted.lateral, 0, 1e-9);
-  EXPECT_NEAR(wanted.vertical, 0, 1e-9);
+  EXPECT_NEAR(wanted.lateral, 0, kRounding);
+  EXPECT_NEAR(wanted.vertical, 0, kRounding);
 }
 
 TEST(Pursuit, TurnsTowardsTheTarget) {
   const auto right = Pursue(PursuitGains(), Moving(kSpeed, 0, 0), At(5000, 2000, 0));
   EXPECT_GT(right.lateral, 0);
-  EXPECT_NEAR(right.vertical, 0, 1e-9);
+  EXPECT_NEAR(right.vertical, 0, kRounding);
   const auto below = Pursue(PursuitGains(), Moving(kSpeed, 0, 0), At(5000, 0, -2000));
-  EXPECT_NEAR(below.lateral, 0, 1e-9);
+  EXPECT_NEAR(below.lateral, 0, kRounding);
   EXPECT_LT(below.vertical, 0);
 }
 
@@ -52,7 +56,7 @@ TEST(Pursuit, AcceleratesAsTheL1LawSays) {
     const auto wanted =
         Pursue(gains, Moving(kSpeed, 0, 0), At(4000 * std::cos(eta), 4000 * std::sin(eta), 0));
     const double sine = eta < M_PI / 2 ? std::sin(eta) : 1;
-    EXPECT_NEAR(wanted.lateral, 2 * kSpeed * kSpeed / 4000 * sine, 1e-6) << eta;
+    EXPECT_NEAR(wanted.lateral, 2 * kSpeed * kSpeed / 4000 * sine, kAccelerationRounding) << eta;
   }
 }
 
@@ -95,6 +99,7 @@ TEST(Pursuit, PathsLeadToTheTarget) {
 /// Heading axes turn under the aircraft; the estimate of a point at rest follows exactly where the
 /// kinematics are exact, but for the Euler step.
 TEST(TargetEstimate, FollowsThroughATurn) {
+  constexpr Tolerance kEulerStep{5, "Euler steps of 0.02 s at 0.2 rad/s, ft of 8000"};
   constexpr double kYawRate = 0.2;
   const Eigen::Vector2d point(8000, 3000);
   TargetEstimate<double> target = {};
@@ -105,14 +110,15 @@ TEST(TargetEstimate, FollowsThroughATurn) {
     const Eigen::Vector2d relative = point - position;
     EstimateTarget(EstimatorGains(), kDt, Moving(kSpeed, 0, 0, kYawRate), relative.dot(ahead),
                    relative.dot(right), -500.0, step == 0, target);
-    ASSERT_NEAR(target.ahead, relative.dot(ahead), 5) << step;
-    ASSERT_NEAR(target.right, relative.dot(right), 5) << step;
+    ASSERT_NEAR(target.ahead, relative.dot(ahead), kEulerStep) << step;
+    ASSERT_NEAR(target.right, relative.dot(right), kEulerStep) << step;
     position += kDt * kSpeed * ahead;
   }
-  EXPECT_NEAR(target.up, -500, 1e-9);
+  EXPECT_NEAR(target.up, -500, kRounding);
 }
 
 TEST(TargetEstimate, FindsTheWindThroughATurn) {
+  constexpr Tolerance kEulerWind{3, "Euler steps of 0.02 s at 0.1 rad/s, ft/s of 72"};
   constexpr double kYawRate = 0.1;
   const Eigen::Vector2d point(8000, 3000), wind(-40, 60);
   TargetEstimate<double> target = {};
@@ -127,8 +133,8 @@ TEST(TargetEstimate, FindsTheWindThroughATurn) {
                    relative.dot(right), 0.0, step == 0, target);
     position += kDt * (kSpeed * ahead + wind);
   }
-  EXPECT_NEAR(target.wind_ahead, wind.dot(ahead), 3);
-  EXPECT_NEAR(target.wind_right, wind.dot(right), 3);
+  EXPECT_NEAR(target.wind_ahead, wind.dot(ahead), kEulerWind);
+  EXPECT_NEAR(target.wind_right, wind.dot(right), kEulerWind);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "envs/autopilot/sequencer-inl.h"
 #include "gtest/gtest.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace HWY_NAMESPACE {
@@ -52,22 +53,25 @@ TEST(Sequencer, WaitsForTheYawToComeToRest) {
 
 /// Nose up will cost speed: too fast by as much is right, exactly right is too slow.
 TEST(Sequencer, ForeseesWhatGravityTakes) {
+  constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+  constexpr Tolerance kSpeedRounding{1e-9, "float64 rounding of ft/s"};
   Nose nose;
   const double pitch = 0.4;
   const double seconds = 0.5 * (pitch / nose.gains.pitch_rate + 1);
   const double loss = nose.gains.speed_lead * kGravityFtS2 * std::sin(pitch) * seconds;
-  EXPECT_NEAR(nose.Decide(pitch, 0, -loss).pitch, pitch, 1e-12);
+  EXPECT_NEAR(nose.Decide(pitch, 0, -loss).pitch, pitch, kRounding);
   Nose slower;
-  EXPECT_NEAR(slower.Decide(pitch, 0, 0).speed_error, loss, 1e-9);
+  EXPECT_NEAR(slower.Decide(pitch, 0, 0).speed_error, loss, kSpeedRounding);
 }
 
 TEST(Sequencer, BeginsAgainWhenTheTargetIsNotReachedInTime) {
+  constexpr Tolerance kSteps{2 * kDt, "whole steps, at either end"};
   Nose nose;
   nose.gains.speed_lead = 0;
   EXPECT_EQ(nose.Decide(0.1, 0, 0).pitch, 0.1);
   int policy_steps = 0;
   while (nose.Decide(0.1, 0, -100).pitch == 0.1) ++policy_steps;
-  EXPECT_NEAR(policy_steps * kDt, nose.gains.patience_s, 2 * kDt);
+  EXPECT_NEAR(policy_steps * kDt, nose.gains.patience_s, kSteps);
 }
 
 TEST(Sequencer, StaysAtTheTargetWhileItIsNearEnough) {

@@ -3,6 +3,7 @@
 
 #include "envs/autopilot/tecs-inl.h"
 #include "gtest/gtest.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace HWY_NAMESPACE {
@@ -35,6 +36,8 @@ TEST(Tecs, HoldsLevelThrottleWithoutErrors) {
 }
 
 /// Too low and too fast by the same energy: pitch exchanges them, the throttle stays.
+constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+
 TEST(Tecs, LeavesTheThrottleWhereTotalEnergyIsRight) {
   LevelFlight level;
   const double speed_error = -20;
@@ -42,7 +45,7 @@ TEST(Tecs, LeavesTheThrottleWhereTotalEnergyIsRight) {
   // The climb that gives away speed at the rate at which the demand takes it.
   const double climb = -kSpeed * speed_error / level.gains.time_constant_s / kGravityFtS2;
   EXPECT_NEAR(level.Throttle({speed_error, height_error, climb}), level.gains.level_throttle,
-              1e-12);
+              kRounding);
 }
 
 TEST(Tecs, AddsThrottleForEnergyThatLacks) {
@@ -60,9 +63,10 @@ TEST(Tecs, AddsThrottleInABank) {
 
 /// The throttle that a demanded energy rate needs, one interval of it against idle.
 TEST(Tecs, FullRangeOfTheThrottleSpansTheEnergyRates) {
+  constexpr Tolerance kDigits{0.005, "two digits of the gain"};
   TecsGains gains;
   EXPECT_NEAR(gains.level_throttle,
-              -gains.min_energy_rate / (gains.max_energy_rate - gains.min_energy_rate), 0.005);
+              -gains.min_energy_rate / (gains.max_energy_rate - gains.min_energy_rate), kDigits);
 }
 
 TEST(Tecs, IntegratesWhatRemains) {
@@ -101,12 +105,13 @@ TEST(Tecs, ChangesNothingBetweenPolicySteps) {
 }
 
 TEST(ClimbRate, IsContinuousAndOdd) {
+  constexpr Tolerance kSlope{1e-5, "the slope over 1e-9 of the knee to either side"};
   const TecsGains gains;
   const double knee = gains.height_deceleration / (gains.height_bandwidth * gains.height_bandwidth);
   EXPECT_NEAR(ClimbRateFor(gains, knee * (1 - 1e-9), kSpeed),
-              ClimbRateFor(gains, knee * (1 + 1e-9), kSpeed), 1e-5);
+              ClimbRateFor(gains, knee * (1 + 1e-9), kSpeed), kSlope);
   EXPECT_EQ(ClimbRateFor(gains, -500.0, kSpeed), -ClimbRateFor(gains, 500.0, kSpeed));
-  EXPECT_NEAR(ClimbRateFor(gains, 10.0, kSpeed), 10 * gains.height_bandwidth, 1e-12);
+  EXPECT_NEAR(ClimbRateFor(gains, 10.0, kSpeed), 10 * gains.height_bandwidth, kRounding);
 }
 
 /// Following it from far away never takes more than the deceleration.
@@ -116,19 +121,22 @@ TEST(ClimbRate, CanBeFollowedWithTheDeceleration) {
   gains.max_climb_angle = M_PI / 2;
   double error = 3000;
   constexpr double kStep = 1e-3;
+  constexpr Tolerance kSteps{1e-3, "steps of 1 ms, relative"};
   double rate = ClimbRateFor(gains, error, 1e6);
   for (int i = 0; i < 40000; ++i) {
     error -= kStep * rate;
     const double next = ClimbRateFor(gains, error, 1e6);
-    ASSERT_LE((rate - next) / kStep, gains.height_deceleration * 1.001);
+    ASSERT_LE((rate - next) / kStep, gains.height_deceleration * (1 + kSteps));
     rate = next;
   }
   EXPECT_LT(error, 1);
 }
 
 TEST(ClimbRate, KeepsWithinTheClimbAngle) {
+  constexpr Tolerance kSpeedRounding{1e-9, "float64 rounding of ft/s"};
   const TecsGains gains;
-  EXPECT_NEAR(ClimbRateFor(gains, 1e5, 400.0), 400 * std::sin(gains.max_climb_angle), 1e-9);
+  EXPECT_NEAR(ClimbRateFor(gains, 1e5, 400.0), 400 * std::sin(gains.max_climb_angle),
+              kSpeedRounding);
   EXPECT_EQ(ClimbRateFor(gains, -1e5, 2000.0), -gains.max_climb_rate);
 }
 

@@ -21,6 +21,7 @@
 #include <hwy/highway.h>
 
 #include "envs/kernels/atmosphere-inl.h"
+#include "tests/tolerance.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
@@ -83,8 +84,10 @@ class AtmosphereTest : public testing::TestWithParam<std::tuple<simd::Target, At
 };
 
 TEST_P(AtmosphereTest, AgreesWithTheFloat64Model) {
-  EXPECT_LE(WorstError(-5000, 60000), 2e-6);
-  EXPECT_LE(WorstError(60000, 100000), 1e-5);
+  constexpr Tolerance kFloat32{2e-6, "float32 polynomials, relative"};
+  constexpr Tolerance kFloat32Above{1e-5, "float32 exponentials of large arguments, relative"};
+  EXPECT_LE(WorstError(-5000, 60000), kFloat32);
+  EXPECT_LE(WorstError(60000, 100000), kFloat32Above);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryTarget, AtmosphereTest,

@@ -14,6 +14,7 @@
 #include "simd/random.h"
 #include "tests/envs/every_aircraft.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -21,10 +22,9 @@ namespace {
 constexpr double kInterval = 0.02;
 constexpr AtmosphereModel kAtmosphere = AtmosphereModel::kStevensLewis;
 
-// Float32 against double. One step: a few roundings of quantities up to the column's scale. Many
-// steps: the integrators add up the roundings of their inputs.
-constexpr double kStepTolerance = 3e-6;
-constexpr double kSequenceTolerance = 2e-4;
+// Of a column's scale.
+constexpr Tolerance kStep{3e-6, "a few float32 roundings"};
+constexpr Tolerance kSequence{2e-4, "float32 roundings that the integrators add up"};
 
 /// What errors of a column are measured against: the largest values that occur in it.
 double Scale(int column) {
@@ -172,7 +172,7 @@ TEST_P(FlightControlKernelTest, OneStepAgreesWithTheSpecification) {
     for (int i = 0; i < kCount; ++i) {
       for (const int column : ControlledColumns()) {
         ASSERT_NEAR(tile.at(column, i), expected[static_cast<std::size_t>(i)].of(column),
-                    kStepTolerance * Scale(column))
+                    kStep * Scale(column))
             << "aircraft " << i << ", column " << column;
       }
     }
@@ -212,7 +212,7 @@ TEST_P(FlightControlKernelTest, StaysWithTheSpecificationOverAFlight) {
     for (int i = 0; i < kCount; ++i) {
       for (const int column : ControlledColumns()) {
         ASSERT_NEAR(tile.at(column, i), expected[static_cast<std::size_t>(i)].of(column),
-                    kSequenceTolerance * Scale(column))
+                    kSequence * Scale(column))
             << "step " << step << ", aircraft " << i << ", column " << column;
       }
     }

@@ -11,6 +11,7 @@
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/plant_kernel.h"
 #include "gtest/gtest.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -28,19 +29,18 @@ double Position(const KernelAxis& axis, double x) {
          axis.inner_more_cells_per_unit * limit(x, axis.inner_low, axis.inner_high);
 }
 
-constexpr double kPositionTolerance = 5e-6;  // float32 constants times some tens of degrees
+constexpr Tolerance kPlace{5e-6, "float32 constants times some tens of degrees"};
 
 void ExpectNodesAtIntegers(const std::vector<double>& nodes) {
   const KernelAxis axis = MakeKernelAxis(nodes, "test");
   EXPECT_EQ(axis.last_cell, static_cast<int>(nodes.size()) - 2);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    EXPECT_NEAR(Position(axis, nodes[i]), static_cast<double>(i), kPositionTolerance) << nodes[i];
+    EXPECT_NEAR(Position(axis, nodes[i]), static_cast<double>(i), kPlace) << nodes[i];
   }
   const double middle = (nodes[0] + nodes[1]) / 2;
-  EXPECT_NEAR(Position(axis, middle), 0.5, kPositionTolerance);
-  EXPECT_NEAR(Position(axis, nodes.front() - 100), 0, kPositionTolerance);
-  EXPECT_NEAR(Position(axis, nodes.back() + 100), static_cast<double>(nodes.size()) - 1,
-              kPositionTolerance);
+  EXPECT_NEAR(Position(axis, middle), 0.5, kPlace);
+  EXPECT_NEAR(Position(axis, nodes.front() - 100), 0, kPlace);
+  EXPECT_NEAR(Position(axis, nodes.back() + 100), static_cast<double>(nodes.size()) - 1, kPlace);
 }
 
 TEST(KernelAxis, NodesLieAtIntegersAndTheEndsClamp) {

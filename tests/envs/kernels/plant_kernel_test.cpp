@@ -24,6 +24,7 @@
 #include "tests/envs/every_aircraft.h"
 #include "tests/envs/golden.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -189,8 +190,8 @@ class PlantKernelTest : public testing::TestWithParam<AircraftOnTarget> {
       MakeKernelAircraft(plant_.aircraft(), plant_.atmosphere());
 };
 
-// float32 rounds states (1e-7), cell fractions (2e-6 of a cell) and sums of a dozen terms.
-constexpr double kGoldenTolerance = 2e-4;
+constexpr Tolerance kFloat32Point{2e-4,
+                                  "float32 states, fractions of cells and sums of a dozen terms"};
 
 void CompareWithGolden(const char* list) {
   const Json golden = ReadGolden();
@@ -215,7 +216,7 @@ void CompareWithGolden(const char* list) {
                  point.at("coeffs").at(c));
     }
   }
-  errors.ExpectWithin(kGoldenTolerance);
+  errors.ExpectWithin(kFloat32Point);
 }
 
 TEST_P(PlantKernelGoldenTest, GoldenPoints) { CompareWithGolden("points"); }
@@ -245,7 +246,7 @@ void CompareWithPlant(const Plant& plant, int count, double tolerance) {
 }
 
 TEST_P(PlantKernelTest, AgreesWithTheFloat64PlantOverRandomStates) {
-  CompareWithPlant(plant_, 100000, kGoldenTolerance);
+  CompareWithPlant(plant_, 100000, kFloat32Point);
 }
 
 TEST_P(PlantKernelTest, AgreesForOtherMassEngineAndAtmosphere) {
@@ -254,7 +255,7 @@ TEST_P(PlantKernelTest, AgreesForOtherMassEngineAndAtmosphere) {
   aircraft.airframe.engine_angular_momentum = 160.0 / 63100 * aircraft.airframe.Izz;
   aircraft.airframe.mass_slug *= 1.2;
   aircraft.airframe.Ixz *= -2;
-  CompareWithPlant(Plant(aircraft, AtmosphereModel::kStandard1976), 20000, kGoldenTolerance);
+  CompareWithPlant(Plant(aircraft, AtmosphereModel::kStandard1976), 20000, kFloat32Point);
 }
 
 /// The float64 aircraft with engine: rigid body and power.
@@ -291,10 +292,9 @@ std::pair<double, double> StepPowered(const Plant& plant, Controls surfaces, dou
 void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy) {
   constexpr int kCount = 20000;
   constexpr double kDt = 0.02;
-  // A step adds rounding of the state's own last place to that of the rates; a stage that crosses
-  // military power or a table's kink on one side only adds the rest.
-  constexpr double kTolerance = 2e-5;
-  constexpr double kLoadFactorTolerance = 2e-4;
+  // A stage that crosses military power or a table's kink on one side only adds the most.
+  constexpr Tolerance kFloat32Step{2e-5, "float32 states and rates of a step"};
+  constexpr Tolerance kLoadFactor{2e-4, "float32 states, fractions of cells and sums"};
   RandomFlight random(plant.aircraft(), 11);
   TestTile tile(kCount, windy ? kNumWindyColumns : kNumColumns);
   random.Fill(&tile);
@@ -326,8 +326,8 @@ void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy) 
     load_factors.Add("nz", tile.at(kNz, i), nz);
     load_factors.Add("ny", tile.at(kNy, i), ny);
   }
-  states.ExpectWithin(kTolerance);
-  load_factors.ExpectWithin(kLoadFactorTolerance);
+  states.ExpectWithin(kFloat32Step);
+  load_factors.ExpectWithin(kLoadFactor);
 }
 
 TEST_P(PlantKernelTest, AStepAgreesWithTheFloat64PlantAndEngine) {
@@ -364,8 +364,7 @@ TEST_P(PlantKernelTest, AWindOfZeroIsStillAir) {
 }
 
 TEST_P(PlantKernelGoldenTest, GoldenTrajectories) {
-  // Ten seconds at 50 Hz: rounding of the states accumulates.
-  constexpr double kTolerance = 2e-3;
+  constexpr Tolerance kTrajectory{2e-3, "float32 rounding of ten seconds at 50 Hz"};
   const Json golden = ReadGolden();
   ASSERT_FALSE(golden.at("trajectories").empty());
   for (const Json& trajectory : golden.at("trajectories")) {
@@ -399,7 +398,7 @@ TEST_P(PlantKernelGoldenTest, GoldenTrajectories) {
                    expected.at((step + 1) / kStepsPerSample).at(c));
       }
     }
-    errors.ExpectWithin(kTolerance);
+    errors.ExpectWithin(kTrajectory);
   }
 }
 
@@ -483,6 +482,7 @@ TEST_P(PlantKernelTest, ANaNInTheStateStaysVisible) {
 }
 
 TEST_P(PlantKernelTest, QuaternionsStayNormal) {
+  constexpr Tolerance kFloat32{1e-6, "float32 rounding"};
   constexpr int kCount = 256;
   RandomFlight random(plant_.aircraft(), 29);
   TestTile tile(kCount);
@@ -492,7 +492,7 @@ TEST_P(PlantKernelTest, QuaternionsStayNormal) {
   for (int i = 0; i < kCount; ++i) {
     double square = 0;
     for (int k = kQ0; k <= kQz; ++k) square += std::pow(static_cast<double>(tile.at(k, i)), 2);
-    EXPECT_NEAR(square, 1, 1e-6);
+    EXPECT_NEAR(square, 1, kFloat32);
   }
 }
 
@@ -500,7 +500,9 @@ TEST_P(PlantKernelTest, QuaternionsStayNormal) {
 // there: dynamic pressure 2e-6 psf.
 TEST_P(PlantKernelTest, EnergyAndAngularMomentumAreKeptInVacuum) {
   constexpr int kSteps = 250;
-  constexpr double kRelative = 1e-5;  // 1000 roundings of 6e-8, mostly cancelling
+  constexpr Tolerance kRelative{1e-5, "1000 roundings of 6e-8, mostly cancelling"};
+  // Altitude rounds by up to 0.008 ft at each of 250 steps, a random walk of 0.07 ft: 2.3 ft^2/s^2.
+  constexpr Tolerance kAltitudeWalk{5, "float32 rounding of the altitude, ft^2/s^2"};
   TestTile states(1, kNumRigidBody);
   TestControls controls(1);
   RigidBodyState start;
@@ -528,8 +530,7 @@ TEST_P(PlantKernelTest, EnergyAndAngularMomentumAreKeptInVacuum) {
   // over the time of the flight, beside angular rates of about 1 rad/s.
   const double pressure = 0.5 * 2e-9 * start.segment<3>(kU).squaredNorm();
   const double push = kSteps * 0.02 * pressure * a.wing_area_ft2 * a.span_ft * 0.1 / a.Ixx;
-  // Altitude rounds by up to 0.008 ft at each of 250 steps, a random walk of 0.07 ft: 2.3 ft^2/s^2.
-  EXPECT_NEAR(energy(end), energy(start), 5);
+  EXPECT_NEAR(energy(end), energy(start), kAltitudeWalk);
   EXPECT_NEAR(momentum(end) / momentum(start), 1, kRelative + push);
   EXPECT_NEAR(rotation(end) / rotation(start), 1, kRelative + push);
 }

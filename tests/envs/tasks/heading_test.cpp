@@ -10,12 +10,13 @@
 
 #include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
-// Float32 rounding of angles and square roots near one.
-constexpr double kTolerance = 2e-6;
+constexpr Tolerance kFloat32{2e-6, "float32 rounding of angles and square roots near one"};
+constexpr Tolerance kEnds{1e-5, "float32 rounding at the ends of a range"};
 constexpr double kFtPerKm = 1000 / 0.3048;
 
 class HeadingTest : public testing::TestWithParam<simd::Target> {
@@ -66,9 +67,9 @@ TEST_P(HeadingTest, ErrorsAreTargetMinusActualInTheirUnits) {
   const std::vector<float> errors = Errors();
   for (int i = 0; i < kCount; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    EXPECT_NEAR(errors[index], 0.3, kTolerance);
-    EXPECT_NEAR(errors[flight_.stride() + index], -0.4, kTolerance);
-    EXPECT_NEAR(errors[2 * flight_.stride() + index], 0.1, kTolerance);
+    EXPECT_NEAR(errors[index], 0.3, kFloat32);
+    EXPECT_NEAR(errors[flight_.stride() + index], -0.4, kFloat32);
+    EXPECT_NEAR(errors[2 * flight_.stride() + index], 0.1, kFloat32);
   }
 }
 
@@ -82,8 +83,8 @@ TEST_P(HeadingTest, YawErrorTakesTheShortWayRound) {
   for (int i = 0; i < kCount; ++i) {
     const double expected = std::remainder(-3.3 * kStep * i, 2 * M_PI);
     const double actual = errors[flight_.stride() + static_cast<std::size_t>(i)];
-    EXPECT_LE(std::abs(actual), M_PI + kTolerance);
-    EXPECT_NEAR(std::remainder(actual - expected, 2 * M_PI), 0, kTolerance) << i;
+    EXPECT_LE(std::abs(actual), M_PI + kFloat32);
+    EXPECT_NEAR(std::remainder(actual - expected, 2 * M_PI), 0, kFloat32) << i;
   }
 }
 
@@ -91,7 +92,7 @@ TEST_P(HeadingTest, RewardIsMinusTheNormOfTheErrors) {
   SetLevel(0, 0);
   SetTarget(0, 20000 - 0.2 * kFtPerKm, 0.3, 1000 + 0.6 * 340 / 0.3048);
   ComputeReward();
-  EXPECT_NEAR(reward_[0], -0.7, kTolerance);
+  EXPECT_NEAR(reward_[0], -0.7, kFloat32);
 }
 
 TEST_P(HeadingTest, SpeedErrorsCostTheirWeightBesideTheNorm) {
@@ -103,8 +104,8 @@ TEST_P(HeadingTest, SpeedErrorsCostTheirWeightBesideTheNorm) {
     SetTarget(side, 20000 - 0.2 * kFtPerKm, 0.3, 1000 + faster);
   }
   ComputeReward();
-  EXPECT_NEAR(reward_[0], -(0.7 + 3 * 0.6), 2 * kTolerance);
-  EXPECT_NEAR(reward_[1], reward_[0], 2 * kTolerance);
+  EXPECT_NEAR(reward_[0], -(0.7 + 3 * 0.6), 2 * kFloat32);
+  EXPECT_NEAR(reward_[1], reward_[0], 2 * kFloat32);
 }
 
 TEST_P(HeadingTest, MirroredErrorsGetTheSameReward) {
@@ -182,7 +183,7 @@ TEST_P(HeadingTest, SharesAreDrawnByEpisodeForTrainingAlone) {
   EXPECT_GE(least, 0.2);
   EXPECT_LT(least, 0.21);
   EXPECT_GT(most, 0.99);
-  EXPECT_NEAR(mean, 0.6, 0.02);
+  EXPECT_NEAR(mean, 0.6, kStandardErrors * 0.4 / std::sqrt(12.0 * kEpisodes));
 }
 
 TEST_P(HeadingTest, TargetsAreDrawnAroundTheStart) {
@@ -195,7 +196,7 @@ TEST_P(HeadingTest, TargetsAreDrawnAroundTheStart) {
     const double change[3] = {target.at(kTargetAltitude, 0) - 20000.0,
                               std::remainder(yaw - 1, 2 * M_PI),
                               target.at(kTargetSpeed, 0) - 1100.0};
-    EXPECT_LE(std::abs(yaw), M_PI + kTolerance);
+    EXPECT_LE(std::abs(yaw), M_PI + kFloat32);
     for (int k = 0; k < 3; ++k) {
       least[k] = std::min(least[k], change[k]);
       most[k] = std::max(most[k], change[k]);
@@ -203,8 +204,8 @@ TEST_P(HeadingTest, TargetsAreDrawnAroundTheStart) {
   }
   const double limit[3] = {3000, 3, 300};
   for (int k = 0; k < 3; ++k) {
-    EXPECT_GE(least[k], -limit[k] * 1.00001);
-    EXPECT_LE(most[k], limit[k] * 1.00001);
+    EXPECT_GE(least[k], -limit[k] * (1 + kEnds));
+    EXPECT_LE(most[k], limit[k] * (1 + kEnds));
     EXPECT_LT(least[k], -limit[k] * 0.99);
     EXPECT_GT(most[k], limit[k] * 0.99);
   }

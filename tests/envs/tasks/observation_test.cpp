@@ -14,12 +14,13 @@
 #include "envs/state/attitude.h"
 #include "simd/random.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
-// Float32 rounding of values near one; the density of the kernels is good to 1e-6.
-constexpr double kTolerance = 3e-6;
+constexpr Tolerance kFloat32{3e-6, "float32 rounding near one, and a density good to 1e-6"};
+constexpr Tolerance kScaledNoise{1e-5, "float32 rounding of noise of deviation 2"};
 constexpr AtmosphereModel kAtmosphere = AtmosphereModel::kStevensLewis;
 
 class ObservationTest : public testing::TestWithParam<simd::Target> {
@@ -86,7 +87,7 @@ TEST_P(ObservationTest, HasTheTwentyTwoValuesInTheirUnits) {
     for (int k = 0; k < kObservationSize; ++k) {
       EXPECT_NEAR(observation[static_cast<std::size_t>(i * kObservationSize + k)],
                   expected[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)],
-                  kTolerance * (k == 4 || k == 5 ? 10 : 1))  // divided by a small cos(pitch)
+                  kFloat32 * (k == 4 || k == 5 ? 10 : 1))  // divided by a small cos(pitch)
           << "aircraft " << i << ", element " << k;
     }
   }
@@ -115,7 +116,7 @@ TEST_P(ObservationTest, NoiseIsTheStreamOfAircraftEpisodeAndStep) {
                            M_PI / 4 * static_cast<std::int32_t>(word << 18) * 0x1.0p-31;
       const double deviate = radius * (k % 2 == 0 ? std::cos(angle) : std::sin(angle));
       const std::size_t at = static_cast<std::size_t>(i * kObservationSize + k);
-      EXPECT_NEAR(noisy[at] - clean[at], kNoise * deviate, 3e-6);
+      EXPECT_NEAR(noisy[at] - clean[at], kNoise * deviate, kFloat32);
     }
   }
 }
@@ -137,13 +138,13 @@ TEST_P(ObservationTest, NoiseHasTheMomentsAndTailsOfANormal) {
       ++n;
     }
   }
-  // Five standard errors: the variances of x, x^2, x^3, x^4 are 1, 2, 15, 96.
-  EXPECT_NEAR(sum[1] / n, 0, 5 * std::sqrt(1 / n));
-  EXPECT_NEAR(sum[2] / n, 1, 5 * std::sqrt(2 / n));
-  EXPECT_NEAR(sum[3] / n, 0, 5 * std::sqrt(15 / n));
-  EXPECT_NEAR(sum[4] / n, 3, 5 * std::sqrt(96 / n));
+  // The variances of x, x^2, x^3, x^4 are 1, 2, 15, 96.
+  EXPECT_NEAR(sum[1] / n, 0, kStandardErrors * std::sqrt(1 / n));
+  EXPECT_NEAR(sum[2] / n, 1, kStandardErrors * std::sqrt(2 / n));
+  EXPECT_NEAR(sum[3] / n, 0, kStandardErrors * std::sqrt(15 / n));
+  EXPECT_NEAR(sum[4] / n, 3, kStandardErrors * std::sqrt(96 / n));
   const double tail2 = std::erfc(2 / std::sqrt(2.0));
-  EXPECT_NEAR(beyond2 / n, tail2, 5 * std::sqrt(tail2 / n));
+  EXPECT_NEAR(beyond2 / n, tail2, kStandardErrors * std::sqrt(tail2 / n));
 }
 
 TEST_P(ObservationTest, ARangeOfNoiseGivesEveryEpisodeItsOwn) {
@@ -164,7 +165,7 @@ TEST_P(ObservationTest, ARangeOfNoiseGivesEveryEpisodeItsOwn) {
       for (int k = 0; k < kObservationSize; ++k) {
         const std::size_t at = static_cast<std::size_t>(i * kObservationSize + k);
         EXPECT_NEAR(ranged[at] - clean[at],
-                    (kMin + share * (kMax - kMin)) * (deviates[at] - clean[at]), 1e-5);
+                    (kMin + share * (kMax - kMin)) * (deviates[at] - clean[at]), kScaledNoise);
       }
     }
   }

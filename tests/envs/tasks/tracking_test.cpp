@@ -13,13 +13,14 @@
 
 #include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
 constexpr double kUnit = 1000 / 0.3048;  // 1 km in ft
-// Float32 rounding of positions of 40,000 ft (0.002 ft) in units of 1 km, and of their rotation.
-constexpr double kTolerance = 5e-6;
+constexpr Tolerance kFloat32{5e-6, "float32 rounding of 40,000 ft in km, and of its rotation"};
+constexpr Tolerance kEnds{1e-5, "float32 rounding at the ends of a range"};
 
 using Position = std::array<double, 3>;  ///< north, east, altitude, ft
 
@@ -87,9 +88,9 @@ TEST_P(TrackingTest, ErrorsAreAheadRightAndUpOfTheHeading) {
   for (int i = 0; i < kCount; ++i) {
     const double to_the_right = bearing - 0.37 * i;
     const auto index = static_cast<std::size_t>(i);
-    EXPECT_NEAR(errors[index], 4 * std::cos(to_the_right), kTolerance) << i;
-    EXPECT_NEAR(errors[flight_.stride() + index], 4 * std::sin(to_the_right), kTolerance) << i;
-    EXPECT_NEAR(errors[2 * flight_.stride() + index], 1, kTolerance) << i;
+    EXPECT_NEAR(errors[index], 4 * std::cos(to_the_right), kFloat32) << i;
+    EXPECT_NEAR(errors[flight_.stride() + index], 4 * std::sin(to_the_right), kFloat32) << i;
+    EXPECT_NEAR(errors[2 * flight_.stride() + index], 1, kFloat32) << i;
   }
 }
 
@@ -105,8 +106,8 @@ TEST_P(TrackingTest, StraightUpNorthCountsAsTheHeading) {
   std::vector<float> errors(kNumTaskErrors * flight_.stride());
   task_->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_NEAR(errors[i], 2, kTolerance);
-    EXPECT_NEAR(errors[flight_.stride() + i], -3, kTolerance);
+    EXPECT_NEAR(errors[i], 2, kFloat32);
+    EXPECT_NEAR(errors[flight_.stride() + i], -3, kFloat32);
   }
 }
 
@@ -135,7 +136,7 @@ TEST_P(TrackingTest, ErrorsInPathAxesAreAlongRightOfAndAboveThePathOverGround) {
   path->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
   for (std::size_t i = 0; i < kCount; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_NEAR(errors[k * flight_.stride() + i], error[static_cast<int>(k)], 2 * kTolerance)
+      EXPECT_NEAR(errors[k * flight_.stride() + i], error[static_cast<int>(k)], 2 * kFloat32)
           << i << ", " << k;
     }
   }
@@ -159,7 +160,7 @@ TEST_P(TrackingTest, APathStraightUpCountsAsNorthboundAndNoPathAsLevel) {
   path->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_NEAR(errors[k * flight_.stride() + i], expected[i][k], kTolerance) << i << ", " << k;
+      EXPECT_NEAR(errors[k * flight_.stride() + i], expected[i][k], kFloat32) << i << ", " << k;
     }
   }
 }
@@ -176,9 +177,9 @@ TEST_P(TrackingTest, ErrorsInEarthAxesTakeNoNoticeOfTheHeading) {
   std::vector<float> errors(kNumTaskErrors * flight_.stride());
   earth->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
   for (std::size_t i = 0; i < kCount; ++i) {
-    EXPECT_NEAR(errors[i], -5, kTolerance);
-    EXPECT_NEAR(errors[flight_.stride() + i], 6, kTolerance);
-    EXPECT_NEAR(errors[2 * flight_.stride() + i], -0.5, kTolerance);
+    EXPECT_NEAR(errors[i], -5, kFloat32);
+    EXPECT_NEAR(errors[flight_.stride() + i], 6, kFloat32);
+    EXPECT_NEAR(errors[2 * flight_.stride() + i], -0.5, kFloat32);
   }
 }
 
@@ -192,7 +193,7 @@ TEST_P(TrackingTest, RewardIsMinusTheDistanceInKilometres) {
   }
   ComputeReward(*task_);
   const double distance[] = {7, 0, 4, 5, 0.03};
-  for (std::size_t i = 0; i < away.size(); ++i) EXPECT_NEAR(reward_[i], -distance[i], kTolerance);
+  for (std::size_t i = 0; i < away.size(); ++i) EXPECT_NEAR(reward_[i], -distance[i], kFloat32);
 }
 
 TEST_P(TrackingTest, IsReachedWhereThePathTouchesTheBox) {
@@ -306,9 +307,10 @@ TEST_P(TrackingTest, TolerancesAreDrawnByEpisodeForTraining) {
   }
   EXPECT_GE(least, 20);
   EXPECT_LT(least, 20.5);
-  EXPECT_LE(most, 1000 * (1 + 1e-6));
+  EXPECT_LE(most, 1000 * (1 + kEnds));
   EXPECT_GT(most, 980);
-  EXPECT_NEAR(mean_logarithm, std::log(50) / 2, 0.05);
+  EXPECT_NEAR(mean_logarithm, std::log(50) / 2,
+              kStandardErrors * std::log(50) / std::sqrt(12.0 * kEpisodes));
 
   simd::RandomStream random({5, 0, 0, 0, simd::RandomPurpose::kTarget});
   MakeTask(EvaluationConfig(config))->Reset({20000, 1000, 0.1, 0.2}, &random, targets_.tile(), 0);
@@ -360,8 +362,8 @@ TEST_P(TrackingTest, TargetsLieWithinTheirAnglesOfTheNose) {
   const double low[3] = {10000, -30, -30}, high[3] = {30000, 30, 30};
   for (int k = 0; k < 3; ++k) {
     const double width = high[k] - low[k];
-    EXPECT_GE(least[k], low[k] - 1e-5 * width);
-    EXPECT_LE(most[k], high[k] + 1e-5 * width);
+    EXPECT_GE(least[k], low[k] - kEnds * width);
+    EXPECT_LE(most[k], high[k] + kEnds * width);
     EXPECT_LT(least[k], low[k] + 0.01 * width);
     EXPECT_GT(most[k], high[k] - 0.01 * width);
   }

@@ -11,6 +11,7 @@
 
 #include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -81,6 +82,8 @@ class DrydenTest : public testing::TestWithParam<simd::Target> {
 };
 
 TEST(DrydenScalesTest, AreThoseOfTheStandard) {
+  constexpr Tolerance kRounding{1e-9, "float64 rounding of 1000 ft"};
+  constexpr Tolerance kJoint{1e-4, "slopes over 2e-6 ft to either side"};
   for (const double altitude : {2000.0, 20000.0}) {
     EXPECT_DOUBLE_EQ(DrydenScalesAt(altitude).horizontal_ft, 1750);
     EXPECT_DOUBLE_EQ(DrydenScalesAt(altitude).vertical_ft, 1750);
@@ -88,21 +91,21 @@ TEST(DrydenScalesTest, AreThoseOfTheStandard) {
   }
   // By hand: 0.177 + 0.000823 * 200 = 0.3416.
   const DrydenScales low = DrydenScalesAt(200);
-  EXPECT_NEAR(low.horizontal_ft, 200 / std::pow(0.3416, 1.2), 1e-9);
-  EXPECT_NEAR(low.vertical_ft, 200, 1e-9);
-  EXPECT_NEAR(low.horizontal_ratio, 1 / std::pow(0.3416, 0.4), 1e-12);
-  EXPECT_NEAR(DrydenScalesAt(1500).horizontal_ft, 1375, 1e-9);
-  EXPECT_NEAR(DrydenScalesAt(1500).vertical_ft, 1375, 1e-9);
+  EXPECT_NEAR(low.horizontal_ft, 200 / std::pow(0.3416, 1.2), kRounding);
+  EXPECT_NEAR(low.vertical_ft, 200, kRounding);
+  EXPECT_NEAR(low.horizontal_ratio, 1 / std::pow(0.3416, 0.4), kRounding);
+  EXPECT_NEAR(DrydenScalesAt(1500).horizontal_ft, 1375, kRounding);
+  EXPECT_NEAR(DrydenScalesAt(1500).vertical_ft, 1375, kRounding);
   EXPECT_EQ(DrydenScalesAt(-50).vertical_ft, 10);
   for (const double joint : {1000.0, 2000.0}) {
     EXPECT_NEAR(DrydenScalesAt(joint - 1e-6).horizontal_ft,
-                DrydenScalesAt(joint + 1e-6).horizontal_ft, 1e-4);
+                DrydenScalesAt(joint + 1e-6).horizontal_ft, kJoint);
   }
 }
 
 TEST_P(DrydenTest, VarianceIsThatAskedForFromTheStartOn) {
   constexpr int kCount = 4000;
-  const double tolerance = 5 * std::sqrt(2.0 / kCount);  // five standard errors of a variance
+  const double tolerance = kStandardErrors * std::sqrt(2.0 / kCount);  // of a variance
   // From where a gust is 150 steps long to where it is as short as one.
   for (const double altitude : {20000.0, 200.0, 12.0}) {
     Gusts gusts(kCount, 1000, altitude);
@@ -126,7 +129,7 @@ TEST_P(DrydenTest, ComponentsAreIndependent) {
   for (int step = 0; step < 20; ++step) gusts.Advance(0.02);
   for (int k = 0; k < 3; ++k) {
     const double product = MeanProduct(gusts.Of(k), gusts.Of((k + 1) % 3));
-    EXPECT_NEAR(product / (kDeviation * kDeviation), 0, 5 / std::sqrt(1.0 * kCount));
+    EXPECT_NEAR(product / (kDeviation * kDeviation), 0, kStandardErrors / std::sqrt(1.0 * kCount));
   }
 }
 
@@ -144,7 +147,7 @@ TEST_P(DrydenTest, CorrelationFallsWithTheWayThroughTheAir) {
           const double scale = k < 2 ? scales.horizontal_ft : scales.vertical_ft;
           const double deviation = kDeviation * (k < 2 ? scales.horizontal_ratio : 1);
           const double expected = Correlation(k, 700 * dt * step / scale);
-          const double tolerance = 5 * std::sqrt((1 + expected * expected) / kCount);
+          const double tolerance = kStandardErrors * std::sqrt((1 + expected * expected) / kCount);
           EXPECT_NEAR(MeanProduct(start[k], gusts.Of(k)) / (deviation * deviation), expected,
                       tolerance)
               << "component " << k << ", step " << step << " of " << dt << " s";
@@ -165,7 +168,7 @@ TEST_P(DrydenTest, SpectraAreDrydens) {
   }
   // Periodograms under Hann's window, averaged over the aircraft: five standard errors are 16 %.
   // Up to an eighth of the sampling theorem's limit, what is folded back adds 2 %.
-  constexpr double kTolerance = 0.18;
+  constexpr Tolerance kPeriodogram{0.18, "five standard errors, and what is folded back"};
   const double spacing = kSpeed * kDt;
   for (const int cycles : {3, 5, 8, 13, 21, 34, 60}) {
     const double frequency = 2 * M_PI * cycles / (kSteps * spacing);
@@ -187,13 +190,14 @@ TEST_P(DrydenTest, SpectraAreDrydens) {
       }
       const double power = MeanProduct(real, real) + MeanProduct(imaginary, imaginary);
       const double density = power * spacing / (M_PI * window_power) / (kDeviation * kDeviation);
-      EXPECT_NEAR(density / Spectrum(k, kScale, frequency), 1, kTolerance)
+      EXPECT_NEAR(density / Spectrum(k, kScale, frequency), 1, kPeriodogram)
           << "component " << k << ", L W = " << kScale * frequency;
     }
   }
 }
 
 TEST_P(DrydenTest, GustsActAlongTheBodyAxes) {
+  constexpr Tolerance kFloat32{1e-5, "float32 rotation of tens of ft/s"};
   Gusts level(64, 1000, 20000), turned(64, 1000, 20000);
   const Eigen::Vector4d attitude = QuaternionFromEuler({0.7, -0.4, 2.1});
   const Eigen::Matrix3d body_from_ned = BodyFromNed(attitude);
@@ -206,7 +210,7 @@ TEST_P(DrydenTest, GustsActAlongTheBodyAxes) {
       gust[k] = level.tile().at(kWindNorth + k, i);
       wind[k] = turned.tile().at(kWindNorth + k, i);
     }
-    EXPECT_LT((body_from_ned * wind - gust).norm(), 1e-4);
+    EXPECT_LT((body_from_ned * wind - gust).norm(), kFloat32);
   }
 }
 
@@ -223,12 +227,13 @@ TEST_P(DrydenTest, AnAircraftDoesNotDependOnItsPlace) {
 }
 
 TEST_P(DrydenTest, AirThatStandsStillKeepsItsGust) {
+  constexpr Tolerance kStandingAir{0.1, "five deviations of a way of 1e-6 of the scale"};
   Gusts gusts(10, 0, 20000);
   const std::vector<double> before = gusts.Of(1);
   gusts.Advance(0.02);
   const std::vector<double> after = gusts.Of(1);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    EXPECT_NEAR(after[i], before[i], 0.1);  // five deviations of a way of 1e-6 of the scale
+    EXPECT_NEAR(after[i], before[i], kStandingAir);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "envs/actions.h"
 #include "envs/tasks/observation.h"
 #include "envs/vec_env.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -50,11 +51,13 @@ std::vector<float> Observe(const VecEnv& env) {
   return observation;
 }
 
+constexpr Tolerance kFloat32{1e-4, "float32 rounding of 100 ft/s"};
+
 TEST(WindTest, BlowsFromWhereItIsSaidToComeFrom) {
   const VecEnv env(Steady(60, 270, true), kCount, 1, kCount);
   for (int i = 0; i < kCount; ++i) {
-    EXPECT_NEAR(env.StateOf(i, kWindNorth), 0, 1e-4);
-    EXPECT_NEAR(env.StateOf(i, kWindEast), 60, 1e-4);
+    EXPECT_NEAR(env.StateOf(i, kWindNorth), 0, kFloat32);
+    EXPECT_NEAR(env.StateOf(i, kWindEast), 60, kFloat32);
     EXPECT_EQ(env.StateOf(i, kWindDown), 0);
   }
 }
@@ -69,18 +72,18 @@ TEST(WindTest, EveryEpisodeDrawsItsOwn) {
   for (int i = 0; i < kMany; ++i) {
     const double n = env.StateOf(i, kSteadyWindNorth), e = env.StateOf(i, kSteadyWindEast);
     const double deviation = env.StateOf(i, kTurbulenceStdDev);
-    EXPECT_GE(std::hypot(n, e), 30 - 1e-4);
-    EXPECT_LE(std::hypot(n, e), 120 + 1e-4);
+    EXPECT_GE(std::hypot(n, e), 30 - kFloat32);
+    EXPECT_LE(std::hypot(n, e), 120 + kFloat32);
     EXPECT_GE(deviation, 1);
     EXPECT_LE(deviation, 9);
     sum += std::hypot(n, e) / kMany;
     north += n / kMany;
     turbulence += deviation / kMany;
   }
-  // Five standard errors: 90 and 8 over sqrt(12), 80 over sqrt(2).
-  EXPECT_NEAR(sum, 75, 5 * 26 / std::sqrt(kMany));
-  EXPECT_NEAR(turbulence, 5, 5 * 2.4 / std::sqrt(kMany));
-  EXPECT_NEAR(north, 0, 5 * 57 / std::sqrt(kMany));
+  // The deviations are 90 and 8 over sqrt(12), 80 over sqrt(2).
+  EXPECT_NEAR(sum, 75, kStandardErrors * 26 / std::sqrt(kMany));
+  EXPECT_NEAR(turbulence, 5, kStandardErrors * 2.4 / std::sqrt(kMany));
+  EXPECT_NEAR(north, 0, kStandardErrors * 57 / std::sqrt(kMany));
 }
 
 TEST(WindTest, StillAirHasNone) {
@@ -92,6 +95,9 @@ TEST(WindTest, StillAirHasNone) {
 
 // Galileo: nothing but the position tells a steady wind from still air.
 TEST(WindTest, FlightTrimmedInTheWindIsFlightInStillAirCarriedAway) {
+  constexpr Tolerance kTurnedAxes{1e-6, "float32 rounding of the same start"};
+  constexpr Tolerance kAmplified{1e-4, "five seconds of rounding in other places"};
+  constexpr Tolerance kPositions{0.05, "positions of 6000 ft, rounded by 5e-4 ft at every step"};
   constexpr int kSteps = 250;
   constexpr double kNorth20 = -100 * 0.93969262, kEast20 = -100 * 0.34202014;  // from 20 deg
   VecEnv calm(Calm(), kCount, 1, kCount), windy(Steady(100, 20, false), kCount, 1, kCount);
@@ -101,21 +107,20 @@ TEST(WindTest, FlightTrimmedInTheWindIsFlightInStillAirCarriedAway) {
       ASSERT_NEAR(actual[k], expected[k], tolerance) << "element " << k % kObservationSize;
     }
   };
-  compare(1e-6);
+  compare(kTurnedAxes);
   Fly(&calm, kSteps);
   Fly(&windy, kSteps);
-  // Five seconds of rounding in other places.
-  compare(1e-4);
+  compare(kAmplified);
   for (int i = 0; i < kCount; ++i) {
-    // Positions up to 6000 ft are rounded by 5e-4 ft at every step.
     const double seconds = kSteps * kInterval;
-    EXPECT_NEAR(windy.StateOf(i, kNorth) - calm.StateOf(i, kNorth), kNorth20 * seconds, 0.3);
-    EXPECT_NEAR(windy.StateOf(i, kEast) - calm.StateOf(i, kEast), kEast20 * seconds, 0.3);
-    EXPECT_NEAR(windy.StateOf(i, kDown), calm.StateOf(i, kDown), 0.3);
+    EXPECT_NEAR(windy.StateOf(i, kNorth) - calm.StateOf(i, kNorth), kNorth20 * seconds, kPositions);
+    EXPECT_NEAR(windy.StateOf(i, kEast) - calm.StateOf(i, kEast), kEast20 * seconds, kPositions);
+    EXPECT_NEAR(windy.StateOf(i, kDown), calm.StateOf(i, kDown), kPositions);
   }
 }
 
 TEST(WindTest, AStepAtResetKeepsTheVelocityOverGround) {
+  constexpr Tolerance kSpeed{1e-3, "float32 rounding of errors in units of 340 m/s"};
   const VecEnv calm(Calm(), kCount, 1, kCount), windy(Steady(60, 0, true), kCount, 1, kCount);
   const std::vector<float> before = Observe(calm), after = Observe(windy);
   for (int i = 0; i < kCount; ++i) {
@@ -125,7 +130,7 @@ TEST(WindTest, AStepAtResetKeepsTheVelocityOverGround) {
     EXPECT_EQ(windy.TargetOf(i), calm.TargetOf(i));
     // All fly north into it: 60 ft/s more of true airspeed, which Heading's speed error shows.
     const std::size_t speed_error = static_cast<std::size_t>(i) * kObservationSize + 2;
-    EXPECT_NEAR((before[speed_error] - after[speed_error]) * 340 / 0.3048, 60, 0.01);
+    EXPECT_NEAR((before[speed_error] - after[speed_error]) * 340 / 0.3048, 60, kSpeed);
   }
 }
 
