@@ -80,6 +80,12 @@ class TileRollout {
     statistics_.simulator_seconds += std::chrono::duration<double>(Clock::now() - start).count();
   }
 
+  /// By each aircraft since training began, at the end of the rollout's policy step `step`.
+  std::int64_t ControlStepsFlown(int step) const {
+    return (static_cast<std::int64_t>(settings_.first_policy_step) + step + 1) *
+           env_.config().action_repeat;
+  }
+
   std::int64_t Row(int step) const { return rollout_.row(step, begin_); }
   float* Observation(int step) const {
     return rollout_.observation.data() + Row(step) * rollout_.observation_size;
@@ -157,6 +163,9 @@ class TileRollout {
       rollout_.ends[row + i] = ends;
       truncated |= truncates && termination == Termination::kTimeLimit;
       if (!ends) continue;
+      if (termination == Termination::kNonFinite) ++statistics_.non_finite;
+      // Older than training: its clock began somewhere.
+      if (scratch_.episode_steps[i] > ControlStepsFlown(step)) continue;
       ++statistics_.episodes;
       ++statistics_.terminations[scratch_.termination[i]];
       statistics_.return_sum += scratch_.episode_return[i];
@@ -233,6 +242,7 @@ EpisodeStatistics& EpisodeStatistics::operator+=(const EpisodeStatistics& other)
   policy_steps += other.policy_steps;
   episodes += other.episodes;
   return_sum += other.return_sum;
+  non_finite += other.non_finite;
   simulator_seconds += other.simulator_seconds;
   for (int i = 0; i < kNumTerminations; ++i) terminations[i] += other.terminations[i];
   return *this;

@@ -44,13 +44,16 @@ struct RecurrentState {
   std::vector<float> not_done;       ///< [aircraft]: 0 if an episode begins with the next step
 };
 
-/// What was flown in a rollout, and the episodes that ended in it.
+/// What was flown in a rollout, and the episodes that ended in it. Left out are first episodes that
+/// began with a staggered clock (EnvConfig::stagger_clocks): the time limit cuts them short, and
+/// their returns say nothing of whole ones. Non-finite ends are counted of all.
 struct EpisodeStatistics {
   std::uint64_t policy_steps =
       0;  ///< by all aircraft together; all of the rollout's unless stopped
   std::uint64_t episodes = 0;
   double return_sum = 0;
   std::array<int, kNumTerminations> terminations{};
+  int non_finite = 0;
   double simulator_seconds = 0;  ///< that threads spent in the environment; no two runs' are equal
 
   EpisodeStatistics& operator+=(const EpisodeStatistics& other);

@@ -157,6 +157,7 @@ struct Trainer::Impl {
     const auto count = static_cast<double>(episodes.episodes);
     report.episodes = episodes.episodes;
     report.terminations = episodes.terminations;
+    report.non_finite = episodes.non_finite;
     report.return_mean = episodes.return_sum / count;  // 0 / 0 says that there are none
     report.success_rate =
         episodes.terminations[static_cast<int>(Termination::kTargetReached)] / count;
@@ -257,6 +258,16 @@ IterationReport Trainer::Iterate() {
     impl_->SetState(before);
     throw;
   }
+}
+
+bool Trainer::StartFrom(const std::string& path) {
+  const StartingNetworks networks =
+      LoadNetworks(path, impl_->config, impl_->actor_layout, impl_->critic_layout);
+  std::copy(networks.actor.begin(), networks.actor.end(), impl_->actor.parameters());
+  if (networks.critic.empty()) return false;
+  std::copy(networks.critic.begin(), networks.critic.end(), impl_->critic.parameters());
+  impl_->popart = networks.popart;
+  return true;
 }
 
 RecurrentPolicy Trainer::policy() const { return impl_->CurrentPolicy(); }

@@ -23,10 +23,12 @@ struct IterationReport {
   std::uint64_t dropped_steps = 0;  ///< control steps flown in vain
   std::uint64_t iteration = 0;
   std::uint64_t env_steps = 0;  ///< control steps flown since the start of training
-  std::uint64_t episodes = 0;   ///< episodes that ended in this iteration
-  double return_mean = 0;       ///< of those; NaN if none
-  double success_rate = 0;      ///< of those; NaN if none
-  std::array<int, kNumTerminations> terminations{};
+  /// Episodes that ended in this iteration, but for first ones with a staggered clock.
+  std::uint64_t episodes = 0;
+  double return_mean = 0;                            ///< of those; NaN if none
+  double success_rate = 0;                           ///< of those; NaN if none
+  std::array<int, kNumTerminations> terminations{};  ///< of those
+  int non_finite = 0;  ///< episodes that ended as non_finite, first ones with a staggered clock too
   double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0, clip_fraction = 0;
   double actor_gradient_norm = 0, critic_gradient_norm = 0;
   double explained_variance = 0;
@@ -59,6 +61,12 @@ class Trainer {
   /// asked to stop, which takes no longer than a policy step of a tile of aircraft or the gradient
   /// of a tile of samples.
   IterationReport Iterate();
+
+  /// Takes over the networks of a policy file or checkpoint: the actor, and the critic with its
+  /// value statistics if the file has them (returned). Optimiser, environment and counters stay as
+  /// they are: for a training that has not begun. Throws Error if the file is damaged, or its
+  /// policy is of other sizes, another task or environment; nothing has changed then.
+  bool StartFrom(const std::string& path);
 
   RecurrentPolicy policy() const;
 

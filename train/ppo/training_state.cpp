@@ -286,6 +286,27 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
   return state;
 }
 
+StartingNetworks LoadNetworks(const std::string& path, const TrainConfig& config,
+                              const NetworkLayout& actor, const NetworkLayout& critic) {
+  const TensorFile file = TensorFile::Read(path);
+  const std::shared_ptr<const RecurrentPolicy::Parameters> policy = LoadPolicy(file, path);
+  if (!(policy->shape == actor.shape())) {
+    throw Error(path + ": its networks have other sizes than the configuration's (network.*)");
+  }
+  CheckMadeFor(config.env, RecurrentPolicy(policy), path);
+  StartingNetworks networks;
+  networks.actor = policy->values;
+  if (file.metadata.count("checkpoint.format") == 0) return networks;
+  const auto counters = LoadTensor<std::uint64_t>(
+      file, path, "counters", {std::tuple_size_v<decltype(Counters(TrainingState()))>});
+  const auto scalars = LoadTensor<double>(file, path, "scalars",
+                                          {std::tuple_size_v<decltype(Scalars(TrainingState()))>});
+  networks.popart = {scalars[0], scalars[1], counters[4] != 0};
+  if (networks.popart.started && !config.ppo.popart) return networks;
+  networks.critic = LoadTensor<float>(file, path, "critic/parameters", {critic.size()});
+  return networks;
+}
+
 std::uint64_t Hash(const TrainingState& state) {
   FnvHash hash;
   const auto add = [&hash](const auto& values) {

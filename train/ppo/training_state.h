@@ -44,6 +44,20 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
                              const TrainConfig& config, const NetworkLayout& actor,
                              const NetworkLayout& critic);
 
+/// What another training begins with.
+struct StartingNetworks {
+  std::vector<float> actor;   ///< flat parameters
+  std::vector<float> critic;  ///< of the same training; empty if the file has none that serves
+  PopArt popart;              ///< what the critic's output stands for
+};
+
+/// The networks in the policy file or checkpoint `path` for a training by `config`. A critic of
+/// scaled values does not serve one that does not scale them (ppo.popart). Throws Error, naming
+/// `path`, if the file is damaged or its policy has other sizes or was made for another task or
+/// environment.
+StartingNetworks LoadNetworks(const std::string& path, const TrainConfig& config,
+                              const NetworkLayout& actor, const NetworkLayout& critic);
+
 /// FNV-1a over every value of the state.
 std::uint64_t Hash(const TrainingState& state);
 

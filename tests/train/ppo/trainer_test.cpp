@@ -125,6 +125,50 @@ TEST_F(TrainerTest, RefusesACheckpointWhosePolicyHasOtherSizes) {
   EXPECT_NE(RefusalOf(SmallConfig(), path_).find("other sizes"), std::string::npos);
 }
 
+TEST_F(TrainerTest, StartsFromTheNetworksOfACheckpointOrAPolicy) {
+  WorkerPool pool(1);
+  Trainer trained(SmallConfig(), pool);
+  trained.Iterate();
+  trained.Save(path_);
+  Trainer fresh(SmallConfig(), pool);
+  EXPECT_TRUE(fresh.StartFrom(path_));
+  EXPECT_EQ(fresh.env_steps(), 0u);
+  EXPECT_EQ(fresh.policy().parameters()->values, trained.policy().parameters()->values);
+  EXPECT_NE(fresh.Signature(), trained.Signature()) << "the optimiser is fresh";
+  fresh.Iterate();
+
+  trained.policy().Save(scratch_ / "policy");
+  Trainer actor_alone(SmallConfig(), pool);
+  EXPECT_FALSE(actor_alone.StartFrom(scratch_ / "policy"));
+  TrainConfig unscaled = SmallConfig();
+  unscaled.ppo.popart = false;
+  Trainer without_scale(unscaled, pool);
+  EXPECT_FALSE(without_scale.StartFrom(path_)) << "a critic of scaled values";
+}
+
+TEST_F(TrainerTest, NetworksThatDoNotFitChangeNothing) {
+  WorkerPool pool(1);
+  Trainer(SmallConfig(), pool).Save(path_);
+  TrainConfig larger = SmallConfig();
+  larger.network.gru_size = 32;
+  Trainer trainer(larger, pool);
+  const std::uint64_t before = trainer.Signature();
+  EXPECT_THROW(trainer.StartFrom(path_), Error);
+  EXPECT_EQ(trainer.Signature(), before);
+}
+
+TEST_F(TrainerTest, StatisticsLeaveOutEpisodesWithStaggeredClocks) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  config.evaluation.interval_iterations = 0;
+  Trainer staggered(config, pool);
+  // 80 of the 100 control steps that a whole episode takes at most: only those that fail early end.
+  const IterationReport first = staggered.Iterate();
+  EXPECT_EQ(first.terminations[static_cast<int>(Termination::kTimeLimit)], 0);
+  const IterationReport second = staggered.Iterate();
+  EXPECT_GT(second.episodes, 0u);
+}
+
 TEST_F(TrainerTest, RestoringTellsTheSimdTargetOfTheCheckpoint) {
   WorkerPool pool(1);
   Trainer trainer(SmallConfig(), pool);
