@@ -76,6 +76,12 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
   return {policy, description};
 }
 
+ChosenLowLevelPolicy LowLevelPolicyIn(const std::string& path) {
+  std::shared_ptr<const Policy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
+  if (low_level == nullptr) return {};
+  return {std::move(low_level), "low-level policy of " + path};
+}
+
 std::shared_ptr<const Policy> LowLevelPolicyOfRun(const RunDirectory& directory,
                                                   const std::string& task) {
   if (!IsHierarchical(task)) return nullptr;

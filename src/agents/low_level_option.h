@@ -22,6 +22,10 @@ struct ChosenLowLevelPolicy {
 /// what is named cannot be one.
 ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option);
 
+/// The low-level policy of the high-level policy in a policy file or checkpoint; none if the policy
+/// there has none.
+ChosenLowLevelPolicy LowLevelPolicyIn(const std::string& path);
+
 /// The low-level policy that the run in `directory` began with; null if `task` has none.
 /// Throws Error if it cannot be read.
 std::shared_ptr<const Policy> LowLevelPolicyOfRun(const RunDirectory& directory,

@@ -27,6 +27,12 @@ std::string PolicyFileOf(const std::string& path) {
   return newest;
 }
 
+std::string NetworksFileOf(const std::string& path) {
+  if (!IsRunDirectory(path)) return PolicyFileOf(path);
+  const std::vector<Checkpoint> checkpoints = CheckpointsIn(path + "/checkpoints");
+  return checkpoints.empty() ? PolicyFileOf(path) : checkpoints.back().path;
+}
+
 RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
                            std::shared_ptr<const Policy> low_level) {
   const Backend backend = config.train.learner.backend;

@@ -18,6 +18,10 @@ inline constexpr const char* kUntrained = "untrained";
 /// that holds no run, or a run that has not saved a policy yet.
 std::string PolicyFileOf(const std::string& path);
 
+/// The file whose networks training starts from if it is to start from `path`: of the directory of
+/// a run its newest checkpoint, which has the critic, else what PolicyFileOf finds.
+std::string NetworksFileOf(const std::string& path);
+
 /// The policy in `file`, or the untrained one of `config` and `seed`, a high-level policy over
 /// `low_level` if that is not null; on the backend of `config`.
 RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,

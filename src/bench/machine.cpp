@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/bench/machine.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 
-#include "base/worker_pool.h"
 #include "simd/target.h"
 #include "src/version.h"
 #include "train/network/backend.h"
@@ -19,6 +20,11 @@ std::string CpuName() {
     if (colon != std::string::npos) return line.substr(colon + 2);
   }
   return "unknown";
+}
+
+std::string DescribeWorkers(const WorkerPool& pool) {
+  return fmt::format("SIMD target {}, {} thread{}", Name(simd::ActiveTarget()), pool.threads(),
+                     pool.threads() == 1 ? "" : "s");
 }
 
 nlohmann::ordered_json DescribeMachine() {

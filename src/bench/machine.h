@@ -4,10 +4,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/worker_pool.h"
+
 namespace skein {
 
 /// "Intel(R) Xeon(R) ..." as the system names the processor, or "unknown".
 std::string CpuName();
+
+/// "SIMD target avx512, 2 threads": what the pool's workers compute with.
+std::string DescribeWorkers(const WorkerPool& pool);
 
 /// What a figure depends on: version, commit, compiler, processor, SIMD target in use and supported
 /// ones, threads that commands use unless told otherwise, LibTorch (null without its module). The

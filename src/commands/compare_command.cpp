@@ -8,6 +8,7 @@
 #include <set>
 
 #include "src/agents/agent_names.h"
+#include "src/bench/machine.h"
 #include "src/commands/commands.h"
 #include "src/commands/flight_options.h"
 #include "src/config/configuration.h"
@@ -72,7 +73,7 @@ void CompareAgents(const CompareOptions& options) {
   const std::vector<NamedAgent> agents = FindAgents(options.agents, config, flight.seed);
   WorkerPool pool(flight.threads);
   const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);
-  fmt::print("{}\n", ToText(comparison));
+  fmt::print("{}\n(preset {}; {})\n", ToText(comparison), flight.preset, DescribeWorkers(pool));
   if (!options.csv.empty()) {
     WriteFile(options.csv, ComparisonCsvHeader() + ToCsv(comparison));
   }

@@ -9,6 +9,7 @@
 
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
+#include "src/bench/machine.h"
 #include "src/commands/commands.h"
 #include "src/commands/flight_options.h"
 #include "src/config/conditions.h"
@@ -75,9 +76,10 @@ void Evaluate(const EvalOptions& options) {
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
       EvaluateBothWays(policy, config.train.env, flight.episodes, flight.seed, pool);
-  fmt::print("{} on {}, {} episodes, seed {}, {}; {}\n{}\n{}\n", path, config.train.env.task,
-             flight.episodes, flight.seed, Rates(policy, config.train.env),
-             Describe(policy.backend()), DescribeConditions(config.train.env),
+  fmt::print("{} on {}, {} episodes, seed {}\n  {}\n  {}\n  {}\n  {}\n{}\n", path,
+             config.train.env.task, flight.episodes, flight.seed,
+             DescribeConditions(config.train.env), Rates(policy, config.train.env),
+             Describe(policy.backend()), DescribeWorkers(pool),
              ToText(report, options.deterministic));
   if (!flight.json.empty()) {
     WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));

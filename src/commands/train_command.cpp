@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "envs/tasks/task.h"
 #include "src/agents/low_level_option.h"
+#include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
@@ -32,6 +34,7 @@ struct TrainOptions {
   std::optional<double> seed;
   int threads = 0;
   std::string low_level;
+  std::string from;
   std::string out;
   std::string resume;
   CLI::Option* resume_option = nullptr;
@@ -104,6 +107,15 @@ void Resume(const TrainOptions& options) {
   TrainingRun::Resume(config, std::move(directory), pool);
 }
 
+/// What --low-level names, or else what the policy in `from` (unless empty) was trained over.
+ChosenLowLevelPolicy FindLowLevelPolicy(const TrainOptions& options, const EnvConfig& env,
+                                        const std::string& from) {
+  if (options.low_level.empty() && !from.empty() && IsHierarchical(env.task)) {
+    if (ChosenLowLevelPolicy own = LowLevelPolicyIn(from); own.policy != nullptr) return own;
+  }
+  return ChooseLowLevelPolicy(env, options.low_level);
+}
+
 void Train(const TrainOptions& options) {
   if (options.help_keys) {
     const std::string task = options.task.empty() ? EnvConfig{}.task : options.task;
@@ -118,10 +130,13 @@ void Train(const TrainOptions& options) {
     throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
   }
   ProgramConfig config = Configure(options, options.task);
-  const ChosenLowLevelPolicy low_level = ChooseLowLevelPolicy(config.train.env, options.low_level);
+  const std::string from = options.from.empty() ? "" : NetworksFileOf(options.from);
+  const ChosenLowLevelPolicy low_level = FindLowLevelPolicy(options, config.train.env, from);
   config.train.low_level = low_level.policy;
+  const std::string preset =
+      options.config.empty() ? options.preset : options.preset + " and " + options.config;
   WorkerPool pool(options.threads);
-  TrainingRun::Begin(config, options.out, pool, low_level.description);
+  TrainingRun::Begin(config, options.out, pool, {preset, low_level.description, from});
 }
 
 }  // namespace
@@ -166,6 +181,12 @@ void AddTrainCommand(CLI::App* app) {
                                       "directory of the run; it must not hold one already "
                                       "(default: runs/TASK-DATE-TIME)")
                          ->type_name("DIR");
+  CLI::Option* from =
+      command
+          ->add_option("--from", options->from,
+                       "start from the networks of a run (its newest checkpoint) or a policy, with "
+                       "a fresh optimiser and the whole budget: to train on what is finished")
+          ->type_name("RUN_OR_POLICY");
   options->resume_option =
       command
           ->add_option(
@@ -175,7 +196,8 @@ void AddTrainCommand(CLI::App* app) {
           ->expected(0, 1)
           ->excludes(preset)
           ->excludes(file)
-          ->excludes(out);
+          ->excludes(out)
+          ->excludes(from);
   command
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")
@@ -196,6 +218,7 @@ void AddTrainCommand(CLI::App* app) {
       "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
       "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
       "noisy=0.01..0.05\n"
+      "  skein train heading --from runs/short --steps 1e8\n"
       "  skein train --resume runs/short");
   command->callback([options] { Train(*options); });
 }

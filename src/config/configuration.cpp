@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
@@ -127,6 +128,7 @@ void RequireTask(const ProgramConfig& config, const std::string& task) {
 
 void CheckConsistent(const ProgramConfig& config) {
   Validate(config.train.env);
+  LoadAircraft(config.train.env.aircraft);  // throws on an unknown name
   Validate(config.train.ppo);
   if (config.checkpoint.interval_iterations == 0 && config.checkpoint.interval_s == 0) {
     throw Error(

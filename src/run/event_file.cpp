@@ -5,10 +5,17 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstring>
+
+#include "src/run/protobuf.h"
 
 namespace skein {
 namespace {
+
+using protobuf::Key;
+using protobuf::LittleEndian;
+using protobuf::Message;
+using protobuf::Varint;
+using protobuf::WireType;
 
 // Field numbers of Event, Summary, Summary.Value and SessionLog.
 enum EventField { kWallTime = 1, kStep = 2, kFileVersion = 3, kSummary = 5, kSessionLog = 7 };
@@ -16,8 +23,6 @@ enum SummaryField { kValue = 1 };
 enum ValueField { kTag = 1, kSimpleValue = 2 };
 enum SessionLogField { kStatus = 1 };
 constexpr std::uint64_t kStatusStart = 1;
-
-enum WireType { kVarint = 0, kFixed64 = 1, kLengthDelimited = 2, kFixed32 = 5 };
 
 constexpr std::array<std::uint32_t, 256> MakeCrcTable() {
   std::array<std::uint32_t, 256> table{};
@@ -29,36 +34,9 @@ constexpr std::array<std::uint32_t, 256> MakeCrcTable() {
   return table;
 }
 
-template <typename T>
-std::string LittleEndian(T value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(value));
-  std::string bytes;
-  for (std::size_t i = 0; i < sizeof(value); ++i) {
-    bytes += static_cast<char>(static_cast<unsigned char>(bits >> (8 * i)));
-  }
-  return bytes;
-}
-
-std::string Varint(std::uint64_t value) {
-  std::string bytes;
-  for (; value >= 0x80; value >>= 7) {
-    bytes += static_cast<char>(static_cast<unsigned char>(value | 0x80));
-  }
-  return bytes + static_cast<char>(value);
-}
-
-std::string Key(int field, WireType type) {
-  return Varint(static_cast<std::uint64_t>(field) << 3 | static_cast<std::uint64_t>(type));
-}
-
-std::string Message(int field, std::string_view content) {
-  return Key(field, kLengthDelimited) + Varint(content.size()) + std::string(content);
-}
-
 std::string EventHead(double unix_time_s, std::int64_t step) {
-  return Key(kWallTime, kFixed64) + LittleEndian(unix_time_s) + Key(kStep, kVarint) +
-         Varint(static_cast<std::uint64_t>(step));
+  return Key(kWallTime, WireType::kFixed64) + LittleEndian(unix_time_s) +
+         Key(kStep, WireType::kVarint) + Varint(static_cast<std::uint64_t>(step));
 }
 
 std::uint32_t MaskedCrc(std::string_view bytes) {
@@ -86,26 +64,35 @@ std::string EncodeScalars(double unix_time_s, std::int64_t step,
                           const std::vector<std::pair<std::string, double>>& scalars) {
   std::string summary;
   for (const auto& [tag, value] : scalars) {
-    summary += Message(kValue, Message(kTag, tag) + Key(kSimpleValue, kFixed32) +
+    summary += Message(kValue, Message(kTag, tag) + Key(kSimpleValue, WireType::kFixed32) +
                                    LittleEndian(static_cast<float>(value)));
   }
+  return EncodeSummary(unix_time_s, step, summary);
+}
+
+std::string EncodeSummary(double unix_time_s, std::int64_t step, std::string_view summary) {
   return EventHead(unix_time_s, step) + Message(kSummary, summary);
 }
 
 EventFile::EventFile(const std::string& directory, double unix_time_s, std::int64_t first_step)
     : file_(fmt::format("{}/events.out.tfevents.{:.0f}.{}.skein", directory, unix_time_s, getpid()),
             OpenMode::kAppend) {
-  const std::string version =
-      Key(kWallTime, kFixed64) + LittleEndian(unix_time_s) + Message(kFileVersion, "brain.Event:2");
+  const std::string version = Key(kWallTime, WireType::kFixed64) + LittleEndian(unix_time_s) +
+                              Message(kFileVersion, "brain.Event:2");
   // A session that starts at a step makes TensorBoard forget what earlier files say from there on.
-  const std::string session = EventHead(unix_time_s, first_step) +
-                              Message(kSessionLog, Key(kStatus, kVarint) + Varint(kStatusStart));
+  const std::string session =
+      EventHead(unix_time_s, first_step) +
+      Message(kSessionLog, Key(kStatus, WireType::kVarint) + Varint(kStatusStart));
   file_.Write(FrameRecord(version) + FrameRecord(session));
 }
 
 void EventFile::Append(double unix_time_s, std::int64_t step,
                        const std::vector<std::pair<std::string, double>>& scalars) {
   file_.Write(FrameRecord(EncodeScalars(unix_time_s, step, scalars)));
+}
+
+void EventFile::AppendSummary(double unix_time_s, std::int64_t step, std::string_view summary) {
+  file_.Write(FrameRecord(EncodeSummary(unix_time_s, step, summary)));
 }
 
 }  // namespace skein

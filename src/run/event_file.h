@@ -22,7 +22,10 @@ std::string FrameRecord(std::string_view data);
 std::string EncodeScalars(double unix_time_s, std::int64_t step,
                           const std::vector<std::pair<std::string, double>>& scalars);
 
-/// A TensorBoard event file of scalars.
+/// The same with an encoded Summary of any values.
+std::string EncodeSummary(double unix_time_s, std::int64_t step, std::string_view summary);
+
+/// A TensorBoard event file.
 class EventFile {
  public:
   /// Creates `directory`/events.out.tfevents.<time>.<process>.skein. Steps at or above `first_step`
@@ -32,6 +35,7 @@ class EventFile {
 
   void Append(double unix_time_s, std::int64_t step,
               const std::vector<std::pair<std::string, double>>& scalars);
+  void AppendSummary(double unix_time_s, std::int64_t step, std::string_view summary);
 
  private:
   FileDescriptor file_;

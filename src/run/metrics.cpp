@@ -3,16 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/error.h"
 #include "src/files/output_file.h"
 
 namespace skein {
 namespace {
 
 std::string Cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+constexpr const char* kEvaluationSuccess = "evaluation_success_rate";
 
 double EvaluationSuccess(const IterationReport& report) {
   return report.evaluation_success_rate < 0 ? std::nan("") : report.evaluation_success_rate;
@@ -22,7 +26,7 @@ double EvaluationSuccess(const IterationReport& report) {
 std::vector<std::pair<std::string, double>> Values(const IterationReport& report) {
   return {{"return_mean", report.return_mean},
           {"success_rate", report.success_rate},
-          {"evaluation_success_rate", EvaluationSuccess(report)},
+          {kEvaluationSuccess, EvaluationSuccess(report)},
           {"policy_loss", report.policy_loss},
           {"value_loss", report.value_loss},
           {"entropy", report.entropy},
@@ -33,6 +37,17 @@ std::vector<std::pair<std::string, double>> Values(const IterationReport& report
           {"explained_variance", report.explained_variance},
           {"learning_rate", report.learning_rate},
           {"log_std_mean", report.log_std_mean}};
+}
+
+void RequireSameColumns(const std::string& path, const std::string& line,
+                        const std::string& header) {
+  const auto columns = [](const std::string& text) {
+    return std::count(text.begin(), text.end(), ',') + 1;
+  };
+  if (columns(line) == columns(header)) return;
+  throw Error(
+      fmt::format("{}: it has {} columns where this version writes {}; move it away to resume",
+                  path, columns(line), columns(header)));
 }
 
 }  // namespace
@@ -65,10 +80,12 @@ std::string TimingRow(const IterationReport& report, double unix_time_s) {
                      report.evaluation_seconds);
 }
 
-std::vector<std::pair<std::string, double>> Scalars(const IterationReport& report) {
+std::vector<std::pair<std::string, double>> Scalars(const IterationReport& report,
+                                                    double control_steps) {
   std::vector<std::pair<std::string, double>> scalars;
   for (auto& [name, value] : Values(report)) {
-    if (std::isfinite(value)) scalars.emplace_back("train/" + name, value);
+    if (!std::isfinite(value)) continue;
+    scalars.emplace_back(name == kEvaluationSuccess ? "eval/success_rate" : "train/" + name, value);
   }
   if (report.episodes > 0) {
     for (int kind = 1; kind < kNumTerminations; ++kind) {
@@ -78,26 +95,30 @@ std::vector<std::pair<std::string, double>> Scalars(const IterationReport& repor
           static_cast<double>(report.terminations[index]) / static_cast<double>(report.episodes));
     }
   }
+  const double seconds = report.rollout_seconds + report.update_seconds;
+  if (seconds > 0) scalars.emplace_back("time/fps", control_steps / seconds);
   scalars.emplace_back("time/rollout_s", report.rollout_seconds);
   scalars.emplace_back("time/update_s", report.update_seconds);
   return scalars;
 }
 
-std::uint64_t TrimRows(const std::string& path, std::uint64_t iteration) {
+std::uint64_t TrimRows(const std::string& path, std::uint64_t iteration,
+                       const std::string& header) {
   if (!std::filesystem::exists(path)) return 0;
   const std::string text = ReadFile(path);
   std::string kept;
   std::uint64_t rows = 0;
-  bool header = true;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;  // torn by a kill in the middle of a write
     const std::string line = text.substr(begin, end + 1 - begin);
-    if (header || std::strtoull(line.c_str(), nullptr, 10) <= iteration) {
+    if (begin == 0) {
+      RequireSameColumns(path, line, header);
+      kept = header;
+    } else if (std::strtoull(line.c_str(), nullptr, 10) <= iteration) {
       kept += line;
-      if (!header) ++rows;
+      ++rows;
     }
-    header = false;
     begin = end + 1;
   }
   if (kept != text) WriteFile(path, kept);

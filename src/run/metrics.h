@@ -21,11 +21,14 @@ std::string TimingHeader();
 std::string TimingRow(const IterationReport& report, double unix_time_s);
 
 /// The report as named scalars for TensorBoard; values that do not exist are left out.
-std::vector<std::pair<std::string, double>> Scalars(const IterationReport& report);
+/// `control_steps` were flown in the iteration, by all aircraft together.
+std::vector<std::pair<std::string, double>> Scalars(const IterationReport& report,
+                                                    double control_steps);
 
 /// Drops the rows of the CSV file at `path` that are torn or whose first column is above
-/// `iteration`; does nothing if there is no file. Returns the number of rows left. Throws Error on
-/// a file that cannot be read or replaced.
-std::uint64_t TrimRows(const std::string& path, std::uint64_t iteration);
+/// `iteration`, and gives the columns the names of `header`, as an older version may have called
+/// them otherwise; does nothing if there is no file. Returns the number of rows left. Throws Error
+/// on a file that cannot be read or replaced, or has another number of columns.
+std::uint64_t TrimRows(const std::string& path, std::uint64_t iteration, const std::string& header);
 
 }  // namespace skein

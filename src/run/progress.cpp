@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "train/files/file_descriptor.h"
 
@@ -17,6 +18,12 @@ namespace {
 std::size_t TerminalWidth() {
   winsize size{};
   return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+/// The variable's value; empty if there is none.
+std::string Environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
 }
 
 double Seconds(ProgressMeter::Clock::duration duration) {
@@ -70,8 +77,8 @@ std::string FormatProgress(const Progress& p, Spacing spacing) {
       std::isfinite(p.return_mean) ? fmt::format("{:.1f}", p.return_mean) : "-";
   const std::string success = Percent(p.success_rate, spacing, 1);
   if (spacing == Spacing::kTight) {
-    return fmt::format("{} {}/s rollout {} update {} return {} success {} left {}", steps, rate,
-                       rollout, update, mean_return, success, left);
+    return fmt::format("{} {}/s return {} success {} left {}", steps, rate, mean_return, success,
+                       left);
   }
   return fmt::format(
       "{} steps ({}) | {} steps/s | rollout {} update {} | return {} | success {}{} | left {}",
@@ -80,6 +87,22 @@ std::string FormatProgress(const Progress& p, Spacing spacing) {
           ? ""
           : fmt::format(" (evaluated {})", Percent(p.evaluation_success_rate, spacing, 1)),
       left);
+}
+
+std::string FormatProgressBar(const Progress& progress, std::size_t width, bool colour) {
+  constexpr std::size_t kShortestBar = 8, kLongestBar = 32, kFrame = 3;  // brackets and a space
+  constexpr const char* kGreen = "\x1b[32m";
+  constexpr const char* kPlain = "\x1b[0m";
+  const std::string line = FormatProgress(progress, Spacing::kTight);
+  if (width < line.size() + kFrame + kShortestBar) return line.substr(0, width);
+  const std::size_t bar = std::min(width - line.size() - kFrame, kLongestBar);
+  const double done = progress.total_steps == 0 ? 0
+                                                : static_cast<double>(progress.env_steps) /
+                                                      static_cast<double>(progress.total_steps);
+  const auto filled =
+      static_cast<std::size_t>(std::clamp(done, 0.0, 1.0) * static_cast<double>(bar));
+  return fmt::format("[{}{}{}{}] {}", colour ? kGreen : "", std::string(filled, '='),
+                     colour ? kPlain : "", std::string(bar - filled, ' '), line);
 }
 
 ProgressMeter::ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps,
@@ -113,7 +136,9 @@ void ProgressMeter::Add(const IterationReport& report, Clock::time_point now) {
   }
 }
 
-ProgressDisplay::ProgressDisplay() : terminal_(isatty(STDOUT_FILENO) == 1) {}
+ProgressDisplay::ProgressDisplay()
+    : terminal_(isatty(STDOUT_FILENO) == 1 && Environment("TERM") != "dumb"),
+      colour_(terminal_ && Environment("NO_COLOR").empty()) {}
 
 void ProgressDisplay::Update(const Progress& progress) {
   constexpr double kTerminalInterval = 0.2, kPlainInterval = 10;
@@ -121,14 +146,11 @@ void ProgressDisplay::Update(const Progress& progress) {
   if (shown_ && Seconds(now - last_) < (terminal_ ? kTerminalInterval : kPlainInterval)) return;
   shown_ = true;
   last_ = now;
-  std::string line = FormatProgress(progress, Spacing::kWide);
   if (terminal_) {
-    const std::size_t width = TerminalWidth() - 1;
-    if (line.size() > width) line = FormatProgress(progress, Spacing::kTight).substr(0, width);
-    Write(fmt::format("\r{}\x1b[K", line));
+    Write(fmt::format("\r{}\x1b[K", FormatProgressBar(progress, TerminalWidth() - 1, colour_)));
     line_open_ = true;
   } else {
-    Write(line + "\n");
+    Write(FormatProgress(progress, Spacing::kTight) + "\n");
   }
 }
 

@@ -29,8 +29,13 @@ struct Progress {
 };
 
 /// One line: steps and budget, steps per second, shares of time, mean return, success, time left.
-/// The tight one fits 80 columns and leaves the evaluation out.
+/// The tight one fits 72 columns and leaves shares and evaluation out.
 std::string FormatProgress(const Progress& progress, Spacing spacing = Spacing::kWide);
+
+/// The tight line behind a bar that fills what is left of `width` columns; without the bar, and at
+/// last without its end, where that is little. `colour` adds escape sequences, which take no
+/// column.
+std::string FormatProgressBar(const Progress& progress, std::size_t width, bool colour);
 
 /// Collects iteration reports into a Progress: rates over the last iterations that took about half
 /// a minute, the latest values that exist of the others.
@@ -54,8 +59,9 @@ class ProgressMeter {
   Progress progress_;
 };
 
-/// Shows lines on the standard output: in place on a terminal, else one every ten seconds. Falls
-/// silent when the output breaks (its reader has gone, its disk is full).
+/// Shows lines on the standard output: with a bar, in place, on a terminal that can (TERM is not
+/// dumb), in colour unless NO_COLOR is set (no-color.org); else one every ten seconds. Falls silent
+/// when the output breaks (its reader has gone, its disk is full).
 class ProgressDisplay {
  public:
   ProgressDisplay();
@@ -69,7 +75,7 @@ class ProgressDisplay {
  private:
   void Write(const std::string& text);
 
-  bool terminal_ = false;
+  bool terminal_ = false, colour_ = false;
   bool line_open_ = false;
   bool shown_ = false;
   bool silent_ = false;

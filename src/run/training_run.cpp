@@ -10,9 +10,12 @@
 
 #include "base/error.h"
 #include "simd/target.h"
+#include "src/bench/machine.h"
+#include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
+#include "src/run/hyperparameters.h"
 #include "src/run/progress.h"
 #include "train/files/tensor_file.h"
 #include "train/policy/low_level_file.h"
@@ -47,11 +50,16 @@ std::string Quoted(const std::string& argument) {
   return quoted + "'";
 }
 
+/// By all aircraft together.
+std::uint64_t ControlStepsPerIteration(const TrainConfig& config) {
+  return static_cast<std::uint64_t>(config.ppo.num_aircraft) *
+         static_cast<std::uint64_t>(config.ppo.rollout_steps) *
+         static_cast<std::uint64_t>(config.env.action_repeat);
+}
+
 /// The budget in whole iterations.
 std::uint64_t LastStep(const TrainConfig& config) {
-  const auto iteration = static_cast<std::uint64_t>(config.ppo.num_aircraft) *
-                         static_cast<std::uint64_t>(config.ppo.rollout_steps) *
-                         static_cast<std::uint64_t>(config.env.action_repeat);
+  const std::uint64_t iteration = ControlStepsPerIteration(config);
   return (config.total_steps + iteration - 1) / iteration * iteration;
 }
 
@@ -69,17 +77,26 @@ std::string CannotRestore(const Checkpoint& newest, const std::vector<Checkpoint
   std::string message = fmt::format("cannot resume: {}", reason);
   if (message.find(newest.path) == std::string::npos) message += " (" + newest.path + ")";
   if (all.size() > 1 && IsDamaged(newest.path)) {
-    message += fmt::format("; remove that file to go on from {}", all[all.size() - 2].path);
+    message += fmt::format("; remove that file to resume from {}", all[all.size() - 2].path);
   }
   return message;
+}
+
+/// Takes over the networks of the file `from`, and says so; nothing if it is empty.
+std::string StartNetworks(const std::string& from, Trainer& trainer) {
+  if (from.empty()) return "";
+  const bool with_critic = trainer.StartFrom(from);
+  return fmt::format("started from {} ({})", from,
+                     with_critic ? "actor and critic" : "actor; a fresh critic");
 }
 
 }  // namespace
 
 void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
-                        const std::string& note) {
+                        const RunOrigin& origin) {
   // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
   Trainer trainer(config.train, pool);
+  const std::string started_from = StartNetworks(origin.from, trainer);
   RunDirectory directory = path.empty() ? RunDirectory::CreateIn(kRunsRoot, config.train.env.task)
                                         : RunDirectory::Create(path);
   ProgramConfig resolved = config;
@@ -89,10 +106,17 @@ void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wo
     StoreLowLevelPolicy(*config.train.low_level, low_level);
     low_level.Write(directory.low_level());
   }
+  // A run that is killed before its first checkpoint would begin anew with fresh networks.
+  if (!origin.from.empty()) trainer.Save(directory.checkpoint(0));
   // Last: it makes the directory one of a run.
-  WriteFile(directory.config(), DumpToml(resolved));
+  const std::string comment = started_from.empty() ? "" : "# " + started_from + "\n";
+  WriteFile(directory.config(), comment + DumpToml(resolved));
   TrainingRun run(resolved, std::move(directory), trainer, pool);
-  if (!note.empty()) run.log_.Say(note);
+  run.SayBanner();
+  for (const std::string& line :
+       {origin.preset.empty() ? "" : "preset " + origin.preset, started_from, origin.low_level}) {
+    if (!line.empty()) run.log_.Say("  " + line);
+  }
   run.Run();
 }
 
@@ -113,9 +137,10 @@ void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wo
       throw Error(CannotRestore(checkpoints.back(), checkpoints, error.what()));
     }
   }
-  const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration());
-  TrimRows(directory.timing(), trainer.iteration());
+  const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration(), MetricsHeader());
+  TrimRows(directory.timing(), trainer.iteration(), TimingHeader());
   TrainingRun run(config, std::move(directory), trainer, pool);
+  run.SayBanner();
   if (rows != trainer.iteration()) {
     run.log_.Say(fmt::format("warning: metrics.csv has {} rows for {} iterations", rows,
                              trainer.iteration()));
@@ -144,6 +169,8 @@ TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Tr
       saved_iteration_(trainer.iteration()) {
   if (metrics_.size() == 0) metrics_.Write(MetricsHeader());
   if (timing_.size() == 0) timing_.Write(TimingHeader());
+  events_.AppendSummary(UnixTime(), static_cast<std::int64_t>(trainer.env_steps()),
+                        EncodeHyperparameters(DumpToml(config), directory_.path(), UnixTime()));
 }
 
 void TrainingRun::Run() {
@@ -158,14 +185,23 @@ void TrainingRun::Run() {
   }
 }
 
+void TrainingRun::SayBanner() {
+  const TrainConfig& train = config_.train;
+  const std::uint64_t first_step = trainer_.env_steps();
+  log_.Say(fmt::format(
+      "{} {} in {}\n"
+      "  {} of {} control steps, {} aircraft, seed {}\n"
+      "  {}\n"
+      "  {}\n"
+      "  {}",
+      first_step == 0 ? "training" : "resuming", train.env.task, directory_.path(),
+      FormatCount(static_cast<double>(first_step)),
+      FormatCount(static_cast<double>(train.total_steps)), train.ppo.num_aircraft, train.seed,
+      DescribeConditions(train.env), Describe(trainer_.backend()), DescribeWorkers(pool_)));
+}
+
 void TrainingRun::TrainAndEvaluate() {
   const std::uint64_t first_step = trainer_.env_steps();
-  log_.Say(fmt::format("{} {} in {}: {} of {} steps, {} aircraft, seed {}, {} threads",
-                       first_step == 0 ? "training" : "resuming", config_.train.env.task,
-                       directory_.path(), FormatCount(static_cast<double>(first_step)),
-                       FormatCount(static_cast<double>(config_.train.total_steps)),
-                       config_.train.ppo.num_aircraft, config_.train.seed, pool_.threads()));
-  log_.Say(Describe(trainer_.backend()));
   const Clock::time_point start = Clock::now();
   ProgressMeter meter(first_step, LastStep(config_.train), start);
   std::string dropped;
@@ -200,7 +236,7 @@ void TrainingRun::TrainAndEvaluate() {
 }
 
 void TrainingRun::SayStopped(const std::string& dropped) {
-  log_.Say(fmt::format("stopped by {} after {} of {} steps{}; go on with: {} train --resume {}",
+  log_.Say(fmt::format("stopped by {} after {} of {} steps{}; resume with: {} train --resume {}",
                        strsignal(signals_.StopSignal()),
                        FormatCount(static_cast<double>(trainer_.env_steps())),
                        FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
@@ -213,7 +249,7 @@ IterationReport TrainingRun::Iterate() {
     report.iteration = trainer_.iteration();
     return report;
   } catch (const Error& error) {
-    // Not named like a checkpoint: a run that went on from it would fail again.
+    // Not named like a checkpoint: a run that resumed it would fail again.
     const std::string path = fmt::format("{}/before-failure-{:06}.skein", directory_.checkpoints(),
                                          trainer_.iteration());
     try {
@@ -230,13 +266,13 @@ void TrainingRun::Record(const IterationReport& report) {
   const double now = UnixTime();
   metrics_.Write(MetricsRow(report));
   timing_.Write(TimingRow(report, now));
-  events_.Append(now, static_cast<std::int64_t>(report.env_steps), Scalars(report));
-  const int non_finite = report.terminations[static_cast<std::size_t>(Termination::kNonFinite)];
-  if (non_finite > 0) {
+  events_.Append(now, static_cast<std::int64_t>(report.env_steps),
+                 Scalars(report, static_cast<double>(ControlStepsPerIteration(config_.train))));
+  if (report.non_finite > 0) {
     log_.Say(
         fmt::format("warning: {} aircraft left the finite numbers in iteration {} and were "
                     "reset",
-                    non_finite, report.iteration));
+                    report.non_finite, report.iteration));
   }
   if (report.evaluation_success_rate >= 0) {
     log_.Note(fmt::format("iteration {}, {} steps: deterministic success {:.1f} %{}",

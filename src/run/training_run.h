@@ -17,17 +17,24 @@
 
 namespace skein {
 
+/// Where a new run comes from, beside its configuration.
+struct RunOrigin {
+  std::string preset;     ///< name of the preset; empty if not known
+  std::string low_level;  ///< what the low-level policy is, for people; empty without one
+  std::string from;       ///< policy file or checkpoint whose networks it starts from; or empty
+};
+
 /// One training run in its directory: iterations, records, checkpoints, signals, and at the end the
 /// evaluation over fresh episodes.
 class TrainingRun {
  public:
-  /// A new run in a new directory: `path`, or one in kRunsRoot if that is empty. `note`, unless
-  /// empty, goes into its log.
+  /// A new run in a new directory: `path`, or one in kRunsRoot if that is empty. Throws Error if it
+  /// cannot be made, or `origin.from` does not fit the configuration.
   static void Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
-                    const std::string& note = "");
-  /// Goes on from the directory's newest checkpoint, or from the start if it has none, over the
-  /// low-level policy that the run began with. Throws Error if the checkpoint is damaged or made
-  /// with another configuration.
+                    const RunOrigin& origin = {});
+  /// Resumes the directory's newest checkpoint, or the start if it has none, over the low-level
+  /// policy that the run began with. Throws Error if the checkpoint is damaged or made with another
+  /// configuration.
   static void Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool);
 
  private:
@@ -37,6 +44,7 @@ class TrainingRun {
   /// To the end, or until it is stopped; says in the log what ended it.
   void Run();
   void TrainAndEvaluate();
+  void SayBanner();
   IterationReport Iterate();
   void Record(const IterationReport& report);
   void SaveCheckpoint();

@@ -89,7 +89,7 @@ TEST_F(HighLevelPipeline, AHighLevelTrainsOverTheAutopilot) {
   const ProgramResult flown = CallSkein({"eval", "--policy", policy, "--task", "tracking",
                                          "--episodes", "32", "--set", "env.time_limit_steps=100"});
   ASSERT_EQ(flown.exit_code, 0) << flown.error;
-  EXPECT_THAT(flown.output, HasSubstr("for a low-level policy with one every 1;"));
+  EXPECT_THAT(flown.output, HasSubstr("for a low-level policy with one every 1\n"));
   const ProgramResult other =
       CallSkein({"train", "--resume", run_, "--low-level", "autopilot:traditional"});
   EXPECT_EQ(other.exit_code, 2);

@@ -59,7 +59,7 @@ TEST_F(TrainingPipeline, LeavesEverythingBehindThatItSays) {
     EXPECT_TRUE(fs::is_regular_file(run_ + file)) << file;
   }
   EXPECT_THAT(result.output, HasSubstr(run_ + "/evaluation.json"));
-  EXPECT_THAT(result.output, HasSubstr("steps/s"));
+  EXPECT_THAT(result.output, HasSubstr("/s return "));
   EXPECT_EQ(CheckpointsIn(run_ + "/checkpoints").size(), 3u) << "only the newest stay";
 
   const std::string metrics = ReadFile(run_ + "/metrics.csv");
@@ -206,6 +206,55 @@ TEST_F(TrainingPipeline, AConfigurationFileOfARunRepeatsIt) {
       RunSkein({"train", "heading", "--config", reference_ + "/config.toml", "--out", run_});
   ASSERT_EQ(result.exit_code, 0) << result.error;
   ExpectSameRun(reference_, run_);
+}
+
+TEST_F(TrainingPipeline, ANewRunCanStartFromTheNetworksOfAnother) {
+  FlyReference({"--steps", "10240"});
+  const ProgramResult further =
+      CallSkein(TinyTraining(run_, {"--steps", "5120", "--from", reference_}));
+  ASSERT_EQ(further.exit_code, 0) << further.error;
+  const std::string line =
+      "started from " + reference_ + "/checkpoints/checkpoint-000002.skein (actor and critic)";
+  EXPECT_THAT(further.output, HasSubstr(line));
+  EXPECT_THAT(ReadFile(run_ + "/log.txt"), HasSubstr(line));
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("# " + line));
+  EXPECT_TRUE(fs::exists(run_ + "/checkpoints/checkpoint-000000.skein"))
+      << "a kill must not lose them";
+  EXPECT_NE(ReadFile(run_ + "/metrics.csv").find("\n1,5120,"), std::string::npos) << "counts anew";
+
+  const std::string policy = reference_ + "/checkpoints/policy-final.skein";
+  const ProgramResult actor =
+      CallSkein(TinyTraining(root_ + "/actor", {"--steps", "5120", "--from", policy}));
+  ASSERT_EQ(actor.exit_code, 0) << actor.error;
+  EXPECT_THAT(actor.output, HasSubstr("started from " + policy + " (actor; a fresh critic)"));
+}
+
+TEST_F(TrainingPipeline, NetworksThatDoNotFitAreRefusedInOneLine) {
+  FlyReference({"--steps", "5120"});
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& message,
+                           const char* task = "heading") {
+    std::vector<std::string> arguments = TinyTraining(run_, {"--from", reference_});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments[1] = task;
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 1);
+    ExpectOneLine(result.error, message);
+    EXPECT_FALSE(fs::exists(run_));
+  };
+  refused({"--set", "network.gru_size=32"}, "other sizes than the configuration's");
+  refused({}, "env.task = heading", "control");
+  refused({"--preset", "aerosonde"}, "env.aircraft");
+  EXPECT_EQ(CallSkein({"train", "--resume", reference_, "--from", reference_}).exit_code, 2);
+}
+
+TEST_F(TrainingPipeline, TheBannerSaysWhatIsTrainedAndOnWhat) {
+  const ProgramResult result = CallSkein(TinyTraining(run_, {"--steps", "5120", "--threads", "1"}));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  for (const char* part : {"training heading in ", "f16 from ", "preset default", "still air",
+                           "networks by the fused kernels", "SIMD target ", ", 1 thread"}) {
+    EXPECT_THAT(result.output, HasSubstr(part));
+  }
+  EXPECT_EQ(result.output.find('\x1b'), std::string::npos) << "no colour off a terminal";
 }
 
 TEST_F(TrainingPipeline, ThreadsDoNotChangeTheResult) {

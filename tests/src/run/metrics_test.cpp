@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 
@@ -50,33 +51,63 @@ TEST(Metrics, NumbersKeepEveryDigitAndMissingOnesAreEmpty) {
 TEST(Metrics, ScalarsLeaveOutWhatDoesNotExist) {
   IterationReport report;
   report.return_mean = std::nan("");
-  for (const auto& [name, value] : Scalars(report)) {
+  for (const auto& [name, value] : Scalars(report, 1000)) {
     EXPECT_TRUE(std::isfinite(value)) << name;
     EXPECT_NE(name, "train/return_mean");
-    EXPECT_NE(name, "train/evaluation_success_rate");
+    EXPECT_NE(name, "eval/success_rate");
+    EXPECT_NE(name, "time/fps");
   }
+}
+
+TEST(Metrics, ScalarsAreGroupedAsTensorBoardShowsThem) {
+  IterationReport report;
+  report.evaluation_success_rate = 0.75;
+  report.rollout_seconds = 1.5;
+  report.update_seconds = 2.5;
+  const auto scalars = Scalars(report, 1000);
+  const auto value = [&scalars](const std::string& tag) {
+    for (const auto& [name, number] : scalars) {
+      if (name == tag) return number;
+    }
+    return std::nan("");
+  };
+  EXPECT_EQ(value("eval/success_rate"), 0.75);
+  EXPECT_EQ(value("time/fps"), 250);
+  EXPECT_EQ(value("train/return_mean"), 0);
 }
 
 TEST_F(MetricsFileTest, TrimKeepsRowsUpToTheIteration) {
   const std::string path = FileWith("iteration,x\n1,a\n2,b\n3,c\n");
-  EXPECT_EQ(TrimRows(path, 2), 2u);
+  EXPECT_EQ(TrimRows(path, 2, "iteration,x\n"), 2u);
   EXPECT_EQ(ReadFile(path), "iteration,x\n1,a\n2,b\n");
 }
 
 TEST_F(MetricsFileTest, TrimDropsATornRow) {
   const std::string path = FileWith("iteration,x\n1,a\n2,b\n3");
-  EXPECT_EQ(TrimRows(path, 9), 2u);
+  EXPECT_EQ(TrimRows(path, 9, "iteration,x\n"), 2u);
   EXPECT_EQ(ReadFile(path), "iteration,x\n1,a\n2,b\n");
 }
 
 TEST_F(MetricsFileTest, TrimOfATornHeaderLeavesAnEmptyFile) {
   const std::string path = FileWith("iterat");
-  EXPECT_EQ(TrimRows(path, 9), 0u);
+  EXPECT_EQ(TrimRows(path, 9, "iteration,x\n"), 0u);
   EXPECT_EQ(ReadFile(path), "");
 }
 
+TEST_F(MetricsFileTest, TrimRenamesTheColumnsOfAnOlderVersion) {
+  const std::string path = FileWith("iteration,ended_ResetTarget\n1,5\n2,6\n");
+  EXPECT_EQ(TrimRows(path, 2, "iteration,ended_target_reached\n"), 2u);
+  EXPECT_EQ(ReadFile(path), "iteration,ended_target_reached\n1,5\n2,6\n");
+}
+
+TEST_F(MetricsFileTest, TrimRefusesAnotherNumberOfColumns) {
+  const std::string path = FileWith("iteration,x,y\n1,5,6\n");
+  EXPECT_THROW(TrimRows(path, 2, "iteration,x\n"), Error);
+  EXPECT_EQ(ReadFile(path), "iteration,x,y\n1,5,6\n");
+}
+
 TEST_F(MetricsFileTest, TrimOfNoFileIsNothing) {
-  EXPECT_EQ(TrimRows(scratch_ / "absent.csv", 3), 0u);
+  EXPECT_EQ(TrimRows(scratch_ / "absent.csv", 3, "iteration,x\n"), 0u);
 }
 
 }  // namespace

@@ -41,6 +41,24 @@ TEST_F(RunDirectoryTest, OpenRefusesWhatIsNotARun) {
   EXPECT_THROW(RunDirectory::Open(root_ + "/absent"), Error);
 }
 
+TEST_F(RunDirectoryTest, TheLowLevelPolicyIsFoundByItsOlderNameToo) {
+  const RunDirectory run = RunDirectory::Create(root_ + "/run");
+  EXPECT_EQ(run.low_level(), root_ + "/run/low_level.skein");
+  WriteFile(root_ + "/run/controller.skein", "older");
+  EXPECT_EQ(run.low_level(), root_ + "/run/controller.skein");
+  WriteFile(root_ + "/run/low_level.skein", "newer");
+  EXPECT_EQ(run.low_level(), root_ + "/run/low_level.skein");
+}
+
+TEST_F(RunDirectoryTest, IsKnownToBeHeld) {
+  EXPECT_FALSE(IsHeld(root_));
+  {
+    const RunDirectory run = RunDirectory::Create(root_ + "/run");
+    EXPECT_TRUE(IsHeld(root_ + "/run"));
+  }
+  EXPECT_FALSE(IsHeld(root_ + "/run"));
+}
+
 TEST_F(RunDirectoryTest, PruneKeepsTheNewestByNumber) {
   const RunDirectory run = RunDirectory::Create(root_ + "/run");
   for (const std::uint64_t iteration : {2, 1000000, 30, 4}) {
