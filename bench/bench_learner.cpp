@@ -28,10 +28,10 @@ std::vector<NetworkShape> ActorAndCritic() {
 
 /// Seconds per sample that products of one network take at the peak: one forward, two backward.
 double ForwardSeconds(const NetworkShape& shape, const NetworkPrecision& precision) {
-  return ForwardFlops(shape) / Peak(precision.forward);
+  return ForwardFlops(NetworkLayout(shape)) / Peak(precision.forward);
 }
 double BackwardSeconds(const NetworkShape& shape, const NetworkPrecision& precision) {
-  return 2 * ForwardFlops(shape) / Peak(precision.backward);
+  return 2 * ForwardFlops(NetworkLayout(shape)) / Peak(precision.backward);
 }
 
 /// Random samples of `batch` chunks for networks of the shape.

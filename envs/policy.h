@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "envs/env_config.h"
 
 namespace skein {
@@ -25,6 +27,10 @@ class Policy {
     own.action_repeat = action_repeat();
     return own;
   }
+
+  /// Throws Error that begins with `who` and names the first difference if it was made for another
+  /// task or environment than `env`, as far as it knows.
+  virtual void CheckMadeFor(const EnvConfig& /*env*/, const std::string& /*who*/) const {}
 
   /// One policy step for `count` aircraft: reads observation [count][observation_size], updates
   /// state [count][state_size], in which a row of zeros is the beginning of an episode, and writes

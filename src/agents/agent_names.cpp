@@ -37,7 +37,7 @@ bool EndsWith(const std::string& text, const std::string& end) {
 
 Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   const RecurrentPolicy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
-  CheckMadeFor(policy.EnvironmentFor(config.train.env), policy, "agent " + name);
+  policy.CheckMadeFor(policy.EnvironmentFor(config.train.env), "agent " + name);
   return EndsWith(name, kSampledSuffix) ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
 }
 

@@ -77,16 +77,16 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
 }
 
 ChosenLowLevelPolicy LowLevelPolicyIn(const std::string& path) {
-  std::shared_ptr<const Policy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
+  std::shared_ptr<const StoredPolicy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
   if (low_level == nullptr) return {};
   return {std::move(low_level), "low-level policy of " + path};
 }
 
-std::shared_ptr<const Policy> LowLevelPolicyOfRun(const RunDirectory& directory,
-                                                  const std::string& task) {
+std::shared_ptr<const StoredPolicy> LowLevelPolicyOfRun(const RunDirectory& directory,
+                                                        const std::string& task) {
   if (!IsHierarchical(task)) return nullptr;
   const std::string path = directory.low_level();
-  std::shared_ptr<const Policy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
+  std::shared_ptr<const StoredPolicy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
   if (low_level == nullptr) throw Error(fmt::format("{}: it holds no low-level policy", path));
   return low_level;
 }

@@ -5,15 +5,15 @@
 #include <string>
 
 #include "envs/env_config.h"
-#include "envs/policy.h"
 #include "src/run/run_directory.h"
+#include "train/policy/stored_policy.h"
 
 namespace skein {
 
 /// The low-level policy that the command line asks for.
 struct ChosenLowLevelPolicy {
-  std::shared_ptr<const Policy> policy;  ///< null where there is none
-  std::string description;               ///< a line for people
+  std::shared_ptr<const StoredPolicy> policy;  ///< null where there is none
+  std::string description;                     ///< a line for people
 };
 
 /// The low-level policy for the environment's task: the policy that `option` names (a run of task
@@ -28,7 +28,7 @@ ChosenLowLevelPolicy LowLevelPolicyIn(const std::string& path);
 
 /// The low-level policy that the run in `directory` began with; null if `task` has none.
 /// Throws Error if it cannot be read.
-std::shared_ptr<const Policy> LowLevelPolicyOfRun(const RunDirectory& directory,
-                                                  const std::string& task);
+std::shared_ptr<const StoredPolicy> LowLevelPolicyOfRun(const RunDirectory& directory,
+                                                        const std::string& task);
 
 }  // namespace skein

@@ -34,7 +34,7 @@ std::string NetworksFileOf(const std::string& path) {
 }
 
 RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
-                           std::shared_ptr<const Policy> low_level) {
+                           std::shared_ptr<const StoredPolicy> low_level) {
   const Backend backend = config.train.learner.backend;
   if (file != kUntrained) return RecurrentPolicy::Load(file).WithBackend(backend);
   const EnvConfig& env = config.train.env;

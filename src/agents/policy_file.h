@@ -25,6 +25,6 @@ std::string NetworksFileOf(const std::string& path);
 /// The policy in `file`, or the untrained one of `config` and `seed`, a high-level policy over
 /// `low_level` if that is not null; on the backend of `config`.
 RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,
-                           std::shared_ptr<const Policy> low_level = nullptr);
+                           std::shared_ptr<const StoredPolicy> low_level = nullptr);
 
 }  // namespace skein

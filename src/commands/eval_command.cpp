@@ -67,7 +67,7 @@ void Evaluate(const EvalOptions& options) {
   ProgramConfig config = BaseConfig(options, trained ? trained->task() : "");
   if (trained) config.train.env = trained->EnvironmentFor(config.train.env);
   ApplyOverrides(flight, &config);
-  std::shared_ptr<const Policy> low_level;
+  std::shared_ptr<const StoredPolicy> low_level;
   if (!options.low_level.empty()) {
     low_level = ChooseLowLevelPolicy(config.train.env, options.low_level).policy;
   }

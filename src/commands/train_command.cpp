@@ -96,7 +96,7 @@ void Resume(const TrainOptions& options) {
   if (!options.low_level.empty()) {
     const ChosenLowLevelPolicy asked_low_level =
         ChooseLowLevelPolicy(config.train.env, options.low_level);
-    if (!IsSameLowLevelPolicy(asked_low_level.policy.get(), config.train.low_level.get())) {
+    if (!IsSamePolicy(asked_low_level.policy.get(), config.train.low_level.get())) {
       throw UsageError(
           fmt::format("{}: a resumed run keeps its low-level policy, but --low-level {} is "
                       "another one; begin a new run instead",

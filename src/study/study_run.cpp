@@ -53,7 +53,7 @@ ProgramConfig ConfigOfRun(const RunDirectory& directory, ProgramConfig asked) {
     asked.train.learner.precision = config.train.learner.precision;
   }
   std::vector<std::string> differences = Differences(config, asked);
-  if (!IsSameLowLevelPolicy(config.train.low_level.get(), asked.train.low_level.get())) {
+  if (!IsSamePolicy(config.train.low_level.get(), asked.train.low_level.get())) {
     differences.push_back("another low-level policy");
   }
   if (!differences.empty()) {

@@ -198,14 +198,11 @@ std::vector<float> InitialParameters(const NetworkLayout& layout, double head_sc
   return parameters;
 }
 
-double ForwardFlops(const NetworkShape& shape) {
-  const NetworkLayout layout(shape);
+double ForwardFlops(const NetworkLayout& layout) {
   double products = 0;
-  for (const NormalisedLinear& layer : layout.layers()) {
-    products += static_cast<double>(layer.in) * layer.out;
+  for (const ParameterSlice& slice : layout.slices()) {
+    if (slice.shape.size() == 2) products += static_cast<double>(slice.shape[0] * slice.shape[1]);
   }
-  const double gru = shape.gru_size;
-  products += 3 * gru * gru * (2 * shape.gru_layers - 1);  // all but the first one's input map
   return 2 * products;
 }
 

@@ -101,7 +101,7 @@ std::vector<float> InitialParameters(const NetworkLayout& layout, double head_sc
                                      std::uint64_t seed, std::uint32_t stream);
 
 /// Floating-point operations (a multiply-add is two) of the products of one forward pass per
-/// sample, at the network's own widths.
-double ForwardFlops(const NetworkShape& shape);
+/// sample: every matrix of the layout meets every sample once.
+double ForwardFlops(const NetworkLayout& layout);
 
 }  // namespace skein

@@ -10,15 +10,14 @@
 #include "envs/actions.h"
 #include "envs/tasks/observation.h"
 #include "simd/random.h"
-#include "train/policy/policy_environment.h"
 
 namespace skein {
 namespace {
 
-/// Leaves every command at zero.
-class IdlePilot final : public Policy {
+/// Zero actions.
+class ZeroPolicy final : public Policy {
  public:
-  explicit IdlePilot(int action_repeat) : action_repeat_(action_repeat) {}
+  explicit ZeroPolicy(int action_repeat) : action_repeat_(action_repeat) {}
 
   int observation_size() const override { return kObservationSize; }
   int action_size() const override { return kActionSize; }
@@ -60,38 +59,40 @@ void FillUniform(const Agent::Turn& turn, int count, int size, float* action) {
 
 }  // namespace
 
-Agent::Agent(std::shared_ptr<const Policy> pilot, Sampling sampling)
-    : pilot_(std::move(pilot)), sampling_(sampling) {}
+Agent::Agent(std::shared_ptr<const Policy> policy, Sampling sampling)
+    : policy_(std::move(policy)), sampling_(sampling) {}
 
 Agent::Agent(const RecurrentPolicy& policy, Sampling sampling)
-    : policy_(std::make_shared<RecurrentPolicy>(policy)), sampling_(sampling) {
-  pilot_ = policy_;
+    : recurrent_(std::make_shared<RecurrentPolicy>(policy)), sampling_(sampling) {
+  policy_ = recurrent_;
 }
 
-Agent Agent::Of(std::shared_ptr<const Policy> pilot) { return {std::move(pilot), Sampling::kNone}; }
+Agent Agent::Of(std::shared_ptr<const Policy> policy) {
+  return {std::move(policy), Sampling::kNone};
+}
 
 Agent Agent::MeanOf(const RecurrentPolicy& policy) { return {policy, Sampling::kNone}; }
 
 Agent Agent::SamplingFrom(const RecurrentPolicy& policy) { return {policy, Sampling::kNormal}; }
 
 Agent Agent::Random(int action_repeat) {
-  return {std::make_shared<IdlePilot>(action_repeat), Sampling::kUniform};
+  return {std::make_shared<ZeroPolicy>(action_repeat), Sampling::kUniform};
 }
 
-Agent Agent::Zero() { return Of(std::make_shared<IdlePilot>(1)); }
+Agent Agent::Zero() { return Of(std::make_shared<ZeroPolicy>(1)); }
 
 std::shared_ptr<const Policy> Agent::low_level() const {
-  return policy_ == nullptr ? nullptr : policy_->low_level();
+  return recurrent_ == nullptr ? nullptr : recurrent_->low_level();
 }
 
 void Agent::CheckFits(const VecEnv& env) const {
-  CheckMadeFor(env.config(), *pilot_, "the policy");
-  if (pilot_->observation_size() == env.observation_size() &&
-      pilot_->action_size() == env.action_size()) {
+  policy_->CheckMadeFor(env.config(), "the policy");
+  if (policy_->observation_size() == env.observation_size() &&
+      policy_->action_size() == env.action_size()) {
     return;
   }
-  throw Error("the policy takes " + std::to_string(pilot_->observation_size()) +
-              " observations and gives " + std::to_string(pilot_->action_size()) +
+  throw Error("the policy takes " + std::to_string(policy_->observation_size()) +
+              " observations and gives " + std::to_string(policy_->action_size()) +
               " actions; task \"" + env.config().task + "\" has " +
               std::to_string(env.observation_size()) + " and " + std::to_string(env.action_size()));
 }
@@ -100,16 +101,16 @@ void Agent::Act(const Turn& turn, int count, const float* observation, float* st
                 float* action) const {
   switch (sampling_) {
     case Sampling::kNone:
-      pilot_->Act(count, observation, state, action);
+      policy_->Act(count, observation, state, action);
       return;
     case Sampling::kNormal: {
-      std::vector<float> log_std(policy_->action_size());
-      policy_->ActionMean(count, observation, state, action, log_std.data());
+      std::vector<float> log_std(recurrent_->action_size());
+      recurrent_->ActionMean(count, observation, state, action, log_std.data());
       AddNormals(turn, count, log_std, action);
       return;
     }
     case Sampling::kUniform:
-      FillUniform(turn, count, pilot_->action_size(), action);
+      FillUniform(turn, count, policy_->action_size(), action);
       return;
   }
 }

@@ -11,31 +11,32 @@
 
 namespace skein {
 
-/// Who is evaluated: a pilot, perhaps with chance in what it does. Immutable, cheap to copy, and
-/// safe to use from several threads.
+/// What is evaluated: a policy, its actions as they are or drawn at random. Immutable, cheap to
+/// copy, and safe to use from several threads.
 class Agent {
  public:
-  /// Flies as `pilot` decides.
-  static Agent Of(std::shared_ptr<const Policy> pilot);
-  /// A policy with its mean action.
+  /// The actions of `policy`.
+  static Agent Of(std::shared_ptr<const Policy> policy);
+  /// The mean actions of `policy`.
   static Agent MeanOf(const RecurrentPolicy& policy);
-  /// A policy with actions drawn from its distribution.
+  /// Actions drawn from the distribution of `policy`.
   static Agent SamplingFrom(const RecurrentPolicy& policy);
-  /// Uniform in [-1, 1] whatever it observes, drawn anew every `action_repeat` control steps.
+  /// Random actions: uniform in [-1, 1] whatever it observes, drawn anew every `action_repeat`
+  /// control steps.
   static Agent Random(int action_repeat);
-  /// Every command zero: sticks centred, throttle in the middle.
+  /// Zero actions: stick and pedals centred, throttle in the middle.
   static Agent Zero();
 
   /// As of Policy::EnvironmentFor.
-  EnvConfig EnvironmentFor(const EnvConfig& env) const { return pilot_->EnvironmentFor(env); }
-  int state_size() const { return pilot_->state_size(); }
-  /// What flies when it is a high-level policy; null if it flies itself.
+  EnvConfig EnvironmentFor(const EnvConfig& env) const { return policy_->EnvironmentFor(env); }
+  int state_size() const { return policy_->state_size(); }
+  /// What flies for it if it is a high-level policy; null if it flies itself.
   std::shared_ptr<const Policy> low_level() const;
 
   /// Throws Error that says why not unless `env` is what it was made for, in sizes and meaning.
   void CheckFits(const VecEnv& env) const;
 
-  /// Whose policy step it is: what chance depends on.
+  /// Which policy step of which aircraft: what random numbers depend on.
   struct Turn {
     std::uint64_t seed = 0;
     std::uint32_t first_aircraft = 0;
@@ -50,11 +51,11 @@ class Agent {
  private:
   enum class Sampling { kNone, kNormal, kUniform };
 
-  Agent(std::shared_ptr<const Policy> pilot, Sampling sampling);
+  Agent(std::shared_ptr<const Policy> policy, Sampling sampling);
   Agent(const RecurrentPolicy& policy, Sampling sampling);
 
-  std::shared_ptr<const Policy> pilot_;
-  std::shared_ptr<const RecurrentPolicy> policy_;  ///< the pilot, if it is a policy
+  std::shared_ptr<const Policy> policy_;
+  std::shared_ptr<const RecurrentPolicy> recurrent_;  ///< the same, if it is one
   Sampling sampling_;
 };
 

@@ -5,17 +5,22 @@
 #include <string>
 
 #include "envs/env_config.h"
-#include "envs/policy.h"
+#include "train/files/tensor_file.h"
+#include "train/policy/stored_policy.h"
 
 namespace skein {
 
-/// A traditional autopilot of the Control task (envs/autopilot/autopilot.h) that flies for a
-/// high-level policy, with what it takes to make it again.
-class AutopilotPolicy final : public Policy {
+/// A traditional autopilot of the Control task (envs/autopilot/autopilot.h) as a low-level policy.
+class AutopilotPolicy final : public StoredPolicy {
  public:
   /// By the name of an AutopilotVariant. Throws Error on an unknown one, or if it has no gains for
   /// the environment's aircraft.
   AutopilotPolicy(const std::string& variant, const EnvConfig& env);
+
+  /// The autopilot in a file that Store wrote to; null if there is none. Throws Error, naming
+  /// `path`, on one that is damaged.
+  static std::shared_ptr<const AutopilotPolicy> Load(const TensorFile& file,
+                                                     const std::string& path);
 
   const std::string& variant() const { return variant_; }
   double control_interval_s() const { return control_interval_s_; }
@@ -24,14 +29,20 @@ class AutopilotPolicy final : public Policy {
   int action_size() const override { return autopilot_->action_size(); }
   int state_size() const override { return autopilot_->state_size(); }
   int action_repeat() const override { return autopilot_->action_repeat(); }
+  /// Also throws where it has no gains.
+  void CheckMadeFor(const EnvConfig& env, const std::string& who) const override;
   void Act(int count, const float* observation, float* state, float* action) const override {
     autopilot_->Act(count, observation, state, action);
   }
 
+  void Store(TensorFile& file) const override;
+  std::shared_ptr<const StoredPolicy> OnBackend(Backend backend) const override;
+  double FlopsPerAction() const override { return 0; }
+
  private:
   std::string variant_;
   double control_interval_s_;
-  std::unique_ptr<const Policy> autopilot_;
+  std::shared_ptr<const Policy> autopilot_;
 };
 
 }  // namespace skein

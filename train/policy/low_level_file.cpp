@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/policy/low_level_file.h"
 
-#include <utility>
-
 #include "base/error.h"
+#include "train/files/legacy_names.h"
 #include "train/files/tensor_access.h"
 #include "train/policy/autopilot_policy.h"
 #include "train/policy/policy_parameters.h"
@@ -12,43 +11,13 @@
 namespace skein {
 namespace {
 
-constexpr const char* kMetadataPrefix = "controller.";
-constexpr const char* kTensorPrefix = "controller/";
-constexpr const char* kAutopilotKey = "autopilot";
-constexpr const char* kIntervalKey = "control_interval_s";
+constexpr const char* kMetadataPrefix = "low_level.";
+constexpr const char* kTensorPrefix = "low_level/";
 
-TensorFile FileOf(const Policy& low_level) {
+TensorFile FileOf(const StoredPolicy& policy) {
   TensorFile file;
-  if (const auto* const autopilot = dynamic_cast<const AutopilotPolicy*>(&low_level)) {
-    file.metadata[kAutopilotKey] = autopilot->variant();
-    file.metadata[kIntervalKey] = ExactText(autopilot->control_interval_s());
-    return file;
-  }
-  const auto* const policy = dynamic_cast<const RecurrentPolicy*>(&low_level);
-  if (policy == nullptr) {
-    throw Error(
-        "a high-level policy's low-level policy must be a policy or an autopilot, to be written");
-  }
-  if (policy->low_level() != nullptr) {
-    throw Error("a high-level policy's low-level policy must fly itself, not plan for another");
-  }
-  StorePolicy(*policy->parameters(), file);
+  policy.Store(file);
   return file;
-}
-
-std::shared_ptr<const Policy> AutopilotIn(const TensorFile& part, const std::string& path) {
-  const auto interval = part.metadata.find(kIntervalKey);
-  // Of the environment that it flew in: whether another fits is for CheckMadeFor to say.
-  EnvConfig env;
-  env.control_interval_s =
-      interval == part.metadata.end()
-          ? 0
-          : ToNumber(interval->second, path + ", its low-level policy", kIntervalKey);
-  if (!(env.control_interval_s > 0)) {
-    throw Error(path +
-                ", its low-level policy: it does not say at which interval the autopilot flies");
-  }
-  return std::make_shared<const AutopilotPolicy>(part.metadata.at(kAutopilotKey), env);
 }
 
 bool IsSame(const NamedTensor& a, const NamedTensor& b) {
@@ -57,22 +26,27 @@ bool IsSame(const NamedTensor& a, const NamedTensor& b) {
 
 }  // namespace
 
-void StoreLowLevelPolicy(const Policy& low_level, TensorFile& file) {
+void StoreLowLevelPolicy(const StoredPolicy& low_level, TensorFile& file) {
   const TensorFile part = FileOf(low_level);
+  if (!ExtractPrefix(part.metadata, kMetadataPrefix).empty()) {
+    throw Error("a low-level policy must fly itself, not command a low-level policy of its own");
+  }
   InsertWithPrefix(part.metadata, kMetadataPrefix, file.metadata);
   InsertWithPrefix(part.tensors, kTensorPrefix, file.tensors);
 }
 
-std::shared_ptr<const Policy> LoadLowLevelPolicy(const TensorFile& file, const std::string& path) {
+std::shared_ptr<const StoredPolicy> LoadLowLevelPolicy(TensorFile file, const std::string& path) {
+  TakeCurrentNames(file);
   TensorFile part;
   part.metadata = ExtractPrefix(file.metadata, kMetadataPrefix);
   if (part.metadata.empty()) return nullptr;
-  if (part.metadata.count(kAutopilotKey) > 0) return AutopilotIn(part, path);
   part.tensors = ExtractPrefix(file.tensors, kTensorPrefix);
-  return std::make_shared<const RecurrentPolicy>(LoadPolicy(part, path + ", its low-level policy"));
+  const std::string name = path + ", its low-level policy";
+  if (auto autopilot = AutopilotPolicy::Load(part, name)) return autopilot;
+  return std::make_shared<const RecurrentPolicy>(LoadPolicy(std::move(part), name));
 }
 
-bool IsSameLowLevelPolicy(const Policy* a, const Policy* b) {
+bool IsSamePolicy(const StoredPolicy* a, const StoredPolicy* b) {
   if (a == nullptr || b == nullptr) return a == b;
   const TensorFile one = FileOf(*a), other = FileOf(*b);
   if (one.metadata != other.metadata || one.tensors.size() != other.tensors.size()) return false;

@@ -13,7 +13,7 @@
 
 namespace skein {
 
-/// What a Policy is made of.
+/// What a RecurrentPolicy is made of.
 struct RecurrentPolicy::Parameters {
   NetworkConfig config;
   NetworkShape shape;
@@ -22,19 +22,16 @@ struct RecurrentPolicy::Parameters {
   /// What else of it the policy cannot fly without (train/policy/policy_environment.h), as far as
   /// known.
   std::map<std::string, std::string> environment;
-  std::shared_ptr<const Policy> low_level;  ///< of a high-level policy, else null
-  std::vector<float> values;                ///< the actor's flat parameters
+  std::shared_ptr<const StoredPolicy> low_level;  ///< of a high-level policy, else null
+  std::vector<float> values;                      ///< the actor's flat parameters
 };
-
-/// `pilot`, which may be null, computed by `backend` if it is a policy.
-std::shared_ptr<const Policy> OnBackend(std::shared_ptr<const Policy> pilot, Backend backend);
 
 /// Writes the actor's description and parameters into `file`, one tensor "actor/<name>" per slice,
 /// and its low-level policy (train/policy/low_level_file.h).
 void StorePolicy(const RecurrentPolicy::Parameters& parameters, TensorFile& file);
 
 /// The actor in a file that StorePolicy wrote to. Throws Error, naming `path`, if there is none.
-std::shared_ptr<const RecurrentPolicy::Parameters> LoadPolicy(const TensorFile& file,
+std::shared_ptr<const RecurrentPolicy::Parameters> LoadPolicy(TensorFile file,
                                                               const std::string& path);
 
 }  // namespace skein

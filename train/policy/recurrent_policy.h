@@ -4,14 +4,14 @@
 #include <memory>
 #include <string>
 
-#include "envs/policy.h"
 #include "train/network/backend.h"
+#include "train/policy/stored_policy.h"
 
 namespace skein {
 
-/// A trained (or fresh) recurrent actor: what flies, or plans for a low-level policy that flies.
-/// Immutable and safe to use from several threads.
-class RecurrentPolicy final : public Policy {
+/// A trained (or fresh) recurrent actor: what flies, or a high-level policy over a low-level one
+/// that flies. Immutable and safe to use from several threads.
+class RecurrentPolicy final : public StoredPolicy {
  public:
   struct Parameters;  // train/policy/policy_parameters.h: configuration and the flat parameter
                       // vector
@@ -26,10 +26,10 @@ class RecurrentPolicy final : public Policy {
   /// A freshly initialised actor: the one that training with this seed begins with.
   static RecurrentPolicy Untrained(const NetworkConfig& config, int observation_size,
                                    int action_size, std::uint64_t seed, int action_repeat = 1,
-                                   std::shared_ptr<const Policy> low_level = nullptr);
-  /// The same actor, computed by another backend, and the low-level policy that it plans for.
+                                   std::shared_ptr<const StoredPolicy> low_level = nullptr);
+  /// The same actor, and its low-level policy, computed by another backend.
   RecurrentPolicy WithBackend(Backend backend) const;
-  /// Writes the actor, and the low-level policy that it plans for, atomically.
+  /// Writes the actor, and its low-level policy, atomically.
   void Save(const std::string& path) const;
 
   const NetworkConfig& config() const;
@@ -42,7 +42,7 @@ class RecurrentPolicy final : public Policy {
   /// The task that it was trained for; empty if it was not, or by a version that did not say.
   const std::string& task() const;
   /// What flies when this is a high-level policy; null if it flies itself.
-  const std::shared_ptr<const Policy>& low_level() const;
+  const std::shared_ptr<const StoredPolicy>& low_level() const;
   const std::shared_ptr<const Parameters>& parameters() const;
 
   /// One policy step for `count` aircraft: observation [count][observation_size], state
@@ -52,6 +52,11 @@ class RecurrentPolicy final : public Policy {
                   float* log_std = nullptr) const;
   /// The same, clipped to [-1, 1].
   void Act(int count, const float* observation, float* state, float* action) const override;
+
+  void CheckMadeFor(const EnvConfig& env, const std::string& who) const override;
+  void Store(TensorFile& file) const override;
+  std::shared_ptr<const StoredPolicy> OnBackend(Backend backend) const override;
+  double FlopsPerAction() const override;
 
  private:
   struct Actor;

@@ -48,6 +48,10 @@ void AdamOptimiser::Step(double learning_rate) {
   TakeAdamStep(step);
 }
 
+void AdamOptimiser::SetParameters(const std::vector<float>& parameters) {
+  parameters_ = Padded(parameters);
+}
+
 AdamState AdamOptimiser::state() const {
   return {step_,
           {first_moment_.begin(), first_moment_.begin() + size_},

@@ -30,6 +30,10 @@ class AdamOptimiser {
 
   void Step(double learning_rate);
 
+  std::vector<float> ParameterVector() const { return {parameters(), parameters() + size_}; }
+  /// `parameters` has size() floats.
+  void SetParameters(const std::vector<float>& parameters);
+
   AdamState state() const;
   /// Throws Error unless sizes are those of the parameters.
   void Restore(const AdamState& state);

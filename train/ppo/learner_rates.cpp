@@ -5,11 +5,9 @@
 #include <chrono>
 #include <memory>
 
-#include "envs/kernels/plant_kernel.h"
 #include "envs/vec_env.h"
 #include "simd/peak.h"
 #include "train/network/network.h"
-#include "train/policy/recurrent_policy.h"
 #include "train/ppo/trainer.h"
 
 namespace skein {
@@ -21,15 +19,12 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-/// Of the products of a high-level policy's low-level policy until the high-level policy decides
-/// again; 0 without one, or for one that computes no networks.
-double LowLevelPolicyFlopsPerPolicyStep(const TrainConfig& config) {
-  const auto* policy = dynamic_cast<const RecurrentPolicy*>(config.low_level.get());
-  if (policy == nullptr) return 0;
-  const double policy_steps =
-      static_cast<double>(config.env.action_repeat) / policy->action_repeat();
-  return policy_steps * ForwardFlops(ActorShape(policy->config(), policy->observation_size(),
-                                                policy->action_size()));
+/// Of the products of the low-level policy, if there is one, until the next policy step.
+double LowLevelFlopsPerPolicyStep(const TrainConfig& config) {
+  if (config.low_level == nullptr) return 0;
+  const double actions =
+      static_cast<double>(config.env.action_repeat) / config.low_level->action_repeat();
+  return actions * config.low_level->FlopsPerAction();
 }
 
 /// One configuration in training, and its seconds by iteration.
@@ -66,15 +61,14 @@ struct Runner {
     const double samples = policy_steps * config.ppo.epochs;
     const VecEnv env(config.env, 1, config.seed, 1, config.low_level);
     const double forward_flops =
-        ForwardFlops(ActorShape(config.network, env.observation_size(), env.action_size())) +
-        ForwardFlops(CriticShape(config.network, env.observation_size()));
+        ForwardFlops(
+            NetworkLayout(ActorShape(config.network, env.observation_size(), env.action_size()))) +
+        ForwardFlops(NetworkLayout(CriticShape(config.network, env.observation_size())));
     LearnerRates rates;
     rates.backend = trainer->backend();
     rates.rollout_policy_steps_per_s = policy_steps / Median(rollout);
     rates.simulator_share = Median(simulator);
-    rates.rollout_flops_per_policy_step =
-        forward_flops + LowLevelPolicyFlopsPerPolicyStep(config) +
-        config.env.action_repeat * config.env.substeps * kFlopsPerRk4Step;
+    rates.rollout_flops_per_policy_step = forward_flops + LowLevelFlopsPerPolicyStep(config);
     rates.update_samples_per_s = samples / Median(update);
     rates.gradient_samples_per_s = samples / Median(gradient);
     // Backward is two products for each one forward.

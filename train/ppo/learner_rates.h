@@ -13,10 +13,8 @@ namespace skein {
 struct LearnerRates {
   BackendChoice backend;                  ///< what computed the networks
   double rollout_policy_steps_per_s = 0;  ///< simulator in the loop
-  double simulator_share =
-      0;  ///< of the rollout's time, with a high-level policy's low-level policy
-  /// Of the networks' products, a low-level policy's among them, and of the RK4 steps until the
-  /// next policy step.
+  double simulator_share = 0;             ///< of the rollout's time, low-level policy included
+  /// Of the networks' products until the next policy step, a low-level policy's among them.
   double rollout_flops_per_policy_step = 0;
   double update_samples_per_s = 0;     ///< through forward, loss, backward and optimiser
   double gradient_samples_per_s = 0;   ///< through forward, loss and backward alone

@@ -2,7 +2,6 @@
 #include "train/ppo/ppo_update.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -49,7 +48,42 @@ struct PpoUpdate::Gathered {
   NetworkWorkspace workspace;
   AlignedVector<float> observation, state, not_done, action, log_prob, advantage, target, old_value;
 
-  void Resize(const Rollout& rollout, std::int64_t rows, int chunks) {
+  /// The samples of `chunks`, for an actor or a critic; they stand until the next call.
+  SampleTile Gather(const Source& source, bool for_actor, const Chunks& chunks) {
+    const Rollout& rollout = source.rollout;
+    Resize(rollout, chunks.count);
+    const std::vector<float>& states = for_actor ? rollout.actor_state : rollout.critic_state;
+    for (int i = 0; i < chunks.count; ++i) {
+      const std::int64_t chunk = chunks.first[i];
+      const auto aircraft = static_cast<int>(chunk % rollout.aircraft);
+      const auto chunk_step = static_cast<int>(chunk / rollout.aircraft) * rollout.chunk_length;
+      std::copy_n(states.begin() + chunk * rollout.state_size, rollout.state_size,
+                  state.begin() + static_cast<std::int64_t>(i) * rollout.state_size);
+      for (int step = 0; step < rollout.chunk_length; ++step) {
+        const std::int64_t from = rollout.row(chunk_step + step, aircraft);
+        const std::int64_t to = static_cast<std::int64_t>(step) * chunks.count + i;
+        std::copy_n(rollout.observation.begin() + from * rollout.observation_size,
+                    rollout.observation_size, observation.begin() + to * rollout.observation_size);
+        not_done[to] = rollout.not_done[from];
+        if (for_actor) {
+          TakeActorSample(source, from, to);
+        } else {
+          TakeCriticSample(source, from, to);
+        }
+      }
+    }
+    SampleTile tile;
+    tile.sequence = {rollout.chunk_length, chunks.count, observation.data(), state.data(),
+                     not_done.data()};
+    tile.actor = {action.data(), log_prob.data(), advantage.data()};
+    tile.target = target.data();
+    tile.old_value = old_value.data();
+    return tile;
+  }
+
+ private:
+  void Resize(const Rollout& rollout, int chunks) {
+    const std::int64_t rows = static_cast<std::int64_t>(chunks) * rollout.chunk_length;
     observation.resize(rows * rollout.observation_size);
     state.resize(static_cast<std::int64_t>(chunks) * rollout.state_size);
     action.resize(rows * rollout.action_size);
@@ -57,142 +91,130 @@ struct PpoUpdate::Gathered {
       column->resize(rows);
     }
   }
+
+  void TakeActorSample(const Source& source, std::int64_t from, std::int64_t to) {
+    const Rollout& rollout = source.rollout;
+    std::copy_n(rollout.action.begin() + from * rollout.action_size, rollout.action_size,
+                action.begin() + to * rollout.action_size);
+    log_prob[to] = rollout.log_prob[from];
+    advantage[to] = static_cast<float>((rollout.advantage[from] - source.advantage_mean) *
+                                       source.advantage_inverse_std);
+  }
+
+  void TakeCriticSample(const Source& source, std::int64_t from, std::int64_t to) {
+    const ValueScale& scale = source.value_scale;
+    target[to] = static_cast<float>((source.rollout.target[from] - scale.mean) / scale.std);
+    old_value[to] = static_cast<float>((source.rollout.value[from] - scale.mean) / scale.std);
+  }
 };
 
-PpoUpdate::PpoUpdate(const TrainConfig& config, const BackendChoice& backend,
-                     const NetworkLayout& actor, const NetworkLayout& critic, WorkerPool& pool)
+PpoUpdate::PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPool& pool)
     : config_(config.ppo),
       seed_(config.seed),
       tanh_mean_(config.network.tanh_mean),
       tile_chunks_(std::max(1, config.learner.tile_samples / config.ppo.chunk_length)),
-      pool_(pool) {
-  actor_.network = MakeNetwork(backend.backend, actor, ActorPrecision(backend.precision));
-  critic_.network = MakeNetwork(backend.backend, critic, CriticPrecision(backend.precision));
+      pool_(pool),
+      sides_{Side{networks.actor, {}, {}}, Side{networks.critic, {}, {}}} {
   for (int i = 0; i < pool.threads(); ++i) gathered_.push_back(std::make_shared<Gathered>());
 }
 
-PpoUpdate::Advantages PpoUpdate::AdvantageScale(const Rollout& rollout) const {
-  if (!config_.normalise_advantages) return {};
+PpoUpdate::Source PpoUpdate::SourceOf(const Rollout& rollout, const ValueScale& scale) const {
+  if (!config_.normalise_advantages) return {rollout, scale};
   const auto count = static_cast<double>(rollout.samples());
   double sum = 0, squares = 0;
   for (const float advantage : rollout.advantage) sum += advantage;
   const double mean = sum / count;
-  for (const float advantage : rollout.advantage)
+  for (const float advantage : rollout.advantage) {
     squares += (advantage - mean) * (advantage - mean);
-  return {mean, 1 / (std::sqrt(squares / count) + kAdvantageEpsilon)};
-}
-
-void PpoUpdate::RunShard(Side& side, const Rollout& rollout, const ValueScale& scale,
-                         const Advantages& advantages, const std::int64_t* chunks, int count,
-                         const LossSettings& settings, int shard, int worker) {
-  AlignedVector<float>& accumulator = side.accumulators[shard];
-  accumulator.assign(side.network->accumulator_size(), 0.0f);
-  side.losses[shard] = {};
-  const bool is_actor = &side == &actor_;
-  const std::vector<float>& states = is_actor ? rollout.actor_state : rollout.critic_state;
-  Gathered& own = *gathered_[worker];
-  for (int first = 0; first < count && !pool_.stopping(); first += tile_chunks_) {
-    const int batch = std::min(tile_chunks_, count - first);
-    const std::int64_t rows = static_cast<std::int64_t>(batch) * rollout.chunk_length;
-    own.Resize(rollout, rows, batch);
-    for (int i = 0; i < batch; ++i) {
-      const std::int64_t chunk = chunks[first + i];
-      const auto aircraft = static_cast<int>(chunk % rollout.aircraft);
-      const auto chunk_step = static_cast<int>(chunk / rollout.aircraft) * rollout.chunk_length;
-      std::copy_n(states.begin() + chunk * rollout.state_size, rollout.state_size,
-                  own.state.begin() + static_cast<std::int64_t>(i) * rollout.state_size);
-      for (int step = 0; step < rollout.chunk_length; ++step) {
-        const std::int64_t from = rollout.row(chunk_step + step, aircraft);
-        const std::int64_t to = static_cast<std::int64_t>(step) * batch + i;
-        std::copy_n(rollout.observation.begin() + from * rollout.observation_size,
-                    rollout.observation_size,
-                    own.observation.begin() + to * rollout.observation_size);
-        own.not_done[to] = rollout.not_done[from];
-        if (is_actor) {
-          std::copy_n(rollout.action.begin() + from * rollout.action_size, rollout.action_size,
-                      own.action.begin() + to * rollout.action_size);
-          own.log_prob[to] = rollout.log_prob[from];
-          own.advantage[to] = static_cast<float>((rollout.advantage[from] - advantages.mean) *
-                                                 advantages.inverse_std);
-        } else {
-          own.target[to] = static_cast<float>((rollout.target[from] - scale.mean) / scale.std);
-          own.old_value[to] = static_cast<float>((rollout.value[from] - scale.mean) / scale.std);
-        }
-      }
-    }
-    SampleTile tile;
-    tile.sequence = {rollout.chunk_length, batch, own.observation.data(), own.state.data(),
-                     own.not_done.data()};
-    tile.actor = {own.action.data(), own.log_prob.data(), own.advantage.data()};
-    tile.target = own.target.data();
-    tile.old_value = own.old_value.data();
-    side.losses[shard] +=
-        side.network->AccumulateGradient(tile, settings, own.workspace, accumulator.data());
   }
+  return {rollout, scale, mean, 1 / (std::sqrt(squares / count) + kAdvantageEpsilon)};
 }
 
-LossSums PpoUpdate::Minibatch(const Rollout& rollout, const ValueScale& scale,
-                              const Advantages& advantages, const std::int64_t* chunks, int count,
-                              double learning_rate, AdamOptimiser& actor, AdamOptimiser& critic) {
+LossSettings PpoUpdate::SettingsFor(const Rollout& rollout, const Chunks& minibatch) const {
   LossSettings settings;
   settings.clip = config_.clip;
   settings.entropy_coefficient = config_.entropy_coefficient;
   settings.value_coefficient = config_.value_coefficient;
   settings.clip_value_loss = config_.clip_value_loss;
   settings.tanh_mean = tanh_mean_;
-  settings.sample_weight = 1.0 / (static_cast<double>(count) * rollout.chunk_length);
+  settings.sample_weight = 1.0 / (static_cast<double>(minibatch.count) * rollout.chunk_length);
+  return settings;
+}
 
-  const int tiles = (count + tile_chunks_ - 1) / tile_chunks_;
+void PpoUpdate::AccumulateShard(Side& side, const Source& source, const Chunks& chunks,
+                                const LossSettings& settings, int shard, int worker) {
+  const RecurrentNetwork& network = *side.trained.network;
+  AlignedVector<float>& accumulator = side.accumulators[shard];
+  accumulator.assign(network.accumulator_size(), 0.0f);
+  side.losses[shard] = {};
+  Gathered& own = *gathered_[worker];
+  for (int first = 0; first < chunks.count && !pool_.stopping(); first += tile_chunks_) {
+    const Chunks batch{chunks.first + first, std::min(tile_chunks_, chunks.count - first)};
+    side.losses[shard] += network.AccumulateGradient(own.Gather(source, is_actor(side), batch),
+                                                     settings, own.workspace, accumulator.data());
+  }
+}
+
+void PpoUpdate::AccumulateShards(const Source& source, const Chunks& minibatch) {
+  const LossSettings settings = SettingsFor(source.rollout, minibatch);
+  const int tiles = (minibatch.count + tile_chunks_ - 1) / tile_chunks_;
   const int shards = std::min(tiles, kMaxShards);
   const auto shard_begin = [&](int shard) {
-    return std::min(
-        count, static_cast<int>(static_cast<std::int64_t>(shard) * tiles / shards) * tile_chunks_);
+    const auto tile = static_cast<int>(static_cast<std::int64_t>(shard) * tiles / shards);
+    return std::min(minibatch.count, tile * tile_chunks_);
   };
-  const std::array<Side*, 2> sides{&actor_, &critic_};
-  const std::array<AdamOptimiser*, 2> optimisers{&actor, &critic};
-  for (Side* const side : sides) {
-    side->accumulators.resize(shards);
-    side->losses.resize(shards);
+  for (Side& side : sides_) {
+    side.accumulators.resize(shards);
+    side.losses.resize(shards);
   }
-  pool_.ForEach(2,
-                [&](int i, int) { sides[i]->network->SetParameters(optimisers[i]->parameters()); });
+  pool_.ForEach(2, [&](int i, int) { sides_[i].trained.TakeParameters(); });
   const auto start = std::chrono::steady_clock::now();
   pool_.ForEach(2 * shards, [&](int index, int worker) {
     const int shard = index / 2, begin = shard_begin(shard);
-    RunShard(*sides[index % 2], rollout, scale, advantages, chunks + begin,
-             shard_begin(shard + 1) - begin, settings, shard, worker);
+    AccumulateShard(sides_[index % 2], source,
+                    {minibatch.first + begin, shard_begin(shard + 1) - begin}, settings, shard,
+                    worker);
   });
   gradient_seconds_ +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (pool_.stopping()) return {};
-  for (Side* const side : sides) {
-    auto& accumulators = side->accumulators;
-    const auto size = static_cast<std::int64_t>(accumulators[0].size());
+}
+
+void PpoUpdate::SumAllShards() {
+  for (Side& side : sides_) {
+    const auto size = static_cast<std::int64_t>(side.accumulators[0].size());
     const auto blocks = static_cast<int>((size + kSumBlock - 1) / kSumBlock);
     pool_.ForEach(blocks, [&](int block, int) {
       const std::int64_t begin = block * kSumBlock;
-      SumShards(begin, std::min(size, begin + kSumBlock), accumulators);
+      SumShards(begin, std::min(size, begin + kSumBlock), side.accumulators);
     });
   }
+}
+
+LossSums PpoUpdate::RunMinibatch(const Source& source, const Chunks& minibatch,
+                                 double learning_rate) {
+  AccumulateShards(source, minibatch);
+  if (pool_.stopping()) return {};
+  SumAllShards();
   pool_.ForEach(2, [&](int i, int) {
-    Side& side = *sides[i];
-    side.network->FinishGradient(side.accumulators[0].data(), optimisers[i]->gradient());
-    side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, *optimisers[i]);
+    Side& side = sides_[i];
+    AdamOptimiser& optimiser = side.trained.optimiser;
+    side.trained.network->FinishGradient(side.accumulators[0].data(), optimiser.gradient());
+    side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, optimiser);
   });
+  const auto& [actor, critic] = sides_;
   LossSums total;
-  for (int shard = 0; shard < shards; ++shard) {
-    total += actor_.losses[shard];
-    total += critic_.losses[shard];
+  for (std::size_t shard = 0; shard < actor.losses.size(); ++shard) {
+    total += actor.losses[shard];
+    total += critic.losses[shard];
   }
-  RequireSane("actor", total.policy_loss, actor_.norm);
-  RequireSane("critic", total.value_loss, critic_.norm);
+  RequireSane("actor", total.policy_loss, actor.norm);
+  RequireSane("critic", total.value_loss, critic.norm);
   return total;
 }
 
 UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
-                            std::uint64_t iteration, double learning_rate, AdamOptimiser& actor,
-                            AdamOptimiser& critic) {
-  const Advantages advantages = AdvantageScale(rollout);
+                            std::uint64_t iteration, double learning_rate) {
+  const Source source = SourceOf(rollout, scale);
   const std::int64_t chunks = static_cast<std::int64_t>(rollout.chunks()) * rollout.aircraft;
   UpdateReport report;
   gradient_seconds_ = 0;
@@ -202,10 +224,10 @@ UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
       if (pool_.stopping()) return report;
       const std::int64_t begin = chunks * minibatch / config_.minibatches;
       const std::int64_t end = chunks * (minibatch + 1) / config_.minibatches;
-      report.losses += Minibatch(rollout, scale, advantages, order.data() + begin,
-                                 static_cast<int>(end - begin), learning_rate, actor, critic);
-      report.actor_gradient_norm += actor_.norm;
-      report.critic_gradient_norm += critic_.norm;
+      report.losses += RunMinibatch(source, {order.data() + begin, static_cast<int>(end - begin)},
+                                    learning_rate);
+      report.actor_gradient_norm += sides_[0].norm;
+      report.critic_gradient_norm += sides_[1].norm;
     }
   }
   const double count = static_cast<double>(config_.epochs) * config_.minibatches;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "base/worker_pool.h"
-#include "train/network/backend.h"
-#include "train/network/recurrent_network.h"
-#include "train/ppo/adam.h"
+#include "train/ppo/actor_critic.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/train_config.h"
 
@@ -25,43 +24,55 @@ struct UpdateReport {
 /// shards whose gradients are summed in a fixed order, so that no bit depends on the threads.
 class PpoUpdate {
  public:
-  PpoUpdate(const TrainConfig& config, const BackendChoice& backend, const NetworkLayout& actor,
-            const NetworkLayout& critic, WorkerPool& pool);
+  /// `networks` must outlive the update.
+  PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPool& pool);
 
   /// `iteration` keys the shuffles. Throws Error if a loss or a gradient is not finite, or a
   /// gradient's norm exceeds kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may
   /// then have moved. So they may if the pool is stopping: the update then ends within a tile,
   /// unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
-                   double learning_rate, AdamOptimiser& actor, AdamOptimiser& critic);
+                   double learning_rate);
 
  private:
   /// A network and its gradient: one accumulator and one sum of losses per shard.
   struct Side {
-    std::unique_ptr<RecurrentNetwork> network;
+    TrainedNetwork& trained;
     std::vector<AlignedVector<float>> accumulators;
     std::vector<LossSums> losses;
     double norm = 0;
   };
-  struct Gathered;
-  struct Advantages {
-    double mean = 0, inverse_std = 1;
+  /// What samples are gathered from, and the scale in which the losses see them.
+  struct Source {
+    const Rollout& rollout;
+    ValueScale value_scale;
+    double advantage_mean = 0, advantage_inverse_std = 1;
   };
+  /// Chunks of a minibatch or of one of its shards.
+  struct Chunks {
+    const std::int64_t* first = nullptr;
+    int count = 0;
+  };
+  struct Gathered;
 
-  void RunShard(Side& side, const Rollout& rollout, const ValueScale& scale,
-                const Advantages& advantages, const std::int64_t* chunks, int count,
-                const LossSettings& settings, int shard, int worker);
-  LossSums Minibatch(const Rollout& rollout, const ValueScale& scale, const Advantages& advantages,
-                     const std::int64_t* chunks, int count, double learning_rate,
-                     AdamOptimiser& actor, AdamOptimiser& critic);
-  Advantages AdvantageScale(const Rollout& rollout) const;
+  bool is_actor(const Side& side) const { return &side == &sides_[0]; }
+  Source SourceOf(const Rollout& rollout, const ValueScale& scale) const;
+  LossSettings SettingsFor(const Rollout& rollout, const Chunks& minibatch) const;
+  /// One step of both optimisers; their losses.
+  LossSums RunMinibatch(const Source& source, const Chunks& minibatch, double learning_rate);
+  /// Leaves the gradients of both networks in the accumulators of their shards.
+  void AccumulateShards(const Source& source, const Chunks& minibatch);
+  void AccumulateShard(Side& side, const Source& source, const Chunks& chunks,
+                       const LossSettings& settings, int shard, int worker);
+  /// Leaves the sums over shards in the first one's accumulators.
+  void SumAllShards();
 
   PpoConfig config_;
   std::uint64_t seed_;
   bool tanh_mean_;
   int tile_chunks_;
   WorkerPool& pool_;
-  Side actor_, critic_;
+  std::array<Side, 2> sides_;                        ///< actor, critic
   std::vector<std::shared_ptr<Gathered>> gathered_;  ///< one per worker
   double gradient_seconds_ = 0;                      ///< of the update so far
 };

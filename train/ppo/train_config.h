@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "envs/env_config.h"
-#include "envs/policy.h"
 #include "train/network/network_config.h"
+#include "train/policy/stored_policy.h"
 #include "train/ppo/learner_config.h"
 #include "train/ppo/ppo_config.h"
 
@@ -26,7 +26,7 @@ struct TrainConfig {
   LearnerConfig learner;
   PeriodicEvaluationConfig evaluation;
   /// What flies, frozen, while a high-level policy is trained; null where the policy itself flies.
-  std::shared_ptr<const Policy> low_level;
+  std::shared_ptr<const StoredPolicy> low_level;
   std::uint64_t total_steps = 0;  ///< budget in control steps (environment steps at 50 Hz)
   std::uint64_t seed = 1;
 };

@@ -10,8 +10,7 @@
 #include "envs/vec_env.h"
 #include "train/policy/evaluate.h"
 #include "train/policy/policy_environment.h"
-#include "train/policy/policy_parameters.h"
-#include "train/ppo/adam.h"
+#include "train/ppo/actor_critic.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/ppo_update.h"
 #include "train/ppo/rollout.h"
@@ -19,8 +18,6 @@
 
 namespace skein {
 namespace {
-
-constexpr double kCriticHeadScale = 1;
 
 double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -57,26 +54,21 @@ struct Trainer::Impl {
       : config(Validated(training)),
         pool(workers),
         env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile,
-            OnBackend(config.low_level, config.learner.backend)),
-        actor_layout(ActorShape(config.network, env.observation_size(), env.action_size())),
-        critic_layout(CriticShape(config.network, env.observation_size())),
-        actor(InitialParameters(actor_layout, config.network.actor_head_scale,
-                                config.network.initial_log_std, config.seed, kActorStream),
-              config.ppo.adam_epsilon),
-        critic(InitialParameters(critic_layout, kCriticHeadScale, 0, config.seed, kCriticStream),
-               config.ppo.adam_epsilon),
-        backend(
-            ChooseBackend(config.learner.backend, actor_layout.shape(), config.learner.precision)),
-        actor_network(
-            MakeNetwork(backend.backend, actor_layout, ActorPrecision(backend.precision))),
-        critic_network(
-            MakeNetwork(backend.backend, critic_layout, CriticPrecision(backend.precision))),
-        rollout(config.ppo, env.observation_size(), env.action_size(),
-                actor_layout.shape().state_size()),
-        recurrent(config.ppo.num_aircraft, actor_layout.shape().state_size()),
-        update(config, backend, actor_layout, critic_layout, pool) {
-    config.learner.precision = backend.precision;
+            LowLevelPolicy()),
+        networks(config, env.observation_size(), env.action_size()),
+        rollout(config.ppo, env.observation_size(), env.action_size(), StateSize()),
+        recurrent(config.ppo.num_aircraft, StateSize()),
+        update(config, networks, pool) {
+    config.learner.precision = networks.backend.precision;
   }
+
+  /// On the learner's backend, whatever computed it before.
+  std::shared_ptr<const Policy> LowLevelPolicy() const {
+    if (config.low_level == nullptr) return nullptr;
+    return config.low_level->OnBackend(config.learner.backend);
+  }
+
+  int StateSize() const { return networks.actor.layout().shape().state_size(); }
 
   std::uint64_t env_steps() const {
     return policy_steps * config.ppo.num_aircraft * config.env.action_repeat;
@@ -92,8 +84,9 @@ struct Trainer::Impl {
 
   TrainingState State() const {
     TrainingState state;
-    state.actor.assign(actor.parameters(), actor.parameters() + actor.size());
-    state.critic.assign(critic.parameters(), critic.parameters() + critic.size());
+    const AdamOptimiser &actor = networks.actor.optimiser, &critic = networks.critic.optimiser;
+    state.actor = actor.ParameterVector();
+    state.critic = critic.ParameterVector();
     state.actor_adam = actor.state();
     state.critic_adam = critic.state();
     state.popart = popart;
@@ -110,10 +103,10 @@ struct Trainer::Impl {
     // Sizes are right, LoadCheckpoint has seen to it, but for the environment's, which it asks
     // about itself: first, so that nothing has moved if it throws.
     env.Restore(state.env);
-    std::copy(state.actor.begin(), state.actor.end(), actor.parameters());
-    std::copy(state.critic.begin(), state.critic.end(), critic.parameters());
-    actor.Restore(state.actor_adam);
-    critic.Restore(state.critic_adam);
+    networks.actor.optimiser.SetParameters(state.actor);
+    networks.critic.optimiser.SetParameters(state.critic);
+    networks.actor.optimiser.Restore(state.actor_adam);
+    networks.critic.optimiser.Restore(state.critic_adam);
     popart = state.popart;
     recurrent = state.recurrent;
     iteration = state.iteration;
@@ -122,28 +115,18 @@ struct Trainer::Impl {
     best_return = state.best_return;
   }
 
-  std::vector<float> LogStd() const {
-    const float* const log_std = actor.parameters() + actor_layout.log_std();
-    return {log_std, log_std + actor_layout.shape().output_size};
-  }
-
   RecurrentPolicy CurrentPolicy() const {
-    auto parameters = std::make_shared<RecurrentPolicy::Parameters>();
-    parameters->config = config.network;
-    parameters->shape = actor_layout.shape();
-    parameters->action_repeat = config.env.action_repeat;
-    parameters->task = config.env.task;
-    parameters->environment = PolicyEnvironment(config.env);
-    parameters->low_level = config.low_level;
-    parameters->values.assign(actor.parameters(), actor.parameters() + actor.size());
-    return RecurrentPolicy(std::move(parameters), config.learner.backend);
+    const TrainedNetwork& actor = networks.actor;
+    return RecurrentPolicy(
+        PolicyInTraining(config, actor.layout().shape(), actor.optimiser.ParameterVector()),
+        config.learner.backend);
   }
 
   /// Returns the control steps flown.
   std::uint64_t CollectExperience(IterationReport& report) {
     const auto start = std::chrono::steady_clock::now();
-    actor_network->SetParameters(actor.parameters());
-    critic_network->SetParameters(critic.parameters());
+    networks.actor.TakeParameters();
+    networks.critic.TakeParameters();
     RolloutSettings settings;
     settings.seed = config.seed;
     settings.first_policy_step = policy_steps;
@@ -151,8 +134,9 @@ struct Trainer::Impl {
     settings.gae_lambda = config.ppo.gae_lambda;
     settings.tanh_mean = config.network.tanh_mean;
     settings.value_scale = popart.scale();
-    const EpisodeStatistics episodes = CollectRollout(env, *actor_network, *critic_network,
-                                                      LogStd(), settings, pool, recurrent, rollout);
+    const EpisodeStatistics episodes =
+        CollectRollout(env, *networks.actor.network, *networks.critic.network, networks.LogStd(),
+                       settings, pool, recurrent, rollout);
     policy_steps += config.ppo.rollout_steps;
     const auto count = static_cast<double>(episodes.episodes);
     report.episodes = episodes.episodes;
@@ -172,11 +156,10 @@ struct Trainer::Impl {
     const auto start = std::chrono::steady_clock::now();
     report.learning_rate = LearningRate();
     if (config.ppo.popart) {
-      UpdatePopArt(rollout.target, config.ppo.popart_rate, critic_layout, critic.parameters(),
-                   popart);
+      UpdatePopArt(rollout.target, config.ppo.popart_rate, networks.critic.layout(),
+                   networks.critic.optimiser.parameters(), popart);
     }
-    const UpdateReport done =
-        update.Run(rollout, popart.scale(), iteration, report.learning_rate, actor, critic);
+    const UpdateReport done = update.Run(rollout, popart.scale(), iteration, report.learning_rate);
     report.gradient_seconds = done.gradient_seconds;
     report.policy_loss = done.losses.policy_loss;
     report.value_loss = done.losses.value_loss;
@@ -185,7 +168,7 @@ struct Trainer::Impl {
     report.clip_fraction = done.losses.clip_fraction;
     report.actor_gradient_norm = done.actor_gradient_norm;
     report.critic_gradient_norm = done.critic_gradient_norm;
-    const std::vector<float> log_std = LogStd();
+    const std::vector<float> log_std = networks.LogStd();
     for (const float value : log_std) report.log_std_mean += value / log_std.size();
     report.update_seconds = SecondsSince(start);
   }
@@ -215,10 +198,7 @@ struct Trainer::Impl {
   TrainConfig config;
   WorkerPool& pool;
   VecEnv env;
-  NetworkLayout actor_layout, critic_layout;
-  AdamOptimiser actor, critic;
-  BackendChoice backend;
-  std::unique_ptr<RecurrentNetwork> actor_network, critic_network;  ///< frozen during a rollout
+  ActorCritic networks;
   Rollout rollout;
   RecurrentState recurrent;
   PpoUpdate update;
@@ -237,7 +217,7 @@ std::uint64_t Trainer::env_steps() const { return impl_->env_steps(); }
 std::uint64_t Trainer::iteration() const { return impl_->iteration; }
 bool Trainer::finished() const { return impl_->env_steps() >= impl_->config.total_steps; }
 
-const BackendChoice& Trainer::backend() const { return impl_->backend; }
+const BackendChoice& Trainer::backend() const { return impl_->networks.backend; }
 
 IterationReport Trainer::Iterate() {
   const TrainingState before = impl_->State();
@@ -261,11 +241,11 @@ IterationReport Trainer::Iterate() {
 }
 
 bool Trainer::StartFrom(const std::string& path) {
-  const StartingNetworks networks =
-      LoadNetworks(path, impl_->config, impl_->actor_layout, impl_->critic_layout);
-  std::copy(networks.actor.begin(), networks.actor.end(), impl_->actor.parameters());
+  const StartingNetworks networks = LoadNetworks(
+      path, impl_->config, impl_->networks.actor.layout(), impl_->networks.critic.layout());
+  impl_->networks.actor.optimiser.SetParameters(networks.actor);
   if (networks.critic.empty()) return false;
-  std::copy(networks.critic.begin(), networks.critic.end(), impl_->critic.parameters());
+  impl_->networks.critic.optimiser.SetParameters(networks.critic);
   impl_->popart = networks.popart;
   return true;
 }
@@ -273,13 +253,13 @@ bool Trainer::StartFrom(const std::string& path) {
 RecurrentPolicy Trainer::policy() const { return impl_->CurrentPolicy(); }
 
 void Trainer::Save(const std::string& path) const {
-  StoreCheckpoint(impl_->config, impl_->actor_layout, impl_->State()).Write(path);
+  StoreCheckpoint(impl_->config, impl_->networks.actor.layout(), impl_->State()).Write(path);
 }
 
 std::string Trainer::Restore(const std::string& path) {
   const TensorFile file = TensorFile::Read(path);
-  impl_->SetState(
-      LoadCheckpoint(file, path, impl_->config, impl_->actor_layout, impl_->critic_layout));
+  impl_->SetState(LoadCheckpoint(file, path, impl_->config, impl_->networks.actor.layout(),
+                                 impl_->networks.critic.layout()));
   return file.metadata.at(kSimdTargetKey);
 }
 

@@ -9,15 +9,18 @@
 #include "envs/tasks/task.h"
 #include "simd/target.h"
 #include "train/files/fnv_hash.h"
+#include "train/files/legacy_names.h"
 #include "train/files/tensor_access.h"
 #include "train/policy/low_level_file.h"
-#include "train/policy/policy_environment.h"
 #include "train/policy/policy_parameters.h"
+#include "train/ppo/actor_critic.h"
 
 namespace skein {
 namespace {
 
-constexpr const char* kFormat = "skein-checkpoint-1";
+constexpr const char* kFormat = "skein-checkpoint-2";
+/// Of version 0.1, which had other names for some tensors (train/files/legacy_names.h).
+constexpr const char* kOldFormat = "skein-checkpoint-1";
 constexpr const char* kConfigPrefix = "config.";
 
 std::string Text(const std::string& value) { return value; }
@@ -126,7 +129,7 @@ void VisitFloats(State& state, const Visit& visit) {
   visit("critic_adam/second_moment", state.critic_adam.second_moment);
   visit("recurrent/actor", state.recurrent.actor);
   visit("recurrent/critic", state.recurrent.critic);
-  visit("recurrent/keep", state.recurrent.not_done);
+  visit("recurrent/not_done", state.recurrent.not_done);
 }
 
 std::array<std::uint64_t, 5> Counters(const TrainingState& state) {
@@ -214,15 +217,7 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
   for (const auto& [name, value] : DescribeConfig(config)) {
     file.metadata[kConfigPrefix + name] = value;
   }
-  RecurrentPolicy::Parameters policy;
-  policy.config = config.network;
-  policy.shape = actor.shape();
-  policy.action_repeat = config.env.action_repeat;
-  policy.task = config.env.task;
-  policy.environment = PolicyEnvironment(config.env);
-  policy.low_level = config.low_level;
-  policy.values = state.actor;
-  StorePolicy(policy, file);
+  StorePolicy(*PolicyInTraining(config, actor.shape(), state.actor), file);
   VisitFloats(state, [&](const char* name, const std::vector<float>& values) {
     StoreTensor(file, name, {static_cast<std::int64_t>(values.size())}, values.data(),
                 values.size());
@@ -236,13 +231,14 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
   return file;
 }
 
-TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
-                             const TrainConfig& config, const NetworkLayout& actor,
-                             const NetworkLayout& critic) {
+TrainingState LoadCheckpoint(TensorFile file, const std::string& path, const TrainConfig& config,
+                             const NetworkLayout& actor, const NetworkLayout& critic) {
   const auto format = file.metadata.find("checkpoint.format");
-  if (format == file.metadata.end() || format->second != kFormat) {
+  if (format == file.metadata.end() ||
+      (format->second != kFormat && format->second != kOldFormat)) {
     throw Error(path + ": not a checkpoint of this version of Skein (\"" + kFormat + "\")");
   }
+  TakeCurrentNames(file);
   if (file.metadata.find(kSimdTargetKey) == file.metadata.end()) {
     throw Error(path + ": the checkpoint does not say on which SIMD target it was made");
   }
@@ -251,7 +247,7 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
   if (!(policy->shape == actor.shape())) {
     throw Error(path + ": its policy has other sizes than the configuration's");
   }
-  if (!IsSameLowLevelPolicy(policy->low_level.get(), config.low_level.get())) {
+  if (!IsSamePolicy(policy->low_level.get(), config.low_level.get())) {
     throw Error(path + ": made with another low-level policy than the one that flies now");
   }
   TrainingState state;
@@ -265,7 +261,7 @@ TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
                                                   {"critic_adam/second_moment", critic.size()},
                                                   {"recurrent/actor", states},
                                                   {"recurrent/critic", states},
-                                                  {"recurrent/keep", config.ppo.num_aircraft}};
+                                                  {"recurrent/not_done", config.ppo.num_aircraft}};
   VisitFloats(state, [&](const char* name, std::vector<float>& values) {
     values = LoadTensor<float>(file, path, name, {sizes.at(name)});
   });
@@ -293,7 +289,7 @@ StartingNetworks LoadNetworks(const std::string& path, const TrainConfig& config
   if (!(policy->shape == actor.shape())) {
     throw Error(path + ": its networks have other sizes than the configuration's (network.*)");
   }
-  CheckMadeFor(config.env, RecurrentPolicy(policy), path);
+  RecurrentPolicy(policy).CheckMadeFor(config.env, path);
   StartingNetworks networks;
   networks.actor = policy->values;
   if (file.metadata.count("checkpoint.format") == 0) return networks;

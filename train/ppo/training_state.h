@@ -33,16 +33,16 @@ inline constexpr const char* kSimdTargetKey = "checkpoint.simd_target";
 /// configuration key (`skein train --help-keys`).
 std::map<std::string, std::string> DescribeConfig(const TrainConfig& config);
 
-/// Writes a checkpoint: configuration, state, and the actor as a policy that Policy::Load reads.
+/// Writes a checkpoint: configuration, state, and the actor as a policy that RecurrentPolicy::Load
+/// reads.
 TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor,
                            const TrainingState& state);
 
 /// Throws Error, naming `path`, if the file is no checkpoint, was made with another configuration
 /// (naming the first field that differs) or low-level policy, or holds values of another size (of
-/// `env`, VecEnv is the judge).
-TrainingState LoadCheckpoint(const TensorFile& file, const std::string& path,
-                             const TrainConfig& config, const NetworkLayout& actor,
-                             const NetworkLayout& critic);
+/// `env`, VecEnv itself says).
+TrainingState LoadCheckpoint(TensorFile file, const std::string& path, const TrainConfig& config,
+                             const NetworkLayout& actor, const NetworkLayout& critic);
 
 /// What another training begins with.
 struct StartingNetworks {

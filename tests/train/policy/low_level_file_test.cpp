@@ -37,7 +37,7 @@ std::vector<float> FlyTwice(const Policy& pilot) {
   return action;
 }
 
-RecurrentPolicy HighLevel(std::shared_ptr<const Policy> low_level) {
+RecurrentPolicy HighLevel(std::shared_ptr<const StoredPolicy> low_level) {
   return RecurrentPolicy::Untrained(SmallConfig().network, 22, 3, 3, 10, std::move(low_level));
 }
 
@@ -76,7 +76,7 @@ TEST_F(LowLevelPolicyFileTest, OtherPoliciesHaveNone) {
 TEST_F(LowLevelPolicyFileTest, DamageInTheLowLevelPolicyIsNamed) {
   HighLevel(SmallLowLevelPolicy()).Save(path_);
   TensorFile file = TensorFile::Read(path_);
-  ASSERT_EQ(file.tensors.erase("controller/actor/head.bias"), 1u);
+  ASSERT_EQ(file.tensors.erase("low_level/actor/head.bias"), 1u);
   file.Write(path_);
   EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }), HasSubstr("its low-level policy"));
 }
@@ -89,18 +89,18 @@ TEST_F(LowLevelPolicyFileTest, AnAutopilotIsHeldByItsName) {
   const RecurrentPolicy loaded = RecurrentPolicy::Load(path_);
   ASSERT_NE(loaded.low_level(), nullptr);
   EXPECT_EQ(FlyTwice(*loaded.low_level()), FlyTwice(*autopilot));
-  EXPECT_TRUE(IsSameLowLevelPolicy(loaded.low_level().get(), autopilot.get()));
+  EXPECT_TRUE(IsSamePolicy(loaded.low_level().get(), autopilot.get()));
   const AutopilotPolicy slower("parallel", {}), other("aggressive", env);
-  EXPECT_FALSE(IsSameLowLevelPolicy(&slower, autopilot.get()));
-  EXPECT_FALSE(IsSameLowLevelPolicy(&other, autopilot.get()));
-  EXPECT_FALSE(IsSameLowLevelPolicy(SmallLowLevelPolicy().get(), autopilot.get()));
+  EXPECT_FALSE(IsSamePolicy(&slower, autopilot.get()));
+  EXPECT_FALSE(IsSamePolicy(&other, autopilot.get()));
+  EXPECT_FALSE(IsSamePolicy(SmallLowLevelPolicy().get(), autopilot.get()));
   TensorFile file = TensorFile::Read(path_);
-  file.metadata["controller.autopilot"] = "drunken";
+  file.metadata["low_level.autopilot"] = "drunken";
   file.Write(path_);
   EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }), HasSubstr("drunken"));
-  file.metadata["controller.autopilot"] = "parallel";
+  file.metadata["low_level.autopilot"] = "parallel";
   for (const char* interval : {"0.02abc", "", "nan", "-0.02", "0"}) {
-    file.metadata["controller.control_interval_s"] = interval;
+    file.metadata["low_level.control_interval_s"] = interval;
     file.Write(path_);
     EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }), HasSubstr("its low-level policy"))
         << interval;
@@ -108,21 +108,19 @@ TEST_F(LowLevelPolicyFileTest, AnAutopilotIsHeldByItsName) {
   EXPECT_THROW(AutopilotPolicy("", {}), Error);
 }
 
-TEST_F(LowLevelPolicyFileTest, ControllersThatNoFileHoldsAreRefused) {
+TEST_F(LowLevelPolicyFileTest, AHighLevelPolicyIsRefusedSinceItDoesNotFly) {
   TensorFile file;
-  EXPECT_THROW(StoreLowLevelPolicy(TestPolicy(4), file), Error);
-  // A high-level policy does not fly.
   EXPECT_THROW(StoreLowLevelPolicy(HighLevel(SmallLowLevelPolicy()), file), Error);
   EXPECT_TRUE(file.tensors.empty());
 }
 
-TEST_F(LowLevelPolicyFileTest, ControllersAreTheSameByWhatTheyAre) {
-  EXPECT_TRUE(IsSameLowLevelPolicy(nullptr, nullptr));
-  EXPECT_FALSE(IsSameLowLevelPolicy(SmallLowLevelPolicy().get(), nullptr));
-  EXPECT_TRUE(IsSameLowLevelPolicy(SmallLowLevelPolicy().get(), SmallLowLevelPolicy().get()));
-  EXPECT_FALSE(IsSameLowLevelPolicy(SmallLowLevelPolicy(1).get(), SmallLowLevelPolicy(2).get()));
+TEST_F(LowLevelPolicyFileTest, LowLevelPoliciesAreTheSameByWhatTheyAre) {
+  EXPECT_TRUE(IsSamePolicy(nullptr, nullptr));
+  EXPECT_FALSE(IsSamePolicy(SmallLowLevelPolicy().get(), nullptr));
+  EXPECT_TRUE(IsSamePolicy(SmallLowLevelPolicy().get(), SmallLowLevelPolicy().get()));
+  EXPECT_FALSE(IsSamePolicy(SmallLowLevelPolicy(1).get(), SmallLowLevelPolicy(2).get()));
   const RecurrentPolicy slower = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 11, 5);
-  EXPECT_FALSE(IsSameLowLevelPolicy(SmallLowLevelPolicy().get(), &slower));
+  EXPECT_FALSE(IsSamePolicy(SmallLowLevelPolicy().get(), &slower));
 }
 
 TEST(PolicyAsPilot, FliesTheMeanActionClipped) {
