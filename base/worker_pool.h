@@ -24,7 +24,7 @@ class WorkerPool {
   /// never overlap.
   void ForEach(int count, const std::function<void(int index, int worker)>& body);
 
-  /// Asks whoever works on the pool to give up, for good: long bodies look at stopping() now and
+  /// Asks whoever works on the pool to give up, for good: long bodies ask stopping() now and
   /// then and return early. What they leave is incomplete, and their caller throws it away when it
   /// sees stopping(). From any thread, or a signal handler.
   void RequestStop() { stopping_.store(true, std::memory_order_release); }

@@ -40,7 +40,7 @@ class FlownTile {
 
   void Begin() { env_.Restore(start_); }
   void Observe() { env_.Observe(0, observation_.data()); }
-  void Fly() { autopilot_->Act(kTileSize, observation_.data(), memory_.data(), action_.data()); }
+  void Act() { autopilot_->Act(kTileSize, observation_.data(), memory_.data(), action_.data()); }
   void Step() {
     StepOutput output;
     output.reward = reward_.data();
@@ -75,11 +75,11 @@ const char* const kTasks[] = {"heading", "control", "tracking"};
 void BM_Autopilot(benchmark::State& state) {
   const char* const task = kTasks[state.range(0)];
   FlownTile tile(task);
-  Meter meter(&state, static_cast<double>(kTileSize) * kRounds, {});
+  Meter meter(&state, static_cast<double>(kTileSize) * kRounds);
   for (auto _ : state) {
     meter.Time([&] {
       for (int round = 0; round < kRounds; ++round) {
-        tile.Fly();
+        tile.Act();
         benchmark::ClobberMemory();
       }
     });
@@ -92,7 +92,7 @@ BENCHMARK(BM_Autopilot)->ArgName("task")->DenseRange(0, 2)->UseManualTime();
 void BM_Environment(benchmark::State& state) {
   const char* const task = kTasks[state.range(0)];
   FlownTile tile(task);
-  Meter meter(&state, static_cast<double>(kTileSize) * kRounds, {});
+  Meter meter(&state, static_cast<double>(kTileSize) * kRounds);
   for (auto _ : state) {
     tile.Begin();
     meter.Time([&] {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment's parts around the plant, on one tile that stays in the innermost caches: flight
-// control, judging, observation, noise, beginnings of episodes. RK4 is the yardstick. Observations
-// and their noise are made once per policy step, the others in every control step.
+// control, reward and termination, observation, noise, beginnings of episodes. RK4 is the
+// yardstick. Observations and their noise are made once per policy step, the others in every
+// control step.
 
 #include <benchmark/benchmark.h>
 
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include "base/denormals.h"
-#include "bench/environment_costs.h"
 #include "bench/noise_part.h"
 #include "bench/report.h"
 #include "envs/aircraft/f16.h"
@@ -57,7 +57,7 @@ struct TrimmedTile {
   std::vector<float> flight = std::vector<float>(stride * kNumColumns);
   std::vector<float> target =
       std::vector<float>(stride * static_cast<std::size_t>(task->num_columns()));
-  std::vector<float> pilot = std::vector<float>(stride, 0.1f);
+  std::vector<float> command = std::vector<float>(stride, 0.1f);
   std::vector<float> errors = std::vector<float>(stride * kNumTaskErrors);
   std::vector<float> reward = std::vector<float>(stride), policy_step = reward, total = reward;
   std::vector<std::int32_t> reached = std::vector<std::int32_t>(stride), step = reached,
@@ -68,8 +68,8 @@ struct TrimmedTile {
 
 /// Times `part`, one round of the tile's work.
 template <class Part>
-void TimeRounds(benchmark::State& state, const Cost& cost, const Part& part) {
-  Meter meter(&state, static_cast<double>(kTileSize) * kRounds, cost);
+void TimeRounds(benchmark::State& state, const Part& part) {
+  Meter meter(&state, static_cast<double>(kTileSize) * kRounds);
   for (auto _ : state) {
     meter.Time([&] {
       for (int round = 0; round < kRounds; ++round) {
@@ -84,7 +84,7 @@ void TimeRounds(benchmark::State& state, const Cost& cost, const Part& part) {
 void BM_Rk4(benchmark::State& state) {
   TrimmedTile t;
   const std::vector<float> start = t.flight;
-  Meter meter(&state, static_cast<double>(kTileSize) * kRounds, kRk4Cost);
+  Meter meter(&state, static_cast<double>(kTileSize) * kRounds, kFlopsPerRk4Step);
   for (auto _ : state) {
     // Hands-off flight goes on for ever; starting anew keeps it near the trim.
     t.flight = start;
@@ -98,31 +98,31 @@ BENCHMARK(BM_Rk4)->UseManualTime();
 
 void BM_FlightControl(benchmark::State& state) {
   TrimmedTile t;
-  const PilotColumns pilot{t.pilot.data(), t.pilot.data(), t.pilot.data(), t.pilot.data()};
+  const float* const command = t.command.data();
+  const PilotColumns pilot{command, command, command, command};
   const FlightControlConstants constants(F16(), FlightControlMode::kFull, kDt);
-  TimeRounds(state, kFlightControlCost,
-             [&] { ControlTile(*t.aircraft, constants, t.tile(), pilot); });
+  TimeRounds(state, [&] { ControlTile(*t.aircraft, constants, t.tile(), pilot); });
 }
 BENCHMARK(BM_FlightControl)->UseManualTime();
 
-void BM_Judge(benchmark::State& state) {
+void BM_RewardAndTermination(benchmark::State& state) {
   TrimmedTile t;
   const StepResult step_result{t.reward.data(), t.reached.data()};
   const TerminationLimits limits(t.config);
-  TimeRounds(state, kJudgeCost, [&] {
+  TimeRounds(state, [&] {
     t.task->ComputeReward(t.tile(), t.task_tile(), t.step.data(), step_result);
     ComputeRewardAndTermination(
         *t.aircraft, limits, t.tile(), step_result,
         {t.step.data(), t.termination.data(), t.policy_step.data(), t.total.data()});
   });
 }
-BENCHMARK(BM_Judge)->UseManualTime();
+BENCHMARK(BM_RewardAndTermination)->UseManualTime();
 
 void BM_Observe(benchmark::State& state) {
   TrimmedTile t;
   const bool noisy = state.range(0) != 0;
   const double noise = noisy ? t.config.observation_noise : 0;
-  TimeRounds(state, noisy ? Cost{} : kObserveCost, [&] {
+  TimeRounds(state, [&] {
     t.task->Errors(t.tile(), t.task_tile(), t.errors.data(), t.stride);
     ObserveTile(*t.aircraft, t.tile(), t.errors.data(), t.stride,
                 {noise, 1, 0, t.episode.data(), t.step.data()}, t.observation.data());
@@ -130,10 +130,10 @@ void BM_Observe(benchmark::State& state) {
 }
 BENCHMARK(BM_Observe)->ArgName("noise")->Arg(0)->Arg(1)->UseManualTime();
 
-/// The deviates alone. Most of it is arithmetic of integers, so that there is no share of the peak.
+/// The deviates alone.
 void BM_Noise(benchmark::State& state) {
   TrimmedTile t;
-  TimeRounds(state, {},
+  TimeRounds(state,
              [&] { DrawNoise(1, kTileSize, t.episode.data(), t.step.data(), t.reward.data()); });
 }
 BENCHMARK(BM_Noise)->UseManualTime();
@@ -146,7 +146,7 @@ void BM_Reset(benchmark::State& state) {
   std::vector<float> columns(static_cast<std::size_t>(task->num_columns()));
   const Tile targets{columns.data(), 1, 1};
   std::uint32_t episode = 0;
-  Meter meter(&state, kTileSize, {});
+  Meter meter(&state, kTileSize);
   for (auto _ : state) {
     meter.Time([&] {
       for (std::uint32_t i = 0; i < kTileSize; ++i) {

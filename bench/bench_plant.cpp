@@ -17,11 +17,11 @@ namespace {
 
 constexpr float kDt = 0.02f;
 
-void RunStagePart(benchmark::State& state, StagePart part, const Cost& cost) {
+void RunStagePart(benchmark::State& state, StagePart part) {
   constexpr int kRounds = 256;
   Flock flock(kPlantBlock);
   const simd::DenormalsFlushed flushed;  // as on the environment's workers
-  Meter meter(&state, static_cast<double>(kPlantBlock) * kRounds, cost);
+  Meter meter(&state, static_cast<double>(kPlantBlock) * kRounds);
   for (auto _ : state) {
     meter.Time([&] { RunStagePart(part, KernelF16(), flock.At(0), kRounds); });
   }
@@ -29,18 +29,18 @@ void RunStagePart(benchmark::State& state, StagePart part, const Cost& cost) {
 }
 
 /// Angles of flow, air, and where both lie in the tables.
-void BM_AirData(benchmark::State& state) { RunStagePart(state, StagePart::kAirData, kAirDataCost); }
+void BM_AirData(benchmark::State& state) { RunStagePart(state, StagePart::kAirData); }
 BENCHMARK(BM_AirData)->UseManualTime();
 
-void BM_Engine(benchmark::State& state) { RunStagePart(state, StagePart::kEngine, kEngineCost); }
+void BM_Engine(benchmark::State& state) { RunStagePart(state, StagePart::kEngine); }
 BENCHMARK(BM_Engine)->UseManualTime();
 
-void BM_BuildUpAndEquations(benchmark::State& state) {
-  RunStagePart(state, StagePart::kBuildUpAndEquations, kBuildUpAndEquationsCost);
+void BM_AerodynamicsAndEquations(benchmark::State& state) {
+  RunStagePart(state, StagePart::kAerodynamicsAndEquations);
 }
-BENCHMARK(BM_BuildUpAndEquations)->UseManualTime();
+BENCHMARK(BM_AerodynamicsAndEquations)->UseManualTime();
 
-/// What a step reads of the tables, once. bench_lookup compares other arrangements.
+/// What a step reads of the tables, once.
 void BM_ReadTables(benchmark::State& state) {
   Flock flock(1024);
   std::vector<std::vector<std::int32_t>> cell_slot, alpha_cell;
@@ -49,7 +49,7 @@ void BM_ReadTables(benchmark::State& state) {
     alpha_cell.emplace_back(flock.At(t).stride);
     FindTableCells(KernelF16(), flock.At(t), cell_slot.back().data(), alpha_cell.back().data());
   }
-  Meter meter(&state, flock.count(), kTableReadingCost);
+  Meter meter(&state, flock.count());
   for (auto _ : state) {
     meter.Time([&] {
       for (int t = 0; t < flock.tiles(); ++t) {
@@ -69,7 +69,7 @@ void BM_Evaluate(benchmark::State& state) {
   const std::vector<float> thrust(stride, 5000);
   std::vector<float> rates(stride * kNumRigidBody), coefficients(stride * 6);
   const simd::DenormalsFlushed flushed;
-  Meter meter(&state, flock.count(), {kFlopsPerEvaluation, 0});
+  Meter meter(&state, flock.count(), kFlopsPerEvaluation);
   for (auto _ : state) {
     meter.Time([&] {
       for (int t = 0; t < flock.tiles(); ++t) {
@@ -89,7 +89,7 @@ void BM_Rk4(benchmark::State& state) {
   constexpr int kStepsPerFlight = 100;
   Flock flock(static_cast<int>(state.range(0)));
   WorkerPool pool(static_cast<int>(state.range(1)));
-  Meter meter(&state, flock.count(), kRk4Cost, pool.threads());
+  Meter meter(&state, flock.count(), kFlopsPerRk4Step, pool.threads());
   int step = 0;
   for (auto _ : state) {
     if (++step % kStepsPerFlight == 0) flock.Restart();

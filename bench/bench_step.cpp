@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/worker_pool.h"
-#include "bench/environment_costs.h"
 #include "bench/report.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
@@ -68,7 +67,7 @@ void Step(benchmark::State& state, bool noisy) {
     });
   };
   step();  // pages and caches are warm from here on
-  Meter meter(&state, env.num_aircraft(), noisy ? Cost{} : kControlStepCost, pool.threads());
+  Meter meter(&state, env.num_aircraft(), 0, pool.threads());
   for (auto _ : state) meter.Time(step);
   meter.Report();
 }

@@ -9,9 +9,9 @@
 
 namespace skein::bench {
 
-/// F-16s at random flight conditions of the whole envelope, tile behind tile in memory: neighbours
-/// read different table cells, as in training. Flights without control leave the tables sooner or
-/// later: Restart.
+/// F-16s at random flight conditions of the whole envelope, tile behind tile in memory: aircraft of
+/// one vector read different table cells, as in training. Flights without control leave the tables
+/// sooner or later: Restart.
 class Flock {
  public:
   explicit Flock(int count);

@@ -72,7 +72,7 @@ void RunStagePartKernel(bench::StagePart part, const KernelAircraft& aircraft, T
       case bench::StagePart::kEngine:
         ThrustAndPowerRate<true>(aircraft, middle, controls, &block);
         break;
-      case bench::StagePart::kBuildUpAndEquations:
+      case bench::StagePart::kAerodynamicsAndEquations:
         EvaluateStateRates(aircraft.constants, middle, block, IgnoreCoefficients());
         break;
     }

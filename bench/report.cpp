@@ -15,7 +15,6 @@ namespace {
 
 struct Roofs {
   simd::PeakRate peak;
-  simd::LoadRate load;
   double clock = 0;  // cycles/s
 };
 
@@ -23,8 +22,7 @@ const Roofs& MeasuredRoofs(int threads) {
   static std::map<int, Roofs> measured;
   const auto found = measured.find(threads);
   if (found != measured.end()) return found->second;
-  return measured[threads] = {simd::MeasurePeak(threads), simd::MeasureLoadPeak(threads),
-                              simd::MeasureClock()};
+  return measured[threads] = {simd::MeasurePeak(threads), simd::MeasureClock()};
 }
 
 std::string Rounded(double value, const char* unit) {
@@ -35,8 +33,8 @@ std::string Rounded(double value, const char* unit) {
 
 }  // namespace
 
-Meter::Meter(benchmark::State* state, double aircraft, const Cost& cost, int threads)
-    : state_(*state), aircraft_(aircraft), cost_(cost), threads_(threads) {}
+Meter::Meter(benchmark::State* state, double aircraft, double flops, int threads)
+    : state_(*state), aircraft_(aircraft), flops_(flops), threads_(threads) {}
 
 void Meter::Report() {
   if (seconds_.empty()) return;
@@ -47,11 +45,8 @@ void Meter::Report() {
   // Plain numbers: benchmark::Counter's rates would print with a unit of their own.
   state_.counters["aircraft/s"] = rate;
   state_.counters["cycles/aircraft"] = threads_ * roofs.clock / rate;
-  if (cost_.flops > 0) {
-    state_.counters["%_of_FMA_peak"] = 100 * rate * cost_.flops / (roofs.peak.gflops * 1e9);
-  }
-  if (cost_.bytes_loaded > 0) {
-    state_.counters["%_of_load_peak"] = 100 * rate * cost_.bytes_loaded / roofs.load.bytes_per_s;
+  if (flops_ > 0) {
+    state_.counters["%_of_FMA_peak"] = 100 * rate * flops_ / (roofs.peak.gflops * 1e9);
   }
 }
 
@@ -64,8 +59,6 @@ void DescribeRoofs() {
     benchmark::AddCustomContext("core_bfloat16_peak",
                                 Rounded(bfloat16->gflops_per_core, "GFLOP/s"));
   }
-  benchmark::AddCustomContext("core_load_peak",
-                              Rounded(roofs.load.bytes_per_s_per_core / 1e9, "GB/s"));
 }
 
 }  // namespace skein::bench

@@ -135,7 +135,7 @@ void Validate(const EnvConfig& config) {
 
   RequireRange("env.termination.alpha", "deg", config.termination.alpha_deg, -180, 180);
   RequireRange("env.termination.beta", "deg", config.termination.beta_deg, -90, 90);
-  // The limits are judged by the sides of two directions, which an arc beyond 180 deg does not
+  // The limits are compared by the sides of two directions, which an arc beyond 180 deg does not
   // have.
   Require(config.termination.alpha_deg.max - config.termination.alpha_deg.min <= 180,
           "env.termination.alpha_max_deg", config.termination.alpha_deg.max,

@@ -78,8 +78,10 @@ HWY_INLINE void Measure(const KernelAircraft& aircraft, const Tile& tile, int fi
   const V alpha = AlphaDegrees(d, velocity.air);
   const V beta = Atan2Degrees(d, velocity.air.v, velocity.forward);
   values[kMeanLoadFactor] = load_factor;
+  values[kMeanTrueAirspeed] = velocity.speed;
   values[kMeanMach] = mach;
   values[kMeanClimbRate] = ClimbRate(tile, first);
+  values[kMeanAbsClimbRate] = hn::Abs(values[kMeanClimbRate]);
   values[kMeanAbsAlpha] = hn::Abs(alpha);
   values[kMeanAbsBeta] = hn::Abs(beta);
   for (int k = 0; k < 3; ++k) values[kMeanAbsP + k] = hn::Abs(Column(tile, kP + k, first));
@@ -150,8 +152,10 @@ HWY_EXPORT(AddFlightMetrics);
 
 const std::array<FlightMetricName, kNumFlightMetrics> kFlightMetricNames = {{
     {"load_factor_g", "G", "load factor, g"},
-    {"mach", "TAS", "airspeed, Mach"},
+    {"true_airspeed_fps", "TAS", "airspeed, ft/s"},
+    {"mach", "M", "Mach number"},
     {"climb_rate_fps", "RoC", "climb rate, ft/s"},
+    {"abs_climb_rate_fps", "|RoC|", "|climb rate|, ft/s"},
     {"abs_alpha_deg", "|AOA|", "alpha, deg"},
     {"abs_beta_deg", "|AOS|", "beta, deg"},
     {"abs_p_rad_s", "|P|", "roll rate, rad/s"},

@@ -14,29 +14,33 @@ namespace skein {
 struct KernelAircraft;  // envs/kernels/kernel_aircraft.h
 
 /// How an episode was flown: the paper's Table 6 but for the time to the target, which is an
-/// episode's length. Each is the mean over the states after every control step of the episode
-/// (smoothness is of such a mean); formulas and what they assume: docs/metrics.md.
+/// episode's length, and the Mach number. Each is the mean over the states after every control step
+/// of the episode (smoothness is of such a mean); formulas and what they assume:
+/// docs/reference/metrics.md.
 enum FlightMetric : int {
-  kMeanLoadFactor,  ///< G: nz, g, signed
-  kMeanMach,        ///< TAS as a Mach number
-  kMeanClimbRate,   ///< ft/s, over the ground
-  kMeanAbsAlpha,    ///< deg
-  kMeanAbsBeta,     ///< deg
-  kMeanAbsP,        ///< rad/s
-  kMeanAbsQ,        ///< rad/s
-  kMeanAbsR,        ///< rad/s
-  kAltitudeMargin,  ///< ASM
-  kSpeedMargin,     ///< SSM
-  kOverloadMargin,  ///< OSM
-  kAlphaMargin,     ///< AOASM
-  kBetaMargin,      ///< AOSSM
-  kSmoothness,      ///< FSM, in (0, 1]
+  kMeanLoadFactor,    ///< G: nz, g, signed
+  kMeanTrueAirspeed,  ///< TAS: |velocity relative to the air|, ft/s
+  kMeanMach,          ///< true airspeed over the speed of sound
+  kMeanClimbRate,     ///< RoC: -(velocity over the ground) along down, ft/s; climbs and descents
+                      ///< cancel
+  kMeanAbsClimbRate,  ///< of its absolute value, as the paper's code has it, ft/s
+  kMeanAbsAlpha,      ///< deg
+  kMeanAbsBeta,       ///< deg
+  kMeanAbsP,          ///< rad/s
+  kMeanAbsQ,          ///< rad/s
+  kMeanAbsR,          ///< rad/s
+  kAltitudeMargin,    ///< ASM
+  kSpeedMargin,       ///< SSM
+  kOverloadMargin,    ///< OSM
+  kAlphaMargin,       ///< AOASM
+  kBetaMargin,        ///< AOSSM
+  kSmoothness,        ///< FSM, in (0, 1]
   kNumFlightMetrics
 };
 
 struct FlightMetricName {
   const char* key;      ///< in files, with its unit
-  const char* symbol;   ///< in the paper's Table 6
+  const char* symbol;   ///< as in the paper's Table 6
   const char* meaning;  ///< for people, with its unit
 };
 

@@ -63,42 +63,6 @@ double MultiplyAdd(std::int64_t rounds, float* sink) {
   return static_cast<double>(rounds) * kChains * kOperations * kLanes;
 }
 
-/// Loads a buffer of the innermost cache again and again and returns the bytes; `sink` as above.
-double LoadVectors(std::int64_t rounds, float* sink) {
-  const FloatTag d;
-  // Half of the smallest first-level caches.
-  constexpr std::size_t kFloats = 4096;
-  alignas(64) static float buffer[kFloats] = {};
-  // Loads go into logical operations of one cycle, of which as many run at once as loads.
-  auto a0 = hn::Zero(d), a1 = a0, a2 = a0, a3 = a0, a4 = a0, a5 = a0, a6 = a0, a7 = a0;
-  for (std::int64_t i = 0; i < rounds; ++i) {
-    for (std::size_t k = 0; k < kFloats; k += 8 * kLanes) {
-      a0 = hn::Or(a0, hn::Load(d, buffer + k));
-      a1 = hn::Or(a1, hn::Load(d, buffer + k + kLanes));
-      a2 = hn::Or(a2, hn::Load(d, buffer + k + 2 * kLanes));
-      a3 = hn::Or(a3, hn::Load(d, buffer + k + 3 * kLanes));
-      a4 = hn::Or(a4, hn::Load(d, buffer + k + 4 * kLanes));
-      a5 = hn::Or(a5, hn::Load(d, buffer + k + 5 * kLanes));
-      a6 = hn::Or(a6, hn::Load(d, buffer + k + 6 * kLanes));
-      a7 = hn::Or(a7, hn::Load(d, buffer + k + 7 * kLanes));
-#if HWY_COMPILER_GCC
-      // Keep the compiler from making wider vectors of the loads.
-      asm volatile(""
-                   : "+x"(a0.raw), "+x"(a1.raw), "+x"(a2.raw), "+x"(a3.raw), "+x"(a4.raw),
-                     "+x"(a5.raw), "+x"(a6.raw), "+x"(a7.raw));
-#endif
-    }
-#if HWY_COMPILER_GCC
-    // The buffer might have changed: keep the compiler from loading it but once.
-    asm volatile("" : : "r"(buffer) : "memory");
-#endif
-  }
-  const auto sum =
-      hn::Or(hn::Or(hn::Or(a0, a1), hn::Or(a2, a3)), hn::Or(hn::Or(a4, a5), hn::Or(a6, a7)));
-  *sink = hn::GetLane(sum);
-  return static_cast<double>(rounds) * static_cast<double>(sizeof buffer);
-}
-
 /// A chain of integer multiplications and returns the cycles that it takes; `sink` as above. Beside
 /// it runs a multiply-add in every other cycle, since wide vectors slow some processors' clocks.
 double MultiplyInAChain(std::int64_t rounds, float* sink) {
@@ -136,7 +100,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace skein {
 HWY_EXPORT(MultiplyAdd);
-HWY_EXPORT(LoadVectors);
 HWY_EXPORT(MultiplyInAChain);
 
 namespace simd {
@@ -228,12 +191,6 @@ std::optional<PeakRate> MeasureBfloat16Peak(int threads) {
 #endif
   if (threads < 1) ThrowNoThreads(threads);
   return std::nullopt;
-}
-
-LoadRate MeasureLoadPeak(int threads) {
-  constexpr std::int64_t kRounds = 2000;
-  const Roof roof = MeasureRoof(SKEIN_DISPATCH(LoadVectors), kRounds, threads);
-  return {roof.one, roof.all};
 }
 
 double MeasureClock() {

@@ -25,16 +25,6 @@ PeakRate MeasurePeak(int threads);
 /// has an instruction for them (NativeBfloat16); elsewhere nothing: MeasurePeak is their roof.
 std::optional<PeakRate> MeasureBfloat16Peak(int threads);
 
-/// Measured rates of loads, in bytes/s.
-struct LoadRate {
-  double bytes_per_s_per_core = 0;  ///< one thread running alone
-  double bytes_per_s = 0;           ///< all threads together
-};
-
-/// Measures what the load units give: aligned loads of whole vectors from 16 KB, which stay in the
-/// first-level cache.
-LoadRate MeasureLoadPeak(int threads);
-
 /// The clock of one core at work on vectors, cycles/s: a chain of dependent 64-bit multiplications,
 /// of three cycles each on x86 processors since 2008 (Intel) and 2017 (AMD), beside multiply-adds.
 /// Not the time-stamp counter's rate, which does not follow the clock.

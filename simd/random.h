@@ -35,7 +35,7 @@ std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter,
 
 /// What a number of one stream is drawn with: `seed` is the key; the counter is (a, b, c, purpose
 /// and block). The environment uses a = aircraft, b = episode, c = control step, so that no number
-/// depends on neighbours, tiles or threads.
+/// depends on other environments of the batch, tiles or threads.
 struct RandomKey {
   std::uint64_t seed = 0;
   std::uint32_t a = 0, b = 0, c = 0;

@@ -137,7 +137,7 @@ void CheckFlies(const EnvConfig& config) {
   }
   if (config.flight_control != FlightControlMode::kFull) {
     throw Error(
-        "the autopilot flies with env.flight_control = \"full\": its sticks ask for load "
+        "the autopilot flies with env.flight_control = \"full\": its stick commands ask for load "
         "factor and roll rate");
   }
   if (config.task == "tracking" && config.tracking.error_axes != kAutopilotErrorAxes) {

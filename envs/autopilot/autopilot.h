@@ -9,14 +9,14 @@
 
 namespace skein {
 
-/// In which it is shown Tracking's target.
+/// In which it observes Tracking's target.
 inline constexpr TrackingAxes kAutopilotErrorAxes = TrackingAxes::kHeading;
 
-/// The traditional autopilot of the F-16: TECS and L1 every `outer_interval_s`
-/// over dual-loop PID in every control step (ArduPilot's structure; docs/autopilot.md).
-/// `config.task` chooses what it flies: "heading", "control" or "tracking". It sees what any agent
-/// sees, the noisy observation. Throws Error on a task that it does not fly, another aircraft (its
-/// laws know this one's units of observation and its speeds), a mode of flight control whose sticks
+/// The traditional autopilot of the F-16: TECS and L1 every `outer_interval_s` over dual-loop PID
+/// in every control step (ArduPilot's structure; docs/reference/autopilot.md). `config.task`
+/// chooses what it flies: "heading", "control" or "tracking". It takes what every policy takes, the
+/// noisy observation. Throws Error on a task that it does not fly, another aircraft (its laws know
+/// this one's units of observation and its speeds), a mode of flight control whose stick commands
 /// ask for something else than load factor and roll rate, and Tracking in other axes.
 std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant);
 

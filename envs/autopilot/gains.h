@@ -61,8 +61,8 @@ struct LiftGains {
   double max_straight_bank = Radians(100);  ///< beyond it a roll goes the shorter way round
 };
 
-/// Roll error -> rate demand -> stick; load factor demand -> rate demand -> stick. The sticks ask
-/// the flight control system for a load factor and a roll rate.
+/// Roll error -> rate demand -> stick; load factor demand -> rate demand -> stick. Stick commands
+/// ask the flight control system for a load factor and a roll rate.
 struct InnerLoopGains {
   double roll_time_s = 0.5;
   double max_roll_rate = Radians(100);  ///< rad/s asked of the loop

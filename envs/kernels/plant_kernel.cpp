@@ -49,7 +49,7 @@ HWY_INLINE void LocateSurfacesOfBlock(const KernelAircraft& aircraft, const Bloc
     LocateSurfaces(aircraft, controls, lane, block);
 }
 
-/// What may look at the coefficients of a stage: this one does not.
+/// An observer of the coefficients of a stage that ignores them.
 struct IgnoreCoefficients {
   HWY_INLINE void operator()(int /*lane*/, const Coefficients& /*c*/) const {}
 };

@@ -19,20 +19,14 @@ struct KernelAircraft;
 std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraft,
                                                          AtmosphereModel atmosphere);
 
-/// Floating-point operations of one evaluation of the equations of motion with engine, and of one
-/// RK4 step: counted in the kernel's source (a multiply-add as two, a division or root estimate as
-/// one); for rates as a fraction of simd::MeasurePeak.
-inline constexpr double kFlopsPerTableReading = 22     // places of the surfaces in the tables
-                                                + 224  // two sets of patches added up
-                                                + 36;  // functions of alpha
-inline constexpr double kFlopsPerStage = 165           // air data, atmosphere, engine
-                                         + 62          // patches and functions of alpha
-                                         + 34          // build-up
-                                         + 125;        // equations of motion
-inline constexpr double kFlopsPerEvaluation = kFlopsPerTableReading + kFlopsPerStage;
-inline constexpr double kFlopsPerRk4Step = kFlopsPerTableReading + 4 * kFlopsPerStage +
-                                           7 * 28  // state at three stages, four sums of rates
-                                           + 12;   // attitudes of unit length
+/// Floating-point operations for one aircraft of one evaluation of the equations of motion with
+/// given thrust, and of one RK4 step with engine, for rates as a fraction of simd::MeasurePeak. As
+/// written for the scalar target, whatever a target's estimates of reciprocals add: a multiply-add
+/// is two; an addition, product, division, root, minimum or maximum is one; comparisons,
+/// selections, conversions and integers are none. tests/envs/kernels/operation_count_test.cpp
+/// counts them.
+inline constexpr double kFlopsPerEvaluation = 595;
+inline constexpr double kFlopsPerRk4Step = 1922;
 
 /// Read-only columns of given controls: thrust [lbf], elevator, aileron, rudder, leading-edge flap
 /// [deg], each `count` long (padded as Tile says).

@@ -125,7 +125,7 @@ HWY_INLINE void EquationsOfMotion(const KernelConstants& k, const State& state,
                     hn::MulAdd(hr, q0, hn::NegMulAdd(hp, qy, hn::Mul(hq, qx))));
 }
 
-/// Rates at one stage. `coefficients(lane, Coefficients)` sees what they come from.
+/// Rates at one stage. `coefficients(lane, Coefficients)` is given what they come from.
 template <class State, class Observer>
 HWY_INLINE void EvaluateStateRates(const KernelConstants& k, const State& state,
                                    const KernelBlock& block, const Observer& coefficients) {

@@ -59,92 +59,127 @@ class FlapReading {
   GridCell alpha_, beta_;
 };
 
-}  // namespace
+/// The coefficients in one condition: those of the plane of symmetry, and those across it.
+class BuildUp {
+ public:
+  BuildUp(const Aircraft& aircraft, const AerodynamicCondition& condition)
+      : t_(aircraft.aerodynamics),
+        airframe_(aircraft.airframe),
+        condition_(condition),
+        base_(t_, condition.alpha_deg, condition.beta_deg),
+        base_at_flap_(t_, FlapAlpha(t_, condition.alpha_deg), condition.beta_deg),
+        flap_(t_, FlapAlpha(t_, condition.alpha_deg), condition.beta_deg),
+        flap_up_(1 - condition.leading_edge_flap_deg / airframe_.leading_edge_flap_reference_deg),
+        cg_shift_(airframe_.cg_reference - airframe_.cg) {}
 
-AerodynamicCoefficients EvaluateAerodynamics(const Aircraft& aircraft,
-                                             const AerodynamicCondition& condition) {
-  const AerodynamicTables& t = aircraft.aerodynamics;
-  const Airframe& airframe = aircraft.airframe;
+  struct Longitudinal {
+    double Cx, Cz, Cm;
+  };
+  struct Lateral {
+    double Cy, Cl, Cn;
+  };
+  Longitudinal EvaluateLongitudinal() const;
+  Lateral EvaluateLateral() const;
 
-  const TableReading base(t, condition.alpha_deg, condition.beta_deg);
-  const double flap_alpha_deg =
-      std::clamp(condition.alpha_deg, t.alpha_lef_deg.front(), t.alpha_lef_deg.back());
-  const TableReading base_at_flap(t, flap_alpha_deg, condition.beta_deg);
-  const FlapReading flap(t, flap_alpha_deg, condition.beta_deg);
-  const double beta_deg = std::clamp(condition.beta_deg, t.beta_deg.front(), t.beta_deg.back());
+ private:
+  static double FlapAlpha(const AerodynamicTables& tables, double alpha_deg) {
+    return std::clamp(alpha_deg, tables.alpha_lef_deg.front(), tables.alpha_lef_deg.back());
+  }
 
-  const double elevator_deg = condition.elevator_deg;
-  const double aileron = condition.aileron_deg / airframe.aileron_reference_deg;
-  const double rudder = condition.rudder_deg / airframe.rudder_reference_deg;
-  // 1 with the flap up, 0 with the flap where the base tables have it.
-  const double flap_up =
-      1 - condition.leading_edge_flap_deg / airframe.leading_edge_flap_reference_deg;
-  const double p_hat = condition.p_hat, q_hat = condition.q_hat, r_hat = condition.r_hat;
+  const AerodynamicTables& t_;
+  const Airframe& airframe_;
+  const AerodynamicCondition& condition_;
+  TableReading base_, base_at_flap_;
+  FlapReading flap_;
+  double flap_up_;   // 1 with the flap up, 0 with the flap where the base tables have it
+  double cg_shift_;  // chords; the tables' moments are about cg_reference
+};
+
+BuildUp::Longitudinal BuildUp::EvaluateLongitudinal() const {
+  const double elevator_deg = condition_.elevator_deg, q_hat = condition_.q_hat;
+  // Increments by the flap from base totals at elevator zero.
+  const double dCx_lef = flap_.AlphaBeta(t_.Cx_lef) - base_at_flap_.AlphaBetaElevator(t_.Cx, 0);
+  const double dCz_lef = flap_.AlphaBeta(t_.Cz_lef) - base_at_flap_.AlphaBetaElevator(t_.Cz, 0);
+  const double dCm_lef = flap_.AlphaBeta(t_.Cm_lef) - base_at_flap_.AlphaBetaElevator(t_.Cm, 0);
+
+  Longitudinal sum{};
+  sum.Cx = base_.AlphaBetaElevator(t_.Cx, elevator_deg) + dCx_lef * flap_up_ +
+           q_hat * (base_.Alpha(t_.Cxq) + flap_.Alpha(t_.dCxq_lef) * flap_up_);
+  sum.Cz = base_.AlphaBetaElevator(t_.Cz, elevator_deg) + dCz_lef * flap_up_ +
+           q_hat * (base_.Alpha(t_.Czq) + flap_.Alpha(t_.dCzq_lef) * flap_up_);
+  const double eta_el = Interpolate(t_.eta_el, Locate(t_.elevator_deg, elevator_deg));
+  sum.Cm = base_.AlphaBetaElevator(t_.Cm, elevator_deg) * eta_el + sum.Cz * cg_shift_ +
+           dCm_lef * flap_up_ +
+           q_hat * (base_.Alpha(t_.Cmq) + flap_.Alpha(t_.dCmq_lef) * flap_up_) +
+           base_.Alpha(t_.dCm);
+  return sum;
+}
+
+BuildUp::Lateral BuildUp::EvaluateLateral() const {
+  const double elevator_deg = condition_.elevator_deg;
+  const double aileron = condition_.aileron_deg / airframe_.aileron_reference_deg;
+  const double rudder = condition_.rudder_deg / airframe_.rudder_reference_deg;
+  const double beta_deg = std::clamp(condition_.beta_deg, t_.beta_deg.front(), t_.beta_deg.back());
+  const double p_hat = condition_.p_hat, r_hat = condition_.r_hat;
 
   // Base totals at elevator zero, from which increments are taken.
-  const double Cy = base.AlphaBeta(t.Cy);
-  const double Cn_0 = base.AlphaBetaCoarseElevator(t.Cn, 0);
-  const double Cl_0 = base.AlphaBetaCoarseElevator(t.Cl, 0);
-  const double Cx_flap_0 = base_at_flap.AlphaBetaElevator(t.Cx, 0);
-  const double Cz_flap_0 = base_at_flap.AlphaBetaElevator(t.Cz, 0);
-  const double Cm_flap_0 = base_at_flap.AlphaBetaElevator(t.Cm, 0);
-  const double Cy_flap_0 = base_at_flap.AlphaBeta(t.Cy);
-  const double Cn_flap_0 = base_at_flap.AlphaBetaCoarseElevator(t.Cn, 0);
-  const double Cl_flap_0 = base_at_flap.AlphaBetaCoarseElevator(t.Cl, 0);
+  const double Cy = base_.AlphaBeta(t_.Cy);
+  const double Cn_0 = base_.AlphaBetaCoarseElevator(t_.Cn, 0);
+  const double Cl_0 = base_.AlphaBetaCoarseElevator(t_.Cl, 0);
+  const double Cy_flap_0 = base_at_flap_.AlphaBeta(t_.Cy);
+  const double Cn_flap_0 = base_at_flap_.AlphaBetaCoarseElevator(t_.Cn, 0);
+  const double Cl_flap_0 = base_at_flap_.AlphaBetaCoarseElevator(t_.Cl, 0);
 
-  const double Cy_lef = flap.AlphaBeta(t.Cy_lef);
-  const double Cn_lef = flap.AlphaBeta(t.Cn_lef);
-  const double Cl_lef = flap.AlphaBeta(t.Cl_lef);
-  const double dCx_lef = flap.AlphaBeta(t.Cx_lef) - Cx_flap_0;
-  const double dCz_lef = flap.AlphaBeta(t.Cz_lef) - Cz_flap_0;
-  const double dCm_lef = flap.AlphaBeta(t.Cm_lef) - Cm_flap_0;
+  const double Cy_lef = flap_.AlphaBeta(t_.Cy_lef);
+  const double Cn_lef = flap_.AlphaBeta(t_.Cn_lef);
+  const double Cl_lef = flap_.AlphaBeta(t_.Cl_lef);
   const double dCy_lef = Cy_lef - Cy_flap_0;
   const double dCn_lef = Cn_lef - Cn_flap_0;
   const double dCl_lef = Cl_lef - Cl_flap_0;
 
-  const double dCy_aileron = base.AlphaBeta(t.Cy_a20) - Cy;
-  const double dCn_aileron = base.AlphaBeta(t.Cn_a20) - Cn_0;
-  const double dCl_aileron = base.AlphaBeta(t.Cl_a20) - Cl_0;
+  const double dCy_aileron = base_.AlphaBeta(t_.Cy_a20) - Cy;
+  const double dCn_aileron = base_.AlphaBeta(t_.Cn_a20) - Cn_0;
+  const double dCl_aileron = base_.AlphaBeta(t_.Cl_a20) - Cl_0;
   const double dCy_aileron_lef =
-      (flap.AlphaBeta(t.Cy_a20_lef) - Cy_lef) - (base_at_flap.AlphaBeta(t.Cy_a20) - Cy_flap_0);
+      (flap_.AlphaBeta(t_.Cy_a20_lef) - Cy_lef) - (base_at_flap_.AlphaBeta(t_.Cy_a20) - Cy_flap_0);
   const double dCn_aileron_lef =
-      (flap.AlphaBeta(t.Cn_a20_lef) - Cn_lef) - (base_at_flap.AlphaBeta(t.Cn_a20) - Cn_flap_0);
+      (flap_.AlphaBeta(t_.Cn_a20_lef) - Cn_lef) - (base_at_flap_.AlphaBeta(t_.Cn_a20) - Cn_flap_0);
   const double dCl_aileron_lef =
-      (flap.AlphaBeta(t.Cl_a20_lef) - Cl_lef) - (base_at_flap.AlphaBeta(t.Cl_a20) - Cl_flap_0);
+      (flap_.AlphaBeta(t_.Cl_a20_lef) - Cl_lef) - (base_at_flap_.AlphaBeta(t_.Cl_a20) - Cl_flap_0);
 
-  const double dCy_rudder = base.AlphaBeta(t.Cy_r30) - Cy;
-  const double dCn_rudder = base.AlphaBeta(t.Cn_r30) - Cn_0;
-  const double dCl_rudder = base.AlphaBeta(t.Cl_r30) - Cl_0;
+  const double dCy_rudder = base_.AlphaBeta(t_.Cy_r30) - Cy;
+  const double dCn_rudder = base_.AlphaBeta(t_.Cn_r30) - Cn_0;
+  const double dCl_rudder = base_.AlphaBeta(t_.Cl_r30) - Cl_0;
 
-  const double Cx = base.AlphaBetaElevator(t.Cx, elevator_deg) + dCx_lef * flap_up +
-                    q_hat * (base.Alpha(t.Cxq) + flap.Alpha(t.dCxq_lef) * flap_up);
-  const double Cz = base.AlphaBetaElevator(t.Cz, elevator_deg) + dCz_lef * flap_up +
-                    q_hat * (base.Alpha(t.Czq) + flap.Alpha(t.dCzq_lef) * flap_up);
-  const double Cy_total =
-      Cy + dCy_lef * flap_up + (dCy_aileron + dCy_aileron_lef * flap_up) * aileron +
-      dCy_rudder * rudder + r_hat * (base.Alpha(t.Cyr) + flap.Alpha(t.dCyr_lef) * flap_up) +
-      p_hat * (base.Alpha(t.Cyp) + flap.Alpha(t.dCyp_lef) * flap_up);
-  const double Cl = base.AlphaBetaCoarseElevator(t.Cl, elevator_deg) + dCl_lef * flap_up +
-                    (dCl_aileron + dCl_aileron_lef * flap_up) * aileron + dCl_rudder * rudder +
-                    r_hat * (base.Alpha(t.Clr) + flap.Alpha(t.dClr_lef) * flap_up) +
-                    p_hat * (base.Alpha(t.Clp) + flap.Alpha(t.dClp_lef) * flap_up) +
-                    base.Alpha(t.dCl_beta) * beta_deg;
+  Lateral sum{};
+  sum.Cy = Cy + dCy_lef * flap_up_ + (dCy_aileron + dCy_aileron_lef * flap_up_) * aileron +
+           dCy_rudder * rudder +
+           r_hat * (base_.Alpha(t_.Cyr) + flap_.Alpha(t_.dCyr_lef) * flap_up_) +
+           p_hat * (base_.Alpha(t_.Cyp) + flap_.Alpha(t_.dCyp_lef) * flap_up_);
+  sum.Cl = base_.AlphaBetaCoarseElevator(t_.Cl, elevator_deg) + dCl_lef * flap_up_ +
+           (dCl_aileron + dCl_aileron_lef * flap_up_) * aileron + dCl_rudder * rudder +
+           r_hat * (base_.Alpha(t_.Clr) + flap_.Alpha(t_.dClr_lef) * flap_up_) +
+           p_hat * (base_.Alpha(t_.Clp) + flap_.Alpha(t_.dClp_lef) * flap_up_) +
+           base_.Alpha(t_.dCl_beta) * beta_deg;
+  sum.Cn = base_.AlphaBetaCoarseElevator(t_.Cn, elevator_deg) + dCn_lef * flap_up_ -
+           sum.Cy * cg_shift_ * airframe_.chord_ft / airframe_.span_ft +
+           (dCn_aileron + dCn_aileron_lef * flap_up_) * aileron + dCn_rudder * rudder +
+           r_hat * (base_.Alpha(t_.Cnr) + flap_.Alpha(t_.dCnr_lef) * flap_up_) +
+           p_hat * (base_.Alpha(t_.Cnp) + flap_.Alpha(t_.dCnp_lef) * flap_up_) +
+           base_.Alpha(t_.dCn_beta) * beta_deg;
+  return sum;
+}
 
-  // The tables' moments are about cg_reference: move them to the centre of gravity.
-  const double cg_shift = airframe.cg_reference - airframe.cg;
-  const double eta_el = Interpolate(t.eta_el, Locate(t.elevator_deg, elevator_deg));
-  const double Cm =
-      base.AlphaBetaElevator(t.Cm, elevator_deg) * eta_el + Cz * cg_shift + dCm_lef * flap_up +
-      q_hat * (base.Alpha(t.Cmq) + flap.Alpha(t.dCmq_lef) * flap_up) + base.Alpha(t.dCm);
-  const double Cn = base.AlphaBetaCoarseElevator(t.Cn, elevator_deg) + dCn_lef * flap_up -
-                    Cy_total * cg_shift * airframe.chord_ft / airframe.span_ft +
-                    (dCn_aileron + dCn_aileron_lef * flap_up) * aileron + dCn_rudder * rudder +
-                    r_hat * (base.Alpha(t.Cnr) + flap.Alpha(t.dCnr_lef) * flap_up) +
-                    p_hat * (base.Alpha(t.Cnp) + flap.Alpha(t.dCnp_lef) * flap_up) +
-                    base.Alpha(t.dCn_beta) * beta_deg;
+}  // namespace
 
+AerodynamicCoefficients EvaluateAerodynamics(const Aircraft& aircraft,
+                                             const AerodynamicCondition& condition) {
+  const BuildUp build_up(aircraft, condition);
+  const BuildUp::Longitudinal longitudinal = build_up.EvaluateLongitudinal();
+  const BuildUp::Lateral lateral = build_up.EvaluateLateral();
   AerodynamicCoefficients coefficients;
-  coefficients << Cx, Cy_total, Cz, Cl, Cm, Cn;
+  coefficients << longitudinal.Cx, lateral.Cy, longitudinal.Cz, lateral.Cl, longitudinal.Cm,
+      lateral.Cn;
   return coefficients;
 }
 

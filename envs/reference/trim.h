@@ -24,7 +24,7 @@ struct TrimPoint {
 
 /// Solves for steady flight. Throws Error when it does not converge to a residual below 1e-6 or
 /// when the solution needs deflections beyond the actuators' limits. Thrust beyond the engine's is
-/// the caller's to judge (see `power`).
+/// the caller's to check (see `power`).
 TrimPoint Trim(const Plant& plant, const TrimRequest& request);
 
 /// The same, starting from the trim of a neighbouring condition.

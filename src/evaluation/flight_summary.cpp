@@ -14,7 +14,9 @@ Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Js
 
 int DecimalsOf(int metric) {
   switch (metric) {
+    case kMeanTrueAirspeed:
     case kMeanClimbRate:
+    case kMeanAbsClimbRate:
       return 1;
     case kMeanLoadFactor:
     case kMeanAbsAlpha:

@@ -12,28 +12,28 @@
 namespace skein {
 namespace {
 
-/// Pilot commands that a test can see were left alone.
+/// Commands that show that they were left alone.
 constexpr float kUntouched = 77;
 constexpr int kMostLanes = 16;
 
-/// One tile's pilot commands, kActionSize columns.
+/// One tile's throttle and stick commands, kActionSize columns.
 class ActionsTest : public ::testing::TestWithParam<simd::Target> {
  protected:
   ActionsTest() : scoped_(GetParam()) {}
 
   void Take(const std::vector<float>& action, TestTile* tile) {
     stride_ = tile->stride();
-    pilot_.assign(stride_ * kActionSize, kUntouched);
-    TakeActions(action.data(), tile->tile(), pilot_.data(), stride_);
+    commands_.assign(stride_ * kActionSize, kUntouched);
+    TakeActions(action.data(), tile->tile(), commands_.data(), stride_);
   }
-  float pilot(int command, int i) const {
-    return pilot_[static_cast<std::size_t>(command) * stride_ + static_cast<std::size_t>(i)];
+  float CommandOf(int k, int i) const {
+    return commands_[static_cast<std::size_t>(k) * stride_ + static_cast<std::size_t>(i)];
   }
 
  private:
   ScopedTarget scoped_;
   std::size_t stride_ = 0;
-  std::vector<float> pilot_;
+  std::vector<float> commands_;
 };
 
 /// A different number for every command of every aircraft, some beyond [-1, 1].
@@ -58,7 +58,7 @@ TEST_P(ActionsTest, EveryAircraftGetsItsOwnCommandsClipped) {
       for (int command = 0; command < kActionSize; ++command) {
         const float clipped = std::fmin(1.0f, std::fmax(-1.0f, ActionOf(i, command)));
         const float expected = command == 0 ? (clipped + 1) / 2 : clipped;
-        ASSERT_FLOAT_EQ(pilot(command, i), expected)
+        ASSERT_FLOAT_EQ(CommandOf(command, i), expected)
             << "command " << command << " of aircraft " << i << " among " << count;
       }
     }
@@ -68,9 +68,9 @@ TEST_P(ActionsTest, EveryAircraftGetsItsOwnCommandsClipped) {
 TEST_P(ActionsTest, ThrottleRunsFromIdleToFull) {
   TestTile tile(3);
   Take({-1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, &tile);
-  EXPECT_EQ(pilot(0, 0), 0);
-  EXPECT_EQ(pilot(0, 1), 0.5f);
-  EXPECT_EQ(pilot(0, 2), 1);
+  EXPECT_EQ(CommandOf(0, 0), 0);
+  EXPECT_EQ(CommandOf(0, 1), 0.5f);
+  EXPECT_EQ(CommandOf(0, 2), 1);
 }
 
 TEST_P(ActionsTest, LanesBeyondTheLastAircraftAreCentred) {
@@ -80,8 +80,8 @@ TEST_P(ActionsTest, LanesBeyondTheLastAircraftAreCentred) {
   for (int i = kCount; i < kMostLanes; ++i) {
     for (int command = 0; command < kActionSize; ++command) {
       // A target with fewer lanes does not get so far.
-      if (pilot(command, i) == kUntouched) continue;
-      EXPECT_EQ(pilot(command, i), command == 0 ? 0.5f : 0.0f) << "lane " << i;
+      if (CommandOf(command, i) == kUntouched) continue;
+      EXPECT_EQ(CommandOf(command, i), command == 0 ? 0.5f : 0.0f) << "lane " << i;
     }
   }
 }

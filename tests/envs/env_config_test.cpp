@@ -133,7 +133,7 @@ TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
        [](EnvConfig* c) {
          c->termination.alpha_deg = {45, -20};
        }},
-      // The kernels judge angles by the sides of two directions: an arc of 180 degrees at most.
+      // The kernels compare angles by the sides of two directions: an arc of 180 degrees at most.
       {"env.termination.alpha_max_deg = ",
        [](EnvConfig* c) {
          c->termination.alpha_deg = {-95, 95};

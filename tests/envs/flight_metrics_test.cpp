@@ -79,6 +79,7 @@ TEST_P(FlightMetricsTest, MeansAreOfTheStatesByTheFormulasOfTable6) {
   Add();
   const Metrics m = Report(i, 2);
   EXPECT_NEAR(m[kMeanLoadFactor], 1.5, kFloat32);
+  EXPECT_NEAR(m[kMeanTrueAirspeed] / (1.45 * sound), 1, kFloat32);
   EXPECT_NEAR(m[kMeanMach], 1.45, kFloat32);
   EXPECT_NEAR(m[kMeanAbsAlpha], 6, kDegrees);
   EXPECT_NEAR(m[kMeanAbsBeta], 4, kDegrees);
@@ -106,6 +107,18 @@ TEST_P(FlightMetricsTest, ClimbRateIsOverTheGroundInAnyAttitude) {
   Add();
   EXPECT_GT(expected, 300);
   EXPECT_NEAR(Report(0, 1)[kMeanClimbRate], expected, kClimbRate);
+}
+
+TEST_P(FlightMetricsTest, ClimbsAndDescentsCancelUnlessAbsolute) {
+  for (const double sign : {1.0, -1.0}) {
+    const Eigen::Vector4d attitude = QuaternionFromEuler({0, sign * 30 / kDegPerRad, 0});
+    Fly(0, 900, 0, 0, 20000);
+    for (int k = 0; k < 4; ++k) flight_.at(kQ0 + k, 0) = static_cast<float>(attitude[k]);
+    Add();
+  }
+  const Metrics m = Report(0, 2);
+  EXPECT_NEAR(m[kMeanClimbRate], 0, kClimbRate);
+  EXPECT_NEAR(m[kMeanAbsClimbRate], 450, kClimbRate);
 }
 
 TEST_P(FlightMetricsTest, SmoothnessIsOfTheSecondDifferences) {

@@ -130,7 +130,7 @@ TEST(VecEnv, NeitherDoWindAndNoiseByEpisode) {
   EXPECT_EQ(Fly(&other, 40, 20), Fly(&small, 40, 20));
 }
 
-TEST(VecEnv, ResultsDoNotDependOnNeighbours) {
+TEST(VecEnv, ResultsDoNotDependOnOtherAircraft) {
   VecEnv few(BusyConfig(), 5, 1), many(BusyConfig(), 200, 1);
   const std::vector<Log> few_logs = Fly(&few, 0, 60);
   std::vector<Log> many_logs = Fly(&many, 0, 60);

@@ -43,16 +43,6 @@ TEST(Peak, MedianOfOneThreadIsNotAboveItsBest) {
   EXPECT_LE(rate.median_gflops, rate.gflops);
 }
 
-TEST(Peak, WiderVectorsLoadMore) {
-  const auto measure = [] { return simd::MeasureLoadPeak(1); };
-  const double scalar = On(simd::Target::kScalar, measure).bytes_per_s_per_core;
-  const simd::LoadRate best = On(simd::SupportedTargets().front(), measure);
-  EXPECT_EQ(best.bytes_per_s, best.bytes_per_s_per_core);
-  if (simd::SupportedTargets().size() > 1) {
-    EXPECT_GT(best.bytes_per_s_per_core, 2 * scalar);
-  }
-}
-
 TEST(Peak, ClockIsThatOfAProcessorOnEveryTarget) {
   for (const simd::Target target : simd::SupportedTargets()) {
     SCOPED_TRACE(simd::Name(target));
@@ -62,10 +52,10 @@ TEST(Peak, ClockIsThatOfAProcessorOnEveryTarget) {
   }
 }
 
-TEST(Peak, MoreThreadsLoadNoLess) {
-  const simd::LoadRate rate = simd::MeasureLoadPeak(2);
-  EXPECT_GT(rate.bytes_per_s_per_core, 0);
-  EXPECT_GT(rate.bytes_per_s, kLeastShare * rate.bytes_per_s_per_core);
+TEST(Peak, MoreThreadsDoNoLess) {
+  const simd::PeakRate rate = simd::MeasurePeak(2);
+  EXPECT_GT(rate.gflops_per_core, 0);
+  EXPECT_GT(rate.gflops, kLeastShare * rate.gflops_per_core);
 }
 
 TEST(Peak, Bfloat16IsFasterWhereItHasAnInstruction) {
@@ -79,7 +69,6 @@ TEST(Peak, Bfloat16IsFasterWhereItHasAnInstruction) {
 TEST(Peak, NoThreadsIsAnError) {
   EXPECT_THROW(simd::MeasurePeak(0), Error);
   EXPECT_THROW(simd::MeasureBfloat16Peak(0), Error);
-  EXPECT_THROW(simd::MeasureLoadPeak(0), Error);
 }
 
 }  // namespace

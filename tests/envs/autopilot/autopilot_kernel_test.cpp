@@ -69,17 +69,17 @@ class WanderingObservations {
 
 /// The state and the actions of aircraft that observe what wanders.
 struct Flown {
-  Flown(const Policy& pilot, int count)
-      : state(static_cast<std::size_t>(count * pilot.state_size())),
-        action(static_cast<std::size_t>(count * pilot.action_size())) {}
+  Flown(const Policy& autopilot, int count)
+      : state(static_cast<std::size_t>(count * autopilot.state_size())),
+        action(static_cast<std::size_t>(count * autopilot.action_size())) {}
   std::vector<float> state, action;
 };
 
-Flown FlyFor(const Policy& pilot, int steps) {
+Flown FlyFor(const Policy& autopilot, int steps) {
   WanderingObservations observed(kCount);
-  Flown flown(pilot, kCount);
+  Flown flown(autopilot, kCount);
   for (int step = 0; step < steps; ++step) {
-    pilot.Act(kCount, observed.rows().data(), flown.state.data(), flown.action.data());
+    autopilot.Act(kCount, observed.rows().data(), flown.state.data(), flown.action.data());
     observed.Advance();
   }
   return flown;
@@ -110,7 +110,7 @@ std::vector<double> Expected(const std::string& task, AutopilotVariant variant, 
   return FlyInDouble<TrackingLaw>(variant, steps);
 }
 
-/// An aircraft at a switch may decide otherwise: none does here.
+/// An aircraft at a switch may go the other way: none does here.
 constexpr Tolerance kFloat32{2e-4, "float32 through 200 steps, times 20 from angle to full stick"};
 
 class AutopilotKernel : public testing::TestWithParam<const char*> {};
@@ -120,10 +120,10 @@ TEST_P(AutopilotKernel, EqualsTheLawsInFloat64OnEveryTarget) {
   for (const AutopilotVariant variant :
        {AutopilotVariant::kTraditional, AutopilotVariant::kAggressive}) {
     const std::vector<double> expected = Expected(GetParam(), variant, kSteps);
-    const auto pilot = Autopilot(GetParam(), variant);
+    const auto autopilot = Autopilot(GetParam(), variant);
     for (const simd::Target target : simd::SupportedTargets()) {
       const ScopedTarget scoped(target);
-      const Flown flown = FlyFor(*pilot, kSteps);
+      const Flown flown = FlyFor(*autopilot, kSteps);
       for (std::size_t k = 0; k < expected.size(); ++k) {
         ASSERT_NEAR(flown.action[k], expected[k], kFloat32)
             << simd::Name(target) << " aircraft " << k / kActionSize << " command "
@@ -133,16 +133,16 @@ TEST_P(AutopilotKernel, EqualsTheLawsInFloat64OnEveryTarget) {
   }
 }
 
-TEST_P(AutopilotKernel, NoAircraftDependsOnItsNeighbours) {
-  const auto pilot = Autopilot(GetParam(), AutopilotVariant::kAggressive);
-  const Flown together = FlyFor(*pilot, 50);
+TEST_P(AutopilotKernel, NoAircraftDependsOnOthers) {
+  const auto autopilot = Autopilot(GetParam(), AutopilotVariant::kAggressive);
+  const Flown together = FlyFor(*autopilot, 50);
   WanderingObservations observed(kCount);
-  Flown apart(*pilot, kCount);
+  Flown apart(*autopilot, kCount);
   for (int step = 0; step < 50; ++step) {
     for (int first = 0; first < kCount;) {
       const int count = std::min(1 + (first + step) % 19, kCount - first);
-      pilot->Act(count, observed.rows().data() + first * kObservationSize,
-                 apart.state.data() + first * pilot->state_size(),
+      autopilot->Act(count, observed.rows().data() + first * kObservationSize,
+                 apart.state.data() + first * autopilot->state_size(),
                  apart.action.data() + first * kActionSize);
       first += count;
     }
@@ -153,15 +153,15 @@ TEST_P(AutopilotKernel, NoAircraftDependsOnItsNeighbours) {
 }
 
 TEST_P(AutopilotKernel, WhatIsNotFiniteStaysWithItsAircraft) {
-  const auto pilot = Autopilot(GetParam(), AutopilotVariant::kAggressive);
+  const auto autopilot = Autopilot(GetParam(), AutopilotVariant::kAggressive);
   WanderingObservations observed(kCount);
-  Flown well(*pilot, kCount), sick(*pilot, kCount);
+  Flown well(*autopilot, kCount), sick(*autopilot, kCount);
   std::vector<float> rows = observed.rows();
   std::fill_n(rows.begin() + 5 * kObservationSize, kObservationSize,
               std::numeric_limits<float>::quiet_NaN());
   for (int step = 0; step < 10; ++step) {
-    pilot->Act(kCount, observed.rows().data(), well.state.data(), well.action.data());
-    pilot->Act(kCount, rows.data(), sick.state.data(), sick.action.data());
+    autopilot->Act(kCount, observed.rows().data(), well.state.data(), well.action.data());
+    autopilot->Act(kCount, rows.data(), sick.state.data(), sick.action.data());
   }
   for (std::size_t k = 0; k < well.action.size(); ++k) {
     if (k / kActionSize == 5) continue;
@@ -169,21 +169,21 @@ TEST_P(AutopilotKernel, WhatIsNotFiniteStaysWithItsAircraft) {
   }
 }
 
-/// Left and right: mirrored observations give mirrored sticks, bit for bit.
+/// Left and right: mirrored observations give mirrored actions, bit for bit.
 TEST_P(AutopilotKernel, IsSymmetric) {
   for (const AutopilotVariant variant :
        {AutopilotVariant::kTraditional, AutopilotVariant::kAggressive}) {
-    const auto pilot = Autopilot(GetParam(), variant);
+    const auto autopilot = Autopilot(GetParam(), variant);
     WanderingObservations observed(kCount);
-    Flown right(*pilot, kCount), left(*pilot, kCount);
+    Flown right(*autopilot, kCount), left(*autopilot, kCount);
     for (int step = 0; step < 100; ++step) {
       std::vector<float> mirrored = observed.rows();
       for (std::size_t i = 0; i < kCount; ++i) {
         // The error in yaw or to the right; roll, sideslip, roll rate and yaw rate.
         for (const std::size_t k : {1, 4, 11, 13, 15}) mirrored[i * kObservationSize + k] *= -1;
       }
-      pilot->Act(kCount, observed.rows().data(), right.state.data(), right.action.data());
-      pilot->Act(kCount, mirrored.data(), left.state.data(), left.action.data());
+      autopilot->Act(kCount, observed.rows().data(), right.state.data(), right.action.data());
+      autopilot->Act(kCount, mirrored.data(), left.state.data(), left.action.data());
       for (std::size_t k = 0; k < right.action.size(); ++k) {
         const float sign = k % kActionSize == 2 ? -1 : 1;
         ASSERT_EQ(right.action[k], sign * left.action[k]) << step << " " << k;
@@ -193,18 +193,18 @@ TEST_P(AutopilotKernel, IsSymmetric) {
   }
 }
 
-TEST_P(AutopilotKernel, CommandsStayWithinTheSticks) {
-  const auto pilot = Autopilot(GetParam(), AutopilotVariant::kAggressive);
-  for (const float command : FlyFor(*pilot, 300).action) EXPECT_LE(std::abs(command), 1);
+TEST_P(AutopilotKernel, ActionsStayWithinOne) {
+  const auto autopilot = Autopilot(GetParam(), AutopilotVariant::kAggressive);
+  for (const float action : FlyFor(*autopilot, 300).action) EXPECT_LE(std::abs(action), 1);
 }
 
-TEST_P(AutopilotKernel, OuterLoopsDecideInEveryFifthStep) {
-  const auto pilot = Autopilot(GetParam(), AutopilotVariant::kTraditional);
+TEST_P(AutopilotKernel, OuterLoopsRunInEveryFifthStep) {
+  const auto autopilot = Autopilot(GetParam(), AutopilotVariant::kTraditional);
   WanderingObservations observed(kCount);
-  Flown flown(*pilot, kCount);
+  Flown flown(*autopilot, kCount);
   std::vector<float> throttle;
   for (int step = 0; step < 21; ++step) {
-    pilot->Act(kCount, observed.rows().data(), flown.state.data(), flown.action.data());
+    autopilot->Act(kCount, observed.rows().data(), flown.state.data(), flown.action.data());
     observed.Advance();
     std::vector<float> now;
     for (std::size_t i = 0; i < kCount; ++i) now.push_back(flown.action[i * kActionSize]);

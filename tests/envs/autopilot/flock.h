@@ -17,10 +17,10 @@ class Flock {
  public:
   Flock(const EnvConfig& config, const AutopilotGains& gains, int count, std::uint64_t seed)
       : env_(config, count, seed, count),
-        pilot_(MakeAutopilot(config, gains)),
+        autopilot_(MakeAutopilot(config, gains)),
         count_(count),
         observation_(Times(env_.observation_size())),
-        state_(Times(pilot_->state_size())),
+        state_(Times(autopilot_->state_size())),
         action_(Times(env_.action_size())),
         reward_(Times(1)),
         episode_return_(Times(1)),
@@ -30,7 +30,7 @@ class Flock {
   /// One control step of all.
   void Step() {
     env_.Observe(0, observation_.data());
-    pilot_->Act(count_, observation_.data(), state_.data(), action_.data());
+    autopilot_->Act(count_, observation_.data(), state_.data(), action_.data());
     StepOutput output;
     output.reward = reward_.data();
     output.termination = termination_.data();
@@ -39,7 +39,7 @@ class Flock {
     env_.Step(0, action_.data(), output);
     for (int i = 0; i < count_; ++i) {
       if (HasEnded(i))
-        std::fill_n(state_.begin() + i * pilot_->state_size(), pilot_->state_size(), 0.0f);
+        std::fill_n(state_.begin() + i * autopilot_->state_size(), autopilot_->state_size(), 0.0f);
     }
   }
 
@@ -60,7 +60,7 @@ class Flock {
   }
 
   VecEnv env_;
-  std::unique_ptr<Policy> pilot_;
+  std::unique_ptr<Policy> autopilot_;
   int count_;
   std::vector<float> observation_, state_, action_, reward_, episode_return_;
   std::vector<std::uint8_t> termination_;

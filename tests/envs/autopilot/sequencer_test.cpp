@@ -17,7 +17,7 @@ struct Nose {
     flight.speed = 1000;
     motion.cos_roll = 1;
   }
-  SequencerDemand<double> Decide(double pitch, double yaw, double speed) {
+  SequencerDemand<double> Update(double pitch, double yaw, double speed) {
     const auto demand =
         Sequence(gains, kDt, flight, motion, {pitch, yaw, speed}, Now<bool>{begins, true}, memory);
     begins = false;
@@ -34,21 +34,21 @@ struct Nose {
 TEST(Sequencer, SendsTheNoseWhereTheSpeedComesFromFirst) {
   Nose slow, fast;
   // The target lies the other way.
-  EXPECT_LT(slow.Decide(0.4, 0, 200).pitch, 0);
-  EXPECT_GT(fast.Decide(-0.4, 0, -200).pitch, 0);
+  EXPECT_LT(slow.Update(0.4, 0, 200).pitch, 0);
+  EXPECT_GT(fast.Update(-0.4, 0, -200).pitch, 0);
 }
 
 TEST(Sequencer, SendsTheNoseToItsTargetWhenSpeedAndYawAreThere) {
   Nose nose;
-  EXPECT_DOUBLE_EQ(nose.Decide(0.1, 0.01, -1).pitch, 0.1);
-  EXPECT_DOUBLE_EQ(nose.Decide(0.1, 0.01, -1).speed_error, -1);
+  EXPECT_DOUBLE_EQ(nose.Update(0.1, 0.01, -1).pitch, 0.1);
+  EXPECT_DOUBLE_EQ(nose.Update(0.1, 0.01, -1).speed_error, -1);
 }
 
 TEST(Sequencer, WaitsForTheYawToComeToRest) {
   Nose nose;
-  nose.Decide(0.1, 0.2, 0);
-  EXPECT_NE(nose.Decide(0.1, 0.05, 0).pitch, 0.1);  // 86 deg/s
-  EXPECT_EQ(nose.Decide(0.1, 0.04, 0).pitch, 0.1);
+  nose.Update(0.1, 0.2, 0);
+  EXPECT_NE(nose.Update(0.1, 0.05, 0).pitch, 0.1);  // 86 deg/s
+  EXPECT_EQ(nose.Update(0.1, 0.04, 0).pitch, 0.1);
 }
 
 /// Nose up will cost speed: too fast by as much is right, exactly right is too slow.
@@ -59,38 +59,38 @@ TEST(Sequencer, ForeseesWhatGravityTakes) {
   const double pitch = 0.4;
   const double seconds = 0.5 * (pitch / nose.gains.pitch_rate + 1);
   const double loss = nose.gains.speed_lead * kGravityFtS2 * std::sin(pitch) * seconds;
-  EXPECT_NEAR(nose.Decide(pitch, 0, -loss).pitch, pitch, kRounding);
+  EXPECT_NEAR(nose.Update(pitch, 0, -loss).pitch, pitch, kRounding);
   Nose slower;
-  EXPECT_NEAR(slower.Decide(pitch, 0, 0).speed_error, loss, kSpeedRounding);
+  EXPECT_NEAR(slower.Update(pitch, 0, 0).speed_error, loss, kSpeedRounding);
 }
 
 TEST(Sequencer, BeginsAgainWhenTheTargetIsNotReachedInTime) {
   constexpr Tolerance kSteps{2 * kDt, "whole steps, at either end"};
   Nose nose;
   nose.gains.speed_lead = 0;
-  EXPECT_EQ(nose.Decide(0.1, 0, 0).pitch, 0.1);
+  EXPECT_EQ(nose.Update(0.1, 0, 0).pitch, 0.1);
   int policy_steps = 0;
-  while (nose.Decide(0.1, 0, -100).pitch == 0.1) ++policy_steps;
+  while (nose.Update(0.1, 0, -100).pitch == 0.1) ++policy_steps;
   EXPECT_NEAR(policy_steps * kDt, nose.gains.patience_s, kSteps);
 }
 
 TEST(Sequencer, StaysAtTheTargetWhileItIsNearEnough) {
   Nose nose;
   nose.gains.speed_lead = 0;
-  nose.Decide(0.1, 0, 0);
-  for (int i = 0; i < 1000; ++i) EXPECT_EQ(nose.Decide(0.1, 0.05, -30).pitch, 0.1);
+  nose.Update(0.1, 0, 0);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(nose.Update(0.1, 0.05, -30).pitch, 0.1);
 }
 
 TEST(Sequencer, ClimbsNearTheGround) {
   Nose nose;
   nose.flight.altitude = 5000;
-  EXPECT_GE(nose.Decide(-0.4, 1, 300).pitch, nose.gains.low_altitude_pitch);
+  EXPECT_GE(nose.Update(-0.4, 1, 300).pitch, nose.gains.low_altitude_pitch);
 }
 
 TEST(Sequencer, LeavesEverythingAtOnceWithoutIt) {
   Nose nose;
   nose.gains.enabled = false;
-  const auto demand = nose.Decide(-0.4, 2, -200);
+  const auto demand = nose.Update(-0.4, 2, -200);
   EXPECT_EQ(demand.pitch, -0.4);
   EXPECT_EQ(demand.speed_error, -200);
 }

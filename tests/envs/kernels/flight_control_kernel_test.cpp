@@ -45,10 +45,10 @@ double Scale(int column) {
   }
 }
 
-struct Pilots {
+struct Commands {
   std::vector<float> throttle, pitch, roll, yaw;
 
-  explicit Pilots(int count)
+  explicit Commands(int count)
       : throttle(TileStride(count)), pitch(throttle), roll(throttle), yaw(throttle) {}
 
   PilotColumns columns() const { return {throttle.data(), pitch.data(), roll.data(), yaw.data()}; }
@@ -140,13 +140,13 @@ TEST_P(FlightControlKernelTest, OneStepAgreesWithTheSpecification) {
   for (const FlightControlMode mode : {FlightControlMode::kFull, FlightControlMode::kDirect}) {
     const FlightControl flight_control(aircraft_, mode, kInterval);
     TestTile tile(kCount);
-    Pilots pilots(kCount);
+    Commands commands(kCount);
     std::vector<Specification> expected(kCount);
     for (int i = 0; i < kCount; ++i) {
       simd::RandomStream random(
           {1, static_cast<std::uint32_t>(i), 0, 0, simd::RandomPurpose::kInitialState});
       DrawFlight(speed_unit_, &tile, i, &random);
-      pilots.Draw(i, &random);
+      commands.Draw(i, &random);
       // Filters at rest in one flight condition, then flown in another.
       TestTile other(1);
       DrawFlight(speed_unit_, &other, 0, &random);
@@ -166,9 +166,9 @@ TEST_P(FlightControlKernelTest, OneStepAgreesWithTheSpecification) {
       for (int k = 0; k < 4; ++k) {
         specification.surfaces[static_cast<std::size_t>(k)] = tile.at(kElevator + k, i);
       }
-      specification.Step(aircraft_, flight_control, pilots.of(i), SensorsOf(&tile, i));
+      specification.Step(aircraft_, flight_control, commands.of(i), SensorsOf(&tile, i));
     }
-    ControlTile(*kernel_, tile.tile(), pilots.columns(), mode, kInterval);
+    ControlTile(*kernel_, tile.tile(), commands.columns(), mode, kInterval);
     for (int i = 0; i < kCount; ++i) {
       for (const int column : ControlledColumns()) {
         ASSERT_NEAR(tile.at(column, i), expected[static_cast<std::size_t>(i)].of(column),
@@ -183,7 +183,7 @@ TEST_P(FlightControlKernelTest, StaysWithTheSpecificationOverAFlight) {
   constexpr int kCount = 48, kSteps = 500;
   const FlightControl flight_control(aircraft_, FlightControlMode::kFull, kInterval);
   TestTile tile(kCount);
-  Pilots pilots(kCount);
+  Commands commands(kCount);
   std::vector<Specification> expected(kCount);
   std::vector<simd::RandomStream> random;
   for (int i = 0; i < kCount; ++i) {
@@ -204,11 +204,11 @@ TEST_P(FlightControlKernelTest, StaysWithTheSpecificationOverAFlight) {
       simd::RandomStream& stream = random[static_cast<std::size_t>(i)];
       // New sensor readings and sticks now and then; each aircraft at its own time.
       if ((step + i) % 7 == 0) DrawFlight(speed_unit_, &tile, i, &stream);
-      if ((step + i) % 25 == 0) pilots.Draw(i, &stream);
-      expected[static_cast<std::size_t>(i)].Step(aircraft_, flight_control, pilots.of(i),
+      if ((step + i) % 25 == 0) commands.Draw(i, &stream);
+      expected[static_cast<std::size_t>(i)].Step(aircraft_, flight_control, commands.of(i),
                                                  SensorsOf(&tile, i));
     }
-    ControlTile(*kernel_, tile.tile(), pilots.columns(), FlightControlMode::kFull, kInterval);
+    ControlTile(*kernel_, tile.tile(), commands.columns(), FlightControlMode::kFull, kInterval);
     for (int i = 0; i < kCount; ++i) {
       for (const int column : ControlledColumns()) {
         ASSERT_NEAR(tile.at(column, i), expected[static_cast<std::size_t>(i)].of(column),
@@ -222,20 +222,20 @@ TEST_P(FlightControlKernelTest, StaysWithTheSpecificationOverAFlight) {
 TEST_P(FlightControlKernelTest, ResultsDoNotDependOnTheLane) {
   constexpr int kCount = 61;
   TestTile tile(kCount), shifted(kCount);
-  Pilots pilots(kCount), shifted_pilots(kCount);
+  Commands commands(kCount), shifted_commands(kCount);
   for (int i = 0; i < kCount; ++i) {
     const int j = (i + 23) % kCount;
-    for (const auto& [target, pilot, index] :
-         {std::tuple{&tile, &pilots, i}, std::tuple{&shifted, &shifted_pilots, j}}) {
+    for (const auto& [target, command, index] :
+         {std::tuple{&tile, &commands, i}, std::tuple{&shifted, &shifted_commands, j}}) {
       simd::RandomStream random(
           {3, static_cast<std::uint32_t>(i), 0, 0, simd::RandomPurpose::kInitialState});
       DrawFlight(speed_unit_, target, index, &random);
-      pilot->Draw(index, &random);
+      command->Draw(index, &random);
     }
   }
   for (int step = 0; step < 20; ++step) {
-    ControlTile(*kernel_, tile.tile(), pilots.columns(), FlightControlMode::kFull, kInterval);
-    ControlTile(*kernel_, shifted.tile(), shifted_pilots.columns(), FlightControlMode::kFull,
+    ControlTile(*kernel_, tile.tile(), commands.columns(), FlightControlMode::kFull, kInterval);
+    ControlTile(*kernel_, shifted.tile(), shifted_commands.columns(), FlightControlMode::kFull,
                 kInterval);
   }
   for (int i = 0; i < kCount; ++i) {
@@ -247,16 +247,16 @@ TEST_P(FlightControlKernelTest, ResultsDoNotDependOnTheLane) {
 
 TEST_P(FlightControlKernelTest, SticksAndThrottleAreLimited) {
   TestTile tile(2);
-  Pilots pilots(2);
+  Commands commands(2);
   for (int i = 0; i < 2; ++i) {
     tile.at(kU, i) = 600;
     tile.at(kDown, i) = -10000;
-    pilots.throttle[static_cast<std::size_t>(i)] = i == 0 ? 1 : 7;
-    pilots.pitch[static_cast<std::size_t>(i)] = i == 0 ? 1 : 5;
-    pilots.roll[static_cast<std::size_t>(i)] = i == 0 ? -1 : -3;
-    pilots.yaw[static_cast<std::size_t>(i)] = i == 0 ? 1 : 1e9f;
+    commands.throttle[static_cast<std::size_t>(i)] = i == 0 ? 1 : 7;
+    commands.pitch[static_cast<std::size_t>(i)] = i == 0 ? 1 : 5;
+    commands.roll[static_cast<std::size_t>(i)] = i == 0 ? -1 : -3;
+    commands.yaw[static_cast<std::size_t>(i)] = i == 0 ? 1 : 1e9f;
   }
-  ControlTile(*kernel_, tile.tile(), pilots.columns(), FlightControlMode::kFull, kInterval);
+  ControlTile(*kernel_, tile.tile(), commands.columns(), FlightControlMode::kFull, kInterval);
   for (const int column : ControlledColumns()) EXPECT_EQ(tile.at(column, 0), tile.at(column, 1));
   EXPECT_FLOAT_EQ(tile.at(kPowerCommand, 0), 100);
 }

@@ -60,8 +60,8 @@ class AirVelocityTest : public testing::TestWithParam<simd::Target> {
 };
 
 TEST_P(AirVelocityTest, FlightControl) {
-  const std::vector<float> stick(still_.stride(), 0.2f);
-  const PilotColumns pilot{stick.data(), stick.data(), stick.data(), stick.data()};
+  const std::vector<float> command(still_.stride(), 0.2f);
+  const PilotColumns pilot{command.data(), command.data(), command.data(), command.data()};
   ControlTile(*kernel_, still_.tile(), pilot, FlightControlMode::kFull, 0.02f);
   ControlTile(*kernel_, windy_.tile(), pilot, FlightControlMode::kFull, 0.02f);
   for (int i = 0; i < kCount; ++i) {
@@ -85,7 +85,7 @@ TEST_P(AirVelocityTest, Terminations) {
   config.termination.alpha_deg = {-2, 10};
   config.termination.beta_deg = {-6, 6};
   config.termination.max_mach = 1;
-  const auto judge = [&](TestTile* flight) {
+  const auto terminations = [&](TestTile* flight) {
     std::vector<float> reward(flight->stride()), policy_step(reward), total(reward);
     std::vector<std::int32_t> reached(flight->stride()), step(reached), termination(reached);
     ComputeRewardAndTermination(
@@ -94,8 +94,8 @@ TEST_P(AirVelocityTest, Terminations) {
     termination.resize(kCount);
     return termination;
   };
-  const std::vector<std::int32_t> still = judge(&still_);
-  EXPECT_EQ(judge(&windy_), still);
+  const std::vector<std::int32_t> still = terminations(&still_);
+  EXPECT_EQ(terminations(&windy_), still);
   for (const Termination expected :
        {Termination::kNone, Termination::kExtremeState, Termination::kHighSpeed}) {
     EXPECT_NE(std::count(still.begin(), still.end(), static_cast<std::int32_t>(expected)), 0);

@@ -59,7 +59,7 @@ class ControlTest : public testing::TestWithParam<simd::Target> {
     task_->Errors(flight_.tile(), targets_.tile(), errors.data(), flight_.stride());
     return errors;
   }
-  void JudgeBy(const Task& task) {
+  void RewardBy(const Task& task) {
     task.ComputeReward(flight_.tile(), targets_.tile(), steps_.data(),
                        {reward_.data(), reached_.data()});
   }
@@ -145,7 +145,7 @@ TEST_P(ControlTest, RewardIsMinusTheAngleToTheTargetAttitude) {
     SetFlight(i, c.attitude);
     SetTarget(i, c.target_pitch, c.target_yaw, 1000);
   }
-  JudgeBy(*angle_only_);
+  RewardBy(*angle_only_);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_NEAR(reward_[i], -cases[i].angle, kFloat32) << "case " << i;
   }
@@ -167,7 +167,7 @@ TEST_P(ControlTest, RewardAgreesWithRotationMatricesInFloat64) {
       SetTarget(i, target.pitch, target.yaw, 1000);
       angles.push_back(AngleBetween(attitude, target));
     }
-    JudgeBy(*angle_only_);
+    RewardBy(*angle_only_);
     for (std::size_t i = 0; i < kCount; ++i) EXPECT_NEAR(reward_[i], -angles[i], kFloat32) << i;
   }
 }
@@ -184,7 +184,7 @@ TEST_P(ControlTest, RewardCanBeMinusTheAngleOfTheNoseAtAnyRoll) {
   SetTarget(1, -0.3, 1 - M_PI, 1000);
   SetFlight(2, {-1, 0.3, 1});
   SetTarget(2, 0.3 + 1e-4, 1, 1000);
-  JudgeBy(*nose_only_);
+  RewardBy(*nose_only_);
   const auto direction = [](double pitch, double yaw) {
     return Eigen::Vector3d(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
                            -std::sin(pitch));
@@ -207,10 +207,10 @@ TEST_P(ControlTest, SpeedErrorsCostTheirWeightOnEitherSide) {
   SetTarget(0, -0.1, 1, 1000 + 0.2 * kSpeedUnit);
   SetFlight(1, {0, 0.2, 1});
   SetTarget(1, -0.1, 1, 1000 - 0.2 * kSpeedUnit);
-  JudgeBy(*task_);
+  RewardBy(*task_);
   EXPECT_NEAR(reward_[0], -(0.3 + 5 * 0.2), kFloat32);
   EXPECT_NEAR(reward_[1], -(0.3 + 5 * 0.2), kFloat32);
-  JudgeBy(*angle_only_);
+  RewardBy(*angle_only_);
   EXPECT_NEAR(reward_[0], -0.3, kFloat32);
 }
 
@@ -220,7 +220,7 @@ TEST_P(ControlTest, MirroredFlightsGetTheSameReward) {
     SetFlight(side, {sign * 0.7, 0.4, sign * 0.8});
     SetTarget(side, -0.3, sign * -1.1, 1100);
   }
-  JudgeBy(*task_);
+  RewardBy(*task_);
   EXPECT_NEAR(reward_[0], reward_[1], kFloat32);
 }
 
@@ -245,7 +245,7 @@ TEST_P(ControlTest, IsReachedOnlyInsideAllTolerancesAtAnyRollAndTime) {
               std::remainder(3.1 + c.yaw_deg / kDegPerRad, 2 * M_PI), 1000 + c.speed_ft_s);
     steps_[static_cast<std::size_t>(i)] = c.steps_before;
   }
-  JudgeBy(*task_);
+  RewardBy(*task_);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(reached_[i], cases[i].reached ? 1 : 0) << "case " << i;
   }
@@ -263,7 +263,7 @@ TEST_P(ControlTest, TolerancesAreTheConfigurations) {
     SetTarget(i, 0.1 + errors[i][0] / kDegPerRad, 0.2 + errors[i][1] / kDegPerRad,
               1000 + errors[i][2]);
   }
-  JudgeBy(*strict);
+  RewardBy(*strict);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(reached_[i], i == 0 ? 1 : 0) << i;
 }
 
@@ -284,7 +284,7 @@ TEST_P(ControlTest, TrainingTolerancesAreSharesDrawnByEpisode) {
     mean += share / kEpisodes;
     // 3 deg of pitch are 0.6 of the tolerance.
     SetFlight(0, {0, 0.1 - 3 / kDegPerRad, 0.2});
-    JudgeBy(*training);
+    RewardBy(*training);
     EXPECT_EQ(reached_[0], share > 0.6 ? 1 : 0) << share;
   }
   EXPECT_GE(least, 0.2);
@@ -300,7 +300,7 @@ TEST_P(ControlTest, AStateThatIsNotFiniteIsNotReached) {
   for (const int column : {kU, kW, kQ0, kQy}) {
     SetFlight(0, {0, 0.1, 0.2});
     flight_.at(column, 0) = std::nanf("");
-    JudgeBy(*task_);
+    RewardBy(*task_);
     EXPECT_EQ(reached_[0], 0) << column;
   }
 }

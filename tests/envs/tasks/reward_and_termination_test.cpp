@@ -19,9 +19,9 @@ namespace {
 
 constexpr double kAltitude = 20000;
 
-class JudgementTest : public testing::TestWithParam<simd::Target> {
+class RewardAndTerminationTest : public testing::TestWithParam<simd::Target> {
  protected:
-  JudgementTest() {
+  RewardAndTerminationTest() {
     for (int i = 0; i < kCount; ++i) SetFlight(i, 1000, 3, 0, kAltitude);
   }
 
@@ -57,7 +57,7 @@ class JudgementTest : public testing::TestWithParam<simd::Target> {
   std::vector<float> return_ = std::vector<float>(flight_.stride(), -3);
 };
 
-TEST_P(JudgementTest, FlyingOnCostsTheTaskRewardAndAStep) {
+TEST_P(RewardAndTerminationTest, FlyingOnCostsTheTaskRewardAndAStep) {
   config_.reward_scale = 0.5;
   ComputeReward();
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -68,7 +68,7 @@ TEST_P(JudgementTest, FlyingOnCostsTheTaskRewardAndAStep) {
   }
 }
 
-TEST_P(JudgementTest, EveryLimitEndsTheEpisodeOnItsFarSideOnly) {
+TEST_P(RewardAndTerminationTest, EveryLimitEndsTheEpisodeOnItsFarSideOnly) {
   const double sound = AirAt(AtmosphereModel::kStevensLewis, kAltitude).sound_speed_ft_s;
   struct Case {
     double speed, alpha_deg, beta_deg, altitude_ft, nz;
@@ -111,7 +111,7 @@ TEST_P(JudgementTest, EveryLimitEndsTheEpisodeOnItsFarSideOnly) {
   }
 }
 
-TEST_P(JudgementTest, SuccessAndTimeLimit) {
+TEST_P(RewardAndTerminationTest, SuccessAndTimeLimit) {
   step_[0] = 2498;
   step_[1] = 2499;
   step_[2] = 2499;
@@ -129,7 +129,7 @@ TEST_P(JudgementTest, SuccessAndTimeLimit) {
   EXPECT_EQ(Of(4), Termination::kOverload);
 }
 
-TEST_P(JudgementTest, TruncationHasNoTerminalReward) {
+TEST_P(RewardAndTerminationTest, TruncationHasNoTerminalReward) {
   config_.truncate_at_time_limit = true;
   step_[0] = 2499;
   ComputeReward();
@@ -137,7 +137,7 @@ TEST_P(JudgementTest, TruncationHasNoTerminalReward) {
   EXPECT_FLOAT_EQ(policy_step_[0], -0.5f);
 }
 
-TEST_P(JudgementTest, AnEndedEpisodeIsLeftAlone) {
+TEST_P(RewardAndTerminationTest, AnEndedEpisodeIsLeftAlone) {
   termination_[7] = static_cast<std::int32_t>(Termination::kTargetReached);
   policy_step_[7] = 12;
   SetFlight(7, 1000, 80, 0, kAltitude);
@@ -149,7 +149,7 @@ TEST_P(JudgementTest, AnEndedEpisodeIsLeftAlone) {
   EXPECT_EQ(return_[7], -3);
 }
 
-TEST_P(JudgementTest, AnythingNotFiniteEndsOnlyItsOwnEpisode) {
+TEST_P(RewardAndTerminationTest, AnythingNotFiniteEndsOnlyItsOwnEpisode) {
   const float bad[3] = {std::numeric_limits<float>::quiet_NaN(),
                         std::numeric_limits<float>::infinity(),
                         -std::numeric_limits<float>::infinity()};
@@ -172,7 +172,8 @@ TEST_P(JudgementTest, AnythingNotFiniteEndsOnlyItsOwnEpisode) {
   EXPECT_TRUE(std::isfinite(return_[6]));
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, JudgementTest, testing::ValuesIn(simd::SupportedTargets()),
+INSTANTIATE_TEST_SUITE_P(Targets, RewardAndTerminationTest,
+                         testing::ValuesIn(simd::SupportedTargets()),
                          [](const auto& test) { return std::string(Name(test.param)); });
 
 }  // namespace
