@@ -17,7 +17,8 @@ struct Ramp {
 
 /// Gains of the four-channel flight control system. Angles in degrees, rates in deg/s,
 /// accelerations in g, dynamic pressure in psf. The defaults are Skein's set for the F-16; its laws
-/// are in envs/reference/flight_control.h; sources and verification in docs/flight-control.md.
+/// are in envs/reference/flight_control.h; sources and verification in
+/// docs/explanation/flight-control.md.
 struct FlightControlGains {
   // Shared by the channels.
   double alpha_min_deg = -5, alpha_max_deg = 30;  ///< range of the angle-of-attack sensor

@@ -32,7 +32,7 @@ struct FlightSensors {
   double dynamic_pressure_psf = 0, static_pressure_psf = 0;
 };
 
-/// Surface positions or commands, degrees (signs: docs/conventions.md).
+/// Surface positions or commands, degrees (signs: docs/reference/conventions.md).
 struct SurfaceAngles {
   double elevator_deg = 0, aileron_deg = 0, rudder_deg = 0, leading_edge_flap_deg = 0;
 };

@@ -13,7 +13,7 @@ namespace skein {
 using RigidBodyState = Eigen::Matrix<double, 13, 1>;
 
 /// What acts on the airframe: thrust along body x and surface positions (signs:
-/// docs/conventions.md).
+/// docs/reference/conventions.md).
 struct Controls {
   double thrust_lbf = 0;
   double elevator_deg = 0, aileron_deg = 0, rudder_deg = 0, leading_edge_flap_deg = 0;

@@ -30,8 +30,9 @@ struct StepResult {
   std::int32_t* reached = nullptr;  ///< 1 where the target counts as reached, else 0
 };
 
-/// What a target is compared with: a column of recorded flights (docs/file-formats.md). Of an angle
-/// the target is in radians, the column in degrees, and their difference is wrapped to +-180 deg.
+/// What a target is compared with: a column of recorded flights (docs/reference/file-formats.md).
+/// Of an angle the target is in radians, the column in degrees, and their difference is wrapped to
+/// +-180 deg.
 struct TargetQuantity {
   const char* column = nullptr;
   bool is_angle = false;

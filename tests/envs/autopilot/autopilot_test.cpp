@@ -62,7 +62,7 @@ TEST(Autopilot, OuterLoopsKeepTheirRateAtOtherControlIntervals) {
 }
 
 // Floors of success: about three standard deviations of 300 episodes below what 1000 gave
-// (docs/autopilot.md), with the default noise.
+// (docs/reference/autopilot.md), with the default noise.
 struct Floor {
   const char* task;
   AutopilotVariant variant;
@@ -83,7 +83,7 @@ TEST(AutopilotFloor, Heading) {
 TEST(AutopilotFloor, Control) {
   ExpectFloor({"control", AutopilotVariant::kTraditional, 0.99, 22});
   ExpectFloor({"control", AutopilotVariant::kAggressive, 0.995, 15.5});
-  // The nose at its target at once: pitch and speed conflict (docs/tasks.md).
+  // The nose at its target at once: pitch and speed conflict (docs/reference/tasks.md).
   ExpectFloor({"control", AutopilotVariant::kParallel, 0.75, 17.5});
 }
 

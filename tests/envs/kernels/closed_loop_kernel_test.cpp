@@ -194,7 +194,7 @@ TEST_P(ClosedLoopKernelTest, AbusedSticksDoNotMakeItDepart) {
   struct Input {
     const char* name;
     std::function<Sticks(double)> sticks;
-    double largest_nz;  // of the verification in docs/flight-control.md, rounded up
+    double largest_nz;  // of the verification in docs/explanation/flight-control.md, rounded up
   };
   const std::vector<Input> inputs = {
       {"full aft",
