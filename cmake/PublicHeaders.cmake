@@ -10,11 +10,9 @@ set(SKEIN_PUBLIC_HEADERS
     envs/control_step.h
     envs/env_config.h
     envs/flight_metrics.h
-    envs/kernels/flight_control_constants.h
-    envs/kernels/flight_control_kernel.h
-    envs/kernels/plant_kernel.h
     envs/policy.h
     envs/state/state.h
+    envs/step_output.h
     envs/tasks/termination.h
     envs/vec_env.h
     # Aircraft, autopilots and the air.

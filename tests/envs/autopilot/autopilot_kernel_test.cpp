@@ -142,8 +142,8 @@ TEST_P(AutopilotKernel, NoAircraftDependsOnOthers) {
     for (int first = 0; first < kCount;) {
       const int count = std::min(1 + (first + step) % 19, kCount - first);
       autopilot->Act(count, observed.rows().data() + first * kObservationSize,
-                 apart.state.data() + first * autopilot->state_size(),
-                 apart.action.data() + first * kActionSize);
+                     apart.state.data() + first * autopilot->state_size(),
+                     apart.action.data() + first * kActionSize);
       first += count;
     }
     observed.Advance();
