@@ -17,9 +17,9 @@
 #include "envs/flight_reset.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
+#include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/reward_and_termination.h"
-#include "envs/tasks/task.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
 
@@ -108,7 +108,7 @@ BENCHMARK(BM_FlightControl)->UseManualTime();
 void BM_RewardAndTermination(benchmark::State& state) {
   TrimmedTile t;
   const StepResult step_result{t.reward.data(), t.reached.data()};
-  const TerminationLimits limits(t.config);
+  const TerminationLimits limits(t.config.termination, t.config.episode());
   TimeRounds(state, [&] {
     t.task->ComputeReward(t.tile(), t.task_tile(), t.step.data(), step_result);
     ComputeRewardAndTermination(

@@ -4,17 +4,25 @@ set(SKEIN_PUBLIC_HEADERS
     # What all rooms share.
     base/aligned_vector.h
     base/error.h
+    base/range.h
     base/worker_pool.h
     # Thousands of aircraft at once.
     envs/actions.h
     envs/control_step.h
     envs/env_config.h
     envs/flight_metrics.h
+    envs/high_level_config.h
+    envs/initial_config.h
     envs/policy.h
     envs/state/state.h
     envs/step_output.h
+    envs/tasks/control_config.h
+    envs/tasks/heading_config.h
     envs/tasks/termination.h
+    envs/tasks/termination_config.h
+    envs/tasks/tracking_config.h
     envs/vec_env.h
+    envs/wind/wind_config.h
     # Aircraft, autopilots and the air.
     envs/air/atmosphere.h
     envs/aircraft/aerodynamic_tables.h

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "envs/actions.h"
 #include "envs/aircraft/registry.h"
+#include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/termination.h"
 #include "simd/random.h"
@@ -66,7 +67,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       aircraft_(ConfiguredAircraft(config_)),
       kernel_aircraft_(MakeKernelAircraft(aircraft_, config_.atmosphere)),
       flight_control_(aircraft_, config_.flight_control, config_.control_interval_s),
-      limits_(config_),
+      limits_(config_.termination, config_.episode()),
       reset_(config_, aircraft_),
       wind_(config_.wind) {
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
 #include "envs/tasks/control.h"
 #include "simd/dispatch.h"
 
@@ -84,7 +85,7 @@ void RequireSize(const char* what, int size, int expected) {
 LowLevelFlight::LowLevelFlight(const EnvConfig& config, int num_aircraft,
                                std::shared_ptr<const Policy> low_level)
     : high_level_(config.high_level),
-      control_(MakeControlTask(config)),
+      control_(MakeControlTask(config.control, LoadAircraft(config.aircraft).units)),
       low_level_(std::move(low_level)),
       observation_sums_size_(config.high_level.averages_observations ? kObservationSize + 1 : 0) {
   RequireSize("observations", low_level_->observation_size(), kObservationSize);

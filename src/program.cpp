@@ -15,6 +15,7 @@
 #include "src/commands/command_tree.h"
 #include "src/commands/commands.h"
 #include "src/config/configuration.h"
+#include "src/config/key_reference.h"
 #include "src/config/nearest_name.h"
 #include "src/usage_error.h"
 #include "src/version.h"

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "envs/aircraft/registry.h"
 #include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
@@ -176,8 +175,8 @@ class ControlTask : public Task {
 
 }  // namespace
 
-std::unique_ptr<Task> MakeControlTask(const EnvConfig& config) {
-  return std::make_unique<ControlTask>(config.control, LoadAircraft(config.aircraft).units);
+std::unique_ptr<Task> MakeControlTask(const ControlConfig& config, const ReferenceUnits& units) {
+  return std::make_unique<ControlTask>(config, units);
 }
 
 }  // namespace skein

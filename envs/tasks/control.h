@@ -3,6 +3,8 @@
 
 #include <memory>
 
+#include "envs/aircraft/aircraft.h"
+#include "envs/tasks/control_config.h"
 #include "envs/tasks/task.h"
 
 namespace skein {
@@ -29,6 +31,6 @@ enum ControlColumn : int {
 /// angle is that between the nose and where it should point, or (`reward_includes_roll`) of the one
 /// rotation that takes the attitude to the target's. The target is reached by pitch, yaw and
 /// speed alone: at any roll.
-std::unique_ptr<Task> MakeControlTask(const EnvConfig& config);
+std::unique_ptr<Task> MakeControlTask(const ControlConfig& config, const ReferenceUnits& units);
 
 }  // namespace skein

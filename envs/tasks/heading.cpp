@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "envs/aircraft/registry.h"
 #include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
@@ -134,8 +133,8 @@ class HeadingTask : public Task {
 
 }  // namespace
 
-std::unique_ptr<Task> MakeHeadingTask(const EnvConfig& config) {
-  return std::make_unique<HeadingTask>(config.heading, LoadAircraft(config.aircraft).units);
+std::unique_ptr<Task> MakeHeadingTask(const HeadingConfig& config, const ReferenceUnits& units) {
+  return std::make_unique<HeadingTask>(config, units);
 }
 
 }  // namespace skein

@@ -3,6 +3,8 @@
 
 #include <memory>
 
+#include "envs/aircraft/aircraft.h"
+#include "envs/tasks/heading_config.h"
 #include "envs/tasks/task.h"
 
 namespace skein {
@@ -23,6 +25,6 @@ enum HeadingColumn : int {
 /// is minus their L2 norm, and minus HeadingConfig::speed_error_weight times the speed's. Reached
 /// within the tolerances, in training within the episode's share of them, at or after
 /// `HeadingConfig::earliest_success_step`.
-std::unique_ptr<Task> MakeHeadingTask(const EnvConfig& config);
+std::unique_ptr<Task> MakeHeadingTask(const HeadingConfig& config, const ReferenceUnits& units);
 
 }  // namespace skein

@@ -149,20 +149,19 @@ TerminationLimits::AngleRange Directions(const Range& range_deg) {
 
 }  // namespace
 
-TerminationLimits::TerminationLimits(const EnvConfig& config)
-    : alpha(Directions(config.termination.alpha_deg)),
-      beta(Directions(config.termination.beta_deg)),
-      min_mach_squared(
-          static_cast<float>(config.termination.min_mach * config.termination.min_mach)),
-      max_mach_squared(
-          static_cast<float>(config.termination.max_mach * config.termination.max_mach)),
-      min_altitude_ft(static_cast<float>(config.termination.min_altitude_ft)),
-      max_load_factor(static_cast<float>(config.termination.max_load_factor)),
-      failure_reward(static_cast<float>(config.termination.failure_reward)),
-      success_reward(static_cast<float>(config.termination.success_reward)),
-      time_limit_reward(config.truncate_at_time_limit ? 0 : failure_reward),
-      reward_scale(static_cast<float>(config.reward_scale)),
-      time_limit_steps(config.time_limit_steps) {}
+TerminationLimits::TerminationLimits(const TerminationConfig& config,
+                                     const EpisodeSettings& episode)
+    : alpha(Directions(config.alpha_deg)),
+      beta(Directions(config.beta_deg)),
+      min_mach_squared(static_cast<float>(config.min_mach * config.min_mach)),
+      max_mach_squared(static_cast<float>(config.max_mach * config.max_mach)),
+      min_altitude_ft(static_cast<float>(config.min_altitude_ft)),
+      max_load_factor(static_cast<float>(config.max_load_factor)),
+      failure_reward(static_cast<float>(config.failure_reward)),
+      success_reward(static_cast<float>(config.success_reward)),
+      time_limit_reward(episode.truncate_at_time_limit ? 0 : failure_reward),
+      reward_scale(static_cast<float>(episode.reward_scale)),
+      time_limit_steps(episode.time_limit_steps) {}
 
 HWY_EXPORT(ComputeRewardAndTerminationKernel);
 

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "envs/env_config.h"
 #include "envs/state/state.h"
 #include "envs/tasks/task.h"
 #include "envs/tasks/termination.h"
+#include "envs/tasks/termination_config.h"
 
 namespace skein {
 
@@ -22,7 +22,7 @@ struct EpisodeColumns {
 
 /// What ends an episode, and its rewards, as the kernel takes them: made once per configuration.
 struct TerminationLimits {
-  explicit TerminationLimits(const EnvConfig& config);
+  TerminationLimits(const TerminationConfig& config, const EpisodeSettings& episode);
 
   /// An angle's range, which spans at most 180 degrees, by the directions of its ends.
   struct AngleRange {

@@ -3,11 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "envs/env_config.h"
 #include "envs/state/state.h"
 #include "simd/random.h"
 
@@ -62,15 +59,5 @@ class Task {
   virtual void ComputeReward(Tile flight, Tile task, const std::int32_t* steps_before,
                              const StepResult& step_result) const = 0;
 };
-
-/// Names that EnvConfig::task may have.
-std::vector<std::string> TaskNames();
-
-/// Whether the task is trained by a high-level policy over a low-level policy, not by flying
-/// itself.
-bool IsHierarchical(const std::string& task);
-
-/// Throws Error on an unknown name; the message lists the known ones.
-std::unique_ptr<Task> MakeTask(const EnvConfig& config);
 
 }  // namespace skein

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "envs/aircraft/registry.h"
 #include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
@@ -207,9 +206,8 @@ class TrackingTask : public Task {
 
 }  // namespace
 
-std::unique_ptr<Task> MakeTrackingTask(const EnvConfig& config) {
-  return std::make_unique<TrackingTask>(config.tracking,
-                                        LoadAircraft(config.aircraft).units.altitude_error_ft);
+std::unique_ptr<Task> MakeTrackingTask(const TrackingConfig& config, const ReferenceUnits& units) {
+  return std::make_unique<TrackingTask>(config, units.altitude_error_ft);
 }
 
 }  // namespace skein

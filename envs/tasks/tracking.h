@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "envs/aircraft/aircraft.h"
 #include "envs/tasks/task.h"
+#include "envs/tasks/tracking_config.h"
 
 namespace skein {
 
@@ -27,6 +29,6 @@ enum TrackingColumn : int {
 /// the straight path of a control step touches the box whose sides lie the episode's tolerance
 /// north, east, south, west, above and below of the target: `position_tolerance_ft`, or in training
 /// up to `training_tolerance_max` times as much.
-std::unique_ptr<Task> MakeTrackingTask(const EnvConfig& config);
+std::unique_ptr<Task> MakeTrackingTask(const TrackingConfig& config, const ReferenceUnits& units);
 
 }  // namespace skein

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "envs/aircraft/aircraft.h"
 #include "envs/state/attitude.h"
 #include "simd/random.h"
 

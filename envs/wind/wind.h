@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "envs/env_config.h"
 #include "envs/wind/dryden.h"
+#include "envs/wind/wind_config.h"
 
 namespace skein {
 

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "envs/actions.h"
+#include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
-#include "envs/tasks/task.h"
 #include "src/agents/policy_file.h"
 #include "src/usage_error.h"
 #include "train/policy/autopilot_policy.h"

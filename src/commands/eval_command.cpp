@@ -42,9 +42,7 @@ ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_
     }
     return AsUsage([&] { return ResolveConfig({task, flight.preset, "", {}}); });
   }
-  ProgramConfig config;
-  ApplyTomlFile(options.policy + "/config.toml", &config);
-  return config;
+  return ReadRecord(options.policy + "/config.toml");
 }
 
 std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {

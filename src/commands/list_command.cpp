@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "envs/aircraft/registry.h"
-#include "envs/tasks/task.h"
+#include "envs/task_registry.h"
 #include "src/agents/agent_names.h"
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"

@@ -8,12 +8,13 @@
 #include <optional>
 
 #include "base/error.h"
-#include "envs/tasks/task.h"
+#include "envs/task_registry.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
+#include "src/config/key_reference.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
 #include "src/config/whole_number.h"
@@ -38,16 +39,13 @@ struct TrainOptions {
   std::string out;
   std::string resume;
   CLI::Option* resume_option = nullptr;
-  bool help_keys = false;
+  std::string help_keys;  ///< how they are listed; empty: not
 };
 
 /// The flags that stand for one key each.
 void ApplyFlags(const TrainOptions& options, ProgramConfig* config) {
-  const auto assign = [config](const char* key, const SettingValue& value, const char* flag) {
-    Assign(FindSetting(key, flag), value, flag, config);
-  };
-  if (options.steps) assign("run.total_steps", *options.steps, "--steps");
-  if (options.seed) assign("run.seed", *options.seed, "--seed");
+  if (options.steps) Assign("run.total_steps", *options.steps, "--steps", config);
+  if (options.seed) Assign("run.seed", *options.seed, "--seed", config);
 }
 
 /// What the command line asks for, for a new run.
@@ -70,8 +68,7 @@ std::string RunToResume(const TrainOptions& options) {
 
 void Resume(const TrainOptions& options) {
   RunDirectory directory = RunDirectory::Open(RunToResume(options));
-  ProgramConfig config;
-  ApplyTomlFile(directory.config(), &config);
+  ProgramConfig config = ReadRecord(directory.config());
   CheckConsistent(config);
   if (!options.task.empty() && options.task != config.train.env.task) {
     throw UsageError(fmt::format("{}: is a run of task {}, not {}", directory.path(),
@@ -117,7 +114,11 @@ ChosenLowLevelPolicy FindLowLevelPolicy(const TrainOptions& options, const EnvCo
 }
 
 void Train(const TrainOptions& options) {
-  if (options.help_keys) {
+  if (options.help_keys == "markdown") {
+    fmt::print("{}", DescribeKeysMarkdown());
+    return;
+  }
+  if (!options.help_keys.empty()) {
     const std::string task = options.task.empty() ? EnvConfig{}.task : options.task;
     fmt::print("{}", DescribeKeys(Configure(options, task)));
     return;
@@ -203,7 +204,8 @@ void AddTrainCommand(CLI::App* app) {
                    "worker threads; results do not depend on it (default: one per CPU)")
       ->transform(WholeNumber(1, 1024));
   command->add_flag("--help-keys", options->help_keys,
-                    "list every configuration key with type, range, value and meaning, and exit");
+                    "list every configuration key with type, range, value and meaning, and exit; "
+                    "--help-keys=markdown: as docs/reference/configuration.md");
   command->footer(
       "From lowest to highest precedence: built-in defaults, preset, --config, --condition, "
       "--set,\n"

@@ -2,15 +2,19 @@
 #include "src/config/configuration.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "envs/aircraft/registry.h"
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/config/whole_number.h"
 #include "src/files/output_file.h"
 
 namespace skein {
@@ -28,31 +32,90 @@ std::string At(const std::string& source, const toml::node& node) {
   return fmt::format("{}:{}", source, node.source().begin.line);
 }
 
-void ApplyTable(const toml::table& table, const std::string& prefix, const std::string& source,
-                ProgramConfig* config) {
-  for (const auto& [name, node] : table) {
-    const std::string key = prefix + std::string(name.str());
-    const bool is_prefix = node.is_table() && [&key] {
-      for (const Setting& setting : Settings()) {
-        if (setting.key.compare(0, key.size() + 1, key + ".") == 0) return true;
+/// How a TOML text is read.
+enum class Reading {
+  kStrict,  ///< of users and presets: all that is said must count
+  kRecord,  ///< a run's own, perhaps by an older version: keys of other tasks, and former names
+};
+
+/// Throws Error if the field means nothing to the task that is flown.
+void RequireOfTask(const Field& field, const std::string& task, const std::string& where) {
+  if (field.IsOf(task)) return;
+  throw Error(fmt::format("{}: {} is of task {} and means nothing to task {}", where, field.key,
+                          fmt::join(field.tasks, ", "), task));
+}
+
+bool IsTableOf(const std::string& table, const std::string& key) {
+  return key.compare(0, table.size() + 1, table + ".") == 0;
+}
+
+/// Applies a TOML document to a configuration.
+class TomlReader {
+ public:
+  TomlReader(std::string source, Reading reading, ProgramConfig* config)
+      : source_(std::move(source)),
+        reading_(reading),
+        config_(*config),
+        fields_(FieldsOf(*config)) {}
+
+  void Apply(const toml::table& table, const std::string& prefix) {
+    for (const auto& [name, node] : table) {
+      const std::string key = prefix + std::string(name.str());
+      if (node.is_table() && IsTable(key)) {
+        Apply(*node.as_table(), key + ".");
+      } else {
+        ApplyValue(key, node);
       }
-      return false;
-    }();
-    if (is_prefix) {
-      ApplyTable(*node.as_table(), key + ".", source, config);
-      continue;
     }
-    const std::string where = At(source, node);
-    const Setting& setting = FindSetting(key, where);
+  }
+
+ private:
+  bool IsTable(const std::string& name) const {
+    return std::any_of(fields_.begin(), fields_.end(), [&name](const Field& field) {
+      return IsTableOf(name, field.key) || IsTableOf(name, field.former_key);
+    });
+  }
+
+  const Field& Find(const std::string& key, const std::string& where) const {
+    if (reading_ == Reading::kRecord) {
+      for (const Field& field : fields_) {
+        if (field.former_key == key) return field;
+      }
+    }
+    return FindField(fields_, key, where);
+  }
+
+  void ApplyValue(const std::string& key, const toml::node& node) const {
+    const std::string where = At(source_, node);
+    const Field& field = Find(key, where);
     const std::optional<SettingValue> value = ToValue(node);
     if (!value) {
-      throw Error(fmt::format("{}: {} must be {}, not a TOML {}", where, key, setting.TypeName(),
+      throw Error(fmt::format("{}: {} must be {}, not a TOML {}", where, field.key,
+                              field.TypeName(),
                               node.is_table()   ? "table"
                               : node.is_array() ? "array"
                                                 : "date or time"));
     }
-    Assign(setting, *value, where, config);
+    if (reading_ == Reading::kStrict) RequireOfTask(field, config_.train.env.task, where);
+    Assign(field, *value, where);
   }
+
+  std::string source_;
+  Reading reading_;
+  const ProgramConfig& config_;
+  std::vector<Field> fields_;
+};
+
+void ApplyText(const std::string& text, const std::string& source, Reading reading,
+               ProgramConfig* config) {
+  toml::table table;
+  try {
+    table = toml::parse(text, source);
+  } catch (const toml::parse_error& error) {
+    throw Error(fmt::format("{}:{}: not valid TOML: {}", source, error.source().begin.line,
+                            error.description()));
+  }
+  TomlReader(source, reading, config).Apply(table, "");
 }
 
 std::string Trimmed(const std::string& text) {
@@ -61,16 +124,18 @@ std::string Trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// The value of an assignment: TOML if it reads as one value, else the bare text as a name.
-SettingValue ParseValue(const std::string& text) {
+/// The value of an assignment: TOML if it reads as one value; for a number with a suffix (10M) that
+/// number; else the bare text as a name.
+SettingValue ParseValue(const std::string& text, const Field& field) {
   try {
     const toml::table table = toml::parse("value = " + text);
     if (table.size() == 1) {
       if (const auto value = ToValue(*table.get("value"))) return *value;
     }
   } catch (const toml::parse_error&) {
-    // Not TOML: a name without quotes, which Assign judges.
+    // Not TOML: a suffix, or a name without quotes, which Assign judges.
   }
+  if (const auto number = ReadNumber(text); number && field.IsNumber()) return *number;
   return text;
 }
 
@@ -84,25 +149,26 @@ void ApplyAssignment(const std::string& assignment, const std::string& source,
   if (equals == std::string::npos) {
     throw Error(fmt::format("{} {}: expected key=value", source, assignment));
   }
-  const Setting& setting = FindSetting(KeyOf(assignment), source);
-  Assign(setting, ParseValue(Trimmed(assignment.substr(equals + 1))), source, config);
+  const std::vector<Field> fields = FieldsOf(*config);
+  const Field& field = FindField(fields, KeyOf(assignment), source);
+  RequireOfTask(field, config->train.env.task, source);
+  Assign(field, ParseValue(Trimmed(assignment.substr(equals + 1)), field), source);
 }
 
 }  // namespace
 
 void ApplyToml(const std::string& text, const std::string& source, ProgramConfig* config) {
-  toml::table table;
-  try {
-    table = toml::parse(text, source);
-  } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("{}:{}: not valid TOML: {}", source, error.source().begin.line,
-                            error.description()));
-  }
-  ApplyTable(table, "", source, config);
+  ApplyText(text, source, Reading::kStrict, config);
 }
 
 void ApplyTomlFile(const std::string& path, ProgramConfig* config) {
   ApplyToml(ReadFile(path), path, config);
+}
+
+ProgramConfig ReadRecord(const std::string& path) {
+  ProgramConfig config;
+  ApplyText(ReadFile(path), path, Reading::kRecord, &config);
+  return config;
 }
 
 std::string KeyOf(const std::string& assignment) {
@@ -152,37 +218,29 @@ ProgramConfig ResolveConfig(const ConfigSources& sources) {
 std::string DumpToml(const ProgramConfig& config) {
   std::string text = "# The complete configuration of a run of skein.\n";
   std::string table;
-  for (const Setting& setting : Settings()) {
-    if (const std::string owner = TableOf(setting.key); owner != table) {
+  ProgramConfig listed = config;
+  for (const Field& field : FieldsOf(listed)) {
+    if (!field.IsOf(config.train.env.task)) continue;
+    if (const std::string owner = TableOf(field.key); owner != table) {
       table = owner;
       text += fmt::format("\n[{}]\n", table);
     }
-    text += fmt::format("{} = {}  # {}\n", LastPart(setting.key), FormatValue(setting, config),
-                        setting.description);
+    text += fmt::format("{} = {}  # {}\n", LastPart(field.key), TomlText(field), field.help);
   }
   return text;
 }
 
 std::vector<std::string> Differences(const ProgramConfig& a, const ProgramConfig& b) {
+  ProgramConfig ours = a, theirs = b;
+  const std::vector<Field> our_fields = FieldsOf(ours), their_fields = FieldsOf(theirs);
   std::vector<std::string> differences;
-  for (const Setting& setting : Settings()) {
-    const std::string ours = FormatValue(setting, a), theirs = FormatValue(setting, b);
-    if (ours != theirs) {
-      differences.push_back(fmt::format("{} ({} against {})", setting.key, ours, theirs));
-    }
+  for (std::size_t i = 0; i < our_fields.size(); ++i) {
+    if (!our_fields[i].IsOf(a.train.env.task) && !our_fields[i].IsOf(b.train.env.task)) continue;
+    const std::string our = TomlText(our_fields[i]), their = TomlText(their_fields[i]);
+    if (our == their) continue;
+    differences.push_back(fmt::format("{} ({} against {})", our_fields[i].key, our, their));
   }
   return differences;
-}
-
-std::string DescribeKeys(const ProgramConfig& defaults) {
-  std::string text;
-  for (const Setting& setting : Settings()) {
-    const std::string bounds = setting.BoundsText();
-    text +=
-        fmt::format("{} = {}\n    {}{}: {}\n", setting.key, FormatValue(setting, defaults),
-                    setting.TypeName(), bounds.empty() ? "" : " in " + bounds, setting.description);
-  }
-  return text;
 }
 
 }  // namespace skein

@@ -9,14 +9,19 @@
 namespace skein {
 
 /// Applies TOML text to `config`. Throws Error with `source` and the line: broken TOML, unknown
-/// keys (with the nearest known one), wrong types and values out of range.
+/// keys (with the nearest known one, or what a key of older versions is called now), keys of other
+/// tasks than the configuration's, wrong types and values out of range.
 void ApplyToml(const std::string& text, const std::string& source, ProgramConfig* config);
 
 /// Applies the TOML file `path`. Throws Error if it cannot be read.
 void ApplyTomlFile(const std::string& path, ProgramConfig* config);
 
+/// The configuration that a run has recorded in the file `path`. One by an older version, with keys
+/// of other tasks or by their former names, is understood. Throws Error as ApplyToml.
+ProgramConfig ReadRecord(const std::string& path);
+
 /// Applies conditions (src/config/conditions.h), then assignments `key=value`, whose values are
-/// TOML; names need no quotes.
+/// TOML; names need no quotes, and numbers may end in k, M or G.
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
                                    ProgramConfig* config);
@@ -43,13 +48,11 @@ struct ConfigSources {
 /// names another task.
 ProgramConfig ResolveConfig(const ConfigSources& sources);
 
-/// Every key with its value as TOML that ApplyToml reads back exactly, each with its meaning.
+/// Every key of the configuration's task with its value, as TOML that ApplyToml reads back exactly,
+/// each with its meaning.
 std::string DumpToml(const ProgramConfig& config);
 
-/// The keys whose values differ, as "key (ours against theirs)".
+/// The keys of their tasks whose values differ, as "key (ours against theirs)".
 std::vector<std::string> Differences(const ProgramConfig& a, const ProgramConfig& b);
-
-/// A table of every key: type, range, default and meaning.
-std::string DescribeKeys(const ProgramConfig& defaults);
 
 }  // namespace skein

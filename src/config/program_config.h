@@ -5,6 +5,8 @@
 
 namespace skein {
 
+class FieldList;
+
 /// When a training run saves itself, and how much of it stays on disk.
 struct CheckpointConfig {
   int interval_iterations = 0;  ///< 0: by time alone
@@ -18,5 +20,9 @@ struct ProgramConfig {
   CheckpointConfig checkpoint;
   int final_evaluation_episodes = 1000;  ///< fresh episodes flown when training has finished
 };
+
+/// Their settings (base/field_list.h): every configuration key, table by table.
+void ListFields(CheckpointConfig& config, FieldList& list);
+void ListFields(ProgramConfig& config, FieldList& list);
 
 }  // namespace skein

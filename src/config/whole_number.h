@@ -2,12 +2,18 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <optional>
+#include <string>
 
 namespace skein {
 
+/// A number in any notation, which may end in k, M or G for thousands, millions or billions (10M,
+/// 1.35G); nothing if `text` is none.
+std::optional<double> ReadNumber(const std::string& text);
+
 /// For CLI::Option::transform: takes a whole number from `min` to `max` (at most 2^53, which a
-/// double holds exactly) in any notation of a number, such as 1000 or 1e3, and refuses everything
-/// else.
+/// double holds exactly) in any notation of a number, such as 1000, 1e3 or 1k, and refuses
+/// everything else.
 CLI::Validator WholeNumber(double min, double max);
 
 }  // namespace skein

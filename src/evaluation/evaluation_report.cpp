@@ -38,11 +38,10 @@ EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig
 Json EnvironmentJson(ProgramConfig config) {
   config.train.env = EvaluationConfig(config.train.env);
   Json environment = Json::object();
-  for (const Setting& setting : Settings()) {
-    if (setting.key.compare(0, 4, "env.") == 0) {
-      // Scalars of TOML, as FormatValue writes them, are JSON too.
-      environment[setting.key] = Json::parse(FormatValue(setting, config));
-    }
+  for (const Field& field : FieldsOf(config)) {
+    if (field.key.compare(0, 4, "env.") != 0) continue;
+    // Scalars of TOML, as TomlText writes them, are JSON too.
+    environment[field.key] = Json::parse(TomlText(field));
   }
   return environment;
 }

@@ -15,7 +15,7 @@
 #include "envs/low_level_flight.h"
 #include "envs/reference/plant.h"
 #include "envs/state/attitude.h"
-#include "envs/tasks/task.h"
+#include "envs/task_registry.h"
 
 namespace skein {
 namespace {

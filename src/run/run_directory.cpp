@@ -195,9 +195,7 @@ std::optional<std::string> LatestRun(const std::string& root, const std::string&
   for (const auto& [time, run] : runs) {
     if (task.empty()) return run;
     try {
-      ProgramConfig config;
-      ApplyTomlFile(run + "/config.toml", &config);
-      if (config.train.env.task == task) return run;
+      if (ReadRecord(run + "/config.toml").train.env.task == task) return run;
     } catch (const Error&) {
       if (unreadable == nullptr) unreadable = std::current_exception();
     }

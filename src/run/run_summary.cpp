@@ -48,8 +48,7 @@ std::string StateOf(const std::string& run) {
 
 RunSummary Summarise(const std::string& run) {
   try {
-    ProgramConfig config;
-    ApplyTomlFile(run + "/config.toml", &config);
+    const ProgramConfig config = ReadRecord(run + "/config.toml");
     return {run,
             config.train.env.task,
             config.train.env.aircraft,

@@ -276,7 +276,7 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
   if (study.training.per_level) parts.push_back(level.settings);
   ProgramConfig config = Configure(study, task, parts);
   if (study.training.steps) {
-    Assign(FindSetting("run.total_steps", "steps"), *study.training.steps, "steps", &config);
+    Assign("run.total_steps", *study.training.steps, "steps", &config);
   }
   config.train.seed = seed;
   return config;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "envs/tasks/task.h"
+#include "envs/task_registry.h"
 #include "simd/target.h"
 #include "src/agents/agent_names.h"
 #include "src/agents/low_level_option.h"
@@ -45,8 +45,7 @@ void RemoveStub(const std::string& run) {
 
 /// The configuration of the run in `directory`, which must be the one asked for.
 ProgramConfig ConfigOfRun(const RunDirectory& directory, ProgramConfig asked) {
-  ProgramConfig config;
-  ApplyTomlFile(directory.config(), &config);
+  ProgramConfig config = ReadRecord(directory.config());
   config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env.task);
   // What "auto" was on the machine that began it.
   if (asked.train.learner.precision == LearnerPrecision::kAuto) {

@@ -239,8 +239,9 @@ TEST(EnvConfigTest, SaysWhatWouldBeRight) {
             "env.time_limit_steps, 100: else no episode could succeed");
   config = {};
   config.control_interval_s = 0.05;
-  EXPECT_EQ(Complaint(config),
-            "configuration: env.control_interval_s = 0.05, but it must be at most 0.04");
+  EXPECT_EQ(
+      Complaint(config),
+      "configuration: env.control_interval_s = 0.05 is out of range; it must be in (0, 0.04]");
 }
 
 TEST(EnvConfigTest, ShortEpisodesOfOtherTasksNeedNothingOfHeading) {

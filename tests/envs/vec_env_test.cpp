@@ -15,7 +15,7 @@
 #include "envs/aircraft/f16.h"
 #include "envs/reference/closed_loop.h"
 #include "envs/state/attitude.h"
-#include "envs/tasks/task.h"
+#include "envs/task_registry.h"
 #include "simd/random.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_tile.h"

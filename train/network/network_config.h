@@ -6,6 +6,8 @@
 
 namespace skein {
 
+class FieldList;
+
 /// What a hidden layer applies to its linear map.
 enum class Activation { kRelu, kTanh, kElu, kSilu };
 
@@ -33,5 +35,8 @@ struct NetworkConfig {
   double initial_log_std = 0;
   double actor_head_scale = 0.01;
 };
+
+/// Its settings (base/field_list.h).
+void ListFields(NetworkConfig& config, FieldList& list);
 
 }  // namespace skein

@@ -9,9 +9,9 @@
 
 namespace skein {
 
-/// What gives a policy's observations and actions their meaning, by configuration key less "env.",
-/// as text: what it cannot fly without. The task is not among them, nor is what may well differ
-/// from training: rates, conditions, targets, rewards.
+/// What gives a policy's observations and actions their meaning (PolicyRole), by configuration key
+/// less "env.", as text: what it cannot fly without. The task is not among them, nor is what may
+/// well differ from training: rates, conditions, targets, rewards.
 std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env);
 
 /// Shows a policy what it was made with, as far as PolicyEnvironment said it: Tracking's target in

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/field_list.h"
 #include "train/files/legacy_names.h"
 #include "train/files/tensor_access.h"
 #include "train/policy/low_level_file.h"
@@ -137,6 +138,8 @@ std::shared_ptr<const RecurrentPolicy::Parameters> LoadPolicy(TensorFile file,
   parameters->action_repeat = SizeIn(file, path, "policy.action_repeat");
   if (Has(file, kTaskKey)) parameters->task = Metadata(file, path, kTaskKey);
   parameters->environment = ExtractPrefix(file.metadata, kEnvironmentPrefix);
+  EnvConfig any;
+  RenameFormerKeys(FieldsOf(any), &parameters->environment);
   parameters->values = ActorIn(file, path, NetworkLayout(parameters->shape));
   parameters->low_level = LoadLowLevelPolicy(std::move(file), path);
   return parameters;

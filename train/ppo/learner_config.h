@@ -5,6 +5,8 @@
 
 namespace skein {
 
+class FieldList;
+
 /// How the learner computes; no part of what it learns, but for rounding.
 struct LearnerConfig {
   /// As asked for; ChooseBackend (train/network/backend.h) says what runs.
@@ -14,5 +16,8 @@ struct LearnerConfig {
       384;  ///< samples per gradient tile: fixed shards, so results do not depend on threads
   int rollout_tile = 64;  ///< aircraft per rollout tile
 };
+
+/// Its settings (base/field_list.h).
+void ListFields(LearnerConfig& config, FieldList& list);
 
 }  // namespace skein

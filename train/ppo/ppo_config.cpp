@@ -5,19 +5,57 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/field_list.h"
 
 namespace skein {
+namespace {
+
+void ListRolloutFields(PpoConfig& config, FieldList& list) {
+  list.Add("num_aircraft", &config.num_aircraft, {1, 10000000}, "aircraft flown at once");
+  list.Add("rollout_steps", &config.rollout_steps, {1, 1000000},
+           "policy steps per aircraft and iteration");
+  list.Add("chunk_length", &config.chunk_length, {1, 1000000},
+           "steps of truncated backpropagation through time");
+  list.Add("epochs", &config.epochs, {1, 1000}, "passes over each rollout");
+  list.Add("minibatches", &config.minibatches, Bounds::Count(), "optimiser steps per pass");
+}
+
+void ListAdamFields(PpoConfig& config, FieldList& list) {
+  list.Add("learning_rate", &config.learning_rate, Bounds::PositiveFraction(),
+           "Adam's learning rate at the start");
+  list.Add("final_learning_rate_fraction", &config.final_learning_rate_fraction, Bounds::Fraction(),
+           "share of it at the budget's end, linear in between; 1 keeps it constant");
+  list.Add("adam_epsilon", &config.adam_epsilon, Bounds::PositiveFraction(), "Adam's epsilon");
+}
+
+}  // namespace
+
+void ListFields(PpoConfig& config, FieldList& list) {
+  ListRolloutFields(config, list);
+  ListAdamFields(config, list);
+  list.Add("gamma", &config.gamma, Bounds::Fraction(), "discount per policy step");
+  list.Add("gae_lambda", &config.gae_lambda, Bounds::Fraction(),
+           "lambda of the generalised advantage estimate");
+  list.Add("clip", &config.clip, Bounds::Positive(), "clip range of the probability ratio");
+  list.Add("max_gradient_norm", &config.max_gradient_norm, Bounds::Positive(),
+           "largest gradient norm, actor and critic separately");
+  list.Add("entropy_coefficient", &config.entropy_coefficient, Bounds::NotNegative(),
+           "weight of the entropy bonus");
+  list.Add("value_coefficient", &config.value_coefficient, Bounds::Positive(),
+           "weight of the value loss");
+  list.Add("clip_value_loss", &config.clip_value_loss, "clip the value's change like the ratio");
+  list.Add("normalise_advantages", &config.normalise_advantages,
+           "advantages get zero mean and unit variance");
+  list.Add("popart", &config.popart, "value targets normalised with the head rescaled (PopArt)");
+  list.Add("popart_rate", &config.popart_rate, Bounds::PositiveFraction(),
+           "weight of an iteration in PopArt's moving moments");
+}
 
 void Validate(const PpoConfig& config) {
-  const auto require_positive = [](const char* key, int value) {
-    if (value > 0) return;
-    throw Error("configuration: ppo." + std::string(key) + " = " + std::to_string(value) +
-                "; it must be positive");
-  };
-  require_positive("num_aircraft", config.num_aircraft);
-  require_positive("rollout_steps", config.rollout_steps);
-  require_positive("chunk_length", config.chunk_length);
-  require_positive("minibatches", config.minibatches);
+  PpoConfig listed = config;
+  FieldList list;
+  list.Group("ppo", listed);
+  list.Check();
   if (config.rollout_steps % config.chunk_length != 0) {
     throw Error("configuration: ppo.rollout_steps = " + std::to_string(config.rollout_steps) +
                 " is not a multiple of ppo.chunk_length = " + std::to_string(config.chunk_length));

@@ -3,6 +3,9 @@
 
 namespace skein {
 
+class FieldList;
+
+/// How rollouts are flown and learned from.
 struct PpoConfig {
   int num_aircraft = 1536;
   int rollout_steps = 64;  ///< policy steps per aircraft and iteration
@@ -25,8 +28,11 @@ struct PpoConfig {
   double popart_rate = 0.1;  ///< moving average of the value targets' moments
 };
 
-/// Throws Error on values that do not go together: a rollout is a whole number of chunks per
-/// aircraft, and every minibatch has a chunk.
+/// Its settings (base/field_list.h).
+void ListFields(PpoConfig& config, FieldList& list);
+
+/// Throws Error on values out of bounds or that do not go together: a rollout is a whole number of
+/// chunks per aircraft, and every minibatch has a chunk.
 void Validate(const PpoConfig& config);
 
 }  // namespace skein

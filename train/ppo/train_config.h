@@ -12,6 +12,8 @@
 
 namespace skein {
 
+class FieldList;
+
 /// In-training evaluation, which also chooses the best checkpoint.
 struct PeriodicEvaluationConfig {
   int interval_iterations = 20;  ///< 0: never
@@ -30,5 +32,11 @@ struct TrainConfig {
   std::uint64_t total_steps = 0;  ///< budget in control steps (environment steps at 50 Hz)
   std::uint64_t seed = 1;
 };
+
+/// Its settings (base/field_list.h).
+void ListFields(PeriodicEvaluationConfig& config, FieldList& list);
+
+/// Its settings (base/field_list.h).
+void ListFields(TrainConfig& config, FieldList& list);
 
 }  // namespace skein

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/name_in.h"
-#include "envs/tasks/task.h"
+#include "base/field_list.h"
 #include "simd/target.h"
 #include "train/files/fnv_hash.h"
 #include "train/files/legacy_names.h"
@@ -22,102 +21,6 @@ constexpr const char* kFormat = "skein-checkpoint-2";
 /// Of version 0.1, which had other names for some tensors (train/files/legacy_names.h).
 constexpr const char* kOldFormat = "skein-checkpoint-1";
 constexpr const char* kConfigPrefix = "config.";
-
-std::string Text(const std::string& value) { return value; }
-std::string Text(bool value) { return value ? "true" : "false"; }
-std::string Text(int value) { return std::to_string(value); }
-std::string Text(std::uint64_t value) { return std::to_string(value); }
-std::string Text(double value) { return ExactText(value); }
-std::string Text(AtmosphereModel model) { return NameIn(kAtmosphereNames, model); }
-std::string Text(TrackingAxes axes) { return Name(axes); }
-std::string Text(Activation activation) { return Name(activation); }
-std::string Text(Backend backend) { return Name(backend); }
-std::string Text(LearnerPrecision precision) { return Name(precision); }
-std::string Text(FlightControlMode mode) { return NameIn(kFlightControlNames, mode); }
-
-void DescribeEnv(const EnvConfig& env, std::map<std::string, std::string>& fields) {
-  const auto add = [&](const char* name, const auto& value) {
-    fields[std::string("env.") + name] = Text(value);
-  };
-  add("task", env.task);
-  add("aircraft", env.aircraft);
-  add("atmosphere", env.atmosphere);
-  add("flight_control", env.flight_control);
-  add("cg_chord_fraction", env.cg);
-  add("engine_angular_momentum_slug_ft2_per_s", env.engine_angular_momentum);
-  add("control_interval_s", env.control_interval_s);
-  add("substeps", env.substeps);
-  add("action_repeat", env.action_repeat);
-  add("time_limit_steps", env.time_limit_steps);
-  add("truncate_at_time_limit", env.truncate_at_time_limit);
-  add("stagger_clocks", env.stagger_clocks);
-  add("observation_noise", env.observation_noise);
-  add("reward_scale", env.reward_scale);
-  // What is off is not named: runs from before it existed go on.
-  if (env.thrust_grows) add("thrust_growth_above_mach_1", env.thrust_grows);
-  if (env.drag_rises) add("drag_rise", env.drag_rises);
-  if (env.observation_noise_max > 0) add("observation_noise_max", env.observation_noise_max);
-  if (env.wind.enabled()) {
-    add("wind.speed_min_fps", env.wind.speed_fps.min);
-    add("wind.speed_max_fps", env.wind.speed_fps.max);
-    add("wind.from_min_deg", env.wind.from_deg.min);
-    add("wind.from_max_deg", env.wind.from_deg.max);
-    add("wind.turbulence_min_fps", env.wind.turbulence_fps.min);
-    add("wind.turbulence_max_fps", env.wind.turbulence_fps.max);
-    add("wind.step_at_reset", env.wind.step_at_reset);
-  }
-  add("initial.altitude_min_ft", env.initial.altitude_ft.min);
-  add("initial.altitude_max_ft", env.initial.altitude_ft.max);
-  add("initial.true_airspeed_min_fps", env.initial.true_airspeed_fps.min);
-  add("initial.true_airspeed_max_fps", env.initial.true_airspeed_fps.max);
-  add("initial.trimmed", env.initial.trimmed);
-  // Of the tasks the one that is flown: a task added later does not keep older runs from going on.
-  if (env.task == "heading") {
-    add("heading.altitude_change_ft", env.heading.altitude_change_ft);
-    add("heading.yaw_change_rad", env.heading.yaw_change_rad);
-    add("heading.speed_change_fps", env.heading.speed_change_fps);
-    add("heading.altitude_tolerance_ft", env.heading.altitude_tolerance_ft);
-    add("heading.yaw_tolerance_deg", env.heading.yaw_tolerance_deg);
-    add("heading.speed_tolerance_fps", env.heading.speed_tolerance_fps);
-    add("heading.training_tolerance_min", env.heading.training_tolerance_min);
-    add("heading.earliest_success_step", env.heading.earliest_success_step);
-    add("heading.speed_error_weight", env.heading.speed_error_weight);
-  } else if (env.task == "control") {
-    add("control.pitch_change_rad", env.control.pitch_change_rad);
-    add("control.yaw_change_rad", env.control.yaw_change_rad);
-    add("control.speed_change_fps", env.control.speed_change_fps);
-    add("control.pitch_tolerance_deg", env.control.pitch_tolerance_deg);
-    add("control.yaw_tolerance_deg", env.control.yaw_tolerance_deg);
-    add("control.speed_tolerance_fps", env.control.speed_tolerance_fps);
-    add("control.training_tolerance_min", env.control.training_tolerance_min);
-    add("control.reward_includes_roll", env.control.reward_includes_roll);
-    add("control.speed_error_weight", env.control.speed_error_weight);
-  } else if (env.task == "tracking") {
-    add("tracking.distance_min_ft", env.tracking.distance_ft.min);
-    add("tracking.distance_max_ft", env.tracking.distance_ft.max);
-    add("tracking.azimuth_deg", env.tracking.azimuth_deg);
-    add("tracking.elevation_deg", env.tracking.elevation_deg);
-    add("tracking.position_tolerance_ft", env.tracking.position_tolerance_ft);
-    add("tracking.training_tolerance_max", env.tracking.training_tolerance_max);
-    add("tracking.error_axes", env.tracking.error_axes);
-  }
-  if (IsHierarchical(env.task)) {
-    add("high_level.pitch_change_rad", env.high_level.pitch_change_rad);
-    add("high_level.yaw_change_rad", env.high_level.yaw_change_rad);
-    add("high_level.speed_change_fps", env.high_level.speed_change_fps);
-    add("high_level.averages_observations", env.high_level.averages_observations);
-  }
-  add("termination.alpha_min_deg", env.termination.alpha_deg.min);
-  add("termination.alpha_max_deg", env.termination.alpha_deg.max);
-  add("termination.beta_min_deg", env.termination.beta_deg.min);
-  add("termination.beta_max_deg", env.termination.beta_deg.max);
-  add("termination.max_mach", env.termination.max_mach);
-  add("termination.min_mach", env.termination.min_mach);
-  add("termination.min_altitude_ft", env.termination.min_altitude_ft);
-  add("termination.max_load_factor_g", env.termination.max_load_factor);
-  add("termination.failure_reward", env.termination.failure_reward);
-  add("termination.success_reward", env.termination.success_reward);
-}
 
 /// Calls visit(name, vector) for each array of the state that is stored whole.
 template <typename State, typename Visit>
@@ -141,22 +44,28 @@ std::array<double, 4> Scalars(const TrainingState& state) {
   return {state.popart.mean, state.popart.mean_square, state.best_success_rate, state.best_return};
 }
 
+/// The configuration that the checkpoint was made with, by today's names.
+std::map<std::string, std::string> StoredConfig(const TensorFile& file) {
+  std::map<std::string, std::string> stored = ExtractPrefix(file.metadata, kConfigPrefix);
+  TrainConfig any;
+  RenameFormerKeys(FieldsOf(any), &stored);
+  return stored;
+}
+
 void RequireSameConfig(const TensorFile& file, const std::string& path, const TrainConfig& config) {
   const std::map<std::string, std::string> described = DescribeConfig(config);
+  const std::map<std::string, std::string> stored = StoredConfig(file);
   for (const auto& [name, value] : described) {
-    const auto stored = file.metadata.find(kConfigPrefix + name);
-    if (stored == file.metadata.end()) {
+    const auto found = stored.find(name);
+    if (found == stored.end()) {
       throw Error(path + ": the checkpoint does not say what " + name + " was");
     }
-    if (stored->second != value) {
-      throw Error(path + ": made with " + name + " = " + stored->second +
+    if (found->second != value) {
+      throw Error(path + ": made with " + name + " = " + found->second +
                   ", but the configuration says " + value);
     }
   }
-  const std::string prefix = kConfigPrefix;
-  for (const auto& [key, value] : file.metadata) {
-    if (key.compare(0, prefix.size(), prefix) != 0) continue;
-    const std::string name = key.substr(prefix.size());
+  for (const auto& [name, value] : stored) {
     if (described.count(name) == 0) {
       throw Error(path + ": made with " + name + " = " + value +
                   ", but the configuration has none of it");
@@ -167,46 +76,13 @@ void RequireSameConfig(const TensorFile& file, const std::string& path, const Tr
 }  // namespace
 
 std::map<std::string, std::string> DescribeConfig(const TrainConfig& config) {
-  std::map<std::string, std::string> fields;
-  DescribeEnv(config.env, fields);
-  const auto add = [&](const char* name, const auto& value) { fields[name] = Text(value); };
-  const NetworkConfig& network = config.network;
-  add("network.hidden_layers", network.hidden_layers);
-  add("network.hidden_size", network.hidden_size);
-  add("network.gru_layers", network.gru_layers);
-  add("network.gru_size", network.gru_size);
-  add("network.activation", network.activation);
-  add("network.tanh_mean", network.tanh_mean);
-  add("network.initial_log_std", network.initial_log_std);
-  add("network.actor_head_scale", network.actor_head_scale);
-  const PpoConfig& ppo = config.ppo;
-  add("ppo.num_aircraft", ppo.num_aircraft);
-  add("ppo.rollout_steps", ppo.rollout_steps);
-  add("ppo.chunk_length", ppo.chunk_length);
-  add("ppo.epochs", ppo.epochs);
-  add("ppo.minibatches", ppo.minibatches);
-  add("ppo.learning_rate", ppo.learning_rate);
-  add("ppo.final_learning_rate_fraction", ppo.final_learning_rate_fraction);
-  add("ppo.adam_epsilon", ppo.adam_epsilon);
-  add("ppo.gamma", ppo.gamma);
-  add("ppo.gae_lambda", ppo.gae_lambda);
-  add("ppo.clip", ppo.clip);
-  add("ppo.max_gradient_norm", ppo.max_gradient_norm);
-  add("ppo.entropy_coefficient", ppo.entropy_coefficient);
-  add("ppo.value_coefficient", ppo.value_coefficient);
-  add("ppo.clip_value_loss", ppo.clip_value_loss);
-  add("ppo.normalise_advantages", ppo.normalise_advantages);
-  add("ppo.popart", ppo.popart);
-  add("ppo.popart_rate", ppo.popart_rate);
-  add("learner.backend", config.learner.backend);
-  add("learner.precision", config.learner.precision);
-  add("learner.tile_samples", config.learner.tile_samples);
-  add("learner.rollout_tile", config.learner.rollout_tile);
-  add("evaluation.interval_iterations", config.evaluation.interval_iterations);
-  add("evaluation.episodes", config.evaluation.episodes);
-  add("run.total_steps", config.total_steps);
-  add("run.seed", config.seed);
-  return fields;
+  TrainConfig listed = config;
+  std::map<std::string, std::string> described;
+  for (const Field& field : FieldsOf(listed)) {
+    if (field.is_off || !field.IsOf(config.env.task)) continue;
+    described[field.key] = field.ValueText(ExactText);
+  }
+  return described;
 }
 
 TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor,

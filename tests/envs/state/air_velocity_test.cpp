@@ -13,9 +13,9 @@
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
+#include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/reward_and_termination.h"
-#include "envs/tasks/task.h"
 #include "simd/random.h"
 #include "tests/envs/test_tile.h"
 
@@ -89,7 +89,8 @@ TEST_P(AirVelocityTest, Terminations) {
     std::vector<float> reward(flight->stride()), policy_step(reward), total(reward);
     std::vector<std::int32_t> reached(flight->stride()), step(reached), termination(reached);
     ComputeRewardAndTermination(
-        *kernel_, TerminationLimits(config), flight->tile(), {reward.data(), reached.data()},
+        *kernel_, TerminationLimits(config.termination, config.episode()), flight->tile(),
+        {reward.data(), reached.data()},
         {step.data(), termination.data(), policy_step.data(), total.data()});
     termination.resize(kCount);
     return termination;

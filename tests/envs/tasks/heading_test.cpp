@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "envs/state/attitude.h"
+#include "envs/task_registry.h"
 #include "tests/envs/test_tile.h"
 #include "tests/tolerance.h"
 

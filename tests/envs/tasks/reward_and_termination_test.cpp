@@ -10,6 +10,7 @@
 
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/f16.h"
+#include "envs/env_config.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
@@ -36,7 +37,8 @@ class RewardAndTerminationTest : public testing::TestWithParam<simd::Target> {
   }
   void ComputeReward() {
     ComputeRewardAndTermination(
-        *kernel_, TerminationLimits(config_), flight_.tile(), {reward_.data(), reached_.data()},
+        *kernel_, TerminationLimits(config_.termination, config_.episode()), flight_.tile(),
+        {reward_.data(), reached_.data()},
         {step_.data(), termination_.data(), policy_step_.data(), return_.data()});
   }
   Termination Of(int i) const {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "envs/tasks/task.h"
+#include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "src/config/configuration.h"
 

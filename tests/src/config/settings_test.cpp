@@ -4,12 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <iterator>
-#include <regex>
+#include <cmath>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
-#include "envs/tasks/task.h"
+#include "envs/task_registry.h"
 #include "src/config/configuration.h"
+#include "src/config/key_reference.h"
 #include "src/files/output_file.h"
 #include "tests/error_message.h"
 #include "train/ppo/training_state.h"
@@ -19,36 +22,66 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(Settings, KeysAreUnique) {
-  std::set<std::string> keys;
-  for (const Setting& setting : Settings()) EXPECT_TRUE(keys.insert(setting.key).second);
-}
+/// Of what is not a choice among names.
+struct AddressOf {
+  const void* operator()(const void* place) const { return place; }
+  const void* operator()(const NamedChoice&) const { return nullptr; }
+};
 
-TEST(Settings, FieldsAreDistinct) {
+TEST(Settings, KeysAndPlacesAreUnique) {
   ProgramConfig config;
+  std::set<std::string> keys;
   std::set<const void*> places;
-  for (const Setting& setting : Settings()) {
-    const void* place =
-        std::visit([](auto* field) -> const void* { return field; }, setting.field(config));
-    EXPECT_TRUE(places.insert(place).second) << setting.key;
+  for (const Field& field : FieldsOf(config)) {
+    EXPECT_TRUE(keys.insert(field.key).second) << field.key;
+    EXPECT_TRUE(field.former_key.empty() || keys.insert(field.former_key).second) << field.key;
+    const void* const place = std::visit(AddressOf{}, field.place);
+    EXPECT_TRUE(place == nullptr || places.insert(place).second) << field.key;
   }
 }
 
 TEST(Settings, BuiltInDefaultsLieWithinTheirBounds) {
   ProgramConfig config;
   config.train.total_steps = 1;  // the only field without a usable default
-  for (const Setting& setting : Settings()) {
-    const SettingField field = setting.field(config);
-    if (const auto* const* number = std::get_if<double*>(&field)) {
-      EXPECT_NO_THROW(Assign(setting, **number, "default", &config)) << setting.key;
-    } else if (const auto* const* integer = std::get_if<int*>(&field)) {
-      EXPECT_NO_THROW(Assign(setting, std::int64_t{**integer}, "default", &config)) << setting.key;
-    }
+  FieldList list;
+  ListFields(config, list);
+  EXPECT_NO_THROW(list.Check());
+}
+
+/// Another value than the field has, within its bounds.
+SettingValue OtherValue(const Field& field) {
+  if (const bool* const* flag = std::get_if<bool*>(&field.place)) return !**flag;
+  if (const auto* choice = std::get_if<NamedChoice>(&field.place)) {
+    return choice->names()[choice->names().front() == choice->name() ? 1 : 0];
+  }
+  if (const int* const* number = std::get_if<int*>(&field.place)) return **number + 1.0;
+  if (!field.IsNumber()) return std::string("another");
+  if (std::holds_alternative<std::uint64_t*>(field.place)) return 9007199254740991.0;
+  const Bounds& bounds = field.bounds;
+  if (std::isinf(bounds.min)) return -17.25;
+  return std::isinf(bounds.max) ? bounds.min + 0.1875
+                                : bounds.min + (bounds.max - bounds.min) * 0.71;
+}
+
+TEST(Settings, EveryKeyIsWrittenAndReadBack) {
+  ProgramConfig config;
+  for (const Field& field : FieldsOf(config)) {
+    if (field.key == "env.task") continue;  // decides which of the others there are
+    ProgramConfig changed;
+    changed.train.env.task = field.tasks.empty() ? "heading" : field.tasks.front();
+    changed.train.total_steps = 1;  // the only field without a usable default
+    ProgramConfig read = changed;
+    const std::vector<Field> fields = FieldsOf(changed);
+    Assign(field.key, OtherValue(FindField(fields, field.key, "")), "test", &changed);
+    ASSERT_EQ(Differences(changed, read).size(), 1u) << field.key;
+    ApplyToml(DumpToml(changed), "dump", &read);
+    EXPECT_THAT(Differences(changed, read), testing::IsEmpty()) << field.key;
   }
 }
 
 TEST(Settings, TheUnitOfEveryPhysicalQuantityIsInItsName) {
-  for (const Setting& setting : Settings()) {
+  ProgramConfig config;
+  for (const Field& setting : FieldsOf(config)) {
     for (const char* quantity : {"altitude", "airspeed", "alpha_m", "beta_m", "yaw", "speed_"}) {
       if (setting.key.find(quantity) == std::string::npos) continue;
       const std::string unit = setting.key.substr(setting.key.rfind('_'));
@@ -59,137 +92,96 @@ TEST(Settings, TheUnitOfEveryPhysicalQuantityIsInItsName) {
   }
 }
 
+void Find(const std::string& key) {
+  ProgramConfig config;
+  FindField(FieldsOf(config), key, "--set");
+}
+
+TEST(Settings, FormerKeysNameTheNew) {
+  EXPECT_EQ(MessageOf([] { Find("env.planner.yaw_change_rad"); }),
+            "--set: env.planner.yaw_change_rad is called env.high_level.yaw_change_rad now");
+}
+
+TEST(Settings, BoundsCanBeTyped) {
+  ProgramConfig config;
+  for (const Field& field : FieldsOf(config)) {
+    const std::string text = field.BoundsText();
+    if (text.empty() || text.find("2^53") != std::string::npos) continue;
+    const double max = std::stod(text.substr(text.find(", ") + 2));
+    EXPECT_TRUE(std::isinf(max) || field.bounds.Contains(max)) << field.key << " in " << text;
+  }
+}
+
 TEST(Settings, UnknownKeysSuggestTheNearest) {
-  EXPECT_EQ(MessageOf([] { FindSetting("ppo.learnig_rate", "--set"); }),
+  EXPECT_EQ(MessageOf([] { Find("ppo.learnig_rate"); }),
             "--set: unknown key ppo.learnig_rate; did you mean ppo.learning_rate?");
-  EXPECT_EQ(MessageOf([] { FindSetting("gamma", "--set"); }),
-            "--set: unknown key gamma; did you mean ppo.gamma?");
-  EXPECT_EQ(MessageOf([] { FindSetting("zzzzzzzz", "--set"); }),
+  EXPECT_EQ(MessageOf([] { Find("gamma"); }), "--set: unknown key gamma; did you mean ppo.gamma?");
+  EXPECT_EQ(MessageOf([] { Find("zzzzzzzz"); }),
             "--set: unknown key zzzzzzzz; `skein train --help-keys` lists all keys");
 }
 
 TEST(Settings, WrongTypesAndValuesOutOfRangeAreNamed) {
   EXPECT_EQ(MessageOf([] {
               ProgramConfig config;
-              Assign(FindSetting("ppo.gamma", ""), 1.5, "file:3", &config);
+              Assign("ppo.gamma", 1.5, "file:3", &config);
             }),
             "file:3: ppo.gamma = 1.5 is out of range; it must be in [0, 1]");
   EXPECT_EQ(MessageOf([] {
               ProgramConfig config;
-              Assign(FindSetting("ppo.epochs", ""), 2.5, "file:3", &config);
+              Assign("ppo.epochs", 2.5, "file:3", &config);
             }),
             "file:3: ppo.epochs must be an integer, not 2.5");
   EXPECT_EQ(MessageOf([] {
               ProgramConfig config;
-              Assign(FindSetting("env.flight_control", ""), std::string("off"), "--set", &config);
+              Assign("env.flight_control", std::string("off"), "--set", &config);
             }),
             "--set: env.flight_control must be \"full\" or \"direct\", not \"off\"");
   EXPECT_EQ(MessageOf([] {
               ProgramConfig config;
-              Assign(FindSetting("ppo.popart", ""), std::int64_t{1}, "--set", &config);
+              Assign("ppo.popart", std::int64_t{1}, "--set", &config);
             }),
             "--set: ppo.popart must be true or false, not 1");
 }
 
 TEST(Settings, WholeNumbersServeAsIntegersAndIntegersAsNumbers) {
   ProgramConfig config;
-  Assign(FindSetting("run.total_steps", ""), 1.35e9, "", &config);
+  Assign("run.total_steps", 1.35e9, "", &config);
   EXPECT_EQ(config.train.total_steps, 1350000000u);
-  Assign(FindSetting("ppo.clip", ""), std::int64_t{1}, "", &config);
+  Assign("ppo.clip", std::int64_t{1}, "", &config);
   EXPECT_EQ(config.train.ppo.clip, 1.0);
 }
 
-/// The task whose presets show the key: its own, or Heading, which comes first.
-std::string OwnerOf(const Setting& setting) {
-  if (setting.key.rfind("env.high_level.", 0) == 0) return "tracking";
-  for (const std::string& task : TaskNames()) {
-    if (setting.key.rfind("env." + task + ".", 0) == 0) return task;
-  }
-  return "heading";
-}
-
-std::size_t CountLines(const std::string& text, const std::string& beginning) {
-  const std::regex pattern("\n" + beginning);
-  return static_cast<std::size_t>(
-      std::distance(std::sregex_iterator(text.begin(), text.end(), pattern), {}));
-}
-
-TEST(Settings, DocumentationSaysWhatEveryKeyIs) {
-  const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/reference/configuration.md");
-  for (const Setting& setting : Settings()) {
-    // A task's own keys as its presets set them, all others as Heading's do.
-    const std::string task = OwnerOf(setting);
-    const ProgramConfig usual = ResolveConfig({task, "default", "", {}});
-    const ProgramConfig paper = ResolveConfig({task, "paper", "", {}});
-    const std::string bounds = setting.BoundsText();
-    const std::string type = setting.TypeName() + (bounds.empty() ? "" : " in " + bounds);
-    const std::string here = FormatValue(setting, usual), there = FormatValue(setting, paper);
-    EXPECT_THAT(text,
-                HasSubstr("\n| `" + setting.key + "` | " + type + " | " + here + " | " +
-                          (here == there ? "" : there) + " | " + setting.description + " |\n"));
-  }
-  EXPECT_EQ(CountLines(text, "\\| `[a-z_0-9]+\\.[a-z_0-9.]+` \\| (a n|an i|true or|\")"),
-            Settings().size());
-}
-
-TEST(Settings, DocumentationSaysWhereThePresetsOfOtherTasksDiffer) {
-  const std::string text = ReadFile(SKEIN_TEST_DATA "/../../docs/reference/configuration.md");
-  std::size_t rows = 0;
-  for (const std::string& task : TaskNames()) {
-    for (const std::string preset : {"default", "paper"}) {
-      const ProgramConfig heading = ResolveConfig({"heading", preset, "", {}});
-      const ProgramConfig other = ResolveConfig({task, preset, "", {}});
-      for (const Setting& setting : Settings()) {
-        const std::string value = FormatValue(setting, other);
-        if (setting.key == "env.task" || OwnerOf(setting) == task) continue;
-        if (setting.key.rfind("env.heading.", 0) == 0) continue;  // means nothing to `task`
-        if (value == FormatValue(setting, heading)) continue;
-        EXPECT_THAT(text, HasSubstr("\n| `" + task + "` | `" + setting.key + "` | `" + preset +
-                                    "` | " + value + " |\n"));
-        ++rows;
-      }
-    }
-  }
-  EXPECT_EQ(CountLines(text, "\\| `[a-z]+` \\| `[a-z_.]+` \\| `(default|paper)` \\| "), rows);
+TEST(Settings, TheReferenceOfKeysIsUpToDate) {
+  EXPECT_TRUE(ReadFile(SKEIN_TEST_DATA "/../../docs/reference/configuration.md") ==
+              DescribeKeysMarkdown())
+      << "skein train --help-keys=markdown > docs/reference/configuration.md";
 }
 
 TEST(Settings, EvaluationsTakeTolerancesWhole) {
-  int found = 0;
-  for (const Setting& setting : Settings()) {
-    if (setting.key.find(".training_tolerance_") == std::string::npos) continue;
-    ProgramConfig config = ResolveConfig({OwnerOf(setting), "default", "", {}});
+  std::size_t found = 0;
+  for (const std::string& task : TaskNames()) {
+    ProgramConfig config = ResolveConfig({task, "default", "", {}});
     config.train.env = EvaluationConfig(config.train.env);
-    EXPECT_EQ(FormatValue(setting, config), "1.0") << setting.key;
-    ++found;
+    for (const Field& field : FieldsOf(config)) {
+      if (!field.IsOf(task) || field.key.find(".training_tolerance_") == std::string::npos)
+        continue;
+      EXPECT_EQ(TomlText(field), "1.0") << field.key;
+      ++found;
+    }
   }
-  EXPECT_EQ(found, static_cast<int>(TaskNames().size()));
-}
-
-TEST(Settings, TheEnvironmentAllowsWhatTheKeysAllow) {
-  // The ends of every range, where they are whole values of their own and go with all others.
-  for (const Setting& setting : Settings()) {
-    if (setting.key.rfind("env.", 0) != 0 || setting.key.rfind("env.initial.", 0) == 0) continue;
-    const Bounds& bounds = setting.bounds;
-    if (!(bounds.max < 1e7) || !(bounds.max > bounds.min)) continue;
-    if (setting.key.find("_min") != std::string::npos) continue;  // no more than its _max
-    ProgramConfig config = ResolveConfig({OwnerOf(setting), "default", "", {}});
-    config.train.env.termination.alpha_deg.min = 0;  // an arc of 180 deg at most
-    Assign(setting, bounds.max, "test", &config);
-    EXPECT_NO_THROW(Validate(config.train.env)) << setting.key;
-    EXPECT_THROW(Assign(setting, std::nextafter(bounds.max, HUGE_VAL), "test", &config), Error);
-  }
+  EXPECT_EQ(found, TaskNames().size());
 }
 
 TEST(Settings, ACheckpointHoldsEveryKeyThatTrainingDependsOn) {
-  std::set<std::string> keys;
-  for (const Setting& setting : Settings()) {
+  std::set<std::string> keys, described;
+  ProgramConfig any;
+  for (const Field& field : FieldsOf(any)) {
     // How a run is kept may change while it goes on.
-    if (setting.key.rfind("checkpoint.", 0) == 0 || setting.key == "evaluation.final_episodes") {
+    if (field.key.rfind("checkpoint.", 0) == 0 || field.key == "evaluation.final_episodes") {
       continue;
     }
-    keys.insert(setting.key);
+    keys.insert(field.key);
   }
-  std::set<std::string> described;
   for (const std::string& task : TaskNames()) {
     TrainConfig config;
     config.env.task = task;
@@ -211,6 +203,14 @@ TEST(Settings, ACheckpointHoldsNoKeysOfOtherTasks) {
         EXPECT_NE(key.rfind("env." + other + ".", 0), 0u) << task << ": " << key;
       }
     }
+  }
+}
+
+TEST(Settings, WhatIsOffSetsNoCheckpointApart) {
+  const std::map<std::string, std::string> described = DescribeConfig(TrainConfig{});
+  for (const char* key : {"env.wind.speed_max_fps", "env.wind.step_at_reset", "env.drag_rise",
+                          "env.thrust_growth_above_mach_1", "env.observation_noise_max"}) {
+    EXPECT_EQ(described.count(key), 0u) << key;
   }
 }
 

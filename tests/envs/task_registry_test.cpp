@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "envs/task_registry.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "envs/tasks/task.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "envs/task_registry.h"
+
 #include <algorithm>
 #include <array>
 
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
 #include "envs/tasks/control.h"
 #include "envs/tasks/heading.h"
-#include "envs/tasks/task.h"
 #include "envs/tasks/tracking.h"
 
 namespace skein {
@@ -13,13 +15,20 @@ namespace {
 
 struct Registration {
   const char* name;
-  std::unique_ptr<Task> (*make)(const EnvConfig& config);
+  std::unique_ptr<Task> (*make)(const EnvConfig& config, const ReferenceUnits& units);
   bool is_hierarchical;
 };
 
-constexpr std::array<Registration, 3> kTasks = {{{"heading", MakeHeadingTask, false},
-                                                 {"control", MakeControlTask, false},
-                                                 {"tracking", MakeTrackingTask, true}}};
+/// Makes a task of its part of the configuration.
+template <auto kMake, auto kConfig>
+std::unique_ptr<Task> Make(const EnvConfig& config, const ReferenceUnits& units) {
+  return kMake(config.*kConfig, units);
+}
+
+constexpr std::array<Registration, 3> kTasks = {
+    {{"heading", Make<MakeHeadingTask, &EnvConfig::heading>, false},
+     {"control", Make<MakeControlTask, &EnvConfig::control>, false},
+     {"tracking", Make<MakeTrackingTask, &EnvConfig::tracking>, true}}};
 
 }  // namespace
 
@@ -38,7 +47,7 @@ bool IsHierarchical(const std::string& name) {
 std::unique_ptr<Task> MakeTask(const EnvConfig& config) {
   std::string known;
   for (const Registration& task : kTasks) {
-    if (config.task == task.name) return task.make(config);
+    if (config.task == task.name) return task.make(config, LoadAircraft(config.aircraft).units);
     known += (known.empty() ? "" : ", ") + std::string(task.name);
   }
   throw Error("environment: unknown task \"" + config.task + "\"; known: " + known);

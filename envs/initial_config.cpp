@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/initial_config.h"
+
+#include "base/field_list.h"
+
+namespace skein {
+
+void ListFields(InitialConfig& config, FieldList& list) {
+  list.AddRange("altitude", "ft", &config.altitude_ft, {0, 60000}, "lowest initial altitude",
+                "highest initial altitude");
+  list.AddRange("true_airspeed", "fps", &config.true_airspeed_fps, {10, 3000},
+                "lowest initial true airspeed", "highest initial true airspeed");
+  list.Add("trimmed", &config.trimmed,
+           "true: steady flight; false: level, alpha 0, surfaces centred, a set thrust (F-16: 2000 "
+           "lbf)");
+}
+
+}  // namespace skein

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/tasks/heading_config.h"
+
+#include "base/field_list.h"
+
+namespace skein {
+
+void ListFields(HeadingConfig& config, FieldList& list) {
+  list.Add("altitude_change_ft", &config.altitude_change_ft, Bounds::NotNegative(),
+           "target altitude: initial + U(-x, x)");
+  list.Add("yaw_change_rad", &config.yaw_change_rad, Bounds::UpToHalfTurn(),
+           "target yaw: initial + U(-x, x)");
+  list.Add("speed_change_fps", &config.speed_change_fps, Bounds::NotNegative(),
+           "target true airspeed: initial + U(-x, x)");
+  list.Add("altitude_tolerance_ft", &config.altitude_tolerance_ft, Bounds::Positive(),
+           "altitude error that counts as reached");
+  list.Add("yaw_tolerance_deg", &config.yaw_tolerance_deg, {0, 180, true},
+           "yaw error that counts as reached");
+  list.Add("speed_tolerance_fps", &config.speed_tolerance_fps, Bounds::Positive(),
+           "speed error that counts as reached");
+  list.Add(
+      "training_tolerance_min", &config.training_tolerance_min, Bounds::PositiveFraction(),
+      "in training an episode's tolerances are these times U(x, 1); evaluations take them whole");
+  list.Add("earliest_success_step", &config.earliest_success_step, Bounds::CountOrNone(),
+           "control step before which nothing counts as reached");
+  list.Add("speed_error_weight", &config.speed_error_weight, Bounds::NotNegative(),
+           "reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm");
+}
+
+}  // namespace skein

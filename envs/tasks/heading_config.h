@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace skein {
+
+class FieldList;
+
+/// Targets of the Heading task relative to the initial state, when they count as reached, and what
+/// a speed error costs.
+struct HeadingConfig {
+  double altitude_change_ft = 3000;  ///< initial altitude + U(-x, x)
+  double yaw_change_rad = 3;         ///< initial yaw + U(-x, x), wrapped
+  double speed_change_fps = 300;     ///< initial true airspeed + U(-x, x)
+  double altitude_tolerance_ft = 100;
+  double yaw_tolerance_deg = 5;
+  double speed_tolerance_fps = 20;
+  /// In training an episode's tolerances are these times U(x, 1), which the agent does not see.
+  /// 1 is the paper's; with less it learns to come nearer than it must, and sooner.
+  double training_tolerance_min = 1;
+  int earliest_success_step = 300;  ///< control steps
+  /// Reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm; the
+  /// paper's is 0. The speed is what most targets wait for, and weighs least in the norm.
+  double speed_error_weight = 0;
+};
+
+/// Its settings (base/field_list.h).
+void ListFields(HeadingConfig& config, FieldList& list);
+
+}  // namespace skein

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/tasks/termination_config.h"
+
+#include "base/field_list.h"
+
+namespace skein {
+
+void ListFields(TerminationConfig& config, FieldList& list) {
+  list.AddRange("alpha", "deg", &config.alpha_deg, {-180, 180},
+                "extreme_state below this angle of attack",
+                "extreme_state above this angle of attack");
+  list.AddRange("beta", "deg", &config.beta_deg, {-90, 90},
+                "extreme_state below this sideslip angle",
+                "extreme_state above this sideslip angle");
+  list.Add("max_mach", &config.max_mach, Bounds::Positive(), "high_speed above this Mach number");
+  list.Add("min_mach", &config.min_mach, Bounds::NotNegative(), "low_speed below this Mach number");
+  list.Add("min_altitude_ft", &config.min_altitude_ft, Bounds::Any(),
+           "low_altitude below this altitude");
+  list.Add("max_load_factor_g", &config.max_load_factor, Bounds::Positive(),
+           "overload above this load factor");
+  list.Add("failure_reward", &config.failure_reward, Bounds::Any(), "reward for ending at a limit");
+  list.Add("success_reward", &config.success_reward, Bounds::Any(),
+           "reward for reaching the target");
+}
+
+}  // namespace skein

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "base/range.h"
+
+namespace skein {
+
+class FieldList;
+
+/// Axes in which Tracking shows where its target is.
+enum class TrackingAxes {
+  kHeading,  ///< ahead, right and up of the aircraft's heading
+  /// Along the path over ground, right of it and above it, where right is level: as a satellite
+  /// receiver shows it. What drifts with the wind or flies nose up still flies along its path.
+  kPath,
+  kEarth,  ///< north, east and up, as in the paper: where the nose points is then not observed
+};
+inline constexpr std::array<std::pair<TrackingAxes, const char*>, 3> kTrackingAxesNames{
+    {{TrackingAxes::kHeading, "heading"},
+     {TrackingAxes::kPath, "path"},
+     {TrackingAxes::kEarth, "earth"}}};
+const char* Name(TrackingAxes axes);
+
+/// Targets of the Tracking task relative to the initial state, and when they count as reached.
+struct TrackingConfig {
+  Range distance_ft{10000, 30000};     ///< the paper's public configuration has 2000
+  double azimuth_deg = 30;             ///< to either side of the nose: U(-x, x)
+  double elevation_deg = 30;           ///< above and below the nose: U(-x, x)
+  double position_tolerance_ft = 100;  ///< north, east and up
+  /// In training an episode's tolerance is the above times exp(U(0, ln x)), so that a high-level
+  /// policy reaches some targets before it reaches all; evaluations take it as it is.
+  double training_tolerance_max = 1;
+  TrackingAxes error_axes = TrackingAxes::kHeading;
+};
+
+/// Its settings (base/field_list.h).
+void ListFields(TrackingConfig& config, FieldList& list);
+
+}  // namespace skein

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/wind/wind_config.h"
+
+#include "base/field_list.h"
+
+namespace skein {
+
+void ListFields(WindConfig& config, FieldList& list) {
+  // Beyond the jet stream's.
+  const Bounds speed{0, 500};
+  list.AddRange("speed", "fps", &config.speed_fps, speed,
+                "lowest speed of the steady wind, which is horizontal",
+                "highest speed of the steady wind; each episode draws its own");
+  list.AddRange("from", "deg", &config.from_deg, {-360, 360},
+                "where the steady wind comes from: 0 is north, 90 east",
+                "the other end of that range");
+  list.AddRange("turbulence", "fps", &config.turbulence_fps, speed,
+                "lowest standard deviation of Dryden turbulence",
+                "highest standard deviation of Dryden turbulence; each episode draws its own");
+  list.Add(
+      "step_at_reset", &config.step_at_reset,
+      "true: trimmed in still air, the steady wind then is a step; false: trimmed in the wind");
+}
+
+}  // namespace skein

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/range.h"
+
+namespace skein {
+
+class FieldList;
+
+/// How the air moves. Every episode draws its own from the ranges.
+struct WindConfig {
+  Range speed_fps{0, 0};   ///< of the steady wind, which is horizontal
+  Range from_deg{0, 360};  ///< where it comes from: 0 is north, 90 is east
+  /// Standard deviation of Dryden turbulence (envs/wind/dryden.h); 0 has none.
+  Range turbulence_fps{0, 0};
+  /// The aircraft is trimmed in still air, keeps its velocity over ground and meets the steady wind
+  /// as a step at the start of the episode. false: it is trimmed in the moving air.
+  bool step_at_reset = true;
+
+  bool enabled() const { return speed_fps.max > 0 || turbulence_fps.max > 0; }
+};
+
+/// Its settings (base/field_list.h).
+void ListFields(WindConfig& config, FieldList& list);
+
+}  // namespace skein

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train/ppo/train_config.h"
+
+#include "base/field_list.h"
+
+namespace skein {
+
+void ListFields(PeriodicEvaluationConfig& config, FieldList& list) {
+  list.Add("interval_iterations", &config.interval_iterations, Bounds::CountOrNone(),
+           "iterations between evaluations, which choose the best policy; 0: never");
+  list.Add("episodes", &config.episodes, Bounds::Count(), "episodes of each of them");
+}
+
+void ListFields(TrainConfig& config, FieldList& list) {
+  list.Add("run.total_steps", &config.total_steps, {1, Bounds::WholeNumber().max},
+           "budget in control steps (50 Hz), summed over all aircraft");
+  list.Add("run.seed", &config.seed, Bounds::WholeNumber(), "seed of every random number");
+  list.Group("env", config.env);
+  list.Group("network", config.network);
+  list.Group("ppo", config.ppo);
+  list.Group("learner", config.learner);
+  list.Group("evaluation", config.evaluation);
+}
+
+}  // namespace skein
