@@ -6,7 +6,8 @@ namespace skein {
 class FieldList;
 
 /// What a high-level policy's full action asks of the low-level policy that flies
-/// (envs/low_level_flight.h): changes of the present pitch, yaw and true airspeed. And what it sees.
+/// (envs/low_level_flight.h): changes of the present pitch, yaw and true airspeed. And what it
+/// sees.
 struct HighLevelConfig {
   double pitch_change_rad = 0.3;
   double yaw_change_rad = 0.3;

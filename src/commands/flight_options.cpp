@@ -53,11 +53,13 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
       throw UsageError(fmt::format("--set {}: is of trainings and changes no flight", assignment));
     }
   }
-  const std::string task = options.task.empty() ? config->train.env.task : options.task;
+  const ProgramConfig base = *config;
+  const std::string& task = options.task.empty() ? base.train.env.task : options.task;
   AsUsage([&] {
     if (!options.config.empty()) ApplyTomlFile(options.config, config);
     ApplyConditionsAndAssignments(options.conditions, options.assignments, config);
     RequireTask(*config, task);
+    RequireOwnSpeeds(base, *config);
     CheckConsistent(*config);
   });
 }

@@ -168,10 +168,13 @@ void AddTrainCommand(CLI::App* app) {
                    "one configuration key, on top of preset and file; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--steps", options->steps,
-                      "budget in control steps (50 Hz) over all aircraft, such as 1.35e9; same as "
-                      "--set run.total_steps=...");
-  command->add_option("--seed", options->seed, "seed of the run; same as --set run.seed=...");
+  command
+      ->add_option("--steps", options->steps,
+                   "budget in control steps (50 Hz) over all aircraft, such as 10M or 1.35e9; same "
+                   "as --set run.total_steps=...")
+      ->transform(WholeNumber(1, 0x1p53));
+  command->add_option("--seed", options->seed, "seed of the run; same as --set run.seed=...")
+      ->transform(WholeNumber(0, 0x1p53));
   command
       ->add_option("--low-level", options->low_level,
                    "for task tracking: the low-level policy, trained on task control (a file, or a "

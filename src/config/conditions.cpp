@@ -33,8 +33,8 @@ using Units = std::vector<Unit>;
 
 const Units kMachUnits = {{"", kSpeedOfMachOne}};
 const Units kAltitudeUnits = {{"kft", 1000}, {"ft", 1}, {"", 1000}};
-const Units kSpeedUnits = {
-    {"fps", 1}, {"kt", kFpsPerKnot}, {"m/s", kFpsPerMetrePerSecond}, {"", 1}};
+// None is the usual one of winds: a number alone is refused.
+const Units kSpeedUnits = {{"fps", 1}, {"kt", kFpsPerKnot}, {"m/s", kFpsPerMetrePerSecond}};
 const Units kAngleUnits = {{"deg", 1}, {"", 1}};
 const Units kPlain = {{"", 1}};
 
@@ -46,6 +46,12 @@ struct Request {
   [[noreturn]] void Refuse(const std::string& part) const {
     throw Error(fmt::format("--condition {}={}: cannot read \"{}\"; {} takes {}", name, level, part,
                             name, form));
+  }
+  [[noreturn]] void RefuseWithoutUnit(const std::string& number, const Units& units) const {
+    std::vector<std::string> forms;
+    for (const Unit& unit : units) forms.push_back(number + unit.suffix);
+    throw Error(fmt::format("--condition {}={}: {} of what? Write {}", name, level, number,
+                            fmt::join(forms, ", ")));
   }
 };
 
@@ -63,6 +69,7 @@ double ParseNumber(const std::string& text, const Units& units, const Request& r
   for (const Unit& unit : units) {
     if (suffix == unit.suffix) return value * unit.factor;
   }
+  if (suffix.empty()) request.RefuseWithoutUnit(text, units);
   request.Refuse(text);
 }
 

@@ -124,6 +124,14 @@ std::string Trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+ProgramConfig ConfigOf(const Preset& preset) {
+  ProgramConfig config;
+  config.train.env.task = preset.task;
+  ApplyText(std::string(*preset.text), fmt::format("preset {}/{}", preset.task, preset.name),
+            Reading::kStrict, &config);
+  return config;
+}
+
 /// The value of an assignment: TOML if it reads as one value; for a number with a suffix (10M) that
 /// number; else the bare text as a name.
 SettingValue ParseValue(const std::string& text, const Field& field) {
@@ -137,6 +145,14 @@ SettingValue ParseValue(const std::string& text, const Field& field) {
   }
   if (const auto number = ReadNumber(text); number && field.IsNumber()) return *number;
   return text;
+}
+
+/// The preset of the task that is made for the aircraft; null if there is none.
+const Preset* PresetFor(const std::string& task, const std::string& aircraft) {
+  for (const Preset& preset : Presets()) {
+    if (preset.task == task && ConfigOf(preset).train.env.aircraft == aircraft) return &preset;
+  }
+  return nullptr;
 }
 
 std::string TableOf(const std::string& key) { return key.substr(0, key.rfind('.')); }
@@ -192,6 +208,22 @@ void RequireTask(const ProgramConfig& config, const std::string& task) {
                           config.train.env.task, task));
 }
 
+void RequireOwnSpeeds(const ProgramConfig& base, const ProgramConfig& config) {
+  const EnvConfig &before = base.train.env, &env = config.train.env;
+  const Range &speeds = env.initial.true_airspeed_fps, &old = before.initial.true_airspeed_fps;
+  const std::vector<std::string> known = AircraftNames();
+  const bool is_known = std::find(known.begin(), known.end(), env.aircraft) != known.end();
+  if (env.aircraft == before.aircraft || !is_known) return;
+  if (speeds.min != old.min || speeds.max != old.max) return;
+  const Preset* const preset = PresetFor(env.task, env.aircraft);
+  const std::string hint =
+      preset == nullptr ? "" : fmt::format("use --preset {}, or ", preset->name);
+  throw Error(fmt::format(
+      "env.aircraft = {}, but all else is made for {}, from {} ft/s on: {}set "
+      "env.initial.true_airspeed_min_fps and _max_fps, and what else is of this aircraft",
+      env.aircraft, before.aircraft, old.min, hint));
+}
+
 void CheckConsistent(const ProgramConfig& config) {
   Validate(config.train.env);
   LoadAircraft(config.train.env.aircraft);  // throws on an unknown name
@@ -204,14 +236,12 @@ void CheckConsistent(const ProgramConfig& config) {
 }
 
 ProgramConfig ResolveConfig(const ConfigSources& sources) {
-  ProgramConfig config;
-  config.train.env.task = sources.task;
-  const Preset& preset = FindPreset(sources.task, sources.preset);
-  ApplyToml(std::string(*preset.text), fmt::format("preset {}/{}", preset.task, preset.name),
-            &config);
+  const ProgramConfig base = ConfigOf(FindPreset(sources.task, sources.preset));
+  ProgramConfig config = base;
   if (!sources.file.empty()) ApplyTomlFile(sources.file, &config);
   ApplyConditionsAndAssignments(sources.conditions, sources.assignments, &config);
   RequireTask(config, sources.task);
+  RequireOwnSpeeds(base, config);
   return config;
 }
 

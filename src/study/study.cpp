@@ -232,18 +232,39 @@ void RefuseUnheard(const Study& study, const std::string& source) {
   }
 }
 
+/// The assignments without those that mean something to other tasks of the study alone.
+std::vector<std::string> AssignmentsFor(const std::string& task, const Study& study,
+                                        const std::vector<std::string>& assignments) {
+  ProgramConfig any;
+  const std::vector<Field> fields = FieldsOf(any);
+  const auto is_for_another = [&](const std::string& assignment) {
+    return std::any_of(fields.begin(), fields.end(), [&](const Field& field) {
+      return field.key == KeyOf(assignment) && !field.IsOf(task) &&
+             std::any_of(study.tasks.begin(), study.tasks.end(),
+                         [&field](const std::string& other) { return field.IsOf(other); });
+    });
+  };
+  std::vector<std::string> own = assignments;
+  own.erase(std::remove_if(own.begin(), own.end(), is_for_another), own.end());
+  return own;
+}
+
 /// The study's preset and assignments, then `parts`, each of higher precedence than those before.
 ProgramConfig Configure(const Study& study, const std::string& task,
                         const std::vector<StudySettings>& parts) {
   return AsUsage([&] {
-    ProgramConfig config = ResolveConfig({task, study.preset, "", study.assignments});
+    const ProgramConfig base =
+        ResolveConfig({task, study.preset, "", AssignmentsFor(task, study, study.assignments)});
+    ProgramConfig config = base;
     std::vector<std::string> conditions;
     for (const StudySettings& part : parts) {
       conditions.insert(conditions.end(), part.conditions.begin(), part.conditions.end());
-      ApplyConditionsAndAssignments(part.conditions, part.assignments, &config);
+      ApplyConditionsAndAssignments(part.conditions, AssignmentsFor(task, study, part.assignments),
+                                    &config);
     }
     ConditionAssignments(conditions);  // refuses one that two parts give
     RequireTask(config, task);
+    RequireOwnSpeeds(base, config);
     CheckConsistent(config);
     return config;
   });

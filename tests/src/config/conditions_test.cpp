@@ -68,7 +68,7 @@ TEST(Conditions, WindTakesASpeedAndASeverityOrNumbers) {
   EXPECT_EQ(ranges.turbulence_fps.min, 3.7);
   EXPECT_EQ(ranges.turbulence_fps.max, 21);
 
-  const WindConfig numbers = Under({"windy=30kt,sigma=2..5,from=260..280deg"}).wind;
+  const WindConfig numbers = Under({"windy=30kt,sigma=2..5fps,from=260..280deg"}).wind;
   EXPECT_NEAR(numbers.speed_fps.max, 50.634, 1e-3);
   EXPECT_EQ(numbers.turbulence_fps.max, 5);
   EXPECT_EQ(numbers.from_deg.min, 260);
@@ -77,6 +77,12 @@ TEST(Conditions, WindTakesASpeedAndASeverityOrNumbers) {
   EXPECT_THAT(Complaint({"windy=60kt..120"}), HasSubstr("cannot read \"60kt..120\""));
   EXPECT_THAT(Complaint({"windy=from=90deg"}), HasSubstr("cannot read"));
   EXPECT_EQ(Under({"windy=60fps"}).wind.turbulence_fps.max, 0);
+}
+
+TEST(Conditions, AWindNeedsAUnit) {
+  EXPECT_EQ(Complaint({"windy=60"}), "--condition windy=60: 60 of what? Write 60fps, 60kt, 60m/s");
+  EXPECT_THAT(Complaint({"windy=0..120"}), HasSubstr("of what?"));
+  EXPECT_THAT(Complaint({"windy=sigma=5"}), HasSubstr("5 of what?"));
 }
 
 TEST(Conditions, WindReplacesAllOfAnotherWind) {

@@ -114,6 +114,24 @@ TEST(Configuration, ARecordOfAnOlderVersionIsUnderstood) {
                 "tracking");
 }
 
+TEST(Configuration, AnotherAircraftNeedsItsOwnPresetOrSpeeds) {
+  const auto refused = [](const std::string& task, const std::vector<std::string>& assignments) {
+    return MessageOf([&] { ResolveConfig({task, "default", "", assignments}); });
+  };
+  const std::string why =
+      "env.aircraft = aerosonde, but all else is made for f16, from 1000 ft/s on: ";
+  EXPECT_THAT(refused("heading", {"env.aircraft=aerosonde"}),
+              HasSubstr(why + "use --preset aerosonde, or set env.initial.true_airspeed_min_fps"));
+  EXPECT_THAT(refused("tracking", {"env.aircraft=aerosonde"}), HasSubstr(why + "set env.initial."));
+  EXPECT_EQ(refused("heading", {"env.aircraft=aerosonde", "env.initial.true_airspeed_min_fps=75",
+                                "env.initial.true_airspeed_max_fps=88"}),
+            "");
+  EXPECT_EQ(MessageOf([] {
+              ResolveConfig({"heading", "aerosonde", "", {"env.aircraft=aerosonde"}});
+            }),
+            "");
+}
+
 TEST(Configuration, NumbersMayHaveSuffixes) {
   const auto steps = [](const std::string& text) {
     return ResolveConfig({"heading", "default", "", {"run.total_steps=" + text}}).train.total_steps;
@@ -179,19 +197,17 @@ TEST(Configuration, ThePaperPresetOfTrackingHasThePapersFigures) {
   EXPECT_EQ(tracking.total_steps, std::int64_t{300000000} * 50)
       << "the paper counts the high-level policy's";
   EXPECT_EQ(tracking.env.action_repeat, 50);
+  EXPECT_EQ(tracking.env.observation_noise, 0) << "as its public configuration";
   EXPECT_EQ(tracking.env.tracking.training_tolerance_max, 1);
   EXPECT_EQ(tracking.env.tracking.distance_ft.min, 2000);
   EXPECT_EQ(tracking.env.tracking.distance_ft.max, 2000);
   EXPECT_EQ(tracking.env.tracking.error_axes, TrackingAxes::kEarth);
   EXPECT_EQ(tracking.ppo.num_aircraft, 10000);
   EXPECT_EQ(tracking.ppo.rollout_steps, 100);
-  const std::set<std::string> own = {"run.total_steps",
-                                     "env.task",
-                                     "env.action_repeat",
-                                     "ppo.num_aircraft",
-                                     "ppo.rollout_steps",
-                                     "ppo.chunk_length",
-                                     "evaluation.interval_iterations"};
+  const std::set<std::string> own = {"run.total_steps",   "env.task",
+                                     "env.action_repeat", "env.observation_noise",
+                                     "ppo.num_aircraft",  "ppo.rollout_steps",
+                                     "ppo.chunk_length",  "evaluation.interval_iterations"};
   for (const std::string& difference : Differences(ResolveConfig({"tracking", "paper", "", {}}),
                                                    ResolveConfig({"heading", "paper", "", {}}))) {
     const std::string key = difference.substr(0, difference.find(' '));

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
+#include <string>
 
 #include "envs/autopilot/autopilot.h"
 #include "tests/error_message.h"
@@ -181,6 +183,38 @@ TEST_F(PolicyEnvironmentTest, CheckpointsSayItToo) {
     ASSERT_EQ(checkpoint.metadata.count(key), 1u) << key;
     EXPECT_EQ(checkpoint.metadata.at(key), value);
   }
+}
+
+/// `file` as the version wrote it that called a high-level policy a planner.
+TensorFile AsOfPlanners(TensorFile file) {
+  const std::string now = "env.high_level.", then = "env.planner.";
+  std::map<std::string, std::string> metadata;
+  for (const auto& [key, value] : file.metadata) {
+    const auto at = key.find(now);
+    metadata[at == std::string::npos ? key
+                                     : key.substr(0, at) + then + key.substr(at + now.size())] =
+        value;
+  }
+  file.metadata = metadata;
+  return file;
+}
+
+TEST_F(PolicyEnvironmentTest, FormerNamesInOlderFilesAreUnderstood) {
+  TrainConfig config = SmallHighLevelConfig();
+  config.env.high_level.averages_observations = true;
+  config.env.high_level.yaw_change_rad = 0.25;
+  WorkerPool pool(1);
+  Trainer trainer(config, pool);
+  trainer.Save(path_);
+  const TensorFile older = AsOfPlanners(TensorFile::Read(path_));
+  EXPECT_EQ(older.metadata.count("config.env.planner.yaw_change_rad"), 1u);
+  older.Write(path_);
+  EXPECT_NO_THROW(trainer.Restore(path_));
+  const RecurrentPolicy policy = RecurrentPolicy::Load(path_);
+  EXPECT_TRUE(policy.EnvironmentFor(EnvConfig{}).high_level.averages_observations);
+  EXPECT_THAT(
+      ErrorOf(policy, config.env, [](EnvConfig& env) { env.high_level.yaw_change_rad = 1; }),
+      HasSubstr("env.high_level.yaw_change_rad = 0.25"));
 }
 
 }  // namespace
