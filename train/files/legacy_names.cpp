@@ -12,8 +12,6 @@ namespace {
 constexpr std::pair<const char*, const char*> kBeginnings[] = {
     {"controller.", "low_level."},
     {"controller/", "low_level/"},
-    {"policy.env.planner.", "policy.env.high_level."},
-    {"config.env.planner.", "config.env.high_level."},
     {"recurrent/keep", "recurrent/not_done"},
 };
 

@@ -5,7 +5,8 @@
 
 namespace skein {
 
-/// Gives metadata and tensors that have another name since version 0.1 the name of today.
+/// Gives metadata and tensors that have another name since version 0.1 the name of today. Keys of
+/// the configuration are not among them: each field knows its own (RenameFormerKeys).
 void TakeCurrentNames(TensorFile& file);
 
 }  // namespace skein

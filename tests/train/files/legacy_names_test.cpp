@@ -10,10 +10,8 @@ namespace {
 
 TEST(LegacyNamesTest, BecomeThoseOfToday) {
   TensorFile file;
-  file.metadata = {{"config.env.planner.yaw_change_rad", "a"},
-                   {"controller.autopilot", "b"},
+  file.metadata = {{"controller.autopilot", "b"},
                    {"controller.policy.task", "c"},
-                   {"policy.env.planner.averages_observations", "d"},
                    {"policy.task", "e"}};
   const float value = 1;
   for (const char* name : {"controller/actor/head.bias", "recurrent/keep", "recurrent/actor"}) {
@@ -21,10 +19,8 @@ TEST(LegacyNamesTest, BecomeThoseOfToday) {
   }
   TakeCurrentNames(file);
   const std::map<std::string, std::string> expected{
-      {"config.env.high_level.yaw_change_rad", "a"},
       {"low_level.autopilot", "b"},
       {"low_level.policy.task", "c"},
-      {"policy.env.high_level.averages_observations", "d"},
       {"policy.task", "e"}};
   EXPECT_EQ(file.metadata, expected);
   for (const char* name : {"low_level/actor/head.bias", "recurrent/not_done", "recurrent/actor"}) {
