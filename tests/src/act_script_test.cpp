@@ -8,6 +8,7 @@
 
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
+#include "tests/tolerance.h"
 #include "train/policy/recurrent_policy.h"
 
 namespace skein {
@@ -58,7 +59,8 @@ void ExpectTheSameActions(const std::string& path) {
       float value = 0;
       char comma = 0;
       ASSERT_TRUE(printed >> value) << path;
-      EXPECT_NEAR(value, expected, 1e-5) << path;
+      constexpr Tolerance kFloat32{1e-5, "float32 against the script's float64"};
+      EXPECT_NEAR(value, expected, kFloat32) << path;
       printed >> std::noskipws >> comma >> std::skipws;
     }
   }

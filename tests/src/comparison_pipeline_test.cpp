@@ -11,6 +11,7 @@
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -80,6 +81,7 @@ TEST_F(ComparisonPipeline, FliesWhatEvalFlies) {
 }
 
 TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
+  constexpr Tolerance kRounding{1e-9, "float64 rounding, relative"};
   const auto result = Compare("zero,random");
   const auto& first = result["agents"][0];
   const auto& second = result["agents"][1];
@@ -89,7 +91,7 @@ TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
     if (a["count"] != 40 || b["count"] != 40) continue;  // the time, where not all succeeded
     EXPECT_NEAR(difference["value"].get<double>(),
                 b["value"].get<double>() - a["value"].get<double>(),
-                1e-9 * (1 + std::abs(a["value"].get<double>())))
+                kRounding * (1 + std::abs(a["value"].get<double>())))
         << key;
     EXPECT_LE(difference["low"], difference["value"]) << key;
     EXPECT_GE(difference["high"], difference["value"]) << key;

@@ -10,6 +10,7 @@
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -19,14 +20,11 @@ using ::testing::HasSubstr;
 
 constexpr const char* kGolden = SKEIN_TEST_DATA "/golden.json";
 
-// The same equations in another language: only the order of operations may differ.
-constexpr double kFloat64Tolerance = 1e-9;
-// 24-bit mantissas through table blends and moment sums; values below a hundredth of a quantity's
-// largest are measured against that hundredth.
-constexpr double kFloat32Tolerance = 2e-4;
+constexpr Tolerance kSumOrder{1e-9, "the same equations in another language and order"};
+constexpr Tolerance kFloat32{2e-4, "float32 blends of tables and sums of moments, relative"};
+// Of a quantity's largest: values below it are measured against it.
 constexpr double kFloat32Floor = 1e-2;
-// 500 steps of accumulated rounding.
-constexpr double kTrajectoryTolerance = 1e-6;
+constexpr Tolerance kTrajectory{1e-6, "500 steps of accumulated rounding"};
 
 json WithoutResults(json file) {
   for (const char* list : {"points", "edge_points"}) {
@@ -69,7 +67,7 @@ TEST_F(FdmPipeline, Float64EqualsTheReference) {
         for (std::size_t c = 0; c < golden_[list][i][key].size(); ++c) {
           const double expected = golden_[list][i][key][c];
           EXPECT_NEAR(out[list][i][key][c].get<double>(), expected,
-                      kFloat64Tolerance * std::max(1.0, std::abs(expected)))
+                      kSumOrder * std::max(1.0, std::abs(expected)))
               << list << '[' << i << "]." << key << '[' << c << ']';
         }
       }
@@ -90,7 +88,7 @@ TEST_F(FdmPipeline, Float32IsWithinItsTolerance) {
         for (std::size_t i = 0; i < golden_[list].size(); ++i) {
           const double expected = golden_[list][i][key][c];
           const double scale = std::max(std::abs(expected), kFloat32Floor * largest);
-          EXPECT_NEAR(out[list][i][key][c].get<double>(), expected, kFloat32Tolerance * scale)
+          EXPECT_NEAR(out[list][i][key][c].get<double>(), expected, kFloat32 * scale)
               << list << '[' << i << "]." << key << '[' << c << ']';
         }
       }
@@ -111,7 +109,7 @@ TEST_F(FdmPipeline, TrajectoriesEqualTheReference) {
         for (std::size_t c = 0; c < 13; ++c) {
           const double value = expected[row][c];
           EXPECT_NEAR(flown[row][c].get<double>(), value,
-                      kTrajectoryTolerance * std::max(1.0, std::abs(value)))
+                      kTrajectory * std::max(1.0, std::abs(value)))
               << key << '[' << row << "][" << c << ']';
         }
       }
@@ -191,12 +189,14 @@ TEST_F(FdmPipeline, TrimIsSteadyFlight) {
           .exit_code,
       0);
   const json trim = json::parse(ReadFile(path));
+  constexpr Tolerance kResidual{1e-6, "residual of the trim"};
+  constexpr Tolerance kDigits{1e-4, "five decimals known"};
   // The trim is a point like any other: flown through `fdm eval`, nothing accelerates.
   const json out = Run("eval", {{"points", json::array({trim})}}, "float64");
   for (std::size_t c = 0; c < 6; ++c) {
-    EXPECT_NEAR(out["points"][0]["xdot"][c].get<double>(), 0, 1e-6);
+    EXPECT_NEAR(out["points"][0]["xdot"][c].get<double>(), 0, kResidual);
   }
-  EXPECT_NEAR(trim["alpha_deg"].get<double>(), 4.53134, 1e-4);
+  EXPECT_NEAR(trim["alpha_deg"].get<double>(), 4.53134, kDigits);
 }
 
 TEST_F(FdmPipeline, ATrimBeyondTheEngineSaysSo) {

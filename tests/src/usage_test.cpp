@@ -15,6 +15,7 @@
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -367,8 +368,9 @@ TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
     const auto json = nlohmann::json::parse(ReadFile(path));
     EXPECT_GT(json["efficiency"], 0);
     EXPECT_LE(json["efficiency"], 1);
+    constexpr Tolerance kOneStep{1, "digits of the JSON"};
     EXPECT_NEAR(json["budget_h"].get<double>() * 3600 * json["control_steps_per_s"].get<double>(),
-                json["budget_steps"].get<double>(), 1);
+                json["budget_steps"].get<double>(), kOneStep);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "src/config/configuration.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -69,7 +70,8 @@ TEST(Conditions, WindTakesASpeedAndASeverityOrNumbers) {
   EXPECT_EQ(ranges.turbulence_fps.max, 21);
 
   const WindConfig numbers = Under({"windy=30kt,sigma=2..5fps,from=260..280deg"}).wind;
-  EXPECT_NEAR(numbers.speed_fps.max, 50.634, 1e-3);
+  constexpr Tolerance kDigits{1e-3, "three decimals"};
+  EXPECT_NEAR(numbers.speed_fps.max, 50.634, kDigits);
   EXPECT_EQ(numbers.turbulence_fps.max, 5);
   EXPECT_EQ(numbers.from_deg.min, 260);
 

@@ -6,17 +6,24 @@
 #include <cmath>
 #include <random>
 
+#include "tests/tolerance.h"
+
 namespace skein {
 namespace {
 
 const double kNaN = std::nan("");
+constexpr Tolerance kExpansion{2e-3, "an expansion in the degrees of freedom, relative"};
+constexpr Tolerance kTableDigits{1e-3, "three decimals of the table"};
+constexpr Tolerance kDigits{5e-5, "four decimals published"};
+constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+constexpr Tolerance kHandRounding{1e-9, "digits of the normal distribution's 1.959964"};
 
 TEST(EstimateTest, StudentPointsAreThoseOfTheTables) {
   // Abramowitz and Stegun (1964), table 26.10, and the normal distribution for many degrees.
   const double expected[][2] = {{1, 12.706}, {2, 4.303},  {3, 3.182},   {4, 2.776},
                                 {9, 2.262},  {29, 2.045}, {120, 1.980}, {1e9, 1.95996}};
   for (const auto& [degrees, point] : expected) {
-    EXPECT_NEAR(StudentPoint(static_cast<int>(degrees)) / point, 1, 2e-3) << degrees;
+    EXPECT_NEAR(StudentPoint(static_cast<int>(degrees)) / point, 1, kExpansion) << degrees;
   }
 }
 
@@ -25,8 +32,8 @@ TEST(EstimateTest, MeanByHand) {
   const Estimate estimate = EstimateMean({1, 2, kNaN, 3, 4, 5});
   EXPECT_EQ(estimate.value, 3);
   EXPECT_EQ(estimate.count, 5);
-  EXPECT_NEAR(estimate.low, 3 - 2.776 * std::sqrt(0.5), 1e-3);
-  EXPECT_NEAR(estimate.high, 3 + 2.776 * std::sqrt(0.5), 1e-3);
+  EXPECT_NEAR(estimate.low, 3 - 2.776 * std::sqrt(0.5), kTableDigits);
+  EXPECT_NEAR(estimate.high, 3 + 2.776 * std::sqrt(0.5), kTableDigits);
 }
 
 TEST(EstimateTest, TooFewValuesSaySo) {
@@ -48,23 +55,23 @@ TEST(EstimateTest, IntervalOfTheMeanCoversIt) {
         EstimateMean({normal(random), normal(random), normal(random), normal(random)});
     covered += estimate.low <= 2 && 2 <= estimate.high;
   }
-  // 95 % within four standard deviations of a share of 4000.
-  EXPECT_NEAR(covered / static_cast<double>(kSamples), 0.95, 4 * std::sqrt(0.95 * 0.05 / kSamples));
+  EXPECT_NEAR(covered / static_cast<double>(kSamples), 0.95,
+              kStandardErrors * std::sqrt(0.95 * 0.05 / kSamples));
 }
 
 TEST(EstimateTest, SharesAreWilsons) {
   // Newcombe, Statistics in Medicine 17 (1998) 857, table I, method 3.
   const Estimate common = EstimateShare(81, 263);
-  EXPECT_NEAR(common.low, 0.2553, 5e-5);
-  EXPECT_NEAR(common.high, 0.3662, 5e-5);
+  EXPECT_NEAR(common.low, 0.2553, kDigits);
+  EXPECT_NEAR(common.high, 0.3662, kDigits);
   const Estimate rare = EstimateShare(1, 29);
-  EXPECT_NEAR(rare.low, 0.0061, 5e-5);
-  EXPECT_NEAR(rare.high, 0.1718, 5e-5);
+  EXPECT_NEAR(rare.low, 0.0061, kDigits);
+  EXPECT_NEAR(rare.high, 0.1718, kDigits);
   const Estimate none = EstimateShare(0, 20), all = EstimateShare(20, 20);
   EXPECT_EQ(none.low, 0);
-  EXPECT_NEAR(none.high, 0.1611, 5e-5);
+  EXPECT_NEAR(none.high, 0.1611, kDigits);
   EXPECT_EQ(all.high, 1);
-  EXPECT_NEAR(all.low, 1 - none.high, 1e-12);
+  EXPECT_NEAR(all.low, 1 - none.high, kRounding);
 }
 
 TEST(EstimateTest, PairedSharesByHand) {
@@ -72,11 +79,11 @@ TEST(EstimateTest, PairedSharesByHand) {
   const PairedShares paired = CompareShares(5, 15, 100);
   EXPECT_DOUBLE_EQ(paired.difference.value, 0.1);
   EXPECT_NEAR(paired.difference.low, 10 / 102.0 - 1.959964 * std::sqrt(21 - 100 / 102.0) / 102,
-              1e-9);
+              kHandRounding);
   EXPECT_NEAR(paired.difference.high, 10 / 102.0 + 1.959964 * std::sqrt(21 - 100 / 102.0) / 102,
-              1e-9);
+              kHandRounding);
   // Twice the sum of the binomials (20 over 0 to 5), 21700, by 2^20.
-  EXPECT_NEAR(paired.p_value, 2 * 21700.0 / 1048576, 1e-9);
+  EXPECT_NEAR(paired.p_value, 2 * 21700.0 / 1048576, kHandRounding);
   const PairedShares back = CompareShares(15, 5, 100);
   EXPECT_DOUBLE_EQ(back.difference.low, -paired.difference.high);
   EXPECT_DOUBLE_EQ(back.p_value, paired.p_value);

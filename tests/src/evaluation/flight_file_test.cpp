@@ -11,6 +11,7 @@
 
 #include "envs/aircraft/aircraft.h"
 #include "envs/state/attitude.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -93,6 +94,13 @@ class FlightFileTest : public ::testing::Test {
   RecordedFlight flight_;
 };
 
+constexpr Tolerance kSevenDigits{1e-5, "seven digits of float32 states"};
+constexpr Tolerance kVelocity{1e-2, "seven digits of float32 velocities"};
+constexpr Tolerance kAtmospheres{0.005, "temperatures of the atmospheres differ"};
+constexpr Tolerance kPosition{0.01, "seven digits of float32 of 2e4 ft"};
+constexpr Tolerance kAngle{1e-4, "seven digits of degrees"};
+constexpr Tolerance kAngleError{1e-3, "seven digits of differences of degrees"};
+
 TEST_F(FlightFileTest, WritesStatesInTheUnitsOfTheirNames) {
   const std::vector<Row> rows = Parse(FlightsCsv(EnvConfig{}, {flight_}));
   ASSERT_EQ(rows.size(), 3u);
@@ -105,27 +113,26 @@ TEST_F(FlightFileTest, WritesStatesInTheUnitsOfTheirNames) {
       {"aileron_deg", 2},     {"rudder_deg", -3}, {"leading_edge_flap_deg", 4}};
   for (const auto& [name, value] : expected) {
     ASSERT_TRUE(rows[0].count(name)) << name;
-    // Seven digits of float32 states.
-    EXPECT_NEAR(std::stod(rows[0].at(name)), value, 1e-5 * (1 + std::abs(value))) << name;
+    EXPECT_NEAR(std::stod(rows[0].at(name)), value, kSevenDigits * (1 + std::abs(value))) << name;
   }
   const double u = std::stod(rows[0].at("u_fps")), v = std::stod(rows[0].at("v_fps")),
                w = std::stod(rows[0].at("w_fps"));
-  EXPECT_NEAR(std::hypot(u, v, w), 800, 1e-2);
-  // The speed of sound at 20,000 ft is 1037 ft/s within half a percent in every atmosphere.
-  EXPECT_NEAR(std::stod(rows[0].at("mach")), 800 / 1037.0, 0.005);
+  EXPECT_NEAR(std::hypot(u, v, w), 800, kVelocity);
+  // The speed of sound at 20,000 ft is 1037 ft/s.
+  EXPECT_NEAR(std::stod(rows[0].at("mach")), 800 / 1037.0, kAtmospheres);
 }
 
 TEST_F(FlightFileTest, ErrorsAreTargetMinusActualAndAnglesWrap) {
   const std::vector<Row> rows = Parse(FlightsCsv(EnvConfig{}, {flight_}));
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_NEAR(std::stod(rows[0].at("target_altitude_ft")), 21000, 0.01);
-  EXPECT_NEAR(std::stod(rows[0].at("target_yaw_deg")), -175, 1e-4);
-  EXPECT_NEAR(std::stod(rows[0].at("target_true_airspeed_fps")), 900, 0.01);
-  EXPECT_NEAR(std::stod(rows[0].at("error_altitude_ft")), 1000, 0.01);
-  EXPECT_NEAR(std::stod(rows[0].at("error_true_airspeed_fps")), 100, 0.01);
+  EXPECT_NEAR(std::stod(rows[0].at("target_altitude_ft")), 21000, kPosition);
+  EXPECT_NEAR(std::stod(rows[0].at("target_yaw_deg")), -175, kAngle);
+  EXPECT_NEAR(std::stod(rows[0].at("target_true_airspeed_fps")), 900, kPosition);
+  EXPECT_NEAR(std::stod(rows[0].at("error_altitude_ft")), 1000, kPosition);
+  EXPECT_NEAR(std::stod(rows[0].at("error_true_airspeed_fps")), 100, kPosition);
   // From 170 over the south to -175 degrees.
-  EXPECT_NEAR(std::stod(rows[0].at("error_yaw_deg")), 15, 1e-3);
-  EXPECT_NEAR(std::stod(rows[1].at("error_yaw_deg")), 14, 1e-3);
+  EXPECT_NEAR(std::stod(rows[0].at("error_yaw_deg")), 15, kAngleError);
+  EXPECT_NEAR(std::stod(rows[1].at("error_yaw_deg")), 14, kAngleError);
 }
 
 TEST_F(FlightFileTest, HasARowForTheStartAndOneForEveryStep) {
@@ -168,9 +175,9 @@ TEST_F(FlightFileTest, PlannedFlightsShowThePlanBesideTheSticks) {
   EXPECT_EQ(rows[1].at("action_target_yaw"), "-0.5");
   EXPECT_EQ(rows[1].at("action_target_speed"), "1");
   EXPECT_EQ(rows[1].at("target_east_ft"), "2000");
-  EXPECT_NEAR(std::stod(rows[1].at("error_north_ft")), 900, 0.01);
-  EXPECT_NEAR(std::stod(rows[1].at("error_east_ft")), 2200, 0.01);
-  EXPECT_NEAR(std::stod(rows[1].at("error_altitude_ft")), -2000, 0.01);
+  EXPECT_NEAR(std::stod(rows[1].at("error_north_ft")), 900, kPosition);
+  EXPECT_NEAR(std::stod(rows[1].at("error_east_ft")), 2200, kPosition);
+  EXPECT_NEAR(std::stod(rows[1].at("error_altitude_ft")), -2000, kPosition);
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
-/// Parameters are rounded to float32; a dot product of 128 of them.
-constexpr double kOrthogonalityTolerance = 1e-5;
+constexpr Tolerance kFloat32Product{1e-5, "a product of 128 parameters rounded to float32"};
 
 TEST(NetworkLayoutTest, SlicesFillTheVectorWithoutGaps) {
   const NetworkLayout layout(ActorShape({}, 22, 4));
@@ -97,7 +97,7 @@ TEST(InitialParametersTest, WeightsAreOrthogonalWithTheirGain) {
           dot += static_cast<double>(parameters[offset + a * columns + j]) *
                  parameters[offset + b * columns + j];
         }
-        EXPECT_NEAR(dot, a == b ? gain * gain : 0.0, kOrthogonalityTolerance);
+        EXPECT_NEAR(dot, a == b ? gain * gain : 0.0, kFloat32Product);
       }
     }
   };

@@ -10,6 +10,7 @@
 
 #include "simd/target.h"
 #include "tests/scratch_directory.h"
+#include "tests/tolerance.h"
 #include "tests/train/network/gradient_comparison.h"
 #include "tests/train/network/sample_tile.h"
 #include "tests/train/small_config.h"
@@ -23,9 +24,12 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// How far a gradient may be from float64's. Float32: some hundred roundings of 6e-8, of random
-/// signs. Operands of bfloat16 have roundings of 2^-9, in the backward products alone (mixed) or
-/// also in the forward pass, where they move ReLUs across zero and ratios across the clip.
+constexpr Tolerance kFloat32Gradient{1e-5, "some hundred float32 roundings of random signs"};
+constexpr Tolerance kMixedGradient{1e-2, "bfloat16 rounding in the backward products"};
+
+/// How far a gradient may be from float64's. Operands of bfloat16 have roundings of 2^-9, in the
+/// backward products alone (mixed) or also in the forward pass, where they move ReLUs across zero
+/// and ratios across the clip.
 struct Bound {
   NetworkPrecision precision;
   const char* name;
@@ -33,13 +37,12 @@ struct Bound {
   double cosine;
 };
 std::vector<Bound> Bounds() {
-  return {{ActorPrecision(LearnerPrecision::kFloat32), "fp32", 1e-5, 0.9999999},
-          {ActorPrecision(LearnerPrecision::kMixed), "mixed", 1e-2, 0.9999},
+  return {{ActorPrecision(LearnerPrecision::kFloat32), "fp32", kFloat32Gradient, 0.9999999},
+          {ActorPrecision(LearnerPrecision::kMixed), "mixed", kMixedGradient, 0.9999},
           {ActorPrecision(LearnerPrecision::kBfloat16), "bf16", kUnbounded, 0.97}};
 }
 
-/// Float32 against float64: values of about six, roundings of some hundred terms.
-constexpr double kLogProbTolerance = 1e-5;
+constexpr Tolerance kLogProb{1e-5, "float32 sums of a hundred terms, of values of about six"};
 
 /// One sequence of a tile.
 class SequenceOf {
@@ -303,7 +306,7 @@ TEST_P(RealRolloutTest, LogProbabilitiesAgreeWithDoublePrecision) {
             std::exp(-static_cast<double>(log_std[j]));
         expected -= 0.5 * deviation * deviation + log_std[j] + half_log_two_pi;
       }
-      EXPECT_NEAR(tile.actor.old_log_prob[i], expected, kLogProbTolerance);
+      EXPECT_NEAR(tile.actor.old_log_prob[i], expected, kLogProb);
     }
   }
 }

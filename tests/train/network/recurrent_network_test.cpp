@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "simd/target.h"
+#include "tests/tolerance.h"
 #include "tests/train/network/gradient_comparison.h"
 #include "tests/train/network/sample_tile.h"
 #include "train/libtorch/libtorch_network.h"
@@ -22,12 +23,11 @@
 namespace skein {
 namespace {
 
-/// Float32 sums of some hundred terms against float64: a few hundred roundings of 6e-8.
-constexpr double kGradientTolerance = 2e-5;
-constexpr double kLossTolerance = 1e-5;
-/// Central differences in float64 with a step of 1e-5: small enough to miss the kinks of ReLU and
-/// clip, truncation of order 1e-10, rounding 1e-16 / 1e-5.
-constexpr double kDifferenceTolerance = 1e-7;
+constexpr Tolerance kGradient{2e-5, "float32 sums of some hundred terms, relative"};
+constexpr Tolerance kLoss{1e-5, "float32 sums of some hundred terms"};
+/// The step of 1e-5 is small enough to miss the kinks of ReLU and clip.
+constexpr Tolerance kDifference{1e-7,
+                                "central differences: truncation 1e-10, rounding 1e-16 / 1e-5"};
 
 const NetworkShape kActor{6, 32, 16, 3, true};
 const NetworkShape kCritic{6, 32, 16, 1, false};
@@ -63,8 +63,7 @@ void ExpectSlicesAgree(const NetworkLayout& layout, const std::vector<float>& gr
       difference += (gradient[at] - reference[at]) * (gradient[at] - reference[at]);
       slice_norm += reference[at] * reference[at];
     }
-    EXPECT_LT(std::sqrt(difference),
-              kGradientTolerance * std::max(std::sqrt(slice_norm), 0.01 * norm))
+    EXPECT_LT(std::sqrt(difference), kGradient * std::max(std::sqrt(slice_norm), 0.01 * norm))
         << slice.name;
   }
 }
@@ -76,10 +75,10 @@ void ExpectForwardAgrees(Backend backend, const NetworkLayout& layout,
   network->SetParameters(parameters.data());
   network->Forward(tile, workspace);
   for (std::size_t i = 0; i < reference.output.size(); ++i) {
-    ASSERT_NEAR(workspace.output()[i], reference.output[i], kLossTolerance);
+    ASSERT_NEAR(workspace.output()[i], reference.output[i], kLoss);
   }
   for (std::size_t i = 0; i < reference.state.size(); ++i) {
-    ASSERT_NEAR(workspace.final_state()[i], reference.state[i], kLossTolerance);
+    ASSERT_NEAR(workspace.final_state()[i], reference.state[i], kLoss);
   }
 }
 
@@ -104,13 +103,12 @@ TEST_P(RecurrentNetworkTest, AgreesWithAutogradInDoublePrecision) {
         LossSums sums;
         const std::vector<float> gradient =
             GradientBy(backend, layout, parameters, samples.tile(), settings, &sums);
-        EXPECT_LT(RelativeDifference(gradient, reference.gradient), kGradientTolerance)
-            << Name(backend);
-        EXPECT_NEAR(sums.policy_loss, reference.sums.policy_loss, kLossTolerance);
-        EXPECT_NEAR(sums.value_loss, reference.sums.value_loss, kLossTolerance);
-        EXPECT_NEAR(sums.entropy, reference.sums.entropy, kLossTolerance);
-        EXPECT_NEAR(sums.approximate_kl, reference.sums.approximate_kl, kLossTolerance);
-        EXPECT_NEAR(sums.clip_fraction, reference.sums.clip_fraction, kLossTolerance);
+        EXPECT_LT(RelativeDifference(gradient, reference.gradient), kGradient) << Name(backend);
+        EXPECT_NEAR(sums.policy_loss, reference.sums.policy_loss, kLoss);
+        EXPECT_NEAR(sums.value_loss, reference.sums.value_loss, kLoss);
+        EXPECT_NEAR(sums.entropy, reference.sums.entropy, kLoss);
+        EXPECT_NEAR(sums.approximate_kl, reference.sums.approximate_kl, kLoss);
+        EXPECT_NEAR(sums.clip_fraction, reference.sums.clip_fraction, kLoss);
       }
     }
   }
@@ -134,8 +132,8 @@ TEST_P(RecurrentNetworkTest, EveryShapeAgreesWithDoublePrecision) {
       const std::vector<float> gradient =
           GradientBy(backend, layout, parameters, samples.tile(), settings, &sums);
       ExpectSlicesAgree(layout, gradient, reference.gradient);
-      EXPECT_NEAR(sums.policy_loss, reference.sums.policy_loss, kLossTolerance);
-      EXPECT_NEAR(sums.value_loss, reference.sums.value_loss, kLossTolerance);
+      EXPECT_NEAR(sums.policy_loss, reference.sums.policy_loss, kLoss);
+      EXPECT_NEAR(sums.value_loss, reference.sums.value_loss, kLoss);
     }
   }
 }
@@ -195,10 +193,10 @@ TEST_P(RecurrentNetworkTest, FinalStateContinuesTheSequence) {
     }
     // The same sums, in products of other sizes.
     for (std::size_t i = 0; i < state.size(); ++i) {
-      EXPECT_NEAR(state[i], whole.final_state()[i], kLossTolerance);
+      EXPECT_NEAR(state[i], whole.final_state()[i], kLoss);
     }
     for (int i = 0; i < 5 * 3; ++i) {
-      EXPECT_NEAR(part.output()[i], whole.output()[5 * 5 * 3 + i], kLossTolerance);
+      EXPECT_NEAR(part.output()[i], whole.output()[5 * 5 * 3 + i], kLoss);
     }
   }
 }
@@ -229,7 +227,7 @@ TEST_P(RecurrentNetworkTest, ResetInsideAChunkEqualsTwoSequences) {
   const std::vector<float> b = GradientBy(Backend::kFused, layout, parameters, second, settings);
   std::vector<double> sum(a.begin(), a.end());
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += b[i];
-  EXPECT_LT(RelativeDifference(whole, sum), kGradientTolerance);
+  EXPECT_LT(RelativeDifference(whole, sum), kGradient);
 }
 
 /// Quiet, and with a payload that is lost if the lower half of its bits is cut off.
@@ -286,9 +284,8 @@ std::vector<std::pair<NetworkShape, bool>> WithBothOptions(
 /// The fused kernels' gradient against differences of their own losses: per slice along a random
 /// direction, so that every parameter takes part.
 TEST_P(RecurrentNetworkTest, AgreesWithFiniteDifferencesOfItsOwnLoss) {
-  // Losses of float32 samples, summed in float64, over a step of a thousandth; a ReLU that a step
-  // takes over its kink adds of that order, too.
-  constexpr double kStep = 1e-3, kTolerance = 1e-3;
+  constexpr double kStep = 1e-3;
+  constexpr Tolerance kSlope{1e-3, "float32 losses over the step, and kinks within it"};
   for (const auto& [shape, option] :
        WithBothOptions({{5, 7, 5, 2, true, 1, 2}, {5, 6, 4, 1, false, 1, 1}})) {
     SCOPED_TRACE(NameOf(shape));
@@ -322,7 +319,7 @@ TEST_P(RecurrentNetworkTest, AgreesWithFiniteDifferencesOfItsOwnLoss) {
         below[at] -= static_cast<float>(kStep * direction[j] / std::sqrt(squares));
         expected += gradient[at] * (static_cast<double>(above[at]) - below[at]) / (2 * kStep);
       }
-      EXPECT_NEAR((loss(above) - loss(below)) / (2 * kStep), expected, kTolerance) << slice.name;
+      EXPECT_NEAR((loss(above) - loss(below)) / (2 * kStep), expected, kSlope) << slice.name;
     }
   }
 }
@@ -362,7 +359,7 @@ TEST(ReferenceGradientTest, AgreesWithFiniteDifferences) {
         parameter = middle - step;
         const double below = parameter, low = loss();
         parameter = middle;
-        EXPECT_NEAR((high - low) / (above - below), reference.gradient[at], kDifferenceTolerance)
+        EXPECT_NEAR((high - low) / (above - below), reference.gradient[at], kDifference)
             << slice.name;
       }
     }
@@ -384,7 +381,7 @@ TEST(LibTorchNetworkTest, EveryActivationAgreesWithDoublePrecision) {
     EXPECT_LT(RelativeDifference(GradientBy(Backend::kLibTorch, layout, parameters, samples.tile(),
                                             FullLossSettings(96)),
                                  reference.gradient),
-              kGradientTolerance);
+              kGradient);
   }
 }
 

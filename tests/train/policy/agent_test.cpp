@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/tolerance.h"
 #include "tests/train/small_config.h"
 
 namespace skein {
@@ -43,8 +44,9 @@ TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndPolicyStepAlone) {
     squares += static_cast<double>(action) * action;
   }
   // Five standard deviations of the means of 80,000 uniform numbers.
-  EXPECT_NEAR(sum / (4 * kCount), 0, 5 * std::sqrt(1.0 / 3 / (4 * kCount)));
-  EXPECT_NEAR(squares / (4 * kCount), 1.0 / 3, 5 * std::sqrt(4.0 / 45 / (4 * kCount)));
+  EXPECT_NEAR(sum / (4 * kCount), 0, kStandardErrors * std::sqrt(1.0 / 3 / (4 * kCount)));
+  EXPECT_NEAR(squares / (4 * kCount), 1.0 / 3,
+              kStandardErrors * std::sqrt(4.0 / 45 / (4 * kCount)));
   EXPECT_EQ(Row(Decide(agent, {1, 7, 0}, 1), 0), Row(actions, 7));
   EXPECT_NE(Row(Decide(agent, {1, 7, 1}, 1), 0), Row(actions, 7));
   EXPECT_NE(Row(Decide(agent, {2, 7, 0}, 1), 0), Row(actions, 7));
@@ -65,12 +67,13 @@ TEST(AgentTest, SampledActionsScatterAboutTheMean) {
       squares += deviation * deviation;
     }
     const double sigma = std::exp(-1);
-    EXPECT_NEAR(sum / kCount, 0, 5 * sigma / std::sqrt(kCount));
-    EXPECT_NEAR(std::sqrt(squares / kCount), sigma, 5 * sigma / std::sqrt(2 * kCount));
+    EXPECT_NEAR(sum / kCount, 0, kStandardErrors * sigma / std::sqrt(kCount));
+    EXPECT_NEAR(std::sqrt(squares / kCount), sigma,
+                kStandardErrors * sigma / std::sqrt(2 * kCount));
   }
-  // To the last bits of matrix products, which may round by shape.
+  constexpr Tolerance kProductShape{1e-5, "matrix products round by their shape"};
   const Floats alone = Decide(sampling, {1, 7, 0}, 1);
-  for (int k = 0; k < 4; ++k) EXPECT_NEAR(alone[k], Row(actions, 7)[k], 1e-5);
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(alone[k], Row(actions, 7)[k], kProductShape);
 }
 
 TEST(AgentTest, AnyPilotCanBeFlown) {

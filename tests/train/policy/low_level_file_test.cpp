@@ -11,6 +11,7 @@
 #include "tests/envs/test_policy.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
+#include "tests/tolerance.h"
 #include "tests/train/hierarchy_config.h"
 #include "tests/train/libtorch.h"
 #include "train/files/tensor_file.h"
@@ -250,8 +251,8 @@ TEST_F(HighLevelTrainingTest, RecordsWhatWasPlannedAndWhatWasFlown) {
       EXPECT_EQ(step.stick != before.stick, i % 10 % 4 == 0) << i;
     }
   }
-  // Sums of a hundred rewards of order ten, in another order.
-  EXPECT_NEAR(return_sum / options.episodes, evaluated.return_mean, 1e-2);
+  constexpr Tolerance kSumOrder{1e-2, "a hundred float32 rewards of ten, in another order"};
+  EXPECT_NEAR(return_sum / options.episodes, evaluated.return_mean, kSumOrder);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "tests/tolerance.h"
 #include "tests/train/small_config.h"
 
 namespace skein {
@@ -63,8 +64,8 @@ TEST_F(RecordFlightsTest, FliesWhatWasEvaluated) {
       mid_policy_step |= flight.steps.size() % env_.action_repeat != 0;
     }
     EXPECT_EQ(terminations, evaluated.terminations);
-    // Sums of at most 100 rewards of order one (and one of 200), in another order.
-    EXPECT_NEAR(return_sum / kEpisodes, evaluated.return_mean, 1e-3);
+    constexpr Tolerance kSumOrder{1e-3, "a hundred float32 rewards of one, in another order"};
+    EXPECT_NEAR(return_sum / kEpisodes, evaluated.return_mean, kSumOrder);
     if (!deterministic) {
       EXPECT_TRUE(mid_policy_step);
     }
@@ -100,9 +101,7 @@ TEST_F(RecordFlightsTest, HoldsActionsForAPolicyStep) {
 }
 
 TEST_F(RecordFlightsTest, StatesAreOfOneUnbrokenFlight) {
-  // Position moves with the velocity: by the trapezoidal rule up to the third order of a step, and
-  // float32 positions of 20,000 ft.
-  constexpr double kToleranceFt = 0.02;
+  constexpr Tolerance kTrapezoid{0.02, "trapezoidal rule, and float32 of 20,000 ft"};
   for (const RecordedFlight& flight : Record(6, pool_)) {
     const std::array<float, kNumRecordedColumns>* before = &flight.initial_state;
     for (const RecordedStep& step : flight.steps) {
@@ -113,7 +112,7 @@ TEST_F(RecordFlightsTest, StatesAreOfOneUnbrokenFlight) {
           std::hypot(step.state[kNorth] - (*before)[kNorth], step.state[kEast] - (*before)[kEast],
                      step.state[kDown] - (*before)[kDown]);
       const double flown = env_.control_interval_s * 0.5 * (speed(*before) + speed(step.state));
-      ASSERT_NEAR(moved, flown, kToleranceFt) << "step " << &step - flight.steps.data();
+      ASSERT_NEAR(moved, flown, kTrapezoid) << "step " << &step - flight.steps.data();
       before = &step.state;
     }
   }

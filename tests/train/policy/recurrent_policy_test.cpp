@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "tests/scratch_directory.h"
+#include "tests/tolerance.h"
 #include "tests/train/libtorch.h"
 #include "tests/train/small_config.h"
 #include "train/files/tensor_file.h"
@@ -76,6 +77,8 @@ TEST_F(PolicyTest, ReadsFilesFromBeforeNetworksHadDepths) {
   EXPECT_EQ(Decide(RecurrentPolicy::Load(path_), 5), Decide(policy, 5));
 }
 
+constexpr Tolerance kFloat32{1e-5, "a few float32 roundings of values of order one"};
+
 TEST_F(PolicyTest, BackendsDecideAlike) {
   SKEIN_SKIP_WITHOUT_LIBTORCH();
   const RecurrentPolicy fused = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3);
@@ -83,8 +86,7 @@ TEST_F(PolicyTest, BackendsDecideAlike) {
   EXPECT_EQ(fused.backend().backend, Backend::kFused);
   EXPECT_EQ(libtorch.backend().backend, Backend::kLibTorch);
   const std::vector<float> a = Decide(fused, 9), b = Decide(libtorch, 9);
-  // A few float32 roundings of values of order one.
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], kFloat32);
 }
 
 TEST_F(PolicyTest, ALowLevelPolicyIsComputedAsItsHighLevelIs) {
@@ -100,7 +102,7 @@ TEST_F(PolicyTest, ALowLevelPolicyIsComputedAsItsHighLevelIs) {
     ASSERT_NE(low_level, nullptr);
     EXPECT_EQ(low_level->backend().backend, backend);
     const std::vector<float> a = Decide(*fused, 9), b = Decide(*low_level, 9);
-    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], kFloat32);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "simd/random.h"
 #include "simd/target.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -21,7 +22,8 @@ constexpr int kSteps = 1000;
 constexpr double kEpsilon = 1e-5;
 /// Of the largest parameter. LibTorch fuses multiply and add where the processor can, as avx512 and
 /// avx2 do; without that, sums end a unit in the last place away.
-constexpr double kFusedDifference = 1e-7, kUnfusedDifference = 2.4e-7;
+constexpr Tolerance kFused{1e-7, "float32 rounding, in the same order"};
+constexpr Tolerance kUnfused{2.4e-7, "float32 rounding, of products on their own"};
 
 /// As training lowers it.
 double LearningRate(int step) { return 1e-3 * (1 - 0.98 * step / kSteps); }
@@ -85,7 +87,7 @@ TEST_P(AdamTest, AgreesWithLibTorchOverAThousandSteps) {
     difference = std::max<double>(difference, std::abs(adam.parameters()[i] - reference[i]));
   }
   const bool fused = GetParam() == simd::Target::kAvx512 || GetParam() == simd::Target::kAvx2;
-  EXPECT_LE(difference / largest, fused ? kFusedDifference : kUnfusedDifference);
+  EXPECT_LE(difference / largest, fused ? kFused : kUnfused);
 }
 
 TEST_P(AdamTest, ResumesBitExactly) {

@@ -5,14 +5,15 @@
 
 #include <cmath>
 
+#include "tests/tolerance.h"
 #include "tests/train/network/sample_tile.h"
 #include "train/network/fused_network.h"
 
 namespace skein {
 namespace {
 
-/// Values of some hundred in float32.
-constexpr double kValueTolerance = 1e-3;
+constexpr Tolerance kValue{1e-3, "float32 values of some hundred"};
+constexpr Tolerance kRounding{1e-12, "float64 rounding"};
 
 TEST(PopArtTest, ValuesStayAsTheyWereWhenTheMomentsMove) {
   const NetworkLayout layout({5, 32, 16, 1, false});
@@ -35,7 +36,7 @@ TEST(PopArtTest, ValuesStayAsTheyWereWhenTheMomentsMove) {
     for (float& target : targets) target += spread;
     UpdatePopArt(targets, 0.3, layout, parameters.data(), popart);
     const std::vector<double> after = values();
-    for (int i = 0; i < 24; ++i) EXPECT_NEAR(after[i], before[i], kValueTolerance);
+    for (int i = 0; i < 24; ++i) EXPECT_NEAR(after[i], before[i], kValue);
   }
 }
 
@@ -48,7 +49,7 @@ TEST(PopArtTest, FirstMomentsAreTakenWholeAndLaterOnesByRate) {
   EXPECT_DOUBLE_EQ(popart.scale().std, 1);
   UpdatePopArt({12, 12}, 0.1, layout, parameters.data(), popart);
   EXPECT_DOUBLE_EQ(popart.scale().mean, 3);
-  EXPECT_NEAR(popart.scale().std, std::sqrt(0.9 * 5 + 0.1 * 144 - 9), 1e-12);
+  EXPECT_NEAR(popart.scale().std, std::sqrt(0.9 * 5 + 0.1 * 144 - 9), kRounding);
 }
 
 TEST(PopArtTest, ConstantTargetsDoNotDivideByZero) {

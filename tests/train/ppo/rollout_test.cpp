@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "tests/tolerance.h"
 #include "tests/train/small_config.h"
 #include "train/network/fused_network.h"
 #include "train/network/ppo_loss.h"
@@ -15,10 +16,8 @@
 namespace skein {
 namespace {
 
-/// A few float32 roundings of values of some tens.
-constexpr double kAdvantageTolerance = 1e-4;
-/// The same network on tiles of other sizes: float32 products summed in another order.
-constexpr double kLogProbTolerance = 1e-4;
+constexpr Tolerance kAdvantage{1e-4, "a few float32 roundings of values of some tens"};
+constexpr Tolerance kLogProb{1e-4, "float32 products of other tiles, summed in another order"};
 
 /// The definition, term by term: A_t = sum over l of (gamma lambda)^l delta_{t+l} to the episode's
 /// end.
@@ -53,7 +52,7 @@ TEST(AdvantagesTest, AgreeWithTheirDefinition) {
     for (int aircraft = 0; aircraft < 7; ++aircraft) {
       const std::int64_t row = rollout.row(step, aircraft);
       EXPECT_NEAR(rollout.advantage[row], AdvantageByDefinition(rollout, step, aircraft, 0.97, 0.9),
-                  kAdvantageTolerance);
+                  kAdvantage);
       EXPECT_FLOAT_EQ(rollout.target[row], rollout.advantage[row] + rollout.value[row]);
     }
   }
@@ -125,7 +124,7 @@ TEST(RolloutTest, LogProbabilitiesRecomputedFromChunksAreTheRolloutsOwn) {
     LogProbability(length * aircraft, 4, mean.data(), log_std.data(),
                    rollout.action.data() + row * 4, log_prob.data());
     for (int i = 0; i < length * aircraft; ++i) {
-      ASSERT_NEAR(log_prob[i], rollout.log_prob[row + i], kLogProbTolerance);
+      ASSERT_NEAR(log_prob[i], rollout.log_prob[row + i], kLogProb);
     }
   }
 }
