@@ -10,6 +10,7 @@ namespace skein {
 /// right, on one line.
 class Error : public std::runtime_error {
  public:
+  /// See above for what `message` says.
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 

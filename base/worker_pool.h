@@ -17,7 +17,7 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  int threads() const { return threads_; }
+  int threads() const { return threads_; }  ///< of the pool, at least 1
 
   /// Calls body(index, worker) once for every index in [0, count), each on some worker in [0,
   /// threads()); returns when all have run. The first exception is rethrown. Calls of one worker
@@ -28,6 +28,7 @@ class WorkerPool {
   /// then and return early. What they leave is incomplete, and their caller throws it away when it
   /// sees stopping(). From any thread, or a signal handler.
   void RequestStop() { stopping_.store(true, std::memory_order_release); }
+  /// Whether it was asked.
   bool stopping() const { return stopping_.load(std::memory_order_acquire); }
 
  private:

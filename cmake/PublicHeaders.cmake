@@ -2,7 +2,6 @@
 # The public API: the only headers that are installed, under include/skein/. What one of them includes must be here, too.
 set(SKEIN_PUBLIC_HEADERS
     # What all rooms share.
-    base/aligned_vector.h
     base/error.h
     base/range.h
     base/worker_pool.h
@@ -42,14 +41,9 @@ if(SKEIN_BUILD_TRAIN)
   list(
     APPEND
     SKEIN_PUBLIC_HEADERS
-    simd/matrix_product.h
-    simd/target.h
-    train/network/affine_map.h
-    train/network/backend.h
-    train/network/folded_parameters.h
-    train/network/network.h
-    train/network/network_config.h
     # Policies: load, fly, evaluate, record.
+    train/network/backend.h
+    train/network/network_config.h
     train/policy/agent.h
     train/policy/evaluate.h
     train/policy/record_flights.h

@@ -21,6 +21,7 @@ struct ControlStep {
 class ControlStepObserver {
  public:
   virtual ~ControlStepObserver() = default;
+  /// Of some aircraft of one tile; tiles may be stepped from different threads.
   virtual void See(const ControlStep& step) = 0;
 };
 

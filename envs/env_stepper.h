@@ -9,7 +9,7 @@
 #include "envs/aircraft/aircraft.h"
 #include "envs/env_config.h"
 #include "envs/env_storage.h"
-#include "envs/flight_metrics.h"
+#include "envs/flight_metric_sums.h"
 #include "envs/flight_reset.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "envs/flight_metric_sums.h"
 #include "envs/kernels/kernel_aircraft.h"
 #include "envs/state/attitude.h"
 #include "simd/dispatch.h"

@@ -26,15 +26,15 @@ class VecEnv {
   VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size = 256,
          std::shared_ptr<const Policy> low_level = nullptr);
   ~VecEnv();
-  VecEnv(VecEnv&&) noexcept;
+  VecEnv(VecEnv&&) noexcept;  ///< what was moved from can only be destroyed
 
-  const EnvConfig& config() const;
-  int num_aircraft() const;
-  int num_tiles() const;
-  int tile_begin(int tile) const;  ///< global index of the tile's first aircraft
-  int tile_count(int tile) const;
-  int observation_size() const;  ///< 22
-  int action_size() const;       ///< 4; 3 with a low-level policy
+  const EnvConfig& config() const;  ///< as given
+  int num_aircraft() const;         ///< of all tiles
+  int num_tiles() const;            ///< indices of tiles are [0, num_tiles())
+  int tile_begin(int tile) const;   ///< global index of the tile's first aircraft
+  int tile_count(int tile) const;   ///< the tile's aircraft
+  int observation_size() const;     ///< 22
+  int action_size() const;          ///< 4; 3 with a low-level policy
 
   /// Writes the tile's observations, row-major [count][observation_size], noise included.
   void Observe(int tile, float* observation) const;
@@ -48,9 +48,9 @@ class VecEnv {
   /// the policy step. An action that is not finite ends its aircraft's episode as non_finite.
   void Step(int tile, const float* action, const StepOutput& output);
 
-  /// The whole mutable state (for checkpoints), aircraft by aircraft whatever the tiles, and back.
-  /// Restore throws Error on a size that does not fit.
+  /// The whole mutable state (for checkpoints), aircraft by aircraft whatever the tiles.
   std::vector<std::uint32_t> Snapshot() const;
+  /// Goes on from a Snapshot. Throws Error on a size that does not fit.
   void Restore(const std::vector<std::uint32_t>& snapshot);
 
   /// One column of the physical state (envs/state/state.h) of one aircraft, for recording

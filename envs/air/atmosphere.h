@@ -14,6 +14,7 @@ inline constexpr std::array<std::pair<AtmosphereModel, const char*>, 2> kAtmosph
     {{AtmosphereModel::kStevensLewis, "stevens_lewis"},
      {AtmosphereModel::kStandard1976, "standard_1976"}}};
 
+/// The air at rest at one altitude.
 struct Air {
   double density_slug_ft3 = 0;
   double temperature_degR = 0;

@@ -41,6 +41,7 @@ struct Actuator {
   double min_deg = 0, max_deg = 0;
 };
 
+/// Of the four surfaces that move.
 struct Actuators {
   Actuator elevator, aileron, rudder, leading_edge_flap;
 };

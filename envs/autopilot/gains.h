@@ -116,6 +116,7 @@ struct AutopilotTiming {
   int steps_per_policy_step =
       5;  ///< control steps from one policy step of the outer loops to the next
 
+  /// Of the outer loops, s.
   double policy_step_dt() const { return dt * steps_per_policy_step; }
 };
 

@@ -34,14 +34,16 @@ class ClosedLoop {
   /// velocity over ground.
   void set_wind(const Eigen::Vector3d& wind) { wind_ = wind; }
 
+  /// At the end of the last step.
   const RigidBodyState& state() const { return state_; }
-  RigidBodyState& mutable_state() { return state_; }
-  const SurfaceAngles& surfaces() const { return surfaces_; }
+  RigidBodyState& mutable_state() { return state_; }           ///< to fly on from elsewhere
+  const SurfaceAngles& surfaces() const { return surfaces_; }  ///< where the actuators stand
+  /// Of the filters and integrators.
   const FlightControlState& flight_control_state() const { return flight_control_state_; }
-  double power() const { return power_; }
-  double nz() const { return nz_; }
-  double ny() const { return ny_; }
-  AirData air() const;
+  double power() const { return power_; }  ///< of the engine, 0..100
+  double nz() const { return nz_; }        ///< what the accelerometers read, g
+  double ny() const { return ny_; }        ///< what the accelerometers read, g
+  AirData air() const;                     ///< of the present state in the present wind
 
  private:
   struct Flight;  // what is integrated

@@ -104,6 +104,7 @@ using FlightControlState = std::array<double, kNumFlightControlStates>;
 /// Outputs are clipped to the actuators' position limits; integrators take one forward Euler step.
 class FlightControl {
  public:
+  /// `dt` is the control interval, s.
   FlightControl(const Aircraft& aircraft, FlightControlMode mode, double dt);
 
   /// The state in which the filters are at rest with these readings and the system commands

@@ -19,6 +19,7 @@ struct Controls {
   double elevator_deg = 0, aileron_deg = 0, rudder_deg = 0, leading_edge_flap_deg = 0;
 };
 
+/// What a flight through the air is measured by.
 struct AirData {
   double true_airspeed_ft_s = 0;
   double alpha_rad = 0, beta_rad = 0;
@@ -46,10 +47,11 @@ struct PlantOutput {
 /// or flight control.
 class Plant {
  public:
+  /// Of any aircraft, flown in any atmosphere.
   Plant(Aircraft aircraft, AtmosphereModel atmosphere);
 
-  const Aircraft& aircraft() const { return aircraft_; }
-  AtmosphereModel atmosphere() const { return atmosphere_; }
+  const Aircraft& aircraft() const { return aircraft_; }      ///< as given
+  AtmosphereModel atmosphere() const { return atmosphere_; }  ///< as given
 
   /// `wind` is the air's velocity, north, east, down, ft/s.
   PlantOutput Evaluate(const RigidBodyState& state, const Controls& controls,

@@ -13,6 +13,7 @@ struct TrimRequest {
   double turn_rate_rad_s = 0;  ///< + to the right; the trim is then a coordinated turn
 };
 
+/// Steady flight, and the controls that keep it.
 struct TrimPoint {
   RigidBodyState state;  ///< at north = east = 0, heading north
   Controls controls;     ///< leading-edge flap on its steady schedule

@@ -86,6 +86,7 @@ struct Tile {
   /// The first of the three columns of the velocity relative to the air, in body axes.
   int air_velocity() const { return windy ? kAirU : kU; }
 
+  /// The first aircraft's entry of a column.
   float* operator[](int column) const { return base + static_cast<std::size_t>(column) * stride; }
 };
 

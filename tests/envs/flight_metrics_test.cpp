@@ -13,6 +13,7 @@
 
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/f16.h"
+#include "envs/flight_metric_sums.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
 #include "envs/vec_env.h"

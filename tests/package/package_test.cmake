@@ -27,5 +27,7 @@ run("alpha 4.531 deg.*-0.781  [+]0.728i" ${examples}/trim_and_linearise)
 if(EXISTS ${examples}/fly_policy)
   run("256 episodes of heading, (9[0-9]|100)[.]. %" ${examples}/fly_policy
       ${SCRATCH}/prefix/share/skein/policies/heading.skein)
+  run("iteration 3: 245760 control steps" ${examples}/train_policy ${SCRATCH}/small.skein)
+  run("256 episodes of heading" ${examples}/fly_policy ${SCRATCH}/small.skein)
   run("" ${CMAKE_COMMAND} -DPROGRAM=${examples}/fly_policy -P ${CMAKE_CURRENT_LIST_DIR}/shared_libraries_test.cmake)
 endif()

@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "base/name_in.h"
 #include "simd/target.h"
+#include "train/network/affine_map.h"
+#include "train/network/network.h"
 
 namespace skein {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "train/network/affine_map.h"
-#include "train/network/network.h"
-
 namespace skein {
+
+struct NetworkPrecision;  // train/network/affine_map.h
+struct NetworkShape;      // train/network/network.h
 
 /// What computes the networks, forward and backward.
 enum class Backend {

@@ -29,6 +29,7 @@ class Agent {
 
   /// As of Policy::EnvironmentFor.
   EnvConfig EnvironmentFor(const EnvConfig& env) const { return policy_->EnvironmentFor(env); }
+  /// Floats of memory per aircraft.
   int state_size() const { return policy_->state_size(); }
   /// What flies for it if it is a high-level policy; null if it flies itself.
   std::shared_ptr<const Policy> low_level() const;

@@ -15,6 +15,7 @@
 
 namespace skein {
 
+/// Which episodes are flown, and what of them is measured.
 struct EvaluationOptions {
   int episodes = 1000;
   std::uint64_t seed = 0;

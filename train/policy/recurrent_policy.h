@@ -5,6 +5,7 @@
 #include <string>
 
 #include "train/network/backend.h"
+#include "train/network/network_config.h"
 #include "train/policy/stored_policy.h"
 
 namespace skein {
@@ -32,7 +33,7 @@ class RecurrentPolicy final : public StoredPolicy {
   /// Writes the actor, and its low-level policy, atomically.
   void Save(const std::string& path) const;
 
-  const NetworkConfig& config() const;
+  const NetworkConfig& config() const;  ///< shape of the network
   int observation_size() const override;
   int action_size() const override;
   const BackendChoice& backend() const;  ///< what computes it
@@ -43,7 +44,7 @@ class RecurrentPolicy final : public StoredPolicy {
   const std::string& task() const;
   /// What flies when this is a high-level policy; null if it flies itself.
   const std::shared_ptr<const StoredPolicy>& low_level() const;
-  const std::shared_ptr<const Parameters>& parameters() const;
+  const std::shared_ptr<const Parameters>& parameters() const;  ///< what Save writes
 
   /// One policy step for `count` aircraft: observation [count][observation_size], state
   /// [count][state_size] (updated in place; the caller zeroes rows at episode starts), mean

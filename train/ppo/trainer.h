@@ -46,13 +46,14 @@ struct IterationReport {
 /// count, interrupted or not.
 class Trainer {
  public:
+  /// Throws Error on a configuration that cannot be trained. The pool must outlive it.
   Trainer(const TrainConfig& config, WorkerPool& pool);
   ~Trainer();
 
   /// The configuration, its precision as it was chosen (train/network/backend.h).
   const TrainConfig& config() const;
-  std::uint64_t env_steps() const;
-  std::uint64_t iteration() const;
+  std::uint64_t env_steps() const;       ///< control steps flown so far
+  std::uint64_t iteration() const;       ///< iterations done so far
   bool finished() const;                 ///< the step budget is used up
   const BackendChoice& backend() const;  ///< what computes the networks
 
@@ -68,6 +69,7 @@ class Trainer {
   /// policy is of other sizes, another task or environment; nothing has changed then.
   bool StartFrom(const std::string& path);
 
+  /// The actor as it is now.
   RecurrentPolicy policy() const;
 
   /// Everything needed to go on bit for bit, written atomically (temporary file, fsync, rename,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "train/network/backend.h"
+#include "train/network/network.h"
 #include "train/network/recurrent_network.h"
 
 namespace skein {
