@@ -48,6 +48,7 @@ if(SKEIN_BUILD_TRAIN)
     train/policy/evaluate.h
     train/policy/record_flights.h
     train/policy/recurrent_policy.h
+    train/policy/stored_policy.h
     train/policy/tile_agent.h
     # Training.
     train/ppo/learner_config.h
