@@ -48,6 +48,7 @@ struct EnvConfig {
   HighLevelConfig high_level;
   TerminationConfig termination;
 
+  /// What ends and scales episodes of every task.
   EpisodeSettings episode() const {
     return {time_limit_steps, truncate_at_time_limit, reward_scale};
   }

@@ -9,8 +9,8 @@
 
 namespace skein {
 
-/// A file data/NAME/aircraft.json, embedded in the library. docs/add-an-aircraft.md says what is in
-/// it.
+/// A file data/NAME/aircraft.json, embedded in the library. docs/how-to/add-an-aircraft.md says
+/// what is in it.
 struct AircraftFile {
   const char* name;
   const std::string_view* text;

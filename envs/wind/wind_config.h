@@ -17,6 +17,7 @@ struct WindConfig {
   /// as a step at the start of the episode. false: it is trimmed in the moving air.
   bool step_at_reset = true;
 
+  /// Whether any episode has wind.
   bool enabled() const { return speed_fps.max > 0 || turbulence_fps.max > 0; }
 };
 

@@ -266,7 +266,7 @@ std::string ConditionHelp() {
   }
   return fmt::format(
       "fly under a condition: {}; LEVEL is a value, a range A..B from which every "
-      "episode draws, or mild, middle, hard; may be repeated (docs/conditions.md)",
+      "episode draws, or mild, middle, hard; may be repeated (docs/reference/conditions.md)",
       names);
 }
 

@@ -9,8 +9,9 @@
 namespace skein {
 
 /// The configuration assignments ("env.initial.altitude_min_ft=30000") that put an environment
-/// under `conditions`, each "NAME=LEVEL" as docs/conditions.md describes them. Throws Error on an
-/// unknown or repeated name and on a level that cannot be read, saying what would be right.
+/// under `conditions`, each "NAME=LEVEL" as docs/reference/conditions.md describes them. Throws
+/// Error on an unknown or repeated name and on a level that cannot be read, saying what would be
+/// right.
 std::vector<std::string> ConditionAssignments(const std::vector<std::string>& conditions);
 
 /// What conditions an environment is under, for people: "f16 from 19000 to 20000 ft and 1000 to

@@ -64,11 +64,11 @@ TEST(FieldList, KeysCarryTheirGroupsAndFormerNames) {
     keys.push_back(field.key);
     if (!field.former_key.empty()) former.push_back(field.former_key);
   }
-  EXPECT_THAT(keys, ElementsAre("outer.is_lit", "outer.count", "outer.colour", "outer.name",
-                                "outer.inner.size_ft", "outer.inner.span_min_s",
-                                "outer.inner.span_max_s"));
-  EXPECT_THAT(former, ElementsAre("outer.core.size_ft", "outer.core.span_min_s",
-                                  "outer.core.span_max_s"));
+  EXPECT_THAT(
+      keys, ElementsAre("outer.is_lit", "outer.count", "outer.colour", "outer.name",
+                        "outer.inner.size_ft", "outer.inner.span_min_s", "outer.inner.span_max_s"));
+  EXPECT_THAT(former,
+              ElementsAre("outer.core.size_ft", "outer.core.span_min_s", "outer.core.span_max_s"));
 }
 
 TEST(FieldList, AGroupSaysWhoseItsFieldsAreAndWhetherTheyAreOff) {

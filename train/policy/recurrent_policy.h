@@ -21,8 +21,9 @@ class RecurrentPolicy final : public StoredPolicy {
   explicit RecurrentPolicy(const std::shared_ptr<const Parameters>& parameters,
                            Backend backend = Backend::kFused);
 
-  /// Reads the actor from a policy file or checkpoint (container of docs/file-formats.md). Throws
-  /// Error on a file that is truncated, damaged or not one of Skein's.
+  /// Reads the actor from a policy file or checkpoint (container of
+  /// docs/reference/file-formats.md). Throws Error on a file that is truncated, damaged or not one
+  /// of Skein's.
   static RecurrentPolicy Load(const std::string& path);
   /// A freshly initialised actor: the one that training with this seed begins with.
   static RecurrentPolicy Untrained(const NetworkConfig& config, int observation_size,

@@ -10,18 +10,15 @@ namespace {
 
 TEST(LegacyNamesTest, BecomeThoseOfToday) {
   TensorFile file;
-  file.metadata = {{"controller.autopilot", "b"},
-                   {"controller.policy.task", "c"},
-                   {"policy.task", "e"}};
+  file.metadata = {
+      {"controller.autopilot", "b"}, {"controller.policy.task", "c"}, {"policy.task", "e"}};
   const float value = 1;
   for (const char* name : {"controller/actor/head.bias", "recurrent/keep", "recurrent/actor"}) {
     StoreTensor(file, name, {1}, &value, 1);
   }
   TakeCurrentNames(file);
   const std::map<std::string, std::string> expected{
-      {"low_level.autopilot", "b"},
-      {"low_level.policy.task", "c"},
-      {"policy.task", "e"}};
+      {"low_level.autopilot", "b"}, {"low_level.policy.task", "c"}, {"policy.task", "e"}};
   EXPECT_EQ(file.metadata, expected);
   for (const char* name : {"low_level/actor/head.bias", "recurrent/not_done", "recurrent/actor"}) {
     EXPECT_EQ(file.tensors.count(name), 1u) << name;
