@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "src/bench/version.h"
 #include "src/commands/command_tree.h"
 #include "src/commands/commands.h"
 #include "src/config/configuration.h"
 #include "src/config/key_reference.h"
 #include "src/config/nearest_name.h"
-#include "src/usage_error.h"
-#include "src/version.h"
+#include "src/config/usage_error.h"
 #include "train/files/file_descriptor.h"
 
 namespace skein {

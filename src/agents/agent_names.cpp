@@ -11,7 +11,7 @@
 #include "envs/autopilot/autopilot.h"
 #include "src/agents/policy_file.h"
 #include "src/config/nearest_name.h"
-#include "src/usage_error.h"
+#include "src/config/usage_error.h"
 #include "train/policy/policy_environment.h"
 
 namespace skein {

@@ -8,7 +8,7 @@
 #include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
 #include "src/agents/policy_file.h"
-#include "src/usage_error.h"
+#include "src/config/usage_error.h"
 #include "train/policy/autopilot_policy.h"
 #include "train/policy/low_level_file.h"
 #include "train/policy/policy_environment.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "simd/target.h"
-#include "src/version.h"
+#include "src/bench/version.h"
 #include "train/network/backend.h"
 #include "train/network/backend_module.h"
 

@@ -13,9 +13,9 @@
 #include "src/commands/flight_options.h"
 #include "src/config/configuration.h"
 #include "src/config/presets.h"
+#include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
-#include "src/usage_error.h"
 
 namespace skein {
 namespace {

@@ -15,10 +15,10 @@
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/presets.h"
+#include "src/config/usage_error.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
-#include "src/usage_error.h"
 
 namespace skein {
 namespace {

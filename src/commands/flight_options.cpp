@@ -5,10 +5,10 @@
 
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
+#include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/evaluation/flight_file.h"
 #include "src/files/output_file.h"
-#include "src/usage_error.h"
 
 namespace skein {
 

@@ -8,7 +8,7 @@
 
 #include "src/commands/command_tree.h"
 #include "src/commands/commands.h"
-#include "src/usage_error.h"
+#include "src/config/usage_error.h"
 
 namespace skein {
 namespace {

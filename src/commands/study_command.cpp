@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "src/commands/commands.h"
+#include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/study/study.h"
 #include "src/study/study_run.h"
-#include "src/usage_error.h"
 
 namespace skein {
 namespace {

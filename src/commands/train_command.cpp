@@ -17,10 +17,10 @@
 #include "src/config/key_reference.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/run/run_directory.h"
 #include "src/run/training_run.h"
-#include "src/usage_error.h"
 #include "train/policy/low_level_file.h"
 
 namespace skein {
@@ -140,6 +140,23 @@ void Train(const TrainOptions& options) {
   TrainingRun::Begin(config, options.out, pool, {preset, low_level.description, from});
 }
 
+constexpr const char* kFooter =
+    "From lowest to highest precedence: built-in defaults, preset, --config, --condition, "
+    "--set,\n"
+    "--steps and --seed. SIGINT (Ctrl-C) and SIGTERM drop the iteration under way, save, and "
+    "end\n"
+    "with exit code 0; a second one ends at once. SIGUSR1 saves after the iteration.\n"
+    "Examples:\n"
+    "  skein train heading\n"
+    "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
+    "  skein train control --set env.control.pitch_change_rad=0.9\n"
+    "  skein train tracking --low-level policies/control.skein\n"
+    "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
+    "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
+    "noisy=0.01..0.05\n"
+    "  skein train heading --from runs/short --steps 1e8\n"
+    "  skein train --resume runs/short";
+
 }  // namespace
 
 void AddTrainCommand(CLI::App* app) {
@@ -209,22 +226,7 @@ void AddTrainCommand(CLI::App* app) {
   command->add_flag("--help-keys", options->help_keys,
                     "list every configuration key with type, range, value and meaning, and exit; "
                     "--help-keys=markdown: as docs/reference/configuration.md");
-  command->footer(
-      "From lowest to highest precedence: built-in defaults, preset, --config, --condition, "
-      "--set,\n"
-      "--steps and --seed. SIGINT (Ctrl-C) and SIGTERM drop the iteration under way, save, and "
-      "end\n"
-      "with exit code 0; a second one ends at once. SIGUSR1 saves after the iteration.\n"
-      "Examples:\n"
-      "  skein train heading\n"
-      "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
-      "  skein train control --set env.control.pitch_change_rad=0.9\n"
-      "  skein train tracking --low-level policies/control.skein\n"
-      "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
-      "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
-      "noisy=0.01..0.05\n"
-      "  skein train heading --from runs/short --steps 1e8\n"
-      "  skein train --resume runs/short");
+  command->footer(kFooter);
   command->callback([options] { Train(*options); });
 }
 

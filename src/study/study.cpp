@@ -15,9 +15,9 @@
 #include "src/config/nearest_name.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
-#include "src/usage_error.h"
 
 namespace skein {
 namespace {

@@ -34,123 +34,121 @@ struct Fault {
   std::function<void(EnvConfig*)> make;
 };
 
+const Fault kFaults[] = {
+    {"env.control_interval_s = ", [](EnvConfig* c) { c->control_interval_s = 0; }},
+    {"env.control_interval_s = ", [](EnvConfig* c) { c->control_interval_s = 0.05; }},
+    {"env.substeps = ", [](EnvConfig* c) { c->substeps = 0; }},
+    {"env.action_repeat = ", [](EnvConfig* c) { c->action_repeat = 0; }},
+    {"env.time_limit_steps = ", [](EnvConfig* c) { c->time_limit_steps = 0; }},
+    {"env.observation_noise = ", [](EnvConfig* c) { c->observation_noise = -0.01; }},
+    {"env.observation_noise_max = ", [](EnvConfig* c) { c->observation_noise_max = 0.005; }},
+    {"env.wind.speed_min_fps = ",
+     [](EnvConfig* c) {
+       c->wind.speed_fps = {60, 30};
+     }},
+    {"env.wind.speed_max_fps = ",
+     [](EnvConfig* c) {
+       c->wind.speed_fps = {0, 600};
+     }},
+    {"env.wind.from_max_deg = ",
+     [](EnvConfig* c) {
+       c->wind.from_deg = {0, 400};
+     }},
+    {"env.wind.turbulence_min_fps = ",
+     [](EnvConfig* c) {
+       c->wind.turbulence_fps = {-1, 5};
+     }},
+    {"env.reward_scale = ", [](EnvConfig* c) { c->reward_scale = -1; }},
+    {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 0; }},
+    {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 30; }},
+    {"env.engine_angular_momentum_slug_ft2_per_s = ",
+     [](EnvConfig* c) { c->engine_angular_momentum = -160; }},
+    {"env.initial.altitude_min_ft = ",
+     [](EnvConfig* c) {
+       c->initial.altitude_ft = {20000, 19000};
+     }},
+    {"env.initial.altitude_max_ft = ",
+     [](EnvConfig* c) {
+       c->initial.altitude_ft = {19000, 70000};
+     }},
+    {"env.initial.true_airspeed_min_fps = ",
+     [](EnvConfig* c) {
+       c->initial.true_airspeed_fps = {0, 1000};
+     }},
+    {"env.heading.altitude_change_ft = ", [](EnvConfig* c) { c->heading.altitude_change_ft = -1; }},
+    {"env.heading.yaw_change_rad = ", [](EnvConfig* c) { c->heading.yaw_change_rad = -1; }},
+    {"env.heading.speed_change_fps = ", [](EnvConfig* c) { c->heading.speed_change_fps = -1; }},
+    {"env.heading.altitude_tolerance_ft = ",
+     [](EnvConfig* c) { c->heading.altitude_tolerance_ft = 0; }},
+    {"env.heading.yaw_tolerance_deg = ", [](EnvConfig* c) { c->heading.yaw_tolerance_deg = 0; }},
+    {"env.heading.speed_tolerance_fps = ",
+     [](EnvConfig* c) { c->heading.speed_tolerance_fps = 0; }},
+    {"env.heading.earliest_success_step = ",
+     [](EnvConfig* c) { c->heading.earliest_success_step = -1; }},
+    // No episode would last long enough to succeed.
+    {"env.heading.earliest_success_step = ",
+     [](EnvConfig* c) { c->heading.earliest_success_step = c->time_limit_steps + 1; }},
+    {"env.heading.training_tolerance_min = ",
+     [](EnvConfig* c) { c->heading.training_tolerance_min = 0; }},
+    {"env.heading.training_tolerance_min = ",
+     [](EnvConfig* c) { c->heading.training_tolerance_min = 1.1; }},
+    {"env.control.pitch_change_rad = ", [](EnvConfig* c) { c->control.pitch_change_rad = -1; }},
+    {"env.control.yaw_change_rad = ", [](EnvConfig* c) { c->control.yaw_change_rad = -1; }},
+    {"env.control.speed_change_fps = ", [](EnvConfig* c) { c->control.speed_change_fps = -1; }},
+    {"env.control.pitch_tolerance_deg = ",
+     [](EnvConfig* c) { c->control.pitch_tolerance_deg = 0; }},
+    {"env.control.yaw_tolerance_deg = ", [](EnvConfig* c) { c->control.yaw_tolerance_deg = 0; }},
+    {"env.control.speed_tolerance_fps = ",
+     [](EnvConfig* c) { c->control.speed_tolerance_fps = 0; }},
+    {"env.heading.speed_error_weight = ", [](EnvConfig* c) { c->heading.speed_error_weight = -1; }},
+    {"env.control.training_tolerance_min = ",
+     [](EnvConfig* c) { c->control.training_tolerance_min = 0; }},
+    {"env.control.training_tolerance_min = ",
+     [](EnvConfig* c) { c->control.training_tolerance_min = 1.1; }},
+    {"env.control.speed_error_weight = ", [](EnvConfig* c) { c->control.speed_error_weight = -1; }},
+    {"env.tracking.distance_min_ft = ",
+     [](EnvConfig* c) {
+       c->tracking.distance_ft = {30000, 10000};
+     }},
+    {"env.tracking.distance_max_ft = ",
+     [](EnvConfig* c) {
+       c->tracking.distance_ft = {10000, 1e7};
+     }},
+    {"env.tracking.azimuth_deg = ", [](EnvConfig* c) { c->tracking.azimuth_deg = -1; }},
+    {"env.tracking.elevation_deg = ", [](EnvConfig* c) { c->tracking.elevation_deg = -1; }},
+    {"env.tracking.training_tolerance_max = ",
+     [](EnvConfig* c) { c->tracking.training_tolerance_max = 0.9; }},
+    {"env.tracking.position_tolerance_ft = ",
+     [](EnvConfig* c) { c->tracking.position_tolerance_ft = 0; }},
+    {"env.high_level.pitch_change_rad = ",
+     [](EnvConfig* c) { c->high_level.pitch_change_rad = -1; }},
+    {"env.high_level.yaw_change_rad = ", [](EnvConfig* c) { c->high_level.yaw_change_rad = -1; }},
+    {"env.high_level.speed_change_fps = ",
+     [](EnvConfig* c) { c->high_level.speed_change_fps = -1; }},
+    {"env.termination.alpha_min_deg = ",
+     [](EnvConfig* c) {
+       c->termination.alpha_deg = {45, -20};
+     }},
+    // The kernels compare angles by the sides of two directions: an arc of 180 degrees at most.
+    {"env.termination.alpha_max_deg = ",
+     [](EnvConfig* c) {
+       c->termination.alpha_deg = {-95, 95};
+     }},
+    {"env.termination.beta_min_deg = ",
+     [](EnvConfig* c) {
+       c->termination.beta_deg = {-100, 30};
+     }},
+    {"env.termination.min_mach = ", [](EnvConfig* c) { c->termination.min_mach = 3; }},
+    {"env.termination.max_mach = ", [](EnvConfig* c) { c->termination.max_mach = -1; }},
+    {"env.termination.max_load_factor_g = ",
+     [](EnvConfig* c) { c->termination.max_load_factor = 0; }},
+    // Every episode would end with its first step.
+    {"env.initial.altitude_min_ft = ",
+     [](EnvConfig* c) { c->termination.min_altitude_ft = c->initial.altitude_ft.min; }},
+};
+
 TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
-  const std::vector<Fault> faults = {
-      {"env.control_interval_s = ", [](EnvConfig* c) { c->control_interval_s = 0; }},
-      {"env.control_interval_s = ", [](EnvConfig* c) { c->control_interval_s = 0.05; }},
-      {"env.substeps = ", [](EnvConfig* c) { c->substeps = 0; }},
-      {"env.action_repeat = ", [](EnvConfig* c) { c->action_repeat = 0; }},
-      {"env.time_limit_steps = ", [](EnvConfig* c) { c->time_limit_steps = 0; }},
-      {"env.observation_noise = ", [](EnvConfig* c) { c->observation_noise = -0.01; }},
-      {"env.observation_noise_max = ", [](EnvConfig* c) { c->observation_noise_max = 0.005; }},
-      {"env.wind.speed_min_fps = ",
-       [](EnvConfig* c) {
-         c->wind.speed_fps = {60, 30};
-       }},
-      {"env.wind.speed_max_fps = ",
-       [](EnvConfig* c) {
-         c->wind.speed_fps = {0, 600};
-       }},
-      {"env.wind.from_max_deg = ",
-       [](EnvConfig* c) {
-         c->wind.from_deg = {0, 400};
-       }},
-      {"env.wind.turbulence_min_fps = ",
-       [](EnvConfig* c) {
-         c->wind.turbulence_fps = {-1, 5};
-       }},
-      {"env.reward_scale = ", [](EnvConfig* c) { c->reward_scale = -1; }},
-      {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 0; }},
-      {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 30; }},
-      {"env.engine_angular_momentum_slug_ft2_per_s = ",
-       [](EnvConfig* c) { c->engine_angular_momentum = -160; }},
-      {"env.initial.altitude_min_ft = ",
-       [](EnvConfig* c) {
-         c->initial.altitude_ft = {20000, 19000};
-       }},
-      {"env.initial.altitude_max_ft = ",
-       [](EnvConfig* c) {
-         c->initial.altitude_ft = {19000, 70000};
-       }},
-      {"env.initial.true_airspeed_min_fps = ",
-       [](EnvConfig* c) {
-         c->initial.true_airspeed_fps = {0, 1000};
-       }},
-      {"env.heading.altitude_change_ft = ",
-       [](EnvConfig* c) { c->heading.altitude_change_ft = -1; }},
-      {"env.heading.yaw_change_rad = ", [](EnvConfig* c) { c->heading.yaw_change_rad = -1; }},
-      {"env.heading.speed_change_fps = ", [](EnvConfig* c) { c->heading.speed_change_fps = -1; }},
-      {"env.heading.altitude_tolerance_ft = ",
-       [](EnvConfig* c) { c->heading.altitude_tolerance_ft = 0; }},
-      {"env.heading.yaw_tolerance_deg = ", [](EnvConfig* c) { c->heading.yaw_tolerance_deg = 0; }},
-      {"env.heading.speed_tolerance_fps = ",
-       [](EnvConfig* c) { c->heading.speed_tolerance_fps = 0; }},
-      {"env.heading.earliest_success_step = ",
-       [](EnvConfig* c) { c->heading.earliest_success_step = -1; }},
-      // No episode would last long enough to succeed.
-      {"env.heading.earliest_success_step = ",
-       [](EnvConfig* c) { c->heading.earliest_success_step = c->time_limit_steps + 1; }},
-      {"env.heading.training_tolerance_min = ",
-       [](EnvConfig* c) { c->heading.training_tolerance_min = 0; }},
-      {"env.heading.training_tolerance_min = ",
-       [](EnvConfig* c) { c->heading.training_tolerance_min = 1.1; }},
-      {"env.control.pitch_change_rad = ", [](EnvConfig* c) { c->control.pitch_change_rad = -1; }},
-      {"env.control.yaw_change_rad = ", [](EnvConfig* c) { c->control.yaw_change_rad = -1; }},
-      {"env.control.speed_change_fps = ", [](EnvConfig* c) { c->control.speed_change_fps = -1; }},
-      {"env.control.pitch_tolerance_deg = ",
-       [](EnvConfig* c) { c->control.pitch_tolerance_deg = 0; }},
-      {"env.control.yaw_tolerance_deg = ", [](EnvConfig* c) { c->control.yaw_tolerance_deg = 0; }},
-      {"env.control.speed_tolerance_fps = ",
-       [](EnvConfig* c) { c->control.speed_tolerance_fps = 0; }},
-      {"env.heading.speed_error_weight = ",
-       [](EnvConfig* c) { c->heading.speed_error_weight = -1; }},
-      {"env.control.training_tolerance_min = ",
-       [](EnvConfig* c) { c->control.training_tolerance_min = 0; }},
-      {"env.control.training_tolerance_min = ",
-       [](EnvConfig* c) { c->control.training_tolerance_min = 1.1; }},
-      {"env.control.speed_error_weight = ",
-       [](EnvConfig* c) { c->control.speed_error_weight = -1; }},
-      {"env.tracking.distance_min_ft = ",
-       [](EnvConfig* c) {
-         c->tracking.distance_ft = {30000, 10000};
-       }},
-      {"env.tracking.distance_max_ft = ",
-       [](EnvConfig* c) {
-         c->tracking.distance_ft = {10000, 1e7};
-       }},
-      {"env.tracking.azimuth_deg = ", [](EnvConfig* c) { c->tracking.azimuth_deg = -1; }},
-      {"env.tracking.elevation_deg = ", [](EnvConfig* c) { c->tracking.elevation_deg = -1; }},
-      {"env.tracking.training_tolerance_max = ",
-       [](EnvConfig* c) { c->tracking.training_tolerance_max = 0.9; }},
-      {"env.tracking.position_tolerance_ft = ",
-       [](EnvConfig* c) { c->tracking.position_tolerance_ft = 0; }},
-      {"env.high_level.pitch_change_rad = ",
-       [](EnvConfig* c) { c->high_level.pitch_change_rad = -1; }},
-      {"env.high_level.yaw_change_rad = ", [](EnvConfig* c) { c->high_level.yaw_change_rad = -1; }},
-      {"env.high_level.speed_change_fps = ",
-       [](EnvConfig* c) { c->high_level.speed_change_fps = -1; }},
-      {"env.termination.alpha_min_deg = ",
-       [](EnvConfig* c) {
-         c->termination.alpha_deg = {45, -20};
-       }},
-      // The kernels compare angles by the sides of two directions: an arc of 180 degrees at most.
-      {"env.termination.alpha_max_deg = ",
-       [](EnvConfig* c) {
-         c->termination.alpha_deg = {-95, 95};
-       }},
-      {"env.termination.beta_min_deg = ",
-       [](EnvConfig* c) {
-         c->termination.beta_deg = {-100, 30};
-       }},
-      {"env.termination.min_mach = ", [](EnvConfig* c) { c->termination.min_mach = 3; }},
-      {"env.termination.max_mach = ", [](EnvConfig* c) { c->termination.max_mach = -1; }},
-      {"env.termination.max_load_factor_g = ",
-       [](EnvConfig* c) { c->termination.max_load_factor = 0; }},
-      // Every episode would end with its first step.
-      {"env.initial.altitude_min_ft = ",
-       [](EnvConfig* c) { c->termination.min_altitude_ft = c->initial.altitude_ft.min; }},
-  };
-  for (const Fault& fault : faults) {
+  for (const Fault& fault : kFaults) {
     EnvConfig config;
     fault.make(&config);
     EXPECT_NE(Complaint(config).find(fault.key), std::string::npos)

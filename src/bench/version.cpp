@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/version.h"
+#include "src/bench/version.h"
 
 namespace skein {
 
