@@ -76,7 +76,7 @@ HWY_INLINE void Measure(const KernelAircraft& aircraft, const Tile& tile, int fi
   Length(AirAtAltitude(d, aircraft, altitude).sound_speed_squared, sound_speed, per_sound_speed);
   const V load_factor = Column(tile, kNz, first);
   const V mach = hn::Mul(velocity.speed, per_sound_speed);
-  const V alpha = AlphaDegrees(d, velocity.air);
+  const V alpha = AlphaDegrees(d, velocity.air.u, velocity.air.w);
   const V beta = Atan2Degrees(d, velocity.air.v, velocity.forward);
   values[kMeanLoadFactor] = load_factor;
   values[kMeanTrueAirspeed] = velocity.speed;

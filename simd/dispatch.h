@@ -15,18 +15,17 @@
 //   #include <hwy/highway.h>
 //
 //   #include "simd/math-inl.h"                            // vector mathematics, once per target
+//   #include "simd/vocabulary-inl.h"                      // FloatTag, V, kLanes, Constant, hn
 //
 //   HWY_BEFORE_NAMESPACE();
 //   namespace skein {
 //   namespace HWY_NAMESPACE {
 //   namespace {                                           // no clash with other kernels
-//   namespace hn = hwy::HWY_NAMESPACE;
 //
 //   void ScaleTile(float* x, int count, float factor) {   // the work of a whole tile
-//     const hn::ScalableTag<float> d;                     // 16, 8, 4 or 1 lanes
-//     const int lanes = static_cast<int>(hn::Lanes(d));
-//     for (int i = 0; i < count; i += lanes) {
-//       hn::StoreU(hn::Mul(hn::LoadU(d, x + i), hn::Set(d, factor)), d, x + i);
+//     const FloatTag d;
+//     for (int i = 0; i < count; i += kLanes) {           // 16, 8, 4 or 1
+//       hn::StoreU(hn::Mul(hn::LoadU(d, x + i), Constant(factor)), d, x + i);
 //     }
 //   }
 //

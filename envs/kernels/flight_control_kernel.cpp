@@ -37,7 +37,7 @@ HWY_INLINE V GainFactor(float pressure_psf, V qbar) {
   return hn::Mul(pressure, Reciprocal(FloatTag(), hn::Max(pressure, qbar)));
 }
 
-HWY_INLINE V Follow(const FlightControlConstants::Schedule& schedule, V x) {
+HWY_INLINE V Evaluate(const FlightControlConstants::Schedule& schedule, V x) {
   return hn::MulAdd(Constant(schedule.slope),
                     Clip(x, Constant(schedule.x_low), Constant(schedule.x_high)),
                     Constant(schedule.offset));
@@ -58,8 +58,8 @@ struct Group {
     Put(column, hn::NegMulAdd(Constant(filter.d1), y, hn::Mul(Constant(filter.n1), x)));
     return y;
   }
-  HWY_INLINE void MoveSurface(const FlightControlConstants::Servo& servo, int column,
-                              V command) const {
+  HWY_INLINE void StepActuator(const FlightControlConstants::Servo& servo, int column,
+                               V command) const {
     const V position = Get(column);
     const V low = Constant(servo.min_deg), high = Constant(servo.max_deg);
     const V largest = Constant(servo.largest_step_deg);
@@ -84,7 +84,7 @@ HWY_INLINE V PitchChannel(const FlightControlConstants& k, const Group& group,
                           const Sensors& sensors, const Sticks& sticks, V alpha) {
   const V zero = Constant(0), one = Constant(1);
   const V lateral_stick = hn::Max(hn::Abs(sticks.roll), hn::Abs(sticks.yaw));
-  const V g_min = Follow(k.min_load_factor_command, sensors.qbar);
+  const V g_min = Evaluate(k.min_load_factor_command, sensors.qbar);
   const V g_max = Constant(k.max_load_factor_command);
   const V asked =
       hn::Mul(hn::Abs(sticks.pitch), hn::IfThenElse(hn::Ge(sticks.pitch, zero), g_max, g_min));
@@ -99,7 +99,7 @@ HWY_INLINE V PitchChannel(const FlightControlConstants& k, const Group& group,
   const V nz = group.Filter(k.load_factor, kLoadFactorFilter, hn::Sub(sensors.nz, one));
 
   const V lead =
-      hn::Mul(hn::Mul(Constant(k.limiter_rate_lead_s), Follow(k.limiter_rate_fade, sensors.qbar)),
+      hn::Mul(hn::Mul(Constant(k.limiter_rate_lead_s), Evaluate(k.limiter_rate_fade, sensors.qbar)),
               q_washed);
   const V anticipated_alpha = hn::Add(alpha, lead);
   const V onset = hn::Max(zero, hn::Mul(Constant(k.alpha_onset_gain_g_per_deg),
@@ -128,8 +128,8 @@ HWY_INLINE V PitchChannel(const FlightControlConstants& k, const Group& group,
 /// Aileron command, deg. `p` is the filtered roll rate, deg/s.
 HWY_INLINE V RollChannel(const FlightControlConstants& k, const Group& group,
                          const Sensors& sensors, const Sticks& sticks, V alpha, V p) {
-  const V asked = hn::Mul(hn::Mul(Constant(k.max_roll_rate_deg_s), Follow(k.roll_rate_fade, alpha)),
-                          sticks.roll);
+  const V asked = hn::Mul(
+      hn::Mul(Constant(k.max_roll_rate_deg_s), Evaluate(k.roll_rate_fade, alpha)), sticks.roll);
   const V p_command = group.Filter(k.roll_command, kRollCommandFilter, asked);
   const V proportional = hn::Mul(
       hn::Mul(Constant(k.roll_rate_gain_s), GainFactor(k.roll_gain_pressure_psf, sensors.qbar)),
@@ -138,7 +138,7 @@ HWY_INLINE V RollChannel(const FlightControlConstants& k, const Group& group,
   const V raw = hn::Add(hn::Add(proportional, integrator), group.Get(kTrimAileron));
   const V aileron = Clip(raw, Constant(k.aileron.min_deg), Constant(k.aileron.max_deg));
 
-  const V fade = Follow(k.roll_integrator_fade, alpha);
+  const V fade = Evaluate(k.roll_integrator_fade, alpha);
   const auto hands_off = hn::Lt(hn::Abs(sticks.roll), Constant(k.roll_integrator_gate));
   const V driven = hn::IfThenElseZero(
       hands_off, hn::Mul(hn::Mul(Constant(k.roll_integral_per_s), fade), proportional));
@@ -165,7 +165,7 @@ HWY_INLINE V YawChannel(const FlightControlConstants& k, const Group& group, con
   const V ny = group.Filter(k.lateral_acceleration, kLateralAccelerationFilter, sensors.ny);
 
   const V scheduled =
-      hn::NegMulAdd(pedal, Follow(k.pedal_fade, alpha),
+      hn::NegMulAdd(pedal, Evaluate(k.pedal_fade, alpha),
                     hn::MulAdd(Constant(k.yaw_rate_gain_s), damper,
                                hn::Mul(Constant(k.lateral_acceleration_gain_deg_per_g), ny)));
   const V interconnect = Clip(hn::Mul(Constant(k.aileron_rudder_interconnect_per_deg), alpha),
@@ -177,14 +177,14 @@ HWY_INLINE V YawChannel(const FlightControlConstants& k, const Group& group, con
 }
 
 /// Leading-edge flap command, deg, from `alpha_deg` through the flap's lead filter or as it is.
-HWY_INLINE V FlapSchedule(const FlightControlConstants& k, const Sensors& sensors, V alpha_deg) {
+HWY_INLINE V LeadingEdgeFlap(const FlightControlConstants& k, const Sensors& sensors, V alpha_deg) {
   const V pressure_ratio = hn::Mul(sensors.qbar, Reciprocal(FloatTag(), sensors.static_pressure));
   return hn::MulAdd(
       Constant(k.flap_alpha_gain), alpha_deg,
       hn::NegMulAdd(Constant(k.flap_pressure_gain_deg), pressure_ratio, Constant(k.flap_bias_deg)));
 }
 
-HWY_INLINE V PowerCommandOf(const FlightControlConstants& k, V throttle) {
+HWY_INLINE V PowerCommand(const FlightControlConstants& k, V throttle) {
   const V dry = hn::Mul(Constant(k.dry_gain), throttle);
   const V wet = hn::MulAdd(Constant(k.afterburner_gain), throttle, Constant(k.afterburner_offset));
   return hn::IfThenElse(hn::Le(throttle, Constant(k.military_throttle)), dry, wet);
@@ -195,7 +195,7 @@ HWY_INLINE Sensors Sense(const KernelAircraft& aircraft, const Group& group) {
   Sensors sensors;
   const BodyVelocity<V> velocity = AirVelocity(d, group.tile, group.first);
   const V degrees = Constant(static_cast<float>(kDegPerRad));
-  sensors.alpha_deg = AlphaDegrees(d, velocity);
+  sensors.alpha_deg = AlphaDegrees(d, velocity.u, velocity.w);
   sensors.p_deg_s = hn::Mul(group.Get(kP), degrees);
   sensors.q_deg_s = hn::Mul(group.Get(kQ), degrees);
   sensors.r_deg_s = hn::Mul(group.Get(kR), degrees);
@@ -225,7 +225,7 @@ void ControlTileIn(const KernelAircraft& aircraft, const FlightControlConstants&
     const Sticks sticks{Stick(pilot.pitch, first), Stick(pilot.roll, first),
                         Stick(pilot.yaw, first)};
     const V throttle = Clip(hn::LoadU(d, pilot.throttle + first), Constant(0), Constant(1));
-    group.Put(kPowerCommand, PowerCommandOf(k, throttle));
+    group.Put(kPowerCommand, PowerCommand(k, throttle));
 
     V elevator, aileron, rudder, flap;
     if constexpr (kMode == FlightControlMode::kFull) {
@@ -236,17 +236,17 @@ void ControlTileIn(const KernelAircraft& aircraft, const FlightControlConstants&
       elevator = PitchChannel(k, group, sensors, sticks, alpha);
       aileron = RollChannel(k, group, sensors, sticks, alpha, p);
       rudder = YawChannel(k, group, sensors, sticks, alpha, p, aileron);
-      flap = FlapSchedule(k, sensors, group.Filter(k.flap, kFlapFilter, sensors.alpha_deg));
+      flap = LeadingEdgeFlap(k, sensors, group.Filter(k.flap, kFlapFilter, sensors.alpha_deg));
     } else {
       elevator = hn::Mul(sticks.pitch, Constant(-k.elevator.max_deg));
       aileron = hn::Mul(sticks.roll, Constant(-k.aileron.max_deg));
       rudder = hn::Mul(sticks.yaw, Constant(-k.rudder.max_deg));
-      flap = FlapSchedule(k, sensors, sensors.alpha_deg);
+      flap = LeadingEdgeFlap(k, sensors, sensors.alpha_deg);
     }
-    group.MoveSurface(k.elevator, kElevator, elevator);
-    group.MoveSurface(k.aileron, kAileron, aileron);
-    group.MoveSurface(k.rudder, kRudder, rudder);
-    group.MoveSurface(k.leading_edge_flap, kLeadingEdgeFlap, flap);
+    group.StepActuator(k.elevator, kElevator, elevator);
+    group.StepActuator(k.aileron, kAileron, aileron);
+    group.StepActuator(k.rudder, kRudder, rudder);
+    group.StepActuator(k.leading_edge_flap, kLeadingEdgeFlap, flap);
   }
 }
 

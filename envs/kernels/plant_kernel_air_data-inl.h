@@ -38,21 +38,22 @@ HWY_INLINE void MeasureFlowAngles(const KernelAircraft& aircraft, const State& s
                                   KernelBlock* block) {
   const FloatTag d;
   const IntTag di;
-  BodyVelocity<V> air[kVectors];
-  V tan_beta[kVectors];
+  V u[kVectors], w[kVectors], tan_beta[kVectors];
   for (int n = 0; n < kVectors; ++n) {
     const int lane = n * kLanes;
-    air[n] = state.AirVelocity(lane);
-    const AirspeedSquares<V> squares = SquaresOf(air[n]);
+    const BodyVelocity<V> air = state.AirVelocity(lane);
+    u[n] = air.u;
+    w[n] = air.w;
+    const AirspeedSquares<V> squares = SquaresOf(air);
     const V speed_squared = hn::Max(squares.whole, Constant(kMinSpeedSquared));
     hn::Store(speed_squared, d, block->speed_squared + lane);
     hn::Store(ReciprocalSqrt(d, speed_squared), d, block->inverse_speed + lane);
     const V in_plane = hn::Max(squares.in_plane, Constant(kMinPlaneSpeedSquared));
-    tan_beta[n] = hn::Mul(air[n].v, ReciprocalSqrt(d, in_plane));
+    tan_beta[n] = hn::Mul(air.v, ReciprocalSqrt(d, in_plane));
   }
   V alpha_deg[kVectors], beta_deg[kVectors];
   for (int n = 0; n < kVectors; ++n) {
-    alpha_deg[n] = AlphaDegrees(d, air[n]);
+    alpha_deg[n] = AlphaDegrees(d, u[n], w[n]);
     beta_deg[n] =
         AtanDegrees(d, ClampTo(d, tan_beta[n], aircraft.tan_beta_low, aircraft.tan_beta_high));
   }

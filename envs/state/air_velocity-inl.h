@@ -88,10 +88,10 @@ HWY_INLINE AirspeedSquares<V> SquaresOf(const BodyVelocity<V>& air) {
   return {in_plane, hn::MulAdd(air.v, air.v, in_plane)};
 }
 
-/// Angle of attack, deg, in (-180, 180].
+/// Angle of attack, deg, in (-180, 180], of a velocity relative to the air.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlphaDegrees(D d, const BodyVelocity<V>& air) {
-  return Atan2Degrees(d, air.w, air.u);
+HWY_INLINE V AlphaDegrees(D d, V u, V w) {
+  return Atan2Degrees(d, w, u);
 }
 
 /// Brings a windy tile's columns of the velocity relative to the air up to date with its state and

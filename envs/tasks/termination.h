@@ -22,7 +22,7 @@ enum class Termination : std::uint8_t {
 
 inline constexpr int kNumTerminations = 9;
 inline constexpr std::array<const char*, kNumTerminations> kTerminationNames = {
-    "None",      "non_finite", "extreme_state",  "high_speed", "low_altitude",
+    "none",      "non_finite", "extreme_state",  "high_speed", "low_altitude",
     "low_speed", "overload",   "target_reached", "time_limit"};
 
 }  // namespace skein
