@@ -13,6 +13,7 @@
 #include "envs/tasks/heading.h"
 #include "gtest/gtest.h"
 #include "tests/envs/autopilot/flock.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -199,6 +200,8 @@ TEST_P(StepResponse, OfPitch) {
 
 /// A turn alone changes neither height nor speed beyond what counts as reached.
 TEST_P(StepResponse, OfHeadingLeavesAltitudeAndSpeed) {
+  constexpr Tolerance kAltitudeFt{400, "transient of a hard turn"};
+  constexpr Tolerance kSpeedFtS{120, "transient of a hard turn"};
   EnvConfig config = Quiet("heading");
   config.heading.yaw_change_rad = 1;
   Flock flock(config, GainsOf(GetParam()), kCount, 5);
@@ -206,8 +209,8 @@ TEST_P(StepResponse, OfHeadingLeavesAltitudeAndSpeed) {
     flock.Step();
     for (int i = 0; i < kCount; ++i) {
       const VecEnv& env = flock.env();
-      ASSERT_NEAR(Altitude(env, i), TargetOf(env, i, kTargetAltitude), 400) << step;
-      ASSERT_NEAR(Speed(env, i), TargetOf(env, i, kTargetSpeed), 120) << step;
+      ASSERT_NEAR(Altitude(env, i), TargetOf(env, i, kTargetAltitude), kAltitudeFt) << step;
+      ASSERT_NEAR(Speed(env, i), TargetOf(env, i, kTargetSpeed), kSpeedFtS) << step;
     }
   }
 }
