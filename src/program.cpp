@@ -108,6 +108,8 @@ void AddCommands(CLI::App* app) {
   AddListCommand(app);
   AddInfoCommand(app);
   AddHelpCommand(app);
+  AddCompletionCommand(app);
+  AddManualCommand(app);
   // After the commands, which would inherit it.
   app->footer(
       "Examples:\n"

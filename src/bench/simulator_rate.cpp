@@ -47,7 +47,7 @@ EnvConfig SpreadFlights() {
   return config;
 }
 
-/// Aircraft in trimmed flight with their pilots' commands, tile behind tile in memory.
+/// Aircraft in trimmed flight with stick commands, tile behind tile in memory.
 class TrimmedFlock {
  public:
   /// Made by the workers, so that pages are first touched where they are used.
@@ -65,9 +65,9 @@ class TrimmedFlock {
   void Step(PlantPart part, int index) {
     const Tile tile = At(index);
     if (part == PlantPart::kFlightControlAndRk4) {
-      const PilotColumns pilot{tile[kNumColumns], tile[kNumColumns + 1], tile[kNumColumns + 2],
-                               tile[kNumColumns + 3]};
-      ControlTile(*kernel_, tile, pilot, FlightControlMode::kFull, static_cast<float>(kDt));
+      const PilotColumns commands{tile[kNumColumns], tile[kNumColumns + 1], tile[kNumColumns + 2],
+                                  tile[kNumColumns + 3]};
+      ControlTile(*kernel_, tile, commands, FlightControlMode::kFull, static_cast<float>(kDt));
     }
     MemoryAhead ahead;
     if (index + 1 < num_tiles()) {
@@ -78,8 +78,9 @@ class TrimmedFlock {
   }
 
  private:
-  static constexpr int kNumPilot = 4;
-  static constexpr std::size_t kFloatsPerTile = (kNumColumns + kNumPilot) * TileStride(kTileSize);
+  static constexpr int kNumCommands = 4;
+  static constexpr std::size_t kFloatsPerTile =
+      (kNumColumns + kNumCommands) * TileStride(kTileSize);
 
   Tile At(int index) {
     return {columns_.data() + static_cast<std::size_t>(index) * kFloatsPerTile,
@@ -96,7 +97,7 @@ class TrimmedFlock {
         tile[column][i] = flight.columns[static_cast<std::size_t>(column)];
       }
       // The sticks stay centred.
-      for (int k = 0; k < kNumPilot; ++k) tile[kNumColumns + k][i] = 0;
+      for (int k = 0; k < kNumCommands; ++k) tile[kNumColumns + k][i] = 0;
       tile[kNumColumns][i] = static_cast<float>(ThrottleForPower(gearing, flight.columns[kPower]));
     }
   }
@@ -134,12 +135,12 @@ SimulatorRate MeasureEnvironment(const EnvConfig& config, int aircraft, int step
   }
   const auto size = static_cast<std::size_t>(largest);
   // The same for every worker: what flies where does not change with who flies it.
-  std::vector<float> sticks(size * actions);
+  std::vector<float> actions_drawn(size * actions);
   simd::RandomStream random({0, 0, 0, 0, simd::RandomPurpose::kActionNoise});
-  for (float& stick : sticks) stick = static_cast<float>(random.Uniform(-1, 1));
+  for (float& action : actions_drawn) action = static_cast<float>(random.Uniform(-1, 1));
   for (Buffers& buffers : workers) {
     buffers = {std::vector<float>(size * observations),
-               sticks,
+               actions_drawn,
                std::vector<float>(size),
                std::vector<float>(size),
                std::vector<float>(size * observations),

@@ -18,7 +18,7 @@ struct SimulatorRate {
 enum class PlantPart { kRk4, kFlightControlAndRk4 };
 SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& pool);
 
-/// The whole environment of `config`: observe, one control step with sticks that were drawn once,
+/// The whole environment of `config`: observe, one control step with actions that were drawn once,
 /// reward, terminate, reset.
 SimulatorRate MeasureEnvironment(const EnvConfig& config, int aircraft, int steps,
                                  WorkerPool& pool);

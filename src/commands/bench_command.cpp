@@ -304,7 +304,9 @@ CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& 
 }
 
 void AddConfiguration(CLI::App* command, const std::shared_ptr<BenchOptions>& options) {
-  command->add_option("--preset", options->preset, "preset of the task")->capture_default_str();
+  command->add_option("--preset", options->preset, "preset of the task")
+      ->type_name("PRESET")
+      ->capture_default_str();
   command->add_option("--set", options->assignments, "one configuration key; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -317,7 +319,9 @@ CLI::App* AddLearner(CLI::App* bench, const std::string& name, const std::string
   command->add_option("--iterations", options->iterations, "iterations timed; the median counts")
       ->transform(WholeNumber(1, 1000))
       ->capture_default_str();
-  command->add_option("--task", options->task, "what is flown")->capture_default_str();
+  command->add_option("--task", options->task, "what is flown")
+      ->type_name("TASK")
+      ->capture_default_str();
   command
       ->add_option("--low-level", options->low_level,
                    "for task tracking: the low-level policy, as of skein train")

@@ -15,5 +15,7 @@ void AddBenchCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);
 void AddListCommand(CLI::App* app);
 void AddHelpCommand(CLI::App* app);
+void AddCompletionCommand(CLI::App* app);
+void AddManualCommand(CLI::App* app);
 
 }  // namespace skein

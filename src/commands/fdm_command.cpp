@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,13 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
 #include "envs/reference/trim.h"
 #include "envs/state/attitude.h"
 #include "src/commands/commands.h"
 #include "src/fdm/fdm_evaluation.h"
 #include "src/fdm/fdm_file.h"
+#include "src/fdm/trim_limits.h"
 #include "src/files/output_file.h"
 
 namespace skein {
@@ -31,9 +32,6 @@ std::map<std::string, AtmosphereModel> Atmospheres() {
   for (const auto& [model, name] : kAtmosphereNames) atmospheres[name] = model;
   return atmospheres;
 }
-
-// Thrust is linear in power between table entries: what the inverse leaves is rounding.
-constexpr double kThrustToleranceLbf = 1e-3;
 
 struct FileOptions {
   std::string in, out;
@@ -144,27 +142,22 @@ void Simulate(const FileOptions& options) {
              options.out);
 }
 
-void FindTrim(TrimOptions options) {
-  Aircraft aircraft = LoadAircraft(options.aircraft);
-  aircraft.airframe.cg = options.parameters.cg;
-  aircraft.airframe.engine_angular_momentum = options.parameters.engine_angular_momentum;
-  options.request.flight_path_angle_rad = options.flight_path_deg / kDegPerRad;
-  options.request.turn_rate_rad_s = options.turn_rate_deg_s / kDegPerRad;
-  const Plant plant(std::move(aircraft), Atmospheres().at(options.atmosphere));
-  const TrimPoint trim = Trim(plant, options.request);
-  const PlantOutput output = plant.Evaluate(trim.state, trim.controls);
+/// Trims, and adds to a failure what limit may be its cause.
+TrimPoint TrimOrExplain(const Plant& plant, const TrimRequest& request) {
+  try {
+    return Trim(plant, request);
+  } catch (const Error& error) {
+    const std::vector<std::string> limits = LimitsOnTheWay(plant, request);
+    if (limits.empty()) throw;
+    throw Error(fmt::format("{}: this flight {}", error.what(), fmt::join(limits, ", and ")));
+  }
+}
 
-  // The trim's power is the nearest that the engine has; its thrust tells whether that is enough.
-  const double available_lbf =
-      Thrust(plant.aircraft().engine, trim.power, options.request.altitude_ft, output.air.mach);
-  const bool within_engine =
-      std::abs(available_lbf - trim.controls.thrust_lbf) <= kThrustToleranceLbf;
-
-  const double bank_deg = trim.bank_rad * kDegPerRad, alpha_deg = trim.alpha_rad * kDegPerRad;
-  const double beta_deg = output.air.beta_rad * kDegPerRad;
-  fmt::print(
+std::string DescribeTrim(const TrimOptions& options, const TrimPoint& trim,
+                         const PlantOutput& output, const std::vector<std::string>& limits) {
+  std::string text = fmt::format(
       "steady flight of {} at {} ft and {} ft/s, flight path {} deg, turn {} deg/s, cg {}\n"
-      "  thrust           {:14.6f} lbf   ({})\n"
+      "  thrust           {:14.6f} lbf   (engine power {:.4f} %)\n"
       "  alpha            {:14.6f} deg\n"
       "  beta             {:14.6f} deg\n"
       "  bank             {:14.6f} deg\n"
@@ -179,36 +172,53 @@ void FindTrim(TrimOptions options) {
       "  residual         {:14.3e} ft/s2 or rad/s2\n",
       options.aircraft, options.request.altitude_ft, options.request.true_airspeed_ft_s,
       options.flight_path_deg, options.turn_rate_deg_s, options.parameters.cg,
-      trim.controls.thrust_lbf,
-      within_engine ? fmt::format("engine power {:.4f} %", trim.power)
-                    : fmt::format("beyond the engine, which gives {:.1f} lbf here", available_lbf),
-      alpha_deg, beta_deg, bank_deg, trim.pitch_rad * kDegPerRad, trim.controls.elevator_deg,
-      trim.controls.aileron_deg, trim.controls.rudder_deg, trim.controls.leading_edge_flap_deg,
-      output.nz, output.air.mach, output.air.dynamic_pressure_psf, trim.residual);
-  if (options.json.empty()) return;
-  Json json = {
-      {"aircraft", options.aircraft},
-      {"altitude_ft", options.request.altitude_ft},
-      {"speed_fps", options.request.true_airspeed_ft_s},
-      {"flight_path_deg", options.flight_path_deg},
-      {"turn_rate_deg_s", options.turn_rate_deg_s},
-      {"params",
-       {{"xcg", options.parameters.cg}, {"heng", options.parameters.engine_angular_momentum}}},
-      {"state", std::vector<double>(trim.state.data(), trim.state.data() + trim.state.size())},
-      {"controls",
-       {trim.controls.thrust_lbf, trim.controls.elevator_deg, trim.controls.aileron_deg,
-        trim.controls.rudder_deg, trim.controls.leading_edge_flap_deg}},
-      {"power", trim.power},
-      {"within_engine", within_engine},
-      {"alpha_deg", alpha_deg},
-      {"beta_deg", beta_deg},
-      {"bank_deg", bank_deg},
-      {"pitch_deg", trim.pitch_rad * kDegPerRad},
-      {"load_factor_g", output.nz},
-      {"mach", output.air.mach},
-      {"qbar_psf", output.air.dynamic_pressure_psf},
-      {"residual", trim.residual}};
-  WriteJson(options.json, json);
+      trim.controls.thrust_lbf, trim.power, trim.alpha_rad * kDegPerRad,
+      output.air.beta_rad * kDegPerRad, trim.bank_rad * kDegPerRad, trim.pitch_rad * kDegPerRad,
+      trim.controls.elevator_deg, trim.controls.aileron_deg, trim.controls.rudder_deg,
+      trim.controls.leading_edge_flap_deg, output.nz, output.air.mach,
+      output.air.dynamic_pressure_psf, trim.residual);
+  for (const std::string& limit : limits) text += "  this flight " + limit + "\n";
+  return text;
+}
+
+Json TrimJson(const TrimOptions& options, const TrimPoint& trim, const PlantOutput& output,
+              const std::vector<std::string>& limits) {
+  return {{"aircraft", options.aircraft},
+          {"altitude_ft", options.request.altitude_ft},
+          {"speed_fps", options.request.true_airspeed_ft_s},
+          {"flight_path_deg", options.flight_path_deg},
+          {"turn_rate_deg_s", options.turn_rate_deg_s},
+          {"params",
+           {{"xcg", options.parameters.cg}, {"heng", options.parameters.engine_angular_momentum}}},
+          {"state", std::vector<double>(trim.state.data(), trim.state.data() + trim.state.size())},
+          {"controls",
+           {trim.controls.thrust_lbf, trim.controls.elevator_deg, trim.controls.aileron_deg,
+            trim.controls.rudder_deg, trim.controls.leading_edge_flap_deg}},
+          {"power", trim.power},
+          {"within_model", limits.empty()},
+          {"exceeded_limits", limits},
+          {"alpha_deg", trim.alpha_rad * kDegPerRad},
+          {"beta_deg", output.air.beta_rad * kDegPerRad},
+          {"bank_deg", trim.bank_rad * kDegPerRad},
+          {"pitch_deg", trim.pitch_rad * kDegPerRad},
+          {"load_factor_g", output.nz},
+          {"mach", output.air.mach},
+          {"qbar_psf", output.air.dynamic_pressure_psf},
+          {"residual", trim.residual}};
+}
+
+void FindTrim(TrimOptions options) {
+  Aircraft aircraft = LoadAircraft(options.aircraft);
+  aircraft.airframe.cg = options.parameters.cg;
+  aircraft.airframe.engine_angular_momentum = options.parameters.engine_angular_momentum;
+  options.request.flight_path_angle_rad = options.flight_path_deg / kDegPerRad;
+  options.request.turn_rate_rad_s = options.turn_rate_deg_s / kDegPerRad;
+  const Plant plant(std::move(aircraft), Atmospheres().at(options.atmosphere));
+  const TrimPoint trim = TrimOrExplain(plant, options.request);
+  const PlantOutput output = plant.Evaluate(trim.state, trim.controls);
+  const std::vector<std::string> limits = ExceededLimits(plant, options.request, trim);
+  fmt::print("{}", DescribeTrim(options, trim, output, limits));
+  if (!options.json.empty()) WriteJson(options.json, TrimJson(options, trim, output, limits));
 }
 
 void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere) {

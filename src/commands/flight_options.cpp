@@ -13,9 +13,9 @@
 namespace skein {
 
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {
-  command->add_option("--task", options->task, texts.task);
+  command->add_option("--task", options->task, texts.task)->type_name("TASK");
   options->preset_option =
-      command->add_option("--preset", options->preset, texts.preset)->type_name("NAME");
+      command->add_option("--preset", options->preset, texts.preset)->type_name("PRESET");
   command->add_option("--config", options->config, "TOML file on top of them")->type_name("FILE");
   command->add_option("--condition", options->conditions, ConditionHelp())
       ->type_name("NAME=LEVEL")
@@ -44,6 +44,10 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
       ->transform(WholeNumber(1, 1000))
       ->needs(flights)
       ->capture_default_str();
+  command
+      ->add_flag("--flights-observations", options->flights_observations,
+                 "write what the policy observed, too (22 columns)")
+      ->needs(flights);
 }
 
 void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
@@ -71,7 +75,9 @@ void WriteFlights(const FlightOptions& options, const std::string& path, const s
   evaluation.seed = options.seed;
   const std::vector<RecordedFlight> flights =
       RecordFlights(agent, env, evaluation, options.flights_count, pool);
-  WriteFile(path, FlightsCsv(env, flights));
+  WriteFile(path, FlightsCsv(env, flights,
+                             options.flights_observations ? FlightColumns::kStatesAndObservations
+                                                          : FlightColumns::kStates));
   fmt::print("{}: {} flights {}\n", path, flights.size(), manner);
 }
 

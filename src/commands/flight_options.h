@@ -24,6 +24,7 @@ struct FlightOptions {
   std::string json;
   std::string flights;
   int flights_count = 8;
+  bool flights_observations = false;
 };
 
 /// What of their help the commands say differently.

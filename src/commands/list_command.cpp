@@ -71,9 +71,8 @@ Rows Conditions() {
 Rows AircraftRows() {
   Rows rows = {{"aircraft", "mass, lb", "span, ft"}};
   for (const std::string& name : AircraftNames()) {
-    constexpr double kGravity_ft_s2 = 32.174;
     const Airframe airframe = LoadAircraft(name).airframe;
-    rows.push_back({name, fmt::format("{:.1f}", airframe.mass_slug * kGravity_ft_s2),
+    rows.push_back({name, fmt::format("{:.1f}", airframe.mass_slug * kGravityFtS2),
                     fmt::format("{:.1f}", airframe.span_ft)});
   }
   return rows;

@@ -172,6 +172,7 @@ void AddTrainCommand(CLI::App* app) {
                        "named configuration: default (tuned for a small machine), paper (the "
                        "NeuralPlane paper's settings at 50 Hz) or aerosonde (the default with "
                        "another aircraft)")
+          ->type_name("PRESET")
           ->capture_default_str();
   CLI::Option* file = command
                           ->add_option("--config", options->config,

@@ -25,7 +25,8 @@ Estimate EstimateShare(int successes, int trials);
 struct PairedShares {
   /// Second minus first, by the interval of Agresti and Min (Statistics in Medicine 24, 2005).
   Estimate difference;
-  /// Of a difference as large by chance alone: McNemar's test, exact (two-sided binomial).
+  /// Of a difference as large if the two are equally good: McNemar's test, exact (two-sided
+  /// binomial).
   double p_value = 1;
 };
 

@@ -16,6 +16,7 @@
 #include "envs/reference/plant.h"
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
+#include "envs/tasks/observation.h"
 
 namespace skein {
 namespace {
@@ -23,9 +24,21 @@ namespace {
 using State = std::array<float, kNumRecordedColumns>;
 using Quantity = std::pair<const char*, double>;
 
-constexpr std::array<const char*, kActionSize> kStickNames = {"throttle", "pitch", "roll", "yaw"};
-constexpr std::array<const char*, kHighLevelActionSize> kPlanNames = {"target_pitch", "target_yaw",
-                                                                      "target_speed"};
+constexpr std::array<const char*, kActionSize> kStickCommandNames = {"throttle", "pitch", "roll",
+                                                                     "yaw"};
+constexpr std::array<const char*, kHighLevelActionSize> kHighLevelActionNames = {
+    "target_pitch", "target_yaw", "target_speed"};
+
+/// Of envs/tasks/observation.h; "scaled": in the aircraft's ReferenceUnits.
+constexpr std::array<const char*, kObservationSize> kObservationNames = {
+    "error_0_scaled",   "error_1_scaled",  "error_2_scaled",
+    "altitude_scaled",  "sin_roll",        "cos_roll",
+    "sin_pitch",        "cos_pitch",       "equivalent_airspeed_scaled",
+    "sin_alpha",        "cos_alpha",       "sin_beta",
+    "cos_beta",         "p_rad_s",         "q_rad_s",
+    "r_rad_s",          "power_fraction",  "elevator_fraction",
+    "aileron_fraction", "rudder_fraction", "leading_edge_flap_fraction",
+    "airspeed_ratio"};
 
 /// What a state is called and worth in the units of people, in the order of the file's columns.
 std::vector<Quantity> Readings(AtmosphereModel atmosphere, const State& state) {
@@ -73,9 +86,10 @@ double ValueOf(const std::vector<Quantity>& readings, const std::string& name) {
 /// Writes the rows of one configuration's flights.
 class FlightTable {
  public:
-  FlightTable(const EnvConfig& env, bool is_hierarchical)
+  FlightTable(const EnvConfig& env, bool is_hierarchical, FlightColumns columns)
       : env_(env),
         is_hierarchical_(is_hierarchical),
+        with_observations_(columns == FlightColumns::kStatesAndObservations),
         targets_(MakeTask(env)->target_quantities()) {}
 
   std::string Header() const {
@@ -83,14 +97,18 @@ class FlightTable {
     for (const auto& [name, value] : Readings(env_.atmosphere, {})) {
       header += fmt::format(",{}", name);
     }
-    for (const char* name : kStickNames) header += fmt::format(",action_{}", name);
+    for (const char* name : kStickCommandNames) header += fmt::format(",action_{}", name);
     if (is_hierarchical_) {
-      for (const char* name : kPlanNames) header += fmt::format(",action_{}", name);
+      for (const char* name : kHighLevelActionNames) header += fmt::format(",action_{}", name);
     }
     for (const TargetQuantity& target : targets_)
       header += fmt::format(",target_{}", target.column);
     for (const TargetQuantity& target : targets_) header += fmt::format(",error_{}", target.column);
-    return header + ",reward,termination\n";
+    header += ",reward,termination";
+    if (with_observations_) {
+      for (const char* name : kObservationNames) header += fmt::format(",observation_{}", name);
+    }
+    return header + "\n";
   }
 
   /// `step` is null for the row at time 0.
@@ -104,7 +122,8 @@ class FlightTable {
         Readings(env_.atmosphere, step == nullptr ? flight.initial_state : step->state);
     for (const auto& [name, value] : readings) cell(value);
     if (step == nullptr) {
-      text->append(kStickNames.size() + (is_hierarchical_ ? kPlanNames.size() : 0), ',');
+      text->append(
+          kStickCommandNames.size() + (is_hierarchical_ ? kHighLevelActionNames.size() : 0), ',');
     } else {
       for (const float command : step->stick) cell(command);
       if (is_hierarchical_) {
@@ -117,22 +136,33 @@ class FlightTable {
       cell(targets_[k].is_angle ? std::remainder(error, 360.0) : error);
     }
     if (step == nullptr) {
-      text->append(",,\n");
-      return;
+      text->append(2 + (with_observations_ ? kObservationNames.size() : 0), ',');
+    } else {
+      cell(step->reward);
+      const bool ends = step->termination != Termination::kNone;
+      fmt::format_to(out, ",{}",
+                     ends ? kTerminationNames[static_cast<std::size_t>(step->termination)] : "");
+      if (with_observations_) AppendObservation(flight, steps_flown - 1, text);
     }
-    cell(step->reward);
-    const bool ends = step->termination != Termination::kNone;
-    fmt::format_to(out, ",{}\n",
-                   ends ? kTerminationNames[static_cast<std::size_t>(step->termination)] : "");
+    text->append("\n");
   }
 
  private:
+  /// What the policy saw in the policy step of the flight's control step `step`.
+  void AppendObservation(const RecordedFlight& flight, std::size_t step, std::string* text) const {
+    const std::size_t begin =
+        step / static_cast<std::size_t>(env_.action_repeat) * kObservationNames.size();
+    for (std::size_t i = 0; i < kObservationNames.size(); ++i) {
+      fmt::format_to(std::back_inserter(*text), ",{:.7g}", flight.observations[begin + i]);
+    }
+  }
+
   double TargetOf(const RecordedFlight& flight, std::size_t k) const {
     return flight.target[k] * (targets_[k].is_angle ? kDegPerRad : 1);
   }
 
   const EnvConfig& env_;
-  bool is_hierarchical_;
+  bool is_hierarchical_, with_observations_;
   std::vector<TargetQuantity> targets_;
 };
 
@@ -144,8 +174,9 @@ bool IsHierarchical(const std::vector<RecordedFlight>& flights) {
 
 }  // namespace
 
-std::string FlightsCsv(const EnvConfig& env, const std::vector<RecordedFlight>& flights) {
-  const FlightTable table(env, IsHierarchical(flights));
+std::string FlightsCsv(const EnvConfig& env, const std::vector<RecordedFlight>& flights,
+                       FlightColumns columns) {
+  const FlightTable table(env, IsHierarchical(flights), columns);
   std::string text = table.Header();
   for (std::size_t episode = 0; episode < flights.size(); ++episode) {
     const RecordedFlight& flight = flights[episode];

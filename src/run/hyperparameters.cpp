@@ -73,7 +73,7 @@ std::string EncodeHyperparameters(const std::string& toml, const std::string& na
   session += Message(kGroupName, name) + Double(kStartTime, unix_time_s);
   const std::string text =
       Integer(kType, kTypeString) + Message(kShape, "") + Message(kStringValue, CodeBlock(toml));
-  // The plugin wants a tensor, and looks at its metadata alone.
+  // The plugin wants a tensor, and reads its metadata alone.
   const std::string zero = Integer(kType, kTypeFloat) +
                            Message(kShape, Message(kDimension, Integer(kSize, 1))) +
                            Message(kFloatValue, LittleEndian(0.0f));

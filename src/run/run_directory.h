@@ -20,7 +20,7 @@ struct Checkpoint {
 /// Throws Error if it cannot be read.
 std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 
-/// Where runs are that nobody names a directory for.
+/// Where runs are unless a directory is named.
 inline constexpr const char* kRunsRoot = "runs";
 
 /// The directory of one training run, held exclusively while the object lives:

@@ -23,7 +23,8 @@ void RunLog::Show(const Progress& progress) {
 void RunLog::NoteBrokenOutput() {
   const std::string reason = display_.TakeFailure();
   if (!reason.empty()) {
-    Note("warning: the standard output broke: " + reason + "; the run goes on, told only here");
+    Note("warning: the standard output broke: " + reason +
+         "; the run continues, recorded only here");
   }
 }
 

@@ -15,6 +15,7 @@
 #include "src/config/configuration.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
+#include "src/files/shell_text.h"
 #include "src/run/hyperparameters.h"
 #include "src/run/progress.h"
 #include "train/files/tensor_file.h"
@@ -36,18 +37,6 @@ double UnixTime() {
 std::string CommandName() {
   const std::string name = program_invocation_name;
   return name.find('/') == std::string::npos ? "skein" : name;
-}
-
-/// An argument as a shell takes it.
-std::string Quoted(const std::string& argument) {
-  const bool is_plain =
-      argument.find_first_not_of(
-          "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+=:,@") ==
-      std::string::npos;
-  if (is_plain) return argument;
-  std::string quoted = "'";
-  for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 /// By all aircraft together.
@@ -240,7 +229,7 @@ void TrainingRun::SayStopped(const std::string& dropped) {
                        strsignal(signals_.StopSignal()),
                        FormatCount(static_cast<double>(trainer_.env_steps())),
                        FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
-                       Quoted(CommandName()), Quoted(directory_.path())));
+                       ShellWord(CommandName()), ShellWord(directory_.path())));
 }
 
 IterationReport TrainingRun::Iterate() {
@@ -328,7 +317,7 @@ void TrainingRun::Finish() {
       "checkpoints     {}\n"
       "again           {} eval --policy {} --task {} --deterministic --episodes {} --seed {}",
       path, directory_.evaluation(), directory_.metrics(), directory_.path(), directory_.config(),
-      directory_.checkpoints(), Quoted(CommandName()), Quoted(directory_.path()),
+      directory_.checkpoints(), ShellWord(CommandName()), ShellWord(directory_.path()),
       config_.train.env.task, episodes, seed));
   log_.Sync();
 }

@@ -97,7 +97,7 @@ class TableReader {
     if (node != nullptr) throw Error(At(*node, old) + " is now called " + name);
   }
 
-  /// Throws Error on the first key that nobody asked for.
+  /// Throws Error on the first key that was not read.
   void RefuseOthers() const {
     for (const auto& [name, node] : table_) {
       const std::string key(name.str());
@@ -205,7 +205,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
 }
 
 /// Throws Error on an assignment that the study would not follow.
-void RefuseUnheard(const Study& study, const std::string& source) {
+void RefuseWithoutEffect(const Study& study, const std::string& source) {
   std::vector<std::string> assignments = study.assignments;
   const auto append = [&assignments](const StudySettings& settings) {
     assignments.insert(assignments.end(), settings.assignments.begin(), settings.assignments.end());
@@ -287,7 +287,7 @@ Study ReadStudy(const std::string& path) {
   std::vector<std::string> files;
   for (const StudyLevel& level : study.levels) files.push_back(FileNamePart(level.name));
   RefuseEmptyAndTwice(files, path, "level");
-  RefuseUnheard(study, path);
+  RefuseWithoutEffect(study, path);
   return study;
 }
 

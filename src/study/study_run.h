@@ -21,7 +21,7 @@ class StudyRun {
   StudyRun(const Study& study, const std::string& directory, WorkerPool& pool);
 
   /// Does what is left to do. Returns false if it was asked to stop (SIGINT, SIGTERM): the same
-  /// call goes on from there, bit for bit. Throws Error if a run in the directory was trained with
+  /// call resumes bit-exactly. Throws Error if a run in the directory was trained with
   /// another configuration.
   bool Run();
 

@@ -25,7 +25,7 @@ std::string OutputOf(const std::string& command) {
   return output;
 }
 
-/// Observations of a flight of kDecisions policy steps.
+/// Observations of a flight of kPolicySteps policy steps.
 std::vector<std::vector<float>> Observations(int size) {
   std::vector<std::vector<float>> observations(kPolicySteps);
   for (int t = 0; t < kPolicySteps; ++t) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
@@ -86,6 +87,29 @@ TEST_F(EvaluationPipeline, RecordsFlightsAndChangesNothingByIt) {
   const std::string mean = folder_ + "/mean.csv";
   Fly("mean", {"--flights", mean, "--flights-count", "3", "--deterministic"});
   EXPECT_NE(text, ReadFile(mean));
+}
+
+TEST_F(EvaluationPipeline, FlightsCanHaveWhatThePolicyObserved) {
+  const std::string plain = folder_ + "/plain.csv", observed = folder_ + "/observed.csv";
+  ASSERT_EQ(CallSkein(Evaluation(folder_ + "/a.json", {"--flights", plain})).exit_code, 0);
+  ASSERT_EQ(
+      CallSkein(Evaluation(folder_ + "/a.json", {"--flights", observed, "--flights-observations"}))
+          .exit_code,
+      0);
+  std::istringstream without(ReadFile(plain)), with(ReadFile(observed));
+  std::string left, right;
+  std::getline(without, left);
+  std::getline(with, right);
+  EXPECT_EQ(right.rfind(left + ",observation_error_0_scaled,", 0), 0u) << right;
+  const auto columns = std::count(right.begin(), right.end(), ',');
+  EXPECT_EQ(columns - std::count(left.begin(), left.end(), ','), 22);
+  while (std::getline(without, left) && std::getline(with, right)) {
+    EXPECT_EQ(right.rfind(left + ",", 0), 0u) << "the rest stays";
+    EXPECT_EQ(std::count(right.begin(), right.end(), ','), columns);
+  }
+  const ProgramResult alone =
+      CallSkein({"eval", "--policy", "untrained", "--task", "heading", "--flights-observations"});
+  EXPECT_EQ(alone.exit_code, 2);
 }
 
 TEST_F(EvaluationPipeline, FlightsThatCannotBeWrittenAreAnError) {

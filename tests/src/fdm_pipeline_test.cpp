@@ -208,11 +208,15 @@ TEST_F(FdmPipeline, ATrimBeyondTheEngineSaysSo) {
     return std::pair(result.output, json::parse(ReadFile(path)));
   };
   const auto [easy_text, easy] = trim("500");
-  EXPECT_TRUE(easy["within_engine"]);
+  EXPECT_TRUE(easy["within_model"]);
   EXPECT_THAT(easy_text, HasSubstr("engine power"));
+  EXPECT_EQ(easy_text.find("this flight"), std::string::npos);
   const auto [fast_text, fast] = trim("2600");
-  EXPECT_FALSE(fast["within_engine"]);
-  EXPECT_THAT(fast_text, HasSubstr("beyond the engine"));
+  EXPECT_FALSE(fast["within_model"]);
+  EXPECT_THAT(fast_text, HasSubstr("this flight needs more thrust than the engine has ("));
+  EXPECT_THAT(fast_text,
+              HasSubstr("this flight is faster than the engine's tables, which end at Mach 1"));
+  EXPECT_EQ(fast["exceeded_limits"].size(), 2u);
 }
 
 TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
@@ -220,6 +224,15 @@ TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
       CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "30"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  EXPECT_THAT(result.error, HasSubstr("this flight is below stall speed: at 15000 ft"));
+}
+
+TEST_F(FdmPipeline, ATrimAboveTheTablesSaysSo) {
+  const ProgramResult result =
+      CallSkein({"fdm", "trim", "--altitude-ft", "60000", "--speed-fps", "900"});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output,
+              HasSubstr("this flight is above the engine's tables, which end at 50000 ft"));
 }
 
 }  // namespace

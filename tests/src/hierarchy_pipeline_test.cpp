@@ -33,7 +33,7 @@ std::vector<std::string> HighLevelTraining(const std::string& out, const std::st
   return arguments;
 }
 
-TEST_F(HighLevelPipeline, AHighLevelTrainsOverAControlPolicyAndFliesByItself) {
+TEST_F(HighLevelPipeline, AHighLevelPolicyTrainsOverAControlPolicyAndFliesByItself) {
   const std::string control = root_ + "/control";
   std::vector<std::string> arguments = TinyTraining(control, {"--steps", "10240"});
   arguments[1] = "control";
@@ -69,19 +69,19 @@ TEST_F(HighLevelPipeline, AHighLevelTrainsOverAControlPolicyAndFliesByItself) {
   EXPECT_THAT(flown.output,
               HasSubstr("an action every 10 control steps for a low-level policy with one "
                         "every 5"));
-  // A low-level policy decides at the start of each of the high-level policy's policy steps, too.
+  // A low-level policy acts at the start of each of the high-level policy's policy steps, too.
   const ProgramResult faster = CallSkein(
       {"eval", "--policy", run_ + "/checkpoints/policy-final.skein", "--task", "tracking",
        "--episodes", "32", "--set", "env.time_limit_steps=100", "--set", "env.action_repeat=2"});
   ASSERT_EQ(faster.exit_code, 0) << faster.error;
   EXPECT_THAT(
       faster.output,
-      HasSubstr("an action every 2 control steps for a low-level policy with one every 2;"));
+      HasSubstr("an action every 2 control steps for a low-level policy with one every 2\n"));
   EXPECT_THAT(ReadFile(flights), HasSubstr(",error_north_ft,error_east_ft,error_altitude_ft"));
   EXPECT_THAT(ReadFile(flights), HasSubstr(",action_target_pitch,"));
 }
 
-TEST_F(HighLevelPipeline, AHighLevelTrainsOverTheAutopilot) {
+TEST_F(HighLevelPipeline, AHighLevelPolicyTrainsOverTheAutopilot) {
   const ProgramResult trained = CallSkein(HighLevelTraining(run_, "autopilot"));
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
   EXPECT_THAT(trained.output, HasSubstr("the traditional autopilot, parallel"));
@@ -154,14 +154,14 @@ TEST_F(HighLevelPipeline, LowLevelPoliciesThatDoNotFitAreNamed) {
   EXPECT_EQ(unknown.exit_code, 2);
   ExpectOneLine(unknown.error, "parallel");
   // Untrained, both ways of flying Tracking.
-  for (const bool planned : {true, false}) {
+  for (const bool over_low_level : {true, false}) {
     std::vector<std::string> untrained = {"eval",   "--policy", "untrained",
                                           "--task", "tracking", "--episodes",
                                           "32",     "--set",    "env.time_limit_steps=100"};
-    if (planned) untrained.insert(untrained.end(), {"--low-level", old});
+    if (over_low_level) untrained.insert(untrained.end(), {"--low-level", old});
     const ProgramResult flown = CallSkein(untrained);
     EXPECT_EQ(flown.exit_code, 0) << flown.error;
-    EXPECT_EQ(flown.output.find("for a low-level policy") != std::string::npos, planned);
+    EXPECT_EQ(flown.output.find("for a low-level policy") != std::string::npos, over_low_level);
   }
 }
 

@@ -30,7 +30,7 @@ TEST_P(ShippedPolicies, ReachTheirTargets) {
   ASSERT_EQ(result.exit_code, 0) << result.error;
   const auto agents = nlohmann::json::parse(ReadFile(json))["agents"];
   EXPECT_GE(agents[0]["success_rate"].get<double>(), GetParam().least_success);
-  EXPECT_LE(agents[1]["success_rate"].get<double>(), 0.05) << "chance";
+  EXPECT_LE(agents[1]["success_rate"].get<double>(), 0.05) << "random actions";
 }
 
 TEST_P(ShippedPolicies, SayWhatTheyWereMadeFor) {

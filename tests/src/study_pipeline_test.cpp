@@ -99,7 +99,7 @@ TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
   }
 }
 
-TEST_F(StudyPipeline, ALevelIsStrongerThanWhatAllConfigurationsBeginWith) {
+TEST_F(StudyPipeline, ALevelHasPrecedenceOverWhatAllConfigurationsBeginWith) {
   WriteFile(file_, R"(
 tasks = ["heading"]
 seeds = [1]
@@ -148,19 +148,20 @@ TEST_F(StudyPipeline, FliesAgainWhatItTrainedAgain) {
 }
 
 TEST_F(StudyPipeline, HighLevelsAreTrainedOverTheLowLevelPolicy) {
-  std::string planned = kStudy;
-  planned.replace(planned.find("heading"), 7, "tracking");
-  planned.replace(planned.find(", \"env.heading"), 41, "");
-  const std::string without = planned;
-  planned.insert(0, "low_level = \"autopilot\"\n");
+  std::string tracking = kStudy;
+  tracking.replace(tracking.find("heading"), 7, "tracking");
+  tracking.replace(tracking.find(", \"env.heading"), 41, "");
+  const std::string without = tracking;
+  tracking.insert(0, "low_level = \"autopilot\"\n");
   const std::string out = scratch_ / "out";
-  WriteFile(file_, planned);
+  WriteFile(file_, tracking);
   const ProgramResult result = CallSkein(Command(out));
   ASSERT_EQ(result.exit_code, 0) << result.error;
   EXPECT_TRUE(fs::exists(out + "/runs/tracking-quiet-seed3/low_level.skein"));
-  // Planners and stick agents flew the same episodes, and it is known what it depended on.
+  // High-level policies and agents that fly themselves flew the same episodes, and it is known what
+  // it depended on.
   EXPECT_THAT(CallSkein(Command(out)).output, ::testing::Not(HasSubstr("flying")));
-  std::string other = planned;
+  std::string other = tracking;
   other.replace(other.find("autopilot"), 9, "autopilot:traditional");
   WriteFile(file_, other);
   EXPECT_THAT(CallSkein(Command(out)).error, HasSubstr("another low-level policy"));

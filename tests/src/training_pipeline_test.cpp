@@ -111,11 +111,11 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
       CallSkein({"eval", "--policy", policy, "--task", "control", "--preset", "aerosonde"});
   EXPECT_EQ(aircraft.exit_code, 1);
   ExpectOneLine(aircraft.error, "env.aircraft = f16, but is to fly with env.aircraft = aerosonde");
-  const ProgramResult planned =
-      CallSkein({"train", "tracking", "--out", root_ + "/planned", "--low-level", policy, "--set",
+  const ProgramResult above =
+      CallSkein({"train", "tracking", "--out", root_ + "/above", "--low-level", policy, "--set",
                  "env.control_interval_s=0.01"});
-  EXPECT_EQ(planned.exit_code, 1);
-  ExpectOneLine(planned.error, "--low-level " + policy + " was made with env.control_interval_s");
+  EXPECT_EQ(above.exit_code, 1);
+  ExpectOneLine(above.error, "--low-level " + policy + " was made with env.control_interval_s");
   const ProgramResult further = CallSkein({"train", "--resume", run_});
   EXPECT_EQ(further.exit_code, 0) << further.error;
 }
@@ -392,7 +392,7 @@ TEST_F(TrainingPipeline, AStopInTheFinalEvaluationKeepsWhatWasTrained) {
 }
 
 TEST_F(TrainingPipeline, ASecondSignalEndsAtOnce) {
-  // Decisions of minutes, so that the first signal has not been obeyed when the second comes.
+  // Policy steps of minutes, so that the first signal has not been obeyed when the second comes.
   RunningProgram program(
       TinyTraining(run_, {"--set", "ppo.num_aircraft=100000", "--set", "ppo.rollout_steps=8",
                           "--set", "learner.rollout_tile=100000", "--set", "env.action_repeat=1000",
@@ -417,7 +417,7 @@ TEST_F(TrainingPipeline, Sigusr1SavesAndGoesOn) {
   ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
   const std::string rows = ReadFile(run_ + "/metrics.csv");
   ASSERT_TRUE(program.WaitUntil([&] { return ReadFile(run_ + "/metrics.csv") != rows; }))
-      << "goes on";
+      << "continues";
   program.Signal(SIGINT);
   EXPECT_EQ(program.Wait().exit_code, 0);
 }

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -46,6 +47,8 @@ TEST(Usage, EveryCommandHasHelp) {
                                              {"bench", "signature"},
                                              {"list"},
                                              {"info"},
+                                             {"completion"},
+                                             {"man"},
                                              {"help"}}) {
     std::vector<std::string> arguments = command;
     arguments.push_back("--help");
@@ -59,6 +62,30 @@ TEST(Usage, EveryCommandHasHelp) {
     // But for the order of the options that one excludes, which is that of their addresses.
     EXPECT_EQ(Sorted(CallSkein(words).output), Sorted(result.output));
   }
+}
+
+/// Processor time of the program, s: the shortest of some runs.
+double ProcessorTimeOf(const char* argument) {
+  constexpr int kRuns = 5;
+  const auto children_s = [] {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  };
+  double shortest = 1e9;
+  for (int i = 0; i < kRuns; ++i) {
+    const double before = children_s();
+    EXPECT_EQ(RunSkein({argument}).exit_code, 0);
+    shortest = std::min(shortest, children_s() - before);
+  }
+  return shortest;
+}
+
+TEST(Usage, HelpAndVersionComeAtOnce) {
+  constexpr double kAtOnce_s = 0.03;
+  EXPECT_LT(ProcessorTimeOf("--help"), kAtOnce_s);
+  EXPECT_LT(ProcessorTimeOf("--version"), kAtOnce_s);
 }
 
 TEST(Usage, VersionNamesTheCommitAndTheBuild) {
@@ -153,6 +180,55 @@ TEST(Usage, AskingForWhatCannotBeExitsWithTwo) {
   }
 }
 
+/// What bash would complete the words with, the last of them being typed.
+std::string Completed(const ScratchDirectory& scratch, const std::vector<std::string>& words) {
+  const std::string script = scratch / "complete.bash";
+  std::string text = CallSkein({"completion", "bash"}).output + "COMP_WORDS=(";
+  for (const std::string& word : words) text += "'" + word + "' ";
+  WriteFile(script, text + ")\nCOMP_CWORD=" + std::to_string(words.size() - 1) +
+                        "\n_skein\necho \"${COMPREPLY[*]}\" > " + (scratch / "found"));
+  EXPECT_EQ(std::system(("bash " + script).c_str()), 0);
+  return ReadFile(scratch / "found");
+}
+
+TEST(Usage, BashCompletesCommandsOptionsAndValues) {
+  const ScratchDirectory scratch;
+  EXPECT_EQ(Completed(scratch, {"skein", "tr"}), "train\n");
+  EXPECT_EQ(Completed(scratch, {"skein", "fdm", "tr"}), "trim\n");
+  EXPECT_EQ(Completed(scratch, {"skein", "train", "heading", "--res"}), "--resume\n");
+  EXPECT_EQ(Completed(scratch, {"skein", "train", "he"}), "heading\n");
+  EXPECT_EQ(Completed(scratch, {"skein", "train", "heading", "--preset", "pa"}), "paper\n");
+  EXPECT_EQ(Completed(scratch, {"skein", "fdm", "trim", "--aircraft", "aero"}), "aerosonde\n");
+  EXPECT_EQ(Completed(scratch, {"skein", "list", "pol"}), "policies\n");
+  EXPECT_EQ(Completed(scratch, {"skein", "train", "--config", "x"}), "\n") << "a file's name";
+}
+
+TEST(Usage, EveryShellHasACompletionScriptOfEveryOption) {
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const ProgramResult result = CallSkein({"completion", shell});
+    EXPECT_EQ(result.exit_code, 0);
+    for (const char* word : {"trim", "signature", "resume", "flights-count"}) {
+      EXPECT_THAT(result.output, HasSubstr(word)) << shell;
+    }
+  }
+  EXPECT_EQ(CallSkein({"completion", "tcsh"}).exit_code, 2);
+}
+
+TEST(Usage, TheManualIsARoffPageOfAllCommands) {
+  const ScratchDirectory scratch;
+  const ProgramResult result = CallSkein({"man"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output.rfind(".TH SKEIN 1 ", 0), 0u);
+  for (const char* part : {".SS skein fdm trim\n", "\\fB\\-\\-resume\\fR", ".SH EXIT STATUS\n"}) {
+    EXPECT_THAT(result.output, HasSubstr(part));
+  }
+  if (std::system("command -v groff > /dev/null") != 0) GTEST_SKIP() << "no groff to read it";
+  const std::string page = scratch / "skein.1", complaints = scratch / "complaints";
+  WriteFile(page, result.output);
+  EXPECT_EQ(std::system(("groff -man -ww -z " + page + " 2> " + complaints).c_str()), 0);
+  EXPECT_EQ(ReadFile(complaints), "");
+}
+
 TEST(Usage, OldNamesAreErrorsThatSayTheNewOnes) {
   EXPECT_THAT(CallSkein({"train", "tracking", "--controller", "x"}).error,
               HasSubstr("--controller is now called --low-level"));
@@ -220,7 +296,7 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_EQ(
       CallSkein({"trian", "heading"}).error,
       "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
-      "compare, study, fdm, bench, list, info, help (see skein --help)\n");
+      "compare, study, fdm, bench, list, info, help, completion, man (see skein --help)\n");
   EXPECT_THAT(
       CallSkein({"fdm", "fly"}).error,
       HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));

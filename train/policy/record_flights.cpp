@@ -46,8 +46,14 @@ class TileRecorder : private ControlStepObserver {
 
   bool IsDone() const { return std::find(flying_.begin(), flying_.end(), true) == flying_.end(); }
 
-  /// One policy step: the tile's actions.
-  void Step(const std::vector<float>& action) {
+  /// One policy step: what the tile's agent observed, and its actions.
+  void Step(const std::vector<float>& observation, const std::vector<float>& action) {
+    const int size = env_.observation_size();
+    for (std::size_t i = 0; i < flights_.size(); ++i) {
+      const float* const row = observation.data() + i * size;
+      if (flying_[i])
+        flights_[i]->observations.insert(flights_[i]->observations.end(), row, row + size);
+    }
     action_ = action.data();
     StepOutput output{reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
                       final_observation_.data()};
@@ -109,7 +115,8 @@ std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& c
     while (!recorder.IsDone()) {
       // Whole tiles fly, the aircraft that are not recorded too: matrix products may round by
       // shape.
-      recorder.Step(pilot.Act());
+      const std::vector<float>& action = pilot.Act();
+      recorder.Step(pilot.observation(), action);
     }
   });
   return flights;

@@ -30,6 +30,9 @@ struct RecordedFlight {
   std::array<float, kNumRecordedColumns> initial_state{};
   std::vector<float> target;  ///< Task::target_quantities
   std::vector<RecordedStep> steps;
+  /// Row-major [policy step][observation_size], noise included: what the agent saw. Control step k
+  /// belongs to policy step k / action_repeat.
+  std::vector<float> observations;
 };
 
 /// The first `count` episodes (all, if there are fewer) of Evaluate with the same arguments, flown

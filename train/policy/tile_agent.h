@@ -21,6 +21,9 @@ class TileAgent {
   /// the next call.
   const std::vector<float>& Act();
 
+  /// What the latest Act observed, row-major [tile count][observation_size].
+  const std::vector<float>& observation() const { return observation_; }
+
   /// The tile's `index`-th aircraft has begun a new episode: nothing of the old one is remembered.
   void Forget(int index);
 

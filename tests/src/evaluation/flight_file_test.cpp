@@ -159,7 +159,7 @@ TEST_F(FlightFileTest, HasARowForTheStartAndOneForEveryStep) {
   EXPECT_EQ(rows[1].at("action_yaw"), "1");
 }
 
-TEST_F(FlightFileTest, PlannedFlightsShowThePlanBesideTheSticks) {
+TEST_F(FlightFileTest, FlightsOfHighLevelPoliciesShowBothActions) {
   EnvConfig config;
   config.task = "tracking";
   flight_.target = {1000, 2000, 18000};
