@@ -21,51 +21,24 @@ void Count(long number) {
   if (std::is_same_v<hwy::HWY_NAMESPACE::TFromV<Vector>, float>) operations += number;
 }
 
-template <class Vector>
-Vector Add(Vector a, Vector b) {
-  Count<Vector>(1);
-  return hwy::HWY_NAMESPACE::Add(a, b);
-}
-template <class Vector>
-Vector Sub(Vector a, Vector b) {
-  Count<Vector>(1);
-  return hwy::HWY_NAMESPACE::Sub(a, b);
-}
-template <class Vector>
-Vector Mul(Vector a, Vector b) {
-  Count<Vector>(1);
-  return hwy::HWY_NAMESPACE::Mul(a, b);
-}
-template <class Vector>
-Vector Div(Vector a, Vector b) {
-  Count<Vector>(1);
-  return hwy::HWY_NAMESPACE::Div(a, b);
-}
-template <class Vector>
-Vector Min(Vector a, Vector b) {
-  Count<Vector>(1);
-  return hwy::HWY_NAMESPACE::Min(a, b);
-}
-template <class Vector>
-Vector Max(Vector a, Vector b) {
-  Count<Vector>(1);
-  return hwy::HWY_NAMESPACE::Max(a, b);
-}
-template <class Vector>
-Vector Sqrt(Vector a) {
-  Count<Vector>(1);
-  return hwy::HWY_NAMESPACE::Sqrt(a);
-}
-template <class Vector>
-Vector MulAdd(Vector a, Vector b, Vector c) {
-  Count<Vector>(2);
-  return hwy::HWY_NAMESPACE::MulAdd(a, b, c);
-}
-template <class Vector>
-Vector NegMulAdd(Vector a, Vector b, Vector c) {
-  Count<Vector>(2);
-  return hwy::HWY_NAMESPACE::NegMulAdd(a, b, c);
-}
+// Highway's operation of that name, as `number` operations of a lane.
+#define SKEIN_COUNTED(Operation, number)                    \
+  template <class Vector, class... Vectors>                 \
+  Vector Operation(Vector first, Vectors... others) {       \
+    Count<Vector>(number);                                  \
+    return hwy::HWY_NAMESPACE::Operation(first, others...); \
+  }
+SKEIN_COUNTED(Add, 1)
+SKEIN_COUNTED(Sub, 1)
+SKEIN_COUNTED(Mul, 1)
+SKEIN_COUNTED(Div, 1)
+SKEIN_COUNTED(Min, 1)
+SKEIN_COUNTED(Max, 1)
+SKEIN_COUNTED(Sqrt, 1)
+SKEIN_COUNTED(MulAdd, 2)
+SKEIN_COUNTED(MulSub, 2)
+SKEIN_COUNTED(NegMulAdd, 2)
+#undef SKEIN_COUNTED
 
 }  // namespace skein::counted
 
