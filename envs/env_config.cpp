@@ -49,6 +49,12 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
       .OffUnless(config.observation_noise_max > 0);
   list.Add("reward_scale", &config.reward_scale, Bounds::NotNegative(),
            "multiplies the step rewards, not the terminal ones");
+  list.Add("target_mach_min", &config.target_mach_min, {0, 3},
+           "target speeds drawn below this Mach number are raised to it; 0: as drawn")
+      .OffUnless(config.target_mach_min > 0);
+  list.Add("target_altitude_min_ft", &config.target_altitude_min_ft, {0, 60000},
+           "target altitudes drawn below this are raised to it; 0: as drawn")
+      .OffUnless(config.target_altitude_min_ft > 0);
 }
 
 void ListAircraftFields(EnvConfig& config, FieldList& list) {

@@ -40,6 +40,9 @@ struct EnvConfig {
   /// If larger, every episode draws its standard deviation between the two.
   double observation_noise_max = 0;
   double reward_scale = 1;  ///< multiplies the step rewards (not the terminal ones)
+  /// Targets drawn below these are raised to them, so that a regime holds throughout; 0: as drawn.
+  double target_mach_min = 0;         ///< of target speeds, at the target's or the start's altitude
+  double target_altitude_min_ft = 0;  ///< of target altitudes and points
   InitialConfig initial;
   WindConfig wind;
   HeadingConfig heading;

@@ -22,7 +22,8 @@ struct Registration {
 /// Makes a task of its part of the configuration.
 template <auto kMake, auto kConfig>
 std::unique_ptr<Task> Make(const EnvConfig& config, const ReferenceUnits& units) {
-  return kMake(config.*kConfig, units);
+  return kMake(config.*kConfig, units,
+               {config.target_mach_min, config.target_altitude_min_ft, config.atmosphere});
 }
 
 constexpr std::array<Registration, 3> kTasks = {

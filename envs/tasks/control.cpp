@@ -129,8 +129,8 @@ double Folded(double pitch_rad) { return std::asin(std::sin(pitch_rad)); }
 
 class ControlTask : public Task {
  public:
-  ControlTask(const ControlConfig& config, const ReferenceUnits& units)
-      : config_(config), units_(units) {}
+  ControlTask(const ControlConfig& config, const ReferenceUnits& units, const TargetLimits& limits)
+      : config_(config), limits_(limits), units_(units) {}
 
   int num_columns() const override { return kNumControlColumns; }
   int num_targets() const override { return kControlSpeed + 1; }
@@ -146,7 +146,8 @@ class ControlTask : public Task {
     EulerAngles attitude;
     attitude.pitch = Folded(around(start.pitch_rad, config_.pitch_change_rad));
     attitude.yaw = std::remainder(around(start.yaw_rad, config_.yaw_change_rad), 2 * M_PI);
-    const double speed = around(start.true_airspeed_ft_s, config_.speed_change_fps);
+    const double speed = limits_.TrueAirspeed(
+        around(start.true_airspeed_ft_s, config_.speed_change_fps), start.altitude_ft);
     const Eigen::Vector4d quaternion = QuaternionFromEuler(attitude);
 
     const auto set = [task, index](int column, double value) {
@@ -170,13 +171,15 @@ class ControlTask : public Task {
 
  private:
   ControlConfig config_;
+  TargetLimits limits_;
   ReferenceUnits units_;
 };
 
 }  // namespace
 
-std::unique_ptr<Task> MakeControlTask(const ControlConfig& config, const ReferenceUnits& units) {
-  return std::make_unique<ControlTask>(config, units);
+std::unique_ptr<Task> MakeControlTask(const ControlConfig& config, const ReferenceUnits& units,
+                                      const TargetLimits& limits) {
+  return std::make_unique<ControlTask>(config, units, limits);
 }
 
 }  // namespace skein

@@ -5,6 +5,7 @@
 
 #include "envs/aircraft/aircraft.h"
 #include "envs/tasks/control_config.h"
+#include "envs/tasks/target_limits.h"
 #include "envs/tasks/task.h"
 
 namespace skein {
@@ -31,6 +32,7 @@ enum ControlColumn : int {
 /// angle is that between the nose and where it should point, or (`reward_includes_roll`) of the one
 /// rotation that takes the attitude to the target's. The target is reached by pitch, yaw and
 /// speed alone: at any roll.
-std::unique_ptr<Task> MakeControlTask(const ControlConfig& config, const ReferenceUnits& units);
+std::unique_ptr<Task> MakeControlTask(const ControlConfig& config, const ReferenceUnits& units,
+                                      const TargetLimits& limits = {});
 
 }  // namespace skein

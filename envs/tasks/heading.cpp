@@ -93,8 +93,8 @@ HWY_EXPORT(HeadingReward);
 
 class HeadingTask : public Task {
  public:
-  HeadingTask(const HeadingConfig& config, const ReferenceUnits& units)
-      : config_(config), units_(units) {}
+  HeadingTask(const HeadingConfig& config, const ReferenceUnits& units, const TargetLimits& limits)
+      : config_(config), limits_(limits), units_(units) {}
 
   int num_columns() const override { return kNumHeadingColumns; }
   int num_targets() const override { return kTargetSpeed + 1; }
@@ -107,12 +107,12 @@ class HeadingTask : public Task {
     const auto around = [random](double centre, double change) {
       return centre + random->Uniform(-change, change);
     };
-    task[kTargetAltitude][index] =
-        static_cast<float>(around(start.altitude_ft, config_.altitude_change_ft));
+    const double altitude = limits_.Altitude(around(start.altitude_ft, config_.altitude_change_ft));
+    task[kTargetAltitude][index] = static_cast<float>(altitude);
     const double yaw = around(start.yaw_rad, config_.yaw_change_rad);
     task[kTargetYaw][index] = static_cast<float>(std::remainder(yaw, 2 * M_PI));
-    task[kTargetSpeed][index] =
-        static_cast<float>(around(start.true_airspeed_ft_s, config_.speed_change_fps));
+    const double speed = around(start.true_airspeed_ft_s, config_.speed_change_fps);
+    task[kTargetSpeed][index] = static_cast<float>(limits_.TrueAirspeed(speed, altitude));
     task[kTargetTolerance][index] =
         static_cast<float>(random->Uniform(config_.training_tolerance_min, 1));
   }
@@ -128,13 +128,15 @@ class HeadingTask : public Task {
 
  private:
   HeadingConfig config_;
+  TargetLimits limits_;
   ReferenceUnits units_;
 };
 
 }  // namespace
 
-std::unique_ptr<Task> MakeHeadingTask(const HeadingConfig& config, const ReferenceUnits& units) {
-  return std::make_unique<HeadingTask>(config, units);
+std::unique_ptr<Task> MakeHeadingTask(const HeadingConfig& config, const ReferenceUnits& units,
+                                      const TargetLimits& limits) {
+  return std::make_unique<HeadingTask>(config, units, limits);
 }
 
 }  // namespace skein

@@ -5,6 +5,7 @@
 
 #include "envs/aircraft/aircraft.h"
 #include "envs/tasks/heading_config.h"
+#include "envs/tasks/target_limits.h"
 #include "envs/tasks/task.h"
 
 namespace skein {
@@ -25,6 +26,7 @@ enum HeadingColumn : int {
 /// is minus their L2 norm, and minus HeadingConfig::speed_error_weight times the speed's. Reached
 /// within the tolerances, in training within the episode's share of them, at or after
 /// `HeadingConfig::earliest_success_step`.
-std::unique_ptr<Task> MakeHeadingTask(const HeadingConfig& config, const ReferenceUnits& units);
+std::unique_ptr<Task> MakeHeadingTask(const HeadingConfig& config, const ReferenceUnits& units,
+                                      const TargetLimits& limits = {});
 
 }  // namespace skein

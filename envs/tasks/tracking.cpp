@@ -157,7 +157,8 @@ HWY_EXPORT(TrackingReward);
 
 class TrackingTask : public Task {
  public:
-  TrackingTask(const TrackingConfig& config, double unit_ft) : config_(config), unit_ft_(unit_ft) {}
+  TrackingTask(const TrackingConfig& config, double unit_ft, const TargetLimits& limits)
+      : config_(config), limits_(limits), unit_ft_(unit_ft) {}
 
   int num_columns() const override { return kNumTrackingColumns; }
   int num_targets() const override { return kTrackingAltitude + 1; }
@@ -181,7 +182,7 @@ class TrackingTask : public Task {
     };
     set(kTrackingNorth, distance * std::cos(elevation) * std::cos(azimuth));
     set(kTrackingEast, distance * std::cos(elevation) * std::sin(azimuth));
-    set(kTrackingAltitude, start.altitude_ft + distance * std::sin(elevation));
+    set(kTrackingAltitude, limits_.Altitude(start.altitude_ft + distance * std::sin(elevation)));
     set(kTrackingLastNorth, 0);
     set(kTrackingLastEast, 0);
     set(kTrackingLastAltitude, start.altitude_ft);
@@ -201,13 +202,15 @@ class TrackingTask : public Task {
 
  private:
   TrackingConfig config_;
+  TargetLimits limits_;
   double unit_ft_;
 };
 
 }  // namespace
 
-std::unique_ptr<Task> MakeTrackingTask(const TrackingConfig& config, const ReferenceUnits& units) {
-  return std::make_unique<TrackingTask>(config, units.altitude_error_ft);
+std::unique_ptr<Task> MakeTrackingTask(const TrackingConfig& config, const ReferenceUnits& units,
+                                       const TargetLimits& limits) {
+  return std::make_unique<TrackingTask>(config, units.altitude_error_ft, limits);
 }
 
 }  // namespace skein

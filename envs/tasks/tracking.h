@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "envs/aircraft/aircraft.h"
+#include "envs/tasks/target_limits.h"
 #include "envs/tasks/task.h"
 #include "envs/tasks/tracking_config.h"
 
@@ -29,6 +30,7 @@ enum TrackingColumn : int {
 /// the straight path of a control step touches the box whose sides lie the episode's tolerance
 /// north, east, south, west, above and below of the target: `position_tolerance_ft`, or in training
 /// up to `training_tolerance_max` times as much.
-std::unique_ptr<Task> MakeTrackingTask(const TrackingConfig& config, const ReferenceUnits& units);
+std::unique_ptr<Task> MakeTrackingTask(const TrackingConfig& config, const ReferenceUnits& units,
+                                       const TargetLimits& limits = {});
 
 }  // namespace skein

@@ -41,7 +41,8 @@ const Units kPlain = {{"", 1}};
 /// A condition as it was asked for, for messages.
 struct Request {
   std::string name, level;
-  const char* form;  // what a level looks like
+  const char* form;      // what a level looks like
+  bool is_held = false;  // not the start alone, but the targets, too
 
   [[noreturn]] void Refuse(const std::string& part) const {
     throw Error(fmt::format("--condition {}={}: cannot read \"{}\"; {} takes {}", name, level, part,
@@ -115,14 +116,20 @@ void Append(const char* quantity, const char* unit, const Range& range,
 using Assignments = std::vector<std::string>;
 
 Assignments HighSpeed(const Request& request, const std::string& level) {
+  const Range speed = ParseRange(level, kMachUnits, request);
   Assignments assignments;
-  Append("initial.true_airspeed", "_fps", ParseRange(level, kMachUnits, request), &assignments);
+  Append("initial.true_airspeed", "_fps", speed, &assignments);
+  assignments.push_back(
+      fmt::format("env.target_mach_min={}", request.is_held ? speed.min / kSpeedOfMachOne : 0));
   return assignments;
 }
 
 Assignments HighAltitude(const Request& request, const std::string& level) {
+  const Range altitude = ParseRange(level, kAltitudeUnits, request);
   Assignments assignments;
-  Append("initial.altitude", "_ft", ParseRange(level, kAltitudeUnits, request), &assignments);
+  Append("initial.altitude", "_ft", altitude, &assignments);
+  assignments.push_back(
+      fmt::format("env.target_altitude_min_ft={}", request.is_held ? altitude.min : 0));
   return assignments;
 }
 
@@ -170,12 +177,23 @@ Assignments Windy(const Request& request, const std::string& level) {
   return assignments;
 }
 
+constexpr const char* kHeld = ",held";
+
+/// Cuts ",held" off a level's end; whether it was there.
+bool CutHeld(std::string* level) {
+  const std::size_t length = std::strlen(kHeld);
+  if (level->size() < length || level->substr(level->size() - length) != kHeld) return false;
+  level->resize(level->size() - length);
+  return true;
+}
+
 struct Condition {
   const char* name;
   const char* form;
   const char* mild;
   const char* middle;
   const char* hard;
+  bool can_be_held;
   Assignments (*assign)(const Request& request, const std::string& level);
 
   std::string LevelText(const std::string& level) const {
@@ -187,16 +205,21 @@ struct Condition {
 
 const std::vector<Condition>& Conditions() {
   static const std::vector<Condition> conditions = {
-      {"high_speed", "an initial Mach number or range (1.2, 1.2..1.4) or mild, middle, hard",
-       "1.0..1.2", "1.2..1.4", "1.4..1.8", HighSpeed},
-      {"high_altitude", "an initial altitude or range (32kft, 30..35kft) or mild, middle, hard",
-       "30..35kft", "35..40kft", "40..45kft", HighAltitude},
+      {"high_speed",
+       "an initial Mach number or range (1.2, 1.2..1.4) or mild, middle, hard; "
+       "with ,held behind it no target speed is lower",
+       "1.0..1.2", "1.2..1.4", "1.4..1.8", true, HighSpeed},
+      {"high_altitude",
+       "an initial altitude or range (32kft, 30..35kft) or mild, middle, hard; with ,held behind "
+       "it "
+       "no target altitude is lower",
+       "30..35kft", "35..40kft", "40..45kft", true, HighAltitude},
       {"windy",
        "a steady wind and turbulence by severity, each alone or a range (60fps,moderate; "
        "0..120fps,light..severe; sigma=5fps,from=270deg) or mild, middle, hard",
-       "60fps,light", "120fps,moderate", "200fps,severe", Windy},
+       "60fps,light", "120fps,moderate", "200fps,severe", false, Windy},
       {"noisy", "a standard deviation or range (0.03, 0.01..0.05) or mild, middle, hard", "0.02",
-       "0.05", "0.1", Noisy}};
+       "0.05", "0.1", false, Noisy}};
   return conditions;
 }
 
@@ -225,8 +248,10 @@ std::vector<std::string> ConditionAssignments(const std::vector<std::string>& co
     if (!names.insert(request.name).second) {
       throw Error(fmt::format("--condition {}: {} is given twice", text, request.name));
     }
-    const Assignments assignments = condition.assign({request.name, request.level, condition.form},
-                                                     condition.LevelText(request.level));
+    std::string level = request.level;
+    const bool is_held = condition.can_be_held && CutHeld(&level);
+    const Assignments assignments = condition.assign(
+        {request.name, request.level, condition.form, is_held}, condition.LevelText(level));
     all.insert(all.end(), assignments.begin(), assignments.end());
   }
   return all;
@@ -234,14 +259,20 @@ std::vector<std::string> ConditionAssignments(const std::vector<std::string>& co
 
 std::string DescribeConditions(const EnvConfig& env) {
   const auto range = [](const Range& values, const char* unit) {
-    return values.min == values.max ? fmt::format("{}{}", values.min, unit)
-                                    : fmt::format("{} to {}{}", values.min, values.max, unit);
+    return values.min == values.max
+               ? fmt::format("{:.6g}{}", values.min, unit)
+               : fmt::format("{:.6g} to {:.6g}{}", values.min, values.max, unit);
   };
   const WindConfig& wind = env.wind;
   std::string air = wind.enabled() ? "" : "; still air";
   if (wind.speed_fps.max > 0) air += "; wind of " + range(wind.speed_fps, " ft/s");
   if (wind.turbulence_fps.max > 0) {
     air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
+  }
+  if (env.target_mach_min > 0)
+    air += fmt::format("; targets from Mach {:.6g} on", env.target_mach_min);
+  if (env.target_altitude_min_ft > 0) {
+    air += fmt::format("; targets from {:.6g} ft on", env.target_altitude_min_ft);
   }
   const double most_noise = std::max(env.observation_noise, env.observation_noise_max);
   return fmt::format(

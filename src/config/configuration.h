@@ -40,13 +40,13 @@ void RequireOwnSpeeds(const ProgramConfig& base, const ProgramConfig& config);
 /// Throws Error on values that are each allowed but cannot go together.
 void CheckConsistent(const ProgramConfig& config);
 
-/// Where a configuration comes from, weakest first.
+/// Where a configuration comes from, before it is resolved.
 struct ConfigSources {
   std::string task;    ///< the preset's folder, and env.task
   std::string preset;  ///< name of a preset of the task
   std::string file;    ///< TOML file, or empty
   std::vector<std::string> assignments;
-  std::vector<std::string> conditions = {};  ///< NAME=LEVEL, weaker than assignments
+  std::vector<std::string> conditions = {};  ///< NAME=LEVEL, of lower precedence than assignments
 };
 
 /// Defaults, then preset, then file, then conditions, then assignments. Throws Error if one of them

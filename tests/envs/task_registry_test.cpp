@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "envs/air/atmosphere.h"
 #include "tests/envs/test_tile.h"
 
 namespace skein {
@@ -80,6 +83,39 @@ TEST(TaskRegistryTest, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
       EXPECT_THAT(error.what(), HasSubstr('"' + unknown + '"'));
       for (const std::string& name : TaskNames()) EXPECT_THAT(error.what(), HasSubstr(name));
     }
+  }
+}
+
+TEST(TaskRegistryTest, TargetsKeepTheRegimeThatTheyAreHeldIn) {
+  constexpr double kMach = 1.1, kAltitude = 31000;
+  constexpr int kCount = 64;
+  for (const std::string& name : TaskNames()) {
+    EnvConfig config = ConfigOf(name);
+    config.target_mach_min = kMach;
+    config.target_altitude_min_ft = kAltitude;
+    const std::unique_ptr<Task> task = MakeTask(config);
+    TestTile targets(kCount, task->num_columns());
+    int at_the_limit = 0;
+    for (int i = 0; i < kCount; ++i) {
+      simd::RandomStream random(
+          {7, static_cast<std::uint32_t>(i), 0, 0, simd::RandomPurpose::kTarget});
+      task->Reset({32000, 1100, 0, 0}, &random, targets.tile(), i);
+      double altitude = 32000;
+      for (int k = 0; k < task->num_targets(); ++k) {
+        const std::string column = task->target_quantities()[static_cast<std::size_t>(k)].column;
+        const double value = static_cast<double>(targets.at(k, i));
+        if (column == "altitude_ft") {
+          altitude = value;
+          EXPECT_GE(value, kAltitude) << name;
+          at_the_limit += value == kAltitude ? 1 : 0;
+        } else if (column == "true_airspeed_fps") {
+          const double sound = AirAt(config.atmosphere, altitude).sound_speed_ft_s;
+          EXPECT_GE(value / sound, kMach * (1 - 1e-6)) << name;
+          at_the_limit += value / sound < kMach * (1 + 1e-6) ? 1 : 0;
+        }
+      }
+    }
+    EXPECT_GT(at_the_limit, 0) << name;
   }
 }
 

@@ -36,12 +36,12 @@ EnvConfig Under(const std::vector<std::string>& conditions, const std::string& t
 
 TEST(Conditions, AreConfigurationAssignments) {
   EXPECT_THAT(ConditionAssignments({}), ElementsAre());
-  EXPECT_THAT(
-      ConditionAssignments({"high_altitude=30..35kft"}),
-      ElementsAre("env.initial.altitude_min_ft=30000", "env.initial.altitude_max_ft=35000"));
-  EXPECT_THAT(
-      ConditionAssignments({"high_altitude=32500ft"}),
-      ElementsAre("env.initial.altitude_min_ft=32500", "env.initial.altitude_max_ft=32500"));
+  EXPECT_THAT(ConditionAssignments({"high_altitude=30..35kft"}),
+              ElementsAre("env.initial.altitude_min_ft=30000", "env.initial.altitude_max_ft=35000",
+                          "env.target_altitude_min_ft=0"));
+  EXPECT_THAT(ConditionAssignments({"high_altitude=32500ft"}),
+              ElementsAre("env.initial.altitude_min_ft=32500", "env.initial.altitude_max_ft=32500",
+                          "env.target_altitude_min_ft=0"));
   EXPECT_THAT(ConditionAssignments({"noisy=0.03"}),
               ElementsAre("env.observation_noise=0.03", "env.observation_noise_max=0"));
   EXPECT_THAT(ConditionAssignments({"noisy=0.01..0.05"}),
@@ -79,6 +79,15 @@ TEST(Conditions, WindTakesASpeedAndASeverityOrNumbers) {
   EXPECT_THAT(Complaint({"windy=60kt..120"}), HasSubstr("cannot read \"60kt..120\""));
   EXPECT_THAT(Complaint({"windy=from=90deg"}), HasSubstr("cannot read"));
   EXPECT_EQ(Under({"windy=60fps"}).wind.turbulence_fps.max, 0);
+}
+
+TEST(Conditions, ARegimeCanBeHeldByItsTargets) {
+  const EnvConfig held = Under({"high_speed=middle,held", "high_altitude=30..35kft,held"});
+  EXPECT_DOUBLE_EQ(held.target_mach_min, 1.2);
+  EXPECT_EQ(held.target_altitude_min_ft, 30000);
+  EXPECT_EQ(Under({"high_speed=middle"}).target_mach_min, 0);
+  EXPECT_THAT(DescribeConditions(held), HasSubstr("targets from Mach 1.2 on"));
+  EXPECT_THAT(Complaint({"noisy=0.1,held"}), HasSubstr("cannot read"));
 }
 
 TEST(Conditions, AWindNeedsAUnit) {

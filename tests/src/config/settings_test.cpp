@@ -187,6 +187,8 @@ TEST(Settings, ACheckpointHoldsEveryKeyThatTrainingDependsOn) {
     config.env.task = task;
     config.env.wind.speed_fps.max = 60;
     config.env.observation_noise_max = 0.05;
+    config.env.target_mach_min = 1;
+    config.env.target_altitude_min_ft = 30000;
     config.env.thrust_grows = config.env.drag_rises = true;
     for (const auto& [key, value] : DescribeConfig(config)) described.insert(key);
   }
