@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The learner's products of matrices on one core: own kernels in both precisions beside LibTorch's.
+// The learner's matrix products on one core: custom GEMM in both precisions beside LibTorch's.
 // All take turns in every iteration, as the machine's speed varies; rates are of the medians.
 
 #include <benchmark/benchmark.h>

@@ -8,7 +8,7 @@
 
 namespace skein {
 
-/// A fresh pilot of the Control task that decides every four control steps.
+/// A fresh policy of the Control task that holds an action for four control steps.
 inline std::shared_ptr<const RecurrentPolicy> SmallLowLevelPolicy(std::uint64_t seed = 11) {
   return std::make_shared<const RecurrentPolicy>(
       RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, seed, /*action_repeat=*/4));

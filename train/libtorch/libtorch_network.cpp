@@ -26,9 +26,9 @@ torch::Tensor FromMemory(const float* data, at::IntArrayRef shape, torch::Scalar
   return torch::from_blob(const_cast<float*>(data), shape, torch::kFloat32).to(type);
 }
 
-/// LayerNorm and the affine map behind it.
-torch::Tensor Map(const torch::Tensor& flat, const NormalisedLinear& layer,
-                  const torch::Tensor& in) {
+/// LayerNorm and the linear layer behind it.
+torch::Tensor Linear(const torch::Tensor& flat, const NormalisedLinear& layer,
+                     const torch::Tensor& in) {
   const torch::Tensor normalised =
       at::layer_norm(in, {layer.in}, View(flat, layer.norm_weight, {layer.in}),
                      View(flat, layer.norm_bias, {layer.in}), kNormEpsilon);
@@ -50,7 +50,7 @@ torch::Tensor Activate(Activation activation, const torch::Tensor& in) {
   throw Error("network.activation holds a value without a name");
 }
 
-/// States [steps][batch][gru_size] of a GRU layer from its input map's values,
+/// States [steps][batch][gru_size] of a GRU layer from its input layer's values,
 /// [steps][batch][3 gru_size], and its state before the first step.
 torch::Tensor GruStates(const torch::Tensor& flat, const GruLayer& layer, int gru_size,
                         const torch::Tensor& inputs, const torch::Tensor& not_done,
@@ -85,7 +85,7 @@ Outputs ForwardOf(const NetworkLayout& layout, const torch::Tensor& flat,
   torch::Tensor x = FromMemory(tile.observation, {tile.rows(), shape.observation_size}, type);
   const auto pass_hidden = [&](int first) {
     for (int i = first; i < first + shape.hidden_layers; ++i) {
-      x = Activate(shape.activation, Map(flat, layout.layer(i), x));
+      x = Activate(shape.activation, Linear(flat, layout.layer(i), x));
     }
   };
   pass_hidden(0);
@@ -96,7 +96,7 @@ Outputs ForwardOf(const NetworkLayout& layout, const torch::Tensor& flat,
   for (int i = 0; i < shape.gru_layers; ++i) {
     const GruLayer& layer = layout.gru_layers()[i];
     const torch::Tensor inputs =
-        i == 0 ? Map(flat, layout.layer(layout.gru_input()), x)
+        i == 0 ? Linear(flat, layout.layer(layout.gru_input()), x)
                : at::linear(x, View(flat, layer.input_weight, {3 * gru, layer.in}),
                             View(flat, layer.input_bias, {3 * gru}));
     const torch::Tensor states =
@@ -106,7 +106,7 @@ Outputs ForwardOf(const NetworkLayout& layout, const torch::Tensor& flat,
     x = states.view({tile.rows(), gru});
   }
   pass_hidden(layout.gru_input() + 1);
-  return {Map(flat, layout.layer(layout.head()), x), at::stack(last, 1)};
+  return {Linear(flat, layout.layer(layout.head()), x), at::stack(last, 1)};
 }
 
 struct Loss {

@@ -16,7 +16,7 @@ class LibTorchNetwork : public RecurrentNetwork {
   const NetworkLayout& layout() const override { return layout_; }
   void SetParameters(const float* parameters) override;
   void Forward(const SequenceTile& tile, NetworkWorkspace& workspace) const override;
-  /// An accumulator is a gradient by the flat parameters.
+  /// An accumulator is a gradient with respect to the flat parameters.
   std::int64_t accumulator_size() const override { return layout_.size(); }
   LossSums AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
                               NetworkWorkspace& workspace, float* accumulator) const override;
@@ -27,8 +27,8 @@ class LibTorchNetwork : public RecurrentNetwork {
   std::vector<float> parameters_;
 };
 
-/// Loss of one tile and its gradient by the flat parameters, in float64 throughout, written from
-/// the formulas of the network and the losses with differentiable operations alone.
+/// Loss of one tile and its gradient with respect to the flat parameters, in float64 throughout,
+/// written from the formulas of the network and the losses with differentiable operations alone.
 struct ReferenceGradient {
   double loss = 0;  ///< policy loss less the entropy bonus, or value_coefficient x value loss
   LossSums sums;

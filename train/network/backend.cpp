@@ -6,26 +6,10 @@
 #include "base/error.h"
 #include "base/name_in.h"
 #include "simd/target.h"
-#include "train/network/affine_map.h"
 #include "train/network/network.h"
 
 namespace skein {
 namespace {
-
-NetworkPrecision ProductsOf(LearnerPrecision precision) {
-  constexpr simd::Precision kFloat32 = simd::Precision::kFloat32;
-  constexpr simd::Precision kBfloat16 = simd::Precision::kBfloat16;
-  switch (precision) {
-    case LearnerPrecision::kFloat32:
-      return {kFloat32, kFloat32};
-    case LearnerPrecision::kMixed:
-      return {kFloat32, kBfloat16};
-    case LearnerPrecision::kBfloat16:
-      return {kBfloat16, kBfloat16};
-    default:
-      throw Error(std::string("precision \"") + Name(precision) + "\" is not one network's");
-  }
-}
 
 std::string DescribePrecision(LearnerPrecision precision) {
   if (precision == LearnerPrecision::kFloat32) return "in fp32";
@@ -59,14 +43,6 @@ BackendChoice ChooseBackend(Backend asked, const NetworkShape& shape, LearnerPre
 
 LearnerPrecision DefaultPrecision() {
   return simd::NativeBfloat16() ? LearnerPrecision::kFast : LearnerPrecision::kFloat32;
-}
-
-NetworkPrecision ActorPrecision(LearnerPrecision precision) {
-  return ProductsOf(precision == LearnerPrecision::kFast ? LearnerPrecision::kMixed : precision);
-}
-
-NetworkPrecision CriticPrecision(LearnerPrecision precision) {
-  return ProductsOf(precision == LearnerPrecision::kFast ? LearnerPrecision::kBfloat16 : precision);
 }
 
 std::string Describe(const BackendChoice& choice) {

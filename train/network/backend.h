@@ -7,12 +7,11 @@
 
 namespace skein {
 
-struct NetworkPrecision;  // train/network/affine_map.h
-struct NetworkShape;      // train/network/network.h
+struct NetworkShape;  // train/network/network.h
 
 /// What computes the networks, forward and backward.
 enum class Backend {
-  kFused,     ///< own kernels, tile by tile
+  kFused,     ///< custom kernels, tile by tile
   kLibTorch,  ///< LibTorch's operations and autograd: the reference, two to three times slower
 };
 
@@ -57,10 +56,6 @@ BackendChoice ChooseBackend(Backend asked, const NetworkShape& shape,
 
 /// What kAuto is on this machine.
 LearnerPrecision DefaultPrecision();
-
-/// Of the actor's and the critic's products. `precision` must not be kAuto.
-NetworkPrecision ActorPrecision(LearnerPrecision precision);
-NetworkPrecision CriticPrecision(LearnerPrecision precision);
 
 /// One line for people: what computes the networks, how exactly, and why if not as asked.
 std::string Describe(const BackendChoice& choice);

@@ -21,95 +21,97 @@ void FoldBiases(std::int64_t columns, const float* weight, const float* beta, co
   for (int r = 0; r < kRows; ++r) folded[r] = static_cast<float>(sums[r]);
 }
 
-void FoldMap(const FoldedMap& map, const float* parameters, float* folded) {
+void FoldLinear(const FoldedLinear& linear, const float* parameters, float* folded) {
   constexpr int kRowsAtOnce = 8;
-  const bool has_norm = map.norm_weight >= 0;
-  const float* const gamma = has_norm ? parameters + map.norm_weight : nullptr;
-  const float* const beta = has_norm ? parameters + map.norm_bias : nullptr;
-  for (int first = 0; first < map.out; first += map.padded_block) {
-    const int flat_row = map.FlatRow(first);
+  const bool has_norm = linear.norm_weight >= 0;
+  const float* const gamma = has_norm ? parameters + linear.norm_weight : nullptr;
+  const float* const beta = has_norm ? parameters + linear.norm_bias : nullptr;
+  for (int first = 0; first < linear.out; first += linear.padded_block) {
+    const int flat_row = linear.FlatRow(first);
     const float* const weight =
-        parameters + map.flat_weight + static_cast<std::int64_t>(flat_row) * map.flat_in;
-    const float* const bias = parameters + map.flat_bias + flat_row;
-    float* const out = folded + map.weight + static_cast<std::int64_t>(first) * map.in;
-    float* const out_bias = folded + map.bias + first;
-    for (int row = 0; row < map.block; ++row) {
-      const float* const from = weight + static_cast<std::int64_t>(row) * map.flat_in;
-      float* const to = out + static_cast<std::int64_t>(row) * map.in;
+        parameters + linear.flat_weight + static_cast<std::int64_t>(flat_row) * linear.flat_in;
+    const float* const bias = parameters + linear.flat_bias + flat_row;
+    float* const out = folded + linear.weight + static_cast<std::int64_t>(first) * linear.in;
+    float* const out_bias = folded + linear.bias + first;
+    for (int row = 0; row < linear.block; ++row) {
+      const float* const from = weight + static_cast<std::int64_t>(row) * linear.flat_in;
+      float* const to = out + static_cast<std::int64_t>(row) * linear.in;
       if (has_norm) {
-        for (int j = 0; j < map.flat_in; ++j) to[j] = from[j] * gamma[j];
+        for (int j = 0; j < linear.flat_in; ++j) to[j] = from[j] * gamma[j];
       } else {
-        std::copy_n(from, map.flat_in, to);
+        std::copy_n(from, linear.flat_in, to);
       }
-      std::fill(to + map.flat_in, to + map.in, 0.0f);
+      std::fill(to + linear.flat_in, to + linear.in, 0.0f);
     }
-    std::fill_n(out + static_cast<std::int64_t>(map.block) * map.in,
-                static_cast<std::int64_t>(map.padded_block - map.block) * map.in, 0.0f);
-    std::fill(std::copy_n(bias, map.block, out_bias), out_bias + map.padded_block, 0.0f);
+    std::fill_n(out + static_cast<std::int64_t>(linear.block) * linear.in,
+                static_cast<std::int64_t>(linear.padded_block - linear.block) * linear.in, 0.0f);
+    std::fill(std::copy_n(bias, linear.block, out_bias), out_bias + linear.padded_block, 0.0f);
     if (!has_norm) continue;
     int row = 0;
-    for (; row + kRowsAtOnce <= map.block; row += kRowsAtOnce) {
-      FoldBiases<kRowsAtOnce>(map.flat_in, weight + static_cast<std::int64_t>(row) * map.flat_in,
-                              beta, bias + row, out_bias + row);
+    for (; row + kRowsAtOnce <= linear.block; row += kRowsAtOnce) {
+      FoldBiases<kRowsAtOnce>(linear.flat_in,
+                              weight + static_cast<std::int64_t>(row) * linear.flat_in, beta,
+                              bias + row, out_bias + row);
     }
-    for (; row < map.block; ++row) {
-      FoldBiases<1>(map.flat_in, weight + static_cast<std::int64_t>(row) * map.flat_in, beta,
+    for (; row < linear.block; ++row) {
+      FoldBiases<1>(linear.flat_in, weight + static_cast<std::int64_t>(row) * linear.flat_in, beta,
                     bias + row, out_bias + row);
     }
   }
 }
 
-void UnfoldMap(const FoldedMap& map, const float* parameters, const float* folded_gradient,
-               float* gradient) {
-  const bool has_norm = map.norm_weight >= 0;
-  const float* const gamma = has_norm ? parameters + map.norm_weight : nullptr;
-  const float* const beta = has_norm ? parameters + map.norm_bias : nullptr;
-  std::vector<double> gamma_gradient(map.flat_in, 0.0), beta_gradient(map.flat_in, 0.0);
-  for (int row = 0; row < map.out; ++row) {
-    const int flat_row = map.FlatRow(row);
+void UnfoldLinear(const FoldedLinear& linear, const float* parameters, const float* folded_gradient,
+                  float* gradient) {
+  const bool has_norm = linear.norm_weight >= 0;
+  const float* const gamma = has_norm ? parameters + linear.norm_weight : nullptr;
+  const float* const beta = has_norm ? parameters + linear.norm_bias : nullptr;
+  std::vector<double> gamma_gradient(linear.flat_in, 0.0), beta_gradient(linear.flat_in, 0.0);
+  for (int row = 0; row < linear.out; ++row) {
+    const int flat_row = linear.FlatRow(row);
     if (flat_row < 0) continue;
-    const std::int64_t flat = map.flat_weight + static_cast<std::int64_t>(flat_row) * map.flat_in;
+    const std::int64_t flat =
+        linear.flat_weight + static_cast<std::int64_t>(flat_row) * linear.flat_in;
     const float* const weight = parameters + flat;
     const float* const folded =
-        folded_gradient + map.weight + static_cast<std::int64_t>(row) * map.in;
-    const float bias_gradient = folded_gradient[map.bias + row];
-    gradient[map.flat_bias + flat_row] = bias_gradient;
+        folded_gradient + linear.weight + static_cast<std::int64_t>(row) * linear.in;
+    const float bias_gradient = folded_gradient[linear.bias + row];
+    gradient[linear.flat_bias + flat_row] = bias_gradient;
     if (!has_norm) {
-      std::copy_n(folded, map.flat_in, gradient + flat);
+      std::copy_n(folded, linear.flat_in, gradient + flat);
       continue;
     }
-    for (int j = 0; j < map.flat_in; ++j) {
+    for (int j = 0; j < linear.flat_in; ++j) {
       gradient[flat + j] = folded[j] * gamma[j] + bias_gradient * beta[j];
       gamma_gradient[j] += static_cast<double>(weight[j]) * folded[j];
       beta_gradient[j] += static_cast<double>(weight[j]) * bias_gradient;
     }
   }
   if (!has_norm) return;
-  for (int j = 0; j < map.flat_in; ++j) {
-    gradient[map.norm_weight + j] = static_cast<float>(gamma_gradient[j]);
-    gradient[map.norm_bias + j] = static_cast<float>(beta_gradient[j]);
+  for (int j = 0; j < linear.flat_in; ++j) {
+    gradient[linear.norm_weight + j] = static_cast<float>(gamma_gradient[j]);
+    gradient[linear.norm_bias + j] = static_cast<float>(beta_gradient[j]);
   }
 }
 
 }  // namespace
 
-int FoldedMap::FlatRow(int row) const {
+int FoldedLinear::FlatRow(int row) const {
   const int unit = row % padded_block;
   return unit < block ? order[row / padded_block] * block + unit : -1;
 }
 
-FoldedMap FoldedLayout::Place(int in, int padded_in, int blocks, int block, int padded_block) {
-  FoldedMap map;
-  map.flat_in = in;
-  map.in = padded_in;
-  map.block = block;
-  map.padded_block = padded_block;
-  map.out = blocks * padded_block;
-  map.order = {0, 1, 2};
-  map.weight = size_;
-  map.bias = map.weight + static_cast<std::int64_t>(map.out) * map.in;
-  size_ = map.bias + map.out;
-  return map;
+FoldedLinear FoldedLayout::Place(int in, int padded_in, int blocks, int block, int padded_block) {
+  FoldedLinear linear;
+  linear.flat_in = in;
+  linear.in = padded_in;
+  linear.block = block;
+  linear.padded_block = padded_block;
+  linear.out = blocks * padded_block;
+  linear.order = {0, 1, 2};
+  linear.weight = size_;
+  linear.bias = linear.weight + static_cast<std::int64_t>(linear.out) * linear.in;
+  size_ = linear.bias + linear.out;
+  return linear;
 }
 
 FoldedLayout::FoldedLayout(const NetworkLayout& layout) {
@@ -121,25 +123,25 @@ FoldedLayout::FoldedLayout(const NetworkLayout& layout) {
     const NormalisedLinear& layer = layout.layer(i);
     // The observation is read as it comes, and the output left as the losses read it.
     const int padded_in = i == 0 ? layer.in : PaddedWidth(layer.in);
-    FoldedMap map;
+    FoldedLinear linear;
     if (i == layout.gru_input()) {
-      map = Place(layer.in, padded_in, kGates, gru, padded_gru);
-      map.order = kNewGateFirst;
+      linear = Place(layer.in, padded_in, kGates, gru, padded_gru);
+      linear.order = kNewGateFirst;
     } else {
       const int padded_out = i == layout.head() ? layer.out : PaddedWidth(layer.out);
-      map = Place(layer.in, padded_in, 1, layer.out, padded_out);
+      linear = Place(layer.in, padded_in, 1, layer.out, padded_out);
     }
-    map.flat_weight = layer.weight;
-    map.flat_bias = layer.bias;
-    map.norm_weight = layer.norm_weight;
-    map.norm_bias = layer.norm_bias;
-    maps_.push_back(map);
+    linear.flat_weight = layer.weight;
+    linear.flat_bias = layer.bias;
+    linear.norm_weight = layer.norm_weight;
+    linear.norm_bias = layer.norm_bias;
+    linear_.push_back(linear);
   }
   for (int i = 0; i < shape.gru_layers; ++i) {
     const GruLayer& layer = layout.gru_layers()[i];
     FoldedGru folded;
     if (i == 0) {
-      folded.input = maps_[layout.gru_input()];
+      folded.input = linear_[layout.gru_input()];
     } else {
       folded.input = Place(layer.in, PaddedWidth(layer.in), kGates, gru, padded_gru);
       folded.input.order = kNewGateFirst;
@@ -159,22 +161,24 @@ FoldedLayout::FoldedLayout(const NetworkLayout& layout) {
 }
 
 template <typename Visit>
-void FoldedLayout::ForEachMap(const Visit& visit) const {
-  for (const FoldedMap& map : maps_) visit(map);
+void FoldedLayout::ForEachLinear(const Visit& visit) const {
+  for (const FoldedLinear& linear : linear_) visit(linear);
   for (std::size_t i = 0; i < gru_.size(); ++i) {
-    if (i > 0) visit(gru_[i].input);  // the first one's is among the maps
+    if (i > 0) visit(gru_[i].input);  // the first one's is among linear_
     visit(gru_[i].hidden);
   }
 }
 
 void FoldedLayout::Fold(const float* parameters, float* folded) const {
-  ForEachMap([&](const FoldedMap& map) { FoldMap(map, parameters, folded); });
+  ForEachLinear([&](const FoldedLinear& linear) { FoldLinear(linear, parameters, folded); });
   std::copy_n(parameters + flat_log_std_, outputs_, folded + log_std_);
 }
 
 void FoldedLayout::UnfoldGradient(const float* parameters, const float* folded_gradient,
                                   float* gradient) const {
-  ForEachMap([&](const FoldedMap& map) { UnfoldMap(map, parameters, folded_gradient, gradient); });
+  ForEachLinear([&](const FoldedLinear& linear) {
+    UnfoldLinear(linear, parameters, folded_gradient, gradient);
+  });
   std::copy_n(folded_gradient + log_std_, outputs_, gradient + flat_log_std_);
 }
 

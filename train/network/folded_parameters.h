@@ -9,16 +9,16 @@
 
 namespace skein {
 
-/// One affine map of a network as FusedNetwork computes it: row-major [out][in] with both widths
+/// One linear layer of a network as FusedNetwork computes it: row-major [out][in] with both widths
 /// padded by zeros, and with the affine part of the LayerNorm before it, if there is one, folded
 /// in: W' = W diag(gamma), b' = b + W beta.
-struct FoldedMap {
+struct FoldedLinear {
   int in = 0, out = 0;  ///< padded
   std::int64_t weight = 0, bias = 0;
 
   // What it is folded from.
   int flat_in = 0;
-  int block = 0, padded_block = 0;  ///< rows of a gate of the GRU, else of the whole map
+  int block = 0, padded_block = 0;  ///< rows of a gate of the GRU, else all rows
   std::array<int, 3> order{};       ///< the flat vector's block that is the folded one's
   std::int64_t flat_weight = 0, flat_bias = 0;
   std::int64_t norm_weight = -1, norm_bias = -1;  ///< -1: no LayerNorm before it
@@ -27,38 +27,40 @@ struct FoldedMap {
   int FlatRow(int row) const;
 };
 
-/// The affine maps of one GRU layer. Gates of the input map are in the order n, r, z, of the hidden
-/// map r, z, n, so that a row of gate gradients [n | r | z | q] is contiguous for both products.
+/// The linear layers of one GRU layer. Gates of the input layer are in the order n, r, z, of the
+/// hidden layer r, z, n, so that a row of gate gradients [n | r | z | q] is contiguous for both
+/// products.
 struct FoldedGru {
-  FoldedMap input, hidden;
+  FoldedLinear input, hidden;
 };
 
 /// Where the parts of a network lie in a folded vector: its parameters as the kernels read them, or
-/// a gradient by those.
+/// a gradient with respect to those.
 class FoldedLayout {
  public:
   explicit FoldedLayout(const NetworkLayout& layout);
 
   std::int64_t size() const { return size_; }
   /// By the index of NetworkLayout::layer; the one at gru_input() is gru(0).input.
-  const FoldedMap& map(int layer) const { return maps_[layer]; }
+  const FoldedLinear& linear(int layer) const { return linear_[layer]; }
   const FoldedGru& gru(int layer) const { return gru_[layer]; }
   std::int64_t log_std() const { return log_std_; }
 
   /// The folded form of `parameters`, the network's flat vector.
   void Fold(const float* parameters, float* folded) const;
-  /// The gradient by the flat parameters from the one by the folded ones, which is linear in it:
-  /// the sum over tiles may be unfolded at once. With G the gradient by W' and g by b', dW = G
-  /// diag(gamma) + g beta^T, dgamma = column sums of W o G, dbeta = W^T g.
+  /// The gradient with respect to the flat parameters from the one with respect to the folded
+  /// ones, which is linear in it: the sum over tiles may be unfolded at once. With G the gradient
+  /// with respect to W' and g with respect to b', dW = G diag(gamma) + g beta^T, dgamma = column
+  /// sums of W o G, dbeta = W^T g.
   void UnfoldGradient(const float* parameters, const float* folded_gradient, float* gradient) const;
 
  private:
-  /// Places a map of `blocks` blocks of rows.
-  FoldedMap Place(int in, int padded_in, int blocks, int block, int padded_block);
+  /// Places a layer of `blocks` blocks of rows.
+  FoldedLinear Place(int in, int padded_in, int blocks, int block, int padded_block);
   template <typename Visit>
-  void ForEachMap(const Visit& visit) const;
+  void ForEachLinear(const Visit& visit) const;
 
-  std::vector<FoldedMap> maps_;
+  std::vector<FoldedLinear> linear_;
   std::vector<FoldedGru> gru_;
   int outputs_ = 0;  ///< that have a log_std
   std::int64_t log_std_ = 0, flat_log_std_ = 0, size_ = 0;

@@ -30,8 +30,8 @@ struct FusedActivations {
   std::vector<GruRows> gru;
   AlignedVector<float> normalised_state, state_inverse_std;
   AlignedVector<float> output_gradient;
-  std::array<AlignedVector<float>, 2> state_gradient;  ///< by the states of two GRU layers
-  std::array<AlignedVector<float>, 2> block_gradient;  ///< by two hidden layers, of a few rows
+  std::array<AlignedVector<float>, 2> state_gradient;  ///< of the states of two GRU layers
+  std::array<AlignedVector<float>, 2> block_gradient;  ///< of two hidden layers, of a few rows
   AlignedVector<float> gate_sums;                      ///< of gate gradients over the rows
   simd::ProductWorkspace products;
 };

@@ -12,13 +12,13 @@ namespace {
 
 // Rows that go through a layer's product and what follows it together: their values stay in the
 // first two levels of the cache, while the layer's weights are read once for all of them.
-constexpr std::int64_t kRowBlock = 96;
+constexpr std::int64_t kLayerRows = 96;
 
-/// Calls visit(first, count) for the blocks of `rows` rows.
+/// Calls visit(first, count) for `rows` rows, kLayerRows at a time.
 template <typename Visit>
-void ForEachRowBlock(std::int64_t rows, const Visit& visit) {
-  for (std::int64_t first = 0; first < rows; first += kRowBlock) {
-    visit(first, std::min(kRowBlock, rows - first));
+void ForEachLayerRows(std::int64_t rows, const Visit& visit) {
+  for (std::int64_t first = 0; first < rows; first += kLayerRows) {
+    visit(first, std::min(kLayerRows, rows - first));
   }
 }
 
@@ -30,7 +30,7 @@ void Grow(AlignedVector<float>& vector, std::int64_t size) {
   if (static_cast<std::int64_t>(vector.size()) < size) vector.resize(size);
 }
 
-/// One layer's part of the states [batch][layers][size], times keep, into padded rows.
+/// One layer's part of the states [batch][layers][size], times not_done, into padded rows.
 void LoadState(int batch, int layers, int layer, int size, const float* not_done,
                const float* state, float* rows) {
   const int padded = PaddedWidth(size);
@@ -79,7 +79,7 @@ void FusedActivations::Reserve(const NetworkShape& shape, int steps, int batch) 
   Grow(output_gradient, rows * shape.output_size);
   for (AlignedVector<float>& buffer : state_gradient) Grow(buffer, rows * state);
   for (AlignedVector<float>& buffer : block_gradient) {
-    Grow(buffer, kRowBlock * std::max(width, state));
+    Grow(buffer, kLayerRows * std::max(width, state));
   }
   Grow(gate_sums, 4 * size);
 }
@@ -87,18 +87,18 @@ void FusedActivations::Reserve(const NetworkShape& shape, int steps, int batch) 
 FusedNetwork::FusedNetwork(const NetworkLayout& layout, const NetworkPrecision& precision)
     : layout_(layout),
       folded_layout_(layout),
-      head_(folded_layout_.map(layout.head()), precision),
+      head_(folded_layout_.linear(layout.head()), precision),
       folded_(folded_layout_.size()) {
   const NetworkShape& shape = layout.shape();
   const std::string limitation = FusedLimitation(shape);
   if (!limitation.empty()) throw Error("the fused kernels do not know " + limitation);
   for (int i = 0; i < layout.head(); ++i) {
-    if (i != layout.gru_input()) hidden_.emplace_back(folded_layout_.map(i), precision);
+    if (i != layout.gru_input()) hidden_.emplace_back(folded_layout_.linear(i), precision);
   }
   const int size = PaddedWidth(shape.gru_size);
   for (int i = 0; i < shape.gru_layers; ++i) {
-    const FoldedGru& maps = folded_layout_.gru(i);
-    gru_.push_back({AffineMap(maps.input, precision), AffineMap(maps.hidden, precision),
+    const FoldedGru& place = folded_layout_.gru(i);
+    gru_.push_back({LinearLayer(place.input, precision), LinearLayer(place.hidden, precision),
                     AlignedVector<float>(3 * size), AlignedVector<float>(size)});
   }
 }
@@ -106,7 +106,7 @@ FusedNetwork::FusedNetwork(const NetworkLayout& layout, const NetworkPrecision& 
 void FusedNetwork::SetParameters(const float* parameters) {
   parameters_.assign(parameters, parameters + layout_.size());
   folded_layout_.Fold(parameters, folded_.data());
-  for (AffineMap& map : hidden_) map.SetParameters(folded_.data());
+  for (LinearLayer& linear : hidden_) linear.SetParameters(folded_.data());
   const int size = PaddedWidth(layout_.shape().gru_size);
   for (Gru& gru : gru_) {
     gru.input.SetParameters(folded_.data());
@@ -134,24 +134,24 @@ const float* FusedNetwork::GruInputOf(int layer, const FusedActivations& activat
 
 void FusedNetwork::HiddenForward(int index, std::int64_t first, std::int64_t count,
                                  FusedActivations& activations) const {
-  const AffineMap& map = hidden_[index];
-  const std::int64_t in = RowStride(map.place().in), out = RowStride(map.place().out);
+  const LinearLayer& linear = hidden_[index];
+  const std::int64_t in = RowStride(linear.place().in), out = RowStride(linear.place().out);
   FusedActivations::HiddenRows& rows = activations.hidden[index];
   float* const values = rows.normalised.data() + first * out;
-  map.Forward(count, InputOf(index, activations) + first * in, in, folded(map.place().bias), false,
-              values, out, &activations.products);
+  linear.Forward(count, InputOf(index, activations) + first * in, in, folded(linear.place().bias),
+                 false, values, out, &activations.products);
   ReluNormalise(count, layout_.shape().hidden_size, values, rows.inverse_std.data() + first,
                 rows.zero_level.data() + first);
 }
 
 void FusedNetwork::GatesForward(int layer, std::int64_t first, std::int64_t count,
                                 FusedActivations& activations) const {
-  const AffineMap& map = gru_[layer].input;
-  const std::int64_t in = RowStride(map.place().in);
+  const LinearLayer& linear = gru_[layer].input;
+  const std::int64_t in = RowStride(linear.place().in);
   const std::int64_t stride = GateStride(PaddedWidth(layout_.shape().gru_size));
-  map.Forward(count, GruInputOf(layer, activations) + first * in, in, gru_[layer].gate_bias.data(),
-              false, activations.gru[layer].gates.data() + first * stride, stride,
-              &activations.products);
+  linear.Forward(
+      count, GruInputOf(layer, activations) + first * in, in, gru_[layer].gate_bias.data(), false,
+      activations.gru[layer].gates.data() + first * stride, stride, &activations.products);
 }
 
 void FusedNetwork::GruForward(int layer, const SequenceTile& tile,
@@ -172,7 +172,7 @@ void FusedNetwork::GruForward(int layer, const SequenceTile& tile,
       ScaleRows(batch, size, tile.not_done + begin, rows.state.data() + (begin - batch) * state,
                 previous);
     }
-    ForEachRowBlock(batch, [&](std::int64_t first, std::int64_t count) {
+    ForEachLayerRows(batch, [&](std::int64_t first, std::int64_t count) {
       float* const gates = rows.gates.data() + (begin + first) * stride;
       for (std::int64_t i = 0; i < count; ++i) {
         std::copy_n(gru.new_bias.begin(), size, gates + i * stride + 3 * size);
@@ -195,7 +195,7 @@ void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace
   Grow(workspace.output_, rows * shape.output_size);
   Grow(workspace.final_state_, static_cast<std::int64_t>(tile.batch) * shape.state_size());
 
-  ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+  ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
     NormaliseRows(count, observations, tile.observation + first * observations,
                   activations.observation.data() + first * RowStride(observations));
     for (int i = 0; i < shape.hidden_layers; ++i) HiddenForward(i, first, count, activations);
@@ -203,7 +203,7 @@ void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace
   });
   for (int i = 0; i < shape.gru_layers; ++i) {
     if (i > 0) {
-      ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+      ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
         GatesForward(i, first, count, activations);
       });
     }
@@ -213,7 +213,7 @@ void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace
                workspace.final_state_.data());
   }
   const float* const state = activations.gru[shape.gru_layers - 1].state.data();
-  ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+  ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
     NormaliseWithStd(count, shape.gru_size, state + first * stride,
                      activations.normalised_state.data() + first * stride,
                      activations.state_inverse_std.data() + first);
@@ -249,16 +249,16 @@ void FusedNetwork::FinishGradient(const float* accumulator, float* gradient) con
 void FusedNetwork::HiddenBackward(int index, float* input_gradient, std::int64_t first,
                                   std::int64_t count, FusedActivations& activations,
                                   float* gradient, float* folded_gradient) const {
-  const AffineMap& map = hidden_[index];
-  const std::int64_t in = RowStride(map.place().in), out = RowStride(map.place().out);
+  const LinearLayer& linear = hidden_[index];
+  const std::int64_t in = RowStride(linear.place().in), out = RowStride(linear.place().out);
   const FusedActivations::HiddenRows& rows = activations.hidden[index];
   ReluNormaliseBackward(count, layout_.shape().hidden_size, rows.normalised.data() + first * out,
                         rows.inverse_std.data() + first, rows.zero_level.data() + first, gradient,
-                        folded_gradient + map.place().bias);
-  map.BackwardToWeight(count, InputOf(index, activations) + first * in, in, gradient, out,
-                       folded_gradient, &activations.products);
+                        folded_gradient + linear.place().bias);
+  linear.BackwardToWeight(count, InputOf(index, activations) + first * in, in, gradient, out,
+                          folded_gradient, &activations.products);
   if (input_gradient == nullptr) return;
-  map.BackwardToInput(count, gradient, out, false, input_gradient, in, &activations.products);
+  linear.BackwardToInput(count, gradient, out, false, input_gradient, in, &activations.products);
 }
 
 void FusedNetwork::GruBackward(int layer, const SequenceTile& tile, FusedActivations& activations,
@@ -272,7 +272,7 @@ void FusedNetwork::GruBackward(int layer, const SequenceTile& tile, FusedActivat
   float* const sums = activations.gate_sums.data();
   std::fill_n(sums, 4 * size, 0.0f);
   for (int step = tile.steps - 1; step >= 0; --step) {
-    ForEachRowBlock(batch, [&](std::int64_t offset, std::int64_t count) {
+    ForEachLayerRows(batch, [&](std::int64_t offset, std::int64_t count) {
       const std::int64_t first = step * batch + offset;
       float* const gates = all_gates + first * stride;
       float* const gradient = state_gradient + first * state;
@@ -301,7 +301,7 @@ void FusedNetwork::Backward(const SequenceTile& tile, const float* output_gradie
   float* const block[2] = {activations.block_gradient[0].data(),
                            activations.block_gradient[1].data()};
 
-  ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+  ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
     const float* const by_output = output_gradient + first * outputs;
     float* const by_block_state = by_state + first * state;
     const int layers = 2 * shape.hidden_layers;
@@ -324,21 +324,21 @@ void FusedNetwork::Backward(const SequenceTile& tile, const float* output_gradie
   for (int i = shape.gru_layers - 1; i >= 0; --i) {
     const int current = (shape.gru_layers - 1 - i) % 2;
     GruBackward(i, tile, activations, activations.state_gradient[current].data(), folded_gradient);
-    const AffineMap& map = gru_[i].input;
-    const std::int64_t in = RowStride(map.place().in);
-    ForEachRowBlock(rows, [&](std::int64_t first, std::int64_t count) {
+    const LinearLayer& linear = gru_[i].input;
+    const std::int64_t in = RowStride(linear.place().in);
+    ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
       const float* const gates = activations.gru[i].gates.data() + first * stride;
-      map.BackwardToWeight(count, GruInputOf(i, activations) + first * in, in, gates, stride,
-                           folded_gradient, &activations.products);
+      linear.BackwardToWeight(count, GruInputOf(i, activations) + first * in, in, gates, stride,
+                              folded_gradient, &activations.products);
       if (i > 0) {
-        map.BackwardToInput(count, gates, stride, false,
-                            activations.state_gradient[current ^ 1].data() + first * state, state,
-                            &activations.products);
+        linear.BackwardToInput(count, gates, stride, false,
+                               activations.state_gradient[current ^ 1].data() + first * state,
+                               state, &activations.products);
         return;
       }
-      // Nothing needs the gradient by the observation.
+      // Nothing needs the gradient with respect to the observation.
       if (shape.hidden_layers == 0) return;
-      map.BackwardToInput(count, gates, stride, false, block[0], in, &activations.products);
+      linear.BackwardToInput(count, gates, stride, false, block[0], in, &activations.products);
       for (int k = shape.hidden_layers - 1, now = 0; k >= 0; --k, now ^= 1) {
         HiddenBackward(k, k > 0 ? block[now ^ 1] : nullptr, first, count, activations, block[now],
                        folded_gradient);

@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "train/network/affine_map.h"
 #include "train/network/folded_parameters.h"
+#include "train/network/linear_layer.h"
 #include "train/network/recurrent_network.h"
 
 namespace skein {
 
-/// A recurrent network computed tile by tile without an autograd graph, by own matrix products and
+/// A recurrent network computed tile by tile without an autograd graph, by custom GEMM and
 /// elementwise kernels and hand-derived gradients. A layer goes through its product and what
 /// follows it a few rows at a time, which stay in the innermost caches. The affine part of each
-/// LayerNorm is folded into the map behind it (train/network/folded_parameters.h), so that it costs
-/// nothing per sample. Any depth and width; ReLU alone.
+/// LayerNorm is folded into the linear layer behind it (train/network/folded_parameters.h), so that
+/// it costs nothing per sample. Any depth and width; ReLU alone.
 class FusedNetwork : public RecurrentNetwork {
  public:
   /// Throws Error where FusedLimitation (train/network/backend.h) names one.
@@ -23,7 +23,7 @@ class FusedNetwork : public RecurrentNetwork {
   const NetworkLayout& layout() const override { return layout_; }
   void SetParameters(const float* parameters) override;
   void Forward(const SequenceTile& tile, NetworkWorkspace& workspace) const override;
-  /// An accumulator is a gradient by the folded parameters.
+  /// An accumulator is a gradient with respect to the folded parameters.
   std::int64_t accumulator_size() const override { return folded_layout_.size(); }
   LossSums AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
                               NetworkWorkspace& workspace, float* accumulator) const override;
@@ -31,8 +31,8 @@ class FusedNetwork : public RecurrentNetwork {
 
  private:
   struct Gru {
-    AffineMap input, hidden;
-    AlignedVector<float> gate_bias;  ///< of n, r, z: the hidden map's added for r and z
+    LinearLayer input, hidden;
+    AlignedVector<float> gate_bias;  ///< of n, r, z: the hidden layer's added for r and z
     AlignedVector<float> new_bias;   ///< of the new gate's hidden product
   };
 
@@ -41,7 +41,7 @@ class FusedNetwork : public RecurrentNetwork {
   const float* InputOf(int index, const FusedActivations& activations) const;
   const float* GruInputOf(int layer, const FusedActivations& activations) const;
 
-  /// normalise(relu(map(in))) of the rows [first, first + count).
+  /// normalise(relu(linear(in))) of the rows [first, first + count).
   void HiddenForward(int index, std::int64_t first, std::int64_t count,
                      FusedActivations& activations) const;
   /// Input products of a GRU's gates, of the rows [first, first + count).
@@ -49,25 +49,25 @@ class FusedNetwork : public RecurrentNetwork {
                     FusedActivations& activations) const;
   void GruForward(int layer, const SequenceTile& tile, FusedActivations& activations) const;
 
-  /// Adds the gradient by the folded parameters to `folded_gradient`, given the one by the output,
-  /// [steps][batch][output_size]. Uses up what Forward left.
+  /// Adds the gradient with respect to the folded parameters to `folded_gradient`, given the one
+  /// with respect to the output, [steps][batch][output_size]. Uses up what Forward left.
   void Backward(const SequenceTile& tile, const float* output_gradient,
                 FusedActivations& activations, float* folded_gradient) const;
-  /// For the rows [first, first + count): turns `gradient`, by the layer's output, into the one by
-  /// its map's values, adds the map's gradients, and writes the one by its input unless that is
-  /// null.
+  /// For the rows [first, first + count): turns `gradient`, with respect to the layer's output,
+  /// into the one with respect to its linear values, adds that of its parameters, and writes the
+  /// one with respect to its input unless that is null.
   void HiddenBackward(int index, float* input_gradient, std::int64_t first, std::int64_t count,
                       FusedActivations& activations, float* gradient, float* folded_gradient) const;
-  /// Back through time: `state_gradient`, by the states of the layer, is used up; gates become
-  /// their gradients. Adds all gradients of the layer but that of the input map's weight.
+  /// Back through time: `state_gradient`, with respect to the states of the layer, is used up;
+  /// gates become their gradients. Adds all gradients of the layer but that of the input weight.
   void GruBackward(int layer, const SequenceTile& tile, FusedActivations& activations,
                    float* state_gradient, float* folded_gradient) const;
 
   NetworkLayout layout_;
   FoldedLayout folded_layout_;
-  std::vector<AffineMap> hidden_;  ///< before the GRU, then behind it
+  std::vector<LinearLayer> hidden_;  ///< before the GRU, then behind it
   std::vector<Gru> gru_;
-  AffineMap head_;
+  LinearLayer head_;
   std::vector<float> parameters_;  ///< flat
   AlignedVector<float> folded_;
 };

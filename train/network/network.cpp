@@ -87,20 +87,20 @@ NetworkLayout::NetworkLayout(const NetworkShape& shape) : shape_(shape) {
   int width = shape.observation_size, number = 0;
   const auto append_hidden = [&] {
     for (int i = 0; i < shape.hidden_layers; ++i) {
-      AppendMap("layer" + std::to_string(++number), width, shape.hidden_size);
+      AppendLinear("layer" + std::to_string(++number), width, shape.hidden_size);
       width = shape.hidden_size;
     }
   };
   append_hidden();
-  AppendMap("gru_input", width, 3 * shape.gru_size);
+  AppendLinear("gru_input", width, 3 * shape.gru_size);
   AppendGru();
   width = shape.gru_size;
   append_hidden();
-  AppendMap("head", width, shape.output_size);
+  AppendLinear("head", width, shape.output_size);
   if (shape.gaussian) log_std_ = Append("log_std", {shape.output_size});
 }
 
-void NetworkLayout::AppendMap(const std::string& name, int in, int out) {
+void NetworkLayout::AppendLinear(const std::string& name, int in, int out) {
   NormalisedLinear& layer = layers_.emplace_back();
   layer.in = in;
   layer.out = out;

@@ -11,7 +11,7 @@ namespace skein {
 
 /// Shape of one recurrent network: LayerNorm on the observation; `hidden_layers` of Linear,
 /// activation, LayerNorm; `gru_layers` of a GRU, each reading the state of the one before it;
-/// LayerNorm; as many hidden layers again; linear head. Read as affine maps, each behind a
+/// LayerNorm; as many hidden layers again; linear head. Read as linear layers, each behind a
 /// LayerNorm, with the GRU on the one in the middle (the NeuralPlane paper's learning settings have
 /// two hidden layers on each side and one GRU).
 struct NetworkShape {
@@ -30,15 +30,15 @@ struct NetworkShape {
 
 bool operator==(const NetworkShape& a, const NetworkShape& b);
 
-/// A LayerNorm over `in` values followed by an affine map to `out` values; offsets in floats.
+/// A LayerNorm over `in` values followed by a linear layer to `out` values; offsets in floats.
 /// Weights are row-major [out][in].
 struct NormalisedLinear {
   int in = 0, out = 0;
   std::int64_t norm_weight = 0, norm_bias = 0, weight = 0, bias = 0;
 };
 
-/// The affine maps of one GRU layer; offsets in floats. Rows of the weights, [3 gru_size][in], are
-/// the gates in the order reset, update, new.
+/// The linear layers of one GRU layer; offsets in floats. Rows of the weights, [3 gru_size][in],
+/// are the gates in the order reset, update, new.
 struct GruLayer {
   int in = 0;
   std::int64_t input_weight = 0, input_bias = 0;
@@ -62,13 +62,13 @@ class NetworkLayout {
   const NetworkShape& shape() const { return shape_; }
   std::int64_t size() const { return size_; }
 
-  /// The maps behind LayerNorms from the observation to the output: hidden layers, the first GRU
-  /// layer's input, hidden layers, head.
+  /// The linear layers behind LayerNorms from the observation to the output: hidden layers, the
+  /// first GRU layer's input, hidden layers, head.
   const std::vector<NormalisedLinear>& layers() const { return layers_; }
   const NormalisedLinear& layer(int index) const { return layers_[index]; }
-  int gru_input() const { return shape_.hidden_layers; }     ///< index of the first GRU's input map
-  int head() const { return 2 * shape_.hidden_layers + 1; }  ///< index of the last map
-  /// The GRU layers; the first one's input map is layer(gru_input()).
+  int gru_input() const { return shape_.hidden_layers; }     ///< index of the first GRU's input
+  int head() const { return 2 * shape_.hidden_layers + 1; }  ///< index of the last layer
+  /// The GRU layers; the first one's input is layer(gru_input()).
   const std::vector<GruLayer>& gru_layers() const { return gru_layers_; }
   std::int64_t log_std() const { return log_std_; }  ///< [output_size]; only if gaussian
   /// Every parameter, in the order of the flat vector, without gaps.
@@ -76,7 +76,7 @@ class NetworkLayout {
 
  private:
   std::int64_t Append(const std::string& name, std::vector<std::int64_t> shape);
-  void AppendMap(const std::string& name, int in, int out);
+  void AppendLinear(const std::string& name, int in, int out);
   void AppendGru();
 
   NetworkShape shape_;

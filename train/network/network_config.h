@@ -8,7 +8,7 @@ namespace skein {
 
 class FieldList;
 
-/// What a hidden layer applies to its linear map.
+/// What a hidden layer applies to its linear values.
 enum class Activation { kRelu, kTanh, kElu, kSilu };
 
 /// Names in configurations and files.

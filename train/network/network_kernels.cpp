@@ -125,8 +125,9 @@ void NormaliseWithStdKernel(std::int64_t rows, int columns, const float* in, flo
   kernel(rows, columns, in, out, inverse_std, nullptr);
 }
 
-/// The gradient through NormaliseTogether: `gradient` (by the normalised values) becomes the one by
-/// the values, of which with kRelu the column sums are added to `bias_gradient`, row by row.
+/// The gradient through NormaliseTogether: `gradient` with respect to the normalised values becomes
+/// the one with respect to the values, of which with kRelu the column sums are added to
+/// `bias_gradient`, row by row.
 template <int kRows, bool kRelu, bool kPadded>
 HWY_INLINE void NormaliseBackwardTogether(std::int64_t first, int columns, const float* normalised,
                                           const float* inverse_std, const float* zero_level,

@@ -21,8 +21,8 @@ constexpr std::int64_t RowStride(int width) { return PaddedWidth(width) + 16; }
 // products between them are simd/matrix_product.h's. Unless said otherwise rows lie
 // RowStride(columns) floats apart, and what is behind the columns is zero before and after.
 // "Normalise" is LayerNorm without its affine part: (x - mean) / sqrt(variance + epsilon) of each
-// row; the affine part is folded into the map that follows (train/network/folded_parameters.h).
-// Not-a-number in an input shows in the output.
+// row; the affine part is folded into the linear layer that follows
+// (train/network/folded_parameters.h). Not-a-number in an input shows in the output.
 
 /// Rows of `in` are `columns` floats apart; what is behind the columns of `out` is left alone.
 void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out);
@@ -33,8 +33,8 @@ void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out);
 void ReluNormalise(std::int64_t rows, int columns, float* values, float* inverse_std,
                    float* zero_level);
 
-/// gradient (by the normalised values) becomes the gradient by the values before the ReLU; its
-/// column sums are added to `bias_gradient`.
+/// `gradient` with respect to the normalised values becomes the one with respect to the values
+/// before the ReLU; its column sums are added to `bias_gradient`.
 void ReluNormaliseBackward(std::int64_t rows, int columns, const float* normalised,
                            const float* inverse_std, const float* zero_level, float* gradient,
                            float* bias_gradient);
@@ -43,14 +43,15 @@ void ReluNormaliseBackward(std::int64_t rows, int columns, const float* normalis
 void NormaliseWithStd(std::int64_t rows, int columns, const float* in, float* out,
                       float* inverse_std);
 
-/// gradient (by the normalised values) becomes the gradient by the values before normalisation.
+/// `gradient` with respect to the normalised values becomes the one with respect to the values
+/// before normalisation.
 void NormaliseBackward(std::int64_t rows, int columns, const float* normalised,
                        const float* inverse_std, float* gradient);
 
-/// out[row] = keep[row] * in[row].
+/// out[row] = not_done[row] * in[row].
 void ScaleRows(std::int64_t rows, int columns, const float* not_done, const float* in, float* out);
 
-/// out[row] += keep[row] * in[row].
+/// out[row] += not_done[row] * in[row].
 void AddScaledRows(std::int64_t rows, int columns, const float* not_done, const float* in,
                    float* out);
 
@@ -62,9 +63,9 @@ void AddScaledRows(std::int64_t rows, int columns, const float* not_done, const 
 void GruStep(std::int64_t rows, int size, const float* previous, float* gates, std::int64_t stride,
              float* next);
 
-/// Back through GruStep: `gates` become the gradients by [n | r | z | q] before activation, whose
-/// column sums are added to `gate_sums`; `state_gradient` (by next) becomes the direct part of the
-/// gradient by previous, z times it.
+/// Back through GruStep: `gates` become the gradients with respect to [n | r | z | q] before
+/// activation, whose column sums are added to `gate_sums`; `state_gradient`, with respect to next,
+/// becomes the direct part of the one with respect to previous, z times it.
 void GruStepBackward(std::int64_t rows, int size, const float* previous, float* gates,
                      std::int64_t stride, float* state_gradient, float* gate_sums);
 

@@ -40,7 +40,7 @@ struct ActorSamples {
 };
 
 /// PPO's clipped surrogate (Schulman et al. 2017, equation 7) and the entropy bonus. Writes the
-/// gradient by the actor's outputs (before tanh) and adds the one by log_std.
+/// gradient with respect to the actor's outputs (before tanh) and adds that of log_std.
 LossSums ActorLoss(std::int64_t rows, int size, const LossSettings& settings, const float* output,
                    const float* log_std, const ActorSamples& samples, float* output_gradient,
                    float* log_std_gradient);

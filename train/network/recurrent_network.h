@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "base/aligned_vector.h"
-#include "train/network/affine_map.h"
 #include "train/network/backend.h"
 #include "train/network/fused_activations.h"
+#include "train/network/linear_layer.h"
 #include "train/network/network.h"
 #include "train/network/ppo_loss.h"
 
@@ -51,9 +51,9 @@ class NetworkWorkspace {
 };
 
 /// A recurrent network (NetworkShape) that computes tiles of sequences forward, and the gradient of
-/// the PPO loss by its parameters. An actor is a network whose shape is gaussian. Const functions
-/// may run on several threads at once, each with its own workspace; each computes on its calling
-/// thread alone.
+/// the PPO loss with respect to its parameters. An actor is a network whose shape is gaussian.
+/// Const functions may run on several threads at once, each with its own workspace; each computes
+/// on its calling thread alone.
 class RecurrentNetwork {
  public:
   virtual ~RecurrentNetwork() = default;
@@ -66,7 +66,8 @@ class RecurrentNetwork {
   virtual void Forward(const SequenceTile& tile, NetworkWorkspace& workspace) const = 0;
 
   /// Tiles are added up in an accumulator of the implementation's own form (sums of accumulators
-  /// are accumulators), which FinishGradient turns into the gradient by the flat parameters.
+  /// are accumulators), which FinishGradient turns into the gradient with respect to the flat
+  /// parameters.
   virtual std::int64_t accumulator_size() const = 0;
   /// Adds the gradient of the tile's loss, and returns its losses.
   virtual LossSums AccumulateGradient(const SampleTile& tile, const LossSettings& settings,

@@ -46,12 +46,12 @@ void FlyTile(const Agent& agent, VecEnv& env, int tile, const EvaluationOptions&
   output.final_observation = final_observation.data();
   if (options.flight_metrics) output.flight_metrics = metrics.data();
 
-  TileAgent pilot = MakeEvaluationAgent(agent, env, tile, options);
+  TileAgent flying_agent = MakeEvaluationAgent(agent, env, tile, options);
   for (int flying = count; flying > 0 && !pool.stopping();) {
-    env.Step(tile, pilot.Act().data(), output);
+    env.Step(tile, flying_agent.Act().data(), output);
     for (int i = 0; i < count; ++i) {
       if (termination[i] == static_cast<std::uint8_t>(Termination::kNone)) continue;
-      pilot.Forget(i);
+      flying_agent.Forget(i);
       Episode& episode = episodes[i];
       if (episode.termination != Termination::kNone) continue;
       episode.termination = static_cast<Termination>(termination[i]);

@@ -111,12 +111,12 @@ std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& c
     std::vector<RecordedFlight*> recorded;
     for (int i = begin; i < end; ++i) recorded.push_back(&flights[i]);
     TileRecorder recorder(env, tile, std::move(recorded));
-    TileAgent pilot = MakeEvaluationAgent(agent, env, tile, options);
+    TileAgent flying_agent = MakeEvaluationAgent(agent, env, tile, options);
     while (!recorder.IsDone()) {
       // Whole tiles fly, the aircraft that are not recorded too: matrix products may round by
       // shape.
-      const std::vector<float>& action = pilot.Act();
-      recorder.Step(pilot.observation(), action);
+      const std::vector<float>& action = flying_agent.Act();
+      recorder.Step(flying_agent.observation(), action);
     }
   });
   return flights;

@@ -18,8 +18,8 @@ namespace skein {
 struct RecordedStep {
   std::array<float, kNumRecordedColumns> state{};  ///< envs/state/state.h
   std::vector<float> action;  ///< the policy's, held during the step, clipped to [-1, 1]
-  /// What the pilot's stick and throttle got, clipped to [-1, 1]: the action, or the low-level
-  /// policy's that flies for a high-level policy.
+  /// Stick commands, what enters the flight control system, clipped to [-1, 1]: the action, or the
+  /// low-level policy's.
   std::array<float, kActionSize> stick{};
   float reward = 0;  ///< of the step, terminal reward included
   Termination termination = Termination::kNone;
@@ -36,7 +36,7 @@ struct RecordedFlight {
 };
 
 /// The first `count` episodes (all, if there are fewer) of Evaluate with the same arguments, flown
-/// again control step by control step: bit for bit what was evaluated, whatever the threads.
+/// again control step by control step: bit-identical to what was evaluated, whatever the threads.
 std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& env,
                                           const EvaluationOptions& options, int count,
                                           WorkerPool& pool);

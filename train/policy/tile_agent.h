@@ -9,16 +9,16 @@
 
 namespace skein {
 
-/// An agent at the controls of one tile: it observes, remembers and decides for every aircraft.
-/// What it decides for one depends on the observations of that aircraft and, if there is chance in
-/// it, on (seed, aircraft, policy step).
+/// An agent that flies one tile: its actions for every aircraft, and what it remembers of each. An
+/// action depends on the observations of its aircraft and, if it is drawn at random, on (seed,
+/// aircraft, policy step).
 class TileAgent {
  public:
-  /// Agent and environment must outlive the pilot.
+  /// Agent and environment must outlive it.
   TileAgent(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed);
 
-  /// Observes the tile and decides. Row-major [tile count][action_size], not clipped; valid until
-  /// the next call.
+  /// Observes the tile and takes a policy step. Row-major [tile count][action_size], not clipped;
+  /// valid until the next call.
   const std::vector<float>& Act();
 
   /// What the latest Act observed, row-major [tile count][observation_size].

@@ -51,7 +51,7 @@ class TileRollout {
         rollout_(rollout),
         actor_state_(state.actor.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
         critic_state_(state.critic.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
-        keep_(state.not_done.data() + begin_) {
+        not_done_(state.not_done.data() + begin_) {
     scratch.Resize(count_, rollout.observation_size, rollout.action_size);
   }
 
@@ -59,12 +59,12 @@ class TileRollout {
     for (int step = 0; step < rollout_.steps; ++step) {
       if (pool_.stopping()) return statistics_;
       StoreChunkStart(step);
-      Decide(step);
+      ChooseActions(step);
       Step(step);
       statistics_.policy_steps += count_;
     }
     env_.Observe(tile_, scratch_.final_observation.data());
-    EvaluateCritic(scratch_.final_observation.data(), critic_state_, keep_,
+    EvaluateCritic(scratch_.final_observation.data(), critic_state_, not_done_,
                    rollout_.bootstrap.data() + begin_);
     ComputeAdvantages(begin_, begin_ + count_, settings_.gamma, settings_.gae_lambda, rollout_);
     return statistics_;
@@ -110,17 +110,17 @@ class TileRollout {
     }
   }
 
-  void Decide(int step) {
+  void ChooseActions(int step) {
     const std::int64_t row = Row(step),
                        states = static_cast<std::int64_t>(count_) * rollout_.state_size;
     const int size = rollout_.action_size;
     float* const observation = Observation(step);
     Simulate([&] { env_.Observe(tile_, observation); });
-    std::copy_n(keep_, count_, rollout_.not_done.begin() + row);
+    std::copy_n(not_done_, count_, rollout_.not_done.begin() + row);
 
-    EvaluateCritic(observation, critic_state_, keep_, rollout_.value.data() + row);
+    EvaluateCritic(observation, critic_state_, not_done_, rollout_.value.data() + row);
     std::copy_n(scratch_.workspace.final_state(), states, critic_state_);
-    actor_.Forward({1, count_, observation, actor_state_, keep_}, scratch_.workspace);
+    actor_.Forward({1, count_, observation, actor_state_, not_done_}, scratch_.workspace);
     std::copy_n(scratch_.workspace.final_state(), states, actor_state_);
     GaussianMean(static_cast<std::int64_t>(count_) * size, settings_.tanh_mean,
                  scratch_.workspace.output(), scratch_.mean.data());
@@ -159,10 +159,10 @@ class TileRollout {
     bool truncated = false;
     for (int i = 0; i < count_; ++i) {
       const auto termination = static_cast<Termination>(scratch_.termination[i]);
-      const bool ends = termination != Termination::kNone;
-      rollout_.ends[row + i] = ends;
+      const bool done = termination != Termination::kNone;
+      rollout_.done[row + i] = done;
       truncated |= truncates && termination == Termination::kTimeLimit;
-      if (!ends) continue;
+      if (!done) continue;
       if (termination == Termination::kNonFinite) ++statistics_.non_finite;
       // Older than training: its clock began somewhere.
       if (scratch_.episode_steps[i] > ControlStepsFlown(step)) continue;
@@ -171,13 +171,13 @@ class TileRollout {
       statistics_.return_sum += scratch_.episode_return[i];
     }
     if (truncated) AddTruncatedValues(reward);
-    for (int i = 0; i < count_; ++i) keep_[i] = rollout_.ends[row + i] ? 0.0f : 1.0f;
+    for (int i = 0; i < count_; ++i) not_done_[i] = rollout_.done[row + i] ? 0.0f : 1.0f;
   }
 
-  /// An episode cut off at the time limit would have gone on: its last reward takes the value of
-  /// what it saw last.
+  /// An episode that the time limit truncates would have continued: its last reward takes the
+  /// value of its last observation.
   void AddTruncatedValues(float* reward) {
-    // Rows of other aircraft hold nothing of this step; they are computed and dropped.
+    // Rows of other aircraft hold nothing of this step; they are computed and discarded.
     for (int i = 0; i < count_; ++i) {
       if (scratch_.termination[i] != static_cast<std::uint8_t>(Termination::kTimeLimit)) {
         std::fill_n(scratch_.final_observation.begin() +
@@ -185,9 +185,9 @@ class TileRollout {
                     rollout_.observation_size, 0.0f);
       }
     }
-    // The episode goes on in this evaluation, whatever begins with the next step.
-    const std::vector<float> going_on(count_, 1.0f);
-    EvaluateCritic(scratch_.final_observation.data(), critic_state_, going_on.data(),
+    // In this evaluation the episode has not ended, whatever begins with the next step.
+    const std::vector<float> not_done(count_, 1.0f);
+    EvaluateCritic(scratch_.final_observation.data(), critic_state_, not_done.data(),
                    scratch_.truncation_value.data());
     for (int i = 0; i < count_; ++i) {
       if (scratch_.termination[i] == static_cast<std::uint8_t>(Termination::kTimeLimit)) {
@@ -207,7 +207,7 @@ class TileRollout {
   Rollout& rollout_;
   float* actor_state_;
   float* critic_state_;
-  float* keep_;
+  float* not_done_;
   EpisodeStatistics statistics_;
 };
 
@@ -226,7 +226,7 @@ Rollout::Rollout(const PpoConfig& config, int observations, int actions, int sta
   for (auto* const column : {&log_prob, &value, &reward, &not_done, &advantage, &target}) {
     column->resize(samples());
   }
-  ends.resize(samples());
+  done.resize(samples());
   bootstrap.resize(aircraft);
   const std::int64_t stored = static_cast<std::int64_t>(chunks()) * aircraft * state_size;
   actor_state.resize(stored);
@@ -271,12 +271,12 @@ void ComputeAdvantages(int begin, int end, double gamma, double lambda, Rollout&
     const bool last = step == rollout.steps - 1;
     for (int i = begin; i < end; ++i) {
       const std::int64_t row = rollout.row(step, i), next = row + rollout.aircraft;
-      const float goes_on = rollout.ends[row] ? 0.0f : 1.0f;
+      const float continues = rollout.done[row] ? 0.0f : 1.0f;
       const float next_value = last ? rollout.bootstrap[i] : rollout.value[next];
       const float next_advantage = last ? 0.0f : rollout.advantage[next];
       const float delta =
-          rollout.reward[row] + discount * goes_on * next_value - rollout.value[row];
-      rollout.advantage[row] = delta + decay * goes_on * next_advantage;
+          rollout.reward[row] + discount * continues * next_value - rollout.value[row];
+      rollout.advantage[row] = delta + decay * continues * next_advantage;
       rollout.target[row] = rollout.advantage[row] + rollout.value[row];
     }
   }

@@ -12,7 +12,7 @@
 
 namespace skein {
 
-/// What PPO learns from: one row per policy step step, one column per aircraft; [step][aircraft].
+/// What PPO learns from: one row per policy step, one column per aircraft; [step][aircraft].
 /// `state_size` is that of both networks, NetworkShape::state_size.
 struct Rollout {
   /// Throws Error where Validate(config) does.
@@ -30,7 +30,7 @@ struct Rollout {
   std::vector<float> log_prob, value;
   std::vector<float> reward;             ///< with the bootstrap of truncated episodes
   std::vector<float> not_done;           ///< 0 where an episode begins with this step, else 1
-  std::vector<std::uint8_t> ends;        ///< 1 where an episode ended with this step
+  std::vector<std::uint8_t> done;        ///< 1 where an episode ended with this step
   std::vector<float> bootstrap;          ///< [aircraft]: value of what follows the last step
   std::vector<float> advantage, target;  ///< target: advantage + value
   std::vector<float> actor_state, critic_state;  ///< [chunks][aircraft][state_size] at chunk starts

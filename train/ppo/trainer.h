@@ -20,7 +20,7 @@ struct IterationReport {
   /// The pool was asked to stop: nothing was done after all, and of the other fields only
   /// dropped_steps means anything.
   bool dropped = false;
-  std::uint64_t dropped_steps = 0;  ///< control steps flown in vain
+  std::uint64_t dropped_steps = 0;  ///< control steps discarded
   std::uint64_t iteration = 0;
   std::uint64_t env_steps = 0;  ///< control steps flown since the start of training
   /// Episodes that ended in this iteration, but for first ones with a staggered clock.
@@ -72,11 +72,11 @@ class Trainer {
   /// The actor as it is now.
   RecurrentPolicy policy() const;
 
-  /// Everything needed to go on bit for bit, written atomically (temporary file, fsync, rename,
+  /// Everything needed to resume bit-exactly, written atomically (temporary file, fsync, rename,
   /// directory fsync).
   void Save(const std::string& path) const;
-  /// Returns the SIMD target that the checkpoint was made on: on another one training goes on, but
-  /// not bit for bit. Throws Error if the file is damaged or was made with another configuration of
+  /// Returns the SIMD target that the checkpoint was made on: on another one training resumes, but
+  /// not bit-exactly. Throws Error if the file is damaged or was made with another configuration of
   /// networks, environment or learner, or another low-level policy; nothing has changed then.
   std::string Restore(const std::string& path);
 

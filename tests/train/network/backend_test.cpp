@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "simd/target.h"
 #include "tests/train/libtorch.h"
-#include "train/network/affine_map.h"
 #include "train/network/network.h"
+#include "train/network/precision.h"
 #include "train/network/recurrent_network.h"
 
 namespace skein {

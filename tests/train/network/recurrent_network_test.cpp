@@ -151,21 +151,22 @@ TEST_P(RecurrentNetworkTest, PaddingStaysExactlyZero) {
     const RandomTile samples(shape, 8, 12, seed);
     network.AccumulateGradient(samples.tile(), FullLossSettings(96), workspace, accumulator.data());
   }
-  std::vector<FoldedMap> maps;
-  for (int i = 0; i <= layout.head(); ++i) maps.push_back(folded.map(i));
+  std::vector<FoldedLinear> layers;
+  for (int i = 0; i <= layout.head(); ++i) layers.push_back(folded.linear(i));
   for (int i = 0; i < shape.gru_layers; ++i) {
-    maps.push_back(folded.gru(i).input);
-    maps.push_back(folded.gru(i).hidden);
+    layers.push_back(folded.gru(i).input);
+    layers.push_back(folded.gru(i).hidden);
   }
   int padding = 0, others = 0;
-  for (const FoldedMap& map : maps) {
-    for (int row = 0; row < map.out; ++row) {
-      for (int j = 0; j < map.in; ++j) {
-        const bool is_padding = map.FlatRow(row) < 0 || j >= map.flat_in;
-        const float value = accumulator[map.weight + static_cast<std::int64_t>(row) * map.in + j];
+  for (const FoldedLinear& linear : layers) {
+    for (int row = 0; row < linear.out; ++row) {
+      for (int j = 0; j < linear.in; ++j) {
+        const bool is_padding = linear.FlatRow(row) < 0 || j >= linear.flat_in;
+        const float value =
+            accumulator[linear.weight + static_cast<std::int64_t>(row) * linear.in + j];
         (is_padding ? padding : others) += value != 0;
       }
-      if (map.FlatRow(row) < 0) padding += accumulator[map.bias + row] != 0;
+      if (linear.FlatRow(row) < 0) padding += accumulator[linear.bias + row] != 0;
     }
   }
   EXPECT_EQ(padding, 0);

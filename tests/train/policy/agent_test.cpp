@@ -15,7 +15,7 @@ namespace {
 using Floats = std::vector<float>;
 
 /// One policy step for `count` aircraft with the same observations.
-Floats Decide(const Agent& agent, const Agent::Turn& turn, int count) {
+Floats ActionsOf(const Agent& agent, const Agent::Turn& turn, int count) {
   const Floats observation(count * 22, 0.2f);
   Floats state(count * agent.state_size()), action(count * 4, 9);
   agent.Act(turn, count, observation.data(), state.data(), action.data());
@@ -30,13 +30,15 @@ RecurrentPolicy SmallPolicy() {
   return RecurrentPolicy::Untrained(config, 22, 4, 3, 5);
 }
 
-TEST(AgentTest, IdleCommandsNothing) { EXPECT_EQ(Decide(Agent::Zero(), {}, 3), Floats(12, 0.0f)); }
+TEST(AgentTest, ZeroActionsAreZero) {
+  EXPECT_EQ(ActionsOf(Agent::Zero(), {}, 3), Floats(12, 0.0f));
+}
 
-TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndPolicyStepAlone) {
+TEST(AgentTest, RandomActionsAreUniformAndDependOnSeedAircraftAndPolicyStepAlone) {
   const Agent agent = Agent::Random(50);
   EXPECT_EQ(agent.EnvironmentFor({}).action_repeat, 50);
   constexpr int kCount = 20000;
-  const Floats actions = Decide(agent, {1, 0, 0}, kCount);
+  const Floats actions = ActionsOf(agent, {1, 0, 0}, kCount);
   double sum = 0, squares = 0;
   for (const float action : actions) {
     EXPECT_LE(std::abs(action), 1);
@@ -47,18 +49,18 @@ TEST(AgentTest, RandomIsUniformAndHangsOnSeedAircraftAndPolicyStepAlone) {
   EXPECT_NEAR(sum / (4 * kCount), 0, kStandardErrors * std::sqrt(1.0 / 3 / (4 * kCount)));
   EXPECT_NEAR(squares / (4 * kCount), 1.0 / 3,
               kStandardErrors * std::sqrt(4.0 / 45 / (4 * kCount)));
-  EXPECT_EQ(Row(Decide(agent, {1, 7, 0}, 1), 0), Row(actions, 7));
-  EXPECT_NE(Row(Decide(agent, {1, 7, 1}, 1), 0), Row(actions, 7));
-  EXPECT_NE(Row(Decide(agent, {2, 7, 0}, 1), 0), Row(actions, 7));
+  EXPECT_EQ(Row(ActionsOf(agent, {1, 7, 0}, 1), 0), Row(actions, 7));
+  EXPECT_NE(Row(ActionsOf(agent, {1, 7, 1}, 1), 0), Row(actions, 7));
+  EXPECT_NE(Row(ActionsOf(agent, {2, 7, 0}, 1), 0), Row(actions, 7));
 }
 
 TEST(AgentTest, SampledActionsScatterAboutTheMean) {
   const RecurrentPolicy policy = SmallPolicy();
-  const Floats mean = Decide(Agent::MeanOf(policy), {}, 1);
+  const Floats mean = ActionsOf(Agent::MeanOf(policy), {}, 1);
   const Agent sampling = Agent::SamplingFrom(policy);
   EXPECT_EQ(sampling.EnvironmentFor({}).action_repeat, 5);
   constexpr int kCount = 20000;
-  const Floats actions = Decide(sampling, {1, 0, 0}, kCount);
+  const Floats actions = ActionsOf(sampling, {1, 0, 0}, kCount);
   for (int k = 0; k < 4; ++k) {
     double sum = 0, squares = 0;
     for (int i = 0; i < kCount; ++i) {
@@ -72,12 +74,12 @@ TEST(AgentTest, SampledActionsScatterAboutTheMean) {
                 kStandardErrors * sigma / std::sqrt(2 * kCount));
   }
   constexpr Tolerance kProductShape{1e-5, "matrix products round by their shape"};
-  const Floats alone = Decide(sampling, {1, 7, 0}, 1);
+  const Floats alone = ActionsOf(sampling, {1, 7, 0}, 1);
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(alone[k], Row(actions, 7)[k], kProductShape);
 }
 
-TEST(AgentTest, AnyPilotCanBeFlown) {
-  /// Remembers how often it has decided.
+TEST(AgentTest, AnyPolicyCanFly) {
+  /// Remembers how many policy steps it has taken.
   class CountingPolicy final : public Policy {
    public:
     int observation_size() const override { return 22; }
@@ -94,7 +96,7 @@ TEST(AgentTest, AnyPilotCanBeFlown) {
   const Agent agent = Agent::Of(std::make_shared<CountingPolicy>());
   EXPECT_EQ(agent.EnvironmentFor({}).action_repeat, 10);
   EXPECT_EQ(agent.state_size(), 1);
-  EXPECT_EQ(Decide(agent, {}, 2), Floats(8, 1.0f));
+  EXPECT_EQ(ActionsOf(agent, {}, 2), Floats(8, 1.0f));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(EvaluateTest, CountsOneEpisodePerAircraftWhateverTheThreads) {
     EXPECT_EQ(a.terminations[0], 0);
     EXPECT_EQ(a.terminations, b.terminations);
     EXPECT_EQ(a.return_mean, b.return_mean);
-    // Nobody reaches a target before step 300, and these episodes end at 100.
+    // No episode reaches its target before step 300, and these episodes end at 100.
     EXPECT_EQ(a.success_rate, 0);
     EXPECT_TRUE(std::isnan(a.time_to_target_mean_s));
   }
@@ -55,7 +55,7 @@ TEST(EvaluateTest, TimeToTargetIsTheClockOfTheEpisodesThatReachIt) {
 }
 
 TEST(EvaluateTest, AllAgentsFlyTheSameEpisodes) {
-  // At other rates and with chance of their own, too: what an episode begins with is a function of
+  // At other rates and with random actions, too: what an episode begins with is a function of
   // the seed and its number.
   WorkerPool pool(2);
   EvaluationOptions options;

@@ -26,14 +26,14 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::vector<float> FlyTwice(const Policy& pilot) {
+std::vector<float> FlyTwice(const Policy& policy) {
   constexpr int kCount = 9;
-  std::vector<float> observation(static_cast<std::size_t>(kCount) * pilot.observation_size());
+  std::vector<float> observation(static_cast<std::size_t>(kCount) * policy.observation_size());
   for (std::size_t i = 0; i < observation.size(); ++i) observation[i] = std::sin(0.7f * i);
-  std::vector<float> state(static_cast<std::size_t>(kCount) * pilot.state_size(), 0.0f);
-  std::vector<float> action(static_cast<std::size_t>(kCount) * pilot.action_size());
-  pilot.Act(kCount, observation.data(), state.data(), action.data());
-  pilot.Act(kCount, observation.data(), state.data(), action.data());
+  std::vector<float> state(static_cast<std::size_t>(kCount) * policy.state_size(), 0.0f);
+  std::vector<float> action(static_cast<std::size_t>(kCount) * policy.action_size());
+  policy.Act(kCount, observation.data(), state.data(), action.data());
+  policy.Act(kCount, observation.data(), state.data(), action.data());
   action.insert(action.end(), state.begin(), state.end());
   return action;
 }
@@ -53,7 +53,7 @@ class LowLevelPolicyFileTest : public testing::Test {
   const std::string path_ = scratch_ / "high_level.skein";
 };
 
-TEST_F(LowLevelPolicyFileTest, AHighLevelsFileHoldsItsLowLevelPolicy) {
+TEST_F(LowLevelPolicyFileTest, AHighLevelPolicysFileHoldsItsLowLevelPolicy) {
   const RecurrentPolicy high_level = HighLevel(SmallLowLevelPolicy());
   high_level.Save(path_);
   const RecurrentPolicy loaded = RecurrentPolicy::Load(path_);
@@ -124,7 +124,7 @@ TEST_F(LowLevelPolicyFileTest, LowLevelPoliciesAreTheSameByWhatTheyAre) {
   EXPECT_FALSE(IsSamePolicy(SmallLowLevelPolicy().get(), &slower));
 }
 
-TEST(PolicyAsPilot, FliesTheMeanActionClipped) {
+TEST(RecurrentPolicyTest, ActsByTheMeanClipped) {
   NetworkConfig config = SmallConfig().network;
   config.tanh_mean = false;
   config.actor_head_scale = 5;
@@ -155,7 +155,7 @@ TEST_F(HighLevelTrainingTest, EveryBitIsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST_F(HighLevelTrainingTest, DependsOnWhoFlies) {
+TEST_F(HighLevelTrainingTest, DependsOnTheLowLevelPolicy) {
   WorkerPool pool(2);
   TrainConfig other = SmallHighLevelConfig();
   other.low_level = SmallLowLevelPolicy(12);
@@ -166,7 +166,7 @@ TEST_F(HighLevelTrainingTest, DependsOnWhoFlies) {
   EXPECT_NE(one.Signature(), two.Signature());
 }
 
-TEST_F(HighLevelTrainingTest, ComputesTheLowLevelPolicyAsItLearnsWhateverComputedItBefore) {
+TEST_F(HighLevelTrainingTest, ComputesTheLowLevelPolicyOnItsOwnBackend) {
   SKEIN_SKIP_WITHOUT_LIBTORCH();
   WorkerPool pool(2);
   for (const Backend learner : {Backend::kFused, Backend::kLibTorch}) {
@@ -184,7 +184,7 @@ TEST_F(HighLevelTrainingTest, ComputesTheLowLevelPolicyAsItLearnsWhateverCompute
   }
 }
 
-TEST_F(HighLevelTrainingTest, GoesOnBitForBitAfterRestoring) {
+TEST_F(HighLevelTrainingTest, ResumesBitExactly) {
   WorkerPool pool(2);
   Trainer whole(SmallHighLevelConfig(), pool);
   whole.Iterate();
@@ -213,7 +213,7 @@ TEST_F(HighLevelTrainingTest, RefusesACheckpointOverAnotherLowLevelPolicy) {
   EXPECT_EQ(trainer.Signature(), before);
 }
 
-TEST_F(HighLevelTrainingTest, ACheckpointIsAWholeHighLevel) {
+TEST_F(HighLevelTrainingTest, ACheckpointIsAWholeHighLevelPolicy) {
   WorkerPool pool(2);
   const TrainConfig config = SmallHighLevelConfig();
   Trainer trainer(config, pool);
@@ -230,7 +230,7 @@ TEST_F(HighLevelTrainingTest, ACheckpointIsAWholeHighLevel) {
   EXPECT_EQ(a.terminations, b.terminations);
 }
 
-TEST_F(HighLevelTrainingTest, RecordsWhatWasPlannedAndWhatWasFlown) {
+TEST_F(HighLevelTrainingTest, RecordsActionsOfBothLevels) {
   WorkerPool pool(2);
   const TrainConfig config = SmallHighLevelConfig();
   const Agent high_level = Agent::SamplingFrom(HighLevel(SmallLowLevelPolicy()));
@@ -247,7 +247,7 @@ TEST_F(HighLevelTrainingTest, RecordsWhatWasPlannedAndWhatWasFlown) {
       if (i == 0) continue;
       const RecordedStep& before = flight.steps[i - 1];
       EXPECT_EQ(step.action != before.action, i % 10 == 0) << i;
-      // Within a policy step of ten steps the low-level policy decides at 0, 4 and 8.
+      // Within a policy step of ten steps the low-level policy acts at 0, 4 and 8.
       EXPECT_EQ(step.stick != before.stick, i % 10 % 4 == 0) << i;
     }
   }

@@ -57,7 +57,7 @@ const std::pair<const char*, Change> kChangesOfMeaning[] = {
     {"flight_control", [](EnvConfig& env) { env.flight_control = FlightControlMode::kDirect; }},
 };
 
-const std::pair<const char*, Change> kChangesOfPlanning[] = {
+const std::pair<const char*, Change> kChangesOfTheHighLevel[] = {
     {"tracking.error_axes", [](EnvConfig& env) { env.tracking.error_axes = TrackingAxes::kEarth; }},
     {"high_level.averages_observations",
      [](EnvConfig& env) { env.high_level.averages_observations = true; }},
@@ -83,10 +83,10 @@ TEST_F(PolicyEnvironmentTest, PoliciesFlyOnlyWhatTheyWereMadeFor) {
             "");
 }
 
-TEST_F(PolicyEnvironmentTest, HighLevelsFlyOnlyWhatTheyWereMadeFor) {
+TEST_F(PolicyEnvironmentTest, HighLevelPoliciesFlyOnlyWhatTheyWereMadeFor) {
   const TrainConfig config = SmallHighLevelConfig();
   const RecurrentPolicy high_level = Trained(config);
-  for (const auto& [key, change] : kChangesOfPlanning) {
+  for (const auto& [key, change] : kChangesOfTheHighLevel) {
     EXPECT_THAT(ErrorOf(high_level, config.env, change),
                 StartsWith("the policy was made with env." + std::string(key) + " = "));
   }
@@ -94,7 +94,7 @@ TEST_F(PolicyEnvironmentTest, HighLevelsFlyOnlyWhatTheyWereMadeFor) {
             "");
 }
 
-TEST_F(PolicyEnvironmentTest, SoDoTheLowLevelPolicysOfHighLevels) {
+TEST_F(PolicyEnvironmentTest, SoDoTheLowLevelPoliciesBelowThem) {
   TrainConfig config = SmallConfig();
   config.env.task = "control";
   config.env.control_interval_s = 0.01;
@@ -149,7 +149,7 @@ TEST_F(PolicyEnvironmentTest, WhatAFileDoesNotSayIsNotChecked) {
   }
 }
 
-TEST_F(PolicyEnvironmentTest, AxesAndRateAreThePilotsOwn) {
+TEST_F(PolicyEnvironmentTest, AxesAndRateAreThePolicysOwn) {
   TrainConfig config = SmallHighLevelConfig();
   config.env.tracking.error_axes = TrackingAxes::kPath;
   config.env.high_level.averages_observations = true;

@@ -18,7 +18,7 @@
 namespace skein {
 namespace {
 
-std::vector<float> Decide(const RecurrentPolicy& policy, int count) {
+std::vector<float> ActionsOf(const RecurrentPolicy& policy, int count) {
   std::vector<float> observation(static_cast<std::size_t>(count) * policy.observation_size());
   for (std::size_t i = 0; i < observation.size(); ++i) observation[i] = std::sin(0.7f * i);
   std::vector<float> state(static_cast<std::size_t>(count) * policy.state_size(), 0.0f);
@@ -43,7 +43,7 @@ TEST_F(PolicyTest, FileGivesTheSamePolicySteps) {
   EXPECT_EQ(loaded.action_size(), 4);
   EXPECT_EQ(loaded.state_size(), 16);
   EXPECT_EQ(loaded.action_repeat(), 5);
-  EXPECT_EQ(Decide(loaded, 9), Decide(policy, 9));
+  EXPECT_EQ(ActionsOf(loaded, 9), ActionsOf(policy, 9));
 }
 
 TEST_F(PolicyTest, FilesKeepEveryShape) {
@@ -61,7 +61,7 @@ TEST_F(PolicyTest, FilesKeepEveryShape) {
       EXPECT_EQ(loaded.config().hidden_layers, depth);
       EXPECT_EQ(loaded.config().activation, activation);
       EXPECT_EQ(loaded.state_size(), 10 * (depth + 1));
-      EXPECT_EQ(Decide(loaded, 5), Decide(policy, 5));
+      EXPECT_EQ(ActionsOf(loaded, 5), ActionsOf(policy, 5));
     }
   }
 }
@@ -74,18 +74,18 @@ TEST_F(PolicyTest, ReadsFilesFromBeforeNetworksHadDepths) {
     EXPECT_EQ(file.metadata.erase(key), 1u) << key;
   }
   file.Write(path_);
-  EXPECT_EQ(Decide(RecurrentPolicy::Load(path_), 5), Decide(policy, 5));
+  EXPECT_EQ(ActionsOf(RecurrentPolicy::Load(path_), 5), ActionsOf(policy, 5));
 }
 
 constexpr Tolerance kFloat32{1e-5, "a few float32 roundings of values of order one"};
 
-TEST_F(PolicyTest, BackendsDecideAlike) {
+TEST_F(PolicyTest, BackendsActAlike) {
   SKEIN_SKIP_WITHOUT_LIBTORCH();
   const RecurrentPolicy fused = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3);
   const RecurrentPolicy libtorch = fused.WithBackend(Backend::kLibTorch);
   EXPECT_EQ(fused.backend().backend, Backend::kFused);
   EXPECT_EQ(libtorch.backend().backend, Backend::kLibTorch);
-  const std::vector<float> a = Decide(fused, 9), b = Decide(libtorch, 9);
+  const std::vector<float> a = ActionsOf(fused, 9), b = ActionsOf(libtorch, 9);
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], kFloat32);
 }
 
@@ -101,7 +101,7 @@ TEST_F(PolicyTest, ALowLevelPolicyIsComputedAsItsHighLevelIs) {
     const auto low_level = std::dynamic_pointer_cast<const RecurrentPolicy>(computed.low_level());
     ASSERT_NE(low_level, nullptr);
     EXPECT_EQ(low_level->backend().backend, backend);
-    const std::vector<float> a = Decide(*fused, 9), b = Decide(*low_level, 9);
+    const std::vector<float> a = ActionsOf(*fused, 9), b = ActionsOf(*low_level, 9);
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], kFloat32);
   }
 }
@@ -111,22 +111,22 @@ TEST_F(PolicyTest, ACheckpointIsAPolicyToo) {
   Trainer trainer(SmallConfig(), pool);
   trainer.Iterate();
   trainer.Save(path_);
-  EXPECT_EQ(Decide(RecurrentPolicy::Load(path_), 5), Decide(trainer.policy(), 5));
+  EXPECT_EQ(ActionsOf(RecurrentPolicy::Load(path_), 5), ActionsOf(trainer.policy(), 5));
 }
 
 TEST_F(PolicyTest, UntrainedIsWhatTrainingBeginsWith) {
   const TrainConfig config = SmallConfig();
   WorkerPool pool(1);
-  EXPECT_EQ(Decide(RecurrentPolicy::Untrained(config.network, 22, 4, config.seed), 3),
-            Decide(Trainer(config, pool).policy(), 3));
+  EXPECT_EQ(ActionsOf(RecurrentPolicy::Untrained(config.network, 22, 4, config.seed), 3),
+            ActionsOf(Trainer(config, pool).policy(), 3));
 }
 
-TEST_F(PolicyTest, SeveralThreadsDecideAtOnce) {
+TEST_F(PolicyTest, SeveralThreadsActAtOnce) {
   const RecurrentPolicy policy = RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3);
-  const std::vector<float> expected = Decide(policy, 40);
+  const std::vector<float> expected = ActionsOf(policy, 40);
   std::vector<std::vector<float>> results(4);
   std::vector<std::thread> threads;
-  for (auto& result : results) threads.emplace_back([&] { result = Decide(policy, 40); });
+  for (auto& result : results) threads.emplace_back([&] { result = ActionsOf(policy, 40); });
   for (std::thread& thread : threads) thread.join();
   for (const auto& result : results) EXPECT_EQ(result, expected);
 }

@@ -26,11 +26,11 @@ double AdvantageByDefinition(const Rollout& rollout, int step, int aircraft, dou
   double advantage = 0, factor = 1;
   for (int t = step; t < rollout.steps; ++t) {
     const std::int64_t row = rollout.row(t, aircraft);
-    const double next = rollout.ends[row]        ? 0
+    const double next = rollout.done[row]        ? 0
                         : t + 1 == rollout.steps ? rollout.bootstrap[aircraft]
                                                  : rollout.value[row + rollout.aircraft];
     advantage += factor * (rollout.reward[row] + gamma * next - rollout.value[row]);
-    if (rollout.ends[row]) break;
+    if (rollout.done[row]) break;
     factor *= gamma * lambda;
   }
   return advantage;
@@ -46,7 +46,7 @@ TEST(AdvantagesTest, AgreeWithTheirDefinition) {
   for (auto* const column : {&rollout.reward, &rollout.value, &rollout.bootstrap}) {
     for (float& value : *column) value = normal(generator);
   }
-  for (std::uint8_t& end : rollout.ends) end = generator() % 6 == 0;
+  for (std::uint8_t& end : rollout.done) end = generator() % 6 == 0;
   ComputeAdvantages(0, 7, 0.97, 0.9, rollout);
   for (int step = 0; step < 24; ++step) {
     for (int aircraft = 0; aircraft < 7; ++aircraft) {
@@ -107,7 +107,7 @@ TEST(RolloutTest, LogProbabilitiesRecomputedFromChunksAreTheRolloutsOwn) {
   flight.Fly();
   flight.Fly();  // the second begins in the middle of episodes
   const Rollout& rollout = flight.rollout;
-  ASSERT_GT(std::count(rollout.ends.begin(), rollout.ends.end(), 1), 0);
+  ASSERT_GT(std::count(rollout.done.begin(), rollout.done.end(), 1), 0);
   const int aircraft = rollout.aircraft, length = rollout.chunk_length;
   NetworkWorkspace workspace;
   std::vector<float> mean(static_cast<std::size_t>(length) * aircraft * 4),
@@ -136,7 +136,7 @@ TEST(RolloutTest, EpisodesBeginWhereOthersEnded) {
   for (int step = 0; step + 1 < rollout.steps; ++step) {
     for (int i = 0; i < rollout.aircraft; ++i) {
       EXPECT_EQ(rollout.not_done[rollout.row(step + 1, i)],
-                rollout.ends[rollout.row(step, i)] ? 0 : 1);
+                rollout.done[rollout.row(step, i)] ? 0 : 1);
     }
   }
   for (int i = 0; i < rollout.aircraft; ++i) EXPECT_EQ(rollout.not_done[i], 0);
@@ -152,13 +152,13 @@ TEST(RolloutTest, TruncationAddsTheValueOfWhatWasSeenLast) {
   for (int step = 0; step < one.rollout.steps; ++step) {
     for (int i = 0; i < one.rollout.aircraft; ++i) {
       const std::int64_t row = one.rollout.row(step, i);
-      if (!one.rollout.ends[row]) {
+      if (!one.rollout.done[row]) {
         EXPECT_EQ(one.rollout.reward[row], other.rollout.reward[row]);
         ++alike;
         continue;
       }
       // The failure's -200 is replaced by a fresh critic's value, which is of order one.
-      EXPECT_TRUE(other.rollout.ends[row]);
+      EXPECT_TRUE(other.rollout.done[row]);
       EXPECT_GT(other.rollout.reward[row] - one.rollout.reward[row], 150);
       ++cut;
     }

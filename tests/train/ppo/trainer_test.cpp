@@ -66,7 +66,7 @@ TEST_P(TrainerPrecisionTest, EveryBitIsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST_P(TrainerPrecisionTest, GoesOnBitForBitAfterRestoring) {
+TEST_P(TrainerPrecisionTest, ResumesBitExactly) {
   WorkerPool pool(2);
   Trainer whole(Config(), pool);
   whole.Iterate();
@@ -375,7 +375,7 @@ TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
   EXPECT_NEAR(fused.value_loss, libtorch.value_loss, kBackends * libtorch.value_loss);
 }
 
-TEST_F(TrainerTest, EveryShapeTrainsAndGoesOnBitForBit) {
+TEST_F(TrainerTest, EveryShapeTrainsAndResumesBitExactly) {
   SKEIN_SKIP_WITHOUT_LIBTORCH();
   WorkerPool pool(2);
   TrainConfig config = SmallConfig();

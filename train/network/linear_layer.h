@@ -5,24 +5,19 @@
 
 #include "simd/matrix_product.h"
 #include "train/network/folded_parameters.h"
+#include "train/network/precision.h"
 
 namespace skein {
 
-/// Of the products in a network's forward and backward pass.
-struct NetworkPrecision {
-  simd::Precision forward = simd::Precision::kFloat32;
-  simd::Precision backward = simd::Precision::kFloat32;
-};
-
-/// One affine map of a network on rows of samples, forward and backward. Strides are floats between
-/// rows. Const functions may run on several threads at once, each with its own workspace.
-class AffineMap {
+/// One linear layer of a network on rows of samples, forward and backward. Strides are floats
+/// between rows. Const functions may run on several threads at once, each with its own workspace.
+class LinearLayer {
  public:
-  AffineMap(const FoldedMap& place, const NetworkPrecision& precision)
+  LinearLayer(const FoldedLinear& place, const NetworkPrecision& precision)
       : place_(place), precision_(precision) {}
 
   /// Widths, and where weight and bias lie in folded vectors.
-  const FoldedMap& place() const { return place_; }
+  const FoldedLinear& place() const { return place_; }
 
   void SetParameters(const float* folded);
 
@@ -42,7 +37,7 @@ class AffineMap {
                         float* folded_gradient, simd::ProductWorkspace* workspace) const;
 
  private:
-  FoldedMap place_;
+  FoldedLinear place_;
   NetworkPrecision precision_;
   simd::PackedMatrix forward_, backward_;
 };
