@@ -34,3 +34,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/skein-config-version.cmak
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/skein-config.cmake
               ${PROJECT_BINARY_DIR}/skein-config-version.cmake DESTINATION ${SKEIN_PACKAGE_DIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

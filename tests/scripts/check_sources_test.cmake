@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+# REUSE-IgnoreStart: what follows speaks of licences.
 # scripts/check_sources finds each kind of fault in a repository that has just that one, and none in a good one.
 include(${CMAKE_CURRENT_LIST_DIR}/scratch_repository.cmake)
 if(NOT PYTHON)
@@ -32,3 +33,4 @@ expect(1 "src/a.cpp:3: A::A.int x. : x_{x}: 81 lines, and functions have 80 at m
 expect(0 "1 functions: half have 21 lines at most" src/a.cpp "${short}")
 string(REPEAT "\n" 600 lines)
 expect(1 "src/a.cpp: 602 lines, and files have 600 at most" src/a.cpp "${licence}${lines}")
+# REUSE-IgnoreEnd
