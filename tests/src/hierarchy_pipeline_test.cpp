@@ -26,18 +26,16 @@ class HighLevelPipeline : public ::testing::Test {
 
 /// Arguments of a training of task tracking over the policy `low-level policy`.
 std::vector<std::string> HighLevelTraining(const std::string& out, const std::string& low_level) {
-  std::vector<std::string> arguments = TinyTraining(
-      out, {"--steps", std::to_string(64 * 16 * 10 * 3), "--set", "env.action_repeat=10"});
-  arguments[1] = "tracking";
+  std::vector<std::string> arguments = TinyTrainingOf(
+      "tracking", out,
+      {"--steps", std::to_string(64 * 16 * 10 * 3), "--set", "env.action_repeat=10"});
   if (!low_level.empty()) arguments.insert(arguments.end(), {"--low-level", low_level});
   return arguments;
 }
 
 TEST_F(HighLevelPipeline, AHighLevelPolicyTrainsOverAControlPolicyAndFliesByItself) {
   const std::string control = root_ + "/control";
-  std::vector<std::string> arguments = TinyTraining(control, {"--steps", "10240"});
-  arguments[1] = "control";
-  ASSERT_EQ(CallSkein(arguments).exit_code, 0);
+  ASSERT_EQ(CallSkein(TinyTrainingOf("control", control, {"--steps", "10240"})).exit_code, 0);
   const ProgramResult trained = CallSkein(HighLevelTraining(reference_, control));
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
   EXPECT_THAT(trained.output, HasSubstr("low-level policy " + control + "/checkpoints/policy-"));

@@ -16,25 +16,33 @@ namespace skein {
 
 inline constexpr int kIterations = 12;
 
-/// Arguments of a training of Heading that takes a moment, kIterations long, with a checkpoint
-/// each.
-inline std::vector<std::string> TinyTraining(const std::string& out,
-                                             const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"train", "heading", "--out", out};
+/// Arguments of a training that takes a moment, kIterations long, with a checkpoint each.
+inline std::vector<std::string> TinyTrainingOf(const std::string& task, const std::string& out,
+                                               const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"train", task, "--out", out};
   for (const std::string& assignment :
        {std::string("run.total_steps=") + std::to_string(64 * 16 * 5 * kIterations),
         std::string("ppo.num_aircraft=64"), std::string("ppo.rollout_steps=16"),
         std::string("ppo.minibatches=2"), std::string("network.hidden_size=16"),
         std::string("network.gru_size=16"), std::string("env.time_limit_steps=100"),
-        std::string("env.heading.earliest_success_step=100"),
         std::string("evaluation.interval_iterations=3"), std::string("evaluation.episodes=32"),
         std::string("evaluation.final_episodes=32"),
         std::string("checkpoint.interval_iterations=1")}) {
     arguments.push_back("--set");
     arguments.push_back(assignment);
   }
+  // Before the time limit.
+  if (task == "heading") {
+    arguments.insert(arguments.end(), {"--set", "env.heading.earliest_success_step=100"});
+  }
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
+}
+
+/// The same of Heading.
+inline std::vector<std::string> TinyTraining(const std::string& out,
+                                             const std::vector<std::string>& more = {}) {
+  return TinyTrainingOf("heading", out, more);
 }
 
 /// An error of one line with `part` in it.

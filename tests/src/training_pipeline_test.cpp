@@ -74,9 +74,7 @@ TEST_F(TrainingPipeline, LeavesEverythingBehindThatItSays) {
 }
 
 TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
-  std::vector<std::string> arguments = TinyTraining(run_, {"--steps", "20480"});
-  arguments[1] = "control";
-  const ProgramResult trained = RunSkein(arguments);
+  const ProgramResult trained = RunSkein(TinyTrainingOf("control", run_, {"--steps", "20480"}));
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
   EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("task = \"control\""));
   const std::string json = root_ + "/control.json", flights = root_ + "/control.csv";
@@ -233,9 +231,9 @@ TEST_F(TrainingPipeline, NetworksThatDoNotFitAreRefusedInOneLine) {
   FlyReference({"--steps", "5120"});
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message,
                            const char* task = "heading") {
-    std::vector<std::string> arguments = TinyTraining(run_, {"--from", reference_});
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    arguments[1] = task;
+    std::vector<std::string> arguments = more;
+    arguments.insert(arguments.end(), {"--from", reference_});
+    arguments = TinyTrainingOf(task, run_, arguments);
     const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 1);
     ExpectOneLine(result.error, message);

@@ -236,12 +236,12 @@ TEST(Usage, OldNamesAreErrorsThatSayTheNewOnes) {
               HasSubstr("agent idle is now called zero"));
 }
 
-TEST(Usage, FlagsThatStandForAKeyAreNamedInItsErrors) {
+TEST(Usage, FlagsAreNamedInTheirErrors) {
   EXPECT_THAT(CallSkein({"train", "heading", "--steps", "0"}).error,
-              HasSubstr("--steps: run.total_steps = 0 is out of range; it must be in [1, 2^53]"));
+              HasSubstr("--steps: '0' is not a whole number in [1 - 9007199254740992]"));
   EXPECT_THAT(CallSkein({"train", "heading", "--steps", "nan"}).error, HasSubstr("--steps"));
   EXPECT_THAT(CallSkein({"train", "heading", "--seed", "-1"}).error,
-              HasSubstr("--seed: run.seed = -1 is out of range"));
+              HasSubstr("--seed: '-1' is not a whole number in [0 - 9007199254740992]"));
 }
 
 TEST(Usage, CountsMayBeInAnyNotationOfANumber) {
