@@ -26,7 +26,7 @@ class LowLevelFlight {
   /// Aircraft that one call may fly.
   static constexpr int kMaxCount = 128;
 
-  /// What a block of aircraft needs during one policy step of the high-level policy. Lies with the
+  /// What a block of aircraft needs during a high-level policy's policy step. It lies with the
   /// caller.
   struct alignas(64) Scratch {
     float target[kHighLevelActionSize][kMaxCount];
@@ -53,14 +53,14 @@ class LowLevelFlight {
   /// Whether the high-level policy observes means.
   bool averages_observations() const { return observation_sums_size_ > 0; }
 
-  /// Takes a high-level policy's actions, row-major [flight.count][kHighLevelActionSize], clipped
-  /// to
-  /// [-1, 1]: what each aircraft is to reach, from where it is now. An action that is not finite
-  /// makes its aircraft's kU NaN, so that its episode ends as non_finite.
+  /// Takes a high-level policy's actions, row-major [flight.count][kHighLevelActionSize]: what each
+  /// aircraft is to reach, from where it is now. They are clipped to [-1, 1].
+  /// An action that is not finite makes its aircraft's kU NaN, so that its episode ends as
+  /// non_finite.
   void SetTargets(const float* action, Tile flight, Scratch& scratch) const;
 
-  /// Whether a policy step of the low-level policy begins with this control step of the high-level
-  /// policy's policy step.
+  /// Whether a policy step of the low-level policy begins with this control step, counted from the
+  /// beginning of the high-level policy's.
   bool IsPolicyStep(int control_step) const {
     return control_step % low_level_->action_repeat() == 0;
   }

@@ -43,9 +43,9 @@ class VecEnv {
   /// control steps: throttle (-1 is idle, 1 is maximum), pitch (+ nose up), roll (+ right), yaw (+
   /// nose right). With a low-level policy: pitch, yaw and speed that it is to reach, as changes of
   /// what they are now (EnvConfig::high_level); its own policy steps last as many control steps as
-  /// its action_repeat(), and it remembers nothing of an earlier episode. An episode
-  /// that ends during them takes no further reward, and its aircraft begins a new one at the end of
-  /// the policy step. An action that is not finite ends its aircraft's episode as non_finite.
+  /// its action_repeat(), and it remembers nothing of an earlier episode.
+  /// An episode that ends during them takes no further reward, and its aircraft begins a new one at
+  /// the end of the policy step. An action that is not finite ends the episode as non_finite.
   void Step(int tile, const float* action, const StepOutput& output);
 
   /// The whole mutable state (for checkpoints), aircraft by aircraft whatever the tiles.

@@ -20,7 +20,7 @@ namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// x limited to [low, high]; NaN stays NaN, so that a sick aircraft shows.
+/// x limited to [low, high]; NaN stays NaN, so that it shows in the state.
 HWY_INLINE V Clip(V x, V low, V high) {
 #if HWY_TARGET == HWY_SCALAR
   // Here Min and Max prefer the operand that is a number.

@@ -6,8 +6,8 @@
 
 namespace skein {
 
-/// Pilot commands of a tile: throttle in [0, 1]; roll (+ right wing down), pitch (+ nose up), yaw
-/// (+ nose right) in [-1, 1].
+/// Throttle and stick commands of a tile: throttle in [0, 1]; pitch (+ nose up), roll (+ right wing
+/// down), yaw (+ nose right) in [-1, 1].
 /// Each `count` long, padded as Tile says.
 struct PilotColumns {
   const float* throttle = nullptr;

@@ -23,10 +23,10 @@ using AerodynamicCoefficients = Eigen::Matrix<double, 6, 1>;
 /// The coefficients' build-up of NASA TP-1538 (Nguyen et al., 1979), as arranged for the University
 /// of Minnesota model (Russell, 2003), with two of its rules stated once:
 /// - The pitch damping of Cz takes the flap increment of Czq. (The Minnesota code takes that of
-/// Cz.)
-/// - Flap increments are flap-zero totals minus base totals; both are read with alpha clamped to
-/// the
-///   flap tables' shorter range.
+///   Cz.)
+/// - Flap increments are flap-zero totals minus base totals. Both are read with alpha clamped to
+///   the range of the flap tables, which is shorter than that of the
+///   base tables.
 AerodynamicCoefficients EvaluateAerodynamics(const Aircraft& aircraft,
                                              const AerodynamicCondition& condition);
 

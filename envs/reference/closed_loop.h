@@ -9,14 +9,14 @@ namespace skein {
 
 /// The whole aircraft in double precision, as a pilot flies it: flight control system, actuators,
 /// engine and rigid body. The specification of one control step of the vectorised environment:
-///   1. sensors: air data and rates of the present state; specific forces of the last RK4 stage of
-///   the
-///      step before (of the trim, at the start);
+///   1. sensors: air data and rates of the present state; specific forces, as accelerometers read
+///      them, of the last Runge-Kutta stage of the step before, or in the first step those of the
+///      trim;
 ///   2. flight control, and power command from the throttle;
 ///   3. actuators, by the exact response over the step;
-///   4. RK4 of rigid body and engine power together, thrust by power, altitude and Mach number at
-///   every
-///      stage, surfaces held.
+///   4. RK4 of rigid body and engine power together. At every stage thrust is that of the stage's
+///      power, altitude and Mach number; the surfaces stand where the actuators have moved
+///      them.
 class ClosedLoop {
  public:
   /// Starts at rest in `trim`, with power as far as the engine has it. `dt` is the control

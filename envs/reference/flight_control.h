@@ -85,7 +85,7 @@ using FlightControlState = std::array<double, kNumFlightControlStates>;
 /// commands; F_x = min(1, x_gain_pressure / qbar), gains as named in FlightControlGains:
 ///
 ///   pitch  g_c = clip(pitch >= 0 ? g_max pitch : g_min |pitch|; g_min (1 - b m), g_max - a m),
-///   filtered,
+///          filtered,
 ///          with m = max(|roll|, |yaw|) and g_min by qbar
 ///          lead = 0.7 fade(qbar) q_w
 ///          u = max(0, 0.322 (alpha_f - 15 + lead)) + 0.334 q_w + (nz - 1)_f

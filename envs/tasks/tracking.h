@@ -24,12 +24,12 @@ enum TrackingColumn : int {
 };
 
 /// Fly to a point (NeuralPlane paper, Tracking). Errors are the target's position relative to the
-/// aircraft / units.altitude_error_ft, with its ReferenceUnits (F-16: 1 km): in
-/// the axes of `TrackingConfig::error_axes`. The reward of a step is minus their L2 norm, in all
-/// axes the distance. Reached when
-/// the straight path of a control step touches the box whose sides lie the episode's tolerance
-/// north, east, south, west, above and below of the target: `position_tolerance_ft`, or in training
-/// up to `training_tolerance_max` times as much.
+/// aircraft / units.altitude_error_ft, with its ReferenceUnits (F-16: 1 km), in the axes of
+/// `TrackingConfig::error_axes`. The reward of a step is minus their L2 norm, which in all axes is
+/// the distance. The target is reached when the straight path of a control step touches the box
+/// whose sides lie the episode's tolerance north, east, south, west, above and below of it:
+/// `position_tolerance_ft` in evaluations, in training up to `training_tolerance_max` times as
+/// much.
 std::unique_ptr<Task> MakeTrackingTask(const TrackingConfig& config, const ReferenceUnits& units,
                                        const TargetLimits& limits = {});
 

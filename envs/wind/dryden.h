@@ -49,8 +49,8 @@ void StartGusts(Tile tile, int index, const GustKeys& keys);
 /// Moves the gusts of a windy tile's aircraft on by `dt` seconds, exactly as the filters of the
 /// spectra above respond to white noise over that time, and sets the wind: the steady one and the
 /// gusts, turned to north, east, down by the present attitude. A gust is never shorter than the
-/// way through the air in `dt`. Reads the velocity relative to the air and
-/// brings it up to date.
+/// way through the air in `dt`. Reads the columns of the velocity relative to
+/// the air and brings them up to date.
 void AdvanceGusts(Tile tile, float dt, const GustKeys& keys);
 
 }  // namespace skein

@@ -54,7 +54,7 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
   for (const std::string& assignment : options.assignments) {
     for (const char* table : {"run.", "ppo.", "evaluation.", "checkpoint."}) {
       if (KeyOf(assignment).rfind(table, 0) != 0) continue;
-      throw UsageError(fmt::format("--set {}: is of trainings and changes no flight", assignment));
+      throw UsageError(fmt::format("--set {}: is for trainings and changes no flight", assignment));
     }
   }
   const ProgramConfig base = *config;

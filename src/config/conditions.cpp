@@ -210,9 +210,8 @@ const std::vector<Condition>& Conditions() {
        "with ,held behind it no target speed is lower",
        "1.0..1.2", "1.2..1.4", "1.4..1.8", true, HighSpeed},
       {"high_altitude",
-       "an initial altitude or range (32kft, 30..35kft) or mild, middle, hard; with ,held behind "
-       "it "
-       "no target altitude is lower",
+       "an initial altitude or range (32kft, 30..35kft) or mild, middle, hard; "
+       "with ,held behind it no target altitude is lower",
        "30..35kft", "35..40kft", "40..45kft", true, HighAltitude},
       {"windy",
        "a steady wind and turbulence by severity, each alone or a range (60fps,moderate; "
@@ -269,8 +268,9 @@ std::string DescribeConditions(const EnvConfig& env) {
   if (wind.turbulence_fps.max > 0) {
     air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
   }
-  if (env.target_mach_min > 0)
+  if (env.target_mach_min > 0) {
     air += fmt::format("; targets from Mach {:.6g} on", env.target_mach_min);
+  }
   if (env.target_altitude_min_ft > 0) {
     air += fmt::format("; targets from {:.6g} ft on", env.target_altitude_min_ft);
   }

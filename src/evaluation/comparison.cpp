@@ -45,8 +45,8 @@ void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin) {
   }
   if (env.high_level.averages_observations != origin.high_level.averages_observations) {
     throw Error(
-        "env.high_level.averages_observations: high-level policies that are compared look each as "
-        "they did");
+        "env.high_level.averages_observations: high-level policies that are compared observe each "
+        "as they were trained");
   }
 }
 

@@ -24,9 +24,9 @@ std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 inline constexpr const char* kRunsRoot = "runs";
 
 /// The directory of one training run, held exclusively while the object lives:
-///   config.toml  low_level.skein (of high-level policies)  log.txt  metrics.csv  timing.csv
-///   events.out.tfevents.*  evaluation.json checkpoints/checkpoint-<iteration>.skein,
-///   policy-best.skein, policy-final.skein
+///   config.toml, low_level.skein (of high-level policies), log.txt, metrics.csv, timing.csv,
+///   events.out.tfevents.*, evaluation.json, checkpoints/checkpoint-<iteration>.skein,
+///   checkpoints/policy-best.skein, checkpoints/policy-final.skein
 class RunDirectory {
  public:
   /// Makes a new one. Throws Error if `path` exists and is not an empty directory, cannot be made,

@@ -171,7 +171,7 @@ TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
       CallSkein(Command({"--agents", "zero", "--csv", file, "--json", file}));
   EXPECT_THAT(twice.error, HasSubstr(file + ": two results would go there"));
   const ProgramResult trained = CallSkein(Command({"--agents", "zero", "--set", "ppo.epochs=3"}));
-  EXPECT_THAT(trained.error, HasSubstr("--set ppo.epochs=3: is of trainings"));
+  EXPECT_THAT(trained.error, HasSubstr("--set ppo.epochs=3: is for trainings"));
   EXPECT_EQ(CallSkein({"compare", "--task", "heading"}).exit_code, 2) << "no agents";
   EXPECT_EQ(CallSkein({"compare", "--agents", "zero"}).exit_code, 2) << "no task";
 }

@@ -5,8 +5,8 @@
 
 namespace skein {
 
-/// Gives metadata and tensors that have another name since version 0.1 the name of today. Keys of
-/// the configuration are not among them: each field knows its own (RenameFormerKeys).
+/// Gives metadata and tensors that version 0.1 named otherwise their present names. Keys of the
+/// configuration are not among them: each field knows its own (RenameFormerKeys).
 void TakeCurrentNames(TensorFile& file);
 
 }  // namespace skein

@@ -14,8 +14,8 @@ namespace skein {
 /// well differ from training: rates, conditions, targets, rewards.
 std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env);
 
-/// Shows a policy what it was made with, as far as PolicyEnvironment said it: Tracking's target in
-/// its axes, and to a high-level policy the mean of observation samples or the last one.
+/// Sets what a policy chooses itself (PolicyRole::kChosen) to what it was made with: the axes of
+/// Tracking's target, and whether a high-level policy observes means.
 void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* env);
 
 /// Throws Error that begins with `who` and names the first difference if a policy that was made
