@@ -12,7 +12,7 @@ namespace skein {
 /// In which it observes Tracking's target.
 inline constexpr TrackingAxes kAutopilotErrorAxes = TrackingAxes::kHeading;
 
-/// The traditional autopilot of the F-16: TECS and L1 every `outer_interval_s` over dual-loop PID
+/// The classical autopilot of the F-16: TECS and L1 every `outer_interval_s` over dual-loop PID
 /// in every control step (ArduPilot's structure; docs/reference/autopilot.md). `config.task`
 /// chooses what it flies: "heading", "control" or "tracking". It takes what every policy takes, the
 /// noisy observation. Throws Error on a task that it does not fly, another aircraft (its laws know

@@ -69,7 +69,7 @@ Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
 
 std::vector<AgentForm> AgentForms() {
   return {{fmt::format("autopilot[:{}]", fmt::join(AutopilotNames(), "|:")),
-           "the traditional autopilot (alone: aggressive; as a --low-level: parallel)"},
+           "the autopilot of TECS and L1 (alone: aggressive; as a --low-level: parallel)"},
           {"policy:FILE_OR_RUN[@sampled]", "a trained policy with its mean action, or as sampled"},
           {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
           {"zero", "zero actions"}};

@@ -45,7 +45,7 @@ ChosenLowLevelPolicy ChooseAutopilot(const EnvConfig& env, const std::string& op
   const std::string variant =
       option == kAutopilot ? kLowLevelVariant : option.substr(option.find(':') + 1);
   return {AsUsage([&] { return std::make_shared<const AutopilotPolicy>(variant, env); }),
-          fmt::format("low-level policy: the traditional autopilot, {}", variant)};
+          fmt::format("low-level policy: the autopilot, variant {}", variant)};
 }
 
 }  // namespace

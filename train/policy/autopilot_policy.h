@@ -10,7 +10,7 @@
 
 namespace skein {
 
-/// A traditional autopilot of the Control task (envs/autopilot/autopilot.h) as a low-level policy.
+/// The autopilot of the Control task (envs/autopilot/autopilot.h) as a low-level policy.
 class AutopilotPolicy final : public StoredPolicy {
  public:
   /// By the name of an AutopilotVariant. Throws Error on an unknown one, or if it has no gains for

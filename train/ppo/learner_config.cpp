@@ -7,7 +7,7 @@ namespace skein {
 
 void ListFields(LearnerConfig& config, FieldList& list) {
   list.Add("backend", &config.backend, kBackendNames,
-           "networks computed by own kernels (fused) or by LibTorch, the slow reference");
+           "networks computed by custom kernels (fused) or by LibTorch, the slow reference");
   list.Add("precision", &config.precision, kPrecisionNames,
            "products of the networks in fp32, mixed (forward fp32, backward bf16), bf16, or fast "
            "(actor mixed, critic bf16); auto: fast where the processor has bf16, else fp32");
