@@ -11,9 +11,9 @@ namespace skein::simd {
 /// Of the operands of a product; sums are float32 in either.
 enum class Precision {
   kFloat32,
-  /// Operands are rounded to bfloat16, to nearest even, denormals to zero. Each pair of neighbours
+  /// Operands are rounded to bfloat16, to nearest even, denormals to zero. Each pair of elements
   /// along the sum is added as the instruction vdpbf16ps does: fused multiply-adds, the odd element
-  /// first, denormal results flushed. Targets with fused multiply-adds agree bit for bit, with the
+  /// first, denormal results flushed. Targets with fused multiply-adds agree bit-exactly, with the
   /// instruction (NativeBfloat16) or without.
   kBfloat16,
 };

@@ -178,7 +178,7 @@ std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, const AutopilotGa
   CheckFlies(config);
   AutopilotTiming timing;
   timing.dt = config.control_interval_s;
-  timing.steps_per_policy_step =
+  timing.control_steps_per_outer_step =
       std::max(1, static_cast<int>(std::lround(gains.outer_interval_s / timing.dt)));
   return std::make_unique<Autopilot>(AutopilotFor(config.task), gains, timing);
 }

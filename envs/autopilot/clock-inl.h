@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Policy steps of an aircraft's autopilot: its outer loops run in every few control steps, the
-// first one included.
+// Outer steps of an aircraft's autopilot: the control steps in which its outer loops run, every few
+// of them, the first one included.
 
 #if defined(SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SKEIN_ENVS_AUTOPILOT_CLOCK_INL_H_
@@ -18,18 +18,18 @@ namespace HWY_NAMESPACE {
 /// What this control step is to an aircraft.
 template <class Mask>
 struct Now {
-  Mask begins;          ///< the first of its episode
-  Mask is_policy_step;  ///< of the outer loops; the first is one
+  Mask begins;         ///< the first of its episode
+  Mask is_outer_step;  ///< of the outer loops; the first is one
 };
 
 /// Advances a clock that says in how many steps the outer loops run next, of
-/// `steps_per_policy_step`; 0 before the first step.
+/// `control_steps_per_outer_step`; 0 before the first step.
 template <class T>
-HWY_INLINE auto Tick(int steps_per_policy_step, T& clock) {
+HWY_INLINE auto Tick(int control_steps_per_outer_step, T& clock) {
   auto begins = clock < 0.5;
-  auto is_policy_step = clock < 1.5;
-  clock = Select(is_policy_step, static_cast<double>(steps_per_policy_step), clock - 1);
-  return Now<decltype(is_policy_step)>{begins, is_policy_step};
+  auto is_outer_step = clock < 1.5;
+  clock = Select(is_outer_step, static_cast<double>(control_steps_per_outer_step), clock - 1);
+  return Now<decltype(is_outer_step)>{begins, is_outer_step};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -80,8 +80,8 @@ struct InnerLoopGains {
 /// The order in which Control's targets are brought about.
 struct SequencerGains {
   bool enabled = true;  ///< else the nose goes to its target at once
-  double speed_lead =
-      1.8;  ///< weight of the foresight of what gravity does to the speed while the nose moves
+  /// Weight of the foresight of what gravity does to the speed while the nose moves.
+  double speed_lead = 1.8;
   double pitch_rate = Radians(8);  ///< rad/s at which the nose is taken to move
   double pitch_per_speed = 0.004;  ///< rad per ft/s of speed to be gained
   double max_speed_pitch = Radians(25);
@@ -113,11 +113,11 @@ struct AutopilotGains {
 /// How time passes for an autopilot.
 struct AutopilotTiming {
   double dt = 0.02;  ///< of control steps, s
-  int steps_per_policy_step =
-      5;  ///< control steps from one policy step of the outer loops to the next
+  /// From one step of the outer loops to the next.
+  int control_steps_per_outer_step = 5;
 
   /// Of the outer loops, s.
-  double policy_step_dt() const { return dt * steps_per_policy_step; }
+  double outer_dt() const { return dt * control_steps_per_outer_step; }
 };
 
 enum class AutopilotVariant {

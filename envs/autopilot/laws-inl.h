@@ -35,7 +35,7 @@ struct CommonMemory {
 };
 
 /// The actions that bring about `lateral` and `vertical` accelerations, ft/s^2, and the throttle of
-/// the last policy step. The flight control system coordinates turns: the pedals stay centred.
+/// the last outer step. The flight control system coordinates turns: the pedals stay centred.
 template <class T>
 HWY_INLINE void StickActions(const AutopilotGains& k, double dt, const Kinematics<T>& motion,
                              T lateral, T vertical, CommonMemory<T>& memory, T* action) {
@@ -61,14 +61,14 @@ struct HeadingLaw {
   struct Memory {
     CommonMemory<T> common;
     T altitude_error, yaw_error, speed_error;  ///< estimates, target minus actual, ft, rad, ft/s
-    T lateral;                                 ///< ft/s^2, between policy steps
-    T climb;                                   ///< rad, between policy steps
+    T lateral;                                 ///< ft/s^2, between outer steps
+    T climb;                                   ///< rad, between outer steps
   };
 
   static HWY_INLINE void Act(const AutopilotGains& k, const AutopilotTiming& timing,
                              const T* observation, Memory& memory, T* action) {
     const double dt = timing.dt;
-    const auto now = Tick(timing.steps_per_policy_step, memory.common.clock);
+    const auto now = Tick(timing.control_steps_per_outer_step, memory.common.clock);
     const Measurement<T> measured = MeasurementOf(observation);
     FlightEstimate<T>& flight = memory.common.flight;
     const Kinematics<T> motion = Estimate(k.estimator, dt, measured, now.begins, flight);
@@ -80,9 +80,9 @@ struct HeadingLaw {
     EstimateSpeedError(k.estimator, dt, flight, measured.errors[2], now.begins, memory.speed_error);
 
     const T climb_rate = ClimbRateFor(k.tecs, memory.altitude_error, flight.speed);
-    Assign(now.is_policy_step, memory.lateral, TurnToHeading(k.l1, memory.yaw_error, flight.speed));
-    Assign(now.is_policy_step, memory.climb, ArcSine(climb_rate / Max(flight.speed, kLeastSpeed)));
-    UpdateThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
+    Assign(now.is_outer_step, memory.lateral, TurnToHeading(k.l1, memory.yaw_error, flight.speed));
+    Assign(now.is_outer_step, memory.climb, ArcSine(climb_rate / Max(flight.speed, kLeastSpeed)));
+    UpdateThrottle(k.tecs, timing.outer_dt(), flight, motion,
                    {memory.speed_error, memory.altitude_error, climb_rate}, now,
                    memory.common.tecs);
 
@@ -97,14 +97,14 @@ struct ControlLaw {
     CommonMemory<T> common;
     ControlErrorEstimate<T> error;
     SequencerMemory<T> sequencer;
-    T lateral;  ///< ft/s^2, between policy steps
-    T pitch;    ///< rad, between policy steps
+    T lateral;  ///< ft/s^2, between outer steps
+    T pitch;    ///< rad, between outer steps
   };
 
   static HWY_INLINE void Act(const AutopilotGains& k, const AutopilotTiming& timing,
                              const T* observation, Memory& memory, T* action) {
     const double dt = timing.dt;
-    const auto now = Tick(timing.steps_per_policy_step, memory.common.clock);
+    const auto now = Tick(timing.control_steps_per_outer_step, memory.common.clock);
     const Measurement<T> measured = MeasurementOf(observation);
     FlightEstimate<T>& flight = memory.common.flight;
     const Kinematics<T> motion = Estimate(k.estimator, dt, measured, now.begins, flight);
@@ -114,13 +114,13 @@ struct ControlLaw {
                                       k.estimator.attitude * dt, now.begins);
     EstimateSpeedError(k.estimator, dt, flight, measured.errors[2], now.begins, memory.error.speed);
 
-    const SequencerDemand<T> demand = Sequence(k.sequencer, timing.policy_step_dt(), flight, motion,
+    const SequencerDemand<T> demand = Sequence(k.sequencer, timing.outer_dt(), flight, motion,
                                                memory.error, now, memory.sequencer);
-    Assign(now.is_policy_step, memory.lateral, TurnToHeading(k.l1, memory.error.yaw, flight.speed));
-    Assign(now.is_policy_step, memory.pitch, demand.pitch);
+    Assign(now.is_outer_step, memory.lateral, TurnToHeading(k.l1, memory.error.yaw, flight.speed));
+    Assign(now.is_outer_step, memory.pitch, demand.pitch);
     // Height is no target: the energy that is wanted is kinetic.
-    UpdateThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
-                   {demand.speed_error, 0, motion.up}, now, memory.common.tecs);
+    UpdateThrottle(k.tecs, timing.outer_dt(), flight, motion, {demand.speed_error, 0, motion.up},
+                   now, memory.common.tecs);
 
     const T vertical = flight.speed * (memory.pitch - flight.pitch) / k.lift.pitch_time_s;
     StickActions(k, dt, motion, memory.lateral, vertical, memory.common, action);
@@ -138,7 +138,7 @@ struct TrackingLaw {
   static HWY_INLINE void Act(const AutopilotGains& k, const AutopilotTiming& timing,
                              const T* observation, Memory& memory, T* action) {
     const double dt = timing.dt;
-    const auto now = Tick(timing.steps_per_policy_step, memory.common.clock);
+    const auto now = Tick(timing.control_steps_per_outer_step, memory.common.clock);
     const Measurement<T> measured = MeasurementOf(observation);
     FlightEstimate<T>& flight = memory.common.flight;
     const Kinematics<T> motion = Estimate(k.estimator, dt, measured, now.begins, flight);
@@ -147,7 +147,7 @@ struct TrackingLaw {
                    measured.errors[2] * kAltitudeErrorUnitFt, now.begins, memory.target);
     Assign(now.begins, memory.held_speed, flight.speed);
 
-    UpdateThrottle(k.tecs, timing.policy_step_dt(), flight, motion,
+    UpdateThrottle(k.tecs, timing.outer_dt(), flight, motion,
                    {memory.held_speed - flight.speed, 0, motion.up}, now, memory.common.tecs);
     const Acceleration<T> wanted = Pursue(k.pursuit, motion, memory.target);
     StickActions(k, dt, motion, wanted.lateral, wanted.vertical, memory.common, action);

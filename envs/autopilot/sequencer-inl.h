@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 template <class T>
 struct SequencerMemory {
   T seconds_at_target;  ///< since the nose was sent to its target; 0 while speed and yaw come first
-  T yaw_error;          ///< at the last policy step, rad
+  T yaw_error;          ///< at the last outer step, rad
 };
 
 /// Target minus actual, rad and ft/s.
@@ -58,7 +58,7 @@ HWY_INLINE T PitchForSpeed(const SequencerGains& k, const FlightEstimate<T>& fli
   return Select(flight.altitude < k.low_altitude, Max(pitch, k.low_altitude_pitch), pitch);
 }
 
-/// A policy step, every `dt` seconds, of the aircraft whose outer loops run now.
+/// An outer step, every `dt` seconds, of the aircraft whose outer loops run now.
 template <class T, class Mask>
 HWY_INLINE SequencerDemand<T> Sequence(const SequencerGains& k, double dt,
                                        const FlightEstimate<T>& flight, const Kinematics<T>& motion,
@@ -78,8 +78,8 @@ HWY_INLINE SequencerDemand<T> Sequence(const SequencerGains& k, double dt,
   const auto stays = And(seconds > 0, Or(seconds < k.patience_s, has_arrived));
   const auto at_target = Or(stays, And(Not(seconds > 0), is_ready));
 
-  Assign(now.is_policy_step, memory.seconds_at_target, Select(at_target, seconds + dt, 0));
-  Assign(now.is_policy_step, memory.yaw_error, error.yaw);
+  Assign(now.is_outer_step, memory.seconds_at_target, Select(at_target, seconds + dt, 0));
+  Assign(now.is_outer_step, memory.yaw_error, error.yaw);
   return {Select(at_target, target, PitchForSpeed(k, flight, motion, foreseen)),
           Select(at_target, error.speed, foreseen)};
 }

@@ -26,7 +26,7 @@ template <class T>
 struct TecsMemory {
   T speed, acceleration;  ///< of a filter of its own, ft/s, ft/s^2
   T integrator;           ///< of throttle
-  T throttle;             ///< 0..1, between its policy steps
+  T throttle;             ///< 0..1, between outer steps
 };
 
 /// What the aircraft's energy should become.
@@ -51,7 +51,7 @@ HWY_INLINE T ClimbRateFor(const TecsGains& k, T height_error, T speed) {
   return Select(height_error < 0, -1, 1) * Min(rate, most);
 }
 
-/// A policy step, every `dt` seconds, of the aircraft whose outer loops run now: leaves the
+/// An outer step, every `dt` seconds, of the aircraft whose outer loops run now: leaves the
 /// throttle in `memory`. In the order of AP_TECS::_update_throttle: what the demanded energy rate
 /// needs, more in a bank, a part of the energy error, damping by the rate's error, an integrator
 /// that stops while the throttle is at the limit that it pushes to.
@@ -78,11 +78,11 @@ HWY_INLINE void UpdateThrottle(const TecsGains& k, double dt, const FlightEstima
   const auto pushes = Or(And(wanted > 1, error > 0), And(wanted < 0, error < 0));
   const T integrated =
       memory.integrator + dt * k.integrator_gain * per_throttle / k.time_constant_s * error;
-  Assign(And(now.is_policy_step, Not(pushes)), memory.integrator,
+  Assign(And(now.is_outer_step, Not(pushes)), memory.integrator,
          Clip(integrated, -k.integrator_limit, k.integrator_limit));
-  Assign(now.is_policy_step, memory.throttle, Clip(wanted, 0, 1));
-  Assign(now.is_policy_step, memory.acceleration, acceleration);
-  Assign(now.is_policy_step, memory.speed, speed);
+  Assign(now.is_outer_step, memory.throttle, Clip(wanted, 0, 1));
+  Assign(now.is_outer_step, memory.acceleration, acceleration);
+  Assign(now.is_outer_step, memory.speed, speed);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -169,7 +169,7 @@ TEST_P(AutopilotKernel, WhatIsNotFiniteStaysWithItsAircraft) {
   }
 }
 
-/// Left and right: mirrored observations give mirrored actions, bit for bit.
+/// Left and right: mirrored observations give mirrored actions, bit-exactly.
 TEST_P(AutopilotKernel, IsSymmetric) {
   for (const AutopilotVariant variant :
        {AutopilotVariant::kTraditional, AutopilotVariant::kAggressive}) {

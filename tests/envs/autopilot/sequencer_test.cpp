@@ -69,9 +69,9 @@ TEST(Sequencer, BeginsAgainWhenTheTargetIsNotReachedInTime) {
   Nose nose;
   nose.gains.speed_lead = 0;
   EXPECT_EQ(nose.Update(0.1, 0, 0).pitch, 0.1);
-  int policy_steps = 0;
-  while (nose.Update(0.1, 0, -100).pitch == 0.1) ++policy_steps;
-  EXPECT_NEAR(policy_steps * kDt, nose.gains.patience_s, kSteps);
+  int outer_steps = 0;
+  while (nose.Update(0.1, 0, -100).pitch == 0.1) ++outer_steps;
+  EXPECT_NEAR(outer_steps * kDt, nose.gains.patience_s, kSteps);
 }
 
 TEST(Sequencer, StaysAtTheTargetWhileItIsNearEnough) {

@@ -96,7 +96,7 @@ TEST(Tecs, IntegratorStaysWithinItsLimit) {
   EXPECT_LE(level.memory.integrator, level.gains.integrator_limit);
 }
 
-TEST(Tecs, ChangesNothingBetweenPolicySteps) {
+TEST(Tecs, ChangesNothingBetweenOuterSteps) {
   LevelFlight level;
   const double throttle = level.Throttle({2, 0, 0});
   const double integrator = level.memory.integrator;
