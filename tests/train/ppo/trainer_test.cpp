@@ -183,8 +183,10 @@ TEST_F(TrainerTest, RestoringTellsTheSimdTargetOfTheCheckpoint) {
 
 TEST_P(TrainerPrecisionTest, AnExplosionLeavesTheStateOfBefore) {
   TrainConfig config = Config();
-  config.ppo.learning_rate = 1e30;
-  config.ppo.max_gradient_norm = 1e6;
+  // The standard deviation grows by e with every step until it is infinite.
+  config.ppo.learning_rate = 1;
+  config.ppo.entropy_coefficient = 1e6;
+  config.ppo.epochs = 100;
   config.evaluation.interval_iterations = 0;
   WorkerPool pool(2);
   Trainer trainer(config, pool);
