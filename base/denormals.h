@@ -3,7 +3,7 @@
 
 #include <xmmintrin.h>
 
-namespace skein::simd {
+namespace skein {
 
 /// Flushes denormal results to zero and takes denormal operands as zero on this thread while it
 /// lives: filters and gradients that decay would otherwise run many times slower.
@@ -22,4 +22,4 @@ class DenormalsFlushed {
   unsigned before_;
 };
 
-}  // namespace skein::simd
+}  // namespace skein

@@ -87,7 +87,7 @@ WorkerPool::~WorkerPool() = default;
 
 void WorkerPool::ForEach(int count, const std::function<void(int index, int worker)>& body) {
   if (threads_ == 1) {
-    const simd::DenormalsFlushed flushed;
+    const DenormalsFlushed flushed;
     for (int index = 0; index < count; ++index) body(index, 0);
     return;
   }
@@ -99,7 +99,7 @@ void WorkerPool::ForEach(int count, const std::function<void(int index, int work
       tbb::parallel_for(
           tbb::blocked_range<int>(0, count, 1),
           [&](const tbb::blocked_range<int>& range) {
-            const simd::DenormalsFlushed flushed;
+            const DenormalsFlushed flushed;
             const ForEachOrder::Calls calls(&order);
             const int worker = tbb::this_task_arena::current_thread_index();
             for (int index = range.begin(); index != range.end(); ++index) body(index, worker);

@@ -49,7 +49,7 @@ struct TrimmedTile {
   Tile tile() { return {flight.data(), stride, kTileSize}; }
   Tile task_tile() { return {target.data(), stride, kTileSize}; }
 
-  simd::DenormalsFlushed flushed;  // as on the environment's workers
+  DenormalsFlushed flushed;  // as on the environment's workers
   EnvConfig config;
   std::size_t stride = TileStride(kTileSize);
   std::shared_ptr<const KernelAircraft> aircraft = MakeKernelAircraft(F16(), config.atmosphere);

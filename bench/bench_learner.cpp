@@ -77,7 +77,7 @@ void Gradient(benchmark::State& state, Backend backend, LearnerPrecision precisi
     state.SkipWithError("built without LibTorch");
     return;
   }
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   const std::vector<NetworkShape> shapes = ActorAndCritic();
   const Samples samples(shapes[0], static_cast<int>(state.range(0)) / kChunkLength, kChunkLength);
   const std::int64_t rows = samples.tile.sequence.rows();
@@ -115,7 +115,7 @@ SKEIN_GRADIENT(libtorch, Backend::kLibTorch, LearnerPrecision::kFloat32)->Arg(38
 
 /// One policy step of actor and critic for a rollout tile of `range(0)` aircraft.
 void Inference(benchmark::State& state, LearnerPrecision precision) {
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   const std::vector<NetworkShape> shapes = ActorAndCritic();
   const int batch = static_cast<int>(state.range(0));
   const Samples samples(shapes[0], batch, 1);
@@ -152,7 +152,7 @@ BENCHMARK_CAPTURE(Inference, bf16, LearnerPrecision::kBfloat16)
 /// as a layer. Beside the GRU that leaves two LayerNorms and a head of one output; backward lacks
 /// the gradient by the GRU's input.
 void GruChunk(benchmark::State& state, simd::Precision precision, bool backward) {
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   constexpr int kBatch = 48;
   NetworkShape shape;
   shape.hidden_layers = 0;

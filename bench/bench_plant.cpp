@@ -20,7 +20,7 @@ constexpr float kDt = 0.02f;
 void RunStagePart(benchmark::State& state, StagePart part) {
   constexpr int kRounds = 256;
   Flock flock(kPlantBlock);
-  const simd::DenormalsFlushed flushed;  // as on the environment's workers
+  const DenormalsFlushed flushed;  // as on the environment's workers
   Meter meter(&state, static_cast<double>(kPlantBlock) * kRounds);
   for (auto _ : state) {
     meter.Time([&] { RunStagePart(part, KernelF16(), flock.At(0), kRounds); });
@@ -68,7 +68,7 @@ void BM_Evaluate(benchmark::State& state) {
   const std::size_t stride = flock.At(0).stride;
   const std::vector<float> thrust(stride, 5000);
   std::vector<float> rates(stride * kNumRigidBody), coefficients(stride * 6);
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   Meter meter(&state, flock.count(), kFlopsPerEvaluation);
   for (auto _ : state) {
     meter.Time([&] {

@@ -57,7 +57,7 @@ void StepPlant(bool controlled, int aircraft, int steps) {
   const std::vector<float> centred(stride), throttle(stride, kThrottle);
   const PilotColumns pilot{throttle.data(), centred.data(), centred.data(), centred.data()};
   const std::vector<float> trimmed = columns;
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   CountedSteps(steps, [&](int step) {
     if (step % kStepsFromTrim == 0) std::copy(trimmed.begin(), trimmed.end(), columns.begin());
     if (controlled) ControlTile(*kernel, constants, tile, pilot);

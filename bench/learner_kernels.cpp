@@ -34,7 +34,7 @@ struct Rows {
 /// Times `kernel(rows)`, which passes over `count` rows of `columns` values.
 template <class Kernel>
 void Pass(benchmark::State& state, std::int64_t count, int columns, const Kernel& kernel) {
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   Rows rows;
   LearnerMeter meter(&state, count);
   for (auto _ : state) meter.Time([&] { kernel(rows); });

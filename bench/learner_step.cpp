@@ -24,7 +24,7 @@ NetworkLayout Actor() { return NetworkLayout(ActorShape(NetworkConfig(), 22, 4))
 /// Times `call()`, which passes over `values` values.
 template <class Call>
 void Once(benchmark::State& state, std::int64_t values, const Call& call) {
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   LearnerMeter meter(&state, 0);
   for (auto _ : state) meter.Time(call);
   meter.ReportCyclesPerValue(values);

@@ -31,12 +31,12 @@ struct EnvConfig {
   int substeps = 1;                  ///< RK4 steps per control interval
   int action_repeat = 1;  ///< control steps for which an action is held; their rewards are summed
   int time_limit_steps = 2500;  ///< control steps
-  bool truncate_at_time_limit =
-      false;  ///< false: the time limit is a terminal failure, as in the paper
-  bool stagger_clocks =
-      false;  ///< first episodes begin with their clocks spread over the time limit
-  double observation_noise =
-      0.01;  ///< standard deviation of Gaussian noise on every observation; 0 draws none
+  /// false: the time limit is a terminal failure, as in the paper.
+  bool truncate_at_time_limit = false;
+  /// First episodes begin with their clocks spread over the time limit.
+  bool stagger_clocks = false;
+  /// Standard deviation of Gaussian noise on every observation; 0 draws none.
+  double observation_noise = 0.01;
   /// If larger, every episode draws its standard deviation between the two.
   double observation_noise_max = 0;
   double reward_scale = 1;  ///< multiplies the step rewards (not the terminal ones)

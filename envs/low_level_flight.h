@@ -32,8 +32,8 @@ class LowLevelFlight {
     float target[kHighLevelActionSize][kMaxCount];
     float error[kNumTaskErrors][kMaxCount];
     float observation[kMaxCount * kObservationSize];
-    float
-        action[kMaxCount * kActionSize];  ///< the low-level policy's newest, row-major, not clipped
+    /// The low-level policy's newest, row-major, not clipped.
+    float action[kMaxCount * kActionSize];
   };
 
   /// Throws Error if the low-level policy does not take the Control task's observations, or has

@@ -74,7 +74,7 @@ int VecEnv::action_size() const {
 }
 
 void VecEnv::Observe(int tile, float* observation) const {
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
     impl_->stepper.Observe(impl_->storage.BlockAt(tile, begin),
                            observation + static_cast<std::size_t>(begin) * kObservationSize);
@@ -83,7 +83,7 @@ void VecEnv::Observe(int tile, float* observation) const {
 
 void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
   // Also where the caller's thread does not: results must not depend on who drives the tile.
-  const simd::DenormalsFlushed flushed;
+  const DenormalsFlushed flushed;
   for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
     const std::size_t row = static_cast<std::size_t>(begin);
     StepOutput part = output;

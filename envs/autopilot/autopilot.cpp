@@ -162,7 +162,7 @@ class Autopilot : public Policy {
   }
 
   void Act(int count, const float* observation, float* state, float* action) const override {
-    const simd::DenormalsFlushed flushed;
+    const DenormalsFlushed flushed;
     law_.act()(gains_, timing_, count, observation, state, action);
   }
 

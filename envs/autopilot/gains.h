@@ -6,7 +6,7 @@
 
 namespace skein {
 
-/// Feet, seconds and radians throughout; commands in [-1, 1] (throttle in [0, 1]).
+// Feet, seconds and radians throughout; commands in [-1, 1] (throttle in [0, 1]).
 
 constexpr double Radians(double degrees) { return degrees * 0.017453292519943295; }
 

@@ -36,8 +36,8 @@ AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state,
 /// One evaluation of the equations of motion.
 struct PlantOutput {
   RigidBodyState state_rate;  ///< time derivative of the state
-  Eigen::Matrix<double, 6, 1>
-      coefficients;  ///< Cx, Cy, Cz, Cl, Cm, Cn about the cg, damping and controls included
+  /// Cx, Cy, Cz, Cl, Cm, Cn about the cg, damping and controls included.
+  Eigen::Matrix<double, 6, 1> coefficients;
   AirData air;
   double nx = 0, ny = 0, nz = 0;  ///< specific forces, g: Fx/(m g), Fy/(m g), -Fz/(m g)
 };

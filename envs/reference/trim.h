@@ -17,8 +17,8 @@ struct TrimRequest {
 struct TrimPoint {
   RigidBodyState state;  ///< at north = east = 0, heading north
   Controls controls;     ///< leading-edge flap on its steady schedule
-  double power =
-      0;  ///< engine power (0..100) that gives controls.thrust_lbf, clipped to what the engine has
+  /// Engine power (0..100) that gives controls.thrust_lbf, clipped to what the engine has.
+  double power = 0;
   double alpha_rad = 0, bank_rad = 0, pitch_rad = 0;
   double residual = 0;  ///< largest remaining acceleration, ft/s^2 or rad/s^2
 };

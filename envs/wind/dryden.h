@@ -8,12 +8,12 @@
 
 namespace skein {
 
-/// Continuous random turbulence in the Dryden form of MIL-F-8785C, section 3.7: gusts along body x,
-/// y and z whose power spectral densities over spatial frequency W [rad/ft] are
-///   forward       sd^2 (2 L / pi) / (1 + (L W)^2)
-///   right, down   sd^2 (L / pi) (1 + 3 (L W)^2) / (1 + (L W)^2)^2
-/// (one-sided: their integrals from 0 are sd^2), met at the true airspeed. Rotational gusts are
-/// left out.
+// Continuous random turbulence in the Dryden form of MIL-F-8785C, section 3.7: gusts along body x,
+// y and z whose power spectral densities over spatial frequency W [rad/ft] are
+//   forward       sd^2 (2 L / pi) / (1 + (L W)^2)
+//   right, down   sd^2 (L / pi) (1 + 3 (L W)^2) / (1 + (L W)^2)^2
+// (one-sided: their integrals from 0 are sd^2), met at the true airspeed. Rotational gusts are
+// left out.
 
 /// Standard deviations of a gust by severity, ft/s: MIL-F-8785C, figure 7, at 20,000 ft, for the
 /// probabilities of exceedance 1e-2, 1e-3 and 1e-5 (light, moderate, severe).

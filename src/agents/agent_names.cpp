@@ -18,6 +18,7 @@ namespace skein {
 namespace {
 
 constexpr const char* kPolicy = "policy";
+constexpr const char* kAutopilot = "autopilot";
 constexpr const char* kSampledSuffix = "@sampled";
 constexpr double kRandomHold_s = 1;
 constexpr int kLongestHold = 1000;  // control steps, as of env.action_repeat
@@ -58,18 +59,24 @@ Agent RandomAgent(const std::string& name, double control_interval_s) {
 }
 
 Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
-  // The strongest stands for all: a comparison should not be won against less.
-  const std::string variant = name == "autopilot" ? "aggressive" : ArgumentOf(name);
   EnvConfig own = env;
   own.tracking.error_axes = kAutopilotErrorAxes;
-  return AsUsage([&] { return Agent::Of(MakeAutopilot(own, AutopilotOf(variant))); });
+  return AsUsage(
+      [&] { return Agent::Of(MakeAutopilot(own, AutopilotOf(AutopilotVariantOf(name)))); });
 }
 
 }  // namespace
 
+bool IsAutopilot(const std::string& name) { return KindOf(name) == kAutopilot; }
+
+std::string AutopilotVariantOf(const std::string& name) {
+  // The strongest stands for all: a comparison should not be won against less.
+  return name == kAutopilot ? "aggressive" : ArgumentOf(name);
+}
+
 std::vector<AgentForm> AgentForms() {
   return {{fmt::format("autopilot[:{}]", fmt::join(AutopilotNames(), "|:")),
-           "the autopilot of TECS and L1 (alone: aggressive; as a --low-level: parallel)"},
+           "the autopilot of TECS and L1 (alone: aggressive)"},
           {"policy:FILE_OR_RUN[@sampled]", "a trained policy with its mean action, or as sampled"},
           {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
           {"zero", "zero actions"}};
@@ -78,8 +85,7 @@ std::vector<AgentForm> AgentForms() {
 std::string AgentNames() {
   std::vector<std::string> names;
   for (const AgentForm& form : AgentForms()) names.push_back(form.name);
-  return fmt::format("{} (autopilot alone: aggressive; as a --low-level: parallel)",
-                     fmt::join(names, ", "));
+  return fmt::format("{} (autopilot alone: aggressive)", fmt::join(names, ", "));
 }
 
 std::string PolicyFileOfAgent(const std::string& name) {
@@ -97,10 +103,10 @@ Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint6
   if (kind == kPolicy) return PolicyAgent(name, config, seed);
   if (kind == "random") return RandomAgent(name, config.train.env.control_interval_s);
   if (name == "zero") return Agent::Zero();
-  if (kind == "autopilot") return AutopilotAgent(name, config.train.env);
+  if (IsAutopilot(name)) return AutopilotAgent(name, config.train.env);
   if (name == "idle") throw UsageError("agent idle is now called zero");
   throw UsageError(fmt::format("unknown agent {}{}; known agents: {}", name,
-                               DidYouMean(kind, {"autopilot", "policy", "random", "zero"}),
+                               DidYouMean(kind, {kAutopilot, kPolicy, "random", "zero"}),
                                AgentNames()));
 }
 

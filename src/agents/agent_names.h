@@ -10,6 +10,11 @@
 
 namespace skein {
 
+/// Whether `name` is "autopilot" or "autopilot:VARIANT".
+bool IsAutopilot(const std::string& name);
+/// The variant that such a name means; "autopilot" alone is the strongest, aggressive.
+std::string AutopilotVariantOf(const std::string& name);
+
 /// The file of a policy that is called "policy:FILE_OR_RUN[@sampled]"; empty for other agents.
 std::string PolicyFileOfAgent(const std::string& name);
 

@@ -7,6 +7,7 @@
 #include "envs/actions.h"
 #include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
+#include "src/agents/agent_names.h"
 #include "src/agents/policy_file.h"
 #include "src/config/usage_error.h"
 #include "train/policy/autopilot_policy.h"
@@ -16,11 +17,6 @@
 
 namespace skein {
 namespace {
-
-constexpr const char* kLowLevelTask = "control";
-constexpr const char* kAutopilot = "autopilot";
-/// Steers attitude and speed at once, as a high-level policy commands them.
-constexpr const char* kLowLevelVariant = "parallel";
 
 RecurrentPolicy LoadControlPolicy(const EnvConfig& env, const std::string& path) {
   RecurrentPolicy policy = RecurrentPolicy::Load(path);
@@ -42,8 +38,7 @@ RecurrentPolicy LoadControlPolicy(const EnvConfig& env, const std::string& path)
 }
 
 ChosenLowLevelPolicy ChooseAutopilot(const EnvConfig& env, const std::string& option) {
-  const std::string variant =
-      option == kAutopilot ? kLowLevelVariant : option.substr(option.find(':') + 1);
+  const std::string variant = AutopilotVariantOf(option);
   return {AsUsage([&] { return std::make_shared<const AutopilotPolicy>(variant, env); }),
           fmt::format("low-level policy: the autopilot, variant {}", variant)};
 }
@@ -63,7 +58,7 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
     throw UsageError(
         fmt::format("--low-level is for tasks of a high-level policy, not for {}", task));
   }
-  if (option == kAutopilot || option.rfind(kAutopilot + std::string(":"), 0) == 0) {
+  if (IsAutopilot(option)) {
     return ChooseAutopilot(env, option);
   }
   const std::string path = PolicyFileOf(option);

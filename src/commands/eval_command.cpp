@@ -117,8 +117,8 @@ void AddEvalCommand(CLI::App* app) {
   command
       ->add_option("--low-level", options->low_level,
                    "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
-                   "(alone: parallel, though aggressive among --agents) that is the low-level "
-                   "policy; without it the policy flies itself")
+                   "(alone: aggressive) that is the low-level policy; without it the policy flies "
+                   "itself")
       ->type_name("RUN_OR_POLICY");
   command->add_flag("--deterministic", options->deterministic,
                     "report the mean action first (default: sampled actions; both are flown)");

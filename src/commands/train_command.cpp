@@ -196,7 +196,7 @@ void AddTrainCommand(CLI::App* app) {
   command
       ->add_option("--low-level", options->low_level,
                    "for task tracking: the low-level policy, trained on task control (a file, or a "
-                   "run's best), or autopilot[:VARIANT] (alone: parallel)")
+                   "run's best), or autopilot[:VARIANT] (alone: aggressive)")
       ->type_name("RUN_OR_POLICY");
   CLI::Option* out = command
                          ->add_option("--out", options->out,

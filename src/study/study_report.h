@@ -7,8 +7,8 @@
 
 namespace skein {
 
-/// The results of a study: an array of objects with task, level and comparison, the document of a
-/// Comparison whose first `trained` agents are the policies of one training with other seeds.
+// The results of a study: an array of objects with task, level and comparison, the document of a
+// Comparison whose first `trained` agents are the policies of one training with other seeds.
 
 /// A row for every agent of every level, and one called "trained" of the mean over the seeds with
 /// the interval that they leave (Student's t over seeds).

@@ -82,7 +82,7 @@ TEST_F(HighLevelPipeline, AHighLevelPolicyTrainsOverAControlPolicyAndFliesByItse
 TEST_F(HighLevelPipeline, AHighLevelPolicyTrainsOverTheAutopilot) {
   const ProgramResult trained = CallSkein(HighLevelTraining(run_, "autopilot"));
   ASSERT_EQ(trained.exit_code, 0) << trained.error;
-  EXPECT_THAT(trained.output, HasSubstr("low-level policy: the autopilot, variant parallel"));
+  EXPECT_THAT(trained.output, HasSubstr("low-level policy: the autopilot, variant aggressive"));
   const std::string policy = run_ + "/checkpoints/policy-final.skein";
   const ProgramResult flown = CallSkein({"eval", "--policy", policy, "--task", "tracking",
                                          "--episodes", "32", "--set", "env.time_limit_steps=100"});

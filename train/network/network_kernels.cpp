@@ -11,38 +11,35 @@
 #include <hwy/highway.h>
 
 #include "simd/math-inl.h"
+#include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::ScalableTag<float>;
-using Vector = hn::Vec<Floats>;
-
-HWY_INLINE float Sum(Vector v) {
-  const Floats d;
+HWY_INLINE float Sum(V v) {
+  const FloatTag d;
   return hn::GetLane(hn::SumOfLanes(d, v));
 }
 
 /// 1 / (1 + exp(-x)); Exp limits its argument where the result is 0 or 1 to float32.
-HWY_INLINE Vector Sigmoid(Vector x) {
-  const Floats d;
+HWY_INLINE V Sigmoid(V x) {
+  const FloatTag d;
   return Reciprocal(d, hn::Add(hn::Set(d, 1.0f), Exp(d, hn::Neg(x))));
 }
 
-HWY_INLINE Vector Tanh(Vector x) {
-  const Floats d;
-  const Vector two = hn::Set(d, 2.0f);
+HWY_INLINE V Tanh(V x) {
+  const FloatTag d;
+  const V two = hn::Set(d, 2.0f);
   return hn::MulSub(two, Sigmoid(hn::Mul(two, x)), hn::Set(d, 1.0f));
 }
 
 /// `v` with zeros in lanes that lie behind the columns, where it holds the columns from `j` on.
 template <bool kPadded>
-HWY_INLINE Vector WithinColumns(int columns, int j, Vector v) {
+HWY_INLINE V WithinColumns(int columns, int j, V v) {
   if constexpr (!kPadded) return v;
-  const Floats d;
+  const FloatTag d;
   const int left = columns - j;
   return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left > 0 ? left : 0)), v);
 }
@@ -55,17 +52,17 @@ constexpr int kRowsTogether = 4;
 template <int kRows, bool kRelu, bool kPadded>
 HWY_INLINE void NormaliseTogether(std::int64_t first, int columns, const float* in, float* out,
                                   float* inverse_std, float* zero_level) {
-  const Floats d;
+  const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
   in += first * stride;
   out += first * stride;
   inverse_std += first;
-  Vector sum[kRows], squares[kRows];
+  V sum[kRows], squares[kRows];
   for (int i = 0; i < kRows; ++i) sum[i] = squares[i] = hn::Zero(d);
   for (int j = 0; j < width; j += lanes) {
     for (int i = 0; i < kRows; ++i) {
-      Vector x = hn::LoadU(d, in + i * stride + j);
+      V x = hn::LoadU(d, in + i * stride + j);
       if constexpr (kRelu) {
         // Unlike a maximum with zero, this keeps not-a-number on every target.
         x = hn::IfThenZeroElse(hn::Lt(x, hn::Zero(d)), x);
@@ -75,14 +72,14 @@ HWY_INLINE void NormaliseTogether(std::int64_t first, int columns, const float* 
     }
   }
   const float* const values = kRelu ? out : in;
-  const auto deviation = [&](int i, int j, Vector mean) HWY_ATTR {
+  const auto deviation = [&](int i, int j, V mean) HWY_ATTR {
     return WithinColumns<kPadded>(columns, j, hn::Sub(hn::LoadU(d, values + i * stride + j), mean));
   };
   float mean[kRows];
   for (int i = 0; i < kRows; ++i) mean[i] = Sum(sum[i]) / static_cast<float>(columns);
   for (int j = 0; j < width; j += lanes) {
     for (int i = 0; i < kRows; ++i) {
-      const Vector x = deviation(i, j, hn::Set(d, mean[i]));
+      const V x = deviation(i, j, hn::Set(d, mean[i]));
       squares[i] = hn::MulAdd(x, x, squares[i]);
     }
   }
@@ -93,7 +90,7 @@ HWY_INLINE void NormaliseTogether(std::int64_t first, int columns, const float* 
   }
   for (int j = 0; j < width; j += lanes) {
     for (int i = 0; i < kRows; ++i) {
-      const Vector x = deviation(i, j, hn::Set(d, mean[i]));
+      const V x = deviation(i, j, hn::Set(d, mean[i]));
       hn::StoreU(hn::Mul(x, hn::Set(d, inverse_std[i])), d, out + i * stride + j);
     }
   }
@@ -132,17 +129,17 @@ template <int kRows, bool kRelu, bool kPadded>
 HWY_INLINE void NormaliseBackwardTogether(std::int64_t first, int columns, const float* normalised,
                                           const float* inverse_std, const float* zero_level,
                                           float* gradient, float* bias_gradient) {
-  const Floats d;
+  const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
   normalised += first * stride;
   gradient += first * stride;
   // LayerNorm's gradient subtracts the means of the gradient, and of gradient times normalised.
-  Vector sum[kRows], projection[kRows];
+  V sum[kRows], projection[kRows];
   for (int i = 0; i < kRows; ++i) sum[i] = projection[i] = hn::Zero(d);
   for (int j = 0; j < width; j += lanes) {
     for (int i = 0; i < kRows; ++i) {
-      const Vector g = hn::LoadU(d, gradient + i * stride + j);
+      const V g = hn::LoadU(d, gradient + i * stride + j);
       sum[i] = hn::Add(sum[i], g);
       projection[i] = hn::MulAdd(g, hn::LoadU(d, normalised + i * stride + j), projection[i]);
     }
@@ -152,15 +149,15 @@ HWY_INLINE void NormaliseBackwardTogether(std::int64_t first, int columns, const
     projection[i] = hn::Set(d, Sum(projection[i]) / static_cast<float>(columns));
   }
   for (int j = 0; j < width; j += lanes) {
-    Vector bias = hn::Zero(d);
+    V bias = hn::Zero(d);
     if constexpr (kRelu) bias = hn::LoadU(d, bias_gradient + j);
     for (int i = 0; i < kRows; ++i) {
-      const Vector x = hn::LoadU(d, normalised + i * stride + j);
-      const Vector g = hn::LoadU(d, gradient + i * stride + j);
-      const Vector centred = hn::NegMulAdd(x, projection[i], hn::Sub(g, sum[i]));
-      Vector result = hn::Mul(hn::Set(d, inverse_std[first + i]), centred);
+      const V x = hn::LoadU(d, normalised + i * stride + j);
+      const V g = hn::LoadU(d, gradient + i * stride + j);
+      const V centred = hn::NegMulAdd(x, projection[i], hn::Sub(g, sum[i]));
+      V result = hn::Mul(hn::Set(d, inverse_std[first + i]), centred);
       if constexpr (kRelu) {
-        const Vector zero = hn::Set(d, zero_level[first + i]);
+        const V zero = hn::Set(d, zero_level[first + i]);
         result = hn::IfThenElseZero(hn::Gt(x, zero), result);
       }
       result = WithinColumns<kPadded>(columns, j, result);
@@ -203,11 +200,11 @@ void NormaliseBackwardKernel(std::int64_t rows, int columns, const float* normal
 
 void ScaleRowsKernel(std::int64_t rows, int columns, const float* not_done, const float* in,
                      float* out) {
-  const Floats d;
+  const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    const Vector factor = hn::Set(d, not_done[i]);
+    const V factor = hn::Set(d, not_done[i]);
     for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
       hn::StoreU(hn::Mul(factor, hn::LoadU(d, in + j)), d, out + j);
     }
@@ -216,11 +213,11 @@ void ScaleRowsKernel(std::int64_t rows, int columns, const float* not_done, cons
 
 void AddScaledRowsKernel(std::int64_t rows, int columns, const float* not_done, const float* in,
                          float* out) {
-  const Floats d;
+  const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
-    const Vector factor = hn::Set(d, not_done[i]);
+    const V factor = hn::Set(d, not_done[i]);
     for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
       hn::StoreU(hn::MulAdd(factor, hn::LoadU(d, in + j), hn::LoadU(d, out + j)), d, out + j);
     }
@@ -229,7 +226,7 @@ void AddScaledRowsKernel(std::int64_t rows, int columns, const float* not_done, 
 
 void GruStepKernel(std::int64_t rows, int size, const float* previous, float* gates,
                    std::int64_t stride, float* next) {
-  const Floats d;
+  const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const std::int64_t row_stride = RowStride(size);
   for (std::int64_t i = 0; i < rows; ++i) {
@@ -243,25 +240,25 @@ void GruStepKernel(std::int64_t rows, int size, const float* previous, float* ga
       hn::StoreU(Sigmoid(hn::LoadU(d, gate_r + j)), d, gate_r + j);  // r, and z behind it
     }
     for (int j = 0; j < size; j += lanes) {
-      const Vector r = hn::LoadU(d, gate_r + j), z = hn::LoadU(d, gate_z + j);
-      const Vector n = Tanh(hn::MulAdd(r, hn::LoadU(d, gate_q + j), hn::LoadU(d, gate_n + j)));
-      const Vector h = hn::LoadU(d, previous + i * row_stride + j);
+      const V r = hn::LoadU(d, gate_r + j), z = hn::LoadU(d, gate_z + j);
+      const V n = Tanh(hn::MulAdd(r, hn::LoadU(d, gate_q + j), hn::LoadU(d, gate_n + j)));
+      const V h = hn::LoadU(d, previous + i * row_stride + j);
       hn::StoreU(n, d, gate_n + j);
       hn::StoreU(hn::MulAdd(z, hn::Sub(h, n), n), d, next + i * row_stride + j);
     }
   }
 }
 
-HWY_INLINE void AddTo(Vector value, float* sum) {
-  const Floats d;
+HWY_INLINE void AddTo(V value, float* sum) {
+  const FloatTag d;
   hn::StoreU(hn::Add(hn::LoadU(d, sum), value), d, sum);
 }
 
 void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, float* gates,
                            std::int64_t stride, float* state_gradient, float* gate_sums) {
-  const Floats d;
+  const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const Vector one = hn::Set(d, 1.0f);
+  const V one = hn::Set(d, 1.0f);
   const std::int64_t row_stride = RowStride(size);
   for (std::int64_t i = 0; i < rows; ++i) {
     float* const gate_n = gates + i * stride;
@@ -269,16 +266,16 @@ void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, f
     float* const gate_z = gate_r + size;
     float* const gate_q = gate_z + size;
     for (int j = 0; j < size; j += lanes) {
-      const Vector n = hn::LoadU(d, gate_n + j), r = hn::LoadU(d, gate_r + j);
-      const Vector z = hn::LoadU(d, gate_z + j), q = hn::LoadU(d, gate_q + j);
-      const Vector g = hn::LoadU(d, state_gradient + i * row_stride + j);
-      const Vector h = hn::LoadU(d, previous + i * row_stride + j);
-      const Vector g_new = hn::Mul(g, hn::Sub(one, z));
-      const Vector g_old = hn::Mul(g, z);
-      const Vector dz = hn::Mul(hn::Mul(g_new, z), hn::Sub(h, n));
-      const Vector dn = hn::Mul(g_new, hn::NegMulAdd(n, n, one));
-      const Vector dq = hn::Mul(dn, r);
-      const Vector dr = hn::Mul(hn::Mul(dq, q), hn::Sub(one, r));
+      const V n = hn::LoadU(d, gate_n + j), r = hn::LoadU(d, gate_r + j);
+      const V z = hn::LoadU(d, gate_z + j), q = hn::LoadU(d, gate_q + j);
+      const V g = hn::LoadU(d, state_gradient + i * row_stride + j);
+      const V h = hn::LoadU(d, previous + i * row_stride + j);
+      const V g_new = hn::Mul(g, hn::Sub(one, z));
+      const V g_old = hn::Mul(g, z);
+      const V dz = hn::Mul(hn::Mul(g_new, z), hn::Sub(h, n));
+      const V dn = hn::Mul(g_new, hn::NegMulAdd(n, n, one));
+      const V dq = hn::Mul(dn, r);
+      const V dr = hn::Mul(hn::Mul(dq, q), hn::Sub(one, r));
       hn::StoreU(dn, d, gate_n + j);
       hn::StoreU(dr, d, gate_r + j);
       hn::StoreU(dz, d, gate_z + j);

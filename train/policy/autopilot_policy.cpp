@@ -14,7 +14,7 @@ constexpr const char* kIntervalKey = "control_interval_s";
 
 std::unique_ptr<const Policy> ControlAutopilot(const std::string& variant, const EnvConfig& env) {
   EnvConfig config = env;
-  config.task = "control";
+  config.task = kLowLevelTask;
   return MakeAutopilot(config, AutopilotOf(variant));
 }
 

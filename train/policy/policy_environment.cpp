@@ -6,11 +6,7 @@
 #include "base/number_text.h"
 
 namespace skein {
-namespace {
-
-constexpr const char* kLowLevelTask = "control";
-
-}  // namespace
+namespace {}  // namespace
 
 std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
   EnvConfig listed = env;

@@ -9,6 +9,9 @@
 
 namespace skein {
 
+/// The task that policies below a high-level policy are trained on.
+inline constexpr const char* kLowLevelTask = "control";
+
 /// What gives a policy's observations and actions their meaning (PolicyRole), by configuration key
 /// less "env.", as text: what it cannot fly without. The task is not among them, nor is what may
 /// well differ from training: rates, conditions, targets, rewards.

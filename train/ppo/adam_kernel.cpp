@@ -8,22 +8,22 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "simd/vocabulary-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 // Every operation rounds as LibTorch's (1.13, on processors with fused multiply-add), so that both
 // agree in every bit on avx2 and avx512.
 void AdamStepKernel(const AdamStep& step) {
-  const hn::ScalableTag<float> d;
-  const auto beta1 = hn::Set(d, step.beta1), one_minus_beta1 = hn::Set(d, step.one_minus_beta1);
-  const auto beta2 = hn::Set(d, step.beta2), one_minus_beta2 = hn::Set(d, step.one_minus_beta2);
-  const auto root_correction = hn::Set(d, step.root_correction);
-  const auto epsilon = hn::Set(d, step.epsilon), step_size = hn::Set(d, step.step_size);
-  for (std::int64_t i = 0; i < step.size; i += static_cast<std::int64_t>(hn::Lanes(d))) {
+  const FloatTag d;
+  const auto beta1 = Constant(step.beta1), one_minus_beta1 = Constant(step.one_minus_beta1);
+  const auto beta2 = Constant(step.beta2), one_minus_beta2 = Constant(step.one_minus_beta2);
+  const auto root_correction = Constant(step.root_correction);
+  const auto epsilon = Constant(step.epsilon), step_size = Constant(step.step_size);
+  for (std::int64_t i = 0; i < step.size; i += kLanes) {
     const auto g = hn::Load(d, step.gradient + i);
     const auto m =
         hn::MulAdd(g, one_minus_beta1, hn::Mul(hn::Load(d, step.first_moment + i), beta1));

@@ -12,8 +12,8 @@ struct LearnerConfig {
   /// As asked for; ChooseBackend (train/network/backend.h) says what runs.
   Backend backend = Backend::kFused;
   LearnerPrecision precision = LearnerPrecision::kAuto;
-  int tile_samples =
-      384;  ///< samples per gradient tile: fixed shards, so results do not depend on threads
+  /// Samples per gradient tile: fixed shards, so results do not depend on threads.
+  int tile_samples = 384;
   int rollout_tile = 64;  ///< aircraft per rollout tile
 };
 

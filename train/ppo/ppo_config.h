@@ -13,8 +13,8 @@ struct PpoConfig {
   int epochs = 2;
   int minibatches = 16;
   double learning_rate = 1e-3;
-  double final_learning_rate_fraction =
-      0.02;  ///< linear in steps done to this fraction at the budget's end; 1 keeps it constant
+  /// Linear in steps done to this fraction at the budget's end; 1 keeps it constant.
+  double final_learning_rate_fraction = 0.02;
   double adam_epsilon = 1e-5;
   double gamma = 0.99;  ///< per policy step
   double gae_lambda = 0.95;

@@ -48,8 +48,8 @@ struct RecurrentState {
 /// began with a staggered clock (EnvConfig::stagger_clocks): the time limit cuts them short, and
 /// their returns say nothing of whole ones. Non-finite ends are counted of all.
 struct EpisodeStatistics {
-  std::uint64_t policy_steps =
-      0;  ///< by all aircraft together; all of the rollout's unless stopped
+  /// By all aircraft together; all of the rollout's unless stopped.
+  std::uint64_t policy_steps = 0;
   std::uint64_t episodes = 0;
   double return_sum = 0;
   std::array<int, kNumTerminations> terminations{};
@@ -66,8 +66,8 @@ struct ValueScale {
 
 struct RolloutSettings {
   std::uint64_t seed = 0;
-  std::uint64_t first_policy_step =
-      0;  ///< number of the rollout's first policy step since training began
+  /// Number of the rollout's first policy step since training began.
+  std::uint64_t first_policy_step = 0;
   double gamma = 0.99, gae_lambda = 0.95;
   bool tanh_mean = true;
   ValueScale value_scale;

@@ -34,8 +34,8 @@ struct IterationReport {
   double explained_variance = 0;
   double learning_rate = 0;
   double log_std_mean = 0;
-  double evaluation_success_rate =
-      -1;             ///< deterministic success if this iteration evaluated, else -1
+  /// Deterministic success if this iteration evaluated, else -1.
+  double evaluation_success_rate = -1;
   bool best = false;  ///< this iteration's evaluation is the best so far
   double rollout_seconds = 0, update_seconds = 0, evaluation_seconds = 0;
   double simulator_seconds = 0;  ///< of the rollout, mean of the threads

@@ -87,7 +87,7 @@ class Envelope {
   /// to p, q, r.
   std::vector<Flight> Fly(const std::function<Sticks(double)>& sticks, double seconds,
                           const Eigen::Vector3d& disturbance = Eigen::Vector3d::Zero()) const {
-    const simd::DenormalsFlushed flushed;
+    const DenormalsFlushed flushed;
     const int count = static_cast<int>(grid_.size());
     TestTile tile(count);
     std::vector<float> throttle(tile.stride()), pitch(throttle), roll(throttle), yaw(throttle);
