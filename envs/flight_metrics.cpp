@@ -156,7 +156,7 @@ const std::array<FlightMetricName, kNumFlightMetrics> kFlightMetricNames = {{
     {"true_airspeed_fps", "TAS", "airspeed, ft/s"},
     {"mach", "M", "Mach number"},
     {"climb_rate_fps", "RoC", "climb rate, ft/s"},
-    {"abs_climb_rate_fps", "|RoC|", "|climb rate|, ft/s"},
+    {"abs_climb_rate_fps", "|RoC|", "climb rate, ft/s"},
     {"abs_alpha_deg", "|AOA|", "alpha, deg"},
     {"abs_beta_deg", "|AOS|", "beta, deg"},
     {"abs_p_rad_s", "|P|", "roll rate, rad/s"},
