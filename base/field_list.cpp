@@ -16,7 +16,7 @@ std::string TextOfBound(double bound, const Bounds& bounds) {
   constexpr int kMostDigits = 10;
   if (bound == Bounds::WholeNumber().max) return "2^53";
   for (int digits = kMostDigits; digits > 0 && std::isfinite(bound); --digits) {
-    const std::string text = RoundedText(bound, digits);
+    std::string text = RoundedText(bound, digits);
     double typed = 0;
     std::from_chars(text.data(), text.data() + text.size(), typed);
     if (bounds.Contains(typed) || typed == bounds.min) return text;
@@ -52,6 +52,32 @@ struct Formatter {
   std::string operator()(const double* place) const { return number(*place); }
   std::string operator()(const std::string* place) const { return *place; }
   std::string operator()(const NamedChoice& choice) const { return choice.name(); }
+};
+
+/// Puts the value that a text stands for in its place; false, with nothing done, if it stands for
+/// none.
+struct TextReader {
+  const std::string& text;
+
+  template <typename Number>
+  bool operator()(Number* place) const {
+    const char* const end = text.data() + text.size();
+    Number value{};
+    const auto [rest, failure] = std::from_chars(text.data(), end, value);
+    if (failure != std::errc() || rest != end) return false;
+    *place = value;
+    return true;
+  }
+  bool operator()(bool* place) const {
+    if (text != "true" && text != "false") return false;
+    *place = text == "true";
+    return true;
+  }
+  bool operator()(std::string* place) const {
+    *place = text;
+    return true;
+  }
+  bool operator()(const NamedChoice& choice) const { return choice.Set(text); }
 };
 
 /// Whether a number lies within its bounds; what is no number has none. By pointers as they lie in
@@ -104,6 +130,11 @@ std::string Field::BoundsText() const {
 
 std::string Field::ValueText(std::string (*number)(double)) const {
   return std::visit(Formatter{number}, place);
+}
+
+void Field::SetText(const std::string& text) const {
+  if (std::visit(TextReader{text}, place)) return;
+  throw Error(key + " = " + text + " is not right; it must be " + TypeName());
 }
 
 std::string Field::OutOfRange(const std::string& value) const {

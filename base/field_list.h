@@ -82,6 +82,7 @@ struct Field {
   /// that a field that is off by default does not set older files apart.
   bool is_off = false;
   PolicyRole role = PolicyRole::kNone;
+  bool is_training_only = false;  ///< it serves learning alone: evaluations fly with its default
 
   bool IsOf(const std::string& task) const;
   bool IsNumber() const;
@@ -91,6 +92,8 @@ struct Field {
   std::string BoundsText() const;
   /// The value, without quotes; numbers that are not whole by type as `number` writes them.
   std::string ValueText(std::string (*number)(double)) const;
+  /// Takes the value that `text`, as of ValueText, stands for; throws Error if it stands for none.
+  void SetText(const std::string& text) const;
   /// "KEY = VALUE is out of range; it must be in BOUNDS".
   std::string OutOfRange(const std::string& value) const;
 
@@ -100,6 +103,10 @@ struct Field {
   }
   Field& FixedForPolicies() {
     role = PolicyRole::kFixed;
+    return *this;
+  }
+  Field& TrainingOnly() {
+    is_training_only = true;
     return *this;
   }
   Field& ChosenByPolicies() {

@@ -40,7 +40,8 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
   list.Add("truncate_at_time_limit", &config.truncate_at_time_limit,
            "true: the value is bootstrapped at the limit; false: the limit is a failure");
   list.Add("stagger_clocks", &config.stagger_clocks,
-           "first episodes begin with their clocks spread over the time limit (training only)");
+           "first episodes begin with their clocks spread over the time limit (training only)")
+      .TrainingOnly();
   list.Add("observation_noise", &config.observation_noise, Bounds::NotNegative(),
            "standard deviation of the noise on every observation");
   list.Add("observation_noise_max", &config.observation_noise_max, Bounds::NotNegative(),
@@ -91,11 +92,11 @@ void ListFields(EnvConfig& config, FieldList& list) {
 }
 
 EnvConfig EvaluationConfig(const EnvConfig& config) {
-  EnvConfig evaluated = config;
-  evaluated.stagger_clocks = false;
-  evaluated.heading.training_tolerance_min = 1;
-  evaluated.control.training_tolerance_min = 1;
-  evaluated.tracking.training_tolerance_max = 1;
+  EnvConfig evaluated = config, defaults;
+  const std::vector<Field> fields = FieldsOf(evaluated), standards = FieldsOf(defaults);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (fields[i].is_training_only) fields[i].SetText(standards[i].ValueText(ShortestText));
+  }
   return evaluated;
 }
 

@@ -18,9 +18,10 @@ void ListFields(ControlConfig& config, FieldList& list) {
            "yaw error that counts as reached");
   list.Add("speed_tolerance_fps", &config.speed_tolerance_fps, Bounds::Positive(),
            "speed error that counts as reached");
-  list.Add(
-      "training_tolerance_min", &config.training_tolerance_min, Bounds::PositiveFraction(),
-      "in training an episode's tolerances are these times U(x, 1); evaluations take them whole");
+  list.Add("training_tolerance_min", &config.training_tolerance_min, Bounds::PositiveFraction(),
+           "in training an episode's tolerances are these times U(x, 1); evaluations take them "
+           "whole")
+      .TrainingOnly();
   list.Add(
       "reward_includes_roll", &config.reward_includes_roll,
       "true: the reward's angle is to the attitude, wings level; false: to where the nose points");

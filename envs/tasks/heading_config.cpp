@@ -18,9 +18,10 @@ void ListFields(HeadingConfig& config, FieldList& list) {
            "yaw error that counts as reached");
   list.Add("speed_tolerance_fps", &config.speed_tolerance_fps, Bounds::Positive(),
            "speed error that counts as reached");
-  list.Add(
-      "training_tolerance_min", &config.training_tolerance_min, Bounds::PositiveFraction(),
-      "in training an episode's tolerances are these times U(x, 1); evaluations take them whole");
+  list.Add("training_tolerance_min", &config.training_tolerance_min, Bounds::PositiveFraction(),
+           "in training an episode's tolerances are these times U(x, 1); evaluations take them "
+           "whole")
+      .TrainingOnly();
   list.Add("earliest_success_step", &config.earliest_success_step, Bounds::CountOrNone(),
            "control step before which nothing counts as reached");
   list.Add("speed_error_weight", &config.speed_error_weight, Bounds::NotNegative(),

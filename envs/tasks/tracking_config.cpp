@@ -17,10 +17,11 @@ void ListFields(TrackingConfig& config, FieldList& list) {
            "target's direction: above or below the initial nose by U(-x, x)");
   list.Add("position_tolerance_ft", &config.position_tolerance_ft, Bounds::Positive(),
            "distance north, east and up of the target that counts as reached");
-  list.Add(
-      "training_tolerance_max", &config.training_tolerance_max, {1, 1000},
-      "in training an episode's tolerance is that times exp(U(0, ln x)); evaluations take it as "
-      "it is");
+  list.Add("training_tolerance_max", &config.training_tolerance_max, {1, 1000},
+           "in training an episode's tolerance is that times exp(U(0, ln x)); evaluations take it "
+           "as "
+           "it is")
+      .TrainingOnly();
   list.Add("error_axes", &config.error_axes, kTrackingAxesNames,
            "what the errors are: ahead, right and up of the heading; along, right of and above the "
            "path over ground; or north, east and up")

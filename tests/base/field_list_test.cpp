@@ -141,5 +141,26 @@ TEST(FieldList, FormerKeysOfAnOlderFileAreRenamed) {
                                   Pair("inner.size_ft", "8")));
 }
 
+TEST(FieldList, TextsGiveBackTheValuesThatTheyWereMadeOf) {
+  OuterConfig made{true, 7, Colour::kRed, "swift", {0.1, {0.5, 8}}}, taken;
+  const std::vector<Field> from = FieldsOf(made), to = FieldsOf(taken);
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    EXPECT_NE(to[i].ValueText(ShortestText), from[i].ValueText(ShortestText)) << to[i].key;
+    to[i].SetText(from[i].ValueText(ShortestText));
+    EXPECT_EQ(to[i].ValueText(ShortestText), from[i].ValueText(ShortestText)) << to[i].key;
+  }
+}
+
+TEST(FieldList, TextsThatAreNoValueAreRefused) {
+  OuterConfig config;
+  const std::vector<Field> fields = FieldsOf(config);
+  EXPECT_THAT(MessageOf([&] { fields[0].SetText("yes"); }), HasSubstr("true or false"));
+  EXPECT_THAT(MessageOf([&] { fields[1].SetText("4.5"); }), HasSubstr("an integer"));
+  EXPECT_THAT(MessageOf([&] { fields[2].SetText("green"); }), HasSubstr("\"red\" or \"blue\""));
+  EXPECT_THAT(MessageOf([&] { fields[4].SetText("3 ft"); }), HasSubstr("a number"));
+  EXPECT_FALSE(config.is_lit);
+  EXPECT_EQ(config.inner.size_ft, 3);
+}
+
 }  // namespace
 }  // namespace skein

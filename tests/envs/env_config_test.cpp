@@ -270,5 +270,18 @@ TEST(EnvConfigTest, AcceptsTheEdgesOfWhatItAllows) {
   EXPECT_EQ(Complaint(config), "");
 }
 
+TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
+  EnvConfig config;
+  config.stagger_clocks = true;
+  config.heading.training_tolerance_min = 0.1;
+  config.tracking.training_tolerance_max = 8;
+  config.heading.altitude_tolerance_ft = 70;
+  const EnvConfig evaluated = EvaluationConfig(config);
+  EXPECT_FALSE(evaluated.stagger_clocks);
+  EXPECT_EQ(evaluated.heading.training_tolerance_min, 1);
+  EXPECT_EQ(evaluated.tracking.training_tolerance_max, 1);
+  EXPECT_EQ(evaluated.heading.altitude_tolerance_ft, 70) << "belongs to the task";
+}
+
 }  // namespace
 }  // namespace skein

@@ -6,7 +6,6 @@
 #include "base/number_text.h"
 
 namespace skein {
-namespace {}  // namespace
 
 std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
   EnvConfig listed = env;
@@ -22,8 +21,7 @@ void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* e
   for (const Field& field : FieldsOf(*env)) {
     const auto found = made_with.find(field.key);
     if (field.role != PolicyRole::kChosen || found == made_with.end()) continue;
-    if (const auto* choice = std::get_if<NamedChoice>(&field.place)) choice->Set(found->second);
-    if (bool* const* flag = std::get_if<bool*>(&field.place)) **flag = found->second == "true";
+    field.SetText(found->second);
   }
 }
 
