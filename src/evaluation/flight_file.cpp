@@ -67,6 +67,7 @@ std::vector<Quantity> Readings(AtmosphereModel atmosphere, const State& state) {
           {"wind_east_fps", wind.y()},
           {"wind_down_fps", wind.z()},
           {"load_factor_g", state[kNz]},
+          {"lateral_load_factor_g", state[kNy]},
           {"power", state[kPower]},
           {"elevator_deg", state[kElevator]},
           {"aileron_deg", state[kAileron]},

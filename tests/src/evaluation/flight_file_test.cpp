@@ -67,6 +67,7 @@ std::array<float, kNumRecordedColumns> State(const EulerAngles& attitude) {
   state[kRudder] = -3;
   state[kLeadingEdgeFlap] = 4;
   state[kNz] = 1.5f;
+  state[kNy] = -0.25f;
   return state;
 }
 
@@ -104,13 +105,25 @@ constexpr Tolerance kAngleError{1e-3, "seven digits of differences of degrees"};
 TEST_F(FlightFileTest, WritesStatesInTheUnitsOfTheirNames) {
   const std::vector<Row> rows = Parse(FlightsCsv(EnvConfig{}, {flight_}));
   ASSERT_EQ(rows.size(), 3u);
-  const std::vector<std::pair<const char*, double>> expected = {
-      {"north_ft", 100},      {"east_ft", -200},  {"altitude_ft", 20000},
-      {"roll_deg", 40},       {"pitch_deg", -10}, {"yaw_deg", 170},
-      {"p_deg_s", 10},        {"q_deg_s", -20},   {"r_deg_s", 30},
-      {"alpha_deg", 5},       {"beta_deg", 2},    {"true_airspeed_fps", 800},
-      {"load_factor_g", 1.5}, {"power", 42},      {"elevator_deg", -1},
-      {"aileron_deg", 2},     {"rudder_deg", -3}, {"leading_edge_flap_deg", 4}};
+  const std::vector<std::pair<const char*, double>> expected = {{"north_ft", 100},
+                                                                {"east_ft", -200},
+                                                                {"altitude_ft", 20000},
+                                                                {"roll_deg", 40},
+                                                                {"pitch_deg", -10},
+                                                                {"yaw_deg", 170},
+                                                                {"p_deg_s", 10},
+                                                                {"q_deg_s", -20},
+                                                                {"r_deg_s", 30},
+                                                                {"alpha_deg", 5},
+                                                                {"beta_deg", 2},
+                                                                {"true_airspeed_fps", 800},
+                                                                {"load_factor_g", 1.5},
+                                                                {"lateral_load_factor_g", -0.25},
+                                                                {"power", 42},
+                                                                {"elevator_deg", -1},
+                                                                {"aileron_deg", 2},
+                                                                {"rudder_deg", -3},
+                                                                {"leading_edge_flap_deg", 4}};
   for (const auto& [name, value] : expected) {
     ASSERT_TRUE(rows[0].count(name)) << name;
     EXPECT_NEAR(std::stod(rows[0].at(name)), value, kSevenDigits * (1 + std::abs(value))) << name;
