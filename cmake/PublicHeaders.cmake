@@ -16,6 +16,8 @@ set(SKEIN_PUBLIC_HEADERS
     envs/state/state.h
     envs/step_output.h
     envs/tasks/control_config.h
+    envs/tasks/episode_progress.h
+    envs/tasks/handling_costs.h
     envs/tasks/heading_config.h
     envs/tasks/termination.h
     envs/tasks/termination_config.h

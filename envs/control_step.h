@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "envs/state/state.h"
+#include "envs/tasks/episode_progress.h"
 
 namespace skein {
 
@@ -14,6 +16,10 @@ struct ControlStep {
   const float* action = nullptr;  ///< row-major [count][kActionSize], held during it, not clipped
   const float* reward = nullptr;  ///< of the step, terminal reward included; 0 after the end
   const std::int32_t* termination = nullptr;  ///< Termination; kNone while flying
+  /// The task's normalised errors, without noise: kNumTaskErrors columns `error_stride` apart.
+  const float* errors = nullptr;
+  std::size_t error_stride = 0;
+  EpisodeProgress progress;  ///< after it; null columns where none is kept
 };
 
 /// Is shown the control steps of policy steps as they are flown: those of an aircraft in their

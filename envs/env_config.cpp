@@ -56,6 +56,9 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
   list.Add("target_altitude_min_ft", &config.target_altitude_min_ft, {0, 60000},
            "target altitudes drawn below this are raised to it; 0: as drawn")
       .OffUnless(config.target_altitude_min_ft > 0);
+  list.Add("hold_s", &config.hold_s, Bounds::NotNegative(),
+           "time for which a flight goes on after its target was reached; not of tracking")
+      .OffUnless(config.hold_s > 0);
 }
 
 void ListAircraftFields(EnvConfig& config, FieldList& list) {
@@ -89,6 +92,8 @@ void ListFields(EnvConfig& config, FieldList& list) {
   list.Group("tracking", config.tracking, {{"tracking"}});
   list.Group("high_level", config.high_level, {HierarchicalTasks(), false, "planner"});
   list.Group("termination", config.termination);
+  list.Group("mission", config.mission);
+  list.Group("reward", config.reward);
 }
 
 EnvConfig EvaluationConfig(const EnvConfig& config) {
@@ -114,6 +119,10 @@ void Validate(const EnvConfig& config) {
       "env.heading.earliest_success_step", config.heading.earliest_success_step,
       "no more than env.time_limit_steps, " + ShortestText(config.time_limit_steps) +
           ": else no episode could succeed");
+  Require(config.hold_s == 0 || config.task != "tracking", "env.hold_s", config.hold_s,
+          "0 for tracking: a point is passed, not held");
+  Require(config.hold_s == 0 || !config.mission.enabled(), "env.hold_s", config.hold_s,
+          "0 in a mission (env.mission.length_s), whose targets come one after another");
   const TerminationConfig& termination = config.termination;
   // The limits are compared by the sides of two directions, which an arc beyond 180 deg does not
   // have.

@@ -8,6 +8,8 @@
 #include "envs/initial_config.h"
 #include "envs/reference/flight_control.h"
 #include "envs/tasks/control_config.h"
+#include "envs/tasks/episode_progress.h"
+#include "envs/tasks/handling_costs.h"
 #include "envs/tasks/heading_config.h"
 #include "envs/tasks/termination_config.h"
 #include "envs/tasks/tracking_config.h"
@@ -43,6 +45,11 @@ struct EnvConfig {
   /// Targets drawn below these are raised to them, so that a regime holds throughout; 0: as drawn.
   double target_mach_min = 0;         ///< of target speeds, at the target's or the start's altitude
   double target_altitude_min_ft = 0;  ///< of target altitudes and points
+  /// Time for which a flight goes on after its target was reached, before it ends as
+  /// target_reached; not of Tracking, whose target is a point.
+  double hold_s = 0;
+  MissionConfig mission;
+  HandlingCosts reward;
   InitialConfig initial;
   WindConfig wind;
   HeadingConfig heading;
@@ -51,9 +58,9 @@ struct EnvConfig {
   HighLevelConfig high_level;
   TerminationConfig termination;
 
-  /// What ends and scales episodes of every task.
+  /// What ends and scales episodes of every task. The end of a mission is no failure.
   EpisodeSettings episode() const {
-    return {time_limit_steps, truncate_at_time_limit, reward_scale};
+    return {time_limit_steps, truncate_at_time_limit || mission.enabled(), reward_scale};
   }
 };
 

@@ -2,6 +2,7 @@
 #include "envs/env_stepper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "base/error.h"
 #include "envs/actions.h"
 #include "envs/aircraft/registry.h"
+#include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/termination.h"
@@ -44,6 +46,24 @@ bool Is(std::int32_t termination, Termination which) {
   return termination == static_cast<std::int32_t>(which);
 }
 
+/// Altitude that a mission has lost or won is given back by the pitch of what comes next, rad per
+/// ft, and at most: targets drawn anywhere would lead into the ground in the end.
+constexpr double kPitchPerFootLost = 5e-5;
+constexpr double kLargestPitchBack = 0.25;
+
+ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
+  const auto steps = [&config](double seconds) {
+    return static_cast<int>(std::lround(seconds / config.control_interval_s));
+  };
+  const bool is_mission_of_states = config.mission.enabled() && !task.is_point();
+  ProgressRules rules;
+  rules.dwell_steps = steps(is_mission_of_states ? config.mission.dwell_s : task.dwell_s());
+  rules.hold_steps = steps(config.hold_s);
+  rules.mission_steps = steps(config.mission.length_s);
+  rules.time_limit_steps = config.time_limit_steps;
+  return rules;
+}
+
 }  // namespace
 
 /// What a block needs during a policy step only.
@@ -54,6 +74,10 @@ struct alignas(kCacheLine) EnvStepper::Scratch {
   std::int32_t reached[kAircraftPerBlock];
   std::int32_t termination[kAircraftPerBlock] = {};
   bool final_observed[kAircraftPerBlock] = {};
+  float errors[kNumTaskErrors * kAircraftPerBlock];
+  std::int32_t deadline[kAircraftPerBlock] = {};
+  TargetEnd target_end[kAircraftPerBlock];
+  float bonus[kAircraftPerBlock] = {};
   LowLevelFlight::Scratch low_level;
 
   PilotColumns commands() const { return {command[0], command[1], command[2], command[3]}; }
@@ -68,12 +92,22 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       kernel_aircraft_(MakeKernelAircraft(aircraft_, config_.atmosphere)),
       flight_control_(aircraft_, config_.flight_control, config_.control_interval_s),
       limits_(config_.termination, config_.episode()),
+      progress_(RulesOf(config_, *task_)),
       reset_(config_, aircraft_),
       wind_(config_.wind) {
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
   if (low_level != nullptr) {
     low_level_ = std::make_unique<LowLevelFlight>(config_, num_aircraft, std::move(low_level));
   }
+}
+
+EnvColumns EnvStepper::columns() const {
+  EnvColumns columns;
+  columns.windy = wind_.enabled();
+  columns.task = task_->num_columns();
+  if (config_.reward.action_change > 0) columns.last_action = action_size();
+  columns.progress = progress_.enabled();
+  return columns;
 }
 
 void EnvStepper::ResetMetrics(std::size_t num_blocks) {
@@ -84,6 +118,10 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
   block.episode[i] = episode;
   block.step[i] = 0;
   block.episode_return[i] = 0;
+  block.progress.Reset(i);
+  if (config_.reward.action_change > 0) {
+    for (int k = 0; k < action_size(); ++k) block.last_action[k][i] = 0;
+  }
   if (low_level_ != nullptr) low_level_->Reset(block.first_aircraft + i);
   const auto stream = [&](simd::RandomPurpose purpose) {
     return simd::RandomStream({seed_, static_cast<std::uint32_t>(block.first_aircraft + i),
@@ -155,13 +193,80 @@ const float* EnvStepper::StickActions(const EnvBlock& block, const float* action
   return scratch.low_level.action;
 }
 
+/// Takes the costs of handling off the control step's reward.
+void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action,
+                               Scratch& scratch) const {
+  const HandlingCosts& costs = config_.reward;
+  if (costs.of_control_steps()) {
+    task_->Errors(block.flight, block.task, scratch.errors, kAircraftPerBlock);
+    SubtractHandlingCosts(costs, block.flight, scratch.errors, kAircraftPerBlock,
+                          scratch.step_reward);
+  }
+  if (costs.action_change > 0 && policy_action != nullptr) {
+    const int throttles = low_level_ == nullptr ? 1 : 0;
+    SubtractActionChange(costs, policy_action, action_size(), throttles, block.last_action,
+                         scratch.step_reward);
+  }
+}
+
+/// Gives aircraft on missions their next targets.
+void EnvStepper::DrawTargets(const EnvBlock& block, const Scratch& scratch) const {
+  for (int i = 0; i < block.count; ++i) {
+    if (scratch.target_end[i] != TargetEnd::kNone && Is(scratch.termination[i], Termination::kNone))
+      DrawTarget(block, i);
+  }
+}
+
+/// Around where the episode began, and of points around where the aircraft is.
+void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
+  const auto episode = static_cast<std::uint32_t>(block.episode[i]);
+  const auto aircraft = static_cast<std::uint32_t>(block.first_aircraft + i);
+  simd::RandomStream initial({seed_, aircraft, episode, 0, simd::RandomPurpose::kInitialState});
+  FlightStart start = reset_.Draw(&initial).start;
+  const double altitude_ft = -block.flight[kDown][i];
+  start.pitch_rad = std::clamp(kPitchPerFootLost * (start.altitude_ft - altitude_ft),
+                               -kLargestPitchBack, kLargestPitchBack);
+  if (task_->is_point()) {
+    Eigen::Vector4d attitude;
+    for (int k = 0; k < 4; ++k) attitude[k] = block.flight[kQ0 + k][i];
+    start.yaw_rad = EulerFromQuaternion(attitude).yaw;
+    start.altitude_ft = altitude_ft;
+    start.north_ft = block.flight[kNorth][i];
+    start.east_ft = block.flight[kEast][i];
+  }
+  const auto given = static_cast<std::uint32_t>(block.progress.targets_reached[i] +
+                                                block.progress.targets_missed[i]);
+  simd::RandomStream target({seed_, aircraft, episode, given, simd::RandomPurpose::kTarget});
+  task_->Reset(start, &target, block.task, i);
+}
+
+/// Finds out how far each aircraft has come, and what a mission's targets are worth.
+void EnvStepper::AdvanceTargets(const EnvBlock& block, Scratch& scratch) const {
+  AdvanceProgress(progress_, block.count, block.step, scratch.termination, block.progress,
+                  scratch.reached, scratch.deadline, scratch.target_end);
+  for (int i = 0; i < block.count; ++i) {
+    const TargetEnd end = scratch.target_end[i];
+    scratch.bonus[i] = end == TargetEnd::kReached  ? limits_.success_reward
+                       : end == TargetEnd::kMissed ? limits_.failure_reward
+                                                   : 0;
+  }
+}
+
 /// Rewards a control step and ends episodes, and shows it to the observer, if there is one.
+/// `policy_action` are the actions of a policy step that begins with it, else null.
 void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
-                               ControlStepObserver* observer, Scratch& scratch) const {
-  const StepResult step_result{scratch.step_reward, scratch.reached};
+                               const float* policy_action, ControlStepObserver* observer,
+                               Scratch& scratch) const {
+  StepResult step_result{scratch.step_reward, scratch.reached};
   EpisodeColumns episodes{block.step, scratch.termination, scratch.policy_step_reward,
                           block.episode_return};
   task_->ComputeReward(block.flight, block.task, block.step, step_result);
+  if (config_.reward.enabled()) SubtractCosts(block, policy_action, scratch);
+  if (progress_.enabled()) {
+    AdvanceTargets(block, scratch);
+    step_result.deadline = scratch.deadline;
+    step_result.bonus = scratch.bonus;
+  }
   if (observer == nullptr) {
     ComputeRewardAndTermination(*kernel_aircraft_, limits_, block.flight, step_result, episodes);
     return;
@@ -170,7 +275,9 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
   episodes.policy_step_reward = reward;
   ComputeRewardAndTermination(*kernel_aircraft_, limits_, block.flight, step_result, episodes);
   for (int i = 0; i < block.count; ++i) scratch.policy_step_reward[i] += reward[i];
-  observer->See({block.first_aircraft, block.flight, action, reward, episodes.termination});
+  task_->Errors(block.flight, block.task, scratch.errors, kAircraftPerBlock);
+  observer->See({block.first_aircraft, block.flight, action, reward, episodes.termination,
+                 scratch.errors, kAircraftPerBlock, block.progress});
 }
 
 /// Copies the observations of aircraft whose time ran out in this control step.
@@ -229,7 +336,8 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
     if (output.flight_metrics != nullptr) {
       metric_sums_[block.index].Add(*kernel_aircraft_, block.flight, scratch.termination);
     }
-    ComputeReward(block, stick_action, output.observer, scratch);
+    ComputeReward(block, stick_action, step == 0 ? action : nullptr, output.observer, scratch);
+    if (progress_.mission_steps > 0) DrawTargets(block, scratch);
     if (keeps_final) ObserveTruncated(block, scratch, output.final_observation);
   }
   std::copy_n(scratch.policy_step_reward, block.count, output.reward);

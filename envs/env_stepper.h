@@ -33,7 +33,9 @@ class EnvStepper {
 
   const EnvConfig& config() const { return config_; }
   const Task& task() const { return *task_; }
-  bool is_windy() const { return wind_.enabled(); }
+  /// What must be remembered of each aircraft.
+  EnvColumns columns() const;
+  int action_size() const { return low_level_ == nullptr ? kActionSize : kHighLevelActionSize; }
   /// Null without a low-level policy.
   LowLevelFlight* low_level() { return low_level_.get(); }
   const LowLevelFlight* low_level() const { return low_level_.get(); }
@@ -58,8 +60,12 @@ class EnvStepper {
   ObservationNoise NoiseOf(const EnvBlock& block) const;
   GustKeys GustKeysOf(const EnvBlock& block) const;
   const float* StickActions(const EnvBlock& block, const float* action, int step, Scratch& scratch);
-  void ComputeReward(const EnvBlock& block, const float* action, ControlStepObserver* observer,
-                     Scratch& scratch) const;
+  void ComputeReward(const EnvBlock& block, const float* action, const float* policy_action,
+                     ControlStepObserver* observer, Scratch& scratch) const;
+  void SubtractCosts(const EnvBlock& block, const float* policy_action, Scratch& scratch) const;
+  void AdvanceTargets(const EnvBlock& block, Scratch& scratch) const;
+  void DrawTargets(const EnvBlock& block, const Scratch& scratch) const;
+  void DrawTarget(const EnvBlock& block, int i) const;
   void ObserveTruncated(const EnvBlock& block, Scratch& scratch, float* final_observation) const;
   void RestartEnded(const EnvBlock& block, const Scratch& scratch, const StepOutput& output);
 
@@ -70,6 +76,7 @@ class EnvStepper {
   std::shared_ptr<const KernelAircraft> kernel_aircraft_;
   FlightControlConstants flight_control_;
   TerminationLimits limits_;
+  ProgressRules progress_;
   FlightReset reset_;
   Wind wind_;
   std::unique_ptr<LowLevelFlight> low_level_;

@@ -27,11 +27,10 @@ void EnvStorage::AlignedDelete::operator()(std::byte* bytes) const {
   ::operator delete[](bytes, std::align_val_t{kCacheLine});
 }
 
-EnvStorage::EnvStorage(int num_aircraft, int requested_tile_size, int task_columns, bool windy)
+EnvStorage::EnvStorage(int num_aircraft, int requested_tile_size, const EnvColumns& columns)
     : num_aircraft_(num_aircraft),
-      flight_columns_(windy ? kNumWindyColumns : kNumColumns),
-      task_columns_(task_columns),
-      windy_(windy) {
+      columns_(columns),
+      flight_columns_(columns.windy ? kNumWindyColumns : kNumColumns) {
   tile_size_ = RoundUp(std::min(requested_tile_size, num_aircraft), kLaneMultiple);
   num_tiles_ = (num_aircraft + tile_size_ - 1) / tile_size_;
   blocks_per_tile_ = (tile_size_ + kAircraftPerBlock - 1) / kAircraftPerBlock;
@@ -52,11 +51,17 @@ EnvBlock EnvStorage::BlockAt(int tile, int begin) {
   block.first_aircraft = tile * tile_size_ + begin;
   block.count = std::min(kAircraftPerBlock - lane, tile_count(tile) - begin);
   float* const base = reinterpret_cast<float*>(memory_.get() + block_bytes_ * block.index) + lane;
-  block.flight = {base, stride_, block.count, windy_};
+  block.flight = {base, stride_, block.count, columns_.windy};
   block.task = {block.flight[flight_columns_], stride_, block.count};
-  block.episode_return = block.task[task_columns_];
+  block.last_action = {block.task[columns_.task], stride_, block.count};
+  block.episode_return = block.last_action[columns_.last_action];
   block.step = reinterpret_cast<std::int32_t*>(block.episode_return + stride_);
   block.episode = block.step + stride_;
+  if (columns_.progress) {
+    std::int32_t* const first = block.episode + stride_;
+    block.progress = {first, first + stride_, first + 2 * stride_, first + 3 * stride_,
+                      first + 4 * stride_};
+  }
   return block;
 }
 
@@ -74,14 +79,20 @@ MemoryAhead EnvStorage::MemoryAfter(const EnvBlock& block) const {
 }
 
 std::size_t EnvStorage::words_per_aircraft() const {
-  // Columns, the episode's return, its clock and its number.
-  return static_cast<std::size_t>(flight_columns_ + task_columns_ + 1 + 2);
+  return static_cast<std::size_t>(float_columns() + int_columns());
+}
+
+int EnvStorage::float_columns() const {
+  return flight_columns_ + columns_.task + columns_.last_action + 1;
+}
+
+int EnvStorage::int_columns() const {
+  return 2 + (columns_.progress ? EpisodeProgress::kNumColumns : 0);
 }
 
 void* EnvStorage::WordAt(const EnvBlock& block, std::size_t index) const {
-  const std::size_t floats = words_per_aircraft() - 2;
-  if (index < floats) return block.flight[static_cast<int>(index)];
-  return index == floats ? block.step : block.episode;
+  // All columns lie one behind the other, the first that of the flight.
+  return block.flight[static_cast<int>(index)];
 }
 
 void EnvStorage::Save(int aircraft, std::uint32_t* words) {
@@ -107,7 +118,7 @@ void EnvStorage::FillPadding(const EnvBlock& block) {
     }
   };
   copy_first(block.flight, flight_columns_);
-  copy_first(block.task, task_columns_);
+  copy_first(block.task, columns_.task);
   std::fill(block.step + block.count, block.step + padded, 0);
   std::fill(block.episode_return + block.count, block.episode_return + padded, 0.0f);
 }

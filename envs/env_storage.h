@@ -7,6 +7,7 @@
 
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/state.h"
+#include "envs/tasks/episode_progress.h"
 
 namespace skein {
 
@@ -18,22 +19,33 @@ inline constexpr int kAircraftPerBlock = 128;
 struct EnvBlock {
   Tile flight;                      ///< physical columns (envs/state/state.h)
   Tile task;                        ///< the task's columns
+  Tile last_action;                 ///< of the last policy step, where it is remembered
   float* episode_return = nullptr;  ///< of the episodes under way
   std::int32_t* step = nullptr;     ///< control steps of the episode
   std::int32_t* episode = nullptr;  ///< its number
-  int first_aircraft = 0;           ///< global index
+  EpisodeProgress progress;
+  int first_aircraft = 0;  ///< global index
   int count = 0;
   std::size_t index = 0;  ///< of the block in memory
 };
 
+/// What an environment remembers of each aircraft, beside its episode's return, clock and number.
+struct EnvColumns {
+  bool windy = false;
+  int task = 0;           ///< columns of the task
+  int last_action = 0;    ///< remembered actions of the last policy step
+  bool progress = false;  ///< EpisodeProgress
+};
+
 /// The memory of an environment's aircraft, in tiles of blocks. What is worked on together lies
-/// together: per block its physical columns, task columns and episode returns (float32), control
-/// steps and numbers of episodes (int32), each as long as the block's stride.
+/// together: per block its physical columns, task columns, last actions and episode returns
+/// (float32), control steps, numbers of episodes and progress (int32), each as long as the block's
+/// stride.
 class EnvStorage {
  public:
   /// Everything is zero. `requested_tile_size` is rounded up to a multiple of 32. Both numbers of
   /// aircraft are at least 1.
-  EnvStorage(int num_aircraft, int requested_tile_size, int task_columns, bool windy);
+  EnvStorage(int num_aircraft, int requested_tile_size, const EnvColumns& columns);
 
   int num_aircraft() const { return num_aircraft_; }
   int num_tiles() const { return num_tiles_; }
@@ -71,11 +83,14 @@ class EnvStorage {
     void operator()(std::byte* bytes) const;
   };
 
+  /// Columns of float32, and after them those of int32.
+  int float_columns() const;
+  int int_columns() const;
   void* WordAt(const EnvBlock& block, std::size_t index) const;
 
   int num_aircraft_;
-  int flight_columns_, task_columns_;
-  bool windy_;
+  EnvColumns columns_;
+  int flight_columns_;
   int tile_size_ = 0;
   int num_tiles_ = 0;
   int blocks_per_tile_ = 0;

@@ -36,8 +36,7 @@ struct VecEnv::Impl {
   Impl(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size,
        std::shared_ptr<const Policy> low_level)
       : stepper(config, seed, RequireAircraft(num_aircraft), std::move(low_level)),
-        storage(num_aircraft, RequireTileSize(tile_size), stepper.task().num_columns(),
-                stepper.is_windy()) {
+        storage(num_aircraft, RequireTileSize(tile_size), stepper.columns()) {
     stepper.ResetMetrics(storage.num_blocks());
     storage.ForEachBlock([this](const EnvBlock& block) {
       for (int i = 0; i < block.count; ++i) stepper.BeginEpisode(block, i, 0);
@@ -69,9 +68,7 @@ int VecEnv::num_tiles() const { return impl_->storage.num_tiles(); }
 int VecEnv::tile_begin(int tile) const { return impl_->storage.tile_begin(tile); }
 int VecEnv::tile_count(int tile) const { return impl_->storage.tile_count(tile); }
 int VecEnv::observation_size() const { return kObservationSize; }
-int VecEnv::action_size() const {
-  return impl_->stepper.low_level() != nullptr ? kHighLevelActionSize : kActionSize;
-}
+int VecEnv::action_size() const { return impl_->stepper.action_size(); }
 
 void VecEnv::Observe(int tile, float* observation) const {
   const DenormalsFlushed flushed;

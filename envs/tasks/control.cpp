@@ -138,6 +138,8 @@ class ControlTask : public Task {
     return {{"pitch_deg", true}, {"yaw_deg", true}, {"true_airspeed_fps"}};
   }
 
+  double dwell_s() const override { return config_.dwell_s; }
+
   void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
              int index) const override {
     const auto around = [random](double centre, double change) {

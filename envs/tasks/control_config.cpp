@@ -22,6 +22,10 @@ void ListFields(ControlConfig& config, FieldList& list) {
            "in training an episode's tolerances are these times U(x, 1); evaluations take them "
            "whole")
       .TrainingOnly();
+  list.Add("dwell_s", &config.dwell_s, Bounds::NotNegative(),
+           "time within the tolerances without a break after which the target counts as reached; "
+           "0: at first touch")
+      .OffUnless(config.dwell_s > 0);
   list.Add(
       "reward_includes_roll", &config.reward_includes_roll,
       "true: the reward's angle is to the attitude, wings level; false: to where the nose points");

@@ -19,6 +19,9 @@ struct ControlConfig {
   /// 1 is the paper's; with less it learns to come nearer than it must, as a low-level policy under
   /// a high-level policy has to.
   double training_tolerance_min = 1;
+  /// Time within the tolerances without a break after which the target counts as reached; 0: at
+  /// first touch, as in the paper.
+  double dwell_s = 0;
   /// true: the reward's angle is that to the target attitude, wings level, as the paper's; false:
   /// that between the nose and where it should point. Roll does not count for the target, but has
   /// to be flown to reach it: the attitude's angle makes a bank cost more than the turn is worth.

@@ -102,6 +102,8 @@ class HeadingTask : public Task {
     return {{"altitude_ft"}, {"yaw_deg", true}, {"true_airspeed_fps"}};
   }
 
+  double dwell_s() const override { return config_.dwell_s; }
+
   void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
              int index) const override {
     const auto around = [random](double centre, double change) {

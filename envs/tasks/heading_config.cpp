@@ -22,6 +22,10 @@ void ListFields(HeadingConfig& config, FieldList& list) {
            "in training an episode's tolerances are these times U(x, 1); evaluations take them "
            "whole")
       .TrainingOnly();
+  list.Add("dwell_s", &config.dwell_s, Bounds::NotNegative(),
+           "time within the tolerances without a break after which the target counts as reached; "
+           "0: at first touch")
+      .OffUnless(config.dwell_s > 0);
   list.Add("earliest_success_step", &config.earliest_success_step, Bounds::CountOrNone(),
            "control step before which nothing counts as reached");
   list.Add("speed_error_weight", &config.speed_error_weight, Bounds::NotNegative(),

@@ -17,6 +17,9 @@ struct HeadingConfig {
   /// In training an episode's tolerances are these times U(x, 1), which the agent does not see.
   /// 1 is the paper's; with less it learns to come nearer than it must, and sooner.
   double training_tolerance_min = 1;
+  /// Time within the tolerances without a break after which the target counts as reached; 0: at
+  /// first touch, as in the paper.
+  double dwell_s = 0;
   int earliest_success_step = 300;  ///< control steps
   /// Reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm; the
   /// paper's is 0. The speed is what most targets wait for, and weighs least in the norm.

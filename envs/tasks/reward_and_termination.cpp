@@ -104,12 +104,15 @@ void ComputeRewardAndTerminationKernel(const KernelAircraft& aircraft,
   const FloatTag d;
   const IntTag di;
   const auto zero = hn::Zero(di);
-  const auto time_limit = hn::Set(di, limits.time_limit_steps - 1);
+  const auto time_limit = hn::Set(di, limits.time_limit_steps);
   for (int first = 0; first < tile.count; first += kLanes) {
     const auto ended_before = hn::LoadU(di, episodes.termination + first);
     const auto is_flying = hn::Eq(ended_before, zero);
     const auto steps_before = hn::LoadU(di, episodes.step + first);
-    const auto is_out_of_time = hn::RebindMask(d, hn::Not(hn::Gt(time_limit, steps_before)));
+    const auto deadline =
+        step_result.deadline == nullptr ? time_limit : hn::LoadU(di, step_result.deadline + first);
+    const auto now = hn::Add(steps_before, hn::Set(di, 1));
+    const auto is_out_of_time = hn::RebindMask(d, hn::Not(hn::Gt(deadline, now)));
     const auto step = hn::Sub(steps_before, hn::VecFromMask(di, is_flying));
     hn::StoreU(step, di, episodes.step + first);
 
@@ -124,7 +127,9 @@ void ComputeRewardAndTerminationKernel(const KernelAircraft& aircraft,
 
     const V reward =
         hn::Add(hn::IfThenElseZero(is_finite, hn::Mul(step_reward, Constant(limits.reward_scale))),
-                end.reward);
+                step_result.bonus == nullptr
+                    ? end.reward
+                    : hn::Add(end.reward, hn::LoadU(d, step_result.bonus + first)));
     const Mask counts = hn::RebindMask(d, is_flying);
     AddWhere(counts, reward, episodes.policy_step_reward + first);
     AddWhere(counts, reward, episodes.episode_return + first);

@@ -10,11 +10,13 @@
 
 namespace skein {
 
-/// Where a flight begins: what targets are drawn relative to.
+/// Where a flight begins, or is when a mission's next target is drawn: what targets are relative
+/// to.
 struct FlightStart {
   double altitude_ft = 0;
   double true_airspeed_ft_s = 0;
   double pitch_rad = 0, yaw_rad = 0;
+  double north_ft = 0, east_ft = 0;
 };
 
 /// Task errors at the head of every observation.
@@ -25,6 +27,9 @@ inline constexpr int kNumTaskErrors = 3;
 struct StepResult {
   float* reward = nullptr;          ///< before reward_scale, without terminal rewards
   std::int32_t* reached = nullptr;  ///< 1 where the target counts as reached, else 0
+  /// Control step of the episode at which time ends it; null: the same limit for all.
+  const std::int32_t* deadline = nullptr;
+  const float* bonus = nullptr;  ///< reward beside, which reward_scale leaves alone; null: none
 };
 
 /// What a target is compared with: a column of recorded flights (docs/reference/file-formats.md).
@@ -46,6 +51,11 @@ class Task {
   virtual int num_targets() const = 0;
   /// One per target, in their order.
   virtual std::vector<TargetQuantity> target_quantities() const = 0;
+
+  /// Time within tolerances without a break after which the target counts as reached, s.
+  virtual double dwell_s() const { return 0; }
+  /// Whether targets are points, which are passed, and not states, which can be held.
+  virtual bool is_point() const { return false; }
 
   /// Draws the columns of the tile's aircraft `index` at the start of an episode.
   virtual void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,

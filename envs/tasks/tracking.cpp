@@ -166,7 +166,8 @@ class TrackingTask : public Task {
     return {{"north_ft"}, {"east_ft"}, {"altitude_ft"}};
   }
 
-  /// Flights begin at the origin.
+  bool is_point() const override { return true; }
+
   void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
              int index) const override {
     const auto around = [random](double centre_rad, double change_deg) {
@@ -180,11 +181,11 @@ class TrackingTask : public Task {
     const auto set = [task, index](int column, double value) {
       task[column][index] = static_cast<float>(value);
     };
-    set(kTrackingNorth, distance * std::cos(elevation) * std::cos(azimuth));
-    set(kTrackingEast, distance * std::cos(elevation) * std::sin(azimuth));
+    set(kTrackingNorth, start.north_ft + distance * std::cos(elevation) * std::cos(azimuth));
+    set(kTrackingEast, start.east_ft + distance * std::cos(elevation) * std::sin(azimuth));
     set(kTrackingAltitude, limits_.Altitude(start.altitude_ft + distance * std::sin(elevation)));
-    set(kTrackingLastNorth, 0);
-    set(kTrackingLastEast, 0);
+    set(kTrackingLastNorth, start.north_ft);
+    set(kTrackingLastEast, start.east_ft);
     set(kTrackingLastAltitude, start.altitude_ft);
     const double widening = random->Uniform(0, std::log(config_.training_tolerance_max));
     set(kTrackingTolerance, config_.position_tolerance_ft * std::exp(widening));

@@ -16,7 +16,7 @@ namespace {
 constexpr int kTaskColumns = 5;
 
 EnvStorage Storage(int num_aircraft, int tile_size) {
-  return EnvStorage(num_aircraft, tile_size, kTaskColumns, true);
+  return EnvStorage(num_aircraft, tile_size, {true, kTaskColumns});
 }
 
 /// Words that no other aircraft has.

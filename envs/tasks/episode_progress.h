@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace skein {
+
+/// Flights of many targets. A target that is held counts, and one that is not held within the time
+/// limit is missed; either way the next is drawn, and the flight goes on.
+struct MissionConfig {
+  double length_s = 0;  ///< 0: an episode has one target
+  double dwell_s = 5;   ///< for which a target must be held; one of a point is met at once
+
+  bool enabled() const { return length_s > 0; }
+};
+
+class FieldList;
+
+/// Its settings (base/field_list.h).
+void ListFields(MissionConfig& config, FieldList& list);
+
+/// When a target counts as reached, and what comes then.
+struct ProgressRules {
+  int dwell_steps = 0;    ///< control steps within tolerances without a break; 0: at first touch
+  int hold_steps = 0;     ///< for which the flight goes on after that
+  int mission_steps = 0;  ///< length of a flight of many targets; 0: one target
+  int time_limit_steps = 0;
+
+  /// Whether an aircraft's progress must be remembered: else episodes end at first touch.
+  bool enabled() const { return dwell_steps > 0 || hold_steps > 0 || mission_steps > 0; }
+};
+
+/// How far each aircraft of a block has come with its target: columns, padded as Tile says. All
+/// null where ProgressRules ask for nothing to be remembered.
+struct EpisodeProgress {
+  static constexpr int kNumColumns = 5;
+
+  std::int32_t* steps_within = nullptr;  ///< consecutive control steps within tolerances up to now
+  std::int32_t* reached_step = nullptr;  ///< of the episode, when the target counted; 0: not yet
+  std::int32_t* target_step = nullptr;   ///< of the episode, when the target was given
+  std::int32_t* targets_reached = nullptr;  ///< of a mission
+  std::int32_t* targets_missed = nullptr;   ///< of a mission
+
+  /// The `i`-th aircraft begins an episode.
+  void Reset(int i) const;
+};
+
+/// What became of a target in a control step.
+enum class TargetEnd : std::uint8_t { kNone, kReached, kMissed };
+
+/// One control step of `count` aircraft, but those that have a `termination`. `steps_before` are
+/// the control steps of their episodes before it. `reached` says where the state is within
+/// tolerances, and is changed into where the episode ends for that; `deadline` gets the control
+/// step at which time ends it, `target_end` what became of a mission's target.
+void AdvanceProgress(const ProgressRules& rules, int count, const std::int32_t* steps_before,
+                     const std::int32_t* termination, const EpisodeProgress& progress,
+                     std::int32_t* reached, std::int32_t* deadline, TargetEnd* target_end);
+
+}  // namespace skein

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "envs/state/state.h"
+
+namespace skein {
+
+class FieldList;
+
+/// What handling costs, in reward before reward_scale: the weights of terms beside the task's own.
+/// "Near" terms are multiplied by 1 / (1 + near_sharpness |error|^2) of the task's normalised
+/// errors: they cost in full where the target is held, and little on the way to it. All zero is
+/// the paper's.
+struct HandlingCosts {
+  // Of a control step.
+  double near_roll_rate = 0, near_pitch_rate = 0, near_yaw_rate = 0;  ///< per rad/s
+  /// Per g that the load factor differs from that of unaccelerated flight, cos(pitch) cos(roll).
+  double near_load_factor = 0;
+  double near_bank = 0;  ///< per unit of 1 - cos(roll), at most 2
+  double roll_rate = 0;  ///< per rad/s, near or not
+  double sideslip = 0;   ///< per unit of sin(beta), near or not
+  double near_sharpness = 20;
+  /// Of a policy step, per squared change of each of its actions but the throttle, which are
+  /// clipped to [-1, 1].
+  double action_change = 0;
+
+  bool of_control_steps() const;
+  bool enabled() const { return of_control_steps() || action_change > 0; }
+};
+
+/// Its settings (base/field_list.h).
+void ListFields(HandlingCosts& config, FieldList& list);
+
+/// Subtracts the costs of a control step from `reward`, one element per aircraft. `errors` are the
+/// task's normalised ones, kNumTaskErrors columns `error_stride` apart.
+void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float* errors,
+                           std::size_t error_stride, float* reward);
+
+/// Subtracts the cost of changing from `last` to `action` from `reward`, and keeps the new ones.
+/// `action` is row-major [last.count][action_size], not clipped; `last` has a column of each. The
+/// `first` actions cost nothing.
+void SubtractActionChange(const HandlingCosts& costs, const float* action, int action_size,
+                          int first, Tile last, float* reward);
+
+}  // namespace skein
