@@ -94,7 +94,8 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       limits_(config_.termination, config_.episode()),
       progress_(RulesOf(config_, *task_)),
       reset_(config_, aircraft_),
-      wind_(config_.wind) {
+      wind_(config_.wind),
+      privileged_(wind_.enabled()) {
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
   if (low_level != nullptr) {
     low_level_ = std::make_unique<LowLevelFlight>(config_, num_aircraft, std::move(low_level));
@@ -164,6 +165,12 @@ void EnvStepper::Observe(const EnvBlock& block, float* observation) const {
   if (low_level_ != nullptr && low_level_->averages_observations()) {
     low_level_->AverageObservations(block.first_aircraft, block.count, observation);
   }
+}
+
+void EnvStepper::ObservePrivileged(const EnvBlock& block, float* rows) const {
+  alignas(kCacheLine) float errors[kNumTaskErrors * kAircraftPerBlock];
+  task_->Errors(block.flight, block.task, errors, kAircraftPerBlock);
+  privileged_.Observe(block, errors, kAircraftPerBlock, rows);
 }
 
 /// Turns the actions that hold during the control step into commands, and returns them: `action`,

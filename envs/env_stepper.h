@@ -15,6 +15,7 @@
 #include "envs/kernels/plant_kernel.h"
 #include "envs/low_level_flight.h"
 #include "envs/policy.h"
+#include "envs/privileged_observation.h"
 #include "envs/step_output.h"
 #include "envs/tasks/reward_and_termination.h"
 #include "envs/tasks/task.h"
@@ -45,6 +46,10 @@ class EnvStepper {
 
   /// Writes the block's observations, row-major, noise included.
   void Observe(const EnvBlock& block, float* observation) const;
+
+  const PrivilegedObservation& privileged() const { return privileged_; }
+  /// Writes what no policy observes, row-major [block.count][privileged().size()].
+  void ObservePrivileged(const EnvBlock& block, float* rows) const;
 
   /// One policy step. `action` and `output` point at the block's first aircraft; `ahead` is the
   /// memory that the caller works on next. Padding lanes are left to the caller.
@@ -79,6 +84,7 @@ class EnvStepper {
   ProgressRules progress_;
   FlightReset reset_;
   Wind wind_;
+  PrivilegedObservation privileged_;
   std::unique_ptr<LowLevelFlight> low_level_;
   /// By block, of its episodes under way: no part of the environment's state.
   std::vector<FlightMetricSums> metric_sums_;

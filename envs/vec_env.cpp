@@ -78,6 +78,20 @@ void VecEnv::Observe(int tile, float* observation) const {
   }
 }
 
+int VecEnv::privileged_size() const { return impl_->stepper.privileged().size(); }
+std::vector<std::string> VecEnv::privileged_names() const {
+  return impl_->stepper.privileged().names();
+}
+
+void VecEnv::ObservePrivileged(int tile, float* rows) const {
+  const DenormalsFlushed flushed;
+  const auto size = static_cast<std::size_t>(privileged_size());
+  for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
+    impl_->stepper.ObservePrivileged(impl_->storage.BlockAt(tile, begin),
+                                     rows + static_cast<std::size_t>(begin) * size);
+  }
+}
+
 void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
   // Also where the caller's thread does not: results must not depend on who drives the tile.
   const DenormalsFlushed flushed;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "envs/env_config.h"
@@ -38,6 +39,14 @@ class VecEnv {
 
   /// Writes the tile's observations, row-major [count][observation_size], noise included.
   void Observe(int tile, float* observation) const;
+
+  /// What the environment knows and no policy observes, for a critic that sees more than its actor:
+  /// the task's errors without noise, and what the configuration adds (wind). Numbers of about unit
+  /// size, called by their names.
+  int privileged_size() const;
+  std::vector<std::string> privileged_names() const;  ///< of privileged_size() numbers
+  /// Writes the tile's, row-major [count][privileged_size].
+  void ObservePrivileged(int tile, float* rows) const;
 
   /// Holds actions (row-major [count][action_size], clipped to [-1, 1]) for config().action_repeat
   /// control steps: throttle (-1 is idle, 1 is maximum), pitch (+ nose up), roll (+ right), yaw (+

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/privileged_observation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "envs/vec_env.h"
+#include "tests/tolerance.h"
+
+namespace skein {
+namespace {
+
+constexpr int kCount = 200;  // more than a block
+constexpr int kErrors = 3;
+
+std::vector<float> PrivilegedRows(const VecEnv& env) {
+  std::vector<float> rows(static_cast<std::size_t>(env.num_aircraft() * env.privileged_size()));
+  for (int tile = 0; tile < env.num_tiles(); ++tile) {
+    env.ObservePrivileged(tile, rows.data() + env.tile_begin(tile) * env.privileged_size());
+  }
+  return rows;
+}
+
+std::vector<float> Observations(const VecEnv& env) {
+  std::vector<float> rows(static_cast<std::size_t>(env.num_aircraft() * env.observation_size()));
+  for (int tile = 0; tile < env.num_tiles(); ++tile) {
+    env.Observe(tile, rows.data() + env.tile_begin(tile) * env.observation_size());
+  }
+  return rows;
+}
+
+/// Where a number stands in a row.
+int IndexOf(const VecEnv& env, const std::string& name) {
+  const std::vector<std::string> names = env.privileged_names();
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+TEST(PrivilegedObservation, ErrorsAreThoseOfTheObservationWithoutItsNoise) {
+  EnvConfig config;
+  config.observation_noise = 0.1;
+  const VecEnv noisy(config, kCount, 1);
+  config.observation_noise = 0;
+  const VecEnv calm(config, kCount, 1);
+  const std::vector<float> privileged = PrivilegedRows(noisy), observed = Observations(calm);
+  for (int i = 0; i < kCount; ++i) {
+    for (int k = 0; k < kErrors; ++k) {
+      EXPECT_EQ(privileged[static_cast<std::size_t>(i * noisy.privileged_size() + k)],
+                observed[static_cast<std::size_t>(i * calm.observation_size() + k)]);
+    }
+  }
+}
+
+TEST(PrivilegedObservation, HasANameForEveryNumber) {
+  EnvConfig config;
+  for (const double speed_fps : {0.0, 100.0}) {
+    config.wind.speed_fps = {speed_fps, speed_fps};
+    const VecEnv env(config, 1, 1);
+    EXPECT_EQ(env.privileged_names().size(), static_cast<std::size_t>(env.privileged_size()));
+  }
+}
+
+TEST(PrivilegedObservation, ShowsTheWindAlongTheBodyAxes) {
+  EnvConfig config;
+  config.wind.speed_fps = {50, 50};
+  config.wind.from_deg = {90, 90};  // from the right of an aircraft that heads north
+  const VecEnv env(config, kCount, 1);
+  const std::vector<float> rows = PrivilegedRows(env);
+  constexpr Tolerance kTolerance{0.02, "trimmed flight banks a little, and pitches"};
+  for (int i = 0; i < kCount; ++i) {
+    const float* const row = rows.data() + i * env.privileged_size();
+    EXPECT_NEAR(row[IndexOf(env, "wind_x")], 0, kTolerance);
+    EXPECT_NEAR(row[IndexOf(env, "wind_y")], -0.5, kTolerance);
+  }
+}
+
+}  // namespace
+}  // namespace skein
