@@ -135,7 +135,9 @@ class ControlTask : public Task {
   int num_columns() const override { return kNumControlColumns; }
   int num_targets() const override { return kControlSpeed + 1; }
   std::vector<TargetQuantity> target_quantities() const override {
-    return {{"pitch_deg", true}, {"yaw_deg", true}, {"true_airspeed_fps"}};
+    return {{"pitch_deg", true, kDegPerRad},
+            {"yaw_deg", true, kDegPerRad},
+            {"true_airspeed_fps", false, units_.speed_ft_s}};
   }
 
   double dwell_s() const override { return config_.dwell_s; }

@@ -99,7 +99,9 @@ class HeadingTask : public Task {
   int num_columns() const override { return kNumHeadingColumns; }
   int num_targets() const override { return kTargetSpeed + 1; }
   std::vector<TargetQuantity> target_quantities() const override {
-    return {{"altitude_ft"}, {"yaw_deg", true}, {"true_airspeed_fps"}};
+    return {{"altitude_ft", false, units_.altitude_error_ft},
+            {"yaw_deg", true, kDegPerRad},
+            {"true_airspeed_fps", false, units_.speed_ft_s}};
   }
 
   double dwell_s() const override { return config_.dwell_s; }

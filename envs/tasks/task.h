@@ -38,6 +38,8 @@ struct StepResult {
 struct TargetQuantity {
   const char* column = nullptr;
   bool is_angle = false;
+  /// One of the task's normalised error of the same place (Task::Errors), in the column's unit.
+  double error_unit = 1;
 };
 
 /// What the aircraft of an environment are asked to do. One object serves all tiles: it holds

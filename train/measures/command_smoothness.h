@@ -39,8 +39,8 @@ struct CommandSmoothness {
   float saturated;          ///< share of the control steps at a stop, -1 or 1
 };
 
-/// Counts how often a series turns back by more than `dead_band` from the farthest that it had come:
-/// the same for a command that is held for some control steps and for one that moves in each.
+/// Counts how often a series turns back by more than `dead_band` from the farthest that it had
+/// come: the same for a command that is held for some control steps and for one that moves in each.
 class ReversalCounter {
  public:
   explicit ReversalCounter(float dead_band) : dead_band_(dead_band) {}
@@ -51,7 +51,7 @@ class ReversalCounter {
  private:
   float dead_band_;
   int count_ = 0;
-  int direction_ = 0;  // 0 until it has moved by more than the dead band
+  int direction_ = 0;               // 0 until it has moved by more than the dead band
   float lowest_ = 0, highest_ = 0;  // since it took its direction
   bool is_empty_ = true;
 };

@@ -9,8 +9,8 @@ namespace skein {
 
 /// An aircraft that holds its target, at the end of one control step.
 struct HeldState {
-  bool is_within = false;                           ///< within the target's tolerances
-  std::array<float, kNumTaskErrors> errors{};       ///< as the task normalises them
+  bool is_within = false;                      ///< within the target's tolerances
+  std::array<float, kNumTaskErrors> errors{};  ///< as the task normalises them
   double p_rad_s = 0, q_rad_s = 0, r_rad_s = 0;
   double load_factor = 0;  ///< g
   double sideslip_rad = 0;

@@ -89,6 +89,10 @@ TEST_P(ControlTest, ErrorsAreTargetMinusActualInTheirUnits) {
     EXPECT_NEAR(errors[flight_.stride() + index], 0.4, kFloat32);
     EXPECT_NEAR(errors[2 * flight_.stride() + index], -0.1, kFloat32);
   }
+  const std::vector<TargetQuantity> quantities = task_->target_quantities();
+  EXPECT_DOUBLE_EQ(quantities[0].error_unit, kDegPerRad);
+  EXPECT_DOUBLE_EQ(quantities[1].error_unit, kDegPerRad);
+  EXPECT_DOUBLE_EQ(quantities[2].error_unit, kSpeedUnit);
 }
 
 TEST_P(ControlTest, PitchErrorHoldsUpToTheVerticalAndUpsideDown) {

@@ -93,6 +93,9 @@ TEST_P(TrackingTest, ErrorsAreAheadRightAndUpOfTheHeading) {
     EXPECT_NEAR(errors[flight_.stride() + index], 4 * std::sin(to_the_right), kFloat32) << i;
     EXPECT_NEAR(errors[2 * flight_.stride() + index], 1, kFloat32) << i;
   }
+  for (const TargetQuantity& quantity : task_->target_quantities()) {
+    EXPECT_DOUBLE_EQ(quantity.error_unit, kUnit);
+  }
 }
 
 TEST_P(TrackingTest, StraightUpNorthCountsAsTheHeading) {

@@ -112,7 +112,9 @@ TEST(CommandSmoothnessTest, ConstantAndSaturatedCommands) {
   EXPECT_EQ(still.power_above_split, 0);
   EXPECT_EQ(still.saturated, 0);
   const CommandSmoothness bang =
-      Measure([](double t) { return t < 2.499 ? 1 : t < 4.999 ? -1 : 0.5; }, 500);
+      Measure([](double t) { return t < 2.499   ? 1
+                                    : t < 4.999 ? -1
+                                                : 0.5; }, 500);
   EXPECT_FLOAT_EQ(bang.saturated, 0.5f);
   EXPECT_NEAR(bang.variation_per_s, 3.5 / (499 * kInterval), kFloat);
 }

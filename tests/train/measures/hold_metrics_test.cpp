@@ -52,8 +52,9 @@ TEST(HoldMetricsTest, ABarrelRollBackAndForthCancels) {
   };
   // From 0.02 s of the way to its end at 0: a hair less than nothing.
   EXPECT_NEAR(Roll(back_and_forth, 1500).net_rolls_per_min, 0, 0.02);
-  EXPECT_NEAR(Roll([](double t) { return 0.5 * std::sin(t * 2 * M_PI / 2); }, 1501)
-                  .net_rolls_per_min, 0, kFloat);
+  EXPECT_NEAR(
+      Roll([](double t) { return 0.5 * std::sin(t * 2 * M_PI / 2); }, 1501).net_rolls_per_min, 0,
+      kFloat);
 }
 
 TEST(HoldMetricsTest, WhatLiesBetweenStretchesDoesNotRoll) {
