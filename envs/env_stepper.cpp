@@ -95,7 +95,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       progress_(RulesOf(config_, *task_)),
       reset_(config_, aircraft_),
       wind_(config_.wind),
-      privileged_(wind_.enabled()) {
+      privileged_(*task_, progress_, wind_.enabled()) {
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
   if (low_level != nullptr) {
     low_level_ = std::make_unique<LowLevelFlight>(config_, num_aircraft, std::move(low_level));
@@ -168,9 +168,7 @@ void EnvStepper::Observe(const EnvBlock& block, float* observation) const {
 }
 
 void EnvStepper::ObservePrivileged(const EnvBlock& block, float* rows) const {
-  alignas(kCacheLine) float errors[kNumTaskErrors * kAircraftPerBlock];
-  task_->Errors(block.flight, block.task, errors, kAircraftPerBlock);
-  privileged_.Observe(block, errors, kAircraftPerBlock, rows);
+  privileged_.Observe(block, rows);
 }
 
 /// Turns the actions that hold during the control step into commands, and returns them: `action`,

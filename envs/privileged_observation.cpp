@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/privileged_observation.h"
 
+#include <algorithm>
+
 #include "envs/state/state.h"
-#include "envs/tasks/task.h"
 
 namespace skein {
 namespace {
@@ -30,18 +31,32 @@ class RowWriter {
 }  // namespace
 
 std::vector<std::string> PrivilegedObservation::names() const {
-  std::vector<std::string> names = {"task_error_0", "task_error_1", "task_error_2"};
+  std::vector<std::string> names = {"task_error_0", "task_error_1", "task_error_2", "clock",
+                                    "tolerance"};
+  if (rules_.dwell_steps > 0) names.emplace_back("dwell");
+  if (rules_.hold_steps > 0) names.emplace_back("reached");
   if (windy_) names.insert(names.end(), {"wind_x", "wind_y", "wind_z"});
   return names;
 }
 
-int PrivilegedObservation::size() const { return kNumTaskErrors + (windy_ ? 3 : 0); }
-
-void PrivilegedObservation::Observe(const EnvBlock& block, const float* errors,
-                                    std::size_t error_stride, float* rows) const {
+void PrivilegedObservation::Observe(const EnvBlock& block, float* rows) const {
+  alignas(64) float errors[kNumTaskErrors * kAircraftPerBlock];
+  task_.Errors(block.flight, block.task, errors, kAircraftPerBlock);
   RowWriter writer(block.count, size(), rows);
-  for (std::size_t k = 0; k < kNumTaskErrors; ++k) {
-    writer.Put([&](int i) { return errors[k * error_stride + static_cast<std::size_t>(i)]; });
+  for (int k = 0; k < kNumTaskErrors; ++k) {
+    writer.Put([&](int i) { return errors[k * kAircraftPerBlock + i]; });
+  }
+  const float per_step = 1 / static_cast<float>(rules_.time_limit_steps);
+  writer.Put([&](int i) { return per_step * static_cast<float>(block.step[i]); });
+  writer.Put([&](int i) { return task_.ToleranceShare(block.task, i); });
+  if (rules_.dwell_steps > 0) {
+    const float per_dwell_step = 1 / static_cast<float>(rules_.dwell_steps);
+    writer.Put([&](int i) {
+      return std::min(1.0f, per_dwell_step * static_cast<float>(block.progress.steps_within[i]));
+    });
+  }
+  if (rules_.hold_steps > 0) {
+    writer.Put([&](int i) { return block.progress.reached_step[i] > 0 ? 1.0f : 0.0f; });
   }
   if (!windy_) return;
   for (int k = 0; k < 3; ++k) {

@@ -1,33 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "envs/env_storage.h"
+#include "envs/tasks/episode_progress.h"
+#include "envs/tasks/task.h"
 
 namespace skein {
 
 /// What an environment knows of its aircraft and no policy observes: free of noise, and for
-/// training alone, as the further input of a critic.
+/// training alone, as the further input of a critic. Numbers of about unit size:
+///   task_error_0..2      the task's errors, without noise
+///   clock                share of the time limit that the episode has taken
+///   tolerance            the episode's tolerances as a share of those of evaluations
+///   dwell                share of the dwell that the aircraft is within tolerances, up to 1 (if
+///                        targets must be held)
+///   reached              1 once the target counts as reached (if the flight goes on then)
+///   wind_x, _y, _z       the wind along the body axes, in units of 100 ft/s (in windy tiles)
 class PrivilegedObservation {
  public:
-  /// Of an environment whose tiles are windy or not.
-  explicit PrivilegedObservation(bool windy) : windy_(windy) {}
+  /// Keeps a reference to `task`.
+  PrivilegedObservation(const Task& task, const ProgressRules& rules, bool windy)
+      : task_(task), rules_(rules), windy_(windy) {}
 
-  /// What the numbers of a row are, each of about unit size:
-  ///   the task's three errors, without noise
-  ///   in windy tiles the wind along the body axes, in units of 100 ft/s
   std::vector<std::string> names() const;
-  int size() const;
+  int size() const { return static_cast<int>(names().size()); }
 
-  /// Writes rows, row-major [block.count][size()]. `errors` are the task's, as columns
-  /// `error_stride` apart.
-  void Observe(const EnvBlock& block, const float* errors, std::size_t error_stride,
-               float* rows) const;
+  /// Writes rows, row-major [block.count][size()].
+  void Observe(const EnvBlock& block, float* rows) const;
 
  private:
+  const Task& task_;
+  ProgressRules rules_;
   bool windy_;
 };
 

@@ -164,6 +164,10 @@ class ControlTask : public Task {
     set(kControlTolerance, random->Uniform(config_.training_tolerance_min, 1));
   }
 
+  float ToleranceShare(Tile task, int index) const override {
+    return task[kControlTolerance][index];
+  }
+
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
     SKEIN_DISPATCH(ControlErrors)(flight, task, units_, errors, error_stride);
   }

@@ -121,6 +121,10 @@ class HeadingTask : public Task {
         static_cast<float>(random->Uniform(config_.training_tolerance_min, 1));
   }
 
+  float ToleranceShare(Tile task, int index) const override {
+    return task[kTargetTolerance][index];
+  }
+
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
     SKEIN_DISPATCH(HeadingErrors)(flight, task, units_, errors, error_stride);
   }

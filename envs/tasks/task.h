@@ -63,6 +63,10 @@ class Task {
   virtual void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
                      int index) const = 0;
 
+  /// The tolerances that the episode of aircraft `index` asks for, as a share of those of
+  /// evaluations.
+  virtual float ToleranceShare(Tile task, int index) const = 0;
+
   /// The first three observations, as columns `error_stride` apart.
   virtual void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const = 0;
 

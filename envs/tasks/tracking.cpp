@@ -193,6 +193,10 @@ class TrackingTask : public Task {
     set(kTrackingTolerance, config_.position_tolerance_ft * std::exp(widening));
   }
 
+  float ToleranceShare(Tile task, int index) const override {
+    return task[kTrackingTolerance][index] / static_cast<float>(config_.position_tolerance_ft);
+  }
+
   void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
     SKEIN_DISPATCH(TrackingErrors)
     (flight, task, config_.error_axes, unit_ft_, errors, error_stride);

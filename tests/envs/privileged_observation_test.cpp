@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "envs/vec_env.h"
+#include "tests/envs/step_buffers.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -53,13 +54,45 @@ TEST(PrivilegedObservation, ErrorsAreThoseOfTheObservationWithoutItsNoise) {
   }
 }
 
-TEST(PrivilegedObservation, HasANameForEveryNumber) {
+TEST(PrivilegedObservation, HoldsWhatItsNamesSayAndNoMore) {
   EnvConfig config;
-  for (const double speed_fps : {0.0, 100.0}) {
-    config.wind.speed_fps = {speed_fps, speed_fps};
-    const VecEnv env(config, 1, 1);
-    EXPECT_EQ(env.privileged_names().size(), static_cast<std::size_t>(env.privileged_size()));
+  EXPECT_EQ(VecEnv(config, 1, 1).privileged_size(), 5);
+  config.wind.speed_fps = {100, 100};
+  config.heading.dwell_s = 1;
+  config.hold_s = 10;
+  const VecEnv env(config, 1, 1);
+  const std::vector<std::string> names = env.privileged_names();
+  EXPECT_EQ(names.size(), 10u);
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(env.privileged_size()));
+  for (const char* name : {"clock", "tolerance", "dwell", "reached", "wind_z"}) {
+    EXPECT_LT(IndexOf(env, name), env.privileged_size()) << name;
   }
+}
+
+TEST(PrivilegedObservation, ShowsClockToleranceAndProgress) {
+  EnvConfig config;
+  config.time_limit_steps = 100;
+  config.heading.altitude_change_ft = 10;  // next to the start: within tolerances at once
+  config.heading.yaw_change_rad = 0.01;
+  config.heading.speed_change_fps = 2;
+  config.heading.earliest_success_step = 1;
+  config.heading.dwell_s = 0.4;
+  config.heading.training_tolerance_min = 0.5;
+  VecEnv env(config, kCount, 1);
+  StepBuffers buffers(env.tile_count(0));
+  for (int step = 0; step < 10; ++step) env.Step(0, buffers.action.data(), buffers.output());
+  const std::vector<float> rows = PrivilegedRows(env);
+  constexpr Tolerance kTolerance{1e-6, "of float32"};
+  float least = 1, most = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const float* const row = rows.data() + i * env.privileged_size();
+    EXPECT_NEAR(row[IndexOf(env, "clock")], 0.1, kTolerance);
+    EXPECT_NEAR(row[IndexOf(env, "dwell")], 0.5, kTolerance);
+    least = std::min(least, row[IndexOf(env, "tolerance")]);
+    most = std::max(most, row[IndexOf(env, "tolerance")]);
+  }
+  EXPECT_NEAR(least, 0.5, 0.05);
+  EXPECT_NEAR(most, 1, 0.05);
 }
 
 TEST(PrivilegedObservation, ShowsTheWindAlongTheBodyAxes) {
