@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Environments whose targets are held, followed by others, and whose handling costs reward.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "envs/task_registry.h"
+#include "envs/vec_env.h"
+#include "tests/envs/step_buffers.h"
+
+namespace skein {
+namespace {
+
+/// What the policy steps of all aircraft gave, aircraft by aircraft, and their targets after each.
+struct Log {
+  std::vector<float> values;
+  std::vector<int> terminations, steps;
+
+  bool operator==(const Log& other) const {
+    return values == other.values && terminations == other.terminations && steps == other.steps;
+  }
+};
+
+/// Flies hands off, but for a stick that is moved now and then.
+Log Fly(VecEnv* env, int policy_steps, ControlStepObserver* observer = nullptr) {
+  Log log;
+  for (int step = 0; step < policy_steps; ++step) {
+    for (int tile = 0; tile < env->num_tiles(); ++tile) {
+      StepBuffers buffers(env->tile_count(tile));
+      for (std::size_t i = 0; i < buffers.reward.size(); ++i) {
+        buffers.action[4 * i] = 0.5f;
+        buffers.action[4 * i + 2] = step % 4 == 0 ? 0.1f : 0.0f;
+      }
+      StepOutput output = buffers.output();
+      output.observer = observer;
+      env->Step(tile, buffers.action.data(), output);
+      for (std::size_t i = 0; i < buffers.reward.size(); ++i) {
+        log.values.push_back(buffers.reward[i]);
+        log.terminations.push_back(buffers.termination[i]);
+        if (buffers.termination[i] != 0) log.steps.push_back(buffers.episode_steps[i]);
+        const std::vector<float> target =
+            env->TargetOf(env->tile_begin(tile) + static_cast<int>(i));
+        log.values.insert(log.values.end(), target.begin(), target.end());
+      }
+    }
+  }
+  return log;
+}
+
+/// Targets that every flight is at for a while.
+EnvConfig NearTargets(const std::string& task) {
+  EnvConfig config;
+  config.task = task;
+  config.action_repeat = 3;
+  config.heading.earliest_success_step = 0;
+  config.heading.altitude_change_ft = config.heading.speed_change_fps = 10;
+  config.heading.yaw_change_rad = 0.01;
+  config.control.pitch_change_rad = config.control.yaw_change_rad = 0.01;
+  config.control.speed_change_fps = 10;
+  config.tracking.distance_ft = {200, 500};
+  config.tracking.position_tolerance_ft = 1000;
+  return config;
+}
+
+EnvConfig Mission(const std::string& task) {
+  EnvConfig config = NearTargets(task);
+  config.mission.length_s = 6;
+  config.mission.dwell_s = 1;
+  config.time_limit_steps = 100;
+  config.reward.near_roll_rate = config.reward.action_change = 0.1;
+  return config;
+}
+
+TEST(VecEnvProgress, MissionsDependOnNeitherTilesNorTheOtherAircraftAndGoOnFromSnapshots) {
+  for (const std::string& task : TaskNames()) {
+    VecEnv small(Mission(task), 70, 1, 32), large(Mission(task), 70, 1, 4096);
+    // Tile by tile is another order of the log: compare the states instead.
+    Fly(&small, 60);
+    const Log whole = Fly(&large, 60);
+    const std::vector<std::uint32_t> snapshot = small.Snapshot();
+    EXPECT_EQ(snapshot, large.Snapshot()) << task;
+    VecEnv other(Mission(task), 70, 1, 4096);
+    EXPECT_EQ(Fly(&other, 60), whole) << task;
+    other.Restore(snapshot);
+    EXPECT_EQ(Fly(&other, 60), Fly(&large, 60)) << task;
+  }
+}
+
+TEST(VecEnvProgress, AMissionGivesTargetAfterTargetAndEndsWithItsLength) {
+  for (const std::string& task : TaskNames()) {
+    VecEnv env(Mission(task), 8, 1);
+    const std::vector<float> first = env.TargetOf(0);
+    const Log log = Fly(&env, 50);
+    EXPECT_TRUE(log.steps.empty()) << task;
+    EXPECT_NE(env.TargetOf(0), first) << task;
+    // Six seconds are three hundred control steps.
+    const Log rest = Fly(&env, 50);
+    EXPECT_EQ(rest.steps, std::vector<int>(8, 300)) << task;
+    for (const int termination : rest.terminations) {
+      EXPECT_TRUE(termination == 0 || termination == static_cast<int>(Termination::kTimeLimit));
+    }
+  }
+}
+
+TEST(VecEnvProgress, EveryTargetOfAMissionIsWorthATerminalReward) {
+  EnvConfig config = Mission("control");
+  config.reward = {};
+  VecEnv env(config, 1, 1);
+  const Log log = Fly(&env, 99);
+  // A second of dwell each, and never out of the tolerances: five targets, the sixth at the end.
+  int rewarded = 0;
+  for (std::size_t i = 0; i < log.values.size(); i += 4) rewarded += log.values[i] > 100;
+  EXPECT_EQ(rewarded, 5);
+}
+
+TEST(VecEnvProgress, ADwellDelaysSuccessByItsLengthAndAHoldByIts) {
+  const auto steps_of = [](double dwell_s, double hold_s) {
+    EnvConfig config = NearTargets("heading");
+    config.action_repeat = 1;
+    config.heading.dwell_s = dwell_s;
+    config.hold_s = hold_s;
+    VecEnv env(config, 4, 1);
+    const Log log = Fly(&env, 130);
+    return log.steps.empty() ? 0 : *std::min_element(log.steps.begin(), log.steps.end());
+  };
+  EXPECT_EQ(steps_of(0, 0), 1);
+  EXPECT_EQ(steps_of(0.5, 0), 25);
+  EXPECT_EQ(steps_of(0, 1), 51);
+  EXPECT_EQ(steps_of(0.5, 1), 75);
+}
+
+TEST(VecEnvProgress, PricesLowerTheRewardAndChangeNothingElse) {
+  EnvConfig free = NearTargets("heading"), priced = free;
+  free.heading.earliest_success_step = priced.heading.earliest_success_step = 300;
+  priced.reward.roll_rate = 0.5;
+  VecEnv one(free, 40, 1), other(priced, 40, 1);
+  const Log cheap = Fly(&one, 20), dear = Fly(&other, 20);
+  EXPECT_EQ(cheap.terminations, dear.terminations);
+  for (int i = 0; i < 40; ++i) {
+    for (int column = 0; column < kNumColumns; ++column) {
+      EXPECT_EQ(one.StateOf(i, column), other.StateOf(i, column));
+    }
+  }
+  for (std::size_t i = 0; i < cheap.values.size(); i += 4) {
+    EXPECT_GT(cheap.values[i], dear.values[i]);
+  }
+}
+
+TEST(VecEnvProgress, APointCannotBeHeld) {
+  EnvConfig config;
+  config.task = "tracking";
+  config.hold_s = 1;
+  EXPECT_THROW(VecEnv(config, 1, 1), Error);
+  config.task = "heading";
+  EXPECT_NO_THROW(VecEnv(config, 1, 1));
+  config.mission.length_s = 60;
+  EXPECT_THROW(VecEnv(config, 1, 1), Error);
+}
+
+}  // namespace
+}  // namespace skein
