@@ -22,7 +22,12 @@ double EvaluationSuccess(const IterationReport& report) {
   return report.evaluation_success_rate < 0 ? std::nan("") : report.evaluation_success_rate;
 }
 
-/// Every value of a row but the counters, by name: one list for CSV and TensorBoard.
+/// What later versions added, at the end of a row: rows of older runs end before it.
+std::vector<std::pair<std::string, double>> LaterValues(const IterationReport& report) {
+  return {{"action_change", report.action_change}};
+}
+
+/// Every other value of a row but the counters, by name: one list for CSV and TensorBoard.
 std::vector<std::pair<std::string, double>> Values(const IterationReport& report) {
   return {{"return_mean", report.return_mean},
           {"success_rate", report.success_rate},
@@ -39,12 +44,14 @@ std::vector<std::pair<std::string, double>> Values(const IterationReport& report
           {"log_std_mean", report.log_std_mean}};
 }
 
-void RequireSameColumns(const std::string& path, const std::string& line,
-                        const std::string& header) {
+/// Columns of `header` that the file with the header `line` lacks.
+std::size_t MissingColumns(const std::string& path, const std::string& line,
+                           const std::string& header) {
   const auto columns = [](const std::string& text) {
     return std::count(text.begin(), text.end(), ',') + 1;
   };
-  if (columns(line) == columns(header)) return;
+  const auto missing = columns(header) - columns(line);
+  if (missing >= 0) return static_cast<std::size_t>(missing);
   throw Error(
       fmt::format("{}: it has {} columns where this version writes {}; move it away to resume",
                   path, columns(line), columns(header)));
@@ -58,7 +65,9 @@ std::string MetricsHeader() {
   for (int kind = 1; kind < kNumTerminations; ++kind) {
     header += fmt::format(",ended_{}", kTerminationNames[static_cast<std::size_t>(kind)]);
   }
-  return header + ",best\n";
+  header += ",best";
+  for (const auto& [name, value] : LaterValues({})) header += "," + name;
+  return header + "\n";
 }
 
 std::string MetricsRow(const IterationReport& report) {
@@ -67,7 +76,9 @@ std::string MetricsRow(const IterationReport& report) {
   for (int kind = 1; kind < kNumTerminations; ++kind) {
     row += fmt::format(",{}", report.terminations[static_cast<std::size_t>(kind)]);
   }
-  return row + (report.best ? ",1\n" : ",0\n");
+  row += report.best ? ",1" : ",0";
+  for (const auto& [name, value] : LaterValues(report)) row += "," + Cell(value);
+  return row + "\n";
 }
 
 std::string TimingHeader() {
@@ -83,9 +94,12 @@ std::string TimingRow(const IterationReport& report, double unix_time_s) {
 std::vector<std::pair<std::string, double>> Scalars(const IterationReport& report,
                                                     double control_steps) {
   std::vector<std::pair<std::string, double>> scalars;
-  for (auto& [name, value] : Values(report)) {
-    if (!std::isfinite(value)) continue;
-    scalars.emplace_back(name == kEvaluationSuccess ? "eval/success_rate" : "train/" + name, value);
+  for (const auto& values : {Values(report), LaterValues(report)}) {
+    for (const auto& [name, value] : values) {
+      if (!std::isfinite(value)) continue;
+      scalars.emplace_back(name == kEvaluationSuccess ? "eval/success_rate" : "train/" + name,
+                           value);
+    }
   }
   if (report.episodes > 0) {
     for (int kind = 1; kind < kNumTerminations; ++kind) {
@@ -106,17 +120,17 @@ std::uint64_t TrimRows(const std::string& path, std::uint64_t iteration,
                        const std::string& header) {
   if (!std::filesystem::exists(path)) return 0;
   const std::string text = ReadFile(path);
-  std::string kept;
+  std::string kept, row_end;
   std::uint64_t rows = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;  // torn by a kill in the middle of a write
-    const std::string line = text.substr(begin, end + 1 - begin);
+    const std::string line = text.substr(begin, end - begin);
     if (begin == 0) {
-      RequireSameColumns(path, line, header);
+      row_end = std::string(MissingColumns(path, line, header), ',') + "\n";
       kept = header;
     } else if (std::strtoull(line.c_str(), nullptr, 10) <= iteration) {
-      kept += line;
+      kept += line + row_end;
       ++rows;
     }
     begin = end + 1;

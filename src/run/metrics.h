@@ -27,8 +27,9 @@ std::vector<std::pair<std::string, double>> Scalars(const IterationReport& repor
 
 /// Drops the rows of the CSV file at `path` that are torn or whose first column is above
 /// `iteration`, and gives the columns the names of `header`, as an older version may have called
-/// them otherwise; does nothing if there is no file. Returns the number of rows left. Throws Error
-/// on a file that cannot be read or replaced, or has another number of columns.
+/// them otherwise, and empty cells to columns that it did not have; does nothing if there is no
+/// file. Returns the number of rows left. Throws Error on a file that cannot be read or replaced,
+/// or has more columns.
 std::uint64_t TrimRows(const std::string& path, std::uint64_t iteration, const std::string& header);
 
 }  // namespace skein

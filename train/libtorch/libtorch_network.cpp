@@ -114,6 +114,18 @@ struct Loss {
   LossSums sums;
 };
 
+/// LossSums::action_change of `mean`, [rows][size].
+torch::Tensor ActionChangeOf(const torch::Tensor& mean, const SequenceTile& tile,
+                             const LossSettings& settings) {
+  const int pairs = tile.steps - 1;
+  const torch::Tensor actions = mean.view({tile.steps, tile.batch, -1});
+  const torch::Tensor not_done =
+      FromMemory(tile.not_done, {tile.steps, tile.batch, 1}, mean.scalar_type());
+  const torch::Tensor change =
+      (actions.narrow(0, 1, pairs) - actions.narrow(0, 0, pairs)) * not_done.narrow(0, 1, pairs);
+  return change.square().sum() * settings.pair_weight;
+}
+
 Loss ActorLossOf(const NetworkLayout& layout, const torch::Tensor& flat,
                  const torch::Tensor& output, const SampleTile& tile,
                  const LossSettings& settings) {
@@ -132,11 +144,14 @@ Loss ActorLossOf(const NetworkLayout& layout, const torch::Tensor& flat,
       -at::minimum(ratio * advantage, clipped * advantage).sum() * settings.sample_weight;
   const torch::Tensor entropy =
       (log_std + kHalfLogTwoPi + 0.5).sum() * (settings.sample_weight * static_cast<double>(rows));
+  const torch::Tensor action_change = ActionChangeOf(mean, tile.sequence, settings);
   Loss loss;
-  loss.total = policy_loss - settings.entropy_coefficient * entropy;
+  loss.total = policy_loss - settings.entropy_coefficient * entropy +
+               settings.action_smoothness_coefficient * action_change;
   loss.sums.policy_loss = policy_loss.item<double>();
   loss.sums.entropy = entropy.item<double>();
   loss.sums.approximate_kl = (ratio - 1 - log_ratio).sum().item<double>() * settings.sample_weight;
+  loss.sums.action_change = action_change.item<double>();
   loss.sums.clip_fraction = at::ne(ratio, clipped).sum().item<double>() * settings.sample_weight;
   return loss;
 }

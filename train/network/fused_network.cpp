@@ -230,14 +230,13 @@ void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace
 LossSums FusedNetwork::AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
                                           NetworkWorkspace& workspace, float* accumulator) const {
   Forward(tile.sequence, workspace);
-  const std::int64_t rows = tile.sequence.rows(), log_std = folded_layout_.log_std();
+  const std::int64_t log_std = folded_layout_.log_std();
   float* const output_gradient = workspace.fused_.output_gradient.data();
   const LossSums sums =
       layout_.shape().gaussian
-          ? ActorLoss(rows, layout_.shape().output_size, settings, workspace.output(),
-                      folded(log_std), tile.actor, output_gradient, accumulator + log_std)
-          : CriticLoss(rows, settings, workspace.output(), tile.target, tile.old_value,
-                       output_gradient);
+          ? ActorLoss(tile, layout_.shape().output_size, settings, workspace.output(),
+                      folded(log_std), output_gradient, accumulator + log_std)
+          : CriticLoss(tile, settings, workspace.output(), output_gradient);
   Backward(tile.sequence, output_gradient, workspace.fused_, accumulator);
   return sums;
 }

@@ -10,6 +10,41 @@ namespace {
 
 constexpr double kHalfLogTwoPi = 0.91893853320467274;
 
+/// LossSums::action_change of `mean`, [rows][size].
+double ActionChange(const SequenceTile& tile, int size, const LossSettings& settings,
+                    const float* mean) {
+  const std::int64_t before = static_cast<std::int64_t>(tile.batch) * size;
+  double sum = 0;
+  for (std::int64_t row = tile.batch; row < tile.rows(); ++row) {
+    if (tile.not_done[row] == 0) continue;
+    for (std::int64_t at = row * size; at < (row + 1) * size; ++at) {
+      const double change = static_cast<double>(mean[at]) - mean[at - before];
+      sum += change * change;
+    }
+  }
+  return sum * settings.pair_weight;
+}
+
+/// Adds the gradient of the weighted ActionChange: each step's action is drawn towards those of the
+/// steps before and after it.
+void AddActionChangeGradient(const SequenceTile& tile, int size, const LossSettings& settings,
+                             const float* mean, float* output_gradient) {
+  const auto factor =
+      static_cast<float>(2 * settings.action_smoothness_coefficient * settings.pair_weight);
+  const std::int64_t before = static_cast<std::int64_t>(tile.batch) * size;
+  const auto add = [&](std::int64_t at, float by_mean) {
+    output_gradient[at] += settings.tanh_mean ? by_mean * (1 - mean[at] * mean[at]) : by_mean;
+  };
+  for (std::int64_t row = tile.batch; row < tile.rows(); ++row) {
+    if (tile.not_done[row] == 0) continue;
+    for (std::int64_t at = row * size; at < (row + 1) * size; ++at) {
+      const float by_mean = factor * (mean[at] - mean[at - before]);
+      add(at, by_mean);
+      add(at - before, -by_mean);
+    }
+  }
+}
+
 }  // namespace
 
 LossSums& LossSums::operator+=(const LossSums& other) {
@@ -18,6 +53,7 @@ LossSums& LossSums::operator+=(const LossSums& other) {
   entropy += other.entropy;
   approximate_kl += other.approximate_kl;
   clip_fraction += other.clip_fraction;
+  action_change += other.action_change;
   return *this;
 }
 
@@ -49,17 +85,17 @@ double GaussianEntropy(int size, const float* log_std) {
   return entropy;
 }
 
-LossSums ActorLoss(std::int64_t rows, int size, const LossSettings& settings, const float* output,
-                   const float* log_std, const ActorSamples& samples, float* output_gradient,
+LossSums ActorLoss(const SampleTile& tile, int size, const LossSettings& settings,
+                   const float* output, const float* log_std, float* output_gradient,
                    float* log_std_gradient) {
+  const std::int64_t rows = tile.sequence.rows();
+  const ActorSamples& samples = tile.actor;
   const auto weight = static_cast<float>(settings.sample_weight);
   const auto low = static_cast<float>(1 - settings.clip);
   const auto high = static_cast<float>(1 + settings.clip);
-  // The mean takes the gradient's place until it is needed no more.
-  float* const mean = output_gradient;
-  GaussianMean(rows * size, settings.tanh_mean, output, mean);
-  std::vector<float> log_prob(rows), inverse_std(size);
-  LogProbability(rows, size, mean, log_std, samples.action, log_prob.data());
+  std::vector<float> mean(rows * size), log_prob(rows), inverse_std(size);
+  GaussianMean(rows * size, settings.tanh_mean, output, mean.data());
+  LogProbability(rows, size, mean.data(), log_std, samples.action, log_prob.data());
   for (int j = 0; j < size; ++j) inverse_std[j] = std::exp(-log_std[j]);
 
   LossSums sums;
@@ -84,6 +120,9 @@ LossSums ActorLoss(std::int64_t rows, int size, const LossSettings& settings, co
     sums.approximate_kl += static_cast<double>(ratio) - 1 - log_ratio;
     sums.clip_fraction += ratio < low || ratio > high;
   }
+  if (settings.action_smoothness_coefficient > 0) {
+    AddActionChangeGradient(tile.sequence, size, settings, mean.data(), output_gradient);
+  }
   const double tile_weight = settings.sample_weight * static_cast<double>(rows);
   for (int j = 0; j < size; ++j) {
     log_std_gradient[j] +=
@@ -93,15 +132,17 @@ LossSums ActorLoss(std::int64_t rows, int size, const LossSettings& settings, co
   sums.approximate_kl *= settings.sample_weight;
   sums.clip_fraction *= settings.sample_weight;
   sums.entropy = GaussianEntropy(size, log_std) * tile_weight;
+  sums.action_change = ActionChange(tile.sequence, size, settings, mean.data());
   return sums;
 }
 
-LossSums CriticLoss(std::int64_t rows, const LossSettings& settings, const float* value,
-                    const float* target, const float* old_value, float* value_gradient) {
+LossSums CriticLoss(const SampleTile& tile, const LossSettings& settings, const float* value,
+                    float* value_gradient) {
+  const float *const target = tile.target, *const old_value = tile.old_value;
   const auto clip = static_cast<float>(settings.clip);
   const auto scale = static_cast<float>(settings.sample_weight * settings.value_coefficient);
   LossSums sums;
-  for (std::int64_t i = 0; i < rows; ++i) {
+  for (std::int64_t i = 0; i < tile.sequence.rows(); ++i) {
     float error = value[i] - target[i];
     bool moves = true;
     if (settings.clip_value_loss) {

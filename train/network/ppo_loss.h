@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "train/network/sample_tile.h"
+
 namespace skein {
 
 /// What the losses of one minibatch have in common.
@@ -12,12 +14,19 @@ struct LossSettings {
   double value_coefficient = 1;
   bool clip_value_loss = false;
   bool tanh_mean = true;
+  /// Weight of the mean squared change of the mean action from one step to the next (CAPS).
+  double action_smoothness_coefficient = 0;
   double sample_weight = 1;  ///< 1 / samples of the minibatch
+  double pair_weight = 0;    ///< 1 / pairs of successive steps within the minibatch's chunks
 };
 
-/// Sums over samples, each weighted by LossSettings::sample_weight.
+/// Sums over samples, each weighted by LossSettings::sample_weight, and over pairs of successive
+/// steps, each by its pair_weight.
 struct LossSums {
   double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0, clip_fraction = 0;
+  /// Squared change of the mean action over a pair, summed over its components; none where an
+  /// episode ended in between.
+  double action_change = 0;
 
   LossSums& operator+=(const LossSums& other);
 };
@@ -32,22 +41,17 @@ void LogProbability(std::int64_t rows, int size, const float* mean, const float*
 /// Differential entropy of a diagonal Gaussian: sum of log_std + log(2 pi e) / 2.
 double GaussianEntropy(int size, const float* log_std);
 
-/// Samples of a tile as the losses see them; one value per row but `action` ([rows][size]).
-struct ActorSamples {
-  const float* action = nullptr;
-  const float* old_log_prob = nullptr;
-  const float* advantage = nullptr;
-};
-
-/// PPO's clipped surrogate (Schulman et al. 2017, equation 7) and the entropy bonus. Writes the
-/// gradient with respect to the actor's outputs (before tanh) and adds that of log_std.
-LossSums ActorLoss(std::int64_t rows, int size, const LossSettings& settings, const float* output,
-                   const float* log_std, const ActorSamples& samples, float* output_gradient,
+/// PPO's clipped surrogate (Schulman et al. 2017, equation 7), the entropy bonus, and the price of
+/// action changes (Mysore et al. 2021, "Regularizing action policies for smooth control with
+/// reinforcement learning", equation 2 with squares). Writes the gradient with respect to the
+/// actor's outputs (before tanh), `size` of them per row, and adds that of log_std.
+LossSums ActorLoss(const SampleTile& tile, int size, const LossSettings& settings,
+                   const float* output, const float* log_std, float* output_gradient,
                    float* log_std_gradient);
 
-/// value_coefficient / 2 times the squared error against `target`; with clip_value_loss the larger
-/// of it and the error of a value that moved at most `clip` from `old_value`.
-LossSums CriticLoss(std::int64_t rows, const LossSettings& settings, const float* value,
-                    const float* target, const float* old_value, float* value_gradient);
+/// value_coefficient / 2 times the squared error against the target; with clip_value_loss the
+/// larger of it and the error of a value that moved at most `clip` from the old value.
+LossSums CriticLoss(const SampleTile& tile, const LossSettings& settings, const float* value,
+                    float* value_gradient);
 
 }  // namespace skein

@@ -10,28 +10,9 @@
 #include "train/network/linear_layer.h"
 #include "train/network/network.h"
 #include "train/network/ppo_loss.h"
+#include "train/network/sample_tile.h"
 
 namespace skein {
-
-/// A tile of sequences, time-major: row (step * batch + i) belongs to sequence i.
-struct SequenceTile {
-  int steps = 0, batch = 0;
-  const float* observation = nullptr;    ///< [steps][batch][observation_size]
-  const float* initial_state = nullptr;  ///< [batch][gru_layers][gru_size]
-  /// [steps][batch]: 0 where an episode begins at that step, so that the state is zero there;
-  /// else 1.
-  const float* not_done = nullptr;
-
-  std::int64_t rows() const { return static_cast<std::int64_t>(steps) * batch; }
-};
-
-/// A tile of chunks with what the losses need, gathered from a rollout; time-major rows.
-struct SampleTile {
-  SequenceTile sequence;
-  ActorSamples actor;             ///< set for actors
-  const float* target = nullptr;  ///< set for critics, in the scale of the network's output
-  const float* old_value = nullptr;
-};
 
 /// What a network leaves of a tile, and the memory it needs in between. One per thread; serves
 /// networks of any shape one after the other.

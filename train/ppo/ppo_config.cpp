@@ -41,6 +41,11 @@ void ListFields(PpoConfig& config, FieldList& list) {
            "largest gradient norm, actor and critic separately");
   list.Add("entropy_coefficient", &config.entropy_coefficient, Bounds::NotNegative(),
            "weight of the entropy bonus");
+  list.Add("action_smoothness_coefficient", &config.action_smoothness_coefficient,
+           Bounds::NotNegative(),
+           "weight in the loss of the mean squared change of the mean action from one policy step "
+           "to the next (CAPS); 0: none")
+      .OffUnless(config.action_smoothness_coefficient > 0);
   list.Add("value_coefficient", &config.value_coefficient, Bounds::Positive(),
            "weight of the value loss");
   list.Add("clip_value_loss", &config.clip_value_loss, "clip the value's change like the ratio");
@@ -59,6 +64,11 @@ void Validate(const PpoConfig& config) {
   if (config.rollout_steps % config.chunk_length != 0) {
     throw Error("configuration: ppo.rollout_steps = " + std::to_string(config.rollout_steps) +
                 " is not a multiple of ppo.chunk_length = " + std::to_string(config.chunk_length));
+  }
+  if (config.action_smoothness_coefficient > 0 && config.chunk_length < 2) {
+    throw Error(
+        "configuration: ppo.action_smoothness_coefficient needs a ppo.chunk_length of 2 at "
+        "least: changes are seen within chunks");
   }
   const std::int64_t chunks =
       static_cast<std::int64_t>(config.num_aircraft) * (config.rollout_steps / config.chunk_length);

@@ -21,6 +21,8 @@ struct PpoConfig {
   double clip = 0.2;
   double max_gradient_norm = 2;  ///< actor and critic separately
   double entropy_coefficient = 1e-3;
+  /// Weight of the mean squared change of the mean action from one policy step to the next.
+  double action_smoothness_coefficient = 0;
   double value_coefficient = 1;
   bool clip_value_loss = false;
   bool normalise_advantages = true;

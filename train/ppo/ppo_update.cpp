@@ -137,7 +137,10 @@ LossSettings PpoUpdate::SettingsFor(const Rollout& rollout, const Chunks& miniba
   settings.value_coefficient = config_.value_coefficient;
   settings.clip_value_loss = config_.clip_value_loss;
   settings.tanh_mean = tanh_mean_;
-  settings.sample_weight = 1.0 / (static_cast<double>(minibatch.count) * rollout.chunk_length);
+  settings.action_smoothness_coefficient = config_.action_smoothness_coefficient;
+  const auto chunks = static_cast<double>(minibatch.count);
+  settings.sample_weight = 1 / (chunks * rollout.chunk_length);
+  if (rollout.chunk_length > 1) settings.pair_weight = 1 / (chunks * (rollout.chunk_length - 1));
   return settings;
 }
 
@@ -232,9 +235,9 @@ UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
   }
   const double count = static_cast<double>(config_.epochs) * config_.minibatches;
   LossSums& losses = report.losses;
-  for (double* const mean :
-       {&losses.policy_loss, &losses.value_loss, &losses.entropy, &losses.approximate_kl,
-        &losses.clip_fraction, &report.actor_gradient_norm, &report.critic_gradient_norm}) {
+  for (double* const mean : {&losses.policy_loss, &losses.value_loss, &losses.entropy,
+                             &losses.approximate_kl, &losses.clip_fraction, &losses.action_change,
+                             &report.actor_gradient_norm, &report.critic_gradient_norm}) {
     *mean /= count;
   }
   report.gradient_seconds = gradient_seconds_;

@@ -166,6 +166,7 @@ struct Trainer::Impl {
     report.entropy = done.losses.entropy;
     report.approximate_kl = done.losses.approximate_kl;
     report.clip_fraction = done.losses.clip_fraction;
+    report.action_change = done.losses.action_change;
     report.actor_gradient_norm = done.actor_gradient_norm;
     report.critic_gradient_norm = done.critic_gradient_norm;
     const std::vector<float> log_std = networks.LogStd();

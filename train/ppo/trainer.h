@@ -30,6 +30,7 @@ struct IterationReport {
   std::array<int, kNumTerminations> terminations{};  ///< of those
   int non_finite = 0;  ///< episodes that ended as non_finite, first ones with a staggered clock too
   double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0, clip_fraction = 0;
+  double action_change = 0;  ///< LossSums::action_change
   double actor_gradient_norm = 0, critic_gradient_norm = 0;
   double explained_variance = 0;
   double learning_rate = 0;

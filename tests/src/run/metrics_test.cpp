@@ -100,7 +100,13 @@ TEST_F(MetricsFileTest, TrimRenamesTheColumnsOfAnOlderVersion) {
   EXPECT_EQ(ReadFile(path), "iteration,ended_target_reached\n1,5\n2,6\n");
 }
 
-TEST_F(MetricsFileTest, TrimRefusesAnotherNumberOfColumns) {
+TEST_F(MetricsFileTest, TrimLeavesCellsEmptyThatAnOlderVersionDidNotHave) {
+  const std::string path = FileWith("iteration,x\n1,5\n2,6\n3,7\n");
+  EXPECT_EQ(TrimRows(path, 2, "iteration,x,y,z\n"), 2u);
+  EXPECT_EQ(ReadFile(path), "iteration,x,y,z\n1,5,,\n2,6,,\n");
+}
+
+TEST_F(MetricsFileTest, TrimRefusesMoreColumns) {
   const std::string path = FileWith("iteration,x,y\n1,5,6\n");
   EXPECT_THROW(TrimRows(path, 2, "iteration,x\n"), Error);
   EXPECT_EQ(ReadFile(path), "iteration,x,y\n1,5,6\n");

@@ -23,9 +23,10 @@ inline NetworkPrecision PrecisionOf(const NetworkShape& shape, LearnerPrecision 
 /// Weights of a tile of `samples` with every term of the losses.
 inline LossSettings FullLossSettings(int samples) {
   LossSettings settings;
-  settings.sample_weight = 1.0 / samples;
+  settings.sample_weight = settings.pair_weight = 1.0 / samples;
   settings.entropy_coefficient = 0.01;
   settings.value_coefficient = 0.7;
+  settings.action_smoothness_coefficient = 0.5;
   return settings;
 }
 

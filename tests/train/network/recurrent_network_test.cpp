@@ -109,6 +109,7 @@ TEST_P(RecurrentNetworkTest, AgreesWithAutogradInDoublePrecision) {
         EXPECT_NEAR(sums.entropy, reference.sums.entropy, kLoss);
         EXPECT_NEAR(sums.approximate_kl, reference.sums.approximate_kl, kLoss);
         EXPECT_NEAR(sums.clip_fraction, reference.sums.clip_fraction, kLoss);
+        EXPECT_NEAR(sums.action_change, reference.sums.action_change, kLoss);
       }
     }
   }
@@ -299,6 +300,7 @@ TEST_P(RecurrentNetworkTest, AgreesWithFiniteDifferencesOfItsOwnLoss) {
       LossSums sums;
       GradientBy(Backend::kFused, layout, parameters, samples.tile(), settings, &sums);
       return sums.policy_loss - settings.entropy_coefficient * sums.entropy +
+             settings.action_smoothness_coefficient * sums.action_change +
              settings.value_coefficient * sums.value_loss;
     };
     const std::vector<float> gradient =
