@@ -25,6 +25,10 @@ void ListAdamFields(PpoConfig& config, FieldList& list) {
            "Adam's learning rate at the start");
   list.Add("final_learning_rate_fraction", &config.final_learning_rate_fraction, Bounds::Fraction(),
            "share of it at the budget's end, linear in between; 1 keeps it constant");
+  list.Add("target_kl", &config.target_kl, Bounds::NotNegative(),
+           "an iteration's KL divergence above twice this lowers the next one's learning rate, "
+           "below half of it raises it again, up to the linear one; 0: the linear one")
+      .OffUnless(config.target_kl > 0);
   list.Add("adam_epsilon", &config.adam_epsilon, Bounds::PositiveFraction(), "Adam's epsilon");
 }
 

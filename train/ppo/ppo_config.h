@@ -15,6 +15,9 @@ struct PpoConfig {
   double learning_rate = 1e-3;
   /// Linear in steps done to this fraction at the budget's end; 1 keeps it constant.
   double final_learning_rate_fraction = 0.02;
+  /// Of an iteration's approximate_kl, by which the learning rate is adapted below that line; 0: it
+  /// is not.
+  double target_kl = 0;
   double adam_epsilon = 1e-5;
   double gamma = 0.99;  ///< per policy step
   double gae_lambda = 0.95;

@@ -11,6 +11,7 @@
 #include "train/policy/evaluate.h"
 #include "train/policy/policy_environment.h"
 #include "train/ppo/actor_critic.h"
+#include "train/ppo/learning_rate.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/ppo_update.h"
 #include "train/ppo/rollout.h"
@@ -58,7 +59,8 @@ struct Trainer::Impl {
         networks(config, env.observation_size(), env.action_size()),
         rollout(config.ppo, env.observation_size(), env.action_size(), StateSize()),
         recurrent(config.ppo.num_aircraft, StateSize()),
-        update(config, networks, pool) {
+        update(config, networks, pool),
+        adapted_learning_rate(config.ppo.target_kl > 0 ? config.ppo.learning_rate : 0) {
     config.learner.precision = networks.backend.precision;
   }
 
@@ -79,7 +81,8 @@ struct Trainer::Impl {
                             ? 0
                             : std::min(1.0, static_cast<double>(env_steps()) /
                                                 static_cast<double>(config.total_steps));
-    return config.ppo.learning_rate * (1 - done * (1 - config.ppo.final_learning_rate_fraction));
+    const double largest = LargestLearningRate(config.ppo, done);
+    return config.ppo.target_kl > 0 ? std::min(adapted_learning_rate, largest) : largest;
   }
 
   TrainingState State() const {
@@ -90,6 +93,7 @@ struct Trainer::Impl {
     state.actor_adam = actor.state();
     state.critic_adam = critic.state();
     state.popart = popart;
+    state.adapted_learning_rate = adapted_learning_rate;
     state.recurrent = recurrent;
     state.env = env.Snapshot();
     state.iteration = iteration;
@@ -108,6 +112,7 @@ struct Trainer::Impl {
     networks.actor.optimiser.Restore(state.actor_adam);
     networks.critic.optimiser.Restore(state.critic_adam);
     popart = state.popart;
+    adapted_learning_rate = state.adapted_learning_rate;
     recurrent = state.recurrent;
     iteration = state.iteration;
     policy_steps = state.policy_steps;
@@ -165,6 +170,10 @@ struct Trainer::Impl {
     report.value_loss = done.losses.value_loss;
     report.entropy = done.losses.entropy;
     report.approximate_kl = done.losses.approximate_kl;
+    if (config.ppo.target_kl > 0) {
+      adapted_learning_rate =
+          AdaptedLearningRate(config.ppo, report.learning_rate, report.approximate_kl);
+    }
     report.clip_fraction = done.losses.clip_fraction;
     report.action_change = done.losses.action_change;
     report.actor_gradient_norm = done.actor_gradient_norm;
@@ -204,6 +213,7 @@ struct Trainer::Impl {
   RecurrentState recurrent;
   PpoUpdate update;
   PopArt popart;
+  double adapted_learning_rate;
   std::uint64_t iteration = 0;
   std::uint64_t policy_steps = 0;
   double best_success_rate = -1, best_return = 0;

@@ -21,6 +21,8 @@ constexpr const char* kFormat = "skein-checkpoint-2";
 /// Of version 0.1, which had other names for some tensors (train/files/legacy_names.h).
 constexpr const char* kOldFormat = "skein-checkpoint-1";
 constexpr const char* kConfigPrefix = "config.";
+/// A tensor of one number, only in checkpoints of an adapted learning rate.
+constexpr const char* kAdaptedLearningRate = "adapted_learning_rate";
 
 /// Calls visit(name, vector) for each array of the state that is stored whole.
 template <typename State, typename Visit>
@@ -104,6 +106,9 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
   StoreTensor(file, "counters", {counters.size()}, counters.data(), counters.size());
   const auto scalars = Scalars(state);
   StoreTensor(file, "scalars", {scalars.size()}, scalars.data(), scalars.size());
+  if (config.ppo.target_kl > 0) {
+    StoreTensor(file, kAdaptedLearningRate, {1}, &state.adapted_learning_rate, 1);
+  }
   return file;
 }
 
@@ -155,6 +160,9 @@ TrainingState LoadCheckpoint(TensorFile file, const std::string& path, const Tra
   state.popart.mean_square = scalars[1];
   state.best_success_rate = scalars[2];
   state.best_return = scalars[3];
+  if (config.ppo.target_kl > 0) {
+    state.adapted_learning_rate = LoadTensor<double>(file, path, kAdaptedLearningRate, {1})[0];
+  }
   return state;
 }
 
@@ -189,6 +197,7 @@ std::uint64_t Hash(const TrainingState& state) {
   add(state.env);
   add(Counters(state));
   add(Scalars(state));
+  if (state.adapted_learning_rate > 0) add(std::array{state.adapted_learning_rate});
   return hash.value();
 }
 

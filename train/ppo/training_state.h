@@ -19,6 +19,7 @@ struct TrainingState {
   std::vector<float> actor, critic;  ///< flat parameters
   AdamState actor_adam, critic_adam;
   PopArt popart;
+  double adapted_learning_rate = 0;  ///< AdaptedLearningRate so far; 0 without ppo.target_kl
   RecurrentState recurrent{0, 0};
   std::vector<std::uint32_t> env;  ///< VecEnv's snapshot, clocks and returns of episodes included
   std::uint64_t iteration = 0;

@@ -350,6 +350,43 @@ TEST_F(TrainerTest, LearningRateFallsLinearlyToItsFraction) {
   EXPECT_TRUE(trainer.finished());
 }
 
+TEST_F(TrainerTest, LearningRateFollowsTheDivergenceBelowTheLine) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  config.ppo.target_kl = 1e-9;  // every update goes beyond it
+  Trainer trainer(config, pool);
+  constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+  double expected = config.ppo.learning_rate;
+  while (!trainer.finished()) {
+    const double line = config.ppo.learning_rate *
+                        (1 - 0.98 * static_cast<double>(trainer.env_steps() + 96 * 16 * 5) /
+                                 static_cast<double>(config.total_steps));
+    const IterationReport report = trainer.Iterate();
+    EXPECT_NEAR(report.learning_rate, std::min(expected, line), kRounding);
+    expected = report.learning_rate / 1.5;
+  }
+  config.ppo.target_kl = 1e9;  // none does
+  const IterationReport unhindered = Trainer(config, pool).Iterate();
+  config.ppo.target_kl = 0;
+  EXPECT_EQ(Trainer(config, pool).Iterate().learning_rate, unhindered.learning_rate);
+}
+
+TEST_F(TrainerTest, AnAdaptedLearningRateResumesBitExactly) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  config.ppo.target_kl = 1e-9;
+  Trainer whole(config, pool);
+  whole.Iterate();
+  whole.Iterate();
+  whole.Save(path_);
+  Trainer resumed(config, pool);
+  resumed.Restore(path_);
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  EXPECT_EQ(resumed.Iterate().learning_rate, whole.Iterate().learning_rate);
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  EXPECT_NE(RefusalOf(SmallConfig(), path_).find("ppo.target_kl"), std::string::npos);
+}
+
 TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
   SKEIN_SKIP_WITHOUT_LIBTORCH();
   TrainConfig config = SmallConfig();
