@@ -75,7 +75,7 @@ void CompareAgents(const CompareOptions& options) {
   const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);
   fmt::print("{}\n(preset {}; {})\n", ToText(comparison), flight.preset, DescribeWorkers(pool));
   if (!options.csv.empty()) {
-    WriteFile(options.csv, ComparisonCsvHeader() + ToCsv(comparison));
+    WriteFile(options.csv, ToCsv(comparison));
   }
   if (!flight.json.empty()) WriteJson(flight.json, ToJson(comparison, config));
   if (flight.flights.empty()) return;

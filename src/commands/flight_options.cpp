@@ -25,6 +25,20 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
                    "one configuration key, such as env.observation_noise=0.03; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  CLI::Option* hold =
+      command
+          ->add_option("--hold", options->hold_s,
+                       "go on for so long after the target was reached, and measure how it is held "
+                       "(env.hold_s)")
+          ->type_name("SECONDS")
+          ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--mission", options->mission_min,
+                   "fly for so long, a new target whenever one was held "
+                   "(env.mission.length_s)")
+      ->type_name("MINUTES")
+      ->check(CLI::PositiveNumber)
+      ->excludes(hold);
   command->add_option("--episodes", options->episodes, "number of episodes")
       ->transform(WholeNumber(1, 10000000))
       ->capture_default_str();
@@ -62,6 +76,8 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
   AsUsage([&] {
     if (!options.config.empty()) ApplyTomlFile(options.config, config);
     ApplyConditionsAndAssignments(options.conditions, options.assignments, config);
+    ApplyConditionsAndAssignments({}, FlightLengthAssignments(options.hold_s, options.mission_min),
+                                  config);
     RequireTask(*config, task);
     RequireOwnSpeeds(base, *config);
     CheckConsistent(*config);

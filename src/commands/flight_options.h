@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct FlightOptions {
   CLI::Option* preset_option = nullptr;
   std::string config;
   std::vector<std::string> conditions, assignments;
+  std::optional<double> hold_s, mission_min;
   int episodes = 1000;
   std::uint64_t seed = 0;
   int threads = 0;
@@ -35,8 +37,9 @@ struct FlightOptionTexts {
 /// Adds the options to a command; `options` must live as long as it.
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);
 
-/// The environment of `config` with --config, --condition and --set on top. Throws UsageError if
-/// they cannot be, or name another task than --task (without it: than `config`).
+/// The environment of `config` with --config, --condition, --set, --hold and --mission on top.
+/// Throws UsageError if they cannot be, or name another task than --task (without it: than
+/// `config`).
 void ApplyOverrides(const FlightOptions& options, ProgramConfig* config);
 
 /// Records the first episodes to `path`, and says so. `manner` is how they were flown.

@@ -187,6 +187,17 @@ ProgramConfig ReadRecord(const std::string& path) {
   return config;
 }
 
+std::vector<std::string> FlightLengthAssignments(std::optional<double> hold_s,
+                                                 std::optional<double> mission_min) {
+  constexpr double kSecondsPerMinute = 60;
+  std::vector<std::string> assignments;
+  if (hold_s) assignments.push_back(fmt::format("env.hold_s={}", *hold_s));
+  if (mission_min) {
+    assignments.push_back(fmt::format("env.mission.length_s={}", *mission_min * kSecondsPerMinute));
+  }
+  return assignments;
+}
+
 std::string KeyOf(const std::string& assignment) {
   return Trimmed(assignment.substr(0, assignment.find('=')));
 }

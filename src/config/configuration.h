@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,11 @@ ProgramConfig ReadRecord(const std::string& path);
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
                                    ProgramConfig* config);
+
+/// Assignments for flights that go on for `hold_s` after their target was reached, or for missions
+/// of `mission_min` minutes; none for what is not asked for.
+std::vector<std::string> FlightLengthAssignments(std::optional<double> hold_s,
+                                                 std::optional<double> mission_min);
 
 /// The key of an assignment `key=value`; of anything else, all of it.
 std::string KeyOf(const std::string& assignment);

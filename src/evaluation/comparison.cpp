@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/evaluation/comparison.h"
 
+#include <cmath>
+
 #include "base/error.h"
 #include "src/config/conditions.h"
 #include "train/policy/evaluate.h"
@@ -8,29 +10,48 @@
 namespace skein {
 namespace {
 
-PairedDifferences Differences(const std::vector<Episode>& first, const std::vector<Episode>& second,
+/// Of the episodes that have a value by both agents.
+PairedShares DifferenceOfShares(const std::vector<double>& first,
+                                const std::vector<double>& second) {
+  int only_first = 0, only_second = 0, both_known = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (std::isnan(first[i]) || std::isnan(second[i])) continue;
+    ++both_known;
+    only_first += first[i] > second[i];
+    only_second += second[i] > first[i];
+  }
+  return CompareShares(only_first, only_second, both_known);
+}
+
+Estimate DifferenceOfMeans(const std::vector<double>& first, const std::vector<double>& second) {
+  std::vector<double> differences;
+  differences.reserve(first.size());
+  for (std::size_t i = 0; i < first.size(); ++i) differences.push_back(second[i] - first[i]);
+  return EstimateMean(differences);
+}
+
+PairedDifferences Differences(const std::vector<Quantity>& quantities,
+                              const std::vector<Episode>& first, const std::vector<Episode>& second,
                               double control_interval_s) {
   PairedDifferences paired;
-  for (const Quantity& quantity : Quantities()) {
-    std::vector<double> differences;
-    differences.reserve(first.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      differences.push_back(quantity.value(second[i], control_interval_s) -
-                            quantity.value(first[i], control_interval_s));
+  for (const Quantity& quantity : quantities) {
+    const std::vector<double> a = ValuesOf(quantity, first, control_interval_s);
+    const std::vector<double> b = ValuesOf(quantity, second, control_interval_s);
+    switch (quantity.statistic) {
+      case Statistic::kMean:
+        paired.estimates.push_back(DifferenceOfMeans(a, b));
+        break;
+      case Statistic::kShare:
+        paired.estimates.push_back(DifferenceOfShares(a, b).difference);
+        break;
+      default:
+        paired.estimates.push_back(EstimateMean({}));
     }
-    paired.estimates.push_back(EstimateMean(differences));
   }
-  int only_first = 0, only_second = 0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const bool by_first = first[i].termination == Termination::kTargetReached;
-    const bool by_second = second[i].termination == Termination::kTargetReached;
-    only_first += by_first && !by_second;
-    only_second += by_second && !by_first;
-  }
-  const PairedShares shares =
-      CompareShares(only_first, only_second, static_cast<int>(first.size()));
-  paired.estimates[kSuccessQuantity] = shares.difference;
-  paired.success_p_value = shares.p_value;
+  const Quantity& success = quantities[kSuccessQuantity];
+  paired.success_p_value = DifferenceOfShares(ValuesOf(success, first, control_interval_s),
+                                              ValuesOf(success, second, control_interval_s))
+                               .p_value;
   return paired;
 }
 
@@ -59,6 +80,7 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
   comparison.seed = seed;
   comparison.control_interval_s = episodes_env.control_interval_s;
   comparison.conditions = DescribeConditions(episodes_env);
+  comparison.quantities = QuantitiesOf(episodes_env);
   EvaluationOptions options;
   options.episodes = episodes;
   options.seed = seed;
@@ -68,10 +90,8 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
     const EnvConfig env = named.agent.EnvironmentFor(episodes_env);
     const FlownEpisodes flown = FlyEpisodes(named.agent, env, options, pool);
     if (pool.stopping()) return comparison;
-    ComparedAgent compared{named.name,
-                           env.action_repeat,
-                           SummariseFlights(flown.episodes, env.control_interval_s),
-                           {}};
+    ComparedAgent compared{
+        named.name, env.action_repeat, SummariseFlights(flown.episodes, env), {}};
     if (comparison.agents.empty()) {
       comparison.starts = flown.starts;
       first = flown.episodes;
@@ -80,7 +100,8 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
         throw Error(named.name + " was given other episodes than " + agents[0].name +
                     ": they cannot be compared");
       }
-      compared.against_first = Differences(first, flown.episodes, env.control_interval_s);
+      compared.against_first =
+          Differences(comparison.quantities, first, flown.episodes, env.control_interval_s);
     }
     comparison.agents.push_back(std::move(compared));
   }

@@ -22,8 +22,8 @@ struct NamedAgent {
 
 /// How an agent flew beside the first one, on the same episodes.
 struct PairedDifferences {
-  /// This agent's value less the first one's, by Quantities(); the time to the target over the
-  /// episodes that both reached.
+  /// This agent's value less the first one's, by the comparison's quantities: over the episodes of
+  /// which both have one. NaN of what is no mean or share.
   std::vector<Estimate> estimates;
   double success_p_value = 1;  ///< McNemar's (CompareShares)
 };
@@ -42,6 +42,7 @@ struct Comparison {
   double control_interval_s = 0;
   std::string conditions;    ///< DescribeConditions
   std::uint64_t starts = 0;  ///< FlownEpisodes::starts, the same for all
+  std::vector<Quantity> quantities;
   std::vector<ComparedAgent> agents;
 };
 
@@ -57,9 +58,7 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
 /// A table for people, 100 columns wide, an agent a column; without a newline at the end.
 std::string ToText(const Comparison& comparison);
 
-/// The columns of ToCsv, newline included.
-std::string ComparisonCsvHeader();
-/// A row for every agent.
+/// A header, and a row for every agent.
 std::string ToCsv(const Comparison& comparison);
 
 /// Keys: task, conditions, episodes, seed, starts (hexadecimal), environment, agents: name,

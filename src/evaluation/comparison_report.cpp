@@ -13,11 +13,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // 100 columns: what a row is of, and three agents.
-constexpr std::size_t kLabelWidth = 25, kCellWidth = 25, kAgentsPerTable = 3;
+constexpr std::size_t kLabelWidth = 28, kCellWidth = 24, kAgentsPerTable = 3;
 
 std::string Label(const Quantity& quantity) {
-  return quantity.symbol.empty() ? quantity.label
-                                 : fmt::format("{:6}{}", quantity.symbol, quantity.label);
+  if (quantity.symbol.empty()) return quantity.label;
+  return quantity.section == QuantitySection::kFlight
+             ? fmt::format("{:6}{}", quantity.symbol, quantity.label)
+             : fmt::format("{} {}", quantity.symbol, quantity.label);
 }
 
 std::string PValue(double p) { return p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", p); }
@@ -39,11 +41,15 @@ class AgentColumns {
   void Flights(std::string* text) const {
     Row(
         "", [](const ComparedAgent& agent) { return agent.name; }, text);
-    for (std::size_t k = 0; k < Quantities().size(); ++k) {
-      const auto cell = [k](const ComparedAgent& agent) {
-        return FormatEstimate(Quantities()[k], agent.summary.estimates[k]);
+    QuantitySection section = QuantitySection::kOutcome;
+    for (std::size_t k = 0; k < comparison_.quantities.size(); ++k) {
+      const Quantity& quantity = comparison_.quantities[k];
+      if (quantity.section != section) Title(quantity.section, text);
+      section = quantity.section;
+      const auto cell = [&quantity, k](const ComparedAgent& agent) {
+        return FormatEstimate(quantity, agent.summary.estimates[k]);
       };
-      Row(Label(Quantities()[k]), cell, text);
+      Row(Label(quantity), cell, text);
     }
     for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
       const auto count = [kind](const ComparedAgent& agent) {
@@ -56,33 +62,52 @@ class AgentColumns {
   }
 
   void Differences(std::string* text) const {
-    const auto estimate = [](const ComparedAgent& agent, int quantity) {
-      if (agent.against_first.estimates.empty()) return std::string("-");
-      const auto k = static_cast<std::size_t>(quantity);
-      return FormatEstimate(Quantities()[k], agent.against_first.estimates[k]);
-    };
-    for (const int k : {kSuccessQuantity, kReturnQuantity, kTimeQuantity}) {
-      const auto cell = [&](const ComparedAgent& agent) { return estimate(agent, k); };
-      Row("  " + Quantities()[static_cast<std::size_t>(k)].label, cell, text);
+    for (std::size_t k = 0; k < comparison_.quantities.size(); ++k) {
+      const Quantity& quantity = comparison_.quantities[k];
+      if (!quantity.is_headline || quantity.statistic == Statistic::kPerHour) continue;
+      const auto cell = [&](const ComparedAgent& agent) {
+        return IsFirst(agent) ? "-" : FormatEstimate(quantity, agent.against_first.estimates[k]);
+      };
+      Row("  " + quantity.label, cell, text);
       if (k == kSuccessQuantity) Row("    McNemar's test", McNemar, text);
+      if (k == kTimeQuantity) Row("    episodes both reached", BothReached, text);
     }
-    const auto both = [](const ComparedAgent& agent) {
-      return agent.against_first.estimates.empty()
-                 ? std::string("-")
-                 : fmt::format("{}", agent.against_first.estimates[kTimeQuantity].count);
-    };
-    Row("    episodes both reached", both, text);
   }
 
  private:
+  static bool IsFirst(const ComparedAgent& agent) { return agent.against_first.estimates.empty(); }
+
   static std::string McNemar(const ComparedAgent& agent) {
-    return agent.against_first.estimates.empty() ? "-"
-                                                 : PValue(agent.against_first.success_p_value);
+    return IsFirst(agent) ? "-" : PValue(agent.against_first.success_p_value);
+  }
+
+  static std::string BothReached(const ComparedAgent& agent) {
+    return IsFirst(agent) ? "-"
+                          : fmt::format("{}", agent.against_first.estimates[kTimeQuantity].count);
+  }
+
+  static void Title(QuantitySection section, std::string* text) {
+    const std::string title = TitleOf(section);
+    if (!title.empty()) *text += title + ":\n";
   }
 
   const Comparison& comparison_;
   std::size_t begin_, end_;
 };
+
+std::string CsvHeader(const std::vector<Quantity>& quantities) {
+  std::string header = "task,conditions,agent,episodes,seed,policy_step_s";
+  for (const char* against : {"", "_less_first"}) {
+    for (const Quantity& quantity : quantities) {
+      header += fmt::format(",{0}{1},{0}{1}_low,{0}{1}_high", quantity.key, against);
+    }
+  }
+  header += ",success_p_value";
+  for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
+    header += fmt::format(",ended_{}", kTerminationNames[kind]);
+  }
+  return header + "\n";
+}
 
 }  // namespace
 
@@ -107,29 +132,15 @@ std::string ToText(const Comparison& comparison) {
   return text;
 }
 
-std::string ComparisonCsvHeader() {
-  std::string header = "task,conditions,agent,episodes,seed,policy_step_s";
-  for (const char* against : {"", "_less_first"}) {
-    for (const Quantity& quantity : Quantities()) {
-      header += fmt::format(",{0}{1},{0}{1}_low,{0}{1}_high", quantity.key, against);
-    }
-  }
-  header += ",success_p_value";
-  for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
-    header += fmt::format(",ended_{}", kTerminationNames[kind]);
-  }
-  return header + "\n";
-}
-
 std::string ToCsv(const Comparison& comparison) {
-  std::string rows;
+  std::string rows = CsvHeader(comparison.quantities);
   for (const ComparedAgent& agent : comparison.agents) {
     rows += fmt::format("{},{},{},{},{},{}", comparison.task, CsvText(comparison.conditions),
                         CsvText(agent.name), comparison.episodes, comparison.seed,
                         agent.action_repeat * comparison.control_interval_s);
     for (const Estimate& estimate : agent.summary.estimates) rows += CsvCells(estimate);
     if (agent.against_first.estimates.empty()) {
-      rows += std::string(3 * Quantities().size() + 1, ',');
+      rows += std::string(3 * comparison.quantities.size() + 1, ',');
     } else {
       for (const Estimate& estimate : agent.against_first.estimates) rows += CsvCells(estimate);
       rows += fmt::format(",{}", agent.against_first.success_p_value);
@@ -149,8 +160,8 @@ Json ToJson(const Comparison& comparison, const ProgramConfig& config) {
     json.update(ToJson(agent.summary));
     if (!agent.against_first.estimates.empty()) {
       Json estimates = Json::object();
-      for (std::size_t k = 0; k < Quantities().size(); ++k) {
-        estimates[Quantities()[k].key] = ToJson(agent.against_first.estimates[k]);
+      for (std::size_t k = 0; k < comparison.quantities.size(); ++k) {
+        estimates[comparison.quantities[k].key] = ToJson(agent.against_first.estimates[k]);
       }
       json["against_first"] = {{"estimates", estimates},
                                {"success_p_value", agent.against_first.success_p_value}};

@@ -10,6 +10,27 @@ namespace {
 
 constexpr double kNormalPoint = 1.959963984540054;  // 97.5 % of the normal distribution
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTail = 0.025;  // on either side of an interval
+
+/// The chance of at most `events` of a Poisson distribution with this mean.
+double PoissonAtMost(int events, double mean) {
+  double sum = 0;
+  for (int k = 0; k <= events; ++k) {
+    sum += std::exp(k * std::log(mean) - mean - std::lgamma(k + 1.0));
+  }
+  return sum;
+}
+
+/// The mean of which at most `events` are as likely as `probability`: less likely the larger.
+double PoissonMean(int events, double probability) {
+  double low = 0, high = events + 20 + 10 * std::sqrt(events + 1.0);
+  constexpr int kHalvings = 60;  // to the last digit of float64
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (low + high) / 2;
+    (PoissonAtMost(events, middle) > probability ? low : high) = middle;
+  }
+  return low;
+}
 
 }  // namespace
 
@@ -56,6 +77,12 @@ Estimate EstimateShare(int successes, int trials) {
   // Where all or none succeeded rounding must not leave the share itself outside.
   return {share, std::clamp(middle - half, 0.0, share), std::clamp(middle + half, share, 1.0),
           trials};
+}
+
+Estimate EstimateRate(int events, double exposure) {
+  if (!(exposure > 0)) return {kNaN, kNaN, kNaN, 0};
+  const double low = events == 0 ? 0 : PoissonMean(events - 1, 1 - kTail);
+  return {events / exposure, low / exposure, PoissonMean(events, kTail) / exposure, events};
 }
 
 PairedShares CompareShares(int only_first, int only_second, int trials) {

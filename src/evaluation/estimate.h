@@ -21,6 +21,10 @@ Estimate EstimateMean(const std::vector<double>& values);
 /// near 0 and 1, too.
 Estimate EstimateShare(int successes, int trials);
 
+/// How often a rare event happens, `events` / `exposure` (as in hours), by the exact interval of a
+/// Poisson distribution (Garwood, Biometrika 28, 1936); `count` is `events`. NaN without exposure.
+Estimate EstimateRate(int events, double exposure);
+
 /// How the shares of two agents that made the same trials differ.
 struct PairedShares {
   /// Second minus first, by the interval of Agresti and Min (Statistics in Medicine 24, 2005).

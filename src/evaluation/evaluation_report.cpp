@@ -10,14 +10,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string Line(const char* mode, const FlightSummary& summary) {
-  const auto figure = [&](int quantity) {
-    const auto k = static_cast<std::size_t>(quantity);
-    return FormatEstimate(Quantities()[k], summary.estimates[k]);
-  };
-  return fmt::format("{:14}success {} %   return {}   time to target {} s\n{:14}ended by {}", mode,
-                     figure(kSuccessQuantity), figure(kReturnQuantity), figure(kTimeQuantity), "",
-                     FormatTerminations(summary.result));
+/// "success 99.6 (98.0, 99.9) %".
+std::string Phrase(const Quantity& quantity, const Estimate& estimate) {
+  const std::size_t unit = quantity.label.find(", ");
+  const std::string value = FormatEstimate(quantity, estimate);
+  if (unit == std::string::npos) return fmt::format("{} {}", quantity.label, value);
+  return fmt::format("{} {} {}", quantity.label.substr(0, unit), value,
+                     quantity.label.substr(unit + 2));
+}
+
+/// The headlines of what came of the episodes, and how they ended.
+std::string Lines(const char* mode, const FlightSummary& summary) {
+  constexpr int kPhrasesPerLine = 3;
+  std::string text = fmt::format("{:14}", mode);
+  int phrases = 0;
+  for (std::size_t k = 0; k < summary.quantities.size(); ++k) {
+    const Quantity& quantity = summary.quantities[k];
+    if (quantity.section != QuantitySection::kOutcome || !quantity.is_headline) continue;
+    const bool is_first = phrases % kPhrasesPerLine == 0;
+    if (phrases > 0) text += is_first ? fmt::format("\n{:14}", "") : "   ";
+    text += Phrase(quantity, summary.estimates[k]);
+    ++phrases;
+  }
+  return fmt::format("{}\n{:14}ended by {}", text, "", FormatTerminations(summary.result));
 }
 
 }  // namespace
@@ -29,8 +44,7 @@ EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig
   options.seed = seed;
   options.flight_metrics = true;
   const auto fly = [&](const Agent& agent) {
-    return SummariseFlights(FlyEpisodes(agent, env, options, pool).episodes,
-                            env.control_interval_s);
+    return SummariseFlights(FlyEpisodes(agent, env, options, pool).episodes, env);
   };
   return {fly(Agent::MeanOf(policy)), fly(Agent::SamplingFrom(policy))};
 }
@@ -63,7 +77,7 @@ Json ToJson(const EvaluationReport& report, const std::string& policy, const Pro
 
 std::string ToText(const EvaluationReport& report, bool deterministic) {
   return fmt::format("{}\n{}\n{}, means over episodes with 95 % intervals:\n{}",
-                     Line("deterministic", report.deterministic), Line("sampled", report.sampled),
+                     Lines("deterministic", report.deterministic), Lines("sampled", report.sampled),
                      deterministic ? "deterministic" : "sampled",
                      FormatFlightMetrics(deterministic ? report.deterministic : report.sampled));
 }

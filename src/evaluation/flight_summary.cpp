@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "envs/actions.h"
+#include "src/files/text_table.h"
+
 namespace skein {
 namespace {
 
@@ -12,64 +15,72 @@ using Json = nlohmann::ordered_json;
 
 Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-int DecimalsOf(int metric) {
-  switch (metric) {
-    case kMeanTrueAirspeed:
-    case kMeanClimbRate:
-    case kMeanAbsClimbRate:
-      return 1;
-    case kMeanLoadFactor:
-    case kMeanAbsAlpha:
-      return 2;
-    default:
-      return 3;
+/// Where the section's quantities are.
+std::vector<std::size_t> IndicesOf(const FlightSummary& summary, QuantitySection section) {
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < summary.quantities.size(); ++k) {
+    if (summary.quantities[k].section == section) indices.push_back(k);
   }
+  return indices;
 }
 
-std::vector<Quantity> MakeQuantities() {
-  const auto succeeded = [](const Episode& episode) {
-    return episode.termination == Termination::kTargetReached;
-  };
-  std::vector<Quantity> quantities = {
-      {"success_rate", "", "success, %", 100, 1,
-       [succeeded](const Episode& episode, double) { return succeeded(episode) ? 1.0 : 0.0; }},
-      {"return", "", "return", 1, 1,
-       [](const Episode& episode, double) { return episode.episode_return; }},
-      {"time_to_target_s", "T", "time to target, s", 1, 2,
-       [succeeded](const Episode& episode, double control_interval_s) {
-         return succeeded(episode) ? episode.steps * control_interval_s : std::nan("");
-       }}};
-  for (int k = 0; k < kNumFlightMetrics; ++k) {
-    const auto index = static_cast<std::size_t>(k);
-    const FlightMetricName& name = kFlightMetricNames[index];
-    quantities.push_back(
-        {name.key, name.symbol, name.meaning, 1, DecimalsOf(k),
-         [index](const Episode& episode, double) { return episode.metrics[index]; }});
+std::string TitleLine(QuantitySection section) {
+  const std::string title = TitleOf(section);
+  return title.empty() ? "" : title + ":\n";
+}
+
+/// Lines, each with a newline; none of a section without quantities.
+std::string InTwoColumns(const FlightSummary& summary, QuantitySection section) {
+  const std::vector<std::size_t> indices = IndicesOf(summary, section);
+  if (indices.empty()) return "";
+  std::vector<std::string> cells;
+  for (const std::size_t k : indices) {
+    const Quantity& quantity = summary.quantities[k];
+    const std::string value = FormatEstimate(quantity, summary.estimates[k]);
+    cells.push_back(quantity.symbol.empty()
+                        ? fmt::format("{:28}{:>18}", quantity.label, value)
+                        : fmt::format("{:6}{:22}{:>18}", quantity.symbol, quantity.label, value));
   }
-  return quantities;
+  std::string text = TitleLine(section);
+  const std::size_t rows = (cells.size() + 1) / 2;
+  for (std::size_t row = 0; row < rows; ++row) {
+    text += "  " + cells[row];
+    if (row + rows < cells.size()) text += "   " + cells[row + rows];
+    text += "\n";
+  }
+  return text;
+}
+
+/// Lines, each with a newline: a column for every command; none of a section without quantities.
+std::string InCommandColumns(const FlightSummary& summary, QuantitySection section) {
+  const std::vector<std::size_t> indices = IndicesOf(summary, section);
+  if (indices.empty()) return "";
+  constexpr std::size_t kLabelWidth = 24, kCellWidth = 19;
+  std::string text;
+  TextTable table(kLabelWidth, kCellWidth, &text);
+  table.Begin(TitleOf(section));
+  for (std::size_t k = 0; k < kActionSize; ++k) table.Cell(summary.quantities[indices[k]].symbol);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const Quantity& quantity = summary.quantities[indices[i]];
+    if (i % kActionSize == 0) {
+      table.End();
+      table.Begin("  " + quantity.label);
+    }
+    table.Cell(FormatEstimate(quantity, summary.estimates[indices[i]]));
+  }
+  table.End();
+  return text;
 }
 
 }  // namespace
 
-const std::vector<Quantity>& Quantities() {
-  static const std::vector<Quantity> quantities = MakeQuantities();
-  return quantities;
-}
-
-FlightSummary SummariseFlights(const std::vector<Episode>& episodes, double control_interval_s) {
+FlightSummary SummariseFlights(const std::vector<Episode>& episodes, const EnvConfig& env) {
   FlightSummary summary;
-  summary.result = Summarise(episodes, control_interval_s);
-  for (const Quantity& quantity : Quantities()) {
-    std::vector<double> values;
-    values.reserve(episodes.size());
-    for (const Episode& episode : episodes) {
-      values.push_back(quantity.value(episode, control_interval_s));
-    }
-    summary.estimates.push_back(EstimateMean(values));
+  summary.result = Summarise(episodes, env.control_interval_s);
+  summary.quantities = QuantitiesOf(env);
+  for (const Quantity& quantity : summary.quantities) {
+    summary.estimates.push_back(EstimateOf(quantity, episodes, env.control_interval_s));
   }
-  summary.estimates[kSuccessQuantity] = EstimateShare(
-      summary.result.terminations[static_cast<std::size_t>(Termination::kTargetReached)],
-      summary.result.episodes);
   return summary;
 }
 
@@ -86,8 +97,8 @@ Json ToJson(const FlightSummary& summary) {
   for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
     terminations[kTerminationNames[kind]] = result.terminations[kind];
   }
-  for (std::size_t k = 0; k < Quantities().size(); ++k) {
-    estimates[Quantities()[k].key] = ToJson(summary.estimates[k]);
+  for (std::size_t k = 0; k < summary.quantities.size(); ++k) {
+    estimates[summary.quantities[k].key] = ToJson(summary.estimates[k]);
   }
   return {{"episodes", result.episodes},
           {"success_rate", result.success_rate},
@@ -138,20 +149,25 @@ std::string FormatTerminations(const EvaluationResult& result) {
   return text;
 }
 
+const char* TitleOf(QuantitySection section) {
+  switch (section) {
+    case QuantitySection::kActions:
+      return "stick actions";
+    case QuantitySection::kHold:
+      return "holding";
+    case QuantitySection::kHoldActions:
+      return "actions while holding";
+    default:
+      return "";
+  }
+}
+
 std::string FormatFlightMetrics(const FlightSummary& summary) {
-  std::vector<std::string> cells;
-  for (std::size_t k = 0; k < Quantities().size(); ++k) {
-    const Quantity& quantity = Quantities()[k];
-    if (quantity.symbol.empty()) continue;
-    cells.push_back(fmt::format("{:6}{:18}{:>18}", quantity.symbol, quantity.label,
-                                FormatEstimate(quantity, summary.estimates[k])));
-  }
-  std::string text;
-  const std::size_t rows = (cells.size() + 1) / 2;
-  for (std::size_t row = 0; row < rows; ++row) {
-    text += (row > 0 ? "\n  " : "  ") + cells[row];
-    if (row + rows < cells.size()) text += "    " + cells[row + rows];
-  }
+  std::string text = InTwoColumns(summary, QuantitySection::kFlight);
+  text += InCommandColumns(summary, QuantitySection::kActions);
+  text += InTwoColumns(summary, QuantitySection::kHold);
+  text += InCommandColumns(summary, QuantitySection::kHoldActions);
+  text.pop_back();
   return text;
 }
 

@@ -1,40 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "src/evaluation/estimate.h"
+#include "src/evaluation/quantities.h"
 #include "train/policy/evaluate.h"
 
 namespace skein {
 
-/// Something that every episode has a value of.
-struct Quantity {
-  std::string key;        ///< in files, with its unit
-  std::string symbol;     ///< in the paper's Table 6, or empty
-  std::string label;      ///< for people, with its unit
-  double shown_per_unit;  ///< what people see of it: 100 for percent
-  int decimals;           ///< and how exactly
-  /// Of an episode flown with EvaluationOptions::flight_metrics; NaN if it has none.
-  std::function<double(const Episode& episode, double control_interval_s)> value;
-};
-
-/// Success (1 or 0), return, time to the target (of episodes that reached it), then the flight
-/// metrics in their order.
-const std::vector<Quantity>& Quantities();
-inline constexpr int kSuccessQuantity = 0, kReturnQuantity = 1, kTimeQuantity = 2;
-
 /// How an agent flew its episodes.
 struct FlightSummary {
   EvaluationResult result;
-  std::vector<Estimate> estimates;  ///< by Quantities()
+  std::vector<Quantity> quantities;  ///< QuantitiesOf the environment
+  std::vector<Estimate> estimates;   ///< by them
 };
 
-/// Of episodes flown with EvaluationOptions::flight_metrics.
-FlightSummary SummariseFlights(const std::vector<Episode>& episodes, double control_interval_s);
+/// Of episodes of `env` flown with EvaluationOptions::flight_metrics.
+FlightSummary SummariseFlights(const std::vector<Episode>& episodes, const EnvConfig& env);
 
 /// Keys: episodes, success_rate, return_mean, time_to_target_mean (s; null if no episode
 /// succeeded), terminations (count by kind), estimates (by key of the quantity: value, low, high,
@@ -52,7 +37,11 @@ std::string CsvText(const std::string& text);
 /// "target_reached 998, time_limit 2".
 std::string FormatTerminations(const EvaluationResult& result);
 
-/// The figures of the paper's Table 6 in two columns, for people; without a newline at the end.
+/// What a table calls a section; empty for those that come first.
+const char* TitleOf(QuantitySection section);
+
+/// The figures of the paper's Table 6 and those of holding in two columns, of actions in one for
+/// each command, for people; without a newline at the end.
 std::string FormatFlightMetrics(const FlightSummary& summary);
 
 }  // namespace skein

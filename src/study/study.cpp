@@ -53,6 +53,14 @@ class TableReader {
     return WholeNumberIn(*node, key, min, max);
   }
 
+  std::optional<double> PositiveNumber(const std::string& key) {
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return std::nullopt;
+    const std::optional<double> number = node->value<double>();
+    if (number && *number > 0 && std::isfinite(*number)) return number;
+    throw Error(At(*node, key) + " must be a number above 0");
+  }
+
   std::vector<std::string> Texts(const std::string& key) {
     std::vector<std::string> texts;
     for (const toml::node* element : Elements(key)) {
@@ -194,6 +202,8 @@ Study ReadTable(const toml::table& table, const std::string& source) {
         part.WholeNumber("episodes", 1, kMaxEpisodes).value_or(study.evaluation.episodes));
     study.evaluation.seed =
         static_cast<std::uint64_t>(part.WholeNumber("seed", 0, kMaxSeed).value_or(0));
+    study.evaluation.assignments =
+        FlightLengthAssignments(part.PositiveNumber("hold"), part.PositiveNumber("mission"));
     part.RefuseOthers();
   }
   for (const toml::table* level : reader.Tables("level")) {
@@ -304,7 +314,8 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
 }
 
 ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level) {
-  ProgramConfig config = Configure(study, task, {level.settings});
+  ProgramConfig config =
+      Configure(study, task, {level.settings, {{}, study.evaluation.assignments}});
   if (!study.training.per_level) {
     const EnvConfig without_level = Configure(study, task, {}).train.env;
     AsUsage([&] { CheckEachAgentsOwn(config.train.env, without_level); });

@@ -38,6 +38,7 @@ struct Study {
   struct Evaluation {
     int episodes = 1000;
     std::uint64_t seed = 0;
+    std::vector<std::string> assignments;  ///< of hold and mission, on top of those of the level
   } evaluation;
 };
 

@@ -17,8 +17,13 @@ using Json = nlohmann::ordered_json;
 
 double NumberOf(const Json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
 
-/// What the i-th agent of a comparison did.
+bool Has(const Json& comparison, const Quantity& quantity) {
+  return comparison["agents"][0]["estimates"].contains(quantity.key);
+}
+
+/// What the i-th agent of a comparison did; NaN of what it was not measured by.
 Estimate EstimateOf(const Json& comparison, std::size_t agent, const Quantity& quantity) {
+  if (!Has(comparison, quantity)) return EstimateMean({});
   const Json& estimate = comparison["agents"][agent]["estimates"][quantity.key];
   return {NumberOf(estimate["value"]), NumberOf(estimate["low"]), NumberOf(estimate["high"]),
           estimate["count"].get<int>()};
@@ -33,10 +38,10 @@ std::vector<double> ValuesOfSeeds(const Json& comparison, std::size_t trained,
   return values;
 }
 
-/// The mean of the seeds; of success with the part of the interval that shares can lie in.
+/// The mean of the seeds; of shares with the part of the interval that they can lie in.
 Estimate MeanOfSeeds(const Json& comparison, std::size_t trained, const Quantity& quantity) {
   Estimate mean = EstimateMean(ValuesOfSeeds(comparison, trained, quantity));
-  if (&quantity == &Quantities()[kSuccessQuantity]) {
+  if (quantity.statistic == Statistic::kShare) {
     mean.low = std::clamp(mean.low, 0.0, 1.0);
     mean.high = std::clamp(mean.high, 0.0, 1.0);
   }
@@ -59,9 +64,10 @@ std::string Spread(const Quantity& quantity, const std::vector<double>& values) 
 
 }  // namespace
 
-std::string StudyCsv(const Json& results, std::size_t trained) {
+std::string StudyCsv(const Json& results, std::size_t trained,
+                     const std::vector<Quantity>& quantities) {
   std::string text = "task,level,agent,episodes,seeds";
-  for (const Quantity& quantity : Quantities()) {
+  for (const Quantity& quantity : quantities) {
     text += fmt::format(",{0},{0}_low,{0}_high", quantity.key);
   }
   text += "\n";
@@ -73,13 +79,13 @@ std::string StudyCsv(const Json& results, std::size_t trained) {
                           comparison["episodes"].get<int>(), seeds);
     };
     begin("trained", fmt::format("{}", trained));
-    for (const Quantity& quantity : Quantities()) {
+    for (const Quantity& quantity : quantities) {
       text += CsvCells(MeanOfSeeds(comparison, trained, quantity));
     }
     text += "\n";
     for (std::size_t i = 0; i < comparison["agents"].size(); ++i) {
       begin(comparison["agents"][i]["name"].get<std::string>(), i < trained ? "1" : "");
-      for (const Quantity& quantity : Quantities()) {
+      for (const Quantity& quantity : quantities) {
         text += CsvCells(EstimateOf(comparison, i, quantity));
       }
       text += "\n";
@@ -88,12 +94,14 @@ std::string StudyCsv(const Json& results, std::size_t trained) {
   return text;
 }
 
-std::string StudyText(const Json& results, std::size_t trained) {
+std::string StudyText(const Json& results, std::size_t trained,
+                      const std::vector<Quantity>& quantities) {
   constexpr std::size_t kLabelWidth = 30, kCellWidth = 24;
   std::string text;
   TextTable table(kLabelWidth, kCellWidth, &text);
-  for (const int k : {kSuccessQuantity, kTimeQuantity}) {
-    const Quantity& quantity = Quantities()[static_cast<std::size_t>(k)];
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    const Quantity& quantity = quantities[k];
+    if (!quantity.is_headline || k == kReturnQuantity) continue;
     table.Begin(quantity.label);
     table.Cell(fmt::format("trained ({} seeds)", trained));
     const Json none = Json::array();
@@ -104,6 +112,7 @@ std::string StudyText(const Json& results, std::size_t trained) {
     table.End();
     for (const Json& result : results) {
       const Json& comparison = result["comparison"];
+      if (!Has(comparison, quantity)) continue;
       table.Begin(fmt::format("  {}, {}", result["task"].get<std::string>(),
                               result["level"].get<std::string>()));
       table.Cell(Spread(quantity, ValuesOfSeeds(comparison, trained, quantity)));

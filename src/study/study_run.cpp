@@ -86,7 +86,9 @@ Json Identity(const std::vector<AgentInStudy>& agents, const Study& study,
   for (const AgentInStudy& agent : agents) {
     names.push_back({{"name", agent.shown}, {"policy", Fingerprint(agent.name)}});
   }
-  for (const Quantity& quantity : Quantities()) quantities.push_back(quantity.key);
+  for (const Quantity& quantity : QuantitiesOf(config.train.env)) {
+    quantities.push_back(quantity.key);
+  }
   return {{"agents", names},
           {"episodes", study.evaluation.episodes},
           {"seed", study.evaluation.seed},
@@ -254,11 +256,28 @@ bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
   return true;
 }
 
+std::vector<Quantity> StudyRun::Measured() const {
+  std::vector<Quantity> all;
+  for (const std::string& task : study_.tasks) {
+    for (const StudyLevel& level : study_.levels) {
+      for (Quantity& quantity : QuantitiesOf(LevelConfig(study_, task, level).train.env)) {
+        const bool is_known = std::any_of(all.begin(), all.end(), [&](const Quantity& other) {
+          return other.key == quantity.key;
+        });
+        if (!is_known) all.push_back(std::move(quantity));
+      }
+    }
+  }
+  return all;
+}
+
 void StudyRun::WriteResults() const {
-  WriteFile(directory_ + "/results.csv", StudyCsv(results_, study_.seeds.size()));
+  WriteFile(directory_ + "/results.csv", StudyCsv(results_, study_.seeds.size(), Measured()));
   WriteJson(directory_ + "/results.json", results_);
 }
 
-std::string StudyRun::ToText() const { return StudyText(results_, study_.seeds.size()); }
+std::string StudyRun::ToText() const {
+  return StudyText(results_, study_.seeds.size(), Measured());
+}
 
 }  // namespace skein

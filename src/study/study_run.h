@@ -3,8 +3,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "base/worker_pool.h"
+#include "src/evaluation/quantities.h"
 #include "src/study/study.h"
 #include "train/files/file_descriptor.h"
 
@@ -34,6 +36,8 @@ class StudyRun {
   void SayTraining(const std::string& path) const;
   bool Train(const std::string& task, const StudyLevel& level, std::uint64_t seed);
   bool Evaluate(const std::string& task, const StudyLevel& level);
+  /// Of all tasks and levels, each once.
+  std::vector<Quantity> Measured() const;
   void WriteResults() const;
 
   const Study& study_;

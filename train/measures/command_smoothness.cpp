@@ -3,12 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace skein {
 namespace {
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 std::size_t StepsIn(double seconds, double interval_s) {
   return static_cast<std::size_t>(std::lround(seconds / interval_s));
@@ -96,7 +93,7 @@ void CommandSeries::Add(float command) {
 }
 
 CommandSmoothness CommandSeries::Report() const {
-  CommandSmoothness smoothness{kNaN, kNaN, kNaN, kNaN};
+  CommandSmoothness smoothness;
   if (count_ == 0) return smoothness;
   const auto count = static_cast<double>(count_);
   smoothness.saturated = static_cast<float>(static_cast<double>(saturated_) / count);

@@ -2,14 +2,12 @@
 #include "train/measures/hold_metrics.h"
 
 #include <cmath>
-#include <limits>
 
 #include "envs/aircraft/aircraft.h"
 
 namespace skein {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr double kSecondsPerMinute = 60;
 
 }  // namespace
@@ -40,7 +38,7 @@ void HoldSums::Add(const HeldState& state) {
 
 HoldMetrics HoldSums::Report(double control_interval_s, double asked_s) const {
   const double asked = asked_s > 0 ? std::round(asked_s / control_interval_s) : count_;
-  HoldMetrics metrics{kNaN, {kNaN, kNaN, kNaN}, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
+  HoldMetrics metrics;
   if (asked > 0) metrics.within = static_cast<float>(within_ / asked);
   if (count_ == 0) return metrics;
   const auto rms = [this](double squares, double unit) {

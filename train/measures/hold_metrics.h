@@ -4,6 +4,7 @@
 #include <array>
 
 #include "envs/tasks/task.h"
+#include "train/measures/command_smoothness.h"
 
 namespace skein {
 
@@ -19,15 +20,15 @@ struct HeldState {
 
 /// How a target was held. NaN of what no state says.
 struct HoldMetrics {
-  float within;  ///< share of the time asked for, within tolerances
+  float within = kNoMeasure;  ///< share of the time asked for, within tolerances
   /// Root mean squares of the errors as the task normalises them, the body rates (deg/s), and the
   /// sideslip (deg).
-  std::array<float, kNumTaskErrors> rms_errors;
-  float rms_p, rms_q, rms_r;
-  float rms_sideslip;
-  float load_factor_deviation;  ///< standard deviation, g
-  float mean_abs_bank;          ///< deg
-  float net_rolls_per_min;      ///< whole turns about the roll axis that do not cancel
+  std::array<float, kNumTaskErrors> rms_errors{kNoMeasure, kNoMeasure, kNoMeasure};
+  float rms_p = kNoMeasure, rms_q = kNoMeasure, rms_r = kNoMeasure;
+  float rms_sideslip = kNoMeasure;
+  float load_factor_deviation = kNoMeasure;  ///< standard deviation, g
+  float mean_abs_bank = kNoMeasure;          ///< deg
+  float net_rolls_per_min = kNoMeasure;      ///< whole turns about the roll axis that do not cancel
 };
 
 /// Adds up the states of a hold. The formulas are in docs/reference/metrics.md.

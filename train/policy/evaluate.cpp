@@ -2,10 +2,13 @@
 #include "train/policy/evaluate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "envs/state/state.h"
+#include "envs/task_registry.h"
 #include "train/files/fnv_hash.h"
 
 namespace skein {
@@ -29,6 +32,26 @@ std::uint64_t HashOfStarts(const VecEnv& env) {
   return hash.value();
 }
 
+/// Control steps within tolerances after which a target counts, at least the one of first touch.
+std::int32_t DwellSteps(const EnvConfig& env) {
+  const double steps = MakeTask(env)->dwell_s() / env.control_interval_s;
+  return std::max(1, static_cast<std::int32_t>(std::lround(steps)));
+}
+
+/// Says what came of the target of an episode that has ended.
+void NoteTarget(const EnvConfig& env, std::int32_t dwell_steps, bool is_measured,
+                Episode* episode) {
+  const bool ends_reached = episode->termination == Termination::kTargetReached;
+  episode->reached_step = is_measured    ? episode->measures.reached_step
+                          : ends_reached ? episode->steps
+                                         : 0;
+  if (episode->reached_step > 0) {
+    episode->entered_step = episode->reached_step - dwell_steps + 1;
+  }
+  episode->succeeded = env.mission.enabled() ? episode->termination == Termination::kTimeLimit
+                                             : episode->reached_step > 0;
+}
+
 /// `episodes` are those of the tile's aircraft, kNone until they have ended.
 void FlyTile(const Agent& agent, VecEnv& env, int tile, const EvaluationOptions& options,
              const WorkerPool& pool, Episode* episodes) {
@@ -45,6 +68,11 @@ void FlyTile(const Agent& agent, VecEnv& env, int tile, const EvaluationOptions&
   output.episode_steps = steps.data();
   output.final_observation = final_observation.data();
   if (options.flight_metrics) output.flight_metrics = metrics.data();
+  std::optional<FlightMeasurer> measurer;
+  if (options.flight_metrics || env.config().hold_s > 0) {
+    output.observer = &measurer.emplace(env.config(), env.tile_begin(tile), count);
+  }
+  const std::int32_t dwell_steps = DwellSteps(env.config());
 
   TileAgent flying_agent = MakeEvaluationAgent(agent, env, tile, options);
   for (int flying = count; flying > 0 && !pool.stopping();) {
@@ -61,6 +89,8 @@ void FlyTile(const Agent& agent, VecEnv& env, int tile, const EvaluationOptions&
         std::copy_n(metrics.begin() + static_cast<std::ptrdiff_t>(i) * kNumFlightMetrics,
                     kNumFlightMetrics, episode.metrics.begin());
       }
+      if (measurer) episode.measures = measurer->Report(i);
+      NoteTarget(env.config(), dwell_steps, measurer.has_value(), &episode);
       --flying;
     }
   }
@@ -99,18 +129,20 @@ FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& config,
 EvaluationResult Summarise(const std::vector<Episode>& episodes, double control_interval_s) {
   EvaluationResult result;
   result.episodes = static_cast<int>(episodes.size());
-  double successes = 0, success_steps = 0;
+  int successes = 0, reached = 0;
+  double steps_to_target = 0;
   for (const Episode& episode : episodes) {
     ++result.terminations[static_cast<std::size_t>(episode.termination)];
     result.return_mean += episode.episode_return;
-    if (episode.termination != Termination::kTargetReached) continue;
-    ++successes;
-    success_steps += episode.steps;
+    successes += episode.succeeded;
+    if (episode.reached_step == 0) continue;
+    ++reached;
+    steps_to_target += episode.entered_step;
   }
   result.return_mean /= result.episodes;
-  result.success_rate = successes / result.episodes;
-  result.time_to_target_mean_s = successes > 0 ? control_interval_s * success_steps / successes
-                                               : std::numeric_limits<double>::quiet_NaN();
+  result.success_rate = static_cast<double>(successes) / result.episodes;
+  result.time_to_target_mean_s = reached > 0 ? control_interval_s * steps_to_target / reached
+                                             : std::numeric_limits<double>::quiet_NaN();
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include "envs/flight_metrics.h"
 #include "envs/tasks/termination.h"
 #include "envs/vec_env.h"
+#include "train/measures/flight_measures.h"
 #include "train/policy/agent.h"
 #include "train/policy/tile_agent.h"
 
@@ -27,8 +28,15 @@ struct Episode {
   Termination termination = Termination::kNone;
   float episode_return = 0;
   std::int32_t steps = 0;  ///< control steps
+  /// It reached its target, whatever came of holding it; of a mission: it was flown to its end.
+  bool succeeded = false;
+  std::int32_t reached_step = 0;  ///< control step at which the target counted; 0: it did not
+  /// Control step at which the tolerances were entered that were then held for the dwell: without
+  /// one reached_step.
+  std::int32_t entered_step = 0;
   /// By FlightMetric. NaN unless asked for, and of an episode that ended as non_finite.
   std::array<float, kNumFlightMetrics> metrics{};
+  FlightMeasures measures;  ///< if the flight metrics are asked for, or a hold
 };
 
 /// One episode per aircraft, by their numbers, so that short episodes are not counted more often
@@ -43,9 +51,11 @@ struct FlownEpisodes {
 /// Means over episodes.
 struct EvaluationResult {
   int episodes = 0;
-  double success_rate = 0;
+  double success_rate = 0;  ///< of a mission: share flown to the end
   double return_mean = 0;
-  double time_to_target_mean_s = 0;  ///< over successful episodes; NaN if none
+  /// Until the tolerances were entered that were then held for the dwell, over the episodes that
+  /// reached their target; NaN if none did.
+  double time_to_target_mean_s = 0;
   std::array<int, kNumTerminations> terminations{};
 };
 

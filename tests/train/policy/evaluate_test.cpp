@@ -111,7 +111,9 @@ TEST(EvaluateTest, MeasuresFlightsOnlyIfAsked) {
 TEST(EvaluateTest, SummaryCountsByHand) {
   Episode reached, lost;
   reached.termination = Termination::kTargetReached;
-  reached.steps = 400;
+  reached.succeeded = true;
+  reached.steps = reached.reached_step = 550;
+  reached.entered_step = 400;  // held for 3 s
   reached.episode_return = 190;
   lost.termination = Termination::kLowAltitude;
   lost.steps = 900;

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "envs/actions.h"
+#include "envs/control_step.h"
+#include "envs/env_config.h"
+#include "train/measures/command_smoothness.h"
+#include "train/measures/hold_metrics.h"
+
+namespace skein {
+
+/// Of throttle, pitch, roll and yaw.
+using ActionSmoothness = std::array<CommandSmoothness, kActionSize>;
+
+/// What the control steps of one flight say beside its metrics (envs/flight_metrics.h). Of a flight
+/// that ended as non_finite only the counts.
+struct FlightMeasures {
+  ActionSmoothness actions;       ///< stick actions of the whole flight
+  ActionSmoothness hold_actions;  ///< and after the target was reached; NaN without a hold
+  /// Over the time after the target was reached; in missions over the time within tolerances, and
+  /// `within` is its share of the flight.
+  HoldMetrics hold;
+  std::int32_t reached_step = 0;  ///< control step at which the target counted as reached; 0: never
+  std::int32_t targets_reached = 0, targets_missed = 0;  ///< of a mission
+};
+
+/// Measures the first episodes of consecutive aircraft, all of them of one tile.
+class FlightMeasurer : public ControlStepObserver {
+ public:
+  FlightMeasurer(const EnvConfig& env, int first_aircraft, int count);
+
+  void See(const ControlStep& step) override;
+
+  /// Of the `index`-th aircraft's episode, which has ended.
+  FlightMeasures Report(int index) const;
+
+ private:
+  /// The episode of one aircraft.
+  struct Flight {
+    explicit Flight(double control_interval_s);
+    /// Keeps the counts alone.
+    void ForgetSeries(double control_interval_s);
+
+    std::vector<CommandSeries> actions, hold_actions;
+    HoldSums hold;
+    std::int32_t steps = 0, termination = 0;
+    std::int32_t reached_step = 0, targets_reached = 0, targets_missed = 0;
+  };
+
+  void Follow(const ControlStep& step, int i, Flight* flight) const;
+
+  double control_interval_s_, hold_s_;
+  bool is_mission_;
+  int first_aircraft_;
+  std::vector<Flight> flights_;
+};
+
+}  // namespace skein
