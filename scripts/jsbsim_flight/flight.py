@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One flight: to its target, then holding it; and what is measured on the way."""
+import math
+import statistics
+from dataclasses import dataclass
+
+from jsbsim_flight.task import DT, TIME_LIMIT_STEPS, failure
+
+
+@dataclass
+class Rules:
+    """What counts as reaching the target, and what follows: env.TASK.dwell_s and env.hold_s of the configuration."""
+    dwell_s: float = 0.0  # within all tolerances for so long without a break; 0: at first touch
+    hold_s: float = 0.0  # for which the flight goes on after that, its target as it was
+
+    @property
+    def dwell_steps(self):
+        return max(1, round(self.dwell_s / DT))
+
+    @property
+    def hold_steps(self):
+        return round(self.hold_s / DT)
+
+
+def hold_figures(states, within, asked_steps):
+    """How a target was held, by the formulas of Skein's hold metrics: of the states after it was reached, and whether each was
+    within tolerances. What of the time asked for was not flown was not within."""
+    def rms(values):
+        return math.degrees(math.sqrt(statistics.fmean(value * value for value in values)))
+
+    rolled = math.fsum(math.remainder(b.roll - a.roll, 2 * math.pi) for a, b in zip(states, states[1:]))
+    return {"within_percent": 100 * sum(within) / asked_steps, "p_rms_deg_s": rms(s.p for s in states),
+            "q_rms_deg_s": rms(s.q for s in states), "r_rms_deg_s": rms(s.r for s in states),
+            "beta_rms_deg": rms(s.beta for s in states),
+            "nz_deviation_g": statistics.pstdev(s.nz for s in states),
+            "mean_abs_bank_deg": math.degrees(statistics.fmean(abs(s.roll) for s in states)),
+            "net_rolls_per_minute": abs(rolled) / (2 * math.pi) / max(len(states) - 1, 1) / DT * 60}
+
+
+def fly(vehicle, policy, task, rules, noise=lambda: 0.0):
+    """Flies one episode: how it ended, when it first touched and when it reached its target, and how it held it (None: it never
+    had it to hold). noise() is added to every observation."""
+    policy.begin()
+    state = vehicle.state()
+    step = touched = reached = steps_within = 0
+    held, held_within, end = [], [], None
+    while end is None:
+        if step % policy.action_repeat == 0:
+            throttle, *stick = policy.act([value + noise() for value in task.observe(state)])
+        vehicle.step((throttle + 1) / 2, *stick)
+        state, step = vehicle.state(), step + 1
+        end = failure(state)
+        is_within = step >= task.EARLIEST_SUCCESS_STEP and task.is_within(state)
+        steps_within = steps_within + 1 if is_within else 0
+        if reached:
+            held.append(state)
+            held_within.append(is_within)
+        touched = touched or step * is_within
+        reached = reached or step * (end is None and steps_within >= rules.dwell_steps)
+        if end is None and reached and step - reached >= rules.hold_steps:
+            end = "target_reached"
+        elif end is None and not reached and not is_within and step >= TIME_LIMIT_STEPS:
+            end = "time_limit"
+    return {"end": end, "touched_s": step_time(touched), "reached_s": step_time(reached), "flown_s": step_time(step),
+            "hold": hold_figures(held, held_within, rules.hold_steps) if held else None}
+
+
+def step_time(step):
+    return round(step * DT, 2) if step else None

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What scripts/fly_jsbsim knows of Skein, held against flights that Skein records (SKEIN_PROGRAM), and the laws of its figures.
+Needs neither numpy nor jsbsim."""
+import csv
+import glob
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from dataclasses import replace
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts"))
+
+from jsbsim_flight import task  # noqa: E402
+from jsbsim_flight.control_laws import ControlLaws, Surfaces, step_actuators  # noqa: E402
+from jsbsim_flight.flight import Rules, fly, hold_figures, step_time  # noqa: E402
+from jsbsim_flight.intervals import mean_and_interval, share_and_interval  # noqa: E402
+
+OBSERVED = 2e-6  # seven digits of float32
+SURFACE_DEG = 2e-3  # float32 and seven digits through loops whose gains reach tens of degrees per g
+TABLED = 4e-3  # of the quantiles: three digits behind the point in print, 0.1 % by the series
+ROUNDING = 1e-9
+# Full stick commands, drawn every half a second, reach limiters, the integrators' bounds and the schedules of alpha.
+RANDOM_AGENT = "random:0.5"
+POLICY_STEP = 25  # control steps of this agent: observations are of their beginnings
+
+
+def air(altitude_ft):
+    """Density, relative to sea level and absolute, and pressure: the atmosphere of the F-16 models (Stevens and Lewis)."""
+    temperature_ratio = 1 - 0.703e-5 * altitude_ft
+    temperature = 390 if altitude_ft >= 35000 else 519 * temperature_ratio
+    density = 2.377e-3 * temperature_ratio ** 4.14
+    return temperature_ratio ** 4.14, density, 1715 * density * temperature
+
+
+def state_of(row):
+    value = {name: float(text) for name, text in row.items() if text and name != "termination"}
+    ratio, density, pressure = air(value["altitude_ft"])
+    angles = {name: math.radians(value[name + "_deg"]) for name in ("roll", "pitch", "yaw", "alpha", "beta")}
+    rates = {name: math.radians(value[name + "_deg_s"]) for name in ("p", "q", "r")}
+    airspeed = value["true_airspeed_fps"]
+    return task.State(
+        altitude=value["altitude_ft"], airspeed=airspeed, mach=value["mach"], density_ratio=ratio,
+        dynamic_pressure=density * airspeed**2 / 2, static_pressure=pressure, nz=value["load_factor_g"],
+        ny=value["lateral_load_factor_g"], power=value["power"], surfaces=surfaces_of(row), **angles, **rates)
+
+
+def surfaces_of(row):
+    return Surfaces(*(float(row[name + "_deg"]) for name in ("elevator", "aileron", "rudder", "leading_edge_flap")))
+
+
+def target_of(task_class, row):
+    """The task with the target of a recorded flight."""
+    units = {"_deg": math.radians(1), "_ft": 1, "_fps": 1}
+    columns = [column for column in row if column.startswith("target_")]
+    flown = task_class(state_of(row), lambda reach: 0)
+    flown.target = tuple(float(row[column]) * next(units[end] for end in units if column.endswith(end)) for column in columns)
+    return flown
+
+
+class RecordedFlights(unittest.TestCase):
+    """Flights of random stick commands, observed at every control step, as lists of rows."""
+
+    @classmethod
+    def record(cls, name):
+        with tempfile.TemporaryDirectory() as folder:
+            command = [os.environ["SKEIN_PROGRAM"], "compare", "--task", name, "--agents", RANDOM_AGENT, "--episodes", "4",
+                       "--flights", os.path.join(folder, "flights.csv"), "--flights-observations",
+                       "--set", "env.observation_noise=0"]
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            (path,) = glob.glob(os.path.join(folder, "flights*.csv"))
+            with open(path, newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+        return [[row for row in rows if row["episode"] == number] for number in sorted({row["episode"] for row in rows})]
+
+    def test_control_laws_and_actuators_move_the_surfaces_as_skein_does(self):
+        steps = 0
+        for rows in self.record("heading"):
+            laws, positions = ControlLaws(task.DT), surfaces_of(rows[0])
+            laws.settle(state_of(rows[0]), positions)
+            for before, after in zip(rows, rows[1:]):
+                stick = [float(after["action_" + name]) for name in ("pitch", "roll", "yaw")]
+                positions = step_actuators(positions, laws.step(*stick, state_of(before)), task.DT)
+                for name, angle in vars(surfaces_of(after)).items():
+                    self.assertAlmostEqual(getattr(positions, name), angle, delta=SURFACE_DEG,
+                                           msg=f"{name} at {after['time_s']} s of flight {after['episode']}")
+                steps += 1
+        self.assertGreater(steps, 1000)
+
+    def test_observations_are_those_that_skein_shows(self):
+        for name, task_class in task.TASKS.items():
+            for rows in self.record(name):
+                flown = target_of(task_class, rows[0])
+                for before, after in list(zip(rows, rows[1:]))[::POLICY_STEP]:
+                    expected = [float(after[column]) for column in after if column.startswith("observation_")]
+                    observed = flown.observe(state_of(before))
+                    self.assertEqual(len(observed), len(expected))
+                    for k, (mine, skeins) in enumerate(zip(observed, expected)):
+                        self.assertAlmostEqual(mine, skeins, delta=OBSERVED * (1 + abs(skeins)),
+                                               msg=f"{name}, number {k}, at {after['time_s']} s of flight {after['episode']}")
+
+    def test_failures_come_when_skein_ends_an_episode(self):
+        for rows in self.record("heading"):
+            kinds = [task.failure(state_of(row)) for row in rows]
+            self.assertEqual(set(kinds[:-1]), {None})
+            self.assertEqual(kinds[-1] or "time_limit", rows[-1]["termination"])
+
+
+class FakeVehicle:
+    """Flies a list of states, whatever is commanded."""
+
+    def __init__(self, states):
+        self.states, self.step_number = states, 0
+
+    def state(self):
+        return self.states[min(self.step_number, len(self.states) - 1)]
+
+    def step(self, throttle, pitch, roll, yaw):
+        self.step_number += 1
+
+
+class Zero:
+    """A policy that does nothing."""
+    action_repeat = 5
+
+    def begin(self):
+        self.acts = 0
+
+    def act(self, observation):
+        self.acts += 1
+        return [0.0] * 4
+
+
+LEVEL = task.State(altitude=20000, roll=0, pitch=0, yaw=0, p=0, q=0, r=0, alpha=0, beta=0, airspeed=1000, mach=0.96,
+                   density_ratio=0.5, dynamic_pressure=600, static_pressure=970, nz=1, ny=0, power=30, surfaces=Surfaces())
+AWAY = replace(LEVEL, altitude=19500)
+
+
+class Flights(unittest.TestCase):
+    """Flights made by hand, to a target at LEVEL."""
+
+    def fly(self, states, **rules):
+        self.policy = Zero()
+        return fly(FakeVehicle(states), self.policy, task.Heading(LEVEL, lambda reach: 0), Rules(**rules))
+
+    def test_nothing_counts_before_the_earliest_step_and_then_the_first_touch(self):
+        result = self.fly([LEVEL])
+        self.assertEqual((result["end"], result["touched_s"], result["reached_s"]), ("target_reached", 6.0, 6.0))
+        self.assertEqual(self.policy.acts, 300 / 5)
+        self.assertIsNone(result["hold"])
+
+    def test_a_dwell_begins_anew_with_every_break(self):
+        states = [AWAY] * 400 + [LEVEL] * 100 + [AWAY] * 10 + [LEVEL]
+        result = self.fly(states, dwell_s=3, hold_s=2)
+        self.assertEqual((result["end"], result["touched_s"]), ("target_reached", 8.0))
+        self.assertEqual(result["reached_s"], step_time(400 + 100 + 10 - 1 + 150))
+        self.assertEqual(result["flown_s"], step_time(659 + 100))
+        self.assertEqual(result["hold"]["within_percent"], 100)
+
+    def test_time_ends_what_is_not_within_tolerances(self):
+        self.assertEqual(self.fly([AWAY])["end"], "time_limit")
+        self.assertEqual(self.fly([AWAY])["flown_s"], 50.0)
+        late = self.fly([AWAY] * 2450 + [LEVEL], dwell_s=3)
+        self.assertEqual((late["end"], late["reached_s"]), ("target_reached", step_time(2450 - 1 + 150)))
+
+    def test_what_fails_while_holding_has_not_succeeded(self):
+        result = self.fly([LEVEL] * 350 + [replace(LEVEL, nz=11)], hold_s=10)
+        self.assertEqual((result["end"], result["reached_s"]), ("overload", 6.0))
+        self.assertEqual(result["hold"]["within_percent"], 100 * 50 / 500)
+
+    def test_hold_figures_of_a_steady_roll(self):
+        rate, count = math.pi / 2, 1000  # 15 turns a minute
+        states = [replace(LEVEL, roll=math.remainder(rate * task.DT * k, 2 * math.pi), p=rate, q=(-1)**k * 0.1,
+                          nz=1 + (-1)**k * 0.5) for k in range(count)]
+        figures = hold_figures(states, [True] * 750 + [False] * 250, count)
+        expected = {"within_percent": 75, "p_rms_deg_s": 90, "q_rms_deg_s": math.degrees(0.1), "r_rms_deg_s": 0,
+                    "nz_deviation_g": 0.5, "net_rolls_per_minute": 15, "mean_abs_bank_deg": 90}
+        for key, value in expected.items():
+            self.assertAlmostEqual(figures[key], value, delta=ROUNDING * (1 + value), msg=key)
+        back = hold_figures(states + states[::-1], [True], 1)
+        self.assertAlmostEqual(back["net_rolls_per_minute"], 0, delta=ROUNDING)
+
+
+class Intervals(unittest.TestCase):
+    def test_students_quantiles_are_those_of_the_tables(self):
+        for count, quantile in ((6, 2.571), (11, 2.228), (31, 2.042), (101, 1.984)):
+            values = [0.0, 1.0] * (count // 2) + [0.5] * (count % 2)
+            deviation = math.sqrt(0.25 * (count - count % 2) / (count - 1))
+            self.assertAlmostEqual(mean_and_interval(values)["half_width"] / deviation * math.sqrt(count), quantile,
+                                   delta=TABLED)
+
+    def test_wilsons_interval_holds_at_the_ends(self):
+        # Wilson's interval of 10 of 10 begins at 1 / (1 + z^2 / n).
+        share = share_and_interval(10, 10)
+        self.assertEqual((share["percent"], round(share["low"], 1), share["high"]), (100, 72.2, 100))
+        self.assertAlmostEqual(share_and_interval(0, 10)["high"], 100 - share["low"], delta=ROUNDING)
+
+
+if __name__ == "__main__":
+    unittest.main()
