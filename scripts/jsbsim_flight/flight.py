@@ -9,7 +9,7 @@ from jsbsim_flight.task import DT, TIME_LIMIT_STEPS, failure
 
 @dataclass
 class Rules:
-    """What counts as reaching the target, and what follows: env.TASK.dwell_s and env.hold_s of the configuration."""
+    """What counts as reaching the target, and what follows: env.TASK.dwell_s and env.hold_s."""
     dwell_s: float = 0.0  # within all tolerances for so long without a break; 0: at first touch
     hold_s: float = 0.0  # for which the flight goes on after that, its target as it was
 
@@ -23,23 +23,28 @@ class Rules:
 
 
 def hold_figures(states, within, asked_steps):
-    """How a target was held, by the formulas of Skein's hold metrics: of the states after it was reached, and whether each was
-    within tolerances. What of the time asked for was not flown was not within."""
+    """How a target was held, by the formulas of docs/reference/metrics.md: of the states after it was reached, and whether
+    each was within tolerances. What of the time asked for was not flown was not within."""
     def rms(values):
         return math.degrees(math.sqrt(statistics.fmean(value * value for value in values)))
 
     rolled = math.fsum(math.remainder(b.roll - a.roll, 2 * math.pi) for a, b in zip(states, states[1:]))
-    return {"within_percent": 100 * sum(within) / asked_steps, "p_rms_deg_s": rms(s.p for s in states),
-            "q_rms_deg_s": rms(s.q for s in states), "r_rms_deg_s": rms(s.r for s in states),
-            "beta_rms_deg": rms(s.beta for s in states),
-            "nz_deviation_g": statistics.pstdev(s.nz for s in states),
-            "mean_abs_bank_deg": math.degrees(statistics.fmean(abs(s.roll) for s in states)),
-            "net_rolls_per_minute": abs(rolled) / (2 * math.pi) / max(len(states) - 1, 1) / DT * 60}
+    return {"within": sum(within) / asked_steps, "rms_p_deg_s": rms(s.p for s in states),
+            "rms_q_deg_s": rms(s.q for s in states), "rms_r_deg_s": rms(s.r for s in states),
+            "load_factor_deviation_g": statistics.pstdev(s.nz for s in states),
+            "rms_beta_deg": rms(s.beta for s in states),
+            "abs_bank_deg": math.degrees(statistics.fmean(abs(s.roll) for s in states)),
+            "net_rolls_per_min": abs(rolled) / (2 * math.pi) / max(len(states) - 1, 1) / DT * 60}
+
+
+def step_time(step):
+    return round(step * DT, 2) if step > 0 else None
 
 
 def fly(vehicle, policy, task, rules, noise=lambda: 0.0):
-    """Flies one episode: how it ended, when it first touched and when it reached its target, and how it held it (None: it never
-    had it to hold). noise() is added to every observation."""
+    """Flies one episode and says how it ended; when it first touched the target, and when it had reached it (None: never);
+    the time to the target, at which it entered the tolerances that it then held for the dwell; and the figures of the
+    hold. noise() is added to every observation."""
     policy.begin()
     state = vehicle.state()
     step = touched = reached = steps_within = 0
@@ -61,9 +66,6 @@ def fly(vehicle, policy, task, rules, noise=lambda: 0.0):
             end = "target_reached"
         elif end is None and not reached and not is_within and step >= TIME_LIMIT_STEPS:
             end = "time_limit"
-    return {"end": end, "touched_s": step_time(touched), "reached_s": step_time(reached), "flown_s": step_time(step),
+    return {"end": end, "touched_s": step_time(touched), "reached_s": step_time(reached),
+            "time_to_target_s": step_time(reached and reached - rules.dwell_steps + 1), "flown_s": step_time(step),
             "hold": hold_figures(held, held_within, rules.hold_steps) if held else None}
-
-
-def step_time(step):
-    return round(step * DT, 2) if step else None

@@ -24,7 +24,9 @@ def mean_and_interval(values):
 
 
 def share_and_interval(successes, count):
-    """Percent, with Wilson's score interval."""
+    """Percent, with Wilson's score interval; None of nothing."""
+    if count == 0:
+        return {"percent": None, "low": None, "high": None, "count": 0}
     z, p = NORMAL_QUANTILE, successes / count
     centre = (p + z * z / (2 * count)) / (1 + z * z / count)
     reach = z / (1 + z * z / count) * math.sqrt(p * (1 - p) / count + z * z / (4 * count * count))
