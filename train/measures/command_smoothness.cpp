@@ -11,26 +11,36 @@ std::size_t StepsIn(double seconds, double interval_s) {
   return static_cast<std::size_t>(std::lround(seconds / interval_s));
 }
 
-/// Sum of 2 |X(k)|^2 / count over k = 1 to `last`, by Goertzel's recurrence (American Mathematical
-/// Monthly 65, 1958) for all of them together: one pass through the series.
-double PowerUpTo(std::size_t last, const std::vector<double>& values) {
-  const auto count = static_cast<double>(values.size());
-  std::vector<double> coefficient(last), newest(last), before(last);
-  for (std::size_t k = 0; k < last; ++k) {
-    coefficient[k] = 2 * std::cos(2 * M_PI * static_cast<double>(k + 1) / count);
+/// Sum of |X(k)|^2 over kTogether values of k from `first` on, but none beyond `last`, by
+/// Goertzel's recurrence (American Mathematical Monthly 65, 1958): as many as registers hold in one
+/// pass.
+constexpr std::size_t kTogether = 8;
+double SquaresFrom(std::size_t first, std::size_t last, const std::vector<double>& values) {
+  double coefficient[kTogether], newest[kTogether] = {}, before[kTogether] = {};
+  for (std::size_t i = 0; i < kTogether; ++i) {
+    const auto k = static_cast<double>(first + i);
+    coefficient[i] = 2 * std::cos(2 * M_PI * k / static_cast<double>(values.size()));
   }
   for (const double value : values) {
-    for (std::size_t k = 0; k < last; ++k) {
-      const double next = value + coefficient[k] * newest[k] - before[k];
-      before[k] = newest[k];
-      newest[k] = next;
+    for (std::size_t i = 0; i < kTogether; ++i) {
+      const double next = (value - before[i]) + coefficient[i] * newest[i];
+      before[i] = newest[i];
+      newest[i] = next;
     }
   }
-  double power = 0;
-  for (std::size_t k = 0; k < last; ++k) {
-    power += newest[k] * newest[k] + before[k] * before[k] - coefficient[k] * newest[k] * before[k];
+  double squares = 0;
+  for (std::size_t i = 0; i < kTogether && first + i <= last; ++i) {
+    squares +=
+        newest[i] * newest[i] + before[i] * before[i] - coefficient[i] * newest[i] * before[i];
   }
-  return 2 * power / count;
+  return squares;
+}
+
+/// Sum of 2 |X(k)|^2 / count over k = 1 to `last`.
+double PowerUpTo(std::size_t last, const std::vector<double>& values) {
+  double squares = 0;
+  for (std::size_t k = 1; k <= last; k += kTogether) squares += SquaresFrom(k, last, values);
+  return 2 * squares / static_cast<double>(values.size());
 }
 
 }  // namespace

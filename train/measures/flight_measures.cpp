@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "envs/state/attitude.h"
 #include "envs/tasks/termination.h"
@@ -33,28 +34,39 @@ HeldState StateOf(const ControlStep& step, int i, bool is_within) {
   return state;
 }
 
-void AddActions(const ControlStep& step, int i, std::vector<CommandSeries>* series) {
-  for (std::size_t k = 0; k < kActionSize; ++k) {
-    const float action = step.action[static_cast<std::size_t>(i) * kActionSize + k];
-    (*series)[k].Add(std::clamp(action, -1.0f, 1.0f));
-  }
+}  // namespace
+
+ActionSeries::ActionSeries(double control_interval_s)
+    : commands_(kActionSize, CommandSeries(control_interval_s)) {}
+
+void ActionSeries::Add(const float* action) {
+  constexpr std::size_t kMostWaiting = 256;
+  std::array<float, kActionSize>& clipped = waiting_.emplace_back();
+  for (std::size_t k = 0; k < kActionSize; ++k) clipped[k] = std::clamp(action[k], -1.0f, 1.0f);
+  if (waiting_.size() == kMostWaiting) MeasureWaiting();
 }
 
-ActionSmoothness ReportOf(const std::vector<CommandSeries>& series) {
+void ActionSeries::MeasureWaiting() {
+  for (std::size_t k = 0; k < kActionSize; ++k) {
+    for (const auto& action : waiting_) commands_[k].Add(action[k]);
+  }
+  waiting_.clear();
+}
+
+ActionSmoothness ActionSeries::Report() {
+  MeasureWaiting();
   ActionSmoothness smoothness;
-  for (std::size_t k = 0; k < kActionSize; ++k) smoothness[k] = series[k].Report();
+  for (std::size_t k = 0; k < kActionSize; ++k) smoothness[k] = commands_[k].Report();
   return smoothness;
 }
 
-}  // namespace
-
 FlightMeasurer::Flight::Flight(double control_interval_s)
-    : actions(kActionSize, CommandSeries(control_interval_s)), hold_actions(actions) {}
+    : actions(control_interval_s), hold_actions(control_interval_s) {}
 
 void FlightMeasurer::Flight::ForgetSeries(double control_interval_s) {
   Flight empty(control_interval_s);
-  actions.swap(empty.actions);
-  hold_actions.swap(empty.hold_actions);
+  std::swap(actions, empty.actions);
+  std::swap(hold_actions, empty.hold_actions);
   hold = empty.hold;
 }
 
@@ -76,7 +88,7 @@ void FlightMeasurer::See(const ControlStep& step) {
       flight.ForgetSeries(control_interval_s_);
       continue;
     }
-    AddActions(step, i, &flight.actions);
+    flight.actions.Add(step.action + i * kActionSize);
     if (step.progress.steps_within != nullptr) {
       Follow(step, i, &flight);
     } else if (Is(flight.termination, Termination::kTargetReached)) {
@@ -99,7 +111,7 @@ void FlightMeasurer::Follow(const ControlStep& step, int i, Flight* flight) cons
   }
   if (flight->reached_step > 0) {
     flight->hold.Add(StateOf(step, i, is_within));
-    AddActions(step, i, &flight->hold_actions);
+    flight->hold_actions.Add(step.action + i * kActionSize);
     return;
   }
   // What fails in the very step has not reached it.
@@ -108,12 +120,12 @@ void FlightMeasurer::Follow(const ControlStep& step, int i, Flight* flight) cons
   if (goes_on) flight->reached_step = progress.reached_step[i];
 }
 
-FlightMeasures FlightMeasurer::Report(int index) const {
-  const Flight& flight = flights_[static_cast<std::size_t>(index)];
+FlightMeasures FlightMeasurer::Report(int index) {
+  Flight& flight = flights_[static_cast<std::size_t>(index)];
   const bool is_held = hold_s_ > 0 && flight.reached_step > 0;
   const double asked_s = is_mission_ ? flight.steps * control_interval_s_ : is_held ? hold_s_ : 0;
-  return {ReportOf(flight.actions),
-          ReportOf(flight.hold_actions),
+  return {flight.actions.Report(),
+          flight.hold_actions.Report(),
           flight.hold.Report(control_interval_s_, asked_s),
           flight.reached_step,
           flight.targets_reached,

@@ -28,6 +28,24 @@ struct FlightMeasures {
   std::int32_t targets_reached = 0, targets_missed = 0;  ///< of a mission
 };
 
+/// The stick actions of one flight, from control step to control step.
+class ActionSeries {
+ public:
+  explicit ActionSeries(double control_interval_s);
+
+  /// kActionSize of them, not clipped.
+  void Add(const float* action);
+  ActionSmoothness Report();
+
+ private:
+  void MeasureWaiting();
+
+  std::vector<CommandSeries> commands_;
+  /// Not measured yet: to go from aircraft to aircraft with every single step would cost as much as
+  /// flying it.
+  std::vector<std::array<float, kActionSize>> waiting_;
+};
+
 /// Measures the first episodes of consecutive aircraft, all of them of one tile.
 class FlightMeasurer : public ControlStepObserver {
  public:
@@ -36,7 +54,7 @@ class FlightMeasurer : public ControlStepObserver {
   void See(const ControlStep& step) override;
 
   /// Of the `index`-th aircraft's episode, which has ended.
-  FlightMeasures Report(int index) const;
+  FlightMeasures Report(int index);
 
  private:
   /// The episode of one aircraft.
@@ -45,9 +63,9 @@ class FlightMeasurer : public ControlStepObserver {
     /// Keeps the counts alone.
     void ForgetSeries(double control_interval_s);
 
-    std::vector<CommandSeries> actions, hold_actions;
-    HoldSums hold;
     std::int32_t steps = 0, termination = 0;
+    ActionSeries actions, hold_actions;
+    HoldSums hold;
     std::int32_t reached_step = 0, targets_reached = 0, targets_missed = 0;
   };
 

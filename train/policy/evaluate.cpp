@@ -38,63 +38,79 @@ std::int32_t DwellSteps(const EnvConfig& env) {
   return std::max(1, static_cast<std::int32_t>(std::lround(steps)));
 }
 
-/// Says what came of the target of an episode that has ended.
-void NoteTarget(const EnvConfig& env, std::int32_t dwell_steps, bool is_measured,
-                Episode* episode) {
-  const bool ends_reached = episode->termination == Termination::kTargetReached;
-  episode->reached_step = is_measured    ? episode->measures.reached_step
-                          : ends_reached ? episode->steps
-                                         : 0;
-  if (episode->reached_step > 0) {
-    episode->entered_step = episode->reached_step - dwell_steps + 1;
-  }
-  episode->succeeded = env.mission.enabled() ? episode->termination == Termination::kTimeLimit
-                                             : episode->reached_step > 0;
-}
-
-/// `episodes` are those of the tile's aircraft, kNone until they have ended.
-void FlyTile(const Agent& agent, VecEnv& env, int tile, const EvaluationOptions& options,
-             const WorkerPool& pool, Episode* episodes) {
-  const int count = env.tile_count(tile);
-  std::vector<float> reward(count), episode_return(count);
-  std::vector<float> final_observation(static_cast<std::size_t>(count) * env.observation_size());
-  std::vector<std::uint8_t> termination(count);
-  std::vector<std::int32_t> steps(count);
-  std::vector<float> metrics(options.flight_metrics ? count * kNumFlightMetrics : 0);
-  StepOutput output;
-  output.reward = reward.data();
-  output.termination = termination.data();
-  output.episode_return = episode_return.data();
-  output.episode_steps = steps.data();
-  output.final_observation = final_observation.data();
-  if (options.flight_metrics) output.flight_metrics = metrics.data();
-  std::optional<FlightMeasurer> measurer;
-  if (options.flight_metrics || env.config().hold_s > 0) {
-    output.observer = &measurer.emplace(env.config(), env.tile_begin(tile), count);
-  }
-  const std::int32_t dwell_steps = DwellSteps(env.config());
-
-  TileAgent flying_agent = MakeEvaluationAgent(agent, env, tile, options);
-  for (int flying = count; flying > 0 && !pool.stopping();) {
-    env.Step(tile, flying_agent.Act().data(), output);
-    for (int i = 0; i < count; ++i) {
-      if (termination[i] == static_cast<std::uint8_t>(Termination::kNone)) continue;
-      flying_agent.Forget(i);
-      Episode& episode = episodes[i];
-      if (episode.termination != Termination::kNone) continue;
-      episode.termination = static_cast<Termination>(termination[i]);
-      episode.episode_return = episode_return[i];
-      episode.steps = steps[i];
-      if (options.flight_metrics) {
-        std::copy_n(metrics.begin() + static_cast<std::ptrdiff_t>(i) * kNumFlightMetrics,
-                    kNumFlightMetrics, episode.metrics.begin());
-      }
-      if (measurer) episode.measures = measurer->Report(i);
-      NoteTarget(env.config(), dwell_steps, measurer.has_value(), &episode);
-      --flying;
+/// Flies a tile's first episodes.
+class TileEvaluation {
+ public:
+  TileEvaluation(const Agent& agent, VecEnv& env, int tile, const EvaluationOptions& options,
+                 std::int32_t dwell_steps)
+      : env_(env),
+        tile_(tile),
+        dwell_steps_(dwell_steps),
+        agent_(MakeEvaluationAgent(agent, env, tile, options)),
+        reward_(env.tile_count(tile)),
+        episode_return_(reward_.size()),
+        final_observation_(reward_.size() * env.observation_size()),
+        metrics_(options.flight_metrics ? reward_.size() * kNumFlightMetrics : 0),
+        termination_(reward_.size()),
+        steps_(reward_.size()),
+        output_{reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
+                final_observation_.data()} {
+    if (options.flight_metrics) output_.flight_metrics = metrics_.data();
+    if (options.flight_metrics || env.config().hold_s > 0) {
+      output_.observer =
+          &measurer_.emplace(env.config(), env.tile_begin(tile), env.tile_count(tile));
     }
   }
-}
+
+  /// `episodes` are those of the tile's aircraft, kNone until they have ended.
+  void Fly(const WorkerPool& pool, Episode* episodes) {
+    const int count = env_.tile_count(tile_);
+    for (int flying = count; flying > 0 && !pool.stopping();) {
+      env_.Step(tile_, agent_.Act().data(), output_);
+      for (int i = 0; i < count; ++i) {
+        if (termination_[i] == static_cast<std::uint8_t>(Termination::kNone)) continue;
+        agent_.Forget(i);
+        if (episodes[i].termination != Termination::kNone) continue;
+        Report(i, &episodes[i]);
+        --flying;
+      }
+    }
+  }
+
+ private:
+  /// The episode that has ended.
+  void Report(int i, Episode* episode) {
+    episode->termination = static_cast<Termination>(termination_[i]);
+    episode->episode_return = episode_return_[i];
+    episode->steps = steps_[i];
+    if (!metrics_.empty()) {
+      std::copy_n(metrics_.begin() + static_cast<std::ptrdiff_t>(i) * kNumFlightMetrics,
+                  kNumFlightMetrics, episode->metrics.begin());
+    }
+    if (measurer_) {
+      episode->measures = measurer_->Report(i);
+      episode->reached_step = episode->measures.reached_step;
+    } else if (episode->termination == Termination::kTargetReached) {
+      episode->reached_step = episode->steps;
+    }
+    if (episode->reached_step > 0) {
+      episode->entered_step = episode->reached_step - dwell_steps_ + 1;
+    }
+    episode->succeeded = env_.config().mission.enabled()
+                             ? episode->termination == Termination::kTimeLimit
+                             : episode->reached_step > 0;
+  }
+
+  VecEnv& env_;
+  int tile_;
+  std::int32_t dwell_steps_;
+  TileAgent agent_;
+  std::vector<float> reward_, episode_return_, final_observation_, metrics_;
+  std::vector<std::uint8_t> termination_;
+  std::vector<std::int32_t> steps_;
+  StepOutput output_;
+  std::optional<FlightMeasurer> measurer_;
+};
 
 }  // namespace
 
@@ -120,8 +136,10 @@ FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& config,
   Episode unflown;
   unflown.metrics.fill(std::numeric_limits<float>::quiet_NaN());
   flown.episodes.assign(options.episodes, unflown);
+  const std::int32_t dwell_steps = DwellSteps(env.config());
   pool.ForEach(env.num_tiles(), [&](int tile, int) {
-    FlyTile(agent, env, tile, options, pool, flown.episodes.data() + env.tile_begin(tile));
+    TileEvaluation(agent, env, tile, options, dwell_steps)
+        .Fly(pool, flown.episodes.data() + env.tile_begin(tile));
   });
   return flown;
 }
