@@ -285,9 +285,10 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
                  scratch.errors, kAircraftPerBlock, block.progress});
 }
 
-/// Copies the observations of aircraft whose time ran out in this control step.
+/// Copies the rows of aircraft whose time ran out in this control step: their observations, and
+/// what no policy observes if it is asked for.
 void EnvStepper::ObserveTruncated(const EnvBlock& block, Scratch& scratch,
-                                  float* final_observation) const {
+                                  const StepOutput& output) const {
   const auto is_new = [&](int i) {
     return Is(scratch.termination[i], Termination::kTimeLimit) && !scratch.final_observed[i];
   };
@@ -296,10 +297,14 @@ void EnvStepper::ObserveTruncated(const EnvBlock& block, Scratch& scratch,
   if (!any) return;
   float observation[kAircraftPerBlock * kObservationSize];
   Observe(block, observation);
+  const int size = output.final_privileged == nullptr ? 0 : privileged_.size();
+  std::vector<float> privileged(static_cast<std::size_t>(block.count * size));
+  if (size > 0) ObservePrivileged(block, privileged.data());
   for (int i = 0; i < block.count; ++i) {
     if (!is_new(i)) continue;
     std::copy_n(observation + i * kObservationSize, kObservationSize,
-                final_observation + i * kObservationSize);
+                output.final_observation + i * kObservationSize);
+    std::copy_n(privileged.data() + i * size, size, output.final_privileged + i * size);
     scratch.final_observed[i] = true;
   }
 }
@@ -343,7 +348,7 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
     }
     ComputeReward(block, stick_action, step == 0 ? action : nullptr, output.observer, scratch);
     if (progress_.mission_steps > 0) DrawTargets(block, scratch);
-    if (keeps_final) ObserveTruncated(block, scratch, output.final_observation);
+    if (keeps_final) ObserveTruncated(block, scratch, output);
   }
   std::copy_n(scratch.policy_step_reward, block.count, output.reward);
   std::copy_n(scratch.termination, block.count, output.termination);

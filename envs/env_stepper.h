@@ -71,7 +71,7 @@ class EnvStepper {
   void AdvanceTargets(const EnvBlock& block, Scratch& scratch) const;
   void DrawTargets(const EnvBlock& block, const Scratch& scratch) const;
   void DrawTarget(const EnvBlock& block, int i) const;
-  void ObserveTruncated(const EnvBlock& block, Scratch& scratch, float* final_observation) const;
+  void ObserveTruncated(const EnvBlock& block, Scratch& scratch, const StepOutput& output) const;
   void RestartEnded(const EnvBlock& block, const Scratch& scratch, const StepOutput& output);
 
   EnvConfig config_;

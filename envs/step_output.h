@@ -25,6 +25,9 @@ struct StepOutput {
   /// how they were flown (else unchanged), NaN unless this was asked for in all of their steps. May
   /// be null, and costs nothing then.
   float* flight_metrics = nullptr;
+  /// Row-major [count][privileged_size]: beside final_observation what VecEnv::ObservePrivileged
+  /// would have written. May be null.
+  float* final_privileged = nullptr;
 };
 
 }  // namespace skein

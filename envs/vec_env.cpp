@@ -103,6 +103,9 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
     part.episode_return += begin;
     part.episode_steps += begin;
     if (part.final_observation != nullptr) part.final_observation += row * kObservationSize;
+    if (part.final_privileged != nullptr) {
+      part.final_privileged += row * static_cast<std::size_t>(privileged_size());
+    }
     if (part.flight_metrics != nullptr) part.flight_metrics += row * kNumFlightMetrics;
     const EnvBlock block = impl_->storage.BlockAt(tile, begin);
     impl_->stepper.Step(block, action + row * static_cast<std::size_t>(action_size()), part,

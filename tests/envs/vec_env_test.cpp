@@ -386,10 +386,21 @@ TEST(VecEnv, TruncationKeepsTheLastObservation) {
   longer.time_limit_steps = 1000;
   VecEnv reference(longer, kCount, 1);
   StepBuffers buffers(kCount), reference_buffers(kCount);
-  env.Step(0, buffers.action.data(), buffers.output());
+  const auto size = static_cast<std::size_t>(env.privileged_size());
+  std::vector<float> final_privileged(kCount * size), privileged(kCount * size);
+  StepOutput output = buffers.output();
+  output.final_privileged = final_privileged.data();
+  env.Step(0, buffers.action.data(), output);
   reference.Step(0, reference_buffers.action.data(), reference_buffers.output());
   reference.Observe(0, reference_buffers.observation.data());
+  reference.ObservePrivileged(0, privileged.data());
   EXPECT_EQ(buffers.final_observation, reference_buffers.observation);
+  constexpr std::size_t kClock = 3;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    EXPECT_EQ(final_privileged[i * size + kClock], 1) << "the time is up";
+    privileged[i * size + kClock] = 1;
+  }
+  EXPECT_EQ(final_privileged, privileged);
   EXPECT_EQ(buffers.reward, reference_buffers.reward);
   for (const std::uint8_t termination : buffers.termination) {
     EXPECT_EQ(termination, static_cast<int>(Termination::kTimeLimit));

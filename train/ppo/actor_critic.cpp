@@ -25,14 +25,15 @@ TrainedNetwork FreshNetwork(const TrainConfig& config, const NetworkShape& shape
 
 }  // namespace
 
-ActorCritic::ActorCritic(const TrainConfig& config, int observation_size, int action_size)
+ActorCritic::ActorCritic(const TrainConfig& config, int observation_size, int privileged_size,
+                         int action_size)
     : backend(ChooseBackend(config.learner.backend,
                             ActorShape(config.network, observation_size, action_size),
                             config.learner.precision)),
       actor(FreshNetwork(config, ActorShape(config.network, observation_size, action_size),
                          backend.backend, ActorPrecision(backend.precision))),
-      critic(FreshNetwork(config, CriticShape(config.network, observation_size), backend.backend,
-                          CriticPrecision(backend.precision))) {}
+      critic(FreshNetwork(config, CriticShape(config.network, observation_size + privileged_size),
+                          backend.backend, CriticPrecision(backend.precision))) {}
 
 std::vector<float> ActorCritic::LogStd() const {
   const NetworkLayout& layout = actor.layout();

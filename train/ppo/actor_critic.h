@@ -23,8 +23,9 @@ struct TrainedNetwork {
 
 /// Both networks of PPO.
 struct ActorCritic {
-  /// Fresh ones, by `config.seed`.
-  ActorCritic(const TrainConfig& config, int observation_size, int action_size);
+  /// Fresh ones, by `config.seed`. The critic sees `privileged_size` numbers more.
+  ActorCritic(const TrainConfig& config, int observation_size, int privileged_size,
+              int action_size);
 
   /// The actor's log standard deviations.
   std::vector<float> LogStd() const;

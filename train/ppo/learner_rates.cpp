@@ -8,6 +8,7 @@
 #include "envs/vec_env.h"
 #include "simd/peak.h"
 #include "train/network/network.h"
+#include "train/ppo/rollout.h"
 #include "train/ppo/trainer.h"
 
 namespace skein {
@@ -60,10 +61,11 @@ struct Runner {
         static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps;
     const double samples = policy_steps * config.ppo.epochs;
     const VecEnv env(config.env, 1, config.seed, 1, config.low_level);
-    const double forward_flops =
-        ForwardFlops(
-            NetworkLayout(ActorShape(config.network, env.observation_size(), env.action_size()))) +
-        ForwardFlops(NetworkLayout(CriticShape(config.network, env.observation_size())));
+    const int observed = env.observation_size();
+    const NetworkLayout actor(ActorShape(config.network, observed, env.action_size()));
+    const NetworkLayout critic(
+        CriticShape(config.network, observed + PrivilegedSize(config.ppo, env)));
+    const double forward_flops = ForwardFlops(actor) + ForwardFlops(critic);
     LearnerRates rates;
     rates.backend = trainer->backend();
     rates.rollout_policy_steps_per_s = policy_steps / Median(rollout);

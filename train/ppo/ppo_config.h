@@ -28,6 +28,8 @@ struct PpoConfig {
   double action_smoothness_coefficient = 0;
   double value_coefficient = 1;
   bool clip_value_loss = false;
+  /// The critic also sees what no policy observes (VecEnv::ObservePrivileged).
+  bool privileged_critic = false;
   bool normalise_advantages = true;
   bool popart = true;        ///< false: value targets unscaled, as in the paper
   double popart_rate = 0.1;  ///< moving average of the value targets' moments

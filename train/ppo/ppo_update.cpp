@@ -51,7 +51,10 @@ struct PpoUpdate::Gathered {
   /// The samples of `chunks`, for an actor or a critic; they stand until the next call.
   SampleTile Gather(const Source& source, bool for_actor, const Chunks& chunks) {
     const Rollout& rollout = source.rollout;
-    Resize(rollout, chunks.count);
+    const int seen = for_actor ? rollout.observation_size : rollout.critic_observation_size();
+    Resize(rollout, seen, chunks.count);
+    const std::vector<float>& observations =
+        for_actor ? rollout.observation : rollout.critic_observation();
     const std::vector<float>& states = for_actor ? rollout.actor_state : rollout.critic_state;
     for (int i = 0; i < chunks.count; ++i) {
       const std::int64_t chunk = chunks.first[i];
@@ -62,8 +65,7 @@ struct PpoUpdate::Gathered {
       for (int step = 0; step < rollout.chunk_length; ++step) {
         const std::int64_t from = rollout.row(chunk_step + step, aircraft);
         const std::int64_t to = static_cast<std::int64_t>(step) * chunks.count + i;
-        std::copy_n(rollout.observation.begin() + from * rollout.observation_size,
-                    rollout.observation_size, observation.begin() + to * rollout.observation_size);
+        std::copy_n(observations.begin() + from * seen, seen, observation.begin() + to * seen);
         not_done[to] = rollout.not_done[from];
         if (for_actor) {
           TakeActorSample(source, from, to);
@@ -82,9 +84,9 @@ struct PpoUpdate::Gathered {
   }
 
  private:
-  void Resize(const Rollout& rollout, int chunks) {
+  void Resize(const Rollout& rollout, int observation_size, int chunks) {
     const std::int64_t rows = static_cast<std::int64_t>(chunks) * rollout.chunk_length;
-    observation.resize(rows * rollout.observation_size);
+    observation.resize(rows * observation_size);
     state.resize(static_cast<std::int64_t>(chunks) * rollout.state_size);
     action.resize(rows * rollout.action_size);
     for (auto* const column : {&not_done, &log_prob, &advantage, &target, &old_value}) {

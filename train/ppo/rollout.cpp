@@ -14,15 +14,18 @@ namespace {
 /// Memory of one worker for one tile.
 struct TileScratch {
   NetworkWorkspace workspace;
-  std::vector<float> noise, mean, episode_return, final_observation, truncation_value;
+  std::vector<float> noise, mean, episode_return, final_observation, privileged, joined,
+      truncation_value;
   std::vector<std::uint8_t> termination;
   std::vector<std::int32_t> episode_steps;
   std::vector<std::uint32_t> policy_step_low, policy_step_high;
 
-  void Resize(int count, int observation_size, int action_size) {
-    noise.resize(static_cast<std::size_t>(count) * action_size);
-    mean.resize(static_cast<std::size_t>(count) * action_size);
-    final_observation.resize(static_cast<std::size_t>(count) * observation_size);
+  void Resize(std::size_t count, const Rollout& rollout) {
+    noise.resize(count * rollout.action_size);
+    mean.resize(count * rollout.action_size);
+    final_observation.resize(count * rollout.observation_size);
+    privileged.resize(count * rollout.privileged_size);
+    joined.resize(count * rollout.critic_observation_size());
     truncation_value.resize(count);
     episode_return.resize(count);
     termination.resize(count);
@@ -52,7 +55,7 @@ class TileRollout {
         actor_state_(state.actor.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
         critic_state_(state.critic.data() + static_cast<std::int64_t>(begin_) * rollout.state_size),
         not_done_(state.not_done.data() + begin_) {
-    scratch.Resize(count_, rollout.observation_size, rollout.action_size);
+    scratch.Resize(count_, rollout);
   }
 
   EpisodeStatistics Fly() {
@@ -64,8 +67,9 @@ class TileRollout {
       statistics_.policy_steps += count_;
     }
     env_.Observe(tile_, scratch_.final_observation.data());
-    EvaluateCritic(scratch_.final_observation.data(), critic_state_, not_done_,
-                   rollout_.bootstrap.data() + begin_);
+    ObservePrivileged();
+    EvaluateCritic(CriticObservation(scratch_.final_observation.data(), scratch_.joined.data()),
+                   critic_state_, not_done_, rollout_.bootstrap.data() + begin_);
     ComputeAdvantages(begin_, begin_ + count_, settings_.gamma, settings_.gae_lambda, rollout_);
     return statistics_;
   }
@@ -89,6 +93,29 @@ class TileRollout {
   std::int64_t Row(int step) const { return rollout_.row(step, begin_); }
   float* Observation(int step) const {
     return rollout_.observation.data() + Row(step) * rollout_.observation_size;
+  }
+
+  /// Where the critic's observations of a step are kept; null if they are the actor's.
+  float* JoinedObservation(int step) const {
+    if (rollout_.privileged_size == 0) return nullptr;
+    return rollout_.joined_observation.data() + Row(step) * rollout_.critic_observation_size();
+  }
+
+  /// Leaves what is privileged now in the scratch memory.
+  void ObservePrivileged() {
+    if (rollout_.privileged_size > 0) env_.ObservePrivileged(tile_, scratch_.privileged.data());
+  }
+
+  /// What the critic sees: `observation`, or it and what is privileged behind it, in `joined`.
+  const float* CriticObservation(const float* observation, float* joined) const {
+    const int own = rollout_.observation_size, privileged = rollout_.privileged_size;
+    if (privileged == 0) return observation;
+    for (std::int64_t i = 0; i < count_; ++i) {
+      float* const row = joined + i * (own + privileged);
+      std::copy_n(observation + i * own, own, row);
+      std::copy_n(scratch_.privileged.data() + i * privileged, privileged, row + own);
+    }
+    return joined;
   }
 
   void StoreChunkStart(int step) {
@@ -115,10 +142,14 @@ class TileRollout {
                        states = static_cast<std::int64_t>(count_) * rollout_.state_size;
     const int size = rollout_.action_size;
     float* const observation = Observation(step);
-    Simulate([&] { env_.Observe(tile_, observation); });
+    Simulate([&] {
+      env_.Observe(tile_, observation);
+      ObservePrivileged();
+    });
     std::copy_n(not_done_, count_, rollout_.not_done.begin() + row);
 
-    EvaluateCritic(observation, critic_state_, not_done_, rollout_.value.data() + row);
+    EvaluateCritic(CriticObservation(observation, JoinedObservation(step)), critic_state_,
+                   not_done_, rollout_.value.data() + row);
     std::copy_n(scratch_.workspace.final_state(), states, critic_state_);
     actor_.Forward({1, count_, observation, actor_state_, not_done_}, scratch_.workspace);
     std::copy_n(scratch_.workspace.final_state(), states, actor_state_);
@@ -154,6 +185,7 @@ class TileRollout {
     output.episode_steps = scratch_.episode_steps.data();
     const bool truncates = env_.config().truncate_at_time_limit;
     if (truncates) output.final_observation = scratch_.final_observation.data();
+    if (rollout_.privileged_size > 0) output.final_privileged = scratch_.privileged.data();
     Simulate(
         [&] { env_.Step(tile_, rollout_.action.data() + row * rollout_.action_size, output); });
     bool truncated = false;
@@ -178,17 +210,19 @@ class TileRollout {
   /// value of its last observation.
   void AddTruncatedValues(float* reward) {
     // Rows of other aircraft hold nothing of this step; they are computed and discarded.
+    const auto clear = [](std::vector<float>& rows, std::int64_t i, int size) {
+      std::fill_n(rows.begin() + i * size, size, 0.0f);
+    };
     for (int i = 0; i < count_; ++i) {
       if (scratch_.termination[i] != static_cast<std::uint8_t>(Termination::kTimeLimit)) {
-        std::fill_n(scratch_.final_observation.begin() +
-                        static_cast<std::int64_t>(i) * rollout_.observation_size,
-                    rollout_.observation_size, 0.0f);
+        clear(scratch_.final_observation, i, rollout_.observation_size);
+        clear(scratch_.privileged, i, rollout_.privileged_size);
       }
     }
     // In this evaluation the episode has not ended, whatever begins with the next step.
     const std::vector<float> not_done(count_, 1.0f);
-    EvaluateCritic(scratch_.final_observation.data(), critic_state_, not_done.data(),
-                   scratch_.truncation_value.data());
+    EvaluateCritic(CriticObservation(scratch_.final_observation.data(), scratch_.joined.data()),
+                   critic_state_, not_done.data(), scratch_.truncation_value.data());
     for (int i = 0; i < count_; ++i) {
       if (scratch_.termination[i] == static_cast<std::uint8_t>(Termination::kTimeLimit)) {
         reward[i] += static_cast<float>(settings_.gamma) * scratch_.truncation_value[i];
@@ -213,15 +247,21 @@ class TileRollout {
 
 }  // namespace
 
-Rollout::Rollout(const PpoConfig& config, int observations, int actions, int states)
+int PrivilegedSize(const PpoConfig& config, const VecEnv& env) {
+  return config.privileged_critic ? env.privileged_size() : 0;
+}
+
+Rollout::Rollout(const PpoConfig& config, int observations, int actions, int states, int privileged)
     : steps(config.rollout_steps),
       aircraft(config.num_aircraft),
       chunk_length(config.chunk_length),
       observation_size(observations),
       action_size(actions),
-      state_size(states) {
+      state_size(states),
+      privileged_size(privileged) {
   Validate(config);
   observation.resize(samples() * observation_size);
+  if (privileged_size > 0) joined_observation.resize(samples() * critic_observation_size());
   action.resize(samples() * action_size);
   for (auto* const column : {&log_prob, &value, &reward, &not_done, &advantage, &target}) {
     column->resize(samples());

@@ -12,11 +12,16 @@
 
 namespace skein {
 
+/// Numbers that the critic sees beside the actor's observation (PpoConfig::privileged_critic).
+int PrivilegedSize(const PpoConfig& config, const VecEnv& env);
+
 /// What PPO learns from: one row per policy step, one column per aircraft; [step][aircraft].
-/// `state_size` is that of both networks, NetworkShape::state_size.
+/// `state_size` is that of both networks, NetworkShape::state_size; `privileged_size` is
+/// PrivilegedSize.
 struct Rollout {
   /// Throws Error where Validate(config) does.
-  Rollout(const PpoConfig& config, int observation_size, int action_size, int state_size);
+  Rollout(const PpoConfig& config, int observation_size, int action_size, int state_size,
+          int privileged_size = 0);
 
   std::int64_t samples() const { return static_cast<std::int64_t>(steps) * aircraft; }
   int chunks() const { return steps / chunk_length; }  ///< per aircraft
@@ -24,9 +29,18 @@ struct Rollout {
     return static_cast<std::int64_t>(step) * aircraft + index;
   }
 
-  int steps, aircraft, chunk_length, observation_size, action_size, state_size;
+  int critic_observation_size() const { return observation_size + privileged_size; }
+  /// [steps][aircraft][critic_observation_size]
+  const std::vector<float>& critic_observation() const {
+    return privileged_size > 0 ? joined_observation : observation;
+  }
+
+  int steps, aircraft, chunk_length, observation_size, action_size, state_size, privileged_size;
   std::vector<float> observation;  ///< [steps][aircraft][observation_size]
-  std::vector<float> action;       ///< [steps][aircraft][action_size], before clipping
+  /// [steps][aircraft][critic_observation_size]: each observation and what is privileged behind it;
+  /// empty if nothing is.
+  std::vector<float> joined_observation;
+  std::vector<float> action;  ///< [steps][aircraft][action_size], before clipping
   std::vector<float> log_prob, value;
   std::vector<float> reward;             ///< with the bootstrap of truncated episodes
   std::vector<float> not_done;           ///< 0 where an episode begins with this step, else 1

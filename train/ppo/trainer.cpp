@@ -56,8 +56,10 @@ struct Trainer::Impl {
         pool(workers),
         env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile,
             LowLevelPolicy()),
-        networks(config, env.observation_size(), env.action_size()),
-        rollout(config.ppo, env.observation_size(), env.action_size(), StateSize()),
+        networks(config, env.observation_size(), PrivilegedSize(config.ppo, env),
+                 env.action_size()),
+        rollout(config.ppo, env.observation_size(), env.action_size(), StateSize(),
+                PrivilegedSize(config.ppo, env)),
         recurrent(config.ppo.num_aircraft, StateSize()),
         update(config, networks, pool),
         adapted_learning_rate(config.ppo.target_kl > 0 ? config.ppo.learning_rate : 0) {

@@ -183,7 +183,9 @@ StartingNetworks LoadNetworks(const std::string& path, const TrainConfig& config
                                           {std::tuple_size_v<decltype(Scalars(TrainingState()))>});
   networks.popart = {scalars[0], scalars[1], counters[4] != 0};
   if (networks.popart.started && !config.ppo.popart) return networks;
-  networks.critic = LoadTensor<float>(file, path, "critic/parameters", {critic.size()});
+  std::vector<float> stored = LoadTensor<float>(file, path, "critic/parameters");
+  if (static_cast<std::int64_t>(stored.size()) == critic.size())
+    networks.critic = std::move(stored);
   return networks;
 }
 

@@ -53,7 +53,8 @@ struct StartingNetworks {
 };
 
 /// The networks in the policy file or checkpoint `path` for a training by `config`. A critic of
-/// scaled values does not serve one that does not scale them (ppo.popart). Throws Error, naming
+/// scaled values does not serve one that does not scale them (ppo.popart), nor does one of other
+/// sizes, which sees more or less (ppo.privileged_critic). Throws Error, naming
 /// `path`, if the file is damaged or its policy has other sizes or was made for another task or
 /// environment.
 StartingNetworks LoadNetworks(const std::string& path, const TrainConfig& config,

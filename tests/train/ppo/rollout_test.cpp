@@ -71,12 +71,13 @@ struct Flight {
         pool(2),
         env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile),
         actor_layout(ActorShape(config.network, env.observation_size(), env.action_size())),
-        critic_layout(CriticShape(config.network, env.observation_size())),
+        critic_layout(
+            CriticShape(config.network, env.observation_size() + PrivilegedSize(config.ppo, env))),
         actor(actor_layout),
         critic(critic_layout),
         actor_parameters(InitialParameters(actor_layout, 0.5, 0, 1, 0)),
         rollout(config.ppo, env.observation_size(), env.action_size(),
-                actor_layout.shape().state_size()),
+                actor_layout.shape().state_size(), PrivilegedSize(config.ppo, env)),
         state(config.ppo.num_aircraft, actor_layout.shape().state_size()) {
     actor.SetParameters(actor_parameters.data());
     critic.SetParameters(InitialParameters(critic_layout, 1, 0, 1, 1).data());
@@ -142,8 +143,68 @@ TEST(RolloutTest, EpisodesBeginWhereOthersEnded) {
   for (int i = 0; i < rollout.aircraft; ++i) EXPECT_EQ(rollout.not_done[i], 0);
 }
 
-TEST(RolloutTest, TruncationAddsTheValueOfWhatWasSeenLast) {
-  TrainConfig terminal = SmallConfig(), truncated = SmallConfig();
+TrainConfig PrivilegedConfig() {
+  TrainConfig config = SmallConfig();
+  config.ppo.privileged_critic = true;
+  config.env.observation_noise = 0.1;
+  return config;
+}
+
+TEST(RolloutTest, APrivilegedCriticSeesMoreAndTheActorFliesTheSame) {
+  TrainConfig plain_config = PrivilegedConfig();
+  plain_config.ppo.privileged_critic = false;
+  Flight plain(plain_config), privileged(PrivilegedConfig());
+  const VecEnv fresh(plain.config.env, plain.config.ppo.num_aircraft, plain.config.seed);
+  std::vector<float> first(
+      static_cast<std::size_t>(fresh.num_aircraft() * fresh.privileged_size()));
+  fresh.ObservePrivileged(0, first.data());
+  plain.Fly();
+  privileged.Fly();
+  EXPECT_EQ(plain.rollout.observation, privileged.rollout.observation);
+  EXPECT_EQ(plain.rollout.action, privileged.rollout.action);
+  EXPECT_NE(plain.rollout.value, privileged.rollout.value);
+  EXPECT_EQ(&plain.rollout.critic_observation(), &plain.rollout.observation);
+  const Rollout& rollout = privileged.rollout;
+  ASSERT_EQ(rollout.critic_observation_size(), 22 + fresh.privileged_size());
+  const auto joined = rollout.critic_observation().begin();
+  for (std::int64_t row = 0; row < rollout.samples(); ++row) {
+    EXPECT_TRUE(std::equal(joined + row * rollout.critic_observation_size(),
+                           joined + row * rollout.critic_observation_size() + 22,
+                           rollout.observation.begin() + row * 22));
+  }
+  for (int i = 0; i < rollout.aircraft; ++i) {
+    EXPECT_TRUE(std::equal(first.begin() + i * rollout.privileged_size,
+                           first.begin() + (i + 1) * rollout.privileged_size,
+                           joined + i * rollout.critic_observation_size() + 22));
+  }
+}
+
+TEST(RolloutTest, APrivilegedCriticValuesWhatItSees) {
+  Flight flight(PrivilegedConfig());
+  flight.Fly();
+  flight.Fly();
+  const Rollout& rollout = flight.rollout;
+  NetworkWorkspace workspace;
+  for (int chunk = 0; chunk < rollout.chunks(); ++chunk) {
+    const std::int64_t row = rollout.row(chunk * rollout.chunk_length, 0);
+    flight.critic.Forward(
+        {rollout.chunk_length, rollout.aircraft,
+         rollout.critic_observation().data() + row * rollout.critic_observation_size(),
+         rollout.critic_state.data() + rollout.row(chunk, 0) * rollout.state_size,
+         rollout.not_done.data() + row},
+        workspace);
+    for (int i = 0; i < rollout.chunk_length * rollout.aircraft; ++i) {
+      ASSERT_NEAR(workspace.output()[i], rollout.value[row + i], kLogProb);
+    }
+  }
+}
+
+class TruncationTest : public testing::TestWithParam<bool> {};
+
+TEST_P(TruncationTest, AddsTheValueOfWhatWasSeenLast) {
+  TrainConfig terminal = SmallConfig();
+  terminal.ppo.privileged_critic = GetParam();
+  TrainConfig truncated = terminal;
   truncated.env.truncate_at_time_limit = true;
   Flight one(terminal), other(truncated);
   one.Fly();
@@ -166,6 +227,10 @@ TEST(RolloutTest, TruncationAddsTheValueOfWhatWasSeenLast) {
   EXPECT_GT(cut, 0);
   EXPECT_GT(alike, 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Critics, TruncationTest, testing::Bool(), [](const auto& privileged) {
+  return privileged.param ? "Privileged" : "LikeTheActor";
+});
 
 }  // namespace
 }  // namespace skein

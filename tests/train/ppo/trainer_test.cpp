@@ -147,6 +147,29 @@ TEST_F(TrainerTest, StartsFromTheNetworksOfACheckpointOrAPolicy) {
   EXPECT_FALSE(without_scale.StartFrom(path_)) << "a critic of scaled values";
 }
 
+TEST_F(TrainerTest, APrivilegedCriticTrainsAndResumesBitExactly) {
+  WorkerPool pool(2);
+  TrainConfig config = SmallConfig();
+  config.ppo.privileged_critic = config.env.truncate_at_time_limit = true;
+  Trainer whole(config, pool);
+  whole.Iterate();
+  whole.Save(path_);
+  Trainer resumed(config, pool);
+  resumed.Restore(path_);
+  EXPECT_EQ(resumed.Iterate().value_loss, whole.Iterate().value_loss);
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  TrainConfig plain = config;
+  plain.ppo.privileged_critic = false;
+  EXPECT_NE(RefusalOf(plain, path_).find("ppo.privileged_critic"), std::string::npos);
+
+  // Its actor serves any training; its critic one that sees as much.
+  Trainer from(config, pool), without(plain, pool);
+  EXPECT_TRUE(from.StartFrom(path_));
+  EXPECT_FALSE(without.StartFrom(path_));
+  EXPECT_EQ(without.policy().parameters()->values, from.policy().parameters()->values);
+  without.Iterate();
+}
+
 TEST_F(TrainerTest, NetworksThatDoNotFitChangeNothing) {
   WorkerPool pool(1);
   Trainer(SmallConfig(), pool).Save(path_);
