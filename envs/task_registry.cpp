@@ -45,6 +45,10 @@ bool IsHierarchical(const std::string& name) {
   });
 }
 
+bool NeedsLowLevel(const EnvConfig& config) {
+  return IsHierarchical(config.task) && !config.tracking.acts_directly;
+}
+
 std::unique_ptr<Task> MakeTask(const EnvConfig& config) {
   std::string known;
   for (const Registration& task : kTasks) {

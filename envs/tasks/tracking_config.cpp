@@ -26,6 +26,10 @@ void ListFields(TrackingConfig& config, FieldList& list) {
            "what the errors are: ahead, right and up of the heading; along, right of and above the "
            "path over ground; or north, east and up")
       .ChosenByPolicies();
+  list.Add("acts_directly", &config.acts_directly,
+           "true: the policy gives stick commands itself; false: it is a high-level policy over a "
+           "low-level policy")
+      .OffUnless(config.acts_directly);
 }
 
 }  // namespace skein

@@ -34,6 +34,8 @@ struct TrackingConfig {
   /// policy reaches some targets before it reaches all; evaluations take it as it is.
   double training_tolerance_max = 1;
   TrackingAxes error_axes = TrackingAxes::kHeading;
+  /// true: the policy gives stick commands; false: it commands a low-level policy, as in the paper.
+  bool acts_directly = false;
 };
 
 /// Its settings (base/field_list.h).

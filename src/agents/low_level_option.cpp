@@ -48,15 +48,16 @@ ChosenLowLevelPolicy ChooseAutopilot(const EnvConfig& env, const std::string& op
 ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option) {
   const std::string& task = env.task;
   if (option.empty()) {
-    if (!IsHierarchical(task)) return {};
+    if (!NeedsLowLevel(env)) return {};
     throw UsageError(
         fmt::format("task {0} needs --low-level RUN_OR_POLICY, a low-level policy trained on task "
-                    "{1} (`skein train {1}` makes one), or --low-level autopilot",
+                    "{1} (`skein train {1}` makes one), or --low-level autopilot; --preset direct trains "
+                    "a policy without one",
                     task, kLowLevelTask));
   }
-  if (!IsHierarchical(task)) {
-    throw UsageError(
-        fmt::format("--low-level is for tasks of a high-level policy, not for {}", task));
+  if (!NeedsLowLevel(env)) {
+    throw UsageError(fmt::format("--low-level is for tasks of a high-level policy, not for {}{}",
+                                 task, IsHierarchical(task) ? " flown directly" : ""));
   }
   if (IsAutopilot(option)) {
     return ChooseAutopilot(env, option);
@@ -78,8 +79,8 @@ ChosenLowLevelPolicy LowLevelPolicyIn(const std::string& path) {
 }
 
 std::shared_ptr<const StoredPolicy> LowLevelPolicyOfRun(const RunDirectory& directory,
-                                                        const std::string& task) {
-  if (!IsHierarchical(task)) return nullptr;
+                                                        const EnvConfig& env) {
+  if (!NeedsLowLevel(env)) return nullptr;
   const std::string path = directory.low_level();
   std::shared_ptr<const StoredPolicy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
   if (low_level == nullptr) throw Error(fmt::format("{}: it holds no low-level policy", path));

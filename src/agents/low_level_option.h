@@ -26,9 +26,9 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
 /// there has none.
 ChosenLowLevelPolicy LowLevelPolicyIn(const std::string& path);
 
-/// The low-level policy that the run in `directory` began with; null if `task` has none.
+/// The low-level policy that the run in `directory` began with; null if `env` needs none.
 /// Throws Error if it cannot be read.
 std::shared_ptr<const StoredPolicy> LowLevelPolicyOfRun(const RunDirectory& directory,
-                                                        const std::string& task);
+                                                        const EnvConfig& env);
 
 }  // namespace skein

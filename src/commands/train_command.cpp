@@ -89,7 +89,7 @@ void Resume(const TrainOptions& options) {
         "instead",
         directory.path(), fmt::join(differences, ", ")));
   }
-  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env.task);
+  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env);
   if (!options.low_level.empty()) {
     const ChosenLowLevelPolicy asked_low_level =
         ChooseLowLevelPolicy(config.train.env, options.low_level);
@@ -107,7 +107,7 @@ void Resume(const TrainOptions& options) {
 /// What --low-level names, or else what the policy in `from` (unless empty) was trained over.
 ChosenLowLevelPolicy FindLowLevelPolicy(const TrainOptions& options, const EnvConfig& env,
                                         const std::string& from) {
-  if (options.low_level.empty() && !from.empty() && IsHierarchical(env.task)) {
+  if (options.low_level.empty() && !from.empty() && NeedsLowLevel(env)) {
     if (ChosenLowLevelPolicy own = LowLevelPolicyIn(from); own.policy != nullptr) return own;
   }
   return ChooseLowLevelPolicy(env, options.low_level);

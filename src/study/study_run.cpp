@@ -46,7 +46,7 @@ void RemoveStub(const std::string& run) {
 /// The configuration of the run in `directory`, which must be the one asked for.
 ProgramConfig ConfigOfRun(const RunDirectory& directory, ProgramConfig asked) {
   ProgramConfig config = ReadRecord(directory.config());
-  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env.task);
+  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env);
   // What "auto" was on the machine that began it.
   if (asked.train.learner.precision == LearnerPrecision::kAuto) {
     asked.train.learner.precision = config.train.learner.precision;
@@ -110,7 +110,7 @@ Json KnownComparison(const std::string& path, const Json& identity) {
 ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const StudyLevel& level,
                             std::uint64_t seed) {
   ProgramConfig config = TrainingConfig(study, task, level, seed);
-  if (!IsHierarchical(task)) return config;
+  if (!NeedsLowLevel(config.train.env)) return config;
   if (study.low_level.empty()) {
     throw UsageError(fmt::format(
         "task {} needs low_level = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
@@ -130,10 +130,10 @@ void CheckFlies(const EnvConfig& trained, EnvConfig flown, const std::string& wh
 const Study& Checked(const Study& study) {
   bool has_high_level = false;
   for (const std::string& task : study.tasks) {
-    has_high_level = has_high_level || IsHierarchical(task);
     for (const StudyLevel& level : study.levels) {
       try {
         const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
+        has_high_level = has_high_level || NeedsLowLevel(trained.train.env);
         const ProgramConfig config = LevelConfig(study, task, level);
         AsUsage([&] { CheckFlies(trained.train.env, config.train.env, "what is trained"); });
         for (const std::string& agent : study.agents) {
