@@ -49,11 +49,11 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
   const std::string& task = env.task;
   if (option.empty()) {
     if (!NeedsLowLevel(env)) return {};
-    throw UsageError(
-        fmt::format("task {0} needs --low-level RUN_OR_POLICY, a low-level policy trained on task "
-                    "{1} (`skein train {1}` makes one), or --low-level autopilot; --preset direct trains "
-                    "a policy without one",
-                    task, kLowLevelTask));
+    throw UsageError(fmt::format(
+        "task {0} needs --low-level RUN_OR_POLICY, a low-level policy trained on task "
+        "{1} (`skein train {1}` makes one), or --low-level autopilot; --preset direct trains "
+        "a policy without one",
+        task, kLowLevelTask));
   }
   if (!NeedsLowLevel(env)) {
     throw UsageError(fmt::format("--low-level is for tasks of a high-level policy, not for {}{}",

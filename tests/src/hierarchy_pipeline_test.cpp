@@ -94,6 +94,33 @@ TEST_F(HighLevelPipeline, AHighLevelPolicyTrainsOverTheAutopilot) {
   ExpectOneLine(other.error, "keeps its low-level policy");
 }
 
+TEST_F(HighLevelPipeline, APolicyThatActsDirectlyTrainsResumesAndFliesWithoutALowLevelPolicy) {
+  const auto training = [](const std::string& out) {
+    return TinyTrainingOf("tracking", out, {"--preset", "direct"});
+  };
+  ASSERT_EQ(CallSkein(training(reference_)).exit_code, 0);
+  {
+    RunningProgram program(training(run_));
+    ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+    program.Signal(SIGTERM);
+    ASSERT_EQ(program.Wait().exit_code, 0);
+  }
+  const ProgramResult resumed = CallSkein({"train", "--resume", run_});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  const std::string policy = "/checkpoints/policy-final.skein";
+  ExpectSameFile(reference_ + policy, run_ + policy);
+  // Whatever the default preset would train.
+  const ProgramResult flown = CallSkein({"eval", "--policy", run_ + policy, "--task", "tracking",
+                                         "--episodes", "32", "--set", "env.time_limit_steps=100"});
+  ASSERT_EQ(flown.exit_code, 0) << flown.error;
+  EXPECT_THAT(flown.output, HasSubstr("an action every 5 control steps"));
+  std::vector<std::string> with_low_level = training(root_ + "/other");
+  with_low_level.insert(with_low_level.end(), {"--low-level", "autopilot"});
+  const ProgramResult refused = CallSkein(with_low_level);
+  EXPECT_EQ(refused.exit_code, 2);
+  ExpectOneLine(refused.error, "not for tracking flown directly");
+}
+
 TEST_F(HighLevelPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
   std::vector<std::string> in_earth = HighLevelTraining(run_, "autopilot");
   in_earth.insert(in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
