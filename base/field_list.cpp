@@ -144,8 +144,9 @@ std::string Field::OutOfRange(const std::string& value) const {
 void FieldList::AddRange(const std::string& quantity, const std::string& unit, Range* place,
                          const Bounds& bounds, const char* help_min, const char* help_max) {
   ranges_.push_back(fields_.size());
-  AddField(quantity + "_min_" + unit, &place->min, bounds, help_min);
-  AddField(quantity + "_max_" + unit, &place->max, bounds, help_max);
+  const std::string suffix = unit.empty() ? "" : "_" + unit;
+  AddField(quantity + "_min" + suffix, &place->min, bounds, help_min);
+  AddField(quantity + "_max" + suffix, &place->max, bounds, help_max);
 }
 
 void FieldList::Check() const {

@@ -144,7 +144,8 @@ class FieldList {
              const std::array<std::pair<Enum, const char*>, kCount>& names, const char* help) {
     return AddField(key, NamedChoice(place, names), {}, help);
   }
-  /// The two fields QUANTITY_min_UNIT and QUANTITY_max_UNIT, the first no more than the second.
+  /// The two fields QUANTITY_min_UNIT and QUANTITY_max_UNIT, the first no more than the second. The
+  /// unit may be empty: then they are QUANTITY_min and QUANTITY_max.
   void AddRange(const std::string& quantity, const std::string& unit, Range* place,
                 const Bounds& bounds, const char* help_min, const char* help_max);
 

@@ -12,6 +12,7 @@ set(SKEIN_PUBLIC_HEADERS
     envs/flight_metrics.h
     envs/high_level_config.h
     envs/initial_config.h
+    envs/plant/plant_config.h
     envs/policy.h
     envs/state/state.h
     envs/step_output.h

@@ -87,6 +87,7 @@ void ListFields(EnvConfig& config, FieldList& list) {
   ListEpisodeFields(config, list);
   list.Group("initial", config.initial);
   list.Group("wind", config.wind, {{}, !config.wind.enabled()});
+  list.Group("plant", config.plant, {{}, !config.plant.enabled()});
   list.Group("heading", config.heading, {{"heading"}});
   list.Group("control", config.control, {{"control"}});
   list.Group("tracking", config.tracking, {{"tracking"}});
@@ -123,6 +124,7 @@ void Validate(const EnvConfig& config) {
           "0 for tracking: a point is passed, not held");
   Require(config.hold_s == 0 || !config.mission.enabled(), "env.hold_s", config.hold_s,
           "0 in a mission (env.mission.length_s), whose targets come one after another");
+  Validate(config.plant);
   const TerminationConfig& termination = config.termination;
   // The limits are compared by the sides of two directions, which an arc beyond 180 deg does not
   // have.

@@ -6,6 +6,7 @@
 #include "envs/air/atmosphere.h"
 #include "envs/high_level_config.h"
 #include "envs/initial_config.h"
+#include "envs/plant/plant_config.h"
 #include "envs/reference/flight_control.h"
 #include "envs/tasks/control_config.h"
 #include "envs/tasks/episode_progress.h"
@@ -52,6 +53,7 @@ struct EnvConfig {
   HandlingCosts reward;
   InitialConfig initial;
   WindConfig wind;
+  PlantConfig plant;
   HeadingConfig heading;
   ControlConfig control;
   TrackingConfig tracking;

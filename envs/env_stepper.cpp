@@ -9,7 +9,10 @@
 
 #include "base/error.h"
 #include "envs/actions.h"
+#include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
+#include "envs/plant/plant_draw.h"
+#include "envs/plant/sensor_freeze.h"
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
@@ -68,7 +71,8 @@ ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
 
 /// What a block needs during a policy step only.
 struct alignas(kCacheLine) EnvStepper::Scratch {
-  float command[kActionSize][kAircraftPerBlock];  // throttle and sticks
+  float command[kActionSize][kAircraftPerBlock];          // throttle and sticks
+  float delayed_command[kActionSize][kAircraftPerBlock];  // what of them arrives
   float step_reward[kAircraftPerBlock];
   float policy_step_reward[kAircraftPerBlock] = {};
   std::int32_t reached[kAircraftPerBlock];
@@ -79,8 +83,12 @@ struct alignas(kCacheLine) EnvStepper::Scratch {
   TargetEnd target_end[kAircraftPerBlock];
   float bonus[kAircraftPerBlock] = {};
   LowLevelFlight::Scratch low_level;
+};
 
-  PilotColumns commands() const { return {command[0], command[1], command[2], command[3]}; }
+/// Where a state that sensors show late is put together.
+struct alignas(kCacheLine) EnvStepper::SensedState {
+  static constexpr std::size_t kStride = TileStride(kAircraftPerBlock);
+  float columns[kNumWindyColumns][kStride];
 };
 
 EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_aircraft,
@@ -108,6 +116,11 @@ EnvColumns EnvStepper::columns() const {
   columns.task = task_->num_columns();
   if (config_.reward.action_change > 0) columns.last_action = action_size();
   columns.progress = progress_.enabled();
+  if (config_.plant.enabled()) {
+    columns.plant =
+        config_.plant.has_sensor_errors() ? kNumPlantColumnsWithSensors : kNumPlantColumns;
+    columns.delay_slots = config_.plant.longest_delay();
+  }
   return columns;
 }
 
@@ -134,12 +147,25 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
     block.flight[column][i] = flight.columns[static_cast<std::size_t>(column)];
   }
   if (wind_.enabled()) wind_.Begin(block.flight, i, GustKeysOf(block));
+  if (block.plants.is_drawn()) BeginPlant(block, i);
   simd::RandomStream target = stream(simd::RandomPurpose::kTarget);
   task_->Reset(flight.start, &target, block.task, i);
   if (config_.stagger_clocks && episode == 0) {
     simd::RandomStream clock = stream(simd::RandomPurpose::kClockStagger);
     block.step[i] = static_cast<std::int32_t>(clock.Uniform(0, config_.time_limit_steps));
   }
+}
+
+/// Draws the plant of an aircraft whose episode and flight are set: it is the nominal one's trim.
+void EnvStepper::BeginPlant(const EnvBlock& block, int i) const {
+  simd::RandomStream random({seed_, static_cast<std::uint32_t>(block.first_aircraft + i),
+                             static_cast<std::uint32_t>(block.episode[i]), 0,
+                             simd::RandomPurpose::kPlant});
+  SetPlant(DrawPlant(config_.plant, &random), aircraft_, config_.control_interval_s, block.plants,
+           i);
+  if (block.delay_line.slots == 0) return;
+  const double throttle = ThrottleForPower(aircraft_.throttle_gearing, block.flight[kPower][i]);
+  FillDelayLine(block.delay_line, block.flight, {static_cast<float>(throttle), 0, 0, 0}, i);
 }
 
 GustKeys EnvStepper::GustKeysOf(const EnvBlock& block) const {
@@ -157,11 +183,28 @@ ObservationNoise EnvStepper::NoiseOf(const EnvBlock& block) const {
   return noise;
 }
 
-void EnvStepper::Observe(const EnvBlock& block, float* observation) const {
+/// The flight as its sensors show it: `state` is filled if that is another than the present one.
+Tile EnvStepper::Sensed(const EnvBlock& block, SensedState& state) const {
+  if (config_.plant.observation_delay_steps.max == 0) return block.flight;
+  Tile sensed = block.flight;
+  sensed.base = state.columns[0];
+  sensed.stride = SensedState::kStride;
+  DelayState(block.delay_line, block.plants, block.flight, sensed);
+  return sensed;
+}
+
+/// What sensors show now.
+void EnvStepper::ObserveSample(const EnvBlock& block, float* observation) const {
+  SensedState state;
+  const Tile sensed = Sensed(block, state);
   alignas(kCacheLine) float errors[kNumTaskErrors * kAircraftPerBlock];
-  task_->Errors(block.flight, block.task, errors, kAircraftPerBlock);
-  ObserveTile(*kernel_aircraft_, block.flight, errors, kAircraftPerBlock, NoiseOf(block),
-              observation);
+  task_->Errors(sensed, block.task, errors, kAircraftPerBlock);
+  ObserveTile(*kernel_aircraft_, sensed, errors, kAircraftPerBlock, NoiseOf(block), observation,
+              block.plants);
+}
+
+void EnvStepper::Observe(const EnvBlock& block, float* observation) const {
+  ObserveSample(block, observation);
   if (low_level_ != nullptr && low_level_->averages_observations()) {
     low_level_->AverageObservations(block.first_aircraft, block.count, observation);
   }
@@ -185,17 +228,39 @@ const float* EnvStepper::StickActions(const EnvBlock& block, const float* action
     low_level_->ResetObservationMean(block.first_aircraft, block.count);
   }
   if (low_level_->IsPolicyStep(step)) {
-    low_level_->Act(*kernel_aircraft_, block.flight, NoiseOf(block), scratch.low_level);
+    SensedState state;
+    const Tile sensed = Sensed(block, state);
+    low_level_->Act(*kernel_aircraft_, sensed, NoiseOf(block), block.plants, scratch.low_level);
     // The first sample is the one in the observation that the high-level policy has just acted by.
     if (low_level_->averages_observations() && !is_first) {
       alignas(kCacheLine) float errors[kNumTaskErrors * kAircraftPerBlock];
-      task_->Errors(block.flight, block.task, errors, kAircraftPerBlock);
+      task_->Errors(sensed, block.task, errors, kAircraftPerBlock);
       low_level_->AccumulateObservations(block.first_aircraft, block.count, errors,
                                          scratch.low_level);
     }
     TakeActions(scratch.low_level.action, block.flight, scratch.command[0], kAircraftPerBlock);
   }
   return scratch.low_level.action;
+}
+
+/// The commands that reach the aircraft in this control step, which remembers what was given.
+PilotColumns EnvStepper::Commands(const EnvBlock& block, Scratch& scratch) const {
+  const auto columns = [](const float(*command)[kAircraftPerBlock]) {
+    return PilotColumns{command[0], command[1], command[2], command[3]};
+  };
+  if (block.delay_line.slots == 0) return columns(scratch.command);
+  DelayCommands(block.delay_line, block.plants, block.count, scratch.command[0], kAircraftPerBlock,
+                scratch.delayed_command[0]);
+  PushDelayLine(block.delay_line, block.flight, scratch.command[0], kAircraftPerBlock);
+  return columns(scratch.delayed_command);
+}
+
+/// Lets the sensors keep what they show now whose time has come.
+void EnvStepper::FreezeSensors(const EnvBlock& block) const {
+  if (!AnySensorFreezes(block.plants, block.count, block.step)) return;
+  float observation[kAircraftPerBlock * kObservationSize];
+  ObserveSample(block, observation);
+  skein::FreezeSensors(block.plants, block.count, block.step, observation, kObservationSize);
 }
 
 /// Takes the costs of handling off the control step's reward.
@@ -337,17 +402,19 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
   const float dt = static_cast<float>(config_.control_interval_s);
   for (int step = 0; step < config_.action_repeat; ++step) {
     const float* const stick_action = StickActions(block, action, step, scratch);
+    const PilotColumns commands = Commands(block, scratch);
     if (wind_.enabled()) wind_.Advance(block.flight, dt, GustKeysOf(block));
-    ControlTile(*kernel_aircraft_, flight_control_, block.flight, scratch.commands());
+    ControlTile(*kernel_aircraft_, flight_control_, block.flight, commands, block.plants);
     // What lies ahead is needed after the last control step.
     const bool is_last = step + 1 == config_.action_repeat;
-    StepTile(*kernel_aircraft_, block.flight, dt, config_.substeps,
-             is_last ? ahead : MemoryAhead());
+    StepTile(*kernel_aircraft_, block.flight, dt, config_.substeps, is_last ? ahead : MemoryAhead(),
+             block.plants);
     if (output.flight_metrics != nullptr) {
       metric_sums_[block.index].Add(*kernel_aircraft_, block.flight, scratch.termination);
     }
     ComputeReward(block, stick_action, step == 0 ? action : nullptr, output.observer, scratch);
     if (progress_.mission_steps > 0) DrawTargets(block, scratch);
+    if (config_.plant.sensor_freeze_chance > 0) FreezeSensors(block);
     if (keeps_final) ObserveTruncated(block, scratch, output);
   }
   std::copy_n(scratch.policy_step_reward, block.count, output.reward);

@@ -61,9 +61,15 @@ class EnvStepper {
 
  private:
   struct Scratch;
+  struct SensedState;
 
   ObservationNoise NoiseOf(const EnvBlock& block) const;
   GustKeys GustKeysOf(const EnvBlock& block) const;
+  void BeginPlant(const EnvBlock& block, int i) const;
+  Tile Sensed(const EnvBlock& block, SensedState& state) const;
+  void ObserveSample(const EnvBlock& block, float* observation) const;
+  void FreezeSensors(const EnvBlock& block) const;
+  PilotColumns Commands(const EnvBlock& block, Scratch& scratch) const;
   const float* StickActions(const EnvBlock& block, const float* action, int step, Scratch& scratch);
   void ComputeReward(const EnvBlock& block, const float* action, const float* policy_action,
                      ControlStepObserver* observer, Scratch& scratch) const;

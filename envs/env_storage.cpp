@@ -38,6 +38,7 @@ EnvStorage::EnvStorage(int num_aircraft, int requested_tile_size, const EnvColum
   num_blocks_ = static_cast<std::size_t>(blocks_per_tile_) * static_cast<std::size_t>(num_tiles_);
   block_bytes_ = words_per_aircraft() * stride_ * sizeof(float);
   memory_.reset(AllocateZeros(block_bytes_ * num_blocks_));
+  newest_slot_.assign(num_blocks_, 0);
 }
 
 int EnvStorage::tile_count(int tile) const {
@@ -54,7 +55,11 @@ EnvBlock EnvStorage::BlockAt(int tile, int begin) {
   block.flight = {base, stride_, block.count, columns_.windy};
   block.task = {block.flight[flight_columns_], stride_, block.count};
   block.last_action = {block.task[columns_.task], stride_, block.count};
-  block.episode_return = block.last_action[columns_.last_action];
+  float* const plants = block.last_action[columns_.last_action];
+  if (columns_.plant > 0) {
+    block.plants = {{plants, stride_, block.count}, columns_.plant == kNumPlantColumnsWithSensors};
+  }
+  block.episode_return = plants + static_cast<std::size_t>(columns_.plant) * stride_;
   block.step = reinterpret_cast<std::int32_t*>(block.episode_return + stride_);
   block.episode = block.step + stride_;
   if (columns_.progress) {
@@ -62,6 +67,8 @@ EnvBlock EnvStorage::BlockAt(int tile, int begin) {
     block.progress = {first, first + stride_, first + 2 * stride_, first + 3 * stride_,
                       first + 4 * stride_};
   }
+  block.delay_line = {block.flight[float_columns() + int_columns()], stride_, columns_.delay_slots,
+                      columns_.windy, &newest_slot_[block.index]};
   return block;
 }
 
@@ -79,11 +86,15 @@ MemoryAhead EnvStorage::MemoryAfter(const EnvBlock& block) const {
 }
 
 std::size_t EnvStorage::words_per_aircraft() const {
-  return static_cast<std::size_t>(float_columns() + int_columns());
+  return static_cast<std::size_t>(float_columns() + int_columns() + delay_columns());
 }
 
 int EnvStorage::float_columns() const {
-  return flight_columns_ + columns_.task + columns_.last_action + 1;
+  return flight_columns_ + columns_.task + columns_.last_action + columns_.plant + 1;
+}
+
+int EnvStorage::delay_columns() const {
+  return columns_.delay_slots * DelayLine::SlotColumns(columns_.windy);
 }
 
 int EnvStorage::int_columns() const {
@@ -91,8 +102,12 @@ int EnvStorage::int_columns() const {
 }
 
 void* EnvStorage::WordAt(const EnvBlock& block, std::size_t index) const {
-  // All columns lie one behind the other, the first that of the flight.
-  return block.flight[static_cast<int>(index)];
+  // All columns lie one behind the other, the first that of the flight. The delay line's come last,
+  // and turn.
+  const int column = static_cast<int>(index), of_delays = column - float_columns() - int_columns();
+  if (of_delays < 0) return block.flight[column];
+  const int slot_columns = DelayLine::SlotColumns(columns_.windy);
+  return block.delay_line.Column(1 + of_delays / slot_columns, of_delays % slot_columns);
 }
 
 void EnvStorage::Save(int aircraft, std::uint32_t* words) {
@@ -119,6 +134,7 @@ void EnvStorage::FillPadding(const EnvBlock& block) {
   };
   copy_first(block.flight, flight_columns_);
   copy_first(block.task, columns_.task);
+  copy_first(block.plants.columns, columns_.plant);
   std::fill(block.step + block.count, block.step + padded, 0);
   std::fill(block.episode_return + block.count, block.episode_return + padded, 0.0f);
 }

@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "envs/kernels/plant_kernel.h"
+#include "envs/plant/delay_line.h"
+#include "envs/plant/plant_columns.h"
 #include "envs/state/state.h"
 #include "envs/tasks/episode_progress.h"
 
@@ -20,6 +23,8 @@ struct EnvBlock {
   Tile flight;                      ///< physical columns (envs/state/state.h)
   Tile task;                        ///< the task's columns
   Tile last_action;                 ///< of the last policy step, where it is remembered
+  PlantTile plants;                 ///< where they are drawn
+  DelayLine delay_line;             ///< where there are delays
   float* episode_return = nullptr;  ///< of the episodes under way
   std::int32_t* step = nullptr;     ///< control steps of the episode
   std::int32_t* episode = nullptr;  ///< its number
@@ -34,13 +39,15 @@ struct EnvColumns {
   bool windy = false;
   int task = 0;           ///< columns of the task
   int last_action = 0;    ///< remembered actions of the last policy step
+  int plant = 0;          ///< columns of PlantColumn; 0: every plant is nominal
+  int delay_slots = 0;    ///< of the delay line
   bool progress = false;  ///< EpisodeProgress
 };
 
 /// The memory of an environment's aircraft, in tiles of blocks. What is worked on together lies
-/// together: per block its physical columns, task columns, last actions and episode returns
-/// (float32), control steps, numbers of episodes and progress (int32), each as long as the block's
-/// stride.
+/// together: per block its physical columns, task columns, last actions, drawn plants and episode
+/// returns (float32), control steps, numbers of episodes and progress (int32), and the slots of the
+/// delay line (float32), each as long as the block's stride.
 class EnvStorage {
  public:
   /// Everything is zero. `requested_tile_size` is rounded up to a multiple of 32. Both numbers of
@@ -86,6 +93,8 @@ class EnvStorage {
   /// Columns of float32, and after them those of int32.
   int float_columns() const;
   int int_columns() const;
+  /// Of the delay line.
+  int delay_columns() const;
   void* WordAt(const EnvBlock& block, std::size_t index) const;
 
   int num_aircraft_;
@@ -98,6 +107,8 @@ class EnvStorage {
   std::size_t num_blocks_ = 0;
   std::size_t block_bytes_ = 0;
   std::unique_ptr<std::byte[], AlignedDelete> memory_;
+  /// DelayLine::newest by block. No part of the aircraft's state: words come by age.
+  std::vector<std::int32_t> newest_slot_;
 };
 
 }  // namespace skein

@@ -156,11 +156,11 @@ void LowLevelFlight::SetTargets(const float* action, Tile flight, Scratch& scrat
 }
 
 void LowLevelFlight::Act(const KernelAircraft& aircraft, Tile flight, const ObservationNoise& noise,
-                         Scratch& scratch) {
+                         const PlantTile& plants, Scratch& scratch) {
   // Of the Control task's columns, those that its errors are made of.
   const Tile target{scratch.target[0], kMaxCount, flight.count};
   control_->Errors(flight, target, scratch.error[0], kMaxCount);
-  ObserveTile(aircraft, flight, scratch.error[0], kMaxCount, noise, scratch.observation);
+  ObserveTile(aircraft, flight, scratch.error[0], kMaxCount, noise, scratch.observation, plants);
   low_level_->Act(flight.count, scratch.observation,
                   state_.data() + StateBegin(static_cast<int>(noise.first_aircraft)),
                   scratch.action);

@@ -66,10 +66,10 @@ class LowLevelFlight {
   }
 
   /// One policy step of the low-level policy for the aircraft `noise.first_aircraft` and those that
-  /// follow: leaves its actions in `scratch.action`. Noise is that of the aircraft's own
-  /// observation.
+  /// follow: leaves its actions in `scratch.action`. `flight` is what their sensors show; noise and
+  /// plants are those of the aircraft's own observation.
   void Act(const KernelAircraft& aircraft, Tile flight, const ObservationNoise& noise,
-           Scratch& scratch);
+           const PlantTile& plants, Scratch& scratch);
 
   /// Begins the high-level policy's means anew for the `count` aircraft from `first` on: it has
   /// observed what came before.

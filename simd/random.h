@@ -19,6 +19,7 @@ enum class RandomPurpose : std::uint32_t {
   kGustStart = 9,
   kGust = 10,
   kNoiseLevel = 11,
+  kPlant = 12,
 };
 
 /// Constants of Philox4x32-10 (Salmon et al., SC 2011, section 3.3).

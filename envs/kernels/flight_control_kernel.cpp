@@ -44,8 +44,10 @@ HWY_INLINE V Evaluate(const FlightControlConstants::Schedule& schedule, V x) {
 }
 
 /// Vectors of consecutive aircraft: one load or store per column.
-struct Group {
+template <bool kDrawn>
+struct AircraftGroup {
   Tile tile;
+  PlantTile plants;
   int first;
 
   HWY_INLINE V Get(int column) const { return hn::LoadU(FloatTag(), tile[column] + first); }
@@ -58,12 +60,23 @@ struct Group {
     Put(column, hn::NegMulAdd(Constant(filter.d1), y, hn::Mul(Constant(filter.n1), x)));
     return y;
   }
+  /// `x` times the drawn factor; of the nominal plant `x` as it is.
+  HWY_INLINE V Scaled(PlantColumn column, V x) const {
+    if constexpr (kDrawn) {
+      return hn::Mul(x, hn::LoadU(FloatTag(), plants[column] + first));
+    } else {
+      return x;
+    }
+  }
+  /// `reached_column` is the drawn plant's of what the servo reaches.
   HWY_INLINE void StepActuator(const FlightControlConstants::Servo& servo, int column,
-                               V command) const {
+                               PlantColumn reached_column, V command) const {
     const V position = Get(column);
     const V low = Constant(servo.min_deg), high = Constant(servo.max_deg);
-    const V largest = Constant(servo.largest_step_deg);
-    const V change = hn::Mul(hn::Sub(Clip(command, low, high), position), Constant(servo.reached));
+    const V largest = Scaled(kPlantActuatorRate, Constant(servo.largest_step_deg));
+    V reached = Constant(servo.reached);
+    if constexpr (kDrawn) reached = hn::LoadU(FloatTag(), plants[reached_column] + first);
+    const V change = hn::Mul(hn::Sub(Clip(command, low, high), position), reached);
     Put(column, Clip(hn::Add(position, Clip(change, hn::Neg(largest), largest)), low, high));
   }
 };
@@ -80,6 +93,7 @@ struct Sticks {
 };
 
 /// Elevator command, deg.
+template <class Group>
 HWY_INLINE V PitchChannel(const FlightControlConstants& k, const Group& group,
                           const Sensors& sensors, const Sticks& sticks, V alpha) {
   const V zero = Constant(0), one = Constant(1);
@@ -126,6 +140,7 @@ HWY_INLINE V PitchChannel(const FlightControlConstants& k, const Group& group,
 }
 
 /// Aileron command, deg. `p` is the filtered roll rate, deg/s.
+template <class Group>
 HWY_INLINE V RollChannel(const FlightControlConstants& k, const Group& group,
                          const Sensors& sensors, const Sticks& sticks, V alpha, V p) {
   const V asked = hn::Mul(
@@ -152,6 +167,7 @@ HWY_INLINE V RollChannel(const FlightControlConstants& k, const Group& group,
 }
 
 /// Rudder command, deg. `p` is the filtered roll rate, deg/s.
+template <class Group>
 HWY_INLINE V YawChannel(const FlightControlConstants& k, const Group& group, const Sensors& sensors,
                         const Sticks& sticks, V alpha, V p, V aileron) {
   const V gain = GainFactor(k.yaw_gain_pressure_psf, sensors.qbar);
@@ -190,6 +206,7 @@ HWY_INLINE V PowerCommand(const FlightControlConstants& k, V throttle) {
   return hn::IfThenElse(hn::Le(throttle, Constant(k.military_throttle)), dry, wet);
 }
 
+template <class Group>
 HWY_INLINE Sensors Sense(const KernelAircraft& aircraft, const Group& group) {
   const FloatTag d;
   Sensors sensors;
@@ -206,24 +223,28 @@ HWY_INLINE Sensors Sense(const KernelAircraft& aircraft, const Group& group) {
   // trained.
   const auto [u, v, w] = velocity;
   const V speed_squared = hn::MulAdd(u, u, hn::MulAdd(v, v, hn::Mul(w, w)));
-  sensors.qbar = hn::Mul(hn::Mul(Constant(0.5), air.density), speed_squared);
-  sensors.static_pressure = air.pressure;
+  const V density = group.Scaled(kPlantDensity, air.density);
+  sensors.qbar = hn::Mul(hn::Mul(Constant(0.5), density), speed_squared);
+  sensors.static_pressure = group.Scaled(kPlantDensity, air.pressure);
   return sensors;
 }
 
-HWY_INLINE V Stick(const float* column, int first) {
-  return Clip(hn::LoadU(FloatTag(), column + first), Constant(-1), Constant(1));
+template <class Group>
+HWY_INLINE V Stick(const float* column, const Group& group, PlantColumn gain) {
+  const V stick = group.Scaled(gain, hn::LoadU(FloatTag(), column + group.first));
+  return Clip(stick, Constant(-1), Constant(1));
 }
 
-template <FlightControlMode kMode>
+template <FlightControlMode kMode, bool kDrawn>
 void ControlTileIn(const KernelAircraft& aircraft, const FlightControlConstants& k, Tile tile,
-                   const PilotColumns& pilot) {
+                   const PilotColumns& pilot, const PlantTile& plants) {
   const FloatTag d;
   for (int first = 0; first < tile.count; first += kLanes) {
-    const Group group{tile, first};
+    const AircraftGroup<kDrawn> group{tile, plants, first};
     const Sensors sensors = Sense(aircraft, group);
-    const Sticks sticks{Stick(pilot.pitch, first), Stick(pilot.roll, first),
-                        Stick(pilot.yaw, first)};
+    const Sticks sticks{Stick(pilot.pitch, group, kPlantPitchStick),
+                        Stick(pilot.roll, group, kPlantRollStick),
+                        Stick(pilot.yaw, group, kPlantYawStick)};
     const V throttle = Clip(hn::LoadU(d, pilot.throttle + first), Constant(0), Constant(1));
     group.Put(kPowerCommand, PowerCommand(k, throttle));
 
@@ -243,21 +264,31 @@ void ControlTileIn(const KernelAircraft& aircraft, const FlightControlConstants&
       rudder = hn::Mul(sticks.yaw, Constant(-k.rudder.max_deg));
       flap = LeadingEdgeFlap(k, sensors, sensors.alpha_deg);
     }
-    group.StepActuator(k.elevator, kElevator, elevator);
-    group.StepActuator(k.aileron, kAileron, aileron);
-    group.StepActuator(k.rudder, kRudder, rudder);
-    group.StepActuator(k.leading_edge_flap, kLeadingEdgeFlap, flap);
+    group.StepActuator(k.elevator, kElevator, kPlantElevatorReached, elevator);
+    group.StepActuator(k.aileron, kAileron, kPlantAileronReached, aileron);
+    group.StepActuator(k.rudder, kRudder, kPlantRudderReached, rudder);
+    group.StepActuator(k.leading_edge_flap, kLeadingEdgeFlap, kPlantFlapReached, flap);
+  }
+}
+
+template <FlightControlMode kMode>
+void ControlPlants(const KernelAircraft& aircraft, const FlightControlConstants& k, Tile tile,
+                   const PilotColumns& pilot, const PlantTile& plants) {
+  if (plants.is_drawn()) {
+    ControlTileIn<kMode, true>(aircraft, k, tile, pilot, plants);
+  } else {
+    ControlTileIn<kMode, false>(aircraft, k, tile, pilot, plants);
   }
 }
 
 void ControlTileFull(const KernelAircraft& aircraft, const FlightControlConstants& k, Tile tile,
-                     const PilotColumns& pilot) {
-  ControlTileIn<FlightControlMode::kFull>(aircraft, k, tile, pilot);
+                     const PilotColumns& pilot, const PlantTile& plants) {
+  ControlPlants<FlightControlMode::kFull>(aircraft, k, tile, pilot, plants);
 }
 
 void ControlTileDirect(const KernelAircraft& aircraft, const FlightControlConstants& k, Tile tile,
-                       const PilotColumns& pilot) {
-  ControlTileIn<FlightControlMode::kDirect>(aircraft, k, tile, pilot);
+                       const PilotColumns& pilot, const PlantTile& plants) {
+  ControlPlants<FlightControlMode::kDirect>(aircraft, k, tile, pilot, plants);
 }
 
 }  // namespace
@@ -272,11 +303,11 @@ HWY_EXPORT(ControlTileFull);
 HWY_EXPORT(ControlTileDirect);
 
 void ControlTile(const KernelAircraft& aircraft, const FlightControlConstants& constants, Tile tile,
-                 const PilotColumns& pilot) {
+                 const PilotColumns& pilot, const PlantTile& plants) {
   if (constants.mode == FlightControlMode::kFull) {
-    SKEIN_DISPATCH(ControlTileFull)(aircraft, constants, tile, pilot);
+    SKEIN_DISPATCH(ControlTileFull)(aircraft, constants, tile, pilot, plants);
   } else {
-    SKEIN_DISPATCH(ControlTileDirect)(aircraft, constants, tile, pilot);
+    SKEIN_DISPATCH(ControlTileDirect)(aircraft, constants, tile, pilot, plants);
   }
 }
 

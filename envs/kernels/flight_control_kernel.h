@@ -18,9 +18,10 @@ struct PilotColumns {
 
 /// One control step before the integration: reads the sensors from the tile's columns, runs the
 /// flight control laws, moves the actuators (exact first-order response, rate and position limits)
-/// and sets kPowerCommand. NaN in an aircraft stays there and reaches its surfaces.
+/// and sets kPowerCommand. NaN in an aircraft stays there and reaches its surfaces. Stick commands
+/// times the gains of `plants`, if those are drawn, are limited to [-1, 1].
 void ControlTile(const KernelAircraft& aircraft, const FlightControlConstants& constants, Tile tile,
-                 const PilotColumns& pilot);
+                 const PilotColumns& pilot, const PlantTile& plants = {});
 
 /// The same, with the constants made for this one call; `dt` in seconds.
 void ControlTile(const KernelAircraft& aircraft, Tile tile, const PilotColumns& pilot,

@@ -84,6 +84,7 @@ KernelConstants MakeConstants(const Airframe& a) {
   const double cg_shift = a.cg_reference - a.cg;
   k.cg_shift = static_cast<float>(cg_shift);
   k.cg_shift_yaw = static_cast<float>(cg_shift * a.chord_ft / a.span_ft);
+  k.chord_per_span = static_cast<float>(a.chord_ft / a.span_ft);
   k.half_wing_area = static_cast<float>(a.wing_area_ft2 / 2);
   k.inverse_mass = static_cast<float>(1 / a.mass_slug);
   k.inverse_weight = static_cast<float>(1 / (a.mass_slug * kGravityFtS2));
@@ -105,6 +106,9 @@ KernelConstants MakeConstants(const Airframe& a) {
   k.q_pr = static_cast<float>((a.Izz - a.Ixx) / a.Iyy);
   k.q_pp = static_cast<float>(a.Ixz / a.Iyy);
   k.q_r = static_cast<float>(-h / a.Iyy);
+  k.p_q_per_momentum = static_cast<float>(a.Ixz / determinant);
+  k.r_q_per_momentum = static_cast<float>(a.Ixx / determinant);
+  k.q_r_per_momentum = static_cast<float>(-1 / a.Iyy);
   return k;
 }
 

@@ -134,7 +134,8 @@ struct KernelConstants {
   float half_span = 0, half_chord = 0;  ///< ft
   float cg_shift = 0;                   ///< (reference cg - cg) in chords: Cm gains Cz times this
   float cg_shift_yaw = 0;               ///< cg_shift chord / span: Cn loses Cy times this
-  float half_wing_area = 0;             ///< ft^2
+  float chord_per_span = 0;
+  float half_wing_area = 0;  ///< ft^2
   float inverse_mass = 0, inverse_weight = 0;
   float gravity = 0;
   /// p' = qS (p_Cl Cl + p_Cn Cn) + p_qr q r + p_pq p q + p_q q, and likewise r'.
@@ -142,6 +143,8 @@ struct KernelConstants {
   float r_Cl = 0, r_Cn = 0, r_qr = 0, r_pq = 0, r_q = 0;
   /// q' = qS q_Cm Cm + q_pr p r - q_pp (p^2 - r^2) + q_r r.
   float q_Cm = 0, q_pr = 0, q_pp = 0, q_r = 0;
+  /// p_q, r_q and q_r per unit of the engine's angular momentum, ft^-2 slug^-1.
+  float p_q_per_momentum = 0, r_q_per_momentum = 0, q_r_per_momentum = 0;
 };
 
 /// An aircraft arranged for the SIMD kernels; see plant_kernel.h. Tables lie on one alpha x beta

@@ -43,10 +43,11 @@ HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const State& sta
   EvaluateStateRates(aircraft.constants, state, *state.block, coefficients);
 }
 
+template <class Plant>
 HWY_INLINE void LocateSurfacesOfBlock(const KernelAircraft& aircraft, const BlockControls& controls,
-                                      KernelBlock* block) {
+                                      const Plant& plant, KernelBlock* block) {
   for (int lane = 0; lane < kLanesPerBlock; lane += kLanes)
-    LocateSurfaces(aircraft, controls, lane, block);
+    LocateSurfaces(aircraft, controls, plant, lane, block);
 }
 
 /// An observer of the coefficients of a stage that ignores them.
@@ -55,15 +56,18 @@ struct IgnoreCoefficients {
 };
 
 /// Keeps the specific forces, g.
+template <class Plant>
 struct StoreLoadFactors {
   const KernelConstants& k;
   const KernelBlock& block;
+  Plant plant;
   float* nz;
   float* ny;
 
   HWY_INLINE void operator()(int lane, const Coefficients& c) const {
     const FloatTag d;
-    const V g = hn::Mul(hn::Load(d, block.qbar_S + lane), Constant(k.inverse_weight));
+    const V inverse_weight = plant.Scaled(kPlantInverseMass, lane, Constant(k.inverse_weight));
+    const V g = hn::Mul(hn::Load(d, block.qbar_S + lane), inverse_weight);
     hn::StoreU(hn::Neg(hn::Mul(g, c.Cz)), d, nz + lane);
     hn::StoreU(hn::Mul(g, c.Cy), d, ny + lane);
   }
@@ -110,21 +114,25 @@ struct Prefetcher {
 };
 
 /// One RK4 step of a block.
-template <bool kEngine, bool kWindy, class Observer>
+template <bool kEngine, bool kWindy, class Plant, class Observer>
 HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& controls,
-                          float* base, std::size_t stride, float dt, const Observer& coefficients,
-                          Prefetcher* prefetcher, KernelBlock* block) {
+                          float* base, std::size_t stride, float dt, const Plant& plant,
+                          const Observer& coefficients, Prefetcher* prefetcher,
+                          KernelBlock* block) {
   const IgnoreCoefficients ignore;
   prefetcher->FetchPart();
-  EvaluateBlock<kEngine>(aircraft, StageState<kFirstStage, kWindy>{base, stride, block, 0},
+  EvaluateBlock<kEngine>(aircraft,
+                         StageState<kFirstStage, kWindy, Plant>{base, stride, block, 0, plant},
                          controls, ignore);
   for (int middle = 0; middle < 2; ++middle) {
     prefetcher->FetchPart();
-    EvaluateBlock<kEngine>(aircraft, StageState<kMiddleStage, kWindy>{base, stride, block, dt / 2},
-                           controls, ignore);
+    EvaluateBlock<kEngine>(
+        aircraft, StageState<kMiddleStage, kWindy, Plant>{base, stride, block, dt / 2, plant},
+        controls, ignore);
   }
   prefetcher->FetchPart();
-  EvaluateBlock<kEngine>(aircraft, StageState<kLastStage, kWindy>{base, stride, block, dt},
+  EvaluateBlock<kEngine>(aircraft,
+                         StageState<kLastStage, kWindy, Plant>{base, stride, block, dt, plant},
                          controls, coefficients);
 }
 
@@ -136,7 +144,7 @@ void EvaluateTileKernel(const KernelAircraft& aircraft, Tile tile, const Control
     const BlockControls at{controls.thrust_lbf + first,   nullptr,
                            controls.elevator_deg + first, controls.aileron_deg + first,
                            controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
-    LocateSurfacesOfBlock(aircraft, at, &block);
+    LocateSurfacesOfBlock(aircraft, at, NominalPlant(), &block);
     EvaluateBlock<false>(aircraft,
                          StageState<kFirstStage>{tile.base + first, tile.stride, &block, 0}, at,
                          StoreCoefficients{coefficients + first, tile.stride});
@@ -157,18 +165,18 @@ void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
     const BlockControls at{controls.thrust_lbf + first,   nullptr,
                            controls.elevator_deg + first, controls.aileron_deg + first,
                            controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
-    LocateSurfacesOfBlock(aircraft, at, &block);
+    LocateSurfacesOfBlock(aircraft, at, NominalPlant(), &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<false, false>(aircraft, at, tile.base + first, tile.stride,
-                              dt / static_cast<float>(substeps), IgnoreCoefficients(), &prefetcher,
-                              &block);
+                              dt / static_cast<float>(substeps), NominalPlant(),
+                              IgnoreCoefficients(), &prefetcher, &block);
     }
   }
 }
 
-template <bool kWindy>
+template <bool kWindy, bool kDrawn>
 void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                MemoryAhead ahead) {
+                MemoryAhead ahead, const PlantTile& plants) {
   KernelBlock block;
   const int parts = 4 * (tile.count + kLanesPerBlock - 1) / kLanesPerBlock;
   Prefetcher prefetcher{
@@ -180,13 +188,16 @@ void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substep
                            tile[kAileron] + first,
                            tile[kRudder] + first,
                            tile[kLeadingEdgeFlap] + first};
-    const StoreLoadFactors load_factors{aircraft.constants, block, tile[kNz] + first,
-                                        tile[kNy] + first};
+    BlockPlant<kDrawn> plant;
+    if constexpr (kDrawn) plant = {plants.columns.base + first, plants.columns.stride};
+    const StoreLoadFactors<BlockPlant<kDrawn>> load_factors{aircraft.constants, block, plant,
+                                                            tile[kNz] + first, tile[kNy] + first};
     PrefetchColumns(tile, first + kLanesPerBlock);
-    LocateSurfacesOfBlock(aircraft, at, &block);
+    LocateSurfacesOfBlock(aircraft, at, plant, &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<true, kWindy>(aircraft, at, tile.base + first, tile.stride,
-                              dt / static_cast<float>(substeps), load_factors, &prefetcher, &block);
+                              dt / static_cast<float>(substeps), plant, load_factors, &prefetcher,
+                              &block);
     }
     if constexpr (kWindy) {
       for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
@@ -197,13 +208,23 @@ void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substep
 }
 
 void StepTileInStillAir(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                        MemoryAhead ahead) {
-  StepTileIn<false>(aircraft, tile, dt, substeps, ahead);
+                        MemoryAhead ahead, const PlantTile& plants) {
+  StepTileIn<false, false>(aircraft, tile, dt, substeps, ahead, plants);
 }
 
 void StepTileInWind(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                    MemoryAhead ahead) {
-  StepTileIn<true>(aircraft, tile, dt, substeps, ahead);
+                    MemoryAhead ahead, const PlantTile& plants) {
+  StepTileIn<true, false>(aircraft, tile, dt, substeps, ahead, plants);
+}
+
+void StepDrawnPlantsInStillAir(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                               MemoryAhead ahead, const PlantTile& plants) {
+  StepTileIn<false, true>(aircraft, tile, dt, substeps, ahead, plants);
+}
+
+void StepDrawnPlantsInWind(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                           MemoryAhead ahead, const PlantTile& plants) {
+  StepTileIn<true, true>(aircraft, tile, dt, substeps, ahead, plants);
 }
 
 }  // namespace
@@ -218,6 +239,8 @@ HWY_EXPORT(EvaluateTileKernel);
 HWY_EXPORT(StepTileOpenLoopKernel);
 HWY_EXPORT(StepTileInStillAir);
 HWY_EXPORT(StepTileInWind);
+HWY_EXPORT(StepDrawnPlantsInStillAir);
+HWY_EXPORT(StepDrawnPlantsInWind);
 
 void EvaluateTile(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
                   float* state_rate, float* coefficients) {
@@ -229,12 +252,18 @@ void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlCo
   SKEIN_DISPATCH(StepTileOpenLoopKernel)(aircraft, tile, controls, dt, substeps);
 }
 
-void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-              MemoryAhead ahead) {
-  if (tile.windy) {
-    SKEIN_DISPATCH(StepTileInWind)(aircraft, tile, dt, substeps, ahead);
+void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps, MemoryAhead ahead,
+              const PlantTile& plants) {
+  if (plants.is_drawn()) {
+    if (tile.windy) {
+      SKEIN_DISPATCH(StepDrawnPlantsInWind)(aircraft, tile, dt, substeps, ahead, plants);
+    } else {
+      SKEIN_DISPATCH(StepDrawnPlantsInStillAir)(aircraft, tile, dt, substeps, ahead, plants);
+    }
+  } else if (tile.windy) {
+    SKEIN_DISPATCH(StepTileInWind)(aircraft, tile, dt, substeps, ahead, plants);
   } else {
-    SKEIN_DISPATCH(StepTileInStillAir)(aircraft, tile, dt, substeps, ahead);
+    SKEIN_DISPATCH(StepTileInStillAir)(aircraft, tile, dt, substeps, ahead, plants);
   }
 }
 

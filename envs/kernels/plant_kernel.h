@@ -6,6 +6,7 @@
 
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/aircraft.h"
+#include "envs/plant/plant_columns.h"
 #include "envs/state/state.h"
 
 namespace skein {
@@ -61,8 +62,8 @@ struct MemoryAhead {
 /// columns' positions, in the wind of a windy tile's columns. Afterwards kNz and kNy hold the
 /// specific forces of the last stage of the last step, which is what the accelerometers read at the
 /// next control step, and kAirU, kAirV, kAirW of a windy tile are up to date. On the way `ahead` is
-/// fetched into the caches: many aircraft would else wait for memory.
+/// fetched into the caches: many aircraft would else wait for memory. `plants` may be drawn.
 void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-              MemoryAhead ahead = {});
+              MemoryAhead ahead = {}, const PlantTile& plants = {});
 
 }  // namespace skein

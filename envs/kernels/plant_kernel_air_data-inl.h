@@ -89,7 +89,8 @@ HWY_INLINE void MeasureDynamicPressure(const KernelAircraft& aircraft, const Sta
     const V speed_squared = hn::Load(d, block->speed_squared + lane);
     const AirVectors<V> air = AirAtAltitude(d, aircraft, altitude);
     const V wing = Constant(aircraft.constants.half_wing_area);
-    hn::Store(hn::Mul(hn::Mul(air.density, wing), speed_squared), d, block->qbar_S + lane);
+    const V density = state.plant.Scaled(kPlantDensity, lane, air.density);
+    hn::Store(hn::Mul(hn::Mul(density, wing), speed_squared), d, block->qbar_S + lane);
     if constexpr (kEngine) {
       const V speed = hn::Mul(speed_squared, hn::Load(d, block->inverse_speed + lane));
       hn::Store(hn::Mul(speed, ReciprocalSqrt(d, air.sound_speed_squared)), d, block->mach + lane);

@@ -15,6 +15,7 @@
 #include <cstdint>
 
 #include "envs/kernels/kernel_aircraft.h"
+#include "envs/plant/plant_columns.h"
 #include "envs/state/air_velocity-inl.h"
 #include "envs/state/state.h"
 #include "simd/lookup-inl.h"
@@ -83,18 +84,40 @@ struct BlockControls {
   const float* leading_edge_flap_deg;
 };
 
+/// The drawn plants of a block's aircraft, or the nominal one, of which nothing is read.
+template <bool kDrawnOf>
+struct BlockPlant {
+  static constexpr bool kDrawn = kDrawnOf;
+  const float* base = nullptr;  // of the block's columns
+  std::size_t stride = 0;
+
+  HWY_INLINE V Get(PlantColumn column, int lane) const {
+    return hn::LoadU(FloatTag(), base + static_cast<std::size_t>(column) * stride + lane);
+  }
+  /// `x` times the drawn factor; of the nominal plant `x` as it is.
+  HWY_INLINE V Scaled(PlantColumn column, int lane, V x) const {
+    if constexpr (kDrawn) {
+      return hn::Mul(Get(column, lane), x);
+    } else {
+      return x;
+    }
+  }
+};
+using NominalPlant = BlockPlant<false>;
+
 enum Stage : int { kFirstStage, kMiddleStage, kLastStage };
 
 /// The state at one stage of the integration. It is not stored: `Get` adds `step` times the
 /// previous stage's rates to the state at the start of the step, `Put` takes the rates at this
 /// stage, after the last `Get` of the same column and lane.
-template <Stage kStageOf, bool kWindy = false>
+template <Stage kStageOf, bool kWindy = false, class Plant = NominalPlant>
 struct StageState {
   static constexpr Stage kStage = kStageOf;
   float* base;  // of the block's state columns
   std::size_t stride;
   KernelBlock* block;
   float step;  // s; at the last stage the whole step
+  Plant plant = {};
 
   HWY_INLINE float* Column(int column, int lane) const {
     return base + static_cast<std::size_t>(column) * stride + lane;

@@ -94,10 +94,11 @@ HWY_INLINE void ThrustAndPowerRate(const KernelAircraft& aircraft, const State& 
       const V altitude = hn::Neg(state.Get(kDown, lane));
       const V power = state.Get(kPower, lane);
       const V mach = hn::Load(d, block->mach + lane);
-      hn::Store(Thrust<State::kStage>(aircraft.engine, power, altitude, mach, lane, block), d,
-                block->thrust + lane);
+      const V thrust = Thrust<State::kStage>(aircraft.engine, power, altitude, mach, lane, block);
+      hn::Store(state.plant.Scaled(kPlantThrust, lane, thrust), d, block->thrust + lane);
       const V command = hn::LoadU(d, controls.power_command + lane);
-      state.Put(kPower, lane, PowerRate(aircraft.engine, power, command));
+      const V rate = PowerRate(aircraft.engine, power, command);
+      state.Put(kPower, lane, state.plant.Scaled(kPlantPowerRate, lane, rate));
     } else {
       hn::Store(hn::LoadU(d, controls.thrust_lbf + lane), d, block->thrust + lane);
     }

@@ -47,33 +47,73 @@ struct CoefficientReader {
   }
 };
 
+/// Cm about the cg but its damping; `Cz` is whole. The cg's shift acts by the forces.
+template <class Plant>
+HWY_INLINE V StaticPitchingMoment(const KernelConstants& k, const Plant& plant,
+                                  const CoefficientReader& c, V Cz) {
+  const V elevator_effect = hn::Load(FloatTag(), c.block.elevator_effect + c.lane);
+  const V Cm = hn::MulAdd(elevator_effect, c.Patch<kLongitudinal>(kPatchCm), c.Alpha(kAlphaCm));
+  const V flap = c.Patch<kLateral>(kPatchCmFlap);
+  if constexpr (Plant::kDrawn) {
+    const V shift = hn::Sub(Constant(k.cg_shift), plant.Get(kPlantCgShift, c.lane));
+    return hn::MulAdd(Cz, shift, plant.Scaled(kPlantPitchingMoment, c.lane, hn::Add(Cm, flap)));
+  } else {
+    return hn::Add(hn::MulAdd(Cz, Constant(k.cg_shift), Cm), flap);
+  }
+}
+
+/// What Cn loses by Cy, since moments are taken elsewhere than at the cg.
+template <class Plant>
+HWY_INLINE V CgShiftYaw(const KernelConstants& k, const Plant& plant, int lane) {
+  const V shift = Constant(k.cg_shift_yaw);
+  if constexpr (Plant::kDrawn) {
+    return hn::NegMulAdd(plant.Get(kPlantCgShift, lane), Constant(k.chord_per_span), shift);
+  } else {
+    return shift;
+  }
+}
+
+/// One of the engine's gyroscopic terms: as configured, or of the drawn momentum.
+template <class Plant>
+HWY_INLINE V EngineTerm(const Plant& plant, int lane, float configured, float per_momentum) {
+  if constexpr (Plant::kDrawn) {
+    return hn::Mul(plant.Get(kPlantEngineMomentum, lane), Constant(per_momentum));
+  } else {
+    return Constant(configured);
+  }
+}
+
 template <class State>
 HWY_INLINE Coefficients EvaluateAerodynamics(const KernelConstants& k, const State& state, int lane,
                                              const KernelBlock& block) {
   const FloatTag d;
   const CoefficientReader c{block, lane, hn::Load(d, block.alpha_fraction + lane),
                             hn::Load(d, block.beta_fraction + lane)};
-  const V inverse_speed = hn::Load(d, block.inverse_speed + lane);
+  const auto& plant = state.plant;
+  // The rates made dimensionless stand before every damping, and nowhere else.
+  const V inverse_speed =
+      plant.Scaled(kPlantDamping, lane, hn::Load(d, block.inverse_speed + lane));
   const V half_span = hn::Mul(inverse_speed, Constant(k.half_span));
   const V p_hat = hn::Mul(state.Get(kP, lane), half_span);
   const V q_hat = hn::Mul(state.Get(kQ, lane), hn::Mul(inverse_speed, Constant(k.half_chord)));
   const V r_hat = hn::Mul(state.Get(kR, lane), half_span);
 
   Coefficients sum;
-  sum.Cx = hn::MulAdd(q_hat, c.Alpha(kAlphaCxq), c.Patch<kLongitudinal>(kPatchCx));
-  sum.Cz = hn::MulAdd(q_hat, c.Alpha(kAlphaCzq), c.Patch<kLongitudinal>(kPatchCz));
-  sum.Cm = hn::MulAdd(hn::Load(d, block.elevator_effect + lane), c.Patch<kLongitudinal>(kPatchCm),
-                      c.Alpha(kAlphaCm));
-  sum.Cm = hn::MulAdd(sum.Cz, Constant(k.cg_shift), sum.Cm);
-  sum.Cm = hn::Add(sum.Cm, c.Patch<kLateral>(kPatchCmFlap));
-  sum.Cm = hn::MulAdd(q_hat, c.Alpha(kAlphaCmq), sum.Cm);
+  const V Cx = plant.Scaled(kPlantAxialForce, lane, c.Patch<kLongitudinal>(kPatchCx));
+  sum.Cx = hn::MulAdd(q_hat, c.Alpha(kAlphaCxq), Cx);
+  const V Cz = plant.Scaled(kPlantNormalForce, lane, c.Patch<kLongitudinal>(kPatchCz));
+  sum.Cz = hn::MulAdd(q_hat, c.Alpha(kAlphaCzq), Cz);
+  sum.Cm = hn::MulAdd(q_hat, c.Alpha(kAlphaCmq), StaticPitchingMoment(k, plant, c, sum.Cz));
 
-  sum.Cy = hn::MulAdd(r_hat, c.Alpha(kAlphaCyr), c.Patch<kLateral>(kPatchCy));
+  const auto lateral = [&](LateralPatch patch) HWY_ATTR {
+    return plant.Scaled(kPlantLateral, lane, c.Patch<kLateral>(patch));
+  };
+  sum.Cy = hn::MulAdd(r_hat, c.Alpha(kAlphaCyr), lateral(kPatchCy));
   sum.Cy = hn::MulAdd(p_hat, c.Alpha(kAlphaCyp), sum.Cy);
-  sum.Cn = hn::NegMulAdd(sum.Cy, Constant(k.cg_shift_yaw), c.Patch<kLateral>(kPatchCn));
+  sum.Cn = hn::NegMulAdd(sum.Cy, CgShiftYaw(k, plant, lane), lateral(kPatchCn));
   sum.Cn = hn::MulAdd(r_hat, c.Alpha(kAlphaCnr), sum.Cn);
   sum.Cn = hn::MulAdd(p_hat, c.Alpha(kAlphaCnp), sum.Cn);
-  sum.Cl = hn::MulAdd(r_hat, c.Alpha(kAlphaClr), c.Patch<kLateral>(kPatchCl));
+  sum.Cl = hn::MulAdd(r_hat, c.Alpha(kAlphaClr), lateral(kPatchCl));
   sum.Cl = hn::MulAdd(p_hat, c.Alpha(kAlphaClp), sum.Cl);
   return sum;
 }
@@ -92,7 +132,7 @@ HWY_INLINE void EquationsOfMotion(const KernelConstants& k, const State& state,
 
   const AttitudeMatrix<V> t = AttitudeMatrixOf(q0, qx, qy, qz);
   const V gravity = Constant(k.gravity);
-  const V inverse_mass = Constant(k.inverse_mass);
+  const V inverse_mass = state.plant.Scaled(kPlantInverseMass, lane, Constant(k.inverse_mass));
   const V per_mass = hn::Mul(qbar_S, inverse_mass);
   const V thrust = hn::Mul(hn::Load(d, block.thrust + lane), inverse_mass);
   V rate = hn::MulAdd(gravity, t.t13, hn::MulAdd(r, v, hn::MulAdd(per_mass, c.Cx, thrust)));
@@ -102,15 +142,21 @@ HWY_INLINE void EquationsOfMotion(const KernelConstants& k, const State& state,
   rate = hn::MulAdd(gravity, t.t33, hn::MulAdd(q, u, hn::Mul(per_mass, c.Cz)));
   put(kW, hn::NegMulAdd(p, v, rate));
 
-  const V qbar_S_Cl = hn::Mul(qbar_S, c.Cl), qbar_S_Cn = hn::Mul(qbar_S, c.Cn);
+  const V per_inertia = state.plant.Scaled(kPlantInverseInertia, lane, qbar_S);
+  const V qbar_S_Cl = hn::Mul(per_inertia, c.Cl), qbar_S_Cn = hn::Mul(per_inertia, c.Cn);
+  const auto engine = [&](float configured, float per_momentum) HWY_ATTR {
+    return EngineTerm(state.plant, lane, configured, per_momentum);
+  };
   rate = hn::MulAdd(qbar_S_Cl, Constant(k.p_Cl), hn::Mul(qbar_S_Cn, Constant(k.p_Cn)));
-  V gyration = hn::MulAdd(p, Constant(k.p_pq), hn::MulAdd(r, Constant(k.p_qr), Constant(k.p_q)));
+  V gyration = hn::MulAdd(p, Constant(k.p_pq),
+                          hn::MulAdd(r, Constant(k.p_qr), engine(k.p_q, k.p_q_per_momentum)));
   put(kP, hn::MulAdd(q, gyration, rate));
   rate = hn::MulAdd(qbar_S_Cn, Constant(k.r_Cn), hn::Mul(qbar_S_Cl, Constant(k.r_Cl)));
-  gyration = hn::MulAdd(p, Constant(k.r_pq), hn::MulAdd(r, Constant(k.r_qr), Constant(k.r_q)));
+  gyration = hn::MulAdd(p, Constant(k.r_pq),
+                        hn::MulAdd(r, Constant(k.r_qr), engine(k.r_q, k.r_q_per_momentum)));
   put(kR, hn::MulAdd(q, gyration, rate));
-  rate = hn::Mul(hn::Mul(qbar_S, c.Cm), Constant(k.q_Cm));
-  rate = hn::MulAdd(r, hn::MulAdd(p, Constant(k.q_pr), Constant(k.q_r)), rate);
+  rate = hn::Mul(hn::Mul(per_inertia, c.Cm), Constant(k.q_Cm));
+  rate = hn::MulAdd(r, hn::MulAdd(p, Constant(k.q_pr), engine(k.q_r, k.q_r_per_momentum)), rate);
   put(kQ, hn::NegMulAdd(Constant(k.q_pp), hn::NegMulAdd(r, r, hn::Mul(p, p)), rate));
 
   put(kNorth, hn::MulAdd(t.t31, w, hn::MulAdd(t.t21, v, hn::Mul(t.t11, u))));

@@ -25,22 +25,27 @@ namespace HWY_NAMESPACE {
 namespace plant_kernel {
 
 /// What the surfaces' positions mean to the tables; held during a step.
+template <class Plant>
 HWY_INLINE void LocateSurfaces(const KernelAircraft& aircraft, const BlockControls& controls,
-                               int lane, KernelBlock* block) {
+                               const Plant& plant, int lane, KernelBlock* block) {
   const FloatTag d;
   const IntTag di;
   const KernelConstants& k = aircraft.constants;
   const auto read = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + lane); };
   const V flap_up = hn::NegMulAdd(read(controls.leading_edge_flap_deg),
                                   Constant(k.inverse_flap_reference), Constant(1.0f));
-  const V aileron = hn::Mul(read(controls.aileron_deg), Constant(k.inverse_aileron_reference));
-  const V rudder = hn::Mul(read(controls.rudder_deg), Constant(k.inverse_rudder_reference));
+  const V aileron =
+      plant.Scaled(kPlantAileron, lane,
+                   hn::Mul(read(controls.aileron_deg), Constant(k.inverse_aileron_reference)));
+  const V rudder = plant.Scaled(
+      kPlantRudder, lane, hn::Mul(read(controls.rudder_deg), Constant(k.inverse_rudder_reference)));
   hn::Store(flap_up, d, block->flap_up + lane);
   hn::Store(aileron, d, block->aileron + lane);
   hn::Store(hn::Mul(aileron, flap_up), d, block->aileron_flap + lane);
   hn::Store(rudder, d, block->rudder + lane);
 
-  const Cell elevator = Locate(aircraft.elevator, read(controls.elevator_deg));
+  const Cell elevator =
+      Locate(aircraft.elevator, plant.Scaled(kPlantElevator, lane, read(controls.elevator_deg)));
   const CellTable& effect = aircraft.elevator_effect;
   hn::Store(elevator.fraction, d, block->elevator_fraction + lane);
   hn::Store(hn::MulAdd(elevator.fraction, Lookup32(d, effect.step, elevator.index),

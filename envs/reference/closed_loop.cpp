@@ -36,7 +36,7 @@ ClosedLoop::ClosedLoop(const Plant& plant, const TrimPoint& trim, FlightControlM
   flight_control_state_ = flight_control_.InitialState(Sense(), surfaces_);
 }
 
-AirData ClosedLoop::air() const { return MeasureAir(plant_.atmosphere(), state_, wind_); }
+AirData ClosedLoop::air() const { return plant_.AirAround(state_, wind_); }
 
 FlightSensors ClosedLoop::Sense() const {
   const AirData measured = air();
@@ -74,7 +74,7 @@ void ClosedLoop::Step(const PilotCommands& pilot) {
 
 ClosedLoop::Flight ClosedLoop::RateOf(const Flight& flight, double power_command,
                                       PlantOutput* output) const {
-  const AirData measured = MeasureAir(plant_.atmosphere(), flight.body, wind_);
+  const AirData measured = plant_.AirAround(flight.body, wind_);
   Controls controls;
   controls.thrust_lbf =
       Thrust(plant_.aircraft().engine, flight.power, -flight.body[kDown], measured.mach);

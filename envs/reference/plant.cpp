@@ -34,7 +34,7 @@ Eigen::Vector3d AngularAcceleration(const Airframe& a, const Eigen::Vector3d& ra
 }  // namespace
 
 AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state,
-                   const Eigen::Vector3d& wind) {
+                   const Eigen::Vector3d& wind, double density_factor) {
   const Eigen::Vector3d velocity = state.segment<3>(kU) - BodyFromNed(state.segment<4>(kQ0)) * wind;
   const Air air = AirAt(atmosphere, -state[kDown]);
   const double speed = std::max(velocity.norm(), kMinAirspeedFtS);
@@ -43,13 +43,13 @@ AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state,
   data.alpha_rad = std::atan2(velocity.z(), velocity.x());
   data.beta_rad = std::asin(std::clamp(velocity.y() / speed, -1.0, 1.0));
   data.mach = speed / air.sound_speed_ft_s;
-  data.dynamic_pressure_psf = 0.5 * air.density_slug_ft3 * speed * speed;
-  data.static_pressure_psf = air.pressure_lbf_ft2;
+  data.dynamic_pressure_psf = 0.5 * density_factor * air.density_slug_ft3 * speed * speed;
+  data.static_pressure_psf = density_factor * air.pressure_lbf_ft2;
   return data;
 }
 
-Plant::Plant(Aircraft aircraft, AtmosphereModel atmosphere)
-    : aircraft_(std::move(aircraft)), atmosphere_(atmosphere) {}
+Plant::Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_factor)
+    : aircraft_(std::move(aircraft)), atmosphere_(atmosphere), density_factor_(density_factor) {}
 
 PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& controls,
                             const Eigen::Vector3d& wind) const {
@@ -60,7 +60,7 @@ PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& control
   const Eigen::Matrix3d body_from_ned = BodyFromNed(quaternion);
 
   PlantOutput output;
-  const AirData& air = output.air = MeasureAir(atmosphere_, state, wind);
+  const AirData& air = output.air = AirAround(state, wind);
 
   AerodynamicCondition condition;
   condition.alpha_deg = air.alpha_rad * kDegPerRad;

@@ -29,9 +29,10 @@ struct AirData {
 };
 
 /// Air data of a rigid-body state, in still air or in one that moves by `wind` (north, east, down,
-/// ft/s).
+/// ft/s). Density and with it pressure are `density_factor` times the model's.
 AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state,
-                   const Eigen::Vector3d& wind = Eigen::Vector3d::Zero());
+                   const Eigen::Vector3d& wind = Eigen::Vector3d::Zero(),
+                   double density_factor = 1);
 
 /// One evaluation of the equations of motion.
 struct PlantOutput {
@@ -47,11 +48,16 @@ struct PlantOutput {
 /// or flight control.
 class Plant {
  public:
-  /// Of any aircraft, flown in any atmosphere.
-  Plant(Aircraft aircraft, AtmosphereModel atmosphere);
+  /// Of any aircraft, flown in any atmosphere, whose density is `density_factor` times the model's.
+  Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_factor = 1);
 
   const Aircraft& aircraft() const { return aircraft_; }      ///< as given
   AtmosphereModel atmosphere() const { return atmosphere_; }  ///< as given
+
+  /// Air data in the plant's air.
+  AirData AirAround(const RigidBodyState& state, const Eigen::Vector3d& wind) const {
+    return MeasureAir(atmosphere_, state, wind, density_factor_);
+  }
 
   /// `wind` is the air's velocity, north, east, down, ft/s.
   PlantOutput Evaluate(const RigidBodyState& state, const Controls& controls,
@@ -65,6 +71,7 @@ class Plant {
  private:
   Aircraft aircraft_;
   AtmosphereModel atmosphere_;
+  double density_factor_;
 };
 
 }  // namespace skein

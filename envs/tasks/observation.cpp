@@ -6,6 +6,7 @@
 
 #include "envs/aircraft/engine.h"
 #include "envs/kernels/kernel_aircraft.h"
+#include "envs/plant/sensor_freeze.h"
 #include "envs/tasks/task.h"
 #include "simd/dispatch.h"
 #include "simd/random.h"
@@ -43,16 +44,18 @@ HWY_INLINE void ObserveAttitude(const Tile& tile, int first, ObservationColumns&
   hn::Store(cos_pitch, d, columns[7]);
 }
 
-HWY_INLINE void ObserveAir(const KernelAircraft& aircraft, const Tile& tile, int first,
-                           ObservationColumns& columns) {
+HWY_INLINE void ObserveAir(const KernelAircraft& aircraft, const Tile& tile,
+                           const PlantTile& plants, int first, ObservationColumns& columns) {
   const FloatTag d;
   const ReferenceUnits& units = aircraft.source.units;
   const VelocityVectors velocity = Velocity(tile, first);
   const V altitude = hn::Neg(Column(tile, kDown, first));
   const auto air = AirAtAltitude(d, aircraft, altitude);
+  V density = air.density;
+  if (plants.is_drawn()) density = hn::Mul(density, Column(plants.columns, kPlantDensity, first));
   V equivalent_ratio, true_ratio;
-  Length(hn::Mul(air.density, Constant(1 / aircraft.atmosphere.sea_level_density)),
-         equivalent_ratio, true_ratio);
+  Length(hn::Mul(density, Constant(1 / aircraft.atmosphere.sea_level_density)), equivalent_ratio,
+         true_ratio);
   hn::Store(hn::Mul(altitude, Constant(1 / units.altitude_ft)), d, columns[3]);
   hn::Store(hn::Mul(hn::Mul(velocity.speed, equivalent_ratio), Constant(1 / units.speed_ft_s)), d,
             columns[8]);
@@ -73,6 +76,17 @@ HWY_INLINE void ObserveControls(const Actuators& actuators, const Tile& tile, in
   for (int k = 0; k < 4; ++k) {
     hn::Store(hn::Mul(Column(tile, kElevator + k, first), Constant(1 / surfaces[k]->max_deg)), d,
               columns[17 + k]);
+  }
+}
+
+/// Scale errors and biases of the sensors, each number's own.
+HWY_INLINE void AddSensorErrors(const Tile& plants, int first, ObservationColumns& columns) {
+  const FloatTag d;
+  for (int k = 0; k < kNumSensedNumbers; ++k) {
+    float* const number = columns[kNumTaskErrors + k];
+    hn::Store(hn::MulAdd(hn::Load(d, number), Column(plants, kPlantSensorScale + k, first),
+                         Column(plants, kPlantSensorBias + k, first)),
+              d, number);
   }
 }
 
@@ -132,7 +146,7 @@ HWY_INLINE void StoreRows(const ObservationColumns& columns, int valid, float* r
 
 void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* errors,
                        std::size_t error_stride, const ObservationNoise& noise,
-                       float* observation) {
+                       const PlantTile& plants, float* observation) {
   const FloatTag d;
   const PhiloxKeys keys(noise.seed);
   const bool is_noisy = noise.standard_deviation > 0 || noise.max_standard_deviation > 0;
@@ -142,8 +156,9 @@ void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* e
       hn::Store(hn::LoadU(d, errors + k * error_stride + first), d, columns[k]);
     }
     ObserveAttitude(tile, first, columns);
-    ObserveAir(aircraft, tile, first, columns);
+    ObserveAir(aircraft, tile, plants, first, columns);
     ObserveControls(aircraft.source.actuators, tile, first, columns);
+    if (plants.has_sensor_errors) AddSensorErrors(plants.columns, first, columns);
     if (is_noisy) AddNoise(noise, keys, first, columns);
 
     const int valid = std::min(tile.count - first, kLanes);
@@ -161,9 +176,16 @@ namespace skein {
 
 HWY_EXPORT(ObserveTileKernel);
 
+static_assert(kNumTaskErrors + kNumSensedNumbers == kObservationSize);
+
 void ObserveTile(const KernelAircraft& aircraft, Tile tile, const float* errors,
-                 std::size_t error_stride, const ObservationNoise& noise, float* observation) {
-  SKEIN_DISPATCH(ObserveTileKernel)(aircraft, tile, errors, error_stride, noise, observation);
+                 std::size_t error_stride, const ObservationNoise& noise, float* observation,
+                 const PlantTile& plants) {
+  SKEIN_DISPATCH(ObserveTileKernel)
+  (aircraft, tile, errors, error_stride, noise, plants, observation);
+  if (plants.is_drawn()) {
+    ShowFrozenSensors(plants, tile.count, observation, kObservationSize);
+  }
 }
 
 }  // namespace skein

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "envs/plant/plant_columns.h"
 #include "envs/state/state.h"
 
 namespace skein {
@@ -34,8 +35,10 @@ struct ObservationNoise {
 };
 
 /// Writes observations row-major, [tile.count][kObservationSize]. `errors` are kNumTaskErrors
-/// columns `error_stride` apart.
+/// columns `error_stride` apart. Of drawn `plants` it reads the air's density and the sensors'
+/// errors, which come before the noise, and shows what frozen sensors hold.
 void ObserveTile(const KernelAircraft& aircraft, Tile tile, const float* errors,
-                 std::size_t error_stride, const ObservationNoise& noise, float* observation);
+                 std::size_t error_stride, const ObservationNoise& noise, float* observation,
+                 const PlantTile& plants = {});
 
 }  // namespace skein

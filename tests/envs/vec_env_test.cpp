@@ -130,6 +130,59 @@ TEST(VecEnv, NeitherDoWindAndNoiseByEpisode) {
   EXPECT_EQ(Fly(&other, 40, 20), Fly(&small, 40, 20));
 }
 
+/// Everything of the plant drawn, with delays and faulty sensors.
+PlantConfig BusyPlant() {
+  PlantConfig plant;
+  for (Range PlantConfig::*factor :
+       {&PlantConfig::mass, &PlantConfig::inertia, &PlantConfig::axial_force,
+        &PlantConfig::normal_force, &PlantConfig::lateral, &PlantConfig::weak_surface,
+        &PlantConfig::damping, &PlantConfig::thrust, &PlantConfig::density,
+        &PlantConfig::roll_stick, &PlantConfig::actuator_bandwidth}) {
+    plant.*factor = {0.7, 1.3};
+  }
+  plant.cg_shift = {-0.05, 0.05};
+  plant.action_delay_steps = {0, 2};
+  plant.observation_delay_steps = {0, 3};
+  plant.sensor_bias = plant.sensor_scale = 0.02;
+  plant.sensor_freeze_chance = 0.5;
+  plant.sensor_freeze_s = {0, 2};
+  return plant;
+}
+
+TEST(VecEnv, NeitherDoDrawnPlants) {
+  for (const std::string& task : TaskNames()) {
+    for (const double turbulence_fps : {0.0, 10.0}) {
+      EnvConfig config = BusyConfig();
+      config.task = task;
+      config.plant = BusyPlant();
+      config.wind.turbulence_fps = {0, turbulence_fps};
+      VecEnv small(config, 70, 1, 32), large(config, 70, 1, 4096), few(config, 5, 1);
+      const std::vector<Log> logs = Fly(&small, 0, 41);
+      EXPECT_EQ(logs, Fly(&large, 0, 41)) << task;
+      const std::vector<Log> few_logs = Fly(&few, 0, 41);
+      EXPECT_TRUE(std::equal(few_logs.begin(), few_logs.end(), logs.begin())) << task;
+      const std::vector<std::uint32_t> snapshot = small.Snapshot();
+      EXPECT_EQ(snapshot, large.Snapshot()) << task;
+      // Into an environment in the midst of other flights.
+      VecEnv other(config, 70, 1);
+      Fly(&other, 0, 7);
+      other.Restore(snapshot);
+      EXPECT_EQ(other.Snapshot(), snapshot) << task;
+      EXPECT_EQ(Fly(&other, 41, 20), Fly(&small, 41, 20)) << task;
+    }
+  }
+}
+
+TEST(VecEnv, EveryEpisodeAndAircraftDrawsItsOwnPlant) {
+  EnvConfig config;
+  config.plant.thrust = {0.5, 1.5};
+  config.observation_noise = 0;
+  VecEnv env(config, 2, 1);
+  StepBuffers buffers(2);
+  env.Step(0, buffers.action.data(), buffers.output());
+  EXPECT_NE(env.StateOf(0, kU), env.StateOf(1, kU));
+}
+
 TEST(VecEnv, ResultsDoNotDependOnOtherAircraft) {
   VecEnv few(BusyConfig(), 5, 1), many(BusyConfig(), 200, 1);
   const std::vector<Log> few_logs = Fly(&few, 0, 60);

@@ -23,6 +23,7 @@
 #include "simd/target.h"
 #include "tests/envs/every_aircraft.h"
 #include "tests/envs/golden.h"
+#include "tests/envs/plant/drawn_aircraft.h"
 #include "tests/envs/test_tile.h"
 #include "tests/tolerance.h"
 
@@ -269,7 +270,7 @@ std::pair<double, double> StepPowered(const Plant& plant, Controls surfaces, dou
                                       const Eigen::Vector3d& wind, double dt, PoweredState* state) {
   PlantOutput output;
   const auto rate = [&](const RigidBodyState& body, double power) {
-    const AirData air = plant.Evaluate(body, surfaces, wind).air;
+    const AirData air = plant.AirAround(body, wind);
     surfaces.thrust_lbf = Thrust(plant.aircraft().engine, power, -body[kDown], air.mach);
     output = plant.Evaluate(body, surfaces, wind);
     return PoweredState{output.state_rate,
@@ -288,22 +289,23 @@ std::pair<double, double> StepPowered(const Plant& plant, Controls surfaces, dou
   return {output.nz, output.ny};
 }
 
-/// Of random flights, in still air or in wind.
-void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy) {
-  constexpr int kCount = 20000;
+/// Of random flights, in still air or in wind, of `count` aircraft at most. `plants` make what
+/// `kernel` flies `plant`.
+void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy,
+                  const PlantTile& plants = {}, int count = 20000) {
   constexpr double kDt = 0.02;
   // A stage that crosses military power or a table's kink on one side only adds the most.
   constexpr Tolerance kFloat32Step{2e-5, "float32 states and rates of a step"};
   constexpr Tolerance kLoadFactor{2e-4, "float32 states, fractions of cells and sums"};
   RandomFlight random(plant.aircraft(), 11);
-  TestTile tile(kCount, windy ? kNumWindyColumns : kNumColumns);
+  TestTile tile(count, windy ? kNumWindyColumns : kNumColumns);
   random.Fill(&tile);
   random.FillEngineAndSurfaces(&tile);
   if (windy) random.FillWind(&tile);
   TestTile before = tile;
-  StepTile(kernel, tile.tile(), static_cast<float>(kDt), 1);
+  StepTile(kernel, tile.tile(), static_cast<float>(kDt), 1, {}, plants);
   ErrorTable states, load_factors;
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < count; ++i) {
     PoweredState state{StateIn(&before, i), before.at(kPower, i)};
     Controls surfaces;
     surfaces.elevator_deg = before.at(kElevator, i);
@@ -343,6 +345,33 @@ TEST_P(PlantKernelTest, AStepWithEffectsOfTheMachNumberAgreesWithTheFloat64Plant
   aircraft.drag_rises = aircraft.engine.grows = true;
   const Plant plant(aircraft, AtmosphereModel::kStevensLewis);
   CompareSteps(plant, *MakeKernelAircraft(aircraft, plant.atmosphere()), false);
+}
+
+TEST_P(PlantKernelTest, AStepOfADrawnPlantAgreesWithTheFloat64Plant) {
+  constexpr int kCount = 2000, kPlants = 4;
+  PlantConfig ranges;
+  for (Range* factor :
+       {&ranges.mass, &ranges.inertia, &ranges.axial_force, &ranges.normal_force,
+        &ranges.pitching_moment, &ranges.lateral, &ranges.control, &ranges.weak_surface,
+        &ranges.damping, &ranges.thrust, &ranges.thrust_lag, &ranges.density}) {
+    *factor = {0.6, 1.5};
+  }
+  ranges.cg_shift = {-0.1, 0.1};
+  const double momentum = 300.0 / 63100 * plant_.aircraft().airframe.Izz;
+  ranges.engine_momentum = {-momentum, momentum};
+  for (int k = 0; k < kPlants; ++k) {
+    simd::RandomStream random(
+        {3, static_cast<std::uint32_t>(k), 0, 0, simd::RandomPurpose::kPlant});
+    const PlantDraw draw = DrawPlant(ranges, &random);
+    TestTile columns(kCount, kNumPlantColumns);
+    const PlantTile plants{columns.tile()};
+    SetPlant(draw, plant_.aircraft(), 0.02, plants, 0);
+    for (int column = 0; column < kNumPlantColumns; ++column) {
+      columns.Fill(column, columns.at(column, 0));
+    }
+    const Plant drawn(DrawnAircraft(plant_.aircraft(), draw), plant_.atmosphere(), draw.density);
+    for (const bool windy : {false, true}) CompareSteps(drawn, *kernel_, windy, plants, kCount);
+  }
 }
 
 // Both are code of their own, but a velocity less nothing is the same velocity.

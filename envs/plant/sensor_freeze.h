@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "envs/plant/plant_columns.h"
+
+namespace skein {
+
+// Sensors that keep their last value. Observations are row-major, [count][observation_size].
+
+/// Whether a sensor of the tile freezes now: `step` are the control steps flown.
+bool AnySensorFreezes(const PlantTile& plants, int count, const std::int32_t* step);
+
+/// Freezes those sensors: from now on each shows what `observation` has.
+void FreezeSensors(const PlantTile& plants, int count, const std::int32_t* step,
+                   const float* observation, int observation_size);
+
+/// Puts what frozen sensors hold into the observation.
+void ShowFrozenSensors(const PlantTile& plants, int count, float* observation,
+                       int observation_size);
+
+}  // namespace skein
