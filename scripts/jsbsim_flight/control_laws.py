@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Skein's flight control laws and actuators for the F-16, in plain Python.
 
-The laws, their gains and their sources are those of docs/explanation/flight-control.md; envs/reference/flight_control.h is
-their specification. A test replays a flight that Skein recorded and finds the same surfaces."""
+The laws, their gains and their sources are those of docs/explanation/flight-control.md; envs/reference/flight_control.h
+is their specification. A test replays flights that Skein recorded, and requires the same surfaces."""
 import math
 from dataclasses import dataclass
 
@@ -89,7 +89,8 @@ class ControlLaws:
         self.load_factor, self.load_factor_command = Filter(0, 50, 50, dt), Filter(0, 8.3, 8.3, dt)
         self.pitch_lead = Filter(3, 12, 12, dt)
         self.roll_rate, self.roll_command = Filter(0, 50, 50, dt), Filter(0, 10, 10, dt)
-        self.yaw_rate, self.yaw_washout, self.yaw_lead = Filter(0, 50, 50, dt), Filter(1.5, 0, 1, dt), Filter(3, 15, 15, dt)
+        self.yaw_rate, self.yaw_washout = Filter(0, 50, 50, dt), Filter(1.5, 0, 1, dt)
+        self.yaw_lead = Filter(3, 15, 15, dt)
         self.pedal, self.lateral_acceleration = Filter(0, 4, 4, dt), Filter(0, 20, 20, dt)
         self.flap = Filter(2, 7.25, 7.25, dt)
         self.pitch_integrator = self.roll_integrator = self.trim_aileron = self.trim_rudder = 0.0

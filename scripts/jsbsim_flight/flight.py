@@ -23,8 +23,8 @@ class Rules:
 
 
 def hold_figures(states, within, asked_steps):
-    """How a target was held, by the formulas of docs/reference/metrics.md: of the states after it was reached, and whether
-    each was within tolerances. What of the time asked for was not flown was not within."""
+    """How a target was held, by the formulas of docs/reference/metrics.md: of the states after it was reached, and
+    whether each was within tolerances. What of the time asked for was not flown was not within."""
     def rms(values):
         return math.degrees(math.sqrt(statistics.fmean(value * value for value in values)))
 
@@ -42,9 +42,9 @@ def step_time(step):
 
 
 def fly(vehicle, policy, task, rules, noise=lambda: 0.0):
-    """Flies one episode and says how it ended; when it first touched the target, and when it had reached it (None: never);
-    the time to the target, at which it entered the tolerances that it then held for the dwell; and the figures of the
-    hold. noise() is added to every observation."""
+    """Flies one episode and says how it ended; when it first touched the target, and when it had reached it (None:
+    never); the time to the target, at which it entered the tolerances that it then held for the dwell; and the figures
+    of the hold. noise() is added to every observation."""
     policy.begin()
     state = vehicle.state()
     step = touched = reached = steps_within = 0

@@ -30,4 +30,5 @@ def share_and_interval(successes, count):
     z, p = NORMAL_QUANTILE, successes / count
     centre = (p + z * z / (2 * count)) / (1 + z * z / count)
     reach = z / (1 + z * z / count) * math.sqrt(p * (1 - p) / count + z * z / (4 * count * count))
-    return {"percent": 100 * p, "low": 100 * max(centre - reach, 0), "high": 100 * min(centre + reach, 1), "count": count}
+    return {"percent": 100 * p, "low": 100 * max(centre - reach, 0), "high": 100 * min(centre + reach, 1),
+            "count": count}

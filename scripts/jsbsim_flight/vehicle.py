@@ -13,7 +13,7 @@ from jsbsim_flight.task import DT, State
 SUBSTEPS = 3  # of JSBSim in a control step: 150 Hz, next to its usual 120
 # Full deflections, rad, of the surfaces in JSBSim's model.
 ELEVATOR_RAD, AILERON_RAD, RUDDER_RAD = 0.436, 0.375, 0.524
-# Parts of the model's flight control that Skein's laws replace. Its trailing-edge flaps follow the ailerons, so they go too.
+# Parts of the model's flight control that Skein's laws replace. Its trailing-edge flaps follow the ailerons and go, too.
 REPLACED_CHANNELS = {"Flaps", "Roll", "Pitch", "Yaw", "Leading Edge Flap"}
 DIRECT_CHANNEL = f"""<channel name="Surfaces">
  <summer name="fcs/stick-and-trim"><input>fcs/elevator-cmd-norm</input><input>fcs/pitch-trim-cmd-norm</input></summer>
@@ -36,8 +36,8 @@ def power_command(throttle):
 
 
 def lever_for_power(power):
-    """JSBSim's throttle, 0 to 1 with military power at 0.5, at which thrust settles at the share that `power` means: below
-    military power it grows with the square of the turbine's speed, and the speed with the throttle."""
+    """JSBSim's throttle, 0 to 1 with military power at 0.5, at which thrust settles at the share that `power` means:
+    below military power it grows with the square of the turbine's speed, and the speed with the throttle."""
     return 0.5 * math.sqrt(power / 50) if power < 50 else power / 100
 
 
@@ -73,7 +73,8 @@ class Vehicle:
 
     def trim(self, altitude_ft, airspeed_fps):
         fdm = self.fdm
-        fdm["ic/h-sl-ft"], fdm["ic/vt-fps"], fdm["ic/gamma-deg"], fdm["ic/psi-true-deg"] = altitude_ft, airspeed_fps, 0, 0
+        fdm["ic/h-sl-ft"], fdm["ic/vt-fps"] = altitude_ft, airspeed_fps
+        fdm["ic/gamma-deg"], fdm["ic/psi-true-deg"] = 0, 0
         fdm["gear/gear-cmd-norm"] = 0
         if not fdm.run_ic():
             raise TrimError("JSBSim cannot begin at its initial conditions")

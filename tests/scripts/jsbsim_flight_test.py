@@ -29,7 +29,7 @@ POLICY_STEP = 25  # control steps of this agent: observations are of their begin
 
 
 def air(altitude_ft):
-    """Density, relative to sea level and absolute, and pressure: the atmosphere of the F-16 models (Stevens and Lewis)."""
+    """Density, relative to sea level and absolute, and pressure, of the F-16 models' air (Stevens and Lewis)."""
     temperature_ratio = 1 - 0.703e-5 * altitude_ft
     temperature = 390 if altitude_ft >= 35000 else 519 * temperature_ratio
     density = 2.377e-3 * temperature_ratio ** 4.14
@@ -57,7 +57,7 @@ def target_of(task_class, row):
     units = {"_deg": math.radians(1), "_ft": 1, "_fps": 1}
     columns = [column for column in row if column.startswith("target_")]
     flown = task_class(state_of(row), lambda reach: 0)
-    flown.target = tuple(float(row[column]) * next(units[end] for end in units if column.endswith(end)) for column in columns)
+    flown.target = tuple(float(row[column]) * units["_" + column.split("_")[-1]] for column in columns)
     return flown
 
 
@@ -74,7 +74,8 @@ class RecordedFlights(unittest.TestCase):
             (path,) = glob.glob(os.path.join(folder, "flights*.csv"))
             with open(path, newline="", encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))
-        return [[row for row in rows if row["episode"] == number] for number in sorted({row["episode"] for row in rows})]
+        numbers = sorted({row["episode"] for row in rows})
+        return [[row for row in rows if row["episode"] == number] for number in numbers]
 
     def test_control_laws_and_actuators_move_the_surfaces_as_skein_does(self):
         steps = 0
@@ -135,7 +136,8 @@ class Zero:
 
 
 LEVEL = task.State(altitude=20000, roll=0, pitch=0, yaw=0, p=0, q=0, r=0, alpha=0, beta=0, airspeed=1000, mach=0.96,
-                   density_ratio=0.5, dynamic_pressure=600, static_pressure=970, nz=1, ny=0, power=30, surfaces=Surfaces())
+                   density_ratio=0.5, dynamic_pressure=600, static_pressure=970, nz=1, ny=0, power=30,
+                   surfaces=Surfaces())
 AWAY = replace(LEVEL, altitude=19500)
 
 
