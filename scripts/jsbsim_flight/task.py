@@ -41,8 +41,8 @@ def angle_error(target, actual):
 
 
 class Task:
-    """A target, and how far from it an aircraft is. Each task's class has its RANGES, TOLERANCES, FIRST_UNIT (of the first
-    error when observed), EARLIEST_SUCCESS_STEP, and the first quantity that its target is compared with."""
+    """A target, and how far from it an aircraft is. Each task's class has its RANGES, TOLERANCES, FIRST_UNIT (of the
+    first error when observed), EARLIEST_SUCCESS_STEP, and the first quantity that its target is compared with."""
 
     def __init__(self, state, draw):
         """Draws the target; draw(x) is uniform in [-x, x]."""

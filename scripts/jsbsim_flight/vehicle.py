@@ -13,7 +13,7 @@ from jsbsim_flight.task import DT, State
 SUBSTEPS = 3  # of JSBSim in a control step: 150 Hz, next to its usual 120
 # Full deflections, rad, of the surfaces in JSBSim's model.
 ELEVATOR_RAD, AILERON_RAD, RUDDER_RAD = 0.436, 0.375, 0.524
-# Parts of the model's flight control that Skein's laws replace. Its trailing-edge flaps follow the ailerons and go, too.
+# Parts of the model's flight control that Skein's laws replace. Its trailing-edge flaps follow the ailerons and go too.
 REPLACED_CHANNELS = {"Flaps", "Roll", "Pitch", "Yaw", "Leading Edge Flap"}
 DIRECT_CHANNEL = f"""<channel name="Surfaces">
  <summer name="fcs/stick-and-trim"><input>fcs/elevator-cmd-norm</input><input>fcs/pitch-trim-cmd-norm</input></summer>
