@@ -103,7 +103,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       progress_(RulesOf(config_, *task_)),
       reset_(config_, aircraft_),
       wind_(config_.wind),
-      privileged_(*task_, progress_, wind_.enabled()) {
+      privileged_(*task_, progress_, wind_.enabled(), config_.plant.enabled()) {
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
   if (low_level != nullptr) {
     low_level_ = std::make_unique<LowLevelFlight>(config_, num_aircraft, std::move(low_level));

@@ -19,11 +19,12 @@ namespace skein {
 ///                        targets must be held)
 ///   reached              1 once the target counts as reached (if the flight goes on then)
 ///   wind_x, _y, _z       the wind along the body axes, in units of 100 ft/s (in windy tiles)
+///   plant_...            how the drawn plant differs from the nominal one (if plants are drawn)
 class PrivilegedObservation {
  public:
   /// Keeps a reference to `task`.
-  PrivilegedObservation(const Task& task, const ProgressRules& rules, bool windy)
-      : task_(task), rules_(rules), windy_(windy) {}
+  PrivilegedObservation(const Task& task, const ProgressRules& rules, bool windy, bool draws_plants)
+      : task_(task), rules_(rules), windy_(windy), draws_plants_(draws_plants) {}
 
   std::vector<std::string> names() const;
   int size() const { return static_cast<int>(names().size()); }
@@ -34,7 +35,7 @@ class PrivilegedObservation {
  private:
   const Task& task_;
   ProgressRules rules_;
-  bool windy_;
+  bool windy_, draws_plants_;
 };
 
 }  // namespace skein

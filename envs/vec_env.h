@@ -41,8 +41,9 @@ class VecEnv {
   void Observe(int tile, float* observation) const;
 
   /// What the environment knows and no policy observes, for a critic that sees more than its actor:
-  /// the task's errors without noise, the episode's clock, tolerance and progress, the wind
-  /// (envs/privileged_observation.h). Numbers of about unit size, called by their names.
+  /// the task's errors without noise, the episode's clock, tolerance and progress, wind and
+  /// drawn plant (envs/privileged_observation.h). Numbers of about unit size, called by their
+  /// names.
   int privileged_size() const;
   std::vector<std::string> privileged_names() const;  ///< of privileged_size() numbers
   /// Writes the tile's, row-major [count][privileged_size].

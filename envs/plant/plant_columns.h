@@ -10,34 +10,34 @@ namespace skein {
 /// sensor.
 enum PlantColumn : int {
   kPlantInverseMass,
-  kPlantInverseInertia,      ///< factors of 1 / mass and 1 / moment of inertia
-  kPlantCgShift,             ///< chords by which the cg lies further aft
-  kPlantAxialForce,          ///< factor of static Cx
-  kPlantNormalForce,         ///< of static Cz
-  kPlantPitchingMoment,      ///< of static Cm
-  kPlantLateral,             ///< of static Cy, Cl and Cn, the increments by the surfaces included
-  kPlantElevator,            ///< deflection that acts over the true one
-  kPlantAileron,             ///< the same over kPlantLateral, which multiplies its increments, too
-  kPlantRudder,              ///< likewise
-  kPlantDamping,             ///< factor of all derivatives by p, q and r
-  kPlantThrust,              ///< factor of thrust
-  kPlantPowerRate,           ///< factor of the rate of power
-  kPlantEngineMomentum,      ///< slug ft^2/s in all, over the factor of inertia
-  kPlantDensity,             ///< factor of the air's density
-  kPlantPitchStick,          ///< factors of stick commands
+  kPlantInverseInertia,  ///< factors of 1 / mass and 1 / moment of inertia
+  kPlantCgShift,         ///< chords by which the cg lies further aft
+  kPlantAxialForce,      ///< factor of static Cx
+  kPlantNormalForce,     ///< of static Cz
+  kPlantPitchingMoment,  ///< of static Cm
+  kPlantLateral,         ///< of static Cy, Cl and Cn, the increments by the surfaces included
+  kPlantElevator,        ///< deflection that acts over the true one
+  kPlantAileron,         ///< the same over kPlantLateral, which multiplies its increments, too
+  kPlantRudder,          ///< likewise
+  kPlantDamping,         ///< factor of all derivatives by p, q and r
+  kPlantThrust,          ///< factor of thrust
+  kPlantPowerRate,       ///< factor of the rate of power
+  kPlantEngineMomentum,  ///< slug ft^2/s in all, over the factor of inertia
+  kPlantDensity,         ///< factor of the air's density
+  kPlantPitchStick,      ///< factors of stick commands
   kPlantRollStick,
   kPlantYawStick,
-  kPlantActuatorRate,        ///< factor of the largest step of an actuator
-  kPlantElevatorReached,     ///< fraction of the way to the command in one control step
+  kPlantActuatorRate,     ///< factor of the largest step of an actuator
+  kPlantElevatorReached,  ///< fraction of the way to the command in one control step
   kPlantAileronReached,
   kPlantRudderReached,
   kPlantFlapReached,
-  kPlantActionDelay,         ///< control steps
-  kPlantObservationDelay,    ///< control steps
-  kPlantFrozenSensor,        ///< index in kFreezingSensors, or -1: none
-  kPlantFreezeStep,          ///< control step of the episode from which on it is frozen
-  kPlantIsFrozen,            ///< 1 once it is
-  kPlantHeld,                ///< what it then shows: the sensor's one or two observed numbers
+  kPlantActionDelay,       ///< control steps
+  kPlantObservationDelay,  ///< control steps
+  kPlantFrozenSensor,      ///< index in kFreezingSensors, or -1: none
+  kPlantFreezeStep,        ///< control step of the episode from which on it is frozen
+  kPlantIsFrozen,          ///< 1 once it is
+  kPlantHeld,              ///< what it then shows: the sensor's one or two observed numbers
   kPlantHeldSecond,
   kNumPlantColumns,
 
@@ -48,7 +48,8 @@ enum PlantColumn : int {
   kNumPlantColumnsWithSensors = kPlantSensorBias + kNumSensedNumbers
 };
 
-/// A sensor that may freeze: the one or two observed numbers that it gives (envs/tasks/observation.h).
+/// A sensor that may freeze: the one or two observed numbers that it gives
+/// (envs/tasks/observation.h).
 struct FreezingSensor {
   int first, count;
 };
@@ -60,7 +61,7 @@ inline constexpr int kNumFreezingSensors = 7;
 
 /// The drawn plants of a tile's aircraft. Without columns all are nominal.
 struct PlantTile {
-  Tile columns;             ///< of PlantColumn; their stride is that of the flight's
+  Tile columns;  ///< of PlantColumn; their stride is that of the flight's
   bool has_sensor_errors = false;
 
   bool is_drawn() const { return columns.base != nullptr; }

@@ -14,7 +14,9 @@
 #include "base/error.h"
 #include "envs/env_config.h"
 #include "envs/wind/dryden.h"
+#include "src/config/condition_level.h"
 #include "src/config/nearest_name.h"
+#include "src/config/plant_condition.h"
 
 namespace skein {
 namespace {
@@ -24,13 +26,6 @@ constexpr double kSpeedOfMachOne = 1037;
 constexpr double kFpsPerKnot = 1852 / 0.3048 / 3600;
 constexpr double kFpsPerMetrePerSecond = 1 / 0.3048;
 
-/// A suffix of a number and what it multiplies it with.
-struct Unit {
-  const char* suffix;
-  double factor;
-};
-using Units = std::vector<Unit>;
-
 const Units kMachUnits = {{"", kSpeedOfMachOne}};
 const Units kAltitudeUnits = {{"kft", 1000}, {"ft", 1}, {"", 1000}};
 // None is the usual one of winds: a number alone is refused.
@@ -38,62 +33,7 @@ const Units kSpeedUnits = {{"fps", 1}, {"kt", kFpsPerKnot}, {"m/s", kFpsPerMetre
 const Units kAngleUnits = {{"deg", 1}, {"", 1}};
 const Units kPlain = {{"", 1}};
 
-/// A condition as it was asked for, for messages.
-struct Request {
-  std::string name, level;
-  const char* form;      // what a level looks like
-  bool is_held = false;  // not the start alone, but the targets, too
-
-  [[noreturn]] void Refuse(const std::string& part) const {
-    throw Error(fmt::format("--condition {}={}: cannot read \"{}\"; {} takes {}", name, level, part,
-                            name, form));
-  }
-  [[noreturn]] void RefuseWithoutUnit(const std::string& number, const Units& units) const {
-    std::vector<std::string> forms;
-    for (const Unit& unit : units) forms.push_back(number + unit.suffix);
-    throw Error(fmt::format("--condition {}={}: {} of what? Write {}", name, level, number,
-                            fmt::join(forms, ", ")));
-  }
-};
-
-constexpr const char* kDigits = "0123456789.";
-
-bool StartsWithDigit(const std::string& text) { return text.find_first_of(kDigits) == 0; }
-
-/// `text` as a number with one of the units.
-double ParseNumber(const std::string& text, const Units& units, const Request& request) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, failure] = std::from_chars(text.data(), end, value);
-  if (failure != std::errc()) request.Refuse(text);
-  const std::string suffix(rest, end);
-  for (const Unit& unit : units) {
-    if (suffix == unit.suffix) return value * unit.factor;
-  }
-  if (suffix.empty()) request.RefuseWithoutUnit(text, units);
-  request.Refuse(text);
-}
-
-/// "A..B" in its two parts; a text without ".." is both.
-std::pair<std::string, std::string> SplitRange(const std::string& text) {
-  const auto dots = text.find("..");
-  if (dots == std::string::npos) return {text, text};
-  return {text.substr(0, dots), text.substr(dots + 2)};
-}
-
-/// "A", "A..B" or "A..Bunit": then the unit is A's, too.
-Range ParseRange(const std::string& text, const Units& units, const Request& request) {
-  auto [low, high] = SplitRange(text);
-  const std::size_t unit = high.find_last_of(kDigits), end = low.find_last_of(kDigits);
-  const bool low_has_unit = end + 1 < low.size(), high_has_unit = unit + 1 < high.size();
-  if (low_has_unit && !high_has_unit) request.Refuse(text);  // 60kt..120: of what?
-  if (!low_has_unit && high_has_unit) low += high.substr(unit + 1);
-  const Range range{ParseNumber(low, units, request), ParseNumber(high, units, request)};
-  if (range.min > range.max) request.Refuse(text);
-  return range;
-}
-
-Range ParseSeverity(const std::string& text, const Request& request) {
+Range ParseSeverity(const std::string& text, const LevelRequest& request) {
   const auto deviation = [&](const std::string& name) {
     for (const TurbulenceSeverity& severity : kTurbulenceSeverities) {
       if (name == severity.name) return severity.standard_deviation_fps;
@@ -115,7 +55,7 @@ void Append(const char* quantity, const char* unit, const Range& range,
 
 using Assignments = std::vector<std::string>;
 
-Assignments HighSpeed(const Request& request, const std::string& level) {
+Assignments HighSpeed(const LevelRequest& request, const std::string& level) {
   const Range speed = ParseRange(level, kMachUnits, request);
   Assignments assignments;
   Append("initial.true_airspeed", "_fps", speed, &assignments);
@@ -124,7 +64,7 @@ Assignments HighSpeed(const Request& request, const std::string& level) {
   return assignments;
 }
 
-Assignments HighAltitude(const Request& request, const std::string& level) {
+Assignments HighAltitude(const LevelRequest& request, const std::string& level) {
   const Range altitude = ParseRange(level, kAltitudeUnits, request);
   Assignments assignments;
   Append("initial.altitude", "_ft", altitude, &assignments);
@@ -133,13 +73,13 @@ Assignments HighAltitude(const Request& request, const std::string& level) {
   return assignments;
 }
 
-Assignments Noisy(const Request& request, const std::string& level) {
+Assignments Noisy(const LevelRequest& request, const std::string& level) {
   const Range range = ParseRange(level, kPlain, request);
   return {fmt::format("env.observation_noise={}", range.min),
           fmt::format("env.observation_noise_max={}", range.max > range.min ? range.max : 0)};
 }
 
-Assignments Windy(const Request& request, const std::string& level) {
+Assignments Windy(const LevelRequest& request, const std::string& level) {
   Assignments assignments;
   std::set<std::string> given;
   const auto append = [&](const std::string& part, const char* quantity, const char* unit,
@@ -147,10 +87,7 @@ Assignments Windy(const Request& request, const std::string& level) {
     if (!given.insert(quantity).second) request.Refuse(part);
     Append(quantity, unit, range, &assignments);
   };
-  for (std::size_t begin = 0; begin <= level.size();) {
-    const std::size_t end = std::min(level.find(',', begin), level.size());
-    const std::string part = level.substr(begin, end - begin);
-    begin = end + 1;
+  for (const std::string& part : SplitParts(level)) {
     const auto value_of = [&part](const char* label) -> std::optional<std::string> {
       const std::size_t length = std::strlen(label);
       if (part.compare(0, length, label) != 0) return std::nullopt;
@@ -194,7 +131,7 @@ struct Condition {
   const char* middle;
   const char* hard;
   bool can_be_held;
-  Assignments (*assign)(const Request& request, const std::string& level);
+  Assignments (*assign)(const LevelRequest& request, const std::string& level);
 
   std::string LevelText(const std::string& level) const {
     if (level == "mild") return mild;
@@ -218,7 +155,8 @@ const std::vector<Condition>& Conditions() {
        "0..120fps,light..severe; sigma=5fps,from=270deg) or mild, middle, hard",
        "60fps,light", "120fps,moderate", "200fps,severe", false, Windy},
       {"noisy", "a standard deviation or range (0.03, 0.01..0.05) or mild, middle, hard", "0.02",
-       "0.05", "0.1", false, Noisy}};
+       "0.05", "0.1", false, Noisy},
+      {"plant", kPlantForm, "0.5", "1", "1.5", false, PlantAssignments}};
   return conditions;
 }
 
@@ -242,7 +180,7 @@ std::vector<std::string> ConditionAssignments(const std::vector<std::string>& co
     if (equals == std::string::npos) {
       throw Error(fmt::format("--condition {}: expected NAME=LEVEL, such as noisy=0.03", text));
     }
-    const Request request{text.substr(0, equals), text.substr(equals + 1), ""};
+    const LevelRequest request{text.substr(0, equals), text.substr(equals + 1), ""};
     const Condition& condition = FindCondition(request.name);
     if (!names.insert(request.name).second) {
       throw Error(fmt::format("--condition {}: {} is given twice", text, request.name));
@@ -268,6 +206,7 @@ std::string DescribeConditions(const EnvConfig& env) {
   if (wind.turbulence_fps.max > 0) {
     air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
   }
+  if (env.plant.enabled()) air += "; drawn plants";
   if (env.target_mach_min > 0) {
     air += fmt::format("; targets from Mach {:.6g} on", env.target_mach_min);
   }

@@ -109,5 +109,26 @@ TEST(PrivilegedObservation, ShowsTheWindAlongTheBodyAxes) {
   }
 }
 
+TEST(PrivilegedObservation, ShowsHowThePlantDiffers) {
+  EnvConfig config;
+  config.plant.mass = {1.25, 1.25};
+  config.plant.cg_shift = {-0.05, 0.05};
+  config.plant.action_delay_steps = {3, 3};
+  const VecEnv env(config, kCount, 1);
+  const std::vector<float> rows = PrivilegedRows(env);
+  constexpr Tolerance kTolerance{1e-5, "of float32"};
+  float least = 1, most = -1;
+  for (int i = 0; i < kCount; ++i) {
+    const float* const row = rows.data() + i * env.privileged_size();
+    EXPECT_NEAR(row[IndexOf(env, "plant_inverse_mass")], -1, kTolerance);
+    EXPECT_NEAR(row[IndexOf(env, "plant_action_delay")], 1, kTolerance);
+    EXPECT_EQ(row[IndexOf(env, "plant_thrust")], 0);
+    least = std::min(least, row[IndexOf(env, "plant_cg_shift")]);
+    most = std::max(most, row[IndexOf(env, "plant_cg_shift")]);
+  }
+  EXPECT_NEAR(least, -1, 0.05);
+  EXPECT_NEAR(most, 1, 0.05);
+}
+
 }  // namespace
 }  // namespace skein

@@ -173,16 +173,6 @@ TEST(VecEnv, NeitherDoDrawnPlants) {
   }
 }
 
-TEST(VecEnv, EveryEpisodeAndAircraftDrawsItsOwnPlant) {
-  EnvConfig config;
-  config.plant.thrust = {0.5, 1.5};
-  config.observation_noise = 0;
-  VecEnv env(config, 2, 1);
-  StepBuffers buffers(2);
-  env.Step(0, buffers.action.data(), buffers.output());
-  EXPECT_NE(env.StateOf(0, kU), env.StateOf(1, kU));
-}
-
 TEST(VecEnv, ResultsDoNotDependOnOtherAircraft) {
   VecEnv few(BusyConfig(), 5, 1), many(BusyConfig(), 200, 1);
   const std::vector<Log> few_logs = Fly(&few, 0, 60);

@@ -51,8 +51,8 @@ inline Aircraft DrawnAircraft(const Aircraft& nominal, const PlantDraw& draw) {
     *rate /= draw.thrust_lag;
   }
   Actuators& actuators = aircraft.actuators;
-  for (Actuator* actuator : {&actuators.elevator, &actuators.aileron, &actuators.rudder,
-                             &actuators.leading_edge_flap}) {
+  for (Actuator* actuator :
+       {&actuators.elevator, &actuators.aileron, &actuators.rudder, &actuators.leading_edge_flap}) {
     actuator->bandwidth_per_s *= draw.actuator_bandwidth;
     actuator->rate_limit_deg_per_s *= draw.actuator_rate;
   }

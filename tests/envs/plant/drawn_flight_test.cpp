@@ -95,6 +95,27 @@ EnvConfig With(Range PlantConfig::*quantity, double value) {
 
 constexpr Tolerance kRelative{2e-3, "a short step: the state moves on; float32"};
 
+TEST(DrawnFlight, EveryAircraftAndEpisodeHasItsOwnPlant) {
+  EnvConfig config = OneFlight();
+  config.plant.mass = {0.5, 1.5};
+  config.time_limit_steps = 1;
+  VecEnv env(config, 2, 1);
+  const auto masses = [&env] {
+    const std::vector<std::string> names = env.privileged_names();
+    const auto mass = std::find(names.begin(), names.end(), "plant_inverse_mass") - names.begin();
+    std::vector<float> rows(2 * names.size());
+    env.ObservePrivileged(0, rows.data());
+    return std::array<float, 2>{rows[static_cast<std::size_t>(mass)],
+                                rows[names.size() + static_cast<std::size_t>(mass)]};
+  };
+  const auto first = masses();
+  StepBuffers buffers(2);
+  env.Step(0, buffers.action.data(), buffers.output());
+  const auto second = masses();
+  EXPECT_NE(first[0], first[1]);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NE(first[i], second[i]);
+}
+
 TEST(DrawnFlight, MassDividesTheSpecificForce) {
   const Response nominal = Respond(OneFlight());
   const Response heavy = Respond(With(&PlantConfig::mass, 2));
@@ -225,7 +246,12 @@ TEST(DrawnFlight, EngineMomentumPitchesAYawingAircraft) {
   const auto fly = [](double momentum) {
     EnvConfig config = With(&PlantConfig::engine_momentum, momentum);
     config.flight_control = FlightControlMode::kDirect;
-    return Fly(config, [](int) { return Action{0, 0, 0, 0.5f}; }, kSteps);
+    return Fly(
+        config,
+        [](int) {
+          return Action{0, 0, 0, 0.5f};
+        },
+        kSteps);
   };
   const auto usual = fly(0), turning = fly(kMomentum);
   double angle = 0;  // yawed before the last step, and half of what it adds
@@ -258,8 +284,9 @@ TEST(DrawnFlight, StickGainsMultiplyCommandsUpToTheirLimits) {
     Range PlantConfig::*gain;
     std::size_t action;
   };
-  for (const Stick& stick : {Stick{&PlantConfig::pitch_stick, 1}, Stick{&PlantConfig::roll_stick, 2},
-                             Stick{&PlantConfig::yaw_stick, 3}}) {
+  for (const Stick& stick :
+       {Stick{&PlantConfig::pitch_stick, 1}, Stick{&PlantConfig::roll_stick, 2},
+        Stick{&PlantConfig::yaw_stick, 3}}) {
     const auto hold = [&](float command) {
       return [=](int) {
         Action action{};
@@ -283,7 +310,12 @@ TEST(DrawnFlight, BandwidthIsTheActuatorsTimeConstant) {
     EnvConfig config = With(&PlantConfig::actuator_bandwidth, factor);
     config.flight_control = FlightControlMode::kDirect;
     config.initial.trimmed = false;
-    const auto states = Fly(config, [](int) { return Action{0, 0, kStick, 0}; }, 1);
+    const auto states = Fly(
+        config,
+        [](int) {
+          return Action{0, 0, kStick, 0};
+        },
+        1);
     const double reached = 1 - std::exp(-factor * aileron.bandwidth_per_s * kInterval);
     EXPECT_NEAR(states[kAileron], reached * command, 1e-5 * std::abs(command));
   }
@@ -293,7 +325,12 @@ TEST(DrawnFlight, RateIsTheActuatorsLimit) {
   EnvConfig config = With(&PlantConfig::actuator_rate, 0.5);
   config.flight_control = FlightControlMode::kDirect;
   config.initial.trimmed = false;
-  const auto states = Fly(config, [](int) { return Action{0, 0, 1, 0}; }, 1);
+  const auto states = Fly(
+      config,
+      [](int) {
+        return Action{0, 0, 1, 0};
+      },
+      1);
   EXPECT_NEAR(states[kAileron], -0.5 * F16().actuators.aileron.rate_limit_deg_per_s * kInterval,
               1e-5);
 }

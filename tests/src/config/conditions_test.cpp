@@ -90,6 +90,40 @@ TEST(Conditions, ARegimeCanBeHeldByItsTargets) {
   EXPECT_THAT(Complaint({"noisy=0.1,held"}), HasSubstr("cannot read"));
 }
 
+TEST(Conditions, PlantTakesQuantitiesAndLeavesTheOthersNominal) {
+  const PlantConfig plant =
+      Under({"plant=mass:0.9..1.1,cg_shift:-0.05..0.05,action_delay:1..2,sensor_bias:0.02"}).plant;
+  EXPECT_EQ(plant.mass.min, 0.9);
+  EXPECT_EQ(plant.mass.max, 1.1);
+  EXPECT_EQ(plant.cg_shift.min, -0.05);
+  EXPECT_EQ(plant.action_delay_steps.min, 1);
+  EXPECT_EQ(plant.action_delay_steps.max, 2);
+  EXPECT_EQ(plant.sensor_bias, 0.02);
+  EXPECT_EQ(plant.thrust.min, 1);
+  EXPECT_EQ(Under({"plant=thrust:0.8"}).plant.thrust.max, 0.8);
+}
+
+TEST(Conditions, PlantLevelsAreSharesOfTheMiddleOne) {
+  const PlantConfig mild = Under({"plant=mild"}).plant, middle = Under({"plant=middle"}).plant;
+  const PlantConfig hard = Under({"plant=hard"}).plant;
+  EXPECT_DOUBLE_EQ(mild.mass.min, 0.95);
+  EXPECT_DOUBLE_EQ(middle.mass.min, 0.9);
+  EXPECT_DOUBLE_EQ(hard.mass.min, 0.85);
+  EXPECT_DOUBLE_EQ(hard.sensor_bias, 0.03);
+  EXPECT_EQ(mild.action_delay_steps.max, 1);
+  EXPECT_EQ(middle.action_delay_steps.max, 2);
+  EXPECT_EQ(hard.action_delay_steps.max, 3);
+  EXPECT_FALSE(Under({"plant=0"}).plant.enabled());
+}
+
+TEST(Conditions, PlantSaysWhatItCannotRead) {
+  EXPECT_THAT(Complaint({"plant=mas:0.9"}), HasSubstr("mass"));
+  EXPECT_THAT(Complaint({"plant=mass"}), HasSubstr("plant takes"));
+  EXPECT_THAT(Complaint({"plant=mass:0.9,mass:1.1"}), HasSubstr("cannot read"));
+  EXPECT_THAT(Complaint({"plant=sensor_bias:0.01..0.02"}), HasSubstr("cannot read"));
+  EXPECT_THAT(Complaint({"plant=mass:1.1..0.9"}), HasSubstr("cannot read"));
+}
+
 TEST(Conditions, AWindNeedsAUnit) {
   EXPECT_EQ(Complaint({"windy=60"}), "--condition windy=60: 60 of what? Write 60fps, 60kt, 60m/s");
   EXPECT_THAT(Complaint({"windy=0..120"}), HasSubstr("of what?"));
