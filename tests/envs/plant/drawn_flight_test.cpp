@@ -98,7 +98,7 @@ constexpr Tolerance kRelative{2e-3, "a short step: the state moves on; float32"}
 TEST(DrawnFlight, EveryAircraftAndEpisodeHasItsOwnPlant) {
   EnvConfig config = OneFlight();
   config.plant.mass = {0.5, 1.5};
-  config.time_limit_steps = 1;
+  config.time_limit_steps = config.heading.earliest_success_step = 1;
   VecEnv env(config, 2, 1);
   const auto masses = [&env] {
     const std::vector<std::string> names = env.privileged_names();
