@@ -101,6 +101,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       flight_control_(aircraft_, config_.flight_control, config_.control_interval_s),
       limits_(config_.termination, config_.episode()),
       progress_(RulesOf(config_, *task_)),
+      costs_(config_.reward),
       reset_(config_, aircraft_),
       wind_(config_.wind),
       privileged_(*task_, progress_, wind_.enabled(), config_.plant.enabled()) {
@@ -266,15 +267,14 @@ void EnvStepper::FreezeSensors(const EnvBlock& block) const {
 /// Takes the costs of handling off the control step's reward.
 void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action,
                                Scratch& scratch) const {
-  const HandlingCosts& costs = config_.reward;
-  if (costs.of_control_steps()) {
+  if (costs_.of_control_steps()) {
     task_->Errors(block.flight, block.task, scratch.errors, kAircraftPerBlock);
-    SubtractHandlingCosts(costs, block.flight, scratch.errors, kAircraftPerBlock,
+    SubtractHandlingCosts(costs_, block.flight, scratch.errors, kAircraftPerBlock,
                           scratch.step_reward);
   }
-  if (costs.action_change > 0 && policy_action != nullptr) {
+  if (costs_.action_change > 0 && policy_action != nullptr) {
     const int throttles = low_level_ == nullptr ? 1 : 0;
-    SubtractActionChange(costs, policy_action, action_size(), throttles, block.last_action,
+    SubtractActionChange(costs_, policy_action, action_size(), throttles, block.last_action,
                          scratch.step_reward);
   }
 }
@@ -331,7 +331,7 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
   EpisodeColumns episodes{block.step, scratch.termination, scratch.policy_step_reward,
                           block.episode_return};
   task_->ComputeReward(block.flight, block.task, block.step, step_result);
-  if (config_.reward.enabled()) SubtractCosts(block, policy_action, scratch);
+  if (costs_.enabled()) SubtractCosts(block, policy_action, scratch);
   if (progress_.enabled()) {
     AdvanceTargets(block, scratch);
     step_result.deadline = scratch.deadline;

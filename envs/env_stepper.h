@@ -41,6 +41,8 @@ class EnvStepper {
   LowLevelFlight* low_level() { return low_level_.get(); }
   const LowLevelFlight* low_level() const { return low_level_.get(); }
 
+  void SetHandlingWeight(double weight) { costs_ = config_.reward.Times(weight); }
+
   /// Begins the given episode of the block's `i`-th aircraft.
   void BeginEpisode(const EnvBlock& block, int i, std::int32_t episode);
 
@@ -88,6 +90,7 @@ class EnvStepper {
   FlightControlConstants flight_control_;
   TerminationLimits limits_;
   ProgressRules progress_;
+  HandlingCosts costs_;
   FlightReset reset_;
   Wind wind_;
   PrivilegedObservation privileged_;

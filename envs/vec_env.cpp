@@ -114,6 +114,8 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
   }
 }
 
+void VecEnv::SetHandlingWeight(double weight) { impl_->stepper.SetHandlingWeight(weight); }
+
 std::vector<std::uint32_t> VecEnv::Snapshot() const {
   std::vector<std::uint32_t> snapshot(impl_->snapshot_words());
   const std::size_t size = impl_->snapshot_words_per_aircraft();

@@ -58,6 +58,10 @@ class VecEnv {
   /// the end of the policy step. An action that is not finite ends the episode as non_finite.
   void Step(int tile, const float* action, const StepOutput& output);
 
+  /// Multiplies what handling costs (EnvConfig::reward) from now on; 1 at first. No part of the
+  /// state: who trains sets it anew after Restore.
+  void SetHandlingWeight(double weight);
+
   /// The whole mutable state (for checkpoints), aircraft by aircraft whatever the tiles.
   std::vector<std::uint32_t> Snapshot() const;
   /// Goes on from a Snapshot. Throws Error on a size that does not fit.

@@ -68,6 +68,17 @@ namespace skein {
 
 HWY_EXPORT(SubtractHandlingCostsKernel);
 
+HandlingCosts HandlingCosts::Times(double factor) const {
+  HandlingCosts scaled = *this;
+  for (double* const weight :
+       {&scaled.near_roll_rate, &scaled.near_pitch_rate, &scaled.near_yaw_rate,
+        &scaled.near_load_factor, &scaled.near_bank, &scaled.roll_rate, &scaled.sideslip,
+        &scaled.action_change}) {
+    *weight *= factor;
+  }
+  return scaled;
+}
+
 bool HandlingCosts::of_control_steps() const {
   return std::max({near_roll_rate, near_pitch_rate, near_yaw_rate, near_load_factor, near_bank,
                    roll_rate, sideslip}) > 0;

@@ -26,6 +26,8 @@ struct HandlingCosts {
   /// clipped to [-1, 1].
   double action_change = 0;
 
+  /// With all weights times `factor`.
+  HandlingCosts Times(double factor) const;
   bool of_control_steps() const;
   bool enabled() const { return of_control_steps() || action_change > 0; }
 };

@@ -26,6 +26,9 @@ struct PpoConfig {
   double entropy_coefficient = 1e-3;
   /// Weight of the mean squared change of the mean action from one policy step to the next.
   double action_smoothness_coefficient = 0;
+  /// Share of the budget over which what handling costs (env.reward, and the above) grows from 0 to
+  /// its weights: a policy learns to arrive before it learns how. 0: from the start.
+  double handling_ramp = 0;
   double value_coefficient = 1;
   bool clip_value_loss = false;
   /// The critic also sees what no policy observes (VecEnv::ObservePrivileged).

@@ -27,12 +27,12 @@ class PpoUpdate {
   /// `networks` must outlive the update.
   PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPool& pool);
 
-  /// `iteration` keys the shuffles. Throws Error if a loss or a gradient is not finite, or a
+  /// `iteration` keys the shuffles; `handling_weight` multiplies the action smoothness. Throws Error if a loss or a gradient is not finite, or a
   /// gradient's norm exceeds kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may
   /// then have moved. So they may if the pool is stopping: the update then ends within a tile,
   /// unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
-                   double learning_rate);
+                   double learning_rate, double handling_weight = 1);
 
  private:
   /// A network and its gradient: one accumulator and one sum of losses per shard.
@@ -74,6 +74,7 @@ class PpoUpdate {
   WorkerPool& pool_;
   std::array<Side, 2> sides_;                        ///< actor, critic
   std::vector<std::shared_ptr<Gathered>> gathered_;  ///< one per worker
+  double handling_weight_ = 1;                       ///< of the update under way
   double gradient_seconds_ = 0;                      ///< of the update so far
 };
 

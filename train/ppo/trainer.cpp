@@ -87,6 +87,12 @@ struct Trainer::Impl {
     return config.ppo.target_kl > 0 ? std::min(adapted_learning_rate, largest) : largest;
   }
 
+  /// What handling costs, as a share of its full weight.
+  double HandlingWeight() const {
+    const double ramp_steps = config.ppo.handling_ramp * static_cast<double>(config.total_steps);
+    return ramp_steps > 0 ? std::min(1.0, static_cast<double>(env_steps()) / ramp_steps) : 1;
+  }
+
   TrainingState State() const {
     TrainingState state;
     const AdamOptimiser &actor = networks.actor.optimiser, &critic = networks.critic.optimiser;
@@ -134,6 +140,7 @@ struct Trainer::Impl {
     const auto start = std::chrono::steady_clock::now();
     networks.actor.TakeParameters();
     networks.critic.TakeParameters();
+    env.SetHandlingWeight(HandlingWeight());
     RolloutSettings settings;
     settings.seed = config.seed;
     settings.first_policy_step = policy_steps;
@@ -166,7 +173,8 @@ struct Trainer::Impl {
       UpdatePopArt(rollout.target, config.ppo.popart_rate, networks.critic.layout(),
                    networks.critic.optimiser.parameters(), popart);
     }
-    const UpdateReport done = update.Run(rollout, popart.scale(), iteration, report.learning_rate);
+    const UpdateReport done = update.Run(rollout, popart.scale(), iteration,
+                                         report.learning_rate, HandlingWeight());
     report.gradient_seconds = done.gradient_seconds;
     report.policy_loss = done.losses.policy_loss;
     report.value_loss = done.losses.value_loss;
