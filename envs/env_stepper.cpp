@@ -54,6 +54,13 @@ bool Is(std::int32_t termination, Termination which) {
 constexpr double kPitchPerFootLost = 5e-5;
 constexpr double kLargestPitchBack = 0.25;
 
+/// Of a target that is held its reward comes when it is reached, not at the end of the hold.
+TerminationConfig EndsOf(const EnvConfig& config) {
+  TerminationConfig ends = config.termination;
+  if (config.hold_s > 0) ends.success_reward = 0;
+  return ends;
+}
+
 ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
   const auto steps = [&config](double seconds) {
     return static_cast<int>(std::lround(seconds / config.control_interval_s));
@@ -99,7 +106,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       aircraft_(ConfiguredAircraft(config_)),
       kernel_aircraft_(MakeKernelAircraft(aircraft_, config_.atmosphere)),
       flight_control_(aircraft_, config_.flight_control, config_.control_interval_s),
-      limits_(config_.termination, config_.episode()),
+      limits_(EndsOf(config_), config_.episode()),
       progress_(RulesOf(config_, *task_)),
       costs_(config_.reward),
       reset_(config_, aircraft_),
@@ -310,15 +317,16 @@ void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
   task_->Reset(start, &target, block.task, i);
 }
 
-/// Finds out how far each aircraft has come, and what a mission's targets are worth.
+/// Finds out how far each aircraft has come, and rewards targets after which flights go on.
 void EnvStepper::AdvanceTargets(const EnvBlock& block, Scratch& scratch) const {
   AdvanceProgress(progress_, block.count, block.step, scratch.termination, block.progress,
                   scratch.reached, scratch.deadline, scratch.target_end);
   for (int i = 0; i < block.count; ++i) {
     const TargetEnd end = scratch.target_end[i];
-    scratch.bonus[i] = end == TargetEnd::kReached  ? limits_.success_reward
-                       : end == TargetEnd::kMissed ? limits_.failure_reward
-                                                   : 0;
+    double bonus = 0;
+    if (end == TargetEnd::kReached) bonus = config_.termination.success_reward;
+    if (end == TargetEnd::kMissed) bonus = config_.termination.failure_reward;
+    scratch.bonus[i] = static_cast<float>(bonus);
   }
 }
 

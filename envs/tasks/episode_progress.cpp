@@ -65,7 +65,10 @@ void AdvanceProgress(const ProgressRules& rules, int count, const std::int32_t* 
       continue;
     }
     std::int32_t& reached_step = progress.reached_step[i];
-    if (is_held && reached_step == 0) reached_step = now;
+    if (is_held && reached_step == 0) {
+      reached_step = now;
+      if (rules.hold_steps > 0) target_end[i] = TargetEnd::kReached;
+    }
     // What is within tolerances, or holds what it has reached, is not late.
     if (reached_step > 0 || progress.steps_within[i] > 0) deadline[i] = kNever;
     reached[i] = reached_step > 0 && now - reached_step >= rules.hold_steps;

@@ -45,13 +45,13 @@ struct EpisodeProgress {
   void Reset(int i) const;
 };
 
-/// What became of a target in a control step.
+/// What became of a target, while the flight goes on, in a control step.
 enum class TargetEnd : std::uint8_t { kNone, kReached, kMissed };
 
 /// One control step of `count` aircraft, but those that have a `termination`. `steps_before` are
 /// the control steps of their episodes before it. `reached` says where the state is within
 /// tolerances, and is changed into where the episode ends for that; `deadline` gets the control
-/// step at which time ends it, `target_end` what became of a mission's target.
+/// step at which time ends it, `target_end` what became of a target where the flight goes on.
 void AdvanceProgress(const ProgressRules& rules, int count, const std::int32_t* steps_before,
                      const std::int32_t* termination, const EpisodeProgress& progress,
                      std::int32_t* reached, std::int32_t* deadline, TargetEnd* target_end);
