@@ -459,6 +459,41 @@ TEST_F(TrainerTest, EveryShapeTrainsAndResumesBitExactly) {
   }
 }
 
+TEST_F(TrainerTest, CostsOfHandlingGrowFromNothingOverTheirShareOfTheBudget) {
+  WorkerPool pool(1);
+  TrainConfig free = SmallConfig(), priced = free, ramped = free;
+  for (TrainConfig* const config : {&priced, &ramped}) {
+    config->env.reward.roll_rate = config->env.reward.action_change = 1;
+    config->ppo.action_smoothness_coefficient = 1;
+  }
+  ramped.ppo.handling_ramp = 1;
+  const auto values_after_an_iteration = [&](const TrainConfig& config) {
+    Trainer trainer(config, pool);
+    return trainer.Iterate().explained_variance;
+  };
+  const double unpriced = values_after_an_iteration(free);
+  EXPECT_NE(values_after_an_iteration(priced), unpriced);
+  EXPECT_EQ(values_after_an_iteration(ramped), unpriced);
+}
+
+TEST_F(TrainerTest, GrowingCostsOfHandlingResumeBitExactly) {
+  WorkerPool pool(2);
+  TrainConfig config = SmallConfig();
+  config.env.reward.near_roll_rate = config.env.reward.action_change = 0.1;
+  config.ppo.action_smoothness_coefficient = 0.1;
+  config.ppo.handling_ramp = 0.9;
+  Trainer whole(config, pool);
+  whole.Iterate();
+  whole.Save(path_);
+  Trainer resumed(config, pool);
+  resumed.Restore(path_);
+  while (!whole.finished()) {
+    whole.Iterate();
+    resumed.Iterate();
+    EXPECT_EQ(resumed.Signature(), whole.Signature());
+  }
+}
+
 TEST_F(TrainerTest, RefusesMoreMinibatchesThanChunks) {
   TrainConfig config = SmallConfig();
   config.ppo.minibatches = 1000;
