@@ -20,6 +20,7 @@ set(SKEIN_PUBLIC_HEADERS
     envs/tasks/episode_progress.h
     envs/tasks/handling_costs.h
     envs/tasks/heading_config.h
+    envs/tasks/task_errors.h
     envs/tasks/termination.h
     envs/tasks/termination_config.h
     envs/tasks/tracking_config.h
@@ -45,6 +46,7 @@ if(SKEIN_BUILD_TRAIN)
     APPEND
     SKEIN_PUBLIC_HEADERS
     # Policies: load, fly, evaluate, record.
+    train/measures/flight_measures.h
     train/network/backend.h
     train/network/network_config.h
     train/policy/agent.h

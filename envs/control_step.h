@@ -6,6 +6,7 @@
 
 #include "envs/state/state.h"
 #include "envs/tasks/episode_progress.h"
+#include "envs/tasks/task_errors.h"
 
 namespace skein {
 

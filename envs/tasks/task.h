@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "envs/state/state.h"
+#include "envs/tasks/task_errors.h"
 #include "simd/random.h"
 
 namespace skein {
@@ -18,9 +19,6 @@ struct FlightStart {
   double pitch_rad = 0, yaw_rad = 0;
   double north_ft = 0, east_ft = 0;
 };
-
-/// Task errors at the head of every observation.
-inline constexpr int kNumTaskErrors = 3;
 
 /// The task's part of one control step's reward, and whether the target counts as reached; one
 /// element per aircraft, padded as Tile says.

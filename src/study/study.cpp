@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "envs/task_registry.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/nearest_name.h"
@@ -202,8 +203,8 @@ Study ReadTable(const toml::table& table, const std::string& source) {
         part.WholeNumber("episodes", 1, kMaxEpisodes).value_or(study.evaluation.episodes));
     study.evaluation.seed =
         static_cast<std::uint64_t>(part.WholeNumber("seed", 0, kMaxSeed).value_or(0));
-    study.evaluation.assignments =
-        FlightLengthAssignments(part.PositiveNumber("hold"), part.PositiveNumber("mission"));
+    study.evaluation.hold_s = part.PositiveNumber("hold");
+    study.evaluation.mission_min = part.PositiveNumber("mission");
     part.RefuseOthers();
   }
   for (const toml::table* level : reader.Tables("level")) {
@@ -314,8 +315,14 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
 }
 
 ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level) {
-  ProgramConfig config =
-      Configure(study, task, {level.settings, {{}, study.evaluation.assignments}});
+  EnvConfig of_task;
+  of_task.task = task;
+  const bool can_hold = !MakeTask(of_task)->is_point();
+  const StudySettings flights = {
+      {},
+      FlightLengthAssignments(can_hold ? study.evaluation.hold_s : std::nullopt,
+                              study.evaluation.mission_min)};
+  ProgramConfig config = Configure(study, task, {level.settings, flights});
   if (!study.training.per_level) {
     const EnvConfig without_level = Configure(study, task, {}).train.env;
     AsUsage([&] { CheckEachAgentsOwn(config.train.env, without_level); });

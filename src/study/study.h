@@ -38,7 +38,9 @@ struct Study {
   struct Evaluation {
     int episodes = 1000;
     std::uint64_t seed = 0;
-    std::vector<std::string> assignments;  ///< of hold and mission, on top of those of the level
+    /// Flights go on for so long after their target was reached, but for tasks of points.
+    std::optional<double> hold_s;
+    std::optional<double> mission_min;  ///< or are missions of so long
   } evaluation;
 };
 

@@ -98,6 +98,65 @@ TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
   }
 }
 
+TEST_F(ComparisonPipeline, MeasuresHoldsOfTheSameSuccesses) {
+  const auto plain = Compare("autopilot,zero,policy:untrained");
+  const auto held = Compare("autopilot,zero,policy:untrained", {"--hold", "3"});
+  for (const char* words : {"holding:", "actions while holding:", "net rolls per minute"}) {
+    EXPECT_THAT(output_, HasSubstr(words));
+  }
+  std::istringstream lines(output_);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+  EXPECT_EQ(held["environment"]["env.hold_s"], 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &before = plain["agents"][i], &now = held["agents"][i];
+    EXPECT_EQ(now["success_rate"], before["success_rate"]);
+    EXPECT_EQ(now["estimates"]["success_rate"], before["estimates"]["success_rate"]);
+    EXPECT_EQ(now["estimates"]["time_to_target_s"], before["estimates"]["time_to_target_s"]);
+    EXPECT_FALSE(before["estimates"].contains("hold_within"));
+    EXPECT_EQ(now["estimates"]["hold_within"]["count"],
+              now["estimates"]["time_to_target_s"]["count"]);
+    EXPECT_LE(now["estimates"]["hold_within_lowest"]["value"],
+              now["estimates"]["hold_within"]["value"]);
+  }
+  EXPECT_GT(held["agents"][0]["estimates"]["hold_within"]["value"], 0.5);
+  EXPECT_GT(held["agents"][0]["estimates"]["hold_roll_variation_per_s"]["value"], 0);
+  EXPECT_EQ(held["agents"][1]["estimates"]["hold_roll_variation_per_s"]["value"], 0) << "zero";
+}
+
+TEST_F(ComparisonPipeline, MeasuresMissions) {
+  const std::string csv = scratch_ / "table.csv";
+  const auto result = Compare("autopilot,zero", {"--mission", "0.5", "--csv", csv});
+  EXPECT_EQ(result["environment"]["env.mission.length_s"], 30);
+  const auto& autopilot = result["agents"][0]["estimates"];
+  EXPECT_GT(autopilot["targets_per_minute"]["value"], 1);
+  EXPECT_EQ(autopilot["losses_per_hour"]["low"], 0);
+  EXPECT_EQ(autopilot["success_rate"]["value"], 1);
+  EXPECT_EQ(result["agents"][0]["terminations"]["time_limit"], 40);
+  EXPECT_THAT(output_, HasSubstr("losses per flight hour"));
+  EXPECT_THAT(output_, HasSubstr("flown to the end, %"));
+  const std::string text = ReadFile(csv);
+  EXPECT_THAT(text.substr(0, text.find('\n')), HasSubstr(",targets_per_minute,"));
+}
+
+TEST_F(ComparisonPipeline, HoldsAndMissionsThatCannotBeAreErrors) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--hold", "0"}, "--hold"},
+      {{"--mission", "-1"}, "--mission"},
+      {{"--hold", "5", "--mission", "1"}, "--hold excludes --mission"}};
+  for (const auto& [options, message] : wrong) {
+    std::vector<std::string> arguments = Command({"--agents", "zero"});
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << message;
+    EXPECT_THAT(result.error, HasSubstr(message));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+  const ProgramResult point =
+      CallSkein({"compare", "--task", "tracking", "--agents", "autopilot", "--hold", "5"});
+  EXPECT_EQ(point.exit_code, 2);
+  EXPECT_THAT(point.error, HasSubstr("env.hold_s"));
+}
+
 TEST_F(ComparisonPipeline, TheTableFitsATerminalAndTheCsvHasARowForEachAgent) {
   const std::string csv = scratch_ / "table.csv";
   Compare("autopilot,random,random:0.1,policy:untrained", {"--csv", csv});

@@ -121,6 +121,38 @@ condition = ["noisy=0.05"]
   EXPECT_EQ(TrainingConfig(study, "heading", study.levels[1], 1).train.ppo.epochs, 7);
 }
 
+TEST_F(StudyPipeline, EvaluatesHoldsAndMissionsButDoesNotTrainThem) {
+  const std::string tasks = "tasks = [\"heading\", \"tracking\"]\nseeds = [1]\n";
+  WriteFile(file_, tasks + "[evaluation]\nhold = 12.5\n");
+  const Study held = ReadStudy(file_);
+  EXPECT_EQ(LevelConfig(held, "heading", held.levels[0]).train.env.hold_s, 12.5);
+  EXPECT_EQ(LevelConfig(held, "tracking", held.levels[0]).train.env.hold_s, 0) << "a point";
+  EXPECT_EQ(TrainingConfig(held, "heading", held.levels[0], 1).train.env.hold_s, 0);
+  WriteFile(file_, tasks + "[evaluation]\nmission = 2\n");
+  const Study mission = ReadStudy(file_);
+  EXPECT_EQ(LevelConfig(mission, "tracking", mission.levels[0]).train.env.mission.length_s, 120);
+  EXPECT_EQ(TrainingConfig(mission, "heading", mission.levels[0], 1).train.env.mission.length_s, 0);
+}
+
+TEST_F(StudyPipeline, ReportsHowTargetsWereHeld) {
+  std::string text = kStudy;
+  // The whole range counts as reached at the end of the time, and is held then.
+  text.insert(text.find("episodes = 20\n"), "hold = 2\n");
+  text.insert(text.find("\"env.time_limit_steps"),
+              "\"env.heading.yaw_tolerance_deg=180\", \"env.heading.altitude_tolerance_ft=5000\", "
+              "\"env.heading.speed_tolerance_fps=500\", ");
+  WriteFile(file_, text);
+  const std::string out = scratch_ / "out";
+  const ProgramResult result = CallSkein(Command(out));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("within tolerances, %"));
+  EXPECT_THAT(result.output, HasSubstr("net rolls per minute"));
+  const auto results = nlohmann::json::parse(ReadFile(out + "/results.json"));
+  EXPECT_EQ(results[0]["comparison"]["agents"][0]["estimates"]["hold_within"]["count"], 20);
+  const std::string csv = ReadFile(out + "/results.csv");
+  EXPECT_THAT(csv.substr(0, csv.find('\n')), HasSubstr(",hold_within,hold_within_low,"));
+}
+
 TEST_F(StudyPipeline, FliesAgainWhatItTrainedAgain) {
   const std::string out = scratch_ / "out";
   ASSERT_EQ(CallSkein(Command(out)).exit_code, 0);

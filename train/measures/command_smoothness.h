@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <vector>
+
+#include "train/measures/flight_measures.h"
 
 namespace skein {
 
@@ -31,17 +32,6 @@ struct SeriesPower {
 /// count over the frequencies k / (count interval_s) of the discrete Fourier transform up to the
 /// split, those at the split included.
 SeriesPower PowerOf(const float* values, std::size_t count, double interval_s);
-
-/// The measure of what says nothing: NaN.
-inline constexpr float kNoMeasure = std::numeric_limits<float>::quiet_NaN();
-
-/// How smoothly a command was flown. NaN where the series is too short to say.
-struct CommandSmoothness {
-  float variation_per_s = kNoMeasure;    ///< sum of |changes|, 1/s
-  float reversals_per_s = kNoMeasure;    ///< turns back by more than kReversalDeadBand, 1/s
-  float power_above_split = kNoMeasure;  ///< share of the power; 0 for a command that never changes
-  float saturated = kNoMeasure;          ///< share of the control steps at a stop, -1 or 1
-};
 
 /// Counts how often a series turns back by more than `dead_band` from the farthest that it had
 /// come: the same for a command that is held for some control steps and for one that moves in each.

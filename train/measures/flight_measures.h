@@ -3,15 +3,36 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <limits>
 
 #include "envs/actions.h"
-#include "envs/control_step.h"
-#include "envs/env_config.h"
-#include "train/measures/command_smoothness.h"
-#include "train/measures/hold_metrics.h"
+#include "envs/tasks/task_errors.h"
 
 namespace skein {
+
+/// The measure of what says nothing: NaN.
+inline constexpr float kNoMeasure = std::numeric_limits<float>::quiet_NaN();
+
+/// How smoothly a command was flown. NaN where the series is too short to say.
+struct CommandSmoothness {
+  float variation_per_s = kNoMeasure;    ///< sum of |changes|, 1/s
+  float reversals_per_s = kNoMeasure;    ///< turns back by more than kReversalDeadBand, 1/s
+  float power_above_split = kNoMeasure;  ///< share of the power; 0 for a command that never changes
+  float saturated = kNoMeasure;          ///< share of the control steps at a stop, -1 or 1
+};
+
+/// How a target was held. NaN of what no state says.
+struct HoldMetrics {
+  float within = kNoMeasure;  ///< share of the time asked for, within tolerances
+  /// Root mean squares of the errors as the task normalises them, the body rates (deg/s), and the
+  /// sideslip (deg).
+  std::array<float, kNumTaskErrors> rms_errors{kNoMeasure, kNoMeasure, kNoMeasure};
+  float rms_p = kNoMeasure, rms_q = kNoMeasure, rms_r = kNoMeasure;
+  float rms_sideslip = kNoMeasure;
+  float load_factor_deviation = kNoMeasure;  ///< standard deviation, g
+  float mean_abs_bank = kNoMeasure;          ///< deg
+  float net_rolls_per_min = kNoMeasure;      ///< whole turns about the roll axis that do not cancel
+};
 
 /// Of throttle, pitch, roll and yaw.
 using ActionSmoothness = std::array<CommandSmoothness, kActionSize>;
@@ -26,55 +47,6 @@ struct FlightMeasures {
   HoldMetrics hold;
   std::int32_t reached_step = 0;  ///< control step at which the target counted as reached; 0: never
   std::int32_t targets_reached = 0, targets_missed = 0;  ///< of a mission
-};
-
-/// The stick actions of one flight, from control step to control step.
-class ActionSeries {
- public:
-  explicit ActionSeries(double control_interval_s);
-
-  /// kActionSize of them, not clipped.
-  void Add(const float* action);
-  ActionSmoothness Report();
-
- private:
-  void MeasureWaiting();
-
-  std::vector<CommandSeries> commands_;
-  /// Not measured yet: to go from aircraft to aircraft with every single step would cost as much as
-  /// flying it.
-  std::vector<std::array<float, kActionSize>> waiting_;
-};
-
-/// Measures the first episodes of consecutive aircraft, all of them of one tile.
-class FlightMeasurer : public ControlStepObserver {
- public:
-  FlightMeasurer(const EnvConfig& env, int first_aircraft, int count);
-
-  void See(const ControlStep& step) override;
-
-  /// Of the `index`-th aircraft's episode, which has ended.
-  FlightMeasures Report(int index);
-
- private:
-  /// The episode of one aircraft.
-  struct Flight {
-    explicit Flight(double control_interval_s);
-    /// Keeps the counts alone.
-    void ForgetSeries(double control_interval_s);
-
-    std::int32_t steps = 0, termination = 0;
-    ActionSeries actions, hold_actions;
-    HoldSums hold;
-    std::int32_t reached_step = 0, targets_reached = 0, targets_missed = 0;
-  };
-
-  void Follow(const ControlStep& step, int i, Flight* flight) const;
-
-  double control_interval_s_, hold_s_;
-  bool is_mission_;
-  int first_aircraft_;
-  std::vector<Flight> flights_;
 };
 
 }  // namespace skein

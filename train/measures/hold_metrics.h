@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "envs/tasks/task.h"
-#include "train/measures/command_smoothness.h"
+#include "envs/tasks/task_errors.h"
+#include "train/measures/flight_measures.h"
 
 namespace skein {
 
@@ -16,19 +16,6 @@ struct HeldState {
   double load_factor = 0;  ///< g
   double sideslip_rad = 0;
   double roll_rad = 0;  ///< in [-pi, pi]
-};
-
-/// How a target was held. NaN of what no state says.
-struct HoldMetrics {
-  float within = kNoMeasure;  ///< share of the time asked for, within tolerances
-  /// Root mean squares of the errors as the task normalises them, the body rates (deg/s), and the
-  /// sideslip (deg).
-  std::array<float, kNumTaskErrors> rms_errors{kNoMeasure, kNoMeasure, kNoMeasure};
-  float rms_p = kNoMeasure, rms_q = kNoMeasure, rms_r = kNoMeasure;
-  float rms_sideslip = kNoMeasure;
-  float load_factor_deviation = kNoMeasure;  ///< standard deviation, g
-  float mean_abs_bank = kNoMeasure;          ///< deg
-  float net_rolls_per_min = kNoMeasure;      ///< whole turns about the roll axis that do not cancel
 };
 
 /// Adds up the states of a hold. The formulas are in docs/reference/metrics.md.

@@ -10,6 +10,7 @@
 #include "envs/state/state.h"
 #include "envs/task_registry.h"
 #include "train/files/fnv_hash.h"
+#include "train/measures/flight_measurer.h"
 
 namespace skein {
 namespace {

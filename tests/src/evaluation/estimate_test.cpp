@@ -74,6 +74,23 @@ TEST(EstimateTest, SharesAreWilsons) {
   EXPECT_NEAR(all.low, 1 - none.high, kRounding);
 }
 
+TEST(EstimateTest, RatesHaveGarwoodsInterval) {
+  // Ulm, American Journal of Epidemiology 131 (1990) 373: exact limits of Poisson counts.
+  const double expected[][3] = {{0, 0, 3.689},
+                                {1, 0.0253, 5.572},
+                                {5, 1.623, 11.668},
+                                {10, 4.795, 18.390},
+                                {100, 81.364, 121.627}};
+  for (const auto& [events, low, high] : expected) {
+    const Estimate rate = EstimateRate(static_cast<int>(events), 4);
+    EXPECT_EQ(rate.value, events / 4);
+    EXPECT_NEAR(rate.low * 4, low, kTableDigits) << events;
+    EXPECT_NEAR(rate.high * 4, high, kTableDigits) << events;
+    EXPECT_EQ(rate.count, events);
+  }
+  EXPECT_TRUE(std::isnan(EstimateRate(0, 0).value));
+}
+
 TEST(EstimateTest, PairedSharesByHand) {
   // Of 100, 5 and 15 discordant: (15.5 - 5.5) / 102 +- 1.96 sqrt(21 - 100 / 102) / 102.
   const PairedShares paired = CompareShares(5, 15, 100);

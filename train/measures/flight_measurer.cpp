@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "train/measures/flight_measures.h"
+#include "train/measures/flight_measurer.h"
 
 #include <algorithm>
 #include <cmath>
