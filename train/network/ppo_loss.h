@@ -43,7 +43,7 @@ double GaussianEntropy(int size, const float* log_std);
 
 /// PPO's clipped surrogate (Schulman et al. 2017, equation 7), the entropy bonus, and the price of
 /// action changes (Mysore et al. 2021, "Regularizing action policies for smooth control with
-/// reinforcement learning", equation 2 with squares). Writes the gradient with respect to the
+/// reinforcement learning": the temporal term, squared). Writes the gradient with respect to the
 /// actor's outputs (before tanh), `size` of them per row, and adds that of log_std.
 LossSums ActorLoss(const SampleTile& tile, int size, const LossSettings& settings,
                    const float* output, const float* log_std, float* output_gradient,

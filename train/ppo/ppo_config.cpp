@@ -50,9 +50,10 @@ void ListFields(PpoConfig& config, FieldList& list) {
            "weight in the loss of the mean squared change of the mean action from one policy step "
            "to the next (CAPS); 0: none")
       .OffUnless(config.action_smoothness_coefficient > 0);
-  list.Add("handling_ramp", &config.handling_ramp, Bounds::Fraction(),
-           "share of the budget over which env.reward's costs and the action smoothness grow from 0 "
-           "to their weights; 0: from the start")
+  list.Add(
+          "handling_ramp", &config.handling_ramp, Bounds::Fraction(),
+          "share of the budget over which env.reward's costs and the action smoothness grow from 0 "
+          "to their weights; 0: from the start")
       .OffUnless(config.handling_ramp > 0);
   list.Add("value_coefficient", &config.value_coefficient, Bounds::Positive(),
            "weight of the value loss");

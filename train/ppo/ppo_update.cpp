@@ -139,8 +139,7 @@ LossSettings PpoUpdate::SettingsFor(const Rollout& rollout, const Chunks& miniba
   settings.value_coefficient = config_.value_coefficient;
   settings.clip_value_loss = config_.clip_value_loss;
   settings.tanh_mean = tanh_mean_;
-  settings.action_smoothness_coefficient =
-      config_.action_smoothness_coefficient * handling_weight_;
+  settings.action_smoothness_coefficient = config_.action_smoothness_coefficient * handling_weight_;
   const auto chunks = static_cast<double>(minibatch.count);
   settings.sample_weight = 1 / (chunks * rollout.chunk_length);
   if (rollout.chunk_length > 1) settings.pair_weight = 1 / (chunks * (rollout.chunk_length - 1));
@@ -219,8 +218,7 @@ LossSums PpoUpdate::RunMinibatch(const Source& source, const Chunks& minibatch,
 }
 
 UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
-                            std::uint64_t iteration, double learning_rate,
-                            double handling_weight) {
+                            std::uint64_t iteration, double learning_rate, double handling_weight) {
   handling_weight_ = handling_weight;
   const Source source = SourceOf(rollout, scale);
   const std::int64_t chunks = static_cast<std::int64_t>(rollout.chunks()) * rollout.aircraft;

@@ -27,10 +27,10 @@ class PpoUpdate {
   /// `networks` must outlive the update.
   PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPool& pool);
 
-  /// `iteration` keys the shuffles; `handling_weight` multiplies the action smoothness. Throws Error if a loss or a gradient is not finite, or a
-  /// gradient's norm exceeds kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may
-  /// then have moved. So they may if the pool is stopping: the update then ends within a tile,
-  /// unfinished.
+  /// `iteration` keys the shuffles; `handling_weight` multiplies the action smoothness. Throws
+  /// Error if a loss or a gradient is not finite, or a gradient's norm exceeds
+  /// kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may then have moved. So they
+  /// may if the pool is stopping: the update then ends within a tile, unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
                    double learning_rate, double handling_weight = 1);
 

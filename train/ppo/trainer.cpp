@@ -173,8 +173,8 @@ struct Trainer::Impl {
       UpdatePopArt(rollout.target, config.ppo.popart_rate, networks.critic.layout(),
                    networks.critic.optimiser.parameters(), popart);
     }
-    const UpdateReport done = update.Run(rollout, popart.scale(), iteration,
-                                         report.learning_rate, HandlingWeight());
+    const UpdateReport done =
+        update.Run(rollout, popart.scale(), iteration, report.learning_rate, HandlingWeight());
     report.gradient_seconds = done.gradient_seconds;
     report.policy_loss = done.losses.policy_loss;
     report.value_loss = done.losses.value_loss;

@@ -501,5 +501,13 @@ TEST_F(TrainerTest, RefusesMoreMinibatchesThanChunks) {
   EXPECT_THROW(Trainer(config, pool), Error);
 }
 
+TEST_F(TrainerTest, RefusesToPriceChangesThatNoChunkShows) {
+  TrainConfig config = SmallConfig();
+  config.ppo.action_smoothness_coefficient = 1;
+  config.ppo.chunk_length = 1;
+  WorkerPool pool(1);
+  EXPECT_THROW(Trainer(config, pool), Error);
+}
+
 }  // namespace
 }  // namespace skein
