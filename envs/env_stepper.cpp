@@ -127,7 +127,8 @@ EnvColumns EnvStepper::columns() const {
   if (config_.plant.enabled()) {
     columns.plant =
         config_.plant.has_sensor_errors() ? kNumPlantColumnsWithSensors : kNumPlantColumns;
-    columns.delay_slots = config_.plant.longest_delay();
+    columns.delays = {config_.plant.action_delay_steps.max,
+                      config_.plant.observation_delay_steps.max, columns.windy};
   }
   return columns;
 }
@@ -171,7 +172,7 @@ void EnvStepper::BeginPlant(const EnvBlock& block, int i) const {
                              simd::RandomPurpose::kPlant});
   SetPlant(DrawPlant(config_.plant, &random), aircraft_, config_.control_interval_s, block.plants,
            i);
-  if (block.delay_line.slots == 0) return;
+  if (block.delay_line.delays.slots() == 0) return;
   const double throttle = ThrottleForPower(aircraft_.throttle_gearing, block.flight[kPower][i]);
   FillDelayLine(block.delay_line, block.flight, {static_cast<float>(throttle), 0, 0, 0}, i);
 }
@@ -256,7 +257,7 @@ PilotColumns EnvStepper::Commands(const EnvBlock& block, Scratch& scratch) const
   const auto columns = [](const float(*command)[kAircraftPerBlock]) {
     return PilotColumns{command[0], command[1], command[2], command[3]};
   };
-  if (block.delay_line.slots == 0) return columns(scratch.command);
+  if (block.delay_line.delays.slots() == 0) return columns(scratch.command);
   DelayCommands(block.delay_line, block.plants, block.count, scratch.command[0], kAircraftPerBlock,
                 scratch.delayed_command[0]);
   PushDelayLine(block.delay_line, block.flight, scratch.command[0], kAircraftPerBlock);

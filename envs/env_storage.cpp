@@ -67,8 +67,8 @@ EnvBlock EnvStorage::BlockAt(int tile, int begin) {
     block.progress = {first, first + stride_, first + 2 * stride_, first + 3 * stride_,
                       first + 4 * stride_};
   }
-  block.delay_line = {block.flight[float_columns() + int_columns()], stride_, columns_.delay_slots,
-                      columns_.windy, &newest_slot_[block.index]};
+  block.delay_line = {columns_.delays, block.flight[float_columns() + int_columns()], stride_,
+                      &newest_slot_[block.index]};
   return block;
 }
 
@@ -94,7 +94,7 @@ int EnvStorage::float_columns() const {
 }
 
 int EnvStorage::delay_columns() const {
-  return columns_.delay_slots * DelayLine::SlotColumns(columns_.windy);
+  return columns_.delays.slots() * columns_.delays.slot_columns();
 }
 
 int EnvStorage::int_columns() const {
@@ -106,7 +106,7 @@ void* EnvStorage::WordAt(const EnvBlock& block, std::size_t index) const {
   // and turn.
   const int column = static_cast<int>(index), of_delays = column - float_columns() - int_columns();
   if (of_delays < 0) return block.flight[column];
-  const int slot_columns = DelayLine::SlotColumns(columns_.windy);
+  const int slot_columns = columns_.delays.slot_columns();
   return block.delay_line.Column(1 + of_delays / slot_columns, of_delays % slot_columns);
 }
 

@@ -40,7 +40,7 @@ struct EnvColumns {
   int task = 0;           ///< columns of the task
   int last_action = 0;    ///< remembered actions of the last policy step
   int plant = 0;          ///< columns of PlantColumn; 0: every plant is nominal
-  int delay_slots = 0;    ///< of the delay line
+  Delays delays = {};     ///< of the delay line
   bool progress = false;  ///< EpisodeProgress
 };
 

@@ -18,16 +18,17 @@ namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// out = the line's column of `delay` control steps ago, or where that is 0 `now`.
-void SelectDelayed(const DelayLine& line, int column, const float* delay, int count,
+/// out = the line's column of `delay` control steps ago, `longest` at most, or where that is 0
+/// `now`.
+void SelectDelayed(const DelayLine& line, int column, int longest, const float* delay, int count,
                    const float* now, float* out) {
   const FloatTag d;
   const float* old[kLongestDelay];
-  for (int k = 0; k < line.slots; ++k) old[k] = line.Column(k + 1, column);
+  for (int k = 0; k < longest; ++k) old[k] = line.Column(k + 1, column);
   for (int first = 0; first < count; first += kLanes) {
     const V steps = hn::LoadU(d, delay + first);
     V value = hn::LoadU(d, now + first);
-    for (int k = 0; k < line.slots; ++k) {
+    for (int k = 0; k < longest; ++k) {
       const Mask is_asked = hn::Eq(steps, Constant(static_cast<float>(k + 1)));
       value = hn::IfThenElse(is_asked, hn::LoadU(d, old[k] + first), value);
     }
@@ -55,25 +56,22 @@ int FlightColumn(int slot_column) {
   return slot_column < kNumDelayedStates ? slot_column : kAirU + slot_column - kNumDelayedStates;
 }
 
-int StateColumns(const DelayLine& line) {
-  return kNumDelayedStates + (line.windy ? kNumAirVelocities : 0);
-}
-
 }  // namespace
 
-int DelayLine::SlotColumns(bool windy) {
-  return kNumDelayedStates + (windy ? kNumAirVelocities : 0) + kNumDelayedCommands;
+int Delays::state_columns() const {
+  if (observation == 0) return 0;
+  return kNumDelayedStates + (windy ? kNumAirVelocities : 0);
 }
 
 float* DelayLine::Column(int age, int column) const {
-  const int slot = (*newest + slots - (age - 1)) % slots;
-  return base + static_cast<std::size_t>(slot * SlotColumns(windy) + column) * stride;
+  const int slots = delays.slots(), slot = (*newest + slots - (age - 1)) % slots;
+  return base + static_cast<std::size_t>(slot * delays.slot_columns() + column) * stride;
 }
 
 void FillDelayLine(const DelayLine& line, const Tile& flight,
                    const std::array<float, kNumDelayedCommands>& commands, int i) {
-  const int states = StateColumns(line);
-  for (int age = 1; age <= line.slots; ++age) {
+  const int states = line.delays.state_columns();
+  for (int age = 1; age <= line.delays.slots(); ++age) {
     for (int c = 0; c < states; ++c) line.Column(age, c)[i] = flight[FlightColumn(c)][i];
     for (int c = 0; c < kNumDelayedCommands; ++c) {
       line.Column(age, states + c)[i] = commands[static_cast<std::size_t>(c)];
@@ -83,8 +81,8 @@ void FillDelayLine(const DelayLine& line, const Tile& flight,
 
 void PushDelayLine(const DelayLine& line, const Tile& flight, const float* command,
                    std::size_t command_stride) {
-  *line.newest = (*line.newest + 1) % line.slots;
-  const int states = StateColumns(line);
+  *line.newest = (*line.newest + 1) % line.delays.slots();
+  const int states = line.delays.state_columns();
   for (int c = 0; c < states; ++c) {
     std::copy_n(flight[FlightColumn(c)], flight.count, line.Column(1, c));
   }
@@ -98,17 +96,19 @@ void DelayCommands(const DelayLine& line, const PlantTile& plants, int count, co
                    std::size_t command_stride, float* delayed) {
   const auto select = SKEIN_DISPATCH(SelectDelayed);
   for (std::size_t c = 0; c < kNumDelayedCommands; ++c) {
-    select(line, StateColumns(line) + static_cast<int>(c), plants[kPlantActionDelay], count,
-           command + c * command_stride, delayed + c * command_stride);
+    select(line, line.delays.state_columns() + static_cast<int>(c), line.delays.action,
+           plants[kPlantActionDelay], count, command + c * command_stride,
+           delayed + c * command_stride);
   }
 }
 
 void DelayState(const DelayLine& line, const PlantTile& plants, const Tile& flight,
                 const Tile& sensed) {
   const auto select = SKEIN_DISPATCH(SelectDelayed);
-  for (int c = 0; c < StateColumns(line); ++c) {
+  for (int c = 0; c < line.delays.state_columns(); ++c) {
     const int column = FlightColumn(c);
-    select(line, c, plants[kPlantObservationDelay], flight.count, flight[column], sensed[column]);
+    select(line, c, line.delays.observation, plants[kPlantObservationDelay], flight.count,
+           flight[column], sensed[column]);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,17 +14,26 @@ namespace skein {
 /// Throttle and sticks, in the order of PilotColumns.
 inline constexpr int kNumDelayedCommands = 4;
 
+/// The longest delays, control steps, and with them what is remembered.
+struct Delays {
+  int action = 0, observation = 0;
+  bool windy = false;  ///< the velocity relative to the air is a state of its own
+
+  /// Control steps remembered.
+  int slots() const { return std::max(action, observation); }
+  /// Columns of one: states only where they are observed late, and commands.
+  int state_columns() const;
+  int slot_columns() const { return state_columns() + kNumDelayedCommands; }
+};
+
 /// What a block's aircraft were and were commanded in the control steps before: a ring of slots,
 /// each of columns as long as the block's stride. A view; the memory lies with the block.
 struct DelayLine {
+  Delays delays;
   float* base = nullptr;
   std::size_t stride = 0;
-  int slots = 0;                   ///< control steps remembered; 0: no delays
-  bool windy = false;              ///< the velocity relative to the air is a state of its own
   std::int32_t* newest = nullptr;  ///< index of the slot written last
 
-  /// Columns of a slot.
-  static int SlotColumns(bool windy);
   /// A column of the slot written `age` control steps ago, from 1 on.
   float* Column(int age, int column) const;
 };

@@ -35,7 +35,7 @@ enum PlantColumn : int {
   kPlantActionDelay,       ///< control steps
   kPlantObservationDelay,  ///< control steps
   kPlantFrozenSensor,      ///< index in kFreezingSensors, or -1: none
-  kPlantFreezeStep,        ///< control step of the episode from which on it is frozen
+  kPlantFreezeStep,        ///< control step at which it freezes; kNeverFreezes if not or no more
   kPlantIsFrozen,          ///< 1 once it is
   kPlantHeld,              ///< what it then shows: the sensor's one or two observed numbers
   kPlantHeldSecond,
@@ -47,6 +47,9 @@ enum PlantColumn : int {
   kPlantSensorBias = kPlantSensorScale + kNumSensedNumbers,
   kNumPlantColumnsWithSensors = kPlantSensorBias + kNumSensedNumbers
 };
+
+/// Beyond the length of any episode, control steps.
+inline constexpr float kNeverFreezes = 1e9f;
 
 /// A sensor that may freeze: the one or two observed numbers that it gives
 /// (envs/tasks/observation.h).

@@ -83,12 +83,8 @@ bool PlantConfig::enabled() const {
     return range.min != usual.min || range.max != usual.max;
   };
   const std::vector<Quantity>& quantities = Quantities();
-  return std::any_of(quantities.begin(), quantities.end(), differs) || longest_delay() > 0 ||
-         has_sensor_errors() || sensor_freeze_chance > 0;
-}
-
-int PlantConfig::longest_delay() const {
-  return std::max(action_delay_steps.max, observation_delay_steps.max);
+  return std::any_of(quantities.begin(), quantities.end(), differs) || action_delay_steps.max > 0 ||
+         observation_delay_steps.max > 0 || has_sensor_errors() || sensor_freeze_chance > 0;
 }
 
 void ListFields(PlantConfig& config, FieldList& list) {

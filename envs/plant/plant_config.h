@@ -40,8 +40,6 @@ struct PlantConfig {
 
   /// Whether any episode's aircraft may differ from the configured one.
   bool enabled() const;
-  /// Control steps for which states and commands are remembered.
-  int longest_delay() const;
   bool has_sensor_errors() const { return sensor_bias > 0 || sensor_scale > 0; }
 };
 

@@ -13,7 +13,10 @@ int DrawWhole(const WholeRange& range, simd::RandomStream* random) {
 }
 
 /// Whole control steps, not before the first.
-double FreezeStep(double freeze_s, double dt) { return std::max(1.0, std::round(freeze_s / dt)); }
+double FreezeStep(const PlantDraw& draw, double dt) {
+  if (draw.frozen_sensor < 0) return kNeverFreezes;
+  return std::max(1.0, std::round(draw.freeze_s / dt));
+}
 
 }  // namespace
 
@@ -92,7 +95,7 @@ void SetPlant(const PlantDraw& draw, const Aircraft& aircraft, double dt, const 
   set(kPlantActionDelay, draw.action_delay_steps);
   set(kPlantObservationDelay, draw.observation_delay_steps);
   set(kPlantFrozenSensor, draw.frozen_sensor);
-  set(kPlantFreezeStep, FreezeStep(draw.freeze_s, dt));
+  set(kPlantFreezeStep, FreezeStep(draw, dt));
   set(kPlantIsFrozen, 0);
   set(kPlantHeld, 0);
   set(kPlantHeldSecond, 0);

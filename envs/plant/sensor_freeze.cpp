@@ -5,8 +5,7 @@ namespace skein {
 namespace {
 
 bool Freezes(const PlantTile& plants, int i, const std::int32_t* step) {
-  return plants[kPlantFrozenSensor][i] >= 0 && plants[kPlantIsFrozen][i] == 0 &&
-         static_cast<float>(step[i]) >= plants[kPlantFreezeStep][i];
+  return static_cast<float>(step[i]) >= plants[kPlantFreezeStep][i];
 }
 
 const FreezingSensor& SensorOf(const PlantTile& plants, int i) {
@@ -30,6 +29,7 @@ void FreezeSensors(const PlantTile& plants, int count, const std::int32_t* step,
       plants[kPlantHeld + k][i] = observation[i * observation_size + sensor.first + k];
     }
     plants[kPlantIsFrozen][i] = 1;
+    plants[kPlantFreezeStep][i] = kNeverFreezes;
   }
 }
 

@@ -10,7 +10,8 @@ namespace skein {
 
 /// What levels of the condition `plant` look like.
 inline constexpr const char* kPlantForm =
-    "a share of the middle level (0.5; 0 is the nominal plant), or quantities with a value or range "
+    "a share of the middle level (0.5; 0 is the nominal plant), or quantities with a value or "
+    "range "
     "each (mass:0.9..1.1,cg_shift:-0.05..0.05), or mild, middle, hard";
 
 /// The assignments of every key of env.plant: what the level does not name is nominal, whatever the
