@@ -27,9 +27,7 @@ HWY_INLINE V NearCost(const HandlingCosts& costs, const Tile& flight, int first)
   V cos_pitch, per_cos_pitch;
   Length(hn::MulAdd(down.y, down.y, hn::Mul(down.z, down.z)), cos_pitch, per_cos_pitch);
   const V excess = hn::Abs(hn::Sub(Column(flight, kNz, first), down.z));
-  // 2 |sin(roll / 2)|, by its cosine, which rounding may take beyond 1.
-  const V versed = hn::Max(hn::NegMulAdd(down.z, per_cos_pitch, Constant(1)), hn::Zero(FloatTag()));
-  const V bank = hn::Sqrt(hn::Add(versed, versed));
+  const V bank = hn::NegMulAdd(down.z, per_cos_pitch, Constant(1));
   V cost = hn::MulAdd(Constant(costs.near_load_factor), excess,
                       hn::Mul(Constant(costs.near_bank), bank));
   const double weights[] = {costs.near_roll_rate, costs.near_pitch_rate, costs.near_yaw_rate};
@@ -72,9 +70,10 @@ HWY_EXPORT(SubtractHandlingCostsKernel);
 
 HandlingCosts HandlingCosts::Times(double factor) const {
   HandlingCosts scaled = *this;
-  for (double* const weight : {&scaled.near_roll_rate, &scaled.near_pitch_rate,
-                               &scaled.near_yaw_rate, &scaled.near_load_factor, &scaled.near_bank,
-                               &scaled.roll_rate, &scaled.sideslip, &scaled.action_change}) {
+  for (double* const weight :
+       {&scaled.near_roll_rate, &scaled.near_pitch_rate, &scaled.near_yaw_rate,
+        &scaled.near_load_factor, &scaled.near_bank, &scaled.roll_rate, &scaled.sideslip,
+        &scaled.action_change}) {
     *weight *= factor;
   }
   return scaled;
@@ -97,7 +96,7 @@ void ListFields(HandlingCosts& config, FieldList& list) {
       "reward lost per control step and g of load factor beside that of unaccelerated flight near "
       "the target");
   add("near_bank", &config.near_bank,
-      "reward lost per control step and unit of 2 abs(sin(roll / 2)) near the target");
+      "reward lost per control step and unit of 1 - cos(roll) near the target");
   add("roll_rate", &config.roll_rate,
       "reward lost per control step and rad/s of roll rate everywhere");
   add("sideslip", &config.sideslip,

@@ -18,8 +18,7 @@ struct HandlingCosts {
   double near_roll_rate = 0, near_pitch_rate = 0, near_yaw_rate = 0;  ///< per rad/s
   /// Per g that the load factor differs from that of unaccelerated flight, cos(pitch) cos(roll).
   double near_load_factor = 0;
-  double near_bank =
-      0;  ///< per unit of 2 abs(sin(roll / 2)), which is abs(roll), rad, where it is small
+  double near_bank = 0;  ///< per unit of 1 - cos(roll), at most 2
   double roll_rate = 0;  ///< per rad/s, near or not
   double sideslip = 0;   ///< per unit of sin(beta), near or not
   double near_sharpness = 20;
