@@ -194,6 +194,8 @@ std::vector<std::string> FlightLengthAssignments(std::optional<double> hold_s,
   if (hold_s) assignments.push_back(fmt::format("env.hold_s={}", *hold_s));
   if (mission_min) {
     assignments.push_back(fmt::format("env.mission.length_s={}", *mission_min * kSecondsPerMinute));
+    // Whatever a preset holds: a mission's targets come one after another.
+    if (*mission_min > 0 && !hold_s) assignments.push_back("env.hold_s=0");
   }
   return assignments;
 }
