@@ -40,6 +40,7 @@ struct PlantConfig {
 
   /// Whether any episode's aircraft may differ from the configured one.
   bool enabled() const;
+  /// Whether observed numbers have biases or scale errors.
   bool has_sensor_errors() const { return sensor_bias > 0 || sensor_scale > 0; }
 };
 

@@ -11,7 +11,7 @@ struct MissionConfig {
   double length_s = 0;  ///< 0: an episode has one target
   double dwell_s = 5;   ///< for which a target must be held; one of a point is met at once
 
-  bool enabled() const { return length_s > 0; }
+  bool enabled() const { return length_s > 0; }  ///< whether flights are missions
 };
 
 class FieldList;

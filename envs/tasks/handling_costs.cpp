@@ -70,10 +70,9 @@ HWY_EXPORT(SubtractHandlingCostsKernel);
 
 HandlingCosts HandlingCosts::Times(double factor) const {
   HandlingCosts scaled = *this;
-  for (double* const weight :
-       {&scaled.near_roll_rate, &scaled.near_pitch_rate, &scaled.near_yaw_rate,
-        &scaled.near_load_factor, &scaled.near_bank, &scaled.roll_rate, &scaled.sideslip,
-        &scaled.action_change}) {
+  for (double* const weight : {&scaled.near_roll_rate, &scaled.near_pitch_rate,
+                               &scaled.near_yaw_rate, &scaled.near_load_factor, &scaled.near_bank,
+                               &scaled.roll_rate, &scaled.sideslip, &scaled.action_change}) {
     *weight *= factor;
   }
   return scaled;

@@ -28,8 +28,8 @@ struct HandlingCosts {
 
   /// With all weights times `factor`.
   HandlingCosts Times(double factor) const;
-  bool of_control_steps() const;
-  bool enabled() const { return of_control_steps() || action_change > 0; }
+  bool of_control_steps() const;  ///< whether any term of a control step has a weight
+  bool enabled() const { return of_control_steps() || action_change > 0; }  ///< or any other
 };
 
 /// Its settings (base/field_list.h).
