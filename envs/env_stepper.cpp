@@ -280,6 +280,9 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
     SubtractHandlingCosts(costs_, block.flight, scratch.errors, kAircraftPerBlock,
                           scratch.step_reward);
   }
+  if (costs_.within_tolerances > 0) {
+    AddWithinTolerances(costs_, block.count, scratch.reached, scratch.step_reward);
+  }
   if (costs_.action_change > 0 && policy_action != nullptr) {
     const int throttles = low_level_ == nullptr ? 1 : 0;
     SubtractActionChange(costs_, policy_action, action_size(), throttles, block.last_action,

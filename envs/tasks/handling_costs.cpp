@@ -70,9 +70,10 @@ HWY_EXPORT(SubtractHandlingCostsKernel);
 
 HandlingCosts HandlingCosts::Times(double factor) const {
   HandlingCosts scaled = *this;
-  for (double* const weight : {&scaled.near_roll_rate, &scaled.near_pitch_rate,
-                               &scaled.near_yaw_rate, &scaled.near_load_factor, &scaled.near_bank,
-                               &scaled.roll_rate, &scaled.sideslip, &scaled.action_change}) {
+  for (double* const weight :
+       {&scaled.near_roll_rate, &scaled.near_pitch_rate, &scaled.near_yaw_rate,
+        &scaled.near_load_factor, &scaled.near_bank, &scaled.roll_rate, &scaled.sideslip,
+        &scaled.within_tolerances, &scaled.action_change}) {
     *weight *= factor;
   }
   return scaled;
@@ -103,6 +104,8 @@ void ListFields(HandlingCosts& config, FieldList& list) {
   list.Add("near_sharpness", &config.near_sharpness, Bounds::NotNegative(),
            "the near terms are multiplied by 1 / (1 + this |normalised error|^2)")
       .OffUnless(config.of_control_steps());
+  add("within_tolerances", &config.within_tolerances,
+      "reward gained per control step within the episode's tolerances");
   add("action_change", &config.action_change,
       "reward lost per policy step and squared change of each action but the throttle");
 }
@@ -110,6 +113,12 @@ void ListFields(HandlingCosts& config, FieldList& list) {
 void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float* errors,
                            std::size_t error_stride, float* reward) {
   SKEIN_DISPATCH(SubtractHandlingCostsKernel)(costs, flight, errors, error_stride, reward);
+}
+
+void AddWithinTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
+                         float* reward) {
+  const auto gain = static_cast<float>(costs.within_tolerances);
+  for (int i = 0; i < count; ++i) reward[i] += gain * static_cast<float>(within[i]);
 }
 
 void SubtractActionChange(const HandlingCosts& costs, const float* action, int action_size,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "envs/state/state.h"
 
@@ -22,6 +23,8 @@ struct HandlingCosts {
   double roll_rate = 0;  ///< per rad/s, near or not
   double sideslip = 0;   ///< per unit of sin(beta), near or not
   double near_sharpness = 20;
+  /// Of a control step within the episode's tolerances: gained, not lost.
+  double within_tolerances = 0;
   /// Of a policy step, per squared change of each of its actions but the throttle, which are
   /// clipped to [-1, 1].
   double action_change = 0;
@@ -29,7 +32,9 @@ struct HandlingCosts {
   /// With all weights times `factor`.
   HandlingCosts Times(double factor) const;
   bool of_control_steps() const;  ///< whether any term of a control step has a weight
-  bool enabled() const { return of_control_steps() || action_change > 0; }  ///< or any other
+  bool enabled() const {
+    return of_control_steps() || within_tolerances > 0 || action_change > 0;
+  }  ///< or any other
 };
 
 /// Its settings (base/field_list.h).
@@ -39,6 +44,10 @@ void ListFields(HandlingCosts& config, FieldList& list);
 /// task's normalised ones, kNumTaskErrors columns `error_stride` apart.
 void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float* errors,
                            std::size_t error_stride, float* reward);
+
+/// Adds what `count` aircraft gain where they are `within` their tolerances.
+void AddWithinTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
+                         float* reward);
 
 /// Subtracts the cost of changing from `last` to `action` from `reward`, and keeps the new ones.
 /// `action` is row-major [last.count][action_size], not clipped; `last` has a column of each. The

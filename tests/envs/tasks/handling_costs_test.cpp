@@ -107,6 +107,15 @@ TEST_P(HandlingCostsTest, SideslipCostsItsSineToEitherSide) {
 INSTANTIATE_TEST_SUITE_P(Targets, HandlingCostsTest, testing::ValuesIn(simd::SupportedTargets()),
                          [](const auto& test) { return std::string(Name(test.param)); });
 
+TEST(WithinTolerances, GainWhatTheyAreWorth) {
+  HandlingCosts costs;
+  costs.within_tolerances = 0.25;
+  const std::vector<std::int32_t> within = {1, 0, 1};
+  std::vector<float> reward = {-1, -1, 0.5f};
+  AddWithinTolerances(costs, 3, within.data(), reward.data());
+  EXPECT_EQ(reward, (std::vector<float>{-0.75f, -1, 0.75f}));
+}
+
 TEST(ActionChange, CostsTheSquaresOfClippedChangesBesideTheFirst) {
   HandlingCosts costs;
   costs.action_change = 0.5;
