@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/env_config.h"
 
+#include <cmath>
+#include <limits>
+
 #include "base/error.h"
 #include "base/field_list.h"
 #include "base/number_text.h"
@@ -14,6 +17,14 @@ void Require(bool holds, const char* key, double value, const std::string& rule)
     throw Error("configuration: " + std::string(key) + " = " + ShortestText(value) +
                 ", but it must be " + rule);
   }
+}
+
+/// Times are counted in control steps: one that rounds to none would be neither off nor on.
+void RequireSteps(const EnvConfig& config, const char* key, double seconds) {
+  const double steps = std::round(seconds / config.control_interval_s);
+  Require(seconds == 0 || (steps >= 1 && steps <= std::numeric_limits<int>::max()), key, seconds,
+          "0, or 1 to 2147483647 times env.control_interval_s, " +
+              ShortestText(config.control_interval_s));
 }
 
 // The longest control interval for which the discrete flight control's filters keep their shape:
@@ -120,6 +131,11 @@ void Validate(const EnvConfig& config) {
       "env.heading.earliest_success_step", config.heading.earliest_success_step,
       "no more than env.time_limit_steps, " + ShortestText(config.time_limit_steps) +
           ": else no episode could succeed");
+  RequireSteps(config, "env.heading.dwell_s", config.heading.dwell_s);
+  RequireSteps(config, "env.control.dwell_s", config.control.dwell_s);
+  RequireSteps(config, "env.hold_s", config.hold_s);
+  RequireSteps(config, "env.mission.length_s", config.mission.length_s);
+  RequireSteps(config, "env.mission.dwell_s", config.mission.dwell_s);
   Require(config.hold_s == 0 || config.task != "tracking", "env.hold_s", config.hold_s,
           "0 for tracking: a point is passed, not held");
   Require(config.hold_s == 0 || !config.mission.enabled(), "env.hold_s", config.hold_s,

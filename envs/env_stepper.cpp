@@ -283,7 +283,8 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
   if (costs_.within_tolerances > 0) {
     AddWithinTolerances(costs_, block.count, scratch.reached, scratch.step_reward);
   }
-  if (costs_.action_change > 0 && policy_action != nullptr) {
+  // Also while its weight is 0 for now: what is remembered is what was flown last.
+  if (config_.reward.action_change > 0 && policy_action != nullptr) {
     const int throttles = low_level_ == nullptr ? 1 : 0;
     SubtractActionChange(costs_, policy_action, action_size(), throttles, block.last_action,
                          scratch.step_reward);
@@ -343,7 +344,7 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
   EpisodeColumns episodes{block.step, scratch.termination, scratch.policy_step_reward,
                           block.episode_return};
   task_->ComputeReward(block.flight, block.task, block.step, step_result);
-  if (costs_.enabled()) SubtractCosts(block, policy_action, scratch);
+  if (config_.reward.enabled()) SubtractCosts(block, policy_action, scratch);
   if (progress_.enabled()) {
     AdvanceTargets(block, scratch);
     step_result.deadline = scratch.deadline;
@@ -410,7 +411,8 @@ void EnvStepper::RestartEnded(const EnvBlock& block, const Scratch& scratch,
 void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutput& output,
                       MemoryAhead ahead) {
   Scratch scratch;
-  const bool keeps_final = config_.truncate_at_time_limit && output.final_observation != nullptr;
+  const bool keeps_final =
+      config_.episode().truncate_at_time_limit && output.final_observation != nullptr;
   const float dt = static_cast<float>(config_.control_interval_s);
   for (int step = 0; step < config_.action_repeat; ++step) {
     const float* const stick_action = StickActions(block, action, step, scratch);

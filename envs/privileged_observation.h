@@ -24,10 +24,14 @@ class PrivilegedObservation {
  public:
   /// Keeps a reference to `task`.
   PrivilegedObservation(const Task& task, const ProgressRules& rules, bool windy, bool draws_plants)
-      : task_(task), rules_(rules), windy_(windy), draws_plants_(draws_plants) {}
+      : task_(task),
+        rules_(rules),
+        windy_(windy),
+        draws_plants_(draws_plants),
+        size_(static_cast<int>(names().size())) {}
 
   std::vector<std::string> names() const;
-  int size() const { return static_cast<int>(names().size()); }
+  int size() const { return size_; }
 
   /// Writes rows, row-major [block.count][size()].
   void Observe(const EnvBlock& block, float* rows) const;
@@ -36,6 +40,7 @@ class PrivilegedObservation {
   const Task& task_;
   ProgressRules rules_;
   bool windy_, draws_plants_;
+  int size_;
 };
 
 }  // namespace skein

@@ -149,6 +149,45 @@ TEST(VecEnvProgress, PricesLowerTheRewardAndChangeNothingElse) {
   }
 }
 
+TEST(VecEnvProgress, ActionsFlownWhileNothingIsPricedAreRemembered) {
+  EnvConfig free = NearTargets("heading"), priced;
+  free.heading.earliest_success_step = 300;
+  priced = free;
+  priced.reward.action_change = 1;
+  VecEnv one(free, 4, 1), other(priced, 4, 1);
+  StepBuffers expected(4), flown(4);
+  const auto step = [&](float pitch) {
+    for (StepBuffers* const buffers : {&expected, &flown}) {
+      for (std::size_t i = 0; i < 4; ++i) buffers->action[4 * i + 1] = pitch;
+    }
+    one.Step(0, expected.action.data(), expected.output());
+    other.Step(0, flown.action.data(), flown.output());
+  };
+  other.SetHandlingWeight(0);
+  step(0.5f);
+  EXPECT_EQ(flown.reward, expected.reward);
+  other.SetHandlingWeight(1);
+  step(0.5f);
+  EXPECT_EQ(flown.reward, expected.reward);
+  step(0.25f);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_LT(flown.reward[i], expected.reward[i]);
+}
+
+TEST(VecEnvProgress, TimesOfNoControlStepOrMoreThanCanBeCountedAreRefused) {
+  EnvConfig config;
+  for (double* const time : {&config.hold_s, &config.heading.dwell_s, &config.control.dwell_s,
+                             &config.mission.length_s, &config.mission.dwell_s}) {
+    const double usual = *time;
+    for (const double seconds : {0.009, 1e8, 1e300}) {
+      *time = seconds;
+      EXPECT_THROW(Validate(config), Error) << seconds;
+    }
+    *time = 0.02;
+    EXPECT_NO_THROW(Validate(config));
+    *time = usual;
+  }
+}
+
 TEST(VecEnvProgress, APointCannotBeHeld) {
   EnvConfig config;
   config.task = "tracking";

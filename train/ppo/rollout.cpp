@@ -183,7 +183,7 @@ class TileRollout {
     output.termination = scratch_.termination.data();
     output.episode_return = scratch_.episode_return.data();
     output.episode_steps = scratch_.episode_steps.data();
-    const bool truncates = env_.config().truncate_at_time_limit;
+    const bool truncates = env_.config().episode().truncate_at_time_limit;
     if (truncates) output.final_observation = scratch_.final_observation.data();
     if (rollout_.privileged_size > 0) output.final_privileged = scratch_.privileged.data();
     Simulate(

@@ -199,6 +199,18 @@ TEST(RolloutTest, APrivilegedCriticValuesWhatItSees) {
   }
 }
 
+TEST(RolloutTest, TheEndOfAMissionIsNoFailureWhateverThatOfTheTimeLimitIs) {
+  TrainConfig terminal = SmallConfig();
+  terminal.env.mission.length_s = 2;
+  TrainConfig truncated = terminal;
+  truncated.env.truncate_at_time_limit = true;
+  Flight one(terminal), other(truncated);
+  one.Fly();
+  other.Fly();
+  EXPECT_GT(std::count(one.rollout.done.begin(), one.rollout.done.end(), 1), 0);
+  EXPECT_EQ(one.rollout.reward, other.rollout.reward);
+}
+
 class TruncationTest : public testing::TestWithParam<bool> {};
 
 TEST_P(TruncationTest, AddsTheValueOfWhatWasSeenLast) {
