@@ -7,6 +7,7 @@
 
 #include "simd/target.h"
 #include "src/bench/version.h"
+#include "src/files/text_table.h"
 #include "train/network/backend.h"
 #include "train/network/backend_module.h"
 
@@ -23,8 +24,8 @@ std::string CpuName() {
 }
 
 std::string DescribeWorkers(const WorkerPool& pool) {
-  return fmt::format("SIMD target {}, {} thread{}", Name(simd::ActiveTarget()), pool.threads(),
-                     pool.threads() == 1 ? "" : "s");
+  return fmt::format("SIMD target {}, {}", Name(simd::ActiveTarget()),
+                     Counted(pool.threads(), "thread"));
 }
 
 nlohmann::ordered_json DescribeMachine() {

@@ -18,6 +18,7 @@
 #include "src/config/usage_error.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
+#include "src/files/text_table.h"
 #include "src/run/run_directory.h"
 
 namespace skein {
@@ -74,10 +75,9 @@ void Evaluate(const EvalOptions& options) {
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
       EvaluateBothWays(policy, config.train.env, flight.episodes, flight.seed, pool);
-  fmt::print("{} on {}, {} episodes, seed {}\n  {}\n  {}\n  {}\n  {}\n{}\n", path,
-             config.train.env.task, flight.episodes, flight.seed,
-             DescribeConditions(config.train.env), Rates(policy, config.train.env),
-             Describe(policy.backend()), DescribeWorkers(pool),
+  fmt::print("{} on {}, {}, seed {}\n  {}\n  {}\n  {}\n  {}\n{}\n", path, config.train.env.task,
+             Counted(flight.episodes, "episode"), flight.seed, DescribeConditions(config.train.env),
+             Rates(policy, config.train.env), Describe(policy.backend()), DescribeWorkers(pool),
              ToText(report, options.deterministic));
   if (!flight.json.empty()) {
     WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));

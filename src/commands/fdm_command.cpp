@@ -15,6 +15,7 @@
 #include "envs/reference/trim.h"
 #include "envs/state/attitude.h"
 #include "src/commands/commands.h"
+#include "src/config/whole_number.h"
 #include "src/fdm/fdm_evaluation.h"
 #include "src/fdm/fdm_file.h"
 #include "src/fdm/trim_limits.h"
@@ -256,23 +257,30 @@ void AddFileCommand(CLI::App* fdm, const std::string& name, const std::string& d
 void AddTrimCommand(CLI::App* fdm) {
   auto options = std::make_shared<TrimOptions>();
   CLI::App* command = fdm->add_subcommand("trim", "Find the controls of steady flight");
-  command->add_option("--altitude-ft", options->request.altitude_ft, "altitude, ft")->required();
+  command->add_option("--altitude-ft", options->request.altitude_ft, "altitude, ft")
+      ->transform(FiniteNumber())
+      ->required();
   command->add_option("--speed-fps", options->request.true_airspeed_ft_s, "true airspeed, ft/s")
+      ->transform(NumberAboveZero())
       ->required();
   command
       ->add_option("--flight-path-deg", options->flight_path_deg,
                    "flight-path angle, deg, positive in a climb")
+      ->transform(FiniteNumber())
       ->capture_default_str();
   command
       ->add_option("--turn-rate-deg-s", options->turn_rate_deg_s,
                    "turn rate, deg/s, positive to the right; the turn is coordinated")
+      ->transform(FiniteNumber())
       ->capture_default_str();
   command
       ->add_option("--xcg", options->parameters.cg, "centre of gravity, fraction of the mean chord")
+      ->transform(FiniteNumber())
       ->capture_default_str();
   command
       ->add_option("--heng", options->parameters.engine_angular_momentum,
                    "angular momentum of the engine, slug ft2/s")
+      ->transform(FiniteNumber())
       ->capture_default_str();
   AddModel(command, &options->aircraft, &options->atmosphere);
   command->add_option("--json", options->json, "also write state, controls and air data here")

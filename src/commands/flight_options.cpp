@@ -31,13 +31,13 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
                        "go on for so long after the target was reached, and measure how it is held "
                        "(env.hold_s)")
           ->type_name("SECONDS")
-          ->check(CLI::PositiveNumber);
+          ->transform(NumberAboveZero());
   command
       ->add_option("--mission", options->mission_min,
                    "fly for so long, a new target whenever one was held "
                    "(env.mission.length_s)")
       ->type_name("MINUTES")
-      ->check(CLI::PositiveNumber)
+      ->transform(NumberAboveZero())
       ->excludes(hold);
   command->add_option("--episodes", options->episodes, "number of episodes")
       ->transform(WholeNumber(1, 10000000))

@@ -6,9 +6,29 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
+#include "base/number_text.h"
+
 namespace skein {
+namespace {
+
+/// Takes what is finite and above `min`, which `kind` says in words.
+CLI::Validator NumberAbove(double min, const std::string& kind) {
+  return CLI::Validator(
+      [min, kind](std::string& text) {
+        const std::optional<double> number = ReadNumber(text);
+        if (!number || !std::isfinite(*number) || !(*number > min)) {
+          return fmt::format("'{}' is not a {}", text, kind);
+        }
+        text = ShortestText(*number);
+        return std::string();
+      },
+      kind);
+}
+
+}  // namespace
 
 std::optional<double> ReadNumber(const std::string& text) {
   // By exponent, not by multiplying, so that 1.35G is the double nearest to 1.35e9.
@@ -39,5 +59,11 @@ CLI::Validator WholeNumber(double min, double max) {
       },
       "whole number in " + range);
 }
+
+CLI::Validator FiniteNumber() {
+  return NumberAbove(-std::numeric_limits<double>::infinity(), "finite number");
+}
+
+CLI::Validator NumberAboveZero() { return NumberAbove(0, "number above 0"); }
 
 }  // namespace skein

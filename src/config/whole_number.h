@@ -16,4 +16,8 @@ std::optional<double> ReadNumber(const std::string& text);
 /// everything else.
 CLI::Validator WholeNumber(double min, double max);
 
+/// The same for any finite number, and for one above 0.
+CLI::Validator FiniteNumber();
+CLI::Validator NumberAboveZero();
+
 }  // namespace skein

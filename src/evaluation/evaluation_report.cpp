@@ -21,18 +21,22 @@ std::string Phrase(const Quantity& quantity, const Estimate& estimate) {
 
 /// The headlines of what came of the episodes, and how they ended.
 std::string Lines(const char* mode, const FlightSummary& summary) {
-  constexpr int kPhrasesPerLine = 3;
-  std::string text = fmt::format("{:14}", mode);
-  int phrases = 0;
+  constexpr std::size_t kWidth = 100;
+  const std::string margin(14, ' '), gap = "   ";
+  std::string text, line = fmt::format("{:14}", mode);
   for (std::size_t k = 0; k < summary.quantities.size(); ++k) {
     const Quantity& quantity = summary.quantities[k];
     if (quantity.section != QuantitySection::kOutcome || !quantity.is_headline) continue;
-    const bool is_first = phrases % kPhrasesPerLine == 0;
-    if (phrases > 0) text += is_first ? fmt::format("\n{:14}", "") : "   ";
-    text += Phrase(quantity, summary.estimates[k]);
-    ++phrases;
+    const std::string phrase = Phrase(quantity, summary.estimates[k]);
+    const bool is_first = line.size() == margin.size();
+    if (!is_first && line.size() + gap.size() + phrase.size() > kWidth) {
+      text += line + "\n";
+      line = margin + phrase;
+    } else {
+      line += (is_first ? "" : gap) + phrase;
+    }
   }
-  return fmt::format("{}\n{:14}ended by {}", text, "", FormatTerminations(summary.result));
+  return fmt::format("{}{}\n{}ended by {}", text, line, margin, FormatTerminations(summary.result));
 }
 
 }  // namespace

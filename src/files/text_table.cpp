@@ -15,6 +15,10 @@ std::string EndOf(const std::string& text, std::size_t width) {
 
 }  // namespace
 
+std::string Counted(int count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 void TextTable::Begin(const std::string& label) {
   line_ = fmt::format("{:{}}", EndOf(label, label_width_), label_width_);
 }

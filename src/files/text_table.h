@@ -6,6 +6,9 @@
 
 namespace skein {
 
+/// "1 episode", "2 episodes".
+std::string Counted(int count, const std::string& noun);
+
 /// Appends rows to a text for people: a label at the left, cells at the right of their columns. Of
 /// what is too wide for its column the end is shown, behind "..".
 class TextTable {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/files/shell_text.h"
+#include "src/files/text_table.h"
 #include "src/run/hyperparameters.h"
 #include "src/run/progress.h"
 #include "train/files/tensor_file.h"
@@ -226,7 +228,7 @@ void TrainingRun::TrainAndEvaluate() {
 
 void TrainingRun::SayStopped(const std::string& dropped) {
   log_.Say(fmt::format("stopped by {} after {} of {} steps{}; resume with: {} train --resume {}",
-                       strsignal(signals_.StopSignal()),
+                       signals_.StopSignal() == SIGINT ? "SIGINT" : "SIGTERM",
                        FormatCount(static_cast<double>(trainer_.env_steps())),
                        FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
                        ShellWord(CommandName()), ShellWord(directory_.path())));
@@ -300,7 +302,7 @@ void TrainingRun::Finish() {
       RecurrentPolicy::Load(path).WithBackend(config_.train.learner.backend);
   const std::uint64_t seed = config_.train.seed + kFreshSeedOffset;
   const int episodes = config_.final_evaluation_episodes;
-  log_.Say(fmt::format("evaluating {} over {} fresh episodes", path, episodes));
+  log_.Say(fmt::format("evaluating {} over {}", path, Counted(episodes, "fresh episode")));
   const EvaluationReport report =
       EvaluateBothWays(policy, config_.train.env, episodes, seed, pool_);
   if (pool_.stopping()) {

@@ -20,6 +20,7 @@
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
+#include "src/files/text_table.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
 #include "src/run/training_run.h"
@@ -242,8 +243,9 @@ bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
     for (const AgentInStudy& agent : agents) {
       named.push_back({agent.shown, FindAgent(agent.name, config, study_.evaluation.seed)});
     }
-    fmt::print("{}, {}: flying {} agents over {} episodes\n", task, level.name, named.size(),
-               study_.evaluation.episodes);
+    fmt::print("{}, {}: flying {} over {}\n", task, level.name,
+               Counted(static_cast<int>(named.size()), "agent"),
+               Counted(study_.evaluation.episodes, "episode"));
     const RunSignals signals(pool_);
     const Comparison comparison =
         Compare(named, config, study_.evaluation.episodes, study_.evaluation.seed, pool_);

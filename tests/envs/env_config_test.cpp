@@ -58,6 +58,12 @@ const Fault kFaults[] = {
      [](EnvConfig* c) {
        c->wind.turbulence_fps = {-1, 5};
      }},
+    {"env.hold_s = ", [](EnvConfig* c) { c->hold_s = 1e9; }},
+    {"env.hold_s = ", [](EnvConfig* c) { c->hold_s = 0.001; }},
+    {"env.heading.dwell_s = ", [](EnvConfig* c) { c->heading.dwell_s = 1e9; }},
+    {"env.control.dwell_s = ", [](EnvConfig* c) { c->control.dwell_s = 1e-9; }},
+    {"env.mission.length_s = ", [](EnvConfig* c) { c->mission.length_s = 1e12; }},
+    {"env.mission.dwell_s = ", [](EnvConfig* c) { c->mission.dwell_s = 1e12; }},
     {"env.reward_scale = ", [](EnvConfig* c) { c->reward_scale = -1; }},
     {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 0; }},
     {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 30; }},

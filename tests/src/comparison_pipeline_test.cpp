@@ -140,8 +140,11 @@ TEST_F(ComparisonPipeline, MeasuresMissions) {
 
 TEST_F(ComparisonPipeline, HoldsAndMissionsThatCannotBeAreErrors) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
-      {{"--hold", "0"}, "--hold"},
-      {{"--mission", "-1"}, "--mission"},
+      {{"--hold", "0"}, "--hold: '0' is not a number above 0"},
+      {{"--hold", "nan"}, "--hold: 'nan' is not a number above 0"},
+      {{"--hold", "1e9"}, "env.hold_s = 1e+09"},
+      {{"--hold", "1e-9"}, "env.hold_s = 1e-09"},
+      {{"--mission", "-1"}, "--mission: '-1' is not a number above 0"},
       {{"--hold", "5", "--mission", "1"}, "--hold excludes --mission"}};
   for (const auto& [options, message] : wrong) {
     std::vector<std::string> arguments = Command({"--agents", "zero"});

@@ -227,6 +227,16 @@ TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
   EXPECT_THAT(result.error, HasSubstr("this flight is below stall speed: at 15000 ft"));
 }
 
+TEST_F(FdmPipeline, ATrimOfWhatIsNoNumberIsWrongUsage) {
+  for (const char* altitude : {"nan", "inf", "high"}) {
+    const ProgramResult result =
+        CallSkein({"fdm", "trim", "--altitude-ft", altitude, "--speed-fps", "500"});
+    EXPECT_EQ(result.exit_code, 2) << altitude;
+    EXPECT_THAT(result.error,
+                HasSubstr("--altitude-ft: '" + std::string(altitude) + "' is not a finite number"));
+  }
+}
+
 TEST_F(FdmPipeline, ATrimAboveTheTablesSaysSo) {
   const ProgramResult result =
       CallSkein({"fdm", "trim", "--altitude-ft", "60000", "--speed-fps", "900"});
