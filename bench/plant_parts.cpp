@@ -54,7 +54,7 @@ void RunStagePartKernel(bench::StagePart part, const KernelAircraft& aircraft, T
   const BlockControls controls = ControlsOf(tile, 0);
   const StageState<kFirstStage> first{tile.base, tile.stride, &block, 0};
   for (int lane = 0; lane < kLanesPerBlock; lane += kLanes)
-    LocateSurfaces(aircraft, controls, lane, &block);
+    LocateSurfaces(aircraft, controls, NominalPlant(), lane, &block);
   MeasureFlowAngles(aircraft, first, &block);
   MeasureDynamicPressure<true>(aircraft, first, &block);
   ThrustAndPowerRate<true>(aircraft, first, controls, &block);
@@ -86,7 +86,7 @@ void FindTableCellsKernel(const KernelAircraft& aircraft, Tile tile, std::int32_
   for (int first = 0; first < tile.count; first += kLanesPerBlock) {
     const BlockControls controls = ControlsOf(tile, first);
     for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
-      LocateSurfaces(aircraft, controls, lane, &block);
+      LocateSurfaces(aircraft, controls, NominalPlant(), lane, &block);
     }
     MeasureFlowAngles(aircraft, StageState<kFirstStage>{tile.base + first, tile.stride, &block, 0},
                       &block);
@@ -102,7 +102,7 @@ void ReadTablesOfKernel(const KernelAircraft& aircraft, Tile tile, const std::in
   for (int first = 0; first < tile.count; first += kLanesPerBlock) {
     const BlockControls controls = ControlsOf(tile, first);
     for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
-      LocateSurfaces(aircraft, controls, lane, &block);
+      LocateSurfaces(aircraft, controls, NominalPlant(), lane, &block);
     }
     for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
       ReadTables(aircraft, hn::LoadU(di, cell_slot + first + lane),

@@ -99,7 +99,7 @@ TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
 }
 
 TEST_F(ComparisonPipeline, MeasuresHoldsOfTheSameSuccesses) {
-  const auto plain = Compare("autopilot,zero,policy:untrained");
+  const auto plain = Compare("autopilot,zero,policy:untrained", {"--set", "env.hold_s=0"});
   const auto held = Compare("autopilot,zero,policy:untrained", {"--hold", "3"});
   for (const char* words : {"holding:", "actions while holding:", "net rolls per minute"}) {
     EXPECT_THAT(output_, HasSubstr(words));

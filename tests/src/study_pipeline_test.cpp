@@ -127,7 +127,9 @@ TEST_F(StudyPipeline, EvaluatesHoldsAndMissionsButDoesNotTrainThem) {
   const Study held = ReadStudy(file_);
   EXPECT_EQ(LevelConfig(held, "heading", held.levels[0]).train.env.hold_s, 12.5);
   EXPECT_EQ(LevelConfig(held, "tracking", held.levels[0]).train.env.hold_s, 0) << "a point";
-  EXPECT_EQ(TrainingConfig(held, "heading", held.levels[0], 1).train.env.hold_s, 0);
+  EXPECT_EQ(TrainingConfig(held, "heading", held.levels[0], 1).train.env.hold_s,
+            ResolveConfig({"heading", "default", "", {}}).train.env.hold_s)
+      << "the preset's";
   WriteFile(file_, tasks + "[evaluation]\nmission = 2\n");
   const Study mission = ReadStudy(file_);
   EXPECT_EQ(LevelConfig(mission, "tracking", mission.levels[0]).train.env.mission.length_s, 120);
