@@ -20,7 +20,8 @@ void FlyPolicy(const char* path) {
 
   skein::EnvConfig config;
   config.task = policy.task();
-  config = policy.EnvironmentFor(config);  // observes and holds actions as it was trained
+  config.drag_rises = config.thrust_grows = true;  // what Heading's default preset flies
+  config = policy.EnvironmentFor(config);          // observes and holds actions as it was trained
 
   skein::EvaluationOptions options;
   options.episodes = 256;

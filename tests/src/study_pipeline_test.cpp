@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "src/config/configuration.h"
 #include "src/files/output_file.h"
 #include "src/study/study.h"
 #include "tests/scratch_directory.h"
