@@ -31,10 +31,12 @@ struct HandlingCosts {
 
   /// With all weights times `factor`.
   HandlingCosts Times(double factor) const;
-  bool of_control_steps() const;  ///< whether any term of a control step has a weight
+  /// Whether any cost of a control step has a weight.
+  bool of_control_steps() const;
+  /// Whether any weight is not zero.
   bool enabled() const {
     return of_control_steps() || within_tolerances > 0 || action_change > 0;
-  }  ///< or any other
+  }
 };
 
 /// Its settings (base/field_list.h).
