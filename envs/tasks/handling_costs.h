@@ -34,9 +34,7 @@ struct HandlingCosts {
   /// Whether any cost of a control step has a weight.
   bool of_control_steps() const;
   /// Whether any weight is not zero.
-  bool enabled() const {
-    return of_control_steps() || within_tolerances > 0 || action_change > 0;
-  }
+  bool enabled() const { return of_control_steps() || within_tolerances > 0 || action_change > 0; }
 };
 
 /// Its settings (base/field_list.h).
