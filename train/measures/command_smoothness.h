@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "envs/actions.h"
+#include "train/measures/command_kernels.h"
 #include "train/measures/flight_measures.h"
 
 namespace skein {
@@ -28,46 +32,60 @@ struct SeriesPower {
   SeriesPower& operator+=(const SeriesPower& other);
 };
 
-/// Of `count` values, one every `interval_s`, by Parseval's theorem: the whole less 2 |X(k)|^2 /
-/// count over the frequencies k / (count interval_s) of the discrete Fourier transform up to the
-/// split, those at the split included.
-SeriesPower PowerOf(const float* values, std::size_t count, double interval_s);
+/// Of each command in `rows`, one row every `interval_s`, by Parseval's theorem: the whole less 2
+/// |X(k)|^2 / count over the frequencies k / (count interval_s) of the discrete Fourier transform
+/// up to the split, those at the split included.
+std::array<SeriesPower, kActionSize> PowerOf(const ActionRows& rows, double interval_s);
 
-/// Counts how often a series turns back by more than `dead_band` from the farthest that it had
-/// come: the same for a command that is held for some control steps and for one that moves in each.
-class ReversalCounter {
+/// Measures stick actions in consecutive windows.
+class ActionWindows {
  public:
-  explicit ReversalCounter(float dead_band) : dead_band_(dead_band) {}
-
-  void Add(float value);
-  int count() const { return count_; }
+  /// `rows` follow those before. All windows but the last are of kPowerWindowS.
+  void Add(const ActionRows& rows, double interval_s);
+  /// NaN of what too few rows do not say.
+  ActionSmoothness Report(double interval_s) const;
 
  private:
-  float dead_band_;
-  int count_ = 0;
-  int direction_ = 0;               // 0 until it has moved by more than the dead band
-  float lowest_ = 0, highest_ = 0;  // since it took its direction
-  bool is_empty_ = true;
+  std::size_t count_ = 0;
+  std::optional<CommandHistory> history_;
+  std::array<SeriesPower, kActionSize> power_;
 };
 
-/// One command in [-1, 1] through consecutive control steps, whatever the rate of the agent. The
-/// formulas are in docs/reference/metrics.md.
-class CommandSeries {
+/// The stick actions of one flight through consecutive control steps, whatever the rate of the
+/// agent, and those of its hold. The formulas are in docs/reference/metrics.md.
+class ActionSeries {
  public:
-  explicit CommandSeries(double control_interval_s);
+  explicit ActionSeries(double control_interval_s);
 
-  void Add(float command);
-  CommandSmoothness Report() const;
+  /// Begins anew, in the same memory.
+  void Clear();
+  /// kActionSize of them, not clipped.
+  void Add(const float* action);
+  /// The next actions are those of the hold, too.
+  void BeginHold();
+
+  ActionSmoothness Report() const { return ReportOf(flight_); }
+  ActionSmoothness ReportHold() const { return ReportOf(hold_); }
 
  private:
+  /// One window after another, the latest under way from rows_[begin] on.
+  struct Part {
+    std::size_t begin = kNowhere;
+    ActionWindows windows;
+  };
+  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+
+  ActionRows RowsFrom(std::size_t begin) const;
+  ActionSmoothness ReportOf(const Part& part) const;
+  /// Measures windows that are whole, and forgets their rows.
+  void CloseWindows();
+
   double interval_s_;
   std::size_t window_size_;
-  std::size_t count_ = 0, saturated_ = 0;
-  float last_ = 0;
-  double variation_ = 0;
-  ReversalCounter reversals_{kReversalDeadBand};
-  SeriesPower power_;          // of the whole windows
-  std::vector<float> window_;  // under way
+  /// Measured a window at a time: to go from aircraft to aircraft with every single step would cost
+  /// as much as flying it.
+  std::vector<std::array<float, kActionSize>> rows_;
+  Part flight_, hold_;
 };
 
 }  // namespace skein

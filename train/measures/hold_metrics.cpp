@@ -29,7 +29,9 @@ void HoldSums::Add(const HeldState& state) {
   load_factor_squares_ += deviation * (state.load_factor - load_factor_mean_);
   abs_bank_ += std::abs(state.roll_rad);
   if (follows_) {
-    rolled_rad_ += std::remainder(state.roll_rad - last_roll_rad_, 2 * M_PI);
+    const double change = state.roll_rad - last_roll_rad_;
+    // The shorter way round.
+    rolled_rad_ += std::abs(change) <= M_PI ? change : change - std::copysign(2 * M_PI, change);
     ++roll_changes_;
   }
   last_roll_rad_ = state.roll_rad;

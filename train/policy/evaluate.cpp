@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <vector>
 
 #include "base/error.h"
 #include "envs/state/state.h"
@@ -42,8 +42,9 @@ std::int32_t DwellSteps(const EnvConfig& env) {
 /// Flies a tile's first episodes.
 class TileEvaluation {
  public:
+  /// `measurer` is null if nothing is measured.
   TileEvaluation(const Agent& agent, VecEnv& env, int tile, const EvaluationOptions& options,
-                 std::int32_t dwell_steps)
+                 std::int32_t dwell_steps, FlightMeasurer* measurer)
       : env_(env),
         tile_(tile),
         dwell_steps_(dwell_steps),
@@ -55,12 +56,12 @@ class TileEvaluation {
         termination_(reward_.size()),
         steps_(reward_.size()),
         output_{reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
-                final_observation_.data()} {
+                final_observation_.data()},
+        measurer_(measurer) {
     if (options.flight_metrics) output_.flight_metrics = metrics_.data();
-    if (options.flight_metrics || env.config().hold_s > 0) {
-      output_.observer =
-          &measurer_.emplace(env.config(), env.tile_begin(tile), env.tile_count(tile));
-    }
+    if (measurer == nullptr) return;
+    measurer->Begin(env.tile_begin(tile), env.tile_count(tile));
+    output_.observer = measurer;
   }
 
   /// `episodes` are those of the tile's aircraft, kNone until they have ended.
@@ -88,7 +89,7 @@ class TileEvaluation {
       std::copy_n(metrics_.begin() + static_cast<std::ptrdiff_t>(i) * kNumFlightMetrics,
                   kNumFlightMetrics, episode->metrics.begin());
     }
-    if (measurer_) {
+    if (measurer_ != nullptr) {
       episode->measures = measurer_->Report(i);
       episode->reached_step = episode->measures.reached_step;
     } else if (episode->termination == Termination::kTargetReached) {
@@ -110,7 +111,7 @@ class TileEvaluation {
   std::vector<std::uint8_t> termination_;
   std::vector<std::int32_t> steps_;
   StepOutput output_;
-  std::optional<FlightMeasurer> measurer_;
+  FlightMeasurer* measurer_;
 };
 
 }  // namespace
@@ -138,8 +139,12 @@ FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& config,
   unflown.metrics.fill(std::numeric_limits<float>::quiet_NaN());
   flown.episodes.assign(options.episodes, unflown);
   const std::int32_t dwell_steps = DwellSteps(env.config());
-  pool.ForEach(env.num_tiles(), [&](int tile, int) {
-    TileEvaluation(agent, env, tile, options, dwell_steps)
+  const bool is_measured = options.flight_metrics || env.config().hold_s > 0;
+  std::vector<FlightMeasurer> measurers(static_cast<std::size_t>(pool.threads()),
+                                        FlightMeasurer(env.config()));
+  pool.ForEach(env.num_tiles(), [&](int tile, int worker) {
+    FlightMeasurer& measurer = measurers[static_cast<std::size_t>(worker)];
+    TileEvaluation(agent, env, tile, options, dwell_steps, is_measured ? &measurer : nullptr)
         .Fly(pool, flown.episodes.data() + env.tile_begin(tile));
   });
   return flown;

@@ -16,11 +16,30 @@ constexpr Tolerance kFloat{2e-6, "float32 rounding of the commands and of what i
 
 using Function = std::function<double(double)>;
 
-/// The command f(t) at 0, 0.02, ... s, `steps` of them.
+void ExpectSame(const CommandSmoothness& a, const CommandSmoothness& b) {
+  const auto is_same = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  EXPECT_TRUE(is_same(a.variation_per_s, b.variation_per_s));
+  EXPECT_TRUE(is_same(a.reversals_per_s, b.reversals_per_s));
+  EXPECT_TRUE(is_same(a.power_above_split, b.power_above_split));
+  EXPECT_TRUE(is_same(a.saturated, b.saturated));
+}
+
+/// The command f(t) at 0, 0.02, ... s, `steps` of them, beside constant commands and its mirror
+/// image: each is measured for itself.
 CommandSmoothness Measure(const Function& f, int steps) {
-  CommandSeries series(kInterval);
-  for (int i = 0; i < steps; ++i) series.Add(static_cast<float>(f(i * kInterval)));
-  return series.Report();
+  ActionSeries series(kInterval);
+  for (int i = 0; i < steps; ++i) {
+    const auto command = static_cast<float>(f(i * kInterval));
+    const float action[kActionSize] = {0, command, -command, 0.5f};
+    series.Add(action);
+  }
+  const ActionSmoothness all = series.Report();
+  ExpectSame(all[2], all[1]);
+  if (steps > 1) {
+    EXPECT_EQ(all[0].variation_per_s, 0);
+    EXPECT_EQ(all[3].reversals_per_s, 0);
+  }
+  return all[1];
 }
 
 /// The same by an agent that acts every fifth control step.
@@ -67,13 +86,19 @@ TEST(CommandSmoothnessTest, WindowsAreWeighedByTheirPower) {
 
 TEST(CommandSmoothnessTest, PowerAddsUpToTheVariance) {
   const std::vector<float> values = {0.5f, -0.25f, 0.125f, 1, -1, 0, 0.75f};
-  const SeriesPower power = PowerOf(values.data(), values.size(), 1);  // every frequency is below
   double mean = 0, squares = 0;
   for (const float value : values) mean += value / 7;
   for (const float value : values) squares += (value - mean) * (value - mean);
-  EXPECT_NEAR(power.whole, squares, kFloat);
-  EXPECT_NEAR(power.above_split, 0, kFloat);
-  EXPECT_NEAR(PowerOf(values.data(), values.size(), 0.1).above_split, squares, kFloat);
+  std::vector<float> rows;
+  for (const float value : values) rows.insert(rows.end(), {value, -value, value / 2, 1});
+  const ActionRows all{rows.data(), values.size()};
+  const auto below = PowerOf(all, 1), above = PowerOf(all, 0.1);  // every frequency is
+  const double scale[kActionSize] = {1, 1, 0.25, 0};
+  for (int k = 0; k < kActionSize; ++k) {
+    EXPECT_NEAR(below[k].whole, scale[k] * squares, kFloat);
+    EXPECT_NEAR(below[k].above_split, 0, kFloat);
+    EXPECT_NEAR(above[k].above_split, scale[k] * squares, kFloat);
+  }
 }
 
 TEST(CommandSmoothnessTest, AHeldCommandIsMeasuredAsTheOneThatMoves) {

@@ -21,7 +21,8 @@ constexpr double kInterval = 0.02;
 class HandFlight {
  public:
   explicit HandFlight(const EnvConfig& env, int columns = kNumColumns)
-      : tile(1, columns), measurer_(env, kAircraft, 1) {
+      : tile(1, columns), measurer_(env) {
+    measurer_.Begin(kAircraft, 1);
     SetAttitude(0);
     tile.Fill(kU, 1000);
   }

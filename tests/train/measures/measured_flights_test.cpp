@@ -137,7 +137,8 @@ TEST(MeasuredFlightsTest, MeasuresDoNotDependOnTheTiles) {
     std::vector<FlightMeasures> measures;
     for (int tile = 0; tile < vec_env.num_tiles(); ++tile) {
       const int count = vec_env.tile_count(tile), begin = vec_env.tile_begin(tile);
-      FlightMeasurer measurer(env, begin, count);
+      FlightMeasurer measurer(env);
+      measurer.Begin(begin, count);
       std::vector<float> reward(count), episode_return(count), observation(22 * count);
       std::vector<std::uint8_t> termination(count);
       std::vector<std::int32_t> steps(count);
