@@ -111,6 +111,8 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       costs_(config_.reward),
       reset_(config_, aircraft_),
       wind_(config_.wind),
+      drawn_plant_(config_.plant),
+      most_noise_(config_.observation_noise_max),
       privileged_(*task_, progress_, wind_.enabled(), config_.plant.enabled()) {
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
   if (low_level != nullptr) {
@@ -131,6 +133,14 @@ EnvColumns EnvStepper::columns() const {
                       config_.plant.observation_delay_steps.max, columns.windy};
   }
   return columns;
+}
+
+void EnvStepper::SetConditionShare(double share) {
+  reset_.SetShare(share);
+  wind_.SetShare(share);
+  drawn_plant_ = config_.plant.Narrowed(share);
+  const double least = config_.observation_noise, most = config_.observation_noise_max;
+  most_noise_ = most > least ? Lowest({least, most}, share).max : most;
 }
 
 void EnvStepper::ResetMetrics(std::size_t num_blocks) {
@@ -170,7 +180,7 @@ void EnvStepper::BeginPlant(const EnvBlock& block, int i) const {
   simd::RandomStream random({seed_, static_cast<std::uint32_t>(block.first_aircraft + i),
                              static_cast<std::uint32_t>(block.episode[i]), 0,
                              simd::RandomPurpose::kPlant});
-  SetPlant(DrawPlant(config_.plant, &random), aircraft_, config_.control_interval_s, block.plants,
+  SetPlant(DrawPlant(drawn_plant_, &random), aircraft_, config_.control_interval_s, block.plants,
            i);
   if (block.delay_line.delays.slots() == 0) return;
   const double throttle = ThrottleForPower(aircraft_.throttle_gearing, block.flight[kPower][i]);
@@ -184,7 +194,7 @@ GustKeys EnvStepper::GustKeysOf(const EnvBlock& block) const {
 ObservationNoise EnvStepper::NoiseOf(const EnvBlock& block) const {
   ObservationNoise noise;
   noise.standard_deviation = config_.observation_noise;
-  noise.max_standard_deviation = config_.observation_noise_max;
+  noise.max_standard_deviation = most_noise_;
   noise.seed = seed_;
   noise.first_aircraft = static_cast<std::uint32_t>(block.first_aircraft);
   noise.episode = block.episode;

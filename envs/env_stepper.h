@@ -43,6 +43,9 @@ class EnvStepper {
 
   void SetHandlingWeight(double weight) { costs_ = config_.reward.Times(weight); }
 
+  /// VecEnv::SetConditionShare.
+  void SetConditionShare(double share);
+
   /// Begins the given episode of the block's `i`-th aircraft.
   void BeginEpisode(const EnvBlock& block, int i, std::int32_t episode);
 
@@ -91,8 +94,11 @@ class EnvStepper {
   TerminationLimits limits_;
   ProgressRules progress_;
   HandlingCosts costs_;
+  // What episodes draw from: narrower than config_ has it while SetConditionShare says so.
   FlightReset reset_;
   Wind wind_;
+  PlantConfig drawn_plant_;
+  double most_noise_;
   PrivilegedObservation privileged_;
   std::unique_ptr<LowLevelFlight> low_level_;
   /// By block, of its episodes under way: no part of the environment's state.

@@ -61,6 +61,8 @@ void CheckMach(const EnvConfig& config) {
 
 FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
     : initial_(config.initial),
+      altitude_ft_(initial_.altitude_ft),
+      true_airspeed_fps_(initial_.true_airspeed_fps),
       plant_(aircraft, config.atmosphere),
       flight_control_(aircraft, config.flight_control, config.control_interval_s),
       trims_(SolveTrims(config.initial, plant_)) {
@@ -81,9 +83,8 @@ TrimmedStart FlightReset::UntrimmedAt(double altitude_ft, double true_airspeed_f
 }
 
 FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
-  const double altitude_ft = random->Uniform(initial_.altitude_ft.min, initial_.altitude_ft.max);
-  const double speed_ft_s =
-      random->Uniform(initial_.true_airspeed_fps.min, initial_.true_airspeed_fps.max);
+  const double altitude_ft = random->Uniform(altitude_ft_.min, altitude_ft_.max);
+  const double speed_ft_s = random->Uniform(true_airspeed_fps_.min, true_airspeed_fps_.max);
   const TrimmedStart start =
       trims_ ? trims_->At(altitude_ft, speed_ft_s) : UntrimmedAt(altitude_ft, speed_ft_s);
   const RigidBodyState state =

@@ -26,12 +26,20 @@ class FlightReset {
   /// Solves the trims that trimmed starts need. Throws Error where there is none.
   FlightReset(const EnvConfig& config, const Aircraft& aircraft);
 
+  /// From now on flights begin in the lowest and slowest `share`, in [0, 1], of the altitudes and
+  /// airspeeds.
+  void SetShare(double share) {
+    altitude_ft_ = Lowest(initial_.altitude_ft, share);
+    true_airspeed_fps_ = Lowest(initial_.true_airspeed_fps, share);
+  }
+
   FreshFlight Draw(simd::RandomStream* random) const;
 
  private:
   TrimmedStart UntrimmedAt(double altitude_ft, double true_airspeed_ft_s) const;
 
   InitialConfig initial_;
+  Range altitude_ft_, true_airspeed_fps_;  ///< what is drawn from
   Plant plant_;
   FlightControl flight_control_;
   std::optional<TrimTable> trims_;

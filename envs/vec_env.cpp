@@ -37,6 +37,10 @@ struct VecEnv::Impl {
        std::shared_ptr<const Policy> low_level)
       : stepper(config, seed, RequireAircraft(num_aircraft), std::move(low_level)),
         storage(num_aircraft, RequireTileSize(tile_size), stepper.columns()) {
+    Restart();
+  }
+
+  void Restart() {
     stepper.ResetMetrics(storage.num_blocks());
     storage.ForEachBlock([this](const EnvBlock& block) {
       for (int i = 0; i < block.count; ++i) stepper.BeginEpisode(block, i, 0);
@@ -115,6 +119,8 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
 }
 
 void VecEnv::SetHandlingWeight(double weight) { impl_->stepper.SetHandlingWeight(weight); }
+void VecEnv::SetConditionShare(double share) { impl_->stepper.SetConditionShare(share); }
+void VecEnv::Restart() { impl_->Restart(); }
 
 std::vector<std::uint32_t> VecEnv::Snapshot() const {
   std::vector<std::uint32_t> snapshot(impl_->snapshot_words());

@@ -62,6 +62,15 @@ class VecEnv {
   /// state: who trains sets it anew after Restore.
   void SetHandlingWeight(double weight);
 
+  /// From now on episodes draw from `share`, in [0, 1], of what EnvConfig lets them draw: initial
+  /// altitudes and airspeeds, wind, turbulence and noise from the least of their ranges on, plants
+  /// around the nominal one. 1 at first, and no part of the state, as above. A noise that is drawn
+  /// and a mission's next target change in episodes under way, too.
+  void SetConditionShare(double share);
+
+  /// Every aircraft begins its first episode, as when constructed.
+  void Restart();
+
   /// The whole mutable state (for checkpoints), aircraft by aircraft whatever the tiles.
   std::vector<std::uint32_t> Snapshot() const;
   /// Goes on from a Snapshot. Throws Error on a size that does not fit.

@@ -2,6 +2,7 @@
 #include "envs/plant/plant_config.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,24 @@ bool PlantConfig::enabled() const {
   const std::vector<Quantity>& quantities = Quantities();
   return std::any_of(quantities.begin(), quantities.end(), differs) || action_delay_steps.max > 0 ||
          observation_delay_steps.max > 0 || has_sensor_errors() || sensor_freeze_chance > 0;
+}
+
+PlantConfig PlantConfig::Narrowed(double share) const {
+  const PlantConfig nominal;
+  PlantConfig narrowed = *this;
+  for (const Quantity& quantity : Quantities()) {
+    Range& range = narrowed.*quantity.range;
+    range = skein::Narrowed(range, (nominal.*quantity.range).min, share);
+  }
+  for (WholeRange* const delay :
+       {&narrowed.action_delay_steps, &narrowed.observation_delay_steps}) {
+    delay->min = static_cast<int>(std::lround(share * delay->min));
+    delay->max = static_cast<int>(std::lround(share * delay->max));
+  }
+  narrowed.sensor_bias *= share;
+  narrowed.sensor_scale *= share;
+  narrowed.sensor_freeze_chance *= share;
+  return narrowed;
 }
 
 void ListFields(PlantConfig& config, FieldList& list) {

@@ -42,6 +42,8 @@ struct PlantConfig {
   bool enabled() const;
   /// Whether observed numbers have biases or scale errors.
   bool has_sensor_errors() const { return sensor_bias > 0 || sensor_scale > 0; }
+  /// Draws with `share`, in [0, 1], of the distance from the nominal aircraft; 0 is that itself.
+  PlantConfig Narrowed(double share) const;
 };
 
 /// Its settings (base/field_list.h).

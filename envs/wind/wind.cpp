@@ -18,9 +18,9 @@ void Wind::Begin(Tile tile, int index, const GustKeys& keys) const {
   key.purpose = simd::RandomPurpose::kWind;
   simd::RandomStream random(key);
   const auto draw = [&random](const Range& range) { return random.Uniform(range.min, range.max); };
-  const double speed = draw(config_.speed_fps);
-  const double from = draw(config_.from_deg) / kDegPerRad;
-  const double turbulence = draw(config_.turbulence_fps);
+  const double speed = draw(drawn_.speed_fps);
+  const double from = draw(drawn_.from_deg) / kDegPerRad;
+  const double turbulence = draw(drawn_.turbulence_fps);
   const Eigen::Vector3d wind(-speed * std::cos(from), -speed * std::sin(from), 0);
 
   const auto set = [&](int column, double value) {

@@ -12,7 +12,14 @@ namespace skein {
 /// configured ranges.
 class Wind {
  public:
-  explicit Wind(const WindConfig& config) : config_(config) {}
+  explicit Wind(const WindConfig& config) : config_(config), drawn_(config) {}
+
+  /// From now on winds and turbulence are drawn from the weakest `share`, in [0, 1], of their
+  /// ranges.
+  void SetShare(double share) {
+    drawn_.speed_fps = Lowest(config_.speed_fps, share);
+    drawn_.turbulence_fps = Lowest(config_.turbulence_fps, share);
+  }
 
   /// Whether tiles must be windy.
   bool enabled() const { return config_.enabled(); }
@@ -29,6 +36,7 @@ class Wind {
 
  private:
   WindConfig config_;
+  WindConfig drawn_;  ///< what the next episodes are drawn from
 };
 
 }  // namespace skein

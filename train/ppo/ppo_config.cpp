@@ -55,6 +55,11 @@ void ListFields(PpoConfig& config, FieldList& list) {
           "share of the budget over which env.reward's costs and the action smoothness grow from 0 "
           "to their weights; 0: from the start")
       .OffUnless(config.handling_ramp > 0);
+  list.Add("condition_ramp", &config.condition_ramp, Bounds::Fraction(),
+           "share of the budget over which initial altitudes and airspeeds, wind, turbulence and "
+           "noise widen from the least of their ranges, plants from the nominal one; 0: from the "
+           "start")
+      .OffUnless(config.condition_ramp > 0);
   list.Add("value_coefficient", &config.value_coefficient, Bounds::Positive(),
            "weight of the value loss");
   list.Add("clip_value_loss", &config.clip_value_loss, "clip the value's change like the ratio");

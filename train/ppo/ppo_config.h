@@ -29,6 +29,10 @@ struct PpoConfig {
   /// Share of the budget over which what handling costs (env.reward, and the above) grows from 0 to
   /// its weights: a policy learns to arrive before it learns how. 0: from the start.
   double handling_ramp = 0;
+  /// Share of the budget over which what episodes draw (VecEnv::SetConditionShare) widens from the
+  /// mildest to all of its ranges: a policy learns to fly before it learns to fly in everything.
+  /// 0: all from the start.
+  double condition_ramp = 0;
   double value_coefficient = 1;
   bool clip_value_loss = false;
   /// The critic also sees what no policy observes (VecEnv::ObservePrivileged).

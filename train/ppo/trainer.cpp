@@ -64,6 +64,10 @@ struct Trainer::Impl {
         update(config, networks, pool),
         adapted_learning_rate(config.ppo.target_kl > 0 ? config.ppo.learning_rate : 0) {
     config.learner.precision = networks.backend.precision;
+    if (config.ppo.condition_ramp > 0) {
+      env.SetConditionShare(0);
+      env.Restart();
+    }
   }
 
   /// On the learner's backend, whatever computed it before.
@@ -87,11 +91,13 @@ struct Trainer::Impl {
     return config.ppo.target_kl > 0 ? std::min(adapted_learning_rate, largest) : largest;
   }
 
-  /// What handling costs, as a share of its full weight.
-  double HandlingWeight() const {
-    const double ramp_steps = config.ppo.handling_ramp * static_cast<double>(config.total_steps);
+  /// What has grown from 0 to 1 over `ramp` of the budget; 1 without a ramp.
+  double Grown(double ramp) const {
+    const double ramp_steps = ramp * static_cast<double>(config.total_steps);
     return ramp_steps > 0 ? std::min(1.0, static_cast<double>(env_steps()) / ramp_steps) : 1;
   }
+  /// What handling costs, as a share of its full weight.
+  double HandlingWeight() const { return Grown(config.ppo.handling_ramp); }
 
   TrainingState State() const {
     TrainingState state;
@@ -141,6 +147,7 @@ struct Trainer::Impl {
     networks.actor.TakeParameters();
     networks.critic.TakeParameters();
     env.SetHandlingWeight(HandlingWeight());
+    env.SetConditionShare(Grown(config.ppo.condition_ramp));
     RolloutSettings settings;
     settings.seed = config.seed;
     settings.first_policy_step = policy_steps;

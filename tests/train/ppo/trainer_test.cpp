@@ -476,6 +476,45 @@ TEST_F(TrainerTest, CostsOfHandlingGrowFromNothingOverTheirShareOfTheBudget) {
   EXPECT_EQ(values_after_an_iteration(ramped), unpriced);
 }
 
+TEST_F(TrainerTest, ConditionsWidenFromTheMildestOverTheirShareOfTheBudget) {
+  WorkerPool pool(1);
+  TrainConfig mild = SmallConfig();
+  mild.env.initial.trimmed = false;  // trims are interpolated between the range's ends
+  TrainConfig wide = mild;
+  wide.env.initial.altitude_ft = {mild.env.initial.altitude_ft.min, 40000};
+  for (Range* const range : {&mild.env.initial.altitude_ft, &mild.env.initial.true_airspeed_fps}) {
+    range->max = range->min;
+  }
+  TrainConfig widening = wide;
+  widening.ppo.condition_ramp = 1;
+  const auto values_after_an_iteration = [&](const TrainConfig& config) {
+    Trainer trainer(config, pool);
+    return trainer.Iterate().explained_variance;
+  };
+  const double mildest = values_after_an_iteration(mild);
+  EXPECT_NE(values_after_an_iteration(wide), mildest);
+  EXPECT_EQ(values_after_an_iteration(widening), mildest);
+}
+
+TEST_F(TrainerTest, WideningConditionsResumeBitExactly) {
+  WorkerPool pool(2);
+  TrainConfig config = SmallConfig();
+  config.env.plant.mass = {0.8, 1.2};
+  config.env.observation_noise_max = 0.1;
+  config.env.wind.speed_fps.max = 100;
+  config.ppo.condition_ramp = 0.9;
+  Trainer whole(config, pool);
+  whole.Iterate();
+  whole.Save(path_);
+  Trainer resumed(config, pool);
+  resumed.Restore(path_);
+  while (!whole.finished()) {
+    whole.Iterate();
+    resumed.Iterate();
+    EXPECT_EQ(resumed.Signature(), whole.Signature());
+  }
+}
+
 TEST_F(TrainerTest, GrowingCostsOfHandlingResumeBitExactly) {
   WorkerPool pool(2);
   TrainConfig config = SmallConfig();
