@@ -104,6 +104,7 @@ void AddCommands(CLI::App* app) {
   AddCompareCommand(app);
   AddStudyCommand(app);
   AddFdmCommand(app);
+  AddExportCommand(app);
   AddBenchCommand(app);
   AddListCommand(app);
   AddInfoCommand(app);

@@ -12,6 +12,7 @@ void AddCompareCommand(CLI::App* app);
 void AddStudyCommand(CLI::App* app);
 void AddFdmCommand(CLI::App* app);
 void AddBenchCommand(CLI::App* app);
+void AddExportCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);
 void AddListCommand(CLI::App* app);
 void AddHelpCommand(CLI::App* app);

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "src/run/protobuf.h"
+#include "train/files/protobuf.h"
 
 namespace skein {
 namespace {

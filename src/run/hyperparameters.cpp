@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "src/run/protobuf.h"
+#include "train/files/protobuf.h"
 
 namespace skein {
 namespace {

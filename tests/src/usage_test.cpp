@@ -40,6 +40,7 @@ TEST(Usage, EveryCommandHasHelp) {
                                              {"fdm", "trim"},
                                              {"fdm", "eval"},
                                              {"fdm", "simulate"},
+                                             {"export"},
                                              {"bench"},
                                              {"bench", "sim"},
                                              {"bench", "rollout"},
@@ -297,7 +298,7 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_EQ(
       CallSkein({"trian", "heading"}).error,
       "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
-      "compare, study, fdm, bench, list, info, help, completion, man (see skein --help)\n");
+      "compare, study, fdm, export, bench, list, info, help, completion, man (see skein --help)\n");
   EXPECT_THAT(
       CallSkein({"fdm", "fly"}).error,
       HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));

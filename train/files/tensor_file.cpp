@@ -149,18 +149,17 @@ std::vector<Entry> ParseHeader(const std::string& text, std::uint64_t data_size,
   return entries;
 }
 
-}  // namespace
-
-void TensorFile::Write(const std::string& path) const {
+/// All that stands before the tensors' bytes. `path` is what errors call the file.
+std::string HeadOf(const TensorFile& file, const std::string& path) {
   nlohmann::ordered_json header;
   nlohmann::ordered_json& texts = header[kMetadataKey];
   texts[kChecksumKey] = std::string(kChecksumDigits, '0');
-  for (const auto& [key, value] : metadata) {
+  for (const auto& [key, value] : file.metadata) {
     if (key == kChecksumKey) throw Error(path + ": metadata key \"checksum\" is reserved");
     texts[key] = value;
   }
   std::uint64_t offset = 0;
-  for (const auto& [name, tensor] : tensors) {
+  for (const auto& [name, tensor] : file.tensors) {
     const TypeName& type = Describe(tensor.type);
     if (ByteSize(tensor.shape, type.bytes, path, name) != tensor.bytes.size()) {
       throw Error(path + ": tensor \"" + name + "\" does not have the bytes of its shape");
@@ -176,19 +175,31 @@ void TensorFile::Write(const std::string& path) const {
   // FNV-1a over the header, its checksum's digits as zeros, and the data.
   FnvHash hash;
   hash.Add(text.data(), text.size());
-  for (const auto& [name, tensor] : tensors) hash.Add(tensor.bytes.data(), tensor.bytes.size());
+  for (const auto& [name, tensor] : file.tensors)
+    hash.Add(tensor.bytes.data(), tensor.bytes.size());
   const std::size_t field = text.find(BlankChecksumField());
   text.replace(field, BlankChecksumField().size(), ChecksumField(hash.Hex()));
-  std::array<char, kLengthBytes> length;
+  std::string length;
   for (std::size_t i = 0; i < kLengthBytes; ++i) {
-    length[i] = static_cast<char>(static_cast<std::uint8_t>(text.size() >> (8 * i)));
+    length += static_cast<char>(static_cast<std::uint8_t>(text.size() >> (8 * i)));
   }
+  return length + text;
+}
 
+}  // namespace
+
+void TensorFile::Write(const std::string& path) const {
+  const std::string head = HeadOf(*this, path);
   ReplaceFile(path, [&](FileDescriptor& file) {
-    file.Write({length.data(), length.size()});
-    file.Write(text);
+    file.Write(head);
     for (const auto& [name, tensor] : tensors) file.Write(TextOf(tensor.bytes));
   });
+}
+
+std::string TensorFile::Bytes() const {
+  std::string bytes = HeadOf(*this, "the file");
+  for (const auto& [name, tensor] : tensors) bytes += TextOf(tensor.bytes);
+  return bytes;
 }
 
 TensorFile TensorFile::Read(const std::string& path) {

@@ -26,6 +26,8 @@ struct TensorFile {
   /// Atomic: temporary file in the same directory, fsync, rename, fsync of the directory. Throws
   /// Error (disk full and the like); an existing file is then untouched.
   void Write(const std::string& path) const;
+  /// What Write writes.
+  std::string Bytes() const;
   /// Throws Error with one clear line on a file that is missing, truncated, bit-flipped or foreign.
   static TensorFile Read(const std::string& path);
 };

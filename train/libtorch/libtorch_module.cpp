@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "train/libtorch/libtorch_network.h"
+#include "train/libtorch/libtorch_script.h"
 #include "train/network/backend_module.h"
 
 namespace skein {
@@ -14,6 +15,13 @@ class LibTorchModule final : public BackendModule {
   std::string LibraryVersion() const override { return TORCH_VERSION; }
   std::unique_ptr<RecurrentNetwork> MakeNetwork(const NetworkLayout& layout) const override {
     return std::make_unique<LibTorchNetwork>(layout);
+  }
+  std::string SaveScript(const ScriptModule& module) const override {
+    return SaveLibTorchScript(module);
+  }
+  std::vector<float> FlyScript(const std::string& bytes,
+                               const ScriptFlights& flights) const override {
+    return FlyLibTorchScript(bytes, flights);
   }
 };
 

@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "train/network/recurrent_network.h"
+#include "train/network/script_module.h"
 
 namespace skein {
 
@@ -17,6 +19,11 @@ class BackendModule {
   /// Of the library, as "1.13.0".
   virtual std::string LibraryVersion() const = 0;
   virtual std::unique_ptr<RecurrentNetwork> MakeNetwork(const NetworkLayout& layout) const = 0;
+  /// The bytes of a TorchScript file, as torch.jit.load reads them.
+  virtual std::string SaveScript(const ScriptModule& module) const = 0;
+  /// Loads what SaveScript wrote, and nothing else, and flies it: actions, row by row.
+  virtual std::vector<float> FlyScript(const std::string& bytes,
+                                       const ScriptFlights& flights) const = 0;
 };
 
 /// The function that a module exports under kBackendModuleEntry. `build` is the caller's

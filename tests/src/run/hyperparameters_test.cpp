@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/run/protobuf.h"
+#include "train/files/protobuf.h"
 
 namespace skein {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-/// The wire format of protocol buffers, as far as event files need it.
+/// The wire format of protocol buffers, as far as event files and ONNX models need it.
 namespace skein::protobuf {
 
 enum class WireType { kVarint = 0, kFixed64 = 1, kLengthDelimited = 2, kFixed32 = 5 };
@@ -44,6 +44,11 @@ inline std::string Message(int field, std::string_view content) {
 /// A field that is a whole number, a truth value or an enumerator.
 inline std::string Integer(int field, std::uint64_t value) {
   return Key(field, WireType::kVarint) + Varint(value);
+}
+
+/// A field that is a float32.
+inline std::string Float(int field, float value) {
+  return Key(field, WireType::kFixed32) + LittleEndian(value);
 }
 
 /// A field that is a float64.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "envs/aircraft/registry.h"
+#include "src/commands/commands.h"
+#include "src/config/usage_error.h"
+#include "src/export/policy_export.h"
+
+namespace skein {
+namespace {
+
+struct ExportOptions {
+  std::string policy;
+  std::string format;
+  std::string flight_control;
+  std::string aircraft = "f16";
+  std::string out;
+  bool check = false;
+  CLI::Option* aircraft_option = nullptr;
+};
+
+ExportForm FormCalled(const std::string& name) {
+  for (const auto& [form, known] : kExportForms) {
+    if (name == known) return form;
+  }
+  throw UsageError("unknown format " + name);
+}
+
+std::vector<std::string> Export(const ExportOptions& options) {
+  if (!options.flight_control.empty()) {
+    if (!options.policy.empty() && options.aircraft_option->count() > 0) {
+      throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
+    }
+    return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
+  }
+  if (options.policy.empty()) throw UsageError("a policy file or the directory of a run is needed");
+  if (options.format.empty())
+    throw UsageError("--format is needed: onnx, torchscript, safetensors or c");
+  return ExportPolicy({options.policy, FormCalled(options.format), options.out, options.check});
+}
+
+std::vector<std::string> FormNames() {
+  std::vector<std::string> names;
+  for (const auto& [form, name] : kExportForms) names.emplace_back(name);
+  return names;
+}
+
+}  // namespace
+
+void AddExportCommand(CLI::App* app) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = app->add_subcommand(
+      "export", "Write a policy, or the flight control laws, in a format that others read");
+  command
+      ->add_option("policy", options->policy,
+                   "policy file, checkpoint, or directory of a run (its best policy)")
+      ->type_name("FILE_OR_RUN");
+  CLI::Option* format =
+      command
+          ->add_option("--format", options->format,
+                       "of the policy: an ONNX model, a TorchScript module, safetensors by "
+                       "PyTorch's names, or one C99 header")
+          ->check(CLI::IsMember(FormNames()));
+  command
+      ->add_option("--flight-control", options->flight_control,
+                   "write the flight control laws that the policy flies through, as one C99 header")
+      ->check(CLI::IsMember({"c"}))
+      ->excludes(format);
+  options->aircraft_option =
+      command
+          ->add_option("--aircraft", options->aircraft,
+                       "with --flight-control and without a policy: whose laws")
+          ->check(CLI::IsMember(AircraftNames()))
+          ->capture_default_str();
+  command->add_option("-o,--out", options->out, "write it here")->type_name("FILE")->required();
+  command->add_flag(
+      "--check", options->check,
+      "fly it before it is written, and fail unless it does what it was made of: C by "
+      "cc, ONNX and safetensors by their libraries in python3, TorchScript by "
+      "LibTorch");
+  command->footer(
+      "The environment variables CC and SKEIN_PYTHON name another compiler and Python for "
+      "--check.\n"
+      "Example: skein export policies/heading.skein --format c -o heading.h --check\n"
+      "         skein export runs/short --format onnx -o short.onnx\n"
+      "         skein export --flight-control c -o f16_flight_control.h");
+  command->callback([options] {
+    for (const std::string& line : Export(*options)) fmt::print("{}\n", line);
+  });
+}
+
+}  // namespace skein

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/export/export_flights.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "src/config/configuration.h"
+#include "src/config/presets.h"
+#include "src/run/run_directory.h"
+
+namespace skein {
+namespace {
+
+constexpr const char* kUsualPreset = "default";
+
+/// The usual preset if it has the aircraft, else the first that does.
+EnvConfig PresetOf(const EnvConfig& made_in) {
+  EnvConfig usual = ResolveConfig({made_in.task, kUsualPreset, "", {}}).train.env;
+  if (usual.aircraft == made_in.aircraft) return usual;
+  for (const Preset& preset : Presets()) {
+    if (preset.task != made_in.task) continue;
+    EnvConfig env = ResolveConfig({made_in.task, preset.name, "", {}}).train.env;
+    if (env.aircraft == made_in.aircraft) return env;
+  }
+  throw Error(
+      fmt::format("no preset of task {} flies the aircraft {} of the policy: export it from the "
+                  "directory of its run, which says where it flew",
+                  made_in.task, made_in.aircraft));
+}
+
+}  // namespace
+
+EnvConfig ExportEnvironment(const std::string& path, const EnvConfig& made_in) {
+  EnvConfig env =
+      IsRunDirectory(path) ? ReadRecord(path + "/config.toml").train.env : PresetOf(made_in);
+  env.control_interval_s = made_in.control_interval_s;
+  env.flight_control = made_in.flight_control;
+  env.high_level = made_in.high_level;
+  return EvaluationConfig(env);
+}
+
+PolicyTrace RecordExportFlights(const std::string& path, const RecurrentPolicy& policy,
+                                const EnvConfig& made_in) {
+  constexpr std::uint64_t kSeed = 1;
+  return RecordTrace(policy, ExportEnvironment(path, made_in), kExportFlights, kExportSteps, kSeed);
+}
+
+}  // namespace skein

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/export/export_form.h"
+
+namespace skein {
+
+/// What is exported, and where to.
+struct PolicyExport {
+  std::string policy;  ///< policy file, checkpoint or directory of a run
+  ExportForm form = ExportForm::kC;
+  std::string out;
+  bool check = false;
+};
+
+/// Writes the policy, and of a high-level policy its low-level policy (OUT with ".low_level" before
+/// its extension) and a manifest that says how they act together (OUT with the extension ".json").
+/// Returns what was done, line by line. Throws Error, with nothing written, if something cannot be
+/// read, written or, where `check` asks for it, flown as the policy itself.
+std::vector<std::string> ExportPolicy(const PolicyExport& options);
+
+/// Writes the flight control laws that `policy` flies through, of `aircraft` if there is none, as
+/// C.
+std::vector<std::string> ExportFlightControl(const std::string& policy, const std::string& aircraft,
+                                             const std::string& out, bool check);
+
+}  // namespace skein

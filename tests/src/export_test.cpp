@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every exported form against the policy itself, flown by what reads the form elsewhere.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "envs/aircraft/registry.h"
+#include "src/export/export_flights.h"
+#include "src/export/export_form.h"
+#include "src/files/output_file.h"
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+#include "tests/tolerance.h"
+#include "train/export/c_flight_control.h"
+#include "train/export/c_policy.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr Tolerance kFloat32{1e-5, "float32 sums in another order, over whole flights"};
+
+std::string ShippedPolicy(const std::string& task) {
+  return SKEIN_SOURCE "/policies/" + task + ".skein";
+}
+
+/// A policy with all that its exported forms are made of and held to.
+struct Flown {
+  ExportedPolicy exported;
+  PolicyTrace trace;
+  int steps_per_flight = 0;
+};
+
+Flown FlyShipped(const std::string& task) {
+  const std::string path = ShippedPolicy(task);
+  const RecurrentPolicy policy = RecurrentPolicy::Load(path);
+  Flown flown;
+  flown.exported = PrepareExport(policy, path, "test");
+  flown.trace = RecordExportFlights(path, policy, flown.exported.interface.env);
+  flown.steps_per_flight = kExportSteps;
+  return flown;
+}
+
+/// An untrained network, shown made-up observations.
+Flown FlyMadeUp(const NetworkConfig& config) {
+  constexpr int kObservations = 9, kActions = 3;
+  const RecurrentPolicy policy = RecurrentPolicy::Untrained(config, kObservations, kActions, 3);
+  Flown flown;
+  flown.exported.name = "made_up";
+  flown.exported.policy = policy.parameters();
+  flown.exported.metadata["version"] = "test";
+  flown.steps_per_flight = 40;
+  PolicyTrace& trace = flown.trace;
+  trace.observation_size = kObservations;
+  trace.action_size = kActions;
+  std::vector<float> state, action(kActions);
+  for (int step = 0; step < 2 * flown.steps_per_flight; ++step) {
+    const bool begins = step % flown.steps_per_flight == 0;
+    if (begins) state.assign(static_cast<std::size_t>(policy.state_size()), 0.0f);
+    trace.begins.push_back(begins ? 1.0f : 0.0f);
+    std::vector<float> observation;
+    for (int i = 0; i < kObservations; ++i) {
+      observation.push_back(0.25f * static_cast<float>((i * 7 + step * 3) % 11 - 5));
+    }
+    policy.Act(1, observation.data(), state.data(), action.data());
+    trace.observations.insert(trace.observations.end(), observation.begin(), observation.end());
+    trace.actions.insert(trace.actions.end(), action.begin(), action.end());
+  }
+  return flown;
+}
+
+/// Networks that differ from the usual one in every part.
+std::vector<NetworkConfig> OddNetworks() {
+  NetworkConfig small;
+  small.hidden_layers = 1;
+  small.hidden_size = 24;
+  small.gru_size = 17;
+  small.tanh_mean = false;
+  small.actor_head_scale = 2;
+  NetworkConfig deep = small;
+  deep.hidden_layers = 0;
+  deep.gru_layers = 3;
+  deep.tanh_mean = true;
+  return {small, deep};
+}
+
+/// What flies a form: a compiler, a Python, or LibTorch.
+struct Flyer {
+  const char* name;
+  ExportForm form;
+  std::string program;
+};
+
+/// SKEIN_PYTHON is the Python of those packages that Debian does not have.
+const std::vector<Flyer>& Flyers() {
+  static const std::string python = FlyerOf(ExportForm::kOnnx);
+  static const std::vector<Flyer> flyers = {
+      {"Gcc", ExportForm::kC, "gcc"},
+      {"Clang", ExportForm::kC, "clang-14"},
+      {"Onnxruntime", ExportForm::kOnnx, python},
+      {"SafetensorsLibrary", ExportForm::kSafetensors, python},
+      {"LibTorch", ExportForm::kTorchScript, FlyerOf(ExportForm::kTorchScript)},
+      {"TorchOfDebian", ExportForm::kTorchScript, "/usr/bin/python3"},
+  };
+  return flyers;
+}
+
+class Exported : public ::testing::TestWithParam<Flyer> {
+ protected:
+  /// Whether the flyer answered at all; if not, says what is missing.
+  bool ExpectTheSameActions(const Flown& flown) {
+    const Flyer& flyer = GetParam();
+    std::vector<float> actions;
+    const std::string complaint = MessageOf([&] {
+      const std::string bytes =
+          Encode(flyer.form, flown.exported, flown.trace, flown.steps_per_flight);
+      actions = Fly(flyer.form, bytes, flown.exported, flown.trace, flyer.program);
+    });
+    for (const char* missing : {"not found", "needs the packages", "are not available"}) {
+      if (complaint.find(missing) == std::string::npos) continue;
+      missing_ = complaint;
+      return false;
+    }
+    EXPECT_EQ(complaint, "");
+    EXPECT_LE(LargestError(flown.trace, actions), kFloat32) << flown.exported.name;
+    return true;
+  }
+
+  std::string missing_;
+};
+
+TEST_P(Exported, ActsAsTheShippedPolicies) {
+  for (const char* task : {"heading", "tracking"}) {
+    const Flown flown = FlyShipped(task);
+    EXPECT_EQ(flown.trace.steps(), 1000);
+    EXPECT_GE(std::count(flown.trace.begins.begin(), flown.trace.begins.end(), 1.0f), 10);
+    if (!ExpectTheSameActions(flown)) GTEST_SKIP() << missing_;
+  }
+}
+
+TEST_P(Exported, KnowsNetworksOfOtherSizes) {
+  for (const NetworkConfig& config : OddNetworks()) {
+    if (!ExpectTheSameActions(FlyMadeUp(config))) GTEST_SKIP() << missing_;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(By, Exported, ::testing::ValuesIn(Flyers()),
+                         [](const auto& tested) { return tested.param.name; });
+
+/// Whether a shell finds `program`.
+bool Has(const std::string& program) {
+  return std::system((program + " --version >/dev/null 2>&1").c_str()) == 0;
+}
+
+TEST(CExport, TellsADifferenceByItsOwnTest) {
+  if (!Has("cc")) GTEST_SKIP() << "needs cc";
+  Flown flown = FlyMadeUp(OddNetworks().front());
+  flown.trace.actions[3] += 1e-3f;
+  EXPECT_THAT(MessageOf([&] {
+                Fly(ExportForm::kC,
+                    Encode(ExportForm::kC, flown.exported, flown.trace, flown.steps_per_flight),
+                    flown.exported, flown.trace, "cc");
+              }),
+              HasSubstr("the header's own test fails at policy step 2"));
+}
+
+TEST(CExport, CompilesForMicrocontrollersAndAsCpp) {
+  const Flown flown = FlyMadeUp(OddNetworks().back());
+  const ScratchDirectory scratch;
+  WriteFile(scratch / "policy.h", CPolicy(flown.exported, flown.trace, flown.steps_per_flight));
+  const std::string strict = " -Wall -Wextra -Wpedantic -Werror -DMADE_UP_IMPLEMENTATION -c -o " +
+                             (scratch / "out.o") + " -x ";
+  EXPECT_EQ(std::system(("c++ -std=c++17" + strict + "c++ " + (scratch / "policy.h")).c_str()), 0);
+  if (!Has("arm-none-eabi-gcc")) GTEST_SKIP() << "needs arm-none-eabi-gcc (gcc-arm-none-eabi)";
+  EXPECT_EQ(std::system(("arm-none-eabi-gcc -std=c99 -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 "
+                         "-mfloat-abi=hard -Wdouble-promotion" +
+                         strict + "c " + (scratch / "policy.h"))
+                            .c_str()),
+            0);
+}
+
+TEST(FlightControlExport, CommandsAsTheLawsDo) {
+  if (!Has("cc")) GTEST_SKIP() << "needs cc";
+  for (const char* aircraft : {"f16", "aerosonde"}) {
+    EnvConfig env;
+    env.aircraft = aircraft;
+    env = ExportEnvironment("", env);
+    const FlightControlTrace trace = RecordFlightControl(env, kExportFlights, 500, 3);
+    const auto commands = FlyFlightControl(CFlightControl(env, trace, "test"),
+                                           FlightControlName(env), trace.inputs, "cc");
+    EXPECT_LE(LargestError(trace, LoadAircraft(aircraft).actuators, commands), kFloat32);
+  }
+}
+
+TEST(FlightControlExport, RefusesWhatHasNoLaws) {
+  EnvConfig env;
+  env.flight_control = FlightControlMode::kDirect;
+  EXPECT_THAT(MessageOf([&] { CFlightControl(env, {}, "test"); }), HasSubstr("no flight control"));
+}
+
+TEST(PolicyTrace, LargestErrorIsInfiniteWhereActionsAreMissingOrNotFinite) {
+  PolicyTrace trace;
+  trace.actions = {0.5f, -0.5f};
+  EXPECT_EQ(LargestError(trace, {0.5f, -0.25f}), 0.25);
+  EXPECT_EQ(LargestError(trace, {0.5f}), INFINITY);
+  EXPECT_EQ(LargestError(trace, {0.5f, NAN}), INFINITY);
+}
+
+class ExportCommand : public ::testing::Test {
+ protected:
+  ProgramResult Export(const std::string& policy, const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"export", policy};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return CallSkein(arguments);
+  }
+
+  const ScratchDirectory scratch_;
+  const std::string policy_ = ShippedPolicy("heading");
+};
+
+TEST_F(ExportCommand, WritesAHeaderThatSaysWhatItsNumbersAre) {
+  const std::string out = scratch_ / "heading.h";
+  const ProgramResult result = Export(policy_, {"--format", "c", "-o", out});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  const std::string header = ReadFile(out);
+  for (const char* text : {"error_altitude_ft = 3280.84 obs[0]", "error_yaw_deg = 57.29578 obs[1]",
+                           "altitude_ft = 16404.2 obs[3]", "leading_edge_flap_deg = 25 obs[20]",
+                           "throttle_fraction = 0.5 actions[0] + 0.5", "held for 0.1 s",
+                           "void heading_step(const float obs[HEADING_OBSERVATION_SIZE]"}) {
+    EXPECT_THAT(header, HasSubstr(text));
+  }
+}
+
+TEST_F(ExportCommand, WritesAHierarchyAsTwoFilesAndAManifest) {
+  const ProgramResult result = Export(ShippedPolicy("tracking"),
+                                      {"--format", "safetensors", "-o", scratch_ / "tracking.st"});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_GT(std::filesystem::file_size(scratch_ / "tracking.low_level.st"), 600000u);
+  const auto manifest = nlohmann::json::parse(ReadFile(scratch_ / "tracking.json"));
+  EXPECT_EQ(manifest["high_level"]["file"], "tracking.st");
+  EXPECT_EQ(manifest["high_level"]["action_repeat"], 50);
+  EXPECT_EQ(manifest["high_level"]["actions"][0]["name"], "pitch_change_rad");
+  EXPECT_EQ(manifest["low_level"]["file"], "tracking.low_level.st");
+  EXPECT_EQ(manifest["low_level"]["action_repeat"], 5);
+  EXPECT_EQ(manifest["low_level"]["observations"][0]["name"], "error_pitch_deg");
+}
+
+TEST_F(ExportCommand, WritesTheLawsThatAPolicyFliesThrough) {
+  const std::string out = scratch_ / "laws.h";
+  const ProgramResult result = Export(policy_, {"--flight-control", "c", "-o", out});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(ReadFile(out), HasSubstr("#define F16_FLIGHT_CONTROL_STEP_S 0.02f"));
+}
+
+TEST_F(ExportCommand, RefusesWhatItCannotDoInOneLine) {
+  const std::string out = scratch_ / "out";
+  EXPECT_EQ(Export(policy_, {"--format", "keras", "-o", out}).exit_code, 2);
+  EXPECT_EQ(Export(policy_, {"--format", "c"}).exit_code, 2);
+  EXPECT_EQ(Export(policy_, {"-o", out}).exit_code, 2);
+  EXPECT_EQ(Export(policy_, {"--flight-control", "c", "--aircraft", "f16", "-o", out}).exit_code,
+            2);
+  const auto expect_failure = [this](const std::string& policy, const std::string& file,
+                                     const std::string& message) {
+    const ProgramResult result = Export(policy, {"--format", "c", "-o", file});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.error, HasSubstr(message));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1);
+  };
+  expect_failure(policy_, scratch_ / "missing" + "/out.h", "cannot be written");
+  expect_failure(scratch_ / "nothing.skein", out, "No such file");
+  WriteFile(scratch_ / "config.toml", "");
+  expect_failure(scratch_.path(), out, "the run has not saved a policy yet");
+  RecurrentPolicy::Untrained({}, 22, 4, 1).Save(scratch_ / "untrained.skein");
+  expect_failure(scratch_ / "untrained.skein", out, "does not say for which task it was made");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace skein

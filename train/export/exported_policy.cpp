@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train/export/exported_policy.h"
+
+namespace skein {
+
+ExportedPolicy PrepareExport(const RecurrentPolicy& policy, const std::string& who,
+                             const std::string& version) {
+  ExportedPolicy exported;
+  exported.policy = policy.parameters();
+  exported.interface = DescribeInterface(*exported.policy, who);
+  exported.name = exported.interface.env.task;
+  exported.metadata = InterfaceMetadata(exported.interface);
+  exported.metadata["version"] = version;
+  return exported;
+}
+
+}  // namespace skein
