@@ -51,13 +51,14 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
     if (!NeedsLowLevel(env)) return {};
     throw UsageError(fmt::format(
         "task {0} needs --low-level RUN_OR_POLICY, a low-level policy trained on task "
-        "{1} (`skein train {1}` makes one), or --low-level autopilot; --preset direct trains "
+        "{1} (`skein train {1}` makes one), or --low-level autopilot; the default preset trains "
         "a policy without one",
         task, kLowLevelTask));
   }
   if (!NeedsLowLevel(env)) {
     throw UsageError(fmt::format("--low-level is for tasks of a high-level policy, not for {}{}",
-                                 task, IsHierarchical(task) ? " flown directly" : ""));
+                                 task,
+                                 IsHierarchical(task) ? " flown directly: --preset planner" : ""));
   }
   if (IsAutopilot(option)) {
     return ChooseAutopilot(env, option);

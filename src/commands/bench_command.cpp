@@ -370,7 +370,8 @@ void AddBenchCommand(CLI::App* app) {
           "and what else lies between.\n"
           "Examples:\n"
           "  skein bench iteration --preset paper --set ppo.rollout_steps=96\n"
-          "  skein bench iteration --task tracking --low-level policies/control.skein");
+          "  skein bench iteration --task tracking --preset planner --low-level "
+          "policies/control.skein");
   AddBench(bench, "signature", "One hash of a fixed short training", options, BenchSignature)
       ->footer(
           "The same for any number of threads on one SIMD target: a change of the hash is a change "

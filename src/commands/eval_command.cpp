@@ -68,6 +68,7 @@ void Evaluate(const EvalOptions& options) {
   ApplyOverrides(flight, &config);
   std::shared_ptr<const StoredPolicy> low_level;
   if (!options.low_level.empty()) {
+    config.train.env.tracking.acts_directly = false;  // whatever the preset trains
     low_level = ChooseLowLevelPolicy(config.train.env, options.low_level).policy;
   }
   const RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);

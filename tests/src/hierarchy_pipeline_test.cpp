@@ -26,9 +26,10 @@ class HighLevelPipeline : public ::testing::Test {
 
 /// Arguments of a training of task tracking over the policy `low-level policy`.
 std::vector<std::string> HighLevelTraining(const std::string& out, const std::string& low_level) {
-  std::vector<std::string> arguments = TinyTrainingOf(
-      "tracking", out,
-      {"--steps", std::to_string(64 * 16 * 10 * 3), "--set", "env.action_repeat=10"});
+  std::vector<std::string> arguments =
+      TinyTrainingOf("tracking", out,
+                     {"--preset", "planner", "--steps", std::to_string(64 * 16 * 10 * 3), "--set",
+                      "env.action_repeat=10"});
   if (!low_level.empty()) arguments.insert(arguments.end(), {"--low-level", low_level});
   return arguments;
 }
@@ -95,9 +96,7 @@ TEST_F(HighLevelPipeline, AHighLevelPolicyTrainsOverTheAutopilot) {
 }
 
 TEST_F(HighLevelPipeline, APolicyThatActsDirectlyTrainsResumesAndFliesWithoutALowLevelPolicy) {
-  const auto training = [](const std::string& out) {
-    return TinyTrainingOf("tracking", out, {"--preset", "direct"});
-  };
+  const auto training = [](const std::string& out) { return TinyTrainingOf("tracking", out, {}); };
   ASSERT_EQ(CallSkein(training(reference_)).exit_code, 0);
   {
     RunningProgram program(training(run_));

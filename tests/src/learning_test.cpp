@@ -34,9 +34,10 @@ TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
 }
 
 TEST(Learning, AHighLevelReachesHalfOfItsPointsAfterASixthOfItsBudget) {
-  EXPECT_GT(
-      TrainedSuccess("tracking", "1e8", {"--low-level", SKEIN_SOURCE "/policies/control.skein"}),
-      0.5);
+  EXPECT_GT(TrainedSuccess(
+                "tracking", "1e8",
+                {"--preset", "planner", "--low-level", SKEIN_SOURCE "/policies/control.skein"}),
+            0.5);
 }
 
 }  // namespace

@@ -186,6 +186,7 @@ TEST_F(StudyPipeline, HighLevelsAreTrainedOverTheLowLevelPolicy) {
   std::string tracking = kStudy;
   tracking.replace(tracking.find("heading"), 7, "tracking");
   tracking.replace(tracking.find(", \"env.heading"), 41, "");
+  tracking.insert(0, "preset = \"planner\"\n");
   const std::string without = tracking;
   tracking.insert(0, "low_level = \"autopilot\"\n");
   const std::string out = scratch_ / "out";

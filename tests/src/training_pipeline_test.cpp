@@ -110,8 +110,8 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   EXPECT_EQ(aircraft.exit_code, 1);
   ExpectOneLine(aircraft.error, "env.aircraft = f16, but is to fly with env.aircraft = aerosonde");
   const ProgramResult above =
-      CallSkein({"train", "tracking", "--out", root_ + "/above", "--low-level", policy, "--set",
-                 "env.control_interval_s=0.01"});
+      CallSkein({"train", "tracking", "--out", root_ + "/above", "--preset", "planner",
+                 "--low-level", policy, "--set", "env.control_interval_s=0.01"});
   EXPECT_EQ(above.exit_code, 1);
   ExpectOneLine(above.error, "--low-level " + policy + " was made with env.control_interval_s");
   const ProgramResult further = CallSkein({"train", "--resume", run_});

@@ -167,8 +167,9 @@ TEST(Usage, AskingForWhatCannotBeExitsWithTwo) {
            {"train", "heading", "--condition", "rainy=mild"},
            {"train", "heading", "--condition", "windy=often"},
            {"train", "heading", "--low-level", "autopilot"},
-           {"train", "tracking"},
-           {"train", "tracking", "--low-level", "autopilot:lazy"},
+           {"train", "tracking", "--low-level", "autopilot"},
+           {"train", "tracking", "--preset", "planner"},
+           {"train", "tracking", "--preset", "planner", "--low-level", "autopilot:lazy"},
            {"eval", "--policy", "untrained"},
            {"eval", "--policy", "untrained", "--task", "heading", "--set", "ppo.epochs=3"},
            {"compare", "--task", "heading", "--agents", "ace"},
@@ -436,7 +437,8 @@ TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
       "bench", "iteration",           "--iterations", "1",
       "--set", "ppo.num_aircraft=64", "--set",        "ppo.rollout_steps=16",
       "--set", "ppo.minibatches=2",   "--json",       path};
-  const std::vector<std::string> high_level = {"--task", "tracking", "--low-level", "autopilot"};
+  const std::vector<std::string> high_level = {"--task",  "tracking",    "--preset",
+                                               "planner", "--low-level", "autopilot"};
   for (const auto& task : {std::vector<std::string>{}, high_level}) {
     std::vector<std::string> arguments = small;
     arguments.insert(arguments.end(), task.begin(), task.end());
@@ -453,7 +455,8 @@ TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
 }
 
 TEST(Usage, BenchmarksOfHighLevelsNeedALowLevelPolicy) {
-  const ProgramResult result = CallSkein({"bench", "rollout", "--task", "tracking"});
+  const ProgramResult result =
+      CallSkein({"bench", "rollout", "--task", "tracking", "--preset", "planner"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.error.find("needs --low-level"), std::string::npos) << result.error;
 }
