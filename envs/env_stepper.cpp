@@ -373,12 +373,14 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
                  scratch.errors, kAircraftPerBlock, block.progress});
 }
 
-/// Copies the rows of aircraft whose time ran out in this control step: their observations, and
-/// what no policy observes if it is asked for.
-void EnvStepper::ObserveTruncated(const EnvBlock& block, Scratch& scratch,
-                                  const StepOutput& output) const {
+/// Copies the rows of aircraft whose episodes ended in this control step, by time or, if asked for,
+/// by anything: their observations, and what no policy observes if it is asked for.
+void EnvStepper::ObserveEnds(const EnvBlock& block, Scratch& scratch,
+                             const StepOutput& output) const {
   const auto is_new = [&](int i) {
-    return Is(scratch.termination[i], Termination::kTimeLimit) && !scratch.final_observed[i];
+    if (scratch.final_observed[i]) return false;
+    return output.observes_every_end ? !Is(scratch.termination[i], Termination::kNone)
+                                     : Is(scratch.termination[i], Termination::kTimeLimit);
   };
   bool any = false;
   for (int i = 0; i < block.count; ++i) any = any || is_new(i);
@@ -413,16 +415,15 @@ void EnvStepper::RestartEnded(const EnvBlock& block, const Scratch& scratch,
         std::fill_n(row, kNumFlightMetrics, std::numeric_limits<float>::quiet_NaN());
       }
     }
-    metrics.Begin(i);
-    BeginEpisode(block, i, block.episode[i] + 1);
+    BeginNextEpisode(block, i);
   }
 }
 
 void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutput& output,
                       MemoryAhead ahead) {
   Scratch scratch;
-  const bool keeps_final =
-      config_.episode().truncate_at_time_limit && output.final_observation != nullptr;
+  const bool keeps_final = output.observes_every_end || (config_.episode().truncate_at_time_limit &&
+                                                         output.final_observation != nullptr);
   const float dt = static_cast<float>(config_.control_interval_s);
   for (int step = 0; step < config_.action_repeat; ++step) {
     const float* const stick_action = StickActions(block, action, step, scratch);
@@ -439,7 +440,7 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
     ComputeReward(block, stick_action, step == 0 ? action : nullptr, output.observer, scratch);
     if (progress_.mission_steps > 0) DrawTargets(block, scratch);
     if (config_.plant.sensor_freeze_chance > 0) FreezeSensors(block);
-    if (keeps_final) ObserveTruncated(block, scratch, output);
+    if (keeps_final) ObserveEnds(block, scratch, output);
   }
   std::copy_n(scratch.policy_step_reward, block.count, output.reward);
   std::copy_n(scratch.termination, block.count, output.termination);

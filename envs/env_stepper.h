@@ -49,6 +49,12 @@ class EnvStepper {
   /// Begins the given episode of the block's `i`-th aircraft.
   void BeginEpisode(const EnvBlock& block, int i, std::int32_t episode);
 
+  /// Begins the episode that follows the one under way, of which nothing is measured any more.
+  void BeginNextEpisode(const EnvBlock& block, int i) {
+    metric_sums_[block.index].Begin(i);
+    BeginEpisode(block, i, block.episode[i] + 1);
+  }
+
   /// Writes the block's observations, row-major, noise included.
   void Observe(const EnvBlock& block, float* observation) const;
 
@@ -82,7 +88,7 @@ class EnvStepper {
   void AdvanceTargets(const EnvBlock& block, Scratch& scratch) const;
   void DrawTargets(const EnvBlock& block, const Scratch& scratch) const;
   void DrawTarget(const EnvBlock& block, int i) const;
-  void ObserveTruncated(const EnvBlock& block, Scratch& scratch, const StepOutput& output) const;
+  void ObserveEnds(const EnvBlock& block, Scratch& scratch, const StepOutput& output) const;
   void RestartEnded(const EnvBlock& block, const Scratch& scratch, const StepOutput& output);
 
   EnvConfig config_;

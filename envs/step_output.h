@@ -28,6 +28,9 @@ struct StepOutput {
   /// Row-major [count][privileged_size]: beside final_observation what VecEnv::ObservePrivileged
   /// would have written. May be null.
   float* final_privileged = nullptr;
+  /// final_observation, which must not be null then, and final_privileged get the rows of every
+  /// episode that ended, whatever ended it.
+  bool observes_every_end = false;
 };
 
 }  // namespace skein

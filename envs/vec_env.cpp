@@ -118,6 +118,17 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
   }
 }
 
+void VecEnv::Restart(int tile, const bool* begins) {
+  const DenormalsFlushed flushed;
+  for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
+    const EnvBlock block = impl_->storage.BlockAt(tile, begin);
+    for (int i = 0; i < block.count; ++i) {
+      if (begins[begin + i]) impl_->stepper.BeginNextEpisode(block, i);
+    }
+    impl_->storage.FillPadding(block);
+  }
+}
+
 void VecEnv::SetHandlingWeight(double weight) { impl_->stepper.SetHandlingWeight(weight); }
 void VecEnv::SetConditionShare(double share) { impl_->stepper.SetConditionShare(share); }
 void VecEnv::Restart() { impl_->Restart(); }

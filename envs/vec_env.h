@@ -58,6 +58,10 @@ class VecEnv {
   /// the end of the policy step. An action that is not finite ends the episode as non_finite.
   void Step(int tile, const float* action, const StepOutput& output);
 
+  /// Begins the next episode of the tile's aircraft `i` where begins[i], in the middle of the one
+  /// under way, of which nothing is reported.
+  void Restart(int tile, const bool* begins);
+
   /// Multiplies what handling costs (EnvConfig::reward) from now on; 1 at first. No part of the
   /// state: who trains sets it anew after Restore.
   void SetHandlingWeight(double weight);
