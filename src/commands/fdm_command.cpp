@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -141,17 +140,6 @@ void Simulate(const FileOptions& options) {
   WriteDocument(options, std::move(document));
   fmt::print("flew {} trajectories in {}: {}\n", file.trajectories.size(), options.precision,
              options.out);
-}
-
-/// Trims, and adds to a failure what limit may be its cause.
-TrimPoint TrimOrExplain(const Plant& plant, const TrimRequest& request) {
-  try {
-    return Trim(plant, request);
-  } catch (const Error& error) {
-    const std::vector<std::string> limits = LimitsOnTheWay(plant, request);
-    if (limits.empty()) throw;
-    throw Error(fmt::format("{}: this flight {}", error.what(), fmt::join(limits, ", and ")));
-  }
 }
 
 std::string DescribeTrim(const TrimOptions& options, const TrimPoint& trim,

@@ -206,12 +206,12 @@ std::string KeyOf(const std::string& assignment) {
 
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
-                                   ProgramConfig* config) {
+                                   ProgramConfig* config, const std::string& source) {
   for (const std::string& assignment : ConditionAssignments(conditions)) {
     ApplyAssignment(assignment, "--condition", config);
   }
   for (const std::string& assignment : assignments) {
-    ApplyAssignment(assignment, "--set", config);
+    ApplyAssignment(assignment, source, config);
   }
 }
 
@@ -252,7 +252,8 @@ ProgramConfig ResolveConfig(const ConfigSources& sources) {
   const ProgramConfig base = ConfigOf(FindPreset(sources.task, sources.preset));
   ProgramConfig config = base;
   if (!sources.file.empty()) ApplyTomlFile(sources.file, &config);
-  ApplyConditionsAndAssignments(sources.conditions, sources.assignments, &config);
+  ApplyConditionsAndAssignments(sources.conditions, sources.assignments, &config,
+                                sources.assignments_are);
   RequireTask(config, sources.task);
   RequireOwnSpeeds(base, config);
   return config;

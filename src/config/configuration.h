@@ -22,10 +22,11 @@ void ApplyTomlFile(const std::string& path, ProgramConfig* config);
 ProgramConfig ReadRecord(const std::string& path);
 
 /// Applies conditions (src/config/conditions.h), then assignments `key=value`, whose values are
-/// TOML; names need no quotes, and numbers may end in k, M or G.
+/// TOML; names need no quotes, and numbers may end in k, M or G. Errors say `source` of
+/// assignments.
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
                                    const std::vector<std::string>& assignments,
-                                   ProgramConfig* config);
+                                   ProgramConfig* config, const std::string& source = "--set");
 
 /// Assignments for flights that go on for `hold_s` after their target was reached, or for missions
 /// of `mission_min` minutes; none for what is not asked for.
@@ -53,6 +54,7 @@ struct ConfigSources {
   std::string file;    ///< TOML file, or empty
   std::vector<std::string> assignments;
   std::vector<std::string> conditions = {};  ///< NAME=LEVEL, of lower precedence than assignments
+  std::string assignments_are = "--set";     ///< what errors call an assignment
 };
 
 /// Defaults, then preset, then file, then conditions, then assignments. Throws Error if one of them

@@ -12,33 +12,16 @@
 #include "base/error.h"
 #include "envs/actions.h"
 #include "envs/aircraft/aircraft.h"
-#include "envs/low_level_flight.h"
+#include "envs/interface_names.h"
 #include "envs/reference/plant.h"
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
-#include "envs/tasks/observation.h"
 
 namespace skein {
 namespace {
 
 using State = std::array<float, kNumRecordedColumns>;
 using Quantity = std::pair<const char*, double>;
-
-constexpr std::array<const char*, kActionSize> kStickCommandNames = {"throttle", "pitch", "roll",
-                                                                     "yaw"};
-constexpr std::array<const char*, kHighLevelActionSize> kHighLevelActionNames = {
-    "target_pitch", "target_yaw", "target_speed"};
-
-/// Of envs/tasks/observation.h; "scaled": in the aircraft's ReferenceUnits.
-constexpr std::array<const char*, kObservationSize> kObservationNames = {
-    "error_0_scaled",   "error_1_scaled",  "error_2_scaled",
-    "altitude_scaled",  "sin_roll",        "cos_roll",
-    "sin_pitch",        "cos_pitch",       "equivalent_airspeed_scaled",
-    "sin_alpha",        "cos_alpha",       "sin_beta",
-    "cos_beta",         "p_rad_s",         "q_rad_s",
-    "r_rad_s",          "power_fraction",  "elevator_fraction",
-    "aileron_fraction", "rudder_fraction", "leading_edge_flap_fraction",
-    "airspeed_ratio"};
 
 /// What a state is called and worth in the units of people, in the order of the file's columns.
 std::vector<Quantity> Readings(AtmosphereModel atmosphere, const State& state) {
@@ -98,7 +81,7 @@ class FlightTable {
     for (const auto& [name, value] : Readings(env_.atmosphere, {})) {
       header += fmt::format(",{}", name);
     }
-    for (const char* name : kStickCommandNames) header += fmt::format(",action_{}", name);
+    for (const char* name : kActionNames) header += fmt::format(",action_{}", name);
     if (is_hierarchical_) {
       for (const char* name : kHighLevelActionNames) header += fmt::format(",action_{}", name);
     }
@@ -123,8 +106,8 @@ class FlightTable {
         Readings(env_.atmosphere, step == nullptr ? flight.initial_state : step->state);
     for (const auto& [name, value] : readings) cell(value);
     if (step == nullptr) {
-      text->append(
-          kStickCommandNames.size() + (is_hierarchical_ ? kHighLevelActionNames.size() : 0), ',');
+      text->append(kActionNames.size() + (is_hierarchical_ ? kHighLevelActionNames.size() : 0),
+                   ',');
     } else {
       for (const float command : step->stick) cell(command);
       if (is_hierarchical_) {

@@ -2,10 +2,12 @@
 #include "src/fdm/trim_limits.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/reference/flight_control.h"
 #include "envs/state/attitude.h"
@@ -125,6 +127,16 @@ std::vector<std::string> LimitsOnTheWay(const Plant& plant, const TrimRequest& r
   std::vector<std::string> limits = BelowStall(plant, request);
   for (std::string& limit : OutsideEngineTables(plant, request)) limits.push_back(std::move(limit));
   return limits;
+}
+
+TrimPoint TrimOrExplain(const Plant& plant, const TrimRequest& request) {
+  try {
+    return Trim(plant, request);
+  } catch (const Error& error) {
+    const std::vector<std::string> limits = LimitsOnTheWay(plant, request);
+    if (limits.empty()) throw;
+    throw Error(fmt::format("{}: this flight {}", error.what(), fmt::join(limits, ", and ")));
+  }
 }
 
 }  // namespace skein

@@ -18,4 +18,7 @@ std::vector<std::string> ExceededLimits(const Plant& plant, const TrimRequest& r
 /// without it: flight below stall speed, or outside the engine's tables. Empty otherwise.
 std::vector<std::string> LimitsOnTheWay(const Plant& plant, const TrimRequest& request);
 
+/// Trims; an Error of it says what limit may be its cause, too.
+TrimPoint TrimOrExplain(const Plant& plant, const TrimRequest& request);
+
 }  // namespace skein

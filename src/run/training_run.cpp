@@ -103,6 +103,7 @@ void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wo
   const std::string comment = started_from.empty() ? "" : "# " + started_from + "\n";
   WriteFile(directory.config(), comment + DumpToml(resolved));
   TrainingRun run(resolved, std::move(directory), trainer, pool);
+  run.goes_on_ = origin.goes_on;
   run.SayBanner();
   for (const std::string& line :
        {origin.preset.empty() ? "" : "preset " + origin.preset, started_from, origin.low_level}) {
@@ -206,6 +207,7 @@ void TrainingRun::TrainAndEvaluate() {
     Record(report);
     meter.Add(report, Clock::now());
     log_.Show(meter.progress());
+    if (goes_on_ && !goes_on_(report)) pool_.RequestStop();
     if (signals_.TakeSaveRequest()) {
       SaveCheckpoint();
       log_.Say(fmt::format("saved {} as asked", directory_.checkpoint(trainer_.iteration())));
@@ -227,8 +229,11 @@ void TrainingRun::TrainAndEvaluate() {
 }
 
 void TrainingRun::SayStopped(const std::string& dropped) {
+  const int signal = signals_.StopSignal();
   log_.Say(fmt::format("stopped by {} after {} of {} steps{}; resume with: {} train --resume {}",
-                       signals_.StopSignal() == SIGINT ? "SIGINT" : "SIGTERM",
+                       signal == SIGINT ? "SIGINT"
+                       : signal != 0    ? "SIGTERM"
+                                        : "its caller",
                        FormatCount(static_cast<double>(trainer_.env_steps())),
                        FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
                        ShellWord(CommandName()), ShellWord(directory_.path())));

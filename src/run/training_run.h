@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "base/worker_pool.h"
@@ -22,6 +23,8 @@ struct RunOrigin {
   std::string preset;     ///< name of the preset; empty if not known
   std::string low_level;  ///< what the low-level policy is, for people; empty without one
   std::string from;       ///< policy file or checkpoint whose networks it starts from; or empty
+  /// Is shown every iteration after its records are written; false ends the run as SIGTERM would.
+  std::function<bool(const IterationReport&)> goes_on = {};
 };
 
 /// One training run in its directory: iterations, records, checkpoints, signals, and at the end the
@@ -60,6 +63,7 @@ class TrainingRun {
   RunLog log_;
   FileDescriptor metrics_, timing_;
   EventFile events_;
+  std::function<bool(const IterationReport&)> goes_on_;
   std::chrono::steady_clock::time_point last_save_;
   std::uint64_t saved_iteration_ = 0;
 };
