@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nanobind/stl/string.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "envs/actions.h"
+#include "envs/tasks/observation.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/flying_agent.h"
+#include "src/agents/agent_names.h"
+#include "src/agents/policy_file.h"
+#include "src/config/program_config.h"
+
+namespace nb = nanobind;
+
+namespace skein {
+namespace {
+
+FlyingAgent LoadAgent(const std::string& path, bool sampled) {
+  const RecurrentPolicy policy = RecurrentPolicy::Load(PolicyFileOf(path));
+  return {path,
+          sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy),
+          policy.observation_size(),
+          policy.action_size(),
+          policy.action_repeat(),
+          policy};
+}
+
+/// An agent as the command line calls it, for the environment of `config`.
+FlyingAgent NamedAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
+  Agent agent = FindAgent(name, config, seed);
+  if (const std::string file = PolicyFileOfAgent(name); !file.empty()) {
+    FlyingAgent trained = LoadAgent(file, false);
+    trained.name = name;
+    trained.agent = std::move(agent);
+    return trained;
+  }
+  const int action_repeat = agent.EnvironmentFor(config.train.env).action_repeat;
+  return {name, std::move(agent), kObservationSize, kActionSize, action_repeat, {}};
+}
+
+FlyingAgent CallableAgent(nb::object callable, const std::string& name, int action_size,
+                          int action_repeat, int state_size) {
+  if (action_size < 1 || action_repeat < 1 || state_size < 0) {
+    throw Error("agent " + name +
+                ": action_size and action_repeat must be positive, state_size not negative");
+  }
+  auto policy = MakePythonPolicy(std::move(callable), {action_size, action_repeat, state_size});
+  return {name, Agent::Of(std::move(policy)), kObservationSize, action_size, action_repeat, {}};
+}
+
+/// One policy step: actions, and the memory after it.
+nb::tuple Act(const FlyingAgent& flying, const Rows<const float>& observation,
+              const Rows<const float>& state, std::uint64_t seed, std::uint32_t policy_step) {
+  const std::size_t count = observation.shape(0);
+  const auto memory = static_cast<std::size_t>(flying.agent.state_size());
+  if (observation.shape(1) != static_cast<std::size_t>(flying.observation_size)) {
+    throw Error("agent " + flying.name + ": observations of " +
+                std::to_string(observation.shape(1)) + " numbers, but it takes " +
+                std::to_string(flying.observation_size));
+  }
+  if (state.shape(0) != count || state.shape(1) != memory) {
+    throw Error("agent " + flying.name + ": state must have the shape (" + std::to_string(count) +
+                ", " + std::to_string(memory) + ")");
+  }
+  std::vector<float> after(state.data(), state.data() + state.size());
+  std::vector<float> action(count * static_cast<std::size_t>(flying.action_size));
+  {
+    const nb::gil_scoped_release released;
+    flying.agent.Act({seed, 0, policy_step}, static_cast<int>(count), observation.data(),
+                     after.data(), action.data());
+  }
+  return nb::make_tuple(
+      ToNumpy(std::move(action), {count, static_cast<std::size_t>(flying.action_size)}),
+      ToNumpy(std::move(after), {count, memory}));
+}
+
+ProgramConfig EnvironmentFor(const FlyingAgent& flying, const ProgramConfig& config) {
+  ProgramConfig own = config;
+  own.train.env = flying.agent.EnvironmentFor(config.train.env);
+  return own;
+}
+
+}  // namespace
+
+void BindAgents(nb::module_& module) {
+  nb::class_<FlyingAgent>(module, "FlyingAgent")
+      .def_ro("name", &FlyingAgent::name)
+      .def_ro("observation_size", &FlyingAgent::observation_size)
+      .def_ro("action_size", &FlyingAgent::action_size)
+      .def_ro("action_repeat", &FlyingAgent::action_repeat)
+      .def_prop_ro("state_size",
+                   [](const FlyingAgent& flying) { return flying.agent.state_size(); })
+      .def_prop_ro("task",
+                   [](const FlyingAgent& flying) {
+                     return flying.policy ? flying.policy->task() : std::string();
+                   })
+      .def_prop_ro("is_high_level",
+                   [](const FlyingAgent& flying) { return flying.agent.low_level() != nullptr; })
+      .def("environment_for", &EnvironmentFor, nb::arg("config"))
+      .def("act", &Act, nb::arg("observation"), nb::arg("state"), nb::arg("seed"),
+           nb::arg("policy_step"));
+  module.def("load_agent", &LoadAgent, nb::arg("path"), nb::arg("sampled"));
+  module.def("named_agent", &NamedAgent, nb::arg("name"), nb::arg("config"), nb::arg("seed"));
+  module.def("callable_agent", &CallableAgent, nb::arg("callable"), nb::arg("name"),
+             nb::arg("action_size"), nb::arg("action_repeat"), nb::arg("state_size"));
+}
+
+}  // namespace skein

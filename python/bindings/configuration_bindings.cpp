@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/field_list.h"
+#include "python/bindings/bindings.h"
+#include "src/config/conditions.h"
+#include "src/config/configuration.h"
+#include "src/config/presets.h"
+#include "src/config/settings.h"
+#include "src/config/usage_error.h"
+
+namespace nb = nanobind;
+
+namespace skein {
+namespace {
+
+ProgramConfig Resolve(const std::string& task, const std::string& preset, const std::string& file,
+                      const std::vector<std::string>& conditions,
+                      const std::vector<std::string>& assignments) {
+  return AsUsage([&] {
+    const ProgramConfig config =
+        ResolveConfig({task, preset, file, assignments, conditions, "settings"});
+    CheckConsistent(config);
+    return config;
+  });
+}
+
+ProgramConfig WithSettings(const ProgramConfig& config, const std::vector<std::string>& conditions,
+                           const std::vector<std::string>& assignments) {
+  return AsUsage([&] {
+    ProgramConfig changed = config;
+    ApplyConditionsAndAssignments(conditions, assignments, &changed, "settings");
+    RequireTask(changed, config.train.env.task);
+    CheckConsistent(changed);
+    return changed;
+  });
+}
+
+nb::object ValueOf(const Field& field) {
+  return std::visit(
+      [](const auto& place) -> nb::object {
+        if constexpr (std::is_same_v<std::decay_t<decltype(place)>, NamedChoice>) {
+          return nb::cast(place.name());
+        } else {
+          return nb::cast(*place);
+        }
+      },
+      field.place);
+}
+
+nb::dict SettingsOf(const ProgramConfig& config) {
+  ProgramConfig listed = config;
+  nb::dict settings;
+  for (const Field& field : FieldsOf(listed)) {
+    if (field.IsOf(config.train.env.task)) settings[field.key.c_str()] = ValueOf(field);
+  }
+  return settings;
+}
+
+nb::object SettingOf(const ProgramConfig& config, const std::string& key) {
+  ProgramConfig listed = config;
+  const std::vector<Field> fields = FieldsOf(listed);
+  return ValueOf(AsUsage([&]() -> const Field& { return FindField(fields, key, "settings"); }));
+}
+
+std::vector<std::string> PresetsOf(const std::string& task) {
+  std::vector<std::string> names;
+  for (const Preset& preset : Presets()) {
+    if (preset.task == task) names.emplace_back(preset.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void BindConfiguration(nb::module_& module) {
+  nb::class_<ProgramConfig>(module, "Config",
+                            "A task, its aircraft and conditions, and how it is trained: every "
+                            "configuration key with its value.")
+      .def_prop_ro(
+          "task", [](const ProgramConfig& config) { return config.train.env.task; },
+          "What is flown.")
+      .def_prop_ro(
+          "conditions",
+          [](const ProgramConfig& config) { return DescribeConditions(config.train.env); },
+          "What it is flown under, for people.")
+      .def("__getitem__", &SettingOf, nb::arg("key"))
+      .def("settings", &SettingsOf, "Every key of the task with its value.")
+      .def("to_toml", &DumpToml, "The same as a TOML file, each key with its meaning.")
+      .def("evaluation",
+           [](const ProgramConfig& config) {
+             ProgramConfig evaluated = config;
+             evaluated.train.env = EvaluationConfig(config.train.env);
+             return evaluated;
+           },
+           "The same without what only serves training: staggered clocks, training tolerances.")
+      .def("with_settings", &WithSettings, nb::arg("conditions"), nb::arg("assignments"))
+      .def("__repr__", [](const ProgramConfig& config) {
+        return "<skein.Config of " + config.train.env.task + ": " +
+               DescribeConditions(config.train.env) + ">";
+      });
+  module.def("resolve", &Resolve, nb::arg("task"), nb::arg("preset"), nb::arg("file"),
+             nb::arg("conditions"), nb::arg("assignments"));
+  module.def("read_record", &ReadRecord, nb::arg("path"),
+             "The configuration that a run has recorded in its config.toml.");
+  module.def("presets_of", &PresetsOf, nb::arg("task"));
+}
+
+}  // namespace skein

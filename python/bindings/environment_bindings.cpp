@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/worker_pool.h"
+#include "envs/state/state.h"
+#include "envs/vec_env.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/flying_agent.h"
+#include "src/agents/low_level_option.h"
+#include "src/config/program_config.h"
+
+namespace nb = nanobind;
+
+namespace skein {
+namespace {
+
+constexpr int kMostPerTile = 256;
+constexpr int kTileGrain = 32;  // VecEnv's tiles are multiples of it
+
+struct NamedColumn {
+  int column;
+  const char* name;
+};
+
+/// What of the state (envs/state/state.h) is shown: all that is physical.
+constexpr std::array<NamedColumn, 24> kShownColumns = {{{kU, "u_fps"},
+                                                        {kV, "v_fps"},
+                                                        {kW, "w_fps"},
+                                                        {kP, "p_rad_s"},
+                                                        {kQ, "q_rad_s"},
+                                                        {kR, "r_rad_s"},
+                                                        {kNorth, "north_ft"},
+                                                        {kEast, "east_ft"},
+                                                        {kDown, "down_ft"},
+                                                        {kQ0, "q0"},
+                                                        {kQx, "qx"},
+                                                        {kQy, "qy"},
+                                                        {kQz, "qz"},
+                                                        {kPower, "power_percent"},
+                                                        {kPowerCommand, "power_command_percent"},
+                                                        {kElevator, "elevator_deg"},
+                                                        {kAileron, "aileron_deg"},
+                                                        {kRudder, "rudder_deg"},
+                                                        {kLeadingEdgeFlap, "leading_edge_flap_deg"},
+                                                        {kNz, "nz_g"},
+                                                        {kNy, "ny_g"},
+                                                        {kWindNorth, "wind_north_fps"},
+                                                        {kWindEast, "wind_east_fps"},
+                                                        {kWindDown, "wind_down_fps"}}};
+
+int ThreadsFor(int num_envs, int threads) {
+  const int asked = threads == 0 ? WorkerPool().threads() : threads;
+  return std::clamp((num_envs + kTileGrain - 1) / kTileGrain, 1, std::max(asked, 1));
+}
+
+/// As long as every thread has one.
+int TileSize(int num_envs, int threads) {
+  const int share = (num_envs + threads - 1) / threads;
+  return std::min((share + kTileGrain - 1) / kTileGrain * kTileGrain, kMostPerTile);
+}
+
+/// An environment's aircraft all at once: a VecEnv and the threads that step its tiles. Rows of
+/// arrays are aircraft, in the order of their numbers.
+class BatchEnv {
+ public:
+  BatchEnv(const ProgramConfig& config, int num_envs, std::uint64_t seed, int threads,
+           std::shared_ptr<const Policy> low_level)
+      : config_(config.train.env),
+        low_level_(std::move(low_level)),
+        pool_(ThreadsFor(num_envs, threads)),
+        env_(Make(num_envs, seed)),
+        episode_return_(static_cast<std::size_t>(num_envs)),
+        episode_steps_(static_cast<std::size_t>(num_envs)),
+        final_observation_(static_cast<std::size_t>(num_envs * env_->observation_size())) {}
+
+  const VecEnv& env() const { return *env_; }
+  const EnvConfig& config() const { return config_; }
+  int threads() const { return pool_.threads(); }
+
+  /// The episodes that a fresh environment with this seed begins with.
+  void Reset(std::uint64_t seed) {
+    const nb::gil_scoped_release released;
+    env_ = Make(env_->num_aircraft(), seed);
+  }
+
+  void Restart(const Row<const bool>& begins) {
+    Require(begins.shape(0) == rows(), "restart: one flag for every environment");
+    for (int tile = 0; tile < env_->num_tiles(); ++tile) {
+      env_->Restart(tile, begins.data() + env_->tile_begin(tile));
+    }
+  }
+
+  void Observe(const Rows<float>& observation) {
+    CheckObservation(observation);
+    const nb::gil_scoped_release released;
+    pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
+      env_->Observe(tile, observation.data() + FirstOf(tile) * observation_size());
+    });
+  }
+
+  /// Steps, then observes. Returns how many episodes ended.
+  int Step(const Rows<const float>& action, const Rows<float>& observation,
+           const Row<float>& reward, const Row<std::uint8_t>& termination,
+           const Row<bool>& terminated, const Row<bool>& truncated) {
+    CheckActions(action);
+    CheckObservation(observation);
+    Require(reward.shape(0) == rows() && termination.shape(0) == rows() &&
+                terminated.shape(0) == rows() && truncated.shape(0) == rows(),
+            "step: one reward, termination and flag for every environment");
+    const nb::gil_scoped_release released;
+    pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
+      const std::size_t first = FirstOf(tile);
+      StepOutput output;
+      output.reward = reward.data() + first;
+      output.termination = termination.data() + first;
+      output.episode_return = episode_return_.data() + first;
+      output.episode_steps = episode_steps_.data() + first;
+      output.final_observation = final_observation_.data() + first * observation_size();
+      output.observes_every_end = true;
+      env_->Step(tile, action.data() + first * action_size(), output);
+      env_->Observe(tile, observation.data() + first * observation_size());
+    });
+    SplitEnds(termination.data(), terminated.data(), truncated.data());
+    return static_cast<int>(ended_.size());
+  }
+
+  /// Of the episodes that ended in the latest step: environments, last observations, returns, and
+  /// lengths in control steps.
+  nb::tuple Ends() const {
+    std::vector<float> observation, episode_return;
+    std::vector<std::int32_t> steps;
+    for (const std::int64_t i : ended_) {
+      const auto row = static_cast<std::size_t>(i);
+      const auto begin =
+          final_observation_.begin() + static_cast<std::ptrdiff_t>(row * observation_size());
+      observation.insert(observation.end(), begin,
+                         begin + static_cast<std::ptrdiff_t>(observation_size()));
+      episode_return.push_back(episode_return_[row]);
+      steps.push_back(episode_steps_[row]);
+    }
+    const std::size_t count = ended_.size();
+    return nb::make_tuple(ToNumpy(ended_, {count}),
+                          ToNumpy(std::move(observation), {count, observation_size()}),
+                          ToNumpy(std::move(episode_return), {count}),
+                          ToNumpy(std::move(steps), {count}));
+  }
+
+  nb::object State() const {
+    std::vector<float> state;
+    for (int i = 0; i < env_->num_aircraft(); ++i) {
+      for (const NamedColumn& shown : kShownColumns) state.push_back(env_->StateOf(i, shown.column));
+    }
+    return nb::cast(ToNumpy(std::move(state), {rows(), kShownColumns.size()}));
+  }
+
+  nb::object Targets() const {
+    std::vector<float> targets;
+    for (int i = 0; i < env_->num_aircraft(); ++i) {
+      const std::vector<float> target = env_->TargetOf(i);
+      targets.insert(targets.end(), target.begin(), target.end());
+    }
+    const std::size_t size = targets.size() / rows();
+    return nb::cast(ToNumpy(std::move(targets), {rows(), size}));
+  }
+
+  nb::object Snapshot() const {
+    std::vector<std::uint32_t> words = env_->Snapshot();
+    const std::size_t size = words.size();
+    return nb::cast(ToNumpy(std::move(words), {size}));
+  }
+  void Restore(const Row<const std::uint32_t>& words) {
+    env_->Restore(std::vector<std::uint32_t>(words.data(), words.data() + words.size()));
+  }
+
+ private:
+  static void Require(bool holds, const char* message) {
+    if (!holds) throw Error(message);
+  }
+  std::unique_ptr<VecEnv> Make(int num_envs, std::uint64_t seed) const {
+    return std::make_unique<VecEnv>(config_, num_envs, seed, TileSize(num_envs, pool_.threads()),
+                                    low_level_);
+  }
+  std::size_t rows() const { return static_cast<std::size_t>(env_->num_aircraft()); }
+  std::size_t observation_size() const {
+    return static_cast<std::size_t>(env_->observation_size());
+  }
+  std::size_t action_size() const { return static_cast<std::size_t>(env_->action_size()); }
+  std::size_t FirstOf(int tile) const { return static_cast<std::size_t>(env_->tile_begin(tile)); }
+
+  void CheckObservation(const Rows<float>& observation) const {
+    Require(observation.shape(0) == rows() && observation.shape(1) == observation_size(),
+            "observations: one row for every environment");
+  }
+  void CheckActions(const Rows<const float>& action) const {
+    if (action.shape(0) == rows() && action.shape(1) == action_size()) return;
+    throw Error("actions of shape (" + std::to_string(action.shape(0)) + ", " +
+                std::to_string(action.shape(1)) + "), but the environment takes (" +
+                std::to_string(rows()) + ", " + std::to_string(action_size()) + ")");
+  }
+
+  /// The time limit ends an episode as truncated where it is no failure.
+  void SplitEnds(const std::uint8_t* termination, bool* terminated, bool* truncated) {
+    const bool truncates = config_.episode().truncate_at_time_limit;
+    constexpr auto kNone = static_cast<std::uint8_t>(Termination::kNone);
+    constexpr auto kTimeLimit = static_cast<std::uint8_t>(Termination::kTimeLimit);
+    ended_.clear();
+    for (std::size_t i = 0; i < rows(); ++i) {
+      const bool is_over = termination[i] != kNone;
+      truncated[i] = truncates && termination[i] == kTimeLimit;
+      terminated[i] = is_over && !truncated[i];
+      if (is_over) ended_.push_back(static_cast<std::int64_t>(i));
+    }
+  }
+
+  EnvConfig config_;
+  std::shared_ptr<const Policy> low_level_;
+  WorkerPool pool_;
+  std::unique_ptr<VecEnv> env_;
+  std::vector<float> episode_return_;
+  std::vector<std::int32_t> episode_steps_;
+  std::vector<float> final_observation_;
+  std::vector<std::int64_t> ended_;  ///< in the latest step
+};
+
+/// The low-level policy that an environment flies with: that of `agent` if it is a high-level
+/// policy, else what `low_level` names; where the task can do without, none.
+std::shared_ptr<const Policy> LowLevelFor(const EnvConfig& env, const std::string& low_level,
+                                          const std::optional<FlyingAgent>& agent) {
+  if (agent) {
+    if (auto own = agent->agent.low_level()) return own;
+    if (low_level.empty()) return nullptr;
+  }
+  return ChooseLowLevelPolicy(env, low_level).policy;
+}
+
+}  // namespace
+
+void BindEnvironment(nb::module_& module) {
+  nb::list names;
+  for (const NamedColumn& shown : kShownColumns) names.append(shown.name);
+  module.attr("STATE_NAMES") = nb::tuple(names);
+  nb::class_<BatchEnv>(module, "BatchEnv")
+      .def("__init__",
+           [](BatchEnv* place, const ProgramConfig& config, int num_envs, std::uint64_t seed,
+              int threads, const std::string& low_level, const std::optional<FlyingAgent>& agent) {
+             ProgramConfig flown = config;
+             if (agent) flown.train.env = agent->agent.EnvironmentFor(config.train.env);
+             auto below = LowLevelFor(flown.train.env, low_level, agent);
+             new (place) BatchEnv(flown, num_envs, seed, threads, std::move(below));
+           },
+           nb::arg("config"), nb::arg("num_envs"), nb::arg("seed"), nb::arg("threads"),
+           nb::arg("low_level"), nb::arg("agent").none())
+      .def("reset", &BatchEnv::Reset, nb::arg("seed"))
+      .def("restart", &BatchEnv::Restart, nb::arg("begins"))
+      .def("observe", &BatchEnv::Observe, nb::arg("observation").noconvert())
+      .def("step", &BatchEnv::Step, nb::arg("action"), nb::arg("observation").noconvert(),
+           nb::arg("reward").noconvert(), nb::arg("termination").noconvert(),
+           nb::arg("terminated").noconvert(), nb::arg("truncated").noconvert())
+      .def("ends", &BatchEnv::Ends)
+      .def("state", &BatchEnv::State)
+      .def("targets", &BatchEnv::Targets)
+      .def("snapshot", &BatchEnv::Snapshot)
+      .def("restore", &BatchEnv::Restore, nb::arg("words"))
+      .def_prop_ro("num_envs", [](const BatchEnv& env) { return env.env().num_aircraft(); })
+      .def_prop_ro("observation_size",
+                   [](const BatchEnv& env) { return env.env().observation_size(); })
+      .def_prop_ro("action_size", [](const BatchEnv& env) { return env.env().action_size(); })
+      .def_prop_ro("action_repeat", [](const BatchEnv& env) { return env.config().action_repeat; })
+      .def_prop_ro("control_interval_s",
+                   [](const BatchEnv& env) { return env.config().control_interval_s; })
+      .def_prop_ro("observation_noise",
+                   [](const BatchEnv& env) {
+                     return std::max(env.config().observation_noise,
+                                     env.config().observation_noise_max);
+                   })
+      .def_prop_ro("draws_plants",
+                   [](const BatchEnv& env) { return env.config().plant.enabled(); })
+      .def_prop_ro("threads", &BatchEnv::threads);
+}
+
+}  // namespace skein

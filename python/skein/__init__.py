@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Skein from Python: thousands of fixed-wing aircraft as a Gymnasium environment, policies, autopilots, evaluation,
+training, and the flight dynamics model.
+
+    import skein
+    envs = skein.make_vec("heading", 4096)
+    observations, info = envs.reset(seed=1)
+    observations, rewards, terminated, truncated, info = envs.step(envs.action_space.sample())
+
+Arrays are float32, [environment][quantity]; units are those of the configuration keys' and columns' names. What cannot
+be is a skein.Error; if it was asked for so, a skein.ConfigurationError, which is also a ValueError.
+"""
+from skein._skein import (
+    ACTION_NAMES,
+    AIRCRAFT,
+    HIGH_LEVEL_ACTION_NAMES,
+    OBSERVATION_NAMES,
+    TASKS,
+    TERMINATION_NAMES,
+    Config,
+    ConfigurationError,
+    Error,
+    __version__,
+    simd_target,
+)
+from skein.agents import Agent, load_policy
+from skein.configuration import configure, presets
+from skein.environment import FlightEnv, FlightVectorEnv, make, make_vec, register_environments
+from skein.evaluation import Comparison, Evaluation, compare, evaluate, record
+from skein.flight_dynamics import LinearModel, Trajectory, Trim, linearise, simulate, trim
+from skein.training import Run, train
+
+__all__ = [
+    "ACTION_NAMES",
+    "AIRCRAFT",
+    "HIGH_LEVEL_ACTION_NAMES",
+    "OBSERVATION_NAMES",
+    "TASKS",
+    "TERMINATION_NAMES",
+    "Agent",
+    "Comparison",
+    "Config",
+    "ConfigurationError",
+    "Error",
+    "Evaluation",
+    "FlightEnv",
+    "FlightVectorEnv",
+    "LinearModel",
+    "Run",
+    "Trajectory",
+    "Trim",
+    "__version__",
+    "compare",
+    "configure",
+    "evaluate",
+    "linearise",
+    "load_policy",
+    "make",
+    "make_vec",
+    "presets",
+    "record",
+    "simd_target",
+    "simulate",
+    "train",
+    "trim",
+]
+
+register_environments()

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Who flies: trained policies, autopilots, and functions of Python."""
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skein import _skein
+from skein._skein import Config, ConfigurationError
+from skein.configuration import configure
+
+FloatArray = NDArray[np.float32]
+
+
+class Agent:
+    """Who flies an aircraft. Immutable; its memory of each aircraft lies with the caller, as rows of `state`."""
+
+    def __init__(self, name: str, task: str | Config = "heading", *, seed: int = 0, **config: Any) -> None:
+        """An agent by the name that `skein compare --agents` gives it: "autopilot" (alone: aggressive),
+        "autopilot:VARIANT", "policy:FILE_OR_RUN" with "@sampled" behind it or not, "random[:SECONDS]", "zero".
+
+        Args:
+            name: of the agent.
+            task, config: what it is to fly (skein.configure).
+            seed: of random actions.
+
+        Raises:
+            Error: an unknown name, a file that is no policy, an autopilot without gains for the aircraft.
+        """
+        self._core = _skein.named_agent(name, configure(task, **config), seed)
+        self._seed = seed
+
+    @classmethod
+    def _of(cls, core: _skein.FlyingAgent) -> Agent:
+        agent = cls.__new__(cls)
+        agent._core, agent._seed = core, 0
+        return agent
+
+    @property
+    def name(self) -> str:
+        """What messages and tables call it."""
+        return self._core.name
+
+    @property
+    def task(self) -> str:
+        """The task that a policy was trained for; empty where that is not known."""
+        return self._core.task
+
+    @property
+    def observation_size(self) -> int:
+        """Numbers that it observes of each aircraft."""
+        return self._core.observation_size
+
+    @property
+    def action_size(self) -> int:
+        """Numbers of its actions for each."""
+        return self._core.action_size
+
+    @property
+    def state_size(self) -> int:
+        """Numbers that it remembers of each."""
+        return self._core.state_size
+
+    @property
+    def action_repeat(self) -> int:
+        """Control steps (0.02 s) for which its actions are to be held."""
+        return self._core.action_repeat
+
+    @property
+    def is_high_level(self) -> bool:
+        """Whether a low-level policy flies for it."""
+        return self._core.is_high_level
+
+    def initial_state(self, count: int) -> FloatArray:
+        """Memory at the beginning of episodes: zeros, (count, state_size)."""
+        return np.zeros((count, self.state_size), np.float32)
+
+    def act(
+        self, observation: Any, state: FloatArray | None = None, *, policy_step: int = 0
+    ) -> tuple[FloatArray, FloatArray]:
+        """One policy step.
+
+        Args:
+            observation: float32 (count, observation_size), or (observation_size,) for one aircraft.
+            state: memory of each aircraft, (count, state_size), that the step before returned; None, or rows of
+                zeros, where an episode begins.
+            policy_step: what random actions depend on beside the seed and the row.
+
+        Returns:
+            actions (count, action_size), or (action_size,), and the memory after the step. Actions of a policy that
+            is sampled may lie beyond [-1, 1]; the environment clips them.
+        """
+        rows = np.ascontiguousarray(observation, np.float32)
+        is_one = rows.ndim == 1
+        if is_one:
+            rows = rows[None]
+        memory = self.initial_state(len(rows)) if state is None else np.ascontiguousarray(state, np.float32)
+        if is_one and memory.ndim == 1:
+            memory = memory[None]
+        action, after = self._core.act(rows, memory, self._seed, policy_step)
+        return (action[0], after) if is_one else (action, after)
+
+    def __repr__(self) -> str:
+        return f"<skein.Agent {self.name}>"
+
+
+AgentLike = Union[Agent, str, Callable[..., Any]]
+"""An agent, its name (skein.Agent), or a function of Python: it is given float32 observations (count, 22), and returns
+actions (count, 4). Attributes of the function may say more: `action_repeat`, the control steps for which its actions
+are held (else the configuration's); `action_size`; and `state_size`: then it is also given its memory of the aircraft,
+float32 (count, state_size), zeros where an episode begins, and returns a pair, actions and memory. It must not depend
+on which aircraft come together in a call."""
+
+
+def load_policy(path: str | os.PathLike[str], *, sampled: bool = False) -> Agent:
+    """The trained policy in a policy file, checkpoint, or directory of a run (its best).
+
+    Args:
+        path: of it.
+        sampled: draw actions from its distribution instead of taking the mean.
+
+    Raises:
+        Error: a file that is missing, damaged, or none of Skein's.
+    """
+    return Agent._of(_skein.load_agent(os.fspath(path), sampled))
+
+
+def agent_of(agent: AgentLike, config: Config, seed: int) -> Agent:
+    """Whatever may stand for an agent, as one for the environment of `config`."""
+    if isinstance(agent, Agent):
+        return agent
+    if isinstance(agent, str):
+        return Agent(agent, config, seed=seed)
+    if not callable(agent):
+        raise ConfigurationError(
+            f"an agent is a skein.Agent, a name or a function of observations, not {type(agent).__name__}"
+        )
+    name = getattr(agent, "__name__", type(agent).__name__)
+    repeat = int(getattr(agent, "action_repeat", config["env.action_repeat"]))
+    sizes = int(getattr(agent, "action_size", len(_skein.ACTION_NAMES))), int(getattr(agent, "state_size", 0))
+    return Agent._of(_skein.callable_agent(agent, name, sizes[0], repeat, sizes[1]))

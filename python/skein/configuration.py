@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is flown: presets, conditions and settings."""
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Union
+
+from skein import _skein
+from skein._skein import Config, ConfigurationError
+
+TaskOrConfig = Union[str, Config]
+
+
+def configure(
+    task: TaskOrConfig,
+    *,
+    preset: str = "default",
+    file: str | os.PathLike[str] = "",
+    conditions: Sequence[str] | Mapping[str, str] = (),
+    **settings: Any,
+) -> Config:
+    """A configuration: defaults, then preset, file, conditions and settings, each on top of those before it.
+
+    Args:
+        task: "heading", "control" or "tracking"; or a Config, which then stands for preset and file.
+        preset: the task's named configuration (skein.presets).
+        file: a TOML file.
+        conditions: as of `skein train --condition`: ["windy=0..60fps", "noisy=0.03"], or the same as a dict.
+        settings: configuration keys (docs/reference/configuration.md), as the program has them
+            (**{"env.heading.dwell_s": 1}), nested (env={"heading": {"dwell_s": 1}}), or both.
+
+    Raises:
+        ConfigurationError: an unknown task, preset or key (with the nearest known one), a value out of range.
+    """
+    if isinstance(conditions, Mapping):
+        conditions = [f"{name}={level}" for name, level in conditions.items()]
+    assignments = [f"{key}={_toml(key, value)}" for key, value in _flattened("", settings)]
+    if isinstance(task, Config):
+        if preset != "default" or file:
+            raise ConfigurationError("preset and file are for the name of a task: a Config has both behind it")
+        return task.with_settings(list(conditions), assignments)
+    return _skein.resolve(task, preset, os.fspath(file), list(conditions), assignments)
+
+
+def presets(task: str) -> list[str]:
+    """Names of the task's presets."""
+    return _skein.presets_of(task)
+
+
+def _flattened(prefix: str, settings: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    for name, value in settings.items():
+        if isinstance(value, Mapping):
+            yield from _flattened(f"{prefix}{name}.", value)
+        else:
+            yield prefix + name, value
+
+
+def _toml(key: str, value: Any) -> str:
+    """The value as TOML writes it."""
+    if hasattr(value, "item"):  # a scalar of NumPy
+        value = value.item()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, str):
+        return json.dumps(value)
+    raise ConfigurationError(f"settings: {key} must be a number, a text, or true or false, not {type(value).__name__}")

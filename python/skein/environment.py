@@ -1,0 +1,367 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Skein's aircraft as Gymnasium environments."""
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Union, cast
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from skein import _skein
+from skein._skein import (
+    ACTION_NAMES,
+    HIGH_LEVEL_ACTION_NAMES,
+    OBSERVATION_NAMES,
+    TERMINATION_NAMES,
+    Config,
+    ConfigurationError,
+    Error,
+)
+from skein.agents import Agent
+from skein.configuration import configure
+
+FloatArray = NDArray[np.float32]
+BoolArray = NDArray[np.bool_]
+Info = dict[str, Any]
+
+# The largest normal deviate of the noise: the smallest uniform number that it is made of is 2^-32.
+_LARGEST_DEVIATE = 7.0
+_TERMINATIONS = np.array(TERMINATION_NAMES, dtype=object)
+
+
+def _bound(name: str) -> float:
+    """The most that an observation without noise can be, up or down; infinite where physics sets no limit."""
+    return 1.0 if name.startswith(("sin_", "cos_")) or name.endswith("_fraction") else np.inf
+
+
+def _observation_space(core: _skein.BatchEnv) -> spaces.Space[FloatArray]:
+    high = np.array([_bound(name) for name in OBSERVATION_NAMES])
+    if core.draws_plants:  # other ranges of surfaces, and sensors that are biased
+        high[:] = np.inf
+    high = (high + _LARGEST_DEVIATE * core.observation_noise).astype(np.float32)
+    return cast("spaces.Space[FloatArray]", spaces.Box(-high, high, dtype=np.float32))
+
+
+def _action_space(core: _skein.BatchEnv) -> spaces.Space[FloatArray]:
+    return cast("spaces.Space[FloatArray]", spaces.Box(-1.0, 1.0, (core.action_size,), np.float32))
+
+
+def _says(settings: Mapping[str, Any], table: str, key: str) -> bool:
+    """Whether settings, flat or nested, name a key of a table."""
+    return f"{table}.{key}" in settings or key in settings.get(table, {})
+
+
+class _Flight:
+    """What both environments have: the aircraft, their configuration, and the names of what they show and take."""
+
+    config: Config
+    """Every setting of what is flown."""
+    observation_names: tuple[str, ...] = OBSERVATION_NAMES
+    """Of the observation's 22 numbers; docs/reference/tasks.md has their meaning."""
+    action_names: tuple[str, ...]
+    """Of the action's numbers."""
+
+    def _begin_flight(
+        self,
+        config: Config,
+        num_envs: int,
+        threads: int,
+        low_level: str | os.PathLike[str],
+        agent: Agent | None,
+    ) -> None:
+        if num_envs < 1:
+            raise ConfigurationError(f"num_envs is {num_envs}, but there must be at least 1")
+        self.config = config if agent is None else agent._core.environment_for(config)
+        core = None if agent is None else agent._core
+        self._core = _skein.BatchEnv(config, num_envs, 0, threads, os.fspath(low_level), core)
+        self.action_names = ACTION_NAMES if self._core.action_size == len(ACTION_NAMES) else HIGH_LEVEL_ACTION_NAMES
+        self._begun = False
+
+    @property
+    def policy_step_s(self) -> float:
+        """Time for which an action is held, s."""
+        return self._core.action_repeat * self._core.control_interval_s
+
+    def _new_episodes(self, seed: int | None, draw: np.random.Generator, begins: BoolArray | None) -> None:
+        """Begins episodes: those of `seed` if there is one, else the next ones, where `begins` says so."""
+        if seed is not None or not self._begun:
+            if begins is not None:
+                raise Error("reset: a part of the environments can only be reset without a seed, after a whole reset")
+            self._core.reset(int(draw.integers(2**53)) if seed is None else seed)
+        else:
+            self._core.restart(np.ones(self._core.num_envs, bool) if begins is None else begins)
+        self._begun = True
+
+    def _observe(self) -> FloatArray:
+        observation = np.empty((self._core.num_envs, self._core.observation_size), np.float32)
+        self._core.observe(observation)
+        return observation
+
+    def state(self) -> dict[str, FloatArray]:
+        """Columns of the true state by name, one number for each environment (feet, seconds, radians, degrees where
+        the name says so): what no observation shows."""
+        return dict(zip(_skein.STATE_NAMES, self._core.state().T, strict=True))
+
+    def targets(self) -> FloatArray:
+        """What is flown to, [environment][quantity]: altitude ft, yaw rad and speed ft/s for Heading; pitch rad,
+        yaw rad and speed ft/s for Control; north, east and altitude, ft, for Tracking."""
+        return self._core.targets()
+
+    def snapshot(self) -> NDArray[np.uint32]:
+        """The whole mutable state, to go on from with `restore`."""
+        return self._core.snapshot()
+
+    def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
+        """Goes on from a snapshot of an environment with the same configuration, number and seed; returns what is
+        observed there."""
+        self._core.restore(snapshot)
+        self._begun = True
+        return self._observe()
+
+
+class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
+    """Many aircraft that fly one task. `skein.make_vec` makes it.
+
+    Observations are float32 (num_envs, 22), actions float32 (num_envs, 4) in [-1, 1], clipped: throttle, pitch, roll,
+    yaw; of a high-level policy three. An array that `step` returns is written by the simulator, and never again:
+    nothing is copied. Actions may be any array that speaks DLPack, such as a tensor of torch; float32 rows on the CPU
+    are read in place. Threads of Python run on during a step.
+
+    Episodes that end begin anew in the same step (AutoresetMode.SAME_STEP). Then `info` has, by Gymnasium's rules,
+    "final_obs" (an object array: an observation where an episode ended, else None) and "final_info" with
+    "termination" (the reason's name), "episode_return" (undiscounted) and "episode_control_steps" (of 0.02 s), each
+    beside a mask "_final_obs" and so on. `info["termination"]` is always there: uint8, an index of TERMINATION_NAMES,
+    0 while flying.
+    """
+
+    metadata = {"autoreset_mode": AutoresetMode.SAME_STEP, "render_modes": []}
+
+    def __init__(
+        self,
+        task: str | Config = "heading",
+        num_envs: int = 1,
+        *,
+        threads: int = 0,
+        low_level: str | os.PathLike[str] = "",
+        agent: Agent | None = None,
+        evaluation: bool = False,
+        **config: Any,
+    ) -> None:
+        configured = configure(task, **config)
+        self._begin_flight(configured.evaluation() if evaluation else configured, num_envs, threads, low_level, agent)
+        self.num_envs = num_envs
+        self.single_observation_space = _observation_space(self._core)
+        self.single_action_space = _action_space(self._core)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[FloatArray, Info]:
+        """Begins new episodes; returns observations (num_envs, 22) and an empty info.
+
+        Args:
+            seed: episodes are then those of any other environment with this seed; without it those that follow.
+            options: {"reset_mask": a bool for each environment} resets a part of them.
+        """
+        super().reset(seed=seed)
+        unknown = set(options or ()) - {"reset_mask"}
+        if unknown:
+            raise ConfigurationError(f"reset: unknown option {sorted(unknown)[0]}; known: reset_mask")
+        mask = (options or {}).get("reset_mask")
+        self._new_episodes(seed, self.np_random, None if mask is None else np.ascontiguousarray(mask, bool))
+        return self._observe(), {}
+
+    def step(self, actions: Any) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray, Info]:
+        """One policy step of every aircraft (`policy_step_s`).
+
+        Args:
+            actions: (num_envs, 4), or (num_envs, 3) of a high-level policy.
+
+        Returns:
+            observations (num_envs, 22), rewards, terminations, truncations and info (above).
+        """
+        n = self.num_envs
+        observation = np.empty((n, self._core.observation_size), np.float32)
+        reward = np.empty(n, np.float32)
+        termination = np.empty(n, np.uint8)
+        terminated, truncated = np.empty(n, bool), np.empty(n, bool)
+        ended = self._core.step(actions, observation, reward, termination, terminated, truncated)
+        info: Info = {"termination": termination}
+        if ended:
+            self._report_ends(termination, info)
+        return observation, reward, terminated, truncated, info
+
+    def _report_ends(self, termination: NDArray[np.uint8], info: Info) -> None:
+        index, observations, returns, steps = self._core.ends()
+        mask = np.zeros(self.num_envs, bool)
+        mask[index] = True
+
+        def spread(values: Any, dtype: Any) -> NDArray[Any]:
+            column = np.zeros(self.num_envs, dtype)
+            column[index] = values
+            return column
+
+        final = np.full(self.num_envs, None, object)
+        for row, environment in enumerate(index):
+            final[environment] = observations[row]
+        reasons = np.full(self.num_envs, None, object)
+        reasons[index] = _TERMINATIONS[termination[index]]
+        info["final_obs"], info["_final_obs"] = final, mask
+        info["final_info"] = {
+            "termination": reasons,
+            "_termination": mask,
+            "episode_return": spread(returns, np.float32),
+            "_episode_return": mask,
+            "episode_control_steps": spread(steps, np.int32),
+            "_episode_control_steps": mask,
+        }
+        info["_final_info"] = mask
+
+
+class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
+    """One aircraft. `skein.make` makes it; spaces as of FlightVectorEnv.
+
+    When an episode ends, `info` has "termination" (the reason's name), "episode_return" and "episode_control_steps".
+    """
+
+    metadata = {"render_modes": []}
+
+    def __init__(
+        self,
+        task: str | Config = "heading",
+        *,
+        low_level: str | os.PathLike[str] = "",
+        agent: Agent | None = None,
+        evaluation: bool = False,
+        **config: Any,
+    ) -> None:
+        configured = configure(task, **config)
+        if not _says(config, "env", "stagger_clocks"):  # which serves batches: here it would only cut the first episode
+            configured = configure(configured, env={"stagger_clocks": False})
+        self._begin_flight(configured.evaluation() if evaluation else configured, 1, 1, low_level, agent)
+        self.observation_space = _observation_space(self._core)
+        self.action_space = _action_space(self._core)
+        self._flags = np.empty(1, bool), np.empty(1, bool)
+        self._reward, self._termination = np.empty(1, np.float32), np.empty(1, np.uint8)
+        self._flying = False
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[FloatArray, Info]:
+        """Begins an episode: that of `seed`, or the next one. Returns an observation (22,) and an empty info."""
+        super().reset(seed=seed)
+        if options:
+            raise ConfigurationError(f"reset: unknown option {next(iter(options))}; there are none")
+        if seed is not None or self._flying or not self._begun:  # else the next episode has begun with the step
+            self._new_episodes(seed, self.np_random, None)
+        self._flying = True
+        return self._observe()[0], {}
+
+    def step(self, action: Any) -> tuple[FloatArray, float, bool, bool, Info]:
+        """One policy step (`policy_step_s`) with an action (4,), or (3,) of a high-level policy.
+
+        Returns:
+            observation (22,), reward, terminated, truncated, info.
+        """
+        if not self._flying:
+            raise Error("step: the episode is over; reset begins another")
+        observation = np.empty((1, self._core.observation_size), np.float32)
+        rows = np.asarray(action, np.float32).reshape(1, -1)
+        ended = self._core.step(rows, observation, self._reward, self._termination, *self._flags)
+        reward = float(self._reward[0])
+        if not ended:
+            return observation[0], reward, False, False, {}
+        self._flying = False
+        _, final, returns, steps = self._core.ends()
+        info = {
+            "termination": TERMINATION_NAMES[int(self._termination[0])],
+            "episode_return": float(returns[0]),
+            "episode_control_steps": int(steps[0]),
+        }
+        return final[0], reward, bool(self._flags[0][0]), bool(self._flags[1][0]), info
+
+
+def make_vec(
+    task: str | Config,
+    num_envs: int,
+    *,
+    preset: str = "default",
+    file: str | os.PathLike[str] = "",
+    conditions: Sequence[str] | Mapping[str, str] = (),
+    threads: int = 0,
+    low_level: str | os.PathLike[str] = "",
+    agent: Agent | None = None,
+    evaluation: bool = False,
+    **settings: Any,
+) -> FlightVectorEnv:
+    """`num_envs` aircraft that fly `task`, as a Gymnasium VectorEnv.
+
+        envs = skein.make_vec("heading", 4096, conditions=["noisy=0.03"], **{"env.action_repeat": 10})
+
+    Args:
+        task, preset, file, conditions, settings: what is flown (skein.configure).
+        num_envs: aircraft.
+        threads: that step them, 0: one per CPU. Results do not depend on it.
+        low_level: for "tracking": the policy below the high-level policy (a policy file or run of task control, or
+            "autopilot").
+        agent: who is to fly: its own choices, such as the rate at which it acts, then hold, and a high-level policy
+            brings its low-level policy.
+        evaluation: leave out what only serves training: staggered clocks, training tolerances.
+
+    Raises:
+        ConfigurationError: as of skein.configure, and where low_level does not suit the task.
+    """
+    return FlightVectorEnv(
+        task,
+        num_envs,
+        threads=threads,
+        low_level=low_level,
+        agent=agent,
+        evaluation=evaluation,
+        **_given(preset, file, conditions),
+        **settings,
+    )
+
+
+def make(
+    task: str | Config,
+    *,
+    preset: str = "default",
+    file: str | os.PathLike[str] = "",
+    conditions: Sequence[str] | Mapping[str, str] = (),
+    low_level: str | os.PathLike[str] = "",
+    agent: Agent | None = None,
+    evaluation: bool = False,
+    **settings: Any,
+) -> FlightEnv:
+    """One aircraft that flies `task`, as a Gymnasium Env: arguments as of make_vec. The same is registered as
+    gymnasium.make("skein/Heading-v0"), "skein/Control-v0" and "skein/Tracking-v0" (over the autopilot)."""
+    return FlightEnv(
+        task,
+        low_level=low_level,
+        agent=agent,
+        evaluation=evaluation,
+        **_given(preset, file, conditions),
+        **settings,
+    )
+
+
+def _given(preset: str, file: Union[str, os.PathLike[str]], conditions: Any) -> dict[str, Any]:
+    return {"preset": preset, "file": file, "conditions": conditions}
+
+
+def register_environments() -> None:
+    """Makes the tasks known to gymnasium.make and gymnasium.make_vec."""
+    for task in _skein.TASKS:
+        name = f"skein/{task.capitalize()}-v0"
+        if name in gymnasium.registry:
+            continue
+        gymnasium.register(
+            name,
+            entry_point="skein.environment:FlightEnv",
+            vector_entry_point="skein.environment:FlightVectorEnv",
+            kwargs={"task": task} | ({"low_level": "autopilot"} if task == "tracking" else {}),
+        )

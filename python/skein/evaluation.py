@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How well agents fly: the same episodes for all of them."""
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skein import _skein
+from skein._skein import Config, ConfigurationError
+from skein.agents import Agent, AgentLike, agent_of
+from skein.configuration import configure
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """How an agent flew its episodes."""
+
+    summary: dict[str, Any]
+    """The keys of `skein eval --json`: episodes, success_rate, return_mean, time_to_target_mean (s), terminations, and
+    estimates with 95 % intervals."""
+    columns: dict[str, NDArray[Any]]
+    """One number for each episode, in their order: termination (an index of TERMINATION_NAMES), succeeded,
+    episode_return, control_steps, reached_step and entered_step (control steps at which the target counted, and its
+    tolerances were entered; 0: never), and the metrics of docs/reference/metrics.md, units in their names."""
+    starts: int
+    """A hash of initial states and targets: equal for agents that flew the same episodes."""
+
+    @property
+    def success_rate(self) -> float:
+        """Share of the episodes that reached their target."""
+        return float(self.summary["success_rate"])
+
+    @property
+    def return_mean(self) -> float:
+        """Mean undiscounted return."""
+        return float(self.summary["return_mean"])
+
+    @property
+    def time_to_target_mean_s(self) -> float:
+        """Mean time to the target of the episodes that reached it, s; NaN if none did."""
+        time = self.summary["time_to_target_mean"]
+        return float("nan") if time is None else float(time)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each episode; terminations by name."""
+        import pandas
+
+        table = pandas.DataFrame(self.columns)
+        table["termination"] = np.array(_skein.TERMINATION_NAMES)[self.columns["termination"]]
+        table["succeeded"] = self.columns["succeeded"].astype(bool)
+        return table
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """How agents flew the same episodes."""
+
+    summary: dict[str, Any]
+    """The document of `skein compare --json`: agents, each with estimates, and its paired differences against the
+    first."""
+    text: str
+    """The table that `skein compare` prints."""
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def evaluate(
+    agent: AgentLike,
+    task: str | Config = "",
+    *,
+    episodes: int = 1000,
+    seed: int = 0,
+    threads: int = 0,
+    **config: Any,
+) -> Evaluation:
+    """Flies an agent over fresh episodes, as `skein eval` does: the same bits for the same arguments.
+
+    Args:
+        agent: an Agent, its name, or a function of observations (skein.agents.AgentLike).
+        task, config: what is flown (skein.configure); a policy's own task if it is left out.
+        episodes: number of them.
+        seed: of the episodes; the i-th depends on configuration, seed and i alone.
+        threads: 0: one per CPU. Results do not depend on it.
+
+    Raises:
+        Error: the agent does not fit the task. What a function raises comes through.
+    """
+    if not task:
+        task = agent.task if isinstance(agent, Agent) else ""
+        if not task:
+            raise ConfigurationError("evaluate: task is needed: the agent does not say its own")
+    configured = configure(task, **config)
+    core = agent_of(agent, configured, seed)._core
+    summary, columns, starts = _skein.evaluate(core, configured, episodes, seed, threads)
+    return Evaluation(json.loads(summary), columns, starts)
+
+
+def compare(
+    agents: Sequence[AgentLike] | Mapping[str, AgentLike],
+    task: str | Config,
+    *,
+    episodes: int = 1000,
+    seed: int = 0,
+    threads: int = 0,
+    **config: Any,
+) -> Comparison:
+    """Flies agents over the same episodes, each at its own rate, as `skein compare` does: arguments as of evaluate.
+
+    Args:
+        agents: at least one; a dict gives them their names.
+    """
+    configured = configure(task, **config)
+    named = agents.values() if isinstance(agents, Mapping) else agents
+    cores = [agent_of(agent, configured, seed)._core for agent in named]
+    if not cores:
+        raise ConfigurationError("compare: no agents")
+    names = list(agents) if isinstance(agents, Mapping) else [core.name for core in cores]
+    summary, text = _skein.compare(cores, names, configured, episodes, seed, threads)
+    return Comparison(json.loads(summary), text)
+
+
+def record(
+    agent: AgentLike,
+    task: str | Config = "",
+    *,
+    count: int = 8,
+    seed: int = 0,
+    threads: int = 0,
+    observations: bool = False,
+    **config: Any,
+) -> pandas.DataFrame:
+    """Flights as a table, a row for every control step: the first `count` episodes of evaluate, the columns of
+    docs/reference/file-formats.md (recorded flights), with what was observed if asked for."""
+    import pandas
+
+    if not task and isinstance(agent, Agent):
+        task = agent.task
+    configured = configure(task or "heading", **config)
+    core = agent_of(agent, configured, seed)._core
+    return pandas.read_csv(io.StringIO(_skein.record(core, configured, count, seed, threads, observations)))

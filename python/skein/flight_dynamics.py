@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One aircraft in float64: steady flight, linear models, and flight with given controls."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skein import _skein
+from skein._skein import ConfigurationError
+
+DoubleArray = NDArray[np.float64]
+
+STATE_NAMES = _skein.STATE_NAMES[:13]
+"""u, v, w (body axes, ft/s), p, q, r (rad/s), north, east, down (ft), the attitude's quaternion q0, qx, qy, qz."""
+CONTROL_NAMES = ("thrust_lbf", "elevator_deg", "aileron_deg", "rudder_deg", "leading_edge_flap_deg")
+"""Elevator + is trailing edge down, aileron + rolls left, rudder + yaws left."""
+
+
+@dataclass(frozen=True)
+class Trim:
+    """Steady flight, and the controls that keep it."""
+
+    state: DoubleArray
+    """(13,), STATE_NAMES; at north = east = 0, heading north."""
+    controls: DoubleArray
+    """(5,), CONTROL_NAMES."""
+    power: float
+    """Engine power, 0 to 100, that gives the thrust, clipped to what the engine has."""
+    alpha_deg: float
+    bank_deg: float
+    pitch_deg: float
+    residual: float
+    """The largest acceleration that is left, ft/s^2 or rad/s^2."""
+    exceeded_limits: tuple[str, ...]
+    """Limits of the aircraft and its model that this flight exceeds, in words; empty if there are none."""
+
+
+@dataclass(frozen=True)
+class LinearModel:
+    """d(state_rate) = A d(state) + B d(controls)."""
+
+    A: DoubleArray
+    """(13, 13), STATE_NAMES."""
+    B: DoubleArray
+    """(13, 5), CONTROL_NAMES."""
+
+    def modes(self) -> NDArray[np.complex128]:
+        """Eigenvalues of A, 1/s."""
+        return np.linalg.eigvals(self.A).astype(np.complex128)
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """A flight with given controls."""
+
+    time_s: DoubleArray
+    """(steps + 1,)"""
+    states: DoubleArray
+    """(steps + 1, 13), STATE_NAMES."""
+
+    def __getitem__(self, name: str) -> DoubleArray:
+        """A column of the states by its name."""
+        if name not in STATE_NAMES:
+            raise KeyError(f"{name}: no state; there are {', '.join(STATE_NAMES)}")
+        column: DoubleArray = self.states[:, STATE_NAMES.index(name)]
+        return column
+
+
+def _plant(aircraft: str, atmosphere: str, cg: float, engine_angular_momentum: float) -> _skein.Plant:
+    return _skein.make_plant(aircraft, atmosphere, cg, engine_angular_momentum)
+
+
+def trim(
+    altitude_ft: float,
+    true_airspeed_fps: float,
+    *,
+    flight_path_deg: float = 0,
+    turn_rate_deg_s: float = 0,
+    aircraft: str = "f16",
+    atmosphere: str = "stevens_lewis",
+    cg: float = 0.30,
+    engine_angular_momentum: float = 0,
+) -> Trim:
+    """Steady flight at an altitude and speed.
+
+    Args:
+        altitude_ft, true_airspeed_fps: of the flight.
+        flight_path_deg: positive in a climb.
+        turn_rate_deg_s: positive to the right; the turn is coordinated.
+        aircraft: one of skein.AIRCRAFT.
+        atmosphere: "stevens_lewis" or "standard_1976".
+        cg: centre of gravity, fraction of the mean chord.
+        engine_angular_momentum: slug ft^2/s.
+
+    Raises:
+        Error: there is no such flight; the message says which limit is in the way.
+    """
+    plant = _plant(aircraft, atmosphere, cg, engine_angular_momentum)
+    return Trim(**plant.trim(altitude_ft, true_airspeed_fps, flight_path_deg, turn_rate_deg_s))
+
+
+def linearise(
+    point: Trim,
+    *,
+    aircraft: str = "f16",
+    atmosphere: str = "stevens_lewis",
+    cg: float = 0.30,
+    engine_angular_momentum: float = 0,
+) -> LinearModel:
+    """The linear model about a steady flight, by central differences; the aircraft as it was trimmed."""
+    plant = _plant(aircraft, atmosphere, cg, engine_angular_momentum)
+    return LinearModel(*plant.linearise(point.state, point.controls))
+
+
+def simulate(
+    initial_state: Any,
+    controls: Any,
+    *,
+    duration_s: float | None = None,
+    dt: float = 0.02,
+    aircraft: str = "f16",
+    atmosphere: str = "stevens_lewis",
+    cg: float = 0.30,
+    engine_angular_momentum: float = 0,
+) -> Trajectory:
+    """Flies the bare airframe, without flight control system, actuators or engine lag: classic RK4 steps of `dt`.
+
+    Args:
+        initial_state: (13,), STATE_NAMES; a Trim's, say.
+        controls: (5,), CONTROL_NAMES, held for duration_s; or (steps, 5), row k held during step k.
+        duration_s: of the flight, with controls that are held.
+        dt: time step, s.
+    """
+    rows = np.atleast_2d(np.asarray(controls, np.float64))
+    if np.ndim(controls) == 1:
+        if duration_s is None:
+            raise ConfigurationError("simulate: duration_s is needed with controls that are held")
+        rows = np.repeat(rows, round(duration_s / dt), axis=0)
+    elif duration_s is not None:
+        raise ConfigurationError("simulate: duration_s is for controls that are held; rows have their own number")
+    plant = _plant(aircraft, atmosphere, cg, engine_angular_momentum)
+    state = np.ascontiguousarray(initial_state, np.float64)
+    states = plant.simulate(state, np.ascontiguousarray(rows), dt)
+    return Trajectory(dt * np.arange(len(states), dtype=np.float64), states)

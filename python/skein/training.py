@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Training, and what trainings leave: run directories."""
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from skein import _skein
+from skein._skein import Config, Error
+from skein.agents import Agent, load_policy
+from skein.configuration import configure
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Run:
+    """The directory of a training run (docs/reference/file-formats.md)."""
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        """
+        Raises:
+            Error: the directory holds no run.
+        """
+        self.path = pathlib.Path(path)
+        if not (self.path / "config.toml").is_file():
+            raise Error(f"{self.path}: not the directory of a run (there is no config.toml in it)")
+
+    @property
+    def config(self) -> Config:
+        """What was trained."""
+        return _skein.read_record(str(self.path / "config.toml"))
+
+    @property
+    def metrics(self) -> pandas.DataFrame:
+        """metrics.csv: a row for every iteration."""
+        return self._table("metrics.csv")
+
+    @property
+    def timing(self) -> pandas.DataFrame:
+        """timing.csv: the seconds of each iteration."""
+        return self._table("timing.csv")
+
+    @property
+    def evaluation(self) -> dict[str, Any] | None:
+        """The evaluation at the end of the training; None before."""
+        file = self.path / "evaluation.json"
+        if not file.is_file():
+            return None
+        document: dict[str, Any] = json.loads(file.read_text())
+        return document
+
+    @property
+    def policy(self) -> Agent:
+        """The best policy, else the final one, else that of the newest checkpoint."""
+        return load_policy(self.path)
+
+    def _table(self, name: str) -> pandas.DataFrame:
+        import pandas
+
+        return pandas.read_csv(self.path / name)
+
+    def __repr__(self) -> str:
+        return f"<skein.Run {self.path}>"
+
+
+def train(
+    task: str | Config,
+    out: str | os.PathLike[str],
+    *,
+    callback: Callable[[dict[str, Any]], bool | None] | None = None,
+    start_from: str | os.PathLike[str] = "",
+    low_level: str | os.PathLike[str] = "",
+    threads: int = 0,
+    **config: Any,
+) -> Run:
+    """Trains a policy, then evaluates it, as `skein train` does: the same bits for the same configuration.
+
+        run = skein.train("heading", "runs/short", **{"run.total_steps": 5_000_000})
+        run.metrics.plot("env_steps", "success_rate")
+
+    Args:
+        task, config: what is trained and how (skein.configure).
+        out: directory of the run, which must not hold one already.
+        callback: is given every iteration's figures (those of metrics.csv); False ends the run, saved, so that
+            `skein train --resume` goes on. What it raises does the same, and comes through.
+        start_from: a run or policy whose networks it starts from.
+        low_level: for "tracking": the policy below the high-level policy, or "autopilot".
+        threads: 0: one per CPU. Results do not depend on it.
+
+    Raises:
+        Error: the configuration cannot be trained, or the directory cannot be made. Ctrl-C saves and returns.
+    """
+    configured = configure(task, **config)
+    _skein.train(configured, os.fspath(out), os.fspath(start_from), os.fspath(low_level), threads, callback)
+    return Run(out)

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+import numpy as np
+import pytest
+
+import skein
+
+# What evaluations add to a seed, so that their episodes are not those of a training.
+EVALUATION_STREAM = 0xA5B35705E7C0FFEE
+EPISODES = 48
+
+
+def assert_same_columns(first, second):
+    assert first.starts == second.starts
+    for name, column in first.columns.items():
+        np.testing.assert_array_equal(column, second.columns[name], err_msg=name)
+
+
+def test_an_evaluation_can_be_flown_again_from_python_to_the_bit(heading_policy):
+    flown = skein.evaluate(heading_policy, episodes=EPISODES, seed=11)
+    envs = skein.make_vec("heading", EPISODES, agent=heading_policy, evaluation=True)
+    observation, _ = envs.reset(seed=11 ^ EVALUATION_STREAM)
+    state = heading_policy.initial_state(EPISODES)
+    returns, steps, ends = np.zeros(EPISODES, np.float32), np.zeros(EPISODES, np.int32), np.zeros(EPISODES, np.uint8)
+    while not ends.all():
+        actions, state = heading_policy.act(observation, state)
+        observation, _, terminated, truncated, info = envs.step(actions)
+        over = terminated | truncated
+        state[over] = 0
+        for i in np.flatnonzero(over & (ends == 0)):
+            ends[i] = info["termination"][i]
+            returns[i] = info["final_info"]["episode_return"][i]
+            steps[i] = info["final_info"]["episode_control_steps"][i]
+    np.testing.assert_array_equal(ends, flown.columns["termination"])
+    np.testing.assert_array_equal(returns, flown.columns["episode_return"])
+    np.testing.assert_array_equal(steps, flown.columns["control_steps"])
+
+
+def test_a_function_around_a_policy_flies_as_the_policy_does(heading_policy):
+    def around(observation, state):
+        return heading_policy.act(observation, state)
+
+    around.state_size = heading_policy.state_size
+    around.action_repeat = heading_policy.action_repeat
+    assert_same_columns(
+        skein.evaluate(heading_policy, episodes=EPISODES, seed=1),
+        skein.evaluate(around, "heading", episodes=EPISODES, seed=1, threads=2),
+    )
+
+
+def test_one_aircraft_is_flown_as_many_are(heading_policy):
+    draw = np.random.default_rng(0)
+    observation = draw.normal(size=(3, 22)).astype(np.float32)
+    actions, state = heading_policy.act(observation)
+    action, one_state = heading_policy.act(observation[1])
+    np.testing.assert_array_equal(action, actions[1])
+    np.testing.assert_array_equal(one_state[0], state[1])
+    again, _ = heading_policy.act(observation, state)
+    assert not np.array_equal(again, actions)  # it remembers
+
+
+def test_agents_are_compared_on_the_same_episodes(heading_policy):
+    def idle(observation):
+        return np.zeros((len(observation), 4), np.float32)
+
+    compared = skein.compare(
+        {"policy": heading_policy, "autopilot": "autopilot", "idle": idle}, "heading", episodes=EPISODES
+    )
+    rates = {agent["name"]: agent["success_rate"] for agent in compared.summary["agents"]}
+    assert rates["policy"] > rates["idle"] == 0
+    assert "policy" in str(compared)
+    assert len({agent["name"] for agent in compared.summary["agents"]}) == 3
+
+
+def test_autopilots_fly_by_name():
+    autopilot = skein.Agent("autopilot:traditional", "heading")
+    assert autopilot.action_size == 4
+    flown = skein.evaluate(autopilot, "heading", episodes=EPISODES)
+    assert_same_columns(flown, skein.evaluate("autopilot:traditional", "heading", episodes=EPISODES))
+
+
+def test_flights_are_tables(heading_policy):
+    pytest.importorskip("pandas")
+    flights = skein.record(heading_policy, count=2, observations=True)
+    assert sorted(flights["episode"].unique()) == [0, 1]
+    flown = skein.evaluate(heading_policy, episodes=2)
+    assert (flights.groupby("episode").size() - 1).tolist() == flown.columns["control_steps"].tolist()
+    assert flown.to_pandas()["termination"].tolist() == flights.groupby("episode")["termination"].last().tolist()
+
+
+def test_what_a_function_raises_comes_through():
+    def broken(observation):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        skein.evaluate(broken, "heading", episodes=4)
+
+
+@pytest.mark.parametrize("returned", [None, np.zeros((3, 4), np.float32), "actions"])
+def test_what_a_function_returns_must_be_actions(returned):
+    with pytest.raises(skein.Error, match=r"array of shape \(4, 4\)"):
+        skein.evaluate(lambda observation: returned, "heading", episodes=4)
+
+
+def test_files_that_are_no_policies_are_refused(tmp_path):
+    file = tmp_path / "not.skein"
+    file.write_bytes(b"not a policy")
+    with pytest.raises(skein.Error, match="not.skein"):
+        skein.load_policy(file)
+    with pytest.raises(skein.Error):
+        skein.load_policy(tmp_path / "missing.skein")
+
+
+def test_a_policy_of_another_task_does_not_fly(heading_policy):
+    with pytest.raises(skein.Error, match="heading"):
+        skein.evaluate(heading_policy, "control", episodes=4)

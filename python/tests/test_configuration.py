@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+import numpy as np
+import pytest
+
+import skein
+
+
+def test_a_setting_may_be_written_flat_or_nested():
+    flat = skein.configure("heading", **{"env.heading.dwell_s": 2})
+    nested = skein.configure("heading", env={"heading": {"dwell_s": 2.0}})
+    assert flat["env.heading.dwell_s"] == 2.0
+    assert flat.to_toml() == nested.to_toml()
+
+
+@pytest.mark.parametrize("value", [True, np.True_])
+def test_scalars_of_numpy_are_values(value):
+    config = skein.configure("heading", env={"truncate_at_time_limit": value, "hold_s": np.float32(0.5)})
+    assert config["env.truncate_at_time_limit"] is True
+    assert config["env.hold_s"] == 0.5
+
+
+def test_every_setting_can_be_read_and_given_again():
+    config = skein.configure("control", **{"run.seed": 7})
+    again = skein.configure("control", **config.settings())
+    assert again.to_toml() == config.to_toml()
+
+
+def test_settings_lie_on_top_of_conditions_and_presets():
+    paper = skein.configure("heading", preset="paper", conditions={"noisy": "0.03"})
+    assert paper["env.observation_noise"] == 0.03
+    assert skein.configure(paper, **{"env.observation_noise": 0})["env.observation_noise"] == 0
+    assert paper["env.observation_noise"] == 0.03  # a Config does not change
+    assert "paper" in skein.presets("heading")
+
+
+@pytest.mark.parametrize(
+    ("settings", "says"),
+    [
+        ({"env.heading.dwel_s": 1}, "did you mean env.heading.dwell_s"),
+        ({"env": {"observation_noise": -1}}, "out of range"),
+        ({"env.action_repeat": "often"}, "must be an integer"),
+        ({"env.control.dwell_s": 1}, "is of task control"),
+        ({"env.hold_s": [1]}, "must be a number"),
+        ({"preset": "papr"}, "papr"),
+        ({"conditions": ["windy"]}, "expected NAME=LEVEL"),
+    ],
+)
+def test_what_cannot_be_is_a_typed_exception(settings, says):
+    with pytest.raises(skein.ConfigurationError, match=says) as raised:
+        skein.make_vec("heading", 1, **settings)
+    assert isinstance(raised.value, skein.Error)
+    assert isinstance(raised.value, ValueError)
+    assert "\n" not in str(raised.value)
+
+
+def test_an_unknown_task_names_the_known_ones():
+    with pytest.raises(skein.ConfigurationError, match="heading"):
+        skein.make("aerobatics")

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+import json
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+import skein
+
+
+def test_the_reference_is_that_of_the_docstrings():
+    command = [sys.executable, ROOT / "scripts" / "python_reference"]
+    made = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert made == (ROOT / "docs" / "reference" / "python-api.md").read_text()
+
+
+@pytest.mark.parametrize("name", [name for name in skein.__all__ if callable(getattr(skein, name))])
+def test_everything_is_documented(name):
+    assert getattr(skein, name).__doc__ or issubclass(getattr(skein, name), skein.Error)
+
+
+def test_the_examples_of_the_page_run(tmp_path, monkeypatch):
+    page = (ROOT / "docs" / "how-to" / "python.md").read_text()
+    code = "\n".join(re.findall(r"^ *```python\n(.*?)^ *```", page, re.M | re.S))
+    code = re.sub(r"^  (?=skein)", "", code, flags=re.M)
+    # Smaller, and where nothing is left behind.
+    for old, new in [("range(1000)", "range(3)"), ("4096", "64"), ("episodes=1000", "episodes=8"),
+                     ("episodes=500", "episodes=8"), ("5_000_000", "500_000"), ('"policies/', f'"{ROOT}/policies/'),
+                     ("my_network(observations)", "observations[:, :4]"), ("run.metrics.plot", "(lambda *_: 0)")]:
+        assert old in code, old
+        code = code.replace(old, new)
+    monkeypatch.chdir(tmp_path)
+    exec(compile(code, "docs/how-to/python.md", "exec"), {})
+
+
+def test_the_tutorials_cells_run(monkeypatch):
+    pytest.importorskip("pandas")
+    cells = json.loads((ROOT / "docs" / "python-tutorial.ipynb").read_text())["cells"]
+    monkeypatch.chdir(ROOT)
+    namespace = {}
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), f"cell {cell['id']}", "exec"), namespace)
+    assert namespace["trained"].task == "heading"

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: Apache-2.0
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode
+
+import skein
+
+
+# Episodes of a second: 50 control steps, ten policy steps.
+SHORT = {
+    "time_limit_steps": 50,
+    "stagger_clocks": False,
+    "action_repeat": 5,
+    "hold_s": 0,
+    "heading": {"dwell_s": 0, "earliest_success_step": 0},
+}
+
+
+def random_actions(envs, steps, seed=0):
+    draw = np.random.default_rng(seed)
+    return draw.uniform(-1, 1, (steps, *envs.action_space.shape)).astype(np.float32)
+
+
+def rollout(envs, seed, steps=60):
+    """Everything that an environment shows of a flight with random actions."""
+    shown = [envs.reset(seed=seed)[0]]
+    for actions in random_actions(envs, steps):
+        observation, reward, terminated, truncated, info = envs.step(actions)
+        shown += [observation, reward, terminated, truncated, info["termination"]]
+    return shown
+
+
+def assert_same(first, second):
+    for a, b in zip(first, second, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+@pytest.mark.parametrize("name", ["skein/Heading-v0", "skein/Control-v0", "skein/Tracking-v0"])
+def test_gymnasiums_checker_passes(name):
+    check_env(gymnasium.make(name).unwrapped, skip_render_check=True)
+
+
+def test_gymnasium_makes_the_vector_environment():
+    envs = gymnasium.make_vec("skein/Heading-v0", num_envs=3, vectorization_mode="vector_entry_point", preset="paper")
+    assert isinstance(envs, skein.FlightVectorEnv)
+    assert envs.config["env.action_repeat"] == skein.configure("heading", preset="paper")["env.action_repeat"]
+    assert envs.metadata["autoreset_mode"] == AutoresetMode.SAME_STEP
+
+
+def test_spaces_have_names_and_hold_what_is_flown():
+    envs = skein.make_vec("heading", 64, **{"env.observation_noise": 0.05})
+    assert len(envs.observation_names) == envs.single_observation_space.shape[0] == 22
+    assert envs.action_names == ("throttle", "pitch", "roll", "yaw")
+    assert envs.single_action_space.shape == (4,)
+    observation, _ = envs.reset(seed=5)
+    for actions in random_actions(envs, 300):
+        assert envs.observation_space.contains(observation)
+        observation, *_ = envs.step(actions)
+
+
+@pytest.mark.parametrize("task", ["heading", "control"])
+def test_a_seed_says_all(task):
+    first, second = (rollout(skein.make_vec(task, 70), seed=3) for _ in range(2))
+    assert_same(first, second)
+    other = rollout(skein.make_vec(task, 70), seed=4)
+    assert not np.array_equal(first[0], other[0])
+
+
+def test_neither_threads_nor_other_environments_matter():
+    whole = rollout(skein.make_vec("heading", 70, threads=1), seed=3)
+    assert_same(whole, rollout(skein.make_vec("heading", 70, threads=3), seed=3))
+    envs = skein.make_vec("heading", 40)
+    observation, _ = envs.reset(seed=3)
+    np.testing.assert_array_equal(observation, whole[0][:40])
+
+
+def test_the_single_environment_is_the_first_of_many():
+    settings = {"env.stagger_clocks": False}
+    env, envs = skein.make("heading", **settings), skein.make_vec("heading", 1, **settings)
+    np.testing.assert_array_equal(env.reset(seed=9)[0], envs.reset(seed=9)[0][0])
+    for actions in random_actions(envs, 400):
+        observation, reward, terminated, truncated, info = env.step(actions[0])
+        observations, rewards, terminations, truncations, infos = envs.step(actions)
+        assert (reward, terminated, truncated) == (rewards[0], terminations[0], truncations[0])
+        if not terminated and not truncated:
+            np.testing.assert_array_equal(observation, observations[0])
+            continue
+        np.testing.assert_array_equal(observation, infos["final_obs"][0])
+        assert info["termination"] == infos["final_info"]["termination"][0]
+        assert info["episode_return"] == infos["final_info"]["episode_return"][0]
+        np.testing.assert_array_equal(env.reset()[0], observations[0])
+
+
+def test_ends_are_reported_by_gymnasiums_rules():
+    envs = skein.make_vec("heading", 50, env=SHORT)
+    envs.reset(seed=1)
+    ended = 0
+    returns = np.zeros(50)
+    for actions in random_actions(envs, 25):
+        observation, reward, terminated, truncated, info = envs.step(actions)
+        over = terminated | truncated
+        returns += reward
+        assert not (terminated & truncated).any()
+        np.testing.assert_array_equal(over, info["termination"] != 0)
+        if not over.any():
+            assert set(info) == {"termination"}
+            continue
+        np.testing.assert_array_equal(info["_final_obs"], over)
+        np.testing.assert_array_equal(info["_final_info"], over)
+        for i in range(50):
+            assert (info["final_obs"][i] is not None) == over[i]
+            if not over[i]:
+                continue
+            reason = info["final_info"]["termination"][i]
+            assert reason == skein.TERMINATION_NAMES[info["termination"][i]]
+            assert not np.array_equal(info["final_obs"][i], observation[i])
+            np.testing.assert_allclose(info["final_info"]["episode_return"][i], returns[i], rtol=1e-4)
+            returns[i] = 0
+            ended += 1
+    assert ended >= 100
+
+
+def test_a_time_limit_that_is_no_failure_truncates():
+    for truncates in (False, True):
+        envs = skein.make_vec("heading", 8, env=SHORT | {"truncate_at_time_limit": truncates})
+        envs.reset(seed=0)
+        for _ in range(9):
+            *_, terminated, truncated, info = envs.step(np.zeros((8, 4), np.float32))
+            assert not terminated.any() and not truncated.any()
+        *_, terminated, truncated, info = envs.step(np.zeros((8, 4), np.float32))
+        assert (truncated if truncates else terminated).all()
+        assert (info["final_info"]["episode_control_steps"] == 50).all()
+
+
+def test_a_mask_resets_a_part():
+    envs = skein.make_vec("heading", 40)
+    before, _ = envs.reset(seed=2)
+    mask = np.zeros(40, bool)
+    mask[[3, 39]] = True
+    after, _ = envs.reset(options={"reset_mask": mask})
+    np.testing.assert_array_equal((before != after).any(axis=1), mask)
+    with pytest.raises(skein.Error, match="unknown option"):
+        envs.reset(options={"mask": mask})
+
+
+def test_resets_without_a_seed_go_on_to_other_episodes():
+    env = skein.make("heading")
+    seen = [env.reset(seed=1)[0], env.reset()[0], env.reset()[0]]
+    assert not np.array_equal(seen[0], seen[1]) and not np.array_equal(seen[1], seen[2])
+    np.testing.assert_array_equal(env.reset(seed=1)[0], seen[0])
+    np.testing.assert_array_equal(env.reset()[0], seen[1])
+
+
+def test_a_snapshot_is_gone_on_from():
+    envs = skein.make_vec("heading", 40)
+    envs.reset(seed=6)
+    snapshot = envs.snapshot()
+    actions = random_actions(envs, 1)[0]
+    observation, *_ = envs.step(actions)
+    envs.restore(snapshot)
+    np.testing.assert_array_equal(envs.step(actions)[0], observation)
+
+
+def test_arrays_are_written_once_and_actions_are_only_read():
+    envs = skein.make_vec("heading", 32)
+    envs.reset(seed=0)
+    actions = random_actions(envs, 1)[0]
+    actions.flags.writeable = False
+    first, *_ = envs.step(actions)
+    kept = first.copy()
+    second, *_ = envs.step(actions.astype(np.float64))
+    assert first.flags.owndata and first.flags.c_contiguous and first.dtype == np.float32
+    assert not np.shares_memory(first, second)
+    np.testing.assert_array_equal(first, kept)
+
+
+def test_tensors_of_torch_are_actions():
+    torch = pytest.importorskip("torch")
+    envs, same = (skein.make_vec("heading", 32) for _ in range(2))
+    actions = random_actions(envs, 1)[0]
+    envs.reset(seed=0), same.reset(seed=0)
+    observation, *_ = envs.step(torch.from_numpy(actions))
+    np.testing.assert_array_equal(observation, same.step(actions)[0])
+    assert torch.from_dlpack(observation).data_ptr() == observation.ctypes.data
+
+
+@pytest.mark.parametrize("shape", [(31, 4), (32, 3), (32,), (32, 4, 1)])
+def test_actions_of_another_shape_are_refused(shape):
+    envs = skein.make_vec("heading", 32)
+    envs.reset(seed=0)
+    with pytest.raises((skein.Error, TypeError)):
+        envs.step(np.zeros(shape, np.float32))
+
+
+def test_an_action_that_is_not_finite_ends_its_episode_alone():
+    envs = skein.make_vec("heading", 4)
+    envs.reset(seed=0)
+    actions = np.zeros((4, 4), np.float32)
+    actions[2, 1] = np.nan
+    *_, terminated, _, info = envs.step(actions)
+    assert terminated.tolist() == [False, False, True, False]
+    assert info["final_info"]["termination"][2] == "non_finite"
+
+
+def test_a_high_level_policy_is_given_targets_to_set():
+    envs = skein.make_vec("tracking", 4, low_level="autopilot")
+    assert envs.action_names == ("target_pitch", "target_yaw", "target_speed")
+    assert envs.targets().shape == (4, 3)
+    with pytest.raises(skein.ConfigurationError, match="low-level"):
+        skein.make_vec("tracking", 4)
+
+
+def test_the_state_is_shown_by_name():
+    envs = skein.make_vec("heading", 5, **{"env.observation_noise": 0})
+    observation, _ = envs.reset(seed=0)
+    state = envs.state()
+    altitude = observation[:, envs.observation_names.index("altitude_scaled")]
+    np.testing.assert_allclose(-state["down_ft"] * 0.3048 / 5000, altitude, rtol=1e-5)
+    np.testing.assert_allclose(sum(state[q] ** 2 for q in ("q0", "qx", "qy", "qz")), 1, rtol=1e-5)

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+import numpy as np
+import pytest
+
+import skein
+
+TINY = {
+    "network.hidden_size": 16,
+    "network.gru_size": 16,
+    "ppo.num_aircraft": 64,
+    "ppo.rollout_steps": 16,
+    "ppo.minibatches": 2,
+    "run.total_steps": 3 * 64 * 16 * 5,
+    "evaluation.final_episodes": 8,
+    "evaluation.interval_iterations": 0,
+}
+
+
+def test_a_training_leaves_a_run_and_shows_every_iteration(tmp_path):
+    pytest.importorskip("pandas")
+    seen = []
+    run = skein.train("heading", tmp_path / "run", callback=seen.append, **TINY)
+    assert [row["iteration"] for row in seen] == run.metrics["iteration"].tolist() == [1, 2, 3]
+    np.testing.assert_allclose([row["value_loss"] for row in seen], run.metrics["value_loss"])
+    assert run.config["network.gru_size"] == 16
+    assert run.evaluation["episodes"] == 8
+    assert run.policy.task == "heading"
+    assert len(run.timing) == 3
+
+
+def test_a_callback_does_not_change_what_is_learnt_and_may_end_it(tmp_path):
+    skein.train("heading", tmp_path / "whole", **TINY)
+    skein.train("heading", tmp_path / "cut", callback=lambda row: row["iteration"] < 2, **TINY)
+    whole, cut = ((tmp_path / name / "metrics.csv").read_text().splitlines() for name in ("whole", "cut"))
+    assert cut == whole[:3]
+    assert skein.Run(tmp_path / "cut").evaluation is None
+
+
+def test_what_a_callback_raises_comes_through_and_the_run_is_saved(tmp_path):
+    def broken(row):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        skein.train("heading", tmp_path / "run", callback=broken, **TINY)
+    assert skein.Run(tmp_path / "run").policy.task == "heading"
+
+
+def test_a_directory_without_a_run_is_refused(tmp_path):
+    with pytest.raises(skein.Error, match="no config.toml"):
+        skein.Run(tmp_path)
