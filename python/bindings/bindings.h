@@ -31,9 +31,8 @@ template <typename T>
 nanobind::ndarray<nanobind::numpy, T> ToNumpy(std::vector<T> values,
                                               std::initializer_list<std::size_t> shape) {
   auto* const owned = new std::vector<T>(std::move(values));
-  nanobind::capsule owner(owned, [](void* vector) noexcept {
-    delete static_cast<std::vector<T>*>(vector);
-  });
+  nanobind::capsule owner(
+      owned, [](void* vector) noexcept { delete static_cast<std::vector<T>*>(vector); });
   return {owned->data(), shape, owner};
 }
 

@@ -92,13 +92,14 @@ void BindConfiguration(nb::module_& module) {
       .def("__getitem__", &SettingOf, nb::arg("key"))
       .def("settings", &SettingsOf, "Every key of the task with its value.")
       .def("to_toml", &DumpToml, "The same as a TOML file, each key with its meaning.")
-      .def("evaluation",
-           [](const ProgramConfig& config) {
-             ProgramConfig evaluated = config;
-             evaluated.train.env = EvaluationConfig(config.train.env);
-             return evaluated;
-           },
-           "The same without what only serves training: staggered clocks, training tolerances.")
+      .def(
+          "evaluation",
+          [](const ProgramConfig& config) {
+            ProgramConfig evaluated = config;
+            evaluated.train.env = EvaluationConfig(config.train.env);
+            return evaluated;
+          },
+          "The same without what only serves training: staggered clocks, training tolerances.")
       .def("with_settings", &WithSettings, nb::arg("conditions"), nb::arg("assignments"))
       .def("__repr__", [](const ProgramConfig& config) {
         return "<skein.Config of " + config.train.env.task + ": " +

@@ -150,16 +150,16 @@ class BatchEnv {
       steps.push_back(episode_steps_[row]);
     }
     const std::size_t count = ended_.size();
-    return nb::make_tuple(ToNumpy(ended_, {count}),
-                          ToNumpy(std::move(observation), {count, observation_size()}),
-                          ToNumpy(std::move(episode_return), {count}),
-                          ToNumpy(std::move(steps), {count}));
+    return nb::make_tuple(
+        ToNumpy(ended_, {count}), ToNumpy(std::move(observation), {count, observation_size()}),
+        ToNumpy(std::move(episode_return), {count}), ToNumpy(std::move(steps), {count}));
   }
 
   nb::object State() const {
     std::vector<float> state;
     for (int i = 0; i < env_->num_aircraft(); ++i) {
-      for (const NamedColumn& shown : kShownColumns) state.push_back(env_->StateOf(i, shown.column));
+      for (const NamedColumn& shown : kShownColumns)
+        state.push_back(env_->StateOf(i, shown.column));
     }
     return nb::cast(ToNumpy(std::move(state), {rows(), kShownColumns.size()}));
   }
@@ -251,16 +251,17 @@ void BindEnvironment(nb::module_& module) {
   for (const NamedColumn& shown : kShownColumns) names.append(shown.name);
   module.attr("STATE_NAMES") = nb::tuple(names);
   nb::class_<BatchEnv>(module, "BatchEnv")
-      .def("__init__",
-           [](BatchEnv* place, const ProgramConfig& config, int num_envs, std::uint64_t seed,
-              int threads, const std::string& low_level, const std::optional<FlyingAgent>& agent) {
-             ProgramConfig flown = config;
-             if (agent) flown.train.env = agent->agent.EnvironmentFor(config.train.env);
-             auto below = LowLevelFor(flown.train.env, low_level, agent);
-             new (place) BatchEnv(flown, num_envs, seed, threads, std::move(below));
-           },
-           nb::arg("config"), nb::arg("num_envs"), nb::arg("seed"), nb::arg("threads"),
-           nb::arg("low_level"), nb::arg("agent").none())
+      .def(
+          "__init__",
+          [](BatchEnv* place, const ProgramConfig& config, int num_envs, std::uint64_t seed,
+             int threads, const std::string& low_level, const std::optional<FlyingAgent>& agent) {
+            ProgramConfig flown = config;
+            if (agent) flown.train.env = agent->agent.EnvironmentFor(config.train.env);
+            auto below = LowLevelFor(flown.train.env, low_level, agent);
+            new (place) BatchEnv(flown, num_envs, seed, threads, std::move(below));
+          },
+          nb::arg("config"), nb::arg("num_envs"), nb::arg("seed"), nb::arg("threads"),
+          nb::arg("low_level"), nb::arg("agent").none())
       .def("reset", &BatchEnv::Reset, nb::arg("seed"))
       .def("restart", &BatchEnv::Restart, nb::arg("begins"))
       .def("observe", &BatchEnv::Observe, nb::arg("observation").noconvert())
@@ -284,8 +285,7 @@ void BindEnvironment(nb::module_& module) {
                      return std::max(env.config().observation_noise,
                                      env.config().observation_noise_max);
                    })
-      .def_prop_ro("draws_plants",
-                   [](const BatchEnv& env) { return env.config().plant.enabled(); })
+      .def_prop_ro("draws_plants", [](const BatchEnv& env) { return env.config().plant.enabled(); })
       .def_prop_ro("threads", &BatchEnv::threads);
 }
 

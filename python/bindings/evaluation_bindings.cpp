@@ -83,11 +83,11 @@ EvaluationOptions Options(int episodes, std::uint64_t seed) {
 
 /// The summary as JSON, the episodes' columns, and the hash of what they began with.
 nb::tuple EvaluateAgent(const FlyingAgent& flying, const ProgramConfig& config, int episodes,
-                   std::uint64_t seed, int threads) {
+                        std::uint64_t seed, int threads) {
   WorkerPool pool(threads);
   const EnvConfig env = flying.agent.EnvironmentFor(config.train.env);
-  const FlownEpisodes flown = Unlocked(
-      pool, [&] { return FlyEpisodes(flying.agent, env, Options(episodes, seed), pool); });
+  const FlownEpisodes flown =
+      Unlocked(pool, [&] { return FlyEpisodes(flying.agent, env, Options(episodes, seed), pool); });
   return nb::make_tuple(ToJson(SummariseFlights(flown.episodes, env)).dump(),
                         EpisodeColumns(flown.episodes), flown.starts);
 }
@@ -106,14 +106,14 @@ nb::tuple CompareAgents(const std::vector<FlyingAgent>& agents,
 
 /// The first `count` of those episodes as a CSV table, a row for every control step.
 std::string RecordAgent(const FlyingAgent& flying, const ProgramConfig& config, int count,
-                   std::uint64_t seed, int threads, bool with_observations) {
+                        std::uint64_t seed, int threads, bool with_observations) {
   WorkerPool pool(threads);
   const EnvConfig env = flying.agent.EnvironmentFor(config.train.env);
   const std::vector<RecordedFlight> flights = Unlocked(
       pool, [&] { return RecordFlights(flying.agent, env, Options(count, seed), count, pool); });
-  return FlightsCsv(env, flights,
-                    with_observations ? FlightColumns::kStatesAndObservations
-                                      : FlightColumns::kStates);
+  return FlightsCsv(
+      env, flights,
+      with_observations ? FlightColumns::kStatesAndObservations : FlightColumns::kStates);
 }
 
 }  // namespace

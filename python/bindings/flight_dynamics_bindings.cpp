@@ -90,9 +90,9 @@ nb::dict TrimOf(const Plant& plant, double altitude_ft, double true_airspeed_fps
   const Controls& controls = trim.controls;
   nb::dict point;
   point["state"] = ToNumpyVector(trim.state);
-  point["controls"] = ToNumpyVector(
-      std::vector<double>{controls.thrust_lbf, controls.elevator_deg, controls.aileron_deg,
-                          controls.rudder_deg, controls.leading_edge_flap_deg});
+  point["controls"] = ToNumpyVector(std::vector<double>{controls.thrust_lbf, controls.elevator_deg,
+                                                        controls.aileron_deg, controls.rudder_deg,
+                                                        controls.leading_edge_flap_deg});
   point["power"] = trim.power;
   point["alpha_deg"] = trim.alpha_rad * kDegPerRad;
   point["bank_deg"] = trim.bank_rad * kDegPerRad;

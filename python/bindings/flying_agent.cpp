@@ -26,7 +26,8 @@ nb::object CopyToNumpy(const float* rows, int count, int size) {
 void CopyFromPython(const nb::object& returned, const char* what, int count, int size,
                     float* rows) {
   Rows<const float> array;
-  if (returned.is_none() || !nb::try_cast(returned, array) || array.shape(0) != static_cast<std::size_t>(count) ||
+  if (returned.is_none() || !nb::try_cast(returned, array) ||
+      array.shape(0) != static_cast<std::size_t>(count) ||
       array.shape(1) != static_cast<std::size_t>(size)) {
     const std::string shape =
         nb::hasattr(returned, "shape")

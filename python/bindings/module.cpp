@@ -42,8 +42,9 @@ void BindNames(nb::module_& module) {
   module.attr("TASKS") = NamesOf(TaskNames());
   module.attr("AIRCRAFT") = NamesOf(AircraftNames());
   module.attr("__version__") = Build().version;
-  module.def("simd_target", [] { return std::string(Name(simd::ActiveTarget())); },
-             "The instruction set that kernels run on.");
+  module.def(
+      "simd_target", [] { return std::string(Name(simd::ActiveTarget())); },
+      "The instruction set that kernels run on.");
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ TEST(VecEnvRestart, EveryEndIsObservedIfThatIsAskedFor) {
   reference.Step(0, reference_buffers.action.data(), reference_buffers.output());
   reference.Observe(0, reference_buffers.observation.data());
   EXPECT_EQ(buffers.final_observation, reference_buffers.observation);
-  EXPECT_EQ(buffers.termination, std::vector<std::uint8_t>(
-                                     kCount, static_cast<std::uint8_t>(Termination::kTimeLimit)));
+  EXPECT_EQ(buffers.termination,
+            std::vector<std::uint8_t>(kCount, static_cast<std::uint8_t>(Termination::kTimeLimit)));
 }
 
 }  // namespace
