@@ -68,17 +68,18 @@ Json Rules(const EnvConfig& env) {
 
 }  // namespace
 
-std::string Manifest(ExportForm form, const ExportedPolicy& high_level, const std::string& file,
-                     const StoredPolicy& low_level, const std::string& low_level_file) {
+std::string Manifest(ExportForm form, const ExportedPolicy& high_level,
+                     const StoredPolicy& low_level, const HierarchyFiles& files) {
   const EnvConfig& env = high_level.interface.env;
   const std::string& version = high_level.metadata.at("version");
-  const Json manifest = {{"skein_version", version},
-                         {"format", NameIn(kExportForms, form)},
-                         {"aircraft", env.aircraft},
-                         {"control_interval_s", env.control_interval_s},
-                         {"high_level", Describe(high_level, file)},
-                         {"low_level", DescribeLowLevel(low_level, version, low_level_file)},
-                         {"rules", Rules(env)}};
+  Json manifest = {{"skein_version", version},
+                   {"format", NameIn(kExportForms, form)},
+                   {"aircraft", env.aircraft},
+                   {"control_interval_s", env.control_interval_s},
+                   {"high_level", Describe(high_level, files.high_level)},
+                   {"low_level", DescribeLowLevel(low_level, version, files.low_level)},
+                   {"rules", Rules(env)}};
+  if (!files.combined.empty()) manifest["combined"] = {{"file", FileName(files.combined)}};
   return manifest.dump(1) + "\n";
 }
 

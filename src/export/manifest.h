@@ -8,9 +8,15 @@
 
 namespace skein {
 
+/// Where the parts of an exported hierarchy are.
+struct HierarchyFiles {
+  std::string high_level, low_level;
+  std::string combined;  ///< both in one graph; empty if there is none
+};
+
 /// How an exported high-level policy and its low-level policy act together, as a JSON document:
 /// their files, rates and numbers, and how the one's actions become the other's targets.
-std::string Manifest(ExportForm form, const ExportedPolicy& high_level, const std::string& file,
-                     const StoredPolicy& low_level, const std::string& low_level_file);
+std::string Manifest(ExportForm form, const ExportedPolicy& high_level,
+                     const StoredPolicy& low_level, const HierarchyFiles& files);
 
 }  // namespace skein

@@ -13,6 +13,7 @@
 #include "src/export/manifest.h"
 #include "src/files/output_file.h"
 #include "train/export/c_flight_control.h"
+#include "train/export/onnx_policy.h"
 
 namespace skein {
 namespace {
@@ -79,9 +80,10 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
   const auto low_level = std::dynamic_pointer_cast<const RecurrentPolicy>(policy.low_level());
   const std::string extension = std::filesystem::path(options.out).extension().string();
   const std::string low_level_out = WithExtension(options.out, ".low_level" + extension);
+  const std::string combined_out = WithExtension(options.out, ".combined" + extension);
   const std::string manifest_out = WithExtension(options.out, ".json");
   std::vector<std::string> paths = {options.out};
-  if (low_level != nullptr) paths.push_back(low_level_out);
+  if (low_level != nullptr) paths.insert(paths.end(), {low_level_out, combined_out});
   if (policy.low_level() != nullptr) paths.push_back(manifest_out);
   CheckWritable(paths);
 
@@ -93,14 +95,21 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
   }
   std::vector<Output> outputs;
   std::vector<std::string> lines;
+  const bool is_one_graph = options.form == ExportForm::kOnnx && parts.size() == 2 &&
+                            FitInOneGraph(parts[0].policy, parts[1].policy);
+  if (is_one_graph) {
+    outputs.push_back({combined_out, OnnxHierarchy(parts[0].policy, parts[1].policy)});
+    lines.push_back(fmt::format("wrote     {} (both in one graph)", combined_out));
+  }
   for (const Exported& part : parts) {
     outputs.push_back(part.output);
     lines.push_back(fmt::format("wrote     {} (task {})", part.output.path, part.policy.name));
     if (options.check) lines.push_back("checked   " + part.checked);
   }
   if (policy.low_level() != nullptr) {
-    outputs.push_back({manifest_out, Manifest(options.form, parts.front().policy, options.out,
-                                              *policy.low_level(), low_level_out)});
+    const HierarchyFiles files{options.out, low_level_out, is_one_graph ? combined_out : ""};
+    outputs.push_back(
+        {manifest_out, Manifest(options.form, parts.front().policy, *policy.low_level(), files)});
     lines.push_back(fmt::format("wrote     {} (how they act together)", manifest_out));
   }
   WriteAll(outputs);

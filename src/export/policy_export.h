@@ -17,9 +17,10 @@ struct PolicyExport {
 };
 
 /// Writes the policy, and of a high-level policy its low-level policy (OUT with ".low_level" before
-/// its extension) and a manifest that says how they act together (OUT with the extension ".json").
-/// Returns what was done, line by line. Throws Error, with nothing written, if something cannot be
-/// read, written or, where `check` asks for it, flown as the policy itself.
+/// its extension), as ONNX both in one graph where their rates allow it (".combined"), and a
+/// manifest that says how they act together (OUT with the extension ".json"). Returns what was
+/// done, line by line. Throws Error, with nothing written, if something cannot be read, written or,
+/// where `check` asks for it, flown as the policy itself.
 std::vector<std::string> ExportPolicy(const PolicyExport& options);
 
 /// Writes the flight control laws that `policy` flies through, of `aircraft` if there is none, as

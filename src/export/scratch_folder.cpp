@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 
 #include "base/error.h"
@@ -13,6 +14,21 @@
 #include "train/files/file_descriptor.h"
 
 namespace skein {
+namespace {
+
+/// Of what a program complained of the line that says most: a compiler's first error, else the last
+/// line, which is where Python names its exception.
+std::string Essence(const std::string& complaint) {
+  std::istringstream lines(complaint);
+  std::string last;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("error:") != std::string::npos) return line;
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+}  // namespace
 
 ScratchFolder::ScratchFolder()
     : path_((std::filesystem::temp_directory_path() / "skein-XXXXXX").string()) {
@@ -28,8 +44,7 @@ void RunShell(const std::string& line, const ScratchFolder& folder, const std::s
   const std::string errors = folder / "errors";
   const int code = std::system(("{ " + line + "; } 2>" + SingleQuoted(errors)).c_str());
   if (code == 0) return;
-  const std::string complaint = ReadFile(errors);
-  throw Error(what + ": " + complaint.substr(0, complaint.find('\n')));
+  throw Error(what + ": " + Essence(ReadFile(errors)));
 }
 
 }  // namespace skein

@@ -21,8 +21,8 @@ class ScratchFolder {
   std::string path_;
 };
 
-/// Runs a line of the shell. Throws Error with `what` and the first line that it wrote to the error
-/// stream unless it succeeds.
+/// Runs a line of the shell. Throws Error with `what` and the line of its error stream that says
+/// most unless it succeeds.
 void RunShell(const std::string& line, const ScratchFolder& folder, const std::string& what);
 
 }  // namespace skein

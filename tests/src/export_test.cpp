@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@
 #include "tests/tolerance.h"
 #include "train/export/c_flight_control.h"
 #include "train/export/c_policy.h"
+#include "train/export/onnx_policy.h"
 
 namespace skein {
 namespace {
@@ -212,6 +214,82 @@ TEST(PolicyTrace, LargestErrorIsInfiniteWhereActionsAreMissingOrNotFinite) {
   EXPECT_EQ(LargestError(trace, {0.5f, NAN}), INFINITY);
 }
 
+/// A low-level policy that acts as often as the high-level policy above it.
+struct Hierarchy {
+  ExportedPolicy high_level, low_level;
+  PolicyTrace trace;  ///< the high-level policy's observations, the low-level policy's actions
+};
+
+ExportedPolicy Made(const std::string& task, const NetworkConfig& config, int actions,
+                    std::shared_ptr<const StoredPolicy> low_level) {
+  auto parameters = std::make_shared<RecurrentPolicy::Parameters>(
+      *RecurrentPolicy::Untrained(config, 22, actions, 5, 5).parameters());
+  parameters->task = task;
+  parameters->low_level = std::move(low_level);
+  return PrepareExport(RecurrentPolicy(std::move(parameters)), task, "test");
+}
+
+Hierarchy FlyHierarchy() {
+  NetworkConfig config = OddNetworks().front();
+  Hierarchy flown;
+  flown.low_level = Made("control", config, 4, nullptr);
+  const RecurrentPolicy low_level(flown.low_level.policy);
+  config.gru_layers = 2;
+  flown.high_level =
+      Made("tracking", config, 3, std::make_shared<const RecurrentPolicy>(low_level));
+  const RecurrentPolicy high_level(flown.high_level.policy);
+  const EnvConfig& env = flown.high_level.interface.env;
+  std::vector<float> above(static_cast<std::size_t>(high_level.state_size()));
+  std::vector<float> below(static_cast<std::size_t>(low_level.state_size()));
+  flown.trace.observation_size = 22;
+  flown.trace.action_size = 4;
+  for (int step = 0; step < 60; ++step) {
+    std::vector<float> observation(22), change(3), action(4);
+    for (int i = 0; i < 22; ++i) {
+      observation[static_cast<std::size_t>(i)] =
+          std::sin(0.7f * static_cast<float>(i) + 0.3f * static_cast<float>(step));
+    }
+    flown.trace.begins.push_back(step == 0 ? 1.0f : 0.0f);
+    flown.trace.observations.insert(flown.trace.observations.end(), observation.begin(),
+                                    observation.end());
+    high_level.Act(1, observation.data(), above.data(), change.data());
+    const double pitch = std::asin(observation[6]);
+    const double target = pitch + env.high_level.pitch_change_rad * change[0];
+    observation[0] = static_cast<float>(std::clamp(target, -M_PI / 2, M_PI / 2) - pitch);
+    observation[1] = static_cast<float>(env.high_level.yaw_change_rad * change[1]);
+    observation[2] = static_cast<float>(env.high_level.speed_change_fps * change[2] /
+                                        LoadAircraft(env.aircraft).units.speed_ft_s);
+    low_level.Act(1, observation.data(), below.data(), action.data());
+    flown.trace.actions.insert(flown.trace.actions.end(), action.begin(), action.end());
+  }
+  return flown;
+}
+
+TEST(OnnxHierarchy, ActsAsBothPoliciesOneAfterTheOther) {
+  const Hierarchy flown = FlyHierarchy();
+  ASSERT_TRUE(FitInOneGraph(flown.high_level, flown.low_level));
+  std::vector<float> actions;
+  const std::string complaint = MessageOf([&] {
+    actions = Fly(ExportForm::kOnnx, OnnxHierarchy(flown.high_level, flown.low_level),
+                  flown.high_level, flown.trace, FlyerOf(ExportForm::kOnnx));
+  });
+  if (complaint.find("needs the packages") != std::string::npos) GTEST_SKIP() << complaint;
+  EXPECT_EQ(complaint, "");
+  // The pitch comes from its float32 sine, which says little of it near the vertical.
+  constexpr Tolerance kArcSine{1e-4, "float32 arc sine near the vertical"};
+  EXPECT_LE(LargestError(flown.trace, actions), kArcSine);
+}
+
+TEST(OnnxHierarchy, NeedsAHighLevelPolicyThatActsAsOften) {
+  Hierarchy flown = FlyHierarchy();
+  flown.high_level.interface.action_repeat = 6;
+  EXPECT_FALSE(FitInOneGraph(flown.high_level, flown.low_level));
+  flown.high_level.interface.action_repeat = 1;
+  EXPECT_TRUE(FitInOneGraph(flown.high_level, flown.low_level));
+  flown.high_level.interface.env.high_level.averages_observations = true;
+  EXPECT_FALSE(FitInOneGraph(flown.high_level, flown.low_level));
+}
+
 class ExportCommand : public ::testing::Test {
  protected:
   ProgramResult Export(const std::string& policy, const std::vector<std::string>& more) const {
@@ -278,6 +356,15 @@ TEST_F(ExportCommand, RefusesWhatItCannotDoInOneLine) {
   expect_failure(scratch_.path(), out, "the run has not saved a policy yet");
   RecurrentPolicy::Untrained({}, 22, 4, 1).Save(scratch_ / "untrained.skein");
   expect_failure(scratch_ / "untrained.skein", out, "does not say for which task it was made");
+  auto strange =
+      std::make_shared<RecurrentPolicy::Parameters>(*RecurrentPolicy::Load(policy_).parameters());
+  strange->environment["aircraft"] = "kite";
+  RecurrentPolicy(strange).Save(scratch_ / "kite.skein");
+  expect_failure(scratch_ / "kite.skein", out, "kite.skein cannot be described: ");
+  strange->environment["aircraft"] = "f16";
+  strange->environment["control_interval_s"] = "0";
+  RecurrentPolicy(strange).Save(scratch_ / "standing.skein");
+  expect_failure(scratch_ / "standing.skein", out, "env.control_interval_s = 0 is out of range");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

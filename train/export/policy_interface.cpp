@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/export/policy_interface.h"
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -13,6 +14,7 @@
 #include "envs/low_level_flight.h"
 #include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
+#include "envs/tasks/task_errors.h"
 
 namespace skein {
 namespace {
@@ -119,9 +121,14 @@ PolicyInterface DescribeInterface(const RecurrentPolicy::Parameters& policy,
                 "observations: export a policy that was trained or saved by this version");
   }
   PolicyInterface interface;
-  interface.env = MadeIn(policy);
+  try {
+    interface.env = MadeIn(policy);
+    Validate(interface.env);
+    interface.observations = ObservationsOf(interface.env);
+  } catch (const Error& error) {
+    throw Error(who + " cannot be described: " + error.what());
+  }
   interface.action_repeat = policy.action_repeat;
-  interface.observations = ObservationsOf(interface.env);
   interface.actions = ActionsOf(interface.env, policy.low_level != nullptr);
   RequireSizes(interface, policy.shape, who);
   return interface;

@@ -29,7 +29,7 @@ struct PolicyInterface {
 };
 
 /// Throws Error that begins with `who` if the policy does not say for which task it was made, or
-/// for one that this program does not know.
+/// names a task, an aircraft or a setting that this program does not know.
 PolicyInterface DescribeInterface(const RecurrentPolicy::Parameters& policy,
                                   const std::string& who);
 

@@ -27,8 +27,8 @@ struct CommandHistory {
   CommandNumbers saturated{};      ///< how often it was at a stop, -1 or 1
 };
 
-/// Of commands that begin with the first of `rows`, which is not empty: it counts as the latest, but
-/// not as flown.
+/// Of commands that begin with the first of `rows`, which is not empty: it counts as the latest,
+/// but not as flown.
 CommandHistory HistoryBefore(const ActionRows& rows);
 
 /// Goes on with `history` over `rows`. A command turns back when it has come by more than
