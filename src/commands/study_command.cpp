@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include "src/commands/commands.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
+#include "src/files/shell_text.h"
 #include "src/study/study.h"
 #include "src/study/study_run.h"
 
@@ -17,18 +19,29 @@ namespace {
 struct StudyOptions {
   std::string file;
   std::string out;
+  StudyChoice choice;
   int threads = 0;
 };
 
+/// The options of the command line that say what of the study is carried out, for it to be resumed.
+std::string ChoiceText(const StudyChoice& choice) {
+  std::string text;
+  for (const std::string& level : choice.levels) text += " --level " + ShellWord(level);
+  if (!choice.seeds.empty()) text += fmt::format(" --seeds {}", fmt::join(choice.seeds, ","));
+  if (choice.steps) text += fmt::format(" --steps {:.0f}", *choice.steps);
+  return text;
+}
+
 void CarryOut(const StudyOptions& options) {
-  const Study study = AsUsage([&] { return ReadStudy(options.file); });
+  const Study study = AsUsage([&] { return ReadStudy(options.file, options.choice); });
   const std::string directory =
       options.out.empty() ? "studies/" + std::filesystem::path(options.file).stem().string()
                           : options.out;
   WorkerPool pool(options.threads);
   StudyRun run(study, directory, pool);
   if (!run.Run()) {
-    fmt::print("stopped; resume with: skein study {} --out {}\n", options.file, directory);
+    fmt::print("stopped; resume with: skein study {} --out {}{}\n", options.file, directory,
+               ChoiceText(options.choice));
     return;
   }
   fmt::print("{}\nresults         {}/results.csv, results.json\n", run.ToText(), directory);
@@ -50,12 +63,29 @@ void AddStudyCommand(CLI::App* app) {
                    "studies/NAME for NAME.toml)")
       ->type_name("DIR");
   command
+      ->add_option("--level", options->choice.levels,
+                   "carry out this level of the file alone; may be repeated (default: all)")
+      ->type_name("LEVEL")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--seeds", options->choice.seeds,
+                   "seeds of the trainings, separated by commas (default: the file's)")
+      ->type_name("SEED,...")
+      ->delimiter(',')
+      ->transform(WholeNumber(0, 0x1p53));
+  command
+      ->add_option("--steps", options->choice.steps,
+                   "budget of a training, control steps (default: the file's, else the preset's)")
+      ->transform(WholeNumber(1, 0x1p53));
+  command
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")
       ->transform(WholeNumber(1, 1024));
   command->footer(
       "The same command resumes after an interruption of any kind, and skips what is finished.\n"
-      "Example: skein study configs/studies/noise.toml");
+      "Seeds and levels may be added later.\n"
+      "Example: skein study configs/studies/noise.toml\n"
+      "         skein study configs/studies/heading.toml --level windy-middle --seeds 1,2,3");
   command->callback([options] { CarryOut(*options); });
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "base/error.h"
@@ -215,6 +216,31 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   return study;
 }
 
+/// The levels called `names`, in the file's order.
+std::vector<StudyLevel> ChosenLevels(const std::vector<StudyLevel>& levels,
+                                     const std::vector<std::string>& names,
+                                     const std::string& source) {
+  std::vector<std::string> known;
+  for (const StudyLevel& level : levels) known.push_back(level.name);
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw Error(fmt::format("{}: no level is called {}{}; levels: {}", source, name,
+                            DidYouMean(name, known), fmt::join(known, ", ")));
+  }
+  std::vector<StudyLevel> chosen;
+  std::copy_if(levels.begin(), levels.end(), std::back_inserter(chosen),
+               [&names](const StudyLevel& level) {
+                 return std::find(names.begin(), names.end(), level.name) != names.end();
+               });
+  return chosen;
+}
+
+void Choose(const StudyChoice& choice, const std::string& source, Study* study) {
+  if (!choice.levels.empty()) study->levels = ChosenLevels(study->levels, choice.levels, source);
+  if (!choice.seeds.empty()) study->seeds = choice.seeds;
+  if (choice.steps) study->training.steps = choice.steps;
+}
+
 /// Throws Error on an assignment that the study would not follow.
 void RefuseWithoutEffect(const Study& study, const std::string& source) {
   std::vector<std::string> assignments = study.assignments;
@@ -283,7 +309,7 @@ ProgramConfig Configure(const Study& study, const std::string& task,
 
 }  // namespace
 
-Study ReadStudy(const std::string& path) {
+Study ReadStudy(const std::string& path, const StudyChoice& choice) {
   toml::table table;
   try {
     table = toml::parse(ReadFile(path), path);
@@ -292,6 +318,7 @@ Study ReadStudy(const std::string& path) {
                             error.description()));
   }
   Study study = ReadTable(table, path);
+  Choose(choice, path, &study);
   RefuseEmptyAndTwice(study.tasks, path, "tasks");
   RefuseEmptyAndTwice(study.seeds, path, "seeds");
   if (!study.agents.empty()) RefuseEmptyAndTwice(study.agents, path, "agents");

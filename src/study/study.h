@@ -44,9 +44,17 @@ struct Study {
   } evaluation;
 };
 
+/// What a user asks for beside the file; what is empty leaves the file as it is.
+struct StudyChoice {
+  std::vector<std::string> levels;   ///< names of the file's levels: these alone
+  std::vector<std::uint64_t> seeds;  ///< instead of the file's
+  std::optional<double> steps;       ///< budget of a training, control steps
+};
+
 /// Reads the TOML file of a study (docs/reference/commands.md). Throws Error with file and line on
-/// unknown keys, wrong types and lists that are empty or name something twice.
-Study ReadStudy(const std::string& path);
+/// unknown keys, wrong types and lists that are empty or name something twice, and on a choice of
+/// levels that the file has not.
+Study ReadStudy(const std::string& path, const StudyChoice& choice = {});
 
 /// What a training under `level` runs with. Throws Error on a configuration that cannot be.
 ProgramConfig TrainingConfig(const Study& study, const std::string& task, const StudyLevel& level,

@@ -103,7 +103,7 @@ std::string StudyText(const Json& results, std::size_t trained,
     const Quantity& quantity = quantities[k];
     if (!quantity.is_headline || k == kReturnQuantity) continue;
     table.Begin(quantity.label);
-    table.Cell(fmt::format("trained ({} seeds)", trained));
+    table.Cell(fmt::format("trained ({})", Counted(static_cast<int>(trained), "seed")));
     const Json none = Json::array();
     const Json& agents = results.empty() ? none : results[0]["comparison"]["agents"];
     for (std::size_t i = trained; i < agents.size(); ++i) {

@@ -275,6 +275,37 @@ TEST_F(StudyPipeline, OneTrainingCanServeAllLevels) {
   EXPECT_EQ(nlohmann::json::parse(ReadFile(out + "/results.json")).size(), 2u);
 }
 
+TEST_F(StudyPipeline, LevelsAndSeedsAreAddedByOption) {
+  const std::string out = scratch_ / "out";
+  std::vector<std::string> part = Command(out);
+  part.insert(part.end(), {"--level", "quiet", "--seeds", "7", "--steps", "10240"});
+  const ProgramResult result = CallSkein(part);
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("training 1 of 1: " + out + "/runs/heading-quiet-seed7"));
+  EXPECT_THAT(result.output, HasSubstr("trained (1 seed)"));
+  EXPECT_THAT(ReadFile(out + "/runs/heading-quiet-seed7/config.toml"),
+              HasSubstr("total_steps = 10240"));
+  part = Command(out);
+  part.insert(part.end(),
+              {"--seeds", "7,8", "--level", "quiet", "--level", "loud, 0.1", "--steps", "10240"});
+  const ProgramResult more = CallSkein(part);
+  ASSERT_EQ(more.exit_code, 0) << more.error;
+  EXPECT_THAT(more.output, HasSubstr("training 4 of 4: "));
+  EXPECT_THAT(more.output, ::testing::Not(HasSubstr("training 1 of")));
+  part.back() = "10241";
+  EXPECT_THAT(CallSkein(part).error, HasSubstr("was trained with another configuration"));
+  for (const auto& [option, value, message] :
+       {std::tuple{"--level", "quite", "no level is called quite; did you mean quiet?"},
+        std::tuple{"--seeds", "1,1", "seeds names 1 twice"},
+        std::tuple{"--seeds", "1.5", "--seeds"}}) {
+    part = Command(out);
+    part.insert(part.end(), {option, value});
+    const ProgramResult wrong = CallSkein(part);
+    EXPECT_EQ(wrong.exit_code, 2) << value;
+    EXPECT_THAT(wrong.error, HasSubstr(message));
+  }
+}
+
 TEST_F(StudyPipeline, WhatWouldNotBeFollowedIsRefused) {
   const std::string begin = "tasks = [\"heading\"]\nseeds = [1]\n";
   ExpectError(begin + "set = [\"run.seed = 2\"]", "seeds says the seeds");
