@@ -45,7 +45,7 @@ std::string Check(ExportForm form, const std::string& bytes, const ExportedPolic
                   const PolicyTrace& trace) {
   const std::string flyer = FlyerOf(form);
   const double error = LargestError(trace, Fly(form, bytes, exported, trace, flyer));
-  const std::string found =
+  std::string found =
       fmt::format("{} policy steps of task {} in {} flights, by {}: actions within {:.1e}",
                   trace.steps(), exported.name, kExportFlights, flyer, error);
   RequireNear(error, found);

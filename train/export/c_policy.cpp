@@ -104,7 +104,7 @@ class Writer {
     const int gru = shape_.gru_size, rows = 3 * gru;
     const std::string number = index == 0 ? "" : std::to_string(index + 1);
     const std::string input = "gru" + number + "_input", hidden = "gru" + number + "_hidden";
-    const std::string state = "state + " + std::to_string(index * gru);
+    std::string state = "state + " + std::to_string(index * gru);
     const std::string sizes = std::to_string(Padded(rows)) + ", ";
     if (index > 0) AddLinear(input, layer.input_weight, layer.input_bias, rows, layer.in);
     AddLinear(hidden, layer.hidden_weight, layer.hidden_bias, rows, gru);
