@@ -305,8 +305,8 @@ def make_vec(
         task, preset, file, conditions, settings: what is flown (skein.configure).
         num_envs: aircraft.
         threads: that step them, 0: one per CPU. Results do not depend on it.
-        low_level: for "tracking": the policy below the high-level policy (a policy file or run of task control, or
-            "autopilot").
+        low_level: for presets of Tracking that are flown by a high-level policy ("planner", "paper"): what flies below
+            it, a policy file or run of task control, or "autopilot".
         agent: who is to fly: its own choices, such as the rate at which it acts, then hold, and a high-level policy
             brings its low-level policy.
         evaluation: leave out what only serves training: staggered clocks, training tolerances.
@@ -338,7 +338,7 @@ def make(
     **settings: Any,
 ) -> FlightEnv:
     """One aircraft that flies `task`, as a Gymnasium Env: arguments as of make_vec. The same is registered as
-    gymnasium.make("skein/Heading-v0"), "skein/Control-v0" and "skein/Tracking-v0" (over the autopilot)."""
+    gymnasium.make("skein/Heading-v0"), "skein/Control-v0" and "skein/Tracking-v0"."""
     return FlightEnv(
         task,
         low_level=low_level,
@@ -363,5 +363,5 @@ def register_environments() -> None:
             name,
             entry_point="skein.environment:FlightEnv",
             vector_entry_point="skein.environment:FlightVectorEnv",
-            kwargs={"task": task} | ({"low_level": "autopilot"} if task == "tracking" else {}),
+            kwargs={"task": task},
         )

@@ -2,7 +2,7 @@
 """One aircraft in float64: steady flight, linear models, and flight with given controls."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,7 @@ class Trim:
     """The largest acceleration that is left, ft/s^2 or rad/s^2."""
     exceeded_limits: tuple[str, ...]
     """Limits of the aircraft and its model that this flight exceeds, in words; empty if there are none."""
+    _plant: _skein.Plant = field(repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -69,10 +70,6 @@ class Trajectory:
         return column
 
 
-def _plant(aircraft: str, atmosphere: str, cg: float, engine_angular_momentum: float) -> _skein.Plant:
-    return _skein.make_plant(aircraft, atmosphere, cg, engine_angular_momentum)
-
-
 def trim(
     altitude_ft: float,
     true_airspeed_fps: float,
@@ -98,39 +95,25 @@ def trim(
     Raises:
         Error: there is no such flight; the message says which limit is in the way.
     """
-    plant = _plant(aircraft, atmosphere, cg, engine_angular_momentum)
-    return Trim(**plant.trim(altitude_ft, true_airspeed_fps, flight_path_deg, turn_rate_deg_s))
+    plant = _skein.make_plant(aircraft, atmosphere, cg, engine_angular_momentum)
+    return Trim(**plant.trim(altitude_ft, true_airspeed_fps, flight_path_deg, turn_rate_deg_s), _plant=plant)
 
 
-def linearise(
-    point: Trim,
-    *,
-    aircraft: str = "f16",
-    atmosphere: str = "stevens_lewis",
-    cg: float = 0.30,
-    engine_angular_momentum: float = 0,
-) -> LinearModel:
-    """The linear model about a steady flight, by central differences; the aircraft as it was trimmed."""
-    plant = _plant(aircraft, atmosphere, cg, engine_angular_momentum)
-    return LinearModel(*plant.linearise(point.state, point.controls))
+def linearise(point: Trim) -> LinearModel:
+    """The linear model about a steady flight, of the aircraft that was trimmed, by central differences."""
+    return LinearModel(*point._plant.linearise(point.state, point.controls))
 
 
 def simulate(
-    initial_state: Any,
-    controls: Any,
-    *,
-    duration_s: float | None = None,
-    dt: float = 0.02,
-    aircraft: str = "f16",
-    atmosphere: str = "stevens_lewis",
-    cg: float = 0.30,
-    engine_angular_momentum: float = 0,
+    start: Trim, controls: Any, *, state: Any = None, duration_s: float | None = None, dt: float = 0.02
 ) -> Trajectory:
-    """Flies the bare airframe, without flight control system, actuators or engine lag: classic RK4 steps of `dt`.
+    """Flies the bare airframe that was trimmed, without flight control system, actuators or engine lag: classic RK4
+    steps of `dt`.
 
     Args:
-        initial_state: (13,), STATE_NAMES; a Trim's, say.
+        start: where the flight begins.
         controls: (5,), CONTROL_NAMES, held for duration_s; or (steps, 5), row k held during step k.
+        state: (13,), STATE_NAMES: begin there and not in the trim's state.
         duration_s: of the flight, with controls that are held.
         dt: time step, s.
     """
@@ -141,7 +124,6 @@ def simulate(
         rows = np.repeat(rows, round(duration_s / dt), axis=0)
     elif duration_s is not None:
         raise ConfigurationError("simulate: duration_s is for controls that are held; rows have their own number")
-    plant = _plant(aircraft, atmosphere, cg, engine_angular_momentum)
-    state = np.ascontiguousarray(initial_state, np.float64)
-    states = plant.simulate(state, np.ascontiguousarray(rows), dt)
+    begin = np.ascontiguousarray(start.state if state is None else state, np.float64)
+    states = start._plant.simulate(begin, np.ascontiguousarray(rows), dt)
     return Trajectory(dt * np.arange(len(states), dtype=np.float64), states)

@@ -88,7 +88,7 @@ def train(
         callback: is given every iteration's figures (those of metrics.csv); False ends the run, saved, so that
             `skein train --resume` goes on. What it raises does the same, and comes through.
         start_from: a run or policy whose networks it starts from.
-        low_level: for "tracking": the policy below the high-level policy, or "autopilot".
+        low_level: as of skein.make_vec.
         threads: 0: one per CPU. Results do not depend on it.
 
     Raises:

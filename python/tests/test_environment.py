@@ -205,11 +205,11 @@ def test_an_action_that_is_not_finite_ends_its_episode_alone():
 
 
 def test_a_high_level_policy_is_given_targets_to_set():
-    envs = skein.make_vec("tracking", 4, low_level="autopilot")
+    envs = skein.make_vec("tracking", 4, preset="planner", low_level="autopilot")
     assert envs.action_names == ("target_pitch", "target_yaw", "target_speed")
     assert envs.targets().shape == (4, 3)
     with pytest.raises(skein.ConfigurationError, match="low-level"):
-        skein.make_vec("tracking", 4)
+        skein.make_vec("tracking", 4, preset="planner")
 
 
 def test_the_state_is_shown_by_name():

@@ -10,7 +10,7 @@ def test_a_trim_is_steady():
     trim = skein.trim(15000, 500)
     assert trim.residual < 1e-6
     assert not trim.exceeded_limits
-    flight = skein.simulate(trim.state, trim.controls, duration_s=1)
+    flight = skein.simulate(trim, trim.controls, duration_s=1)
     assert len(flight.time_s) == len(flight.states) == 51
     np.testing.assert_allclose(flight["down_ft"], -15000, atol=1e-3)
     np.testing.assert_allclose(flight["north_ft"][-1], 500, rtol=1e-6)
@@ -19,7 +19,7 @@ def test_a_trim_is_steady():
 def test_a_coordinated_turn_turns():
     turn = skein.trim(15000, 500, turn_rate_deg_s=6)
     assert turn.bank_deg > 40
-    flight = skein.simulate(turn.state, turn.controls, duration_s=5)
+    flight = skein.simulate(turn, turn.controls, duration_s=5)
     heading = np.degrees(np.arctan2(np.diff(flight["east_ft"]), np.diff(flight["north_ft"])))
     np.testing.assert_allclose(heading[-1] - heading[0], 6 * 0.02 * (len(heading) - 1), rtol=1e-3)
 
@@ -31,7 +31,7 @@ def test_the_linear_model_is_the_derivative():
     nudge = np.zeros(5)
     nudge[CONTROL_NAMES.index("elevator_deg")] = 1e-3
     dt = 1e-3
-    moved, still = (skein.simulate(trim.state, (trim.controls + n)[None], dt=dt) for n in (nudge, 0))
+    moved, still = (skein.simulate(trim, (trim.controls + n)[None], dt=dt) for n in (nudge, 0))
     rate = (moved.states[-1] - still.states[-1]) / dt
     q = STATE_NAMES.index("q_rad_s")
     np.testing.assert_allclose(rate[q], (model.B @ nudge)[q], rtol=1e-2)
@@ -41,6 +41,8 @@ def test_the_linear_model_is_the_derivative():
 def test_the_aircraft_can_be_another_one():
     aerosonde = skein.trim(3000, 80, aircraft="aerosonde")
     assert 0 < aerosonde.controls[0] < 50
+    flight = skein.simulate(aerosonde, aerosonde.controls, duration_s=1)
+    np.testing.assert_allclose(flight["down_ft"], -3000, atol=1e-3)
 
 
 def test_what_cannot_be_flown_says_why():
@@ -51,6 +53,6 @@ def test_what_cannot_be_flown_says_why():
     with pytest.raises(skein.Error):
         skein.trim(15000, 500, aircraft="glider")
     with pytest.raises(skein.ConfigurationError, match="duration_s"):
-        skein.simulate(np.zeros(13), np.zeros(5))
+        skein.simulate(skein.trim(15000, 500), np.zeros(5))
     with pytest.raises(skein.Error, match="13 numbers"):
-        skein.simulate(np.zeros(12), np.zeros((1, 5)))
+        skein.simulate(skein.trim(15000, 500), np.zeros((1, 5)), state=np.zeros(12))
