@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
 
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
@@ -11,44 +15,114 @@
 namespace skein {
 namespace {
 
-constexpr int kEpisodes = 300;
+constexpr const char* kEpisodes = "256";
+constexpr const char* kSeed = "5";
 
-struct ShippedPolicy {
-  const char* task;
-  double least_success;  ///< below what policies/README.md says, by what 300 episodes may be off
+/// How a policy must hold its targets, as docs/reference/metrics.md measures it.
+struct HoldLimits {
+  double least_within;
+  double most_rms_p_deg_s, most_load_factor_deviation_g, most_net_rolls_per_min;
 };
 
-class ShippedPolicies : public ::testing::TestWithParam<ShippedPolicy> {};
+/// How smoothly it must move each stick, in the whole flight.
+struct SmoothnessLimits {
+  double most_variation_per_s, most_reversals_per_s, most_saturated;
+};
 
-TEST_P(ShippedPolicies, ReachTheirTargets) {
-  const ScratchDirectory scratch;
-  const std::string task = GetParam().task, json = scratch / "table.json";
-  const std::string policy = std::string(SKEIN_SOURCE) + "/policies/" + task + ".skein";
-  const ProgramResult result =
-      CallSkein({"compare", "--task", task, "--agents", "policy:" + policy + ",random",
-                 "--episodes", std::to_string(kEpisodes), "--seed", "5", "--json", json});
-  ASSERT_EQ(result.exit_code, 0) << result.error;
-  const auto agents = nlohmann::json::parse(ReadFile(json))["agents"];
-  EXPECT_GE(agents[0]["success_rate"].get<double>(), GetParam().least_success);
+/// What a policy must reach, with a margin to what it does (policies/README.md): other instruction
+/// sets round otherwise.
+struct ShippedPolicy {
+  const char* task;
+  std::vector<std::string> settings;  ///< of skein compare
+  double least_success;
+  std::optional<HoldLimits> hold;
+  std::optional<SmoothnessLimits> smoothness;
+};
+
+void PrintTo(const ShippedPolicy& policy, std::ostream* out) { *out << policy.task; }
+
+/// As a policy was trained that an earlier default preset made: to a first touch, with the drag and
+/// the thrust of the paper's presets.
+const std::vector<std::string> kFirstTouchOfControl = {
+    "--set", "env.control.dwell_s=0", "--set", "env.hold_s=0",
+    "--set", "env.drag_rise=false",   "--set", "env.thrust_growth_above_mach_1=false"};
+
+const ShippedPolicy kPolicies[] = {
+    {"heading",
+     {"--set", "env.heading.dwell_s=3", "--hold", "30"},
+     0.97,
+     HoldLimits{0.97, 5, 0.2, 0.3},
+     SmoothnessLimits{0.4, 4, 0.01}},
+    {"control", kFirstTouchOfControl, 0.97, std::nullopt, std::nullopt},
+    {"tracking", {"--preset", "planner"}, 0.92, std::nullopt, std::nullopt},
+};
+
+class ShippedPolicies : public ::testing::TestWithParam<ShippedPolicy> {
+ protected:
+  std::string task() const { return GetParam().task; }
+  std::string policy() const {
+    return std::string(SKEIN_SOURCE) + "/policies/" + task() + ".skein";
+  }
+
+  /// What `skein compare` says of the agents.
+  nlohmann::json Compare(const std::string& agents) const {
+    std::vector<std::string> command = {"compare",
+                                        "--task",
+                                        task(),
+                                        "--agents",
+                                        agents,
+                                        "--seed",
+                                        kSeed,
+                                        "--episodes",
+                                        kEpisodes,
+                                        "--json",
+                                        scratch_ / "table.json"};
+    const std::vector<std::string>& settings = GetParam().settings;
+    command.insert(command.end(), settings.begin(), settings.end());
+    const ProgramResult result = CallSkein(command);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return nlohmann::json::parse(ReadFile(scratch_ / "table.json"))["agents"];
+  }
+
+ private:
+  const ScratchDirectory scratch_;
+};
+
+TEST_P(ShippedPolicies, ReachAndHoldTheirTargetsSmoothly) {
+  const nlohmann::json agents = Compare("policy:" + policy() + ",random");
+  const nlohmann::json& estimates = agents[0]["estimates"];
+  const auto value = [&estimates](const std::string& key) {
+    return estimates.at(key)["value"].get<double>();
+  };
+  EXPECT_GE(value("success_rate"), GetParam().least_success);
   EXPECT_LE(agents[1]["success_rate"].get<double>(), 0.05) << "random actions";
+  if (const auto& hold = GetParam().hold) {
+    EXPECT_GE(value("hold_within"), hold->least_within);
+    EXPECT_LE(value("hold_rms_p_deg_s"), hold->most_rms_p_deg_s);
+    EXPECT_LE(value("hold_load_factor_deviation_g"), hold->most_load_factor_deviation_g);
+    EXPECT_LE(value("hold_net_rolls_per_min"), hold->most_net_rolls_per_min);
+  }
+  if (const auto& smoothness = GetParam().smoothness) {
+    for (const std::string stick : {"throttle", "pitch", "roll", "yaw"}) {
+      SCOPED_TRACE(stick);
+      EXPECT_LE(value(stick + "_variation_per_s"), smoothness->most_variation_per_s);
+      EXPECT_LE(value(stick + "_reversals_per_s"), smoothness->most_reversals_per_s);
+      EXPECT_LE(value(stick + "_saturated"), smoothness->most_saturated);
+    }
+  }
 }
 
 TEST_P(ShippedPolicies, SayWhatTheyWereMadeFor) {
-  const std::string task = GetParam().task;
-  const std::string policy = std::string(SKEIN_SOURCE) + "/policies/" + task + ".skein";
-  const ProgramResult flown = CallSkein({"eval", "--policy", policy, "--episodes", "4"});
+  const ProgramResult flown = CallSkein({"eval", "--policy", policy(), "--episodes", "4"});
   EXPECT_EQ(flown.exit_code, 0) << flown.error;
-  EXPECT_NE(flown.output.find(" on " + task + ", 4 episodes"), std::string::npos) << flown.output;
+  EXPECT_NE(flown.output.find(" on " + task() + ", 4 episodes"), std::string::npos) << flown.output;
   const ProgramResult other =
-      CallSkein({"eval", "--policy", policy, "--set", "env.flight_control=direct"});
+      CallSkein({"eval", "--policy", policy(), "--set", "env.flight_control=direct"});
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_NE(other.error.find("env.flight_control = full"), std::string::npos) << other.error;
 }
 
-INSTANTIATE_TEST_SUITE_P(Tasks, ShippedPolicies,
-                         ::testing::Values(ShippedPolicy{"heading", 0.97},
-                                           ShippedPolicy{"control", 0.97},
-                                           ShippedPolicy{"tracking", 0.92}),
+INSTANTIATE_TEST_SUITE_P(Tasks, ShippedPolicies, ::testing::ValuesIn(kPolicies),
                          [](const auto& test) { return std::string(test.param.task); });
 
 }  // namespace
