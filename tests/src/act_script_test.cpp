@@ -75,7 +75,7 @@ class ActScript : public ::testing::Test {
 };
 
 TEST_F(ActScript, ActsAsTheShippedPoliciesDo) {
-  for (const char* task : {"heading", "control", "tracking"}) {
+  for (const char* task : {"heading", "control", "tracking", "tracking-planner"}) {
     ExpectTheSameActions(std::string(SKEIN_SOURCE "/policies/") + task + ".skein");
   }
 }

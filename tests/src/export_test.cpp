@@ -138,7 +138,7 @@ class Exported : public ::testing::TestWithParam<Flyer> {
 };
 
 TEST_P(Exported, ActsAsTheShippedPolicies) {
-  for (const char* task : {"heading", "tracking"}) {
+  for (const char* task : {"heading", "tracking-planner"}) {
     const Flown flown = FlyShipped(task);
     EXPECT_EQ(flown.trace.steps(), 1000);
     EXPECT_GE(std::count(flown.trace.begins.begin(), flown.trace.begins.end(), 1.0f), 10);
@@ -316,7 +316,7 @@ TEST_F(ExportCommand, WritesAHeaderThatSaysWhatItsNumbersAre) {
 }
 
 TEST_F(ExportCommand, WritesAHierarchyAsTwoFilesAndAManifest) {
-  const ProgramResult result = Export(ShippedPolicy("tracking"),
+  const ProgramResult result = Export(ShippedPolicy("tracking-planner"),
                                       {"--format", "safetensors", "-o", scratch_ / "tracking.st"});
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_GT(std::filesystem::file_size(scratch_ / "tracking.low_level.st"), 600000u);
