@@ -259,9 +259,9 @@ TEST(Configuration, UnknownPresetsAndTasksListWhatThereIs) {
         try {
           ResolveConfig({"heading", "fast", "", {}});
         } catch (const Error& error) {
-          EXPECT_STREQ(
-              error.what(),
-              "unknown preset fast of task heading; known presets: aerosonde, default, paper");
+          EXPECT_STREQ(error.what(),
+                       "unknown preset fast of task heading; known presets: aerosonde, default, "
+                       "paper, robust");
           throw;
         }
       },
