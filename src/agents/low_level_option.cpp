@@ -50,7 +50,8 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
   if (option.empty()) {
     if (!NeedsLowLevel(env)) return {};
     throw UsageError(fmt::format(
-        "task {0} needs --low-level RUN_OR_POLICY, a low-level policy trained on task "
+        "task {0}, flown by a high-level policy, needs --low-level RUN_OR_POLICY, a low-level "
+        "policy trained on task "
         "{1} (`skein train {1}` makes one), or --low-level autopilot; the default preset trains "
         "a policy without one",
         task, kLowLevelTask));

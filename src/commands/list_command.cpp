@@ -44,9 +44,10 @@ Rows Tasks() {
     for (const TargetQuantity& target : MakeTask(config)->target_quantities()) {
       targets.emplace_back(target.column);
     }
-    rows.push_back(
-        {name, fmt::format("{}", fmt::join(targets, ", ")),
-         IsHierarchical(name) ? "a high-level policy over a low-level policy" : "one policy"});
+    rows.push_back({name, fmt::format("{}", fmt::join(targets, ", ")),
+                    IsHierarchical(name)
+                        ? "one policy, or a high-level policy over a low-level policy"
+                        : "one policy"});
   }
   return rows;
 }

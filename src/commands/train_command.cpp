@@ -150,7 +150,7 @@ constexpr const char* kFooter =
     "  skein train heading\n"
     "  skein train heading --steps 5e7 --seed 2 --out runs/short\n"
     "  skein train control --set env.control.pitch_change_rad=0.9\n"
-    "  skein train tracking --low-level policies/control.skein\n"
+    "  skein train tracking --preset planner --low-level policies/control.skein\n"
     "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
     "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
     "noisy=0.01..0.05\n"
@@ -168,10 +168,12 @@ void AddTrainCommand(CLI::App* app) {
       ->type_name("TASK");
   CLI::Option* preset =
       command
-          ->add_option("--preset", options->preset,
-                       "named configuration: default (tuned for a small machine), paper (the "
-                       "NeuralPlane paper's settings at 50 Hz) or aerosonde (the default with "
-                       "another aircraft)")
+          ->add_option(
+              "--preset", options->preset,
+              "named configuration: default (tuned for a small machine), paper (the "
+              "NeuralPlane paper's settings at 50 Hz), aerosonde (another aircraft), robust "
+              "(Heading under all conditions) or planner (Tracking by a high-level "
+              "policy); skein list presets says which task has which")
           ->type_name("PRESET")
           ->capture_default_str();
   CLI::Option* file = command
@@ -195,7 +197,8 @@ void AddTrainCommand(CLI::App* app) {
       ->transform(WholeNumber(0, 0x1p53));
   command
       ->add_option("--low-level", options->low_level,
-                   "for task tracking: the low-level policy, trained on task control (a file, or a "
+                   "for presets planner and paper of task tracking: the low-level policy, trained "
+                   "on task control (a file, or a "
                    "run's best), or autopilot[:VARIANT] (alone: aggressive)")
       ->type_name("RUN_OR_POLICY");
   CLI::Option* out = command
