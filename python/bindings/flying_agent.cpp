@@ -31,7 +31,7 @@ void CopyFromPython(const nb::object& returned, const char* what, int count, int
       array.shape(1) != static_cast<std::size_t>(size)) {
     const std::string shape =
         nb::hasattr(returned, "shape")
-            ? std::string(" of shape ") + nb::str(returned.attr("shape")).c_str()
+            ? std::string(" of shape ") + nb::repr(nb::object(returned.attr("shape"))).c_str()
             : "";
     throw Error(std::string("the agent must return its ") + what + " as an array of shape (" +
                 std::to_string(count) + ", " + std::to_string(size) + "), but it returned " +
