@@ -44,8 +44,7 @@ PairedDifferences Differences(const std::vector<Quantity>& quantities,
       case Statistic::kShare:
         paired.estimates.push_back(DifferenceOfShares(a, b).difference);
         break;
-      case Statistic::kLowest:
-      case Statistic::kPerHour:
+      default:
         paired.estimates.push_back(EstimateMean({}));
     }
   }

@@ -157,11 +157,9 @@ const char* TitleOf(QuantitySection section) {
       return "holding";
     case QuantitySection::kHoldActions:
       return "actions while holding";
-    case QuantitySection::kOutcome:
-    case QuantitySection::kFlight:
-      break;
+    default:
+      return "";
   }
-  return "";
 }
 
 std::string FormatFlightMetrics(const FlightSummary& summary) {

@@ -223,10 +223,9 @@ Estimate EstimateOf(const Quantity& quantity, const std::vector<Episode>& episod
       return LowestOf(values);
     case Statistic::kPerHour:
       return PerHour(values, episodes, control_interval_s);
-    case Statistic::kMean:
-      break;
+    default:
+      return EstimateMean(values);
   }
-  return EstimateMean(values);
 }
 
 }  // namespace skein

@@ -125,9 +125,7 @@ TEST_F(EvaluationPipeline, FlightsThatCannotBeWrittenAreAnError) {
 }
 
 TEST_F(EvaluationPipeline, FilesThatCannotBeWrittenAreAnErrorBeforeAnythingFlies) {
-  // /proc gives root every right and makes no files.
-  for (const std::string& path : {folder_ + "/absent/file", folder_, std::string("/proc/file"),
-                                  folder_ + "/" + std::string(300, 'n')}) {
+  for (const std::string& path : {folder_ + "/absent/file", folder_}) {
     for (const char* option : {"--json", "--flights"}) {
       const ProgramResult result =
           CallSkein({"eval", "--policy", "untrained", "--task", "heading", option, path});
