@@ -76,9 +76,10 @@ void Evaluate(const EvalOptions& options) {
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
       EvaluateBothWays(policy, config.train.env, flight.episodes, flight.seed, pool);
-  fmt::print("{} on {}, {}, seed {}\n  {}\n  {}\n  {}\n  {}\n{}\n", path, config.train.env.task,
-             Counted(flight.episodes, "episode"), flight.seed, DescribeConditions(config.train.env),
-             Rates(policy, config.train.env), Describe(policy.backend()), DescribeWorkers(pool),
+  fmt::print("{} on {}, {}, seed {}\n{}\n  {}\n  {}\n  {}\n{}\n", path, config.train.env.task,
+             Counted(flight.episodes, "episode"), flight.seed,
+             InLines("  ", DescribeConditions(config.train.env)), Rates(policy, config.train.env),
+             Describe(policy.backend()), DescribeWorkers(pool),
              ToText(report, options.deterministic));
   if (!flight.json.empty()) {
     WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));

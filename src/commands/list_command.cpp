@@ -16,6 +16,7 @@
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
+#include "src/files/text_table.h"
 #include "src/run/run_summary.h"
 #include "train/policy/policy_parameters.h"
 
@@ -128,31 +129,13 @@ constexpr Listing kListings[] = {
     {"policies", Policies}, {"runs", Runs},          {"aircraft", AircraftRows},
     {"agents", Agents}};
 
-/// Left-aligned columns, each as wide as its widest cell; the last one as it is.
-void PrintTable(const Rows& rows) {
-  std::vector<std::size_t> widths;
-  for (const Row& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-      widths[i] = std::max(widths[i], row[i].size());
-    }
-  }
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      line += i + 1 == row.size() ? row[i] : fmt::format("{:{}}  ", row[i], widths[i]);
-    }
-    fmt::print("{}\n", line);
-  }
-}
-
 void Print(const std::string& what) {
   bool first = true;
   for (const Listing& listing : kListings) {
     if (!what.empty() && what != listing.name) continue;
     if (!first) fmt::print("\n");
     first = false;
-    PrintTable(listing.rows());
+    fmt::print("{}", InColumns(listing.rows()));
   }
 }
 

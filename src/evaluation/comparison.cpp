@@ -44,7 +44,8 @@ PairedDifferences Differences(const std::vector<Quantity>& quantities,
       case Statistic::kShare:
         paired.estimates.push_back(DifferenceOfShares(a, b).difference);
         break;
-      default:
+      case Statistic::kLowest:
+      case Statistic::kPerHour:
         paired.estimates.push_back(EstimateMean({}));
     }
   }

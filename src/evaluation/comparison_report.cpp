@@ -112,9 +112,10 @@ std::string CsvHeader(const std::vector<Quantity>& quantities) {
 }  // namespace
 
 std::string ToText(const Comparison& comparison) {
-  std::string text = fmt::format(
-      "{}, the same {} for all (seed {}); means with 95 % intervals\n  {}\n", comparison.task,
-      Counted(comparison.episodes, "episode"), comparison.seed, comparison.conditions);
+  std::string text =
+      fmt::format("{}, the same {} for all (seed {}); means with 95 % intervals\n{}\n",
+                  comparison.task, Counted(comparison.episodes, "episode"), comparison.seed,
+                  InLines("  ", comparison.conditions));
   for (const ComparedAgent& agent : comparison.agents) {
     text += fmt::format("  {}: a policy step every {:.4g} s\n", agent.name,
                         agent.action_repeat * comparison.control_interval_s);

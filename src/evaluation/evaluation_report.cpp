@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "src/config/settings.h"
+#include "src/files/text_table.h"
 
 namespace skein {
 namespace {
@@ -21,22 +24,15 @@ std::string Phrase(const Quantity& quantity, const Estimate& estimate) {
 
 /// The headlines of what came of the episodes, and how they ended.
 std::string Lines(const char* mode, const FlightSummary& summary) {
-  constexpr std::size_t kWidth = 100;
-  const std::string margin(14, ' '), gap = "   ";
-  std::string text, line = fmt::format("{:14}", mode);
+  const std::string begin = fmt::format("{:14}", mode);
+  std::vector<std::string> phrases;
   for (std::size_t k = 0; k < summary.quantities.size(); ++k) {
     const Quantity& quantity = summary.quantities[k];
     if (quantity.section != QuantitySection::kOutcome || !quantity.is_headline) continue;
-    const std::string phrase = Phrase(quantity, summary.estimates[k]);
-    const bool is_first = line.size() == margin.size();
-    if (!is_first && line.size() + gap.size() + phrase.size() > kWidth) {
-      text += line + "\n";
-      line = margin + phrase;
-    } else {
-      line += (is_first ? "" : gap) + phrase;
-    }
+    phrases.push_back(Phrase(quantity, summary.estimates[k]));
   }
-  return fmt::format("{}{}\n{}ended by {}", text, line, margin, FormatTerminations(summary.result));
+  return fmt::format("{}\n{:{}}ended by {}", InLines(begin, phrases, "   "), "", begin.size(),
+                     FormatTerminations(summary.result));
 }
 
 }  // namespace

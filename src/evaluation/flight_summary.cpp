@@ -157,9 +157,11 @@ const char* TitleOf(QuantitySection section) {
       return "holding";
     case QuantitySection::kHoldActions:
       return "actions while holding";
-    default:
-      return "";
+    case QuantitySection::kOutcome:
+    case QuantitySection::kFlight:
+      break;
   }
+  return "";
 }
 
 std::string FormatFlightMetrics(const FlightSummary& summary) {

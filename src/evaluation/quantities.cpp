@@ -223,9 +223,10 @@ Estimate EstimateOf(const Quantity& quantity, const std::vector<Episode>& episod
       return LowestOf(values);
     case Statistic::kPerHour:
       return PerHour(values, episodes, control_interval_s);
-    default:
-      return EstimateMean(values);
+    case Statistic::kMean:
+      break;
   }
+  return EstimateMean(values);
 }
 
 }  // namespace skein

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/files/output_file.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -38,6 +40,15 @@ std::string ReplacedFile(const std::string& path) {
   return is_link ? std::filesystem::weakly_canonical(path).string() : path;
 }
 
+/// Whether `path` can be made: by making it, as rights alone do not say (a file system that is
+/// read-only or makes no files, a name that is too long). Leaves what is there as it is.
+bool CanBeMade(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0) return errno == EEXIST && access(path.c_str(), W_OK) == 0;
+  close(descriptor);
+  return unlink(path.c_str()) == 0;
+}
+
 }  // namespace
 
 std::string FileNamePart(const std::string& name) {
@@ -59,8 +70,8 @@ void CheckWritable(const std::string& path) {
     }
     if (!S_ISREG(status.st_mode) || StandardStream(status) >= 0) return;
   }
-  const std::string parent = std::filesystem::path(ReplacedFile(path)).parent_path().string();
-  if (access(parent.empty() ? "." : parent.c_str(), W_OK | X_OK) != 0) {
+  // It is written beside its place first (ReplaceFile).
+  if (!CanBeMade(ReplacedFile(path) + ".tmp")) {
     throw Error(path + ": cannot be written: " + SystemReason());
   }
 }

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace skein {
 namespace {
 
 constexpr std::size_t kGap = 2;  // between columns, at least
+constexpr std::size_t kLineWidth = 100;
 
 std::string EndOf(const std::string& text, std::size_t width) {
   const std::size_t room = width - kGap;
@@ -17,6 +20,51 @@ std::string EndOf(const std::string& text, std::size_t width) {
 
 std::string Counted(int count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string InLines(const std::string& begin, const std::vector<std::string>& parts,
+                    const std::string& gap) {
+  const std::string end = gap.substr(0, gap.find(' '));
+  std::string text, line = begin;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::size_t width = line.size() + gap.size() + parts[i].size() + end.size();
+    if (i > 0 && width > kLineWidth) {
+      text += line + end + "\n";
+      line = std::string(begin.size(), ' ') + parts[i];
+    } else {
+      line += (i == 0 ? "" : gap) + parts[i];
+    }
+  }
+  return text + line;
+}
+
+std::string InLines(const std::string& begin, const std::string& text) {
+  const std::string gap = "; ";
+  std::vector<std::string> parts;
+  std::size_t at = 0;
+  for (std::size_t end; (end = text.find(gap, at)) != std::string::npos; at = end + gap.size()) {
+    parts.push_back(text.substr(at, end - at));
+  }
+  parts.push_back(text.substr(at));
+  return InLines(begin, parts, gap);
+}
+
+std::string InColumns(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+      widths[i] = std::max(widths[i], row[i].size());
+    }
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      text += i + 1 == row.size() ? row[i] : fmt::format("{:{}}", row[i], widths[i] + kGap);
+    }
+    text += "\n";
+  }
+  return text;
 }
 
 void TextTable::Begin(const std::string& label) {

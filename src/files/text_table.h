@@ -3,11 +3,23 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace skein {
 
 /// "1 episode", "2 episodes".
 std::string Counted(int count, const std::string& noun);
+
+/// `parts` with `gap` between them, in lines of at most 100 columns where they fit: `begin` and the
+/// first ones, then others behind as many blanks. Lines end with what of the gap is not blank.
+std::string InLines(const std::string& begin, const std::vector<std::string>& parts,
+                    const std::string& gap);
+/// The same of a text whose parts have "; " between them.
+std::string InLines(const std::string& begin, const std::string& text);
+
+/// Left-aligned columns, each as wide as its widest cell, the last one of a row as it is; lines,
+/// each with a newline.
+std::string InColumns(const std::vector<std::vector<std::string>>& rows);
 
 /// Appends rows to a text for people: a label at the left, cells at the right of their columns. Of
 /// what is too wide for its column the end is shown, behind "..".

@@ -180,16 +180,17 @@ void TrainingRun::Run() {
 void TrainingRun::SayBanner() {
   const TrainConfig& train = config_.train;
   const std::uint64_t first_step = trainer_.env_steps();
-  log_.Say(fmt::format(
-      "{} {} in {}\n"
-      "  {} of {} control steps, {} aircraft, seed {}\n"
-      "  {}\n"
-      "  {}\n"
-      "  {}",
-      first_step == 0 ? "training" : "resuming", train.env.task, directory_.path(),
-      FormatCount(static_cast<double>(first_step)),
-      FormatCount(static_cast<double>(train.total_steps)), train.ppo.num_aircraft, train.seed,
-      DescribeConditions(train.env), Describe(trainer_.backend()), DescribeWorkers(pool_)));
+  log_.Say(
+      fmt::format("{} {} in {}\n"
+                  "  {} of {} control steps, {} aircraft, seed {}\n"
+                  "{}\n"
+                  "  {}\n"
+                  "  {}",
+                  first_step == 0 ? "training" : "resuming", train.env.task, directory_.path(),
+                  FormatCount(static_cast<double>(first_step)),
+                  FormatCount(static_cast<double>(train.total_steps)), train.ppo.num_aircraft,
+                  train.seed, InLines("  ", DescribeConditions(train.env)),
+                  Describe(trainer_.backend()), DescribeWorkers(pool_)));
 }
 
 void TrainingRun::TrainAndEvaluate() {

@@ -173,6 +173,7 @@ StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool&
       results_(Json::array()) {
   MakeDirectories(directory_ + "/comparisons");
   MakeDirectories(directory_ + "/runs");
+  CheckWritable({directory_ + "/results.csv", directory_ + "/results.json"});
 }
 
 std::string StudyRun::RunPath(const std::string& task, const StudyLevel& level,

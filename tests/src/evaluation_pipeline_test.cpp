@@ -125,7 +125,9 @@ TEST_F(EvaluationPipeline, FlightsThatCannotBeWrittenAreAnError) {
 }
 
 TEST_F(EvaluationPipeline, FilesThatCannotBeWrittenAreAnErrorBeforeAnythingFlies) {
-  for (const std::string& path : {folder_ + "/absent/file", folder_}) {
+  // /proc gives root every right and makes no files.
+  for (const std::string& path : {folder_ + "/absent/file", folder_, std::string("/proc/file"),
+                                  folder_ + "/" + std::string(300, 'n')}) {
     for (const char* option : {"--json", "--flights"}) {
       const ProgramResult result =
           CallSkein({"eval", "--policy", "untrained", "--task", "heading", option, path});

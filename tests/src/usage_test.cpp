@@ -203,6 +203,7 @@ TEST(Usage, BashCompletesCommandsOptionsAndValues) {
   EXPECT_EQ(Completed(scratch, {"skein", "train", "heading", "--preset", "pa"}), "paper\n");
   EXPECT_EQ(Completed(scratch, {"skein", "fdm", "trim", "--aircraft", "aero"}), "aerosonde\n");
   EXPECT_EQ(Completed(scratch, {"skein", "list", "pol"}), "policies\n");
+  EXPECT_EQ(Completed(scratch, {"skein", "help", "tr"}), "train\n");
   EXPECT_EQ(Completed(scratch, {"skein", "train", "--config", "x"}), "\n") << "a file's name";
 }
 

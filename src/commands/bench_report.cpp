@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "src/bench/machine.h"
+#include "src/commands/benchmarks.h"
+#include "src/config/configuration.h"
+#include "src/config/usage_error.h"
+#include "src/files/output_file.h"
+
+namespace skein {
+
+using Json = nlohmann::ordered_json;
+
+TrainConfig BenchConfig(const BenchOptions& options) {
+  return AsUsage([&] {
+    const ProgramConfig config =
+        ResolveConfig({options.task, options.preset, "", options.assignments});
+    CheckConsistent(config);
+    return config.train;
+  });
+}
+
+void Report(const BenchOptions& options, int threads, Json results) {
+  if (options.json.empty()) return;
+  results["threads"] = threads;
+  results["machine"] = DescribeMachine();
+  WriteJson(options.json, results);
+}
+
+std::string ShareOfPeak(double gflops, double peak_gflops, const char* type) {
+  return fmt::format("{:.1f} GFLOP/s, {:.1f} % of the measured peak of {:.1f} GFLOP/s in {}",
+                     gflops, 100 * gflops / peak_gflops, peak_gflops, type);
+}
+
+Json WithShareOfPeak(Json results, double gflops, double peak_gflops) {
+  results["gflops"] = gflops;
+  results["peak_gflops"] = peak_gflops;
+  results["fraction_of_peak"] = gflops / peak_gflops;
+  return results;
+}
+
+}  // namespace skein

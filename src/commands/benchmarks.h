@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "train/ppo/train_config.h"
+
+namespace skein {
+
+/// What the command line of `skein bench` says.
+struct BenchOptions {
+  int aircraft = 1000000;
+  int steps = 30;
+  int threads = 0;
+  int iterations = 3;
+  std::string task = "heading";
+  std::string preset = "default";
+  std::string low_level;
+  std::vector<std::string> assignments;
+  std::string json;
+};
+
+/// Each prints its figures for people, and writes them to options.json if that is given. Throws
+/// Error on a configuration that cannot be.
+void BenchSimulator(const BenchOptions& options);
+void BenchRollout(const BenchOptions& options);
+void BenchUpdate(const BenchOptions& options);
+void BenchIteration(const BenchOptions& options);
+void BenchSignature(const BenchOptions& options);
+
+/// The configuration of the task's preset with the assignments.
+TrainConfig BenchConfig(const BenchOptions& options);
+
+/// Writes `results`, with what they were measured on, to options.json if that is given.
+void Report(const BenchOptions& options, int threads, nlohmann::ordered_json results);
+
+/// What part of the measured peak of products in `type` it is, for people and for files.
+std::string ShareOfPeak(double gflops, double peak_gflops, const char* type = "float32");
+nlohmann::ordered_json WithShareOfPeak(nlohmann::ordered_json results, double gflops,
+                                       double peak_gflops);
+
+}  // namespace skein

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "simd/target.h"
+#include "src/agents/low_level_option.h"
+#include "src/commands/benchmarks.h"
+#include "src/run/progress.h"
+#include "train/network/backend_module.h"
+#include "train/ppo/learner_rates.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// With the low-level policy that a high-level policy needs.
+TrainConfig LearnerBenchConfig(const BenchOptions& options) {
+  TrainConfig config = BenchConfig(options);
+  config.low_level = ChooseLowLevelPolicy(config.env, options.low_level).policy;
+  return config;
+}
+
+/// What the environment's step is in a rollout: that of a high-level policy has the low-level
+/// policy in it.
+const char* NameSimulator(const TrainConfig& config) {
+  return config.low_level == nullptr ? "the simulator" : "the simulator and the low-level policy";
+}
+
+/// A fixed training of a few seconds: every part of an iteration takes part, at a size that says
+/// nothing about quality. From the built-in defaults, so that tuning a preset does not change it.
+TrainConfig SignatureConfig() {
+  TrainConfig config;
+  config.seed = 1;
+  config.total_steps = 245760;
+  config.env.action_repeat = 5;
+  config.env.stagger_clocks = true;
+  config.env.time_limit_steps = 400;
+  config.ppo.num_aircraft = 512;
+  config.ppo.rollout_steps = 32;
+  config.ppo.minibatches = 4;
+  config.learner.precision = LearnerPrecision::kFloat32;
+  config.learner.rollout_tile = 64;
+  config.learner.tile_samples = 512;
+  config.evaluation.interval_iterations = 0;
+  return config;
+}
+
+/// What learner benchmarks compare: the fused kernels in the configuration's precision first, in
+/// every other one that this processor knows, and LibTorch, if it is there, in tiles that suit it.
+std::vector<TrainConfig> LearnersOf(const TrainConfig& config) {
+  // LibTorch's best sizes: each of its operations walks through a whole tile.
+  constexpr int kLibTorchTileSamples = 4096, kLibTorchRolloutTile = 512;
+  std::vector<TrainConfig> learners{config};
+  std::vector<LearnerPrecision> precisions{LearnerPrecision::kFloat32};
+  if (simd::NativeBfloat16()) {
+    precisions = {LearnerPrecision::kFloat32, LearnerPrecision::kMixed, LearnerPrecision::kBfloat16,
+                  LearnerPrecision::kFast};
+  }
+  LearnerPrecision own = config.learner.precision;
+  if (own == LearnerPrecision::kAuto) own = DefaultPrecision();
+  for (const LearnerPrecision precision : precisions) {
+    if (precision == own) continue;
+    learners.push_back(config);
+    learners.back().learner.precision = precision;
+  }
+  if (config.learner.backend == Backend::kLibTorch) return {config};
+  if (LibTorchVersion().empty()) return learners;
+  learners.push_back(config);
+  learners.back().learner.backend = Backend::kLibTorch;
+  learners.back().learner.tile_samples = kLibTorchTileSamples;
+  learners.back().learner.rollout_tile = kLibTorchRolloutTile;
+  return learners;
+}
+
+std::string ShortName(const BackendChoice& backend) {
+  if (backend.backend == Backend::kLibTorch) return "LibTorch";
+  return std::string("fused, ") + Name(backend.precision);
+}
+
+/// One rate of several learners, the last of them LibTorch's if it is there.
+struct Comparison {
+  const char* unit;  ///< what is counted, for people
+  const char* key;   ///< of the rate in files
+  double LearnerRates::*rate;
+  double LearnerRates::*flops;
+};
+
+/// Prints a line for each learner, and gives the first one's figures with all of them as
+/// "learners".
+Json Compare(const std::vector<LearnerRates>& learners, const Comparison& comparison) {
+  const bool has_reference = learners.back().backend.backend == Backend::kLibTorch;
+  const double reference = learners.back().*comparison.rate;
+  auto all = Json::array();
+  for (const LearnerRates& rates : learners) {
+    const double rate = rates.*comparison.rate;
+    const double gflops = rate * (rates.*comparison.flops) / 1e9;
+    // The other precisions have products in float32, too.
+    const bool is_bfloat16 =
+        rates.backend.precision == LearnerPrecision::kBfloat16 && simd::NativeBfloat16();
+    fmt::print("  {:<14} {:>6} {}/s  {}({})\n", ShortName(rates.backend), FormatCount(rate),
+               comparison.unit,
+               has_reference ? fmt::format("{:5.2f} x LibTorch  ", rate / reference) : "",
+               ShareOfPeak(gflops, rates.peak_gflops, is_bfloat16 ? "bfloat16" : "float32"));
+    all.push_back(
+        WithShareOfPeak({{"backend", Name(rates.backend.backend)},
+                         {"precision", Name(rates.backend.precision)},
+                         {comparison.key, rate},
+                         {"times_libtorch", has_reference ? Json(rate / reference) : Json()}},
+                        gflops, rates.peak_gflops));
+  }
+  Json results = all[0];
+  results["learners"] = all;
+  return results;
+}
+
+double PeakMemoryGb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e9;
+}
+
+}  // namespace
+
+void BenchRollout(const BenchOptions& options) {
+  WorkerPool pool(options.threads);
+  const TrainConfig config = LearnerBenchConfig(options);
+  const std::vector<LearnerRates> learners =
+      MeasureLearners(LearnersOf(config), options.iterations, pool);
+  fmt::print("rollout: {} aircraft, {} threads; {}\n", config.ppo.num_aircraft, pool.threads(),
+             Describe(learners[0].backend));
+  Json results = Compare(
+      learners, {"policy steps", "policy_steps_per_s", &LearnerRates::rollout_policy_steps_per_s,
+                 &LearnerRates::rollout_flops_per_policy_step});
+  const double control_steps = learners[0].rollout_policy_steps_per_s * config.env.action_repeat;
+  fmt::print("  {} control steps/s with the first; {} takes {:.0f} % of its time\n",
+             FormatCount(control_steps), NameSimulator(config), 100 * learners[0].simulator_share);
+  results["control_steps_per_s"] = control_steps;
+  results["simulator_share"] = learners[0].simulator_share;
+  Report(options, pool.threads(), results);
+}
+
+void BenchUpdate(const BenchOptions& options) {
+  WorkerPool pool(options.threads);
+  const TrainConfig config = LearnerBenchConfig(options);
+  const std::vector<LearnerRates> learners =
+      MeasureLearners(LearnersOf(config), options.iterations, pool);
+  fmt::print("update: {} threads; {}\n", pool.threads(), Describe(learners[0].backend));
+  Report(options, pool.threads(),
+         Compare(learners, {"samples", "samples_per_s", &LearnerRates::update_samples_per_s,
+                            &LearnerRates::update_flops_per_sample}));
+}
+
+void BenchIteration(const BenchOptions& options) {
+  WorkerPool pool(options.threads);
+  const TrainConfig config = LearnerBenchConfig(options);
+  const LearnerRates rates = MeasureLearners({config}, options.iterations, pool)[0];
+  const double steps = static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps *
+                       config.env.action_repeat;
+  const double steps_per_s = steps / rates.iteration_s;
+  const double hours = static_cast<double>(config.total_steps) / steps_per_s / 3600;
+  fmt::print(
+      "iteration: {} aircraft x {} policy steps, {} epochs, {} threads; {}\n"
+      "  {:.2f} s an iteration, {} control steps/s\n"
+      "  rollout {} policy steps/s ({} {:.0f} % of it), gradients {} samples/s\n"
+      "  these two alone would take {:.1f} % of the time; {:.2f} GB of memory at most\n"
+      "  {} control steps would take {:.2f} h\n",
+      config.ppo.num_aircraft, config.ppo.rollout_steps, config.ppo.epochs, pool.threads(),
+      Describe(rates.backend), rates.iteration_s, FormatCount(steps_per_s),
+      FormatCount(rates.rollout_policy_steps_per_s), NameSimulator(config),
+      100 * rates.simulator_share, FormatCount(rates.gradient_samples_per_s),
+      100 * rates.efficiency, PeakMemoryGb(), FormatCount(static_cast<double>(config.total_steps)),
+      hours);
+  Report(options, pool.threads(),
+         {{"backend", Name(rates.backend.backend)},
+          {"precision", Name(rates.backend.precision)},
+          {"iteration_s", rates.iteration_s},
+          {"control_steps_per_s", steps_per_s},
+          {"policy_steps_per_s", rates.rollout_policy_steps_per_s},
+          {"simulator_share", rates.simulator_share},
+          {"gradient_samples_per_s", rates.gradient_samples_per_s},
+          {"efficiency", rates.efficiency},
+          {"memory_gb", PeakMemoryGb()},
+          {"budget_steps", config.total_steps},
+          {"budget_h", hours}});
+}
+
+void BenchSignature(const BenchOptions& options) {
+  WorkerPool pool(options.threads);
+  Trainer trainer(SignatureConfig(), pool);
+  while (!trainer.finished()) trainer.Iterate();
+  const std::string signature = fmt::format("{:016x}", trainer.Signature());
+  fmt::print("{}\n", signature);
+  Report(options, pool.threads(), {{"signature", signature}, {"iterations", trainer.iteration()}});
+}
+
+}  // namespace skein
