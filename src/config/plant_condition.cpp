@@ -74,6 +74,16 @@ std::map<std::string, QuantityKeys> KeysByQuantity(const std::vector<Field>& fie
   return quantities;
 }
 
+/// A quantity's value or range. Throws Error by its name if the range's ends are exchanged.
+Range ParseRangeOf(const std::string& quantity, const std::string& text,
+                   const LevelRequest& request) {
+  const auto [low, high] = SplitRange(text);
+  const Range range{ParseNumber(low, kPlain, request), ParseNumber(high, kPlain, request)};
+  if (range.min <= range.max) return range;
+  throw Error(fmt::format("--condition {}={}: {}: the range {} is reversed; write {}..{}",
+                          request.name, request.level, quantity, text, high, low));
+}
+
 /// The values of env.plant's keys, at first nominal.
 class PlantValues {
  public:
@@ -90,13 +100,22 @@ class PlantValues {
     if (colon == std::string::npos) request.Refuse(part);
     const std::string quantity = part.substr(0, colon);
     const QuantityKeys& keys = KeysOf(quantity, request);
-    const Range range = ParseRange(part.substr(colon + 1), kPlain, request);
+    const Range range = ParseRangeOf(quantity, part.substr(colon + 1), request);
     const bool is_one_value = keys.min == keys.max;
     if (!given_.insert(quantity).second || (is_one_value && range.min != range.max)) {
       request.Refuse(part);
     }
     values_[keys.min] = range.min;
     values_[keys.max] = range.max;
+  }
+
+  /// Throws Error if a time is given to what never happens.
+  void CheckFreeze(const LevelRequest& request) const {
+    if (given_.count("sensor_freeze") == 0 || values_.at("sensor_freeze_chance") > 0) return;
+    throw Error(
+        fmt::format("--condition {}={}: sensor_freeze is when a sensor freezes, and without a "
+                    "sensor_freeze_chance above 0 none does; add sensor_freeze_chance:0.1",
+                    request.name, request.level));
   }
 
   /// Everything at `share` of the middle level.
@@ -147,6 +166,7 @@ std::vector<std::string> PlantAssignments(const LevelRequest& request, const std
     values.SetShare(ParseNumber(level, kPlain, request));
   } else {
     for (const std::string& part : SplitParts(level)) values.SetPart(part, request);
+    values.CheckFreeze(request);
   }
   return values.Assignments();
 }

@@ -135,11 +135,12 @@ PlantConfig BusyPlant() {
   PlantConfig plant;
   for (Range PlantConfig::*factor :
        {&PlantConfig::mass, &PlantConfig::inertia, &PlantConfig::axial_force,
-        &PlantConfig::normal_force, &PlantConfig::lateral, &PlantConfig::weak_surface,
-        &PlantConfig::damping, &PlantConfig::thrust, &PlantConfig::density,
-        &PlantConfig::roll_stick, &PlantConfig::actuator_bandwidth}) {
+        &PlantConfig::normal_force, &PlantConfig::lateral, &PlantConfig::damping,
+        &PlantConfig::thrust, &PlantConfig::density, &PlantConfig::roll_stick,
+        &PlantConfig::actuator_bandwidth}) {
     plant.*factor = {0.7, 1.3};
   }
+  plant.weak_surface = {0.7, 1};
   plant.cg_shift = {-0.05, 0.05};
   plant.action_delay_steps = {0, 2};
   plant.observation_delay_steps = {0, 3};

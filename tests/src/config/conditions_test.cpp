@@ -114,6 +114,7 @@ TEST(Conditions, PlantLevelsAreSharesOfTheMiddleOne) {
   EXPECT_EQ(middle.action_delay_steps.max, 2);
   EXPECT_EQ(hard.action_delay_steps.max, 3);
   EXPECT_FALSE(Under({"plant=0"}).plant.enabled());
+  EXPECT_THROW(Under({"plant=weak_surface:2"}), Error);
 }
 
 TEST(Conditions, PlantSaysWhatItCannotRead) {
@@ -121,7 +122,12 @@ TEST(Conditions, PlantSaysWhatItCannotRead) {
   EXPECT_THAT(Complaint({"plant=mass"}), HasSubstr("plant takes"));
   EXPECT_THAT(Complaint({"plant=mass:0.9,mass:1.1"}), HasSubstr("cannot read"));
   EXPECT_THAT(Complaint({"plant=sensor_bias:0.01..0.02"}), HasSubstr("cannot read"));
-  EXPECT_THAT(Complaint({"plant=mass:1.1..0.9"}), HasSubstr("cannot read"));
+  EXPECT_THAT(Complaint({"plant=thrust:0.9,mass:1.1..0.9"}),
+              HasSubstr("mass: the range 1.1..0.9 is reversed; write 0.9..1.1"));
+  EXPECT_THAT(Complaint({"plant=mass:0.9..1.1kg"}), HasSubstr("cannot read"));
+  EXPECT_THAT(Complaint({"plant=sensor_freeze:5..10"}), HasSubstr("sensor_freeze_chance"));
+  EXPECT_THAT(Complaint({"plant=sensor_freeze:5..10,sensor_freeze_chance:0"}),
+              HasSubstr("sensor_freeze_chance"));
 }
 
 TEST(Conditions, AWindNeedsAUnit) {
