@@ -130,7 +130,7 @@ EnvColumns EnvStepper::columns() const {
     columns.plant =
         config_.plant.has_sensor_errors() ? kNumPlantColumnsWithSensors : kNumPlantColumns;
     columns.delays = {config_.plant.action_delay_steps.max,
-                      config_.plant.observation_delay_steps.max, columns.windy};
+                      config_.plant.observation_delay_steps.max, columns.windy, task_->is_point()};
   }
   return columns;
 }
@@ -182,7 +182,7 @@ void EnvStepper::BeginPlant(const EnvBlock& block, int i) const {
                              simd::RandomPurpose::kPlant});
   SetPlant(DrawPlant(drawn_plant_, &random), aircraft_, config_.control_interval_s, block.plants,
            i);
-  if (block.delay_line.delays.slots() == 0) return;
+  if (block.delay_line.delays.columns() == 0) return;
   const double throttle = ThrottleForPower(aircraft_.throttle_gearing, block.flight[kPower][i]);
   FillDelayLine(block.delay_line, block.flight, {static_cast<float>(throttle), 0, 0, 0}, i);
 }
@@ -242,13 +242,13 @@ const float* EnvStepper::StickActions(const EnvBlock& block, const float* action
     if (is_first) TakeActions(action, block.flight, scratch.command[0], kAircraftPerBlock);
     return action;
   }
-  if (is_first) {
-    low_level_->SetTargets(action, block.flight, scratch.low_level);
-    low_level_->ResetObservationMean(block.first_aircraft, block.count);
-  }
   if (low_level_->IsPolicyStep(step)) {
     SensedState state;
     const Tile sensed = Sensed(block, state);
+    if (is_first) {
+      low_level_->SetTargets(action, block.flight, sensed, scratch.low_level);
+      low_level_->ResetObservationMean(block.first_aircraft, block.count);
+    }
     low_level_->Act(*kernel_aircraft_, sensed, NoiseOf(block), block.plants, scratch.low_level);
     // The first sample is the one in the observation that the high-level policy has just acted by.
     if (low_level_->averages_observations() && !is_first) {
@@ -267,10 +267,10 @@ PilotColumns EnvStepper::Commands(const EnvBlock& block, Scratch& scratch) const
   const auto columns = [](const float(*command)[kAircraftPerBlock]) {
     return PilotColumns{command[0], command[1], command[2], command[3]};
   };
-  if (block.delay_line.delays.slots() == 0) return columns(scratch.command);
+  if (block.delay_line.delays.observation > 0) RememberState(block.delay_line, block.flight);
+  if (block.delay_line.delays.action == 0) return columns(scratch.command);
   DelayCommands(block.delay_line, block.plants, block.count, scratch.command[0], kAircraftPerBlock,
                 scratch.delayed_command[0]);
-  PushDelayLine(block.delay_line, block.flight, scratch.command[0], kAircraftPerBlock);
   return columns(scratch.delayed_command);
 }
 

@@ -38,7 +38,7 @@ EnvStorage::EnvStorage(int num_aircraft, int requested_tile_size, const EnvColum
   num_blocks_ = static_cast<std::size_t>(blocks_per_tile_) * static_cast<std::size_t>(num_tiles_);
   block_bytes_ = words_per_aircraft() * stride_ * sizeof(float);
   memory_.reset(AllocateZeros(block_bytes_ * num_blocks_));
-  newest_slot_.assign(num_blocks_, 0);
+  newest_slots_.assign(num_blocks_, {});
 }
 
 int EnvStorage::tile_count(int tile) const {
@@ -68,7 +68,7 @@ EnvBlock EnvStorage::BlockAt(int tile, int begin) {
                       first + 4 * stride_};
   }
   block.delay_line = {columns_.delays, block.flight[float_columns() + int_columns()], stride_,
-                      &newest_slot_[block.index]};
+                      &newest_slots_[block.index]};
   return block;
 }
 
@@ -86,15 +86,11 @@ MemoryAhead EnvStorage::MemoryAfter(const EnvBlock& block) const {
 }
 
 std::size_t EnvStorage::words_per_aircraft() const {
-  return static_cast<std::size_t>(float_columns() + int_columns() + delay_columns());
+  return static_cast<std::size_t>(float_columns() + int_columns() + columns_.delays.columns());
 }
 
 int EnvStorage::float_columns() const {
   return flight_columns_ + columns_.task + columns_.last_action + columns_.plant + 1;
-}
-
-int EnvStorage::delay_columns() const {
-  return columns_.delays.slots() * columns_.delays.slot_columns();
 }
 
 int EnvStorage::int_columns() const {
@@ -106,8 +102,7 @@ void* EnvStorage::WordAt(const EnvBlock& block, std::size_t index) const {
   // and turn.
   const int column = static_cast<int>(index), of_delays = column - float_columns() - int_columns();
   if (of_delays < 0) return block.flight[column];
-  const int slot_columns = columns_.delays.slot_columns();
-  return block.delay_line.Column(1 + of_delays / slot_columns, of_delays % slot_columns);
+  return block.delay_line.Column(of_delays);
 }
 
 void EnvStorage::Save(int aircraft, std::uint32_t* words) {

@@ -46,8 +46,8 @@ struct EnvColumns {
 
 /// The memory of an environment's aircraft, in tiles of blocks. What is worked on together lies
 /// together: per block its physical columns, task columns, last actions, drawn plants and episode
-/// returns (float32), control steps, numbers of episodes and progress (int32), and the slots of the
-/// delay line (float32), each as long as the block's stride.
+/// returns (float32), control steps, numbers of episodes and progress (int32), and the delay line
+/// (float32), each as long as the block's stride.
 class EnvStorage {
  public:
   /// Everything is zero. `requested_tile_size` is rounded up to a multiple of 32. Both numbers of
@@ -93,8 +93,6 @@ class EnvStorage {
   /// Columns of float32, and after them those of int32.
   int float_columns() const;
   int int_columns() const;
-  /// Of the delay line.
-  int delay_columns() const;
   void* WordAt(const EnvBlock& block, std::size_t index) const;
 
   int num_aircraft_;
@@ -108,7 +106,7 @@ class EnvStorage {
   std::size_t block_bytes_ = 0;
   std::unique_ptr<std::byte[], AlignedDelete> memory_;
   /// DelayLine::newest by block. No part of the aircraft's state: words come by age.
-  std::vector<std::int32_t> newest_slot_;
+  std::vector<NewestSlots> newest_slots_;
 };
 
 }  // namespace skein

@@ -24,7 +24,7 @@ namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-void SetTargetsKernel(const HighLevelConfig& config, const float* action, Tile flight,
+void SetTargetsKernel(const HighLevelConfig& config, const float* action, Tile flight, Tile sensed,
                       Tile target) {
   const FloatTag d;
   const V one = Constant(1), zero = hn::Zero(d), vertical = Constant(1.5707963267948966);
@@ -45,12 +45,12 @@ void SetTargetsKernel(const HighLevelConfig& config, const float* action, Tile f
     const auto change = [&](V command, double full) {
       return hn::Mul(hn::Min(hn::Max(command, hn::Neg(one)), one), Constant(full));
     };
-    const V target_pitch = hn::Add(Pitch(flight, first), change(pitch, config.pitch_change_rad));
+    const V target_pitch = hn::Add(Pitch(sensed, first), change(pitch, config.pitch_change_rad));
     hn::StoreU(hn::Min(hn::Max(target_pitch, hn::Neg(vertical)), vertical), d,
                target[kControlPitch] + first);
-    hn::StoreU(WrapAngle(hn::Add(Yaw(flight, first), change(yaw, config.yaw_change_rad))), d,
+    hn::StoreU(WrapAngle(hn::Add(Yaw(sensed, first), change(yaw, config.yaw_change_rad))), d,
                target[kControlYaw] + first);
-    hn::StoreU(hn::Add(Velocity(flight, first).speed, change(speed, config.speed_change_fps)), d,
+    hn::StoreU(hn::Add(Velocity(sensed, first).speed, change(speed, config.speed_change_fps)), d,
                target[kControlSpeed] + first);
   }
 }
@@ -150,9 +150,10 @@ void LowLevelFlight::AverageObservations(int first, int count, float* observatio
   }
 }
 
-void LowLevelFlight::SetTargets(const float* action, Tile flight, Scratch& scratch) const {
+void LowLevelFlight::SetTargets(const float* action, Tile flight, Tile sensed,
+                                Scratch& scratch) const {
   SKEIN_DISPATCH(SetTargetsKernel)
-  (high_level_, action, flight, {scratch.target[0], kMaxCount, flight.count});
+  (high_level_, action, flight, sensed, {scratch.target[0], kMaxCount, flight.count});
 }
 
 void LowLevelFlight::Act(const KernelAircraft& aircraft, Tile flight, const ObservationNoise& noise,

@@ -54,10 +54,12 @@ class LowLevelFlight {
   bool averages_observations() const { return observation_sums_size_ > 0; }
 
   /// Takes a high-level policy's actions, row-major [flight.count][kHighLevelActionSize]: what each
-  /// aircraft is to reach, from where it is now. They are clipped to [-1, 1].
-  /// An action that is not finite makes its aircraft's kU NaN, so that its episode ends as
+  /// aircraft is to reach, from where its sensors show it, `sensed`: the low-level policy's first
+  /// errors are then what was asked for, however late the sensors are. Their bias, scale and
+  /// freezing spare targets as they spare errors. Actions are clipped to [-1, 1].
+  /// One that is not finite makes its aircraft's kU in `flight` NaN, so that its episode ends as
   /// non_finite.
-  void SetTargets(const float* action, Tile flight, Scratch& scratch) const;
+  void SetTargets(const float* action, Tile flight, Tile sensed, Scratch& scratch) const;
 
   /// Whether a policy step of the low-level policy begins with this control step, counted from the
   /// beginning of the high-level policy's.

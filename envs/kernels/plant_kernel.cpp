@@ -86,11 +86,11 @@ struct StoreCoefficients {
   }
 };
 
-/// Starts loading the columns of the block at `first`: more streams than the processor follows by
-/// itself.
-HWY_INLINE void PrefetchColumns(Tile tile, int first) {
+/// Starts loading the first columns of the block at `first`: more streams than the processor
+/// follows by itself.
+HWY_INLINE void PrefetchColumns(Tile tile, int num_columns, int first) {
   if (first >= tile.count) return;
-  for (int column = 0; column <= kNy; ++column) {
+  for (int column = 0; column < num_columns; ++column) {
     const float* values = tile[column] + first;
     hwy::Prefetch(values);
     hwy::Prefetch(values + kLanesPerBlock / 2);
@@ -192,7 +192,10 @@ void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substep
     if constexpr (kDrawn) plant = {plants.columns.base + first, plants.columns.stride};
     const StoreLoadFactors<BlockPlant<kDrawn>> load_factors{aircraft.constants, block, plant,
                                                             tile[kNz] + first, tile[kNy] + first};
-    PrefetchColumns(tile, first + kLanesPerBlock);
+    PrefetchColumns(tile, kNy + 1, first + kLanesPerBlock);
+    if constexpr (kDrawn) {
+      PrefetchColumns(plants.columns, kPlantDensity + 1, first + kLanesPerBlock);
+    }
     LocateSurfacesOfBlock(aircraft, at, plant, &block);
     for (int substep = 0; substep < substeps; ++substep) {
       StepBlock<true, kWindy>(aircraft, at, tile.base + first, tile.stride,

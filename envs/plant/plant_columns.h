@@ -41,11 +41,11 @@ enum PlantColumn : int {
   kPlantHeldSecond,
   kNumPlantColumns,
 
-  // Only where sensors have biases or scale errors: one for each observed number but the errors.
-  kPlantSensorScale = kNumPlantColumns,
+  // Only where sensors have biases or scale errors: one for each observed number but the errors
+  // (PackSensorError).
+  kPlantSensorErrors = kNumPlantColumns,
   kNumSensedNumbers = 19,
-  kPlantSensorBias = kPlantSensorScale + kNumSensedNumbers,
-  kNumPlantColumnsWithSensors = kPlantSensorBias + kNumSensedNumbers
+  kNumPlantColumnsWithSensors = kPlantSensorErrors + kNumSensedNumbers
 };
 
 /// Beyond the length of any episode, control steps.

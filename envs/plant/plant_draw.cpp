@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace skein {
 namespace {
@@ -16,6 +18,14 @@ int DrawWhole(const WholeRange& range, simd::RandomStream* random) {
 double FreezeStep(const PlantDraw& draw, double dt) {
   if (draw.frozen_sensor < 0) return kNeverFreezes;
   return std::max(1.0, std::round(draw.freeze_s / dt));
+}
+
+/// Of the value as float32.
+std::uint32_t UpperHalf(double value) {
+  const auto number = static_cast<float>(value);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &number, sizeof bits);
+  return bits >> 16;
 }
 
 }  // namespace
@@ -57,6 +67,13 @@ PlantDraw DrawPlant(const PlantConfig& config, simd::RandomStream* random) {
     bias = random->Uniform(-config.sensor_bias, config.sensor_bias);
   }
   return plant;
+}
+
+float PackSensorError(double scale, double bias) {
+  const std::uint32_t bits = UpperHalf(scale) << 16 | UpperHalf(bias);
+  float packed = 0;
+  std::memcpy(&packed, &bits, sizeof packed);
+  return packed;
 }
 
 void SetPlant(const PlantDraw& draw, const Aircraft& aircraft, double dt, const PlantTile& plant,
@@ -102,8 +119,8 @@ void SetPlant(const PlantDraw& draw, const Aircraft& aircraft, double dt, const 
   if (!plant.has_sensor_errors) return;
   for (int k = 0; k < kNumSensedNumbers; ++k) {
     const auto sensor = static_cast<std::size_t>(k);
-    set(kPlantSensorScale + k, 1 + draw.sensor_scale[sensor]);
-    set(kPlantSensorBias + k, draw.sensor_bias[sensor]);
+    plant[kPlantSensorErrors + k][index] =
+        PackSensorError(draw.sensor_scale[sensor], draw.sensor_bias[sensor]);
   }
 }
 

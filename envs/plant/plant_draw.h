@@ -28,6 +28,11 @@ struct PlantDraw {
 /// The same numbers are drawn whatever the ranges: what one quantity is does not depend on others'.
 PlantDraw DrawPlant(const PlantConfig& config, simd::RandomStream* random);
 
+/// A sensor's scale error, beyond 1, and its bias in one column entry, so that observations read
+/// half as much: the upper halves of both as float32, which rounds what was drawn towards zero by
+/// less than a part in 128.
+float PackSensorError(double scale, double bias);
+
 /// Puts an aircraft's drawn plant into column entries `index`. `dt` is the control interval, s.
 void SetPlant(const PlantDraw& draw, const Aircraft& aircraft, double dt, const PlantTile& plant,
               int index);

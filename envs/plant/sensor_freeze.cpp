@@ -1,7 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/plant/sensor_freeze.h"
 
+#include "simd/dispatch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/plant/sensor_freeze.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/vocabulary-inl.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace skein {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Whether an aircraft's step has come to its freeze step. Of padding both are sound numbers, too.
+bool AnyHasCome(const float* freeze_step, const std::int32_t* step, int count) {
+  const FloatTag d;
+  const IntTag di;
+  auto any = hn::MaskFromVec(hn::Zero(d));
+  for (int first = 0; first < count; first += kLanes) {
+    const V now = hn::ConvertTo(d, hn::LoadU(di, step + first));
+    any = hn::Or(any, hn::Ge(now, hn::LoadU(d, freeze_step + first)));
+  }
+  return !hn::AllFalse(d, any);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+
+HWY_EXPORT(AnyHasCome);
+
 namespace {
 
 bool Freezes(const PlantTile& plants, int i, const std::int32_t* step) {
@@ -15,9 +50,7 @@ const FreezingSensor& SensorOf(const PlantTile& plants, int i) {
 }  // namespace
 
 bool AnySensorFreezes(const PlantTile& plants, int count, const std::int32_t* step) {
-  bool any = false;
-  for (int i = 0; i < count; ++i) any |= Freezes(plants, i, step);
-  return any;
+  return SKEIN_DISPATCH(AnyHasCome)(plants[kPlantFreezeStep], step, count);
 }
 
 void FreezeSensors(const PlantTile& plants, int count, const std::int32_t* step,
@@ -33,15 +66,10 @@ void FreezeSensors(const PlantTile& plants, int count, const std::int32_t* step,
   }
 }
 
-void ShowFrozenSensors(const PlantTile& plants, int count, float* observation,
-                       int observation_size) {
-  for (int i = 0; i < count; ++i) {
-    if (plants[kPlantIsFrozen][i] == 0) continue;
-    const FreezingSensor& sensor = SensorOf(plants, i);
-    for (int k = 0; k < sensor.count; ++k) {
-      observation[i * observation_size + sensor.first + k] = plants[kPlantHeld + k][i];
-    }
-  }
+void ShowFrozenSensor(const PlantTile& plants, int i, float* row) {
+  const FreezingSensor& sensor = SensorOf(plants, i);
+  for (int k = 0; k < sensor.count; ++k) row[sensor.first + k] = plants[kPlantHeld + k][i];
 }
 
 }  // namespace skein
+#endif

@@ -16,8 +16,7 @@ bool AnySensorFreezes(const PlantTile& plants, int count, const std::int32_t* st
 void FreezeSensors(const PlantTile& plants, int count, const std::int32_t* step,
                    const float* observation, int observation_size);
 
-/// Puts what frozen sensors hold into the observation.
-void ShowFrozenSensors(const PlantTile& plants, int count, float* observation,
-                       int observation_size);
+/// Puts what the frozen sensor of aircraft `i` holds into its row of observations.
+void ShowFrozenSensor(const PlantTile& plants, int i, float* row);
 
 }  // namespace skein

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "envs/aircraft/engine.h"
 #include "envs/kernels/kernel_aircraft.h"
@@ -32,20 +34,45 @@ constexpr int kNoiseBlocks = (kObservationSize + 7) / 8;
 /// One group of aircraft, [element][lane].
 using ObservationColumns = float[kNoiseBlocks * 8][kLanes];
 
-HWY_INLINE void ObserveAttitude(const Tile& tile, int first, ObservationColumns& columns) {
-  const FloatTag d;
+/// What the sensors of a group make of exact numbers: `kErrors` if they have scale errors and
+/// biases, each number its own.
+template <bool kErrors>
+struct Sensors {
+  const Tile& plants;
+  int first;
+  ObservationColumns& columns;
+
+  HWY_INLINE void Show(int number, V exact) const {
+    const FloatTag d;
+    V shown = exact;
+    if constexpr (kErrors) {
+      // What PackSensorError has put there.
+      const UintTag du;
+      const int column = kPlantSensorErrors + number - kNumTaskErrors;
+      const auto packed = hn::BitCast(du, Column(plants, column, first));
+      const V scale = hn::BitCast(d, hn::And(packed, hn::Set(du, 0xffff0000u)));
+      const V bias = hn::BitCast(d, hn::ShiftLeft<16>(packed));
+      shown = hn::MulAdd(exact, scale, hn::Add(exact, bias));
+    }
+    hn::Store(shown, d, columns[number]);
+  }
+};
+
+template <class Sensors>
+HWY_INLINE void ObserveAttitude(const Tile& tile, int first, const Sensors& sensors) {
   const DownInBody down = Down(tile, first);
   // Nose straight up or down there is no roll: both its sine and cosine are then about zero.
   V cos_pitch, per_cos_pitch;
   Length(hn::MulAdd(down.y, down.y, hn::Mul(down.z, down.z)), cos_pitch, per_cos_pitch);
-  hn::Store(hn::Mul(down.y, per_cos_pitch), d, columns[4]);
-  hn::Store(hn::Mul(down.z, per_cos_pitch), d, columns[5]);
-  hn::Store(down.sin_pitch, d, columns[6]);
-  hn::Store(cos_pitch, d, columns[7]);
+  sensors.Show(4, hn::Mul(down.y, per_cos_pitch));
+  sensors.Show(5, hn::Mul(down.z, per_cos_pitch));
+  sensors.Show(6, down.sin_pitch);
+  sensors.Show(7, cos_pitch);
 }
 
+template <class Sensors>
 HWY_INLINE void ObserveAir(const KernelAircraft& aircraft, const Tile& tile,
-                           const PlantTile& plants, int first, ObservationColumns& columns) {
+                           const PlantTile& plants, int first, const Sensors& sensors) {
   const FloatTag d;
   const ReferenceUnits& units = aircraft.source.units;
   const VelocityVectors velocity = Velocity(tile, first);
@@ -56,37 +83,41 @@ HWY_INLINE void ObserveAir(const KernelAircraft& aircraft, const Tile& tile,
   V equivalent_ratio, true_ratio;
   Length(hn::Mul(density, Constant(1 / aircraft.atmosphere.sea_level_density)), equivalent_ratio,
          true_ratio);
-  hn::Store(hn::Mul(altitude, Constant(1 / units.altitude_ft)), d, columns[3]);
-  hn::Store(hn::Mul(hn::Mul(velocity.speed, equivalent_ratio), Constant(1 / units.speed_ft_s)), d,
-            columns[8]);
-  hn::Store(hn::Mul(velocity.air.w, velocity.per_forward), d, columns[9]);
-  hn::Store(hn::Mul(velocity.air.u, velocity.per_forward), d, columns[10]);
-  hn::Store(hn::Mul(velocity.air.v, velocity.per_speed), d, columns[11]);
-  hn::Store(hn::Mul(velocity.forward, velocity.per_speed), d, columns[12]);
-  hn::Store(true_ratio, d, columns[21]);
+  sensors.Show(3, hn::Mul(altitude, Constant(1 / units.altitude_ft)));
+  sensors.Show(8,
+               hn::Mul(hn::Mul(velocity.speed, equivalent_ratio), Constant(1 / units.speed_ft_s)));
+  sensors.Show(9, hn::Mul(velocity.air.w, velocity.per_forward));
+  sensors.Show(10, hn::Mul(velocity.air.u, velocity.per_forward));
+  sensors.Show(11, hn::Mul(velocity.air.v, velocity.per_speed));
+  sensors.Show(12, hn::Mul(velocity.forward, velocity.per_speed));
+  sensors.Show(21, true_ratio);
 }
 
+template <class Sensors>
 HWY_INLINE void ObserveControls(const Actuators& actuators, const Tile& tile, int first,
-                                ObservationColumns& columns) {
-  const FloatTag d;
-  for (int k = 0; k < 3; ++k) hn::Store(Column(tile, kP + k, first), d, columns[13 + k]);
-  hn::Store(hn::Mul(Column(tile, kPower, first), Constant(1 / kMaximumPower)), d, columns[16]);
+                                const Sensors& sensors) {
+  for (int k = 0; k < 3; ++k) sensors.Show(13 + k, Column(tile, kP + k, first));
+  sensors.Show(16, hn::Mul(Column(tile, kPower, first), Constant(1 / kMaximumPower)));
   const Actuator* const surfaces[] = {&actuators.elevator, &actuators.aileron, &actuators.rudder,
                                       &actuators.leading_edge_flap};
   for (int k = 0; k < 4; ++k) {
-    hn::Store(hn::Mul(Column(tile, kElevator + k, first), Constant(1 / surfaces[k]->max_deg)), d,
-              columns[17 + k]);
+    sensors.Show(17 + k,
+                 hn::Mul(Column(tile, kElevator + k, first), Constant(1 / surfaces[k]->max_deg)));
   }
 }
 
-/// Scale errors and biases of the sensors, each number's own.
-HWY_INLINE void AddSensorErrors(const Tile& plants, int first, ObservationColumns& columns) {
+/// Puts what the group's frozen sensors hold into its rows.
+HWY_INLINE void ShowFrozen(const PlantTile& plants, int first, int valid, float* rows) {
   const FloatTag d;
-  for (int k = 0; k < kNumSensedNumbers; ++k) {
-    float* const number = columns[kNumTaskErrors + k];
-    hn::Store(hn::MulAdd(hn::Load(d, number), Column(plants, kPlantSensorScale + k, first),
-                         Column(plants, kPlantSensorBias + k, first)),
-              d, number);
+  const auto is_frozen = hn::Ne(Column(plants.columns, kPlantIsFrozen, first), hn::Zero(d));
+  if (hn::AllFalse(d, is_frozen)) return;
+  std::uint8_t bytes[sizeof(std::uint32_t)] = {};
+  hn::StoreMaskBits(d, is_frozen, bytes);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    if (lane < valid) ShowFrozenSensor(plants, first + lane, rows + lane * kObservationSize);
   }
 }
 
@@ -144,9 +175,11 @@ HWY_INLINE void StoreRows(const ObservationColumns& columns, int valid, float* r
 #endif
 }
 
-void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* errors,
-                       std::size_t error_stride, const ObservationNoise& noise,
-                       const PlantTile& plants, float* observation) {
+template <bool kErrors>
+HWY_INLINE void ObserveTileWith(const KernelAircraft& aircraft, const Tile& tile,
+                                const float* errors, std::size_t error_stride,
+                                const ObservationNoise& noise, const PlantTile& plants,
+                                float* observation) {
   const FloatTag d;
   const PhiloxKeys keys(noise.seed);
   const bool is_noisy = noise.standard_deviation > 0 || noise.max_standard_deviation > 0;
@@ -155,15 +188,24 @@ void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* e
     for (int k = 0; k < kNumTaskErrors; ++k) {
       hn::Store(hn::LoadU(d, errors + k * error_stride + first), d, columns[k]);
     }
-    ObserveAttitude(tile, first, columns);
-    ObserveAir(aircraft, tile, plants, first, columns);
-    ObserveControls(aircraft.source.actuators, tile, first, columns);
-    if (plants.has_sensor_errors) AddSensorErrors(plants.columns, first, columns);
+    const Sensors<kErrors> sensors{plants.columns, first, columns};
+    ObserveAttitude(tile, first, sensors);
+    ObserveAir(aircraft, tile, plants, first, sensors);
+    ObserveControls(aircraft.source.actuators, tile, first, sensors);
     if (is_noisy) AddNoise(noise, keys, first, columns);
 
     const int valid = std::min(tile.count - first, kLanes);
-    StoreRows(columns, valid, observation + static_cast<std::size_t>(first) * kObservationSize);
+    float* const rows = observation + static_cast<std::size_t>(first) * kObservationSize;
+    StoreRows(columns, valid, rows);
+    if (plants.is_drawn()) ShowFrozen(plants, first, valid, rows);
   }
+}
+
+void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* errors,
+                       std::size_t error_stride, const ObservationNoise& noise,
+                       const PlantTile& plants, float* observation) {
+  const auto observe = plants.has_sensor_errors ? ObserveTileWith<true> : ObserveTileWith<false>;
+  observe(aircraft, tile, errors, error_stride, noise, plants, observation);
 }
 
 }  // namespace
@@ -183,9 +225,6 @@ void ObserveTile(const KernelAircraft& aircraft, Tile tile, const float* errors,
                  const PlantTile& plants) {
   SKEIN_DISPATCH(ObserveTileKernel)
   (aircraft, tile, errors, error_stride, noise, plants, observation);
-  if (plants.is_drawn()) {
-    ShowFrozenSensors(plants, tile.count, observation, kObservationSize);
-  }
 }
 
 }  // namespace skein

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/aligned_vector.h"
@@ -24,18 +26,26 @@ constexpr int kTileSize = 128;  // stays in the innermost caches
 constexpr int kWarmUpSteps = 3;
 constexpr double kDt = 0.02;
 
-SimulatorRate Measure(int aircraft, int steps, const std::function<void()>& step) {
+constexpr int kStepsOfTurn = 20;
+
+double Time(const std::function<void()>& step) {
   using Clock = std::chrono::steady_clock;
-  for (int i = 0; i < kWarmUpSteps; ++i) step();
-  std::vector<double> seconds;
-  for (int i = 0; i < steps; ++i) {
-    const auto start = Clock::now();
-    step();
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  const auto middle = seconds.begin() + steps / 2;
+  const auto start = Clock::now();
+  step();
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+SimulatorRate MedianRate(std::vector<double> seconds, int aircraft) {
+  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
   std::nth_element(seconds.begin(), middle, seconds.end());
   return {*middle, aircraft / *middle};
+}
+
+SimulatorRate Measure(int aircraft, int steps, const std::function<void()>& step) {
+  for (int i = 0; i < kWarmUpSteps; ++i) step();
+  std::vector<double> seconds;
+  for (int i = 0; i < steps; ++i) seconds.push_back(Time(step));
+  return MedianRate(std::move(seconds), aircraft);
 }
 
 /// Where the aircraft are spread: inside the envelope in which steady flight exists.
@@ -107,6 +117,56 @@ class TrimmedFlock {
   std::shared_ptr<const KernelAircraft> kernel_;
 };
 
+/// An environment with what its workers hand it and get from it.
+class SteppedEnvironment {
+ public:
+  SteppedEnvironment(EnvConfig config, int aircraft, WorkerPool& pool)
+      : env_(At50Hz(std::move(config)), aircraft, 1, kTileSize), pool_(pool) {
+    const auto observations = static_cast<std::size_t>(env_.observation_size());
+    const auto actions = static_cast<std::size_t>(env_.action_size());
+    int largest = 0;
+    for (int tile = 0; tile < env_.num_tiles(); ++tile) {
+      largest = std::max(largest, env_.tile_count(tile));
+    }
+    const auto size = static_cast<std::size_t>(largest);
+    // The same for every worker: what flies where does not change with who flies it.
+    std::vector<float> drawn(size * actions);
+    simd::RandomStream random({0, 0, 0, 0, simd::RandomPurpose::kActionNoise});
+    for (float& action : drawn) action = static_cast<float>(random.Uniform(-1, 1));
+    for (int worker = 0; worker < pool.threads(); ++worker) {
+      workers_.push_back({std::vector<float>(size * observations), drawn, std::vector<float>(size),
+                          std::vector<float>(size), std::vector<float>(size * observations),
+                          std::vector<std::uint8_t>(size), std::vector<std::int32_t>(size)});
+    }
+  }
+
+  void Step() {
+    pool_.ForEach(env_.num_tiles(), [&](int tile, int worker) {
+      Buffers& buffers = workers_[static_cast<std::size_t>(worker)];
+      env_.Observe(tile, buffers.observation.data());
+      env_.Step(tile, buffers.action.data(),
+                {buffers.reward.data(), buffers.termination.data(), buffers.episode_return.data(),
+                 buffers.episode_steps.data(), buffers.final_observation.data()});
+    });
+  }
+
+ private:
+  struct Buffers {
+    std::vector<float> observation, action, reward, episode_return, final_observation;
+    std::vector<std::uint8_t> termination;
+    std::vector<std::int32_t> episode_steps;
+  };
+
+  static EnvConfig At50Hz(EnvConfig config) {
+    config.action_repeat = 1;
+    return config;
+  }
+
+  VecEnv env_;
+  WorkerPool& pool_;
+  std::vector<Buffers> workers_;
+};
+
 }  // namespace
 
 SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& pool) {
@@ -116,46 +176,28 @@ SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& 
   });
 }
 
-SimulatorRate MeasureEnvironment(const EnvConfig& config, int aircraft, int steps,
-                                 WorkerPool& pool) {
-  EnvConfig single = config;
-  single.action_repeat = 1;
-  VecEnv env(single, aircraft, 1, kTileSize);
-  const auto observations = static_cast<std::size_t>(env.observation_size());
-  const auto actions = static_cast<std::size_t>(env.action_size());
-  struct Buffers {
-    std::vector<float> observation, action, reward, episode_return, final_observation;
-    std::vector<std::uint8_t> termination;
-    std::vector<std::int32_t> episode_steps;
-  };
-  std::vector<Buffers> workers(static_cast<std::size_t>(pool.threads()));
-  int largest = 0;
-  for (int tile = 0; tile < env.num_tiles(); ++tile) {
-    largest = std::max(largest, env.tile_count(tile));
+std::vector<SimulatorRate> MeasureEnvironments(const std::vector<EnvConfig>& configs, int aircraft,
+                                               int steps, WorkerPool& pool) {
+  std::vector<std::unique_ptr<SteppedEnvironment>> environments;
+  for (const EnvConfig& config : configs) {
+    environments.push_back(std::make_unique<SteppedEnvironment>(config, aircraft, pool));
+    for (int i = 0; i < kWarmUpSteps; ++i) environments.back()->Step();
   }
-  const auto size = static_cast<std::size_t>(largest);
-  // The same for every worker: what flies where does not change with who flies it.
-  std::vector<float> actions_drawn(size * actions);
-  simd::RandomStream random({0, 0, 0, 0, simd::RandomPurpose::kActionNoise});
-  for (float& action : actions_drawn) action = static_cast<float>(random.Uniform(-1, 1));
-  for (Buffers& buffers : workers) {
-    buffers = {std::vector<float>(size * observations),
-               actions_drawn,
-               std::vector<float>(size),
-               std::vector<float>(size),
-               std::vector<float>(size * observations),
-               std::vector<std::uint8_t>(size),
-               std::vector<std::int32_t>(size)};
+  std::vector<std::vector<double>> seconds(configs.size());
+  for (int done = 0; done < steps; done += kStepsOfTurn) {
+    for (std::size_t k = 0; k < configs.size(); ++k) {
+      // The first of a turn finds the other's columns in the caches.
+      environments[k]->Step();
+      for (int i = done; i < std::min(steps, done + kStepsOfTurn); ++i) {
+        seconds[k].push_back(Time([&] { environments[k]->Step(); }));
+      }
+    }
   }
-  return Measure(aircraft, steps, [&] {
-    pool.ForEach(env.num_tiles(), [&](int tile, int worker) {
-      Buffers& buffers = workers[static_cast<std::size_t>(worker)];
-      env.Observe(tile, buffers.observation.data());
-      env.Step(tile, buffers.action.data(),
-               {buffers.reward.data(), buffers.termination.data(), buffers.episode_return.data(),
-                buffers.episode_steps.data(), buffers.final_observation.data()});
-    });
-  });
+  std::vector<SimulatorRate> rates;
+  for (std::vector<double>& times : seconds) {
+    rates.push_back(MedianRate(std::move(times), aircraft));
+  }
+  return rates;
 }
 
 }  // namespace skein

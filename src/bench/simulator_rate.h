@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "base/worker_pool.h"
 #include "envs/env_config.h"
 
@@ -18,9 +20,10 @@ struct SimulatorRate {
 enum class PlantPart { kRk4, kFlightControlAndRk4 };
 SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& pool);
 
-/// The whole environment of `config`: observe, one control step with actions that were drawn once,
-/// reward, terminate, reset.
-SimulatorRate MeasureEnvironment(const EnvConfig& config, int aircraft, int steps,
-                                 WorkerPool& pool);
+/// The whole environment of each configuration: observe, one control step with actions that were
+/// drawn once, reward, terminate, reset. They take turns of a few steps, so that what else the
+/// machine does slows all alike.
+std::vector<SimulatorRate> MeasureEnvironments(const std::vector<EnvConfig>& configs, int aircraft,
+                                               int steps, WorkerPool& pool);
 
 }  // namespace skein

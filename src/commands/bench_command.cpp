@@ -4,6 +4,7 @@
 
 #include "src/commands/benchmarks.h"
 #include "src/commands/commands.h"
+#include "src/config/conditions.h"
 #include "src/config/whole_number.h"
 #include "src/files/output_file.h"
 
@@ -27,6 +28,9 @@ void AddConfiguration(CLI::App* command, const std::shared_ptr<BenchOptions>& op
   command->add_option("--preset", options->preset, "preset of the task")
       ->type_name("PRESET")
       ->capture_default_str();
+  command->add_option("--condition", options->conditions, ConditionHelp())
+      ->type_name("NAME=LEVEL")
+      ->allow_extra_args(false);
   command->add_option("--set", options->assignments, "one configuration key; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -70,8 +74,10 @@ void AddBenchCommand(CLI::App* app) {
       "whole\n"
       "environment (observe, step, reward, terminate, reset) at 50 Hz under random actions, "
       "without\n"
-      "and with observation noise.\n"
-      "Example: skein bench sim --aircraft 1000000 --steps 30 --threads 2");
+      "and with observation noise. Environments of drawn plants take turns with nominal ones.\n"
+      "Examples:\n"
+      "  skein bench sim --aircraft 1000000 --steps 30 --threads 2\n"
+      "  skein bench sim --aircraft 4096 --steps 2000 --condition plant=middle");
   AddLearner(bench, "rollout", "Policy steps per second of policy and simulator together", options,
              BenchRollout)
       ->footer(

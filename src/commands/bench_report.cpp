@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 TrainConfig BenchConfig(const BenchOptions& options) {
   return AsUsage([&] {
     const ProgramConfig config =
-        ResolveConfig({options.task, options.preset, "", options.assignments});
+        ResolveConfig({options.task, options.preset, "", options.assignments, options.conditions});
     CheckConsistent(config);
     return config.train;
   });

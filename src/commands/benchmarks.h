@@ -18,7 +18,7 @@ struct BenchOptions {
   std::string task = "heading";
   std::string preset = "default";
   std::string low_level;
-  std::vector<std::string> assignments;
+  std::vector<std::string> conditions, assignments;
   std::string json;
 };
 
@@ -30,7 +30,7 @@ void BenchUpdate(const BenchOptions& options);
 void BenchIteration(const BenchOptions& options);
 void BenchSignature(const BenchOptions& options);
 
-/// The configuration of the task's preset with the assignments.
+/// The configuration of the task's preset with the conditions and assignments.
 TrainConfig BenchConfig(const BenchOptions& options);
 
 /// Writes `results`, with what they were measured on, to options.json if that is given.

@@ -20,6 +20,37 @@ Json ToJson(const SimulatorRate& rate) {
 // NeuralPlane (NeurIPS 2024): one Euler step of 10^6 F-16s without flight control on a GPU.
 constexpr double kPaperEulerStepS = 0.2;
 
+/// An environment, and beside it the same of nominal plants if its own are drawn.
+std::vector<SimulatorRate> MeasureBesideNominal(const EnvConfig& config,
+                                                const BenchOptions& options, WorkerPool& pool) {
+  std::vector<EnvConfig> configs{config};
+  if (config.plant.enabled()) {
+    configs.push_back(config);
+    configs.back().plant = {};
+  }
+  return MeasureEnvironments(configs, options.aircraft, options.steps, pool);
+}
+
+void PrintRate(const std::string& what, const SimulatorRate& rate, const std::string& note = "") {
+  fmt::print("  {:<38}  {:9.2f} ms a step, {} aircraft-steps/s{}\n", what, 1e3 * rate.step_s,
+             FormatCount(rate.aircraft_steps_per_s), note);
+}
+
+std::string Beyond(const SimulatorRate& rate, const SimulatorRate& base) {
+  return fmt::format("{:+.0f} %", 100 * (rate.step_s / base.step_s - 1));
+}
+
+/// Prints and keeps the first of `rates`, with `note`, and the nominal plants' behind it.
+void ReportEnvironment(const std::string& what, const std::string& key,
+                       const std::vector<SimulatorRate>& rates, const std::string& note,
+                       Json& results) {
+  PrintRate(what, rates[0], note);
+  results[key] = ToJson(rates[0]);
+  if (rates.size() == 1) return;
+  PrintRate("... of nominal plants", rates[1], " (drawn ones: " + Beyond(rates[0], rates[1]) + ")");
+  results[key + "_of_nominal_plants"] = ToJson(rates[1]);
+}
+
 }  // namespace
 
 void BenchSimulator(const BenchOptions& options) {
@@ -31,32 +62,23 @@ void BenchSimulator(const BenchOptions& options) {
   const auto plant = [&](PlantPart part) {
     return MeasurePlant(part, options.aircraft, options.steps, pool);
   };
-  const auto environment = [&](const EnvConfig& config) {
-    return MeasureEnvironment(config, options.aircraft, options.steps, pool);
-  };
   const SimulatorRate rk4 = plant(PlantPart::kRk4);
   const SimulatorRate controlled = plant(PlantPart::kFlightControlAndRk4);
-  const SimulatorRate whole = environment(clean);
   const double gflops = rk4.aircraft_steps_per_s * kFlopsPerRk4Step / 1e9;
   fmt::print("simulator: {} aircraft, {} control steps, {} threads, {}\n", options.aircraft,
              options.steps, pool.threads(), Name(simd::ActiveTarget()));
-  const auto line = [](const char* what, const SimulatorRate& rate, const std::string& note) {
-    fmt::print("  {:<38}  {:9.2f} ms a step, {} aircraft-steps/s{}\n", what, 1e3 * rate.step_s,
-               FormatCount(rate.aircraft_steps_per_s), note);
-  };
-  line("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
-  line("F-16: ... with flight control, actuators", controlled, "");
-  line("the whole environment, without noise", whole, "");
+  PrintRate("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
+  PrintRate("F-16: ... with flight control, actuators", controlled);
   Json results{{"aircraft", options.aircraft},
                {"steps", options.steps},
                {"rk4", ToJson(rk4)},
-               {"plant", ToJson(controlled)},
-               {"environment", ToJson(whole)}};
+               {"plant", ToJson(controlled)}};
+  const std::vector<SimulatorRate> whole = MeasureBesideNominal(clean, options, pool);
+  ReportEnvironment("the whole environment, without noise", "environment", whole, "", results);
   if (noisy.observation_noise > 0 || noisy.observation_noise_max > 0) {
-    const SimulatorRate with_noise = environment(noisy);
-    line("the whole environment, with noise", with_noise,
-         fmt::format(" ({:+.0f} %)", 100 * (with_noise.step_s / whole.step_s - 1)));
-    results["environment_with_noise"] = ToJson(with_noise);
+    const std::vector<SimulatorRate> with_noise = MeasureBesideNominal(noisy, options, pool);
+    ReportEnvironment("the whole environment, with noise", "environment_with_noise", with_noise,
+                      " (" + Beyond(with_noise[0], whole[0]) + ")", results);
   }
   fmt::print("  (the paper's GPU: {:.0f} ms for an Euler step of 10^6 without flight control)\n",
              1e3 * kPaperEulerStepS);

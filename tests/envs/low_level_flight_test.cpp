@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -360,20 +361,26 @@ TEST(LowLevelFlight, RefusesALowLevelPolicyOfOtherSizes) {
 
 class SetTargetsTest : public testing::TestWithParam<simd::Target> {
  protected:
-  /// The target (pitch, yaw, speed) of one aircraft that flies 800 ft/s ahead and 600 down.
-  std::array<float, 3> TargetOf(const EulerAngles& attitude, const std::array<float, 3>& action) {
+  /// The target (pitch, yaw, speed) of one aircraft that flies 800 ft/s ahead and 600 down, and is
+  /// shown by its sensors as it was `before`, or as it is.
+  std::array<float, 3> TargetOf(const EulerAngles& attitude, const std::array<float, 3>& action,
+                                const std::optional<EulerAngles>& before = std::nullopt) {
     constexpr int kLast = 4;  // of a group that fills no vector
-    TestTile flight(kLast + 1);
-    const Eigen::Vector4d q = QuaternionFromEuler(attitude);
-    for (int k = 0; k < 4; ++k) flight.Fill(kQ0 + k, static_cast<float>(q[k]));
-    flight.Fill(kU, 800);
-    flight.Fill(kW, 600);
+    TestTile flight(kLast + 1), shown(kLast + 1);
+    FillFlight(attitude, &flight);
+    FillFlight(before.value_or(attitude), &shown);
     std::vector<float> actions(3 * (kLast + 1), 0.0f);
     std::copy(action.begin(), action.end(), actions.begin() + 3 * kLast);
     LowLevelFlight low_level(config_, kLast + 1, LowLevelPolicy());
     LowLevelFlight::Scratch scratch;
-    low_level.SetTargets(actions.data(), flight.tile(), scratch);
+    low_level.SetTargets(actions.data(), flight.tile(), shown.tile(), scratch);
     return {scratch.target[0][kLast], scratch.target[1][kLast], scratch.target[2][kLast]};
+  }
+  static void FillFlight(const EulerAngles& attitude, TestTile* flight) {
+    const Eigen::Vector4d q = QuaternionFromEuler(attitude);
+    for (int k = 0; k < 4; ++k) flight->Fill(kQ0 + k, static_cast<float>(q[k]));
+    flight->Fill(kU, 800);
+    flight->Fill(kW, 600);
   }
   void ExpectTarget(const std::array<float, 3>& target, double pitch, double yaw, double speed) {
     constexpr Tolerance kAngle{1e-6, "float32 rounding of radians"};
@@ -391,6 +398,11 @@ TEST_P(SetTargetsTest, TargetsAreChangesOfThePresentState) {
   ExpectTarget(TargetOf({0.7, 0.2, -1}, {0, 0, 0}), 0.2, -1, 1000);
   ExpectTarget(TargetOf({0.7, 0.2, -1}, {1, -0.5f, 0.1f}), 0.5, -1.15, 1003);
   ExpectTarget(TargetOf({-2, -0.2, 2}, {-0.5f, 1, -1}), -0.35, 2.3, 970);
+}
+
+TEST_P(SetTargetsTest, TheStateIsTheOneThatSensorsShow) {
+  const EulerAngles before{0.7, 0.2, -1}, now{0.7, 0.3, -0.9};
+  ExpectTarget(TargetOf(now, {1, -0.5f, 0.1f}, before), 0.5, -1.15, 1003);
 }
 
 TEST_P(SetTargetsTest, ActionsAreClipped) {

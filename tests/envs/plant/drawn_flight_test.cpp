@@ -366,19 +366,32 @@ std::vector<std::array<float, kObservationSize>> Observe(const EnvConfig& config
   return rows;
 }
 
+void ExpectDelayedObservations(const EnvConfig& nominal) {
+  constexpr std::size_t kSteps = 30;
+  const auto prompt = Observe(nominal, kSteps);
+  for (const std::size_t delay : {1u, 2u, 3u}) {
+    EnvConfig late = nominal;
+    late.plant.observation_delay_steps = {static_cast<int>(delay), static_cast<int>(delay)};
+    const auto seen = Observe(late, kSteps);
+    for (std::size_t step = 0; step < kSteps; ++step) {
+      EXPECT_EQ(seen[step], prompt[step < delay ? 0 : step - delay])
+          << nominal.task << ", " << delay << ", " << step;
+    }
+  }
+}
+
 TEST(DrawnFlight, AnObservationDelayOfKStepsShowsTheStateOfKStepsAgo) {
-  constexpr int kSteps = 30;
   for (const bool windy : {false, true}) {
     EnvConfig nominal = OneDrawnFlight();
     if (windy) nominal.wind.turbulence_fps = {10, 10};
-    const auto prompt = Observe(nominal, kSteps);
-    for (const std::size_t delay : {1u, 2u, 3u}) {
-      EnvConfig late = nominal;
-      late.plant.observation_delay_steps = {static_cast<int>(delay), static_cast<int>(delay)};
-      const auto seen = Observe(late, kSteps);
-      for (std::size_t step = 0; step < kSteps; ++step) {
-        EXPECT_EQ(seen[step], prompt[step < delay ? 0 : step - delay]) << delay << ", " << step;
-      }
+    for (const char* task : {"heading", "control"}) {
+      nominal.task = task;
+      ExpectDelayedObservations(nominal);
+    }
+    nominal.task = "tracking";
+    for (const TrackingAxes axes : {TrackingAxes::kHeading, TrackingAxes::kPath}) {
+      nominal.tracking.error_axes = axes;
+      ExpectDelayedObservations(nominal);
     }
   }
 }
@@ -409,6 +422,24 @@ TEST(DrawnFlight, SensorErrorsAreConstantAndLeaveTheTasksErrors) {
     }
   }
   EXPECT_EQ(different, kObservationSize - 3);
+}
+
+TEST(DrawnFlight, SensorErrorsAreTheDrawnOnes) {
+  EnvConfig config = OneDrawnFlight();
+  const auto exact = Observe(config, 1);
+  config.plant.sensor_bias = 0.05;
+  config.plant.sensor_scale = 0.1;
+  const auto seen = Observe(config, 1);
+  simd::RandomStream random({1, 0, 0, 0, simd::RandomPurpose::kPlant});
+  const PlantDraw draw = DrawPlant(config.plant, &random);
+  constexpr double kPacked = 1.0 / 128, kRounding = 1e-6;  // of what was drawn; of float32
+  for (std::size_t k = 3; k < kObservationSize; ++k) {
+    const double value = exact[0][k];
+    const double by_scale = value * draw.sensor_scale[k - 3], bias = draw.sensor_bias[k - 3];
+    EXPECT_NEAR(seen[0][k], value + by_scale + bias,
+                kPacked * (std::abs(by_scale) + std::abs(bias)) + kRounding)
+        << k;
+  }
 }
 
 TEST(DrawnFlight, AFrozenSensorShowsWhatItLastShowed) {

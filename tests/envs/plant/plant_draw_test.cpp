@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <set>
 #include <vector>
 
@@ -131,6 +132,28 @@ TEST(PlantDraw, SensorsFreezeAsOftenAsAskedForAndAreAllAmongThem) {
   }
   EXPECT_NEAR(frozen, 0.2 * kDraws, kStandardErrors * std::sqrt(0.16 * kDraws));
   EXPECT_EQ(sensors.size(), static_cast<std::size_t>(kNumFreezingSensors));
+}
+
+TEST(PlantDraw, PackedSensorErrorsAreRoundedTowardsZero) {
+  PlantConfig config;
+  config.sensor_scale = 0.03;
+  config.sensor_bias = 0.01;
+  const auto half = [](std::uint32_t bits) {
+    float value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    return static_cast<double>(value);
+  };
+  const auto expect_rounded = [](double packed, double drawn) {
+    EXPECT_LE(std::abs(packed), std::abs(drawn));
+    EXPECT_NEAR(packed, drawn, std::abs(drawn) / 128);
+  };
+  for (const PlantDraw& draw : Draws(config)) {
+    const float packed = PackSensorError(draw.sensor_scale[0], draw.sensor_bias[0]);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &packed, sizeof bits);
+    expect_rounded(half(bits & 0xffff0000u), draw.sensor_scale[0]);
+    expect_rounded(half(bits << 16), draw.sensor_bias[0]);
+  }
 }
 
 TEST(PlantConfig, IsEnabledByEachOfItsQuantities) {
