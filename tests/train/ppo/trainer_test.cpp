@@ -459,25 +459,26 @@ TEST_F(TrainerTest, EveryShapeTrainsAndResumesBitExactly) {
   }
 }
 
-TEST_F(TrainerTest, CostsOfHandlingGrowFromNothingOverTheirShareOfTheBudget) {
+/// What tells two trainings apart after one iteration.
+double ExplainedVarianceOfFirstIteration(const TrainConfig& config) {
   WorkerPool pool(1);
+  Trainer trainer(config, pool);
+  return trainer.Iterate().explained_variance;
+}
+
+TEST_F(TrainerTest, CostsOfHandlingGrowFromNothingOverTheirShareOfTheBudget) {
   TrainConfig free = SmallConfig(), priced = free, ramped = free;
   for (TrainConfig* const config : {&priced, &ramped}) {
     config->env.reward.roll_rate = config->env.reward.action_change = 1;
     config->ppo.action_smoothness_coefficient = 1;
   }
   ramped.ppo.handling_ramp = 1;
-  const auto values_after_an_iteration = [&](const TrainConfig& config) {
-    Trainer trainer(config, pool);
-    return trainer.Iterate().explained_variance;
-  };
-  const double unpriced = values_after_an_iteration(free);
-  EXPECT_NE(values_after_an_iteration(priced), unpriced);
-  EXPECT_EQ(values_after_an_iteration(ramped), unpriced);
+  const double unpriced = ExplainedVarianceOfFirstIteration(free);
+  EXPECT_NE(ExplainedVarianceOfFirstIteration(priced), unpriced);
+  EXPECT_EQ(ExplainedVarianceOfFirstIteration(ramped), unpriced);
 }
 
 TEST_F(TrainerTest, ConditionsWidenFromTheMildestOverTheirShareOfTheBudget) {
-  WorkerPool pool(1);
   TrainConfig mild = SmallConfig();
   mild.env.initial.trimmed = false;  // trims are interpolated between the range's ends
   TrainConfig wide = mild;
@@ -487,37 +488,18 @@ TEST_F(TrainerTest, ConditionsWidenFromTheMildestOverTheirShareOfTheBudget) {
   }
   TrainConfig widening = wide;
   widening.ppo.condition_ramp = 1;
-  const auto values_after_an_iteration = [&](const TrainConfig& config) {
-    Trainer trainer(config, pool);
-    return trainer.Iterate().explained_variance;
-  };
-  const double mildest = values_after_an_iteration(mild);
-  EXPECT_NE(values_after_an_iteration(wide), mildest);
-  EXPECT_EQ(values_after_an_iteration(widening), mildest);
+  const double mildest = ExplainedVarianceOfFirstIteration(mild);
+  EXPECT_NE(ExplainedVarianceOfFirstIteration(wide), mildest);
+  EXPECT_EQ(ExplainedVarianceOfFirstIteration(widening), mildest);
 }
 
-TEST_F(TrainerTest, WideningConditionsResumeBitExactly) {
+TEST_F(TrainerTest, WhatWidensAndWhatGrowsResumesBitExactly) {
   WorkerPool pool(2);
   TrainConfig config = SmallConfig();
   config.env.plant.mass = {0.8, 1.2};
   config.env.observation_noise_max = 0.1;
   config.env.wind.speed_fps.max = 100;
   config.ppo.condition_ramp = 0.9;
-  Trainer whole(config, pool);
-  whole.Iterate();
-  whole.Save(path_);
-  Trainer resumed(config, pool);
-  resumed.Restore(path_);
-  while (!whole.finished()) {
-    whole.Iterate();
-    resumed.Iterate();
-    EXPECT_EQ(resumed.Signature(), whole.Signature());
-  }
-}
-
-TEST_F(TrainerTest, GrowingCostsOfHandlingResumeBitExactly) {
-  WorkerPool pool(2);
-  TrainConfig config = SmallConfig();
   config.env.reward.near_roll_rate = config.env.reward.action_change = 0.1;
   config.ppo.action_smoothness_coefficient = 0.1;
   config.ppo.handling_ramp = 0.9;
