@@ -2,14 +2,9 @@
 #include "envs/aircraft/derivative_aircraft_file.h"
 
 #include <cmath>
-#include <limits>
-#include <locale>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
-#include <utility>
 
-#include "base/error.h"
+#include "envs/aircraft/aircraft_json.h"
 #include "envs/aircraft/engine.h"
 
 namespace skein {
@@ -20,101 +15,6 @@ using nlohmann::json;
 /// The sharpest stall whose blend, exponentials of it times angles up to 2.5 rad, stays finite.
 constexpr double kSharpestStall = 250;
 constexpr double kQuarterTurn_rad = 1.5707963267948966;
-
-std::string Text(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << value;
-  return text.str();
-}
-
-/// An object of the file, whose every key must be read once Finish is called; "source" and "about"
-/// are for the human reader.
-class Section {
- public:
-  Section(const json& values, std::string path) : values_(values), path_(std::move(path)) {
-    if (!values_.is_object()) throw Error(path_ + " must be an object of named values");
-  }
-
-  Section Below(const char* key) { return {At(key), path_ + "." + key}; }
-
-  void Read(const char* key, double* value) { *value = ToNumber(At(key), path_ + "." + key); }
-
-  /// A number above `low` and below `high`.
-  void ReadBetween(double low, double high, const char* key, double* value) {
-    Read(key, value);
-    if (*value > low && *value < high) return;
-    Refuse(key, *value,
-           "above " + Text(low) + (std::isinf(high) ? "" : " and below " + Text(high)));
-  }
-
-  void ReadPositive(const char* key, double* value) {
-    ReadBetween(0, std::numeric_limits<double>::infinity(), key, value);
-  }
-
-  [[noreturn]] void Refuse(const char* key, double value, const std::string& rule) const {
-    throw Error(path_ + "." + key + " is " + Text(value) + ", but must be " + rule);
-  }
-
-  void Read(const char* key, FirstOrder* law) {
-    ReadList(key, "b1, b0, a0 of (b1 s + b0) / (s + a0)", {&law->b1, &law->b0, &law->a0});
-  }
-
-  void Read(const char* key, Ramp* ramp) {
-    ReadList(key, "x_low, y_low, x_high, y_high",
-             {&ramp->x_low, &ramp->y_low, &ramp->x_high, &ramp->y_high});
-    if (ramp->x_low < ramp->x_high) return;
-    Refuse(key, ramp->x_high, "above its x_low, " + Text(ramp->x_low));
-  }
-
-  void Read(const char* key, Actuator* actuator) {
-    Section section = Below(key);
-    section.ReadPositive("bandwidth_per_s", &actuator->bandwidth_per_s);
-    section.ReadPositive("rate_limit_deg_per_s", &actuator->rate_limit_deg_per_s);
-    section.Read("min_deg", &actuator->min_deg);
-    section.Read("max_deg", &actuator->max_deg);
-    section.Finish();
-    if (!(actuator->min_deg < 0 && actuator->max_deg > 0)) {
-      throw Error(path_ + "." + key + " must have min_deg below zero and max_deg above");
-    }
-  }
-
-  void Finish() const {
-    for (const auto& entry : values_.items()) {
-      const std::string& key = entry.key();
-      if (key != "source" && key != "about" && read_.count(key) == 0) {
-        throw Error(path_ + " has the unknown key " + key);
-      }
-    }
-  }
-
- private:
-  const json& At(const char* key) {
-    const auto found = values_.find(key);
-    if (found == values_.end()) throw Error(path_ + " lacks " + key);
-    read_.insert(key);
-    return *found;
-  }
-
-  static double ToNumber(const json& value, const std::string& path) {
-    if (!value.is_number()) throw Error(path + " must be a number");
-    return value.get<double>();
-  }
-
-  void ReadList(const char* key, const char* meaning, const std::vector<double*>& numbers) {
-    const json& list = At(key);
-    const std::string path = path_ + "." + key;
-    if (!list.is_array() || list.size() != numbers.size()) {
-      throw Error(path + " must be a list of " + std::to_string(numbers.size()) +
-                  " numbers: " + meaning);
-    }
-    for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] = ToNumber(list[i], path);
-  }
-
-  const json& values_;
-  std::string path_;
-  std::set<std::string> read_;
-};
 
 /// The straight lines from (0, 0) through the knee to (1, 100).
 ThrottleGearing GearingThrough(double knee_throttle, double knee_power) {
@@ -305,13 +205,9 @@ void ReadUnits(Section section, DerivativeAircraft* aircraft) {
 
 DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_view text) {
   const std::string where = "aircraft " + name;
-  json file;
-  try {
-    file = json::parse(text);
-  } catch (const json::exception& error) {
-    throw Error(where + ": its data cannot be read: " + error.what());
-  }
+  const json file = ParseAircraftJson(text, where);
   Section section(file, where);
+  for (const char* key : kNotOfTheModel) section.Skip(key);
   DerivativeAircraft aircraft;
   aircraft.name = name;
   ReadAirframe(section.Below("airframe"), &aircraft);

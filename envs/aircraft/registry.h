@@ -8,11 +8,21 @@
 
 namespace skein {
 
-/// Names that EnvConfig::aircraft may have.
+/// Names of the aircraft that come with Skein.
 std::vector<std::string> AircraftNames();
 
-/// The aircraft of that name as its data give it. Throws Error on an unknown name; the message
-/// lists the known ones.
-Aircraft LoadAircraft(const std::string& name);
+/// Whether `aircraft` is the path of a file: it ends in ".json" or has a "/".
+bool IsAircraftPath(const std::string& aircraft);
+
+/// The aircraft that `aircraft` stands for: a name of AircraftNames, the path of a file
+/// (docs/reference/aircraft-files.md), or what KeepAircraftFile returned. Throws Error on an
+/// unknown name, with the known ones, and on a file that is no aircraft, with the key.
+Aircraft LoadAircraft(const std::string& aircraft);
+
+/// Reads the file `path` and keeps its content for as long as the process lives. Returns
+/// "NAME#HASH", by which EnvConfig::aircraft can name it: whatever becomes of the file, this is the
+/// aircraft as it is now. The name is the file's unless `name` is given. Thread-safe. Throws as
+/// LoadAircraft.
+std::string KeepAircraftFile(const std::string& path, const std::string& name = "");
 
 }  // namespace skein

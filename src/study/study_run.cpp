@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/fnv_hash.h"
 #include "envs/task_registry.h"
 #include "simd/target.h"
 #include "src/agents/agent_names.h"
@@ -25,7 +26,6 @@
 #include "src/run/run_signals.h"
 #include "src/run/training_run.h"
 #include "src/study/study_report.h"
-#include "train/files/fnv_hash.h"
 #include "train/policy/low_level_file.h"
 #include "train/policy/policy_environment.h"
 

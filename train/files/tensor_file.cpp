@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/fnv_hash.h"
 #include "train/files/file_descriptor.h"
-#include "train/files/fnv_hash.h"
 
 namespace skein {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/fnv_hash.h"
 #include "envs/state/state.h"
 #include "envs/task_registry.h"
-#include "train/files/fnv_hash.h"
 #include "train/measures/flight_measurer.h"
 
 namespace skein {

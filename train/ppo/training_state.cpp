@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/field_list.h"
+#include "base/fnv_hash.h"
 #include "simd/target.h"
-#include "train/files/fnv_hash.h"
 #include "train/files/legacy_names.h"
 #include "train/files/tensor_access.h"
 #include "train/policy/low_level_file.h"

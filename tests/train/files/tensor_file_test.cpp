@@ -9,8 +9,8 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/fnv_hash.h"
 #include "tests/scratch_directory.h"
-#include "train/files/fnv_hash.h"
 
 namespace skein {
 namespace {

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/aircraft/aircraft_json.h"
+
+#include <cmath>
+#include <functional>
+#include <locale>
+#include <sstream>
+#include <utility>
+
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+using nlohmann::json;
+
+std::string Text(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
+/// A key of the file as an error may print it: on one line, and not the whole of a long one.
+std::string Printable(const std::string& key) {
+  constexpr std::size_t kLongest = 60;
+  const std::string escaped = json(key).dump();
+  std::string text = escaped.substr(1, escaped.size() - 2);
+  if (text.size() > kLongest) {
+    text.resize(kLongest);
+    text += "...";
+  }
+  return text;
+}
+
+/// The library's message without the name of its exception.
+std::string Reason(const json::exception& error) {
+  const std::string text = error.what();
+  const auto end = text.find("] ");
+  return end == std::string::npos ? text : text.substr(end + 2);
+}
+
+double ToNumber(const json& value, const std::string& path) {
+  if (!value.is_number()) throw Error(path + " must be a number");
+  const double number = value.get<double>();
+  const double size = std::abs(number);
+  if (number == 0 || (size >= kSmallestNumber && size <= kLargestNumber)) return number;
+  throw Error(path + " is " + Text(number) + ", but must be zero or between " +
+              Text(kSmallestNumber) + " and " + Text(kLargestNumber) + " in magnitude");
+}
+
+void Flatten(const json& values, const std::vector<std::size_t>& shape, std::size_t level,
+             const std::string& path, std::vector<double>* flat) {
+  if (level == shape.size()) {
+    flat->push_back(ToNumber(values, path));
+    return;
+  }
+  if (!values.is_array() || values.size() != shape[level]) {
+    throw Error(path + " must be a list of " + std::to_string(shape[level]) +
+                (level + 1 < shape.size() ? " lists" : " numbers") + ", not " +
+                (values.is_array() ? "of " + std::to_string(values.size()) : values.type_name()));
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Flatten(values[i], shape, level + 1, path + "[" + std::to_string(i) + "]", flat);
+  }
+}
+
+/// Follows the parser through the file: how deep it is, and which keys its objects have had.
+class Watcher {
+ public:
+  explicit Watcher(std::string who) : who_(std::move(who)) {}
+
+  const std::string& last_key() const { return last_key_; }
+
+  bool operator()(int depth, json::parse_event_t event, const json& value) {
+    if (depth > kMaxAircraftDepth) {
+      throw Error(who_ + " is nested more than " + std::to_string(kMaxAircraftDepth) +
+                  " levels deep" + After());
+    }
+    if (event == json::parse_event_t::object_start) keys_.emplace_back();
+    if (event == json::parse_event_t::object_end) keys_.pop_back();
+    if (event == json::parse_event_t::key) {
+      last_key_ = value.get<std::string>();
+      if (!keys_.back().insert(last_key_).second) {
+        throw Error(who_ + " has the key " + Printable(last_key_) + " twice in one object");
+      }
+    }
+    return true;
+  }
+
+  std::string After() const {
+    return last_key_.empty() ? "" : ", at the key " + Printable(last_key_);
+  }
+
+ private:
+  std::string who_;
+  std::vector<std::set<std::string>> keys_;
+  std::string last_key_;
+};
+
+}  // namespace
+
+json ParseAircraftJson(std::string_view text, const std::string& who) {
+  if (text.size() > kMaxAircraftBytes) {
+    throw Error(who + " has " + std::to_string(text.size()) + " bytes; an aircraft may have " +
+                std::to_string(kMaxAircraftBytes));
+  }
+  Watcher watcher(who);
+  try {
+    return json::parse(text.begin(), text.end(), std::ref(watcher));
+  } catch (const json::exception& error) {
+    throw Error(who + ": its data cannot be read" + watcher.After() + ": " + Reason(error));
+  }
+}
+
+Section::Section(const json& values, std::string path) : values_(values), path_(std::move(path)) {
+  if (!values_.is_object()) throw Error(path_ + " must be an object of named values");
+}
+
+const json& Section::At(const char* key) {
+  const auto found = values_.find(key);
+  if (found == values_.end()) throw Error(path_ + " lacks " + key);
+  read_.insert(key);
+  return *found;
+}
+
+void Section::Read(const char* key, double* value) { *value = ToNumber(At(key), path_ + "." + key); }
+
+void Section::ReadBetween(double low, double high, const char* key, double* value) {
+  Read(key, value);
+  if (*value > low && *value < high) return;
+  Refuse(key, *value,
+         "above " + Text(low) + (std::isinf(high) ? "" : " and below " + Text(high)));
+}
+
+void Section::Read(const char* key, FirstOrder* law) {
+  ReadList(key, "b1, b0, a0 of (b1 s + b0) / (s + a0)", {&law->b1, &law->b0, &law->a0});
+  if (law->a0 < 0) Refuse(key, law->a0, "zero or more in a0: the filter is unstable");
+}
+
+void Section::Read(const char* key, Ramp* ramp) {
+  ReadList(key, "x_low, y_low, x_high, y_high",
+           {&ramp->x_low, &ramp->y_low, &ramp->x_high, &ramp->y_high});
+  if (ramp->x_low < ramp->x_high) return;
+  Refuse(key, ramp->x_high, "above its x_low, " + Text(ramp->x_low));
+}
+
+void Section::Read(const char* key, Actuator* actuator) {
+  Section section = Below(key);
+  section.ReadPositive("bandwidth_per_s", &actuator->bandwidth_per_s);
+  section.ReadPositive("rate_limit_deg_per_s", &actuator->rate_limit_deg_per_s);
+  section.Read("min_deg", &actuator->min_deg);
+  section.Read("max_deg", &actuator->max_deg);
+  section.Finish();
+  if (!(actuator->min_deg < 0 && actuator->max_deg > 0)) {
+    throw Error(section.path() + " must have min_deg below zero and max_deg above");
+  }
+}
+
+void Section::Read(const char* key, const std::vector<std::size_t>& shape,
+                   std::vector<double>* values) {
+  std::size_t size = 1;
+  for (const std::size_t elements : shape) size *= elements;
+  values->clear();
+  values->reserve(size);
+  Flatten(At(key), shape, 0, path_ + "." + key, values);
+}
+
+void Section::ReadAxis(const char* key, std::vector<double>* nodes) {
+  const json& list = At(key);
+  const std::string path = path_ + "." + key;
+  if (!list.is_array() || list.size() < 2 || list.size() > kMaxAxisNodes) {
+    throw Error(path + " must be a list of 2 to " + std::to_string(kMaxAxisNodes) + " numbers");
+  }
+  Read(key, {list.size()}, nodes);
+  for (std::size_t i = 1; i < nodes->size(); ++i) {
+    if ((*nodes)[i - 1] < (*nodes)[i]) continue;
+    throw Error(path + "[" + std::to_string(i) + "] is " + Text((*nodes)[i]) +
+                ", but must be above the number before it, " + Text((*nodes)[i - 1]));
+  }
+}
+
+std::string Section::ReadText(const char* key) {
+  const json& value = At(key);
+  if (!value.is_string()) throw Error(path_ + "." + key + " must be a text");
+  return value.get<std::string>();
+}
+
+std::vector<std::string> Section::ReadKeys() {
+  std::vector<std::string> keys;
+  for (const auto& entry : values_.items()) {
+    read_.insert(entry.key());
+    if (entry.key() != "source" && entry.key() != "about") keys.push_back(entry.key());
+  }
+  return keys;
+}
+
+void Section::Refuse(const char* key, double value, const std::string& rule) const {
+  throw Error(path_ + "." + key + " is " + Text(value) + ", but must be " + rule);
+}
+
+void Section::Finish() const {
+  for (const auto& entry : values_.items()) {
+    const std::string& key = entry.key();
+    if (key != "source" && key != "about" && read_.count(key) == 0) {
+      throw Error(path_ + " has the unknown key " + Printable(key));
+    }
+  }
+}
+
+void Section::ReadList(const char* key, const char* meaning,
+                       std::initializer_list<double*> numbers) {
+  const json& list = At(key);
+  const std::string path = path_ + "." + key;
+  if (!list.is_array() || list.size() != numbers.size()) {
+    throw Error(path + " must be a list of " + std::to_string(numbers.size()) +
+                " numbers: " + meaning);
+  }
+  std::size_t i = 0;
+  for (double* number : numbers) *number = ToNumber(list[i++], path);
+}
+
+}  // namespace skein

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "envs/aircraft/aircraft.h"
+
+namespace skein {
+
+/// What an aircraft's file may be at most: the F-16's has 130 kB, six levels and 20 nodes.
+inline constexpr std::size_t kMaxAircraftBytes = std::size_t{4} << 20;
+inline constexpr int kMaxAircraftDepth = 12;
+inline constexpr std::size_t kMaxAxisNodes = 64;
+/// Numbers in a file are zero or lie between these in magnitude.
+inline constexpr double kSmallestNumber = 1e-12, kLargestNumber = 1e12;
+
+/// Keys of every aircraft's file that are not of its model: what it is called, which model it is,
+/// and settings of the environment for it.
+inline constexpr const char* kNameKey = "name";
+inline constexpr const char* kModelKey = "model";
+inline constexpr const char* kSettingsKey = "env";
+inline constexpr const char* kNotOfTheModel[] = {kNameKey, kModelKey, kSettingsKey};
+
+/// The JSON in `text`. Throws Error that begins with `who` on text that is no JSON, too long or
+/// nested too deeply, and on a key that an object has twice.
+nlohmann::json ParseAircraftJson(std::string_view text, const std::string& who);
+
+/// An object of an aircraft's file, whose every key must be read once Finish is called; "source"
+/// and "about" are for the human reader. Errors name the path of the key.
+class Section {
+ public:
+  /// `values` must live as long.
+  Section(const nlohmann::json& values, std::string path);
+
+  bool Has(const char* key) const { return values_.contains(key); }
+  Section Below(const char* key) { return {At(key), path_ + "." + key}; }
+  const std::string& path() const { return path_; }
+
+  void Read(const char* key, double* value);
+  /// A number above `low` and below `high`.
+  void ReadBetween(double low, double high, const char* key, double* value);
+  void ReadPositive(const char* key, double* value) {
+    ReadBetween(0, std::numeric_limits<double>::infinity(), key, value);
+  }
+  /// [b1, b0, a0], of which a0 may not be negative.
+  void Read(const char* key, FirstOrder* law);
+  /// [x_low, y_low, x_high, y_high], of which x_high must be above x_low.
+  void Read(const char* key, Ramp* ramp);
+  /// An object; its range must hold zero within.
+  void Read(const char* key, Actuator* actuator);
+  /// Numbers nested as deep as `shape` is long, row-major; each level must have as many elements as
+  /// `shape` says.
+  void Read(const char* key, const std::vector<std::size_t>& shape, std::vector<double>* values);
+  /// Two to kMaxAxisNodes numbers, strictly increasing.
+  void ReadAxis(const char* key, std::vector<double>* nodes);
+  std::string ReadText(const char* key);
+  /// The names of all keys but "source" and "about", which count as read.
+  std::vector<std::string> ReadKeys();
+  /// Counts `key` as read, if it is there.
+  void Skip(const char* key) { read_.insert(key); }
+
+  /// Throws Error that `key` has the value, and what it must be.
+  [[noreturn]] void Refuse(const char* key, double value, const std::string& rule) const;
+
+  /// Throws Error if there is a key that was not read.
+  void Finish() const;
+
+ private:
+  const nlohmann::json& At(const char* key);
+  void ReadList(const char* key, const char* meaning, std::initializer_list<double*> numbers);
+
+  const nlohmann::json& values_;
+  std::string path_;
+  std::set<std::string> read_;
+};
+
+}  // namespace skein
