@@ -124,13 +124,14 @@ const json& Section::At(const char* key) {
   return *found;
 }
 
-void Section::Read(const char* key, double* value) { *value = ToNumber(At(key), path_ + "." + key); }
+void Section::Read(const char* key, double* value) {
+  *value = ToNumber(At(key), path_ + "." + key);
+}
 
 void Section::ReadBetween(double low, double high, const char* key, double* value) {
   Read(key, value);
   if (*value > low && *value < high) return;
-  Refuse(key, *value,
-         "above " + Text(low) + (std::isinf(high) ? "" : " and below " + Text(high)));
+  Refuse(key, *value, "above " + Text(low) + (std::isinf(high) ? "" : " and below " + Text(high)));
 }
 
 void Section::Read(const char* key, FirstOrder* law) {

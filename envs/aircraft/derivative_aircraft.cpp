@@ -167,7 +167,7 @@ Aircraft MakeAircraft(const DerivativeAircraft& derivatives) {
   aircraft.name = derivatives.name;
   aircraft.airframe = MakeAirframe(derivatives);
   aircraft.aerodynamics = Tabulate(derivatives, aircraft.airframe);
-  aircraft.engine = TabulatePropeller(derivatives.propeller, derivatives.propeller_levels);
+  aircraft.engine = TabulateThrust(derivatives.propulsion);
   aircraft.throttle_gearing = derivatives.throttle_gearing;
   aircraft.power_lag = derivatives.power_lag;
   // Of the flap that is not there, only that it never moves and that its range is not empty: it is

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "envs/aircraft/aircraft.h"
-#include "envs/aircraft/propeller.h"
+#include "envs/aircraft/propulsion.h"
 
 namespace skein {
 
@@ -29,8 +30,16 @@ struct LateralDerivatives {
   double Cn_beta = 0, Cn_p = 0, Cn_r = 0, Cn_aileron = 0, Cn_rudder = 0;
 };
 
+/// What the structure and the handbook allow.
+struct FlightLimits {
+  double max_load_factor_g = 4, min_load_factor_g = -2;
+  /// The highest speed and altitude; infinite where only thrust and its tables limit them.
+  double max_speed_m_s = std::numeric_limits<double>::infinity();
+  double max_altitude_m = std::numeric_limits<double>::infinity();
+};
+
 /// An aircraft as books on small aircraft print it, in SI units: mass, geometry, stability
-/// derivatives, propeller; and what Skein adds to fly it.
+/// derivatives, propulsion; and what Skein adds to fly it.
 struct DerivativeAircraft {
   std::string name;
   double mass_kg = 0;
@@ -39,12 +48,12 @@ struct DerivativeAircraft {
   double Ixx_kg_m2 = 0, Iyy_kg_m2 = 0, Izz_kg_m2 = 0, Ixz_kg_m2 = 0;
   LongitudinalDerivatives longitudinal;
   LateralDerivatives lateral;
-  Propeller propeller;
-  PropellerLevels propeller_levels;
+  Propulsion propulsion;
   ThrottleGearing throttle_gearing;
   PowerLag power_lag;
   double untrimmed_thrust_N = 0;
   Actuator elevator, aileron, rudder;
+  FlightLimits limits;
   FlightControlGains flight_control;
   double altitude_error_unit_m = 0, altitude_unit_m = 0, speed_unit_m_s = 0;
 };

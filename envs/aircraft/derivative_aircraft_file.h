@@ -19,8 +19,14 @@ struct AircraftFile {
 /// All of them, by name.
 const std::vector<AircraftFile>& AircraftFiles();
 
+/// Whether the file must have the gains of flight control. Where it has none and need not, they
+/// stay the defaults, which are another aircraft's: `skein aircraft tune` replaces them.
+enum class FlightControlSection { kRequired, kOptional };
+
 /// Reads the text of such a file. Throws Error that names the aircraft and the key of what is
 /// missing, unknown, not a number, or one that cannot be flown with, such as a mass of zero.
-DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_view text);
+DerivativeAircraft ReadDerivativeAircraft(
+    const std::string& name, std::string_view text,
+    FlightControlSection flight_control = FlightControlSection::kRequired);
 
 }  // namespace skein

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "envs/aircraft/engine.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -43,7 +45,7 @@ TEST(DerivativeAircraftFile, HoldsWhatTheBookPrints) {
   EXPECT_EQ(aircraft.Ixz_kg_m2, 0.1204);
   EXPECT_EQ(aircraft.longitudinal.Cm_alpha, -2.74);
   EXPECT_EQ(aircraft.lateral.Cn_rudder, -0.069);
-  EXPECT_EQ(aircraft.propeller.max_voltage_V, 44.4);
+  EXPECT_EQ(std::get<ElectricPropulsion>(aircraft.propulsion).propeller.max_voltage_V, 44.4);
   EXPECT_EQ(aircraft.flight_control.pedal_fade.x_high, 25);
 }
 
@@ -116,6 +118,101 @@ TEST(DerivativeAircraftFile, WhatCannotBeFlownWithIsRefused) {
             "and below 1");
   EXPECT_EQ(ErrorOf(With("mass_kg", "0")),
             "aircraft glider.airframe.mass_kg is 0, but must be above 0");
+}
+
+/// The aerosonde's file with another section `propulsion`, but for what every kind has.
+std::string WithPropulsion(const std::string& propulsion) {
+  std::string text = Aerosonde();
+  const std::size_t begin = text.find("\"propulsion\": {") + 14;
+  const std::size_t end = text.find("\"actuators\"", begin);
+  return text.replace(begin, end - begin,
+                      "{" + propulsion +
+                          ", \"throttle_gearing\": {\"knee_throttle\": 0.5, \"knee_power\": 50}, "
+                          "\"power_rate_per_s\": 1, \"untrimmed_thrust_N\": 9}, ");
+}
+
+std::string Piston(const std::string& propeller) {
+  return WithPropulsion(
+      "\"kind\": \"piston\", \"max_altitude_m\": 4000, \"max_mach\": 0.2, "
+      "\"engine\": {\"rated_power_W\": 1e5, \"rated_rpm\": 2700}, "
+      "\"engine_throttle\": {\"idle\": 0.1, \"military\": 0.5, \"maximum\": 1}, \"propeller\": {" +
+      propeller + "}");
+}
+
+TEST(DerivativeAircraftFile, PistonEnginesComeWithEitherPropeller) {
+  const std::string fixed =
+      R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 1], "CT": [0.1, 0], "CP": [0.06, 0])";
+  const std::string governed =
+      R"("kind": "constant_speed", "diameter_m": 2, "advance_ratio": [0, 1], "efficiency": [0, 0.8])";
+  for (const std::string& propeller : {fixed, governed}) {
+    const DerivativeAircraft aircraft = ReadDerivativeAircraft("glider", Piston(propeller));
+    EXPECT_EQ(std::get<PistonPropulsion>(aircraft.propulsion).engine.diameter_m, 2);
+    for (const double thrust : MakeAircraft(aircraft).engine.maximum_lbf) {
+      EXPECT_TRUE(std::isfinite(thrust));
+    }
+  }
+  const std::pair<std::string, std::string> refused[] = {
+      {R"("kind": "folding", "diameter_m": 2)",
+       "propulsion.propeller.kind must be one of fixed_pitch, constant_speed"},
+      {R"("diameter_m": 2)", "propulsion.propeller lacks kind"},
+      {R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 0])",
+       "propulsion.propeller.advance_ratio[1] is 0, but must be above the number before it, 0"},
+      {R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0.1, 1])",
+       "propulsion.propeller.advance_ratio is 0.1, but must be zero at its first node"},
+      {R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 1], "CT": [1], "CP": [1, 1])",
+       "propulsion.propeller.CT must be a list of 2 numbers, not of 1"},
+      {R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 1], "CT": [1, 1], "CP": [0, 1])",
+       "propulsion.propeller.CP is 0, but must be above 0 where the advance ratio is zero"},
+  };
+  for (const auto& [propeller, error] : refused) {
+    EXPECT_EQ(ErrorOf(Piston(propeller)), "aircraft glider." + error);
+  }
+}
+
+TEST(DerivativeAircraftFile, JetsComeAsTables) {
+  const std::string axes = R"("kind": "jet", "altitude_m": [0, 5000, 10000], "mach": [0, 0.5], )";
+  const std::string idle = R"("idle_N": [[0, 100], [0, 50], [0, 25]], )";
+  const std::string maximum = R"("maximum_N": [[900, 800], [600, 500], [300, 200]])";
+  const Aircraft jet =
+      MakeAircraft(ReadDerivativeAircraft("glider", WithPropulsion(axes + idle + maximum)));
+  constexpr Tolerance kRounding{1e-9, "float64 rounding of 900"};
+  EXPECT_NEAR(Thrust(jet.engine, 100, 0, 0) * 4.4482216152605, 900, kRounding);
+  EXPECT_NEAR(Thrust(jet.engine, 50, 0, 0.5) * 4.4482216152605, 450, kRounding);
+  EXPECT_EQ(ErrorOf(WithPropulsion(axes + idle + R"("maximum_N": [[900, 800]])")),
+            "aircraft glider.propulsion.maximum_N must be a list of 3 lists, not of 1");
+  EXPECT_EQ(ErrorOf(WithPropulsion(R"("kind": "jet", "altitude_m": [0, 5, 9], "mach": [0, 1])")),
+            "aircraft glider.propulsion.altitude_m is 5, but must be at equal distances, here "
+            "4.500000");
+  EXPECT_THAT(
+      ErrorOf(WithPropulsion(
+          R"("kind": "jet", "altitude_m": [0, 1, 2, 3, 4, 5, 6, 7, 8], "mach": [0, 1, 2, 3, 4, 5])")),
+      HasSubstr("make 40 cells; the kernels hold 32"));
+  EXPECT_EQ(ErrorOf(WithPropulsion(R"("kind": "rocket")")),
+            "aircraft glider.propulsion.kind must be one of electric, piston, jet");
+  EXPECT_EQ(ErrorOf(WithPropulsion(R"("kind": 3)")),
+            "aircraft glider.propulsion.kind must be a text");
+}
+
+// Whatever single value of a file is replaced, it is read, or one line says what is wrong.
+TEST(DerivativeAircraftFile, NoReplacedValueIsSwallowed) {
+  const std::string fixed =
+      R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 1], "CT": [0.1, 0], "CP": [0.06, 0])";
+  const nlohmann::json files[] = {nlohmann::json::parse(Aerosonde()),
+                                  nlohmann::json::parse(Piston(fixed))};
+  for (const nlohmann::json& file : files) {
+    const nlohmann::json flat = file.flatten();
+    for (const auto& [place, value] : flat.items()) {
+      for (const nlohmann::json& wrong :
+           {nlohmann::json(nullptr), nlohmann::json("x"), nlohmann::json::array(),
+            nlohmann::json::object(), nlohmann::json(1e308), nlohmann::json(-1e308)}) {
+        nlohmann::json changed = file;
+        changed[nlohmann::json::json_pointer(place)] = wrong;
+        const std::string error = ErrorOf(changed.dump());
+        EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+        EXPECT_FALSE(value.is_number() && !wrong.is_number() && error.empty()) << place;
+      }
+    }
+  }
 }
 
 TEST(DerivativeAircraftFile, WhatIsReadIsFinite) {

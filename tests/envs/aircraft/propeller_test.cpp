@@ -25,7 +25,8 @@ class AerosondePropeller : public ::testing::Test {
  protected:
   const DerivativeAircraft aircraft_ =
       ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
-  const Propeller& propeller_ = aircraft_.propeller;
+  const ElectricPropulsion& propulsion_ = std::get<ElectricPropulsion>(aircraft_.propulsion);
+  const Propeller& propeller_ = propulsion_.propeller;
   const Aircraft flown_ = LoadAircraft("aerosonde");
 };
 
@@ -49,9 +50,9 @@ TEST_F(AerosondePropeller, ThrustVanishesWithTheAir) {
 TEST_F(AerosondePropeller, TablesHoldItsThrustAtEveryLevelOfPower) {
   const struct {
     double power, motor_throttle;
-  } levels[] = {{0, aircraft_.propeller_levels.idle},
-                {50, aircraft_.propeller_levels.military},
-                {100, aircraft_.propeller_levels.maximum}};
+  } levels[] = {{0, propulsion_.levels.idle},
+                {50, propulsion_.levels.military},
+                {100, propulsion_.levels.maximum}};
   for (double altitude_ft = -2000; altitude_ft <= 13000; altitude_ft += 730) {
     const Air air = AirAt(AtmosphereModel::kStandard1976, altitude_ft);
     for (double speed = 0; speed <= 44; speed += 1.1) {
@@ -70,7 +71,7 @@ TEST_F(AerosondePropeller, TablesHoldItsThrustAtEveryLevelOfPower) {
 // Between the levels thrust is linear in power, and power in the throttle on either side of a knee:
 // three straight pieces for what is nearly a parabola.
 TEST_F(AerosondePropeller, TheThrottleCommandsNearlyTheMotors) {
-  const PropellerLevels& levels = aircraft_.propeller_levels;
+  const PropellerLevels& levels = propulsion_.levels;
   const Air air = AirAt(AtmosphereModel::kStandard1976, 0);
   double worst = 0;
   for (double speed = 12; speed <= 36; speed += 1.5) {

@@ -77,8 +77,8 @@ TEST(Aerosonde, TrimsWhereTheBookDoes) {
   // Theirs holds the propeller's torque: 0.1 deg of aileron.
   EXPECT_NEAR(trim.controls.aileron_deg, 0, kSymmetry);
   EXPECT_NEAR(trim.controls.rudder_deg, 0, kSymmetry);
-  const Propeller propeller =
-      ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text).propeller;
+  const DerivativeAircraft aircraft = ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
+  const Propeller& propeller = std::get<ElectricPropulsion>(aircraft.propulsion).propeller;
   EXPECT_NEAR(trim.controls.thrust_lbf * kNewtonsPerLbf,
               PropellerThrust(propeller, 0.676752, 25, 1.2682), kBetweenNodesThrust);
 }
