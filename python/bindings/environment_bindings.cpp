@@ -4,7 +4,6 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,10 +12,11 @@
 
 #include "base/error.h"
 #include "base/worker_pool.h"
-#include "envs/state/state.h"
+#include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
+#include "python/bindings/shown_state.h"
 #include "src/agents/low_level_option.h"
 #include "src/config/program_config.h"
 
@@ -27,37 +27,6 @@ namespace {
 
 constexpr int kMostPerTile = 256;
 constexpr int kTileGrain = 32;  // VecEnv's tiles are multiples of it
-
-struct NamedColumn {
-  int column;
-  const char* name;
-};
-
-/// What of the state (envs/state/state.h) is shown: all that is physical.
-constexpr std::array<NamedColumn, 24> kShownColumns = {{{kU, "u_fps"},
-                                                        {kV, "v_fps"},
-                                                        {kW, "w_fps"},
-                                                        {kP, "p_rad_s"},
-                                                        {kQ, "q_rad_s"},
-                                                        {kR, "r_rad_s"},
-                                                        {kNorth, "north_ft"},
-                                                        {kEast, "east_ft"},
-                                                        {kDown, "down_ft"},
-                                                        {kQ0, "q0"},
-                                                        {kQx, "qx"},
-                                                        {kQy, "qy"},
-                                                        {kQz, "qz"},
-                                                        {kPower, "power_percent"},
-                                                        {kPowerCommand, "power_command_percent"},
-                                                        {kElevator, "elevator_deg"},
-                                                        {kAileron, "aileron_deg"},
-                                                        {kRudder, "rudder_deg"},
-                                                        {kLeadingEdgeFlap, "leading_edge_flap_deg"},
-                                                        {kNz, "nz_g"},
-                                                        {kNy, "ny_g"},
-                                                        {kWindNorth, "wind_north_fps"},
-                                                        {kWindEast, "wind_east_fps"},
-                                                        {kWindDown, "wind_down_fps"}}};
 
 int ThreadsFor(int num_envs, int threads) {
   const int asked = threads == 0 ? WorkerPool().threads() : threads;
@@ -104,6 +73,7 @@ class BatchEnv {
   void Observe(const Rows<float>& observation) {
     CheckObservation(observation);
     const nb::gil_scoped_release released;
+    if (last_states_) last_states_->Begin();
     pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
       env_->Observe(tile, observation.data() + FirstOf(tile) * observation_size());
     });
@@ -119,6 +89,7 @@ class BatchEnv {
                 terminated.shape(0) == rows() && truncated.shape(0) == rows(),
             "step: one reward, termination and flag for every environment");
     const nb::gil_scoped_release released;
+    if (last_states_) last_states_->Begin();
     pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
       const std::size_t first = FirstOf(tile);
       StepOutput output;
@@ -128,6 +99,7 @@ class BatchEnv {
       output.episode_steps = episode_steps_.data() + first;
       output.final_observation = final_observation_.data() + first * observation_size();
       output.observes_every_end = true;
+      output.observer = last_states_.get();
       env_->Step(tile, action.data() + first * action_size(), output);
       env_->Observe(tile, observation.data() + first * observation_size());
     });
@@ -162,6 +134,24 @@ class BatchEnv {
         state.push_back(env_->StateOf(i, shown.column));
     }
     return nb::cast(ToNumpy(std::move(state), {rows(), kShownColumns.size()}));
+  }
+
+  /// From now on steps remember the states that they end with.
+  void KeepLastStates() { last_states_ = std::make_unique<LastStates>(rows()); }
+  /// As of LastStates::columns().
+  nb::object LastStatesSeen() const {
+    Require(last_states_ != nullptr, "last_states: they are not kept");
+    return nb::cast(ToNumpy(last_states_->columns(), {LastStates::kNumRows, rows()}));
+  }
+
+  nb::list TargetNames() const {
+    nb::list names;
+    for (const TargetQuantity& quantity : MakeTask(config_)->target_quantities()) {
+      std::string name = std::string("target_") + quantity.column;
+      if (quantity.is_angle) name.replace(name.size() - 3, 3, "rad");
+      names.append(name);
+    }
+    return names;
   }
 
   nb::object Targets() const {
@@ -227,6 +217,7 @@ class BatchEnv {
   std::shared_ptr<const Policy> low_level_;
   WorkerPool pool_;
   std::unique_ptr<VecEnv> env_;
+  std::unique_ptr<LastStates> last_states_;  ///< null: not kept
   std::vector<float> episode_return_;
   std::vector<std::int32_t> episode_steps_;
   std::vector<float> final_observation_;
@@ -271,12 +262,15 @@ void BindEnvironment(nb::module_& module) {
       .def("ends", &BatchEnv::Ends)
       .def("state", &BatchEnv::State)
       .def("targets", &BatchEnv::Targets)
+      .def("keep_last_states", &BatchEnv::KeepLastStates)
+      .def("last_states", &BatchEnv::LastStatesSeen)
       .def("snapshot", &BatchEnv::Snapshot)
       .def("restore", &BatchEnv::Restore, nb::arg("words"))
       .def_prop_ro("num_envs", [](const BatchEnv& env) { return env.env().num_aircraft(); })
       .def_prop_ro("observation_size",
                    [](const BatchEnv& env) { return env.env().observation_size(); })
       .def_prop_ro("action_size", [](const BatchEnv& env) { return env.env().action_size(); })
+      .def_prop_ro("target_names", &BatchEnv::TargetNames)
       .def_prop_ro("action_repeat", [](const BatchEnv& env) { return env.config().action_repeat; })
       .def_prop_ro("control_interval_s",
                    [](const BatchEnv& env) { return env.config().control_interval_s; })

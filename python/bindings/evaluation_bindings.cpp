@@ -2,7 +2,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -37,10 +36,7 @@ auto Unlocked(WorkerPool& pool, const Work& work) {
     stop_signal = signals.StopSignal();
     return done;
   }();
-  if (stop_signal != 0) {
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw nb::python_error();
-  }
+  RaiseSignal(stop_signal);
   return result;
 }
 

@@ -10,7 +10,9 @@
 #include "python/bindings/bindings.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
+#include "src/config/configuration.h"
 #include "src/config/program_config.h"
+#include "src/run/run_directory.h"
 #include "src/run/training_run.h"
 
 namespace nb = nanobind;
@@ -44,19 +46,15 @@ nb::dict ToDict(const IterationReport& report) {
   return row;
 }
 
-/// Trains and evaluates in a run directory. What the callback throws ends the run as its false
-/// does, saved, and is thrown on.
-void Train(const ProgramConfig& config, const std::string& out, const std::string& from,
-           const std::string& low_level, int threads, const nb::object& callback) {
-  ProgramConfig trained = config;
-  RunOrigin origin;
-  if (!from.empty()) origin.from = NetworksFileOf(from);
-  const ChosenLowLevelPolicy below = ChooseLowLevelPolicy(config.train.env, low_level);
-  trained.train.low_level = below.policy;
-  origin.low_level = below.description;
+/// Does `work` without the interpreter's lock, given what shows the callback every iteration. What
+/// the callback throws ends the run as its false does, saved, and is thrown on; so is what Ctrl-C
+/// means in Python.
+template <typename Work>
+void TrainUnlocked(const nb::object& callback, const Work& work) {
   std::exception_ptr failure;
+  GoesOn goes_on;
   if (!callback.is_none()) {
-    origin.goes_on = [&](const IterationReport& report) {
+    goes_on = [&](const IterationReport& report) {
       const nb::gil_scoped_acquire acquired;
       try {
         return !callback(ToDict(report)).is(nb::bool_(false));
@@ -66,12 +64,40 @@ void Train(const ProgramConfig& config, const std::string& out, const std::strin
       }
     };
   }
-  WorkerPool pool(threads);
+  int stop_signal = 0;
   {
     const nb::gil_scoped_release released;
-    TrainingRun::Begin(trained, out, pool, origin);
+    stop_signal = work(std::move(goes_on));
   }
   if (failure) std::rethrow_exception(failure);
+  RaiseSignal(stop_signal);
+}
+
+/// Trains and evaluates in a new run directory.
+void Train(const ProgramConfig& config, const std::string& out, const std::string& from,
+           const std::string& low_level, int threads, const nb::object& callback) {
+  ProgramConfig trained = config;
+  RunOrigin origin;
+  if (!from.empty()) origin.from = NetworksFileOf(from);
+  const ChosenLowLevelPolicy below = ChooseLowLevelPolicy(config.train.env, low_level);
+  trained.train.low_level = below.policy;
+  origin.low_level = below.description;
+  WorkerPool pool(threads);
+  TrainUnlocked(callback, [&](GoesOn goes_on) {
+    origin.goes_on = std::move(goes_on);
+    return TrainingRun::Begin(trained, out, pool, origin);
+  });
+}
+
+/// Trains on in a run directory, to the end of its budget.
+void Resume(const std::string& path, int threads, const nb::object& callback) {
+  RunDirectory directory = RunDirectory::Open(path);
+  ProgramConfig config = ReadRecord(directory.config());
+  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env);
+  WorkerPool pool(threads);
+  TrainUnlocked(callback, [&](GoesOn goes_on) {
+    return TrainingRun::Resume(config, std::move(directory), pool, std::move(goes_on));
+  });
 }
 
 }  // namespace
@@ -79,6 +105,7 @@ void Train(const ProgramConfig& config, const std::string& out, const std::strin
 void BindTraining(nb::module_& module) {
   module.def("train", &Train, nb::arg("config"), nb::arg("out"), nb::arg("start_from"),
              nb::arg("low_level"), nb::arg("threads"), nb::arg("callback").none());
+  module.def("resume", &Resume, nb::arg("path"), nb::arg("threads"), nb::arg("callback").none());
 }
 
 }  // namespace skein

@@ -25,6 +25,7 @@ from skein._skein import (
 )
 from skein.agents import Agent, load_policy
 from skein.configuration import configure, presets
+from skein.custom_rules import CUSTOM_TERMINATION, FlightColumns
 from skein.environment import FlightEnv, FlightVectorEnv, make, make_vec, register_environments
 from skein.evaluation import Comparison, Evaluation, compare, evaluate, record
 from skein.flight_dynamics import LinearModel, Trajectory, Trim, linearise, simulate, trim
@@ -33,6 +34,7 @@ from skein.training import Run, train
 __all__ = [
     "ACTION_NAMES",
     "AIRCRAFT",
+    "CUSTOM_TERMINATION",
     "HIGH_LEVEL_ACTION_NAMES",
     "OBSERVATION_NAMES",
     "TASKS",
@@ -43,6 +45,7 @@ __all__ = [
     "ConfigurationError",
     "Error",
     "Evaluation",
+    "FlightColumns",
     "FlightEnv",
     "FlightVectorEnv",
     "LinearModel",

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from skein import _skein
 from skein._skein import Config, ConfigurationError
+from skein.checks import MOST_ENVIRONMENTS, MOST_SEED, MOST_SIZE, is_vector, rows, text, whole_number
 from skein.configuration import configure
 
 FloatArray = NDArray[np.float32]
@@ -31,7 +32,8 @@ class Agent:
         Raises:
             Error: an unknown name, a file that is no policy, an autopilot without gains for the aircraft.
         """
-        self._core = _skein.named_agent(name, configure(task, **config), seed)
+        whole_number("seed", seed, 0, MOST_SEED)
+        self._core = _skein.named_agent(text("name", name), configure(task, **config), seed)
         self._seed = seed
 
     @classmethod
@@ -77,7 +79,7 @@ class Agent:
 
     def initial_state(self, count: int) -> FloatArray:
         """Memory at the beginning of episodes: zeros, (count, state_size)."""
-        return np.zeros((count, self.state_size), np.float32)
+        return np.zeros((whole_number("count", count, 0, MOST_ENVIRONMENTS), self.state_size), np.float32)
 
     def act(
         self, observation: Any, state: FloatArray | None = None, *, policy_step: int = 0
@@ -94,14 +96,18 @@ class Agent:
             actions (count, action_size), or (action_size,), and the memory after the step. Actions of a policy that
             is sampled may lie beyond [-1, 1]; the environment clips them.
         """
-        rows = np.ascontiguousarray(observation, np.float32)
-        is_one = rows.ndim == 1
+        is_one = is_vector(observation)
+        shape = (self.observation_size,) if is_one else (None, self.observation_size)
+        seen = rows("observation", observation, shape)
         if is_one:
-            rows = rows[None]
-        memory = self.initial_state(len(rows)) if state is None else np.ascontiguousarray(state, np.float32)
-        if is_one and memory.ndim == 1:
-            memory = memory[None]
-        action, after = self._core.act(rows, memory, self._seed, policy_step)
+            seen = seen[None]
+        if state is None:
+            memory = self.initial_state(len(seen))
+        else:
+            size = (self.state_size,) if is_one and is_vector(state) else (len(seen), self.state_size)
+            memory = rows("state", state, size).reshape(len(seen), self.state_size)
+        whole_number("policy_step", policy_step, 0, 2**32 - 1)
+        action, after = self._core.act(seen, memory, self._seed, policy_step)
         return (action[0], after) if is_one else (action, after)
 
     def __repr__(self) -> str:
@@ -126,7 +132,7 @@ def load_policy(path: str | os.PathLike[str], *, sampled: bool = False) -> Agent
     Raises:
         Error: a file that is missing, damaged, or none of Skein's.
     """
-    return Agent._of(_skein.load_agent(os.fspath(path), sampled))
+    return Agent._of(_skein.load_agent(text("path", path), bool(sampled)))
 
 
 def agent_of(agent: AgentLike, config: Config, seed: int) -> Agent:
@@ -140,6 +146,7 @@ def agent_of(agent: AgentLike, config: Config, seed: int) -> Agent:
             f"an agent is a skein.Agent, a name or a function of observations, not {type(agent).__name__}"
         )
     name = getattr(agent, "__name__", type(agent).__name__)
-    repeat = int(getattr(agent, "action_repeat", config["env.action_repeat"]))
-    sizes = int(getattr(agent, "action_size", len(_skein.ACTION_NAMES))), int(getattr(agent, "state_size", 0))
-    return Agent._of(_skein.callable_agent(agent, name, sizes[0], repeat, sizes[1]))
+    repeat = whole_number("action_repeat", getattr(agent, "action_repeat", config["env.action_repeat"]), 1, MOST_SIZE)
+    action_size = whole_number("action_size", getattr(agent, "action_size", len(_skein.ACTION_NAMES)), 1, MOST_SIZE)
+    state_size = whole_number("state_size", getattr(agent, "state_size", 0), 0, MOST_SIZE)
+    return Agent._of(_skein.callable_agent(agent, name, action_size, repeat, state_size))

@@ -9,6 +9,7 @@ from typing import Any, Union
 
 from skein import _skein
 from skein._skein import Config, ConfigurationError
+from skein.checks import text
 
 TaskOrConfig = Union[str, Config]
 
@@ -36,17 +37,20 @@ def configure(
     """
     if isinstance(conditions, Mapping):
         conditions = [f"{name}={level}" for name, level in conditions.items()]
+    if not isinstance(conditions, (list, tuple)):
+        raise ConfigurationError(f"conditions must be a list of texts or a dict, not {type(conditions).__name__}")
+    conditions = [text("conditions", condition) for condition in conditions]
     assignments = [f"{key}={_toml(key, value)}" for key, value in _flattened("", settings)]
     if isinstance(task, Config):
         if preset != "default" or file:
             raise ConfigurationError("preset and file are for the name of a task: a Config has both behind it")
-        return task.with_settings(list(conditions), assignments)
-    return _skein.resolve(task, preset, os.fspath(file), list(conditions), assignments)
+        return task.with_settings(conditions, assignments)
+    return _skein.resolve(text("task", task), text("preset", preset), text("file", file), conditions, assignments)
 
 
 def presets(task: str) -> list[str]:
     """Names of the task's presets."""
-    return _skein.presets_of(task)
+    return _skein.presets_of(text("task", task))
 
 
 def _flattened(prefix: str, settings: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
@@ -59,12 +63,12 @@ def _flattened(prefix: str, settings: Mapping[str, Any]) -> Iterator[tuple[str, 
 
 def _toml(key: str, value: Any) -> str:
     """The value as TOML writes it."""
-    if hasattr(value, "item"):  # a scalar of NumPy
+    if hasattr(value, "item") and getattr(value, "size", 0) == 1:  # a scalar of NumPy
         value = value.item()
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, str):
-        return json.dumps(value)
+        return json.dumps(text(key, value))
     raise ConfigurationError(f"settings: {key} must be a number, a text, or true or false, not {type(value).__name__}")

@@ -24,7 +24,9 @@ from skein._skein import (
     Error,
 )
 from skein.agents import Agent
+from skein.checks import MOST_ENVIRONMENTS, MOST_SEED, MOST_THREADS, flags, rows, text, whole_number
 from skein.configuration import configure
+from skein.custom_rules import CUSTOM_TERMINATION, CustomRules, Rule
 
 FloatArray = NDArray[np.float32]
 BoolArray = NDArray[np.bool_]
@@ -32,7 +34,8 @@ Info = dict[str, Any]
 
 # The largest normal deviate of the noise: the smallest uniform number that it is made of is 2^-32.
 _LARGEST_DEVIATE = 7.0
-_TERMINATIONS = np.array(TERMINATION_NAMES, dtype=object)
+_TERMINATIONS = np.array((*TERMINATION_NAMES, "custom"), dtype=object)
+assert len(_TERMINATIONS) == CUSTOM_TERMINATION + 1
 
 
 def _bound(name: str) -> float:
@@ -74,28 +77,42 @@ class _Flight:
         threads: int,
         low_level: str | os.PathLike[str],
         agent: Agent | None,
+        reward: Rule | None,
+        terminated: Rule | None,
     ) -> None:
-        if num_envs < 1:
-            raise ConfigurationError(f"num_envs is {num_envs}, but there must be at least 1")
+        whole_number("num_envs", num_envs, 1, MOST_ENVIRONMENTS)
+        whole_number("threads", threads, 0, MOST_THREADS)
+        if not (agent is None or isinstance(agent, Agent)):
+            raise ConfigurationError(f"agent must be a skein.Agent, not {type(agent).__name__}")
         self.config = config if agent is None else agent._core.environment_for(config)
         core = None if agent is None else agent._core
-        self._core = _skein.BatchEnv(config, num_envs, 0, threads, os.fspath(low_level), core)
+        self._core = _skein.BatchEnv(config, num_envs, 0, threads, text("low_level", low_level), core)
         self.action_names = ACTION_NAMES if self._core.action_size == len(ACTION_NAMES) else HIGH_LEVEL_ACTION_NAMES
+        self._rules = CustomRules(self._core, reward, terminated) if reward or terminated else None
+        self._stepped = self._core if self._rules is None else self._rules
         self._begun = False
+        self._is_closed = False
 
     @property
     def policy_step_s(self) -> float:
         """Time for which an action is held, s."""
         return self._core.action_repeat * self._core.control_interval_s
 
+    def _require_open(self, what: str) -> None:
+        if self._is_closed:
+            raise Error(f"{what}: the environment is closed")
+
     def _new_episodes(self, seed: int | None, draw: np.random.Generator, begins: BoolArray | None) -> None:
         """Begins episodes: those of `seed` if there is one, else the next ones, where `begins` says so."""
+        self._require_open("reset")
         if seed is not None or not self._begun:
             if begins is not None:
                 raise Error("reset: a part of the environments can only be reset without a seed, after a whole reset")
             self._core.reset(int(draw.integers(2**53)) if seed is None else seed)
         else:
             self._core.restart(np.ones(self._core.num_envs, bool) if begins is None else begins)
+        if self._rules is not None:
+            self._rules.begin(np.ones(self._core.num_envs, bool) if begins is None else begins)
         self._begun = True
 
     def _observe(self) -> FloatArray:
@@ -119,8 +136,10 @@ class _Flight:
 
     def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
         """Goes on from a snapshot of an environment with the same configuration, number and seed; returns what is
-        observed there."""
-        self._core.restore(snapshot)
+        observed there. Returns of a reward of one's own count from there."""
+        self._core.restore(rows("snapshot", snapshot, (None,), np.uint32))
+        if self._rules is not None:
+            self._rules.begin(np.ones(self._core.num_envs, bool))
         self._begun = True
         return self._observe()
 
@@ -151,10 +170,13 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
         low_level: str | os.PathLike[str] = "",
         agent: Agent | None = None,
         evaluation: bool = False,
+        reward: Rule | None = None,
+        terminated: Rule | None = None,
         **config: Any,
     ) -> None:
         configured = configure(task, **config)
-        self._begin_flight(configured.evaluation() if evaluation else configured, num_envs, threads, low_level, agent)
+        flown = configured.evaluation() if evaluation else configured
+        self._begin_flight(flown, num_envs, threads, low_level, agent, reward, terminated)
         self.num_envs = num_envs
         self.single_observation_space = _observation_space(self._core)
         self.single_action_space = _action_space(self._core)
@@ -168,12 +190,12 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
             seed: episodes are then those of any other environment with this seed; without it those that follow.
             options: {"reset_mask": a bool for each environment} resets a part of them.
         """
-        super().reset(seed=seed)
+        super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
         unknown = set(options or ()) - {"reset_mask"}
         if unknown:
             raise ConfigurationError(f"reset: unknown option {sorted(unknown)[0]}; known: reset_mask")
         mask = (options or {}).get("reset_mask")
-        self._new_episodes(seed, self.np_random, None if mask is None else np.ascontiguousarray(mask, bool))
+        self._new_episodes(seed, self.np_random, None if mask is None else flags("reset_mask", mask, self.num_envs))
         return self._observe(), {}
 
     def step(self, actions: Any) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray, Info]:
@@ -186,18 +208,25 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
             observations (num_envs, 22), rewards, terminations, truncations and info (above).
         """
         n = self.num_envs
+        self._require_open("step")
+        if not self._begun:
+            raise Error("step: reset begins the first episodes")
         observation = np.empty((n, self._core.observation_size), np.float32)
         reward = np.empty(n, np.float32)
         termination = np.empty(n, np.uint8)
         terminated, truncated = np.empty(n, bool), np.empty(n, bool)
-        ended = self._core.step(actions, observation, reward, termination, terminated, truncated)
+        shown = rows("actions", actions, (n, self._core.action_size))
+        ended = self._stepped.step(shown, observation, reward, termination, terminated, truncated)
         info: Info = {"termination": termination}
         if ended:
             self._report_ends(termination, info)
         return observation, reward, terminated, truncated, info
 
+    def close_extras(self, **kwargs: Any) -> None:
+        self._is_closed = True
+
     def _report_ends(self, termination: NDArray[np.uint8], info: Info) -> None:
-        index, observations, returns, steps = self._core.ends()
+        index, observations, returns, steps = self._stepped.ends()
         mask = np.zeros(self.num_envs, bool)
         mask[index] = True
 
@@ -238,12 +267,15 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         low_level: str | os.PathLike[str] = "",
         agent: Agent | None = None,
         evaluation: bool = False,
+        reward: Rule | None = None,
+        terminated: Rule | None = None,
         **config: Any,
     ) -> None:
         configured = configure(task, **config)
         if not _says(config, "env", "stagger_clocks"):  # which serves batches: here it would only cut the first episode
             configured = configure(configured, env={"stagger_clocks": False})
-        self._begin_flight(configured.evaluation() if evaluation else configured, 1, 1, low_level, agent)
+        flown = configured.evaluation() if evaluation else configured
+        self._begin_flight(flown, 1, 1, low_level, agent, reward, terminated)
         self.observation_space = _observation_space(self._core)
         self.action_space = _action_space(self._core)
         self._flags = np.empty(1, bool), np.empty(1, bool)
@@ -252,7 +284,7 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[FloatArray, Info]:
         """Begins an episode: that of `seed`, or the next one. Returns an observation (22,) and an empty info."""
-        super().reset(seed=seed)
+        super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
         if options:
             raise ConfigurationError(f"reset: unknown option {next(iter(options))}; there are none")
         if seed is not None or self._flying or not self._begun:  # else the next episode has begun with the step
@@ -266,22 +298,26 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         Returns:
             observation (22,), reward, terminated, truncated, info.
         """
+        self._require_open("step")
         if not self._flying:
             raise Error("step: the episode is over; reset begins another")
         observation = np.empty((1, self._core.observation_size), np.float32)
-        rows = np.asarray(action, np.float32).reshape(1, -1)
-        ended = self._core.step(rows, observation, self._reward, self._termination, *self._flags)
+        shown = rows("action", action, (self._core.action_size,))[None]
+        ended = self._stepped.step(shown, observation, self._reward, self._termination, *self._flags)
         reward = float(self._reward[0])
         if not ended:
             return observation[0], reward, False, False, {}
         self._flying = False
-        _, final, returns, steps = self._core.ends()
+        _, final, returns, steps = self._stepped.ends()
         info = {
-            "termination": TERMINATION_NAMES[int(self._termination[0])],
+            "termination": _TERMINATIONS[self._termination[0]],
             "episode_return": float(returns[0]),
             "episode_control_steps": int(steps[0]),
         }
         return final[0], reward, bool(self._flags[0][0]), bool(self._flags[1][0]), info
+
+    def close(self) -> None:
+        self._is_closed = True
 
 
 def make_vec(
@@ -295,6 +331,8 @@ def make_vec(
     low_level: str | os.PathLike[str] = "",
     agent: Agent | None = None,
     evaluation: bool = False,
+    reward: Rule | None = None,
+    terminated: Rule | None = None,
     **settings: Any,
 ) -> FlightVectorEnv:
     """`num_envs` aircraft that fly `task`, as a Gymnasium VectorEnv.
@@ -310,6 +348,10 @@ def make_vec(
         agent: who is to fly: its own choices, such as the rate at which it acts, then hold, and a high-level policy
             brings its low-level policy.
         evaluation: leave out what only serves training: staggered clocks, training tolerances.
+        reward: a function that is given columns by name (skein.FlightColumns) after every policy step, and returns the
+            rewards in the place of the task's, (num_envs,).
+        terminated: one that returns where episodes end, bool (num_envs,), beside where the task ends them. Their
+            termination is "custom", and CUSTOM_TERMINATION in info["termination"].
 
     Raises:
         ConfigurationError: as of skein.configure, and where low_level does not suit the task.
@@ -321,6 +363,8 @@ def make_vec(
         low_level=low_level,
         agent=agent,
         evaluation=evaluation,
+        reward=reward,
+        terminated=terminated,
         **_given(preset, file, conditions),
         **settings,
     )
@@ -335,6 +379,8 @@ def make(
     low_level: str | os.PathLike[str] = "",
     agent: Agent | None = None,
     evaluation: bool = False,
+    reward: Rule | None = None,
+    terminated: Rule | None = None,
     **settings: Any,
 ) -> FlightEnv:
     """One aircraft that flies `task`, as a Gymnasium Env: arguments as of make_vec. The same is registered as
@@ -344,6 +390,8 @@ def make(
         low_level=low_level,
         agent=agent,
         evaluation=evaluation,
+        reward=reward,
+        terminated=terminated,
         **_given(preset, file, conditions),
         **settings,
     )

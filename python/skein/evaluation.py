@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from skein import _skein
 from skein._skein import Config, ConfigurationError
 from skein.agents import Agent, AgentLike, agent_of
+from skein.checks import MOST_EPISODES, MOST_SEED, MOST_THREADS, whole_number
 from skein.configuration import configure
 
 if TYPE_CHECKING:
@@ -99,6 +100,7 @@ def evaluate(
         task = agent.task if isinstance(agent, Agent) else ""
         if not task:
             raise ConfigurationError("evaluate: task is needed: the agent does not say its own")
+    _check_counts(episodes, seed, threads)
     configured = configure(task, **config)
     core = agent_of(agent, configured, seed)._core
     summary, columns, starts = _skein.evaluate(core, configured, episodes, seed, threads)
@@ -119,14 +121,21 @@ def compare(
     Args:
         agents: at least one; a dict gives them their names.
     """
+    _check_counts(episodes, seed, threads)
     configured = configure(task, **config)
     named = agents.values() if isinstance(agents, Mapping) else agents
     cores = [agent_of(agent, configured, seed)._core for agent in named]
     if not cores:
         raise ConfigurationError("compare: no agents")
-    names = list(agents) if isinstance(agents, Mapping) else [core.name for core in cores]
+    names = [str(name) for name in agents] if isinstance(agents, Mapping) else [core.name for core in cores]
     summary, text = _skein.compare(cores, names, configured, episodes, seed, threads)
     return Comparison(json.loads(summary), text)
+
+
+def _check_counts(episodes: int, seed: int, threads: int) -> None:
+    whole_number("number of episodes", episodes, 1, MOST_EPISODES)
+    whole_number("seed", seed, 0, MOST_SEED)
+    whole_number("threads", threads, 0, MOST_THREADS)
 
 
 def record(
@@ -145,6 +154,7 @@ def record(
 
     if not task and isinstance(agent, Agent):
         task = agent.task
+    _check_counts(count, seed, threads)
     configured = configure(task or "heading", **config)
     core = agent_of(agent, configured, seed)._core
     return pandas.read_csv(io.StringIO(_skein.record(core, configured, count, seed, threads, observations)))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from skein import _skein
 from skein._skein import ConfigurationError
+from skein.checks import MOST_STEPS, is_vector, number, rows, text, whole_number
 
 DoubleArray = NDArray[np.float64]
 
@@ -95,8 +96,19 @@ def trim(
     Raises:
         Error: there is no such flight; the message says which limit is in the way.
     """
-    plant = _skein.make_plant(aircraft, atmosphere, cg, engine_angular_momentum)
-    return Trim(**plant.trim(altitude_ft, true_airspeed_fps, flight_path_deg, turn_rate_deg_s), _plant=plant)
+    plant = _skein.make_plant(
+        text("aircraft", aircraft),
+        text("atmosphere", atmosphere),
+        number("cg", cg),
+        number("engine_angular_momentum", engine_angular_momentum),
+    )
+    point = plant.trim(
+        number("altitude_ft", altitude_ft),
+        number("true_airspeed_fps", true_airspeed_fps),
+        number("flight_path_deg", flight_path_deg),
+        number("turn_rate_deg_s", turn_rate_deg_s),
+    )
+    return Trim(**point, _plant=plant)
 
 
 def linearise(point: Trim) -> LinearModel:
@@ -117,13 +129,19 @@ def simulate(
         duration_s: of the flight, with controls that are held.
         dt: time step, s.
     """
-    rows = np.atleast_2d(np.asarray(controls, np.float64))
-    if np.ndim(controls) == 1:
+    dt = number("dt", dt)
+    if dt <= 0:
+        raise ConfigurationError(f"dt must be above 0, not {dt}")
+    is_held = is_vector(controls)
+    shape = (len(CONTROL_NAMES),) if is_held else (None, len(CONTROL_NAMES))
+    flown = rows("controls", controls, shape, np.float64)
+    if is_held:
         if duration_s is None:
             raise ConfigurationError("simulate: duration_s is needed with controls that are held")
-        rows = np.repeat(rows, round(duration_s / dt), axis=0)
+        steps = whole_number("number of steps", round(number("duration_s", duration_s) / dt), 0, MOST_STEPS)
+        flown = np.repeat(flown[None], steps, axis=0)
     elif duration_s is not None:
         raise ConfigurationError("simulate: duration_s is for controls that are held; rows have their own number")
-    begin = np.ascontiguousarray(start.state if state is None else state, np.float64)
-    states = start._plant.simulate(begin, np.ascontiguousarray(rows), dt)
+    begin = rows("state", start.state if state is None else state, (len(STATE_NAMES),), np.float64)
+    states = start._plant.simulate(begin, flown, dt)
     return Trajectory(dt * np.arange(len(states), dtype=np.float64), states)

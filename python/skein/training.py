@@ -9,8 +9,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from skein import _skein
-from skein._skein import Config, Error
+from skein._skein import Config, ConfigurationError, Error
 from skein.agents import Agent, load_policy
+from skein.checks import MOST_THREADS, text, whole_number
 from skein.configuration import configure
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ class Run:
         Raises:
             Error: the directory holds no run.
         """
-        self.path = pathlib.Path(path)
+        self.path = pathlib.Path(text("path", path))
         if not (self.path / "config.toml").is_file():
             raise Error(f"{self.path}: not the directory of a run (there is no config.toml in it)")
 
@@ -58,6 +59,19 @@ class Run:
         """The best policy, else the final one, else that of the newest checkpoint."""
         return load_policy(self.path)
 
+    def resume(
+        self, *, callback: Callable[[dict[str, Any]], bool | None] | None = None, threads: int = 0
+    ) -> Run:
+        """Trains on from the newest checkpoint to the end of the budget, to the same bits as without the stop;
+        arguments as of skein.train.
+
+        Raises:
+            Error: the run has been trained to its end, or its newest checkpoint is damaged.
+        """
+        whole_number("threads", threads, 0, MOST_THREADS)
+        _skein.resume(str(self.path), threads, callback)
+        return self
+
     def _table(self, name: str) -> pandas.DataFrame:
         import pandas
 
@@ -86,14 +100,20 @@ def train(
         task, config: what is trained and how (skein.configure).
         out: directory of the run, which must not hold one already.
         callback: is given every iteration's figures (those of metrics.csv); False ends the run, saved, so that
-            `skein train --resume` goes on. What it raises does the same, and comes through.
+            Run.resume goes on. What it raises does the same, and comes through.
         start_from: a run or policy whose networks it starts from.
         low_level: as of skein.make_vec.
         threads: 0: one per CPU. Results do not depend on it.
 
     Raises:
-        Error: the configuration cannot be trained, or the directory cannot be made. Ctrl-C saves and returns.
+        Error: the configuration cannot be trained, or the directory cannot be made.
+        KeyboardInterrupt: Ctrl-C. The iteration under way is dropped; those before it are saved.
     """
     configured = configure(task, **config)
-    _skein.train(configured, os.fspath(out), os.fspath(start_from), os.fspath(low_level), threads, callback)
+    whole_number("threads", threads, 0, MOST_THREADS)
+    if not (callback is None or callable(callback)):
+        raise ConfigurationError(f"callback must be a function, not {type(callback).__name__}")
+    _skein.train(
+        configured, text("out", out), text("start_from", start_from), text("low_level", low_level), threads, callback
+    )
     return Run(out)

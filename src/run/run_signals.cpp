@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/run/run_signals.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 
@@ -30,21 +32,15 @@ void OnStop(int signal) {
 
 void OnSave(int) { save_requested = true; }
 
-void Install(int signal, void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;
-  if (sigaction(signal, &action, nullptr) != 0) {
-    throw Error("cannot handle signals: " + SystemReason());
-  }
-}
+/// Signals are a process's, and its main thread's to handle.
+bool IsMainThread() { return gettid() == getpid(); }
 
 }  // namespace
 
-RunSignals::RunSignals(WorkerPool& pool) {
-  stopped_pool = &pool;
-  stop_signal = 0;
+RunSignals::RunSignals(WorkerPool& pool) : handles_(IsMainThread()) {
+  if (!handles_) return;
+  outer_pool_ = stopped_pool.exchange(&pool);
+  outer_signal_ = stop_signal.exchange(0);
   save_requested = false;
   Install(SIGINT, OnStop);
   Install(SIGTERM, OnStop);
@@ -53,11 +49,28 @@ RunSignals::RunSignals(WorkerPool& pool) {
 }
 
 RunSignals::~RunSignals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGPIPE}) std::signal(signal, SIG_DFL);
+  if (!handles_) return;
+  for (const Replaced& replaced : replaced_) {
+    sigaction(replaced.signal, &replaced.handler, nullptr);
+  }
+  stopped_pool = outer_pool_;
+  stop_signal = outer_signal_;
 }
 
-int RunSignals::StopSignal() const { return stop_signal; }
+void RunSignals::Install(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  struct sigaction before {};
+  if (sigaction(signal, &action, &before) != 0) {
+    throw Error("cannot handle signals: " + SystemReason());
+  }
+  replaced_.push_back({signal, before});
+}
 
-bool RunSignals::TakeSaveRequest() { return save_requested.exchange(false); }
+int RunSignals::StopSignal() const { return handles_ ? stop_signal.load() : 0; }
+
+bool RunSignals::TakeSaveRequest() { return handles_ && save_requested.exchange(false); }
 
 }  // namespace skein

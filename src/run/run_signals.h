@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <csignal>
+#include <vector>
+
 #include "base/worker_pool.h"
 
 namespace skein {
 
 /// While it lives, SIGINT and SIGTERM ask a pool to stop and SIGUSR1 asks for a save instead of
 /// ending the process. A second SIGINT or SIGTERM ends it at once, as by default. SIGPIPE is
-/// ignored: a reader of the progress that goes away is no reason to stop. One at a time.
+/// ignored: a reader of the progress that goes away is no reason to stop. What handled the signals
+/// before (an outer one of these, or Python) handles them again after it. On threads beside the
+/// process's main one it does nothing: the signals are that one's.
 class RunSignals {
  public:
   /// Throws Error if the system refuses a handler.
@@ -20,6 +25,18 @@ class RunSignals {
   int StopSignal() const;
   /// Whether a save was asked for since the last call.
   bool TakeSaveRequest();
+
+ private:
+  struct Replaced {
+    int signal;
+    struct sigaction handler;
+  };
+  void Install(int signal, void (*handler)(int));
+
+  bool handles_;
+  WorkerPool* outer_pool_ = nullptr;
+  int outer_signal_ = 0;
+  std::vector<Replaced> replaced_;
 };
 
 }  // namespace skein

@@ -35,10 +35,10 @@ double UnixTime() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-/// What starts this program again, for hints that can be copied.
+/// What starts the program again, for hints that can be copied: as it was started, if this is it.
 std::string CommandName() {
-  const std::string name = program_invocation_name;
-  return name.find('/') == std::string::npos ? "skein" : name;
+  const std::filesystem::path name = program_invocation_name;
+  return name.has_parent_path() && name.filename() == "skein" ? name.string() : "skein";
 }
 
 /// By all aircraft together.
@@ -83,8 +83,8 @@ std::string StartNetworks(const std::string& from, Trainer& trainer) {
 
 }  // namespace
 
-void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
-                        const RunOrigin& origin) {
+int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
+                       const RunOrigin& origin) {
   // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
   Trainer trainer(config.train, pool);
   const std::string started_from = StartNetworks(origin.from, trainer);
@@ -109,10 +109,11 @@ void TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wo
        {origin.preset.empty() ? "" : "preset " + origin.preset, started_from, origin.low_level}) {
     if (!line.empty()) run.log_.Say("  " + line);
   }
-  run.Run();
+  return run.Run();
 }
 
-void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool) {
+int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool,
+                        GoesOn goes_on) {
   directory.RemoveTemporaries();
   Trainer trainer(config.train, pool);
   const std::vector<Checkpoint> checkpoints = directory.Checkpoints();
@@ -132,6 +133,7 @@ void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wo
   const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration(), MetricsHeader());
   TrimRows(directory.timing(), trainer.iteration(), TimingHeader());
   TrainingRun run(config, std::move(directory), trainer, pool);
+  run.goes_on_ = std::move(goes_on);
   run.SayBanner();
   if (rows != trainer.iteration()) {
     run.log_.Say(fmt::format("warning: metrics.csv has {} rows for {} iterations", rows,
@@ -143,7 +145,7 @@ void TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wo
                     "(SKEIN_SIMD={0} forces it)",
                     saved_on, target));
   }
-  run.Run();
+  return run.Run();
 }
 
 TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
@@ -165,9 +167,10 @@ TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Tr
                         EncodeHyperparameters(DumpToml(config), directory_.path(), UnixTime()));
 }
 
-void TrainingRun::Run() {
+int TrainingRun::Run() {
   try {
     TrainAndEvaluate();
+    return signals_.StopSignal();
   } catch (const Error& error) {
     try {
       log_.Note(fmt::format("error: {}", error.what()));

@@ -18,34 +18,39 @@
 
 namespace skein {
 
+/// Is shown every iteration after its records are written; false ends the run as SIGTERM would.
+using GoesOn = std::function<bool(const IterationReport&)>;
+
 /// Where a new run comes from, beside its configuration.
 struct RunOrigin {
   std::string preset;     ///< name of the preset; empty if not known
   std::string low_level;  ///< what the low-level policy is, for people; empty without one
   std::string from;       ///< policy file or checkpoint whose networks it starts from; or empty
-  /// Is shown every iteration after its records are written; false ends the run as SIGTERM would.
-  std::function<bool(const IterationReport&)> goes_on = {};
+  GoesOn goes_on = {};
 };
 
 /// One training run in its directory: iterations, records, checkpoints, signals, and at the end the
 /// evaluation over fresh episodes.
 class TrainingRun {
  public:
-  /// A new run in a new directory: `path`, or one in kRunsRoot if that is empty. Throws Error if it
-  /// cannot be made, or `origin.from` does not fit the configuration.
-  static void Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
-                    const RunOrigin& origin = {});
+  /// A new run in a new directory: `path`, or one in kRunsRoot if that is empty. Returns the signal
+  /// that ended it early, or 0. Throws Error if it cannot be made, or `origin.from` does not fit
+  /// the configuration.
+  static int Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
+                   const RunOrigin& origin = {});
   /// Resumes the directory's newest checkpoint, or the start if it has none, over the low-level
-  /// policy that the run began with. Throws Error if the checkpoint is damaged or made with another
-  /// configuration.
-  static void Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool);
+  /// policy that the run began with; `goes_on` and what is returned are those of a new run. Throws
+  /// Error if the checkpoint is damaged or made with another configuration.
+  static int Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool,
+                    GoesOn goes_on = {});
 
  private:
   TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
               WorkerPool& pool);
 
-  /// To the end, or until it is stopped; says in the log what ended it.
-  void Run();
+  /// To the end, or until it is stopped; says in the log what ended it. Returns the signal that
+  /// did, or 0.
+  int Run();
   void TrainAndEvaluate();
   void SayBanner();
   IterationReport Iterate();
@@ -63,7 +68,7 @@ class TrainingRun {
   RunLog log_;
   FileDescriptor metrics_, timing_;
   EventFile events_;
-  std::function<bool(const IterationReport&)> goes_on_;
+  GoesOn goes_on_;
   std::chrono::steady_clock::time_point last_save_;
   std::uint64_t saved_iteration_ = 0;
 };

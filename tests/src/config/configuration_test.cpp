@@ -261,7 +261,7 @@ TEST(Configuration, UnknownPresetsAndTasksListWhatThereIs) {
         } catch (const Error& error) {
           EXPECT_STREQ(error.what(),
                        "unknown preset fast of task heading; known presets: aerosonde, default, "
-                       "paper, robust");
+                       "easy, paper, robust");
           throw;
         }
       },

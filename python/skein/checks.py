@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Arguments as the extension takes them; what cannot be one is a ConfigurationError of one line that names it."""
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skein._skein import ConfigurationError
+
+MOST_SEED = 2**64 - 1
+MOST_ENVIRONMENTS = 2**24
+MOST_EPISODES = 2**31 - 1
+MOST_THREADS = 1024
+MOST_SIZE = 2**16
+MOST_TEXT = 1024
+MOST_STEPS = 10**8
+
+
+def shown(value: Any) -> str:
+    """The value for a message: on one line, and short."""
+    return " ".join(repr(value).split())[:60]
+
+
+def whole_number(name: str, value: Any, least: int, most: int) -> int:
+    """`value` in [least, most]."""
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool) and least <= value <= most:
+        return int(value)
+    raise ConfigurationError(f"{name} must be a whole number from {least} to {most}, not {shown(value)}")
+
+
+def number(name: str, value: Any) -> float:
+    """A finite number."""
+    try:
+        if np.isfinite(real := float(value)):
+            return real
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ConfigurationError(f"{name} must be a finite number, not {shown(value)}")
+
+
+def text(name: str, value: Any) -> str:
+    """A text or path of one line."""
+    if isinstance(value, (str, os.PathLike)) and isinstance(path := os.fspath(value), str):
+        if len(path) <= MOST_TEXT and not set(path) & set("\0\n\r"):
+            return path
+    raise ConfigurationError(f"{name} must be a text or path, not {shown(value)}")
+
+
+def rows(name: str, value: Any, shape: tuple[int | None, ...], dtype: Any = np.float32) -> NDArray[Any]:
+    """An array of real numbers, in place where type and layout fit; None in `shape` is any number."""
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind not in ("iu" if np.issubdtype(dtype, np.integer) else "fiu"):
+            raise TypeError
+        converted = np.ascontiguousarray(array, dtype)
+    except (TypeError, ValueError, RuntimeError) as error:
+        raise ConfigurationError(f"{name} must be an array of numbers, not {_described(value)}") from error
+    if array.ndim != len(shape) or any(asked not in (None, size) for asked, size in zip(shape, array.shape)):
+        wanted = ", ".join("n" if size is None else str(size) for size in shape) + ("," if len(shape) == 1 else "")
+        raise ConfigurationError(f"{name} must have the shape ({wanted}), not {array.shape}")
+    return converted
+
+
+def flags(name: str, value: Any, count: int) -> NDArray[np.bool_]:
+    """Truth values, one for each of `count`."""
+    array = value if isinstance(value, np.ndarray) else None
+    if isinstance(value, (list, tuple)) and all(isinstance(flag, (bool, np.bool_)) for flag in value):
+        array = np.array(value, bool)
+    if array is not None and array.dtype == bool and array.shape == (count,):
+        return np.ascontiguousarray(array)
+    raise ConfigurationError(f"{name} must be {count} truth values, not {shown(value)}")
+
+
+def is_vector(value: Any) -> bool:
+    """Whether it has one dimension."""
+    try:
+        return np.ndim(value) == 1
+    except ValueError:  # rows of different lengths
+        return False
+
+
+def _described(value: Any) -> str:
+    kind = type(value).__name__
+    return f"{kind} of {value.dtype}" if hasattr(value, "dtype") else kind

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Learners of others fly through the package. Trainings are long checks (scripts/test_python --all)."""
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import skein
+
+# What a training of a few minutes must reach of 500 fresh episodes; without one it is below 0.1 (actions of zero).
+LEAST_SUCCESS = 0.8
+
+
+def test_the_easy_preset_is_not_won_by_doing_nothing():
+    shares = {name: skein.evaluate(name, "heading", preset="easy", episodes=200).success_rate for name in ("zero", "autopilot")}
+    assert shares["zero"] < 0.2
+    assert shares["autopilot"] > 0.95
+
+
+def test_the_adapter_says_what_the_environment_does():
+    pytest.importorskip("stable_baselines3")
+    import skein.sb3
+
+    settings = {"env.time_limit_steps": 100, "env.action_repeat": 5}
+    envs, adapter = (skein.make_vec("heading", 20, preset="easy", **settings) for _ in range(2))
+    adapter = skein.sb3.VecEnv(adapter)
+    adapter.seed(4)
+    np.testing.assert_array_equal(adapter.reset(), envs.reset(seed=4)[0])
+    draw = np.random.default_rng(0)
+    ends = 0
+    for _ in range(40):
+        actions = draw.uniform(-1, 1, (20, 4)).astype(np.float32)
+        observation, reward, over, infos = adapter.step(actions)
+        expected = envs.step(actions)
+        np.testing.assert_array_equal(observation, expected[0])
+        np.testing.assert_array_equal(reward, expected[1])
+        np.testing.assert_array_equal(over, expected[2] | expected[3])
+        for i in np.flatnonzero(over):
+            assert infos[i]["TimeLimit.truncated"] == expected[3][i]
+            np.testing.assert_array_equal(infos[i]["terminal_observation"], expected[4]["final_obs"][i])
+            assert infos[i]["episode"]["l"] <= 20
+            ends += 1
+    assert ends >= 20
+    assert adapter.get_attr("num_envs", [0, 3]) == [20, 20]
+
+
+def learnt(tmp_path, example, *arguments):
+    out = tmp_path / "curve.json"
+    command = [sys.executable, ROOT / "examples" / "python" / example, "--json", out, *arguments]
+    subprocess.run(command, check=True)
+    return json.loads(out.read_text())
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("arguments", [["ppo_heading.py"], ["sb3_heading.py"], ["sb3_heading.py", "--recurrent"]])
+def test_a_learner_of_others_learns_the_easy_preset(tmp_path, arguments):
+    pytest.importorskip("sb3_contrib")
+    pytest.importorskip("torch")
+    assert learnt(tmp_path, *arguments)["success_rate"] > LEAST_SUCCESS

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+import numpy as np
+import pytest
+
+import skein
+
+SHORT = {
+    "time_limit_steps": 200,
+    "stagger_clocks": False,
+    "action_repeat": 5,
+    "observation_noise": 0,
+    "hold_s": 0,
+    "heading": {"dwell_s": 0, "earliest_success_step": 0},
+}
+
+
+def actions_of(envs, steps):
+    return np.random.default_rng(0).uniform(-1, 1, (steps, *envs.action_space.shape)).astype(np.float32)
+
+
+def test_a_function_that_returns_the_tasks_reward_changes_nothing():
+    plain, ruled = (skein.make_vec("heading", 70, env=SHORT, reward=rule) for rule in (None, lambda at: at["reward"]))
+    plain.reset(seed=1), ruled.reset(seed=1)
+    for actions in actions_of(plain, 60):
+        expected, shown = plain.step(actions), ruled.step(actions)
+        for a, b in zip(expected[:4], shown[:4], strict=True):
+            np.testing.assert_array_equal(a, b)
+        if "final_info" in expected[4]:
+            for key in ("termination", "episode_control_steps", "_episode_return"):
+                np.testing.assert_array_equal(expected[4]["final_info"][key], shown[4]["final_info"][key])
+            np.testing.assert_allclose(
+                expected[4]["final_info"]["episode_return"], shown[4]["final_info"]["episode_return"], rtol=1e-4
+            )
+
+
+def test_columns_are_those_of_the_step_also_where_it_ended_an_episode():
+    seen = []
+
+    def reward(at):
+        seen.append({name: at[name].copy() for name in at})
+        return at["altitude_ft"]
+
+    envs = skein.make_vec("heading", 50, env=SHORT, reward=reward)
+    envs.reset(seed=2)
+    ends = 0
+    for actions in actions_of(envs, 60):
+        targets = envs.targets()
+        observation, rewards, terminated, truncated, info = envs.step(actions)
+        at, over, state = seen[-1], terminated | truncated, envs.state()
+        for name, column in state.items():
+            np.testing.assert_array_equal(column[~over], at[name][~over], err_msg=name)
+        np.testing.assert_array_equal(rewards, at["altitude_ft"])
+        np.testing.assert_array_equal(targets[:, 1], at["target_yaw_rad"])
+        np.testing.assert_array_equal(np.clip(actions[:, 2], -1, 1), at["action_roll"])
+        if over.any():
+            final = np.stack(info["final_obs"][over])
+            altitude = final[:, envs.observation_names.index("altitude_scaled")]
+            np.testing.assert_allclose(at["altitude_ft"][over] * 0.3048 / 5000, altitude, rtol=1e-5)
+            np.testing.assert_allclose(at["error_0_scaled"][over], final[:, 0], atol=1e-5)
+            np.testing.assert_allclose(np.sin(at["roll_rad"][over]), final[:, 4], atol=1e-5)
+            np.testing.assert_allclose(np.sin(at["pitch_rad"][over]), final[:, 6], atol=1e-5)
+            ends += over.sum()
+    assert ends >= 50
+
+
+def test_the_airspeed_is_what_the_error_is_made_of():
+    seen = {}
+    envs = skein.make_vec("heading", 64, conditions={"windy": "60fps"}, env=SHORT, reward=lambda at: seen.update(at) or at["reward"])
+    envs.reset(seed=0)
+    for actions in actions_of(envs, 5):
+        envs.step(actions)
+    error = (seen["target_true_airspeed_fps"] - seen["true_airspeed_fps"]) * 0.3048 / 340
+    np.testing.assert_allclose(error, seen["error_2_scaled"], atol=2e-5)
+    turn = seen["target_yaw_rad"] - seen["yaw_rad"]
+    np.testing.assert_allclose(np.sin(turn), np.sin(seen["error_1_scaled"]), atol=1e-4)
+
+
+def test_a_function_ends_episodes():
+    envs = skein.make_vec("heading", 40, env=SHORT, terminated=lambda at: np.abs(at["roll_rad"]) > 0.5)
+    envs.reset(seed=3)
+    lengths, ended = np.zeros(40, int), 0
+    for actions in actions_of(envs, 40):
+        actions[:, 2] = np.linspace(-1, 1, 40)
+        observation, reward, terminated, truncated, info = envs.step(actions)
+        lengths += 5
+        own = info["termination"] == skein.CUSTOM_TERMINATION
+        assert terminated[own].all()
+        for i in np.flatnonzero(own):
+            assert info["final_info"]["termination"][i] == "custom"
+            assert info["final_info"]["episode_control_steps"][i] == lengths[i]
+            sine, cosine = info["final_obs"][i][4:6]
+            assert abs(np.arctan2(sine, cosine)) > 0.5
+            assert abs(np.arctan2(*observation[i][4:6])) < 0.5  # the next episode's first
+        lengths[terminated | truncated] = 0
+        ended += own.sum()
+    assert ended > 40
+
+
+def test_one_aircraft_has_functions_too():
+    env = skein.make("heading", env=SHORT, reward=lambda at: at["p_rad_s"], terminated=lambda at: at["roll_rad"] > 1)
+    env.reset(seed=0)
+    terminated, total = False, 0.0
+    while not terminated:
+        _, reward, terminated, _, info = env.step([0, 0, 1, 0])
+        total += reward
+    assert info["termination"] == "custom"
+    np.testing.assert_allclose(info["episode_return"], total, rtol=1e-5)
+    env.reset()
+    assert not env.step([0, 0, 0, 0])[2]
+
+
+@pytest.mark.parametrize(
+    ("rules", "says"),
+    [
+        ({"reward": 3}, "function"),
+        ({"reward": lambda at: 1.0}, r"shape \(8,\)"),
+        ({"reward": lambda at: np.full(8, np.nan)}, "finite"),
+        ({"reward": lambda at: at["altitude_m"]}, "altitude_ft"),
+        ({"terminated": lambda at: at["reward"]}, "truth values"),
+        ({"terminated": lambda at: None}, "truth values"),
+    ],
+)
+def test_what_a_function_must_not_return(rules, says):
+    with pytest.raises(skein.Error, match=says):
+        envs = skein.make_vec("heading", 8, **rules)
+        envs.reset(seed=0)
+        envs.step(np.zeros((8, 4)))

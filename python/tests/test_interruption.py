@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ctrl-C, threads and processes."""
+import multiprocessing
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import skein
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MOST_SECONDS = 5  # asked for is one; the machine may be busy
+
+LONG = """
+import os, signal, sys, threading, time
+import skein
+def interrupt():
+    time.sleep(1)
+    print(time.monotonic(), flush=True)
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=interrupt).start()
+try:
+    {call}
+    print("went on")
+except KeyboardInterrupt:
+    print(time.monotonic(), "interrupted")
+handler = signal.getsignal(signal.SIGINT)
+assert handler is signal.default_int_handler
+try:
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(10)
+except KeyboardInterrupt:
+    print("again")
+"""
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        'skein.train("heading", "run")',
+        'skein.train("heading", "run", callback=lambda row: None)',
+        'skein.evaluate("autopilot", "heading", episodes=10**5)',
+        'skein.compare(["autopilot", "zero"], "heading", episodes=10**5)',
+    ],
+)
+def test_ctrl_c_is_a_keyboard_interrupt(call, tmp_path):
+    command = [sys.executable, "-c", LONG.format(call=call)]
+    lines = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path).stdout.splitlines()
+    times = [line.split() for line in lines if line[0].isdigit()]
+    assert lines[-1] == "again", lines
+    assert times[1][1] == "interrupted", lines
+    assert float(times[1][0]) - float(times[0][0]) < MOST_SECONDS
+
+
+def test_an_interrupted_training_is_resumed_to_the_same_bits(tmp_path):
+    tiny = {
+        "network.hidden_size": 16, "network.gru_size": 16, "ppo.num_aircraft": 64, "ppo.rollout_steps": 16,
+        "ppo.minibatches": 2, "run.total_steps": 6 * 64 * 16 * 5, "evaluation.final_episodes": 8,
+        "evaluation.interval_iterations": 0,
+    }
+
+    def interrupted(row):
+        if row["iteration"] == 2:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    whole = skein.train("heading", tmp_path / "whole", **tiny)
+    with pytest.raises(KeyboardInterrupt):
+        skein.train("heading", tmp_path / "cut", callback=interrupted, **tiny)
+    cut = skein.Run(tmp_path / "cut")
+    assert cut.evaluation is None
+    seen = []
+    assert cut.resume(callback=seen.append).evaluation is not None
+    assert [row["iteration"] for row in seen] == [3, 4, 5, 6]
+    for name in ("metrics.csv", "checkpoints/policy-final.skein"):
+        assert (cut.path / name).read_bytes() == (whole.path / name).read_bytes()
+
+
+def test_a_python_handler_has_its_say(tmp_path):
+    seen = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
+    timer = threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT))
+    try:
+        timer.start()
+        skein.evaluate("autopilot", "heading", episodes=10**5)
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, before)
+    assert seen == [signal.SIGINT]
+
+
+def counted_while(work):
+    """How often another thread of Python came to run during the work, by hundredths of a second."""
+    counts, ended = [0], threading.Event()
+
+    def count():
+        while not ended.wait(0.01):
+            counts[0] += 1
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    start = time.monotonic()
+    work()
+    seconds = time.monotonic() - start
+    ended.set()
+    thread.join()
+    return counts[0] / (seconds * 100)
+
+
+def test_other_threads_of_python_run_on_during_long_work():
+    envs = skein.make_vec("heading", 4096, threads=1, **{"env.action_repeat": 300})
+    envs.reset(seed=0)
+    actions = np.zeros((4096, 4), np.float32)
+    assert counted_while(lambda: envs.step(actions)) > 0.2
+    assert counted_while(lambda: skein.evaluate("autopilot", "heading", episodes=1500, threads=1)) > 0.2
+    # A step that holds the lock shows nothing of the other thread.
+    assert counted_while(lambda: sum(range(10**7))) >= 0
+
+
+def rollout(seed, num_envs=64, threads=0):
+    envs = skein.make_vec("heading", num_envs, threads=threads)
+    shown = [envs.reset(seed=seed)[0]]
+    draw = np.random.default_rng(seed)
+    for _ in range(30):
+        shown.append(envs.step(draw.uniform(-1, 1, (num_envs, 4)).astype(np.float32))[0])
+    return np.stack(shown)
+
+
+def test_environments_of_many_threads_do_not_meet():
+    alone = [rollout(seed) for seed in range(6)]
+    together = [None] * 6
+
+    def fly(seed):
+        together[seed] = rollout(seed)
+
+    threads = [threading.Thread(target=fly, args=(seed,)) for seed in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for first, second in zip(alone, together, strict=True):
+        np.testing.assert_array_equal(first, second)
+
+
+def test_evaluations_of_many_threads_do_not_meet():
+    rates = [None] * 3
+
+    def fly(seed):
+        rates[seed] = skein.evaluate("autopilot", "heading", episodes=48, seed=seed).return_mean
+
+    threads = [threading.Thread(target=fly, args=(seed,)) for seed in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert rates == [skein.evaluate("autopilot", "heading", episodes=48, seed=seed).return_mean for seed in range(3)]
+
+
+@pytest.mark.parametrize("method", ["spawn", "forkserver", "fork"])
+@pytest.mark.parametrize("num_envs", [1, 64])
+def test_environments_of_processes(method, num_envs):
+    here = rollout(1, num_envs, threads=2)  # threads are there before the fork
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        for there in pool.starmap_async(rollout, [(1, num_envs, 2), (1, num_envs, 1)]).get(timeout=120):
+            np.testing.assert_array_equal(here, there)
