@@ -10,6 +10,7 @@
 #include "base/fnv_hash.h"
 #include "envs/aircraft/aircraft_json.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
+#include "envs/aircraft/table_aircraft.h"
 
 namespace skein {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kLongestName = 60;
+constexpr const char* kDerivatives = "derivatives";
+constexpr const char* kTables = "tables";
 
 bool IsNameCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -92,6 +95,7 @@ AircraftDocument ReadAircraftDocument(const std::string& name, std::string_view 
   AircraftDocument document;
   document.name = name;
   document.text = text;
+  document.model = kDerivatives;
   Section section(content, who);
   if (section.Has(kNameKey)) document.name = section.ReadText(kNameKey);
   if (!IsName(document.name)) {
@@ -100,6 +104,10 @@ AircraftDocument ReadAircraftDocument(const std::string& name, std::string_view 
   }
   if (section.Has(kSettingsKey)) {
     ListSettings(content.at(kSettingsKey), kSettingsKey, who, &document.settings);
+  }
+  if (section.Has(kModelKey)) document.model = section.ReadText(kModelKey);
+  if (document.model != kTables && document.model != kDerivatives) {
+    throw Error(who + ": model must be \"" + kDerivatives + "\" or \"" + kTables + "\"");
   }
   document.hash = HashOf(content);
   return document;
@@ -120,6 +128,7 @@ AircraftDocument ReadAircraftDocumentFile(const std::string& path) {
 }
 
 Aircraft MakeAircraft(const AircraftDocument& document) {
+  if (document.model == kTables) return ReadTableAircraft(document.name, document.text);
   return MakeAircraft(ReadDerivativeAircraft(document.name, document.text));
 }
 

@@ -12,7 +12,8 @@ namespace skein {
 /// What an aircraft's file says, before the numbers of its model are read.
 struct AircraftDocument {
   std::string name;
-  std::string text;  ///< all of it
+  std::string text;   ///< all of it
+  std::string model;  ///< "derivatives" or "tables"
   /// Sixteen hexadecimal digits that stand for its content: the numbers and names of its model,
   /// however they are written, without what is for readers, its own name and its settings.
   std::string hash;

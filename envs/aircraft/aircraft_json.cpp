@@ -187,6 +187,18 @@ std::string Section::ReadText(const char* key) {
   return value.get<std::string>();
 }
 
+std::vector<std::string> Section::ReadTexts(const char* key) {
+  const json& list = At(key);
+  std::vector<std::string> texts;
+  for (const json& text : list) {
+    if (!list.is_array() || !text.is_string()) {
+      throw Error(path_ + "." + key + " must be a list of texts");
+    }
+    texts.push_back(text.get<std::string>());
+  }
+  return texts;
+}
+
 std::vector<std::string> Section::ReadKeys() {
   std::vector<std::string> keys;
   for (const auto& entry : values_.items()) {

@@ -61,6 +61,7 @@ class Section {
   /// Two to kMaxAxisNodes numbers, strictly increasing.
   void ReadAxis(const char* key, std::vector<double>* nodes);
   std::string ReadText(const char* key);
+  std::vector<std::string> ReadTexts(const char* key);
   /// The names of all keys but "source" and "about", which count as read.
   std::vector<std::string> ReadKeys();
   /// Counts `key` as read, if it is there.

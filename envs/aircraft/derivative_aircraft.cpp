@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "envs/aircraft/aircraft_sections.h"
 #include "envs/aircraft/units.h"
 
 namespace skein {
@@ -137,7 +138,6 @@ Airframe MakeAirframe(const DerivativeAircraft& aircraft) {
   airframe.Ixz = aircraft.Ixz_kg_m2 / kKgM2PerSlugFt2;
   airframe.aileron_reference_deg = aircraft.aileron.max_deg;
   airframe.rudder_reference_deg = aircraft.rudder.max_deg;
-  airframe.leading_edge_flap_reference_deg = 1;
   return airframe;
 }
 
@@ -170,17 +170,10 @@ Aircraft MakeAircraft(const DerivativeAircraft& derivatives) {
   aircraft.engine = TabulateThrust(derivatives.propulsion);
   aircraft.throttle_gearing = derivatives.throttle_gearing;
   aircraft.power_lag = derivatives.power_lag;
-  // Of the flap that is not there, only that it never moves and that its range is not empty: it is
-  // among what is observed.
-  constexpr Actuator kNoFlap{1, 1, 0, 1};
-  aircraft.actuators = {derivatives.elevator, derivatives.aileron, derivatives.rudder, kNoFlap};
+  aircraft.actuators = {derivatives.elevator, derivatives.aileron, derivatives.rudder, {}};
   aircraft.flight_control = derivatives.flight_control;
-  aircraft.flight_control.flap_alpha_gain = 0;
-  aircraft.flight_control.flap_pressure_gain_deg = 0;
-  aircraft.flight_control.flap_bias_deg = 0;
-  aircraft.units.altitude_error_ft = derivatives.altitude_error_unit_m * kFeetPerMetre;
-  aircraft.units.altitude_ft = derivatives.altitude_unit_m * kFeetPerMetre;
-  aircraft.units.speed_ft_s = derivatives.speed_unit_m_s * kFeetPerMetre;
+  LeaveOutFlap(&aircraft);
+  aircraft.units = derivatives.units;
   aircraft.untrimmed_thrust_lbf = derivatives.untrimmed_thrust_N / kNewtonsPerLbf;
   return aircraft;
 }

@@ -55,7 +55,7 @@ struct DerivativeAircraft {
   Actuator elevator, aileron, rudder;
   FlightLimits limits;
   FlightControlGains flight_control;
-  double altitude_error_unit_m = 0, altitude_unit_m = 0, speed_unit_m_s = 0;
+  ReferenceUnits units;
 };
 
 double LiftCoefficient(const LongitudinalDerivatives& longitudinal, double alpha_rad);

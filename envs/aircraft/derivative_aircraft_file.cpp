@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "envs/aircraft/aircraft_json.h"
+#include "envs/aircraft/aircraft_sections.h"
 #include "envs/aircraft/flight_control_file.h"
 #include "envs/aircraft/propulsion_file.h"
 
@@ -80,13 +81,6 @@ void ReadLimits(Section section, FlightLimits* limits) {
   section.Finish();
 }
 
-void ReadUnits(Section section, DerivativeAircraft* aircraft) {
-  section.ReadPositive("altitude_error_m", &aircraft->altitude_error_unit_m);
-  section.ReadPositive("altitude_m", &aircraft->altitude_unit_m);
-  section.ReadPositive("speed_m_s", &aircraft->speed_unit_m_s);
-  section.Finish();
-}
-
 }  // namespace
 
 DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_view text,
@@ -110,7 +104,7 @@ DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_v
   if (flight_control == FlightControlSection::kRequired || section.Has("flight_control")) {
     ReadFlightControl(section.Below("flight_control"), &aircraft.flight_control);
   }
-  ReadUnits(section.Below("observation_units"), &aircraft);
+  aircraft.units = ReadUnits(section.Below("observation_units"));
   section.Finish();
   return aircraft;
 }

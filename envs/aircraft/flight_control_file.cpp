@@ -10,9 +10,7 @@ nlohmann::ordered_json Json(const Ramp& ramp) {
   return {ramp.x_low, ramp.y_low, ramp.x_high, ramp.y_high};
 }
 
-}  // namespace
-
-void ReadFlightControl(Section section, FlightControlGains* gains) {
+void ReadChannels(Section& section, FlightControlGains* gains) {
   VisitFlightControlGains(*gains, [&](const char* key, auto* value) { section.Read(key, value); });
   // The loop gains are divided by dynamic pressures of at least these.
   for (const char* key :
@@ -20,6 +18,21 @@ void ReadFlightControl(Section section, FlightControlGains* gains) {
     double pressure_psf = 0;
     section.ReadPositive(key, &pressure_psf);
   }
+}
+
+}  // namespace
+
+void ReadFlightControl(Section section, FlightControlGains* gains) {
+  ReadChannels(section, gains);
+  section.Finish();
+}
+
+void ReadFlightControlWithFlap(Section section, FlightControlGains* gains) {
+  ReadChannels(section, gains);
+  section.Read("flap_filter", &gains->flap_filter);
+  section.Read("flap_alpha_gain", &gains->flap_alpha_gain);
+  section.Read("flap_pressure_gain_deg", &gains->flap_pressure_gain_deg);
+  section.Read("flap_bias_deg", &gains->flap_bias_deg);
   section.Finish();
 }
 

@@ -77,6 +77,8 @@ void VisitFlightControlGains(Gains& gains, const Visit& visit) {
 
 /// Reads the section `flight_control`. Throws Error as Section does.
 void ReadFlightControl(Section section, FlightControlGains* gains);
+/// The same, with the leading-edge flap's gains.
+void ReadFlightControlWithFlap(Section section, FlightControlGains* gains);
 
 /// The section that ReadFlightControl reads, but for "about".
 nlohmann::ordered_json FlightControlJson(const FlightControlGains& gains);

@@ -16,7 +16,8 @@ struct Ramp {
 };
 
 /// Gains of the four-channel flight control system. Angles in degrees, rates in deg/s,
-/// accelerations in g, dynamic pressure in psf. The defaults are Skein's set for the F-16; its laws
+/// accelerations in g, dynamic pressure in psf. An aircraft has those of its file; the defaults are
+/// Skein's set for the F-16, whose filters `skein aircraft tune` keeps. The laws
 /// are in envs/reference/flight_control.h; sources and verification in
 /// docs/explanation/flight-control.md.
 struct FlightControlGains {

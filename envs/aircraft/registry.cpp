@@ -1,74 +1,74 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/aircraft/registry.h"
 
-#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "envs/aircraft/aircraft_document.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
-#include "envs/aircraft/f16.h"
 
 namespace skein {
 namespace {
 
-/// Aircraft with a loader of their own.
-struct Registration {
-  const char* name;
-  Aircraft (*load)();
+/// An aircraft with the file that it was read from.
+struct KnownAircraft {
+  AircraftDocument document;
+  Aircraft aircraft;
 };
 
-constexpr std::array<Registration, 1> kAircraft = {{{"f16", F16}}};
+using SharedAircraft = std::shared_ptr<const KnownAircraft>;
 
-using SharedDocument = std::shared_ptr<const AircraftDocument>;
+SharedAircraft Make(AircraftDocument document) {
+  Aircraft aircraft = MakeAircraft(document);
+  return std::make_shared<const KnownAircraft>(
+      KnownAircraft{std::move(document), std::move(aircraft)});
+}
 
-/// The files that the process keeps, by what stands for them. Content never changes under a name
-/// that holds its hash, so that what is kept is the same for everyone.
-class KeptFiles {
+/// What the process has read, by what stands for it: the names of the aircraft that come with
+/// Skein, and NAME#HASH of files. Neither ever stands for something else.
+class Known {
  public:
-  std::string Keep(AircraftDocument document) {
-    const std::string key = document.name + "#" + document.hash;
+  SharedAircraft Keep(const std::string& key, SharedAircraft aircraft) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    kept_.emplace(key, std::make_shared<const AircraftDocument>(std::move(document)));
-    return key;
+    return known_.emplace(key, std::move(aircraft)).first->second;
   }
 
-  /// Null if it is not kept.
-  SharedDocument Find(const std::string& key) {
+  /// Null if it is not known.
+  SharedAircraft Find(const std::string& key) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = kept_.find(key);
-    return found == kept_.end() ? nullptr : found->second;
+    const auto found = known_.find(key);
+    return found == known_.end() ? nullptr : found->second;
   }
 
  private:
   std::mutex mutex_;
-  std::map<std::string, SharedDocument> kept_;
+  std::map<std::string, SharedAircraft> known_;
 };
 
-KeptFiles& Kept() {
-  static KeptFiles kept;
-  return kept;
+Known& TheKnown() {
+  static Known known;
+  return known;
 }
 
-SharedDocument DocumentOf(const std::string& aircraft) {
-  if (auto kept = Kept().Find(aircraft)) return kept;
-  if (IsAircraftPath(aircraft)) {
-    return std::make_shared<const AircraftDocument>(ReadAircraftDocumentFile(aircraft));
-  }
+SharedAircraft Find(const std::string& aircraft) {
+  if (auto known = TheKnown().Find(aircraft)) return known;
+  if (IsAircraftPath(aircraft)) return Make(ReadAircraftDocumentFile(aircraft));
   for (const AircraftFile& file : AircraftFiles()) {
     if (aircraft != file.name) continue;
-    return std::make_shared<const AircraftDocument>(
-        ReadAircraftDocument(aircraft, *file.text, "aircraft " + aircraft));
+    return TheKnown().Keep(
+        aircraft, Make(ReadAircraftDocument(aircraft, *file.text, "aircraft " + aircraft)));
   }
   if (aircraft.find('#') != std::string::npos) {
     throw Error("environment: the file of the aircraft " + aircraft +
                 " is not at hand; name it with --aircraft FILE.json");
   }
-  std::string known;
-  for (const std::string& name : AircraftNames()) known += (known.empty() ? "" : ", ") + name;
-  throw Error("environment: unknown aircraft \"" + aircraft + "\"; known: " + known +
+  std::string names;
+  for (const std::string& name : AircraftNames()) names += (names.empty() ? "" : ", ") + name;
+  throw Error("environment: unknown aircraft \"" + aircraft + "\"; known: " + names +
               ", or the path of a file, FILE.json");
 }
 
@@ -76,7 +76,6 @@ SharedDocument DocumentOf(const std::string& aircraft) {
 
 std::vector<std::string> AircraftNames() {
   std::vector<std::string> names;
-  for (const Registration& aircraft : kAircraft) names.emplace_back(aircraft.name);
   for (const AircraftFile& file : AircraftFiles()) names.emplace_back(file.name);
   return names;
 }
@@ -89,18 +88,25 @@ bool IsAircraftPath(const std::string& aircraft) {
               0);
 }
 
-Aircraft LoadAircraft(const std::string& aircraft) {
-  for (const Registration& registered : kAircraft) {
-    if (aircraft == registered.name) return registered.load();
-  }
-  return MakeAircraft(*DocumentOf(aircraft));
-}
+Aircraft LoadAircraft(const std::string& aircraft) { return Find(aircraft)->aircraft; }
 
 std::string KeepAircraftFile(const std::string& path, const std::string& name) {
   AircraftDocument document = ReadAircraftDocumentFile(path);
   if (!name.empty()) document.name = name;
-  MakeAircraft(document);  // what is kept can be flown
-  return Kept().Keep(std::move(document));
+  const std::string key = document.name + "#" + document.hash;
+  TheKnown().Keep(key, Make(std::move(document)));
+  return key;
+}
+
+AircraftIdentity IdentifyAircraft(const std::string& aircraft) {
+  const SharedAircraft known = Find(aircraft);
+  return {known->document.name, known->document.hash};
+}
+
+std::string AircraftText(const std::string& aircraft) { return Find(aircraft)->document.text; }
+
+std::vector<std::string> AircraftSettings(const std::string& aircraft) {
+  return Find(aircraft)->document.settings;
 }
 
 }  // namespace skein

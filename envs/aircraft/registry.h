@@ -25,4 +25,19 @@ Aircraft LoadAircraft(const std::string& aircraft);
 /// LoadAircraft.
 std::string KeepAircraftFile(const std::string& path, const std::string& name = "");
 
+/// What distinguishes an aircraft.
+struct AircraftIdentity {
+  std::string name;
+  std::string hash;  ///< AircraftDocument::hash
+};
+
+/// Of what LoadAircraft takes, and throws as it does.
+AircraftIdentity IdentifyAircraft(const std::string& aircraft);
+
+/// The text of the file of an aircraft, which LoadAircraft would read.
+std::string AircraftText(const std::string& aircraft);
+
+/// Settings of the environment for the aircraft, from its file: "env.hold_s=10".
+std::vector<std::string> AircraftSettings(const std::string& aircraft);
+
 }  // namespace skein
