@@ -51,6 +51,8 @@ def text(name: str, value: Any) -> str:
 
 def rows(name: str, value: Any, shape: tuple[int | None, ...], dtype: Any = np.float32) -> NDArray[Any]:
     """An array of real numbers, in place where type and layout fit; None in `shape` is any number."""
+    if isinstance(value, np.ndarray) and value.dtype == dtype and value.shape == shape and value.flags.c_contiguous:
+        return value  # without delay: it is asked at every step
     try:
         array = np.asarray(value)
         if array.dtype.kind not in ("iu" if np.issubdtype(dtype, np.integer) else "fiu"):

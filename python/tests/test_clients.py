@@ -10,7 +10,7 @@ from conftest import ROOT
 
 import skein
 
-# What a training of a few minutes must reach of 500 fresh episodes; without one it is below 0.1 (actions of zero).
+# What a training of a few minutes must reach of 500 fresh episodes; actions of zero reach 0.12, random ones 0.39.
 LEAST_SUCCESS = 0.8
 
 
