@@ -21,6 +21,7 @@ struct ControlStep {
   const float* errors = nullptr;
   std::size_t error_stride = 0;
   EpisodeProgress progress;  ///< after it; null columns where none is kept
+  Tile task;                 ///< the task's columns, targets first, of the step
 };
 
 /// Is shown the control steps of policy steps as they are flown: those of an aircraft in their

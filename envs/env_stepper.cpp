@@ -370,7 +370,7 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
   for (int i = 0; i < block.count; ++i) scratch.policy_step_reward[i] += reward[i];
   task_->Errors(block.flight, block.task, scratch.errors, kAircraftPerBlock);
   observer->See({block.first_aircraft, block.flight, action, reward, episodes.termination,
-                 scratch.errors, kAircraftPerBlock, block.progress});
+                 scratch.errors, kAircraftPerBlock, block.progress, block.task});
 }
 
 /// Copies the rows of aircraft whose episodes ended in this control step, by time or, if asked for,

@@ -102,6 +102,7 @@ void AddCommands(CLI::App* app) {
   AddTrainCommand(app);
   AddEvalCommand(app);
   AddCompareCommand(app);
+  AddReplayCommand(app);
   AddStudyCommand(app);
   AddFdmCommand(app);
   AddExportCommand(app);

@@ -135,9 +135,9 @@ class ControlTask : public Task {
   int num_columns() const override { return kNumControlColumns; }
   int num_targets() const override { return kControlSpeed + 1; }
   std::vector<TargetQuantity> target_quantities() const override {
-    return {{"pitch_deg", true, kDegPerRad},
-            {"yaw_deg", true, kDegPerRad},
-            {"true_airspeed_fps", false, units_.speed_ft_s}};
+    return {{"pitch_deg", true, kDegPerRad, config_.pitch_tolerance_deg},
+            {"yaw_deg", true, kDegPerRad, config_.yaw_tolerance_deg},
+            {"true_airspeed_fps", false, units_.speed_ft_s, config_.speed_tolerance_fps}};
   }
 
   double dwell_s() const override { return config_.dwell_s; }

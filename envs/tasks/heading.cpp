@@ -99,9 +99,9 @@ class HeadingTask : public Task {
   int num_columns() const override { return kNumHeadingColumns; }
   int num_targets() const override { return kTargetSpeed + 1; }
   std::vector<TargetQuantity> target_quantities() const override {
-    return {{"altitude_ft", false, units_.altitude_error_ft},
-            {"yaw_deg", true, kDegPerRad},
-            {"true_airspeed_fps", false, units_.speed_ft_s}};
+    return {{"altitude_ft", false, units_.altitude_error_ft, config_.altitude_tolerance_ft},
+            {"yaw_deg", true, kDegPerRad, config_.yaw_tolerance_deg},
+            {"true_airspeed_fps", false, units_.speed_ft_s, config_.speed_tolerance_fps}};
   }
 
   double dwell_s() const override { return config_.dwell_s; }

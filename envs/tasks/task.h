@@ -38,6 +38,8 @@ struct TargetQuantity {
   bool is_angle = false;
   /// One of the task's normalised error of the same place (Task::Errors), in the column's unit.
   double error_unit = 1;
+  double tolerance =
+      0;  ///< of evaluations: how far from it the target counts, in the column's unit
 };
 
 /// What the aircraft of an environment are asked to do. One object serves all tiles: it holds

@@ -163,9 +163,9 @@ class TrackingTask : public Task {
   int num_columns() const override { return kNumTrackingColumns; }
   int num_targets() const override { return kTrackingAltitude + 1; }
   std::vector<TargetQuantity> target_quantities() const override {
-    return {{"north_ft", false, unit_ft_},
-            {"east_ft", false, unit_ft_},
-            {"altitude_ft", false, unit_ft_}};
+    return {{"north_ft", false, unit_ft_, config_.position_tolerance_ft},
+            {"east_ft", false, unit_ft_, config_.position_tolerance_ft},
+            {"altitude_ft", false, unit_ft_, config_.position_tolerance_ft}};
   }
 
   bool is_point() const override { return true; }

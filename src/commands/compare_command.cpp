@@ -3,9 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
-#include <set>
+#include <utility>
 
 #include "src/agents/agent_names.h"
 #include "src/bench/machine.h"
@@ -36,34 +35,27 @@ ProgramConfig Configure(const FlightOptions& flight) {
   });
 }
 
-std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
-                                   const ProgramConfig& config, std::uint64_t seed) {
-  std::vector<NamedAgent> agents;
-  std::set<std::string> known;
-  for (const std::string& name : names) {
-    if (!known.insert(name).second) {
-      throw UsageError(fmt::format("--agents: {} is there twice", name));
-    }
-    agents.push_back({name, FindAgent(name, config, seed)});
-  }
-  return agents;
-}
-
-/// "flights.csv" of agent "policy:runs/a" is "flights.policy-runs-a.csv".
-std::string FlightsPath(const std::string& path, const std::string& agent) {
-  const std::filesystem::path file(path);
-  return (file.parent_path() /
-          (file.stem().string() + "." + FileNamePart(agent) + file.extension().string()))
-      .string();
-}
-
 std::vector<std::string> Outputs(const CompareOptions& options) {
-  std::vector<std::string> paths = {options.csv, options.flight.json};
+  std::vector<std::string> paths = {options.csv, options.flight.json, options.flight.acmi};
   if (options.flight.flights.empty()) return paths;
   for (const std::string& agent : options.agents) {
-    paths.push_back(FlightsPath(options.flight.flights, agent));
+    paths.push_back(PathOfAgent(options.flight.flights, agent));
   }
   return paths;
+}
+
+void WriteRecords(const FlightOptions& flight, const std::vector<NamedAgent>& agents,
+                  const EnvConfig& env, WorkerPool& pool) {
+  std::vector<AgentFlights> for_acmi;
+  for (const NamedAgent& named : agents) {
+    AgentFlights flown =
+        RecordFirst(flight, named.name, named.agent, named.agent.EnvironmentFor(env), pool);
+    if (!flight.flights.empty()) {
+      WriteFlightsCsv(flight, PathOfAgent(flight.flights, named.name), "by " + named.name, flown);
+    }
+    if (!flight.acmi.empty()) for_acmi.push_back(std::move(flown));
+  }
+  if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, for_acmi);
 }
 
 void CompareAgents(const CompareOptions& options) {
@@ -78,11 +70,7 @@ void CompareAgents(const CompareOptions& options) {
     WriteFile(options.csv, ToCsv(comparison));
   }
   if (!flight.json.empty()) WriteJson(flight.json, ToJson(comparison, config));
-  if (flight.flights.empty()) return;
-  for (const NamedAgent& named : agents) {
-    WriteFlights(flight, FlightsPath(flight.flights, named.name), "by " + named.name, named.agent,
-                 named.agent.EnvironmentFor(config.train.env), pool);
-  }
+  if (RecordsFlights(flight)) WriteRecords(flight, agents, config.train.env, pool);
 }
 
 }  // namespace

@@ -13,13 +13,11 @@
 #include "src/commands/commands.h"
 #include "src/commands/flight_options.h"
 #include "src/config/conditions.h"
-#include "src/config/configuration.h"
 #include "src/config/presets.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
-#include "src/run/run_directory.h"
 
 namespace skein {
 namespace {
@@ -31,27 +29,26 @@ struct EvalOptions {
   FlightOptions flight;
 };
 
-/// What the policy was made for: the run's own configuration if it is given as a run, else the
-/// preset's, of `policys_task` if no other is asked for.
-ProgramConfig BaseConfig(const EvalOptions& options, const std::string& policys_task) {
-  const FlightOptions& flight = options.flight;
-  if (!IsRunDirectory(options.policy) || flight.preset_option->count() > 0) {
-    const std::string& task = flight.task.empty() ? policys_task : flight.task;
-    if (task.empty()) {
-      throw UsageError(
-          fmt::format("--task is needed: --policy {} does not say its own", options.policy));
-    }
-    return AsUsage([&] { return ResolveConfig({task, flight.preset, "", {}}); });
-  }
-  return ReadRecord(options.policy + "/config.toml");
-}
-
 std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {
   std::string own = fmt::format("an action every {} control steps", env.action_repeat);
   if (policy.low_level() == nullptr) return own;
   // It acts anew with every policy step of the high-level policy, too.
   return fmt::format("{} for a low-level policy with one every {}", own,
                      std::min(env.action_repeat, policy.low_level()->action_repeat()));
+}
+
+/// Of the mode that is reported first.
+void WriteRecords(const EvalOptions& options, const std::string& path,
+                  const RecurrentPolicy& policy, const EnvConfig& env, WorkerPool& pool) {
+  const FlightOptions& flight = options.flight;
+  const AgentFlights flown = RecordFirst(
+      flight, "policy:" + path,
+      options.deterministic ? Agent::MeanOf(policy) : Agent::SamplingFrom(policy), env, pool);
+  if (!flight.flights.empty()) {
+    WriteFlightsCsv(flight, flight.flights,
+                    options.deterministic ? "with the mean action" : "with sampled actions", flown);
+  }
+  if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, {flown});
 }
 
 void Evaluate(const EvalOptions& options) {
@@ -63,7 +60,7 @@ void Evaluate(const EvalOptions& options) {
   }
   std::optional<RecurrentPolicy> trained;
   if (path != kUntrained) trained = RecurrentPolicy::Load(path);
-  ProgramConfig config = BaseConfig(options, trained ? trained->task() : "");
+  ProgramConfig config = ConfigFor(flight, options.policy, trained ? trained->task() : "");
   if (trained) config.train.env = trained->EnvironmentFor(config.train.env);
   ApplyOverrides(flight, &config);
   std::shared_ptr<const StoredPolicy> low_level;
@@ -72,7 +69,7 @@ void Evaluate(const EvalOptions& options) {
     low_level = ChooseLowLevelPolicy(config.train.env, options.low_level).policy;
   }
   const RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);
-  CheckWritable({flight.json, flight.flights});
+  CheckWritable({flight.json, flight.flights, flight.acmi});
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
       EvaluateBothWays(policy, config.train.env, flight.episodes, flight.seed, pool);
@@ -84,15 +81,7 @@ void Evaluate(const EvalOptions& options) {
   if (!flight.json.empty()) {
     WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));
   }
-  if (flight.flights.empty()) return;
-  // Those of the mode that is reported first.
-  if (options.deterministic) {
-    WriteFlights(flight, flight.flights, "with the mean action", Agent::MeanOf(policy),
-                 config.train.env, pool);
-  } else {
-    WriteFlights(flight, flight.flights, "with sampled actions", Agent::SamplingFrom(policy),
-                 config.train.env, pool);
-  }
+  if (RecordsFlights(flight)) WriteRecords(options, path, policy, config.train.env, pool);
 }
 
 }  // namespace

@@ -2,17 +2,25 @@
 #include "src/commands/flight_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <filesystem>
+#include <set>
+
+#include "src/agents/agent_names.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/evaluation/flight_file.h"
 #include "src/files/output_file.h"
+#include "src/files/text_table.h"
+#include "src/replay/acmi_flights.h"
+#include "src/run/run_directory.h"
 
 namespace skein {
 
-void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {
+void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {
   command->add_option("--task", options->task, texts.task)->type_name("TASK");
   options->preset_option =
       command->add_option("--preset", options->preset, texts.preset)->type_name("PRESET");
@@ -49,22 +57,47 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")
       ->transform(WholeNumber(1, 1024));
+}
+
+void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {
+  AddEpisodeOptions(command, texts, options);
   command->add_option("--json", options->json, texts.json)->type_name("FILE");
   CLI::Option* flights =
       command->add_option("--flights", options->flights, texts.flights)->type_name("FILE");
   command
-      ->add_option("--flights-count", options->flights_count,
-                   "how many of them (all, if there are fewer)")
-      ->transform(WholeNumber(1, 1000))
-      ->needs(flights)
-      ->capture_default_str();
+      ->add_option("--acmi", options->acmi,
+                   "write the first episodes here for Tacview, as an ACMI file")
+      ->type_name("FILE");
+  options->flights_count_option = command
+                                      ->add_option("--flights-count", options->flights_count,
+                                                   "how many of them (all, if there are fewer)")
+                                      ->transform(WholeNumber(1, 1000))
+                                      ->capture_default_str();
   command
       ->add_flag("--flights-observations", options->flights_observations,
                  "write what the policy observed, too (22 columns)")
       ->needs(flights);
 }
 
+ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
+                        const std::string& policys_task) {
+  if (IsRunDirectory(policy) && options.preset_option->count() == 0) {
+    return ReadRecord(policy + "/config.toml");
+  }
+  const std::string& task = options.task.empty() ? policys_task : options.task;
+  if (task.empty()) {
+    throw UsageError(
+        policy.empty() ? "--task is needed: no agent is a policy that says its own"
+                       : fmt::format("--task is needed: --policy {} does not say its own", policy));
+  }
+  return AsUsage([&] { return ResolveConfig({task, options.preset, "", {}}); });
+}
+
 void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
+  const CLI::Option* const count = options.flights_count_option;
+  if (count != nullptr && count->count() > 0 && !RecordsFlights(options)) {
+    throw UsageError("--flights-count is for --flights and --acmi");
+  }
   for (const std::string& assignment : options.assignments) {
     for (const char* table : {"run.", "ppo.", "evaluation.", "checkpoint."}) {
       if (KeyOf(assignment).rfind(table, 0) != 0) continue;
@@ -84,17 +117,61 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
   });
 }
 
-void WriteFlights(const FlightOptions& options, const std::string& path, const std::string& manner,
-                  const Agent& agent, const EnvConfig& env, WorkerPool& pool) {
+std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
+                                   const ProgramConfig& config, std::uint64_t seed) {
+  std::vector<NamedAgent> agents;
+  std::set<std::string> known;
+  for (const std::string& name : names) {
+    if (!known.insert(name).second) {
+      throw UsageError(fmt::format("--agents: {} is there twice", name));
+    }
+    agents.push_back({name, FindAgent(name, config, seed)});
+  }
+  return agents;
+}
+
+bool RecordsFlights(const FlightOptions& options) {
+  return !options.flights.empty() || !options.acmi.empty();
+}
+
+AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, const Agent& agent,
+                         const EnvConfig& env, WorkerPool& pool) {
   EvaluationOptions evaluation;
   evaluation.episodes = options.episodes;
   evaluation.seed = options.seed;
-  const std::vector<RecordedFlight> flights =
-      RecordFlights(agent, env, evaluation, options.flights_count, pool);
-  WriteFile(path, FlightsCsv(env, flights,
+  return FlyAndRecord(name, agent, env, evaluation, options.flights_count, pool);
+}
+
+void WriteFlightsCsv(const FlightOptions& options, const std::string& path,
+                     const std::string& manner, const AgentFlights& flown) {
+  WriteFile(path, FlightsCsv(flown.env, flown.flights,
                              options.flights_observations ? FlightColumns::kStatesAndObservations
                                                           : FlightColumns::kStates));
-  fmt::print("{}: {} flights {}\n", path, flights.size(), manner);
+  fmt::print("{}: {} {}\n", path, Counted(static_cast<int>(flown.flights.size()), "flight"),
+             manner);
+}
+
+AcmiRecording AcmiOf(const FlightOptions& options, const std::vector<AgentFlights>& agents) {
+  const EnvConfig& env = agents.front().env;
+  std::vector<std::string> names;
+  for (const AgentFlights& flown : agents) names.push_back(flown.agent);
+  return RecordAcmi(agents, fmt::format("{}: {}", env.task, fmt::join(names, ", ")),
+                    fmt::format("{}; seed {}", DescribeConditions(env), options.seed));
+}
+
+void WriteFlightsAcmi(const FlightOptions& options, const std::string& path,
+                      const std::vector<AgentFlights>& agents) {
+  WriteFile(path, AcmiFile(AcmiOf(options, agents)));
+  fmt::print("{}: {} by {}, for Tacview\n", path,
+             Counted(static_cast<int>(agents.front().flights.size()), "episode"),
+             Counted(static_cast<int>(agents.size()), "agent"));
+}
+
+std::string PathOfAgent(const std::string& path, const std::string& agent) {
+  const std::filesystem::path file(path);
+  return (file.parent_path() /
+          (file.stem().string() + "." + FileNamePart(agent) + file.extension().string()))
+      .string();
 }
 
 }  // namespace skein

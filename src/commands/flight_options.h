@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "src/config/program_config.h"
-#include "train/policy/record_flights.h"
+#include "src/evaluation/comparison.h"
+#include "src/evaluation/flight_table.h"
+#include "src/replay/acmi_writer.h"
 
 namespace skein {
 
@@ -24,8 +26,9 @@ struct FlightOptions {
   std::uint64_t seed = 0;
   int threads = 0;
   std::string json;
-  std::string flights;
+  std::string flights, acmi;
   int flights_count = 8;
+  CLI::Option* flights_count_option = nullptr;
   bool flights_observations = false;
 };
 
@@ -34,16 +37,45 @@ struct FlightOptionTexts {
   std::string task, preset, json, flights;
 };
 
-/// Adds the options to a command; `options` must live as long as it.
+/// Adds those of the environment and the episodes to a command; `options` must live as long as it.
+void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);
+/// Adds those, and those of the files that results and flights go to.
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);
+
+/// What a policy was made for: the run's own configuration if `policy` is a run and no preset was
+/// asked for, else the preset's, of `policys_task` if no other is asked for.
+ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
+                        const std::string& policys_task);
 
 /// The environment of `config` with --config, --condition, --set, --hold and --mission on top.
 /// Throws UsageError if they cannot be, or name another task than --task (without it: than
 /// `config`).
 void ApplyOverrides(const FlightOptions& options, ProgramConfig* config);
 
-/// Records the first episodes to `path`, and says so. `manner` is how they were flown.
-void WriteFlights(const FlightOptions& options, const std::string& path, const std::string& manner,
-                  const Agent& agent, const EnvConfig& env, WorkerPool& pool);
+/// The agents of a list of --agents, for the environment of `config`. Throws UsageError on a name
+/// that is there twice.
+std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
+                                   const ProgramConfig& config, std::uint64_t seed);
+
+/// Whether flights are to be recorded.
+bool RecordsFlights(const FlightOptions& options);
+
+/// The first episodes, as many as --flights-count says.
+AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, const Agent& agent,
+                         const EnvConfig& env, WorkerPool& pool);
+
+/// Writes them to `path` as CSV, and says so. `manner` is how they were flown.
+void WriteFlightsCsv(const FlightOptions& options, const std::string& path,
+                     const std::string& manner, const AgentFlights& flown);
+
+/// Writes the same episodes by all agents to `path` as an ACMI file, and says so.
+void WriteFlightsAcmi(const FlightOptions& options, const std::string& path,
+                      const std::vector<AgentFlights>& agents);
+
+/// The ACMI recording of the same episodes by all agents.
+AcmiRecording AcmiOf(const FlightOptions& options, const std::vector<AgentFlights>& agents);
+
+/// "flights.csv" of agent "policy:runs/a" is "flights.policy-runs-a.csv".
+std::string PathOfAgent(const std::string& path, const std::string& agent);
 
 }  // namespace skein

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "envs/control_step.h"
@@ -23,6 +24,16 @@ std::array<float, kNumRecordedColumns> StateOf(const VecEnv& env, int aircraft) 
 
 float Clipped(float command) { return std::clamp(command, -1.0f, 1.0f); }
 
+/// Whether aircraft `i` has one target more than the `targets_reached` before the step. What fails
+/// in the very step has not reached it.
+bool ReachesTarget(const ControlStep& seen, int i, Termination termination, int* targets_reached) {
+  if (seen.progress.steps_within == nullptr) return termination == Termination::kTargetReached;
+  const int reached = seen.progress.targets_reached[i] + (seen.progress.reached_step[i] > 0);
+  const bool is_new = reached > std::exchange(*targets_reached, reached);
+  return is_new &&
+         (termination == Termination::kNone || termination == Termination::kTargetReached);
+}
+
 /// Flies the first episodes of a tile's first `flights.size()` aircraft.
 class TileRecorder : private ControlStepObserver {
  public:
@@ -32,6 +43,7 @@ class TileRecorder : private ControlStepObserver {
         begin_(env.tile_begin(tile)),
         flights_(std::move(flights)),
         flying_(flights_.size(), true),
+        targets_reached_(flights_.size(), 0),
         reward_(env.tile_count(tile)),
         episode_return_(reward_.size()),
         final_observation_(reward_.size() * env.observation_size()),
@@ -73,6 +85,10 @@ class TileRecorder : private ControlStepObserver {
       // In still air the wind stays zero.
       const int columns = seen.state.windy ? kNumRecordedColumns : kNumColumns;
       for (int column = 0; column < columns; ++column) step.state[column] = seen.state[column][i];
+      for (std::size_t k = 0; k < flights_[index]->target.size(); ++k) {
+        step.target.push_back(seen.task[static_cast<int>(k)][i]);
+      }
+      step.reaches_target = ReachesTarget(seen, i, step.termination, &targets_reached_[index]);
       for (int k = 0; k < actions; ++k) {
         step.action.push_back(Clipped(action_[index * actions + k]));
       }
@@ -87,6 +103,7 @@ class TileRecorder : private ControlStepObserver {
   int tile_, begin_;
   std::vector<RecordedFlight*> flights_;
   std::vector<bool> flying_;
+  std::vector<int> targets_reached_;
   const float* action_ = nullptr;  // of the policy step under way
   std::vector<float> reward_, episode_return_, final_observation_;
   std::vector<std::uint8_t> termination_;

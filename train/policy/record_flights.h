@@ -21,14 +21,16 @@ struct RecordedStep {
   /// Stick commands, what enters the flight control system, clipped to [-1, 1]: the action, or the
   /// low-level policy's.
   std::array<float, kActionSize> stick{};
-  float reward = 0;  ///< of the step, terminal reward included
+  std::vector<float> target;    ///< Task::target_quantities: the one that was flown to
+  float reward = 0;             ///< of the step, terminal reward included
+  bool reaches_target = false;  ///< the target counts as reached from this step on
   Termination termination = Termination::kNone;
 };
 
 /// One whole episode.
 struct RecordedFlight {
   std::array<float, kNumRecordedColumns> initial_state{};
-  std::vector<float> target;  ///< Task::target_quantities
+  std::vector<float> target;  ///< Task::target_quantities, at the start
   std::vector<RecordedStep> steps;
   /// Row-major [policy step][observation_size], noise included: what the agent saw. Control step k
   /// belongs to policy step k / action_repeat.

@@ -76,6 +76,9 @@ TEST_P(HeadingTest, ErrorsAreTargetMinusActualInTheirUnits) {
   EXPECT_DOUBLE_EQ(quantities[0].error_unit, kFtPerKm);
   EXPECT_DOUBLE_EQ(quantities[1].error_unit, kDegPerRad);
   EXPECT_DOUBLE_EQ(quantities[2].error_unit, 340 / 0.3048);
+  EXPECT_EQ(quantities[0].tolerance, config_.heading.altitude_tolerance_ft);
+  EXPECT_EQ(quantities[1].tolerance, config_.heading.yaw_tolerance_deg);
+  EXPECT_EQ(quantities[2].tolerance, config_.heading.speed_tolerance_fps);
 }
 
 TEST_P(HeadingTest, YawErrorTakesTheShortWayRound) {

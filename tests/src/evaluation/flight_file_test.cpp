@@ -81,6 +81,7 @@ class FlightFileTest : public ::testing::Test {
     flight_.initial_state = State(attitude);
     flight_.target = {21000, static_cast<float>(-175 / kDegPerRad), 900};
     RecordedStep step;
+    step.target = flight_.target;
     step.action = {-1, 0.25f, 0.5f, 1};
     step.stick = {-1, 0.25f, 0.5f, 1};
     attitude.yaw = 171 / kDegPerRad;
@@ -176,7 +177,10 @@ TEST_F(FlightFileTest, FlightsOfHighLevelPoliciesShowBothActions) {
   EnvConfig config;
   config.task = "tracking";
   flight_.target = {1000, 2000, 18000};
-  for (RecordedStep& step : flight_.steps) step.action = {0.125f, -0.5f, 1};
+  for (RecordedStep& step : flight_.steps) {
+    step.action = {0.125f, -0.5f, 1};
+    step.target = flight_.target;
+  }
   const std::vector<Row> rows = Parse(FlightsCsv(config, {flight_}));
   ASSERT_EQ(rows.size(), 3u);
   for (const char* name : {"action_target_pitch", "action_target_yaw", "action_target_speed"}) {
@@ -191,6 +195,43 @@ TEST_F(FlightFileTest, FlightsOfHighLevelPoliciesShowBothActions) {
   EXPECT_NEAR(std::stod(rows[1].at("error_north_ft")), 900, kPosition);
   EXPECT_NEAR(std::stod(rows[1].at("error_east_ft")), 2200, kPosition);
   EXPECT_NEAR(std::stod(rows[1].at("error_altitude_ft")), -2000, kPosition);
+}
+
+TEST_F(FlightFileTest, CommandsAreChangesOfWhatIsFlownWhereThePolicyStepBegins) {
+  EnvConfig config;
+  config.task = "tracking";
+  config.action_repeat = 2;  // both steps belong to the policy step that begins at time 0
+  config.high_level.pitch_change_rad = config.high_level.yaw_change_rad = 40 / kDegPerRad;
+  config.high_level.speed_change_fps = 30;
+  for (RecordedStep& step : flight_.steps) {
+    step.action = {0.5f, 1, -1};
+    step.target = {0, 0, 0};
+  }
+  const std::vector<Row> rows = Parse(FlightsCsv(config, {flight_}));
+  EXPECT_EQ(rows[0].at("command_pitch_deg"), "");
+  for (const std::size_t row : {1u, 2u}) {
+    EXPECT_NEAR(std::stod(rows[row].at("command_pitch_deg")), -10 + 20, kAngle);
+    EXPECT_NEAR(std::stod(rows[row].at("command_yaw_deg")), 170 + 40 - 360, kAngle);
+    EXPECT_NEAR(std::stod(rows[row].at("command_true_airspeed_fps")), 800 - 30, kVelocity);
+  }
+  config.action_repeat = 1;
+  EXPECT_NEAR(std::stod(Parse(FlightsCsv(config, {flight_}))[2].at("command_yaw_deg")),
+              171 + 40 - 360, kAngle);
+}
+
+TEST_F(FlightFileTest, TargetsAreThoseOfTheStep) {
+  flight_.steps[1].target[0] = 19000;
+  const std::vector<Row> rows = Parse(FlightsCsv(EnvConfig{}, {flight_}));
+  EXPECT_EQ(rows[0].at("target_altitude_ft"), "21000");
+  EXPECT_EQ(rows[1].at("target_altitude_ft"), "21000");
+  EXPECT_EQ(rows[2].at("target_altitude_ft"), "19000");
+  EXPECT_NEAR(std::stod(rows[2].at("error_altitude_ft")), -1000, kPosition);
+}
+
+TEST_F(FlightFileTest, NumbersThatAreNoneAreEmpty) {
+  flight_.steps[1].state[kP] = std::nanf("");
+  const std::vector<Row> rows = Parse(FlightsCsv(EnvConfig{}, {flight_}));
+  EXPECT_EQ(rows[2].at("p_deg_s"), "");
 }
 
 }  // namespace

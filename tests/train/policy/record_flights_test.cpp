@@ -131,6 +131,37 @@ TEST_F(RecordFlightsTest, TheLastStateIsTheOneThatEndedTheFlight) {
   EXPECT_GT(overloads, 5);
 }
 
+TEST_F(RecordFlightsTest, MissionsShowTheTargetOfEveryStepAndWhenItIsReached) {
+  env_.mission.length_s = 20;
+  env_.mission.dwell_s = 0;
+  // Whatever is flown is within tolerances, so that every step reaches a target.
+  env_.heading.altitude_tolerance_ft = env_.heading.speed_tolerance_fps = 1e6;
+  env_.heading.yaw_tolerance_deg = 180;
+  env_.heading.earliest_success_step = 100;
+  for (const RecordedFlight& flight : Record(3, pool_)) {
+    EXPECT_EQ(flight.steps[0].target, flight.target);
+    for (std::size_t i = 1; i < flight.steps.size(); ++i) {
+      EXPECT_EQ(flight.steps[i].target != flight.steps[i - 1].target,
+                flight.steps[i - 1].reaches_target)
+          << "step " << i;
+      EXPECT_EQ(flight.steps[i - 1].reaches_target, i >= 100) << "step " << i;
+    }
+  }
+}
+
+TEST_F(RecordFlightsTest, AFlightThatGoesOnReachesItsTargetOnce) {
+  env_.hold_s = 1;
+  env_.heading.altitude_tolerance_ft = env_.heading.speed_tolerance_fps = 1e6;
+  env_.heading.yaw_tolerance_deg = 180;
+  env_.heading.earliest_success_step = 100;
+  for (const RecordedFlight& flight : Record(3, pool_)) {
+    for (std::size_t i = 0; i < flight.steps.size(); ++i) {
+      EXPECT_EQ(flight.steps[i].reaches_target, i + 1 == 100) << "step " << i;
+    }
+    EXPECT_EQ(flight.steps.back().termination, Termination::kTargetReached);
+  }
+}
+
 TEST_F(RecordFlightsTest, RefusesToRecordNothing) {
   EXPECT_THROW(Record(0, pool_), Error);
   options_.episodes = 0;
