@@ -104,6 +104,7 @@ void AddCommands(CLI::App* app) {
   AddCompareCommand(app);
   AddReplayCommand(app);
   AddStudyCommand(app);
+  AddReportCommand(app);
   AddFdmCommand(app);
   AddExportCommand(app);
   AddBenchCommand(app);

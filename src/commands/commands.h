@@ -10,6 +10,7 @@ void AddTrainCommand(CLI::App* app);
 void AddEvalCommand(CLI::App* app);
 void AddCompareCommand(CLI::App* app);
 void AddReplayCommand(CLI::App* app);
+void AddReportCommand(CLI::App* app);
 void AddStudyCommand(CLI::App* app);
 void AddFdmCommand(CLI::App* app);
 void AddBenchCommand(CLI::App* app);

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <memory>
+
+#include "base/error.h"
+#include "src/commands/commands.h"
+#include "src/config/usage_error.h"
+#include "src/config/whole_number.h"
+#include "src/files/output_file.h"
+#include "src/files/shell_text.h"
+#include "src/report/live_report.h"
+#include "src/report/report_page.h"
+#include "src/report/report_server.h"
+#include "src/run/run_signals.h"
+
+namespace skein {
+namespace {
+
+struct ReportOptions {
+  ReportRequest request;
+  std::string output;
+  bool opens = false, watches = false;
+  int threads = 0;
+};
+
+std::string Template() {
+  if (const auto page = FindReportTemplate()) return *page;
+  throw Error(kNoTemplate);
+}
+
+/// Hands a file or an address to the desktop's browser, and does not wait for it.
+void Open(const std::string& place) {
+  const std::string command = "xdg-open " + ShellWord(place) + " >/dev/null 2>&1 &";
+  if (std::system(command.c_str()) != 0) {
+    fmt::print("no browser could be started; open {} yourself\n", place);
+  }
+}
+
+void Watch(const ReportOptions& options, WorkerPool& pool) {
+  const RunSignals signals(pool);
+  LiveReport report(options.request, pool);
+  report.Data();  // what is wrong with the runs is said here, and not in a browser
+  ReportServer server(LivePage(Template()), [&] { return report.Data(); });
+  fmt::print("{}  until Ctrl-C; for this machine alone\n", server.address());
+  std::fflush(stdout);
+  if (options.opens) Open(server.address());
+  server.Serve([&] { return pool.stopping(); });
+}
+
+void Report(const ReportOptions& options) {
+  WorkerPool pool(options.threads);
+  if (options.watches) {
+    Watch(options, pool);
+    return;
+  }
+  const std::string output = !options.output.empty() ? options.output
+                             : options.request.runs.size() == 1
+                                 ? options.request.runs.front() + "/report.html"
+                                 : "report.html";
+  const std::string page = Template();
+  CheckWritable(output);
+  WriteFile(output, ReportPage(page, ReportData(options.request, pool)));
+  fmt::print("{}\n", output);
+  if (options.opens) Open(output);
+}
+
+}  // namespace
+
+void AddReportCommand(CLI::App* app) {
+  auto options = std::make_shared<ReportOptions>();
+  CLI::App* command = app->add_subcommand(
+      "report", "Write a page that shows runs: curves, metrics, flights in 3-D");
+  command->add_option("runs", options->request.runs, "directories of runs")
+      ->type_name("RUN...")
+      ->required();
+  CLI::Option* output =
+      command
+          ->add_option("-o,--output", options->output,
+                       "the page, one file that needs no network (default: RUN/report.html; of "
+                       "several runs report.html)")
+          ->type_name("FILE");
+  command
+      ->add_option(
+          "--episodes", options->request.episodes,
+          "episodes flown by policies and autopilots for the table of metrics; 0: no table")
+      ->transform(WholeNumber(0, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--flights", options->request.flights,
+                   "how many of them are shown in space; 0: none")
+      ->transform(WholeNumber(0, 1000))
+      ->capture_default_str();
+  command
+      ->add_flag("--watch", options->watches,
+                 "serve the page on 127.0.0.1, and keep it fresh while the runs go on")
+      ->excludes(output);
+  command->add_flag("--open", options->opens, "show it in a browser");
+  command
+      ->add_option("--threads", options->threads,
+                   "worker threads; results do not depend on it (default: one per CPU)")
+      ->transform(WholeNumber(1, 1024));
+  command->footer(
+      "Runs of one configuration are shown as mean and band over their seeds.\n"
+      "Example: skein report runs/short --open\n"
+      "         skein report runs/seed-1 runs/seed-2 runs/seed-3 -o seeds.html\n"
+      "         skein report runs/short --watch");
+  command->callback([options] { Report(*options); });
+}
+
+}  // namespace skein

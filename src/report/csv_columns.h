@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// A table of numbers, a column at a time.
+struct CsvColumns {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> values;  ///< [column][row]; NaN where a cell holds no number
+  int rows_left_out = 0;  ///< torn ones: not as many cells as the header, or no end
+
+  std::size_t rows() const { return values.empty() ? 0 : values.front().size(); }
+  /// Null if there is no such column.
+  const std::vector<double>* Find(const std::string& name) const;
+};
+
+/// Reads CSV without quotes, as metrics.csv and files of flights are. A row that a crash has cut
+/// short is left out and counted; so is one of another length. Text that is empty has no columns.
+CsvColumns ParseCsv(const std::string& text);
+
+}  // namespace skein

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/report/data_pack.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kAlignment = 8;
+
+template <typename T>
+void AppendLittleEndian(T value, std::string* bytes) {
+  static_assert(sizeof(T) <= 4);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(T));
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    bytes->push_back(static_cast<char>((bits >> (8 * i)) & 0xff));
+  }
+}
+
+void PadToAlignment(char filler, std::string* bytes) {
+  bytes->append((kAlignment - bytes->size() % kAlignment) % kAlignment, filler);
+}
+
+/// The same values, what is not finite replaced by the one before.
+std::vector<double> FiniteValues(std::vector<double> values) {
+  double before = 0;
+  for (double& value : values) {
+    if (!std::isfinite(value)) value = before;
+    before = value;
+  }
+  return values;
+}
+
+}  // namespace
+
+Json DataPack::AddFloats(const std::vector<double>& values) {
+  Json reference = {{"f32", {arrays_.size(), values.size()}}};
+  for (const double value : values) AppendLittleEndian(static_cast<float>(value), &arrays_);
+  PadToAlignment('\0', &arrays_);
+  return reference;
+}
+
+Json DataPack::AddQuantised(const std::vector<double>& values) {
+  const std::vector<double> finite = FiniteValues(values);
+  const auto [low, high] = std::minmax_element(finite.begin(), finite.end());
+  const double first = finite.empty() ? 0 : *low;
+  constexpr double kSteps = 65000;
+  const double unit = finite.empty() || *high == *low ? 1 : (*high - *low) / kSteps;
+  Json reference = {{"i16", {arrays_.size(), values.size()}}, {"first", first}, {"unit", unit}};
+  std::uint16_t before = 0;
+  for (const double value : finite) {
+    const auto level = static_cast<std::uint16_t>(std::lround((value - first) / unit));
+    AppendLittleEndian(static_cast<std::uint16_t>(level - before), &arrays_);
+    before = level;
+  }
+  PadToAlignment('\0', &arrays_);
+  return reference;
+}
+
+std::string DataPack::Deflated(const Json& document) const {
+  std::string json = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+  json.append((kAlignment - (json.size() + 4) % kAlignment) % kAlignment, ' ');
+  std::string bytes;
+  AppendLittleEndian(static_cast<std::uint32_t>(json.size()), &bytes);
+  bytes += json;
+  bytes += arrays_;
+  uLongf size = compressBound(bytes.size());
+  std::string deflated(size, '\0');
+  const int result =
+      compress2(reinterpret_cast<Bytef*>(&deflated[0]), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+  if (result != Z_OK) throw Error("the report's data cannot be compressed: out of memory");
+  deflated.resize(size);
+  return deflated;
+}
+
+std::string Base64(const std::string& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const unsigned byte = i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0;
+      group = group << 8 | byte;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool is_padding = i + k > bytes.size();
+      text.push_back(is_padding ? '=' : kDigits[group >> (18 - 6 * k) & 63]);
+    }
+  }
+  return text;
+}
+
+}  // namespace skein

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// What a report's page is given: a JSON document, and arrays of numbers that it refers to.
+///
+/// The bytes are a little-endian uint32, the length of the document; the document, padded with
+/// spaces to a multiple of 8 bytes from the start; the arrays. In the document an array is
+///   {"f32": [offset, count]}                         floats
+///   {"i16": [offset, count], "first": a, "unit": u}  a + u * the running sum of the integers
+/// with offsets in bytes from the first array.
+class DataPack {
+ public:
+  /// Keeps the values as floats; what is not finite stays so. Returns what refers to them.
+  nlohmann::ordered_json AddFloats(const std::vector<double>& values);
+  /// Keeps the values to 1/65000 of their range, as differences of neighbours modulo 2^16, which
+  /// compress well. Values that are not finite become the one before (0 if there is none).
+  nlohmann::ordered_json AddQuantised(const std::vector<double>& values);
+
+  /// The bytes, deflated (zlib, RFC 1950). Text in the document that is not UTF-8 is replaced by
+  /// U+FFFD.
+  std::string Deflated(const nlohmann::ordered_json& document) const;
+
+ private:
+  std::string arrays_;
+};
+
+/// RFC 4648, with padding.
+std::string Base64(const std::string& bytes);
+
+}  // namespace skein

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/worker_pool.h"
+
+namespace skein {
+
+/// What a report is made of.
+struct ReportRequest {
+  std::vector<std::string> runs;  ///< their directories
+  int episodes = 1000;            ///< flown for the table of metrics; 0: no table
+  int flights = 4;                ///< episodes that are shown in space; 0: none
+  std::string made = {};          ///< date and time that the page says; empty: now
+};
+
+/// Reads the runs, flies their policies beside the autopilots on the same episodes, and returns the
+/// deflated pack (src/report/data_pack.h) of docs/reference/file-formats.md. A run without a policy
+/// has curves alone. If the pool is stopping, the flights say nothing. Throws Error on what is no
+/// run, or of a version that this one does not know.
+std::string ReportData(const ReportRequest& request, WorkerPool& pool);
+
+}  // namespace skein

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/report/report_page.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "src/files/output_file.h"
+#include "src/report/data_pack.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDataMark = "SKEIN-REPORT-DATA";
+constexpr const char* kNoConnections = "connect-src 'none'";
+constexpr const char* kOwnConnections = "connect-src 'self'";
+
+std::string Replaced(std::string page, const std::string& mark, const std::string& text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos || page.find(mark, at + 1) != std::string::npos) {
+    throw Error("the page for reports beside this program is not of its version; build it again");
+  }
+  return page.replace(at, mark.size(), text);
+}
+
+}  // namespace
+
+std::optional<std::string> FindReportTemplate() {
+  std::error_code failure;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", failure).parent_path();
+  for (const char* place : {"../share/skein/report.html", "../viewer/report.html"}) {
+    if (fs::exists(folder / place, failure)) return ReadFile((folder / place).string());
+  }
+  return std::nullopt;
+}
+
+std::string ReportPage(const std::string& page_template, const std::string& deflated) {
+  return Replaced(page_template, kDataMark, Base64(deflated));
+}
+
+std::string LivePage(const std::string& page_template) {
+  return Replaced(Replaced(page_template, kDataMark, ""), kNoConnections, kOwnConnections);
+}
+
+}  // namespace skein

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "base/error.h"
+#include "src/report/csv_columns.h"
+#include "src/report/data_pack.h"
+#include "src/report/report_page.h"
+#include "src/report/report_server.h"
+
+namespace skein {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+TEST(CsvColumnsTest, ReadsWholeRowsAndCountsTornOnes) {
+  const CsvColumns table = ParseCsv("a,b\n1,2.5\n3,\n4\n5,6");
+  EXPECT_THAT(table.names, ElementsAre("a", "b"));
+  EXPECT_EQ(table.rows(), 2u);
+  EXPECT_EQ(table.rows_left_out, 2);
+  EXPECT_THAT(*table.Find("a"), ElementsAre(1, 3));
+  EXPECT_EQ((*table.Find("b"))[0], 2.5);
+  EXPECT_TRUE(std::isnan((*table.Find("b"))[1]));
+  EXPECT_EQ(table.Find("c"), nullptr);
+}
+
+TEST(CsvColumnsTest, HasNothingOfAnEmptyOrHeadlessFile) {
+  EXPECT_EQ(ParseCsv("").rows(), 0u);
+  EXPECT_EQ(ParseCsv("iteration,env_st").rows_left_out, 1);
+  EXPECT_TRUE(ParseCsv("iteration,env_st").names.empty());
+}
+
+TEST(DataPackTest, Base64IsThatOfTheStandard) {
+  EXPECT_EQ(Base64(""), "");
+  EXPECT_EQ(Base64("f"), "Zg==");
+  EXPECT_EQ(Base64("fo"), "Zm8=");
+  EXPECT_EQ(Base64("foo"), "Zm9v");
+  EXPECT_EQ(Base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(Base64(std::string("\xff\xfe\x00", 3)), "//4A");
+}
+
+TEST(DataPackTest, ReferencesSayWhereArraysLie) {
+  DataPack pack;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(pack.AddFloats({1, 2, 3}).dump(), R"({"f32":[0,3]})");
+  const auto quantised = pack.AddQuantised({0, nan, 65000});
+  EXPECT_EQ(quantised["i16"].dump(), "[16,3]");
+  EXPECT_EQ(quantised["first"], 0.0);
+  EXPECT_EQ(quantised["unit"], 1.0);
+  EXPECT_EQ(pack.AddQuantised({}).dump(), R"({"i16":[24,0],"first":0.0,"unit":1.0})");
+}
+
+TEST(DataPackTest, TextThatIsNotUtf8DoesNotStopAReport) {
+  EXPECT_FALSE(DataPack().Deflated({{"name", "\xff"}}).empty());
+}
+
+TEST(ReportPageTest, DataBringNothingIntoThePageButBase64) {
+  const std::string hostile = "</script><script>alert(1)</script>";
+  const std::string page = ReportPage("<script>SKEIN-REPORT-DATA</script>", hostile);
+  EXPECT_EQ(page, "<script>" + Base64(hostile) + "</script>");
+  EXPECT_THAT(page, Not(HasSubstr("alert")));
+  EXPECT_THROW(ReportPage("a page of another version", ""), Error);
+  EXPECT_THROW(ReportPage("SKEIN-REPORT-DATA SKEIN-REPORT-DATA", ""), Error);
+}
+
+class ReportServerTest : public ::testing::Test {
+ protected:
+  std::string Host() const {
+    const std::string address = server_.address();
+    return address.substr(7, address.size() - 8);
+  }
+  std::string Ask(const std::string& line, const std::string& host) const {
+    return server_.Answer(line + " HTTP/1.1\r\nAccept: */*\r\nHOST: " + host + "\r\n\r\n");
+  }
+
+  ReportServer server_{"<page>", [] { return "data"; }};
+};
+
+TEST_F(ReportServerTest, ServesThePageAndItsData) {
+  EXPECT_THAT(server_.address(), StartsWith("http://127.0.0.1:"));
+  EXPECT_THAT(Ask("GET /", Host()), StartsWith("HTTP/1.1 200 OK"));
+  EXPECT_THAT(Ask("GET /", Host()), HasSubstr("\r\n\r\n<page>"));
+  EXPECT_THAT(Ask("GET /data", Host()), HasSubstr("\r\n\r\ndata"));
+}
+
+TEST_F(ReportServerTest, RefusesOtherHostsMethodsAndPaths) {
+  EXPECT_THAT(Ask("GET /", "example.org"), StartsWith("HTTP/1.1 421"));
+  EXPECT_THAT(Ask("GET /", "127.0.0.1:1"), StartsWith("HTTP/1.1 421"));
+  EXPECT_THAT(server_.Answer("GET / HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 421"));
+  EXPECT_THAT(server_.Answer("nonsense"), StartsWith("HTTP/1.1 421"));
+  EXPECT_THAT(Ask("POST /", Host()), StartsWith("HTTP/1.1 405"));
+  EXPECT_THAT(Ask("GET /../etc/passwd", Host()), StartsWith("HTTP/1.1 404"));
+}
+
+TEST_F(ReportServerTest, SaysWhyThereAreNoData) {
+  const ReportServer server("", []() -> std::string { throw Error("runs/a: gone"); });
+  const std::string address = server.address();
+  const std::string answer = server.Answer(
+      "GET /data HTTP/1.1\r\nHost: " + address.substr(7, address.size() - 8) + "\r\n\r\n");
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 503"));
+  EXPECT_THAT(answer, HasSubstr("runs/a: gone"));
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "src/files/output_file.h"
+#include "src/report/report_data.h"
+#include "src/report/report_page.h"
+#include "src/report/run_record.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+#include "tests/src/tiny_training.h"
+
+namespace skein {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// Reports on the run of a training that takes a moment.
+class ReportPipeline : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new ScratchDirectory;
+    const ProgramResult result = CallSkein(TinyTraining(*folder_ / "run"));
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+
+  /// A copy of the run that a test may damage.
+  std::string Copy(const std::string& name = "copy") const {
+    const std::string path = scratch_ / name;
+    std::filesystem::copy(*folder_ / "run", path, std::filesystem::copy_options::recursive);
+    return path;
+  }
+
+  static ScratchDirectory* folder_;
+  const ScratchDirectory scratch_;
+};
+
+ScratchDirectory* ReportPipeline::folder_ = nullptr;
+
+TEST_F(ReportPipeline, DataDependOnTheRunAloneAndNotOnThreads) {
+  ReportRequest request;
+  request.runs = {*folder_ / "run"};
+  request.episodes = 8;
+  request.flights = 2;
+  request.made = "once";
+  WorkerPool one(1), three(3);
+  EXPECT_EQ(ReportData(request, one), ReportData(request, three));
+}
+
+TEST_F(ReportPipeline, ARunCutShortShowsWhatIsThere) {
+  const std::string run = Copy();
+  const std::string metrics = ReadFile(run + "/metrics.csv");
+  WriteFile(run + "/metrics.csv", metrics.substr(0, metrics.size() - 20));
+  WriteFile(run + "/evaluation.json", "{\"policy\": ");
+  std::filesystem::remove_all(run + "/checkpoints");
+  std::filesystem::remove(run + "/timing.csv");
+  const RunRecord record = ReadRunRecord(run);
+  EXPECT_EQ(record.metrics.rows(), static_cast<std::size_t>(kIterations - 1));
+  EXPECT_THAT(record.notes, Contains(HasSubstr("metrics.csv: 1 row cut short")));
+  EXPECT_THAT(record.notes, Contains(HasSubstr("evaluation.json: damaged")));
+  EXPECT_THAT(record.notes, Contains(HasSubstr("timing.csv: not there")));
+  WorkerPool pool(1);
+  ReportRequest request;
+  request.runs = {run};
+  EXPECT_FALSE(ReportData(request, pool).empty());
+}
+
+TEST_F(ReportPipeline, WhatIsNoRunIsOneLine) {
+  const ProgramResult missing = CallSkein({"report", scratch_ / "nothing"});
+  EXPECT_EQ(missing.exit_code, 1);
+  ExpectOneLine(missing.error, "not the directory of a run");
+  const std::string newer = Copy();
+  WriteFile(newer + "/config.toml", ReadFile(newer + "/config.toml") + "[later]\nkey = 1\n");
+  const ProgramResult unknown = CallSkein({"report", newer});
+  EXPECT_EQ(unknown.exit_code, 1);
+  ExpectOneLine(unknown.error, "later");
+  EXPECT_EQ(CallSkein({"report"}).exit_code, 2);
+}
+
+TEST_F(ReportPipeline, AnUnwritablePathIsSaidFirst) {
+  const ProgramResult result =
+      CallSkein({"report", *folder_ / "run", "-o", scratch_ / "no" + std::string("/page.html")});
+  EXPECT_EQ(result.exit_code, 1);
+  ExpectOneLine(result.error, FindReportTemplate() ? "page.html" : "without Node");
+}
+
+TEST_F(ReportPipeline, AChangedSettingIsMarkedBesideThePresets) {
+  const RunRecord record = ReadRunRecord(*folder_ / "run");
+  EXPECT_EQ(record.preset, "default");
+  bool has_changed = false, has_same = false;
+  for (const auto& row : ConfigurationJson(record)) {
+    if (row["key"] == "ppo.num_aircraft") {
+      has_changed = row["value"] == "64" && row.contains("preset");
+    }
+    if (row["key"] == "env.control_interval_s") has_same = !row.contains("preset");
+  }
+  EXPECT_TRUE(has_changed);
+  EXPECT_TRUE(has_same);
+}
+
+}  // namespace
+}  // namespace skein

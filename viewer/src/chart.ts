@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Charts of uPlot in the page's colours.
+import uPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
+import { el } from './dom';
+import { styleColour } from './palette';
+
+export interface ChartOptions {
+  title: string;
+  height: number;
+  series: uPlot.Series[];
+  bands?: uPlot.Band[];
+  /** Charts of one group show one cursor. */
+  group: string;
+  formatX: (x: number) => string;
+  scales?: uPlot.Scales;
+  axes?: uPlot.Axis[];
+  hooks?: uPlot.Hooks.Arrays;
+  legend?: boolean;
+  drag?: boolean;
+}
+
+/** A number as axes and legends show it. */
+export function formatted(value: number | null | undefined): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return '–';
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(1);
+  return String(Number(value.toPrecision(size >= 1000 ? 5 : 3)));
+}
+
+export function axis(overrides: uPlot.Axis = {}): uPlot.Axis {
+  return {
+    stroke: styleColour('--muted'),
+    grid: { stroke: styleColour('--grid'), width: 1 },
+    ticks: { stroke: styleColour('--grid'), width: 1, size: 4 },
+    font: '11px system-ui, sans-serif',
+    size: 50,
+    values: (_, splits) => splits.map((value) => (value === null ? '' : formatted(value))),
+    ...overrides,
+  };
+}
+
+/** A chart in `place`, as wide as it, until `stop` is called. */
+export class Chart {
+  readonly plot: uPlot;
+  private readonly observer: ResizeObserver;
+
+  constructor(place: HTMLElement, options: ChartOptions, data: uPlot.AlignedData) {
+    const figure = el('figure', { class: 'chart' }, el('figcaption', {}, options.title));
+    place.append(figure);
+    const width = () => Math.max(figure.clientWidth, 120);
+    this.plot = new uPlot({
+      width: width(),
+      height: options.height,
+      series: [{ value: (_, x) => (x === null ? '–' : options.formatX(x)) }, ...options.series],
+      bands: options.bands,
+      scales: { x: { time: false }, ...options.scales },
+      axes: options.axes ?? [
+        axis({ size: 28, space: 60, values: (_, xs) => xs.map((x) => options.formatX(x)) }),
+        axis(),
+      ],
+      cursor: {
+        sync: { key: options.group, setSeries: false },
+        drag: { x: options.drag ?? true, y: false },
+        points: { size: 6 },
+      },
+      legend: { show: options.legend ?? true },
+      hooks: options.hooks,
+    }, data, figure);
+    this.observer = new ResizeObserver(() => {
+      if (width() !== this.plot.width) {
+        this.plot.setSize({ width: width(), height: options.height });
+      }
+    });
+    this.observer.observe(figure);
+  }
+
+  stop(): void {
+    this.observer.disconnect();
+    this.plot.destroy();
+  }
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// One window onto flights: a canvas, and over it what the followed aircraft does.
+import { WebGLRenderer } from 'three';
+import { el } from '../dom';
+import { colourOf } from '../palette';
+import type { FlightSet } from '../report';
+import { FlightScene } from './scene';
+import type { FlightRecord } from './record';
+
+const READINGS: [name: string, column: string, unit: string, decimals: number][] = [
+  ['alt', 'altitude_ft', 'ft', 0], ['TAS', 'true_airspeed_fps', 'ft/s', 0], ['M', 'mach', '', 2],
+  ['hdg', 'yaw_deg', '°', 0], ['nz', 'load_factor_g', 'g', 1], ['α', 'alpha_deg', '°', 1],
+  ['β', 'beta_deg', '°', 1], ['roll', 'roll_deg', '°', 0], ['pitch', 'pitch_deg', '°', 0],
+];
+
+export function readingsOf(record: FlightRecord, time: number): string {
+  return READINGS.map(([name, column, unit, decimals]) => {
+    let value = record.value(column, time);
+    if (column === 'yaw_deg') value = (value + 360) % 360;
+    return `${name} ${value.toFixed(decimals)}${unit && unit !== '°' ? ` ${unit}` : unit}`;
+  }).join('   ');
+}
+
+export class Pane {
+  readonly element: HTMLElement;
+  readonly scene: FlightScene;
+  readonly canvas = el('canvas', { tabindex: 0, 'aria-label': 'flights in space' });
+  private readonly renderer: WebGLRenderer;
+  private readonly readings = el('output', { class: 'readings' });
+  private readonly agent = el('strong');
+  private readonly observer: ResizeObserver;
+
+  constructor(
+    records: FlightRecord[], private readonly set: FlightSet, followed: number,
+    private readonly changed: () => void,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.scene = new FlightScene(records, set, this.canvas, followed);
+    const { spacingFt, altitudeFt } = this.scene.ground;
+    this.element = el('div', { class: 'pane' }, this.canvas,
+      el('div', { class: 'hud' }, this.agent, this.readings),
+      el('div', { class: 'scale' },
+        `a square: ${spacingFt.toLocaleString('en')} ft, at ${altitudeFt.toLocaleString('en')} ft`));
+    this.observer = new ResizeObserver(() => this.fit());
+    this.observer.observe(this.element);
+  }
+
+  fit(): void {
+    const { clientWidth, clientHeight } = this.element;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.scene.cameras.reshape(clientWidth / clientHeight);
+    this.changed();
+  }
+
+  show(time: number, trail: number, seconds: number): void {
+    this.scene.update(time, trail, seconds);
+    this.scene.render(this.renderer);
+    const record = this.scene.records[this.scene.followed];
+    this.agent.textContent = this.set.agents[record.agent];
+    this.agent.style.color = colourOf(record.agent);
+    const isOver = time >= record.duration;
+    this.readings.textContent = readingsOf(record, time) + (isOver ? `   ended: ${record.end}` : '');
+  }
+
+  dispose(): void {
+    this.observer.disconnect();
+    this.scene.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+}

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view of flights: windows, player, charts.
+import { button, choice, el, tick } from '../dom';
+import { colourOf, ramp } from '../palette';
+import type { FlightSet, ReportPack } from '../report';
+import { CAMERA_NAMES, type CameraName } from './cameras';
+import { Clock, SPEEDS } from './clock';
+import { Pane } from './pane';
+import { type FlightRecord, recordsOf } from './record';
+import { stripsOf, Strips } from './strips';
+import type { Colouring } from './trails';
+
+const TRAILS: [string, string][] = [['1e9', 'whole'], ['20', '20 s'], ['5', '5 s'], ['0', 'none']];
+const KEYS = 'Space plays; ← → 1 s (with Shift 0.1 s); ↑ ↓ speed; Home, End; N, P episode; '
+  + '1–4 or C camera; F whom it follows; S side by side; T trail colour.';
+
+interface ColourScale {
+  name: string;
+  low: string;
+  high: string;
+  share: Colouring;
+}
+
+/** How trails can be coloured. */
+function colourScales(set: FlightSet): ColourScale[] {
+  const tolerances = new Map(set.targets.map((target) => [target.column, target.tolerance]));
+  return [
+    { name: 'agent', low: '', high: '', share: () => null },
+    { name: 'load factor', low: '0 g', high: '9 g',
+      share: (record, row) => record.column('load_factor_g')[row] / 9 },
+    { name: 'error', low: '10 tolerances', high: 'on target',
+      share: (record, row) => {
+        let worst = 0;
+        for (const [column, tolerance] of tolerances) {
+          worst = Math.max(worst, Math.abs(record.column(`error_${column}`)[row]) / tolerance);
+        }
+        return 1 - worst / 10;
+      } },
+    { name: 'true airspeed', low: '400 ft/s', high: '1400 ft/s',
+      share: (record, row) => (record.column('true_airspeed_fps')[row] - 400) / 1000 },
+  ];
+}
+
+class FlightsView {
+  private readonly records: FlightRecord[];
+  private readonly scales: ColourScale[];
+  private readonly clock = new Clock(0);
+  private readonly strips: Strips;
+  private readonly windows = el('div', { class: 'windows' });
+  private readonly legend = el('div', { class: 'legend' });
+  private readonly play = button('▶', 'play or stop (Space)', () => this.toggle());
+  private readonly scrubber = el('input', {
+    type: 'range', min: 0, max: 1, step: 'any', class: 'scrubber', 'aria-label': 'time',
+    oninput: () => this.seek(Number(this.scrubber.value)),
+  });
+  private readonly shownTime = el('output', { class: 'time' });
+  private readonly speed = this.select('speed', SPEEDS.map((v) => [String(v), `${v}×`]), '1',
+    (value) => { this.clock.speed = Number(value); });
+  private readonly episodes: HTMLLabelElement;
+  private readonly camera = this.select('camera', CAMERA_NAMES.map((n) => [n, n]), 'overview',
+    (value) => this.chooseCamera(value as CameraName));
+  private readonly trailColour: HTMLLabelElement;
+  private readonly hidden = new Set<number>();
+  private panes: Pane[] = [];
+  private isSplit = false;
+  private episode = 0;
+  private followed = 0;
+  private trail = 1e9;
+  private colouring = 1;
+  private isDirty = true;
+  private frame = 0;
+  private before = 0;
+
+  constructor(place: HTMLElement, private readonly set: FlightSet, pack: ReportPack) {
+    this.records = recordsOf(set, pack);
+    this.scales = colourScales(set);
+    this.hideSome();
+    this.strips = new Strips(stripsOf(set, this.records[0]), set.agents, (t) => this.seek(t));
+    const episodes = [...new Set(this.records.map((record) => record.episode))];
+    this.episodes = this.select('episode',
+      [...episodes.map((e): [string, string] => [String(e), String(e + 1)]), ['-1', 'all']], '0',
+      (value) => this.chooseEpisode(Number(value)));
+    this.trailColour = this.select('trails by', this.scales.map((s, i) => [String(i), s.name]),
+      String(this.colouring), (value) => this.chooseColouring(Number(value)));
+    const split = tick('side by side', false, (isOn) => this.chooseSplit(isOn));
+    const trails = this.select('trail', TRAILS, '1e9', (value) => {
+      this.trail = Number(value);
+      this.isDirty = true;
+    });
+    place.append(
+      el('p', { class: 'hint' }, `${set.task}: ${set.conditions}`),
+      this.windows,
+      el('div', { class: 'player' },
+        button('«', 'to the beginning (Home)', () => this.seek(0)), this.play, this.scrubber,
+        this.shownTime, this.speed),
+      el('div', { class: 'controls' }, this.episodes, this.camera, split, this.trailColour, trails,
+        el('details', { class: 'keys' }, el('summary', {}, 'keys'), el('p', {}, KEYS))),
+      this.legend, this.strips.element,
+    );
+    addEventListener('keydown', this.onKey);
+    this.rebuild();
+    this.frame = requestAnimationFrame(this.tickFrame);
+  }
+
+  /** Of many agents two policies and the strongest autopilot are enough to begin with. */
+  private hideSome(): void {
+    const { agents } = this.set;
+    const strongest = agents.findIndex((name) => name.startsWith('autopilot'));
+    agents.forEach((_, agent) => {
+      if (agent > 1 && agent !== strongest) this.hidden.add(agent);
+    });
+  }
+
+  private select(
+    label: string, options: [string, string][], chosen: string, act: (value: string) => void,
+  ): HTMLLabelElement {
+    return choice(label, options, chosen, (value) => {
+      act(value);
+      this.isDirty = true;
+    });
+  }
+
+  private setSelected(label: HTMLLabelElement, value: string): void {
+    (label.querySelector('select') as HTMLSelectElement).value = value;
+  }
+
+  /** The records in view. */
+  private shown(): FlightRecord[] {
+    return this.records.filter((record) =>
+      (this.episode < 0 || record.episode === this.episode) && !this.hidden.has(record.agent));
+  }
+
+  /** Windows anew: the episode, whom they show, or the colours are others. */
+  private rebuild(): void {
+    const shown = this.shown();
+    this.panes.forEach((pane) => pane.dispose());
+    const agents = [...new Set(shown.map((record) => record.agent))];
+    const groups = this.isSplit
+      ? agents.map((agent) => shown.filter((record) => record.agent === agent)) : [shown];
+    this.followed = Math.min(this.followed, Math.max(shown.length - 1, 0));
+    this.panes = groups.filter((group) => group.length > 0).map((group) =>
+      new Pane(group, this.set, this.isSplit ? 0 : this.followed, () => { this.isDirty = true; }));
+    this.windows.replaceChildren(...this.panes.map((pane) => pane.element));
+    this.windows.classList.toggle('split', this.panes.length > 1);
+    this.clock.end = Math.max(0.02, ...shown.map((record) => record.duration));
+    this.clock.seek(this.clock.time);
+    this.scrubber.max = String(this.clock.end);
+    this.strips.draw(shown.slice(0, 12));
+    for (const pane of this.panes) {
+      pane.fit();
+      pane.scene.cameras.onTurned = () => this.turnAll(pane);
+    }
+    this.chooseCamera((this.camera.querySelector('select') as HTMLSelectElement).value as CameraName);
+    this.chooseColouring(this.colouring);
+  }
+
+  /** The other windows look the same way. */
+  private turnAll(turned: Pane): void {
+    this.isDirty = true;
+    for (const pane of this.panes) {
+      if (pane !== turned) pane.scene.cameras.copyView(turned.scene.cameras);
+    }
+  }
+
+  private chooseCamera(name: CameraName): void {
+    this.setSelected(this.camera, name);
+    for (const pane of this.panes) pane.scene.choose(name, this.clock.time);
+    this.isDirty = true;
+  }
+
+  private chooseEpisode(episode: number): void {
+    this.episode = episode;
+    this.setSelected(this.episodes, String(episode));
+    this.clock.time = 0;
+    this.rebuild();
+  }
+
+  private chooseSplit(isOn: boolean): void {
+    this.isSplit = isOn;
+    this.rebuild();
+  }
+
+  private chooseColouring(index: number): void {
+    this.colouring = index;
+    this.setSelected(this.trailColour, String(index));
+    for (const pane of this.panes) pane.scene.colourTrails(this.scales[index].share);
+    this.drawLegend();
+    this.isDirty = true;
+  }
+
+  /** Agents, which can be hidden, how they ended, and the ramp of the trails. */
+  private drawLegend(): void {
+    const rows = this.set.agents.map((name, agent) => {
+      const own = this.records.filter((record) => record.agent === agent
+        && (this.episode < 0 || record.episode === this.episode));
+      const end = own.length === 1 ? `: ${own[0].end} at ${own[0].duration.toFixed(1)} s` : '';
+      const box = tick(name + end, !this.hidden.has(agent), (isOn) => {
+        if (isOn) this.hidden.delete(agent);
+        else if (this.hidden.size + 1 < this.set.agents.length) this.hidden.add(agent);
+        this.rebuild();
+      });
+      const swatch = el('span', { class: 'swatch' });
+      swatch.style.background = colourOf(agent);
+      box.prepend(swatch);
+      return box;
+    });
+    const scale = this.scales[this.colouring];
+    const bar = el('span', { class: 'ramp' });
+    const stops = [0, 0.25, 0.5, 0.75, 1].map((s) =>
+      `rgb(${ramp(s).map((c) => Math.round(255 * c)).join(',')})`);
+    bar.style.background = `linear-gradient(to right, ${stops.join(',')})`;
+    this.legend.replaceChildren(...rows,
+      ...(scale.low ? [el('span', { class: 'key' }, `${scale.low} `, bar, ` ${scale.high}`)] : []));
+  }
+
+  private toggle(): void {
+    this.clock.toggle();
+    this.isDirty = true;
+  }
+
+  private seek(time: number): void {
+    this.clock.seek(time);
+    this.isDirty = true;
+  }
+
+  private step(by: number): void {
+    const count = new Set(this.records.map((record) => record.episode)).size;
+    this.chooseEpisode((Math.max(this.episode, 0) + by + count) % count);
+  }
+
+  private follow(): void {
+    this.followed = (this.followed + 1) % Math.max(this.shown().length, 1);
+    for (const pane of this.panes) pane.scene.followed = this.isSplit ? 0 : this.followed;
+    this.chooseCamera((this.camera.querySelector('select') as HTMLSelectElement).value as CameraName);
+  }
+
+  private readonly keys: Record<string, (event: KeyboardEvent) => void> = {
+    ' ': () => this.toggle(),
+    ArrowLeft: (event) => this.seek(this.clock.time - (event.shiftKey ? 0.1 : 1)),
+    ArrowRight: (event) => this.seek(this.clock.time + (event.shiftKey ? 0.1 : 1)),
+    ArrowUp: () => this.shiftSpeed(1),
+    ArrowDown: () => this.shiftSpeed(-1),
+    Home: () => this.seek(0),
+    End: () => this.seek(this.clock.end),
+    n: () => this.step(1),
+    p: () => this.step(-1),
+    f: () => this.follow(),
+    s: () => {
+      const box = document.querySelectorAll<HTMLInputElement>('.controls .tick input')[0];
+      box.click();
+    },
+    t: () => this.chooseColouring((this.colouring + 1) % this.scales.length),
+    c: () => {
+      const place = CAMERA_NAMES.indexOf(this.panes[0].scene.cameras.chosen);
+      this.chooseCamera(CAMERA_NAMES[(place + 1) % CAMERA_NAMES.length]);
+    },
+  };
+
+  private readonly onKey = (event: KeyboardEvent): void => {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.metaKey || event.altKey || target.tagName === 'SELECT') return;
+    const number = CAMERA_NAMES[Number(event.key) - 1];
+    const act = this.keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!number && !act) return;
+    event.preventDefault();
+    if (number) this.chooseCamera(number);
+    else act(event);
+  };
+
+  private shiftSpeed(by: number): void {
+    this.clock.shift(by);
+    this.setSelected(this.speed, String(this.clock.speed));
+  }
+
+  private readonly tickFrame = (now: number): void => {
+    this.frame = requestAnimationFrame(this.tickFrame);
+    const seconds = Math.min((now - this.before) / 1000, 0.1);
+    this.before = now;
+    const wasPlaying = this.clock.isPlaying;
+    this.clock.advance(seconds);
+    if (!this.isDirty && !wasPlaying) return;
+    this.isDirty = false;
+    // Where time jumps, a chase does not lag.
+    const lag = wasPlaying ? seconds : Infinity;
+    for (const pane of this.panes) pane.show(this.clock.time, this.trail, lag);
+    this.strips.mark(this.clock.time, this.clock.isPlaying);
+    this.scrubber.value = String(this.clock.time);
+    this.shownTime.textContent = `${this.clock.time.toFixed(2)} / ${this.clock.end.toFixed(2)} s`;
+    this.play.textContent = this.clock.isPlaying ? '⏸' : '▶';
+  };
+
+  stop(): void {
+    cancelAnimationFrame(this.frame);
+    removeEventListener('keydown', this.onKey);
+    this.panes.forEach((pane) => pane.dispose());
+    this.strips.stop();
+  }
+}
+
+/** Shows the sets of flights, one at a time; returns what ends it. */
+export function showFlights(place: HTMLElement, pack: ReportPack): () => void {
+  const { flights } = pack.document;
+  const body = el('div');
+  if (flights.length > 1) {
+    place.append(choice('flights of', flights.map((set, i) => [String(i), set.agents.join(', ')]),
+      '0', (value) => {
+        view.stop();
+        body.replaceChildren();
+        view = new FlightsView(body, flights[Number(value)], pack);
+      }));
+  }
+  place.append(body);
+  let view = new FlightsView(body, flights[0], pack);
+  return () => view.stop();
+}

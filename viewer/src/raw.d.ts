@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+/// <reference types="vite/client" />
+declare module '*?raw' {
+  const text: string;
+  export default text;
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The document of a report, as skein writes it (docs/reference/file-formats.md).
+import type { ArrayReference, Pack } from './pack';
+
+export const KNOWN_FORMAT = 1;
+
+export type Columns = Record<string, ArrayReference>;
+
+export interface Setting {
+  key: string;
+  value: string;
+  help: string;
+  /** The preset's value, where it differs. */
+  preset?: string;
+}
+
+export interface Estimate {
+  value: number | null;
+  low: number | null;
+  high: number | null;
+  count: number;
+}
+
+export interface Run {
+  name: string;
+  path: string;
+  task: string;
+  seed: number;
+  preset: string;
+  total_steps: number;
+  /** Runs that differ by their seed alone have the same. */
+  repetition: number;
+  notes: string[];
+  configuration: Setting[];
+  metrics: Columns;
+  timing: Columns;
+  evaluation: { success_rate?: number; sampled?: { estimates: Record<string, Estimate> } } | null;
+}
+
+export interface Quantity {
+  key: string;
+  symbol: string;
+  label: string;
+  section: string;
+  shown_per_unit: number;
+  decimals: number;
+  is_headline: boolean;
+}
+
+export interface ComparedAgent {
+  name: string;
+  action_repeat: number;
+  terminations: Record<string, number>;
+  estimates: Record<string, Estimate>;
+}
+
+export interface Comparison {
+  task: string;
+  conditions: string;
+  episodes: number;
+  seed: number;
+  quantities: Quantity[];
+  agents: ComparedAgent[];
+}
+
+export interface Target {
+  column: string;
+  is_angle: boolean;
+  tolerance: number;
+}
+
+export interface Flight {
+  agent: number;
+  episode: number;
+  end: string;
+  return: number;
+  interval_s: number;
+  columns: Columns;
+}
+
+export interface FlightSet {
+  task: string;
+  conditions: string;
+  seed: number;
+  agents: string[];
+  targets: Target[];
+  is_point: boolean;
+  hold_s: number;
+  flights: Flight[];
+}
+
+export interface ReportDocument {
+  format: number;
+  skein: string;
+  made: string;
+  runs: Run[];
+  comparisons: Comparison[];
+  flights: FlightSet[];
+}
+
+export type ReportPack = Pack<ReportDocument>;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// A report in headless Chromium, drawn by software, from disk.
+import { existsSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { type Browser, chromium, type Page } from 'playwright-core';
+
+const CHROMIUM = [process.env.SKEIN_CHROMIUM, '/usr/bin/chromium', '/usr/bin/google-chrome']
+  .find((path) => path && existsSync(path));
+const TEMPLATE = process.env.SKEIN_REPORT_TEMPLATE ?? join(__dirname, '../../dist/report.html');
+
+/** Why pages cannot be tested here; empty if they can. */
+export const MISSING = !CHROMIUM ? 'no Chromium' : !existsSync(TEMPLATE) ? `no ${TEMPLATE}` : '';
+
+export async function launch(): Promise<Browser> {
+  return chromium.launch({
+    executablePath: CHROMIUM,
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+      '--disable-accelerated-2d-canvas', '--disable-gpu-rasterization'],
+  });
+}
+
+/** Writes a report with this data; returns its address. */
+export function reportFile(deflated: Buffer): string {
+  const path = join(mkdtempSync(join(tmpdir(), 'skein-')), 'report.html');
+  const page = readFileSync(TEMPLATE, 'utf8');
+  writeFileSync(path, page.replace('SKEIN-REPORT-DATA', () => deflated.toString('base64')));
+  return `file://${path}`;
+}
+
+export interface Opened {
+  page: Page;
+  /** What the console said that is an error, and every request that left the page. */
+  errors: string[];
+  requests: string[];
+}
+
+export async function open(
+  browser: Browser, address: string, options: Parameters<Browser['newPage']>[0] = {},
+): Promise<Opened> {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
+  const opened: Opened = { page, errors: [], requests: [] };
+  page.on('console', (message) => {
+    if (message.type() === 'error') opened.errors.push(message.text());
+  });
+  page.on('pageerror', (error) => opened.errors.push(String(error)));
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) opened.requests.push(request.url());
+  });
+  await page.goto(address);
+  await page.waitForSelector('main > *');
+  return opened;
+}
+
+/** The share of pixels of a screenshot of `selector` that differ from its most frequent colour. */
+export async function drawnShare(page: Page, selector: string): Promise<number> {
+  const png = (await page.locator(selector).first().screenshot()).toString('base64');
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const pen = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
+    pen.drawImage(image, 0, 0);
+    const pixels = new Uint32Array(pen.getImageData(0, 0, image.width, image.height).data.buffer);
+    const counts = new Map<number, number>();
+    for (const pixel of pixels) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
+    return 1 - Math.max(...counts.values()) / pixels.length;
+  }, png);
+}
+
+/** The share of pixels in which two screenshots differ by more than a tolerance. */
+export async function difference(page: Page, a: Buffer, b: Buffer): Promise<number> {
+  return page.evaluate(async (images) => {
+    const [first, second] = await Promise.all(images.map(async (data) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${data}`;
+      await image.decode();
+      const canvas = new OffscreenCanvas(image.width, image.height);
+      const pen = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
+      pen.drawImage(image, 0, 0);
+      return pen.getImageData(0, 0, image.width, image.height).data;
+    }));
+    if (first.length !== second.length) return 1;
+    let different = 0;
+    for (let i = 0; i < first.length; i += 4) {
+      const gap = Math.max(...[0, 1, 2].map((k) => Math.abs(first[i + k] - second[i + k])));
+      if (gap > 24) different += 1;
+    }
+    return different / (first.length / 4);
+  }, [a.toString('base64'), b.toString('base64')]);
+}

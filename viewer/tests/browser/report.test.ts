@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { fixture, HOSTILE } from '../fixture';
+import { difference, drawnShare, launch, MISSING, open, reportFile } from './page';
+
+const PANE = '.pane canvas';
+
+describe.skipIf(MISSING !== '')('a report opened from disk', () => {
+  let browser: Browser;
+  let plain: string;
+  beforeAll(async () => {
+    browser = await launch();
+    plain = reportFile(fixture('seed', 3));
+  });
+  afterAll(async () => browser?.close());
+
+  const timeShown = async (page: import('playwright-core').Page) =>
+    parseFloat((await page.textContent('.time')) ?? '');
+
+  it('draws every view, in both themes, without errors or requests', async () => {
+    for (const colorScheme of ['light', 'dark'] as const) {
+      const { page, errors, requests } = await open(browser, plain, { colorScheme });
+      expect(await drawnShare(page, PANE)).toBeGreaterThan(0.02);
+      for (const view of ['training', 'metrics', 'configuration']) {
+        await page.click(`nav a[href="#${view}"]`);
+        await page.waitForSelector(`main.${view} > *`);
+        expect(await drawnShare(page, 'main')).toBeGreaterThan(0.01);
+      }
+      expect(errors).toEqual([]);
+      expect(requests).toEqual([]);
+      await page.close();
+    }
+  });
+
+  it('plays, stops, and is scrubbed', async () => {
+    const { page } = await open(browser, plain);
+    const before = await page.locator(PANE).screenshot();
+    await page.click('button[aria-label^="play"]');
+    await page.waitForTimeout(1500);
+    await page.click('button[aria-label^="play"]');
+    const played = await timeShown(page);
+    expect(played).toBeGreaterThan(0.2);
+    expect(await difference(page, before, await page.locator(PANE).screenshot()))
+      .toBeGreaterThan(0.0005);
+    await page.waitForTimeout(400);
+    expect(await timeShown(page)).toBe(played);
+    await page.locator('.scrubber').fill('5');
+    await page.waitForTimeout(100);
+    expect(await timeShown(page)).toBeCloseTo(5, 1);
+    const chart = await page.locator('.strips .u-over').first().boundingBox();
+    if (!chart) throw new Error('no strip chart');
+    await page.mouse.click(chart.x + chart.width / 2, chart.y + 20);
+    await page.waitForTimeout(100);
+    expect(await timeShown(page)).toBeCloseTo(6, 0);
+    await page.close();
+  });
+
+  it('shows the same time alike', async () => {
+    const { page } = await open(browser, plain);
+    const shot = async () => {
+      await page.waitForTimeout(300);
+      return page.locator(PANE).screenshot();
+    };
+    await page.locator('.scrubber').fill('4');
+    const first = await shot();
+    await page.locator('.scrubber').fill('9');
+    const later = await shot();
+    await page.locator('.scrubber').fill('4');
+    expect(await difference(page, first, await shot())).toBeLessThan(0.001);
+    expect(await difference(page, first, later)).toBeGreaterThan(0.001);
+    await page.close();
+  });
+
+  it('is flown by keys', async () => {
+    const { page, errors } = await open(browser, plain);
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('Shift+ArrowLeft');
+    await page.waitForTimeout(100);
+    expect(await timeShown(page)).toBeCloseTo(1.9, 2);
+    const camera = page.locator('label', { hasText: 'camera' }).locator('select');
+    for (const [key, name] of [['2', 'follow'], ['3', 'chase'], ['4', 'cockpit'], ['c', 'overview']]) {
+      await page.keyboard.press(key);
+      expect(await camera.inputValue()).toBe(name);
+      await page.waitForTimeout(100);
+      expect(await drawnShare(page, PANE)).toBeGreaterThan(0.005);
+    }
+    await page.keyboard.press('n');
+    expect(await page.locator('label', { hasText: 'episode' }).locator('select').inputValue())
+      .toBe('1');
+    await page.keyboard.press('s');
+    expect(await page.locator('.pane').count()).toBe(2);
+    await page.keyboard.press('End');
+    await page.waitForTimeout(100);
+    expect(await page.textContent('.hud')).toContain('target reached');
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('fits a phone of 360 px, and is touched', async () => {
+    const { page, errors } = await open(browser, plain,
+      { viewport: { width: 360, height: 740 }, hasTouch: true });
+    for (const view of ['flights', 'training', 'metrics', 'configuration']) {
+      await page.tap(`nav a[href="#${view}"]`);
+      await page.waitForSelector(`main.${view} > *`);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(360);
+    }
+    await page.tap('nav a[href="#flights"]');
+    await page.tap('button[aria-label^="play"]');
+    await page.waitForTimeout(1000);
+    expect(await timeShown(page)).toBeGreaterThan(0.1);
+    expect(await drawnShare(page, PANE)).toBeGreaterThan(0.02);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('takes nothing that a run contains for script', async () => {
+    const { page, errors, requests } = await open(browser, reportFile(fixture(HOSTILE, 1)));
+    for (const view of ['flights', 'training', 'metrics', 'configuration']) {
+      await page.click(`nav a[href="#${view}"]`);
+      await page.waitForSelector(`main.${view} > *`);
+      expect(await page.textContent('body')).toContain('window.hacked=1');
+    }
+    expect(await page.evaluate(() => 'hacked' in window)).toBe(false);
+    expect(await page.locator('img, script[src]').count()).toBe(0);
+    expect(errors).toEqual([]);
+    expect(requests).toEqual([]);
+    await page.close();
+  });
+
+  it('runs no script but its own, whatever gets into the page', async () => {
+    const { page } = await open(browser, plain);
+    await page.evaluate(() => {
+      const script = document.createElement('script');
+      script.textContent = 'window.hacked = 1';
+      document.body.append(script);
+      const frame = document.createElement('div');
+      frame.innerHTML = '<img src="data:," onerror="window.hacked = 1">';
+      document.body.append(frame);
+    });
+    await page.waitForTimeout(200);
+    expect(await page.evaluate(() => 'hacked' in window)).toBe(false);
+    await page.close();
+  });
+
+  it('says what is wrong with data that is damaged', async () => {
+    const damaged = await browser.newPage();
+    await damaged.goto(reportFile(Buffer.from('no pack')));
+    await damaged.waitForSelector('.error');
+    expect(await damaged.textContent('.error')).toContain('cannot be shown');
+    await damaged.close();
+  });
+});
