@@ -4,7 +4,6 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include <csignal>
 #include <cstddef>
 #include <initializer_list>
 #include <vector>
@@ -20,14 +19,6 @@ void BindEvaluation(nanobind::module_& module);
 void BindFlightDynamics(nanobind::module_& module);
 void BindTraining(nanobind::module_& module);
 void BindMeasures(nanobind::module_& module);
-
-/// Hands a signal that was caught without the interpreter to whoever would have had it: SIGINT to
-/// Python, which raises KeyboardInterrupt. Nothing if it is 0.
-inline void RaiseSignal(int signal) {
-  if (signal == 0) return;
-  std::raise(signal);
-  if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
-}
 
 /// Arrays of NumPy or of whatever speaks DLPack, used in place if type and layout fit.
 template <typename T>

@@ -12,11 +12,11 @@
 #include "envs/flight_metrics.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
+#include "python/bindings/interruption.h"
 #include "src/config/program_config.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/flight_file.h"
 #include "src/evaluation/flight_summary.h"
-#include "src/run/run_signals.h"
 #include "train/policy/evaluate.h"
 #include "train/policy/record_flights.h"
 
@@ -24,21 +24,6 @@ namespace nb = nanobind;
 
 namespace skein {
 namespace {
-
-/// Does long work without the interpreter's lock. Ctrl-C ends it as it ends Python's own.
-template <typename Work>
-auto Unlocked(WorkerPool& pool, const Work& work) {
-  int stop_signal = 0;
-  auto result = [&] {
-    const nb::gil_scoped_release released;
-    const RunSignals signals(pool);
-    auto done = work();
-    stop_signal = signals.StopSignal();
-    return done;
-  }();
-  RaiseSignal(stop_signal);
-  return result;
-}
 
 template <typename T, typename Read>
 nb::object Column(const std::vector<Episode>& episodes, const Read& read) {

@@ -8,6 +8,7 @@
 #include "base/worker_pool.h"
 #include "envs/tasks/termination.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interruption.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/config/configuration.h"
@@ -50,7 +51,7 @@ nb::dict ToDict(const IterationReport& report) {
 /// the callback throws ends the run as its false does, saved, and is thrown on; so is what Ctrl-C
 /// means in Python.
 template <typename Work>
-void TrainUnlocked(const nb::object& callback, const Work& work) {
+void TrainUnlocked(const nb::object& callback, WorkerPool& pool, const Work& work) {
   std::exception_ptr failure;
   GoesOn goes_on;
   if (!callback.is_none()) {
@@ -64,11 +65,8 @@ void TrainUnlocked(const nb::object& callback, const Work& work) {
       }
     };
   }
-  int stop_signal = 0;
-  {
-    const nb::gil_scoped_release released;
-    stop_signal = work(std::move(goes_on));
-  }
+  // Its own signals are those of the run; what comes before it begins stops it, too.
+  const int stop_signal = Unlocked(pool, [&] { return work(std::move(goes_on)); });
   if (failure) std::rethrow_exception(failure);
   RaiseSignal(stop_signal);
 }
@@ -83,7 +81,7 @@ void Train(const ProgramConfig& config, const std::string& out, const std::strin
   trained.train.low_level = below.policy;
   origin.low_level = below.description;
   WorkerPool pool(threads);
-  TrainUnlocked(callback, [&](GoesOn goes_on) {
+  TrainUnlocked(callback, pool, [&](GoesOn goes_on) {
     origin.goes_on = std::move(goes_on);
     return TrainingRun::Begin(trained, out, pool, origin);
   });
@@ -95,7 +93,7 @@ void Resume(const std::string& path, int threads, const nb::object& callback) {
   ProgramConfig config = ReadRecord(directory.config());
   config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env);
   WorkerPool pool(threads);
-  TrainUnlocked(callback, [&](GoesOn goes_on) {
+  TrainUnlocked(callback, pool, [&](GoesOn goes_on) {
     return TrainingRun::Resume(config, std::move(directory), pool, std::move(goes_on));
   });
 }

@@ -2,7 +2,6 @@
 """Ctrl-C, threads and processes."""
 import multiprocessing
 import os
-import pathlib
 import signal
 import subprocess
 import sys
@@ -14,18 +13,18 @@ import pytest
 
 import skein
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SECONDS = 5  # asked for is one; the machine may be busy
 
 LONG = """
 import os, signal, sys, threading, time
 import skein
+signal.signal(signal.SIGINT, signal.default_int_handler)  # also where it was ignored, as in the background
 def interrupt():
-    time.sleep(1)
+    time.sleep({delay})
     print(time.monotonic(), flush=True)
     os.kill(os.getpid(), signal.SIGINT)
-threading.Thread(target=interrupt).start()
 try:
+    threading.Thread(target=interrupt).start()
     {call}
     print("went on")
 except KeyboardInterrupt:
@@ -49,16 +48,25 @@ except KeyboardInterrupt:
         'skein.compare(["autopilot", "zero"], "heading", episodes=10**5)',
     ],
 )
-def test_ctrl_c_is_a_keyboard_interrupt(call, tmp_path):
-    command = [sys.executable, "-c", LONG.format(call=call)]
-    lines = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path).stdout.splitlines()
+@pytest.mark.parametrize("delay", [0.05, 1])
+def test_ctrl_c_is_a_keyboard_interrupt(call, delay, tmp_path):
+    command = [sys.executable, "-c", LONG.format(call=call, delay=delay)]
+    lines = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path, timeout=120).stdout.splitlines()
     times = [line.split() for line in lines if line[0].isdigit()]
     assert lines[-1] == "again", lines
     assert times[1][1] == "interrupted", lines
     assert float(times[1][0]) - float(times[0][0]) < MOST_SECONDS
 
 
-def test_an_interrupted_training_is_resumed_to_the_same_bits(tmp_path):
+@pytest.fixture
+def sigint_as_python_has_it():
+    """Which it is not in what a shell runs in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interrupted_training_is_resumed_to_the_same_bits(tmp_path, sigint_as_python_has_it):
     tiny = {
         "network.hidden_size": 16, "network.gru_size": 16, "ppo.num_aircraft": 64, "ppo.rollout_steps": 16,
         "ppo.minibatches": 2, "run.total_steps": 6 * 64 * 16 * 5, "evaluation.final_episodes": 8,
@@ -81,7 +89,7 @@ def test_an_interrupted_training_is_resumed_to_the_same_bits(tmp_path):
         assert (cut.path / name).read_bytes() == (whole.path / name).read_bytes()
 
 
-def test_a_python_handler_has_its_say(tmp_path):
+def test_a_python_handler_has_its_say():
     seen = []
     before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
     timer = threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT))
@@ -113,13 +121,11 @@ def counted_while(work):
 
 
 def test_other_threads_of_python_run_on_during_long_work():
-    envs = skein.make_vec("heading", 4096, threads=1, **{"env.action_repeat": 300})
+    envs = skein.make_vec("heading", 4096, threads=1, **{"env.action_repeat": 100})
     envs.reset(seed=0)
     actions = np.zeros((4096, 4), np.float32)
     assert counted_while(lambda: envs.step(actions)) > 0.2
-    assert counted_while(lambda: skein.evaluate("autopilot", "heading", episodes=1500, threads=1)) > 0.2
-    # A step that holds the lock shows nothing of the other thread.
-    assert counted_while(lambda: sum(range(10**7))) >= 0
+    assert counted_while(lambda: skein.evaluate("autopilot", "heading", episodes=500, threads=1)) > 0.2
 
 
 def rollout(seed, num_envs=64, threads=0):

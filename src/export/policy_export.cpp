@@ -111,6 +111,11 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
     outputs.push_back(
         {manifest_out, Manifest(options.form, parts.front().policy, *policy.low_level(), files)});
     lines.push_back(fmt::format("wrote     {} (how they act together)", manifest_out));
+    if (low_level == nullptr) {
+      lines.push_back(
+          "left out  the autopilot that flies below it: no form has its laws "
+          "(docs/reference/autopilot.md)");
+    }
   }
   WriteAll(outputs);
   return lines;

@@ -93,6 +93,10 @@ TEST_F(HighLevelPipeline, AHighLevelPolicyTrainsOverTheAutopilot) {
       CallSkein({"train", "--resume", run_, "--low-level", "autopilot:traditional"});
   EXPECT_EQ(other.exit_code, 2);
   ExpectOneLine(other.error, "keeps its low-level policy");
+  const ProgramResult exported =
+      CallSkein({"export", policy, "--format", "c", "-o", run_ + "/tracking.h"});
+  EXPECT_EQ(exported.exit_code, 0) << exported.error;
+  EXPECT_THAT(exported.output, HasSubstr("left out  the autopilot"));
 }
 
 TEST_F(HighLevelPipeline, APolicyThatActsDirectlyTrainsResumesAndFliesWithoutALowLevelPolicy) {

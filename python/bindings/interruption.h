@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <csignal>
+
+#include "base/worker_pool.h"
+#include "src/run/run_signals.h"
+
+namespace skein {
+
+/// Lets Python handle the signals that it has caught: of SIGINT it makes KeyboardInterrupt.
+inline void HandleSignals() {
+  if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
+}
+
+/// Hands a signal that was caught without the interpreter to whoever would have had it. Nothing if
+/// it is 0.
+inline void RaiseSignal(int signal) {
+  if (signal == 0) return;
+  std::raise(signal);
+  HandleSignals();
+}
+
+/// Does long work on the pool without the interpreter's lock, and returns what it does. Ctrl-C
+/// stops the pool, and then ends the work as it ends Python's own.
+template <typename Work>
+auto Unlocked(WorkerPool& pool, const Work& work) {
+  int stop_signal = 0;
+  auto result = [&] {
+    const RunSignals signals(pool);
+    HandleSignals();  // that came before
+    const nanobind::gil_scoped_release released;
+    auto done = work();
+    stop_signal = signals.StopSignal();
+    return done;
+  }();
+  RaiseSignal(stop_signal);
+  return result;
+}
+
+}  // namespace skein
