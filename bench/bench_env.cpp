@@ -124,7 +124,7 @@ void BM_Observe(benchmark::State& state) {
   const double noise = noisy ? t.config.observation_noise : 0;
   TimeRounds(state, [&] {
     t.task->Errors(t.tile(), t.task_tile(), t.errors.data(), t.stride);
-    ObserveTile(*t.aircraft, t.tile(), t.errors.data(), t.stride,
+    ObserveTile(*t.aircraft, t.tile(), {t.errors.data(), t.stride},
                 {noise, 1, 0, t.episode.data(), t.step.data()}, t.observation.data());
   });
 }

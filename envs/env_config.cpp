@@ -90,10 +90,39 @@ void ListAircraftFields(EnvConfig& config, FieldList& list) {
       .OffUnless(config.drag_rises);
 }
 
+void ValidateTerms(const EnvConfig& config) {
+  const TermTaskConfig& terms = *config.term_task;
+  if (config.task != terms.name || config.task_file_hash != terms.hash ||
+      config.task_interface != terms.interface) {
+    throw Error("configuration: env.task = " + config.task + " of the task file with the hash " +
+                config.task_file_hash + ", but the file is of task " + terms.name +
+                " and has the hash " + terms.hash);
+  }
+  RequireSteps(config, "reached.dwell_s of the task file", terms.dwell_s);
+  Require(terms.earliest_step <= config.time_limit_steps, "reached.earliest_step of the task file",
+          terms.earliest_step,
+          "no more than env.time_limit_steps, " + ShortestText(config.time_limit_steps) +
+              ": else no episode could succeed");
+  if (config.plant.observation_delay_steps.max == 0) return;
+  for (const TermNumber& number : terms.observed) {
+    if (IsRemembered(number.value)) continue;
+    throw Error("configuration: the task file observes " + number.name +
+                ", which is not known of control steps before: "
+                "env.plant.observation_delay_max_steps must be 0");
+  }
+}
+
 }  // namespace
 
 void ListFields(EnvConfig& config, FieldList& list) {
   list.Add("task", &config.task, "what is flown");
+  list.Add("task_file_hash", &config.task_file_hash,
+           "hash of the task file that is flown; empty for a built-in task")
+      .OffUnless(!config.task_file_hash.empty());
+  list.Add("task_interface", &config.task_interface,
+           "hash of what the task file lets policies observe: a policy flies tasks of its own")
+      .OffUnless(!config.task_interface.empty())
+      .FixedForPolicies();
   ListAircraftFields(config, list);
   ListEpisodeFields(config, list);
   list.Group("initial", config.initial);
@@ -108,12 +137,20 @@ void ListFields(EnvConfig& config, FieldList& list) {
   list.Group("reward", config.reward);
 }
 
+void EnvConfig::SetTermTask(const TermTaskConfig& terms) {
+  term_task = std::make_shared<const TermTaskConfig>(terms);
+  task = terms.name;
+  task_file_hash = terms.hash;
+  task_interface = terms.interface;
+}
+
 EnvConfig EvaluationConfig(const EnvConfig& config) {
   EnvConfig evaluated = config, defaults;
   const std::vector<Field> fields = FieldsOf(evaluated), standards = FieldsOf(defaults);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (fields[i].is_training_only) fields[i].SetText(standards[i].ValueText(ShortestText));
   }
+  if (config.term_task != nullptr) evaluated.SetTermTask(config.term_task->ForEvaluation());
   return evaluated;
 }
 
@@ -136,8 +173,11 @@ void Validate(const EnvConfig& config) {
   RequireSteps(config, "env.hold_s", config.hold_s);
   RequireSteps(config, "env.mission.length_s", config.mission.length_s);
   RequireSteps(config, "env.mission.dwell_s", config.mission.dwell_s);
-  Require(config.hold_s == 0 || config.task != "tracking", "env.hold_s", config.hold_s,
-          "0 for tracking: a point is passed, not held");
+  const bool is_point =
+      config.term_task != nullptr ? config.term_task->has_point() : config.task == "tracking";
+  Require(config.hold_s == 0 || !is_point, "env.hold_s", config.hold_s,
+          "0 for " + config.task + ": a point is passed, not held");
+  if (config.term_task != nullptr) ValidateTerms(config);
   Require(config.hold_s == 0 || !config.mission.enabled(), "env.hold_s", config.hold_s,
           "0 in a mission (env.mission.length_s), whose targets come one after another");
   Validate(config.plant);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "envs/air/atmosphere.h"
@@ -13,6 +14,7 @@
 #include "envs/tasks/handling_costs.h"
 #include "envs/tasks/heading_config.h"
 #include "envs/tasks/termination_config.h"
+#include "envs/tasks/terms/term_task_config.h"
 #include "envs/tasks/tracking_config.h"
 #include "envs/wind/wind_config.h"
 
@@ -23,6 +25,10 @@ class FieldList;
 /// A task, its aircraft and its conditions: everything that an episode depends on but the seed.
 struct EnvConfig {
   std::string task = "heading";
+  /// The task of a task file, whose name `task` is; null: a built-in one.
+  std::shared_ptr<const TermTaskConfig> term_task;
+  /// Of it TermTaskConfig::hash and ::interface, empty without: what files say it was.
+  std::string task_file_hash, task_interface;
   std::string aircraft = "f16";
   AtmosphereModel atmosphere = AtmosphereModel::kStevensLewis;
   FlightControlMode flight_control = FlightControlMode::kFull;
@@ -59,6 +65,9 @@ struct EnvConfig {
   TrackingConfig tracking;
   HighLevelConfig high_level;
   TerminationConfig termination;
+
+  /// Flies the task of a task file from now on.
+  void SetTermTask(const TermTaskConfig& terms);
 
   /// What ends and scales episodes of every task. The end of a mission is no failure.
   EpisodeSettings episode() const {

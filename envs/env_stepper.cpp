@@ -83,6 +83,7 @@ struct alignas(kCacheLine) EnvStepper::Scratch {
   float step_reward[kAircraftPerBlock];
   float policy_step_reward[kAircraftPerBlock] = {};
   std::int32_t reached[kAircraftPerBlock];
+  std::int32_t ends[kAircraftPerBlock];
   std::int32_t termination[kAircraftPerBlock] = {};
   bool final_observed[kAircraftPerBlock] = {};
   float errors[kNumTaskErrors * kAircraftPerBlock];
@@ -107,6 +108,8 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       kernel_aircraft_(MakeKernelAircraft(aircraft_, config_.atmosphere)),
       flight_control_(aircraft_, config_.flight_control, config_.control_interval_s),
       limits_(EndsOf(config_), config_.episode()),
+      remembers_actions_(config_.reward.action_change > 0 ||
+                         task_->observation_layout().actions > 0),
       progress_(RulesOf(config_, *task_)),
       costs_(config_.reward),
       reset_(config_, aircraft_),
@@ -115,6 +118,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       most_noise_(config_.observation_noise_max),
       privileged_(*task_, progress_, wind_.enabled(), config_.plant.enabled()) {
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
+  static_assert(kObservedActions == kActionSize);
   if (low_level != nullptr) {
     low_level_ = std::make_unique<LowLevelFlight>(config_, num_aircraft, std::move(low_level));
   }
@@ -124,13 +128,14 @@ EnvColumns EnvStepper::columns() const {
   EnvColumns columns;
   columns.windy = wind_.enabled();
   columns.task = task_->num_columns();
-  if (config_.reward.action_change > 0) columns.last_action = action_size();
+  if (remembers_actions_) columns.last_action = action_size();
   columns.progress = progress_.enabled();
   if (config_.plant.enabled()) {
     columns.plant =
         config_.plant.has_sensor_errors() ? kNumPlantColumnsWithSensors : kNumPlantColumns;
     columns.delays = {config_.plant.action_delay_steps.max,
-                      config_.plant.observation_delay_steps.max, columns.windy, task_->is_point()};
+                      config_.plant.observation_delay_steps.max, columns.windy,
+                      task_->sees_position()};
   }
   return columns;
 }
@@ -152,7 +157,7 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
   block.step[i] = 0;
   block.episode_return[i] = 0;
   block.progress.Reset(i);
-  if (config_.reward.action_change > 0) {
+  if (remembers_actions_) {
     for (int k = 0; k < action_size(); ++k) block.last_action[k][i] = 0;
   }
   if (low_level_ != nullptr) low_level_->Reset(block.first_aircraft + i);
@@ -216,10 +221,11 @@ Tile EnvStepper::Sensed(const EnvBlock& block, SensedState& state) const {
 void EnvStepper::ObserveSample(const EnvBlock& block, float* observation) const {
   SensedState state;
   const Tile sensed = Sensed(block, state);
-  alignas(kCacheLine) float errors[kNumTaskErrors * kAircraftPerBlock];
-  task_->Errors(sensed, block.task, errors, kAircraftPerBlock);
-  ObserveTile(*kernel_aircraft_, sensed, errors, kAircraftPerBlock, NoiseOf(block), observation,
-              block.plants);
+  alignas(kCacheLine) float numbers[kMostLeadingNumbers * kAircraftPerBlock];
+  task_->LeadingObservations(sensed, block.task, numbers, kAircraftPerBlock);
+  const ObservedTask task{numbers, kAircraftPerBlock, task_->observation_layout(),
+                          block.last_action};
+  ObserveTile(*kernel_aircraft_, sensed, task, NoiseOf(block), observation, block.plants);
 }
 
 void EnvStepper::Observe(const EnvBlock& block, float* observation) const {
@@ -277,9 +283,12 @@ PilotColumns EnvStepper::Commands(const EnvBlock& block, Scratch& scratch) const
 /// Lets the sensors keep what they show now whose time has come.
 void EnvStepper::FreezeSensors(const EnvBlock& block) const {
   if (!AnySensorFreezes(block.plants, block.count, block.step)) return;
-  float observation[kAircraftPerBlock * kObservationSize];
+  const ObservationLayout& layout = task_->observation_layout();
+  if (!layout.flight) return;
+  float observation[kAircraftPerBlock * kMostObservations];
   ObserveSample(block, observation);
-  skein::FreezeSensors(block.plants, block.count, block.step, observation, kObservationSize);
+  skein::FreezeSensors(block.plants, block.count, block.step,
+                       observation + layout.lead - kNumTaskErrors, layout.size());
 }
 
 /// Takes the costs of handling off the control step's reward.
@@ -294,7 +303,7 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
     AddWithinTolerances(costs_, block.count, scratch.reached, scratch.step_reward);
   }
   // Also while its weight is 0 for now: what is remembered is what was flown last.
-  if (config_.reward.action_change > 0 && policy_action != nullptr) {
+  if (remembers_actions_ && policy_action != nullptr) {
     const int throttles = low_level_ == nullptr ? 1 : 0;
     SubtractActionChange(costs_, policy_action, action_size(), throttles, block.last_action,
                          scratch.step_reward);
@@ -351,10 +360,11 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
                                const float* policy_action, ControlStepObserver* observer,
                                Scratch& scratch) const {
   StepResult step_result{scratch.step_reward, scratch.reached};
+  if (task_->has_ends()) step_result.ends = scratch.ends;
   EpisodeColumns episodes{block.step, scratch.termination, scratch.policy_step_reward,
                           block.episode_return};
   task_->ComputeReward(block.flight, block.task, block.step, step_result);
-  if (config_.reward.enabled()) SubtractCosts(block, policy_action, scratch);
+  if (config_.reward.enabled() || remembers_actions_) SubtractCosts(block, policy_action, scratch);
   if (progress_.enabled()) {
     AdvanceTargets(block, scratch);
     step_result.deadline = scratch.deadline;
@@ -385,15 +395,15 @@ void EnvStepper::ObserveEnds(const EnvBlock& block, Scratch& scratch,
   bool any = false;
   for (int i = 0; i < block.count; ++i) any = any || is_new(i);
   if (!any) return;
-  float observation[kAircraftPerBlock * kObservationSize];
+  const int observed = observation_size();
+  float observation[kAircraftPerBlock * kMostObservations];
   Observe(block, observation);
   const int size = output.final_privileged == nullptr ? 0 : privileged_.size();
   std::vector<float> privileged(static_cast<std::size_t>(block.count * size));
   if (size > 0) ObservePrivileged(block, privileged.data());
   for (int i = 0; i < block.count; ++i) {
     if (!is_new(i)) continue;
-    std::copy_n(observation + i * kObservationSize, kObservationSize,
-                output.final_observation + i * kObservationSize);
+    std::copy_n(observation + i * observed, observed, output.final_observation + i * observed);
     std::copy_n(privileged.data() + i * size, size, output.final_privileged + i * size);
     scratch.final_observed[i] = true;
   }

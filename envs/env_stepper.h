@@ -36,6 +36,7 @@ class EnvStepper {
   const Task& task() const { return *task_; }
   /// What must be remembered of each aircraft.
   EnvColumns columns() const;
+  int observation_size() const { return task_->observation_layout().size(); }
   int action_size() const { return low_level_ == nullptr ? kActionSize : kHighLevelActionSize; }
   /// Null without a low-level policy.
   LowLevelFlight* low_level() { return low_level_.get(); }
@@ -98,6 +99,7 @@ class EnvStepper {
   std::shared_ptr<const KernelAircraft> kernel_aircraft_;
   FlightControlConstants flight_control_;
   TerminationLimits limits_;
+  bool remembers_actions_;
   ProgressRules progress_;
   HandlingCosts costs_;
   // What episodes draw from: narrower than config_ has it while SetConditionShare says so.

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "envs/actions.h"
 #include "envs/low_level_flight.h"
 #include "envs/tasks/observation.h"
+#include "envs/tasks/task.h"
 
 namespace skein {
 
@@ -25,5 +28,10 @@ inline constexpr std::array<const char*, kObservationSize> kObservationNames = {
     "r_rad_s",          "power_fraction",  "elevator_fraction",
     "aileron_fraction", "rudder_fraction", "leading_edge_flap_fraction",
     "airspeed_ratio"};
+
+/// What policies of `task` observe: of a built-in task kObservationNames. Of a task file, what
+/// leads the row is called as in the file, with "_scaled" behind it where it has a unit; last
+/// actions are "last_throttle" and so on.
+std::vector<std::string> ObservationNames(const Task& task);
 
 }  // namespace skein

@@ -161,7 +161,7 @@ void LowLevelFlight::Act(const KernelAircraft& aircraft, Tile flight, const Obse
   // Of the Control task's columns, those that its errors are made of.
   const Tile target{scratch.target[0], kMaxCount, flight.count};
   control_->Errors(flight, target, scratch.error[0], kMaxCount);
-  ObserveTile(aircraft, flight, scratch.error[0], kMaxCount, noise, scratch.observation, plants);
+  ObserveTile(aircraft, flight, {scratch.error[0], kMaxCount}, noise, scratch.observation, plants);
   low_level_->Act(flight.count, scratch.observation,
                   state_.data() + StateBegin(static_cast<int>(noise.first_aircraft)),
                   scratch.action);

@@ -14,10 +14,11 @@ class Policy {
  public:
   virtual ~Policy() = default;
 
-  virtual int observation_size() const = 0;  ///< numbers that it observes of each aircraft
-  virtual int action_size() const = 0;       ///< numbers of its actions for each
-  virtual int state_size() const = 0;        ///< floats of memory per aircraft
-  virtual int action_repeat() const = 0;     ///< control steps for which its actions are to be held
+  /// Numbers that it observes of each aircraft; 0: whatever there are, as it looks at none.
+  virtual int observation_size() const = 0;
+  virtual int action_size() const = 0;    ///< numbers of its actions for each
+  virtual int state_size() const = 0;     ///< floats of memory per aircraft
+  virtual int action_repeat() const = 0;  ///< control steps for which its actions are to be held
 
   /// `env` with the choices that belong to the policy and not to the episodes: for how long it
   /// holds an action, in which axes it observes Tracking's target, whether a high-level policy

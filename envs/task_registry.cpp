@@ -8,6 +8,7 @@
 #include "envs/aircraft/registry.h"
 #include "envs/tasks/control.h"
 #include "envs/tasks/heading.h"
+#include "envs/tasks/terms/term_task.h"
 #include "envs/tasks/tracking.h"
 
 namespace skein {
@@ -19,11 +20,14 @@ struct Registration {
   bool is_hierarchical;
 };
 
+TargetLimits LimitsOf(const EnvConfig& config) {
+  return {config.target_mach_min, config.target_altitude_min_ft, config.atmosphere};
+}
+
 /// Makes a task of its part of the configuration.
 template <auto kMake, auto kConfig>
 std::unique_ptr<Task> Make(const EnvConfig& config, const ReferenceUnits& units) {
-  return kMake(config.*kConfig, units,
-               {config.target_mach_min, config.target_altitude_min_ft, config.atmosphere});
+  return kMake(config.*kConfig, units, LimitsOf(config));
 }
 
 constexpr std::array<Registration, 3> kTasks = {
@@ -50,12 +54,16 @@ bool NeedsLowLevel(const EnvConfig& config) {
 }
 
 std::unique_ptr<Task> MakeTask(const EnvConfig& config) {
+  if (config.term_task != nullptr) {
+    return MakeTermTask(config.term_task, LoadAircraft(config.aircraft), LimitsOf(config));
+  }
   std::string known;
   for (const Registration& task : kTasks) {
     if (config.task == task.name) return task.make(config, LoadAircraft(config.aircraft).units);
     known += (known.empty() ? "" : ", ") + std::string(task.name);
   }
-  throw Error("environment: unknown task \"" + config.task + "\"; known: " + known);
+  throw Error("environment: unknown task \"" + config.task + "\"; known: " + known +
+              ", and task files");
 }
 
 }  // namespace skein

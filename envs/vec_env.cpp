@@ -71,14 +71,14 @@ int VecEnv::num_aircraft() const { return impl_->storage.num_aircraft(); }
 int VecEnv::num_tiles() const { return impl_->storage.num_tiles(); }
 int VecEnv::tile_begin(int tile) const { return impl_->storage.tile_begin(tile); }
 int VecEnv::tile_count(int tile) const { return impl_->storage.tile_count(tile); }
-int VecEnv::observation_size() const { return kObservationSize; }
+int VecEnv::observation_size() const { return impl_->stepper.observation_size(); }
 int VecEnv::action_size() const { return impl_->stepper.action_size(); }
 
 void VecEnv::Observe(int tile, float* observation) const {
   const DenormalsFlushed flushed;
   for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
     impl_->stepper.Observe(impl_->storage.BlockAt(tile, begin),
-                           observation + static_cast<std::size_t>(begin) * kObservationSize);
+                           observation + static_cast<std::size_t>(begin * observation_size()));
   }
 }
 
@@ -106,7 +106,9 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
     part.termination += begin;
     part.episode_return += begin;
     part.episode_steps += begin;
-    if (part.final_observation != nullptr) part.final_observation += row * kObservationSize;
+    if (part.final_observation != nullptr) {
+      part.final_observation += row * static_cast<std::size_t>(observation_size());
+    }
     if (part.final_privileged != nullptr) {
       part.final_privileged += row * static_cast<std::size_t>(privileged_size());
     }

@@ -34,7 +34,7 @@ class VecEnv {
   int num_tiles() const;            ///< indices of tiles are [0, num_tiles())
   int tile_begin(int tile) const;   ///< global index of the tile's first aircraft
   int tile_count(int tile) const;   ///< the tile's aircraft
-  int observation_size() const;     ///< 22
+  int observation_size() const;     ///< 22 of the built-in tasks
   int action_size() const;          ///< 4; 3 with a low-level policy
 
   /// Writes the tile's observations, row-major [count][observation_size], noise included.

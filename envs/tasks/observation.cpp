@@ -29,10 +29,22 @@ namespace HWY_NAMESPACE {
 namespace {
 
 // Noise comes in blocks of eight deviates.
-constexpr int kNoiseBlocks = (kObservationSize + 7) / 8;
+constexpr int BlocksFor(int numbers) { return (numbers + 7) / 8; }
 
 /// One group of aircraft, [element][lane].
-using ObservationColumns = float[kNoiseBlocks * 8][kLanes];
+using ObservationColumns = float[BlocksFor(kMostObservations) * 8][kLanes];
+
+/// The layout of the built-in tasks, known when this is compiled.
+struct StandardLayout {
+  static constexpr int lead = kNumTaskErrors, actions = 0, size = kObservationSize;
+  static constexpr bool flight = true;
+};
+
+/// That of any task.
+struct AnyLayout {
+  int lead, actions, size;
+  bool flight;
+};
 
 /// What the sensors of a group make of exact numbers: `kErrors` if they have scale errors and
 /// biases, each number its own.
@@ -40,7 +52,7 @@ template <bool kErrors>
 struct Sensors {
   const Tile& plants;
   int first;
-  ObservationColumns& columns;
+  float (*columns)[kLanes];  ///< where number 0 would be
 
   HWY_INLINE void Show(int number, V exact) const {
     const FloatTag d;
@@ -107,7 +119,7 @@ HWY_INLINE void ObserveControls(const Actuators& actuators, const Tile& tile, in
 }
 
 /// Puts what the group's frozen sensors hold into its rows.
-HWY_INLINE void ShowFrozen(const PlantTile& plants, int first, int valid, float* rows) {
+HWY_INLINE void ShowFrozen(const PlantTile& plants, int first, int valid, float* rows, int size) {
   const FloatTag d;
   const auto is_frozen = hn::Ne(Column(plants.columns, kPlantIsFrozen, first), hn::Zero(d));
   if (hn::AllFalse(d, is_frozen)) return;
@@ -117,11 +129,12 @@ HWY_INLINE void ShowFrozen(const PlantTile& plants, int first, int valid, float*
   std::memcpy(&bits, bytes, sizeof bits);
   for (; bits != 0; bits &= bits - 1) {
     const int lane = __builtin_ctz(bits);
-    if (lane < valid) ShowFrozenSensor(plants, first + lane, rows + lane * kObservationSize);
+    if (lane < valid) ShowFrozenSensor(plants, first + lane, rows + lane * size);
   }
 }
 
-HWY_INLINE void AddNoise(const ObservationNoise& noise, const PhiloxKeys& keys, int first,
+template <int kBlocks>
+HWY_INLINE void AddNoise(const ObservationNoise& noise, const PhiloxKeys& keys, int first, int size,
                          ObservationColumns& columns) {
   const FloatTag d;
   const IntTag di;
@@ -136,25 +149,26 @@ HWY_INLINE void AddNoise(const ObservationNoise& noise, const PhiloxKeys& keys, 
     scale =
         hn::MulAdd(share, Constant(noise.max_standard_deviation - noise.standard_deviation), scale);
   }
-  V deviates[8 * kNoiseBlocks];
-  CoarseNormals<kNoiseBlocks>(d, keys, index, episode, step, simd::RandomPurpose::kObservationNoise,
-                              deviates);
-  for (int k = 0; k < kObservationSize; ++k) {
+  V deviates[8 * kBlocks];
+  CoarseNormals<kBlocks>(d, keys, index, episode, step, simd::RandomPurpose::kObservationNoise,
+                         deviates);
+  for (int k = 0; k < size; ++k) {
     hn::Store(hn::MulAdd(scale, deviates[k], hn::Load(d, columns[k])), d, columns[k]);
   }
 }
 
 /// Transposes the group's first `valid` aircraft into rows.
-HWY_INLINE void StoreRows(const ObservationColumns& columns, int valid, float* rows) {
+HWY_INLINE void StoreRows(const ObservationColumns& columns, int valid, int size, float* rows) {
 #if HWY_TARGET == HWY_SCALAR
   static_cast<void>(valid);
-  for (int k = 0; k < kObservationSize; ++k) rows[k] = columns[k][0];
+  for (int k = 0; k < size; ++k) rows[k] = columns[k][0];
 #else
   const FloatTag d;
   const hn::RepartitionToWide<FloatTag> wide;
   const hn::Full128<float> d4;
   // Four elements at a time; the last four overlap the ones before, not the next row.
-  for (const int k : {0, 4, 8, 12, 16, kObservationSize - 4}) {
+  for (int next = 0; next < size; next += 4) {
+    const int k = std::min(next, size - 4);
     const V a = hn::Load(d, columns[k]), b = hn::Load(d, columns[k + 1]);
     const V c = hn::Load(d, columns[k + 2]), e = hn::Load(d, columns[k + 3]);
     const auto ab_low = hn::BitCast(wide, hn::InterleaveLower(d, a, b));
@@ -169,15 +183,15 @@ HWY_INLINE void StoreRows(const ObservationColumns& columns, int valid, float* r
     hn::Store(hn::BitCast(d, hn::InterleaveUpper(wide, ab_high, ce_high)), d, quads[3]);
     for (int lane = 0; lane < valid; ++lane) {
       const auto quad = hn::Load(d4, quads[lane % 4] + lane / 4 * 4);
-      hn::StoreU(quad, d4, rows + lane * kObservationSize + k);
+      hn::StoreU(quad, d4, rows + lane * size + k);
     }
   }
 #endif
 }
 
-template <bool kErrors>
+template <bool kErrors, int kBlocks, class Layout>
 HWY_INLINE void ObserveTileWith(const KernelAircraft& aircraft, const Tile& tile,
-                                const float* errors, std::size_t error_stride,
+                                const ObservedTask& task, const Layout& layout,
                                 const ObservationNoise& noise, const PlantTile& plants,
                                 float* observation) {
   const FloatTag d;
@@ -185,27 +199,58 @@ HWY_INLINE void ObserveTileWith(const KernelAircraft& aircraft, const Tile& tile
   const bool is_noisy = noise.standard_deviation > 0 || noise.max_standard_deviation > 0;
   alignas(64) ObservationColumns columns = {};
   for (int first = 0; first < tile.count; first += kLanes) {
-    for (int k = 0; k < kNumTaskErrors; ++k) {
-      hn::Store(hn::LoadU(d, errors + k * error_stride + first), d, columns[k]);
+    for (int k = 0; k < layout.lead; ++k) {
+      hn::Store(hn::LoadU(d, task.numbers + k * task.stride + first), d, columns[k]);
     }
-    const Sensors<kErrors> sensors{plants.columns, first, columns};
-    ObserveAttitude(tile, first, sensors);
-    ObserveAir(aircraft, tile, plants, first, sensors);
-    ObserveControls(aircraft.source.actuators, tile, first, sensors);
-    if (is_noisy) AddNoise(noise, keys, first, columns);
+    if (layout.flight) {
+      const Sensors<kErrors> sensors{plants.columns, first, columns + layout.lead - kNumTaskErrors};
+      ObserveAttitude(tile, first, sensors);
+      ObserveAir(aircraft, tile, plants, first, sensors);
+      ObserveControls(aircraft.source.actuators, tile, first, sensors);
+    }
+    for (int k = 0; k < layout.actions; ++k) {
+      const V action = Column(task.last_action, k, first);
+      hn::Store(action, d, columns[layout.size - layout.actions + k]);
+    }
+    if (is_noisy) AddNoise<kBlocks>(noise, keys, first, layout.size, columns);
 
     const int valid = std::min(tile.count - first, kLanes);
-    float* const rows = observation + static_cast<std::size_t>(first) * kObservationSize;
-    StoreRows(columns, valid, rows);
-    if (plants.is_drawn()) ShowFrozen(plants, first, valid, rows);
+    float* const rows = observation + static_cast<std::ptrdiff_t>(first) * layout.size;
+    StoreRows(columns, valid, layout.size, rows);
+    if (plants.is_drawn() && layout.flight) {
+      ShowFrozen(plants, first, valid, rows + layout.lead - kNumTaskErrors, layout.size);
+    }
   }
 }
 
-void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const float* errors,
-                       std::size_t error_stride, const ObservationNoise& noise,
-                       const PlantTile& plants, float* observation) {
-  const auto observe = plants.has_sensor_errors ? ObserveTileWith<true> : ObserveTileWith<false>;
-  observe(aircraft, tile, errors, error_stride, noise, plants, observation);
+template <int kBlocks, class Layout>
+HWY_INLINE void ObserveTileAs(const KernelAircraft& aircraft, const Tile& tile,
+                              const ObservedTask& task, const Layout& layout,
+                              const ObservationNoise& noise, const PlantTile& plants,
+                              float* observation) {
+  if (plants.has_sensor_errors) {
+    ObserveTileWith<true, kBlocks>(aircraft, tile, task, layout, noise, plants, observation);
+  } else {
+    ObserveTileWith<false, kBlocks>(aircraft, tile, task, layout, noise, plants, observation);
+  }
+}
+
+void ObserveTileKernel(const KernelAircraft& aircraft, Tile tile, const ObservedTask& task,
+                       const ObservationNoise& noise, const PlantTile& plants, float* observation) {
+  ObserveTileAs<BlocksFor(kObservationSize)>(aircraft, tile, task, StandardLayout(), noise, plants,
+                                             observation);
+}
+
+/// The same of a layout that is not the standard one.
+void ObserveAnyTileKernel(const KernelAircraft& aircraft, Tile tile, const ObservedTask& task,
+                          const ObservationNoise& noise, const PlantTile& plants,
+                          float* observation) {
+  const ObservationLayout& of = task.layout;
+  const AnyLayout layout{of.lead, of.actions, of.size(), of.flight};
+  const auto observe = layout.size <= 8 * BlocksFor(kObservationSize)
+                           ? ObserveTileAs<BlocksFor(kObservationSize), AnyLayout>
+                           : ObserveTileAs<BlocksFor(kMostObservations), AnyLayout>;
+  observe(aircraft, tile, task, layout, noise, plants, observation);
 }
 
 }  // namespace
@@ -217,14 +262,18 @@ HWY_AFTER_NAMESPACE();
 namespace skein {
 
 HWY_EXPORT(ObserveTileKernel);
+HWY_EXPORT(ObserveAnyTileKernel);
 
 static_assert(kNumTaskErrors + kNumSensedNumbers == kObservationSize);
 
-void ObserveTile(const KernelAircraft& aircraft, Tile tile, const float* errors,
-                 std::size_t error_stride, const ObservationNoise& noise, float* observation,
-                 const PlantTile& plants) {
-  SKEIN_DISPATCH(ObserveTileKernel)
-  (aircraft, tile, errors, error_stride, noise, plants, observation);
+void ObserveTile(const KernelAircraft& aircraft, Tile tile, const ObservedTask& task,
+                 const ObservationNoise& noise, float* observation, const PlantTile& plants) {
+  const ObservationLayout& layout = task.layout;
+  if (layout.lead == kNumTaskErrors && layout.flight && layout.actions == 0) {
+    SKEIN_DISPATCH(ObserveTileKernel)(aircraft, tile, task, noise, plants, observation);
+  } else {
+    SKEIN_DISPATCH(ObserveAnyTileKernel)(aircraft, tile, task, noise, plants, observation);
+  }
 }
 
 }  // namespace skein

@@ -6,6 +6,7 @@
 
 #include "envs/plant/plant_columns.h"
 #include "envs/state/state.h"
+#include "envs/tasks/observation_layout.h"
 
 namespace skein {
 
@@ -21,7 +22,7 @@ struct KernelAircraft;  // envs/kernels/kernel_aircraft.h
 ///   16    engine power / 100
 ///   17-20 elevator, aileron, rudder, leading-edge flap as fractions of their range
 ///   21    true airspeed / equivalent airspeed
-inline constexpr int kObservationSize = 22;
+inline constexpr int kObservationSize = kStandardObservation.size();
 
 /// Gaussian noise on every element, drawn from the streams (seed, aircraft, episode, step).
 struct ObservationNoise {
@@ -34,11 +35,18 @@ struct ObservationNoise {
   double max_standard_deviation = 0;
 };
 
-/// Writes observations row-major, [tile.count][kObservationSize]. `errors` are kNumTaskErrors
-/// columns `error_stride` apart. Of drawn `plants` it reads the air's density and the sensors'
-/// errors, which come before the noise, and shows what frozen sensors hold.
-void ObserveTile(const KernelAircraft& aircraft, Tile tile, const float* errors,
-                 std::size_t error_stride, const ObservationNoise& noise, float* observation,
-                 const PlantTile& plants = {});
+/// What of a row does not come from the flight.
+struct ObservedTask {
+  const float* numbers = nullptr;  ///< those that lead it: layout.lead columns `stride` apart
+  std::size_t stride = 0;
+  ObservationLayout layout = kStandardObservation;
+  Tile last_action = {};  ///< layout.actions columns
+};
+
+/// Writes observations row-major, [tile.count][task.layout.size()]. Of drawn `plants` it reads the
+/// air's density and the sensors' errors, which come before the noise, and shows what frozen
+/// sensors hold.
+void ObserveTile(const KernelAircraft& aircraft, Tile tile, const ObservedTask& task,
+                 const ObservationNoise& noise, float* observation, const PlantTile& plants = {});
 
 }  // namespace skein

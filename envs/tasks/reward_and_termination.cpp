@@ -54,12 +54,18 @@ struct EpisodeEnd {
     termination = hn::IfThenElse(where, Constant(static_cast<int>(value)), termination);
     reward = hn::IfThenElse(where, Constant(value_reward), reward);
   }
+  /// Failures of the task's own, where they are not 0.
+  HWY_INLINE void SetTo(V failures, const TerminationLimits& limits) {
+    const auto where = hn::Ne(failures, hn::Zero(FloatTag()));
+    termination = hn::IfThenElse(where, failures, termination);
+    reward = hn::IfThenElse(where, Constant(limits.failure_reward), reward);
+  }
 };
 
 HWY_INLINE EpisodeEnd FindTermination(const KernelAircraft& aircraft,
                                       const TerminationLimits& limits, const Tile& tile,
                                       Mask is_finite, Mask is_reached, Mask is_out_of_time,
-                                      int first) {
+                                      const std::int32_t* ends, int first) {
   const FloatTag d;
   const BodyVelocity<V> air = AirVelocity(d, tile, first);
   const AirspeedSquares<V> squares = SquaresOf(air);
@@ -82,6 +88,7 @@ HWY_INLINE EpisodeEnd FindTermination(const KernelAircraft& aircraft,
   // Later ones take precedence.
   end.SetWhere(is_out_of_time, Termination::kTimeLimit, limits.time_limit_reward);
   end.SetWhere(is_reached, Termination::kTargetReached, limits.success_reward);
+  if (ends != nullptr) end.SetTo(hn::ConvertTo(d, hn::LoadU(IntTag(), ends + first)), limits);
   end.SetWhere(is_overloaded, Termination::kOverload, limits.failure_reward);
   end.SetWhere(is_slow, Termination::kLowSpeed, limits.failure_reward);
   end.SetWhere(is_low, Termination::kLowAltitude, limits.failure_reward);
@@ -121,7 +128,7 @@ void ComputeRewardAndTerminationKernel(const KernelAircraft& aircraft,
     const Mask is_finite = IsFinite(tile, step_reward, first);
     const EpisodeEnd end =
         FindTermination(aircraft, limits, tile, is_finite, hn::RebindMask(d, hn::Gt(reached, zero)),
-                        is_out_of_time, first);
+                        is_out_of_time, step_result.ends, first);
     hn::StoreU(hn::IfThenElse(is_flying, hn::ConvertTo(di, end.termination), ended_before), di,
                episodes.termination + first);
 

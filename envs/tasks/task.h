@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "envs/state/state.h"
+#include "envs/tasks/observation_layout.h"
 #include "envs/tasks/task_errors.h"
 #include "simd/random.h"
 
@@ -28,6 +30,8 @@ struct StepResult {
   /// Control step of the episode at which time ends it; null: the same limit for all.
   const std::int32_t* deadline = nullptr;
   const float* bonus = nullptr;  ///< reward beside, which reward_scale leaves alone; null: none
+  /// A Termination, a failure, where the task itself ends the episode, else 0; null: nowhere.
+  std::int32_t* ends = nullptr;
 };
 
 /// What a target is compared with: a column of recorded flights (docs/reference/file-formats.md).
@@ -40,6 +44,12 @@ struct TargetQuantity {
   double error_unit = 1;
   double tolerance =
       0;  ///< of evaluations: how far from it the target counts, in the column's unit
+};
+
+/// A number that leads the row of observations.
+struct ObservedNumber {
+  std::string name;  ///< with its unit, if it has one
+  double unit = 1;   ///< what is observed times this is the number of that name
 };
 
 /// What the aircraft of an environment are asked to do. One object serves all tiles: it holds
@@ -58,6 +68,15 @@ class Task {
   virtual double dwell_s() const { return 0; }
   /// Whether targets are points, which are passed, and not states, which can be held.
   virtual bool is_point() const { return false; }
+  /// Whether what leads the row of observations depends on the position over the ground.
+  virtual bool sees_position() const { return is_point(); }
+  /// Whether the task ends episodes itself (StepResult::ends).
+  virtual bool has_ends() const { return false; }
+
+  /// How the row of observations is made up.
+  virtual const ObservationLayout& observation_layout() const { return kStandardObservation; }
+  /// What the numbers that lead it are; none if they are the errors.
+  virtual std::vector<ObservedNumber> leading_numbers() const { return {}; }
 
   /// Draws the columns of the tile's aircraft `index` at the start of an episode.
   virtual void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
@@ -67,8 +86,16 @@ class Task {
   /// evaluations.
   virtual float ToleranceShare(Tile task, int index) const = 0;
 
-  /// The first three observations, as columns `error_stride` apart.
+  /// The normalised errors of the first three targets, as columns `error_stride` apart; 0 where
+  /// there are fewer.
   virtual void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const = 0;
+
+  /// The numbers that lead the row of observations, observation_layout().lead columns `stride`
+  /// apart.
+  virtual void LeadingObservations(Tile flight, Tile task, float* numbers,
+                                   std::size_t stride) const {
+    Errors(flight, task, numbers, stride);
+  }
 
   /// Rewards the state after a control step, and says where it reaches the target. `steps_before`
   /// is each aircraft's control steps in this episode before it.

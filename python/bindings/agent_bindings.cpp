@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "envs/actions.h"
+#include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
@@ -41,7 +42,8 @@ FlyingAgent NamedAgent(const std::string& name, const ProgramConfig& config, std
     return trained;
   }
   const int action_repeat = agent.EnvironmentFor(config.train.env).action_repeat;
-  return {name, std::move(agent), kObservationSize, kActionSize, action_repeat, {}};
+  const int observations = MakeTask(config.train.env)->observation_layout().size();
+  return {name, std::move(agent), observations, kActionSize, action_repeat, {}};
 }
 
 FlyingAgent CallableAgent(nb::object callable, const std::string& name, int action_size,

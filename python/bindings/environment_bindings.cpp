@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/worker_pool.h"
+#include "envs/interface_names.h"
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "python/bindings/bindings.h"
@@ -269,6 +270,8 @@ void BindEnvironment(nb::module_& module) {
       .def_prop_ro("num_envs", [](const BatchEnv& env) { return env.env().num_aircraft(); })
       .def_prop_ro("observation_size",
                    [](const BatchEnv& env) { return env.env().observation_size(); })
+      .def_prop_ro("observation_names",
+                   [](const BatchEnv& env) { return ObservationNames(*MakeTask(env.config())); })
       .def_prop_ro("action_size", [](const BatchEnv& env) { return env.env().action_size(); })
       .def_prop_ro("target_names", &BatchEnv::TargetNames)
       .def_prop_ro("action_repeat", [](const BatchEnv& env) { return env.config().action_repeat; })

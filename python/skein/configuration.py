@@ -25,7 +25,7 @@ def configure(
     """A configuration: defaults, then preset, file, conditions and settings, each on top of those before it.
 
     Args:
-        task: "heading", "control" or "tracking"; or a Config, which then stands for preset and file.
+        task: "heading", "control" or "tracking", or the path of a task file, "my_task.toml"; or a Config, which then stands for preset and file.
         preset: the task's named configuration (skein.presets).
         file: a TOML file.
         conditions: as of `skein train --condition`: ["windy=0..60fps", "noisy=0.03"], or the same as a dict.

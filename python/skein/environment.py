@@ -44,7 +44,7 @@ def _bound(name: str) -> float:
 
 
 def _observation_space(core: _skein.BatchEnv) -> spaces.Space[FloatArray]:
-    high = np.array([_bound(name) for name in OBSERVATION_NAMES])
+    high = np.array([_bound(name) for name in core.observation_names])
     if core.draws_plants:  # other ranges of surfaces, and sensors that are biased
         high[:] = np.inf
     high = (high + _LARGEST_DEVIATE * core.observation_noise).astype(np.float32)
@@ -66,7 +66,7 @@ class _Flight:
     config: Config
     """Every setting of what is flown."""
     observation_names: tuple[str, ...] = OBSERVATION_NAMES
-    """Of the observation's 22 numbers; docs/reference/tasks.md has their meaning."""
+    """Of the observation's 22 numbers (docs/reference/tasks.md has their meaning), or those of the task file."""
     action_names: tuple[str, ...]
     """Of the action's numbers."""
 
@@ -88,6 +88,7 @@ class _Flight:
         core = None if agent is None else agent._core
         self._core = _skein.BatchEnv(config, num_envs, 0, threads, text("low_level", low_level), core)
         self.action_names = ACTION_NAMES if self._core.action_size == len(ACTION_NAMES) else HIGH_LEVEL_ACTION_NAMES
+        self.observation_names = tuple(self._core.observation_names)
         self._rules = CustomRules(self._core, reward, terminated) if reward or terminated else None
         self._stepped = self._core if self._rules is None else self._rules
         self._begun = False

@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "envs/vec_env.h"
+#include "src/config/configuration.h"
 #include "src/run/run_directory.h"
+#include "train/policy/policy_parameters.h"
 
 namespace skein {
 
@@ -31,6 +33,13 @@ std::string NetworksFileOf(const std::string& path) {
   if (!IsRunDirectory(path)) return PolicyFileOf(path);
   const std::vector<Checkpoint> checkpoints = CheckpointsIn(path + "/checkpoints");
   return checkpoints.empty() ? PolicyFileOf(path) : checkpoints.back().path;
+}
+
+std::shared_ptr<const TermTaskConfig> TermTaskOf(const RecurrentPolicy& policy,
+                                                 const std::string& who) {
+  const std::string& text = policy.parameters()->task_file;
+  if (text.empty()) return nullptr;
+  return ResolveConfig({who + "'s task file", "default", "", {}, {}, "", text}).train.env.term_task;
 }
 
 RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,

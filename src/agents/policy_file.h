@@ -22,6 +22,11 @@ std::string PolicyFileOf(const std::string& path);
 /// a run its newest checkpoint, which has the critic, else what PolicyFileOf finds.
 std::string NetworksFileOf(const std::string& path);
 
+/// The task of the task file that the policy, which errors call `who`, was trained for; null if it
+/// was a built-in one.
+std::shared_ptr<const TermTaskConfig> TermTaskOf(const RecurrentPolicy& policy,
+                                                 const std::string& who);
+
 /// The policy in `file`, or the untrained one of `config` and `seed`, a high-level policy over
 /// `low_level` if that is not null; on the backend of `config`.
 RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,

@@ -65,6 +65,12 @@ void AddBenchCommand(CLI::App* app) {
   sim->add_option("--aircraft", options->aircraft, "aircraft stepped at once")
       ->transform(WholeNumber(1, 100000000))
       ->capture_default_str();
+  sim->add_option("--task", options->task, "what is flown, or a task file, FILE.toml")
+      ->type_name("TASK")
+      ->capture_default_str();
+  sim->add_option("--beside", options->beside,
+                  "measure the environment of this task, too, in turns with the other")
+      ->type_name("TASK");
   sim->add_option("--steps", options->steps, "control steps timed; the median counts")
       ->transform(WholeNumber(1, 1000000))
       ->capture_default_str();

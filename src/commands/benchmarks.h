@@ -16,6 +16,7 @@ struct BenchOptions {
   int threads = 0;
   int iterations = 3;
   std::string task = "heading";
+  std::string beside;  ///< another task; empty: none
   std::string preset = "default";
   std::string low_level;
   std::vector<std::string> conditions, assignments;

@@ -60,7 +60,7 @@ void Evaluate(const EvalOptions& options) {
   }
   std::optional<RecurrentPolicy> trained;
   if (path != kUntrained) trained = RecurrentPolicy::Load(path);
-  ProgramConfig config = ConfigFor(flight, options.policy, trained ? trained->task() : "");
+  ProgramConfig config = ConfigFor(flight, options.policy, trained);
   if (trained) config.train.env = trained->EnvironmentFor(config.train.env);
   ApplyOverrides(flight, &config);
   std::shared_ptr<const StoredPolicy> low_level;

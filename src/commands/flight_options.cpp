@@ -10,6 +10,7 @@
 #include "src/agents/agent_names.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
+#include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/evaluation/flight_file.h"
@@ -17,6 +18,7 @@
 #include "src/files/text_table.h"
 #include "src/replay/acmi_flights.h"
 #include "src/run/run_directory.h"
+#include "train/policy/policy_parameters.h"
 
 namespace skein {
 
@@ -75,22 +77,26 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
                                       ->capture_default_str();
   command
       ->add_flag("--flights-observations", options->flights_observations,
-                 "write what the policy observed, too (22 columns)")
+                 "write what the policy observed, too (22 columns of a built-in task)")
       ->needs(flights);
 }
 
 ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
-                        const std::string& policys_task) {
-  if (IsRunDirectory(policy) && options.preset_option->count() == 0) {
+                        const std::optional<RecurrentPolicy>& trained) {
+  const bool is_of_run = options.preset_option->count() == 0 && !IsTaskFile(options.task);
+  if (IsRunDirectory(policy) && is_of_run) {
     return ReadRecord(policy + "/config.toml");
   }
+  const std::string policys_task = trained ? trained->task() : "";
   const std::string& task = options.task.empty() ? policys_task : options.task;
   if (task.empty()) {
     throw UsageError(
         policy.empty() ? "--task is needed: no agent is a policy that says its own"
                        : fmt::format("--task is needed: --policy {} does not say its own", policy));
   }
-  return AsUsage([&] { return ResolveConfig({task, options.preset, "", {}}); });
+  ConfigSources sources{task, options.preset, "", {}};
+  if (options.task.empty() && trained) sources.task_text = trained->parameters()->task_file;
+  return AsUsage([&] { return ResolveConfig(sources); });
 }
 
 void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
@@ -105,7 +111,8 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
     }
   }
   const ProgramConfig base = *config;
-  const std::string& task = options.task.empty() ? base.train.env.task : options.task;
+  const bool is_own = options.task.empty() || IsTaskFile(options.task);
+  const std::string& task = is_own ? base.train.env.task : options.task;
   AsUsage([&] {
     if (!options.config.empty()) ApplyTomlFile(options.config, config);
     ApplyConditionsAndAssignments(options.conditions, options.assignments, config);

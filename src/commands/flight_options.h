@@ -11,6 +11,7 @@
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/flight_table.h"
 #include "src/replay/acmi_writer.h"
+#include "train/policy/recurrent_policy.h"
 
 namespace skein {
 
@@ -43,9 +44,9 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);
 
 /// What a policy was made for: the run's own configuration if `policy` is a run and no preset was
-/// asked for, else the preset's, of `policys_task` if no other is asked for.
+/// asked for, else the preset's, of the task of `trained` if no other is asked for.
 ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
-                        const std::string& policys_task);
+                        const std::optional<RecurrentPolicy>& trained);
 
 /// The environment of `config` with --config, --condition, --set, --hold and --mission on top.
 /// Throws UsageError if they cannot be, or name another task than --task (without it: than

@@ -90,20 +90,20 @@ std::vector<std::string> NamesOf(const ReplayOptions& options) {
   return names;
 }
 
-/// The task of the first agent that is a policy and says its own; else empty.
-std::string TaskOf(const std::vector<std::string>& names) {
+/// The first agent that is a policy and says its own task.
+std::optional<RecurrentPolicy> PolicyOf(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const std::string file = PolicyFileOfAgent(name);
     if (file.empty() || file == kUntrained) continue;
-    if (const std::string task = RecurrentPolicy::Load(file).task(); !task.empty()) return task;
+    RecurrentPolicy policy = RecurrentPolicy::Load(file);
+    if (!policy.task().empty()) return policy;
   }
-  return "";
+  return std::nullopt;
 }
 
 ProgramConfig Configure(const ReplayOptions& options, const std::vector<std::string>& names) {
   const FlightOptions& flight = options.flight;
-  ProgramConfig config =
-      ConfigFor(flight, options.policy, flight.task.empty() ? TaskOf(names) : flight.task);
+  ProgramConfig config = ConfigFor(flight, options.policy, PolicyOf(names));
   const EnvConfig asked = config.train.env;
   ApplyOverrides(flight, &config);
   AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });

@@ -20,11 +20,18 @@ Json ToJson(const SimulatorRate& rate) {
 // NeuralPlane (NeurIPS 2024): one Euler step of 10^6 F-16s without flight control on a GPU.
 constexpr double kPaperEulerStepS = 0.2;
 
-/// An environment, and beside it the same of nominal plants if its own are drawn.
-std::vector<SimulatorRate> MeasureBesideNominal(const EnvConfig& config,
-                                                const BenchOptions& options, WorkerPool& pool) {
+/// An environment, and beside it that of the task asked for, or else the same of nominal plants if
+/// its own are drawn.
+std::vector<SimulatorRate> MeasureBesideOther(const EnvConfig& config, const BenchOptions& options,
+                                              WorkerPool& pool) {
   std::vector<EnvConfig> configs{config};
-  if (config.plant.enabled()) {
+  if (!options.beside.empty()) {
+    BenchOptions other = options;
+    other.task = options.beside;
+    configs.push_back(BenchConfig(other).env);
+    configs.back().observation_noise = config.observation_noise;
+    configs.back().observation_noise_max = config.observation_noise_max;
+  } else if (config.plant.enabled()) {
     configs.push_back(config);
     configs.back().plant = {};
   }
@@ -43,10 +50,16 @@ std::string Beyond(const SimulatorRate& rate, const SimulatorRate& base) {
 /// Prints and keeps the first of `rates`, with `note`, and the nominal plants' behind it.
 void ReportEnvironment(const std::string& what, const std::string& key,
                        const std::vector<SimulatorRate>& rates, const std::string& note,
-                       Json& results) {
+                       const BenchOptions& options, Json& results) {
   PrintRate(what, rates[0], note);
   results[key] = ToJson(rates[0]);
   if (rates.size() == 1) return;
+  if (!options.beside.empty()) {
+    PrintRate("... of " + options.beside, rates[1],
+              " (" + options.task + ": " + Beyond(rates[0], rates[1]) + ")");
+    results[key + "_beside"] = ToJson(rates[1]);
+    return;
+  }
   PrintRate("... of nominal plants", rates[1], " (drawn ones: " + Beyond(rates[0], rates[1]) + ")");
   results[key + "_of_nominal_plants"] = ToJson(rates[1]);
 }
@@ -73,12 +86,13 @@ void BenchSimulator(const BenchOptions& options) {
                {"steps", options.steps},
                {"rk4", ToJson(rk4)},
                {"plant", ToJson(controlled)}};
-  const std::vector<SimulatorRate> whole = MeasureBesideNominal(clean, options, pool);
-  ReportEnvironment("the whole environment, without noise", "environment", whole, "", results);
+  const std::vector<SimulatorRate> whole = MeasureBesideOther(clean, options, pool);
+  ReportEnvironment("the whole environment, without noise", "environment", whole, "", options,
+                    results);
   if (noisy.observation_noise > 0 || noisy.observation_noise_max > 0) {
-    const std::vector<SimulatorRate> with_noise = MeasureBesideNominal(noisy, options, pool);
+    const std::vector<SimulatorRate> with_noise = MeasureBesideOther(noisy, options, pool);
     ReportEnvironment("the whole environment, with noise", "environment_with_noise", with_noise,
-                      " (" + Beyond(with_noise[0], whole[0]) + ")", results);
+                      " (" + Beyond(with_noise[0], whole[0]) + ")", options, results);
   }
   fmt::print("  (the paper's GPU: {:.0f} ms for an Euler step of 10^6 without flight control)\n",
              1e3 * kPaperEulerStepS);

@@ -17,6 +17,7 @@
 #include "src/config/key_reference.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/run/run_directory.h"
@@ -61,7 +62,7 @@ ProgramConfig Configure(const TrainOptions& options, const std::string& task) {
 
 std::string RunToResume(const TrainOptions& options) {
   if (!options.resume.empty() && options.resume != "latest") return options.resume;
-  if (const auto latest = LatestRun(kRunsRoot, options.task)) return *latest;
+  if (const auto latest = LatestRun(kRunsRoot, TaskNameOf(options.task))) return *latest;
   throw Error(fmt::format("nothing to resume: there is no run{} in {}/",
                           options.task.empty() ? "" : " of " + options.task, kRunsRoot));
 }
@@ -70,7 +71,7 @@ void Resume(const TrainOptions& options) {
   RunDirectory directory = RunDirectory::Open(RunToResume(options));
   ProgramConfig config = ReadRecord(directory.config());
   CheckConsistent(config);
-  if (!options.task.empty() && options.task != config.train.env.task) {
+  if (!options.task.empty() && TaskNameOf(options.task) != config.train.env.task) {
     throw UsageError(fmt::format("{}: is a run of task {}, not {}", directory.path(),
                                  config.train.env.task, options.task));
   }
@@ -134,8 +135,8 @@ void Train(const TrainOptions& options) {
   const std::string from = options.from.empty() ? "" : NetworksFileOf(options.from);
   const ChosenLowLevelPolicy low_level = FindLowLevelPolicy(options, config.train.env, from);
   config.train.low_level = low_level.policy;
-  const std::string preset =
-      options.config.empty() ? options.preset : options.preset + " and " + options.config;
+  std::string preset = IsTaskFile(options.task) ? "of " + options.task : options.preset;
+  if (!options.config.empty()) preset += " and " + options.config;
   WorkerPool pool(options.threads);
   TrainingRun::Begin(config, options.out, pool, {preset, low_level.description, from});
 }
@@ -155,6 +156,7 @@ constexpr const char* kFooter =
     "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
     "noisy=0.01..0.05\n"
     "  skein train heading --from runs/short --steps 1e8\n"
+    "  skein train my_task.toml\n"
     "  skein train --resume runs/short";
 
 }  // namespace
@@ -163,8 +165,9 @@ void AddTrainCommand(CLI::App* app) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app->add_subcommand("train", "Train a policy, then evaluate it");
   command
-      ->add_option("task", options->task,
-                   fmt::format("what to fly: {}", fmt::join(PresetTasks(), ", ")))
+      ->add_option(
+          "task", options->task,
+          fmt::format("what to fly: {}, or a task file, FILE.toml", fmt::join(PresetTasks(), ", ")))
       ->type_name("TASK");
   CLI::Option* preset =
       command

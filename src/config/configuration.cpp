@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,8 @@
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/config/table_reader.h"
+#include "src/config/task_file.h"
 #include "src/config/whole_number.h"
 #include "src/files/output_file.h"
 
@@ -108,14 +111,7 @@ class TomlReader {
 
 void ApplyText(const std::string& text, const std::string& source, Reading reading,
                ProgramConfig* config) {
-  toml::table table;
-  try {
-    table = toml::parse(text, source);
-  } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("{}:{}: not valid TOML: {}", source, error.source().begin.line,
-                            error.description()));
-  }
-  TomlReader(source, reading, config).Apply(table, "");
+  TomlReader(source, reading, config).Apply(ParseToml(text, source), "");
 }
 
 std::string Trimmed(const std::string& text) {
@@ -130,6 +126,62 @@ ProgramConfig ConfigOf(const Preset& preset) {
   ApplyText(std::string(*preset.text), fmt::format("preset {}/{}", preset.task, preset.name),
             Reading::kStrict, &config);
   return config;
+}
+
+/// Where the settings of a task file begin: at what Heading's default preset says of the learner
+/// and the simulator, without what is Heading's own.
+ProgramConfig TaskFileDefaults() {
+  constexpr double kTotalSteps = 3e7;
+  ProgramConfig config = ConfigOf(FindPreset("heading", "default"));
+  const ProgramConfig defaults;
+  EnvConfig& env = config.train.env;
+  env.heading = defaults.train.env.heading;
+  env.reward = defaults.train.env.reward;
+  env.hold_s = defaults.train.env.hold_s;
+  config.train.total_steps = static_cast<std::uint64_t>(kTotalSteps);
+  return config;
+}
+
+/// The tables that configuration keys are in: "env", "ppo" and so on.
+std::vector<std::string> SettingsTables() {
+  ProgramConfig any;
+  std::vector<std::string> tables;
+  for (const Field& field : FieldsOf(any)) {
+    std::string table = field.key.substr(0, field.key.find('.'));
+    if (tables.empty() || tables.back() != table) tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+ProgramConfig ConfigOfTaskFile(const ConfigSources& sources) {
+  if (sources.preset != "default") {
+    throw Error(
+        fmt::format("preset {}: presets are of built-in tasks; a task file brings its own "
+                    "settings, and --config "
+                    "others",
+                    sources.preset));
+  }
+  const std::string text =
+      sources.task_text.empty() ? ReadTaskFileText(sources.task) : sources.task_text;
+  const TaskFile file = ReadTaskFile(text, sources.task, SettingsTables());
+  ProgramConfig config = TaskFileDefaults();
+  config.train.env.SetTermTask(file.terms);
+  TomlReader(sources.task, Reading::kStrict, &config).Apply(file.settings, "");
+  return config;
+}
+
+/// Gives a configuration that a run has recorded the task file that it names.
+void RecallTaskFile(const std::string& path, ProgramConfig* config) {
+  EnvConfig& env = config->train.env;
+  if (env.task_file_hash.empty()) return;
+  const std::string beside = (std::filesystem::path(path).parent_path() / kTaskFileOfRun).string();
+  const TermTaskConfig terms =
+      ReadTaskFile(ReadTaskFileText(beside), beside, SettingsTables()).terms;
+  if (terms.hash != env.task_file_hash) {
+    throw Error(fmt::format("{}: is not the task file that {} was made with (hash {}, not {})",
+                            beside, path, terms.hash, env.task_file_hash));
+  }
+  env.term_task = std::make_shared<const TermTaskConfig>(terms);
 }
 
 /// The value of an assignment: TOML if it reads as one value; for a number with a suffix (10M) that
@@ -184,6 +236,7 @@ void ApplyTomlFile(const std::string& path, ProgramConfig* config) {
 ProgramConfig ReadRecord(const std::string& path) {
   ProgramConfig config;
   ApplyText(ReadFile(path), path, Reading::kRecord, &config);
+  RecallTaskFile(path, &config);
   return config;
 }
 
@@ -248,13 +301,20 @@ void CheckConsistent(const ProgramConfig& config) {
   }
 }
 
+std::string TaskNameOf(const std::string& task) {
+  if (!IsTaskFile(task)) return task;
+  return ReadTaskFile(ReadTaskFileText(task), task, SettingsTables()).terms.name;
+}
+
 ProgramConfig ResolveConfig(const ConfigSources& sources) {
-  const ProgramConfig base = ConfigOf(FindPreset(sources.task, sources.preset));
+  const bool is_file = !sources.task_text.empty() || IsTaskFile(sources.task);
+  const ProgramConfig base =
+      is_file ? ConfigOfTaskFile(sources) : ConfigOf(FindPreset(sources.task, sources.preset));
   ProgramConfig config = base;
   if (!sources.file.empty()) ApplyTomlFile(sources.file, &config);
   ApplyConditionsAndAssignments(sources.conditions, sources.assignments, &config,
                                 sources.assignments_are);
-  RequireTask(config, sources.task);
+  RequireTask(config, base.train.env.task);
   RequireOwnSpeeds(base, config);
   return config;
 }

@@ -17,8 +17,9 @@ void ApplyToml(const std::string& text, const std::string& source, ProgramConfig
 /// Applies the TOML file `path`. Throws Error if it cannot be read.
 void ApplyTomlFile(const std::string& path, ProgramConfig* config);
 
-/// The configuration that a run has recorded in the file `path`. One by an older version, with keys
-/// of other tasks or by their former names, is understood. Throws Error as ApplyToml.
+/// The configuration that a run has recorded in the file `path`, with the task file beside it if it
+/// names one. One by an older version, with keys of other tasks or by their former names, is
+/// understood. Throws Error as ApplyToml.
 ProgramConfig ReadRecord(const std::string& path);
 
 /// Applies conditions (src/config/conditions.h), then assignments `key=value`, whose values are
@@ -49,16 +50,21 @@ void CheckConsistent(const ProgramConfig& config);
 
 /// Where a configuration comes from, before it is resolved.
 struct ConfigSources {
-  std::string task;    ///< the preset's folder, and env.task
+  std::string task;    ///< the preset's folder, and env.task; or the path of a task file
   std::string preset;  ///< name of a preset of the task
   std::string file;    ///< TOML file, or empty
   std::vector<std::string> assignments;
   std::vector<std::string> conditions = {};  ///< NAME=LEVEL, of lower precedence than assignments
   std::string assignments_are = "--set";     ///< what errors call an assignment
+  std::string task_text = "";                ///< text of a task file, which errors then call `task`
 };
 
-/// Defaults, then preset, then file, then conditions, then assignments. Throws Error if one of them
-/// names another task.
+/// The name of the task that was asked for: of a task file the one that it says.
+std::string TaskNameOf(const std::string& task);
+
+/// Defaults, then preset, then file, then conditions, then assignments. The preset of a task file
+/// is its own tables of settings, on top of what Heading's default preset says that is not
+/// Heading's. Throws Error if one of them names another task.
 ProgramConfig ResolveConfig(const ConfigSources& sources);
 
 /// Every key of the configuration's task with its value, as TOML that ApplyToml reads back exactly,

@@ -29,38 +29,43 @@ constexpr std::array<const char*, kHighLevelActionSize> kCommands = {"pitch_deg"
                                                                      "true_airspeed_fps"};
 
 /// What a state is called and worth in the units of people, in the order of the table's columns.
-std::vector<Quantity> Readings(AtmosphereModel atmosphere, const State& state) {
+std::vector<Quantity> Readings(const EnvConfig& env, const State& state) {
   RigidBodyState body;
   for (int i = 0; i < kNumRigidBody; ++i) body[i] = state[static_cast<std::size_t>(i)];
   const EulerAngles attitude = EulerFromQuaternion(body.segment<4>(kQ0));
   const Eigen::Vector3d wind(state[kWindNorth], state[kWindEast], state[kWindDown]);
-  const AirData air = MeasureAir(atmosphere, body, wind);
-  return {{"north_ft", body[kNorth]},
-          {"east_ft", body[kEast]},
-          {"altitude_ft", -body[kDown]},
-          {"u_fps", body[kU]},
-          {"v_fps", body[kV]},
-          {"w_fps", body[kW]},
-          {"roll_deg", attitude.roll * kDegPerRad},
-          {"pitch_deg", attitude.pitch * kDegPerRad},
-          {"yaw_deg", attitude.yaw * kDegPerRad},
-          {"p_deg_s", body[kP] * kDegPerRad},
-          {"q_deg_s", body[kQ] * kDegPerRad},
-          {"r_deg_s", body[kR] * kDegPerRad},
-          {"alpha_deg", air.alpha_rad * kDegPerRad},
-          {"beta_deg", air.beta_rad * kDegPerRad},
-          {"true_airspeed_fps", air.true_airspeed_ft_s},
-          {"mach", air.mach},
-          {"wind_north_fps", wind.x()},
-          {"wind_east_fps", wind.y()},
-          {"wind_down_fps", wind.z()},
-          {"load_factor_g", state[kNz]},
-          {"lateral_load_factor_g", state[kNy]},
-          {"power", state[kPower]},
-          {"elevator_deg", state[kElevator]},
-          {"aileron_deg", state[kAileron]},
-          {"rudder_deg", state[kRudder]},
-          {"leading_edge_flap_deg", state[kLeadingEdgeFlap]}};
+  const AirData air = MeasureAir(env.atmosphere, body, wind);
+  std::vector<Quantity> readings = {{"north_ft", body[kNorth]},
+                                    {"east_ft", body[kEast]},
+                                    {"altitude_ft", -body[kDown]},
+                                    {"u_fps", body[kU]},
+                                    {"v_fps", body[kV]},
+                                    {"w_fps", body[kW]},
+                                    {"roll_deg", attitude.roll * kDegPerRad},
+                                    {"pitch_deg", attitude.pitch * kDegPerRad},
+                                    {"yaw_deg", attitude.yaw * kDegPerRad},
+                                    {"p_deg_s", body[kP] * kDegPerRad},
+                                    {"q_deg_s", body[kQ] * kDegPerRad},
+                                    {"r_deg_s", body[kR] * kDegPerRad},
+                                    {"alpha_deg", air.alpha_rad * kDegPerRad},
+                                    {"beta_deg", air.beta_rad * kDegPerRad},
+                                    {"true_airspeed_fps", air.true_airspeed_ft_s},
+                                    {"mach", air.mach},
+                                    {"wind_north_fps", wind.x()},
+                                    {"wind_east_fps", wind.y()},
+                                    {"wind_down_fps", wind.z()},
+                                    {"load_factor_g", state[kNz]},
+                                    {"lateral_load_factor_g", state[kNy]},
+                                    {"power", state[kPower]},
+                                    {"elevator_deg", state[kElevator]},
+                                    {"aileron_deg", state[kAileron]},
+                                    {"rudder_deg", state[kRudder]},
+                                    {"leading_edge_flap_deg", state[kLeadingEdgeFlap]}};
+  if (env.term_task == nullptr || !env.term_task->has_terrain()) return readings;
+  const double terrain = env.term_task->TerrainAt(body[kNorth], body[kEast]);
+  readings.emplace_back("terrain_ft", terrain);
+  readings.emplace_back("height_above_terrain_ft", -body[kDown] - terrain);
+  return readings;
 }
 
 double ValueOf(const std::vector<Quantity>& readings, const std::string& name) {
@@ -80,7 +85,8 @@ class TableBuilder {
         flight_(flight),
         is_hierarchical_(IsHierarchical(flight)),
         with_observations_(columns == FlightColumns::kStatesAndObservations),
-        targets_(MakeTask(env)->target_quantities()) {}
+        targets_(MakeTask(env)->target_quantities()),
+        observation_names_(ObservationNames(*MakeTask(env))) {}
 
   FlightTable Build() {
     NameColumns();
@@ -94,7 +100,7 @@ class TableBuilder {
   void NameColumns() {
     std::vector<std::string>& names = table_.names;
     names.emplace_back("time_s");
-    for (const auto& [name, value] : Readings(env_.atmosphere, {})) names.emplace_back(name);
+    for (const auto& [name, value] : Readings(env_, {})) names.emplace_back(name);
     const auto add = [&names](const std::string& prefix, const auto& all) {
       for (const char* name : all) names.push_back(prefix + name);
     };
@@ -108,7 +114,8 @@ class TableBuilder {
         names.push_back(prefix + std::string(target.column));
     }
     names.emplace_back("reward");
-    if (with_observations_) add("observation_", kObservationNames);
+    if (!with_observations_) return;
+    for (const std::string& name : observation_names_) names.push_back("observation_" + name);
   }
 
   void Add(double value) { table_.columns[column_++].push_back(value); }
@@ -118,7 +125,7 @@ class TableBuilder {
     column_ = 0;
     const RecordedStep* const step = row == 0 ? nullptr : &flight_.steps[row - 1];
     Add(static_cast<double>(row) * env_.control_interval_s);
-    const std::vector<Quantity> readings = Readings(env_.atmosphere, StateAt(row));
+    const std::vector<Quantity> readings = Readings(env_, StateAt(row));
     for (const auto& [name, value] : readings) Add(value);
     for (std::size_t k = 0; k < kActionSize; ++k) Add(step == nullptr ? kNoNumber : step->stick[k]);
     if (is_hierarchical_) AddHighLevelAction(row, step);
@@ -147,8 +154,7 @@ class TableBuilder {
     }
     // LowLevelFlight::SetTargets: changes of what is flown where the policy step begins.
     const auto repeat = static_cast<std::size_t>(env_.action_repeat);
-    const std::vector<Quantity> at_start =
-        Readings(env_.atmosphere, StateAt((row - 1) / repeat * repeat));
+    const std::vector<Quantity> at_start = Readings(env_, StateAt((row - 1) / repeat * repeat));
     const HighLevelConfig& full = env_.high_level;
     const auto command = [&](std::size_t k, double change) {
       return ValueOf(at_start, kCommands[k]) + change * step->action[k];
@@ -162,8 +168,8 @@ class TableBuilder {
   void AddObservation(std::size_t row) {
     const std::size_t begin = row == 0 ? 0
                                        : (row - 1) / static_cast<std::size_t>(env_.action_repeat) *
-                                             kObservationNames.size();
-    for (std::size_t i = 0; i < kObservationNames.size(); ++i) {
+                                             observation_names_.size();
+    for (std::size_t i = 0; i < observation_names_.size(); ++i) {
       Add(row == 0 ? kNoNumber : flight_.observations[begin + i]);
     }
   }
@@ -176,6 +182,7 @@ class TableBuilder {
   const RecordedFlight& flight_;
   bool is_hierarchical_, with_observations_;
   std::vector<TargetQuantity> targets_;
+  std::vector<std::string> observation_names_;
   FlightTable table_;
   std::size_t column_ = 0;
 };

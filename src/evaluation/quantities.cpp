@@ -131,7 +131,8 @@ void AddHold(const EnvConfig& env, std::vector<Quantity>* list) {
   add("within_lowest", "lowest flight's, %", 100, 1, of(&HoldMetrics::within), false,
       Statistic::kLowest);
   const std::vector<TargetQuantity> targets = MakeTask(env)->target_quantities();
-  for (std::size_t k = 0; k < targets.size(); ++k) {
+  // Of more the errors are not measured.
+  for (std::size_t k = 0; k < std::min<std::size_t>(targets.size(), kNumTaskErrors); ++k) {
     const double unit = targets[k].error_unit;
     add(fmt::format("rms_error_{}", targets[k].column), ErrorLabel(targets[k].column), 1, 2,
         [=](const Episode& episode, double) { return unit * episode.measures.hold.rms_errors[k]; });

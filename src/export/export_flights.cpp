@@ -15,6 +15,10 @@ constexpr const char* kUsualPreset = "default";
 
 /// The usual preset if it has the aircraft, else the first that does.
 EnvConfig PresetOf(const EnvConfig& made_in) {
+  if (made_in.term_task != nullptr) {
+    return ResolveConfig({made_in.task, kUsualPreset, "", {}, {}, "", made_in.term_task->text})
+        .train.env;
+  }
   EnvConfig usual = ResolveConfig({made_in.task, kUsualPreset, "", {}}).train.env;
   if (usual.aircraft == made_in.aircraft) return usual;
   for (const Preset& preset : Presets()) {

@@ -65,7 +65,7 @@ struct Exported {
 
 Exported ExportOne(const PolicyExport& options, const RecurrentPolicy& policy,
                    const std::string& run, const std::string& who, const std::string& out) {
-  Exported one{PrepareExport(policy, who, VersionText()), {out, ""}, ""};
+  Exported one{PrepareExport(policy, who, VersionText(), TermTaskOf(policy, who)), {out, ""}, ""};
   const PolicyTrace trace = RecordExportFlights(run, policy, one.policy.interface.env);
   one.output.bytes = Encode(options.form, one.policy, trace, kExportSteps);
   if (options.check) one.checked = Check(options.form, one.output.bytes, one.policy, trace);
@@ -128,7 +128,8 @@ std::vector<std::string> ExportFlightControl(const std::string& policy, const st
   env.aircraft = aircraft;
   if (!policy.empty()) {
     const std::string path = PolicyFileOf(policy);
-    env = PrepareExport(RecurrentPolicy::Load(path), path, VersionText()).interface.env;
+    const RecurrentPolicy loaded = RecurrentPolicy::Load(path);
+    env = PrepareExport(loaded, path, VersionText(), TermTaskOf(loaded, path)).interface.env;
   }
   env = ExportEnvironment(policy, env);
   const FlightControlTrace trace = RecordFlightControl(env, kExportFlights, kFlightControlSteps, 1);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/config/task_file.h"
 #include "train/files/file_descriptor.h"
 
 namespace skein {
@@ -24,9 +25,10 @@ std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 inline constexpr const char* kRunsRoot = "runs";
 
 /// The directory of one training run, held exclusively while the object lives:
-///   config.toml, low_level.skein (of high-level policies), log.txt, metrics.csv, timing.csv,
-///   events.out.tfevents.*, evaluation.json, checkpoints/checkpoint-<iteration>.skein,
-///   checkpoints/policy-best.skein, checkpoints/policy-final.skein
+///   config.toml, low_level.skein (of high-level policies), task.toml (of task files), log.txt,
+///   metrics.csv, timing.csv, events.out.tfevents.*, evaluation.json,
+///   checkpoints/checkpoint-<iteration>.skein, checkpoints/policy-best.skein,
+///   checkpoints/policy-final.skein
 class RunDirectory {
  public:
   /// Makes a new one. Throws Error if `path` exists and is not an empty directory, cannot be made,
@@ -41,6 +43,8 @@ class RunDirectory {
   std::string config() const { return path_ + "/config.toml"; }
   /// Where the low-level policy is: runs of version 0.1 have it as controller.skein.
   std::string low_level() const;
+  /// Of runs of a task file its copy.
+  std::string task_file() const { return path_ + "/" + kTaskFileOfRun; }
   std::string log() const { return path_ + "/log.txt"; }
   std::string metrics() const { return path_ + "/metrics.csv"; }
   std::string timing() const { return path_ + "/timing.csv"; }

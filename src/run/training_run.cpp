@@ -97,6 +97,9 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
     StoreLowLevelPolicy(*config.train.low_level, low_level);
     low_level.Write(directory.low_level());
   }
+  if (const auto& terms = resolved.train.env.term_task; terms != nullptr) {
+    WriteFile(directory.task_file(), terms->text);
+  }
   // A run that is killed before its first checkpoint would begin anew with fresh networks.
   if (!origin.from.empty()) trainer.Save(directory.checkpoint(0));
   // Last: it makes the directory one of a run.

@@ -6,7 +6,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -17,139 +16,13 @@
 #include "src/config/nearest_name.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/config/table_reader.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
 
 namespace skein {
 namespace {
-
-/// Reads one table key by key; what was not asked for is an error.
-class TableReader {
- public:
-  TableReader(const toml::table& table, std::string source)
-      : table_(table), source_(std::move(source)) {}
-
-  const toml::node* Find(const std::string& key) {
-    known_.push_back(key);
-    return table_.get(key);
-  }
-
-  std::string Text(const std::string& key, const std::string& otherwise) {
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return otherwise;
-    if (const auto* text = node->as_string()) return text->get();
-    throw Error(At(*node, key) + " must be a text in quotes");
-  }
-
-  bool Flag(const std::string& key, bool otherwise) {
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return otherwise;
-    if (const auto* flag = node->as_boolean()) return flag->get();
-    throw Error(At(*node, key) + " must be true or false");
-  }
-
-  std::optional<double> WholeNumber(const std::string& key, double min, double max) {
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return std::nullopt;
-    return WholeNumberIn(*node, key, min, max);
-  }
-
-  std::optional<double> PositiveNumber(const std::string& key) {
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return std::nullopt;
-    const std::optional<double> number = node->value<double>();
-    if (number && *number > 0 && std::isfinite(*number)) return number;
-    throw Error(At(*node, key) + " must be a number above 0");
-  }
-
-  std::vector<std::string> Texts(const std::string& key) {
-    std::vector<std::string> texts;
-    for (const toml::node* element : Elements(key)) {
-      const auto* text = element->as_string();
-      if (text == nullptr) throw Error(At(*element, key) + " must be a list of texts in quotes");
-      texts.push_back(text->get());
-    }
-    return texts;
-  }
-
-  std::vector<std::uint64_t> WholeNumbers(const std::string& key, double max) {
-    std::vector<std::uint64_t> numbers;
-    for (const toml::node* element : Elements(key)) {
-      numbers.push_back(static_cast<std::uint64_t>(WholeNumberIn(*element, key, 0, max)));
-    }
-    return numbers;
-  }
-
-  /// The table of [key]; null if there is none.
-  const toml::table* Table(const std::string& key) {
-    const toml::node* const node = Find(key);
-    if (node == nullptr || node->is_table()) return node == nullptr ? nullptr : node->as_table();
-    throw Error(At(*node, key) + " must be one table, [" + key + "]");
-  }
-
-  /// The tables of [[key]], or the one of [key].
-  std::vector<const toml::table*> Tables(const std::string& key) {
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return {};
-    if (node->is_table()) return {node->as_table()};
-    std::vector<const toml::table*> tables;
-    for (const toml::node* element : ElementsOf(*node, key)) {
-      if (!element->is_table()) throw Error(At(*element, key) + " must be tables, [[" + key + "]]");
-      tables.push_back(element->as_table());
-    }
-    return tables;
-  }
-
-  /// Throws Error if `old`, which is now called `name`, is there.
-  void RefuseOld(const std::string& old, const std::string& name) const {
-    const toml::node* const node = table_.get(old);
-    if (node != nullptr) throw Error(At(*node, old) + " is now called " + name);
-  }
-
-  /// Throws Error on the first key that was not read.
-  void RefuseOthers() const {
-    for (const auto& [name, node] : table_) {
-      const std::string key(name.str());
-      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-      throw Error(fmt::format("{}:{}: unknown key {}{}; known keys: {}", source_,
-                              node.source().begin.line, key, DidYouMean(key, known_),
-                              fmt::join(known_, ", ")));
-    }
-  }
-
- private:
-  std::string At(const toml::node& node, const std::string& key) const {
-    return fmt::format("{}:{}: {}", source_, node.source().begin.line, key);
-  }
-
-  std::vector<const toml::node*> ElementsOf(const toml::node& node, const std::string& key) const {
-    const toml::array* const array = node.as_array();
-    if (array == nullptr) throw Error(At(node, key) + " must be a list, in brackets");
-    std::vector<const toml::node*> elements;
-    for (const toml::node& element : *array) elements.push_back(&element);
-    return elements;
-  }
-
-  std::vector<const toml::node*> Elements(const std::string& key) {
-    const toml::node* const node = Find(key);
-    return node == nullptr ? std::vector<const toml::node*>() : ElementsOf(*node, key);
-  }
-
-  double WholeNumberIn(const toml::node& node, const std::string& key, double min,
-                       double max) const {
-    const std::optional<double> number = node.value<double>();
-    if (!number || !(*number >= min && *number <= max) || *number != std::floor(*number)) {
-      throw Error(
-          fmt::format("{} must be a whole number in [{:.10g}, {:.10g}]", At(node, key), min, max));
-    }
-    return *number;
-  }
-
-  const toml::table& table_;
-  std::string source_;
-  std::vector<std::string> known_;
-};
 
 template <typename T>
 void RefuseEmptyAndTwice(const std::vector<T>& values, const std::string& source,
@@ -292,6 +165,7 @@ ProgramConfig Configure(const Study& study, const std::string& task,
   return AsUsage([&] {
     const ProgramConfig base =
         ResolveConfig({task, study.preset, "", AssignmentsFor(task, study, study.assignments)});
+    const std::string name = base.train.env.task;
     ProgramConfig config = base;
     std::vector<std::string> conditions;
     for (const StudySettings& part : parts) {
@@ -300,7 +174,7 @@ ProgramConfig Configure(const Study& study, const std::string& task,
                                     &config);
     }
     ConditionAssignments(conditions);  // refuses one that two parts give
-    RequireTask(config, task);
+    RequireTask(config, name);
     RequireOwnSpeeds(base, config);
     CheckConsistent(config);
     return config;
@@ -310,13 +184,7 @@ ProgramConfig Configure(const Study& study, const std::string& task,
 }  // namespace
 
 Study ReadStudy(const std::string& path, const StudyChoice& choice) {
-  toml::table table;
-  try {
-    table = toml::parse(ReadFile(path), path);
-  } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("{}:{}: not valid TOML: {}", path, error.source().begin.line,
-                            error.description()));
-  }
+  const toml::table table = ParseToml(ReadFile(path), path);
   Study study = ReadTable(table, path);
   Choose(choice, path, &study);
   RefuseEmptyAndTwice(study.tasks, path, "tasks");
@@ -342,9 +210,7 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
 }
 
 ProgramConfig LevelConfig(const Study& study, const std::string& task, const StudyLevel& level) {
-  EnvConfig of_task;
-  of_task.task = task;
-  const bool can_hold = !MakeTask(of_task)->is_point();
+  const bool can_hold = !MakeTask(Configure(study, task, {}).train.env)->is_point();
   const StudySettings flights = {
       {},
       FlightLengthAssignments(can_hold ? study.evaluation.hold_s : std::nullopt,

@@ -37,8 +37,8 @@ using Json = nlohmann::ordered_json;
 
 /// Removes what a process killed while it made a run's directory has left: no run is in it yet.
 void RemoveStub(const std::string& run) {
-  for (const char* name :
-       {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp", "/lock", "/checkpoints"}) {
+  for (const char* name : {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp",
+                           "/task.toml", "/task.toml.tmp", "/lock", "/checkpoints"}) {
     std::error_code ignored;  // RunDirectory::Create says what is in the way
     fs::remove(run + name, ignored);
   }
@@ -179,7 +179,7 @@ StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool&
 std::string StudyRun::RunPath(const std::string& task, const StudyLevel& level,
                               std::uint64_t seed) const {
   const std::string of_level = study_.training.per_level ? "-" + FileNamePart(level.name) : "";
-  return fmt::format("{}/runs/{}{}-seed{}", directory_, task, of_level, seed);
+  return fmt::format("{}/runs/{}{}-seed{}", directory_, FileNamePart(task), of_level, seed);
 }
 
 bool StudyRun::Run() {
@@ -229,8 +229,8 @@ bool StudyRun::Train(const std::string& task, const StudyLevel& level, std::uint
 }
 
 bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
-  const std::string path =
-      fmt::format("{}/comparisons/{}-{}.json", directory_, task, FileNamePart(level.name));
+  const std::string path = fmt::format("{}/comparisons/{}-{}.json", directory_, FileNamePart(task),
+                                       FileNamePart(level.name));
   const ProgramConfig config = LevelConfig(study_, task, level);
   std::vector<AgentInStudy> agents;
   for (const std::uint64_t seed : study_.seeds) {

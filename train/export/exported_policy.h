@@ -21,8 +21,10 @@ struct ExportedPolicy {
   const float* values(std::int64_t offset) const { return policy->values.data() + offset; }
 };
 
-/// Throws Error as DescribeInterface. `version` is what is said of the program.
+/// Throws Error as DescribeInterface. `version` is what is said of the program; `terms` is the task
+/// of the policy's task file, null for a built-in task.
 ExportedPolicy PrepareExport(const RecurrentPolicy& policy, const std::string& who,
-                             const std::string& version);
+                             const std::string& version,
+                             const std::shared_ptr<const TermTaskConfig>& terms = nullptr);
 
 }  // namespace skein

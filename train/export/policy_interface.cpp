@@ -11,6 +11,7 @@
 #include "envs/actions.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
+#include "envs/interface_names.h"
 #include "envs/low_level_flight.h"
 #include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
@@ -20,8 +21,10 @@ namespace skein {
 namespace {
 
 /// The environment that `policy` was made in, as far as it says.
-EnvConfig MadeIn(const RecurrentPolicy::Parameters& policy) {
+EnvConfig MadeIn(const RecurrentPolicy::Parameters& policy,
+                 const std::shared_ptr<const TermTaskConfig>& terms) {
   EnvConfig env;
+  if (terms != nullptr) env.SetTermTask(*terms);
   env.task = policy.task;
   for (const Field& field : FieldsOf(env)) {
     const auto found = policy.environment.find(field.key);
@@ -50,11 +53,24 @@ std::vector<PolicyNumber> ErrorsOf(const EnvConfig& env) {
   return errors;
 }
 
+/// Of a task file: in the place of the errors what it observes, and the last actions.
+std::vector<PolicyNumber> TermsOf(const Task& task, const std::vector<PolicyNumber>& sensed) {
+  std::vector<PolicyNumber> numbers;
+  for (const ObservedNumber& number : task.leading_numbers()) {
+    numbers.push_back({number.name, number.unit});
+  }
+  const ObservationLayout& layout = task.observation_layout();
+  if (layout.flight) numbers.insert(numbers.end(), sensed.begin(), sensed.end());
+  for (int k = 0; k < layout.actions; ++k) {
+    numbers.push_back({std::string("last_") + kActionNames[static_cast<std::size_t>(k)]});
+  }
+  return numbers;
+}
+
 /// envs/tasks/observation.h
 std::vector<PolicyNumber> ObservationsOf(const EnvConfig& env) {
   const Aircraft aircraft = LoadAircraft(env.aircraft);
   const Actuators& actuators = aircraft.actuators;
-  std::vector<PolicyNumber> numbers = ErrorsOf(env);
   const std::vector<PolicyNumber> sensed = {
       {"altitude_ft", aircraft.units.altitude_ft},
       {"sin_roll"},
@@ -75,6 +91,8 @@ std::vector<PolicyNumber> ObservationsOf(const EnvConfig& env) {
       {"rudder_deg", actuators.rudder.max_deg},
       {"leading_edge_flap_deg", actuators.leading_edge_flap.max_deg},
       {"true_over_equivalent_airspeed"}};
+  if (env.term_task != nullptr) return TermsOf(*MakeTask(env), sensed);
+  std::vector<PolicyNumber> numbers = ErrorsOf(env);
   numbers.insert(numbers.end(), sensed.begin(), sensed.end());
   return numbers;
 }
@@ -114,6 +132,7 @@ std::string Listed(const std::vector<PolicyNumber>& numbers, Member PolicyNumber
 }  // namespace
 
 PolicyInterface DescribeInterface(const RecurrentPolicy::Parameters& policy,
+                                  const std::shared_ptr<const TermTaskConfig>& terms,
                                   const std::string& who) {
   if (policy.task.empty()) {
     throw Error(who +
@@ -122,7 +141,7 @@ PolicyInterface DescribeInterface(const RecurrentPolicy::Parameters& policy,
   }
   PolicyInterface interface;
   try {
-    interface.env = MadeIn(policy);
+    interface.env = MadeIn(policy, terms);
     Validate(interface.env);
     interface.observations = ObservationsOf(interface.env);
   } catch (const Error& error) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,11 @@ struct PolicyInterface {
   double policy_step_s() const { return env.control_interval_s * action_repeat; }
 };
 
-/// Throws Error that begins with `who` if the policy does not say for which task it was made, or
-/// names a task, an aircraft or a setting that this program does not know.
+/// `terms` is the task of the policy's task file; null for a built-in task. Throws Error that
+/// begins with `who` if the policy does not say for which task it was made, or names a task, an
+/// aircraft or a setting that this program does not know.
 PolicyInterface DescribeInterface(const RecurrentPolicy::Parameters& policy,
+                                  const std::shared_ptr<const TermTaskConfig>& terms,
                                   const std::string& who);
 
 /// The same as texts, for formats that keep texts beside a network: task, aircraft, rates; names,

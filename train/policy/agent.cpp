@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "envs/actions.h"
-#include "envs/tasks/observation.h"
 #include "simd/random.h"
 
 namespace skein {
@@ -19,7 +18,7 @@ class ZeroPolicy final : public Policy {
  public:
   explicit ZeroPolicy(int action_repeat) : action_repeat_(action_repeat) {}
 
-  int observation_size() const override { return kObservationSize; }
+  int observation_size() const override { return 0; }
   int action_size() const override { return kActionSize; }
   int state_size() const override { return 0; }
   int action_repeat() const override { return action_repeat_; }
@@ -87,7 +86,8 @@ std::shared_ptr<const Policy> Agent::low_level() const {
 
 void Agent::CheckFits(const VecEnv& env) const {
   policy_->CheckMadeFor(env.config(), "the policy");
-  if (policy_->observation_size() == env.observation_size() &&
+  const int observed = policy_->observation_size();
+  if ((observed == 0 || observed == env.observation_size()) &&
       policy_->action_size() == env.action_size()) {
     return;
   }

@@ -12,6 +12,8 @@ std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
   std::map<std::string, std::string> environment;
   for (const Field& field : FieldsOf(listed)) {
     if (field.role == PolicyRole::kNone || !field.IsOf(env.task)) continue;
+    // Of a built-in task there is no file to name.
+    if (field.is_off && field.ValueText(ShortestText).empty()) continue;
     environment[field.key] = field.ValueText(ShortestText);
   }
   return environment;

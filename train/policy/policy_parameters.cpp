@@ -21,6 +21,7 @@ constexpr const char* kHiddenLayersKey = "policy.hidden_layers";
 constexpr const char* kGruLayersKey = "policy.gru_layers";
 constexpr const char* kActivationKey = "policy.activation";
 constexpr const char* kTaskKey = "policy.task";
+constexpr const char* kTaskFileKey = "policy.task_file";
 constexpr const char* kEnvironmentPrefix = "policy.env.";
 constexpr int kMaxSize = 1 << 14;  ///< of any layer: a file cannot ask for more memory than this
 
@@ -111,6 +112,7 @@ void StorePolicy(const RecurrentPolicy::Parameters& parameters, TensorFile& file
   metadata["policy.action_size"] = std::to_string(parameters.shape.output_size);
   metadata["policy.action_repeat"] = std::to_string(parameters.action_repeat);
   if (!parameters.task.empty()) metadata[kTaskKey] = parameters.task;
+  if (!parameters.task_file.empty()) metadata[kTaskFileKey] = parameters.task_file;
   InsertWithPrefix(parameters.environment, kEnvironmentPrefix, metadata);
   if (parameters.low_level != nullptr) StoreLowLevelPolicy(*parameters.low_level, file);
   const NetworkLayout layout(parameters.shape);
@@ -137,6 +139,7 @@ std::shared_ptr<const RecurrentPolicy::Parameters> LoadPolicy(TensorFile file,
                                  SizeIn(file, path, "policy.action_size"));
   parameters->action_repeat = SizeIn(file, path, "policy.action_repeat");
   if (Has(file, kTaskKey)) parameters->task = Metadata(file, path, kTaskKey);
+  if (Has(file, kTaskFileKey)) parameters->task_file = Metadata(file, path, kTaskFileKey);
   parameters->environment = ExtractPrefix(file.metadata, kEnvironmentPrefix);
   EnvConfig any;
   RenameFormerKeys(FieldsOf(any), &parameters->environment);

@@ -18,7 +18,8 @@ struct RecurrentPolicy::Parameters {
   NetworkConfig config;
   NetworkShape shape;
   int action_repeat = 1;
-  std::string task;  ///< what it was trained for; empty if unknown
+  std::string task;       ///< what it was trained for; empty if unknown
+  std::string task_file;  ///< text of the task file that it was trained for; empty without
   /// What else of it the policy cannot fly without (train/policy/policy_environment.h), as far as
   /// known.
   std::map<std::string, std::string> environment;

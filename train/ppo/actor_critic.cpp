@@ -49,6 +49,7 @@ std::shared_ptr<const RecurrentPolicy::Parameters> PolicyInTraining(const TrainC
   policy->shape = shape;
   policy->action_repeat = config.env.action_repeat;
   policy->task = config.env.task;
+  if (config.env.term_task != nullptr) policy->task_file = config.env.term_task->text;
   policy->environment = PolicyEnvironment(config.env);
   policy->low_level = config.low_level;
   policy->values = std::move(parameters);

@@ -74,8 +74,8 @@ TEST_P(AirVelocityTest, FlightControl) {
 TEST_P(AirVelocityTest, Observation) {
   const std::vector<float> errors(3 * still_.stride());
   std::vector<float> still(kCount * kObservationSize), windy(still.size());
-  ObserveTile(*kernel_, still_.tile(), errors.data(), still_.stride(), {}, still.data());
-  ObserveTile(*kernel_, windy_.tile(), errors.data(), still_.stride(), {}, windy.data());
+  ObserveTile(*kernel_, still_.tile(), {errors.data(), still_.stride()}, {}, still.data());
+  ObserveTile(*kernel_, windy_.tile(), {errors.data(), still_.stride()}, {}, windy.data());
   EXPECT_EQ(windy, still);
 }
 

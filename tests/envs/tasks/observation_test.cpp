@@ -27,7 +27,7 @@ class ObservationTest : public testing::TestWithParam<simd::Target> {
  protected:
   std::vector<float> Observe(double noise, std::uint32_t first_aircraft = 0) {
     std::vector<float> observation(static_cast<std::size_t>(kCount) * kObservationSize);
-    ObserveTile(*kernel_, flight_.tile(), errors_.data(), flight_.stride(),
+    ObserveTile(*kernel_, flight_.tile(), {errors_.data(), flight_.stride()},
                 {noise, 77, first_aircraft, episode_.data(), step_.data()}, observation.data());
     return observation;
   }
@@ -155,7 +155,7 @@ TEST_P(ObservationTest, ARangeOfNoiseGivesEveryEpisodeItsOwn) {
     std::fill(step_.begin(), step_.end(), step);
     const std::vector<float> deviates = Observe(1, 1000);
     std::vector<float> ranged(clean.size());
-    ObserveTile(*kernel_, flight_.tile(), errors_.data(), flight_.stride(),
+    ObserveTile(*kernel_, flight_.tile(), {errors_.data(), flight_.stride()},
                 {kMin, 77, 1000, episode_.data(), step_.data(), kMax}, ranged.data());
     for (int i = 0; i < kCount; ++i) {
       const simd::RandomKey key{77, 1000 + static_cast<std::uint32_t>(i),

@@ -230,11 +230,10 @@ TEST_F(AcmiFlightsTest, MissionsShowEveryTargetAndWhenItIsReached) {
   const AcmiDocument document = Write(Fly(1));
   const auto targets = ObjectsOf(document, "target of zero");
   EXPECT_EQ(targets.size(), 6u) << "one for every 0.2 s of 1.2 s";
-  EXPECT_EQ(std::count_if(document.events.begin(), document.events.end(),
-                          [](const AcmiEvent& event) {
-                            return event.text == "zero reached its target";
-                          }),
-            5)
+  EXPECT_EQ(
+      std::count_if(document.events.begin(), document.events.end(),
+                    [](const AcmiEvent& event) { return event.text == "zero reached its target"; }),
+      5)
       << "the last one is the flight's end";
 }
 

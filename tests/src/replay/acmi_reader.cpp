@@ -11,22 +11,65 @@ namespace skein {
 namespace {
 
 const std::set<std::string> kGlobalProperties = {
-    "DataSource", "DataRecorder", "ReferenceTime", "RecordingTime", "Author",
-    "Title",      "Category",     "Briefing",      "Debriefing",    "Comments",
-    "ReferenceLongitude", "ReferenceLatitude"};
+    "DataSource", "DataRecorder", "ReferenceTime",      "RecordingTime",
+    "Author",     "Title",        "Category",           "Briefing",
+    "Debriefing", "Comments",     "ReferenceLongitude", "ReferenceLatitude"};
 
-const std::set<std::string> kObjectProperties = {
-    "Name", "Type", "Parent", "Next", "CallSign", "Registration", "Squawk", "Pilot", "Group",
-    "Country", "Coalition", "Color", "Shape", "Label", "FocusedTarget", "LockedTarget",
-    "Importance", "Slot", "Disabled", "Visible", "Health", "Length", "Width", "Height", "Radius",
-    "IAS", "CAS", "TAS", "Mach", "AOA", "AOS", "AGL", "HDG", "HDM", "Throttle", "EngineRPM",
-    "Afterburner", "AirBrakes", "Flaps", "RollControlInput", "PitchControlInput",
-    "YawControlInput", "RollControlPosition", "PitchControlPosition", "YawControlPosition",
-    "AileronLeft", "AileronRight", "Elevator", "Rudder", "VerticalGForce", "LongitudinalGForce",
-    "LateralGForce"};
+const std::set<std::string> kObjectProperties = {"Name",
+                                                 "Type",
+                                                 "Parent",
+                                                 "Next",
+                                                 "CallSign",
+                                                 "Registration",
+                                                 "Squawk",
+                                                 "Pilot",
+                                                 "Group",
+                                                 "Country",
+                                                 "Coalition",
+                                                 "Color",
+                                                 "Shape",
+                                                 "Label",
+                                                 "FocusedTarget",
+                                                 "LockedTarget",
+                                                 "Importance",
+                                                 "Slot",
+                                                 "Disabled",
+                                                 "Visible",
+                                                 "Health",
+                                                 "Length",
+                                                 "Width",
+                                                 "Height",
+                                                 "Radius",
+                                                 "IAS",
+                                                 "CAS",
+                                                 "TAS",
+                                                 "Mach",
+                                                 "AOA",
+                                                 "AOS",
+                                                 "AGL",
+                                                 "HDG",
+                                                 "HDM",
+                                                 "Throttle",
+                                                 "EngineRPM",
+                                                 "Afterburner",
+                                                 "AirBrakes",
+                                                 "Flaps",
+                                                 "RollControlInput",
+                                                 "PitchControlInput",
+                                                 "YawControlInput",
+                                                 "RollControlPosition",
+                                                 "PitchControlPosition",
+                                                 "YawControlPosition",
+                                                 "AileronLeft",
+                                                 "AileronRight",
+                                                 "Elevator",
+                                                 "Rudder",
+                                                 "VerticalGForce",
+                                                 "LongitudinalGForce",
+                                                 "LateralGForce"};
 
-const std::set<std::string> kTextProperties = {"Name", "Type", "CallSign", "Pilot", "Group",
-                                               "Coalition", "Color", "Label", "FocusedTarget"};
+const std::set<std::string> kTextProperties = {
+    "Name", "Type", "CallSign", "Pilot", "Group", "Coalition", "Color", "Label", "FocusedTarget"};
 
 const std::set<std::string> kColours = {"Red",  "Orange", "Yellow", "Green",
                                         "Cyan", "Blue",   "Violet"};

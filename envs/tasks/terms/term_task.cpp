@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/tasks/terms/term_task.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "envs/kernels/plant_kernel.h"
+#include "envs/state/attitude.h"
+#include "envs/tasks/terms/term_compiler.h"
+#include "envs/tasks/terms/term_program.h"
+
+namespace skein {
+namespace {
+
+using Draw = TermTarget::Draw;
+
+/// What a target is drawn relative to.
+double StartOf(const FlightStart& start, TermValue value) {
+  switch (value) {
+    case TermValue::kAltitude:
+      return start.altitude_ft;
+    case TermValue::kTrueAirspeed:
+      return start.true_airspeed_ft_s;
+    case TermValue::kPitch:
+      return start.pitch_rad;
+    case TermValue::kYaw:
+      return start.yaw_rad;
+    case TermValue::kNorth:
+      return start.north_ft;
+    case TermValue::kEast:
+      return start.east_ft;
+    default:
+      return 0;  // level flight without sideslip, along the heading
+  }
+}
+
+class TermTask : public Task {
+ public:
+  TermTask(const std::shared_ptr<const TermTaskConfig>& config, const Aircraft& aircraft,
+           const TargetLimits& limits)
+      : config_(config),
+        limits_(limits),
+        units_(aircraft.units),
+        kernel_aircraft_(MakeKernelAircraft(aircraft, limits.atmosphere)),
+        columns_(*config),
+        programs_(CompileTerms(*config, columns_, units_)) {
+    layout_.lead = static_cast<int>(config->observed.size());
+    layout_.flight = config->observes_flight;
+    layout_.actions = config->observes_actions ? kObservedActions : 0;
+  }
+
+  int num_columns() const override { return columns_.count; }
+  int num_targets() const override { return columns_.num_targets; }
+
+  std::vector<TargetQuantity> target_quantities() const override {
+    std::vector<TargetQuantity> quantities;
+    for (const TermTarget& target : config_->targets) {
+      const double unit = Worth(target.unit, units_);
+      if (target.draw_from == Draw::kPoint) {
+        for (const char* column : {"north_ft", "east_ft", "altitude_ft"}) {
+          quantities.push_back({column, false, unit, columns_.box < 0 ? 0 : BoxWidth()});
+        }
+        continue;
+      }
+      for (const TermName& name : TermNames()) {
+        if (name.value != target.quantity.value || !name.is_recorded) continue;
+        quantities.push_back({name.name, name.is_angle, unit * name.per_value,
+                              name.per_value * ToleranceOf(target)});
+      }
+    }
+    return quantities;
+  }
+
+  double dwell_s() const override { return config_->dwell_s; }
+  bool is_point() const override { return config_->has_point(); }
+  bool sees_position() const override {
+    return std::any_of(config_->observed.begin(), config_->observed.end(),
+                       [this](const TermNumber& number) { return IsSeenByPosition(number); });
+  }
+  bool has_ends() const override { return !config_->ends.empty(); }
+  const ObservationLayout& observation_layout() const override { return layout_; }
+  std::vector<ObservedNumber> leading_numbers() const override {
+    std::vector<ObservedNumber> numbers;
+    for (const TermNumber& number : config_->observed) {
+      numbers.push_back({number.name, Worth(number.unit, units_)});
+    }
+    return numbers;
+  }
+
+  void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
+             int index) const override {
+    const auto set = [task, index](int column, double value) {
+      task[column][index] = static_cast<float>(value);
+    };
+    double altitude = start.altitude_ft, pitch = start.pitch_rad, yaw = start.yaw_rad;
+    for (std::size_t k = 0; k < config_->targets.size(); ++k) {
+      const TermTarget& target = config_->targets[k];
+      const int column = TermColumns::OfTarget(*config_, static_cast<int>(k));
+      if (target.draw_from == Draw::kPoint) {
+        const auto point = DrawPoint(target, start, random);
+        for (int axis = 0; axis < 3; ++axis) set(column + axis, point[axis]);
+        continue;
+      }
+      const double value = DrawValue(target, start, altitude, random);
+      if (target.quantity.value == TermValue::kAltitude) altitude = value;
+      if (target.quantity.value == TermValue::kPitch) pitch = value;
+      if (target.quantity.value == TermValue::kYaw) yaw = value;
+      set(column, value);
+    }
+    if (columns_.attitude >= 0) {
+      EulerAngles attitude;
+      attitude.pitch = pitch;
+      attitude.yaw = yaw;
+      const Eigen::Vector4d quaternion = QuaternionFromEuler(attitude);
+      for (int k = 0; k < 4; ++k) set(columns_.attitude + k, quaternion[k]);
+    }
+    ResetTolerances(start, random, set);
+  }
+
+  float ToleranceShare(Tile task, int index) const override {
+    if (columns_.box < 0) return task[columns_.share][index];
+    return task[columns_.box][index] / static_cast<float>(BoxWidth());
+  }
+
+  void Errors(Tile flight, Tile task, float* errors, std::size_t error_stride) const override {
+    Run(programs_.errors, flight, task, errors, error_stride);
+    for (std::size_t k = programs_.errors.results.size(); k < kNumTaskErrors; ++k) {
+      std::fill_n(errors + k * error_stride, flight.count, 0.0f);
+    }
+  }
+
+  void LeadingObservations(Tile flight, Tile task, float* numbers,
+                           std::size_t stride) const override {
+    Run(programs_.observed, flight, task, numbers, stride);
+  }
+
+  void ComputeReward(Tile flight, Tile task, const std::int32_t* steps_before,
+                     const StepResult& step_result) const override {
+    RunTermReward(programs_.reward, *kernel_aircraft_, flight, task, steps_before,
+                  config_->earliest_step, step_result);
+  }
+
+ private:
+  bool IsSeenByPosition(const TermNumber& number) const {
+    if (number.value != TermValue::kTargetError) return IsOfPosition(number.value);
+    return IsOfPosition(config_->targets[static_cast<std::size_t>(number.target)].quantity.value);
+  }
+
+  void Run(const TermProgram& program, Tile flight, Tile task, float* columns,
+           std::size_t stride) const {
+    RunTermProgram(program, *kernel_aircraft_, flight, task, {columns, stride});
+  }
+
+  double DrawValue(const TermTarget& target, const FlightStart& start, double altitude_ft,
+                   simd::RandomStream* random) const {
+    const TermValue value = target.quantity.value;
+    const double drawn = random->Uniform(target.draw.min, target.draw.max);
+    const double asked =
+        target.draw_from == Draw::kAroundStart ? StartOf(start, value) + drawn : drawn;
+    if (value == TermValue::kAltitude) return limits_.Altitude(asked);
+    if (value == TermValue::kTrueAirspeed) return limits_.TrueAirspeed(asked, altitude_ft);
+    if (value == TermValue::kPitch) return std::asin(std::sin(asked));
+    return IsWrapped(value) ? std::remainder(asked, 2 * M_PI) : asked;
+  }
+
+  std::array<double, 3> DrawPoint(const TermTarget& target, const FlightStart& start,
+                                  simd::RandomStream* random) const {
+    const auto around = [random](double centre_rad, double change_deg) {
+      const double change_rad = change_deg / kDegPerRad;
+      return centre_rad + random->Uniform(-change_rad, change_rad);
+    };
+    const double distance = random->Uniform(target.distance_ft.min, target.distance_ft.max);
+    const double azimuth = around(start.yaw_rad, target.azimuth_deg);
+    const double elevation = around(start.pitch_rad, target.elevation_deg);
+    return {start.north_ft + distance * std::cos(elevation) * std::cos(azimuth),
+            start.east_ft + distance * std::cos(elevation) * std::sin(azimuth),
+            limits_.Altitude(start.altitude_ft + distance * std::sin(elevation))};
+  }
+
+  template <class Set>
+  void ResetTolerances(const FlightStart& start, simd::RandomStream* random, const Set& set) const {
+    if (columns_.last_point >= 0) {
+      set(columns_.last_point, start.north_ft);
+      set(columns_.last_point + 1, start.east_ft);
+      set(columns_.last_point + 2, start.altitude_ft);
+    }
+    // One number of the stream serves both: what is widened is not narrowed.
+    if (columns_.box >= 0) {
+      const double widening = random->Uniform(0, std::log(config_->training_tolerance_max));
+      set(columns_.box, BoxWidth() * std::exp(widening));
+      set(columns_.share, 1);
+    } else {
+      set(columns_.share, random->Uniform(config_->training_tolerance_min, 1));
+    }
+  }
+
+  /// How far from the target counts as reached, in the unit of the value; 0: nothing says.
+  double ToleranceOf(const TermTarget& target) const {
+    for (const TermCondition& condition : config_->reached) {
+      const TermNumber& number = condition.number;
+      if (condition.kind != TermCondition::Kind::kWithin ||
+          number.value != TermValue::kTargetError ||
+          config_->targets[static_cast<std::size_t>(number.target)].name != target.name) {
+        continue;
+      }
+      return condition.limit / number.per_value * Worth(number.unit, units_);
+    }
+    return 0;
+  }
+
+  double BoxWidth() const {
+    for (const TermCondition& condition : config_->reached) {
+      if (condition.kind == TermCondition::Kind::kBox) return condition.limit;
+    }
+    return 1;
+  }
+
+  std::shared_ptr<const TermTaskConfig> config_;
+  TargetLimits limits_;
+  ReferenceUnits units_;
+  std::shared_ptr<const KernelAircraft> kernel_aircraft_;
+  TermColumns columns_;
+  TermPrograms programs_;
+  ObservationLayout layout_;
+};
+
+}  // namespace
+
+std::unique_ptr<Task> MakeTermTask(const std::shared_ptr<const TermTaskConfig>& config,
+                                   const Aircraft& aircraft, const TargetLimits& limits) {
+  return std::make_unique<TermTask>(config, aircraft, limits);
+}
+
+}  // namespace skein

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built-in tasks as task files: the same bits.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "envs/vec_env.h"
+#include "simd/random.h"
+#include "simd/target.h"
+#include "src/config/configuration.h"
+#include "tests/envs/step_buffers.h"
+#include "tests/envs/test_tile.h"
+
+namespace skein {
+namespace {
+
+/// A built-in task, and the task file that should be the same.
+struct Pair {
+  const char* name;
+  std::vector<std::string> settings = {};  ///< of both
+};
+
+std::ostream& operator<<(std::ostream& out, const Pair& pair) { return out << pair.name; }
+
+class TaskFileEqualityTest : public testing::TestWithParam<std::tuple<simd::Target, Pair>> {};
+
+template <typename T>
+bool SameBits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+EnvConfig ConfigOf(const std::string& task, const std::vector<std::string>& settings) {
+  EnvConfig env = ResolveConfig({task, "default", "", settings}).train.env;
+  env.time_limit_steps = 700;  // so that many episodes begin and end
+  env.action_repeat = 2;
+  return env;
+}
+
+TEST_P(TaskFileEqualityTest, FliesAsTheBuiltInTask) {
+  const ScopedTarget target(std::get<0>(GetParam()));
+  const Pair& pair = std::get<1>(GetParam());
+  constexpr int kAircraft = 150, kSteps = 1200;
+  const std::string file = std::string(SKEIN_SOURCE "/examples/tasks/") + pair.name + ".toml";
+  VecEnv ours(ConfigOf(file, pair.settings), kAircraft, 11, kAircraft);
+  VecEnv built_in(ConfigOf(pair.name, pair.settings), kAircraft, 11, kAircraft);
+  ASSERT_EQ(ours.observation_size(), built_in.observation_size());
+  const int count = ours.tile_count(0);
+  StepBuffers a(count), b(count);
+  simd::RandomStream random({5, 0, 0, 0, simd::RandomPurpose::kActionNoise});
+  int ended = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    // Gentle sticks about the trim for most, so that targets come near, too.
+    const double most = step % 400 < 300 ? 0.15 : 1;
+    for (float& action : a.action) action = static_cast<float>(random.Uniform(-most, most));
+    b.action = a.action;
+    ours.Observe(0, a.observation.data());
+    built_in.Observe(0, b.observation.data());
+    ASSERT_TRUE(SameBits(a.observation, b.observation)) << "observations of step " << step;
+    ours.Step(0, a.action.data(), a.output());
+    built_in.Step(0, b.action.data(), b.output());
+    ASSERT_TRUE(SameBits(a.reward, b.reward)) << "rewards of step " << step;
+    ASSERT_EQ(a.termination, b.termination) << "step " << step;
+    ASSERT_EQ(a.episode_return, b.episode_return) << "step " << step;
+    ended += static_cast<int>(count - std::count(a.termination.begin(), a.termination.end(), 0));
+  }
+  EXPECT_GT(ended, kAircraft);
+  for (int i = 0; i < count; ++i) ASSERT_EQ(ours.TargetOf(i), built_in.TargetOf(i));
+}
+
+const std::vector<std::string> kConditions = {
+    "env.wind.speed_min_fps=10", "env.wind.speed_max_fps=60", "env.wind.turbulence_max_fps=5",
+    "env.observation_noise=0.03", "env.initial.altitude_min_ft=10000"};
+
+std::vector<Pair> Pairs() {
+  return {
+      {"heading"}, {"control"}, {"tracking"}, {"heading", kConditions}, {"tracking", kConditions}};
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, TaskFileEqualityTest,
+                         testing::Combine(testing::ValuesIn(simd::SupportedTargets()),
+                                          testing::ValuesIn(Pairs())));
+
+}  // namespace
+}  // namespace skein

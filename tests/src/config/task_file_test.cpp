@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/config/task_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "envs/task_registry.h"
+#include "simd/random.h"
+#include "src/config/configuration.h"
+#include "src/files/output_file.h"
+#include "tests/error_message.h"
+
+namespace skein {
+namespace {
+
+const std::vector<std::string> kTables = {"env", "ppo", "run"};
+
+std::string Example(const std::string& name) {
+  return std::string(SKEIN_SOURCE "/examples/tasks/") + name + ".toml";
+}
+
+/// A whole file, of which one line can be another.
+std::string Minimal(const std::string& from = "", const std::string& to = "") {
+  std::string text =
+      "name = \"hold\"\n"
+      "[observe]\n"
+      "numbers = [\"error_altitude\"]\n"
+      "[[target]]\n"
+      "quantity = \"altitude_ft\"\n"
+      "around_start = 500\n"
+      "[[reward]]\n"
+      "quantity = \"error_altitude\"\n"
+      "weight = -1\n"
+      "[reached]\n"
+      "conditions = [{quantity = \"error_altitude_ft\", within = 50}]\n";
+  if (!from.empty()) text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+TermTaskConfig Read(const std::string& text) {
+  return ReadTaskFile(text, "my.toml", kTables).terms;
+}
+
+TEST(TaskFileTest, ReadsWhatItSays) {
+  const TermTaskConfig task = Read(Minimal());
+  EXPECT_EQ(task.name, "hold");
+  ASSERT_EQ(task.targets.size(), 1u);
+  EXPECT_EQ(task.targets[0].name, "altitude");
+  EXPECT_EQ(task.targets[0].draw.min, -500);
+  EXPECT_EQ(task.rewards[0].weight, -1);
+  EXPECT_EQ(task.reached[0].limit, 50);
+  EXPECT_TRUE(task.observes_flight);
+}
+
+TEST(TaskFileTest, TakesDegreesAndRadians) {
+  const std::string yaw = "[[target]]\nquantity = \"yaw_deg\"\nbetween = [-90, 180]\n[[reward]]";
+  const TermTaskConfig task = Read(Minimal("[[reward]]", yaw));
+  EXPECT_DOUBLE_EQ(task.targets[1].draw.max, M_PI);
+}
+
+struct Wrong {
+  const char *from, *to, *message;
+};
+
+TEST(TaskFileTest, RefusesInOneLineThatNamesTheField) {
+  const Wrong all[] = {
+      {"name = \"hold\"", "name = \"Hold it\"", "name must be a name"},
+      {"name = \"hold\"", "name = \"heading\"", "built-in task"},
+      {"name = \"hold\"", "nmae = \"hold\"", "unknown key nmae; did you mean name?"},
+      {"[[reward]]", "[[rewards]]", "unknown key rewards; did you mean reward?"},
+      {"\"altitude_ft\"", "\"altitude_feet\"", "unknown quantity altitude_feet"},
+      {"[\"error_altitude\"]", "[\"eror_altitude\"]", "did you mean error_altitude?"},
+      {"[\"error_altitude\"]", "[\"point_up_ft\"]", "a target that is a point"},
+      {"[\"error_altitude\"]", "[\"terrain_ft\"]", "there is no [terrain]"},
+      {"[\"error_altitude\"]", "[\"nose_angle_rad\"]", "a target pitch and yaw"},
+      {"[\"error_altitude\"]", "[\"error_altitude\", \"error_altitude\"]", "twice"},
+      {"[\"error_altitude\"]", "[\"error_altitude\"]\nflight = false", "at least 4"},
+      {"[\"error_altitude\"]", "[1]", "numbers must be the name of a quantity"},
+      {"around_start = 500", "around_start = nan", "around_start must be a finite number"},
+      {"around_start = 500", "around_start = -5", "must not be negative"},
+      {"around_start = 500", "around_start = [5, 3]", "must not end before it begins"},
+      {"around_start = 500", "around_start = 5\nbetween = [1, 2]", "it must have just one of"},
+      {"around_start = 500", "", "it needs one of around_start, between"},
+      {"around_start = 500", "around_start = 5\nspread = 5", "unknown key spread"},
+      {"weight = -1", "weight = inf", "weight must be a finite number"},
+      {"weight = -1", "", "a reward needs a weight"},
+      {"weight = -1", "weight = -1\nshape = \"gausian\"", "did you mean gaussian?"},
+      {"weight = -1", "weight = -1\nshape = \"gaussian\"", "needs a width"},
+      {"weight = -1", "weight = -1\nwidth = 3", "unknown key width"},
+      {"weight = -1", "weight = -1\nunit = \"sped\"", "unknown unit sped; did you mean speed?"},
+      {"weight = -1", "weight = -1\nunit = 0", "unit must be a finite number"},
+      {"within = 50", "within = 0", "within must be a finite number"},
+      {"within = 50", "beyond = 50", "it needs one of within, below, above"},
+      {"within = 50}", "box_ft = 50}", "a target that is a point"},
+      {"[reached]",
+       "[[termination]]\nquantity = \"mach\"\nabove = 1\nas = \"overloaded\"\n[reached]",
+       "did you mean overload?"},
+      {"[observe]", "[observe", "not valid TOML"},
+  };
+  for (const Wrong& wrong : all) {
+    const std::string message = MessageOf([&] { Read(Minimal(wrong.from, wrong.to)); });
+    EXPECT_NE(message.find(wrong.message), std::string::npos) << wrong.to << ": " << message;
+    EXPECT_EQ(message.rfind("my.toml", 0), 0u) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(TaskFileTest, RefusesTooMuch) {
+  std::string rewards = Minimal();
+  for (int i = 0; i < TermTaskConfig::kMaxRewards; ++i) {
+    rewards += "[[reward]]\nquantity = \"mach\"\nweight = 1\n";
+  }
+  EXPECT_NE(MessageOf([&] { Read(rewards); }).find("at most 24"), std::string::npos);
+  const std::string nested(5000, '[');
+  EXPECT_FALSE(MessageOf([&] { Read("name = " + nested); }).empty());
+  EXPECT_NE(MessageOf([&] { Read(Minimal() + std::string(1 << 17, '#')); }).find("at most 65536"),
+            std::string::npos);
+}
+
+TEST(TaskFileTest, KnowsWhatPoliciesObserveFromWhatTheyAreRewardedFor) {
+  const TermTaskConfig task = Read(Minimal());
+  const TermTaskConfig dearer = Read(Minimal("weight = -1", "weight = -2"));
+  EXPECT_NE(task.hash, dearer.hash);
+  EXPECT_EQ(task.interface, dearer.interface);
+  EXPECT_NE(task.interface,
+            Read(Minimal("[\"error_altitude\"]", "[\"error_altitude_ft\"]")).interface);
+}
+
+TEST(TaskFileTest, EveryExampleIsATask) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SKEIN_SOURCE "/examples/tasks")) {
+    const ProgramConfig config = ResolveConfig({entry.path().string(), "default", "", {}});
+    CheckConsistent(config);
+    const auto task = MakeTask(config.train.env);
+    EXPECT_EQ(task->target_quantities().size(), static_cast<std::size_t>(task->num_targets()));
+    ++count;
+  }
+  EXPECT_GE(count, 6);
+}
+
+/// Every mutation of a file is a task that can be made, or an Error of one line: never anything
+/// else.
+void ReadMutant(const std::string& text) {
+  try {
+    const TaskFile file = ReadTaskFile(text, "mutant.toml", kTables);
+    EnvConfig env;
+    env.SetTermTask(file.terms);
+    MakeTask(env);
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+  }
+}
+
+TEST(TaskFileTest, SurvivesMutations) {
+  simd::RandomStream random({17, 0, 0, 0, simd::RandomPurpose::kActionNoise});
+  const auto below = [&random](std::size_t end) {
+    return std::min(static_cast<std::size_t>(random.Uniform(0, static_cast<double>(end))), end - 1);
+  };
+  const std::string alphabet = "[]{}=\",.\n#-019eainf_x \\\x01\xff";
+  for (const char* name : {"heading", "tracking", "terrain_height", "level_turn"}) {
+    const std::string text = ReadFile(Example(name));
+    for (int i = 0; i < 150; ++i) {
+      ReadMutant(text.substr(0, below(text.size())));
+      std::string mutant = text;
+      for (std::size_t k = 0; k <= below(4); ++k)
+        mutant[below(mutant.size())] = alphabet[below(alphabet.size())];
+      ReadMutant(mutant);
+      const std::size_t from = below(text.size()), length = below(60), to = below(text.size());
+      mutant = text;
+      mutant.insert(to, text.substr(from, length));
+      ReadMutant(mutant);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skein
