@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <vector>
 
 #include "src/config/settings.h"
@@ -80,6 +81,26 @@ std::string ToText(const EvaluationReport& report, bool deterministic) {
                      Lines("deterministic", report.deterministic), Lines("sampled", report.sampled),
                      deterministic ? "deterministic" : "sampled",
                      FormatFlightMetrics(deterministic ? report.deterministic : report.sampled));
+}
+
+std::string ToSummary(const EvaluationReport& report) {
+  constexpr std::size_t kLabelWidth = 28, kCellWidth = 25;
+  const FlightSummary &mean = report.deterministic, &sampled = report.sampled;
+  std::string text;
+  TextTable table(kLabelWidth, kCellWidth, &text);
+  table.Begin("");
+  table.Cell("mean action");
+  table.Cell("sampled actions");
+  table.End();
+  for (std::size_t k = 0; k < mean.quantities.size(); ++k) {
+    const Quantity& quantity = mean.quantities[k];
+    if (!quantity.is_headline || std::isnan(mean.estimates[k].value)) continue;
+    table.Begin(quantity.label);
+    table.Cell(FormatEstimate(quantity, mean.estimates[k]));
+    table.Cell(FormatEstimate(quantity, sampled.estimates[k]));
+    table.End();
+  }
+  return text + "ended by " + FormatTerminations(mean.result);
 }
 
 }  // namespace skein

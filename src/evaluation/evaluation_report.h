@@ -34,4 +34,8 @@ nlohmann::ordered_json EnvironmentJson(ProgramConfig config);
 /// Lines for people, without a newline at the end: both modes, and how the one asked for flew.
 std::string ToText(const EvaluationReport& report, bool deterministic);
 
+/// The headlines of both modes in a table that fits a screen beside a few more lines, and how the
+/// episodes with the mean action ended.
+std::string ToSummary(const EvaluationReport& report);
+
 }  // namespace skein

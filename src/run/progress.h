@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <deque>
 #include <string>
-#include <utility>
+#include <vector>
 
+#include "envs/tasks/termination.h"
 #include "train/ppo/trainer.h"
 
 namespace skein {
@@ -26,16 +28,20 @@ struct Progress {
   double rollout_share = 0, update_share = 0;
   double return_mean = 0, success_rate = 0;  ///< NaN: no episode has ended yet
   double evaluation_success_rate = -1;       ///< latest; negative: none yet
+  double best_evaluation = -1;               ///< of those this process has seen
+  std::uint64_t iteration = 0;               ///< of the run
+  double elapsed_s = 0;                      ///< of this process
+  /// By Termination: shares of the episodes that ended lately; all 0 if none did.
+  std::array<double, kNumTerminations> end_shares{};
+  std::vector<double> success_history;  ///< by iteration; NaN where no episode ended
 };
+
+/// NaN if it is not known yet.
+double SecondsLeft(const Progress& progress);
 
 /// One line: steps and budget, steps per second, shares of time, mean return, success, time left.
 /// The tight one fits 72 columns and leaves shares and evaluation out.
 std::string FormatProgress(const Progress& progress, Spacing spacing = Spacing::kWide);
-
-/// The tight line behind a bar that fills what is left of `width` columns; without the bar, and at
-/// last without its end, where that is little. `colour` adds escape sequences, which take no
-/// column.
-std::string FormatProgressBar(const Progress& progress, std::size_t width, bool colour);
 
 /// Collects iteration reports into a Progress: rates over the last iterations that took about half
 /// a minute, the latest values that exist of the others.
@@ -54,33 +60,13 @@ class ProgressMeter {
     Clock::time_point time;
     std::uint64_t env_steps = 0;
     double rollout_s = 0, update_s = 0;
+    std::array<int, kNumTerminations> terminations{};  ///< since the start
   };
+  void CountEnds();
+
+  Clock::time_point start_;
   std::deque<Sample> samples_;
   Progress progress_;
-};
-
-/// Shows lines on the standard output: with a bar, in place, on a terminal that can (TERM is not
-/// dumb), in colour unless NO_COLOR is set (no-color.org); else one every ten seconds. Falls silent
-/// when the output breaks (its reader has gone, its disk is full).
-class ProgressDisplay {
- public:
-  ProgressDisplay();
-  /// Shows the progress now, or not at all if it is too early.
-  void Update(const Progress& progress);
-  /// Prints a line that stays.
-  void Print(const std::string& line);
-  /// The system's reason why it has fallen silent, told once; else empty.
-  std::string TakeFailure() { return std::exchange(failure_, ""); }
-
- private:
-  void Write(const std::string& text);
-
-  bool terminal_ = false, colour_ = false;
-  bool line_open_ = false;
-  bool shown_ = false;
-  bool silent_ = false;
-  std::string failure_;
-  ProgressMeter::Clock::time_point last_;
 };
 
 }  // namespace skein

@@ -9,8 +9,10 @@
 
 namespace skein {
 
-void RunLog::Say(const std::string& text) {
-  display_.Print(text);
+void RunLog::Say(const std::string& text) { Say(text, text); }
+
+void RunLog::Say(const std::string& text, const std::string& in_short) {
+  display_.Print(display_.is_terminal() ? in_short : text);
   NoteBrokenOutput();
   Note(text);
 }

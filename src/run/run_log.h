@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/run/progress.h"
+#include "src/run/progress_display.h"
 #include "train/files/file_descriptor.h"
 
 namespace skein {
@@ -16,6 +16,8 @@ class RunLog {
 
   /// To both; `text` may have several lines.
   void Say(const std::string& text);
+  /// The same, but to a terminal `in_short`.
+  void Say(const std::string& text, const std::string& in_short);
   /// To the file alone.
   void Note(const std::string& text);
   /// To the output alone, replacing what was last shown on a terminal.

@@ -14,7 +14,6 @@
 #include "src/bench/machine.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
-#include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/files/shell_text.h"
 #include "src/files/text_table.h"
@@ -322,18 +321,34 @@ void TrainingRun::Finish() {
     return;
   }
   WriteJson(directory_.evaluation(), ToJson(report, path, config_, seed, true));
-  log_.Say(ToText(report, true));
-  log_.Say(fmt::format(
+  SayResult(report, path, fmt::format("--episodes {} --seed {}", episodes, seed));
+  log_.Sync();
+}
+
+void TrainingRun::SayResult(const EvaluationReport& report, const std::string& policy,
+                            const std::string& same_episodes) {
+  const std::string skein = ShellWord(CommandName()), run = ShellWord(directory_.path());
+  const std::string again =
+      fmt::format("again           {} eval --policy {} --task {} --deterministic {}", skein, run,
+                  config_.train.env.task, same_episodes);
+  const std::string all = fmt::format(
+      "{}\n"
       "policy          {}\n"
       "evaluation      {}\n"
       "metrics         {}  (tensorboard --logdir {})\n"
       "configuration   {}\n"
       "checkpoints     {}\n"
-      "again           {} eval --policy {} --task {} --deterministic --episodes {} --seed {}",
-      path, directory_.evaluation(), directory_.metrics(), directory_.path(), directory_.config(),
-      directory_.checkpoints(), ShellWord(CommandName()), ShellWord(directory_.path()),
-      config_.train.env.task, episodes, seed));
-  log_.Sync();
+      "{}",
+      ToText(report, true), policy, directory_.evaluation(), directory_.metrics(),
+      directory_.path(), directory_.config(), directory_.checkpoints(), again);
+  const std::string in_short = fmt::format(
+      "{}\n"
+      "policy          {}\n"
+      "all figures     {}/log.txt\n"
+      "{}\n"
+      "watch           {} replay --policy {} -o flights.acmi",
+      ToSummary(report), policy, directory_.path(), again, skein, run);
+  log_.Say(all, in_short);
 }
 
 }  // namespace skein

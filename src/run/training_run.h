@@ -8,6 +8,7 @@
 
 #include "base/worker_pool.h"
 #include "src/config/program_config.h"
+#include "src/evaluation/evaluation_report.h"
 #include "src/run/event_file.h"
 #include "src/run/metrics.h"
 #include "src/run/run_directory.h"
@@ -58,6 +59,9 @@ class TrainingRun {
   void SaveCheckpoint();
   bool CheckpointIsDue() const;
   void Finish();
+  /// What the final evaluation gave. `same_episodes` are the options of skein eval that ask for it.
+  void SayResult(const EvaluationReport& report, const std::string& policy,
+                 const std::string& same_episodes);
   void SayStopped(const std::string& dropped);
 
   ProgramConfig config_;

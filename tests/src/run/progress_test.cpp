@@ -44,21 +44,6 @@ TEST(Progress, LineSaysEverything) {
   EXPECT_EQ(tight, "12.3M/150M 215k/s return -312.0 success 43.1% left 10m40s");
 }
 
-TEST(Progress, TheBarFillsTheWidthThatItIsGiven) {
-  Progress progress;
-  progress.env_steps = 75000000;
-  progress.total_steps = 150000000;
-  progress.steps_per_s = 215000;
-  progress.return_mean = -312.04;
-  progress.success_rate = 0.431;
-  const std::string line = "75.0M/150M 215k/s return -312.0 success 43.1% left 5m49s";
-  EXPECT_EQ(FormatProgressBar(progress, 72, false), "[======       ] " + line);
-  EXPECT_EQ(FormatProgressBar(progress, 72, true), "[\x1b[32m======\x1b[0m       ] " + line);
-  EXPECT_EQ(FormatProgressBar(progress, 200, false), "[================                ] " + line);
-  EXPECT_EQ(FormatProgressBar(progress, 60, false), line) << "no room for a bar";
-  EXPECT_EQ(FormatProgressBar(progress, 10, false), "75.0M/150M");
-}
-
 TEST(Progress, TheTightLineFits72Columns) {
   Progress progress;
   progress.env_steps = 999e9;
