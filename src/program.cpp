@@ -106,6 +106,7 @@ void AddCommands(CLI::App* app) {
   AddStudyCommand(app);
   AddReportCommand(app);
   AddFdmCommand(app);
+  AddAircraftCommand(app);
   AddExportCommand(app);
   AddBenchCommand(app);
   AddListCommand(app);

@@ -54,6 +54,7 @@ struct DerivativeAircraft {
   double untrimmed_thrust_N = 0;
   Actuator elevator, aileron, rudder;
   FlightLimits limits;
+  bool has_flight_control = true;  ///< false: flight_control is another aircraft's
   FlightControlGains flight_control;
   ReferenceUnits units;
 };

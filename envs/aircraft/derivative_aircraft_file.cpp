@@ -101,7 +101,9 @@ DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_v
   actuators.Read("rudder", &aircraft.rudder);
   actuators.Finish();
   if (section.Has("limits")) ReadLimits(section.Below("limits"), &aircraft.limits);
-  if (flight_control == FlightControlSection::kRequired || section.Has("flight_control")) {
+  aircraft.has_flight_control =
+      flight_control == FlightControlSection::kRequired || section.Has("flight_control");
+  if (aircraft.has_flight_control) {
     ReadFlightControl(section.Below("flight_control"), &aircraft.flight_control);
   }
   aircraft.units = ReadUnits(section.Below("observation_units"));

@@ -56,10 +56,14 @@ double PistonThrust(const PistonEngine& engine, double throttle, double airspeed
                     double altitude_ft) {
   const double D = engine.diameter_m, rated = engine.rated_rpm / 60;
   const double power = engine.rated_power_W * throttle * PowerFraction(engine, altitude_ft);
-  if (engine.constant_speed) {
+  if (engine.propeller == PropellerModel::kConstantSpeed) {
     return power / (rated * D) * EfficiencyPerAdvanceRatio(engine, airspeed_m_s / (rated * D));
   }
   const double density = DensityAt(altitude_ft);
+  if (engine.propeller == PropellerModel::kPolar) {
+    return engine.polar_slope * power / (rated * D) +
+           engine.polar_intercept * density * airspeed_m_s * airspeed_m_s * D * D;
+  }
   const double n = FixedPitchSpeed(engine, power / (kTwoPi * rated), airspeed_m_s, density);
   const double CT = At(engine.advance_ratio, engine.CT, airspeed_m_s / (n * D));
   return CT * density * n * n * std::pow(D, 4);

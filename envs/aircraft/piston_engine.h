@@ -7,6 +7,19 @@
 
 namespace skein {
 
+/// How a propeller is described, and what its thrust is.
+enum class PropellerModel {
+  /// CT rho n^2 diameter^4 at the speed n where it takes, CP rho n^3 diameter^5, what the engine
+  /// gives.
+  kFixedPitch,
+  /// A governor keeps the rated speed: efficiency power / V.
+  kConstantSpeed,
+  /// A straight propeller polar, CT / J^2 = slope CP / J^2 + intercept, as fixed-pitch propellers
+  /// have: with a torque Q it is slope 2 pi Q / diameter + intercept rho V^2 diameter^2, whatever
+  /// the speed n (J. T. Lowry, Performance of Light Aircraft, AIAA, 1999).
+  kPolar,
+};
+
 /// A piston engine and its propeller, in SI units. Its torque is that of its rated power at its
 /// rated speed, times the throttle, times what altitude leaves of it, whatever the speed.
 struct PistonEngine {
@@ -16,15 +29,14 @@ struct PistonEngine {
   /// Ferrar (SAE, 1934), 1.132 sigma - 0.132, sigma the density over that at sea level.
   std::vector<double> altitude_m, power_fraction;
 
+  PropellerModel propeller = PropellerModel::kFixedPitch;
   double diameter_m = 0;  ///< of the propeller
-  /// The propeller by advance ratio J = V / (n diameter), n in revolutions per second; linear
-  /// between nodes, held outside. A governor keeps the rated speed if `constant_speed`: thrust is
-  /// then efficiency power / V. Else thrust is CT rho n^2 diameter^4 at the speed n where the
-  /// propeller takes, CP rho n^3 diameter^5, what the engine gives.
-  bool constant_speed = false;
+  /// By advance ratio J = V / (n diameter), n in revolutions per second; linear between nodes, held
+  /// outside.
   std::vector<double> advance_ratio;
   std::vector<double> efficiency;  ///< constant speed; zero at J = 0
   std::vector<double> CT, CP;      ///< fixed pitch
+  double polar_slope = 0, polar_intercept = 0;
 };
 
 /// The throttle, a fraction of the torque, at idle, military and maximum power.

@@ -106,23 +106,35 @@ void ReadEngine(Section section, PistonEngine* engine) {
   section.Finish();
 }
 
+void ReadAdvanceRatios(Section* section, PistonEngine* engine) {
+  section->ReadAxis("advance_ratio", &engine->advance_ratio);
+  const double first = engine->advance_ratio.front();
+  if (first != 0) section->Refuse("advance_ratio", first, "zero at its first node");
+}
+
 void ReadPropeller(Section section, PistonEngine* engine) {
   section.ReadPositive("diameter_m", &engine->diameter_m);
-  engine->constant_speed =
-      ReadChoice({"fixed_pitch", "constant_speed"}, &section) == "constant_speed";
-  section.ReadAxis("advance_ratio", &engine->advance_ratio);
-  const std::vector<double>& J = engine->advance_ratio;
-  if (J.front() != 0) section.Refuse("advance_ratio", J.front(), "zero at its first node");
-  if (engine->constant_speed) {
-    section.Read("efficiency", {J.size()}, &engine->efficiency);
-    if (engine->efficiency.front() != 0) {
-      section.Refuse("efficiency", engine->efficiency.front(), "zero where the advance ratio is");
-    }
+  const std::string kind = ReadChoice({"fixed_pitch", "constant_speed", "polar"}, &section);
+  if (kind == "polar") {
+    engine->propeller = PropellerModel::kPolar;
+    section.ReadPositive("slope", &engine->polar_slope);
+    section.Read("intercept", &engine->polar_intercept);
+    section.Finish();
+    return;
+  }
+  ReadAdvanceRatios(&section, engine);
+  const std::size_t nodes = engine->advance_ratio.size();
+  if (kind == "constant_speed") {
+    engine->propeller = PropellerModel::kConstantSpeed;
+    section.Read("efficiency", {nodes}, &engine->efficiency);
+    const double standing = engine->efficiency.front();
+    if (standing != 0) section.Refuse("efficiency", standing, "zero where the advance ratio is");
   } else {
-    section.Read("CT", {J.size()}, &engine->CT);
-    section.Read("CP", {J.size()}, &engine->CP);
-    if (!(engine->CP.front() > 0)) {
-      section.Refuse("CP", engine->CP.front(), "above 0 where the advance ratio is zero");
+    section.Read("CT", {nodes}, &engine->CT);
+    section.Read("CP", {nodes}, &engine->CP);
+    const double standing = engine->CP.front();
+    if (!(standing > 0)) {
+      section.Refuse("CP", standing, "above 0 where the advance ratio is zero");
     }
   }
   section.Finish();

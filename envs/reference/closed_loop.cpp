@@ -36,6 +36,31 @@ ClosedLoop::ClosedLoop(const Plant& plant, const TrimPoint& trim, FlightControlM
   flight_control_state_ = flight_control_.InitialState(Sense(), surfaces_);
 }
 
+Eigen::VectorXd ClosedLoop::memory() const {
+  const auto angles = [](const SurfaceAngles& a) {
+    return Eigen::Vector4d(a.elevator_deg, a.aileron_deg, a.rudder_deg, a.leading_edge_flap_deg);
+  };
+  Eigen::VectorXd memory(kClosedLoopMemory);
+  memory << state_, angles(surfaces_),
+      Eigen::Map<const Eigen::VectorXd>(flight_control_state_.data(), kNumFlightControlStates),
+      power_, nz_, ny_, angles(previous_command_);
+  return memory;
+}
+
+void ClosedLoop::set_memory(const Eigen::VectorXd& memory) {
+  const auto angles = [&memory](int at) -> SurfaceAngles {
+    return {memory[at], memory[at + 1], memory[at + 2], memory[at + 3]};
+  };
+  state_ = memory.head<kElevatorMemory>();
+  surfaces_ = angles(kElevatorMemory);
+  Eigen::Map<Eigen::VectorXd>(flight_control_state_.data(), kNumFlightControlStates) =
+      memory.segment<kNumFlightControlStates>(kFlightControlMemory);
+  power_ = memory[kPowerMemory];
+  nz_ = memory[kNormalAccelerationMemory];
+  ny_ = memory[kSideAccelerationMemory];
+  previous_command_ = angles(kCommandMemory);
+}
+
 AirData ClosedLoop::air() const { return plant_.AirAround(state_, wind_); }
 
 FlightSensors ClosedLoop::Sense() const {

@@ -7,6 +7,17 @@
 
 namespace skein {
 
+/// Where a closed loop's memory has what: the rigid body first, in the order of its state.
+enum ClosedLoopMemory : int {
+  kElevatorMemory = 13,  ///< and ailerons, rudder, flap
+  kFlightControlMemory = kElevatorMemory + 4,
+  kPowerMemory = kFlightControlMemory + kNumFlightControlStates,
+  kNormalAccelerationMemory,
+  kSideAccelerationMemory,
+  kCommandMemory,  ///< surface commands of the last step, as the surfaces
+  kClosedLoopMemory = kCommandMemory + 4
+};
+
 /// The whole aircraft in double precision, as a pilot flies it: flight control system, actuators,
 /// engine and rigid body. The specification of one control step of the vectorised environment:
 ///   1. sensors: air data and rates of the present state; specific forces, as accelerometers read
@@ -33,6 +44,10 @@ class ClosedLoop {
   /// The air's velocity from now on, north, east, down, ft/s; zero at first. The aircraft keeps its
   /// velocity over ground.
   void set_wind(const Eigen::Vector3d& wind) { wind_ = wind; }
+
+  /// All that the next step depends on, as ClosedLoopMemory lays it out.
+  Eigen::VectorXd memory() const;
+  void set_memory(const Eigen::VectorXd& memory);
 
   /// At the end of the last step.
   const RigidBodyState& state() const { return state_; }

@@ -13,6 +13,7 @@ void AddReplayCommand(CLI::App* app);
 void AddReportCommand(CLI::App* app);
 void AddStudyCommand(CLI::App* app);
 void AddFdmCommand(CLI::App* app);
+void AddAircraftCommand(CLI::App* app);
 void AddBenchCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
 void AddInfoCommand(CLI::App* app);

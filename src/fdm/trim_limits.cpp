@@ -9,9 +9,7 @@
 
 #include "base/error.h"
 #include "envs/aircraft/engine.h"
-#include "envs/reference/flight_control.h"
-#include "envs/state/attitude.h"
-#include "envs/state/state.h"
+#include "envs/tuning/flight_envelope.h"
 
 namespace skein {
 namespace {
@@ -47,35 +45,6 @@ std::vector<std::string> OutsideEngineTables(const Plant& plant, const TrimReque
   return limits;
 }
 
-struct Lift {
-  double coefficient = 0, alpha_deg = 0;
-};
-
-/// The greatest lift coefficient at the speed asked for, elevator neutral, flap on its steady
-/// schedule.
-Lift GreatestLift(const Plant& plant, const TrimRequest& request) {
-  const Air air = AirAt(plant.atmosphere(), request.altitude_ft);
-  const double speed = request.true_airspeed_ft_s;
-  const double qbar = 0.5 * air.density_slug_ft3 * speed * speed;
-  const double last = plant.aircraft().aerodynamics.alpha_deg.back();
-  Lift greatest;
-  for (double alpha_deg = 0; alpha_deg <= last; alpha_deg += kAlphaStepDeg) {
-    const double alpha = alpha_deg / kDegPerRad;
-    RigidBodyState state = RigidBodyState::Zero();
-    state[kU] = speed * std::cos(alpha);
-    state[kW] = speed * std::sin(alpha);
-    state[kDown] = -request.altitude_ft;
-    state.segment<4>(kQ0) = QuaternionFromEuler({0, alpha, 0});
-    Controls controls;
-    controls.leading_edge_flap_deg =
-        SteadyLeadingEdgeFlap(plant.aircraft(), alpha_deg, qbar, air.pressure_lbf_ft2);
-    const auto coefficients = plant.Evaluate(state, controls).coefficients;
-    const double lift = coefficients[0] * std::sin(alpha) - coefficients[2] * std::cos(alpha);
-    if (lift > greatest.coefficient) greatest = {lift, alpha_deg};
-  }
-  return greatest;
-}
-
 /// "is below stall speed (...)" if the wing cannot carry the weight, turn included.
 std::vector<std::string> BelowStall(const Plant& plant, const TrimRequest& request) {
   const Airframe& airframe = plant.aircraft().airframe;
@@ -83,7 +52,7 @@ std::vector<std::string> BelowStall(const Plant& plant, const TrimRequest& reque
   const double lateral_g = speed * request.turn_rate_rad_s / kGravityFtS2;
   const double weight_lbf = airframe.mass_slug * kGravityFtS2 *
                             std::cos(request.flight_path_angle_rad) * std::hypot(1, lateral_g);
-  const Lift lift = GreatestLift(plant, request);
+  const GreatestLift lift = FindGreatestLift(plant, request.altitude_ft, speed, kAlphaStepDeg);
   const double density = AirAt(plant.atmosphere(), request.altitude_ft).density_slug_ft3;
   const double stall_speed = std::sqrt(
       2 * weight_lbf / (density * airframe.wing_area_ft2 * std::max(lift.coefficient, 1e-9)));

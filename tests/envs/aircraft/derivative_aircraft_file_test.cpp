@@ -139,12 +139,13 @@ std::string Piston(const std::string& propeller) {
       propeller + "}");
 }
 
-TEST(DerivativeAircraftFile, PistonEnginesComeWithEitherPropeller) {
+TEST(DerivativeAircraftFile, PistonEnginesComeWithAnyPropeller) {
   const std::string fixed =
       R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 1], "CT": [0.1, 0], "CP": [0.06, 0])";
   const std::string governed =
       R"("kind": "constant_speed", "diameter_m": 2, "advance_ratio": [0, 1], "efficiency": [0, 0.8])";
-  for (const std::string& propeller : {fixed, governed}) {
+  const std::string polar = R"("kind": "polar", "diameter_m": 2, "slope": 1.7, "intercept": -0.05)";
+  for (const std::string& propeller : {fixed, governed, polar}) {
     const DerivativeAircraft aircraft = ReadDerivativeAircraft("glider", Piston(propeller));
     EXPECT_EQ(std::get<PistonPropulsion>(aircraft.propulsion).engine.diameter_m, 2);
     for (const double thrust : MakeAircraft(aircraft).engine.maximum_lbf) {
@@ -153,7 +154,7 @@ TEST(DerivativeAircraftFile, PistonEnginesComeWithEitherPropeller) {
   }
   const std::pair<std::string, std::string> refused[] = {
       {R"("kind": "folding", "diameter_m": 2)",
-       "propulsion.propeller.kind must be one of fixed_pitch, constant_speed"},
+       "propulsion.propeller.kind must be one of fixed_pitch, constant_speed, polar"},
       {R"("diameter_m": 2)", "propulsion.propeller lacks kind"},
       {R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 0])",
        "propulsion.propeller.advance_ratio[1] is 0, but must be above the number before it, 0"},

@@ -31,7 +31,7 @@ PistonEngine FixedPitch() {
 
 PistonEngine ConstantSpeed() {
   PistonEngine engine = FixedPitch();
-  engine.constant_speed = true;
+  engine.propeller = PropellerModel::kConstantSpeed;
   engine.advance_ratio = {0, 0.4, 0.8, 1.2};
   engine.efficiency = {0, 0.6, 0.8, 0.7};
   return engine;
@@ -70,6 +70,28 @@ TEST(PistonEngine, ConstantSpeedGivesEfficiencyTimesPower) {
   // From the first node down the thrust is that of its slope: finite at rest.
   EXPECT_NEAR(PistonThrust(engine, 1, 0, 0), PistonThrust(engine, 1, 0.4 * tip, 0),
               kRounding * 1e4);
+}
+
+// A propeller whose CT and CP make a straight polar gives the polar's thrust, at any speed.
+TEST(PistonEngine, StraightPolarIsThatOfAFixedPitchPropeller) {
+  constexpr Tolerance kBetweenNodes{0.02, "CT and CP are linear between 100 nodes, relative"};
+  PistonEngine fixed = FixedPitch(), polar = FixedPitch();
+  fixed.advance_ratio.clear();
+  fixed.CT.clear();
+  fixed.CP.clear();
+  for (double J = 0; J <= 1; J += 0.01) {
+    fixed.advance_ratio.push_back(J);
+    fixed.CP.push_back(0.06 - 0.02 * J * J);
+    fixed.CT.push_back(1.7 * fixed.CP.back() - 0.05 * J * J);
+  }
+  polar.propeller = PropellerModel::kPolar;
+  polar.polar_slope = 1.7;
+  polar.polar_intercept = -0.05;
+  for (double speed = 0; speed <= 60; speed += 10) {
+    EXPECT_NEAR(PistonThrust(fixed, 1, speed, 0) / PistonThrust(polar, 1, speed, 0), 1,
+                kBetweenNodes)
+        << speed;
+  }
 }
 
 TEST(PistonEngine, PowerFallsWithDensityOrByTheFilesTable) {

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/tuning/aircraft_findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "base/error.h"
+#include "envs/aircraft/engine.h"
+#include "envs/aircraft/units.h"
+#include "envs/state/state.h"
+
+namespace skein {
+namespace {
+
+/// Text as of printf.
+__attribute__((format(printf, 1, 2))) std::string Say(const char* form, ...) {
+  std::array<char, 320> text;
+  va_list values;
+  va_start(values, form);
+  std::vsnprintf(text.data(), text.size(), form, values);
+  va_end(values);
+  return text.data();
+}
+
+class Findings {
+ public:
+  void Error(bool is_wrong, const std::string& text) { Add(is_wrong, Finding::kError, text); }
+  void Warn(bool is_odd, const std::string& text) { Add(is_odd, Finding::kWarning, text); }
+  std::vector<Finding> Take() { return std::move(findings_); }
+
+ private:
+  void Add(bool is_found, Finding::Kind kind, const std::string& text) {
+    if (is_found) findings_.push_back({kind, text});
+  }
+
+  std::vector<Finding> findings_;
+};
+
+/// Radii of gyration over half the span, as Roskam tabulates them (Airplane Design V, appendix B;
+/// there pitch and yaw also by the length, which a derivative model does not have): what aircraft
+/// from gliders to fighters have, widened by a quarter.
+void CheckInertia(const DerivativeAircraft& a, Findings* findings) {
+  const auto ratio = [&](double inertia) { return 2 * std::sqrt(inertia / a.mass_kg) / a.span_m; };
+  const struct {
+    const char* name;
+    double inertia, low, high;
+  } axes[] = {{"Ixx_kg_m2", a.Ixx_kg_m2, 0.13, 0.5},
+              {"Iyy_kg_m2", a.Iyy_kg_m2, 0.15, 1.1},
+              {"Izz_kg_m2", a.Izz_kg_m2, 0.22, 1.2}};
+  for (const auto& axis : axes) {
+    const double found = ratio(axis.inertia);
+    findings->Warn(found < axis.low || found > axis.high,
+                   Say("airframe.%s = %g is a radius of gyration of %.2f half spans; aircraft have "
+                       "%.2f to %.2f",
+                       axis.name, axis.inertia, found, axis.low, axis.high));
+  }
+  findings->Error(a.Izz_kg_m2 > a.Ixx_kg_m2 + a.Iyy_kg_m2,
+                  Say("airframe.Izz_kg_m2 = %g is above the sum of the other two, %g: no body has "
+                      "such moments of inertia",
+                      a.Izz_kg_m2, a.Ixx_kg_m2 + a.Iyy_kg_m2));
+}
+
+void CheckGeometry(const DerivativeAircraft& a, Findings* findings) {
+  const double mean_chord = a.wing_area_m2 / a.span_m;
+  findings->Warn(
+      a.chord_m < 0.7 * mean_chord || a.chord_m > 1.6 * mean_chord,
+      Say("airframe.chord_m = %g, while wing area over span is %.3g", a.chord_m, mean_chord));
+  const double loading = a.mass_kg * 9.81 / a.wing_area_m2;
+  findings->Warn(loading < 20 || loading > 8000,
+                 Say("a wing loading of %.0f N/m2 is that of no aircraft: airframe.mass_kg, "
+                     "wing_area_m2",
+                     loading));
+}
+
+void CheckLongitudinal(const LongitudinalDerivatives& k, Findings* findings) {
+  findings->Error(k.CL_alpha <= 0,
+                  Say("longitudinal.CL_alpha = %g: lift must grow with alpha", k.CL_alpha));
+  findings->Warn(
+      k.CL_alpha > 0 && (k.CL_alpha < 1.5 || k.CL_alpha > 7),
+      Say("longitudinal.CL_alpha = %g per radian; wings have 1.5 to 7 (per degree?)", k.CL_alpha));
+  findings->Error(k.CD_parasitic <= 0,
+                  Say("longitudinal.CD_parasitic = %g: an aircraft without drag", k.CD_parasitic));
+  findings->Warn(k.CD_parasitic > 0.2,
+                 Say("longitudinal.CD_parasitic = %g; aircraft have 0.01 to 0.1", k.CD_parasitic));
+  findings->Warn(
+      k.oswald_efficiency < 0.5 || k.oswald_efficiency > 1.1,
+      Say("longitudinal.oswald_efficiency = %g; wings have 0.6 to 1", k.oswald_efficiency));
+  const double margin = k.CL_alpha > 0 ? -k.Cm_alpha / k.CL_alpha : 0;
+  findings->Warn(k.Cm_alpha >= 0,
+                 Say("longitudinal.Cm_alpha = %g: the static margin is negative, %.1f %% of the "
+                     "chord; only flight control keeps it from diverging",
+                     k.Cm_alpha, 100 * margin));
+  findings->Warn(margin > 0.6, Say("the static margin is %.0f %% of the chord", 100 * margin));
+  findings->Error(k.Cm_q >= 0, Say("longitudinal.Cm_q = %g does not damp pitch", k.Cm_q));
+  findings->Error(
+      k.Cm_elevator >= 0,
+      Say("longitudinal.Cm_elevator = %g: elevator down must bring the nose down", k.Cm_elevator));
+}
+
+void CheckLateral(const LateralDerivatives& k, Findings* findings) {
+  findings->Error(k.Cl_p >= 0, Say("lateral.Cl_p = %g does not damp roll", k.Cl_p));
+  findings->Error(k.Cn_r >= 0, Say("lateral.Cn_r = %g does not damp yaw", k.Cn_r));
+  findings->Error(
+      k.Cl_aileron <= 0,
+      Say("lateral.Cl_aileron = %g: positive ailerons roll right, as in books", k.Cl_aileron));
+  findings->Error(k.Cn_rudder >= 0,
+                  Say("lateral.Cn_rudder = %g: positive rudder yaws left", k.Cn_rudder));
+  findings->Warn(k.Cn_beta <= 0, Say("lateral.Cn_beta = %g: no weathercock stability", k.Cn_beta));
+  findings->Warn(k.Cl_beta > 0,
+                 Say("lateral.Cl_beta = %g: sideslip rolls into the wind", k.Cl_beta));
+  findings->Warn(k.CY_beta >= 0,
+                 Say("lateral.CY_beta = %g: side force must oppose sideslip", k.CY_beta));
+  findings->Warn(k.Cn_aileron > 0.1 * std::abs(k.Cl_aileron),
+                 Say("lateral.Cn_aileron = %g: ailerons yaw into the roll; is the sign that of "
+                     "ailerons positive to the left?",
+                     k.Cn_aileron));
+}
+
+/// No propeller gives more power than it takes.
+void CheckPropeller(const PistonEngine& engine, Findings* findings) {
+  for (std::size_t i = 0; i < engine.advance_ratio.size(); ++i) {
+    const double J = engine.advance_ratio[i];
+    double efficiency = 0;
+    if (!engine.efficiency.empty()) efficiency = engine.efficiency[i];
+    if (!engine.CP.empty() && engine.CP[i] > 0) efficiency = J * engine.CT[i] / engine.CP[i];
+    findings->Error(
+        efficiency > 1,
+        Say("propulsion.propeller: at the advance ratio %g its efficiency is %.2f", J, efficiency));
+    findings->Warn(efficiency > 0.92 && efficiency <= 1,
+                   Say("propulsion.propeller: at the advance ratio %g its efficiency is %.2f; "
+                       "propellers reach 0.9",
+                       J, efficiency));
+  }
+}
+
+std::string Where(const TrimPoint& trim) {
+  return Say("at %.0f ft and %.1f m/s", -trim.state[kDown],
+             trim.state.segment<3>(kU).norm() * kMetresPerFoot);
+}
+
+/// Why there is no level flight at a speed.
+std::string WhyNot(const Plant& plant, const TuningLimits& limits, double altitude_ft,
+                   double speed_ft_s) {
+  const double metric = speed_ft_s * kMetresPerFoot;
+  TrimRequest request;
+  request.altitude_ft = altitude_ft;
+  request.true_airspeed_ft_s = speed_ft_s;
+  try {
+    const TrimPoint trim = Trim(plant, request);
+    const double mach = speed_ft_s / AirAt(plant.atmosphere(), altitude_ft).sound_speed_ft_s;
+    const double most = Thrust(plant.aircraft().engine, kMaximumPower, altitude_ft, mach);
+    if (speed_ft_s > limits.envelope.max_speed_ft_s) {
+      return Say("%.1f m/s is above limits.max_speed_m_s", metric);
+    }
+    if (mach > plant.aircraft().engine.mach.back()) {
+      return Say("%.1f m/s is beyond the tables of thrust, which end at Mach %g", metric,
+                 plant.aircraft().engine.mach.back());
+    }
+    if (trim.controls.thrust_lbf > most) {
+      return Say("%.1f m/s needs a thrust of %.4g N and there are %.4g N", metric,
+                 trim.controls.thrust_lbf * kNewtonsPerLbf, most * kNewtonsPerLbf);
+    }
+    return Say("%.1f m/s needs alpha %.1f deg and the elevator at %.1f deg, too near their ends",
+               metric, trim.alpha_rad * kDegPerRad, trim.controls.elevator_deg);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+void CheckMode(const char* name, std::complex<double> mode, double slow_s, const TrimPoint& trim,
+               Findings* findings) {
+  const double time = TimeToDouble(mode);
+  findings->Warn(time < slow_s, Say("%s the %s doubles in %.1f s without flight control",
+                                    Where(trim).c_str(), name, time));
+}
+
+}  // namespace
+
+std::vector<Finding> CheckDerivatives(const DerivativeAircraft& aircraft) {
+  Findings findings;
+  CheckGeometry(aircraft, &findings);
+  CheckInertia(aircraft, &findings);
+  CheckLongitudinal(aircraft.longitudinal, &findings);
+  CheckLateral(aircraft.lateral, &findings);
+  if (const auto* piston = std::get_if<PistonPropulsion>(&aircraft.propulsion)) {
+    CheckPropeller(piston->engine, &findings);
+  }
+  return findings.Take();
+}
+
+std::vector<Finding> CheckEnvelope(const Plant& plant, const TuningLimits& limits,
+                                   const FlightEnvelope& envelope) {
+  constexpr double kUsualSlowest = 1.7;
+  Findings findings;
+  for (const EnvelopeRow& row : envelope.rows) {
+    const bool is_ground = row.altitude_ft == 0;
+    if (row.trims.empty()) {
+      std::string reasons;
+      for (const double factor : {1.3, 1.8, 2.5}) {
+        reasons += (reasons.empty() ? "" : "; ") +
+                   WhyNot(plant, limits, row.altitude_ft, factor * row.stall_speed_ft_s);
+      }
+      const std::string text =
+          Say("there is no level flight at %.0f ft: ", row.altitude_ft) + reasons;
+      findings.Error(is_ground, text);
+      findings.Warn(!is_ground, text);
+      continue;
+    }
+    const double slowest = row.trims.front().state.segment<3>(kU).norm();
+    findings.Warn(is_ground && slowest > kUsualSlowest * row.stall_speed_ft_s,
+                  Say("level flight begins at %.1f m/s, %.1f times the stall speed: ",
+                      slowest * kMetresPerFoot, slowest / row.stall_speed_ft_s) +
+                      WhyNot(plant, limits, 0, 0.97 * slowest));
+  }
+  return findings.Take();
+}
+
+std::vector<Finding> CheckModes(const Plant& plant, const FlightEnvelope& envelope) {
+  // A pilot, or a policy, has no trouble with what doubles more slowly (MIL-F-8785C: a spiral in
+  // 12 s or more is level 2, a phugoid in 55 s level 3).
+  constexpr double kFast_s = 5, kSpiral_s = 4, kPhugoid_s = 20;
+  Findings findings;
+  for (const TrimPoint& trim : envelope.AllTrims()) {
+    const NaturalModes modes = FindNaturalModes(plant, trim);
+    CheckMode("short period", modes.short_period, kFast_s, trim, &findings);
+    CheckMode("phugoid", modes.phugoid, kPhugoid_s, trim, &findings);
+    CheckMode("roll mode", modes.roll, kFast_s, trim, &findings);
+    CheckMode("Dutch roll", modes.dutch_roll, kFast_s, trim, &findings);
+    CheckMode("spiral", modes.spiral, kSpiral_s, trim, &findings);
+  }
+  return findings.Take();
+}
+
+std::vector<Finding> CheckHandling(const TuningLimits& limits, double stall_alpha_deg,
+                                   const TrimPoint& trim, const Handling& handling) {
+  constexpr double kPoorDamping = 0.25, kFast_s = 4;
+  Findings findings;
+  const std::string where = Where(trim) + " ";
+  const double damping = std::min(handling.pitch_damping, handling.lateral_damping);
+  findings.Error(damping < 0, where + "flight control makes the aircraft unstable: damping " +
+                                  Say("%.2f", damping));
+  findings.Warn(damping >= 0 && damping < kPoorDamping,
+                where + Say("the closed loop is poorly damped: %.2f", damping));
+  findings.Warn(damping >= 0 && handling.delayed_damping < 0,
+                where + "one control step of delay makes the closed loop unstable");
+  findings.Error(
+      handling.time_to_double_s < kFast_s,
+      where + Say("the closed loop diverges, doubling in %.1f s", handling.time_to_double_s));
+  findings.Error(handling.departs, where + "full sticks make it depart");
+  findings.Warn(!handling.settles, where + "a push does not settle hands off within 7 s");
+  findings.Warn(handling.max_alpha_deg > stall_alpha_deg,
+                where + Say("full sticks stall it: alpha %.1f deg, the stall is at %.1f",
+                            handling.max_alpha_deg, stall_alpha_deg));
+  findings.Warn(handling.max_load_factor_g > limits.max_load_factor_g ||
+                    handling.min_load_factor_g < limits.min_load_factor_g,
+                where + Say("full sticks go to %.1f and %.1f g, the limits are %.1f and %.1f",
+                            handling.max_load_factor_g, handling.min_load_factor_g,
+                            limits.max_load_factor_g, limits.min_load_factor_g));
+  return findings.Take();
+}
+
+}  // namespace skein

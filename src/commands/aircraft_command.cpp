@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "envs/aircraft/aircraft_document.h"
+#include "envs/aircraft/derivative_aircraft_file.h"
+#include "envs/aircraft/flight_control_file.h"
+#include "src/aircraft/aircraft_report.h"
+#include "src/aircraft/aircraft_text.h"
+#include "src/commands/commands.h"
+#include "src/files/output_file.h"
+#include "src/files/text_table.h"
+
+namespace skein {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Prints what was found, errors first; returns how many errors there are.
+int PrintFindings(const std::vector<Finding>& findings) {
+  int errors = 0;
+  for (const Finding& finding : findings) {
+    if (finding.kind != Finding::kError) continue;
+    fmt::print("error: {}\n", finding.text);
+    ++errors;
+  }
+  for (const Finding& finding : findings) {
+    if (finding.kind == Finding::kWarning) fmt::print("warning: {}\n", finding.text);
+  }
+  return errors;
+}
+
+void Check(const std::string& aircraft) {
+  const CheckedAircraft checked = LoadForCheck(aircraft);
+  const AircraftReport report = CheckAircraft(checked);
+  fmt::print("{}\n", report.figures);
+  const int errors = PrintFindings(report.findings);
+  if (errors > 0) throw Error(fmt::format("{} has {}", aircraft, Counted(errors, "error")));
+  fmt::print("{}: {}, no errors\n", checked.name,
+             Counted(static_cast<int>(report.findings.size()), "warning"));
+}
+
+/// The file with another section flight_control.
+void WriteTuned(const std::string& path, const std::string& text, const FlightControlGains& gains) {
+  Json file = Json::parse(text);
+  Json section = {{"about", "By `skein aircraft tune`, from the linear model over level flight."}};
+  section.update(FlightControlJson(gains));
+  file["flight_control"] = section;
+  WriteFile(path, AircraftText(file));
+}
+
+void Tune(const std::string& in, const std::string& out) {
+  CheckWritable(out);
+  const AircraftDocument document = ReadAircraftDocumentFile(in);
+  if (document.model != "derivatives") {
+    throw Error(in + ": gains are derived of models of derivatives, and this one is of " +
+                document.model);
+  }
+  const CheckedAircraft checked = LoadForCheck(in);
+  if (PrintFindings(checked.findings) > 0) {
+    throw Error(in + ": flight control cannot be derived before these are put right");
+  }
+  Aircraft aircraft = checked.plant.aircraft();
+  aircraft.flight_control = TuneFlightControl(checked.plant, checked.limits);
+  const Plant tuned(aircraft, checked.plant.atmosphere());
+  std::vector<Finding> findings;
+  fmt::print("{}\n", DescribeHandling(tuned, checked.limits, ReportEnvelope(tuned, checked.limits),
+                                      &findings));
+  if (const int errors = PrintFindings(findings); errors > 0) {
+    throw Error(fmt::format("{}: the gains found leave {}; nothing is written", in,
+                            Counted(errors, "error")));
+  }
+  if (out.empty()) {
+    fmt::print("nothing is written; -o FILE writes {} with these gains\n", in);
+    return;
+  }
+  WriteTuned(out, document.text, aircraft.flight_control);
+  fmt::print("wrote {}\n", out);
+}
+
+}  // namespace
+
+void AddAircraftCommand(CLI::App* app) {
+  CLI::App* aircraft = app->add_subcommand("aircraft", "Check an aircraft, derive its gains");
+  aircraft->require_subcommand(1);
+
+  auto checked = std::make_shared<std::string>();
+  CLI::App* check = aircraft->add_subcommand(
+      "check", "Say what is missing or implausible in an aircraft, with figures");
+  check->add_option("aircraft", *checked, "its file, or the name of one that comes with Skein")
+      ->type_name("FILE")
+      ->required();
+  check->footer(
+      "Exit code 1 if there is an error, 0 if there are warnings alone.\n"
+      "Example: skein aircraft check my_aircraft.json");
+  check->callback([checked] { Check(*checked); });
+
+  auto in = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+  CLI::App* tune = aircraft->add_subcommand(
+      "tune", "Derive all gains of flight control from a derivative model's linear model");
+  tune->add_option("file", *in, "its file, with or without a section flight_control")
+      ->type_name("FILE")
+      ->required();
+  tune->add_option("-o,--out", *out, "write the file with the gains here; may be the same file")
+      ->type_name("FILE");
+  tune->footer("Example: skein aircraft tune my_aircraft.json -o my_aircraft.json");
+  tune->callback([in, out] { Tune(*in, *out); });
+}
+
+}  // namespace skein

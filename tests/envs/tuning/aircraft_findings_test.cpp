@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "envs/tuning/aircraft_findings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "envs/aircraft/derivative_aircraft_file.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr AtmosphereModel kAtmosphere = AtmosphereModel::kStandard1976;
+
+DerivativeAircraft AerosondeModel() {
+  return ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
+}
+
+std::string TextOf(const std::vector<Finding>& findings, Finding::Kind kind) {
+  std::string text;
+  for (const Finding& finding : findings) {
+    if (finding.kind == kind) text += finding.text + "\n";
+  }
+  return text;
+}
+
+TEST(AircraftFindings, ThePublishedAircraftHasNone) {
+  EXPECT_TRUE(CheckDerivatives(AerosondeModel()).empty());
+}
+
+TEST(AircraftFindings, EveryWrongSignOrRatioIsNamed) {
+  const struct {
+    std::function<void(DerivativeAircraft*)> spoil;
+    Finding::Kind kind;
+    const char* says;
+  } cases[] = {
+      {[](auto* a) { a->longitudinal.CL_alpha = -1; }, Finding::kError, "CL_alpha = -1"},
+      {[](auto* a) { a->longitudinal.CL_alpha = 0.1; }, Finding::kWarning, "per degree?"},
+      {[](auto* a) { a->longitudinal.CD_parasitic = 0; }, Finding::kError, "without drag"},
+      {[](auto* a) { a->longitudinal.Cm_alpha = 0.3; }, Finding::kWarning, "static margin"},
+      {[](auto* a) { a->longitudinal.Cm_q = 3; }, Finding::kError, "does not damp pitch"},
+      {[](auto* a) { a->longitudinal.Cm_elevator = 1; }, Finding::kError, "Cm_elevator"},
+      {[](auto* a) { a->lateral.Cl_p = 0.5; }, Finding::kError, "does not damp roll"},
+      {[](auto* a) { a->lateral.Cn_r = 0.1; }, Finding::kError, "does not damp yaw"},
+      {[](auto* a) { a->lateral.Cl_aileron = -0.1; }, Finding::kError, "roll right"},
+      {[](auto* a) { a->lateral.Cn_rudder = 0.1; }, Finding::kError, "yaws left"},
+      {[](auto* a) { a->lateral.Cn_beta = -0.1; }, Finding::kWarning, "weathercock"},
+      {[](auto* a) { a->lateral.Cl_beta = 0.1; }, Finding::kWarning, "into the wind"},
+      {[](auto* a) { a->lateral.CY_beta = 0.1; }, Finding::kWarning, "side force"},
+      {[](auto* a) { a->lateral.Cn_aileron = 0.1; }, Finding::kWarning, "into the roll"},
+      {[](auto* a) { a->Ixx_kg_m2 *= 20; }, Finding::kWarning, "radius of gyration"},
+      {[](auto* a) { a->Izz_kg_m2 *= 2; }, Finding::kError, "no body"},
+      {[](auto* a) { a->chord_m *= 3; }, Finding::kWarning, "chord_m"},
+      {[](auto* a) { a->mass_kg = 0.1; }, Finding::kWarning, "wing loading"},
+  };
+  for (const auto& one : cases) {
+    DerivativeAircraft aircraft = AerosondeModel();
+    one.spoil(&aircraft);
+    EXPECT_THAT(TextOf(CheckDerivatives(aircraft), one.kind), HasSubstr(one.says));
+  }
+}
+
+TEST(AircraftFindings, NoPropellerGivesMoreThanItTakes) {
+  DerivativeAircraft aircraft = AerosondeModel();
+  PistonPropulsion piston;
+  piston.engine.advance_ratio = {0, 0.7};
+  piston.engine.CT = {0.1, 0.09};
+  piston.engine.CP = {0.06, 0.05};
+  aircraft.propulsion = piston;
+  EXPECT_THAT(TextOf(CheckDerivatives(aircraft), Finding::kError),
+              HasSubstr("at the advance ratio 0.7 its efficiency is 1.26"));
+}
+
+TEST(AircraftFindings, SaysWhyThereIsNoLevelFlight) {
+  DerivativeAircraft heavy = AerosondeModel();
+  heavy.longitudinal.CD_parasitic = 0.5;
+  const Plant plant(MakeAircraft(heavy), kAtmosphere);
+  TuningLimits limits;
+  limits.envelope.max_speed_ft_s = 1000;
+  const FlightEnvelope envelope = FindEnvelope(plant, limits.envelope, 1, 3);
+  EXPECT_TRUE(envelope.AllTrims().empty());
+  EXPECT_THAT(TextOf(CheckEnvelope(plant, limits, envelope), Finding::kError),
+              HasSubstr("needs a thrust of"));
+}
+
+TEST(AircraftFindings, NamesTheModeThatDiverges) {
+  DerivativeAircraft unstable = AerosondeModel();
+  unstable.longitudinal.Cm_alpha = 0.3;
+  const Plant plant(MakeAircraft(unstable), kAtmosphere);
+  TuningLimits limits;
+  limits.envelope.max_speed_ft_s = 1000;
+  const FlightEnvelope envelope = FindEnvelope(plant, limits.envelope, 1, 3);
+  EXPECT_THAT(TextOf(CheckModes(plant, envelope), Finding::kWarning), HasSubstr("doubles in"));
+}
+
+TEST(AircraftFindings, GainsThatBreakTheLoopAreAnError) {
+  DerivativeAircraft wild = AerosondeModel();
+  wild.flight_control.pitch_proportional_deg_per_g *= 6;
+  const Plant plant(MakeAircraft(wild), kAtmosphere);
+  TuningLimits limits;
+  limits.envelope.max_speed_ft_s = 1000;
+  const FlightEnvelope envelope = FindEnvelope(plant, limits.envelope, 1, 3);
+  const TrimPoint trim = envelope.AllTrims().back();
+  EXPECT_THAT(TextOf(CheckHandling(limits, envelope.greatest_lift.alpha_deg, trim,
+                                   AssessHandling(plant, trim)),
+                     Finding::kError),
+              HasSubstr("unstable"));
+}
+
+}  // namespace
+}  // namespace skein
