@@ -179,6 +179,7 @@ void TurnOnWhatIsOff(TrainConfig* config) {
     if (!field.is_off) continue;
     if (std::holds_alternative<bool*>(field.place)) field.SetText("true");
     if (field.IsNumber()) field.SetText("1");
+    if (std::holds_alternative<std::string*>(field.place)) field.SetText("some");
   }
 }
 
