@@ -21,11 +21,20 @@ export function readingsOf(record: FlightRecord, time: number): string {
   }).join('   ');
 }
 
+/** None where the browser has no WebGL: readings and charts then show the flights alone. */
+function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer | null {
+  try {
+    return new WebGLRenderer({ canvas, antialias: true });
+  } catch {
+    return null;
+  }
+}
+
 export class Pane {
   readonly element: HTMLElement;
   readonly scene: FlightScene;
   readonly canvas = el('canvas', { tabindex: 0, 'aria-label': 'flights in space' });
-  private readonly renderer: WebGLRenderer;
+  private readonly renderer: WebGLRenderer | null;
   private readonly readings = el('output', { class: 'readings' });
   private readonly agent = el('strong');
   private readonly observer: ResizeObserver;
@@ -34,14 +43,16 @@ export class Pane {
     records: FlightRecord[], private readonly set: FlightSet, followed: number,
     private readonly changed: () => void,
   ) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer = rendererOn(this.canvas);
+    this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new FlightScene(records, set, this.canvas, followed);
     const { spacingFt, altitudeFt } = this.scene.ground;
     this.element = el('div', { class: 'pane' }, this.canvas,
       el('div', { class: 'hud' }, this.agent, this.readings),
       el('div', { class: 'scale' },
-        `a square: ${spacingFt.toLocaleString('en')} ft, at ${altitudeFt.toLocaleString('en')} ft`));
+        this.renderer
+          ? `a square: ${spacingFt.toLocaleString('en')} ft, at ${altitudeFt.toLocaleString('en')} ft`
+          : 'This browser has no WebGL, so flights are not drawn in space; the charts show them.'));
     this.observer = new ResizeObserver(() => this.fit());
     this.observer.observe(this.element);
   }
@@ -49,14 +60,14 @@ export class Pane {
   fit(): void {
     const { clientWidth, clientHeight } = this.element;
     if (clientWidth === 0 || clientHeight === 0) return;
-    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.renderer?.setSize(clientWidth, clientHeight, false);
     this.scene.cameras.reshape(clientWidth / clientHeight);
     this.changed();
   }
 
   show(time: number, trail: number, seconds: number): void {
     this.scene.update(time, trail, seconds);
-    this.scene.render(this.renderer);
+    if (this.renderer) this.scene.render(this.renderer);
     const record = this.scene.records[this.scene.followed];
     this.agent.textContent = this.set.agents[record.agent];
     this.agent.style.color = colourOf(record.agent);
@@ -67,7 +78,7 @@ export class Pane {
   dispose(): void {
     this.observer.disconnect();
     this.scene.dispose();
-    this.renderer.dispose();
-    this.renderer.forceContextLoss();
+    this.renderer?.dispose();
+    this.renderer?.forceContextLoss();
   }
 }

@@ -151,4 +151,20 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     expect(await damaged.textContent('.error')).toContain('cannot be shown');
     await damaged.close();
   });
+
+  it('shows all but the space where the browser has no WebGL', async () => {
+    const page = await browser.newPage();
+    await page.addInitScript(() => {
+      const { getContext } = HTMLCanvasElement.prototype;
+      HTMLCanvasElement.prototype.getContext = function get(this: HTMLCanvasElement, kind: string) {
+        return kind.startsWith('webgl') ? null : getContext.call(this, kind as '2d');
+      } as typeof getContext;
+    });
+    await page.goto(plain);
+    await page.waitForSelector('.strips .u-over');
+    expect(await page.textContent('.scale')).toContain('no WebGL');
+    await page.click('nav a[href="#training"]');
+    await page.waitForSelector('main.training > *');
+    await page.close();
+  });
 });
