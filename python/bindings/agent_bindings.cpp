@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "envs/actions.h"
 #include "envs/task_registry.h"
-#include "envs/tasks/observation.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
 #include "src/agents/agent_names.h"
@@ -46,14 +45,16 @@ FlyingAgent NamedAgent(const std::string& name, const ProgramConfig& config, std
   return {name, std::move(agent), observations, kActionSize, action_repeat, {}};
 }
 
-FlyingAgent CallableAgent(nb::object callable, const std::string& name, int action_size,
-                          int action_repeat, int state_size) {
+FlyingAgent CallableAgent(nb::object callable, const std::string& name, const ProgramConfig& config,
+                          int action_size, int action_repeat, int state_size) {
   if (action_size < 1 || action_repeat < 1 || state_size < 0) {
     throw Error("agent " + name +
                 ": action_size and action_repeat must be positive, state_size not negative");
   }
-  auto policy = MakePythonPolicy(std::move(callable), {action_size, action_repeat, state_size});
-  return {name, Agent::Of(std::move(policy)), kObservationSize, action_size, action_repeat, {}};
+  const int observations = MakeTask(config.train.env)->observation_layout().size();
+  auto policy =
+      MakePythonPolicy(std::move(callable), {observations, action_size, action_repeat, state_size});
+  return {name, Agent::Of(std::move(policy)), observations, action_size, action_repeat, {}};
 }
 
 /// One policy step: actions, and the memory after it.
@@ -110,7 +111,8 @@ void BindAgents(nb::module_& module) {
   module.def("load_agent", &LoadAgent, nb::arg("path"), nb::arg("sampled"));
   module.def("named_agent", &NamedAgent, nb::arg("name"), nb::arg("config"), nb::arg("seed"));
   module.def("callable_agent", &CallableAgent, nb::arg("callable"), nb::arg("name"),
-             nb::arg("action_size"), nb::arg("action_repeat"), nb::arg("state_size"));
+             nb::arg("config"), nb::arg("action_size"), nb::arg("action_repeat"),
+             nb::arg("state_size"));
 }
 
 }  // namespace skein

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "envs/tasks/observation.h"
 #include "python/bindings/bindings.h"
 
 namespace nb = nanobind;
@@ -51,14 +50,14 @@ class PythonPolicy final : public Policy {
     callable_.reset();
   }
 
-  int observation_size() const override { return kObservationSize; }
+  int observation_size() const override { return options_.observation_size; }
   int action_size() const override { return options_.action_size; }
   int state_size() const override { return options_.state_size; }
   int action_repeat() const override { return options_.action_repeat; }
 
   void Act(int count, const float* observation, float* state, float* action) const override {
     const nb::gil_scoped_acquire acquired;
-    const nb::object seen = CopyToNumpy(observation, count, kObservationSize);
+    const nb::object seen = CopyToNumpy(observation, count, options_.observation_size);
     if (options_.state_size == 0) {
       CopyFromPython(callable_(seen), "actions", count, options_.action_size, action);
       return;

@@ -25,6 +25,7 @@ struct FlyingAgent {
 /// and if it asks for memory (`state_size` > 0) float32 rows of it, zeros at an episode's
 /// beginning; and returns actions [count][action_size], with memory a pair of actions and memory.
 struct PythonAgentOptions {
+  int observation_size = 0;
   int action_size = 0;
   int action_repeat = 1;
   int state_size = 0;

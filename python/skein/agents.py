@@ -115,11 +115,11 @@ class Agent:
 
 
 AgentLike = Union[Agent, str, Callable[..., Any]]
-"""An agent, its name (skein.Agent), or a function of Python: it is given float32 observations (count, 22), and returns
-actions (count, 4). Attributes of the function may say more: `action_repeat`, the control steps for which its actions
-are held (else the configuration's); `action_size`; and `state_size`: then it is also given its memory of the aircraft,
-float32 (count, state_size), zeros where an episode begins, and returns a pair, actions and memory. It must not depend
-on which aircraft come together in a call."""
+"""An agent, its name (skein.Agent), or a function of Python: it is given float32 observations (count, 22), or as many
+as a task file shows, and returns actions (count, 4). Attributes of the function may say more: `action_repeat`, the
+control steps for which its actions are held (else the configuration's); `action_size`; and `state_size`: then it is
+also given its memory of the aircraft, float32 (count, state_size), zeros where an episode begins, and returns a pair,
+actions and memory. It must not depend on which aircraft come together in a call."""
 
 
 def load_policy(path: str | os.PathLike[str], *, sampled: bool = False) -> Agent:
@@ -149,4 +149,4 @@ def agent_of(agent: AgentLike, config: Config, seed: int) -> Agent:
     repeat = whole_number("action_repeat", getattr(agent, "action_repeat", config["env.action_repeat"]), 1, MOST_SIZE)
     action_size = whole_number("action_size", getattr(agent, "action_size", len(_skein.ACTION_NAMES)), 1, MOST_SIZE)
     state_size = whole_number("state_size", getattr(agent, "state_size", 0), 0, MOST_SIZE)
-    return Agent._of(_skein.callable_agent(agent, name, action_size, repeat, state_size))
+    return Agent._of(_skein.callable_agent(agent, name, config, action_size, repeat, state_size))

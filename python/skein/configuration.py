@@ -19,15 +19,18 @@ def configure(
     *,
     preset: str = "default",
     file: str | os.PathLike[str] = "",
+    aircraft: str | os.PathLike[str] = "",
     conditions: Sequence[str] | Mapping[str, str] = (),
     **settings: Any,
 ) -> Config:
     """A configuration: defaults, then preset, file, conditions and settings, each on top of those before it.
 
     Args:
-        task: "heading", "control" or "tracking", or the path of a task file, "my_task.toml"; or a Config, which then stands for preset and file.
+        task: "heading", "control" or "tracking", or the path of a task file, "my_task.toml"; or a Config, which then
+            stands for preset and file.
         preset: the task's named configuration (skein.presets).
         file: a TOML file.
+        aircraft: what is flown: one of skein.AIRCRAFT or the path of an aircraft file, as env.aircraft.
         conditions: as of `skein train --condition`: ["windy=0..60fps", "noisy=0.03"], or the same as a dict.
         settings: configuration keys (docs/reference/configuration.md), as the program has them
             (**{"env.heading.dwell_s": 1}), nested (env={"heading": {"dwell_s": 1}}), or both.
@@ -41,6 +44,8 @@ def configure(
         raise ConfigurationError(f"conditions must be a list of texts or a dict, not {type(conditions).__name__}")
     conditions = [text("conditions", condition) for condition in conditions]
     assignments = [f"{key}={_toml(key, value)}" for key, value in _flattened("", settings)]
+    if text("aircraft", aircraft):
+        assignments.insert(0, f"env.aircraft={json.dumps(os.fspath(aircraft))}")
     if isinstance(task, Config):
         if preset != "default" or file:
             raise ConfigurationError("preset and file are for the name of a task: a Config has both behind it")

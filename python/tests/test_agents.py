@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import skein
 
@@ -85,6 +86,18 @@ def test_flights_are_tables(heading_policy):
     flown = skein.evaluate(heading_policy, episodes=2)
     assert (flights.groupby("episode").size() - 1).tolist() == flown.columns["control_steps"].tolist()
     assert flown.to_pandas()["termination"].tolist() == flights.groupby("episode")["termination"].last().tolist()
+
+
+def test_a_function_sees_what_a_task_file_shows():
+    file = ROOT / "examples" / "tasks" / "level_turn.toml"
+    shapes = set()
+
+    def turn(observation):
+        shapes.add(observation.shape[1])
+        return np.zeros((len(observation), 4), np.float32)
+
+    skein.evaluate(turn, str(file), episodes=4)
+    assert shapes == {skein.make_vec(str(file), 1).single_observation_space.shape[0]} == {27}
 
 
 def test_what_a_function_raises_comes_through():

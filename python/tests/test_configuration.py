@@ -25,6 +25,13 @@ def test_every_setting_can_be_read_and_given_again():
     assert again.to_toml() == config.to_toml()
 
 
+def test_an_aircraft_is_named_beside_the_settings():
+    named = skein.make_vec("heading", 2, preset="aerosonde", aircraft="aerosonde")
+    assert named.config["env.aircraft"] == "aerosonde"
+    with pytest.raises(skein.ConfigurationError, match="no/aircraft.json"):
+        skein.make_vec("heading", 2, aircraft="no/aircraft.json")
+
+
 def test_settings_lie_on_top_of_conditions_and_presets():
     paper = skein.configure("heading", preset="paper", conditions={"noisy": "0.03"})
     assert paper["env.observation_noise"] == 0.03
