@@ -15,13 +15,15 @@
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
+#include "src/report/report_data.h"
+#include "src/report/report_page.h"
 
 namespace skein {
 namespace {
 
 struct CompareOptions {
   std::vector<std::string> agents;
-  std::string csv;
+  std::string csv, html;
   FlightOptions flight;
 };
 
@@ -36,7 +38,8 @@ ProgramConfig Configure(const FlightOptions& flight) {
 }
 
 std::vector<std::string> Outputs(const CompareOptions& options) {
-  std::vector<std::string> paths = {options.csv, options.flight.json, options.flight.acmi};
+  std::vector<std::string> paths = {options.csv, options.html, options.flight.json,
+                                    options.flight.acmi};
   if (options.flight.flights.empty()) return paths;
   for (const std::string& agent : options.agents) {
     paths.push_back(PathOfAgent(options.flight.flights, agent));
@@ -58,10 +61,23 @@ void WriteRecords(const FlightOptions& flight, const std::vector<NamedAgent>& ag
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, for_acmi);
 }
 
+void WritePage(const CompareOptions& options, const Comparison& comparison,
+               const ProgramConfig& config, const std::vector<NamedAgent>& agents,
+               WorkerPool& pool) {
+  std::vector<AgentFlights> flown;
+  for (const NamedAgent& named : agents) {
+    flown.push_back(RecordFirst(options.flight, named.name, named.agent,
+                                named.agent.EnvironmentFor(config.train.env), pool));
+  }
+  WriteReport(options.html, ComparisonData(comparison, config, flown));
+  fmt::print("{}: metrics, and flights by all agents, for a browser\n", options.html);
+}
+
 void CompareAgents(const CompareOptions& options) {
   const FlightOptions& flight = options.flight;
   const ProgramConfig config = Configure(flight);
   CheckWritable(Outputs(options));
+  if (!options.html.empty()) ReportTemplate();  // without one there is nothing to fly for
   const std::vector<NamedAgent> agents = FindAgents(options.agents, config, flight.seed);
   WorkerPool pool(flight.threads);
   const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);
@@ -71,6 +87,7 @@ void CompareAgents(const CompareOptions& options) {
   }
   if (!flight.json.empty()) WriteJson(flight.json, ToJson(comparison, config));
   if (RecordsFlights(flight)) WriteRecords(flight, agents, config.train.env, pool);
+  if (!options.html.empty()) WritePage(options, comparison, config, agents, pool);
 }
 
 }  // namespace
@@ -95,6 +112,10 @@ void AddCompareCommand(CLI::App* app) {
   AddFlightOptions(command, texts, &options->flight);
   command->get_option("--task")->required();
   command->add_option("--csv", options->csv, "write a row for every agent here")->type_name("FILE");
+  command
+      ->add_option("--html", options->html,
+                   "write a page with the metrics, and the first episodes in 3-D, here")
+      ->type_name("FILE");
   command->footer(
       "Initial states, targets and noise are the same for all: they depend on the seed and the "
       "episode alone.\n"

@@ -17,6 +17,8 @@
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
 #include "src/replay/telemetry_server.h"
+#include "src/report/report_data.h"
+#include "src/report/report_page.h"
 #include "src/run/run_signals.h"
 #include "train/policy/recurrent_policy.h"
 
@@ -57,7 +59,14 @@ void WriteAcmi(const ReplayOptions& options, const std::vector<AgentFlights>& ag
   WriteFlightsAcmi(options.flight, options.out, agents);
 }
 
-constexpr ReplayFormat kFormats[] = {{"acmi", ".acmi", WriteAcmi}, {"csv", ".csv", WriteCsv}};
+void WriteHtml(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {
+  WriteReport(options.out, FlightsData(agents, options.flight.seed));
+  fmt::print("{}: {} flights by {} agents, for a browser\n", options.out,
+             agents.front().flights.size(), agents.size());
+}
+
+constexpr ReplayFormat kFormats[] = {
+    {"acmi", ".acmi", WriteAcmi}, {"csv", ".csv", WriteCsv}, {"html", ".html", WriteHtml}};
 
 std::vector<std::string> FormatNames() {
   std::vector<std::string> names;
@@ -161,10 +170,11 @@ void AddOutputOptions(CLI::App* command, ReplayOptions* options) {
   CLI::Option* out =
       command->add_option("-o,--out", options->out, "write the flights here")->type_name("FILE");
   command
-      ->add_option("--format", options->format,
-                   "acmi, for Tacview: all agents in one file; csv, a row for every control step: "
-                   "of several agents FILE.csv becomes FILE.AGENT.csv (default: by the name of the "
-                   "file)")
+      ->add_option(
+          "--format", options->format,
+          "acmi, for Tacview: all agents in one file; csv, a row for every control step: "
+          "of several agents FILE.csv becomes FILE.AGENT.csv; html, a page that shows them "
+          "(default: by the name of the file)")
       ->check(CLI::IsMember(FormatNames()))
       ->needs(out);
   CLI::Option* live =

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <memory>
 
-#include "base/error.h"
 #include "src/commands/commands.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
@@ -14,6 +13,7 @@
 #include "src/report/live_report.h"
 #include "src/report/report_page.h"
 #include "src/report/report_server.h"
+#include "src/report/run_record.h"
 #include "src/run/run_signals.h"
 
 namespace skein {
@@ -25,11 +25,6 @@ struct ReportOptions {
   bool opens = false, watches = false;
   int threads = 0;
 };
-
-std::string Template() {
-  if (const auto page = FindReportTemplate()) return *page;
-  throw Error(kNoTemplate);
-}
 
 /// Hands a file or an address to the desktop's browser, and does not wait for it.
 void Open(const std::string& place) {
@@ -43,7 +38,7 @@ void Watch(const ReportOptions& options, WorkerPool& pool) {
   const RunSignals signals(pool);
   LiveReport report(options.request, pool);
   report.Data();  // what is wrong with the runs is said here, and not in a browser
-  ReportServer server(LivePage(Template()), [&] { return report.Data(); });
+  ReportServer server(LivePage(ReportTemplate()), [&] { return report.Data(); });
   fmt::print("{}  until Ctrl-C; for this machine alone\n", server.address());
   std::fflush(stdout);
   if (options.opens) Open(server.address());
@@ -60,9 +55,11 @@ void Report(const ReportOptions& options) {
                              : options.request.runs.size() == 1
                                  ? options.request.runs.front() + "/report.html"
                                  : "report.html";
-  const std::string page = Template();
+  // What is wrong is said before the flights.
+  for (const std::string& run : options.request.runs) ReadRunRecord(run);
+  ReportTemplate();
   CheckWritable(output);
-  WriteFile(output, ReportPage(page, ReportData(options.request, pool)));
+  WriteReport(output, ReportData(options.request, pool));
   fmt::print("{}\n", output);
   if (options.opens) Open(output);
 }

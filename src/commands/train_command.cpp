@@ -20,6 +20,7 @@
 #include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
+#include "src/report/run_report.h"
 #include "src/run/run_directory.h"
 #include "src/run/training_run.h"
 #include "train/policy/low_level_file.h"
@@ -102,7 +103,8 @@ void Resume(const TrainOptions& options) {
     }
   }
   WorkerPool pool(options.threads);
-  TrainingRun::Resume(config, std::move(directory), pool);
+  const std::string path = directory.path();
+  if (TrainingRun::Resume(config, std::move(directory), pool) == 0) ReportFinishedRun(path, pool);
 }
 
 /// What --low-level names, or else what the policy in `from` (unless empty) was trained over.
@@ -138,7 +140,10 @@ void Train(const TrainOptions& options) {
   std::string preset = IsTaskFile(options.task) ? "of " + options.task : options.preset;
   if (!options.config.empty()) preset += " and " + options.config;
   WorkerPool pool(options.threads);
-  TrainingRun::Begin(config, options.out, pool, {preset, low_level.description, from});
+  std::string path;
+  RunOrigin origin{preset, low_level.description, from};
+  origin.directory = &path;
+  if (TrainingRun::Begin(config, options.out, pool, origin) == 0) ReportFinishedRun(path, pool);
 }
 
 constexpr const char* kFooter =

@@ -23,8 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
-/// The strongest in turns and the gentlest: what a policy has to beat, and how it should feel.
-constexpr const char* kAutopilots[] = {"autopilot:aggressive", "autopilot:parallel"};
+/// The strongest, and the one that keeps its wings upright: what a policy has to beat.
+constexpr const char* kAutopilots[] = {"autopilot:aggressive", "autopilot:traditional"};
 
 /// Gives runs of the same name their paths.
 void SetNamesApart(std::vector<RunRecord>* runs) {
@@ -91,6 +91,17 @@ std::optional<Agent> PolicyOf(RunRecord* run) {
   }
 }
 
+/// Of a task that they do not fly, none.
+void AddAutopilots(FlownGroup* group) {
+  for (const char* name : kAutopilots) {
+    try {
+      group->agents.push_back({name, FindAgent(name, group->config, group->seed)});
+    } catch (const Error&) {
+      return;
+    }
+  }
+}
+
 std::vector<FlownGroup> GroupByEnvironment(std::vector<RunRecord>* runs) {
   std::map<std::string, std::size_t> known;
   std::vector<FlownGroup> groups;
@@ -102,11 +113,7 @@ std::vector<FlownGroup> GroupByEnvironment(std::vector<RunRecord>* runs) {
     if (is_new) groups.push_back({run.config, EvaluationSeed(run), {}});
     groups[place->second].agents.push_back({run.name, *policy});
   }
-  for (FlownGroup& group : groups) {
-    for (const char* name : kAutopilots) {
-      group.agents.push_back({name, FindAgent(name, group.config, group.seed)});
-    }
-  }
+  for (FlownGroup& group : groups) AddAutopilots(&group);
   return groups;
 }
 
@@ -124,14 +131,41 @@ Json QuantitiesJson(const std::vector<Quantity>& quantities) {
   return rows;
 }
 
-Json ComparisonJson(const FlownGroup& group, int episodes, WorkerPool& pool) {
-  const Comparison comparison = Compare(group.agents, group.config, episodes, group.seed, pool);
-  Json json = ToJson(comparison, group.config);
+Json ComparisonJson(const Comparison& comparison, const ProgramConfig& config) {
+  Json json = ToJson(comparison, config);
   json["quantities"] = QuantitiesJson(comparison.quantities);
   return json;
 }
 
+std::vector<AgentFlights> Fly(const FlownGroup& group, int count, WorkerPool& pool) {
+  EvaluationOptions options;
+  options.episodes = count;
+  options.seed = group.seed;
+  std::vector<AgentFlights> flown;
+  for (const NamedAgent& named : group.agents) {
+    flown.push_back(FlyAndRecord(named.name, named.agent,
+                                 named.agent.EnvironmentFor(group.config.train.env), options, count,
+                                 pool));
+  }
+  return flown;
+}
+
 std::string Now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+/// The parts of a report's document that are lists.
+struct Parts {
+  Json runs = Json::array(), comparisons = Json::array(), flights = Json::array();
+};
+
+std::string Deflated(const DataPack& pack, const Parts& parts, const std::string& made) {
+  const BuildInfo& build = Build();
+  return pack.Deflated({{"format", kFormat},
+                        {"skein", fmt::format("{} (commit {})", build.version, build.commit)},
+                        {"made", made.empty() ? Now() : made},
+                        {"runs", parts.runs},
+                        {"comparisons", parts.comparisons},
+                        {"flights", parts.flights}});
+}
 
 }  // namespace
 
@@ -140,28 +174,38 @@ std::string ReportData(const ReportRequest& request, WorkerPool& pool) {
   for (const std::string& path : request.runs) runs.push_back(ReadRunRecord(path));
   SetNamesApart(&runs);
   DataPack pack;
-  Json comparisons = Json::array(), flights = Json::array(), shown = Json::array();
+  Parts parts;
   const bool flies = request.episodes > 0 || request.flights > 0;
   for (const FlownGroup& group : flies ? GroupByEnvironment(&runs) : std::vector<FlownGroup>()) {
     if (request.episodes > 0) {
-      comparisons.push_back(ComparisonJson(group, request.episodes, pool));
+      parts.comparisons.push_back(ComparisonJson(
+          Compare(group.agents, group.config, request.episodes, group.seed, pool), group.config));
     }
     if (request.flights > 0) {
-      flights.push_back(FlightsJson(group.agents, group.config.train.env, request.flights,
-                                    group.seed, pool, &pack));
+      parts.flights.push_back(FlightsJson(Fly(group, request.flights, pool), group.seed, &pack));
     }
   }
   const std::vector<std::size_t> repetitions = Repetitions(runs);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    shown.push_back(RunJson(runs[i], repetitions[i], &pack));
+    parts.runs.push_back(RunJson(runs[i], repetitions[i], &pack));
   }
-  const BuildInfo& build = Build();
-  return pack.Deflated({{"format", kFormat},
-                        {"skein", fmt::format("{} (commit {})", build.version, build.commit)},
-                        {"made", request.made.empty() ? Now() : request.made},
-                        {"runs", shown},
-                        {"comparisons", comparisons},
-                        {"flights", flights}});
+  return Deflated(pack, parts, request.made);
+}
+
+std::string FlightsData(const std::vector<AgentFlights>& agents, std::uint64_t seed) {
+  DataPack pack;
+  Parts parts;
+  parts.flights.push_back(FlightsJson(agents, seed, &pack));
+  return Deflated(pack, parts, "");
+}
+
+std::string ComparisonData(const Comparison& comparison, const ProgramConfig& config,
+                           const std::vector<AgentFlights>& agents) {
+  DataPack pack;
+  Parts parts;
+  parts.comparisons.push_back(ComparisonJson(comparison, config));
+  parts.flights.push_back(FlightsJson(agents, comparison.seed, &pack));
+  return Deflated(pack, parts, "");
 }
 
 }  // namespace skein

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "base/worker_pool.h"
+#include "src/config/program_config.h"
+#include "src/evaluation/comparison.h"
+#include "src/evaluation/flight_table.h"
 
 namespace skein {
 
@@ -21,5 +25,12 @@ struct ReportRequest {
 /// has curves alone. If the pool is stopping, the flights say nothing. Throws Error on what is no
 /// run, or of a version that this one does not know.
 std::string ReportData(const ReportRequest& request, WorkerPool& pool);
+
+/// The same of flights alone, of evaluations with `seed`.
+std::string FlightsData(const std::vector<AgentFlights>& agents, std::uint64_t seed);
+
+/// And of a comparison, with flights of its first episodes.
+std::string ComparisonData(const Comparison& comparison, const ProgramConfig& config,
+                           const std::vector<AgentFlights>& agents);
 
 }  // namespace skein

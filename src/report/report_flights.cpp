@@ -17,9 +17,9 @@ using Json = nlohmann::ordered_json;
 /// Of a flight that is longer, a page shows every second, third ... row.
 constexpr std::size_t kMostRows = 4000;
 
-Json TargetsJson(const EnvConfig& env) {
+Json TargetsJson(const std::vector<TargetQuantity>& quantities) {
   Json targets = Json::array();
-  for (const TargetQuantity& target : MakeTask(env)->target_quantities()) {
+  for (const TargetQuantity& target : quantities) {
     targets.push_back({{"column", target.column},
                        {"is_angle", target.is_angle},
                        {"tolerance", target.tolerance}});
@@ -57,30 +57,24 @@ Json FlightJson(const EnvConfig& env, const RecordedFlight& flight, DataPack* pa
 
 }  // namespace
 
-Json FlightsJson(const std::vector<NamedAgent>& agents, const EnvConfig& env, int count,
-                 std::uint64_t seed, WorkerPool& pool, DataPack* pack) {
-  EvaluationOptions options;
-  options.episodes = count;
-  options.seed = seed;
+Json FlightsJson(const std::vector<AgentFlights>& agents, std::uint64_t seed, DataPack* pack) {
   Json names = Json::array(), flights = Json::array();
-  for (std::size_t agent = 0; agent < agents.size(); ++agent) {
-    names.push_back(agents[agent].name);
-    const Agent& flyer = agents[agent].agent;
-    const AgentFlights flown =
-        FlyAndRecord(agents[agent].name, flyer, flyer.EnvironmentFor(env), options, count, pool);
+  for (const AgentFlights& flown : agents) {
     for (std::size_t episode = 0; episode < flown.flights.size(); ++episode) {
-      Json flight = {{"agent", agent}, {"episode", episode}};
+      Json flight = {{"agent", names.size()}, {"episode", episode}};
       flight.update(FlightJson(flown.env, flown.flights[episode], pack));
       flights.push_back(flight);
     }
+    names.push_back(flown.agent);
   }
-  return {{"task", env.task},
-          {"conditions", DescribeConditions(env)},
+  const AgentFlights& first = agents.front();
+  return {{"task", first.env.task},
+          {"conditions", DescribeConditions(first.env)},
           {"seed", seed},
           {"agents", names},
-          {"targets", TargetsJson(env)},
-          {"is_point", MakeTask(env)->is_point()},
-          {"hold_s", env.hold_s},
+          {"targets", TargetsJson(first.targets)},
+          {"is_point", MakeTask(first.env)->is_point()},
+          {"hold_s", first.env.hold_s},
           {"flights", flights}};
 }
 

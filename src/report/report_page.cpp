@@ -35,6 +35,17 @@ std::optional<std::string> FindReportTemplate() {
   return std::nullopt;
 }
 
+std::string ReportTemplate() {
+  if (const auto page = FindReportTemplate()) return *page;
+  throw Error(
+      "this build has no page for reports: it was made without Node (scripts/setup --viewer, then "
+      "build again)");
+}
+
+void WriteReport(const std::string& path, const std::string& deflated) {
+  WriteFile(path, ReportPage(ReportTemplate(), deflated));
+}
+
 std::string ReportPage(const std::string& page_template, const std::string& deflated) {
   return Replaced(page_template, kDataMark, Base64(deflated));
 }

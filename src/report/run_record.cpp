@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -61,14 +62,22 @@ std::string PresetIn(const std::string& log) {
   return "";
 }
 
-/// The preset's configuration; of one that this version does not have the task's default.
+bool HasPreset(const std::string& task, const std::string& name) {
+  const std::vector<Preset>& presets = Presets();
+  return std::any_of(presets.begin(), presets.end(), [&](const Preset& preset) {
+    return preset.task == task && preset.name == name;
+  });
+}
+
+/// The preset's configuration; of one that this version does not have the task's default; of a task
+/// without presets the run's own.
 ProgramConfig PresetOf(const RunRecord& run) {
   const std::string& task = run.config.train.env.task;
-  const std::string name = run.preset.substr(0, run.preset.find(' '));
-  for (const Preset& preset : Presets()) {
-    if (preset.task == task && preset.name == name) return ResolveConfig({task, name, "", {}});
+  const std::string own = run.preset.substr(0, run.preset.find(' '));
+  for (const std::string& name : {own, std::string("default")}) {
+    if (HasPreset(task, name)) return ResolveConfig({task, name, "", {}});
   }
-  return ResolveConfig({task, "default", "", {}});
+  return run.config;
 }
 
 }  // namespace

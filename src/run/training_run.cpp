@@ -89,6 +89,7 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
   const std::string started_from = StartNetworks(origin.from, trainer);
   RunDirectory directory = path.empty() ? RunDirectory::CreateIn(kRunsRoot, config.train.env.task)
                                         : RunDirectory::Create(path);
+  if (origin.directory != nullptr) *origin.directory = directory.path();
   ProgramConfig resolved = config;
   resolved.train = trainer.config();
   if (config.train.low_level != nullptr) {

@@ -28,6 +28,7 @@ struct RunOrigin {
   std::string low_level;  ///< what the low-level policy is, for people; empty without one
   std::string from;       ///< policy file or checkpoint whose networks it starts from; or empty
   GoesOn goes_on = {};
+  std::string* directory = nullptr;  ///< is told where the run is, unless null
 };
 
 /// One training run in its directory: iterations, records, checkpoints, signals, and at the end the

@@ -91,6 +91,14 @@ TEST_F(ReportPipeline, AnUnwritablePathIsSaidFirst) {
   ExpectOneLine(result.error, FindReportTemplate() ? "page.html" : "without Node");
 }
 
+TEST_F(ReportPipeline, ATrainingSaysWhereItsReportIsOrThatThereIsNone) {
+  const ProgramResult result = CallSkein(TinyTraining(scratch_ / "run"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output, HasSubstr("\nreport          "));
+  EXPECT_EQ(std::filesystem::exists(scratch_ / "run/report.html"),
+            FindReportTemplate().has_value());
+}
+
 TEST_F(ReportPipeline, AChangedSettingIsMarkedBesideThePresets) {
   const RunRecord record = ReadRunRecord(*folder_ / "run");
   EXPECT_EQ(record.preset, "default");

@@ -12,6 +12,7 @@ export interface ChartOptions {
   bands?: uPlot.Band[];
   /** Charts of one group show one cursor. */
   group: string;
+  nameX: string;
   formatX: (x: number) => string;
   scales?: uPlot.Scales;
   axes?: uPlot.Axis[];
@@ -43,16 +44,18 @@ export function axis(overrides: uPlot.Axis = {}): uPlot.Axis {
 /** A chart in `place`, as wide as it, until `stop` is called. */
 export class Chart {
   readonly plot: uPlot;
+  /** Beside the title: what the curves are worth somewhere. */
+  readonly readout = el('span', { class: 'readout' });
   private readonly observer: ResizeObserver;
 
   constructor(place: HTMLElement, options: ChartOptions, data: uPlot.AlignedData) {
-    const figure = el('figure', { class: 'chart' }, el('figcaption', {}, options.title));
+    const figure = el('figure', { class: 'chart' }, el('figcaption', {}, options.title, this.readout));
     place.append(figure);
     const width = () => Math.max(figure.clientWidth, 120);
     this.plot = new uPlot({
       width: width(),
       height: options.height,
-      series: [{ value: (_, x) => (x === null ? '–' : options.formatX(x)) }, ...options.series],
+      series: [{ label: options.nameX, value: (_, x) => (x === null ? '–' : options.formatX(x)) }, ...options.series],
       bands: options.bands,
       scales: { x: { time: false }, ...options.scales },
       axes: options.axes ?? [

@@ -29,7 +29,7 @@ const VIEWS: View[] = [
 ];
 
 /** Which view the address asks for, or the first. */
-function chosenView(views: View[]): View {
+function chosenView(views: View[]): View | undefined {
   return views.find((view) => `#${view.name}` === location.hash) ?? views[0];
 }
 
@@ -60,7 +60,9 @@ class Page {
       this.show();
     });
     const { document: report } = pack;
-    const title = report.runs.map((run) => run.name).join(', ') || 'flights';
+    const flown = [...report.comparisons.map((c) => c.agents.map((agent) => agent.name)),
+      ...report.flights.map((set) => set.agents)][0] ?? ['nothing'];
+    const title = (report.runs.length > 0 ? report.runs.map((run) => run.name) : flown).join(', ');
     document.title = `${title} – Skein`;
     root.replaceChildren(
       el('header', {}, el('h1', {}, title), this.nav, theme),
@@ -84,6 +86,10 @@ class Page {
     this.stop();
     const views = VIEWS.filter((view) => view.isThere(this.pack.document));
     const chosen = chosenView(views);
+    if (!chosen) {
+      this.place.replaceChildren(el('p', {}, 'There is nothing in this report.'));
+      return;
+    }
     this.nav.replaceChildren(...views.map((view) =>
       el('a', { href: `#${view.name}`, 'aria-current': view === chosen ? 'page' : undefined },
         view.title)));

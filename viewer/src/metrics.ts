@@ -35,7 +35,14 @@ function rowOf(comparison: Comparison, quantity: Quantity): HTMLTableRowElement 
     const apart = i > 0 && liesApart(first, estimate);
     return el('td', { class: apart ? 'apart' : '' }, formatEstimate(quantity, estimate));
   });
-  return el('tr', {}, el('th', { scope: 'row' }, quantity.label), ...cells);
+  return el('tr', {}, el('th', { scope: 'row' }, nameOf(quantity)), ...cells);
+}
+
+/** "|AOA| alpha, deg", "variation, 1/s (throttle)". */
+export function nameOf(quantity: Quantity): string {
+  if (!quantity.symbol) return quantity.label;
+  return quantity.section ? `${quantity.label} (${quantity.symbol})`
+    : `${quantity.symbol}  ${quantity.label}`;
 }
 
 function endsRow(comparison: Comparison): HTMLTableRowElement {
@@ -57,9 +64,7 @@ function tableOf(comparison: Comparison, isWhole: boolean): HTMLElement {
       body.append(el('tr', {}, el('th', { colspan: span, class: 'section' }, quantity.section)));
     }
     section = quantity.section;
-    const row = rowOf(comparison, quantity);
-    if (quantity.symbol && section) row.firstElementChild?.setAttribute('title', quantity.symbol);
-    body.append(row);
+    body.append(rowOf(comparison, quantity));
   }
   body.append(endsRow(comparison));
   const names = comparison.agents.map((agent) => el('th', { scope: 'col' }, agent.name));

@@ -122,7 +122,8 @@ function drawCurve(place: HTMLElement, curve: Curve, lines: Line[], isOverSeeds:
   const valueOf = curve.isShare ? percent : plain;
   const drawn = isOverSeeds ? overSeeds(lines, valueOf) : overlaid(lines, valueOf);
   return new Chart(place, {
-    title: curve.title, height: 190, group: 'training', formatX: formatCount,
+    title: curve.title, height: 190, group: 'training', nameX: 'control steps',
+    formatX: formatCount,
     series: drawn.series, bands: drawn.bands,
     scales: curve.isShare ? { y: { range: [0, 1] } } : undefined,
   }, drawn.data);
@@ -146,11 +147,12 @@ function drawEnds(place: HTMLElement, run: Run, pack: ReportPack): Chart | null 
   });
   const order = names.map((_, k) => names.length - 1 - k);
   return new Chart(place, {
-    title: `how episodes end: ${run.name}`, height: 190, group: 'training', formatX: formatCount,
+    title: `how episodes end: ${run.name}`, height: 190, group: 'training', nameX: 'control steps',
+    formatX: formatCount,
     scales: { y: { range: [0, 1] } },
     series: order.map((k) => ({
       label: nameOfEnd(names[k]), stroke: colourOf(k), width: 1, points: { show: false },
-      fill: faded(colourOf(k), 0.55), spanGaps: true,
+      fill: colourOf(k), spanGaps: true,
       value: (_: uPlot, __: number, ___: number, i: number | null) =>
         percentOf(i === null ? null : parts[k][i]),
     })),

@@ -105,7 +105,7 @@ function drawNow(plot: uPlot, time: number): void {
 
 export class Strips {
   readonly element = el('section', { class: 'strips', 'aria-label': 'strip charts' });
-  private readonly charts: Chart[] = [];
+  private readonly charts: { chart: Chart; strip: Strip }[] = [];
   private readonly grid = el('div', { class: 'charts' });
   private now = 0;
   private drawn = -1;
@@ -130,7 +130,7 @@ export class Strips {
     this.stop();
     this.grid.replaceChildren();
     for (const strip of this.strips) {
-      if (strip.isOn) this.charts.push(this.chart(strip, records));
+      if (strip.isOn) this.charts.push({ chart: this.chart(strip, records), strip });
     }
   }
 
@@ -141,7 +141,7 @@ export class Strips {
     }
     const chart = new Chart(this.grid, {
       title: strip.title, height: 130, group: 'strips', legend: false, axes, drag: false,
-      formatX: (x) => `${x.toFixed(1)} s`, series: seriesOf(records, strip, this.agents),
+      nameX: 'time', formatX: (x) => `${x.toFixed(1)} s`, series: seriesOf(records, strip, this.agents),
       hooks: {
         drawClear: [(plot) => {
           if (strip.tolerance !== undefined) shadeTolerance(plot, strip.tolerance);
@@ -174,10 +174,17 @@ export class Strips {
     this.now = time;
     if (isHurried && Math.abs(performance.now() - this.drawn) < 100) return;
     this.drawn = performance.now();
-    for (const chart of this.charts) chart.plot.redraw(false, false);
+    for (const { chart, strip } of this.charts) {
+      chart.plot.redraw(false, false);
+      chart.readout.replaceChildren(...this.records.slice(0, 4).map((record) => {
+        const value = el('span', {}, ` ${formatted(record.value(strip.columns[0], time))}`);
+        value.style.color = colourOf(record.agent);
+        return value;
+      }));
+    }
   }
 
   stop(): void {
-    this.charts.splice(0).forEach((chart) => chart.stop());
+    this.charts.splice(0).forEach(({ chart }) => chart.stop());
   }
 }

@@ -52,41 +52,42 @@ export async function open(
   return opened;
 }
 
-/** The share of pixels of a screenshot of `selector` that differ from its most frequent colour. */
-export async function drawnShare(page: Page, selector: string): Promise<number> {
-  const png = (await page.locator(selector).first().screenshot()).toString('base64');
-  return page.evaluate(async (data) => {
+/** The pixels of screenshots, decoded by the browser. */
+async function pixelsOf(page: Page, shots: Buffer[]): Promise<Uint8Array[]> {
+  const decoded = await page.evaluate((images) => Promise.all(images.map(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
     await image.decode();
     const canvas = new OffscreenCanvas(image.width, image.height);
     const pen = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
     pen.drawImage(image, 0, 0);
-    const pixels = new Uint32Array(pen.getImageData(0, 0, image.width, image.height).data.buffer);
-    const counts = new Map<number, number>();
-    for (const pixel of pixels) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
-    return 1 - Math.max(...counts.values()) / pixels.length;
-  }, png);
+    const { data: bytes } = pen.getImageData(0, 0, image.width, image.height);
+    let text = '';
+    for (let i = 0; i < bytes.length; i += 8192) {
+      text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+    }
+    return btoa(text);
+  })), shots.map((shot) => shot.toString('base64')));
+  return decoded.map((text) => Uint8Array.from(Buffer.from(text, 'base64')));
+}
+
+/** The share of pixels of a screenshot of `selector` that differ from its most frequent colour. */
+export async function drawnShare(page: Page, selector: string): Promise<number> {
+  const [bytes] = await pixelsOf(page, [await page.locator(selector).first().screenshot()]);
+  const pixels = new Uint32Array(bytes.buffer);
+  const counts = new Map<number, number>();
+  for (const pixel of pixels) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
+  return 1 - Math.max(...counts.values()) / pixels.length;
 }
 
 /** The share of pixels in which two screenshots differ by more than a tolerance. */
 export async function difference(page: Page, a: Buffer, b: Buffer): Promise<number> {
-  return page.evaluate(async (images) => {
-    const [first, second] = await Promise.all(images.map(async (data) => {
-      const image = new Image();
-      image.src = `data:image/png;base64,${data}`;
-      await image.decode();
-      const canvas = new OffscreenCanvas(image.width, image.height);
-      const pen = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
-      pen.drawImage(image, 0, 0);
-      return pen.getImageData(0, 0, image.width, image.height).data;
-    }));
-    if (first.length !== second.length) return 1;
-    let different = 0;
-    for (let i = 0; i < first.length; i += 4) {
-      const gap = Math.max(...[0, 1, 2].map((k) => Math.abs(first[i + k] - second[i + k])));
-      if (gap > 24) different += 1;
-    }
-    return different / (first.length / 4);
-  }, [a.toString('base64'), b.toString('base64')]);
+  const [first, second] = await pixelsOf(page, [a, b]);
+  if (first.length !== second.length) return 1;
+  let different = 0;
+  for (let i = 0; i < first.length; i += 4) {
+    const gap = Math.max(...[0, 1, 2].map((k) => Math.abs(first[i + k] - second[i + k])));
+    if (gap > 24) different += 1;
+  }
+  return different / (first.length / 4);
 }
