@@ -73,7 +73,8 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
 }
 
 void ListAircraftFields(EnvConfig& config, FieldList& list) {
-  list.Add("aircraft", &config.aircraft, "what flies").FixedForPolicies();
+  list.Add("aircraft", &config.aircraft, "what flies: a name, or the path of an aircraft file")
+      .FixedForPolicies();
   list.Add("atmosphere", &config.atmosphere, kAtmosphereNames,
            "air: the published F-16 models' or the U.S. Standard Atmosphere 1976");
   list.Add("flight_control", &config.flight_control, kFlightControlNames,

@@ -63,6 +63,7 @@ std::string HashOf(const json& content) {
   json model = Canonical(content);
   model.erase(kNameKey);
   model.erase(kSettingsKey);
+  model.erase(kPresetsKey);
   const std::string text = model.dump();
   FnvHash hash;
   hash.Add(text.data(), text.size());
@@ -105,6 +106,7 @@ AircraftDocument ReadAircraftDocument(const std::string& name, std::string_view 
   if (section.Has(kSettingsKey)) {
     ListSettings(content.at(kSettingsKey), kSettingsKey, who, &document.settings);
   }
+  if (section.Has(kPresetsKey)) document.presets_of = section.ReadText(kPresetsKey);
   if (section.Has(kModelKey)) document.model = section.ReadText(kModelKey);
   if (document.model != kTables && document.model != kDerivatives) {
     throw Error(who + ": model must be \"" + kDerivatives + "\" or \"" + kTables + "\"");

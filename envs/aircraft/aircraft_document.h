@@ -12,8 +12,9 @@ namespace skein {
 /// What an aircraft's file says, before the numbers of its model are read.
 struct AircraftDocument {
   std::string name;
-  std::string text;   ///< all of it
-  std::string model;  ///< "derivatives" or "tables"
+  std::string text;        ///< all of it
+  std::string presets_of;  ///< the aircraft whose presets serve this one; empty: its own
+  std::string model;       ///< "derivatives" or "tables"
   /// Sixteen hexadecimal digits that stand for its content: the numbers and names of its model,
   /// however they are written, without what is for readers, its own name and its settings.
   std::string hash;

@@ -33,11 +33,13 @@ std::string Printable(const std::string& key) {
   return text;
 }
 
-/// The library's message without the name of its exception.
+/// The library's message without the name of its exception and what it read last, which may be all
+/// of a long text.
 std::string Reason(const json::exception& error) {
   const std::string text = error.what();
-  const auto end = text.find("] ");
-  return end == std::string::npos ? text : text.substr(end + 2);
+  const auto start = text.find("] ");
+  const std::string reason = start == std::string::npos ? text : text.substr(start + 2);
+  return reason.substr(0, reason.find("; last read"));
 }
 
 double ToNumber(const json& value, const std::string& path) {

@@ -22,11 +22,12 @@ inline constexpr std::size_t kMaxAxisNodes = 64;
 inline constexpr double kSmallestNumber = 1e-12, kLargestNumber = 1e12;
 
 /// Keys of every aircraft's file that are not of its model: what it is called, which model it is,
-/// and settings of the environment for it.
+/// settings of the environment for it, and the aircraft whose presets serve it, too.
 inline constexpr const char* kNameKey = "name";
 inline constexpr const char* kModelKey = "model";
 inline constexpr const char* kSettingsKey = "env";
-inline constexpr const char* kNotOfTheModel[] = {kNameKey, kModelKey, kSettingsKey};
+inline constexpr const char* kPresetsKey = "presets_of";
+inline constexpr const char* kNotOfTheModel[] = {kNameKey, kModelKey, kSettingsKey, kPresetsKey};
 
 /// The JSON in `text`. Throws Error that begins with `who` on text that is no JSON, too long or
 /// nested too deeply, and on a key that an object has twice.

@@ -14,6 +14,8 @@
 namespace skein {
 namespace {
 
+constexpr const char* kNotAtHand = " is not at hand; name it with --aircraft FILE.json";
+
 /// An aircraft with the file that it was read from.
 struct KnownAircraft {
   AircraftDocument document;
@@ -35,6 +37,15 @@ class Known {
   SharedAircraft Keep(const std::string& key, SharedAircraft aircraft) {
     const std::lock_guard<std::mutex> lock(mutex_);
     return known_.emplace(key, std::move(aircraft)).first->second;
+  }
+
+  /// NAME#HASH of a kept file of that hash; empty if there is none.
+  std::string FindHash(const std::string& hash) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [key, aircraft] : known_) {
+      if (IsKeptFile(key) && aircraft->document.hash == hash) return key;
+    }
+    return "";
   }
 
   /// Null if it is not known.
@@ -62,9 +73,8 @@ SharedAircraft Find(const std::string& aircraft) {
     return TheKnown().Keep(
         aircraft, Make(ReadAircraftDocument(aircraft, *file.text, "aircraft " + aircraft)));
   }
-  if (aircraft.find('#') != std::string::npos) {
-    throw Error("environment: the file of the aircraft " + aircraft +
-                " is not at hand; name it with --aircraft FILE.json");
+  if (IsKeptFile(aircraft)) {
+    throw Error("the file of the aircraft " + aircraft + kNotAtHand);
   }
   std::string names;
   for (const std::string& name : AircraftNames()) names += (names.empty() ? "" : ", ") + name;
@@ -104,6 +114,22 @@ AircraftIdentity IdentifyAircraft(const std::string& aircraft) {
 }
 
 std::string AircraftText(const std::string& aircraft) { return Find(aircraft)->document.text; }
+
+bool IsKeptFile(const std::string& aircraft) { return aircraft.find('#') != std::string::npos; }
+
+std::string FindAircraft(const AircraftIdentity& identity) {
+  for (const std::string& name : AircraftNames()) {
+    if (IdentifyAircraft(name).hash == identity.hash) return name;
+  }
+  if (const std::string kept = TheKnown().FindHash(identity.hash); !kept.empty()) return kept;
+  throw Error("the file of the aircraft " + identity.name + "#" + identity.hash + kNotAtHand);
+}
+
+std::string PresetsOf(const std::string& aircraft) {
+  const SharedAircraft known = Find(aircraft);
+  const AircraftDocument& document = known->document;
+  return document.presets_of.empty() ? document.name : document.presets_of;
+}
 
 std::vector<std::string> AircraftSettings(const std::string& aircraft) {
   return Find(aircraft)->document.settings;

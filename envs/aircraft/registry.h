@@ -37,6 +37,16 @@ AircraftIdentity IdentifyAircraft(const std::string& aircraft);
 /// The text of the file of an aircraft, which LoadAircraft would read.
 std::string AircraftText(const std::string& aircraft);
 
+/// Whether `aircraft` is NAME#HASH, as KeepAircraftFile returns it.
+bool IsKeptFile(const std::string& aircraft);
+
+/// What LoadAircraft takes for the aircraft of that hash, among those that come with Skein and
+/// those kept. Throws Error if there is none.
+std::string FindAircraft(const AircraftIdentity& identity);
+
+/// The aircraft whose presets serve this one: itself, unless its file names another.
+std::string PresetsOf(const std::string& aircraft);
+
 /// Settings of the environment for the aircraft, from its file: "env.hold_s=10".
 std::vector<std::string> AircraftSettings(const std::string& aircraft);
 

@@ -8,6 +8,7 @@
 
 #include "base/field_list.h"
 #include "python/bindings/bindings.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/presets.h"
@@ -33,9 +34,11 @@ ProgramConfig Resolve(const std::string& task, const std::string& preset, const 
 ProgramConfig WithSettings(const ProgramConfig& config, const std::vector<std::string>& conditions,
                            const std::vector<std::string>& assignments) {
   return AsUsage([&] {
-    ProgramConfig changed = config;
-    ApplyConditionsAndAssignments(conditions, assignments, &changed, "settings");
-    RequireTask(changed, config.train.env.task);
+    const ProgramConfig changed = WithAircraft(config, [&](ProgramConfig* set) {
+      ApplyConditionsAndAssignments(conditions, assignments, set, "settings");
+      RequireTask(*set, config.train.env.task);
+    });
+    RequireOwnScale(config, changed);
     CheckConsistent(changed);
     return changed;
   });

@@ -12,6 +12,7 @@
 #include "src/agents/policy_file.h"
 #include "src/config/nearest_name.h"
 #include "src/config/usage_error.h"
+#include "train/policy/other_aircraft.h"
 #include "train/policy/policy_environment.h"
 
 namespace skein {
@@ -20,6 +21,7 @@ namespace {
 constexpr const char* kPolicy = "policy";
 constexpr const char* kAutopilot = "autopilot";
 constexpr const char* kSampledSuffix = "@sampled";
+constexpr const char* kOtherAircraftSuffix = "@other-aircraft";
 constexpr double kRandomHold_s = 1;
 constexpr int kLongestHold = 1000;  // control steps, as of env.action_repeat
 
@@ -36,10 +38,31 @@ bool EndsWith(const std::string& text, const std::string& end) {
          text.compare(text.size() - end.size(), std::string::npos, end) == 0;
 }
 
+/// What follows "policy:", apart.
+struct PolicyArgument {
+  std::string file;
+  bool is_sampled = false;
+  bool is_of_other_aircraft = false;
+};
+
+PolicyArgument PolicyArgumentOf(const std::string& name) {
+  PolicyArgument argument{ArgumentOf(name)};
+  const auto takes = [&argument](const std::string& suffix) {
+    if (!EndsWith(argument.file, suffix)) return false;
+    argument.file.resize(argument.file.size() - suffix.size());
+    return true;
+  };
+  argument.is_of_other_aircraft = takes(kOtherAircraftSuffix);
+  argument.is_sampled = takes(kSampledSuffix);
+  return argument;
+}
+
 Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
-  const RecurrentPolicy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
+  const PolicyArgument argument = PolicyArgumentOf(name);
+  RecurrentPolicy policy = LoadPolicy(PolicyFileOfAgent(name), config, seed);
+  if (argument.is_of_other_aircraft) policy = ForAnyAircraft(policy);
   policy.CheckMadeFor(policy.EnvironmentFor(config.train.env), "agent " + name);
-  return EndsWith(name, kSampledSuffix) ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
+  return argument.is_sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
 }
 
 Agent RandomAgent(const std::string& name, double control_interval_s) {
@@ -75,11 +98,13 @@ std::string AutopilotVariantOf(const std::string& name) {
 }
 
 std::vector<AgentForm> AgentForms() {
-  return {{fmt::format("autopilot[:{}]", fmt::join(AutopilotNames(), "|:")),
-           "the autopilot of TECS and L1 (alone: aggressive)"},
-          {"policy:FILE_OR_RUN[@sampled]", "a trained policy with its mean action, or as sampled"},
-          {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
-          {"zero", "zero actions"}};
+  return {
+      {fmt::format("autopilot[:{}]", fmt::join(AutopilotNames(), "|:")),
+       "the autopilot of TECS and L1 (alone: aggressive)"},
+      {"policy:FILE_OR_RUN[@sampled][@other-aircraft]",
+       "a trained policy with its mean action, or as sampled; on another aircraft than its own"},
+      {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
+      {"zero", "zero actions"}};
 }
 
 std::string AgentNames() {
@@ -90,10 +115,7 @@ std::string AgentNames() {
 
 std::string PolicyFileOfAgent(const std::string& name) {
   if (KindOf(name) != kPolicy) return "";
-  std::string file = ArgumentOf(name);
-  if (EndsWith(file, kSampledSuffix)) {
-    file.resize(file.size() - std::string(kSampledSuffix).size());
-  }
+  const std::string file = PolicyArgumentOf(name).file;
   if (file.empty()) throw UsageError(fmt::format("agent {}: policy: needs a file or a run", name));
   return PolicyFileOf(file);
 }

@@ -18,6 +18,7 @@
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
+#include "train/policy/other_aircraft.h"
 
 namespace skein {
 namespace {
@@ -26,6 +27,7 @@ struct EvalOptions {
   std::string policy;
   std::string low_level;
   bool deterministic = false;
+  bool other_aircraft = false;
   FlightOptions flight;
 };
 
@@ -68,7 +70,8 @@ void Evaluate(const EvalOptions& options) {
     config.train.env.tracking.acts_directly = false;  // whatever the preset trains
     low_level = ChooseLowLevelPolicy(config.train.env, options.low_level).policy;
   }
-  const RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);
+  RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);
+  if (options.other_aircraft) policy = ForAnyAircraft(policy);
   CheckWritable({flight.json, flight.flights, flight.acmi});
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
@@ -111,6 +114,8 @@ void AddEvalCommand(CLI::App* app) {
                    "(alone: aggressive) that is the low-level policy; without it the policy flies "
                    "itself")
       ->type_name("RUN_OR_POLICY");
+  command->add_flag("--other-aircraft", options->other_aircraft,
+                    "fly the policy even if it was trained on another aircraft");
   command->add_flag("--deterministic", options->deterministic,
                     "report the mean action first (default: sampled actions; both are flown)");
   command->footer(

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "envs/aircraft/registry.h"
+#include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/config/usage_error.h"
 #include "src/export/policy_export.h"
@@ -19,7 +20,6 @@ struct ExportOptions {
   std::string aircraft = "f16";
   std::string out;
   bool check = false;
-  CLI::Option* aircraft_option = nullptr;
 };
 
 ExportForm FormCalled(const std::string& name) {
@@ -29,11 +29,10 @@ ExportForm FormCalled(const std::string& name) {
   throw UsageError("unknown format " + name);
 }
 
-std::vector<std::string> Export(const ExportOptions& options) {
+std::vector<std::string> Export(ExportOptions options) {
+  // What a policy was trained on is found by its hash among the files that are kept.
+  if (IsAircraftPath(options.aircraft)) options.aircraft = KeepAircraftFile(options.aircraft);
   if (!options.flight_control.empty()) {
-    if (!options.policy.empty() && options.aircraft_option->count() > 0) {
-      throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
-    }
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }
   if (options.policy.empty()) throw UsageError("a policy file or the directory of a run is needed");
@@ -69,12 +68,14 @@ void AddExportCommand(CLI::App* app) {
                    "write the flight control laws that the policy flies through, as one C99 header")
       ->check(CLI::IsMember({"c"}))
       ->excludes(format);
-  options->aircraft_option =
-      command
-          ->add_option("--aircraft", options->aircraft,
-                       "with --flight-control and without a policy: whose laws")
-          ->check(CLI::IsMember(AircraftNames()))
-          ->capture_default_str();
+  command
+      ->add_option("--aircraft", options->aircraft,
+                   AircraftHelp("of a policy file that was trained on an own aircraft, that "
+                                "aircraft's file; with --flight-control and without a policy: "
+                                "whose laws"))
+      ->check(IsAircraft())
+      ->type_name("NAME_OR_FILE")
+      ->capture_default_str();
   command->add_option("-o,--out", options->out, "write it here")->type_name("FILE")->required();
   command->add_flag(
       "--check", options->check,

@@ -8,11 +8,13 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "envs/aircraft/registry.h"
 #include "envs/reference/trim.h"
 #include "envs/state/attitude.h"
+#include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/config/whole_number.h"
 #include "src/fdm/fdm_evaluation.h"
@@ -47,6 +49,7 @@ struct FileOptions {
 struct TrimOptions {
   TrimRequest request;
   double flight_path_deg = 0, turn_rate_deg_s = 0;
+  std::optional<double> cg;
   FdmParameters parameters;
   std::string aircraft = "f16";
   std::string atmosphere = "stevens_lewis";
@@ -198,7 +201,8 @@ Json TrimJson(const TrimOptions& options, const TrimPoint& trim, const PlantOutp
 
 void FindTrim(TrimOptions options) {
   Aircraft aircraft = LoadAircraft(options.aircraft);
-  aircraft.airframe.cg = options.parameters.cg;
+  if (options.cg) aircraft.airframe.cg = *options.cg;
+  options.parameters.cg = aircraft.airframe.cg;
   aircraft.airframe.engine_angular_momentum = options.parameters.engine_angular_momentum;
   options.request.flight_path_angle_rad = options.flight_path_deg / kDegPerRad;
   options.request.turn_rate_rad_s = options.turn_rate_deg_s / kDegPerRad;
@@ -211,8 +215,9 @@ void FindTrim(TrimOptions options) {
 }
 
 void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere) {
-  command->add_option("--aircraft", *aircraft, "whose equations of motion")
-      ->check(CLI::IsMember(AircraftNames()))
+  command->add_option("--aircraft", *aircraft, AircraftHelp("whose equations of motion"))
+      ->check(IsAircraft())
+      ->type_name("NAME_OR_FILE")
       ->capture_default_str();
   command
       ->add_option("--atmosphere", *atmosphere,
@@ -262,9 +267,9 @@ void AddTrimCommand(CLI::App* fdm) {
       ->transform(FiniteNumber())
       ->capture_default_str();
   command
-      ->add_option("--xcg", options->parameters.cg, "centre of gravity, fraction of the mean chord")
-      ->transform(FiniteNumber())
-      ->capture_default_str();
+      ->add_option("--xcg", options->cg,
+                   "centre of gravity, fraction of the mean chord (default: the aircraft's own)")
+      ->transform(FiniteNumber());
   command
       ->add_option("--heng", options->parameters.engine_angular_momentum,
                    "angular momentum of the engine, slug ft2/s")

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "src/agents/agent_names.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/task_file.h"
@@ -27,6 +28,11 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
   options->preset_option =
       command->add_option("--preset", options->preset, texts.preset)->type_name("PRESET");
   command->add_option("--config", options->config, "TOML file on top of them")->type_name("FILE");
+  command
+      ->add_option("--aircraft", options->aircraft,
+                   "who flies: an aircraft of skein list aircraft, or a file of an own one; it "
+                   "brings the settings of its file")
+      ->type_name("NAME_OR_FILE");
   command->add_option("--condition", options->conditions, ConditionHelp())
       ->type_name("NAME=LEVEL")
       ->allow_extra_args(false);
@@ -113,14 +119,21 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
   const ProgramConfig base = *config;
   const bool is_own = options.task.empty() || IsTaskFile(options.task);
   const std::string& task = is_own ? base.train.env.task : options.task;
-  AsUsage([&] {
-    if (!options.config.empty()) ApplyTomlFile(options.config, config);
-    ApplyConditionsAndAssignments(options.conditions, options.assignments, config);
-    ApplyConditionsAndAssignments({}, FlightLengthAssignments(options.hold_s, options.mission_min),
-                                  config);
-    RequireTask(*config, task);
-    RequireOwnSpeeds(base, *config);
-    CheckConsistent(*config);
+  *config = AsUsage([&] {
+    ProgramConfig flown = WithAircraft(base, [&](ProgramConfig* changed) {
+      if (!options.config.empty()) ApplyTomlFile(options.config, changed);
+      if (!options.aircraft.empty()) {
+        ApplyConditionsAndAssignments({}, {AircraftAssignment(options.aircraft)}, changed,
+                                      "--aircraft");
+      }
+      ApplyConditionsAndAssignments(options.conditions, options.assignments, changed);
+      ApplyConditionsAndAssignments(
+          {}, FlightLengthAssignments(options.hold_s, options.mission_min), changed);
+      RequireTask(*changed, task);
+    });
+    RequireOwnScale(base, flown);
+    CheckConsistent(flown);
+    return flown;
   });
 }
 

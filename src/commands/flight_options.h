@@ -21,6 +21,7 @@ struct FlightOptions {
   std::string preset = "default";
   CLI::Option* preset_option = nullptr;
   std::string config;
+  std::string aircraft;  ///< empty: what the configuration has
   std::vector<std::string> conditions, assignments;
   std::optional<double> hold_s, mission_min;
   int episodes = 1000;

@@ -12,6 +12,7 @@
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/key_reference.h"
@@ -32,6 +33,7 @@ struct TrainOptions {
   std::string task;
   std::string preset = "default";
   std::string config;
+  std::string aircraft;
   std::vector<std::string> conditions, assignments;
   std::optional<double> steps;
   std::optional<double> seed;
@@ -116,7 +118,10 @@ ChosenLowLevelPolicy FindLowLevelPolicy(const TrainOptions& options, const EnvCo
   return ChooseLowLevelPolicy(env, options.low_level);
 }
 
-void Train(const TrainOptions& options) {
+void Train(TrainOptions options) {
+  if (!options.aircraft.empty()) {
+    options.assignments.insert(options.assignments.begin(), AircraftAssignment(options.aircraft));
+  }
   if (options.help_keys == "markdown") {
     fmt::print("{}", DescribeKeysMarkdown());
     return;
@@ -162,6 +167,7 @@ constexpr const char* kFooter =
     "noisy=0.01..0.05\n"
     "  skein train heading --from runs/short --steps 1e8\n"
     "  skein train my_task.toml\n"
+    "  skein train heading --aircraft my.json\n"
     "  skein train --resume runs/short";
 
 }  // namespace
@@ -188,6 +194,11 @@ void AddTrainCommand(CLI::App* app) {
                           ->add_option("--config", options->config,
                                        "TOML file on top of the preset (keys: --help-keys)")
                           ->type_name("FILE");
+  command
+      ->add_option("--aircraft", options->aircraft,
+                   "who flies: an aircraft of skein list aircraft, or a file of an own one, which "
+                   "then says where it flies, unless --config does; same as --set env.aircraft=...")
+      ->type_name("NAME_OR_FILE");
   command->add_option("--condition", options->conditions, ConditionHelp())
       ->type_name("NAME=LEVEL")
       ->allow_extra_args(false);

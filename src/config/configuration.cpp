@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "envs/aircraft/registry.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
@@ -121,11 +122,12 @@ std::string Trimmed(const std::string& text) {
 }
 
 ProgramConfig ConfigOf(const Preset& preset) {
-  ProgramConfig config;
-  config.train.env.task = preset.task;
-  ApplyText(std::string(*preset.text), fmt::format("preset {}/{}", preset.task, preset.name),
-            Reading::kStrict, &config);
-  return config;
+  ProgramConfig base;
+  base.train.env.task = preset.task;
+  return WithAircraft(base, [&preset](ProgramConfig* config) {
+    ApplyText(std::string(*preset.text), fmt::format("preset {}/{}", preset.task, preset.name),
+              Reading::kStrict, config);
+  });
 }
 
 /// Where the settings of a task file begin: at what Heading's default preset says of the learner
@@ -153,6 +155,12 @@ std::vector<std::string> SettingsTables() {
   return tables;
 }
 
+/// Of a path without one: where the program runs.
+std::string FolderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
 ProgramConfig ConfigOfTaskFile(const ConfigSources& sources) {
   if (sources.preset != "default") {
     throw Error(
@@ -167,6 +175,7 @@ ProgramConfig ConfigOfTaskFile(const ConfigSources& sources) {
   ProgramConfig config = TaskFileDefaults();
   config.train.env.SetTermTask(file.terms);
   TomlReader(sources.task, Reading::kStrict, &config).Apply(file.settings, "");
+  KeepAircraft(FolderOf(sources.task), &config.train.env);
   return config;
 }
 
@@ -199,14 +208,6 @@ SettingValue ParseValue(const std::string& text, const Field& field) {
   return text;
 }
 
-/// The preset of the task that is made for the aircraft; null if there is none.
-const Preset* PresetFor(const std::string& task, const std::string& aircraft) {
-  for (const Preset& preset : Presets()) {
-    if (preset.task == task && ConfigOf(preset).train.env.aircraft == aircraft) return &preset;
-  }
-  return nullptr;
-}
-
 std::string TableOf(const std::string& key) { return key.substr(0, key.rfind('.')); }
 std::string LastPart(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
@@ -231,12 +232,14 @@ void ApplyToml(const std::string& text, const std::string& source, ProgramConfig
 
 void ApplyTomlFile(const std::string& path, ProgramConfig* config) {
   ApplyToml(ReadFile(path), path, config);
+  KeepAircraft(FolderOf(path), &config->train.env);
 }
 
 ProgramConfig ReadRecord(const std::string& path) {
   ProgramConfig config;
   ApplyText(ReadFile(path), path, Reading::kRecord, &config);
   RecallTaskFile(path, &config);
+  KeepAircraft(FolderOf(path), &config.train.env);
   return config;
 }
 
@@ -266,28 +269,13 @@ void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
   for (const std::string& assignment : assignments) {
     ApplyAssignment(assignment, source, config);
   }
+  KeepAircraft("", &config->train.env);
 }
 
 void RequireTask(const ProgramConfig& config, const std::string& task) {
   if (config.train.env.task == task) return;
   throw Error(fmt::format("the configuration says env.task = {}, but the task asked for is {}",
                           config.train.env.task, task));
-}
-
-void RequireOwnSpeeds(const ProgramConfig& base, const ProgramConfig& config) {
-  const EnvConfig &before = base.train.env, &env = config.train.env;
-  const Range &speeds = env.initial.true_airspeed_fps, &old = before.initial.true_airspeed_fps;
-  const std::vector<std::string> known = AircraftNames();
-  const bool is_known = std::find(known.begin(), known.end(), env.aircraft) != known.end();
-  if (env.aircraft == before.aircraft || !is_known) return;
-  if (speeds.min != old.min || speeds.max != old.max) return;
-  const Preset* const preset = PresetFor(env.task, env.aircraft);
-  const std::string hint =
-      preset == nullptr ? "" : fmt::format("use --preset {}, or ", preset->name);
-  throw Error(fmt::format(
-      "env.aircraft = {}, but all else is made for {}, from {} ft/s on: {}set "
-      "env.initial.true_airspeed_min_fps and _max_fps, and what else is of this aircraft",
-      env.aircraft, before.aircraft, old.min, hint));
 }
 
 void CheckConsistent(const ProgramConfig& config) {
@@ -310,12 +298,13 @@ ProgramConfig ResolveConfig(const ConfigSources& sources) {
   const bool is_file = !sources.task_text.empty() || IsTaskFile(sources.task);
   const ProgramConfig base =
       is_file ? ConfigOfTaskFile(sources) : ConfigOf(FindPreset(sources.task, sources.preset));
-  ProgramConfig config = base;
-  if (!sources.file.empty()) ApplyTomlFile(sources.file, &config);
-  ApplyConditionsAndAssignments(sources.conditions, sources.assignments, &config,
-                                sources.assignments_are);
-  RequireTask(config, base.train.env.task);
-  RequireOwnSpeeds(base, config);
+  const ProgramConfig config = WithAircraft(base, [&](ProgramConfig* changed) {
+    if (!sources.file.empty()) ApplyTomlFile(sources.file, changed);
+    ApplyConditionsAndAssignments(sources.conditions, sources.assignments, changed,
+                                  sources.assignments_are);
+    RequireTask(*changed, base.train.env.task);
+  });
+  RequireOwnScale(base, config);
   return config;
 }
 

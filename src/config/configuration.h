@@ -40,11 +40,6 @@ std::string KeyOf(const std::string& assignment);
 /// Throws Error if the configuration has come to name another task than the one asked for.
 void RequireTask(const ProgramConfig& config, const std::string& task);
 
-/// Throws Error if `config`, which is `base` with a user's settings on top, flies another aircraft
-/// but begins at the speeds of the one before: its other numbers, too, are then of that one. Names
-/// the preset that is made for the aircraft, if there is one.
-void RequireOwnSpeeds(const ProgramConfig& base, const ProgramConfig& config);
-
 /// Throws Error on values that are each allowed but cannot go together.
 void CheckConsistent(const ProgramConfig& config);
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/configuration.h"
 #include "src/config/presets.h"
 #include "src/run/run_directory.h"
@@ -12,6 +14,12 @@ namespace skein {
 namespace {
 
 constexpr const char* kUsualPreset = "default";
+
+/// The preset with the aircraft, and what its file says of the environment.
+EnvConfig PresetWith(const std::string& preset, const EnvConfig& made_in) {
+  return ResolveConfig({made_in.task, preset, "", {AircraftAssignment(made_in.aircraft)}})
+      .train.env;
+}
 
 /// The usual preset if it has the aircraft, else the first that does.
 EnvConfig PresetOf(const EnvConfig& made_in) {
@@ -25,7 +33,11 @@ EnvConfig PresetOf(const EnvConfig& made_in) {
     if (preset.task != made_in.task) continue;
     EnvConfig env = ResolveConfig({made_in.task, preset.name, "", {}}).train.env;
     if (env.aircraft == made_in.aircraft) return env;
+    if (PresetsOf(env.aircraft) == PresetsOf(made_in.aircraft)) {
+      return PresetWith(preset.name, made_in);
+    }
   }
+  if (IsKeptFile(made_in.aircraft)) return PresetWith(kUsualPreset, made_in);
   throw Error(
       fmt::format("no preset of task {} flies the aircraft {} of the policy: export it from the "
                   "directory of its run, which says where it flew",

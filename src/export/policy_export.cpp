@@ -9,9 +9,11 @@
 #include "envs/aircraft/registry.h"
 #include "src/agents/policy_file.h"
 #include "src/bench/version.h"
+#include "src/config/configuration.h"
 #include "src/export/export_flights.h"
 #include "src/export/manifest.h"
 #include "src/files/output_file.h"
+#include "src/run/run_directory.h"
 #include "train/export/c_flight_control.h"
 #include "train/export/onnx_policy.h"
 
@@ -23,6 +25,11 @@ namespace {
 constexpr double kMostError = 1e-5;
 
 std::string VersionText() { return fmt::format("{} (commit {})", Build().version, Build().commit); }
+
+/// So that what a run's policy was trained on is at hand.
+void KeepAircraftOfRun(const std::string& path) {
+  if (IsRunDirectory(path)) ReadRecord(path + "/config.toml");
+}
 
 /// A file to be written.
 struct Output {
@@ -75,6 +82,7 @@ Exported ExportOne(const PolicyExport& options, const RecurrentPolicy& policy,
 }  // namespace
 
 std::vector<std::string> ExportPolicy(const PolicyExport& options) {
+  KeepAircraftOfRun(options.policy);
   const std::string path = PolicyFileOf(options.policy);
   const RecurrentPolicy policy = RecurrentPolicy::Load(path);
   const auto low_level = std::dynamic_pointer_cast<const RecurrentPolicy>(policy.low_level());
@@ -124,6 +132,7 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
 std::vector<std::string> ExportFlightControl(const std::string& policy, const std::string& aircraft,
                                              const std::string& out, bool check) {
   CheckWritable(out);
+  KeepAircraftOfRun(policy);
   EnvConfig env;
   env.aircraft = aircraft;
   if (!policy.empty()) {

@@ -25,10 +25,10 @@ std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 inline constexpr const char* kRunsRoot = "runs";
 
 /// The directory of one training run, held exclusively while the object lives:
-///   config.toml, low_level.skein (of high-level policies), task.toml (of task files), log.txt,
-///   metrics.csv, timing.csv, events.out.tfevents.*, evaluation.json,
-///   checkpoints/checkpoint-<iteration>.skein, checkpoints/policy-best.skein,
-///   checkpoints/policy-final.skein
+///   config.toml, low_level.skein (of high-level policies), task.toml (of task files), aircraft.json
+///   (of aircraft that come from a file), log.txt, metrics.csv, timing.csv,
+///   events.out.tfevents.*, evaluation.json, checkpoints/checkpoint-<iteration>.skein,
+///   checkpoints/policy-best.skein, checkpoints/policy-final.skein
 class RunDirectory {
  public:
   /// Makes a new one. Throws Error if `path` exists and is not an empty directory, cannot be made,
@@ -45,6 +45,7 @@ class RunDirectory {
   std::string low_level() const;
   /// Of runs of a task file its copy.
   std::string task_file() const { return path_ + "/" + kTaskFileOfRun; }
+  std::string aircraft() const { return path_ + "/aircraft.json"; }
   std::string log() const { return path_ + "/log.txt"; }
   std::string metrics() const { return path_ + "/metrics.csv"; }
   std::string timing() const { return path_ + "/timing.csv"; }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
 #include "simd/target.h"
 #include "src/bench/machine.h"
 #include "src/config/conditions.h"
@@ -99,6 +100,9 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
   }
   if (const auto& terms = resolved.train.env.term_task; terms != nullptr) {
     WriteFile(directory.task_file(), terms->text);
+  }
+  if (const std::string& aircraft = resolved.train.env.aircraft; IsKeptFile(aircraft)) {
+    WriteFile(directory.aircraft(), AircraftText(aircraft));
   }
   // A run that is killed before its first checkpoint would begin anew with fresh networks.
   if (!origin.from.empty()) trainer.Save(directory.checkpoint(0));

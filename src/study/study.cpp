@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "envs/task_registry.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/nearest_name.h"
@@ -165,17 +166,19 @@ ProgramConfig Configure(const Study& study, const std::string& task,
   return AsUsage([&] {
     const ProgramConfig base =
         ResolveConfig({task, study.preset, "", AssignmentsFor(task, study, study.assignments)});
-    const std::string name = base.train.env.task;
-    ProgramConfig config = base;
     std::vector<std::string> conditions;
     for (const StudySettings& part : parts) {
       conditions.insert(conditions.end(), part.conditions.begin(), part.conditions.end());
-      ApplyConditionsAndAssignments(part.conditions, AssignmentsFor(task, study, part.assignments),
-                                    &config);
     }
     ConditionAssignments(conditions);  // refuses one that two parts give
-    RequireTask(config, name);
-    RequireOwnSpeeds(base, config);
+    ProgramConfig config = WithAircraft(base, [&](ProgramConfig* changed) {
+      for (const StudySettings& part : parts) {
+        ApplyConditionsAndAssignments(part.conditions,
+                                      AssignmentsFor(task, study, part.assignments), changed);
+      }
+    });
+    RequireTask(config, base.train.env.task);
+    RequireOwnScale(base, config);
     CheckConsistent(config);
     return config;
   });

@@ -122,7 +122,7 @@ std::string Constants(const Aircraft& aircraft, double dt, const std::string& na
 }  // namespace
 
 std::string FlightControlName(const EnvConfig& env) {
-  std::string name = env.aircraft + "_flight_control";
+  std::string name = IdentifyAircraft(env.aircraft).name + "_flight_control";
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   }

@@ -16,6 +16,7 @@
 #include "envs/task_registry.h"
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task_errors.h"
+#include "train/policy/policy_environment.h"
 
 namespace skein {
 namespace {
@@ -29,6 +30,9 @@ EnvConfig MadeIn(const RecurrentPolicy::Parameters& policy,
   for (const Field& field : FieldsOf(env)) {
     const auto found = policy.environment.find(field.key);
     if (found != policy.environment.end()) field.SetText(found->second);
+  }
+  if (const AircraftIdentity made = AircraftMadeWith(policy.environment); !made.name.empty()) {
+    env.aircraft = FindAircraft(made);
   }
   return env;
 }

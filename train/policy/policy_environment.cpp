@@ -1,11 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/policy/policy_environment.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "base/error.h"
 #include "base/field_list.h"
 #include "base/number_text.h"
 
 namespace skein {
+namespace {
+
+/// "f16", and for aircraft of one name their hashes, too.
+std::string Shown(const AircraftIdentity& aircraft, const AircraftIdentity& other) {
+  return aircraft.name == other.name ? aircraft.name + "#" + aircraft.hash : aircraft.name;
+}
+
+void CheckAircraft(const EnvConfig& env, const std::map<std::string, std::string>& made_with,
+                   const std::string& who) {
+  const AircraftIdentity made = AircraftMadeWith(made_with);
+  if (made.name.empty()) return;
+  const AircraftIdentity flown = IdentifyAircraft(env.aircraft);
+  if (made.hash == flown.hash) return;
+  throw Error(who + " was made with env.aircraft = " + Shown(made, flown) +
+              ", but is to fly with env.aircraft = " + Shown(flown, made) +
+              " (skein eval --other-aircraft and the agent policy:FILE@other-aircraft allow it)");
+}
+
+}  // namespace
 
 std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
   EnvConfig listed = env;
@@ -16,7 +38,20 @@ std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env) {
     if (field.is_off && field.ValueText(ShortestText).empty()) continue;
     environment[field.key] = field.ValueText(ShortestText);
   }
+  const AircraftIdentity aircraft = IdentifyAircraft(env.aircraft);
+  environment[kAircraftKey] = aircraft.name;
+  environment[kAircraftHashKey] = aircraft.hash;
   return environment;
+}
+
+AircraftIdentity AircraftMadeWith(const std::map<std::string, std::string>& made_with) {
+  const auto name = made_with.find(kAircraftKey), hash = made_with.find(kAircraftHashKey);
+  if (name == made_with.end()) return {};
+  if (hash != made_with.end()) return {name->second, hash->second};
+  // Older versions had no aircraft but those that come with Skein.
+  const std::vector<std::string> known = AircraftNames();
+  const bool is_known = std::find(known.begin(), known.end(), name->second) != known.end();
+  return is_known ? IdentifyAircraft(name->second) : AircraftIdentity{name->second, ""};
 }
 
 void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* env) {
@@ -29,7 +64,9 @@ void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* e
 
 void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string>& made_with,
                    const std::string& who) {
+  CheckAircraft(env, made_with, who);
   for (const auto& [key, value] : PolicyEnvironment(env)) {
+    if (key == kAircraftKey || key == kAircraftHashKey) continue;
     const auto found = made_with.find(key);
     if (found == made_with.end() || found->second == value) continue;
     throw Error(who + " was made with env." + key + " = " + found->second +

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "envs/aircraft/registry.h"
 #include "envs/env_config.h"
 #include "envs/policy.h"
 
@@ -12,10 +13,17 @@ namespace skein {
 /// The task that policies below a high-level policy are trained on.
 inline constexpr const char* kLowLevelTask = "control";
 
+/// By which PolicyEnvironment says the aircraft: its name, and the hash of its content.
+inline constexpr const char* kAircraftKey = "aircraft";
+inline constexpr const char* kAircraftHashKey = "aircraft_hash";
+
 /// What gives a policy's observations and actions their meaning (PolicyRole), by configuration key
 /// less "env.", as text: what it cannot fly without. The task is not among them, nor is what may
 /// well differ from training: rates, conditions, targets, rewards.
 std::map<std::string, std::string> PolicyEnvironment(const EnvConfig& env);
+
+/// The aircraft of what PolicyEnvironment gave; without a name if that does not say.
+AircraftIdentity AircraftMadeWith(const std::map<std::string, std::string>& made_with);
 
 /// Sets what a policy chooses itself (PolicyRole::kChosen) to what it was made with: the axes of
 /// Tracking's target, and whether a high-level policy observes means.

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/commands/aircraft_option.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "envs/aircraft/registry.h"
+
+namespace skein {
+
+std::string AircraftHelp(const std::string& what) {
+  return fmt::format("{}: {}, or a file, FILE.json", what, fmt::join(AircraftNames(), ", "));
+}
+
+CLI::Validator IsAircraft() {
+  return {[](const std::string& aircraft) -> std::string {
+            const std::vector<std::string> names = AircraftNames();
+            const bool is_known = std::find(names.begin(), names.end(), aircraft) != names.end();
+            if (is_known || IsAircraftPath(aircraft)) return "";
+            return fmt::format("{} is no aircraft: {}, or the path of a file, FILE.json", aircraft,
+                               fmt::join(names, ", "));
+          },
+          ""};
+}
+
+}  // namespace skein

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace skein {
+
+/// Help of an option that takes what LoadAircraft does: `what` it is for, and the names.
+std::string AircraftHelp(const std::string& what);
+
+/// Refuses names of no aircraft. Whether a file is one is seen when it is read.
+CLI::Validator IsAircraft();
+
+}  // namespace skein

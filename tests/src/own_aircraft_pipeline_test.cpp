@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// An aircraft from a user's file, through training, resuming, flying and exporting.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "envs/aircraft/registry.h"
+#include "src/files/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+#include "tests/src/tiny_training.h"
+
+namespace skein {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+/// The aerosonde with another mass, where it flies in its own file.
+json MyAircraft(double mass_kg) {
+  json file = json::parse(AircraftText("aerosonde"));
+  file.erase("presets_of");
+  file["airframe"]["mass_kg"] = mass_kg;
+  file["env"] = {
+      {"atmosphere", "standard_1976"},
+      {"initial",
+       {{"altitude_min_ft", 1500},
+        {"altitude_max_ft", 1600},
+        {"true_airspeed_min_fps", 75},
+        {"true_airspeed_max_fps", 88}}},
+      {"heading", {{"altitude_change_ft", 300}, {"speed_change_fps", 13}}},
+      {"control", {{"speed_change_fps", 13}}},
+      {"termination", {{"min_altitude_ft", 500}, {"min_mach", 0.03}, {"max_mach", 0.14}}}};
+  return file;
+}
+
+class OwnAircraft : public testing::Test {
+ protected:
+  void SetUp() override { WriteFile(mine_, MyAircraft(11.5).dump(1)); }
+
+  void Refused(const std::vector<std::string>& arguments, int exit_code, const std::string& why) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, exit_code);
+    ExpectOneLine(result.error, why);
+  }
+
+  const ScratchDirectory scratch_;
+  const std::string mine_ = scratch_ / "mine.json", run_ = scratch_ / "run";
+};
+
+TEST_F(OwnAircraft, ARunGoesOnWithoutTheOriginalFile) {
+  const std::string text = ReadFile(mine_);
+  const ProgramResult trained = CallSkein(TinyTraining(run_, {"--aircraft", mine_}));
+  ASSERT_EQ(trained.exit_code, 0) << trained.error;
+  EXPECT_EQ(ReadFile(run_ + "/aircraft.json"), text);
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("aircraft = \"mine#"));
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("true_airspeed_min_fps = 75.0"));
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("drag_rise = false"));
+  std::filesystem::remove(mine_);
+
+  // Interrupted and resumed it becomes the same.
+  std::filesystem::copy(run_, scratch_ / "resumed", std::filesystem::copy_options::recursive);
+  const std::string policy = "/checkpoints/policy-final.skein";
+  const auto checkpoints = CheckpointsIn(scratch_ / "resumed/checkpoints");
+  std::filesystem::remove(checkpoints.back().path);
+  std::filesystem::remove(scratch_ / "resumed" + policy);
+  const ProgramResult resumed = CallSkein({"train", "--resume", scratch_ / "resumed"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  ExpectSameFile(run_ + policy, scratch_ / "resumed" + policy);
+
+  const ProgramResult flown = CallSkein({"eval", "--policy", run_, "--episodes", "16"});
+  EXPECT_EQ(flown.exit_code, 0) << flown.error;
+  EXPECT_THAT(flown.output, HasSubstr("mine#"));
+  const std::string header = scratch_ / "policy.h";
+  const ProgramResult exported = CallSkein({"export", run_, "--format", "c", "-o", header});
+  EXPECT_EQ(exported.exit_code, 0) << exported.error;
+  EXPECT_THAT(ReadFile(header), HasSubstr("aircraft mine#"));
+  const ProgramResult laws =
+      CallSkein({"export", run_, "--flight-control", "c", "-o", scratch_ / "laws.h"});
+  EXPECT_EQ(laws.exit_code, 0) << laws.error;
+}
+
+TEST_F(OwnAircraft, APolicyFliesNoOtherAircraftUnlessAsked) {
+  ASSERT_EQ(CallSkein(TinyTraining(run_, {"--aircraft", mine_})).exit_code, 0);
+  const std::string policy = run_ + "/checkpoints/policy-final.skein";
+  const std::vector<std::string> alone = {"eval", "--policy", policy, "--episodes", "16"};
+  const auto with = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  Refused(alone, 1, "env.aircraft = mine, but is to fly with env.aircraft = f16");
+  WriteFile(scratch_ / "mine2.json", MyAircraft(12).dump());
+  Refused(with(alone, {"--aircraft", scratch_ / "mine2.json"}), 1, "fly with env.aircraft = mine2");
+  // The same content is the same aircraft, whatever the file is called.
+  WriteFile(scratch_ / "same.json", MyAircraft(11.5).dump());
+  const ProgramResult same = CallSkein(with(alone, {"--aircraft", scratch_ / "same.json"}));
+  EXPECT_EQ(same.exit_code, 0) << same.error;
+  const ProgramResult other =
+      CallSkein(with(alone, {"--aircraft", scratch_ / "mine2.json", "--other-aircraft"}));
+  EXPECT_EQ(other.exit_code, 0) << other.error;
+  const ProgramResult compared = CallSkein({"compare", "--task", "heading", "--aircraft",
+                                            scratch_ / "mine2.json", "--episodes", "16", "--agents",
+                                            "zero,policy:" + policy + "@sampled@other-aircraft"});
+  EXPECT_EQ(compared.exit_code, 0) << compared.error;
+  Refused({"compare", "--task", "heading", "--agents", "zero,policy:" + policy}, 1,
+          "env.aircraft = mine, but is to fly with env.aircraft = f16");
+}
+
+TEST_F(OwnAircraft, WhatDoesNotSayWhereItFliesIsRefused) {
+  const std::string out = scratch_ / "none";
+  json silent = MyAircraft(11.5);
+  silent.erase("env");
+  WriteFile(mine_, silent.dump());
+  Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2,
+          "but all else is made for f16, from 1000 ft/s on: set env.initial");
+  json half = MyAircraft(11.5);
+  half["env"].erase("heading");
+  WriteFile(mine_, half.dump());
+  Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2,
+          "what the task asks is made for f16: set env.heading.*");
+  json wrong = MyAircraft(11.5);
+  wrong["env"]["heading"]["altitude_chnge_ft"] = 1;
+  WriteFile(mine_, wrong.dump());
+  Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2,
+          "env.heading.altitude_change_ft");
+  wrong = MyAircraft(11.5);
+  wrong["env"]["task"] = "control";
+  WriteFile(mine_, wrong.dump());
+  Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2, "not for an aircraft to say");
+  WriteFile(mine_, "{");
+  Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2, mine_);
+  Refused({"train", "heading", "--aircraft", scratch_ / "no.json", "--out", out}, 2, "no.json");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(OwnAircraft, AVariantTakesThePresetsOfItsAircraft) {
+  json variant = json::parse(AircraftText("aerosonde"));
+  variant["airframe"]["mass_kg"] = 12;
+  WriteFile(mine_, variant.dump());
+  Refused({"train", "heading", "--aircraft", mine_}, 2, "use --preset aerosonde, or set");
+  const ProgramResult trained =
+      CallSkein(TinyTraining(run_, {"--preset", "aerosonde", "--aircraft", mine_}));
+  EXPECT_EQ(trained.exit_code, 0) << trained.error;
+  // Its policy alone does not hold the aircraft.
+  const std::vector<std::string> alone = {"export",   run_ + "/checkpoints/policy-final.skein",
+                                          "--format", "c",
+                                          "-o",       scratch_ / "policy.h"};
+  Refused(alone, 1, "the file of the aircraft mine#");
+  std::vector<std::string> with_file = alone;
+  with_file.insert(with_file.end(), {"--aircraft", mine_});
+  const ProgramResult exported = CallSkein(with_file);
+  EXPECT_EQ(exported.exit_code, 0) << exported.error;
+}
+
+TEST_F(OwnAircraft, ATamperedCopyIsRefused) {
+  ASSERT_EQ(CallSkein(TinyTraining(run_, {"--aircraft", mine_})).exit_code, 0);
+  WriteFile(run_ + "/aircraft.json", MyAircraft(5).dump());
+  Refused({"eval", "--policy", run_}, 1, "run/aircraft.json: is the aircraft mine#");
+}
+
+TEST_F(OwnAircraft, TheFlightDynamicsTakeAFile) {
+  const ProgramResult trim =
+      CallSkein({"fdm", "trim", "--aircraft", mine_, "--altitude-ft", "1500", "--speed-fps", "82"});
+  EXPECT_EQ(trim.exit_code, 0) << trim.error;
+  Refused({"fdm", "trim", "--aircraft", scratch_ / "no.json", "--altitude-ft", "1500",
+           "--speed-fps", "82"},
+          1, "there is no such aircraft file");
+}
+
+}  // namespace
+}  // namespace skein
