@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture of a report, made by Chromium:
 //   node picture.mjs REPORT.html OUT.png [JSON]
-// JSON: view, seek (s), keys (pressed in turn), theme, width, height, selector (what of the page).
+// JSON: view, seek (s), keys (pressed in turn), theme, width, height.
 import { existsSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { chromium } from 'playwright-core';
 
 const [report, out, text = '{}'] = process.argv.slice(2);
-const asked = { theme: 'light', width: 1200, height: 900, keys: [], selector: 'body', ...JSON.parse(text) };
+const asked = { theme: 'light', width: 1200, height: 900, keys: [], ...JSON.parse(text) };
 const executablePath = [process.env.SKEIN_CHROMIUM, '/usr/bin/chromium', '/usr/bin/google-chrome']
   .find((path) => path && existsSync(path));
 const browser = await chromium.launch({
@@ -23,5 +23,5 @@ await page.waitForSelector('main > *');
 for (const key of asked.keys) await page.keyboard.press(key);
 if (asked.seek !== undefined) await page.locator('.scrubber').fill(String(asked.seek));
 await page.waitForTimeout(1500);
-await page.locator(asked.selector).first().screenshot({ path: out });
+await page.screenshot({ path: out });
 await browser.close();

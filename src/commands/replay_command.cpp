@@ -16,6 +16,7 @@
 #include "src/config/whole_number.h"
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
+#include "src/files/text_table.h"
 #include "src/replay/telemetry_server.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
@@ -61,8 +62,9 @@ void WriteAcmi(const ReplayOptions& options, const std::vector<AgentFlights>& ag
 
 void WriteHtml(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {
   WriteReport(options.out, FlightsData(agents, options.flight.seed));
-  fmt::print("{}: {} flights by {} agents, for a browser\n", options.out,
-             agents.front().flights.size(), agents.size());
+  fmt::print("{}: {} by {}, for a browser\n", options.out,
+             Counted(static_cast<int>(agents.front().flights.size()), "episode"),
+             Counted(static_cast<int>(agents.size()), "agent"));
 }
 
 constexpr ReplayFormat kFormats[] = {
