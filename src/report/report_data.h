@@ -21,9 +21,9 @@ struct ReportRequest {
 };
 
 /// Reads the runs, flies their policies beside the autopilots on the same episodes, and returns the
-/// deflated pack (src/report/data_pack.h) of docs/reference/file-formats.md. A run without a policy
-/// has curves alone. If the pool is stopping, the flights say nothing. Throws Error on what is no
-/// run, or of a version that this one does not know.
+/// deflated pack (src/report/data_pack.h) whose document viewer/src/report.ts describes. A run
+/// without a policy has curves alone. If the pool is stopping, the flights say nothing. Throws
+/// Error on what is no run, or of a version that this one does not know.
 std::string ReportData(const ReportRequest& request, WorkerPool& pool);
 
 /// The same of flights alone, of evaluations with `seed`.

@@ -25,8 +25,8 @@ std::vector<Checkpoint> CheckpointsIn(const std::string& folder);
 inline constexpr const char* kRunsRoot = "runs";
 
 /// The directory of one training run, held exclusively while the object lives:
-///   config.toml, low_level.skein (of high-level policies), task.toml (of task files), aircraft.json
-///   (of aircraft that come from a file), log.txt, metrics.csv, timing.csv,
+///   config.toml, low_level.skein (of high-level policies), task.toml (of task files),
+///   aircraft.json (of aircraft that come from a file), log.txt, metrics.csv, timing.csv,
 ///   events.out.tfevents.*, evaluation.json, checkpoints/checkpoint-<iteration>.skein,
 ///   checkpoints/policy-best.skein, checkpoints/policy-final.skein
 class RunDirectory {

@@ -37,9 +37,9 @@ using Json = nlohmann::ordered_json;
 
 /// Removes what a process killed while it made a run's directory has left: no run is in it yet.
 void RemoveStub(const std::string& run) {
-  for (const char* name : {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp",
-                            "/task.toml", "/task.toml.tmp", "/aircraft.json", "/aircraft.json.tmp",
-                            "/lock", "/checkpoints"}) {
+  for (const char* name :
+       {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp", "/task.toml",
+        "/task.toml.tmp", "/aircraft.json", "/aircraft.json.tmp", "/lock", "/checkpoints"}) {
     std::error_code ignored;  // RunDirectory::Create says what is in the way
     fs::remove(run + name, ignored);
   }

@@ -106,10 +106,25 @@ async function read(bytes: Uint8Array): Promise<ReportPack> {
   return pack;
 }
 
-async function fetched(): Promise<ReportPack> {
+async function fetched(): Promise<Uint8Array> {
   const response = await fetch('data');
   if (!response.ok) throw new Error(await response.text());
-  return read(new Uint8Array(await response.arrayBuffer()));
+  return new Uint8Array(await response.arrayBuffer());
+}
+
+function areEqual(a: Uint8Array, b: Uint8Array): boolean {
+  return a.length === b.length && a.every((byte, i) => byte === b[i]);
+}
+
+/** Asks for data now and then; a page whose data are the same stays as it is. */
+function keepFresh(page: Page, first: Uint8Array): void {
+  let shown = first;
+  setInterval(() => void (async () => {
+    const bytes = await fetched();
+    if (areEqual(bytes, shown)) return;
+    page.renew(await read(bytes));
+    shown = bytes;
+  })().catch(() => undefined), REFRESH_MS);
 }
 
 async function start(): Promise<void> {
@@ -117,10 +132,9 @@ async function start(): Promise<void> {
   const text = document.getElementById('data')?.textContent?.trim() ?? '';
   try {
     const isLive = text === '';
-    const page = new Page(root, await (isLive ? fetched() : read(bytesOfBase64(text))));
-    if (isLive) {
-      setInterval(() => fetched().then((pack) => page.renew(pack), () => undefined), REFRESH_MS);
-    }
+    const bytes = isLive ? await fetched() : bytesOfBase64(text);
+    const page = new Page(root, await read(bytes));
+    if (isLive) keepFresh(page, bytes);
   } catch (error) {
     root.replaceChildren(el('p', { class: 'error' }, `This report cannot be shown: ${String(error)}`));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The document of a report, as skein writes it (docs/reference/file-formats.md).
+// The document of a report, as skein packs it (src/report/report_data.cpp).
 import type { ArrayReference, Pack } from './pack';
 
 export const KNOWN_FORMAT = 1;
