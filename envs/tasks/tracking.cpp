@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/tracking.h"
 
+#include <array>
 #include <cmath>
 
-#include "envs/state/attitude.h"
+#include "envs/tasks/point_target.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -102,20 +103,14 @@ class TrackingTask : public Task {
 
   void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
              int index) const override {
-    const auto around = [random](double centre_rad, double change_deg) {
-      const double change_rad = change_deg / kDegPerRad;
-      return centre_rad + random->Uniform(-change_rad, change_rad);
-    };
-    const double distance = random->Uniform(config_.distance_ft.min, config_.distance_ft.max);
-    const double azimuth = around(start.yaw_rad, config_.azimuth_deg);
-    const double elevation = around(start.pitch_rad, config_.elevation_deg);
-
+    const std::array<double, 3> point = DrawPoint(
+        {config_.distance_ft, config_.azimuth_deg, config_.elevation_deg}, start, limits_, random);
     const auto set = [task, index](int column, double value) {
       task[column][index] = static_cast<float>(value);
     };
-    set(kTrackingNorth, start.north_ft + distance * std::cos(elevation) * std::cos(azimuth));
-    set(kTrackingEast, start.east_ft + distance * std::cos(elevation) * std::sin(azimuth));
-    set(kTrackingAltitude, limits_.Altitude(start.altitude_ft + distance * std::sin(elevation)));
+    set(kTrackingNorth, point[0]);
+    set(kTrackingEast, point[1]);
+    set(kTrackingAltitude, point[2]);
     set(kTrackingLastNorth, start.north_ft);
     set(kTrackingLastEast, start.east_ft);
     set(kTrackingLastAltitude, start.altitude_ft);

@@ -29,7 +29,7 @@ const Preset& FindPreset(const std::string& task, const std::string& name) {
     names.emplace_back(preset.name);
   }
   if (names.empty()) {
-    throw Error(fmt::format("unknown task {}{}; known tasks: {}", task,
+    throw Error(fmt::format("unknown task {}{}; known tasks: {}; a task file ends in .toml", task,
                             DidYouMean(task, PresetTasks()), fmt::join(PresetTasks(), ", ")));
   }
   throw Error(fmt::format("unknown preset {} of task {}; known presets: {}", name, task,

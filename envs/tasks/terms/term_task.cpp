@@ -2,12 +2,13 @@
 #include "envs/tasks/terms/term_task.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <string>
 
 #include "base/error.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
+#include "envs/tasks/point_target.h"
 #include "envs/tasks/terms/term_compiler.h"
 #include "envs/tasks/terms/term_program.h"
 
@@ -34,6 +35,21 @@ double StartOf(const FlightStart& start, TermValue value) {
     default:
       return 0;  // level flight without sideslip, along the heading
   }
+}
+
+/// "_ft", "_rad": that of the value itself; empty if it has none.
+std::string UnitOf(TermValue value) {
+  for (const TermName& name : TermNames()) {
+    if (name.value != value || name.per_value != 1) continue;
+    const std::string text = name.name;
+    for (const char* unit : {"_deg_s", "_rad", "_ft", "_fps", "_g", "_deg"}) {
+      const std::size_t place = text.rfind(unit);
+      if (place != std::string::npos && place + std::string(unit).size() == text.size()) {
+        return unit;
+      }
+    }
+  }
+  return "";
 }
 
 class TermTask : public Task {
@@ -84,7 +100,7 @@ class TermTask : public Task {
   std::vector<ObservedNumber> leading_numbers() const override {
     std::vector<ObservedNumber> numbers;
     for (const TermNumber& number : config_->observed) {
-      numbers.push_back({number.name, Worth(number.unit, units_)});
+      numbers.push_back({NameWithUnit(number), Worth(number.unit, units_)});
     }
     return numbers;
   }
@@ -99,7 +115,8 @@ class TermTask : public Task {
       const TermTarget& target = config_->targets[k];
       const int column = TermColumns::OfTarget(*config_, static_cast<int>(k));
       if (target.draw_from == Draw::kPoint) {
-        const auto point = DrawPoint(target, start, random);
+        const auto point = DrawPoint({target.distance_ft, target.azimuth_deg, target.elevation_deg},
+                                     start, limits_, random);
         for (int axis = 0; axis < 3; ++axis) set(column + axis, point[axis]);
         continue;
       }
@@ -143,6 +160,14 @@ class TermTask : public Task {
   }
 
  private:
+  /// "error_altitude_ft" of "error_altitude": times its unit it is in feet.
+  std::string NameWithUnit(const TermNumber& number) const {
+    if (number.value != TermValue::kTargetError) return number.name;
+    const TermTarget& target = config_->targets[static_cast<std::size_t>(number.target)];
+    if (number.name != "error_" + target.name) return number.name;
+    return number.name + UnitOf(target.quantity.value);
+  }
+
   bool IsSeenByPosition(const TermNumber& number) const {
     if (number.value != TermValue::kTargetError) return IsOfPosition(number.value);
     return IsOfPosition(config_->targets[static_cast<std::size_t>(number.target)].quantity.value);
@@ -163,20 +188,6 @@ class TermTask : public Task {
     if (value == TermValue::kTrueAirspeed) return limits_.TrueAirspeed(asked, altitude_ft);
     if (value == TermValue::kPitch) return std::asin(std::sin(asked));
     return IsWrapped(value) ? std::remainder(asked, 2 * M_PI) : asked;
-  }
-
-  std::array<double, 3> DrawPoint(const TermTarget& target, const FlightStart& start,
-                                  simd::RandomStream* random) const {
-    const auto around = [random](double centre_rad, double change_deg) {
-      const double change_rad = change_deg / kDegPerRad;
-      return centre_rad + random->Uniform(-change_rad, change_rad);
-    };
-    const double distance = random->Uniform(target.distance_ft.min, target.distance_ft.max);
-    const double azimuth = around(start.yaw_rad, target.azimuth_deg);
-    const double elevation = around(start.pitch_rad, target.elevation_deg);
-    return {start.north_ft + distance * std::cos(elevation) * std::cos(azimuth),
-            start.east_ft + distance * std::cos(elevation) * std::sin(azimuth),
-            limits_.Altitude(start.altitude_ft + distance * std::sin(elevation))};
   }
 
   template <class Set>
