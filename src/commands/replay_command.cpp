@@ -17,6 +17,7 @@
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
+#include "src/replay/password_hash.h"
 #include "src/replay/telemetry_server.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
@@ -41,17 +42,14 @@ struct ReplayOptions {
 struct ReplayFormat {
   const char* name;
   const char* ending;  ///< of files that are of this format if no other is asked for
+  bool has_file_per_agent;
   void (*write)(const ReplayOptions& options, const std::vector<AgentFlights>& agents);
 };
 
-/// What is written to: a file for every agent if there are several.
-std::string CsvPath(const ReplayOptions& options, const std::string& agent, std::size_t agents) {
-  return agents == 1 ? options.out : PathOfAgent(options.out, agent);
-}
-
 void WriteCsv(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {
   for (const AgentFlights& flown : agents) {
-    WriteFlightsCsv(options.flight, CsvPath(options, flown.agent, agents.size()),
+    const bool is_alone = agents.size() == 1;
+    WriteFlightsCsv(options.flight, is_alone ? options.out : PathOfAgent(options.out, flown.agent),
                     "by " + flown.agent, flown);
   }
 }
@@ -67,8 +65,9 @@ void WriteHtml(const ReplayOptions& options, const std::vector<AgentFlights>& ag
              Counted(static_cast<int>(agents.size()), "agent"));
 }
 
-constexpr ReplayFormat kFormats[] = {
-    {"acmi", ".acmi", WriteAcmi}, {"csv", ".csv", WriteCsv}, {"html", ".html", WriteHtml}};
+constexpr ReplayFormat kFormats[] = {{"acmi", ".acmi", false, WriteAcmi},
+                                     {"csv", ".csv", true, WriteCsv},
+                                     {"html", ".html", false, WriteHtml}};
 
 std::vector<std::string> FormatNames() {
   std::vector<std::string> names;
@@ -122,13 +121,15 @@ ProgramConfig Configure(const ReplayOptions& options, const std::vector<std::str
 }
 
 void CheckOutputs(const ReplayOptions& options, const std::vector<std::string>& names) {
-  if (options.live_port) return;
+  if (options.live_port) {
+    AsUsage([&] { TelemetryPasswordHashes(options.telemetry.password); });
+    return;
+  }
   if (options.out.empty()) throw UsageError("-o FILE or --live PORT is needed: where to?");
-  const bool one_file = ChooseFormat(options).write != WriteCsv;
-  std::vector<std::string> paths;
-  for (const std::string& name : names) {
-    paths.push_back(CsvPath(options, name, one_file ? 1 : names.size()));
-    if (one_file) break;
+  std::vector<std::string> paths = {options.out};
+  if (ChooseFormat(options).has_file_per_agent && names.size() > 1) {
+    paths.clear();
+    for (const std::string& name : names) paths.push_back(PathOfAgent(options.out, name));
   }
   CheckWritable(paths);
 }

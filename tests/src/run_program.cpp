@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <thread>
 
 #include "src/files/output_file.h"
@@ -65,6 +66,11 @@ bool RunningProgram::WaitUntil(const std::function<bool()>& condition) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return false;
+}
+
+std::string RunningProgram::output() const {
+  const std::string path = scratch_ / kOutput;
+  return std::filesystem::exists(path) ? ReadFile(path) : "";
 }
 
 ProgramResult RunningProgram::Wait() {

@@ -34,6 +34,8 @@ class RunningProgram {
   /// Whether `condition` came true while the program was running.
   bool WaitUntil(const std::function<bool()>& condition);
   ProgramResult Wait();
+  /// What it has written to its standard output so far.
+  std::string output() const;
 
  private:
   bool Reap(bool block);

@@ -107,7 +107,7 @@ TEST(Usage, ListNamesWhatThereIs) {
     return result.output;
   };
   EXPECT_THAT(list("tasks"), HasSubstr("heading   altitude_ft, yaw_deg, true_airspeed_fps"));
-  EXPECT_THAT(list("presets"), HasSubstr("heading   aerosonde, default, paper"));
+  EXPECT_THAT(list("presets"), HasSubstr("heading   aerosonde, cessna172, default, easy, paper"));
   EXPECT_THAT(list("conditions"), HasSubstr("60fps,light"));
   EXPECT_THAT(list("aircraft"), HasSubstr("aerosonde"));
   EXPECT_THAT(list("agents"), HasSubstr("zero "));
@@ -303,7 +303,8 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_EQ(
       CallSkein({"trian", "heading"}).error,
       "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
-      "compare, study, fdm, export, bench, list, info, help, completion, man (see skein --help)\n");
+      "compare, replay, study, report, fdm, aircraft, export, bench, list, info, help, completion, "
+      "man (see skein --help)\n");
   EXPECT_THAT(
       CallSkein({"fdm", "fly"}).error,
       HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));
@@ -327,7 +328,7 @@ TEST(Usage, UnknownTasksAndPresetsListTheKnownOnes) {
   EXPECT_THAT(CallSkein({"train", "heding"}).error,
               HasSubstr("unknown task heding; did you mean heading?"));
   EXPECT_THAT(CallSkein({"train", "heading", "--preset", "fast"}).error,
-              HasSubstr("default, paper"));
+              HasSubstr("known presets: aerosonde, cessna172, default, easy"));
 }
 
 TEST(Usage, HelpKeysListsEveryKeyWithItsValue) {
