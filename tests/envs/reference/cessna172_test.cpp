@@ -32,8 +32,8 @@ class Cessna172 : public ::testing::Test {
   double Climb(const TrimPoint& trim) const {
     const double speed = trim.state.segment<3>(kU).norm(), altitude_ft = -trim.state[kDown];
     const double mach = speed / AirAt(plant_.atmosphere(), altitude_ft).sound_speed_ft_s;
-    const double excess = Thrust(plant_.aircraft().engine, 100, altitude_ft, mach) -
-                          trim.controls.thrust_lbf;
+    const double excess =
+        Thrust(plant_.aircraft().engine, 100, altitude_ft, mach) - trim.controls.thrust_lbf;
     return 60 * speed * excess / (plant_.aircraft().airframe.mass_slug * kGravityFtS2);
   }
 
@@ -47,8 +47,7 @@ TEST_F(Cessna172, PerformsAsItsHandbookSays) {
   const EnvelopeRow& ground = envelope.rows[0];
   ASSERT_FALSE(ground.trims.empty());
   EXPECT_NEAR(ground.stall_speed_ft_s / kFeetPerSecondPerKnot, 50, kSpeed);
-  EXPECT_NEAR(ground.trims.back().state.segment<3>(kU).norm() / kFeetPerSecondPerKnot, 125,
-              kSpeed);
+  EXPECT_NEAR(ground.trims.back().state.segment<3>(kU).norm() / kFeetPerSecondPerKnot, 125, kSpeed);
   double climb = 0;
   for (const TrimPoint& trim : ground.trims) climb = std::max(climb, Climb(trim));
   EXPECT_NEAR(climb, 770, kClimb);

@@ -57,20 +57,19 @@ TEST(ClosedLoopModel, StepsAsTheClosedLoopFlies) {
   constexpr double kStick = 0.01;
   const auto compare = [&](LoopAxis axis, int column, const Sticks& sticks,
                            const std::vector<double> TrialFlight::*flown, double unit) {
-    const ClosedLoopModel model =
-        LineariseClosedLoop(plant, trim, axis, kTrialInterval, false);
+    const ClosedLoopModel model = LineariseClosedLoop(plant, trim, axis, kTrialInterval, false);
     const std::vector<double> linear = model.StepResponse(0, column, 1.5);
     const TrialFlight flight = FlyTrial(plant, trim, 1.5, sticks);
     const TrialFlight rest = FlyTrial(plant, trim, 1.5, HandsOff());
     const double largest = kStick * Peak(linear) * unit;
     for (std::size_t i = 0; i < linear.size(); ++i) {
-      EXPECT_NEAR(((flight.*flown)[i] - (rest.*flown)[i]) / largest, kStick * linear[i] * unit / largest,
-                  kLinear)
+      EXPECT_NEAR(((flight.*flown)[i] - (rest.*flown)[i]) / largest,
+                  kStick * linear[i] * unit / largest, kLinear)
           << i;
     }
   };
-  compare(LoopAxis::kLongitudinal, kNormalAccelerationMemory, Held(kStick, 0, 0),
-          &TrialFlight::nz, 1);
+  compare(LoopAxis::kLongitudinal, kNormalAccelerationMemory, Held(kStick, 0, 0), &TrialFlight::nz,
+          1);
   compare(LoopAxis::kLateral, kP, Held(0, kStick, 0), &TrialFlight::p, kDegPerRad);
 }
 
@@ -115,8 +114,7 @@ TEST(TuneFlightControl, MakesTheAerosondeFly) {
 TEST(TuneFlightControl, ScalesWithTheAircraft) {
   DerivativeAircraft large = AerosondeModel();
   large.mass_kg *= 64;
-  for (double* inertia :
-       {&large.Ixx_kg_m2, &large.Iyy_kg_m2, &large.Izz_kg_m2, &large.Ixz_kg_m2}) {
+  for (double* inertia : {&large.Ixx_kg_m2, &large.Iyy_kg_m2, &large.Izz_kg_m2, &large.Ixz_kg_m2}) {
     *inertia *= 1024;
   }
   large.wing_area_m2 *= 16;
