@@ -37,6 +37,9 @@ void main() {
   gl_FragColor = vec4(vTint, vTime > now ? opacity * ahead : opacity);
 }`;
 
+/** Of more aircraft the lines alone are drawn: they would cover each other, and cost the most. */
+const MOST_RIBBONS = 60;
+
 interface Uniforms {
   now: { value: number };
   length: { value: number };
@@ -103,6 +106,7 @@ export class Trails {
       return geometry;
     };
     const ribbon = new Mesh(geometryOf(ribbons), this.material(this.shared.width, 0.6, 0));
+    ribbon.visible = records.length <= MOST_RIBBONS;
     const line = new LineSegments(geometryOf(lines), this.material({ value: 0 }, 1, 0.4));
     for (const object of [ribbon, line]) {
       object.frustumCulled = false;
