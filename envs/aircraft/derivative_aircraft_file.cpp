@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "envs/aircraft/aircraft_json.h"
 #include "envs/aircraft/aircraft_sections.h"
 #include "envs/aircraft/flight_control_file.h"
@@ -101,8 +102,10 @@ DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_v
   actuators.Read("rudder", &aircraft.rudder);
   actuators.Finish();
   if (section.Has("limits")) ReadLimits(section.Below("limits"), &aircraft.limits);
-  aircraft.has_flight_control =
-      flight_control == FlightControlSection::kRequired || section.Has("flight_control");
+  aircraft.has_flight_control = section.Has("flight_control");
+  if (!aircraft.has_flight_control && flight_control == FlightControlSection::kRequired) {
+    throw Error(where + " lacks flight_control; `skein aircraft tune FILE -o FILE` derives it");
+  }
   if (aircraft.has_flight_control) {
     ReadFlightControl(section.Below("flight_control"), &aircraft.flight_control);
   }

@@ -68,6 +68,20 @@ TEST(DerivativeAircraftFile, ErrorsNameTheAircraftAndTheKey) {
             "aircraft glider.actuators.elevator must have min_deg below zero and max_deg above");
 }
 
+std::string WithoutFlightControl() {
+  nlohmann::json file = nlohmann::json::parse(Aerosonde());
+  file.erase("flight_control");
+  return file.dump();
+}
+
+TEST(DerivativeAircraftFile, AFileWithoutGainsIsReadWhereTheyAreDerived) {
+  const std::string text = WithoutFlightControl();
+  EXPECT_EQ(ErrorOf(text),
+            "aircraft glider lacks flight_control; `skein aircraft tune FILE -o FILE` derives it");
+  EXPECT_FALSE(
+      ReadDerivativeAircraft("glider", text, FlightControlSection::kOptional).has_flight_control);
+}
+
 /// The aerosonde's file with another value of `key`.
 std::string With(const std::string& key, const std::string& value) {
   std::string text = Aerosonde();
