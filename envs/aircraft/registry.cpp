@@ -36,7 +36,7 @@ class Known {
  public:
   SharedAircraft Keep(const std::string& key, SharedAircraft aircraft) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return known_.emplace(key, std::move(aircraft)).first->second;
+    return known_.insert_or_assign(key, std::move(aircraft)).first->second;
   }
 
   /// NAME#HASH of a kept file of that hash; empty if there is none.
