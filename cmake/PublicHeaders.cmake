@@ -23,6 +23,8 @@ set(SKEIN_PUBLIC_HEADERS
     envs/tasks/task_errors.h
     envs/tasks/termination.h
     envs/tasks/termination_config.h
+    envs/tasks/terms/term_task_config.h
+    envs/tasks/terms/term_values.h
     envs/tasks/tracking_config.h
     envs/vec_env.h
     envs/wind/wind_config.h

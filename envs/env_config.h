@@ -27,7 +27,7 @@ struct EnvConfig {
   std::string task = "heading";
   /// The task of a task file, whose name `task` is; null: a built-in one.
   std::shared_ptr<const TermTaskConfig> term_task;
-  /// Of it TermTaskConfig::hash and ::interface, empty without: what files say it was.
+  /// Its TermTaskConfig::hash and TermTaskConfig::interface, empty without: what files say it was.
   std::string task_file_hash, task_interface;
   std::string aircraft = "f16";
   AtmosphereModel atmosphere = AtmosphereModel::kStevensLewis;

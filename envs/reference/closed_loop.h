@@ -47,7 +47,7 @@ class ClosedLoop {
 
   /// All that the next step depends on, as ClosedLoopMemory lays it out.
   Eigen::VectorXd memory() const;
-  void set_memory(const Eigen::VectorXd& memory);
+  void set_memory(const Eigen::VectorXd& memory);  ///< goes on from there
 
   /// At the end of the last step.
   const RigidBodyState& state() const { return state_; }

@@ -29,7 +29,7 @@ struct TermNumber {
 };
 
 /// What is drawn when an episode begins.
-struct TermTarget {
+struct TermTarget {  /// From where its value is drawn.
   enum class Draw : std::uint8_t {
     kAroundStart,  ///< what it is at the start + U(draw.min, draw.max)
     kBetween,      ///< U(draw.min, draw.max)
@@ -45,7 +45,7 @@ struct TermTarget {
 };
 
 /// Holds while a number is where it says.
-struct TermCondition {
+struct TermCondition {  /// What must hold of the number x.
   enum class Kind : std::uint8_t {
     kWithin,  ///< abs(x) < limit; of what is reached: times the episode's share of its tolerances
     kBelow,
@@ -60,7 +60,7 @@ struct TermCondition {
 
 /// A part of the reward: weight times shape of a number, or of the root of the sum of squares of
 /// several, over `unit`.
-struct TermReward {
+struct TermReward {  /// What is made of the number x.
   enum class Shape : std::uint8_t {
     kLinear,     ///< x
     kAbsolute,   ///< abs(x)
@@ -112,9 +112,9 @@ struct TermTaskConfig {
   std::vector<TermEnd> ends;
   double terrain_base_ft = 0;
   std::vector<TerrainWave> terrain;
-
+  /// Whether its targets are a point, which is passed, and not a state, which can be held.
   bool has_point() const;
-  bool has_terrain() const { return !terrain.empty() || terrain_base_ft != 0; }
+  bool has_terrain() const { return !terrain.empty() || terrain_base_ft != 0; }  ///< not flat at 0
   /// Height of the terrain, ft.
   double TerrainAt(double north_ft, double east_ft) const;
   /// Without what only serves training.
