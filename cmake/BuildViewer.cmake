@@ -12,16 +12,17 @@ function(run_npm)
   set(npm_output "${output}" PARENT_SCOPE)
 endfunction()
 
-# Packages are fetched when the lock file is another one.
+# Packages are fetched when the lock file is another one: by npm install, which takes the versions of the lock file, too, but
+# which registries that lack some other platform's packages can serve.
 file(SHA256 ${WORK}/package-lock.json lock)
 set(installed "")
 if(EXISTS ${WORK}/installed)
   file(READ ${WORK}/installed installed)
 endif()
 if(NOT installed STREQUAL lock)
-  run_npm(ci --prefer-offline --no-audit --no-fund --fetch-retries=1 --fetch-timeout=20000)
+  run_npm(install --prefer-offline --no-audit --no-fund --fetch-retries=1 --fetch-timeout=20000)
   if(npm_failed)
-    message(STATUS "The page of skein report is not built: npm ci failed (no network?)\n${npm_output}")
+    message(STATUS "The page of skein report is not built: npm install failed (no network?)\n${npm_output}")
     return()
   endif()
   file(WRITE ${WORK}/installed ${lock})

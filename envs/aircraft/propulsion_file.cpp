@@ -52,7 +52,7 @@ Levels ReadLevels(Section section) {
 
 /// The key `kind`, one of `choices`.
 std::string ReadChoice(const std::vector<std::string>& choices, Section* section) {
-  const std::string kind = section->ReadText("kind");
+  std::string kind = section->ReadText("kind");
   std::string known;
   for (const std::string& choice : choices) {
     if (kind == choice) return kind;

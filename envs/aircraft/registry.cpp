@@ -103,7 +103,7 @@ Aircraft LoadAircraft(const std::string& aircraft) { return Find(aircraft)->airc
 std::string KeepAircraftFile(const std::string& path, const std::string& name) {
   AircraftDocument document = ReadAircraftDocumentFile(path);
   if (!name.empty()) document.name = name;
-  const std::string key = document.name + "#" + document.hash;
+  std::string key = document.name + "#" + document.hash;
   TheKnown().Keep(key, Make(std::move(document)));
   return key;
 }
@@ -121,7 +121,7 @@ std::string FindAircraft(const AircraftIdentity& identity) {
   for (const std::string& name : AircraftNames()) {
     if (IdentifyAircraft(name).hash == identity.hash) return name;
   }
-  if (const std::string kept = TheKnown().FindHash(identity.hash); !kept.empty()) return kept;
+  if (std::string kept = TheKnown().FindHash(identity.hash); !kept.empty()) return kept;
   throw Error("the file of the aircraft " + identity.name + "#" + identity.hash + kNotAtHand);
 }
 

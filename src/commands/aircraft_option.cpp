@@ -23,7 +23,8 @@ CLI::Validator IsAircraft() {
             return fmt::format("{} is no aircraft: {}, or the path of a file, FILE.json", aircraft,
                                fmt::join(names, ", "));
           },
-          ""};
+          // Shells complete what stands in braces.
+          fmt::format("{{{}}}", fmt::join(AircraftNames(), ","))};
 }
 
 }  // namespace skein

@@ -20,6 +20,7 @@ struct ExportOptions {
   std::string aircraft = "f16";
   std::string out;
   bool check = false;
+  CLI::Option* aircraft_option = nullptr;
 };
 
 ExportForm FormCalled(const std::string& name) {
@@ -33,6 +34,10 @@ std::vector<std::string> Export(ExportOptions options) {
   // What a policy was trained on is found by its hash among the files that are kept.
   if (IsAircraftPath(options.aircraft)) options.aircraft = KeepAircraftFile(options.aircraft);
   if (!options.flight_control.empty()) {
+    if (!options.policy.empty() && options.aircraft_option->count() > 0 &&
+        !IsKeptFile(options.aircraft)) {
+      throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
+    }
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }
   if (options.policy.empty()) throw UsageError("a policy file or the directory of a run is needed");
@@ -68,14 +73,15 @@ void AddExportCommand(CLI::App* app) {
                    "write the flight control laws that the policy flies through, as one C99 header")
       ->check(CLI::IsMember({"c"}))
       ->excludes(format);
-  command
-      ->add_option("--aircraft", options->aircraft,
-                   AircraftHelp("of a policy file that was trained on an own aircraft, that "
-                                "aircraft's file; with --flight-control and without a policy: "
-                                "whose laws"))
-      ->check(IsAircraft())
-      ->type_name("NAME_OR_FILE")
-      ->capture_default_str();
+  options->aircraft_option =
+      command
+          ->add_option("--aircraft", options->aircraft,
+                       AircraftHelp("of a policy file that was trained on an own aircraft, that "
+                                    "aircraft's file; with --flight-control and without a policy: "
+                                    "whose laws"))
+          ->check(IsAircraft())
+          ->type_name("NAME_OR_FILE")
+          ->capture_default_str();
   command->add_option("-o,--out", options->out, "write it here")->type_name("FILE")->required();
   command->add_flag(
       "--check", options->check,

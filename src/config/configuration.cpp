@@ -298,7 +298,7 @@ ProgramConfig ResolveConfig(const ConfigSources& sources) {
   const bool is_file = !sources.task_text.empty() || IsTaskFile(sources.task);
   const ProgramConfig base =
       is_file ? ConfigOfTaskFile(sources) : ConfigOf(FindPreset(sources.task, sources.preset));
-  const ProgramConfig config = WithAircraft(base, [&](ProgramConfig* changed) {
+  ProgramConfig config = WithAircraft(base, [&](ProgramConfig* changed) {
     if (!sources.file.empty()) ApplyTomlFile(sources.file, changed);
     ApplyConditionsAndAssignments(sources.conditions, sources.assignments, changed,
                                   sources.assignments_are);

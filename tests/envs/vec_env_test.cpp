@@ -576,7 +576,7 @@ TEST(VecEnv, RefusesWhatCannotBeFlown) {
   EXPECT_NE(message(config).find("known: heading, control"), std::string::npos);
   config = {};
   config.aircraft = "f15";
-  EXPECT_NE(message(config).find("known: f16"), std::string::npos);
+  EXPECT_NE(message(config).find("known: aerosonde, cessna172, f16"), std::string::npos);
   config = {};
   config.action_repeat = 0;
   EXPECT_NE(message(config).find("action_repeat"), std::string::npos);

@@ -259,9 +259,10 @@ TEST(Configuration, UnknownPresetsAndTasksListWhatThereIs) {
         try {
           ResolveConfig({"heading", "fast", "", {}});
         } catch (const Error& error) {
-          EXPECT_STREQ(error.what(),
-                       "unknown preset fast of task heading; known presets: aerosonde, default, "
-                       "easy, paper, robust");
+          EXPECT_STREQ(
+              error.what(),
+              "unknown preset fast of task heading; known presets: aerosonde, cessna172, default, "
+              "easy, paper, robust");
           throw;
         }
       },
