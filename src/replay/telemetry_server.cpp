@@ -128,11 +128,10 @@ class TelemetryServer::Client {
                                  MSG_DONTWAIT | MSG_NOSIGNAL);
       if (count > 0) {
         sent += static_cast<std::size_t>(count);
-      } else if (errno != EAGAIN && errno != EINTR) {
-        return false;
-      } else if (!Wait(POLLOUT, deadline)) {
-        return false;
+        continue;
       }
+      const bool is_gone = errno != EAGAIN && errno != EINTR;
+      if (is_gone || !Wait(POLLOUT, deadline)) return false;
     }
     return true;
   }
