@@ -29,7 +29,8 @@ struct TermNumber {
 };
 
 /// What is drawn when an episode begins.
-struct TermTarget {  /// From where its value is drawn.
+struct TermTarget {
+  /// From where its value is drawn.
   enum class Draw : std::uint8_t {
     kAroundStart,  ///< what it is at the start + U(draw.min, draw.max)
     kBetween,      ///< U(draw.min, draw.max)
@@ -45,7 +46,8 @@ struct TermTarget {  /// From where its value is drawn.
 };
 
 /// Holds while a number is where it says.
-struct TermCondition {  /// What must hold of the number x.
+struct TermCondition {
+  /// What must hold of the number x.
   enum class Kind : std::uint8_t {
     kWithin,  ///< abs(x) < limit; of what is reached: times the episode's share of its tolerances
     kBelow,
@@ -60,7 +62,8 @@ struct TermCondition {  /// What must hold of the number x.
 
 /// A part of the reward: weight times shape of a number, or of the root of the sum of squares of
 /// several, over `unit`.
-struct TermReward {  /// What is made of the number x.
+struct TermReward {
+  /// What is made of the number x.
   enum class Shape : std::uint8_t {
     kLinear,     ///< x
     kAbsolute,   ///< abs(x)
