@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <vector>
@@ -128,6 +130,8 @@ void AddCommands(CLI::App* app) {
 
 int RunProgram(int argc, char** argv) {
   OccupyStandardStreams();
+  // It asks a training to save: before there is one, or after it, it is no reason to die.
+  std::signal(SIGUSR1, SIG_IGN);
   CLI::App app("Skein: fixed-wing flight simulation and recurrent PPO on SIMD CPU cores", "skein");
   AddCommands(&app);
   try {
@@ -143,6 +147,8 @@ int RunProgram(int argc, char** argv) {
   } catch (const UsageError& error) {
     PrintError(error.what());
     return kExitUsage;
+  } catch (const std::filesystem::filesystem_error& error) {
+    PrintError(fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::bad_alloc&) {
     PrintError("out of memory; fewer aircraft or shorter rollouts need less");
   } catch (const std::exception& error) {

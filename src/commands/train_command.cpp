@@ -154,8 +154,8 @@ void Train(TrainOptions options) {
 constexpr const char* kFooter =
     "From lowest to highest precedence: built-in defaults, preset, --config, --condition, "
     "--set,\n"
-    "--steps and --seed. SIGINT (Ctrl-C) and SIGTERM drop the iteration under way, save, and "
-    "end\n"
+    "--steps and --seed. SIGINT (Ctrl-C), SIGTERM and SIGHUP drop the iteration under way, save, "
+    "and end\n"
     "with exit code 0; a second one ends at once. SIGUSR1 saves after the iteration.\n"
     "Examples:\n"
     "  skein train heading\n"

@@ -42,7 +42,8 @@ std::optional<double> ReadNumber(const std::string& text) {
   }
   char* end = nullptr;
   const double number = std::strtod(digits.c_str(), &end);
-  if (digits.empty() || *end != '\0') return std::nullopt;
+  const bool is_hexadecimal = digits.find_first_of("xX") != std::string::npos;
+  if (digits.empty() || *end != '\0' || is_hexadecimal) return std::nullopt;
   return number;
 }
 

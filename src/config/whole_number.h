@@ -7,8 +7,8 @@
 
 namespace skein {
 
-/// A number in any notation, which may end in k, M or G for thousands, millions or billions (10M,
-/// 1.35G); nothing if `text` is none.
+/// A decimal number in any notation, which may end in k, M or G for thousands, millions or billions
+/// (10M, 1.35G); nothing if `text` is none.
 std::optional<double> ReadNumber(const std::string& text);
 
 /// For CLI::Option::transform: takes a whole number from `min` to `max` (at most 2^53, which a

@@ -114,8 +114,8 @@ void WriteJson(const std::string& path, const nlohmann::ordered_json& document) 
   WriteFile(path, document.dump(1, ' ', false, Handler::replace) + "\n");
 }
 
-std::string ReadFile(const std::string& path) {
-  return FileDescriptor(path, OpenMode::kRead).ReadToEnd();
+std::string ReadFile(const std::string& path, std::uint64_t largest) {
+  return FileDescriptor(path, OpenMode::kRead).ReadToEnd(largest);
 }
 
 }  // namespace skein

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -26,7 +27,13 @@ void CheckWritable(const std::vector<std::string>& paths);
 /// `name` with what file names had better not hold replaced by '-'.
 std::string FileNamePart(const std::string& name);
 
-/// The whole file, which may be a pipe. Throws Error if it cannot be read.
-std::string ReadFile(const std::string& path);
+/// What a file that somebody wrote, or a program for them, has at most, bytes.
+constexpr std::uint64_t kLargestText = std::uint64_t{64} << 20;
+/// What a file that grows with a run has at most, bytes.
+constexpr std::uint64_t kLargestRecord = std::uint64_t{4} << 30;
+
+/// The whole file, which may be a pipe: then it waits for what is written there. Throws Error if it
+/// cannot be read or has more than `largest` bytes.
+std::string ReadFile(const std::string& path, std::uint64_t largest = kLargestText);
 
 }  // namespace skein

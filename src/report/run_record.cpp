@@ -30,7 +30,7 @@ CsvColumns ReadTable(const std::string& file, std::vector<std::string>* notes) {
     notes->push_back(name + ": not there (yet)");
     return {};
   }
-  CsvColumns table = ParseCsv(ReadFile(file));
+  CsvColumns table = ParseCsv(ReadFile(file, kLargestRecord));
   if (table.rows() == 0) notes->push_back(name + ": no row yet");
   if (table.rows_left_out > 0) {
     notes->push_back(
@@ -53,7 +53,7 @@ Json ReadEvaluation(const std::string& file, std::vector<std::string>* notes) {
 /// The preset that the log's first lines name: "2026-01-31T12:00:00Z   preset default".
 std::string PresetIn(const std::string& log) {
   if (!fs::exists(log)) return "";
-  std::istringstream lines(ReadFile(log));
+  std::istringstream lines(ReadFile(log, kLargestRecord));
   const std::string mark = "   preset ";
   for (std::string line; std::getline(lines, line);) {
     const std::size_t at = line.find(mark);

@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, double>> Scalars(const IterationReport& repor
 std::uint64_t TrimRows(const std::string& path, std::uint64_t iteration,
                        const std::string& header) {
   if (!std::filesystem::exists(path)) return 0;
-  const std::string text = ReadFile(path);
+  const std::string text = ReadFile(path, kLargestRecord);
   std::string kept, row_end;
   std::uint64_t rows = 0;
   for (std::size_t begin = 0; begin < text.size();) {

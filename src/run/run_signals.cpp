@@ -32,6 +32,12 @@ void OnStop(int signal) {
 
 void OnSave(int) { save_requested = true; }
 
+/// Whether whoever started the process asked it to outlive its terminal, as nohup does.
+bool IgnoresHangUp() {
+  struct sigaction action {};
+  return sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 /// Signals are a process's, and its main thread's to handle.
 bool IsMainThread() { return gettid() == getpid(); }
 
@@ -44,6 +50,7 @@ RunSignals::RunSignals(WorkerPool& pool) : handles_(IsMainThread()) {
   save_requested = false;
   Install(SIGINT, OnStop);
   Install(SIGTERM, OnStop);
+  if (!IgnoresHangUp()) Install(SIGHUP, OnStop);
   Install(SIGUSR1, OnSave);
   Install(SIGPIPE, SIG_IGN);
 }

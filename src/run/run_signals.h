@@ -8,11 +8,12 @@
 
 namespace skein {
 
-/// While it lives, SIGINT and SIGTERM ask a pool to stop and SIGUSR1 asks for a save instead of
-/// ending the process. A second SIGINT or SIGTERM ends it at once, as by default. SIGPIPE is
-/// ignored: a reader of the progress that goes away is no reason to stop. What handled the signals
-/// before (an outer one of these, or Python) handles them again after it. On threads beside the
-/// process's main one it does nothing: the signals are that one's.
+/// While it lives, SIGINT, SIGTERM and SIGHUP ask a pool to stop and SIGUSR1 asks for a save
+/// instead of ending the process. A second one that asks to stop ends it at once, as by default. A
+/// SIGHUP that was ignored (nohup) stays so. SIGPIPE is ignored: a reader of the progress that goes
+/// away is no reason to stop. What handled the signals before (an outer one of these, or Python)
+/// handles them again after it. On threads beside the process's main one it does nothing: the
+/// signals are that one's.
 class RunSignals {
  public:
   /// Throws Error if the system refuses a handler.

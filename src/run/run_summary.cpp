@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 double StepsFlown(const std::string& run) {
   const std::string path = run + "/metrics.csv";
   if (!fs::exists(path)) return 0;
-  const std::string text = ReadFile(path);
+  const std::string text = ReadFile(path, kLargestRecord);
   const std::size_t end = text.rfind('\n');
   if (end == std::string::npos || end == 0) return 0;
   const std::size_t begin = text.rfind('\n', end - 1);

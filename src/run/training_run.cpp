@@ -242,9 +242,7 @@ void TrainingRun::TrainAndEvaluate() {
 void TrainingRun::SayStopped(const std::string& dropped) {
   const int signal = signals_.StopSignal();
   log_.Say(fmt::format("stopped by {} after {} of {} steps{}; resume with: {} train --resume {}",
-                       signal == SIGINT ? "SIGINT"
-                       : signal != 0    ? "SIGTERM"
-                                        : "its caller",
+                       signal != 0 ? fmt::format("SIG{}", sigabbrev_np(signal)) : "its caller",
                        FormatCount(static_cast<double>(trainer_.env_steps())),
                        FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
                        ShellWord(CommandName()), ShellWord(directory_.path())));

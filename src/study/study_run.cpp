@@ -75,7 +75,7 @@ struct AgentInStudy {
 std::string Fingerprint(const std::string& agent) {
   const std::string file = PolicyFileOfAgent(agent);
   if (file.empty() || file == kUntrained) return "";
-  const std::string bytes = ReadFile(file);
+  const std::string bytes = ReadFile(file, kLargestRecord);
   FnvHash hash;
   hash.Add(bytes.data(), bytes.size());
   return hash.Hex();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the program as a user does, on trainings of about a second.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -400,6 +402,34 @@ TEST_F(TrainingPipeline, ASecondSignalEndsAtOnce) {
   program.Signal(SIGTERM);
   const ProgramResult result = program.Wait();
   EXPECT_TRUE(result.signal == SIGTERM || result.signal == SIGINT) << result.exit_code;
+}
+
+TEST_F(TrainingPipeline, ALostTerminalSavesAndEnds) {
+  RunningProgram program(TinyTraining(run_, {"--steps", "1e12"}));
+  ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+  program.Signal(SIGHUP);
+  const ProgramResult result = program.Wait();
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("stopped by SIGHUP"));
+}
+
+TEST_F(TrainingPipeline, Sigusr1HarmsNoProgramThatHasNothingToSave) {
+  // Only a writer's end lets a reader of a pipe go on, which the program is until then.
+  const std::string pipe = run_ + "-settings";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  RunningProgram program(TinyTraining(run_, {"--config", pipe}));
+  const int writer = open(pipe.c_str(), O_WRONLY);
+  ASSERT_GE(writer, 0);
+  program.Signal(SIGUSR1);
+  close(writer);
+  EXPECT_EQ(program.Wait().exit_code, 0);
+}
+
+TEST_F(TrainingPipeline, RewardsThatNothingCanBeLearntFromAreBlamedOnTheirWeight) {
+  const ProgramResult result = RunSkein(
+      TinyTraining(run_, {"--set", "env.reward.roll_rate=1e38", "--set", "env.reward.sideslip=2"}));
+  EXPECT_EQ(result.exit_code, 1);
+  ExpectOneLine(result.error, "the largest weight of the reward is env.reward.roll_rate = 1e+38");
 }
 
 TEST_F(TrainingPipeline, Sigusr1SavesAndGoesOn) {

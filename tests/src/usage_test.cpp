@@ -21,6 +21,7 @@
 namespace skein {
 namespace {
 
+namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -120,10 +121,10 @@ TEST(Usage, ListNamesWhatThereIs) {
 
 TEST(Usage, ListSaysWhichFilesAreNoPolicies) {
   const ScratchDirectory scratch;
-  std::filesystem::create_directory(scratch / "policies");
+  fs::create_directory(scratch / "policies");
   WriteFile(scratch / "policies/broken.skein", "no policy");
   const ProgramResult result =
-      RunSkein({"list", "policies"}, [&] { std::filesystem::current_path(scratch.path()); });
+      RunSkein({"list", "policies"}, [&] { fs::current_path(scratch.path()); });
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_THAT(result.output, HasSubstr("policies/broken.skein  "));
 }
@@ -260,11 +261,31 @@ TEST(Usage, CountsMayBeInAnyNotationOfANumber) {
   const ProgramResult ten = fly("1e1");
   EXPECT_EQ(ten.exit_code, 0) << ten.error;
   EXPECT_EQ(ten.output, fly("10").output);
-  for (const char* wrong : {"1.5", "1e9", "nan", "ten", "10x", ""}) {
+  for (const char* wrong : {"1.5", "1e9", "nan", "ten", "10x", "0x10", ""}) {
     const ProgramResult result = fly(wrong);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.error, HasSubstr("--episodes")) << wrong;
   }
+}
+
+TEST(Usage, FilesThatCannotBeReadAreNamed) {
+  const ScratchDirectory scratch;
+  const std::string loop = scratch / "loop", large = scratch / "large.toml";
+  fs::create_symlink(loop, loop);
+  WriteFile(large, "");
+  fs::resize_file(large, kLargestText + 1);
+  const auto error_of = [](const std::vector<std::string>& arguments) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_NE(result.exit_code, 0);
+    return result.error;
+  };
+  const std::string loop_error = loop + ": Too many levels of symbolic links\n";
+  EXPECT_EQ(error_of({"eval", "--task", "heading", "--policy", loop}),
+            "skein: error: " + loop_error);
+  EXPECT_THAT(error_of({"train", "heading", "--config", loop}),
+              HasSubstr(loop + ": cannot be opened: Too many levels of symbolic links"));
+  EXPECT_THAT(error_of({"train", "heading", "--config", large}),
+              HasSubstr(large + ": cannot be read: it has more than 64 MiB"));
 }
 
 TEST(Usage, AnErrorIsOneLineWhateverIsInIt) {

@@ -83,12 +83,16 @@ void FileDescriptor::ReadExactly(char* bytes, std::size_t size) {
   }
 }
 
-std::string FileDescriptor::ReadToEnd() {
+std::string FileDescriptor::ReadToEnd(std::uint64_t largest) {
   std::string text;
   std::array<char, 65536> part;
   for (;;) {
     const std::size_t count = ReadSome(part.data(), part.size());
     if (count == 0) return text;
+    if (text.size() + count > largest) {
+      throw Error(name_ + ": cannot be read: it has more than " + std::to_string(largest >> 20) +
+                  " MiB");
+    }
     text.append(part.data(), count);
   }
 }

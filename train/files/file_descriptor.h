@@ -34,8 +34,8 @@ class FileDescriptor {
   void Write(std::string_view bytes);
   /// Exactly `size` bytes; a file that ends before is an Error.
   void ReadExactly(char* bytes, std::size_t size);
-  /// Everything up to the end.
-  std::string ReadToEnd();
+  /// Everything up to the end; more than `largest` bytes are an Error.
+  std::string ReadToEnd(std::uint64_t largest);
   /// Waits until what was written survives a power cut.
   void Sync();
   /// Some file systems report a failed write only here.

@@ -14,6 +14,7 @@
 #include "train/ppo/learning_rate.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/ppo_update.h"
+#include "train/ppo/reward_check.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/training_state.h"
 
@@ -158,6 +159,7 @@ struct Trainer::Impl {
     const EpisodeStatistics episodes =
         CollectRollout(env, *networks.actor.network, *networks.critic.network, networks.LogStd(),
                        settings, pool, recurrent, rollout);
+    if (!pool.stopping()) RequireUsableRewards(config, rollout.reward);
     policy_steps += config.ppo.rollout_steps;
     const auto count = static_cast<double>(episodes.episodes);
     report.episodes = episodes.episodes;

@@ -14,7 +14,7 @@ namespace {
 
 class FileDescriptorTest : public testing::Test {
  protected:
-  std::string Content() const { return FileDescriptor(path_, OpenMode::kRead).ReadToEnd(); }
+  std::string Content() const { return FileDescriptor(path_, OpenMode::kRead).ReadToEnd(100); }
 
   const ScratchDirectory scratch_;
   const std::string path_ = scratch_ / "file";
@@ -47,7 +47,7 @@ TEST_F(FileDescriptorTest, ErrorsOfTheSystemAreNamed) {
   };
   EXPECT_EQ(message_of([&] { FileDescriptor(path_, OpenMode::kRead); }),
             path_ + ": cannot be opened: No such file or directory");
-  EXPECT_EQ(message_of([&] { FileDescriptor(scratch_.path(), OpenMode::kRead).ReadToEnd(); }),
+  EXPECT_EQ(message_of([&] { FileDescriptor(scratch_.path(), OpenMode::kRead).ReadToEnd(100); }),
             scratch_.path() + ": cannot be read: Is a directory");
   EXPECT_EQ(message_of([] { FileDescriptor("/dev/full", OpenMode::kWrite).Write("x"); }),
             "/dev/full: cannot be written: No space left on device");

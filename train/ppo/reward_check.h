@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "train/ppo/train_config.h"
+
+namespace skein {
+
+/// Throws Error, which names the largest weight of the reward, if one of `rewards` is not finite or
+/// too large for float32 to sum and square: no learning rate would help.
+void RequireUsableRewards(const TrainConfig& config, const std::vector<float>& rewards);
+
+}  // namespace skein
