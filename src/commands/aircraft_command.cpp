@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "envs/aircraft/aircraft_document.h"
@@ -12,6 +13,7 @@
 #include "envs/aircraft/flight_control_file.h"
 #include "src/aircraft/aircraft_report.h"
 #include "src/aircraft/aircraft_text.h"
+#include "src/aircraft/start_findings.h"
 #include "src/commands/commands.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
@@ -35,9 +37,13 @@ int PrintFindings(const std::vector<Finding>& findings) {
   return errors;
 }
 
-void Check(const std::string& aircraft) {
+void Check(const std::string& aircraft, const std::string& task) {
   const CheckedAircraft checked = LoadForCheck(aircraft);
-  const AircraftReport report = CheckAircraft(checked);
+  AircraftReport report = CheckAircraft(checked);
+  if (checked.has_flight_control) {
+    for (Finding& finding : CheckStart(aircraft, task))
+      report.findings.push_back(std::move(finding));
+  }
   fmt::print("{}\n", report.figures);
   const int errors = PrintFindings(report.findings);
   if (errors > 0) throw Error(fmt::format("{} has {}", aircraft, Counted(errors, "error")));
@@ -89,16 +95,19 @@ void AddAircraftCommand(CLI::App* app) {
   CLI::App* aircraft = app->add_subcommand("aircraft", "Check an aircraft, derive its gains");
   aircraft->require_subcommand(1);
 
-  auto checked = std::make_shared<std::string>();
+  auto checked = std::make_shared<std::string>(), task = std::make_shared<std::string>("heading");
   CLI::App* check = aircraft->add_subcommand(
       "check", "Say what is missing or implausible in an aircraft, with figures");
   check->add_option("aircraft", *checked, "its file, or the name of one that comes with Skein")
       ->type_name("FILE")
       ->required();
+  check->add_option("--task", *task, "whose starts it must be able to fly: a task, or FILE.toml")
+      ->type_name("TASK")
+      ->capture_default_str();
   check->footer(
       "Exit code 1 if there is an error, 0 if there are warnings alone.\n"
       "Example: skein aircraft check my_aircraft.json");
-  check->callback([checked] { Check(*checked); });
+  check->callback([checked, task] { Check(*checked, *task); });
 
   auto in = std::make_shared<std::string>(), out = std::make_shared<std::string>();
   CLI::App* tune = aircraft->add_subcommand(

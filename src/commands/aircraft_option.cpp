@@ -15,6 +15,15 @@ std::string AircraftHelp(const std::string& what) {
   return fmt::format("{}: {}, or a file, FILE.json", what, fmt::join(AircraftNames(), ", "));
 }
 
+CLI::Option* AddAircraftOption(CLI::App* command, std::string* aircraft) {
+  return command
+      ->add_option("--aircraft", *aircraft,
+                   "who flies: an aircraft of skein list aircraft, or a file of an own one, which "
+                   "then says where it flies, unless other settings do; same as --set "
+                   "env.aircraft=...")
+      ->type_name("NAME_OR_FILE");
+}
+
 CLI::Validator IsAircraft() {
   return {[](const std::string& aircraft) -> std::string {
             const std::vector<std::string> names = AircraftNames();

@@ -9,6 +9,9 @@ namespace skein {
 /// Help of an option that takes what LoadAircraft does: `what` it is for, and the names.
 std::string AircraftHelp(const std::string& what);
 
+/// Adds --aircraft, which chooses what flies (src/config/aircraft_choice.h).
+CLI::Option* AddAircraftOption(CLI::App* command, std::string* aircraft);
+
 /// Refuses names of no aircraft. Whether a file is one is seen when it is read.
 CLI::Validator IsAircraft();
 

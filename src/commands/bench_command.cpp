@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "src/commands/aircraft_option.h"
 #include "src/commands/benchmarks.h"
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"
@@ -24,10 +25,20 @@ CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& 
   return command;
 }
 
+/// Refuses counts, which --aircraft of `skein bench sim` once was.
+CLI::Validator IsNoCount() {
+  return {[](const std::string& aircraft) -> std::string {
+            if (!ReadNumber(aircraft)) return "";
+            return aircraft + " is no aircraft: how many are stepped at once is --num-aircraft";
+          },
+          ""};
+}
+
 void AddConfiguration(CLI::App* command, const std::shared_ptr<BenchOptions>& options) {
   command->add_option("--preset", options->preset, "preset of the task")
       ->type_name("PRESET")
       ->capture_default_str();
+  AddAircraftOption(command, &options->aircraft)->check(IsNoCount());
   command->add_option("--condition", options->conditions, ConditionHelp())
       ->type_name("NAME=LEVEL")
       ->allow_extra_args(false);
@@ -62,7 +73,7 @@ void AddBenchCommand(CLI::App* app) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* sim =
       AddBench(bench, "sim", "Aircraft-steps per second of the simulator", options, BenchSimulator);
-  sim->add_option("--aircraft", options->aircraft, "aircraft stepped at once")
+  sim->add_option("--num-aircraft", options->num_aircraft, "aircraft stepped at once")
       ->transform(WholeNumber(1, 100000000))
       ->capture_default_str();
   sim->add_option("--task", options->task, "what is flown, or a task file, FILE.toml")
@@ -80,10 +91,11 @@ void AddBenchCommand(CLI::App* app) {
       "whole\n"
       "environment (observe, step, reward, terminate, reset) at 50 Hz under random actions, "
       "without\n"
-      "and with observation noise. Environments of drawn plants take turns with nominal ones.\n"
+      "and with observation noise, of the aircraft that is asked for. Environments of drawn plants "
+      "take turns with nominal ones.\n"
       "Examples:\n"
-      "  skein bench sim --aircraft 1000000 --steps 30 --threads 2\n"
-      "  skein bench sim --aircraft 4096 --steps 2000 --condition plant=middle");
+      "  skein bench sim --num-aircraft 1000000 --steps 30 --threads 2\n"
+      "  skein bench sim --num-aircraft 4096 --steps 2000 --condition plant=middle");
   AddLearner(bench, "rollout", "Policy steps per second of policy and simulator together", options,
              BenchRollout)
       ->footer(

@@ -5,6 +5,7 @@
 
 #include "src/bench/machine.h"
 #include "src/commands/benchmarks.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/configuration.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
@@ -15,8 +16,12 @@ using Json = nlohmann::ordered_json;
 
 TrainConfig BenchConfig(const BenchOptions& options) {
   return AsUsage([&] {
+    std::vector<std::string> assignments = options.assignments;
+    if (!options.aircraft.empty()) {
+      assignments.insert(assignments.begin(), AircraftAssignment(options.aircraft));
+    }
     const ProgramConfig config =
-        ResolveConfig({options.task, options.preset, "", options.assignments, options.conditions});
+        ResolveConfig({options.task, options.preset, "", assignments, options.conditions});
     CheckConsistent(config);
     return config.train;
   });

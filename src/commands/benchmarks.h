@@ -11,13 +11,14 @@ namespace skein {
 
 /// What the command line of `skein bench` says.
 struct BenchOptions {
-  int aircraft = 1000000;
+  int num_aircraft = 1000000;
   int steps = 30;
   int threads = 0;
   int iterations = 3;
   std::string task = "heading";
   std::string beside;  ///< another task; empty: none
   std::string preset = "default";
+  std::string aircraft;  ///< what flies; empty: as the preset says
   std::string low_level;
   std::vector<std::string> conditions, assignments;
   std::string json;

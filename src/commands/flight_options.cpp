@@ -8,6 +8,7 @@
 #include <set>
 
 #include "src/agents/agent_names.h"
+#include "src/commands/aircraft_option.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
@@ -28,11 +29,7 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
   options->preset_option =
       command->add_option("--preset", options->preset, texts.preset)->type_name("PRESET");
   command->add_option("--config", options->config, "TOML file on top of them")->type_name("FILE");
-  command
-      ->add_option("--aircraft", options->aircraft,
-                   "who flies: an aircraft of skein list aircraft, or a file of an own one; it "
-                   "brings the settings of its file")
-      ->type_name("NAME_OR_FILE");
+  AddAircraftOption(command, &options->aircraft);
   command->add_option("--condition", options->conditions, ConditionHelp())
       ->type_name("NAME=LEVEL")
       ->allow_extra_args(false);

@@ -35,7 +35,7 @@ std::vector<SimulatorRate> MeasureBesideOther(const EnvConfig& config, const Ben
     configs.push_back(config);
     configs.back().plant = {};
   }
-  return MeasureEnvironments(configs, options.aircraft, options.steps, pool);
+  return MeasureEnvironments(configs, options.num_aircraft, options.steps, pool);
 }
 
 void PrintRate(const std::string& what, const SimulatorRate& rate, const std::string& note = "") {
@@ -73,16 +73,16 @@ void BenchSimulator(const BenchOptions& options) {
   clean.observation_noise = clean.observation_noise_max = 0;
   const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
   const auto plant = [&](PlantPart part) {
-    return MeasurePlant(part, options.aircraft, options.steps, pool);
+    return MeasurePlant(part, options.num_aircraft, options.steps, pool);
   };
   const SimulatorRate rk4 = plant(PlantPart::kRk4);
   const SimulatorRate controlled = plant(PlantPart::kFlightControlAndRk4);
   const double gflops = rk4.aircraft_steps_per_s * kFlopsPerRk4Step / 1e9;
-  fmt::print("simulator: {} aircraft, {} control steps, {} threads, {}\n", options.aircraft,
+  fmt::print("simulator: {} aircraft, {} control steps, {} threads, {}\n", options.num_aircraft,
              options.steps, pool.threads(), Name(simd::ActiveTarget()));
   PrintRate("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
   PrintRate("F-16: ... with flight control, actuators", controlled);
-  Json results{{"aircraft", options.aircraft},
+  Json results{{"aircraft", options.num_aircraft},
                {"steps", options.steps},
                {"rk4", ToJson(rk4)},
                {"plant", ToJson(controlled)}};

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
@@ -29,6 +30,7 @@ std::string ChoiceText(const StudyChoice& choice) {
   for (const std::string& level : choice.levels) text += " --level " + ShellWord(level);
   if (!choice.seeds.empty()) text += fmt::format(" --seeds {}", fmt::join(choice.seeds, ","));
   if (choice.steps) text += fmt::format(" --steps {:.0f}", *choice.steps);
+  if (!choice.aircraft.empty()) text += " --aircraft " + ShellWord(choice.aircraft);
   return text;
 }
 
@@ -77,6 +79,7 @@ void AddStudyCommand(CLI::App* app) {
       ->add_option("--steps", options->choice.steps,
                    "budget of a training, control steps (default: the file's, else the preset's)")
       ->transform(WholeNumber(1, 0x1p53));
+  AddAircraftOption(command, &options->choice.aircraft);
   command
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")

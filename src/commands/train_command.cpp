@@ -11,6 +11,7 @@
 #include "envs/task_registry.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
+#include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
@@ -194,11 +195,7 @@ void AddTrainCommand(CLI::App* app) {
                           ->add_option("--config", options->config,
                                        "TOML file on top of the preset (keys: --help-keys)")
                           ->type_name("FILE");
-  command
-      ->add_option("--aircraft", options->aircraft,
-                   "who flies: an aircraft of skein list aircraft, or a file of an own one, which "
-                   "then says where it flies, unless --config does; same as --set env.aircraft=...")
-      ->type_name("NAME_OR_FILE");
+  AddAircraftOption(command, &options->aircraft);
   command->add_option("--condition", options->conditions, ConditionHelp())
       ->type_name("NAME=LEVEL")
       ->allow_extra_args(false);

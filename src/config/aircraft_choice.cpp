@@ -61,14 +61,8 @@ bool DifferIn(const std::string& beginning, const ProgramConfig& a, const Progra
 /// "use --preset NAME, or " with the preset of the task that serves the aircraft; empty if there is
 /// none.
 std::string PresetHint(const std::string& task, const std::string& aircraft) {
-  for (const Preset& preset : Presets()) {
-    if (preset.task != task) continue;
-    const std::string flown = ResolveConfig({task, preset.name, "", {}}).train.env.aircraft;
-    if (PresetsOf(flown) == PresetsOf(aircraft)) {
-      return fmt::format("use --preset {}, or ", preset.name);
-    }
-  }
-  return "";
+  const std::string preset = PresetServing(task, aircraft);
+  return preset.empty() ? "" : fmt::format("use --preset {}, or ", preset);
 }
 
 }  // namespace
@@ -129,6 +123,15 @@ void RequireOwnScale(const ProgramConfig& base, const ProgramConfig& config) {
       "env.aircraft = {}, but what the task asks is made for {}: {}set {}* by --config or in the "
       "section \"env\" of the aircraft's file",
       env.aircraft, before.aircraft, PresetHint(env.task, env.aircraft), table));
+}
+
+std::string PresetServing(const std::string& task, const std::string& aircraft) {
+  for (const Preset& preset : Presets()) {
+    if (preset.task != task) continue;
+    const std::string flown = ResolveConfig({task, preset.name, "", {}}).train.env.aircraft;
+    if (PresetsOf(flown) == PresetsOf(aircraft)) return preset.name;
+  }
+  return "";
 }
 
 std::string AircraftAssignment(const std::string& aircraft) {

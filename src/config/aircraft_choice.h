@@ -28,6 +28,9 @@ ProgramConfig WithAircraft(const ProgramConfig& base,
 /// the one before. Names the preset that is made for the aircraft, if there is one.
 void RequireOwnScale(const ProgramConfig& base, const ProgramConfig& config);
 
+/// The name of the first preset of the task that is made for the aircraft; empty if none is.
+std::string PresetServing(const std::string& task, const std::string& aircraft);
+
 /// The assignment that --aircraft stands for.
 std::string AircraftAssignment(const std::string& aircraft);
 

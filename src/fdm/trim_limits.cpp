@@ -45,24 +45,6 @@ std::vector<std::string> OutsideEngineTables(const Plant& plant, const TrimReque
   return limits;
 }
 
-/// "is below stall speed (...)" if the wing cannot carry the weight, turn included.
-std::vector<std::string> BelowStall(const Plant& plant, const TrimRequest& request) {
-  const Airframe& airframe = plant.aircraft().airframe;
-  const double speed = request.true_airspeed_ft_s;
-  const double lateral_g = speed * request.turn_rate_rad_s / kGravityFtS2;
-  const double weight_lbf = airframe.mass_slug * kGravityFtS2 *
-                            std::cos(request.flight_path_angle_rad) * std::hypot(1, lateral_g);
-  const GreatestLift lift = FindGreatestLift(plant, request.altitude_ft, speed, kAlphaStepDeg);
-  const double density = AirAt(plant.atmosphere(), request.altitude_ft).density_slug_ft3;
-  const double stall_speed = std::sqrt(
-      2 * weight_lbf / (density * airframe.wing_area_ft2 * std::max(lift.coefficient, 1e-9)));
-  if (speed >= stall_speed) return {};
-  return {
-      fmt::format("is below stall speed: at {} ft the wing carries the weight from {:.0f} ft/s "
-                  "on (lift coefficient {:.2f} at alpha {:.0f} deg)",
-                  request.altitude_ft, stall_speed, lift.coefficient, lift.alpha_deg)};
-}
-
 }  // namespace
 
 std::vector<std::string> ExceededLimits(const Plant& plant, const TrimRequest& request,
@@ -89,6 +71,23 @@ std::vector<std::string> ExceededLimits(const Plant& plant, const TrimRequest& r
   }
   for (std::string& limit : OutsideEngineTables(plant, request)) limits.push_back(std::move(limit));
   return limits;
+}
+
+std::vector<std::string> BelowStall(const Plant& plant, const TrimRequest& request) {
+  const Airframe& airframe = plant.aircraft().airframe;
+  const double speed = request.true_airspeed_ft_s;
+  const double lateral_g = speed * request.turn_rate_rad_s / kGravityFtS2;
+  const double weight_lbf = airframe.mass_slug * kGravityFtS2 *
+                            std::cos(request.flight_path_angle_rad) * std::hypot(1, lateral_g);
+  const GreatestLift lift = FindGreatestLift(plant, request.altitude_ft, speed, kAlphaStepDeg);
+  const double density = AirAt(plant.atmosphere(), request.altitude_ft).density_slug_ft3;
+  const double stall_speed = std::sqrt(
+      2 * weight_lbf / (density * airframe.wing_area_ft2 * std::max(lift.coefficient, 1e-9)));
+  if (speed >= stall_speed) return {};
+  return {
+      fmt::format("is below stall speed: at {} ft the wing carries the weight from {:.0f} ft/s "
+                  "on (lift coefficient {:.2f} at alpha {:.0f} deg)",
+                  request.altitude_ft, stall_speed, lift.coefficient, lift.alpha_deg)};
 }
 
 std::vector<std::string> LimitsOnTheWay(const Plant& plant, const TrimRequest& request) {

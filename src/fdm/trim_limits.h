@@ -14,6 +14,9 @@ namespace skein {
 std::vector<std::string> ExceededLimits(const Plant& plant, const TrimRequest& request,
                                         const TrimPoint& trim);
 
+/// "is below stall speed (...)" if the wing cannot carry the weight, turn included; else empty.
+std::vector<std::string> BelowStall(const Plant& plant, const TrimRequest& request);
+
 /// What keeps the aircraft from the steady flight that was asked for, as far as that can be told
 /// without it: flight below stall speed, or outside the engine's tables. Empty otherwise.
 std::vector<std::string> LimitsOnTheWay(const Plant& plant, const TrimRequest& request);

@@ -64,6 +64,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   study.preset = reader.Text("preset", study.preset);
   reader.RefuseOld("controller", "low_level");
   study.low_level = reader.Text("low_level", "");
+  study.aircraft = reader.Text("aircraft", "");
   study.assignments = reader.Texts("set");
   if (const toml::table* training = reader.Table("training")) {
     TableReader part(*training, source);
@@ -113,6 +114,7 @@ void Choose(const StudyChoice& choice, const std::string& source, Study* study) 
   if (!choice.levels.empty()) study->levels = ChosenLevels(study->levels, choice.levels, source);
   if (!choice.seeds.empty()) study->seeds = choice.seeds;
   if (choice.steps) study->training.steps = choice.steps;
+  if (!choice.aircraft.empty()) study->aircraft = choice.aircraft;
 }
 
 /// Throws Error on an assignment that the study would not follow.
@@ -124,6 +126,9 @@ void RefuseWithoutEffect(const Study& study, const std::string& source) {
   append(study.training.settings);
   for (const StudyLevel& level : study.levels) append(level.settings);
   for (const std::string& assignment : assignments) {
+    if (KeyOf(assignment) == "env.aircraft" && !study.aircraft.empty()) {
+      throw Error(fmt::format("{}: set {}: aircraft says it already", source, assignment));
+    }
     if (KeyOf(assignment) == "run.seed") {
       throw Error(fmt::format("{}: set {}: seeds says the seeds", source, assignment));
     }
@@ -164,8 +169,11 @@ std::vector<std::string> AssignmentsFor(const std::string& task, const Study& st
 ProgramConfig Configure(const Study& study, const std::string& task,
                         const std::vector<StudySettings>& parts) {
   return AsUsage([&] {
-    const ProgramConfig base =
-        ResolveConfig({task, study.preset, "", AssignmentsFor(task, study, study.assignments)});
+    std::vector<std::string> assignments = AssignmentsFor(task, study, study.assignments);
+    if (!study.aircraft.empty()) {
+      assignments.insert(assignments.begin(), AircraftAssignment(study.aircraft));
+    }
+    const ProgramConfig base = ResolveConfig({task, study.preset, "", assignments});
     std::vector<std::string> conditions;
     for (const StudySettings& part : parts) {
       conditions.insert(conditions.end(), part.conditions.begin(), part.conditions.end());

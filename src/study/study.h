@@ -28,6 +28,7 @@ struct Study {
   std::vector<StudyLevel> levels;
   std::vector<std::string> agents;  ///< flown beside the trained policies
   std::string preset = "default";
+  std::string aircraft;   ///< what flies, a name or a file; empty: as the presets say
   std::string low_level;  ///< for tasks of a high-level policy (ChooseLowLevelPolicy)
   std::vector<std::string> assignments;  ///< for trainings and evaluations
   struct Training {
@@ -49,6 +50,7 @@ struct StudyChoice {
   std::vector<std::string> levels;   ///< names of the file's levels: these alone
   std::vector<std::uint64_t> seeds;  ///< instead of the file's
   std::optional<double> steps;       ///< budget of a training, control steps
+  std::string aircraft;              ///< what flies
 };
 
 /// Reads the TOML file of a study (docs/reference/commands.md). Throws Error with file and line on

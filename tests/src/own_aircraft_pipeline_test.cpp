@@ -163,6 +163,37 @@ TEST_F(OwnAircraft, ATamperedCopyIsRefused) {
   Refused({"eval", "--policy", run_}, 1, "run/aircraft.json: is the aircraft mine#");
 }
 
+TEST_F(OwnAircraft, BenchmarksAndStudiesTakeAFile) {
+  const ProgramResult measured =
+      CallSkein({"bench", "sim", "--aircraft", mine_, "--num-aircraft", "64", "--steps", "2"});
+  EXPECT_EQ(measured.exit_code, 0) << measured.error;
+  Refused({"bench", "sim", "--aircraft", "4096"}, 2, "how many are stepped at once is --num-air");
+  Refused({"bench", "rollout", "--aircraft", scratch_ / "no.json"}, 2, "no.json");
+
+  const std::string study = scratch_ / "study.toml", out = scratch_ / "study";
+  const std::string text = R"(
+tasks = ["heading"]
+seeds = [1]
+[training]
+steps = 20480
+set = ["ppo.num_aircraft=64", "ppo.rollout_steps=16", "ppo.minibatches=2", "env.action_repeat=5",
+       "network.hidden_size=16", "network.gru_size=16", "evaluation.interval_iterations=0",
+       "evaluation.final_episodes=8"]
+[evaluation]
+episodes = 8
+)";
+  WriteFile(study, text);
+  const ProgramResult studied = CallSkein({"study", study, "--out", out, "--aircraft", mine_});
+  EXPECT_EQ(studied.exit_code, 0) << studied.error;
+  EXPECT_THAT(ReadFile(out + "/runs/heading-default-seed1/config.toml"), HasSubstr("\"mine#"));
+  // The file of the study may say so, too.
+  WriteFile(study, "aircraft = \"" + mine_ + "\"\n" + text);
+  const ProgramResult again = CallSkein({"study", study, "--out", out});
+  EXPECT_EQ(again.exit_code, 0) << again.error;
+  WriteFile(study, "aircraft = \"" + mine_ + "\"\nset = [\"env.aircraft=f16\"]" + text);
+  Refused({"study", study, "--out", out}, 2, "aircraft says it already");
+}
+
 TEST_F(OwnAircraft, TheFlightDynamicsTakeAFile) {
   const ProgramResult trim =
       CallSkein({"fdm", "trim", "--aircraft", mine_, "--altitude-ft", "1500", "--speed-fps", "82"});

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aircraft/start_findings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+
+#include "base/error.h"
+#include "envs/aircraft/registry.h"
+#include "src/config/aircraft_choice.h"
+#include "src/config/configuration.h"
+#include "src/config/task_file.h"
+#include "src/config/usage_error.h"
+#include "src/fdm/trim_limits.h"
+
+namespace skein {
+namespace {
+
+/// The preset of the task that flies the aircraft. A task file has none.
+std::string PresetOf(const std::string& task, const std::string& aircraft) {
+  const std::string preset = IsTaskFile(task) ? "" : PresetServing(task, aircraft);
+  return preset.empty() ? "default" : preset;
+}
+
+/// What is wrong with steady level flight there, if anything is.
+std::optional<Finding> CheckLevelFlight(const Plant& plant, const std::string& task,
+                                        double altitude_ft, double speed_fps) {
+  TrimRequest request;
+  request.altitude_ft = altitude_ft;
+  request.true_airspeed_ft_s = speed_fps;
+  Finding::Kind kind = Finding::kError;
+  std::vector<std::string> limits = BelowStall(plant, request);
+  if (limits.empty()) {
+    try {
+      limits = ExceededLimits(plant, request, Trim(plant, request));
+      kind = Finding::kWarning;
+    } catch (const Error& error) {
+      limits = LimitsOnTheWay(plant, request);
+      if (limits.empty()) limits = {fmt::format("cannot be: {}", error.what())};
+    }
+  }
+  if (limits.empty()) return std::nullopt;
+  return Finding{kind, fmt::format("task {} begins at {} ft and {} ft/s (env.initial), and level "
+                                   "flight there {}",
+                                   task, altitude_ft, speed_fps, fmt::join(limits, ", and "))};
+}
+
+}  // namespace
+
+std::vector<Finding> CheckStart(const std::string& aircraft, const std::string& task) {
+  AsUsage([&] { return ResolveConfig({task, "default", "", {}}); });  // refuses an unknown task
+  ProgramConfig config;
+  try {
+    const std::string known = IsAircraftPath(aircraft) ? KeepAircraftFile(aircraft) : aircraft;
+    config =
+        ResolveConfig({task, PresetOf(task, known), "", {AircraftAssignment(known)}, {}, task});
+  } catch (const Error& error) {
+    return {{Finding::kWarning, fmt::format("it cannot fly task {} yet: {}", task, error.what())}};
+  }
+  const EnvConfig& env = config.train.env;
+  const Plant plant(LoadAircraft(env.aircraft), env.atmosphere);
+  std::vector<Finding> findings;
+  for (const double speed :
+       {env.initial.true_airspeed_fps.min, env.initial.true_airspeed_fps.max}) {
+    for (const double altitude : {env.initial.altitude_ft.max, env.initial.altitude_ft.min}) {
+      const std::optional<Finding> found = CheckLevelFlight(plant, env.task, altitude, speed);
+      if (!found) continue;
+      findings.push_back(*found);
+      break;
+    }
+  }
+  return findings;
+}
+
+}  // namespace skein

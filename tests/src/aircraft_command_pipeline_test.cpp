@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skein aircraft check` and `tune` as a user runs them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "envs/aircraft/registry.h"
+#include "src/files/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+#include "tests/src/tiny_training.h"
+
+namespace skein {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class AircraftCommand : public testing::Test {
+ protected:
+  /// The Cessna as a user's file, without gains, with `airspeeds` of its starts, ft/s.
+  static json Cessna(double slowest, double fastest) {
+    json file = json::parse(AircraftText("cessna172"));
+    file.erase("presets_of");
+    file.erase("flight_control");
+    file["env"] = {
+        {"atmosphere", "standard_1976"},
+        {"initial",
+         {{"altitude_min_ft", 3000},
+          {"altitude_max_ft", 3500},
+          {"true_airspeed_min_fps", slowest},
+          {"true_airspeed_max_fps", fastest}}},
+        {"heading", {{"altitude_change_ft", 300}, {"speed_change_fps", 20}}},
+        {"termination", {{"min_altitude_ft", 500}, {"min_mach", 0.05}, {"max_mach", 0.3}}}};
+    return file;
+  }
+
+  void Write(const json& file) const { WriteFile(mine_, file.dump(1)); }
+
+  ProgramResult Check(const std::string& aircraft) const {
+    return CallSkein({"aircraft", "check", aircraft});
+  }
+  ProgramResult Tune(const std::string& out) const {
+    return CallSkein({"aircraft", "tune", mine_, "-o", out});
+  }
+
+  const ScratchDirectory scratch_;
+  const std::string mine_ = scratch_ / "mine.json", tuned_ = scratch_ / "tuned.json";
+};
+
+TEST_F(AircraftCommand, WhatTuneWritesIsCheckedAndTrained) {
+  Write(Cessna(150, 190));
+  const ProgramResult without = Check(mine_);
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_THAT(without.output, HasSubstr("there is no section flight_control"));
+  ExpectOneLine(without.error, "has 1 error");
+
+  const ProgramResult tuned = Tune(tuned_);
+  ASSERT_EQ(tuned.exit_code, 0) << tuned.error;
+  EXPECT_THAT(tuned.output, HasSubstr("wrote " + tuned_));
+  const ProgramResult checked = Check(tuned_);
+  EXPECT_EQ(checked.exit_code, 0) << checked.error;
+  EXPECT_THAT(checked.output, HasSubstr("no errors"));
+  const ProgramResult trained = CallSkein(TinyTraining(scratch_ / "run", {"--aircraft", tuned_}));
+  EXPECT_EQ(trained.exit_code, 0) << trained.error;
+
+  // What is there already is replaced, and the rest of the file stays as it is.
+  json before = json::parse(ReadFile(mine_)), after = json::parse(ReadFile(tuned_));
+  after.erase("flight_control");
+  EXPECT_EQ(before, after);
+  ASSERT_EQ(Tune(mine_).exit_code, 0);
+  EXPECT_EQ(ReadFile(mine_), ReadFile(tuned_));
+}
+
+TEST_F(AircraftCommand, CheckSaysWhereStartsCannotBeFlown) {
+  json file = Cessna(150, 190);
+  file["flight_control"] = json::parse(AircraftText("cessna172"))["flight_control"];
+  const auto check = [&](double slowest, double fastest) {
+    file["env"]["initial"]["true_airspeed_min_fps"] = slowest;
+    file["env"]["initial"]["true_airspeed_max_fps"] = fastest;
+    Write(file);
+    return Check(mine_);
+  };
+  EXPECT_THAT(check(150, 190).output, Not(HasSubstr("env.initial")));
+  const ProgramResult slow = check(60, 190);
+  EXPECT_EQ(slow.exit_code, 1);
+  EXPECT_THAT(slow.output, HasSubstr("error: task heading begins at 3500 ft and 60 ft/s "
+                                     "(env.initial), and level flight there is below stall speed"));
+  const ProgramResult fast = check(150, 260);
+  EXPECT_EQ(fast.exit_code, 0) << fast.error;
+  EXPECT_THAT(fast.output, HasSubstr("warning: task heading begins at 3500 ft and 260 ft/s "
+                                     "(env.initial), and level flight there needs more thrust"));
+  file.erase("env");
+  Write(file);
+  const ProgramResult silent = Check(mine_);
+  EXPECT_EQ(silent.exit_code, 0) << silent.error;
+  EXPECT_THAT(silent.output, HasSubstr("warning: it cannot fly task heading yet"));
+}
+
+TEST_F(AircraftCommand, BadInputIsOneLine) {
+  const auto refused = [](const std::vector<std::string>& arguments, int exit_code,
+                          const std::string& why) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << why;
+    ExpectOneLine(result.error, why);
+  };
+  refused({"aircraft"}, 2, "subcommand");
+  refused({"aircraft", "check"}, 2, "aircraft is required");
+  refused({"aircraft", "check", "f17"}, 1, "unknown aircraft \"f17\"");
+  refused({"aircraft", "check", "f16", "--task", "nonsense"}, 2, "unknown task nonsense");
+  refused({"aircraft", "check", scratch_ / "no.json"}, 1, "no.json");
+  refused({"aircraft", "tune", scratch_ / "no.json"}, 1, "no.json");
+  WriteFile(mine_, "{");
+  refused({"aircraft", "check", mine_}, 1, mine_);
+  refused({"aircraft", "tune", mine_}, 1, mine_);
+  json broken = Cessna(150, 190);
+  broken["airframe"]["mass_kg"] = -1;
+  Write(broken);
+  refused({"aircraft", "check", mine_}, 1, "mass_kg");
+  broken = Cessna(150, 190);
+  broken["airframe"].erase("mass_kg");
+  Write(broken);
+  refused({"aircraft", "tune", mine_, "-o", tuned_}, 1, "mass_kg");
+  Write(Cessna(150, 190));
+  refused({"aircraft", "tune", mine_, "-o", scratch_ / "no/tuned.json"}, 1, "no/tuned.json");
+  WriteFile(mine_, AircraftText("f16"));
+  refused({"aircraft", "tune", mine_, "-o", tuned_}, 1, "this one is of tables");
+  EXPECT_FALSE(std::filesystem::exists(tuned_));
+}
+
+TEST_F(AircraftCommand, WhatCannotBeFlownIsNotTuned) {
+  json wrong = Cessna(150, 190);
+  wrong["longitudinal"]["CL_alpha"] = -5;
+  Write(wrong);
+  const ProgramResult result = Tune(tuned_);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, HasSubstr("error: longitudinal.CL_alpha = -5"));
+  ExpectOneLine(result.error, "cannot be derived before these are put right");
+  EXPECT_FALSE(std::filesystem::exists(tuned_));
+}
+
+}  // namespace
+}  // namespace skein
