@@ -73,14 +73,14 @@ void SetParameters(benchmark::State& state, simd::Precision precision) {
   Once(state, layout.size(), [&] { network.SetParameters(parameters.data()); });
 }
 
-void SumShards(benchmark::State& state) {
-  const std::int64_t shards = state.range(0);
+void SumGradients(benchmark::State& state) {
+  const std::int64_t slices = state.range(0);
   std::vector<AlignedVector<float>> gradients;
-  for (std::int64_t i = 0; i < shards; ++i) gradients.push_back(Normal(Actor().size()));
+  for (std::int64_t i = 0; i < slices; ++i) gradients.push_back(Normal(Actor().size()));
   const auto size = static_cast<std::int64_t>(gradients[0].size());
-  Once(state, size * (shards - 1), [&] {
+  Once(state, size * (slices - 1), [&] {
     for (std::int64_t i = 0; i < size; i += kSumBlock) {
-      skein::SumShards(i, std::min(size, i + kSumBlock), gradients);
+      skein::SumGradients(i, std::min(size, i + kSumBlock), static_cast<int>(slices), gradients);
     }
   });
 }
@@ -113,7 +113,7 @@ SKEIN_ONCE(BENCHMARK_CAPTURE(PackBackward, bf16, simd::Precision::kBfloat16))->A
 SKEIN_ONCE(BENCHMARK(Fold));
 SKEIN_ONCE(BENCHMARK_CAPTURE(SetParameters, fp32, simd::Precision::kFloat32));
 SKEIN_ONCE(BENCHMARK_CAPTURE(SetParameters, bf16, simd::Precision::kBfloat16));
-SKEIN_ONCE(BENCHMARK(SumShards))->Arg(16);
+SKEIN_ONCE(BENCHMARK(SumGradients))->Arg(16);
 SKEIN_ONCE(BENCHMARK(UnfoldGradient));
 SKEIN_ONCE(BENCHMARK(ClippedStep));
 SKEIN_ONCE(BENCHMARK(AdamStep));

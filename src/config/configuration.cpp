@@ -281,7 +281,7 @@ void RequireTask(const ProgramConfig& config, const std::string& task) {
 void CheckConsistent(const ProgramConfig& config) {
   Validate(config.train.env);
   LoadAircraft(config.train.env.aircraft);  // throws on an unknown name
-  Validate(config.train.ppo);
+  ValidateLearning(config.train);
   if (config.checkpoint.interval_iterations == 0 && config.checkpoint.interval_s == 0) {
     throw Error(
         "configuration: checkpoint.interval_iterations and checkpoint.interval_s are both 0; "

@@ -4,6 +4,12 @@
 #include "base/field_list.h"
 
 namespace skein {
+namespace {
+
+/// The shuffles' keys hold sixteen bits of them (train/ppo/minibatches.cpp).
+constexpr int kMaxShards = 4096;
+
+}  // namespace
 
 void ListFields(LearnerConfig& config, FieldList& list) {
   list.Add("backend", &config.backend, kBackendNames,
@@ -14,6 +20,10 @@ void ListFields(LearnerConfig& config, FieldList& list) {
   list.Add("tile_samples", &config.tile_samples, {1, 1000000},
            "samples per gradient tile; part of the result, as sums are ordered by it");
   list.Add("rollout_tile", &config.rollout_tile, {1, 1000000}, "aircraft per rollout tile");
+  list.Add("shards", &config.shards, {1, kMaxShards},
+           "equal parts, a power of two, into which the aircraft are cut; part of the result, as "
+           "every minibatch takes its share of each and sums are ordered by them")
+      .OffUnless(config.shards > 1);
 }
 
 }  // namespace skein

@@ -15,6 +15,8 @@ struct LearnerConfig {
   /// Samples per gradient tile: fixed shards, so results do not depend on threads.
   int tile_samples = 384;
   int rollout_tile = 64;  ///< aircraft per rollout tile
+  /// Into which the aircraft are cut (train/ppo/shards.h); a power of two, part of the result.
+  int shards = 1;
 };
 
 /// Its settings (base/field_list.h).

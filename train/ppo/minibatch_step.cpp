@@ -13,23 +13,53 @@ double Norm(const float* values, std::int64_t size) {
   return std::sqrt(squares);
 }
 
-}  // namespace
-
-void SumShards(std::int64_t begin, std::int64_t end, std::vector<AlignedVector<float>>& shards) {
-  float* const sums = shards[0].data();
-  std::size_t shard = 1;
+/// Adds up `count` vectors in their order, in the first.
+void SumInOrder(std::int64_t begin, std::int64_t end, AlignedVector<float>* vectors, int count) {
+  float* const sums = vectors[0].data();
+  int next = 1;
   // Four at a time: a sum is loaded and stored once for all.
-  for (; shard + 4 <= shards.size(); shard += 4) {
-    const float* const a = shards[shard].data();
-    const float* const b = shards[shard + 1].data();
-    const float* const c = shards[shard + 2].data();
-    const float* const d = shards[shard + 3].data();
+  for (; next + 4 <= count; next += 4) {
+    const float* const a = vectors[next].data();
+    const float* const b = vectors[next + 1].data();
+    const float* const c = vectors[next + 2].data();
+    const float* const d = vectors[next + 3].data();
     for (std::int64_t i = begin; i < end; ++i) sums[i] = (((sums[i] + a[i]) + b[i]) + c[i]) + d[i];
   }
-  for (; shard < shards.size(); ++shard) {
-    const float* const a = shards[shard].data();
+  for (; next < count; ++next) {
+    const float* const a = vectors[next].data();
     for (std::int64_t i = begin; i < end; ++i) sums[i] += a[i];
   }
+}
+
+/// Adds up every `stride`-th vector by the tree, in the first.
+void SumVectorsByTree(std::int64_t begin, std::int64_t end, std::size_t stride,
+                      std::vector<AlignedVector<float>>& vectors) {
+  const std::size_t count = vectors.size();
+  // Two levels at a time.
+  for (; 2 * stride < count; stride *= 4) {
+    for (std::size_t first = 0; first < count; first += 4 * stride) {
+      float* const sums = vectors[first].data();
+      const float* const a = vectors[first + stride].data();
+      const float* const b = vectors[first + 2 * stride].data();
+      const float* const c = vectors[first + 3 * stride].data();
+      for (std::int64_t i = begin; i < end; ++i) sums[i] = (sums[i] + a[i]) + (b[i] + c[i]);
+    }
+  }
+  if (stride >= count) return;
+  float* const sums = vectors[0].data();
+  const float* const a = vectors[stride].data();
+  for (std::int64_t i = begin; i < end; ++i) sums[i] += a[i];
+}
+
+}  // namespace
+
+void SumGradients(std::int64_t begin, std::int64_t end, int slices,
+                  std::vector<AlignedVector<float>>& accumulators) {
+  const auto stride = static_cast<std::size_t>(slices);
+  for (std::size_t first = 0; first < accumulators.size(); first += stride) {
+    SumInOrder(begin, end, &accumulators[first], slices);
+  }
+  SumVectorsByTree(begin, end, stride, accumulators);
 }
 
 double ClippedStep(double max_norm, double learning_rate, AdamOptimiser& optimiser) {

@@ -9,15 +9,18 @@
 
 namespace skein {
 
-/// Elements that one task sums over the shards of a minibatch: the sums stay in the first-level
-/// cache.
+/// Elements that one task sums over the accumulators of a minibatch: the sums stay in the
+/// first-level cache.
 inline constexpr std::int64_t kSumBlock = 4096;
 
 /// No training that goes well comes near: unscaled values of +-200 give norms of thousands.
 inline constexpr double kExplodedGradientNorm = 1e8;
 
-/// The sum of all shards' elements [begin, end), added up in the order of the shards, in the first.
-void SumShards(std::int64_t begin, std::int64_t end, std::vector<AlignedVector<float>>& shards);
+/// Leaves the sum of the elements [begin, end) of all accumulators in the first. They are
+/// [shard][slice], `slices` of each shard: a shard's are added up in their order, shards by the
+/// tree of SumByTree (train/ppo/shards.h).
+void SumGradients(std::int64_t begin, std::int64_t end, int slices,
+                  std::vector<AlignedVector<float>>& accumulators);
 
 /// Scales the optimiser's gradient down to `max_norm` if it is longer, and takes a step; returns
 /// the norm before. Leaves all as it is if that is above kExplodedGradientNorm or not a number.

@@ -11,18 +11,12 @@ ValueScale PopArt::scale() const {
   return {mean, std::sqrt(std::max(mean_square - mean * mean, kMinStd * kMinStd))};
 }
 
-void UpdatePopArt(const std::vector<float>& targets, double rate, const NetworkLayout& critic,
+void UpdatePopArt(const TargetMoments& targets, double rate, const NetworkLayout& critic,
                   float* parameters, PopArt& popart) {
-  double sum = 0, squares = 0;
-  for (const float target : targets) {
-    sum += target;
-    squares += static_cast<double>(target) * target;
-  }
-  const auto count = static_cast<double>(targets.size());
   const ValueScale before = popart.scale();
   const double weight = popart.started ? rate : 1;
-  popart.mean += weight * (sum / count - popart.mean);
-  popart.mean_square += weight * (squares / count - popart.mean_square);
+  popart.mean += weight * (targets.mean - popart.mean);
+  popart.mean_square += weight * (targets.mean_square - popart.mean_square);
   popart.started = true;
   const ValueScale after = popart.scale();
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include "train/network/network.h"
 #include "train/ppo/rollout.h"
 
@@ -21,9 +19,14 @@ struct PopArt {
   static constexpr double kMinStd = 1e-2;
 };
 
-/// Moves the moments towards those of `targets` by `rate`, and rescales the critic's head so that
+/// Of the value targets of a rollout.
+struct TargetMoments {
+  double mean = 0, mean_square = 0;
+};
+
+/// Moves the moments towards those of the targets by `rate`, and rescales the critic's head so that
 /// the values it stands for stay as they were.
-void UpdatePopArt(const std::vector<float>& targets, double rate, const NetworkLayout& critic,
+void UpdatePopArt(const TargetMoments& targets, double rate, const NetworkLayout& critic,
                   float* parameters, PopArt& popart);
 
 }  // namespace skein

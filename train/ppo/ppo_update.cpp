@@ -4,35 +4,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
-#include "simd/random.h"
 #include "train/ppo/minibatch_step.h"
 
 namespace skein {
 namespace {
 
-/// Shards of a minibatch and network at most: enough for many threads, few enough to keep their
-/// gradients in memory.
-constexpr int kMaxShards = 32;
+/// Accumulators of a network at most, unless there are more shards: enough for many threads, few
+/// enough to keep the gradients in memory.
+constexpr int kMaxAccumulators = 32;
 constexpr double kAdvantageEpsilon = 1e-8;
-
-/// A permutation of [0, count): Fisher and Yates, keyed by (seed, iteration, epoch).
-std::vector<std::int64_t> ShuffledChunks(std::int64_t count, std::uint64_t seed,
-                                         std::uint64_t iteration, int epoch) {
-  std::vector<std::int64_t> chunks(count);
-  std::iota(chunks.begin(), chunks.end(), std::int64_t{0});
-  simd::RandomStream random({seed, static_cast<std::uint32_t>(iteration),
-                             static_cast<std::uint32_t>(iteration >> 32),
-                             static_cast<std::uint32_t>(epoch), simd::RandomPurpose::kShuffle});
-  for (std::int64_t i = count - 1; i > 0; --i) {
-    const auto other = static_cast<std::int64_t>(random.Uniform() * static_cast<double>(i + 1));
-    std::swap(chunks[i], chunks[other]);
-  }
-  return chunks;
-}
 
 void RequireSane(const char* network, double loss, double norm) {
   if (std::isfinite(loss) && norm <= kExplodedGradientNorm) return;
@@ -123,16 +107,35 @@ PpoUpdate::PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPoo
 PpoUpdate::Source PpoUpdate::SourceOf(const Rollout& rollout, const ValueScale& scale) const {
   if (!config_.normalise_advantages) return {rollout, scale};
   const auto count = static_cast<double>(rollout.samples());
-  double sum = 0, squares = 0;
-  for (const float advantage : rollout.advantage) sum += advantage;
-  const double mean = sum / count;
-  for (const float advantage : rollout.advantage) {
-    squares += (advantage - mean) * (advantage - mean);
-  }
-  return {rollout, scale, mean, 1 / (std::sqrt(squares / count) + kAdvantageEpsilon)};
+  const auto sum = SumSamples<1>(
+      rollout, [&](std::int64_t row, Sums<1>& sums) { sums[0] += rollout.advantage[row]; });
+  const double mean = sum[0] / count;
+  const auto squares = SumSamples<1>(rollout, [&](std::int64_t row, Sums<1>& sums) {
+    sums[0] += (rollout.advantage[row] - mean) * (rollout.advantage[row] - mean);
+  });
+  return {rollout, scale, mean, 1 / (std::sqrt(squares[0] / count) + kAdvantageEpsilon)};
 }
 
-LossSettings PpoUpdate::SettingsFor(const Rollout& rollout, const Chunks& minibatch) const {
+PpoUpdate::Minibatch PpoUpdate::Cut(std::vector<Chunks> shards, const Rollout& rollout) const {
+  const int chunks = shards[0].count;
+  Minibatch minibatch;
+  minibatch.shards = std::move(shards);
+  minibatch.slices = std::min((chunks + tile_chunks_ - 1) / tile_chunks_,
+                              std::max(1, kMaxAccumulators / rollout.shards.total));
+  minibatch.chunks = static_cast<double>(chunks) * rollout.shards.total;
+  return minibatch;
+}
+
+Chunks PpoUpdate::SliceOf(const Chunks& shard, int slice, int slices) const {
+  const int tiles = (shard.count + tile_chunks_ - 1) / tile_chunks_;
+  const auto begin = [&](int index) {
+    const auto tile = static_cast<int>(static_cast<std::int64_t>(index) * tiles / slices);
+    return std::min(shard.count, tile * tile_chunks_);
+  };
+  return {shard.first + begin(slice), begin(slice + 1) - begin(slice)};
+}
+
+LossSettings PpoUpdate::SettingsFor(const Minibatch& minibatch, int chunk_length) const {
   LossSettings settings;
   settings.clip = config_.clip;
   settings.entropy_coefficient = config_.entropy_coefficient;
@@ -140,80 +143,80 @@ LossSettings PpoUpdate::SettingsFor(const Rollout& rollout, const Chunks& miniba
   settings.clip_value_loss = config_.clip_value_loss;
   settings.tanh_mean = tanh_mean_;
   settings.action_smoothness_coefficient = config_.action_smoothness_coefficient * handling_weight_;
-  const auto chunks = static_cast<double>(minibatch.count);
-  settings.sample_weight = 1 / (chunks * rollout.chunk_length);
-  if (rollout.chunk_length > 1) settings.pair_weight = 1 / (chunks * (rollout.chunk_length - 1));
+  settings.sample_weight = 1 / (minibatch.chunks * chunk_length);
+  if (chunk_length > 1) settings.pair_weight = 1 / (minibatch.chunks * (chunk_length - 1));
   return settings;
 }
 
-void PpoUpdate::AccumulateShard(Side& side, const Source& source, const Chunks& chunks,
-                                const LossSettings& settings, int shard, int worker) {
+void PpoUpdate::AccumulateSlice(Side& side, const Source& source, const Chunks& chunks,
+                                const LossSettings& settings, int accumulator, int worker) {
   const RecurrentNetwork& network = *side.trained.network;
-  AlignedVector<float>& accumulator = side.accumulators[shard];
-  accumulator.assign(network.accumulator_size(), 0.0f);
-  side.losses[shard] = {};
+  AlignedVector<float>& gradient = side.accumulators[accumulator];
+  gradient.assign(network.accumulator_size(), 0.0f);
+  side.losses[accumulator] = {};
   Gathered& own = *gathered_[worker];
   for (int first = 0; first < chunks.count && !pool_.stopping(); first += tile_chunks_) {
     const Chunks batch{chunks.first + first, std::min(tile_chunks_, chunks.count - first)};
-    side.losses[shard] += network.AccumulateGradient(own.Gather(source, is_actor(side), batch),
-                                                     settings, own.workspace, accumulator.data());
+    side.losses[accumulator] += network.AccumulateGradient(
+        own.Gather(source, is_actor(side), batch), settings, own.workspace, gradient.data());
   }
 }
 
-void PpoUpdate::AccumulateShards(const Source& source, const Chunks& minibatch) {
-  const LossSettings settings = SettingsFor(source.rollout, minibatch);
-  const int tiles = (minibatch.count + tile_chunks_ - 1) / tile_chunks_;
-  const int shards = std::min(tiles, kMaxShards);
-  const auto shard_begin = [&](int shard) {
-    const auto tile = static_cast<int>(static_cast<std::int64_t>(shard) * tiles / shards);
-    return std::min(minibatch.count, tile * tile_chunks_);
-  };
+void PpoUpdate::Accumulate(const Source& source, const Minibatch& minibatch) {
+  const LossSettings settings = SettingsFor(minibatch, source.rollout.chunk_length);
+  const int accumulators = static_cast<int>(minibatch.shards.size()) * minibatch.slices;
   for (Side& side : sides_) {
-    side.accumulators.resize(shards);
-    side.losses.resize(shards);
+    side.accumulators.resize(accumulators);
+    side.losses.resize(accumulators);
   }
   pool_.ForEach(2, [&](int i, int) { sides_[i].trained.TakeParameters(); });
   const auto start = std::chrono::steady_clock::now();
-  pool_.ForEach(2 * shards, [&](int index, int worker) {
-    const int shard = index / 2, begin = shard_begin(shard);
-    AccumulateShard(sides_[index % 2], source,
-                    {minibatch.first + begin, shard_begin(shard + 1) - begin}, settings, shard,
-                    worker);
+  pool_.ForEach(2 * accumulators, [&](int index, int worker) {
+    const int accumulator = index / 2;
+    const Chunks& shard = minibatch.shards[accumulator / minibatch.slices];
+    AccumulateSlice(sides_[index % 2], source,
+                    SliceOf(shard, accumulator % minibatch.slices, minibatch.slices), settings,
+                    accumulator, worker);
   });
   gradient_seconds_ +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void PpoUpdate::SumAllShards() {
+void PpoUpdate::SumAll(int slices) {
   for (Side& side : sides_) {
     const auto size = static_cast<std::int64_t>(side.accumulators[0].size());
     const auto blocks = static_cast<int>((size + kSumBlock - 1) / kSumBlock);
     pool_.ForEach(blocks, [&](int block, int) {
       const std::int64_t begin = block * kSumBlock;
-      SumShards(begin, std::min(size, begin + kSumBlock), side.accumulators);
+      SumGradients(begin, std::min(size, begin + kSumBlock), slices, side.accumulators);
     });
   }
 }
 
-LossSums PpoUpdate::RunMinibatch(const Source& source, const Chunks& minibatch,
+LossSums PpoUpdate::SumLosses(int slices) const {
+  const auto& [actor, critic] = sides_;
+  std::vector<LossSums> shards(actor.losses.size() / slices);
+  for (std::size_t i = 0; i < actor.losses.size(); ++i) {
+    shards[i / slices] += actor.losses[i];
+    shards[i / slices] += critic.losses[i];
+  }
+  return SumByTree(shards);
+}
+
+LossSums PpoUpdate::RunMinibatch(const Source& source, const Minibatch& minibatch,
                                  double learning_rate) {
-  AccumulateShards(source, minibatch);
+  Accumulate(source, minibatch);
   if (pool_.stopping()) return {};
-  SumAllShards();
+  SumAll(minibatch.slices);
   pool_.ForEach(2, [&](int i, int) {
     Side& side = sides_[i];
     AdamOptimiser& optimiser = side.trained.optimiser;
     side.trained.network->FinishGradient(side.accumulators[0].data(), optimiser.gradient());
     side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, optimiser);
   });
-  const auto& [actor, critic] = sides_;
-  LossSums total;
-  for (std::size_t shard = 0; shard < actor.losses.size(); ++shard) {
-    total += actor.losses[shard];
-    total += critic.losses[shard];
-  }
-  RequireSane("actor", total.policy_loss, actor.norm);
-  RequireSane("critic", total.value_loss, critic.norm);
+  const LossSums total = SumLosses(minibatch.slices);
+  RequireSane("actor", total.policy_loss, sides_[0].norm);
+  RequireSane("critic", total.value_loss, sides_[1].norm);
   return total;
 }
 
@@ -221,17 +224,13 @@ UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
                             std::uint64_t iteration, double learning_rate, double handling_weight) {
   handling_weight_ = handling_weight;
   const Source source = SourceOf(rollout, scale);
-  const std::int64_t chunks = static_cast<std::int64_t>(rollout.chunks()) * rollout.aircraft;
   UpdateReport report;
   gradient_seconds_ = 0;
   for (int epoch = 0; epoch < config_.epochs; ++epoch) {
-    const std::vector<std::int64_t> order = ShuffledChunks(chunks, seed_, iteration, epoch);
+    const Minibatches minibatches(rollout, config_.minibatches, seed_, iteration, epoch);
     for (int minibatch = 0; minibatch < config_.minibatches; ++minibatch) {
       if (pool_.stopping()) return report;
-      const std::int64_t begin = chunks * minibatch / config_.minibatches;
-      const std::int64_t end = chunks * (minibatch + 1) / config_.minibatches;
-      report.losses += RunMinibatch(source, {order.data() + begin, static_cast<int>(end - begin)},
-                                    learning_rate);
+      report.losses += RunMinibatch(source, Cut(minibatches.At(minibatch), rollout), learning_rate);
       report.actor_gradient_norm += sides_[0].norm;
       report.critic_gradient_norm += sides_[1].norm;
     }

@@ -8,6 +8,7 @@
 
 #include "base/worker_pool.h"
 #include "train/ppo/actor_critic.h"
+#include "train/ppo/minibatches.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/train_config.h"
 
@@ -20,8 +21,9 @@ struct UpdateReport {
   double gradient_seconds = 0;  ///< in forward, losses and backward, of all minibatches
 };
 
-/// PPO's epochs over a rollout: minibatches of shuffled chunks, each cut into a fixed number of
-/// shards whose gradients are summed in a fixed order, so that no bit depends on the threads.
+/// PPO's epochs over a rollout: minibatches of shuffled chunks. What a shard has in one is cut into
+/// a fixed number of slices; the gradients of slices and shards are summed in a fixed order, so
+/// that no bit depends on the threads.
 class PpoUpdate {
  public:
   /// `networks` must outlive the update.
@@ -35,7 +37,7 @@ class PpoUpdate {
                    double learning_rate, double handling_weight = 1);
 
  private:
-  /// A network and its gradient: one accumulator and one sum of losses per shard.
+  /// A network and its gradient: [shard][slice] accumulators and sums of losses.
   struct Side {
     TrainedNetwork& trained;
     std::vector<AlignedVector<float>> accumulators;
@@ -48,24 +50,29 @@ class PpoUpdate {
     ValueScale value_scale;
     double advantage_mean = 0, advantage_inverse_std = 1;
   };
-  /// Chunks of a minibatch or of one of its shards.
-  struct Chunks {
-    const std::int64_t* first = nullptr;
-    int count = 0;
+  /// A minibatch's chunks, by shard, and how they are cut.
+  struct Minibatch {
+    std::vector<Chunks> shards;
+    int slices = 1;     ///< of each shard
+    double chunks = 0;  ///< of all shards of the training
   };
   struct Gathered;
 
   bool is_actor(const Side& side) const { return &side == &sides_[0]; }
   Source SourceOf(const Rollout& rollout, const ValueScale& scale) const;
-  LossSettings SettingsFor(const Rollout& rollout, const Chunks& minibatch) const;
+  Minibatch Cut(std::vector<Chunks> shards, const Rollout& rollout) const;
+  /// What of a shard's chunks belongs to a slice.
+  Chunks SliceOf(const Chunks& shard, int slice, int slices) const;
+  LossSettings SettingsFor(const Minibatch& minibatch, int chunk_length) const;
   /// One step of both optimisers; their losses.
-  LossSums RunMinibatch(const Source& source, const Chunks& minibatch, double learning_rate);
-  /// Leaves the gradients of both networks in the accumulators of their shards.
-  void AccumulateShards(const Source& source, const Chunks& minibatch);
-  void AccumulateShard(Side& side, const Source& source, const Chunks& chunks,
-                       const LossSettings& settings, int shard, int worker);
-  /// Leaves the sums over shards in the first one's accumulators.
-  void SumAllShards();
+  LossSums RunMinibatch(const Source& source, const Minibatch& minibatch, double learning_rate);
+  /// Leaves the gradients of both networks in their accumulators.
+  void Accumulate(const Source& source, const Minibatch& minibatch);
+  void AccumulateSlice(Side& side, const Source& source, const Chunks& chunks,
+                       const LossSettings& settings, int accumulator, int worker);
+  /// Leaves the sums in the first accumulators.
+  void SumAll(int slices);
+  LossSums SumLosses(int slices) const;
 
   PpoConfig config_;
   std::uint64_t seed_;

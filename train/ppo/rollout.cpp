@@ -193,6 +193,7 @@ class TileRollout {
       const auto termination = static_cast<Termination>(scratch_.termination[i]);
       const bool done = termination != Termination::kNone;
       rollout_.done[row + i] = done;
+      rollout_.episode_return[row + i] = 0;
       truncated |= truncates && termination == Termination::kTimeLimit;
       if (!done) continue;
       if (termination == Termination::kNonFinite) ++statistics_.non_finite;
@@ -200,7 +201,7 @@ class TileRollout {
       if (scratch_.episode_steps[i] > ControlStepsFlown(step)) continue;
       ++statistics_.episodes;
       ++statistics_.terminations[scratch_.termination[i]];
-      statistics_.return_sum += scratch_.episode_return[i];
+      rollout_.episode_return[row + i] = scratch_.episode_return[i];
     }
     if (truncated) AddTruncatedValues(reward);
     for (int i = 0; i < count_; ++i) not_done_[i] = rollout_.done[row + i] ? 0.0f : 1.0f;
@@ -251,19 +252,22 @@ int PrivilegedSize(const PpoConfig& config, const VecEnv& env) {
   return config.privileged_critic ? env.privileged_size() : 0;
 }
 
-Rollout::Rollout(const PpoConfig& config, int observations, int actions, int states, int privileged)
+Rollout::Rollout(const PpoConfig& config, int observations, int actions, int states, int privileged,
+                 const ShardRange& range)
     : steps(config.rollout_steps),
       aircraft(config.num_aircraft),
       chunk_length(config.chunk_length),
       observation_size(observations),
       action_size(actions),
       state_size(states),
-      privileged_size(privileged) {
+      privileged_size(privileged),
+      shards(range) {
   Validate(config);
   observation.resize(samples() * observation_size);
   if (privileged_size > 0) joined_observation.resize(samples() * critic_observation_size());
   action.resize(samples() * action_size);
-  for (auto* const column : {&log_prob, &value, &reward, &not_done, &advantage, &target}) {
+  for (auto* const column :
+       {&log_prob, &value, &reward, &not_done, &advantage, &target, &episode_return}) {
     column->resize(samples());
   }
   done.resize(samples());
@@ -288,6 +292,35 @@ EpisodeStatistics& EpisodeStatistics::operator+=(const EpisodeStatistics& other)
   return *this;
 }
 
+namespace {
+
+/// Of the aircraft [begin, end).
+double SumReturns(int begin, int end, const Rollout& rollout) {
+  double sum = 0;
+  for (int step = 0; step < rollout.steps; ++step) {
+    for (int i = begin; i < end; ++i) sum += rollout.episode_return[rollout.row(step, i)];
+  }
+  return sum;
+}
+
+/// One shard is summed by tiles, as ever: which tile holds which aircraft is then part of the
+/// configuration, which it is not where a shard may begin within a tile.
+double SumReturns(const VecEnv& env, const Rollout& rollout) {
+  if (rollout.shards.total > 1) {
+    return SumSamples<1>(rollout, [&](std::int64_t row, Sums<1>& sums) {
+      sums[0] += rollout.episode_return[row];
+    })[0];
+  }
+  double sum = 0;
+  for (int tile = 0; tile < env.num_tiles(); ++tile) {
+    const int begin = env.tile_begin(tile);
+    sum += SumReturns(begin, begin + env.tile_count(tile), rollout);
+  }
+  return sum;
+}
+
+}  // namespace
+
 EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
                                  const RecurrentNetwork& critic, const std::vector<float>& log_std,
                                  const RolloutSettings& settings, WorkerPool& pool,
@@ -301,6 +334,7 @@ EpisodeStatistics CollectRollout(VecEnv& env, const RecurrentNetwork& actor,
   });
   EpisodeStatistics total;
   for (const EpisodeStatistics& part : statistics) total += part;
+  total.return_sum = SumReturns(env, rollout);
   return total;
 }
 

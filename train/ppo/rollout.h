@@ -9,6 +9,7 @@
 #include "envs/vec_env.h"
 #include "train/network/recurrent_network.h"
 #include "train/ppo/ppo_config.h"
+#include "train/ppo/shards.h"
 
 namespace skein {
 
@@ -21,10 +22,11 @@ int PrivilegedSize(const PpoConfig& config, const VecEnv& env);
 struct Rollout {
   /// Throws Error where Validate(config) does.
   Rollout(const PpoConfig& config, int observation_size, int action_size, int state_size,
-          int privileged_size = 0);
+          int privileged_size = 0, const ShardRange& shards = {});
 
   std::int64_t samples() const { return static_cast<std::int64_t>(steps) * aircraft; }
   int chunks() const { return steps / chunk_length; }  ///< per aircraft
+  int shard_aircraft() const { return aircraft / shards.count; }
   std::int64_t row(int step, int index) const {
     return static_cast<std::int64_t>(step) * aircraft + index;
   }
@@ -36,19 +38,38 @@ struct Rollout {
   }
 
   int steps, aircraft, chunk_length, observation_size, action_size, state_size, privileged_size;
+  ShardRange shards;
   std::vector<float> observation;  ///< [steps][aircraft][observation_size]
   /// [steps][aircraft][critic_observation_size]: each observation and what is privileged behind it;
   /// empty if nothing is.
   std::vector<float> joined_observation;
   std::vector<float> action;  ///< [steps][aircraft][action_size], before clipping
   std::vector<float> log_prob, value;
-  std::vector<float> reward;             ///< with the bootstrap of truncated episodes
-  std::vector<float> not_done;           ///< 0 where an episode begins with this step, else 1
-  std::vector<std::uint8_t> done;        ///< 1 where an episode ended with this step
+  std::vector<float> reward;       ///< with the bootstrap of truncated episodes
+  std::vector<float> not_done;     ///< 0 where an episode begins with this step, else 1
+  std::vector<std::uint8_t> done;  ///< 1 where an episode ended with this step
+  /// Of the episode that ended with this step, if EpisodeStatistics counts it; else 0.
+  std::vector<float> episode_return;
   std::vector<float> bootstrap;          ///< [aircraft]: value of what follows the last step
   std::vector<float> advantage, target;  ///< target: advantage + value
   std::vector<float> actor_state, critic_state;  ///< [chunks][aircraft][state_size] at chunk starts
 };
+
+/// Sums over all samples: `add(row, sums)` adds what a row has. Shard by shard, each step by step,
+/// and over shards by the tree.
+template <std::size_t kCount, typename Add>
+Sums<kCount> SumSamples(const Rollout& rollout, const Add& add) {
+  std::vector<Sums<kCount>> of_shards(static_cast<std::size_t>(rollout.shards.count));
+  for (std::size_t shard = 0; shard < of_shards.size(); ++shard) {
+    Sums<kCount>& sums = of_shards[shard] = {};
+    const int begin = static_cast<int>(shard) * rollout.shard_aircraft();
+    for (int step = 0; step < rollout.steps; ++step) {
+      for (int i = begin; i < begin + rollout.shard_aircraft(); ++i)
+        add(rollout.row(step, i), sums);
+    }
+  }
+  return SumByTree(of_shards);
+}
 
 /// Where the recurrent networks stand between rollouts.
 struct RecurrentState {

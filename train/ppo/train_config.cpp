@@ -2,6 +2,7 @@
 #include "train/ppo/train_config.h"
 
 #include "base/field_list.h"
+#include "train/ppo/shards.h"
 
 namespace skein {
 
@@ -20,6 +21,12 @@ void ListFields(TrainConfig& config, FieldList& list) {
   list.Group("ppo", config.ppo);
   list.Group("learner", config.learner);
   list.Group("evaluation", config.evaluation);
+}
+
+void ValidateLearning(const TrainConfig& config) {
+  Validate(config.ppo);
+  ValidateShards(config.learner.shards, config.ppo.num_aircraft,
+                 config.ppo.rollout_steps / config.ppo.chunk_length, config.ppo.minibatches);
 }
 
 }  // namespace skein

@@ -39,4 +39,7 @@ void ListFields(PeriodicEvaluationConfig& config, FieldList& list);
 /// Its settings (base/field_list.h).
 void ListFields(TrainConfig& config, FieldList& list);
 
+/// Throws Error on a learner's values that are out of bounds or do not go together.
+void ValidateLearning(const TrainConfig& config);
+
 }  // namespace skein

@@ -25,24 +25,32 @@ double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-double ExplainedVariance(const Rollout& rollout) {
-  double target_sum = 0, target_squares = 0, error_sum = 0, error_squares = 0;
-  for (std::int64_t i = 0; i < rollout.samples(); ++i) {
-    const double target = rollout.target[i], error = target - rollout.value[i];
-    target_sum += target;
-    target_squares += target * target;
-    error_sum += error;
-    error_squares += error * error;
-  }
-  const auto count = static_cast<double>(rollout.samples());
-  const double target_variance = target_squares / count - std::pow(target_sum / count, 2);
-  const double error_variance = error_squares / count - std::pow(error_sum / count, 2);
+/// Sums over the samples of a rollout: of the value targets and what the critic missed of them.
+enum ValueSum { kTarget, kTargetSquared, kError, kErrorSquared, kNumValueSums };
+
+/// Their means.
+Sums<kNumValueSums> ValueMeans(const Rollout& rollout) {
+  Sums<kNumValueSums> means =
+      SumSamples<kNumValueSums>(rollout, [&](std::int64_t row, Sums<kNumValueSums>& sums) {
+        const double target = rollout.target[row], error = target - rollout.value[row];
+        sums[kTarget] += target;
+        sums[kTargetSquared] += target * target;
+        sums[kError] += error;
+        sums[kErrorSquared] += error * error;
+      });
+  for (double& mean : means) mean /= static_cast<double>(rollout.samples());
+  return means;
+}
+
+double ExplainedVariance(const Sums<kNumValueSums>& means) {
+  const double target_variance = means[kTargetSquared] - std::pow(means[kTarget], 2);
+  const double error_variance = means[kErrorSquared] - std::pow(means[kError], 2);
   return target_variance > 0 ? 1 - error_variance / target_variance
                              : std::numeric_limits<double>::quiet_NaN();
 }
 
 const TrainConfig& Validated(const TrainConfig& config) {
-  Validate(config.ppo);
+  ValidateLearning(config);
   if (config.low_level != nullptr) {
     CheckLowLevelMadeFor(config.env, *config.low_level, "the low-level policy");
   }
@@ -60,7 +68,7 @@ struct Trainer::Impl {
         networks(config, env.observation_size(), PrivilegedSize(config.ppo, env),
                  env.action_size()),
         rollout(config.ppo, env.observation_size(), env.action_size(), StateSize(),
-                PrivilegedSize(config.ppo, env)),
+                PrivilegedSize(config.ppo, env), {config.learner.shards, 0, config.learner.shards}),
         recurrent(config.ppo.num_aircraft, StateSize()),
         update(config, networks, pool),
         adapted_learning_rate(config.ppo.target_kl > 0 ? config.ppo.learning_rate : 0) {
@@ -168,7 +176,8 @@ struct Trainer::Impl {
     report.return_mean = episodes.return_sum / count;  // 0 / 0 says that there are none
     report.success_rate =
         episodes.terminations[static_cast<int>(Termination::kTargetReached)] / count;
-    report.explained_variance = ExplainedVariance(rollout);
+    value_means = ValueMeans(rollout);
+    report.explained_variance = ExplainedVariance(value_means);
     report.rollout_seconds = SecondsSince(start);
     report.simulator_seconds = episodes.simulator_seconds / pool.threads();
     return episodes.policy_steps * config.env.action_repeat;
@@ -179,8 +188,8 @@ struct Trainer::Impl {
     const auto start = std::chrono::steady_clock::now();
     report.learning_rate = LearningRate();
     if (config.ppo.popart) {
-      UpdatePopArt(rollout.target, config.ppo.popart_rate, networks.critic.layout(),
-                   networks.critic.optimiser.parameters(), popart);
+      UpdatePopArt({value_means[kTarget], value_means[kTargetSquared]}, config.ppo.popart_rate,
+                   networks.critic.layout(), networks.critic.optimiser.parameters(), popart);
     }
     const UpdateReport done =
         update.Run(rollout, popart.scale(), iteration, report.learning_rate, HandlingWeight());
@@ -229,6 +238,7 @@ struct Trainer::Impl {
   VecEnv env;
   ActorCritic networks;
   Rollout rollout;
+  Sums<kNumValueSums> value_means{};  ///< of the rollout
   RecurrentState recurrent;
   PpoUpdate update;
   PopArt popart;

@@ -15,6 +15,15 @@ namespace {
 constexpr Tolerance kValue{1e-3, "float32 values of some hundred"};
 constexpr Tolerance kRounding{1e-12, "float64 rounding"};
 
+TargetMoments MomentsOf(const std::vector<float>& targets) {
+  TargetMoments moments;
+  for (const float target : targets) {
+    moments.mean += target / static_cast<double>(targets.size());
+    moments.mean_square += std::pow(target, 2.0) / static_cast<double>(targets.size());
+  }
+  return moments;
+}
+
 TEST(PopArtTest, ValuesStayAsTheyWereWhenTheMomentsMove) {
   const NetworkLayout layout({5, 32, 16, 1, false});
   std::vector<float> parameters = DisturbedParameters(layout);
@@ -34,7 +43,7 @@ TEST(PopArtTest, ValuesStayAsTheyWereWhenTheMomentsMove) {
     const std::vector<double> before = values();
     std::vector<float> targets = samples.Normal(500, spread);
     for (float& target : targets) target += spread;
-    UpdatePopArt(targets, 0.3, layout, parameters.data(), popart);
+    UpdatePopArt(MomentsOf(targets), 0.3, layout, parameters.data(), popart);
     const std::vector<double> after = values();
     for (int i = 0; i < 24; ++i) EXPECT_NEAR(after[i], before[i], kValue);
   }
@@ -44,10 +53,10 @@ TEST(PopArtTest, FirstMomentsAreTakenWholeAndLaterOnesByRate) {
   const NetworkLayout layout({5, 16, 16, 1, false});
   std::vector<float> parameters(layout.size(), 0.0f);
   PopArt popart;
-  UpdatePopArt({1, 3}, 0.1, layout, parameters.data(), popart);
+  UpdatePopArt(MomentsOf({1, 3}), 0.1, layout, parameters.data(), popart);
   EXPECT_DOUBLE_EQ(popart.scale().mean, 2);
   EXPECT_DOUBLE_EQ(popart.scale().std, 1);
-  UpdatePopArt({12, 12}, 0.1, layout, parameters.data(), popart);
+  UpdatePopArt(MomentsOf({12, 12}), 0.1, layout, parameters.data(), popart);
   EXPECT_DOUBLE_EQ(popart.scale().mean, 3);
   EXPECT_NEAR(popart.scale().std, std::sqrt(0.9 * 5 + 0.1 * 144 - 9), kRounding);
 }
@@ -56,7 +65,7 @@ TEST(PopArtTest, ConstantTargetsDoNotDivideByZero) {
   const NetworkLayout layout({5, 16, 16, 1, false});
   std::vector<float> parameters = DisturbedParameters(layout);
   PopArt popart;
-  UpdatePopArt({4, 4, 4}, 0.1, layout, parameters.data(), popart);
+  UpdatePopArt(MomentsOf({4, 4, 4}), 0.1, layout, parameters.data(), popart);
   EXPECT_EQ(popart.scale().std, PopArt::kMinStd);
   for (const float parameter : parameters) EXPECT_TRUE(std::isfinite(parameter));
 }

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train/ppo/shards.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "tests/error_message.h"
+#include "tests/tolerance.h"
+#include "tests/train/small_config.h"
+#include "train/ppo/minibatch_step.h"
+#include "train/ppo/minibatches.h"
+#include "train/ppo/trainer.h"
+#include "train/ppo/training_state.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr Tolerance kSumOrder{1e-5, "float32 gradients and losses added up in another order"};
+
+TEST(ShardTreeTest, BitsDoNotDependOnHowShardsAreGrouped) {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal(0, 1e3);
+  std::vector<Sums<2>> parts(1024);
+  for (Sums<2>& part : parts) part = {normal(generator), normal(generator)};
+  const Sums<2> whole = SumByTree(parts);
+  for (std::size_t width = 1; width <= parts.size(); width *= 2) {
+    std::vector<Sums<2>> groups;
+    for (auto begin = parts.begin(); begin != parts.end(); begin += width) {
+      groups.push_back(SumByTree(std::vector<Sums<2>>(begin, begin + width)));
+    }
+    EXPECT_EQ(SumByTree(groups), whole) << "groups of " << width;
+  }
+  const double in_order =
+      std::accumulate(parts.begin(), parts.end(), 0.0,
+                      [](double sum, const Sums<2>& part) { return sum + part[0]; });
+  EXPECT_NE(in_order, whole[0]) << "numbers whose sum shows its order";
+}
+
+/// [shard][slice] vectors, and what SumGradients must leave of one element.
+struct Gradients {
+  Gradients(int shards, int slices) {
+    std::normal_distribution<float> normal;
+    for (int shard = 0; shard < shards; ++shard) {
+      of_shards.emplace_back(kSize, 0.0f);
+      for (int slice = 0; slice < slices; ++slice) {
+        AlignedVector<float>& values = accumulators.emplace_back(kSize);
+        for (int i = 0; i < kSize; ++i) {
+          values[i] = normal(generator);
+          of_shards.back()[i] += values[i];
+        }
+      }
+    }
+  }
+  float Sum(int i) const {
+    std::vector<float> parts;
+    for (const std::vector<float>& shard : of_shards) parts.push_back(shard[i]);
+    return SumByTree(parts);
+  }
+
+  static constexpr int kSize = 37;
+  std::mt19937 generator{5};
+  std::vector<AlignedVector<float>> accumulators;
+  std::vector<std::vector<float>> of_shards;
+};
+
+TEST(ShardTreeTest, GradientsAreSummedBySliceAndThenByTheTree) {
+  for (const int shards : {1, 2, 4, 8, 16, 32, 64}) {
+    for (const int slices : {1, 2, 5, 7}) {
+      Gradients gradients(shards, slices);
+      const float untouched = gradients.accumulators[0][36];
+      SumGradients(0, 36, slices, gradients.accumulators);
+      for (int i = 0; i < 36; ++i) {
+        EXPECT_EQ(gradients.accumulators[0][i], gradients.Sum(i)) << shards << " by " << slices;
+      }
+      EXPECT_EQ(gradients.accumulators[0][36], untouched);
+    }
+  }
+}
+
+/// Of 24 aircraft, 4 chunks each.
+Rollout SmallRollout(const ShardRange& shards) {
+  PpoConfig config;
+  config.num_aircraft = 24 / shards.total * shards.count;
+  config.rollout_steps = 32;
+  config.minibatches = 5;
+  return Rollout(config, 2, 1, 1, 0, shards);
+}
+
+TEST(MinibatchesTest, EveryChunkIsVisitedOnceAnEpochAndEveryShardAlike) {
+  for (const int shards : {1, 2, 4}) {
+    const Rollout rollout = SmallRollout({shards, 0, shards});
+    const Minibatches minibatches(rollout, 5, 7, 2, 1);
+    std::multiset<std::int64_t> visited;
+    for (int k = 0; k < 5; ++k) {
+      const std::vector<Chunks> parts = minibatches.At(k);
+      ASSERT_EQ(static_cast<int>(parts.size()), shards);
+      for (int shard = 0; shard < shards; ++shard) {
+        EXPECT_EQ(parts[shard].count, parts[0].count);
+        for (int i = 0; i < parts[shard].count; ++i) {
+          const std::int64_t chunk = parts[shard].first[i];
+          EXPECT_EQ(chunk % 24 / (24 / shards), shard) << "an aircraft of another shard";
+          visited.insert(chunk);
+        }
+      }
+    }
+    EXPECT_EQ(visited.size(), 24u * 4);
+    EXPECT_EQ(std::set<std::int64_t>(visited.begin(), visited.end()).size(), 24u * 4);
+  }
+}
+
+TEST(MinibatchesTest, AShardsChunksDoNotDependOnWhichOthersAreComputedHere) {
+  const Minibatches all(SmallRollout({4, 0, 4}), 5, 7, 2, 1);
+  const Minibatches last(SmallRollout({4, 2, 2}), 5, 7, 2, 1);
+  std::set<std::vector<std::int64_t>> orders;
+  for (int k = 0; k < 5; ++k) {
+    for (int shard = 2; shard < 4; ++shard) {
+      const Chunks expected = all.At(k)[shard], chunks = last.At(k)[shard - 2];
+      ASSERT_EQ(chunks.count, expected.count);
+      std::vector<std::int64_t> order;
+      for (int i = 0; i < chunks.count; ++i) {
+        // Numbered among the aircraft that are computed here, of which there are half as many.
+        EXPECT_EQ(chunks.first[i] / 12, expected.first[i] / 24);
+        EXPECT_EQ(chunks.first[i] % 12, expected.first[i] % 24 - 12);
+        order.push_back(chunks.first[i] / 12 * 6 + chunks.first[i] % 6);
+      }
+      orders.insert(order);
+    }
+  }
+  EXPECT_EQ(orders.size(), 10u) << "every shard is shuffled by itself";
+}
+
+TrainConfig ShardedConfig(int shards) {
+  TrainConfig config = SmallConfig();
+  config.learner.shards = shards;
+  return config;
+}
+
+struct Trained {
+  std::uint64_t signature;
+  std::vector<double> numbers;
+};
+
+Trained TrainToTheEnd(const TrainConfig& config, int threads) {
+  WorkerPool pool(threads);
+  Trainer trainer(config, pool);
+  Trained trained{};
+  while (!trainer.finished()) {
+    const IterationReport report = trainer.Iterate();
+    for (const double number : {report.policy_loss, report.value_loss, report.explained_variance,
+                                report.actor_gradient_norm, report.critic_gradient_norm}) {
+      trained.numbers.push_back(number);
+    }
+    if (report.episodes > 0) trained.numbers.push_back(report.return_mean);
+  }
+  trained.signature = trainer.Signature();
+  return trained;
+}
+
+TEST(ShardsTest, NoBitDependsOnThreadsOrOnTheTilesOfRollouts) {
+  const Trained expected = TrainToTheEnd(ShardedConfig(4), 1);
+  for (const int threads : {2, 8}) {
+    const Trained trained = TrainToTheEnd(ShardedConfig(4), threads);
+    EXPECT_EQ(trained.signature, expected.signature) << threads << " threads";
+    EXPECT_EQ(trained.numbers, expected.numbers) << threads << " threads";
+  }
+  TrainConfig whole = ShardedConfig(4);
+  whole.learner.rollout_tile = 96;
+  const Trained trained = TrainToTheEnd(whole, 2);
+  EXPECT_EQ(trained.signature, expected.signature);
+  EXPECT_EQ(trained.numbers, expected.numbers);
+  EXPECT_NE(TrainToTheEnd(ShardedConfig(2), 2).signature, expected.signature);
+}
+
+TEST(ShardsTest, TheirGradientIsThatOfTheWholeMinibatch) {
+  WorkerPool pool(2);
+  const auto first_step = [&](int shards) {
+    TrainConfig config = ShardedConfig(shards);
+    config.ppo.minibatches = config.ppo.epochs = 1;
+    config.evaluation.interval_iterations = 0;
+    return Trainer(config, pool).Iterate();
+  };
+  const IterationReport expected = first_step(1);
+  for (const int shards : {2, 8, 32}) {
+    const IterationReport report = first_step(shards);
+    EXPECT_NEAR(report.policy_loss, expected.policy_loss, kSumOrder);
+    EXPECT_NEAR(report.value_loss / expected.value_loss, 1, kSumOrder);
+    EXPECT_NEAR(report.actor_gradient_norm / expected.actor_gradient_norm, 1, kSumOrder);
+    EXPECT_NEAR(report.critic_gradient_norm / expected.critic_gradient_norm, 1, kSumOrder);
+  }
+}
+
+TEST(ShardsTest, ThoseThatAreNotPossibleAreRefusedWithThoseThatAre) {
+  WorkerPool pool(1);
+  for (const int shards : {3, 64}) {
+    const std::string message =
+        MessageOf([&] { const Trainer trainer(ShardedConfig(shards), pool); });
+    EXPECT_THAT(message, HasSubstr("learner.shards = " + std::to_string(shards)));
+    EXPECT_THAT(message, HasSubstr("1, 2, 4, 8, 16, 32"));
+    EXPECT_THAT(message, ::testing::Not(HasSubstr("64,")));
+  }
+  TrainConfig many = ShardedConfig(32);
+  many.ppo.minibatches = 7;  // of 6 chunks
+  EXPECT_THAT(MessageOf([&] { const Trainer trainer(many, pool); }),
+              HasSubstr("7 ppo.minibatches"));
+}
+
+TEST(ShardsTest, OneShardIsNoPartOfACheckpointsConfiguration) {
+  EXPECT_EQ(DescribeConfig(ShardedConfig(1)).count("learner.shards"), 0u);
+  EXPECT_EQ(DescribeConfig(ShardedConfig(2)).at("learner.shards"), "2");
+}
+
+}  // namespace
+}  // namespace skein
