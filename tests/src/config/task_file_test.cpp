@@ -179,5 +179,28 @@ TEST(TaskFileTest, SurvivesMutations) {
   }
 }
 
+TEST(TaskFileTest, SurvivesDepthAndLength) {
+  const std::string text = ReadFile(Example("heading"));
+  for (const int depth : {50, 1000, 10000}) {
+    std::string arrays = "x = ", tables = "x = ", dotted = "x";
+    for (int i = 0; i < depth; ++i) {
+      arrays += "[";
+      tables += "{a=";
+      dotted += ".a";
+    }
+    for (const std::string& deep : {arrays, tables, dotted + " = 1\n" + text}) {
+      EXPECT_THROW(ReadTaskFile(deep, "deep.toml", kTables), Error) << depth;
+    }
+    // Behind a table of settings, which are read later.
+    ReadMutant(text + "\n" + dotted + " = 1");
+    ReadMutant(text + "\n[" + dotted + "]");
+  }
+  const std::string reward = "\n[[reward]]\nweight = 1\nquantity = ";
+  ReadMutant(text + reward + "\"" + std::string(30000, 'x') + "\"");
+  std::string names = "\"one\"";
+  for (int i = 0; i < 5000; ++i) names += ", \"one\"";
+  EXPECT_THROW(ReadTaskFile(text + reward + "[" + names + "]", "wide.toml", kTables), Error);
+}
+
 }  // namespace
 }  // namespace skein
