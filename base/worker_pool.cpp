@@ -8,7 +8,11 @@
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -65,6 +69,40 @@ int ThreadCount(int threads) {
   return threads == 0 ? tbb::info::default_concurrency() : threads;
 }
 
+/// What keeps workers awake between one ForEach and the next: tasks that wait for it. They may
+/// outlive the pool.
+class Watch : public std::enable_shared_from_this<Watch> {
+ public:
+  explicit Watch(int workers) : workers_(workers) {}
+
+  void BeginForEach() { calls_.fetch_add(1, std::memory_order_relaxed); }
+
+  void EndForEach(tbb::task_arena* arena) {
+    const std::uint64_t seen = calls_.load(std::memory_order_relaxed);
+    // A process that was forked has no workers: no more tasks than these are ever left over there.
+    while (watching_.load(std::memory_order_relaxed) < workers_) {
+      watching_.fetch_add(1, std::memory_order_relaxed);
+      arena->enqueue([self = shared_from_this(), seen] { self->WaitForNext(seen); });
+    }
+  }
+
+ private:
+  /// A few times what waking a worker takes.
+  static constexpr std::chrono::microseconds kAwake{200};
+
+  void WaitForNext(std::uint64_t seen) {
+    const auto end = std::chrono::steady_clock::now() + kAwake;
+    while (calls_.load(std::memory_order_relaxed) == seen &&
+           std::chrono::steady_clock::now() < end) {
+    }
+    watching_.fetch_sub(1, std::memory_order_relaxed);
+  }
+
+  int workers_;
+  std::atomic<std::uint64_t> calls_{0};
+  std::atomic<int> watching_{0};  ///< tasks that wait or are about to
+};
+
 }  // namespace
 
 struct WorkerPool::Arena {
@@ -78,6 +116,7 @@ struct WorkerPool::Arena {
 
   std::optional<tbb::global_control> more_threads;
   tbb::task_arena arena;
+  std::shared_ptr<Watch> watch;  ///< null: workers sleep when they like
 };
 
 WorkerPool::WorkerPool(int threads)
@@ -92,6 +131,7 @@ void WorkerPool::ForEach(int count, const std::function<void(int index, int work
     return;
   }
   ForEachOrder order;
+  if (arena_->watch) arena_->watch->BeginForEach();
   arena_->arena.execute([&] {
     // Isolated, so that a worker that waits for a nested ForEach does not begin another index of
     // the outer one.
@@ -107,6 +147,14 @@ void WorkerPool::ForEach(int count, const std::function<void(int index, int work
           tbb::simple_partitioner());
     });
   });
+  if (arena_->watch) arena_->watch->EndForEach(&arena_->arena);
+}
+
+void WorkerPool::StayAwake() {
+  // More than CPUs would wait in each other's way.
+  if (threads_ <= tbb::info::default_concurrency()) {
+    arena_->watch = std::make_shared<Watch>(threads_ - 1);
+  }
 }
 
 }  // namespace skein

@@ -91,6 +91,14 @@ struct alignas(kCacheLine) EnvStepper::Scratch {
   TargetEnd target_end[kAircraftPerBlock];
   float bonus[kAircraftPerBlock] = {};
   LowLevelFlight::Scratch low_level;
+
+  /// Whether an episode of the first `count` aircraft ended in the policy step so far. That is
+  /// rare, so it is asked of all at once before anything is asked of each.
+  bool HasEnds(int count) const {
+    std::int32_t any = 0;
+    for (int i = 0; i < count; ++i) any |= termination[i];
+    return any != 0;
+  }
 };
 
 /// Where a state that sensors show late is put together.
@@ -392,6 +400,7 @@ void EnvStepper::ObserveEnds(const EnvBlock& block, Scratch& scratch,
     return output.observes_every_end ? !Is(scratch.termination[i], Termination::kNone)
                                      : Is(scratch.termination[i], Termination::kTimeLimit);
   };
+  if (!scratch.HasEnds(block.count)) return;
   bool any = false;
   for (int i = 0; i < block.count; ++i) any = any || is_new(i);
   if (!any) return;
@@ -454,10 +463,7 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
   }
   std::copy_n(scratch.policy_step_reward, block.count, output.reward);
   std::copy_n(scratch.termination, block.count, output.termination);
-  // Endings are rare: most blocks have none.
-  std::int32_t any_ended = 0;
-  for (int i = 0; i < block.count; ++i) any_ended |= scratch.termination[i];
-  if (any_ended != 0) RestartEnded(block, scratch, output);
+  if (scratch.HasEnds(block.count)) RestartEnded(block, scratch, output);
 }
 
 }  // namespace skein

@@ -26,8 +26,8 @@ namespace nb = nanobind;
 namespace skein {
 namespace {
 
-constexpr int kMostPerTile = 256;
-constexpr int kTileGrain = 32;  // VecEnv's tiles are multiples of it
+constexpr int kMostPerTile = 128;  // few enough that all threads end at about the same time
+constexpr int kTileGrain = 32;     // VecEnv's tiles are multiples of it
 
 int ThreadsFor(int num_envs, int threads) {
   const int asked = threads == 0 ? WorkerPool().threads() : threads;
@@ -50,9 +50,12 @@ class BatchEnv {
         low_level_(std::move(low_level)),
         pool_(ThreadsFor(num_envs, threads)),
         env_(Make(num_envs, seed)),
+        ended_(static_cast<std::size_t>(env_->num_tiles())),
         episode_return_(static_cast<std::size_t>(num_envs)),
         episode_steps_(static_cast<std::size_t>(num_envs)),
-        final_observation_(static_cast<std::size_t>(num_envs * env_->observation_size())) {}
+        final_observation_(static_cast<std::size_t>(num_envs * env_->observation_size())) {
+    pool_.StayAwake();  // what Python does between two steps is often short
+  }
 
   const VecEnv& env() const { return *env_; }
   const EnvConfig& config() const { return config_; }
@@ -103,9 +106,11 @@ class BatchEnv {
       output.observer = last_states_.get();
       env_->Step(tile, action.data() + first * action_size(), output);
       env_->Observe(tile, observation.data() + first * observation_size());
+      SplitEnds(tile, termination.data(), terminated.data(), truncated.data());
     });
-    SplitEnds(termination.data(), terminated.data(), truncated.data());
-    return static_cast<int>(ended_.size());
+    std::size_t count = 0;
+    for (const std::vector<std::int64_t>& ended : ended_) count += ended.size();
+    return static_cast<int>(count);
   }
 
   /// Of the episodes that ended in the latest step: environments, last observations, returns, and
@@ -113,7 +118,12 @@ class BatchEnv {
   nb::tuple Ends() const {
     std::vector<float> observation, episode_return;
     std::vector<std::int32_t> steps;
-    for (const std::int64_t i : ended_) {
+    std::vector<std::int64_t> index;
+    for (const std::vector<std::int64_t>& ended : ended_) {
+      index.insert(index.end(), ended.begin(), ended.end());
+    }
+    const std::size_t count = index.size();
+    for (const std::int64_t i : index) {
       const auto row = static_cast<std::size_t>(i);
       const auto begin =
           final_observation_.begin() + static_cast<std::ptrdiff_t>(row * observation_size());
@@ -122,10 +132,10 @@ class BatchEnv {
       episode_return.push_back(episode_return_[row]);
       steps.push_back(episode_steps_[row]);
     }
-    const std::size_t count = ended_.size();
-    return nb::make_tuple(
-        ToNumpy(ended_, {count}), ToNumpy(std::move(observation), {count, observation_size()}),
-        ToNumpy(std::move(episode_return), {count}), ToNumpy(std::move(steps), {count}));
+    return nb::make_tuple(ToNumpy(std::move(index), {count}),
+                          ToNumpy(std::move(observation), {count, observation_size()}),
+                          ToNumpy(std::move(episode_return), {count}),
+                          ToNumpy(std::move(steps), {count}));
   }
 
   nb::object State() const {
@@ -200,17 +210,22 @@ class BatchEnv {
                 std::to_string(rows()) + ", " + std::to_string(action_size()) + ")");
   }
 
-  /// The time limit ends an episode as truncated where it is no failure.
-  void SplitEnds(const std::uint8_t* termination, bool* terminated, bool* truncated) {
+  /// Of a tile's aircraft: the time limit ends an episode as truncated where it is no failure.
+  void SplitEnds(int tile, const std::uint8_t* termination, bool* terminated, bool* truncated) {
     const bool truncates = config_.episode().truncate_at_time_limit;
     constexpr auto kNone = static_cast<std::uint8_t>(Termination::kNone);
     constexpr auto kTimeLimit = static_cast<std::uint8_t>(Termination::kTimeLimit);
-    ended_.clear();
-    for (std::size_t i = 0; i < rows(); ++i) {
-      const bool is_over = termination[i] != kNone;
-      truncated[i] = truncates && termination[i] == kTimeLimit;
-      terminated[i] = is_over && !truncated[i];
-      if (is_over) ended_.push_back(static_cast<std::int64_t>(i));
+    std::vector<std::int64_t>& ended = ended_[static_cast<std::size_t>(tile)];
+    ended.clear();
+    const std::size_t first = FirstOf(tile);
+    const auto count = static_cast<std::size_t>(env_->tile_count(tile));
+    std::fill_n(terminated + first, count, false);
+    std::fill_n(truncated + first, count, false);
+    for (std::size_t i = first; i < first + count; ++i) {
+      if (termination[i] == kNone) continue;
+      const bool is_truncated = truncates && termination[i] == kTimeLimit;
+      (is_truncated ? truncated : terminated)[i] = true;
+      ended.push_back(static_cast<std::int64_t>(i));
     }
   }
 
@@ -218,11 +233,11 @@ class BatchEnv {
   std::shared_ptr<const Policy> low_level_;
   WorkerPool pool_;
   std::unique_ptr<VecEnv> env_;
-  std::unique_ptr<LastStates> last_states_;  ///< null: not kept
+  std::unique_ptr<LastStates> last_states_;       ///< null: not kept
+  std::vector<std::vector<std::int64_t>> ended_;  ///< in the latest step, by tile
   std::vector<float> episode_return_;
   std::vector<std::int32_t> episode_steps_;
   std::vector<float> final_observation_;
-  std::vector<std::int64_t> ended_;  ///< in the latest step
 };
 
 /// The low-level policy that an environment flies with: that of `agent` if it is a high-level

@@ -236,10 +236,9 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
             column[index] = values
             return column
 
-        final = np.full(self.num_envs, None, object)
-        for row, environment in enumerate(index):
-            final[environment] = observations[row]
-        reasons = np.full(self.num_envs, None, object)
+        final, reasons = np.empty(self.num_envs, object), np.empty(self.num_envs, object)  # of None
+        for environment, row in zip(index.tolist(), observations, strict=True):
+            final[environment] = row
         reasons[index] = _TERMINATIONS[termination[index]]
         info["final_obs"], info["_final_obs"] = final, mask
         info["final_info"] = {

@@ -27,6 +27,24 @@ TEST_P(WorkerPoolTest, EveryIndexRunsOnce) {
   for (const auto& run : runs) EXPECT_EQ(run, 1);
 }
 
+TEST_P(WorkerPoolTest, WorkersThatStayAwakeWorkAsBefore) {
+  pool_.StayAwake();
+  std::atomic<int> runs{0};
+  for (int round = 0; round < kCount; ++round) pool_.ForEach(GetParam(), [&](int, int) { ++runs; });
+  EXPECT_EQ(runs, kCount * GetParam());
+}
+
+TEST(WorkerPool, MayEndWhileItsWorkersAreAwake) {
+  constexpr int kPools = 10;
+  std::atomic<int> runs{0};
+  for (int round = 0; round < kPools; ++round) {
+    WorkerPool pool(2);
+    pool.StayAwake();
+    pool.ForEach(2, [&](int, int) { ++runs; });
+  }
+  EXPECT_EQ(runs, 2 * kPools);
+}
+
 TEST_P(WorkerPoolTest, CallsOfOneWorkerNeverOverlap) {
   ASSERT_EQ(pool_.threads(), GetParam());
   std::vector<std::atomic<int>> inside(pool_.threads());

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/fdm/fdm_plant.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "envs/aircraft/registry.h"
+#include "src/config/usage_error.h"
+
+namespace skein {
+
+std::vector<std::string> AtmosphereNames() {
+  std::vector<std::string> names;
+  for (const auto& [model, name] : kAtmosphereNames) names.emplace_back(name);
+  return names;
+}
+
+AtmosphereModel AtmosphereNamed(const std::string& name) {
+  for (const auto& [model, known] : kAtmosphereNames) {
+    if (name == known) return model;
+  }
+  throw UsageError(
+      fmt::format("atmosphere \"{}\": {} are known", name, fmt::join(AtmosphereNames(), " and ")));
+}
+
+Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere, std::optional<double> cg,
+                double engine_angular_momentum) {
+  Aircraft flown = LoadAircraft(aircraft);
+  if (cg) flown.airframe.cg = *cg;
+  flown.airframe.engine_angular_momentum = engine_angular_momentum;
+  return {std::move(flown), atmosphere};
+}
+
+Controls ToControls(const double* numbers) {
+  return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
+}
+
+FdmControls ToNumbers(const Controls& controls) {
+  return {controls.thrust_lbf, controls.elevator_deg, controls.aileron_deg, controls.rudder_deg,
+          controls.leading_edge_flap_deg};
+}
+
+}  // namespace skein
