@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
-#include "envs/aircraft/registry.h"
 #include "envs/reference/linearise.h"
 #include "envs/reference/plant.h"
-#include "envs/reference/trim.h"
-#include "envs/state/attitude.h"
 #include "envs/state/state.h"
 #include "python/bindings/bindings.h"
 #include "src/config/usage_error.h"
-#include "src/fdm/trim_limits.h"
+#include "src/fdm/fdm_plant.h"
+#include "src/fdm/steady_flight.h"
 
 namespace nb = nanobind;
 
@@ -40,13 +40,6 @@ nb::object ToNumpyMatrix(const Matrix& matrix) {
                                             static_cast<std::size_t>(matrix.cols())}));
 }
 
-AtmosphereModel AtmosphereNamed(const std::string& name) {
-  for (const auto& [model, known] : kAtmosphereNames) {
-    if (name == known) return model;
-  }
-  throw UsageError("atmosphere \"" + name + "\": stevens_lewis and standard_1976 are known");
-}
-
 RigidBodyState StateIn(const Row<const double>& numbers) {
   if (numbers.size() != kNumRigidBody) {
     throw Error("a state has " + std::to_string(kNumRigidBody) + " numbers, not " +
@@ -55,49 +48,25 @@ RigidBodyState StateIn(const Row<const double>& numbers) {
   return Eigen::Map<const RigidBodyState>(numbers.data());
 }
 
-Controls ControlsAt(const double* numbers) {
-  return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
-}
-
 Controls ControlsIn(const Row<const double>& numbers) {
   if (numbers.size() != kNumControls) {
     throw Error("controls are " + std::to_string(kNumControls) + " numbers, not " +
                 std::to_string(numbers.size()));
   }
-  return ControlsAt(numbers.data());
-}
-
-Plant MakePlant(const std::string& aircraft_name, const std::string& atmosphere, double cg,
-                double engine_angular_momentum) {
-  return AsUsage([&] {
-    Aircraft aircraft = LoadAircraft(aircraft_name);
-    aircraft.airframe.cg = cg;
-    aircraft.airframe.engine_angular_momentum = engine_angular_momentum;
-    return Plant(std::move(aircraft), AtmosphereNamed(atmosphere));
-  });
+  return ToControls(numbers.data());
 }
 
 nb::dict TrimOf(const Plant& plant, double altitude_ft, double true_airspeed_fps,
                 double flight_path_deg, double turn_rate_deg_s) {
-  TrimRequest request;
-  request.altitude_ft = altitude_ft;
-  request.true_airspeed_ft_s = true_airspeed_fps;
-  request.flight_path_angle_rad = flight_path_deg / kDegPerRad;
-  request.turn_rate_rad_s = turn_rate_deg_s / kDegPerRad;
-  const TrimPoint trim = TrimOrExplain(plant, request);
-  nb::list limits;
-  for (const std::string& limit : ExceededLimits(plant, request, trim)) limits.append(limit);
-  const Controls& controls = trim.controls;
+  const SteadyFlight flight =
+      FindSteadyFlight(plant, {altitude_ft, true_airspeed_fps, flight_path_deg, turn_rate_deg_s});
   nb::dict point;
-  point["state"] = ToNumpyVector(trim.state);
-  point["controls"] = ToNumpyVector(std::vector<double>{controls.thrust_lbf, controls.elevator_deg,
-                                                        controls.aileron_deg, controls.rudder_deg,
-                                                        controls.leading_edge_flap_deg});
-  point["power"] = trim.power;
-  point["alpha_deg"] = trim.alpha_rad * kDegPerRad;
-  point["bank_deg"] = trim.bank_rad * kDegPerRad;
-  point["pitch_deg"] = trim.pitch_rad * kDegPerRad;
-  point["residual"] = trim.residual;
+  point["state"] = ToNumpyVector(flight.trim.state);
+  point["controls"] = ToNumpyVector(ToNumbers(flight.trim.controls));
+  point["power"] = flight.trim.power;
+  for (const auto& [name, number] : flight.Numbers()) point[name] = number;
+  nb::list limits;
+  for (const std::string& limit : flight.exceeded_limits) limits.append(limit);
   point["exceeded_limits"] = nb::tuple(limits);
   return point;
 }
@@ -123,7 +92,7 @@ nb::object Simulate(const Plant& plant, const Row<const double>& initial_state,
   {
     const nb::gil_scoped_release released;
     for (std::size_t k = 0; k < steps; ++k) {
-      state = plant.StepRk4(state, ControlsAt(controls.data() + k * kNumControls), dt);
+      state = plant.StepRk4(state, ToControls(controls.data() + k * kNumControls), dt);
       states.insert(states.end(), state.data(), state.data() + kNumRigidBody);
     }
   }
@@ -138,8 +107,16 @@ void BindFlightDynamics(nb::module_& module) {
            nb::arg("flight_path_deg"), nb::arg("turn_rate_deg_s"))
       .def("linearise", &LineariseAt, nb::arg("state"), nb::arg("controls"))
       .def("simulate", &Simulate, nb::arg("initial_state"), nb::arg("controls"), nb::arg("dt"));
-  module.def("make_plant", &MakePlant, nb::arg("aircraft"), nb::arg("atmosphere"), nb::arg("cg"),
-             nb::arg("engine_angular_momentum"));
+  module.def(
+      "make_plant",
+      [](const std::string& aircraft, const std::string& atmosphere, std::optional<double> cg,
+         double engine_angular_momentum) {
+        return AsUsage([&] {
+          return MakePlant(aircraft, AtmosphereNamed(atmosphere), cg, engine_angular_momentum);
+        });
+      },
+      nb::arg("aircraft"), nb::arg("atmosphere"), nb::arg("cg").none(),
+      nb::arg("engine_angular_momentum"));
 }
 
 }  // namespace skein

@@ -2,6 +2,7 @@
 """One aircraft in float64: steady flight, linear models, and flight with given controls."""
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -31,8 +32,13 @@ class Trim:
     power: float
     """Engine power, 0 to 100, that gives the thrust, clipped to what the engine has."""
     alpha_deg: float
+    beta_deg: float
     bank_deg: float
     pitch_deg: float
+    load_factor_g: float
+    mach: float
+    qbar_psf: float
+    """Dynamic pressure, lbf/ft^2."""
     residual: float
     """The largest acceleration that is left, ft/s^2 or rad/s^2."""
     exceeded_limits: tuple[str, ...]
@@ -77,9 +83,9 @@ def trim(
     *,
     flight_path_deg: float = 0,
     turn_rate_deg_s: float = 0,
-    aircraft: str = "f16",
+    aircraft: str | os.PathLike[str] = "f16",
     atmosphere: str = "stevens_lewis",
-    cg: float = 0.30,
+    cg: float | None = None,
     engine_angular_momentum: float = 0,
 ) -> Trim:
     """Steady flight at an altitude and speed.
@@ -88,9 +94,9 @@ def trim(
         altitude_ft, true_airspeed_fps: of the flight.
         flight_path_deg: positive in a climb.
         turn_rate_deg_s: positive to the right; the turn is coordinated.
-        aircraft: one of skein.AIRCRAFT.
+        aircraft: one of skein.AIRCRAFT, or the path of a file.
         atmosphere: "stevens_lewis" or "standard_1976".
-        cg: centre of gravity, fraction of the mean chord.
+        cg: centre of gravity, fraction of the mean chord; without it the aircraft's own.
         engine_angular_momentum: slug ft^2/s.
 
     Raises:
@@ -99,7 +105,7 @@ def trim(
     plant = _skein.make_plant(
         text("aircraft", aircraft),
         text("atmosphere", atmosphere),
-        number("cg", cg),
+        None if cg is None else number("cg", cg),
         number("engine_angular_momentum", engine_angular_momentum),
     )
     point = plant.trim(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import skein
 from skein.flight_dynamics import CONTROL_NAMES, STATE_NAMES
@@ -56,3 +57,17 @@ def test_what_cannot_be_flown_says_why():
         skein.simulate(skein.trim(15000, 500), np.zeros(5))
     with pytest.raises(skein.Error, match=r"shape \(13,\)"):
         skein.simulate(skein.trim(15000, 500), np.zeros((1, 5)), state=np.zeros(12))
+
+
+def test_an_own_aircraft_is_trimmed_about_its_own_centre_of_gravity(tmp_path):
+    file = tmp_path / "mine.json"
+    text = (ROOT / "data" / "cessna172" / "aircraft.json").read_text()
+    file.write_text(text.replace('"cg_chord_fraction": 0.3', '"cg_chord_fraction": 0.25'))
+    assert file.read_text() != text
+    own = skein.trim(3000, 180, aircraft=file)
+    np.testing.assert_array_equal(own.controls, skein.trim(3000, 180, aircraft=file, cg=0.25).controls)
+    aft = skein.trim(3000, 180, aircraft=file, cg=0.30)
+    assert own.controls[1] < aft.controls[1]  # the nose is heavier: elevator further up
+    assert abs(own.load_factor_g - 1) < 0.01 and abs(own.beta_deg) < 1e-6
+    with pytest.raises(skein.ConfigurationError, match="cg must be a finite number"):
+        skein.trim(3000, 180, aircraft=file, cg=float("nan"))

@@ -11,15 +11,14 @@
 #include <optional>
 
 #include "base/error.h"
-#include "envs/aircraft/registry.h"
-#include "envs/reference/trim.h"
 #include "envs/state/attitude.h"
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/config/whole_number.h"
 #include "src/fdm/fdm_evaluation.h"
 #include "src/fdm/fdm_file.h"
-#include "src/fdm/trim_limits.h"
+#include "src/fdm/fdm_plant.h"
+#include "src/fdm/steady_flight.h"
 #include "src/files/output_file.h"
 
 namespace skein {
@@ -29,12 +28,6 @@ using Json = nlohmann::ordered_json;
 
 const std::map<std::string, FdmPrecision> kPrecisions = {{"float64", FdmPrecision::kFloat64},
                                                          {"float32", FdmPrecision::kFloat32}};
-std::map<std::string, AtmosphereModel> Atmospheres() {
-  std::map<std::string, AtmosphereModel> atmospheres;
-  for (const auto& [model, name] : kAtmosphereNames) atmospheres[name] = model;
-  return atmospheres;
-}
-
 struct FileOptions {
   std::string in, out;
   std::string aircraft = "f16";
@@ -42,15 +35,14 @@ struct FileOptions {
   std::string atmosphere = "stevens_lewis";
 
   FdmModel Model() const {
-    return {aircraft, Atmospheres().at(atmosphere), kPrecisions.at(precision)};
+    return {aircraft, AtmosphereNamed(atmosphere), kPrecisions.at(precision)};
   }
 };
 
 struct TrimOptions {
-  TrimRequest request;
-  double flight_path_deg = 0, turn_rate_deg_s = 0;
+  SteadyFlightRequest request;
   std::optional<double> cg;
-  FdmParameters parameters;
+  double engine_angular_momentum = 0;
   std::string aircraft = "f16";
   std::string atmosphere = "stevens_lewis";
   std::string json;
@@ -145,8 +137,8 @@ void Simulate(const FileOptions& options) {
              options.out);
 }
 
-std::string DescribeTrim(const TrimOptions& options, const TrimPoint& trim,
-                         const PlantOutput& output, const std::vector<std::string>& limits) {
+std::string DescribeTrim(const TrimOptions& options, double cg, const SteadyFlight& flight) {
+  const auto& [trim, output, limits] = flight;
   std::string text = fmt::format(
       "steady flight of {} at {} ft and {} ft/s, flight path {} deg, turn {} deg/s, cg {}\n"
       "  thrust           {:14.6f} lbf   (engine power {:.4f} %)\n"
@@ -163,7 +155,7 @@ std::string DescribeTrim(const TrimOptions& options, const TrimPoint& trim,
       "  dynamic pressure {:14.6f} lbf/ft2\n"
       "  residual         {:14.3e} ft/s2 or rad/s2\n",
       options.aircraft, options.request.altitude_ft, options.request.true_airspeed_ft_s,
-      options.flight_path_deg, options.turn_rate_deg_s, options.parameters.cg,
+      options.request.flight_path_deg, options.request.turn_rate_deg_s, cg,
       trim.controls.thrust_lbf, trim.power, trim.alpha_rad * kDegPerRad,
       output.air.beta_rad * kDegPerRad, trim.bank_rad * kDegPerRad, trim.pitch_rad * kDegPerRad,
       trim.controls.elevator_deg, trim.controls.aileron_deg, trim.controls.rudder_deg,
@@ -173,45 +165,30 @@ std::string DescribeTrim(const TrimOptions& options, const TrimPoint& trim,
   return text;
 }
 
-Json TrimJson(const TrimOptions& options, const TrimPoint& trim, const PlantOutput& output,
-              const std::vector<std::string>& limits) {
-  return {{"aircraft", options.aircraft},
-          {"altitude_ft", options.request.altitude_ft},
-          {"speed_fps", options.request.true_airspeed_ft_s},
-          {"flight_path_deg", options.flight_path_deg},
-          {"turn_rate_deg_s", options.turn_rate_deg_s},
-          {"params",
-           {{"xcg", options.parameters.cg}, {"heng", options.parameters.engine_angular_momentum}}},
-          {"state", std::vector<double>(trim.state.data(), trim.state.data() + trim.state.size())},
-          {"controls",
-           {trim.controls.thrust_lbf, trim.controls.elevator_deg, trim.controls.aileron_deg,
-            trim.controls.rudder_deg, trim.controls.leading_edge_flap_deg}},
-          {"power", trim.power},
-          {"within_model", limits.empty()},
-          {"exceeded_limits", limits},
-          {"alpha_deg", trim.alpha_rad * kDegPerRad},
-          {"beta_deg", output.air.beta_rad * kDegPerRad},
-          {"bank_deg", trim.bank_rad * kDegPerRad},
-          {"pitch_deg", trim.pitch_rad * kDegPerRad},
-          {"load_factor_g", output.nz},
-          {"mach", output.air.mach},
-          {"qbar_psf", output.air.dynamic_pressure_psf},
-          {"residual", trim.residual}};
+Json TrimJson(const TrimOptions& options, double cg, const SteadyFlight& flight) {
+  const RigidBodyState& state = flight.trim.state;
+  Json json = {{"aircraft", options.aircraft},
+               {"altitude_ft", options.request.altitude_ft},
+               {"speed_fps", options.request.true_airspeed_ft_s},
+               {"flight_path_deg", options.request.flight_path_deg},
+               {"turn_rate_deg_s", options.request.turn_rate_deg_s},
+               {"params", {{"xcg", cg}, {"heng", options.engine_angular_momentum}}},
+               {"state", std::vector<double>(state.data(), state.data() + state.size())},
+               {"controls", ToNumbers(flight.trim.controls)},
+               {"power", flight.trim.power},
+               {"within_model", flight.exceeded_limits.empty()},
+               {"exceeded_limits", flight.exceeded_limits}};
+  for (const auto& [name, number] : flight.Numbers()) json[name] = number;
+  return json;
 }
 
-void FindTrim(TrimOptions options) {
-  Aircraft aircraft = LoadAircraft(options.aircraft);
-  if (options.cg) aircraft.airframe.cg = *options.cg;
-  options.parameters.cg = aircraft.airframe.cg;
-  aircraft.airframe.engine_angular_momentum = options.parameters.engine_angular_momentum;
-  options.request.flight_path_angle_rad = options.flight_path_deg / kDegPerRad;
-  options.request.turn_rate_rad_s = options.turn_rate_deg_s / kDegPerRad;
-  const Plant plant(std::move(aircraft), Atmospheres().at(options.atmosphere));
-  const TrimPoint trim = TrimOrExplain(plant, options.request);
-  const PlantOutput output = plant.Evaluate(trim.state, trim.controls);
-  const std::vector<std::string> limits = ExceededLimits(plant, options.request, trim);
-  fmt::print("{}", DescribeTrim(options, trim, output, limits));
-  if (!options.json.empty()) WriteJson(options.json, TrimJson(options, trim, output, limits));
+void FindTrim(const TrimOptions& options) {
+  const Plant plant = MakePlant(options.aircraft, AtmosphereNamed(options.atmosphere), options.cg,
+                                options.engine_angular_momentum);
+  const double cg = plant.aircraft().airframe.cg;
+  const SteadyFlight flight = FindSteadyFlight(plant, options.request);
+  fmt::print("{}", DescribeTrim(options, cg, flight));
+  if (!options.json.empty()) WriteJson(options.json, TrimJson(options, cg, flight));
 }
 
 void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere) {
@@ -222,7 +199,7 @@ void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere)
   command
       ->add_option("--atmosphere", *atmosphere,
                    "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
-      ->check(CLI::IsMember(Atmospheres()))
+      ->check(CLI::IsMember(AtmosphereNames()))
       ->capture_default_str();
 }
 
@@ -257,12 +234,12 @@ void AddTrimCommand(CLI::App* fdm) {
       ->transform(NumberAboveZero())
       ->required();
   command
-      ->add_option("--flight-path-deg", options->flight_path_deg,
+      ->add_option("--flight-path-deg", options->request.flight_path_deg,
                    "flight-path angle, deg, positive in a climb")
       ->transform(FiniteNumber())
       ->capture_default_str();
   command
-      ->add_option("--turn-rate-deg-s", options->turn_rate_deg_s,
+      ->add_option("--turn-rate-deg-s", options->request.turn_rate_deg_s,
                    "turn rate, deg/s, positive to the right; the turn is coordinated")
       ->transform(FiniteNumber())
       ->capture_default_str();
@@ -271,7 +248,7 @@ void AddTrimCommand(CLI::App* fdm) {
                    "centre of gravity, fraction of the mean chord (default: the aircraft's own)")
       ->transform(FiniteNumber());
   command
-      ->add_option("--heng", options->parameters.engine_angular_momentum,
+      ->add_option("--heng", options->engine_angular_momentum,
                    "angular momentum of the engine, slug ft2/s")
       ->transform(FiniteNumber())
       ->capture_default_str();

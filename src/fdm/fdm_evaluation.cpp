@@ -6,35 +6,29 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <utility>
 
 #include "base/aligned_vector.h"
 #include "base/error.h"
-#include "envs/aircraft/registry.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/reference/plant.h"
 #include "envs/state/attitude.h"
+#include "src/fdm/fdm_plant.h"
 
 namespace skein {
 namespace {
 
-Aircraft AircraftWith(const std::string& name, const FdmParameters& parameters) {
-  Aircraft aircraft = LoadAircraft(name);
-  aircraft.airframe.cg = parameters.cg;
-  aircraft.airframe.engine_angular_momentum = parameters.engine_angular_momentum;
-  return aircraft;
+Plant PlantWith(const FdmModel& model, const FdmParameters& parameters) {
+  return MakePlant(model.aircraft, model.atmosphere, parameters.cg,
+                   parameters.engine_angular_momentum);
 }
 
 RigidBodyState ToState(const FdmState& numbers) {
   return Eigen::Map<const RigidBodyState>(numbers.data());
 }
 
-Controls ToControls(const FdmControls& numbers) {
-  return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
-}
-
 FdmPointResult EvaluateScalar(const Plant& plant, const FdmPoint& point) {
-  const PlantOutput output = plant.Evaluate(ToState(point.state), ToControls(point.controls));
+  const PlantOutput output =
+      plant.Evaluate(ToState(point.state), ToControls(point.controls.data()));
   FdmPointResult result;
   Eigen::Map<Eigen::Matrix<double, 6, 1>>(result.coefficients.data()) = output.coefficients;
   Eigen::Map<RigidBodyState>(result.state_rate.data()) = output.state_rate;
@@ -142,7 +136,7 @@ std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
     for (std::size_t i = first; i < points.size(); ++i) {
       if (points[i].parameters == points[first].parameters) which.push_back(i);
     }
-    const Plant plant(AircraftWith(model.aircraft, points[first].parameters), model.atmosphere);
+    const Plant plant = PlantWith(model, points[first].parameters);
     for (const std::size_t i : which) {
       results[i] = EvaluateScalar(plant, points[i]);
       done[i] = true;
@@ -157,7 +151,7 @@ std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
 std::vector<FdmState> FlyTrajectory(const FdmTrajectory& trajectory, double dt,
                                     const FdmModel& model) {
   const std::vector<long> steps = StepsOf(trajectory, dt);
-  const Plant plant(AircraftWith(model.aircraft, trajectory.parameters), model.atmosphere);
+  const Plant plant = PlantWith(model, trajectory.parameters);
   std::shared_ptr<const KernelAircraft> kernel;
   OpenLoopTile tile(1);
   if (model.precision == FdmPrecision::kFloat32) {
@@ -175,7 +169,7 @@ std::vector<FdmState> FlyTrajectory(const FdmTrajectory& trajectory, double dt,
         StepTileOpenLoop(*kernel, tile.state(), tile.controls(), static_cast<float>(dt), 1);
       } else {
         Eigen::Map<RigidBodyState>(state.data()) =
-            plant.StepRk4(ToState(state), ToControls(controls), dt);
+            plant.StepRk4(ToState(state), ToControls(controls.data()), dt);
       }
     }
     if (kernel) {
