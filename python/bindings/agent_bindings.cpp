@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "python/bindings/flying_agent.h"
 #include "src/agents/agent_names.h"
 #include "src/agents/policy_file.h"
+#include "src/config/configuration.h"
 #include "src/config/program_config.h"
 
 namespace nb = nanobind;
@@ -89,6 +92,14 @@ ProgramConfig EnvironmentFor(const FlyingAgent& flying, const ProgramConfig& con
   return own;
 }
 
+/// What a policy's own task file configures; none of another agent, or of a built-in task, which
+/// its name says.
+std::optional<ProgramConfig> TaskFileConfig(const FlyingAgent& flying) {
+  const auto task = flying.policy ? TermTaskOf(*flying.policy, flying.name) : nullptr;
+  if (task == nullptr) return std::nullopt;
+  return ResolveConfig({flying.policy->task(), "default", "", {}, {}, "", task->text});
+}
+
 }  // namespace
 
 void BindAgents(nb::module_& module) {
@@ -105,6 +116,7 @@ void BindAgents(nb::module_& module) {
                    })
       .def_prop_ro("is_high_level",
                    [](const FlyingAgent& flying) { return flying.agent.low_level() != nullptr; })
+      .def_prop_ro("task_file_config", &TaskFileConfig)
       .def("environment_for", &EnvironmentFor, nb::arg("config"))
       .def("act", &Act, nb::arg("observation"), nb::arg("state"), nb::arg("seed"),
            nb::arg("policy_step"));

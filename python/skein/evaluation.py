@@ -96,12 +96,8 @@ def evaluate(
     Raises:
         Error: the agent does not fit the task. What a function raises comes through.
     """
-    if not task:
-        task = agent.task if isinstance(agent, Agent) else ""
-        if not task:
-            raise ConfigurationError("evaluate: task is needed: the agent does not say its own")
     _check_counts(episodes, seed, threads)
-    configured = configure(task, **config)
+    configured = configure(_task_of("evaluate", agent, task), **config)
     core = agent_of(agent, configured, seed)._core
     summary, columns, starts = _skein.evaluate(core, configured, episodes, seed, threads)
     return Evaluation(json.loads(summary), columns, starts)
@@ -132,6 +128,15 @@ def compare(
     return Comparison(json.loads(summary), text)
 
 
+def _task_of(what: str, agent: AgentLike, task: str | Config) -> str | Config:
+    """`task`, or where that is left out the one that a policy was trained for."""
+    if not task and isinstance(agent, Agent):
+        task = agent._core.task_file_config or agent.task
+    if not task:
+        raise ConfigurationError(f"{what}: task is needed: the agent does not say its own")
+    return task
+
+
 def _check_counts(episodes: int, seed: int, threads: int) -> None:
     whole_number("number of episodes", episodes, 1, MOST_EPISODES)
     whole_number("seed", seed, 0, MOST_SEED)
@@ -152,9 +157,7 @@ def record(
     docs/reference/file-formats.md (recorded flights), with what was observed if asked for."""
     import pandas
 
-    if not task and isinstance(agent, Agent):
-        task = agent.task
     _check_counts(count, seed, threads)
-    configured = configure(task or "heading", **config)
+    configured = configure(_task_of("record", agent, task), **config)
     core = agent_of(agent, configured, seed)._core
     return pandas.read_csv(io.StringIO(_skein.record(core, configured, count, seed, threads, observations)))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import skein
 
@@ -30,6 +31,19 @@ def test_an_aircraft_is_named_beside_the_settings():
     assert named.config["env.aircraft"] == "aerosonde"
     with pytest.raises(skein.ConfigurationError, match="no/aircraft.json"):
         skein.make_vec("heading", 2, aircraft="no/aircraft.json")
+
+
+def test_the_file_of_an_aircraft_flies_as_its_name_does(tmp_path):
+    file = tmp_path / "mine.json"
+    file.write_text((ROOT / "data" / "cessna172" / "aircraft.json").read_text())
+    by_file, by_name = (
+        skein.evaluate("zero", "heading", preset="cessna172", aircraft=aircraft, episodes=8)
+        for aircraft in (file, "cessna172")
+    )
+    for name, column in by_name.columns.items():
+        np.testing.assert_array_equal(column, by_file.columns[name], err_msg=name)
+    with pytest.raises(skein.ConfigurationError, match="preset cessna172"):
+        skein.evaluate("zero", "heading", aircraft="cessna172", episodes=8)
 
 
 def test_settings_lie_on_top_of_conditions_and_presets():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import skein
 
@@ -48,3 +49,20 @@ def test_what_a_callback_raises_comes_through_and_the_run_is_saved(tmp_path):
 def test_a_directory_without_a_run_is_refused(tmp_path):
     with pytest.raises(skein.Error, match="no config.toml"):
         skein.Run(tmp_path)
+
+
+def test_a_policy_of_a_task_file_brings_its_task(tmp_path):
+    pytest.importorskip("pandas")
+    file = tmp_path / "mine.toml"
+    file.write_text((ROOT / "examples" / "tasks" / "terrain_height.toml").read_text())
+    run = skein.train(file, tmp_path / "run", **TINY)
+    assert run.policy.task == "terrain_height"
+    said = skein.evaluate(run.policy, file, episodes=8)
+    file.unlink()
+    for policy in (run.policy, skein.load_policy(tmp_path / "run")):
+        known = skein.evaluate(policy, episodes=8)
+        for name, column in said.columns.items():
+            np.testing.assert_array_equal(column, known.columns[name], err_msg=name)
+    assert len(skein.record(run.policy, count=1)) == said.columns["control_steps"][0] + 1
+    with pytest.raises(skein.ConfigurationError, match="record: task is needed"):
+        skein.record("zero")
