@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
+#include "src/report/run_report.h"
 
 namespace skein {
 namespace {
@@ -24,6 +26,7 @@ namespace {
 struct CompareOptions {
   std::vector<std::string> agents;
   std::string csv, html;
+  bool no_html = false;
   FlightOptions flight;
 };
 
@@ -61,16 +64,26 @@ void WriteRecords(const FlightOptions& flight, const std::vector<NamedAgent>& ag
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, for_acmi);
 }
 
-void WritePage(const CompareOptions& options, const Comparison& comparison,
-               const ProgramConfig& config, const std::vector<NamedAgent>& agents,
-               WorkerPool& pool) {
+std::string PageData(const CompareOptions& options, const Comparison& comparison,
+                     const ProgramConfig& config, const std::vector<NamedAgent>& agents,
+                     WorkerPool& pool) {
   std::vector<AgentFlights> flown;
   for (const NamedAgent& named : agents) {
     flown.push_back(RecordFirst(options.flight, named.name, named.agent,
                                 named.agent.EnvironmentFor(config.train.env), pool));
   }
-  WriteReport(options.html, ComparisonData(comparison, config, flown));
-  fmt::print("{}: metrics, and flights by all agents, for a browser\n", options.html);
+  return ComparisonData(comparison, config, flown);
+}
+
+/// A page that was asked for is written, or the command fails; without being asked one is written
+/// where one can be.
+void WritePage(const CompareOptions& options, const std::function<std::string()>& data) {
+  if (options.html.empty()) {
+    if (FindReportTemplate()) WriteReportAtEnd("compare.html", data);
+    return;
+  }
+  WriteReport(options.html, data());
+  fmt::print("report          {}\n", options.html);
 }
 
 void CompareAgents(const CompareOptions& options) {
@@ -87,7 +100,8 @@ void CompareAgents(const CompareOptions& options) {
   }
   if (!flight.json.empty()) WriteJson(flight.json, ToJson(comparison, config));
   if (RecordsFlights(flight)) WriteRecords(flight, agents, config.train.env, pool);
-  if (!options.html.empty()) WritePage(options, comparison, config, agents, pool);
+  if (options.no_html) return;
+  WritePage(options, [&] { return PageData(options, comparison, config, agents, pool); });
 }
 
 }  // namespace
@@ -112,10 +126,13 @@ void AddCompareCommand(CLI::App* app) {
   AddFlightOptions(command, texts, &options->flight);
   command->get_option("--task")->required();
   command->add_option("--csv", options->csv, "write a row for every agent here")->type_name("FILE");
-  command
-      ->add_option("--html", options->html,
-                   "write a page with the metrics, and the first episodes in 3-D, here")
-      ->type_name("FILE");
+  CLI::Option* html =
+      command
+          ->add_option("--html", options->html,
+                       "write the page with the metrics, and the first episodes in 3-D, here "
+                       "(default: compare.html, if it can be written)")
+          ->type_name("FILE");
+  command->add_flag("--no-html", options->no_html, "write no page")->excludes(html);
   command->footer(
       "Initial states, targets and noise are the same for all: they depend on the seed and the "
       "episode alone.\n"

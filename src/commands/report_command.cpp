@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 
+#include "base/error.h"
 #include "src/commands/commands.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
@@ -45,6 +47,18 @@ void Watch(const ReportOptions& options, WorkerPool& pool) {
   server.Serve([&] { return pool.stopping(); });
 }
 
+/// Throws Error if none of the runs has come to its first iteration.
+void CheckSomethingToShow(const std::vector<std::string>& runs) {
+  const auto has_rows = [](const std::string& run) {
+    return ReadRunRecord(run).metrics.rows() > 0;
+  };
+  // Each is read, so that what is wrong with any of them is said before the flights.
+  if (std::count_if(runs.begin(), runs.end(), has_rows) > 0) return;
+  throw Error(fmt::format(
+      "{}: no iteration in metrics.csv yet, so there is nothing to show; --watch waits for them",
+      runs.front()));
+}
+
 void Report(const ReportOptions& options) {
   WorkerPool pool(options.threads);
   if (options.watches) {
@@ -55,8 +69,7 @@ void Report(const ReportOptions& options) {
                              : options.request.runs.size() == 1
                                  ? options.request.runs.front() + "/report.html"
                                  : "report.html";
-  // What is wrong is said before the flights.
-  for (const std::string& run : options.request.runs) ReadRunRecord(run);
+  CheckSomethingToShow(options.request.runs);
   ReportTemplate();
   CheckWritable(output);
   WriteReport(output, ReportData(options.request, pool));

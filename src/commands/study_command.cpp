@@ -11,11 +11,16 @@
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/files/shell_text.h"
+#include "src/report/report_data.h"
+#include "src/report/run_report.h"
 #include "src/study/study.h"
 #include "src/study/study_run.h"
 
 namespace skein {
 namespace {
+
+/// Of each environment that was trained in.
+constexpr int kShownEpisodes = 2;
 
 struct StudyOptions {
   std::string file;
@@ -47,6 +52,14 @@ void CarryOut(const StudyOptions& options) {
     return;
   }
   fmt::print("{}\nresults         {}/results.csv, results.json\n", run.ToText(), directory);
+  WriteReportAtEnd(directory + "/report.html", [&] {
+    ReportRequest request;
+    request.runs = run.RunPaths();
+    request.episodes = 0;  // the study has flown its own
+    request.flights = kShownEpisodes;
+    request.comparisons = run.ShownComparisons();
+    return ReportData(request, pool);
+  });
 }
 
 }  // namespace

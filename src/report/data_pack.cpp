@@ -30,9 +30,11 @@ void PadToAlignment(char filler, std::string* bytes) {
   bytes->append((kAlignment - bytes->size() % kAlignment) % kAlignment, filler);
 }
 
-/// The same values, what is not finite replaced by the one before.
+/// The same values, what is not finite replaced by the one before, or the first that is.
 std::vector<double> FiniteValues(std::vector<double> values) {
-  double before = 0;
+  const auto first =
+      std::find_if(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  double before = first == values.end() ? 0 : *first;
   for (double& value : values) {
     if (!std::isfinite(value)) value = before;
     before = value;
@@ -49,12 +51,11 @@ Json DataPack::AddFloats(const std::vector<double>& values) {
   return reference;
 }
 
-Json DataPack::AddQuantised(const std::vector<double>& values) {
+Json DataPack::AddQuantised(const std::vector<double>& values, int levels) {
   const std::vector<double> finite = FiniteValues(values);
   const auto [low, high] = std::minmax_element(finite.begin(), finite.end());
   const double first = finite.empty() ? 0 : *low;
-  constexpr double kSteps = 65000;
-  const double unit = finite.empty() || *high == *low ? 1 : (*high - *low) / kSteps;
+  const double unit = finite.empty() || *high == *low ? 1 : (*high - *low) / levels;
   Json reference = {{"i16", {arrays_.size(), values.size()}}, {"first", first}, {"unit", unit}};
   std::uint16_t before = 0;
   for (const double value : finite) {

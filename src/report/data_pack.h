@@ -19,9 +19,11 @@ class DataPack {
  public:
   /// Keeps the values as floats; what is not finite stays so. Returns what refers to them.
   nlohmann::ordered_json AddFloats(const std::vector<double>& values);
-  /// Keeps the values to 1/65000 of their range, as differences of neighbours modulo 2^16, which
-  /// compress well. Values that are not finite become the one before (0 if there is none).
-  nlohmann::ordered_json AddQuantised(const std::vector<double>& values);
+  static constexpr int kMostLevels = 65000;
+  /// Keeps the values to 1/`levels` of their range, as differences of neighbours modulo 2^16, which
+  /// compress well, the better the fewer levels. Values that are not finite become the one before;
+  /// the first ones the next that is (0 if none is).
+  nlohmann::ordered_json AddQuantised(const std::vector<double>& values, int levels = kMostLevels);
 
   /// The bytes, deflated (zlib, RFC 1950). Text in the document that is not UTF-8 is replaced by
   /// U+FFFD.

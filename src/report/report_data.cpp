@@ -132,9 +132,7 @@ Json QuantitiesJson(const std::vector<Quantity>& quantities) {
 }
 
 Json ComparisonJson(const Comparison& comparison, const ProgramConfig& config) {
-  Json json = ToJson(comparison, config);
-  json["quantities"] = QuantitiesJson(comparison.quantities);
-  return json;
+  return ShownComparison(ToJson(comparison, config), config);
 }
 
 std::vector<AgentFlights> Fly(const FlownGroup& group, int count, WorkerPool& pool) {
@@ -169,20 +167,29 @@ std::string Deflated(const DataPack& pack, const Parts& parts, const std::string
 
 }  // namespace
 
+Json ShownComparison(Json comparison, const ProgramConfig& config) {
+  comparison["quantities"] = QuantitiesJson(QuantitiesOf(config.train.env));
+  return comparison;
+}
+
 std::string ReportData(const ReportRequest& request, WorkerPool& pool) {
   std::vector<RunRecord> runs;
   for (const std::string& path : request.runs) runs.push_back(ReadRunRecord(path));
   SetNamesApart(&runs);
   DataPack pack;
   Parts parts;
+  for (const Json& comparison : request.comparisons) parts.comparisons.push_back(comparison);
   const bool flies = request.episodes > 0 || request.flights > 0;
-  for (const FlownGroup& group : flies ? GroupByEnvironment(&runs) : std::vector<FlownGroup>()) {
+  const std::vector<FlownGroup> groups =
+      flies ? GroupByEnvironment(&runs) : std::vector<FlownGroup>();
+  for (const FlownGroup& group : groups) {
     if (request.episodes > 0) {
       parts.comparisons.push_back(ComparisonJson(
           Compare(group.agents, group.config, request.episodes, group.seed, pool), group.config));
     }
     if (request.flights > 0) {
-      parts.flights.push_back(FlightsJson(Fly(group, request.flights, pool), group.seed, &pack));
+      parts.flights.push_back(FlightsJson(Fly(group, request.flights, pool), group.seed,
+                                          kMostRowsOfPage / groups.size(), &pack));
     }
   }
   const std::vector<std::size_t> repetitions = Repetitions(runs);
@@ -195,7 +202,7 @@ std::string ReportData(const ReportRequest& request, WorkerPool& pool) {
 std::string FlightsData(const std::vector<AgentFlights>& agents, std::uint64_t seed) {
   DataPack pack;
   Parts parts;
-  parts.flights.push_back(FlightsJson(agents, seed, &pack));
+  parts.flights.push_back(FlightsJson(agents, seed, kMostRowsOfPage, &pack));
   return Deflated(pack, parts, "");
 }
 
@@ -204,7 +211,7 @@ std::string ComparisonData(const Comparison& comparison, const ProgramConfig& co
   DataPack pack;
   Parts parts;
   parts.comparisons.push_back(ComparisonJson(comparison, config));
-  parts.flights.push_back(FlightsJson(agents, comparison.seed, &pack));
+  parts.flights.push_back(FlightsJson(agents, comparison.seed, kMostRowsOfPage, &pack));
   return Deflated(pack, parts, "");
 }
 

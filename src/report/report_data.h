@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,9 @@ struct ReportRequest {
   std::vector<std::string> runs;  ///< their directories
   int episodes = 1000;            ///< flown for the table of metrics; 0: no table
   int flights = 4;                ///< episodes that are shown in space; 0: none
-  std::string made = {};          ///< date and time that the page says; empty: now
+  /// Comparisons that are there already (ShownComparison), which the page shows, too.
+  std::vector<nlohmann::ordered_json> comparisons = {};
+  std::string made = {};  ///< date and time that the page says; empty: now
 };
 
 /// Reads the runs, flies their policies beside the autopilots on the same episodes, and returns the
@@ -25,6 +28,10 @@ struct ReportRequest {
 /// without a policy has curves alone. If the pool is stopping, the flights say nothing. Throws
 /// Error on what is no run, or of a version that this one does not know.
 std::string ReportData(const ReportRequest& request, WorkerPool& pool);
+
+/// A comparison's document (ToJson) as a page needs it, with what its columns are called.
+nlohmann::ordered_json ShownComparison(nlohmann::ordered_json comparison,
+                                       const ProgramConfig& config);
 
 /// The same of flights alone, of evaluations with `seed`.
 std::string FlightsData(const std::vector<AgentFlights>& agents, std::uint64_t seed);

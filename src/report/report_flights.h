@@ -13,9 +13,14 @@ namespace skein {
 /// The same episodes flown by every agent, of evaluations with `seed`, for a page to show. Keys:
 /// task, conditions, seed, agents (names), targets (column, is_angle, tolerance in the column's
 /// unit), is_point, hold_s, flights: agent (its number), episode, end (kTerminationNames), return,
-/// interval_s (between rows; long flights leave rows out), columns (by their names in files of
-/// flights, references into `pack`).
+/// duration_s, new_target_s (when a mission's next target came), reached_s (when a target counted
+/// as reached), interval_s (between rows), columns (by their names in files of flights, references
+/// into `pack`). So that a page stays small long flights leave rows out, and so do many that have
+/// more than `most_rows` together, whose columns are kept less finely, too.
 nlohmann::ordered_json FlightsJson(const std::vector<AgentFlights>& agents, std::uint64_t seed,
-                                   DataPack* pack);
+                                   std::size_t most_rows, DataPack* pack);
+
+/// Of all flights of a page.
+inline constexpr std::size_t kMostRowsOfPage = 100000;
 
 }  // namespace skein

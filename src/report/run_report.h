@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "base/worker_pool.h"
 
 namespace skein {
 
-/// Writes RUN/report.html of a run that has just finished, of fewer episodes than skein report, and
-/// says on the standard output where it is, or why there is none: nothing here is a failure of the
-/// training. Does nothing if the pool is stopping.
+/// Writes a page of what has just been done, and says on the standard output where it is, or why
+/// there is none: that is no failure of what was done. `data` is asked for only if there can be
+/// one.
+void WriteReportAtEnd(const std::string& path, const std::function<std::string()>& data);
+
+/// RUN/report.html of a run that has just finished, of fewer episodes than skein report. Does
+/// nothing if the pool is stopping.
 void ReportFinishedRun(const std::string& run, WorkerPool& pool);
 
 }  // namespace skein

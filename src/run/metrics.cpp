@@ -24,7 +24,8 @@ double EvaluationSuccess(const IterationReport& report) {
 
 /// What later versions added, at the end of a row: rows of older runs end before it.
 std::vector<std::pair<std::string, double>> LaterValues(const IterationReport& report) {
-  return {{"action_change", report.action_change}};
+  return {{"action_change", report.action_change},
+          {"evaluation_hold_within", report.evaluation_hold_within}};
 }
 
 /// Every other value of a row but the counters, by name: one list for CSV and TensorBoard.

@@ -22,6 +22,7 @@
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
+#include "src/report/report_data.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
 #include "src/run/training_run.h"
@@ -196,7 +197,7 @@ bool StudyRun::Run() {
   return true;
 }
 
-void StudyRun::SayTraining(const std::string& path) const {
+std::vector<std::string> StudyRun::RunPaths() const {
   std::vector<std::string> paths;
   for (const std::string& task : study_.tasks) {
     for (const StudyLevel& level : study_.levels) {
@@ -206,6 +207,11 @@ void StudyRun::SayTraining(const std::string& path) const {
       }
     }
   }
+  return paths;
+}
+
+void StudyRun::SayTraining(const std::string& path) const {
+  const std::vector<std::string> paths = RunPaths();
   const auto place = std::find(paths.begin(), paths.end(), path) - paths.begin();
   fmt::print("training {} of {}: {}\n", place + 1, paths.size(), path);
   std::fflush(stdout);
@@ -278,6 +284,18 @@ std::vector<Quantity> StudyRun::Measured() const {
 void StudyRun::WriteResults() const {
   WriteFile(directory_ + "/results.csv", StudyCsv(results_, study_.seeds.size(), Measured()));
   WriteJson(directory_ + "/results.json", results_);
+}
+
+std::vector<Json> StudyRun::ShownComparisons() const {
+  std::vector<Json> shown;
+  auto result = results_.begin();
+  for (const std::string& task : study_.tasks) {
+    for (const StudyLevel& level : study_.levels) {
+      shown.push_back(ShownComparison((*result++)["comparison"], LevelConfig(study_, task, level)));
+      shown.back()["level"] = level.name;
+    }
+  }
+  return shown;
 }
 
 std::string StudyRun::ToText() const {

@@ -30,6 +30,11 @@ class StudyRun {
   /// The table of all levels for people; without a newline at the end.
   std::string ToText() const;
 
+  /// The directories of all trainings, in their order.
+  std::vector<std::string> RunPaths() const;
+  /// Of each level the comparison as a page shows it (ShownComparison), with `level`, its name.
+  std::vector<nlohmann::ordered_json> ShownComparisons() const;
+
  private:
   std::string RunPath(const std::string& task, const StudyLevel& level, std::uint64_t seed) const;
   /// Says which of the study's trainings is the next.

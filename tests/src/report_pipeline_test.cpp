@@ -72,6 +72,47 @@ TEST_F(ReportPipeline, ARunCutShortShowsWhatIsThere) {
   EXPECT_FALSE(ReportData(request, pool).empty());
 }
 
+TEST_F(ReportPipeline, ARunWithoutAnIterationIsOneLine) {
+  const std::string run = Copy();
+  const std::string metrics = ReadFile(run + "/metrics.csv");
+  for (const std::string& text : {std::string(), metrics.substr(0, metrics.find('\n') + 1),
+                                  metrics.substr(0, metrics.find('\n') - 5)}) {
+    WriteFile(run + "/metrics.csv", text);
+    const ProgramResult result = CallSkein({"report", run});
+    EXPECT_EQ(result.exit_code, 1);
+    ExpectOneLine(result.error, "nothing to show");
+  }
+  std::filesystem::create_directory(scratch_ / "empty");
+  const ProgramResult empty = CallSkein({"report", scratch_ / "empty"});
+  EXPECT_EQ(empty.exit_code, 1);
+  ExpectOneLine(empty.error, "no config.toml");
+}
+
+TEST_F(ReportPipeline, ARunOfWhosePolicyNothingIsLeftSaysSoBesideItsCurves) {
+  const std::string run = Copy();
+  std::filesystem::remove_all(run + "/checkpoints");
+  WorkerPool pool(1);
+  ReportRequest request;
+  request.runs = {run};
+  const std::string without = ReportData(request, pool);
+  request.runs = {*folder_ / "run"};
+  EXPECT_LT(without.size(), ReportData(request, pool).size() / 2);
+}
+
+TEST_F(ReportPipeline, AWrittenComparisonIsShownWithoutFlyingAgain) {
+  WorkerPool pool(1);
+  ReportRequest request;
+  request.runs = {*folder_ / "run"};
+  request.episodes = request.flights = 0;
+  request.made = "once";
+  const std::string bare = ReportData(request, pool);
+  const ProgramConfig config = ReadRunRecord(request.runs.front()).config;
+  const auto shown = ShownComparison({{"task", "heading"}}, config);
+  EXPECT_FALSE(shown["quantities"].empty());
+  request.comparisons = {shown};
+  EXPECT_GT(ReportData(request, pool).size(), bare.size());
+}
+
 TEST_F(ReportPipeline, WhatIsNoRunIsOneLine) {
   const ProgramResult missing = CallSkein({"report", scratch_ / "nothing"});
   EXPECT_EQ(missing.exit_code, 1);

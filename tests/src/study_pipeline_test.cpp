@@ -93,9 +93,10 @@ TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
   EXPECT_EQ(lines[0].rfind("task,level,agent,episodes,seeds,success_rate,", 0), 0u);
   EXPECT_EQ(lines[1].rfind("heading,quiet,trained,20,2,", 0), 0u);
   EXPECT_EQ(lines[8].rfind("heading,\"loud, 0.1\",zero,20,,", 0), 0u);
-  for (const std::string& text : {"training 3 of 4: " + out + "/runs/heading-loud--0.1-seed3",
-                                  std::string("trained (2 seeds)"),
-                                  std::string("heading, loud, 0.1"), std::string("results.csv")}) {
+  for (const std::string& text :
+       {"training 3 of 4: " + out + "/runs/heading-loud--0.1-seed3",
+        std::string("trained (2 seeds)"), std::string("heading, loud, 0.1"),
+        std::string("results.csv"), std::string("\nreport          ")}) {
     EXPECT_THAT(result.output, HasSubstr(text));
   }
 }

@@ -153,12 +153,16 @@ FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& config,
 EvaluationResult Summarise(const std::vector<Episode>& episodes, double control_interval_s) {
   EvaluationResult result;
   result.episodes = static_cast<int>(episodes.size());
-  int successes = 0, reached = 0;
-  double steps_to_target = 0;
+  int successes = 0, reached = 0, held = 0;
+  double steps_to_target = 0, within = 0;
   for (const Episode& episode : episodes) {
     ++result.terminations[static_cast<std::size_t>(episode.termination)];
     result.return_mean += episode.episode_return;
     successes += episode.succeeded;
+    if (!std::isnan(episode.measures.hold.within)) {
+      ++held;
+      within += episode.measures.hold.within;
+    }
     if (episode.reached_step == 0) continue;
     ++reached;
     steps_to_target += episode.entered_step;
@@ -167,6 +171,7 @@ EvaluationResult Summarise(const std::vector<Episode>& episodes, double control_
   result.success_rate = static_cast<double>(successes) / result.episodes;
   result.time_to_target_mean_s = reached > 0 ? control_interval_s * steps_to_target / reached
                                              : std::numeric_limits<double>::quiet_NaN();
+  result.hold_within_mean = held > 0 ? within / held : std::numeric_limits<double>::quiet_NaN();
   return result;
 }
 

@@ -56,6 +56,8 @@ struct EvaluationResult {
   /// Until the tolerances were entered that were then held for the dwell, over the episodes that
   /// reached their target; NaN if none did.
   double time_to_target_mean_s = 0;
+  /// HoldMetrics::within, mean over the episodes that say it; NaN if none does.
+  double hold_within_mean = 0;
   std::array<int, kNumTerminations> terminations{};
 };
 

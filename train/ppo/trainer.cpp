@@ -224,6 +224,7 @@ struct Trainer::Impl {
     const EvaluationResult result =
         Evaluate(Agent::MeanOf(CurrentPolicy()), config.env, options, pool);
     report.evaluation_success_rate = result.success_rate;
+    report.evaluation_hold_within = result.hold_within_mean;
     report.best = result.success_rate > best_success_rate ||
                   (result.success_rate == best_success_rate && result.return_mean > best_return);
     if (report.best) {

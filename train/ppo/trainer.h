@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -37,6 +38,8 @@ struct IterationReport {
   double log_std_mean = 0;
   /// Deterministic success if this iteration evaluated, else -1.
   double evaluation_success_rate = -1;
+  /// And its EvaluationResult::hold_within_mean; NaN without an evaluation, and without env.hold_s.
+  double evaluation_hold_within = std::numeric_limits<double>::quiet_NaN();
   bool best = false;  ///< this iteration's evaluation is the best so far
   double rollout_seconds = 0, update_seconds = 0, evaluation_seconds = 0;
   double simulator_seconds = 0;  ///< of the rollout, mean of the threads

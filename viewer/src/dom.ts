@@ -44,3 +44,13 @@ export function tick(
   const box = el('input', { type: 'checkbox', checked: isOn, onchange: () => onChange(box.checked) });
   return el('label', { class: 'tick' }, box, ` ${label}`);
 }
+
+/** A labelled slider over whole numbers. */
+export function slider(
+  label: string, min: number, max: number, value: number, onInput: (value: number) => void,
+): HTMLLabelElement {
+  const input = el('input', {
+    type: 'range', min, max, value, oninput: () => onInput(Number(input.value)),
+  });
+  return el('label', { class: 'choice' }, `${label} `, input);
+}

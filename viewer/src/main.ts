@@ -12,6 +12,7 @@ import { showTraining } from './training';
 import './style.css';
 
 const REFRESH_MS = 5000;
+const MOST_NAMES = 3;
 
 interface View {
   name: string;
@@ -31,6 +32,12 @@ const VIEWS: View[] = [
 /** Which view the address asks for, or the first. */
 function chosenView(views: View[]): View | undefined {
   return views.find((view) => `#${view.name}` === location.hash) ?? views[0];
+}
+
+/** "a, b, c", "a, b and 10 others". */
+function titleOf(names: string[]): string {
+  if (names.length <= MOST_NAMES) return names.join(', ');
+  return `${names.slice(0, MOST_NAMES - 1).join(', ')} and ${names.length - MOST_NAMES + 1} others`;
 }
 
 function notesOf(document: ReportDocument): HTMLElement | null {
@@ -62,7 +69,7 @@ class Page {
     const { document: report } = pack;
     const flown = [...report.comparisons.map((c) => c.agents.map((agent) => agent.name)),
       ...report.flights.map((set) => set.agents)][0] ?? ['nothing'];
-    const title = (report.runs.length > 0 ? report.runs.map((run) => run.name) : flown).join(', ');
+    const title = titleOf(report.runs.length > 0 ? report.runs.map((run) => run.name) : flown);
     document.title = `${title} – Skein`;
     root.replaceChildren(
       el('header', {}, el('h1', {}, title), this.nav, theme),

@@ -72,11 +72,15 @@ function tableOf(comparison: Comparison, isWhole: boolean): HTMLElement {
     el('thead', {}, el('tr', {}, el('td'), ...names)), body));
 }
 
+function titleOf({ task, level, conditions }: Comparison): string {
+  return `${task}${level ? `, ${level}` : ''}: ${conditions}`;
+}
+
 export function showMetrics(place: HTMLElement, pack: ReportPack): () => void {
   const tables = el('div');
   let isWhole = true;
   const draw = () => tables.replaceChildren(...pack.document.comparisons.flatMap((comparison) => [
-    el('h2', {}, `${comparison.task}: ${comparison.conditions}`),
+    el('h2', {}, titleOf(comparison)),
     el('p', { class: 'hint' }, `The same ${comparison.episodes} episodes for all (seed `
       + `${comparison.seed}), policies with their mean action; values with 95 % intervals. `
       + 'Bold: the interval lies apart from that of the first column.'),

@@ -56,6 +56,8 @@ export interface ComparedAgent {
 
 export interface Comparison {
   task: string;
+  /** Of a study. */
+  level?: string;
   conditions: string;
   episodes: number;
   seed: number;
@@ -74,6 +76,11 @@ export interface Flight {
   episode: number;
   end: string;
   return: number;
+  duration_s: number;
+  /** When a mission's further targets came, and when targets counted as reached. */
+  new_target_s: number[];
+  reached_s: number[];
+  /** Between rows. */
   interval_s: number;
   columns: Columns;
 }

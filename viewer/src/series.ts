@@ -24,6 +24,11 @@ export function smoothed(values: ArrayLike<number>, weight: number): Series {
   return result;
 }
 
+/** Weights of an average come close to one in steps that grow small: 0 to 100 is 0 to 0.99. */
+export function weightOf(position: number): number {
+  return position <= 0 ? 0 : 1 - 10 ** (-position / 50);
+}
+
 /** The value at x, linear between neighbours; null outside, and where no neighbour has one. */
 export function at(xs: ArrayLike<number>, ys: ArrayLike<number | null>, x: number): number | null {
   const last = xs.length - 1;

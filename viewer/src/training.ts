@@ -2,10 +2,10 @@
 // Curves of trainings: runs overlaid, those of one configuration as mean and range over their seeds.
 import type uPlot from 'uplot';
 import { Chart } from './chart';
-import { choice, el, tick } from './dom';
+import { el, slider, tick } from './dom';
 import { colourOf, dashOf, faded } from './palette';
 import type { ReportPack, Run } from './report';
-import { at, band, formatCount, type Series, shares, smoothed, union } from './series';
+import { at, band, formatCount, type Series, shares, smoothed, union, weightOf } from './series';
 
 interface Curve {
   title: string;
@@ -30,6 +30,8 @@ const CURVES: Curve[] = [
   { title: 'return of an episode', of: column('return_mean') },
   { title: 'success in training', of: column('success_rate'), isShare: true },
   { title: 'success of the mean action', of: column('evaluation_success_rate'), isShare: true },
+  { title: 'hold: share of it within tolerances', of: column('evaluation_hold_within'),
+    isShare: true },
   { title: 'entropy', of: column('entropy') },
   { title: 'log standard deviation of actions', of: column('log_std_mean') },
   { title: 'policy loss', of: column('policy_loss') },
@@ -117,10 +119,13 @@ const percentOf = (value: number | null) =>
   (value === null ? '–' : `${(100 * value).toFixed(1)} %`);
 const percent: uPlot.Series.Value = (_, value) => percentOf(value);
 
-function drawCurve(place: HTMLElement, curve: Curve, lines: Line[], isOverSeeds: boolean): Chart {
+function drawnOf(curve: Curve, lines: Line[], isOverSeeds: boolean): Drawn {
   const plain: uPlot.Series.Value = (_, value) => (value === null ? '–' : value.toPrecision(4));
   const valueOf = curve.isShare ? percent : plain;
-  const drawn = isOverSeeds ? overSeeds(lines, valueOf) : overlaid(lines, valueOf);
+  return isOverSeeds ? overSeeds(lines, valueOf) : overlaid(lines, valueOf);
+}
+
+function drawCurve(place: HTMLElement, curve: Curve, drawn: Drawn): Chart {
   return new Chart(place, {
     title: curve.title, height: 190, group: 'training', nameX: 'control steps',
     formatX: formatCount,
@@ -159,40 +164,71 @@ function drawEnds(place: HTMLElement, run: Run, pack: ReportPack): Chart | null 
   }, [Array.from(pack.array(run.metrics.env_steps)), ...order.map((k) => tops[k])]);
 }
 
+class TrainingView {
+  private readonly curves = new Map<Curve, Chart>();
+  private readonly others: Chart[] = [];
+  private readonly grid = el('div', { class: 'charts' });
+  private position = 20;
+  private isOverSeeds: boolean;
+
+  constructor(place: HTMLElement, private readonly pack: ReportPack) {
+    const { runs } = pack.document;
+    const hasSeeds = new Set(runs.map((run) => run.repetition)).size < runs.length;
+    this.isOverSeeds = hasSeeds;
+    const smoothing = slider('smoothing', 0, 100, this.position, (position) => {
+      this.position = position;
+      this.smooth();
+    });
+    const seeds = tick('mean and range over seeds', hasSeeds, (isOn) => {
+      this.isOverSeeds = isOn;
+      this.draw();
+    });
+    place.append(
+      el('div', { class: 'controls' }, smoothing, hasSeeds ? seeds : null,
+        el('span', { class: 'hint' }, 'Drag over a chart to enlarge, double-click to go back.')),
+      this.grid,
+    );
+    this.draw();
+  }
+
+  private linesOf(curve: Curve): Line[] {
+    return linesOf(curve, this.pack, weightOf(this.position));
+  }
+
+  private draw(): void {
+    this.stop();
+    this.grid.replaceChildren();
+    for (const curve of CURVES) {
+      const lines = this.linesOf(curve);
+      if (lines.length === 0) continue;
+      this.curves.set(curve, drawCurve(this.grid, curve, drawnOf(curve, lines, this.isOverSeeds)));
+    }
+    for (const run of this.pack.document.runs) {
+      const chart = drawEnds(this.grid, run, this.pack);
+      if (chart) this.others.push(chart);
+    }
+    if (this.grid.childElementCount === 0) this.grid.append(el('p', {}, 'There is no iteration yet.'));
+  }
+
+  /** The same charts, with what they enlarge. */
+  private smooth(): void {
+    for (const [curve, chart] of this.curves) {
+      const { data } = drawnOf(curve, this.linesOf(curve), this.isOverSeeds);
+      const { min, max } = chart.plot.scales.x;
+      chart.plot.setData(data, false);
+      if (min != null && max != null) chart.plot.setScale('x', { min, max });
+    }
+  }
+
+  stop(): void {
+    [...this.curves.values(), ...this.others].forEach((chart) => chart.stop());
+    this.curves.clear();
+    this.others.length = 0;
+  }
+}
+
 /** The view; returns what ends it. */
 export function showTraining(place: HTMLElement, pack: ReportPack): () => void {
-  const { runs } = pack.document;
-  const hasSeeds = new Set(runs.map((run) => run.repetition)).size < runs.length;
-  const state = { smoothing: 0.6, isOverSeeds: hasSeeds };
-  const charts: Chart[] = [];
-  const grid = el('div', { class: 'charts' });
-  const draw = () => {
-    charts.splice(0).forEach((chart) => chart.stop());
-    grid.replaceChildren();
-    for (const curve of CURVES) {
-      const lines = linesOf(curve, pack, state.smoothing);
-      if (lines.length > 0) charts.push(drawCurve(grid, curve, lines, state.isOverSeeds));
-    }
-    for (const run of runs) {
-      const chart = drawEnds(grid, run, pack);
-      if (chart) charts.push(chart);
-    }
-    if (charts.length === 0) grid.append(el('p', {}, 'There is no iteration yet.'));
-  };
-  const smoothing = choice('smoothing', [['0', 'none'], ['0.6', 'some'], ['0.9', 'much'],
-    ['0.97', 'most']], String(state.smoothing), (value) => {
-    state.smoothing = Number(value);
-    draw();
-  });
-  const seeds = tick('mean and range over seeds', state.isOverSeeds, (isOn) => {
-    state.isOverSeeds = isOn;
-    draw();
-  });
-  place.append(
-    el('div', { class: 'controls' }, smoothing, hasSeeds ? seeds : null,
-      el('span', { class: 'hint' }, 'Drag over a chart to enlarge, double-click to go back.')),
-    grid,
-  );
-  draw();
-  return () => charts.forEach((chart) => chart.stop());
+  const view = new TrainingView(place, pack);
+  return () => view.stop();
 }

@@ -47,7 +47,10 @@ export class Packer {
 /** Names that would run if a page took text for markup. */
 export const HOSTILE = '</script><script>window.hacked=1</script><img src=x onerror="window.hacked=1">';
 
-function flightColumns(packer: Packer, turn: number): Record<string, ArrayReference> {
+/** A turn of so many degrees a second; of a high-level policy with what it commands. */
+function flightColumns(
+  packer: Packer, turn: number, isHighLevel: boolean,
+): Record<string, ArrayReference> {
   const rows = Array.from({ length: 600 }, (_, i) => i * 0.02);
   const of = (value: (t: number) => number) => packer.quantised(rows.map(value));
   const rate = (turn * Math.PI) / 180;
@@ -66,6 +69,10 @@ function flightColumns(packer: Packer, turn: number): Record<string, ArrayRefere
     target_true_airspeed_fps: of(() => 1000),
     error_altitude_ft: of((t) => 500 - 40 * t), error_yaw_deg: of((t) => 120 - turn * t),
     error_true_airspeed_fps: of(() => 3),
+    ...(isHighLevel ? {
+      command_pitch_deg: of((t) => 5 * Math.floor(t)), command_yaw_deg: of((t) => turn * t + 20),
+      command_true_airspeed_fps: of(() => 1050),
+    } : {}),
   };
 }
 
@@ -84,6 +91,7 @@ export function fixture(name: string, flights: number): Buffer {
       env_steps: packer.floats(steps),
       return_mean: packer.floats(steps.map((x) => Math.log(x) * 10 + seed)),
       success_rate: packer.floats(steps.map((x, i) => (i < 3 ? NaN : x / 4e7))),
+      evaluation_hold_within: packer.floats(steps.map((x, i) => (i % 10 === 9 ? x / 4e7 : NaN))),
       ended_target_reached: packer.floats(steps.map((_, i) => i)),
       ended_time_limit: packer.floats(steps.map((_, i) => 60 - i)),
     },
@@ -115,7 +123,8 @@ export function fixture(name: string, flights: number): Buffer {
       ],
       flights: Array.from({ length: flights * 2 }, (_, i) => ({
         agent: i % 2, episode: Math.floor(i / 2), end: 'target_reached', return: -100,
-        interval_s: 0.02, columns: flightColumns(packer, (i % 2 ? 6 : 9) + Math.floor(i / 2) * 0.1),
+        duration_s: 599 * 0.02, new_target_s: [], reached_s: [599 * 0.02], interval_s: 0.02, columns: flightColumns(packer, (i % 2 ? 6 : 9) + Math.floor(i / 2) * 0.1,
+          i % 2 === 0),
       })),
     }],
   };

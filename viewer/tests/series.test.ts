@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import { at, band, formatCount, shares, smoothed, union } from '../src/series';
+import { at, band, formatCount, shares, smoothed, union, weightOf } from '../src/series';
 
 describe('smoothing', () => {
   it('leaves a constant as it is, from its first value on', () => {
@@ -8,6 +8,13 @@ describe('smoothing', () => {
   });
   it('does nothing with weight 0, and keeps gaps', () => {
     expect(smoothed([1, NaN, 3], 0)).toEqual([1, null, 3]);
+  });
+  it('grows with the slider, from none, and never stands still', () => {
+    expect(weightOf(0)).toBe(0);
+    for (let position = 1; position <= 100; position += 1) {
+      expect(weightOf(position)).toBeGreaterThan(weightOf(position - 1));
+    }
+    expect(weightOf(100)).toBeCloseTo(0.99, 12);
   });
   it('stays within the values', () => {
     const values = [0, 10, 2, 8, 5];

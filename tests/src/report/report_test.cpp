@@ -57,6 +57,15 @@ TEST(DataPackTest, ReferencesSayWhereArraysLie) {
   EXPECT_EQ(pack.AddQuantised({}).dump(), R"({"i16":[24,0],"first":0.0,"unit":1.0})");
 }
 
+TEST(DataPackTest, FewerLevelsAreALargerUnitAndTheFirstNumberStandsForWhatIsBefore) {
+  DataPack pack;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(pack.AddQuantised({0, 100}, 1000)["unit"], 0.1);
+  const auto late = pack.AddQuantised({nan, nan, 300, 365});
+  EXPECT_EQ(late["first"], 300.0);
+  EXPECT_EQ(late["unit"], 0.001);
+}
+
 TEST(DataPackTest, TextThatIsNotUtf8DoesNotStopAReport) {
   EXPECT_FALSE(DataPack().Deflated({{"name", "\xff"}}).empty());
 }

@@ -115,6 +115,7 @@ TEST(EvaluateTest, SummaryCountsByHand) {
   reached.steps = reached.reached_step = 550;
   reached.entered_step = 400;  // held for 3 s
   reached.episode_return = 190;
+  reached.measures.hold.within = 0.75f;
   lost.termination = Termination::kLowAltitude;
   lost.steps = 900;
   lost.episode_return = -350;
@@ -123,6 +124,8 @@ TEST(EvaluateTest, SummaryCountsByHand) {
   EXPECT_EQ(result.success_rate, 0.25);
   EXPECT_EQ(result.return_mean, -215);
   EXPECT_DOUBLE_EQ(result.time_to_target_mean_s, 8);
+  EXPECT_EQ(result.hold_within_mean, 0.75);  // of the one that has a hold
+  EXPECT_TRUE(std::isnan(Summarise({lost}, 0.02).hold_within_mean));
   EXPECT_EQ(result.terminations[static_cast<int>(Termination::kLowAltitude)], 3);
 }
 

@@ -2,6 +2,7 @@
 // A low-poly fighter of about the F-16's size (49 ft long, 31 ft wide), in parts, so that its
 // surfaces move. Body axes as in frames.ts, feet, the origin near the centre of gravity.
 import { BufferGeometry, Float32BufferAttribute, Vector3 } from 'three';
+import type { Surfaces } from './record';
 
 type Point = [x: number, y: number, z: number];
 
@@ -70,14 +71,6 @@ export interface Part {
   /** Its angle, degrees, by the values of the recorded surfaces. */
   angle: (surfaces: Surfaces) => number;
   isTinted: boolean;
-}
-
-/** Degrees, with the signs of Skein: trailing edge down, rolls left, turns left. */
-export interface Surfaces {
-  elevator: number;
-  aileron: number;
-  rudder: number;
-  leadingEdgeFlap: number;
 }
 
 const BODY = 0.82;
@@ -182,4 +175,20 @@ export function aircraftParts(): Part[] {
     }, [0, 0, 0], [1, 0, 0], () => 0, true),
     ...both.map(flaperon), ...both.map(leadingEdgeFlap), ...both.map(stabilator), rudder(),
   ];
+}
+
+/** What is seen of it from afar, of a few triangles. */
+export function farAircraft(): BufferGeometry {
+  const mesh = new Mesh();
+  const [nose, tail, top]: Point[] = [[0, 0, -28], [0, 0, 18], [0, 2.6, -2]];
+  for (const side of [1, -1]) {
+    const flank: Point = [3.3 * side, -0.8, 2];
+    mesh.triangle(nose, flank, top, BODY);
+    mesh.triangle(top, flank, tail, BODY);
+    mesh.triangle(nose, tail, flank, 0.62);
+    mesh.triangle([2.6 * side, 0, -6], [15 * side, 0, 4], [2.6 * side, 0, 7], BODY);
+    mesh.triangle([1.5 * side, 0, 11], [9 * side, -0.6, 18], [1.5 * side, 0, 18], 0.72);
+  }
+  mesh.triangle([0, 1.5, 5], [0, 10.6, 17], [0, 1.5, 17], 1);
+  return mesh.geometry();
 }

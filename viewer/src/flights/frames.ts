@@ -14,8 +14,9 @@ export function place(northFt: number, eastFt: number, altitudeFt: number, out =
 export function attitude(
   rollDeg: number, pitchDeg: number, yawDeg: number, out = new Quaternion(),
 ): Quaternion {
-  const [cr, cp, cy] = [rollDeg, pitchDeg, yawDeg].map((angle) => Math.cos((angle * RAD) / 2));
-  const [sr, sp, sy] = [rollDeg, pitchDeg, yawDeg].map((angle) => Math.sin((angle * RAD) / 2));
+  const [roll, pitch, yaw] = [(rollDeg * RAD) / 2, (pitchDeg * RAD) / 2, (yawDeg * RAD) / 2];
+  const [cr, cp, cy] = [Math.cos(roll), Math.cos(pitch), Math.cos(yaw)];
+  const [sr, sp, sy] = [Math.sin(roll), Math.sin(pitch), Math.sin(yaw)];
   // Components about north (forward), east (right) and down, z-y-x order.
   const x = sr * cp * cy - cr * sp * sy;
   const y = cr * sp * cy + sr * cp * sy;

@@ -2,36 +2,111 @@
 // What an episode asks for, with its tolerances: a point with its box, or the direction in which
 // the aircraft should fly, at the altitude it should have.
 import {
-  BoxGeometry, BufferGeometry, Color, DoubleSide, EdgesGeometry, Float32BufferAttribute, Group,
-  Line, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3,
+  BoxGeometry, BufferAttribute, BufferGeometry, Color, DoubleSide, EdgesGeometry,
+  Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3,
 } from 'three';
 import type { Target } from '../report';
 import { direction, place } from './frames';
 import type { FlightRecord } from './record';
 
+/** Places that change with time, drawn without new memory for every frame. */
+class Places {
+  readonly geometry = new BufferGeometry();
+  private readonly attribute: BufferAttribute;
+
+  constructor(count: number) {
+    this.attribute = new BufferAttribute(new Float32Array(3 * count), 3);
+    this.geometry.setAttribute('position', this.attribute);
+  }
+
+  set(points: readonly Vector3[]): void {
+    points.forEach((point, i) => this.attribute.setXYZ(i, point.x, point.y, point.z));
+    this.attribute.needsUpdate = true;
+  }
+}
+
+/** What an aircraft should fly to: a wedge as wide as the tolerances, with a line in its middle. */
+class Wedge {
+  readonly group = new Group();
+  private readonly points = Array.from({ length: 8 }, () => new Vector3());
+  private readonly faces = new Places(18);
+  private readonly edges = new Places(12);
+  private readonly facePoints: Vector3[];
+  private readonly edgePoints: Vector3[];
+
+  constructor(face: MeshBasicMaterial, line: LineBasicMaterial) {
+    const [at, from, low, top, a, b, c, d] = this.points;
+    const tip = new Vector3();
+    this.points.push(tip);
+    this.facePoints = [low, a, b, top, c, d, low, a, d, low, d, top, low, b, c, low, c, top];
+    this.edgePoints = [from, tip, a, b, b, c, c, d, d, a, at, from];
+    for (const object of [new Mesh(this.faces.geometry, face),
+      new LineSegments(this.edges.geometry, line)]) {
+      object.frustumCulled = false;
+      this.group.add(object);
+    }
+  }
+
+  /** From above or below the aircraft at `at`, `length` feet long. */
+  show(at: Vector3, altitude: number, yaw: number, climb: number, half: Half, length: number): void {
+    const [foot, from, low, top, a, b, c, d, tip] = this.points;
+    foot.copy(at);
+    from.copy(at).setY(altitude);
+    low.copy(from).setY(altitude - half.rise);
+    top.copy(from).setY(altitude + half.rise);
+    const ray = (point: Vector3, dYaw: number, dClimb: number, rise: number) => {
+      direction(yaw + dYaw, climb + dClimb, point).multiplyScalar(length).add(from);
+      point.y += rise;
+    };
+    ray(tip, 0, 0, 0);
+    ray(a, -half.yaw, -half.climb, -half.rise);
+    ray(b, half.yaw, -half.climb, -half.rise);
+    ray(c, half.yaw, half.climb, half.rise);
+    ray(d, -half.yaw, half.climb, half.rise);
+    this.faces.set(this.facePoints);
+    this.edges.set(this.edgePoints);
+  }
+}
+
+/** Half the widths of a wedge: degrees, and feet. */
+interface Half {
+  yaw: number;
+  climb: number;
+  rise: number;
+}
+
+/** A cross of three lines, each `reach` feet to both sides. */
+function crossAt(at: Vector3, reach: number): number[] {
+  return [[reach, 0, 0], [0, reach, 0], [0, 0, reach]].flatMap(([x, y, z]) =>
+    [at.x - x, at.y - y, at.z - z, at.x + x, at.y + y, at.z + z]);
+}
+
 export class Goal {
   readonly group = new Group();
   private readonly tolerance = new Map<string, number>();
-  private readonly stem: Line | null = null;
-  private readonly fan: Mesh | null = null;
-  private readonly centre: LineSegments | null = null;
+  private readonly box = new Group();
+  private readonly wedge: Wedge | null = null;
+  private readonly at = new Vector3();
+  private readonly half: Half;
+  private readonly isLevel: boolean;
 
   constructor(
     private readonly record: FlightRecord, targets: Target[], private readonly isPoint: boolean,
     private readonly colour: string,
   ) {
     for (const target of targets) this.tolerance.set(target.column, target.tolerance);
+    this.isLevel = record.has('target_altitude_ft');
+    this.half = {
+      yaw: this.halfOf('yaw_deg'), climb: this.isLevel ? 0 : this.halfOf('pitch_deg'),
+      rise: this.halfOf('altitude_ft'),
+    };
     if (isPoint) {
       this.addBox();
+      this.addOthers();
       return;
     }
-    this.stem = new Line(new BufferGeometry(), this.line(0.6));
-    this.fan = new Mesh(new BufferGeometry(), this.face(0.14));
-    this.centre = new LineSegments(new BufferGeometry(), this.line(1));
-    for (const object of [this.stem, this.fan, this.centre]) {
-      object.frustumCulled = false;
-      this.group.add(object);
-    }
+    this.wedge = new Wedge(this.face(0.14), this.line(1));
+    this.group.add(this.wedge.group);
   }
 
   private line(opacity: number): LineBasicMaterial {
@@ -44,62 +119,61 @@ export class Goal {
     });
   }
 
-  private half(column: string): number {
+  private halfOf(column: string): number {
     return this.tolerance.get(column) ?? 0;
   }
 
-  private targetPoint(time: number): Vector3 {
+  private targetPoint(time: number, out = new Vector3()): Vector3 {
     return place(this.record.value('target_north_ft', time),
-      this.record.value('target_east_ft', time), this.record.value('target_altitude_ft', time));
+      this.record.value('target_east_ft', time), this.record.value('target_altitude_ft', time), out);
+  }
+
+  /** All points of a mission, of an episode its only one. */
+  private allPoints(): Vector3[] {
+    return Array.from({ length: this.record.newTargets.length + 1 }, (_, i) =>
+      this.targetPoint(this.record.targetTimes(i)[1]));
   }
 
   private addBox(): void {
-    const box = new BoxGeometry(2 * this.half('east_ft'), 2 * this.half('altitude_ft'),
-      2 * this.half('north_ft'));
-    this.group.add(new Mesh(box, this.face(0.25)),
-      new LineSegments(new EdgesGeometry(box), this.line(1)));
+    const box = new BoxGeometry(2 * this.halfOf('east_ft'), 2 * this.halfOf('altitude_ft'),
+      2 * this.halfOf('north_ft'));
     // A cross that is seen from afar.
-    const reach = 8 * this.half('east_ft');
     const cross = new BufferGeometry();
-    cross.setAttribute('position', new Float32BufferAttribute([
-      -reach, 0, 0, reach, 0, 0, 0, -reach, 0, 0, reach, 0, 0, 0, -reach, 0, 0, reach], 3));
-    this.group.add(new LineSegments(cross, this.line(0.8)));
+    cross.setAttribute('position', new Float32BufferAttribute(
+      crossAt(new Vector3(), 8 * this.halfOf('east_ft')), 3));
+    this.box.add(new Mesh(box, this.face(0.25)), new LineSegments(new EdgesGeometry(box), this.line(1)),
+      new LineSegments(cross, this.line(0.8)));
+    this.group.add(this.box);
+  }
+
+  /** Of a mission the other targets, faint, with the way from one to the next. */
+  private addOthers(): void {
+    const points = this.allPoints();
+    if (points.length < 2) return;
+    const ways = points.slice(1).flatMap((point, i) => [...points[i].toArray(), ...point.toArray()]);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new Float32BufferAttribute(
+      [...points.flatMap((point) => crossAt(point, 5 * this.halfOf('east_ft'))), ...ways], 3));
+    this.group.add(new LineSegments(geometry, this.line(0.3)));
   }
 
   /** As it is at a time; `length` feet is how far a direction is drawn. */
   show(time: number, length: number): void {
+    const { record } = this;
     if (this.isPoint) {
-      this.group.position.copy(this.targetPoint(time));
+      this.targetPoint(time, this.box.position);
       return;
     }
-    const at = this.record.place(time, new Vector3());
-    const from = at.clone();
-    const isLevel = this.record.has('target_altitude_ft');
-    if (isLevel) from.y = this.record.value('target_altitude_ft', time);
-    const yaw = this.record.value('target_yaw_deg', time);
-    const climb = isLevel ? 0 : this.record.value('target_pitch_deg', time);
-    const ray = (dYaw: number, dClimb: number, rise: number) =>
-      direction(yaw + dYaw, climb + dClimb).multiplyScalar(length).add(from)
-        .add(new Vector3(0, rise, 0));
-    const [wide, high] = [this.half('yaw_deg'), isLevel ? 0 : this.half('pitch_deg')];
-    const rise = this.half('altitude_ft');
-    const up = new Vector3(0, rise, 0);
-    const corners = [ray(-wide, -high, -rise), ray(wide, -high, -rise), ray(wide, high, rise),
-      ray(-wide, high, rise)];
-    const [low, top] = [from.clone().sub(up), from.clone().add(up)];
-    const faces = [low, corners[0], corners[1], top, corners[2], corners[3],
-      low, corners[0], corners[3], low, corners[3], top,
-      low, corners[1], corners[2], low, corners[2], top];
-    this.fan?.geometry.setFromPoints(faces);
-    const edges = corners.flatMap((corner, i) => [corner, corners[(i + 1) % 4]]);
-    this.centre?.geometry.setFromPoints([from, ray(0, 0, 0), ...edges]);
-    this.stem?.geometry.setFromPoints([at, from]);
+    record.place(time, this.at);
+    this.wedge?.show(this.at, this.isLevel ? record.value('target_altitude_ft', time) : this.at.y,
+      record.value('target_yaw_deg', time),
+      this.isLevel ? 0 : record.value('target_pitch_deg', time), this.half, length);
   }
 
   /** Places that belong to it, which should be in view. */
   places(): Vector3[] {
-    if (this.isPoint) return [this.targetPoint(0)];
-    if (!this.record.has('target_altitude_ft')) return [];
+    if (this.isPoint) return this.allPoints();
+    if (!this.isLevel) return [];
     const at = this.record.place(0, new Vector3());
     return [at.setY(this.record.value('target_altitude_ft', 0))];
   }

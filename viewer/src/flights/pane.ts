@@ -21,6 +21,14 @@ export function readingsOf(record: FlightRecord, time: number): string {
   }).join('   ');
 }
 
+/** "target 2 of 5 (1 reached)" of a mission. */
+export function targetsOf(record: FlightRecord, time: number): string {
+  const count = record.newTargets.length + 1;
+  if (count === 1) return '';
+  const reached = Array.from({ length: count }, (_, i) => record.isReached(i, time));
+  return `   target ${record.targetAt(time) + 1} of ${count} (${reached.filter(Boolean).length} reached)`;
+}
+
 /** None where the browser has no WebGL: readings and charts then show the flights alone. */
 function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer | null {
   try {
@@ -65,14 +73,31 @@ export class Pane {
     this.changed();
   }
 
+  /** Who is followed. */
+  get title(): string {
+    return this.set.agents[this.scene.records[this.scene.followed].agent];
+  }
+
   show(time: number, trail: number, seconds: number): void {
     this.scene.update(time, trail, seconds);
     if (this.renderer) this.scene.render(this.renderer);
+  }
+
+  /** What the followed aircraft does, in words. */
+  read(time: number): void {
     const record = this.scene.records[this.scene.followed];
-    this.agent.textContent = this.set.agents[record.agent];
+    this.agent.textContent = this.title;
     this.agent.style.color = colourOf(record.agent);
     const isOver = time >= record.duration;
-    this.readings.textContent = readingsOf(record, time) + (isOver ? `   ended: ${record.end}` : '');
+    this.readings.textContent = readingsOf(record, time) + targetsOf(record, time)
+      + (isOver ? `   ended: ${record.end}` : '');
+  }
+
+  /** The view as it is: to be read before anything else is drawn. */
+  picture(): HTMLCanvasElement | null {
+    if (!this.renderer) return null;
+    this.scene.render(this.renderer);
+    return this.canvas;
   }
 
   dispose(): void {

@@ -4,16 +4,49 @@ import type { Flight, FlightSet, ReportPack } from '../report';
 import { attitude, mixedAngle, place } from './frames';
 import { Quaternion, Vector3 } from 'three';
 
-const ANGLES = new Set(['yaw_deg', 'roll_deg', 'pitch_deg', 'target_yaw_deg', 'error_yaw_deg']);
+const ANGLES = new Set(['yaw_deg', 'roll_deg', 'pitch_deg', 'error_yaw_deg']);
+/** What is held during a step stands in the row at its end. */
+const HELD = /^(target|command|action)_/;
+
+/** Degrees, with the signs of Skein: trailing edge down, rolls left, turns left. */
+export interface Surfaces {
+  elevator: number;
+  aileron: number;
+  rudder: number;
+  leadingEdgeFlap: number;
+}
+
+/** How an aircraft is at a time; read again and again into the same one. */
+export class Pose {
+  readonly place = new Vector3();
+  readonly attitude = new Quaternion();
+  readonly surfaces: Surfaces = { elevator: 0, aileron: 0, rudder: 0, leadingEdgeFlap: 0 };
+}
+
+/** Between two rows of a column. */
+function mixed(values: Float32Array, left: number, right: number, share: number): number {
+  return values[left] + (values[right] - values[left]) * share;
+}
 
 export class FlightRecord {
   readonly rows: number;
   readonly interval: number;
+  /** To its end, s. */
+  readonly duration: number;
   readonly agent: number;
   readonly episode: number;
   readonly end: string;
   readonly result: number;
+  /** When targets after the first came, and when targets counted as reached, s. */
+  readonly newTargets: number[];
+  readonly reached: number[];
   private readonly columns = new Map<string, Float32Array>();
+  /** What is read for every frame: the column names of a pose. */
+  private readonly path: Float32Array[];
+  private readonly moving: Float32Array[];
+  /** The attitude of each row. */
+  private readonly turns: Float32Array;
+  private readonly other = new Quaternion();
 
   constructor(flight: Flight, pack: ReportPack) {
     this.agent = flight.agent;
@@ -21,14 +54,34 @@ export class FlightRecord {
     this.end = flight.end.replace(/_/g, ' ');
     this.result = flight.return;
     this.interval = flight.interval_s;
+    this.newTargets = flight.new_target_s;
+    this.reached = flight.reached_s;
     for (const [name, reference] of Object.entries(flight.columns)) {
       this.columns.set(name, pack.array(reference));
     }
     this.rows = this.column('north_ft').length;
+    this.duration = flight.duration_s;
+    this.path = ['north_ft', 'east_ft', 'altitude_ft'].map((name) => this.column(name));
+    this.moving = ['elevator_deg', 'aileron_deg', 'rudder_deg', 'leading_edge_flap_deg']
+      .map((name) => this.column(name));
+    this.turns = this.attitudes();
+  }
+
+  private attitudes(): Float32Array {
+    const [roll, pitch, yaw] = ['roll_deg', 'pitch_deg', 'yaw_deg'].map((name) => this.column(name));
+    const turns = new Float32Array(4 * this.rows);
+    for (let row = 0; row < this.rows; row += 1) {
+      attitude(roll[row], pitch[row], yaw[row], this.other).toArray(turns, 4 * row);
+    }
+    return turns;
   }
 
   has(name: string): boolean {
     return this.columns.has(name);
+  }
+
+  get names(): string[] {
+    return [...this.columns.keys()];
   }
 
   /** Of a column that is not there, zeros. */
@@ -36,33 +89,70 @@ export class FlightRecord {
     return this.columns.get(name) ?? new Float32Array(this.rows);
   }
 
-  get duration(): number {
-    return (this.rows - 1) * this.interval;
+  /** The row of a time, with its fraction; the first or the last outside. */
+  private rowAt(time: number): number {
+    return Math.min(Math.max(time / this.interval, 0), this.rows - 1);
   }
 
-  /** A column at a time, s: linear between rows, the first or the last outside. */
+  /** A column at a time, s: linear between rows, but for what is held during a step. */
   value(name: string, time: number): number {
     const values = this.columns.get(name);
     if (!values || values.length === 0) return 0;
-    const row = Math.min(Math.max(time / this.interval, 0), values.length - 1);
+    const row = this.rowAt(time);
+    // A row that is reached but for a rounding error is the one.
+    if (HELD.test(name)) return values[Math.ceil(row - 1e-6)];
     const left = Math.floor(row);
     const right = Math.min(left + 1, values.length - 1);
-    const share = row - left;
-    if (ANGLES.has(name)) return mixedAngle(values[left], values[right], share);
-    return values[left] + (values[right] - values[left]) * share;
+    if (ANGLES.has(name)) return mixedAngle(values[left], values[right], row - left);
+    return mixed(values, left, right, row - left);
   }
 
   place(time: number, out: Vector3): Vector3 {
-    return place(this.value('north_ft', time), this.value('east_ft', time),
-      this.value('altitude_ft', time), out);
+    const row = this.rowAt(time);
+    const left = Math.floor(row);
+    const right = Math.min(left + 1, this.rows - 1);
+    const [north, east, altitude] = this.path;
+    return place(mixed(north, left, right, row - left), mixed(east, left, right, row - left),
+      mixed(altitude, left, right, row - left), out);
   }
 
   attitude(time: number, out: Quaternion): Quaternion {
-    // Between rows the angles turn by little; where pitch nears 90 deg rows are not mixed.
-    const isSteep = Math.abs(this.value('pitch_deg', time)) > 80;
-    const at = isSteep ? Math.round(time / this.interval) * this.interval : time;
-    return attitude(this.value('roll_deg', at), this.value('pitch_deg', at),
-      this.value('yaw_deg', at), out);
+    const row = this.rowAt(time);
+    const left = Math.floor(row);
+    const right = Math.min(left + 1, this.rows - 1);
+    out.fromArray(this.turns, 4 * left);
+    return out.slerp(this.other.fromArray(this.turns, 4 * right), row - left);
+  }
+
+  pose(time: number, out: Pose): Pose {
+    this.place(time, out.place);
+    this.attitude(time, out.attitude);
+    const row = Math.round(this.rowAt(time));
+    const [elevator, aileron, rudder, flap] = this.moving;
+    const { surfaces } = out;
+    surfaces.elevator = elevator[row];
+    surfaces.aileron = aileron[row];
+    surfaces.rudder = rudder[row];
+    surfaces.leadingEdgeFlap = flap[row];
+    return out;
+  }
+
+  /** Which of a mission's targets is flown to, from 0. */
+  targetAt(time: number): number {
+    let target = 0;
+    while (target < this.newTargets.length && this.newTargets[target] < time) target += 1;
+    return target;
+  }
+
+  /** When the n-th target's flight begins and ends, s. */
+  targetTimes(target: number): [from: number, to: number] {
+    return [target > 0 ? this.newTargets[target - 1] : 0, this.newTargets[target] ?? this.duration];
+  }
+
+  /** Whether the n-th target counted as reached by `time`. */
+  isReached(target: number, time: number): boolean {
+    const [from, to] = this.targetTimes(target);
+    return this.reached.some((at) => at > from && at <= to + 1e-6 && at <= time);
   }
 }
 

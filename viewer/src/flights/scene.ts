@@ -2,54 +2,59 @@
 // The flights of an episode, or of all, in space.
 import {
   AmbientLight, Box3, BufferGeometry, Color, DirectionalLight, Float32BufferAttribute,
-  LineBasicMaterial, LineSegments, Quaternion, Scene, Vector3, WebGLRenderer,
+  LineBasicMaterial, LineSegments, Scene, Vector3, WebGLRenderer,
 } from 'three';
 import { colourOf, styleColour } from '../palette';
 import type { FlightSet } from '../report';
 import { Cameras, type CameraName } from './cameras';
-import { Fleet, surfacesOf } from './fleet';
+import { Fleet } from './fleet';
+import { Ghosts } from './ghosts';
 import { Goal } from './goal';
 import { type Ground, makeGround, windArrow } from './ground';
-import type { FlightRecord } from './record';
+import { Ladder } from './ladder';
+import { type FlightRecord, Pose } from './record';
 import { type Colouring, Trails } from './trails';
 
-/** An aircraft is drawn at least so large, as a share of its distance. */
+/** An aircraft is drawn at least so large, as a share of its distance; of many smaller. */
 const LEAST_SIZE = 0.03;
+const LEAST_SIZE_OF_MANY = 0.012;
+const MANY = 60;
+/** Of many, those are outlines that are no larger than that share of their distance. */
+const FAR_SIZE = 0.02;
 const SPAN_FT = 31;
+/** Of more agents' own targets none is shown. */
+const MOST_GOALS = 40;
 
 export class FlightScene {
   readonly scene = new Scene();
   readonly cameras: Cameras;
   readonly ground: Ground;
   private readonly fleet: Fleet;
+  private readonly ghosts: Ghosts;
+  private readonly ladder = new Ladder(styleColour('--accent'));
   private readonly trails: Trails;
   private readonly goals: Goal[] = [];
   private readonly stems: LineSegments;
-  private readonly pose = { place: new Vector3(), attitude: new Quaternion(), scale: 1 };
+  private readonly pose = new Pose();
+  private readonly leastSize: number;
 
   /** `followed` is the index of the record that cameras go with. */
   constructor(
     readonly records: FlightRecord[], set: FlightSet, element: HTMLElement, public followed: number,
   ) {
     const colours = records.map((record) => colourOf(record.agent));
+    this.leastSize = records.length > MANY ? LEAST_SIZE_OF_MANY : LEAST_SIZE;
     const way = this.way();
     const box = new Box3().setFromPoints(way);
-    const goalRecords = records.filter((record, i) =>
-      records.findIndex((other) => other.episode === record.episode) === i);
-    const few = records.length <= 40;
-    for (const record of set.is_point || few ? (set.is_point ? goalRecords : records) : []) {
-      const colour = set.is_point ? styleColour('--target') : colourOf(record.agent);
-      const goal = new Goal(record, set.targets, set.is_point, colour);
-      goal.places().forEach((point) => box.expandByPoint(point));
-      this.goals.push(goal);
-    }
+    this.addGoals(set, box);
     this.ground = makeGround(box, styleColour('--scene-grid'), styleColour('--muted'));
     this.fleet = new Fleet(colours);
+    this.ghosts = new Ghosts(records, (record) => colourOf(record.agent));
     this.trails = new Trails(records, colours);
     this.stems = this.makeStems();
     this.scene.background = new Color(styleColour('--sky'));
     this.scene.add(new AmbientLight('#ffffff', 1.5), this.ground.group, this.fleet.group,
-      this.trails.group, this.stems, ...this.goals.map((goal) => goal.group));
+      this.trails.group, this.stems, this.ghosts.group, this.ladder.group, ...this.goals.map((goal) => goal.group));
     const sun = new DirectionalLight('#ffffff', 2.2);
     sun.position.set(0.5, 1, 0.3);
     this.scene.add(sun);
@@ -59,6 +64,23 @@ export class FlightScene {
     const arrow = windArrow(wind, this.ground, box, styleColour('--target'));
     if (arrow) this.scene.add(arrow);
     this.cameras = new Cameras(element, [way[0], ...this.goals.flatMap((g) => g.places()), ...way]);
+  }
+
+  /** Of points one an episode, as all agents fly to it, but for missions; of directions everyone's. */
+  private addGoals(set: FlightSet, box: Box3): void {
+    const { records } = this;
+    const isShared = set.is_point && records.every((record) => record.newTargets.length === 0);
+    const own = isShared
+      ? records.filter((record, i) =>
+        records.findIndex((other) => other.episode === record.episode) === i)
+      : records;
+    if (!isShared && own.length > MOST_GOALS) return;
+    for (const record of own) {
+      const colour = isShared ? styleColour('--target') : colourOf(record.agent);
+      const goal = new Goal(record, set.targets, set.is_point, colour);
+      goal.places().forEach((point) => box.expandByPoint(point));
+      this.goals.push(goal);
+    }
   }
 
   /** Places along all flights, the followed one's last. */
@@ -84,7 +106,7 @@ export class FlightScene {
       color: new Color(styleColour('--muted')), transparent: true, opacity: 0.5,
     }));
     lines.frustumCulled = false;
-    lines.visible = this.records.length <= 40;
+    lines.visible = this.records.length <= MOST_GOALS;
     return lines;
   }
 
@@ -98,30 +120,43 @@ export class FlightScene {
       record.attitude(time, this.pose.attitude));
   }
 
+  /** How much larger than it is an aircraft is drawn so far from the camera. */
+  private readonly scaleAt = (at: Vector3): number =>
+    Math.max(1, (at.distanceTo(this.cameras.camera.position) * this.leastSize) / SPAN_FT);
+
   /** Everything as it is at `time`. */
   update(time: number, trail: number, seconds: number): void {
-    const { pose } = this;
+    const { pose, cameras } = this;
     const record = this.records[this.followed];
-    this.cameras.follow(record.place(time, pose.place), record.attitude(time, pose.attitude), seconds);
-    const { camera } = this.cameras;
-    const stems = this.stems.geometry.getAttribute('position');
-    this.records.forEach((flight, i) => {
-      flight.place(time, pose.place);
-      flight.attitude(time, pose.attitude);
-      const distance = pose.place.distanceTo(camera.position);
-      pose.scale = Math.max(1, (distance * LEAST_SIZE) / SPAN_FT);
-      if (this.cameras.chosen === 'cockpit' && i === this.followed) pose.scale = 0;
-      this.fleet.set(i, pose, surfacesOf(flight, time));
-      stems.setXYZ(2 * i, pose.place.x, pose.place.y, pose.place.z);
-      stems.setXYZ(2 * i + 1, pose.place.x, this.ground.altitudeFt, pose.place.z);
-    });
-    stems.needsUpdate = true;
-    this.fleet.commit();
-    const reach = camera.position.distanceTo(record.place(time, pose.place));
+    cameras.follow(record.place(time, pose.place), record.attitude(time, pose.attitude), seconds);
+    const reach = cameras.camera.position.distanceTo(pose.place);
+    this.showAircraft(time);
+    this.ghosts.show(time, this.scaleAt);
+    const isInside = cameras.chosen === 'cockpit';
+    this.ladder.group.visible = isInside;
+    if (isInside) this.ladder.show(record, time, cameras.camera.position);
     // From behind an aircraft one would look through its ribbon.
-    const isBehind = this.cameras.chosen === 'chase' || this.cameras.chosen === 'cockpit';
+    const isBehind = cameras.chosen === 'chase' || isInside;
     this.trails.show(time, trail, isBehind ? 2 : Math.max(10, reach * 0.006));
     for (const goal of this.goals) goal.show(time, Math.max(150, reach * 0.25));
+  }
+
+  private showAircraft(time: number): void {
+    const { pose, cameras, records } = this;
+    const hidden = cameras.chosen === 'cockpit' ? this.followed : -1;
+    const stems = this.stems.geometry.getAttribute('position');
+    this.fleet.begin();
+    for (let i = 0; i < records.length; i += 1) {
+      if (i === hidden) continue;
+      records[i].pose(time, pose);
+      const scale = this.scaleAt(pose.place);
+      const size = (scale * SPAN_FT) / pose.place.distanceTo(cameras.camera.position);
+      this.fleet.add(i, pose, scale, records.length > MANY && size < FAR_SIZE);
+      stems.setXYZ(2 * i, pose.place.x, pose.place.y, pose.place.z);
+      stems.setXYZ(2 * i + 1, pose.place.x, this.ground.altitudeFt, pose.place.z);
+    }
+    stems.needsUpdate = this.stems.visible;
+    this.fleet.commit();
   }
 
   render(renderer: WebGLRenderer): void {
@@ -131,6 +166,8 @@ export class FlightScene {
   dispose(): void {
     this.cameras.dispose();
     this.fleet.dispose();
+    this.ghosts.dispose();
+    this.ladder.dispose();
     this.trails.dispose();
   }
 }

@@ -1,64 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strip charts of what an engineer reads, over the time of the flights in view.
-import type uPlot from 'uplot';
+// Strip charts over the time of the flights in view.
+import uPlot from 'uplot';
 import { axis, Chart, formatted } from '../chart';
-import { el, tick } from '../dom';
+import { choice, el, tick } from '../dom';
 import { colourOf, faded, styleColour } from '../palette';
-import type { FlightSet } from '../report';
 import type { FlightRecord } from './record';
+import { isCommand, type Strip, titleOf } from './strip_list';
 
-export interface Strip {
-  title: string;
-  /** Columns in one chart: the first solid, the second dashed, on an axis of its own if of another
-   * unit. */
-  columns: string[];
-  isOn: boolean;
-  tolerance?: number;
-  secondAxis?: boolean;
-}
-
-const UNITS: [RegExp, string][] = [
-  [/_deg_s$/, 'deg/s'], [/_deg$/, 'deg'], [/_fps$/, 'ft/s'], [/_ft$/, 'ft'], [/_g$/, 'g'],
-];
-
-/** "true_airspeed_fps" is "true airspeed, ft/s". */
-export function titleOf(column: string): string {
-  const found = UNITS.find(([pattern]) => pattern.test(column));
-  const name = column.replace(found ? found[0] : /$^/, '').replace(/_/g, ' ');
-  return found ? `${name}, ${found[1]}` : name;
-}
-
-/** The charts that a set of flights has. */
-export function stripsOf(set: FlightSet, record: FlightRecord): Strip[] {
-  const errors = set.targets.map((target) => ({
-    title: titleOf(`error_${target.column}`), columns: [`error_${target.column}`], isOn: true,
-    tolerance: target.tolerance,
-  }));
-  const one = (column: string, isOn: boolean): Strip =>
-    ({ title: titleOf(column), columns: [column], isOn });
-  const pair = (command: string, surface: string, isOn: boolean): Strip => ({
-    title: `${titleOf(command)}, and dashed ${titleOf(surface)}`, columns: [command, surface],
-    isOn, secondAxis: true,
-  });
-  return [
-    ...errors,
-    { title: 'normal load factor, g', columns: ['load_factor_g'], isOn: true },
-    one('alpha_deg', true), one('beta_deg', true), one('roll_deg', true),
-    pair('action_pitch', 'elevator_deg', true), pair('action_roll', 'aileron_deg', true),
-    pair('action_yaw', 'rudder_deg', false), pair('action_throttle', 'power', true),
-    one('p_deg_s', true), one('q_deg_s', false), one('r_deg_s', false),
-    one('pitch_deg', false), one('yaw_deg', false), one('true_airspeed_fps', true),
-    one('mach', false), one('altitude_ft', true), one('lateral_load_factor_g', false),
-    one('leading_edge_flap_deg', false), one('reward', false),
-    ...['action_target_pitch', 'action_target_yaw', 'action_target_speed'].map((c) => one(c, false)),
-  ].filter((strip) => strip.columns.every((column) => record.has(column)));
-}
+/** How much of the time the charts show, s. */
+const SPANS: [string, string][] = [['Infinity', 'whole'], ['20', '20 s'], ['5', '5 s'], ['2', '2 s']];
+const MOST_READOUTS = 4;
 
 function seriesOf(records: FlightRecord[], strip: Strip, agents: string[]): uPlot.Series[] {
   return records.flatMap((record) => strip.columns.map((column, k) => ({
     label: k === 0 ? agents[record.agent] : titleOf(column),
     stroke: k === 0 ? colourOf(record.agent) : faded(colourOf(record.agent), 0.75),
     width: 1.4, dash: k === 0 ? undefined : [5, 4], points: { show: false },
+    paths: isCommand(column) ? uPlot.paths.stepped?.({ align: -1 }) : undefined,
     scale: k > 0 && strip.secondAxis ? 'second' : 'y',
     value: (_: uPlot, v: number | null) => formatted(v),
   })));
@@ -68,11 +26,8 @@ function seriesOf(records: FlightRecord[], strip: Strip, agents: string[]): uPlo
 function dataOf(records: FlightRecord[], strip: Strip): uPlot.AlignedData {
   const longest = records.reduce((a, b) => (a.duration > b.duration ? a : b));
   const xs = Array.from({ length: longest.rows }, (_, i) => i * longest.interval);
-  const lines = records.flatMap((record) => strip.columns.map((column) => {
-    // A command of the row at time 0 is not there: what follows stands for it.
-    const first = column.startsWith('action_') || column === 'reward' ? record.interval : 0;
-    return xs.map((x) => (x > record.duration ? null : record.value(column, Math.max(x, first))));
-  }));
+  const lines = records.flatMap((record) => strip.columns.map((column) => xs.map((x) =>
+    (x > record.duration || !record.has(column) ? null : record.value(column, x)))));
   return [xs, ...lines];
 }
 
@@ -88,14 +43,15 @@ function shadeTolerance(plot: uPlot, tolerance: number): void {
   ctx.restore();
 }
 
-function drawNow(plot: uPlot, time: number): void {
+/** A dotted line across. */
+function drawMark(plot: uPlot, time: number, colour: string): void {
   const { ctx, bbox } = plot;
   const x = Math.round(plot.valToPos(time, 'x', true));
   if (x < bbox.left || x > bbox.left + bbox.width) return;
   ctx.save();
-  ctx.strokeStyle = styleColour('--text');
+  ctx.strokeStyle = colour;
   ctx.lineWidth = devicePixelRatio;
-  ctx.setLineDash([]);
+  ctx.setLineDash([2, 3]);
   ctx.beginPath();
   ctx.moveTo(x, bbox.top);
   ctx.lineTo(x, bbox.top + bbox.height);
@@ -103,12 +59,25 @@ function drawNow(plot: uPlot, time: number): void {
   ctx.restore();
 }
 
+interface Drawn {
+  chart: Chart;
+  strip: Strip;
+  /** A line over the chart at the time shown: moved, so that nothing is drawn for it. */
+  line: HTMLElement;
+  /** Beside the title, what the first records are worth then. */
+  values: { record: FlightRecord; place: HTMLElement }[];
+}
+
 export class Strips {
   readonly element = el('section', { class: 'strips', 'aria-label': 'strip charts' });
-  private readonly charts: { chart: Chart; strip: Strip }[] = [];
+  private readonly charts: Drawn[] = [];
   private readonly grid = el('div', { class: 'charts' });
   private now = 0;
-  private drawn = -1;
+  /** The time that the pointer is at. */
+  private pointed: number | null = null;
+  private span = Infinity;
+  private end = 0;
+  private records: FlightRecord[] = [];
 
   constructor(
     private readonly strips: Strip[], private readonly agents: string[],
@@ -119,19 +88,34 @@ export class Strips {
         strip.isOn = isOn;
         this.draw(this.records);
       }));
-    this.element.append(
-      el('details', { class: 'picker' }, el('summary', {}, 'charts'), ...ticks), this.grid);
+    const span = choice('charts show', SPANS, 'Infinity', (value) => {
+      this.span = Number(value);
+      this.mark(this.now);
+    });
+    this.element.append(el('div', { class: 'controls' }, span,
+      el('details', { class: 'picker' }, el('summary', {}, 'which charts'), ...ticks)), this.grid);
   }
-
-  private records: FlightRecord[] = [];
 
   draw(records: FlightRecord[]): void {
     this.records = records;
+    this.end = Math.max(0, ...records.map((record) => record.duration));
     this.stop();
     this.grid.replaceChildren();
     for (const strip of this.strips) {
-      if (strip.isOn) this.charts.push({ chart: this.chart(strip, records), strip });
+      const own = records.filter((record) => record.has(strip.columns[0]));
+      if (!strip.isOn || own.length === 0) continue;
+      const chart = this.chart(strip, own);
+      const line = el('div', { class: 'now' });
+      chart.plot.over.append(line);
+      const values = own.slice(0, MOST_READOUTS).map((record) => {
+        const place = el('span');
+        place.style.color = colourOf(record.agent);
+        return { record, place };
+      });
+      chart.readout.append(...values.map(({ place }) => place));
+      this.charts.push({ chart, strip, line, values });
     }
+    this.mark(this.now);
   }
 
   private chart(strip: Strip, records: FlightRecord[]): Chart {
@@ -146,11 +130,31 @@ export class Strips {
         drawClear: [(plot) => {
           if (strip.tolerance !== undefined) shadeTolerance(plot, strip.tolerance);
         }],
-        draw: [(plot) => drawNow(plot, this.now)],
+        draw: [(plot) => this.drawMarks(plot, records)],
+        setCursor: [(plot) => this.point(plot)],
+        setSize: [() => this.mark(this.now)],
       },
     }, dataOf(records, strip));
     this.scrubs(chart);
     return chart;
+  }
+
+  /** When targets were reached. */
+  private drawMarks(plot: uPlot, records: FlightRecord[]): void {
+    for (const record of records) {
+      for (const time of record.reached) {
+        drawMark(plot, time, faded(colourOf(record.agent), 0.5));
+      }
+    }
+  }
+
+  /** Values at the pointer, if there is one over a chart. */
+  private point(plot: uPlot): void {
+    const { left } = plot.cursor;
+    const pointed = left === undefined || left < 0 ? null : plot.posToVal(left, 'x');
+    if (pointed === this.pointed) return;
+    this.pointed = pointed;
+    this.readOut();
   }
 
   /** A press on a chart, and what it is dragged along, is a time. */
@@ -169,19 +173,34 @@ export class Strips {
     over.addEventListener('pointermove', go);
   }
 
-  /** Marks the time, ten times a second at most while it runs. */
-  mark(time: number, isHurried: boolean): void {
+  /** Marks the time; where the charts show a part of it they go along. */
+  mark(time: number): void {
     this.now = time;
-    if (isHurried && Math.abs(performance.now() - this.drawn) < 100) return;
-    this.drawn = performance.now();
-    for (const { chart, strip } of this.charts) {
-      chart.plot.redraw(false, false);
-      chart.readout.replaceChildren(...this.records.slice(0, 4).map((record) => {
-        const value = el('span', {}, ` ${formatted(record.value(strip.columns[0], time))}`);
-        value.style.color = colourOf(record.agent);
-        return value;
-      }));
+    const span = Math.min(this.span, this.end);
+    const from = Math.min(Math.max(time - span / 2, 0), this.end - span);
+    for (const { chart, line } of this.charts) {
+      const { min, max } = chart.plot.scales.x;
+      if (span > 0 && (min !== from || max !== from + span)) {
+        chart.plot.setScale('x', { min: from, max: from + span });
+      }
+      const share = span > 0 ? (time - from) / span : 0;
+      line.style.transform = `translateX(${(share * chart.plot.bbox.width) / devicePixelRatio}px)`;
     }
+    this.readOut();
+  }
+
+  private readOut(): void {
+    const time = this.pointed ?? this.now;
+    for (const { strip, values } of this.charts) {
+      for (const { record, place } of values) {
+        place.textContent = ` ${formatted(record.value(strip.columns[0], time))}`;
+      }
+    }
+  }
+
+  /** The charts' pictures, with their titles. */
+  pictures(): { title: string; canvas: HTMLCanvasElement }[] {
+    return this.charts.map(({ chart, strip }) => ({ title: strip.title, canvas: chart.plot.ctx.canvas }));
   }
 
   stop(): void {

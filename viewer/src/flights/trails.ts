@@ -39,6 +39,9 @@ void main() {
 
 /** Of more aircraft the lines alone are drawn: they would cover each other, and cost the most. */
 const MOST_RIBBONS = 60;
+/** Rows of all trails together. */
+const MOST_ROWS = 120000;
+const MOST_ROWS_OF_MANY = 40000;
 
 interface Uniforms {
   now: { value: number };
@@ -67,8 +70,9 @@ export class Trails {
   private readonly materials: ShaderMaterial[] = [];
 
   constructor(private readonly records: FlightRecord[], private readonly colours: string[]) {
-    const most = Math.max(40, Math.floor(120000 / Math.max(records.length, 1)));
-    this.rows = records.map((record) => rowsOf(record, Math.min(most, 1000)));
+    const isMany = records.length > MOST_RIBBONS;
+    const most = Math.floor((isMany ? MOST_ROWS_OF_MANY : MOST_ROWS) / Math.max(records.length, 1));
+    this.rows = records.map((record) => rowsOf(record, Math.min(Math.max(most, 40), 1000)));
     const count = 2 * this.rows.reduce((sum, rows) => sum + rows.length, 0);
     const positions = new Float32Array(3 * count);
     const wings = new Float32Array(3 * count);
@@ -106,7 +110,7 @@ export class Trails {
       return geometry;
     };
     const ribbon = new Mesh(geometryOf(ribbons), this.material(this.shared.width, 0.6, 0));
-    ribbon.visible = records.length <= MOST_RIBBONS;
+    ribbon.visible = !isMany;
     const line = new LineSegments(geometryOf(lines), this.material({ value: 0 }, 1, 0.4));
     for (const object of [ribbon, line]) {
       object.frustumCulled = false;

@@ -1,45 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view of flights: windows, player, charts.
 import { button, choice, el, tick } from '../dom';
-import { colourOf, ramp } from '../palette';
+import { colourOf } from '../palette';
 import type { FlightSet, ReportPack } from '../report';
 import { CAMERA_NAMES, type CameraName } from './cameras';
 import { Clock, SPEEDS } from './clock';
+import { colourScales, type ColourScale, rampOf } from './colouring';
 import { Pane } from './pane';
 import { type FlightRecord, recordsOf } from './record';
-import { stripsOf, Strips } from './strips';
-import type { Colouring } from './trails';
+import { csvOf, download, montage } from './save';
+import { stripsOf } from './strip_list';
+import { Strips } from './strips';
 
 const TRAILS: [string, string][] = [['1e9', 'whole'], ['20', '20 s'], ['5', '5 s'], ['0', 'none']];
 const KEYS = 'Space plays; ← → 1 s (with Shift 0.1 s); ↑ ↓ speed; Home, End; N, P episode; '
-  + '1–4 or C camera; F whom it follows; S side by side; T trail colour.';
+  + '[ ] target of a mission; 1–4 or C camera; F whom it follows; S side by side; T trail colour.';
 
-interface ColourScale {
-  name: string;
-  low: string;
-  high: string;
-  share: Colouring;
-}
-
-/** How trails can be coloured. */
-function colourScales(set: FlightSet): ColourScale[] {
-  const tolerances = new Map(set.targets.map((target) => [target.column, target.tolerance]));
-  return [
-    { name: 'agent', low: '', high: '', share: () => null },
-    { name: 'load factor', low: '0 g', high: '9 g',
-      share: (record, row) => record.column('load_factor_g')[row] / 9 },
-    { name: 'error', low: '10 tolerances', high: 'on target',
-      share: (record, row) => {
-        let worst = 0;
-        for (const [column, tolerance] of tolerances) {
-          worst = Math.max(worst, Math.abs(record.column(`error_${column}`)[row]) / tolerance);
-        }
-        return 1 - worst / 10;
-      } },
-    { name: 'true airspeed', low: '400 ft/s', high: '1400 ft/s',
-      share: (record, row) => (record.column('true_airspeed_fps')[row] - 400) / 1000 },
-  ];
-}
+/** While it plays, readings and charts follow so often, ms. */
+const READ_MS = 100;
+/** So much after a target came it is the one that is flown to. */
+const AFTER_S = 0.001;
 
 class FlightsView {
   private readonly records: FlightRecord[];
@@ -70,12 +50,13 @@ class FlightsView {
   private isDirty = true;
   private frame = 0;
   private before = 0;
+  private readAt = 0;
 
   constructor(place: HTMLElement, private readonly set: FlightSet, pack: ReportPack) {
     this.records = recordsOf(set, pack);
     this.scales = colourScales(set);
     this.hideSome();
-    this.strips = new Strips(stripsOf(set, this.records[0]), set.agents, (t) => this.seek(t));
+    this.strips = new Strips(stripsOf(set, this.records), set.agents, (t) => this.seek(t));
     const episodes = [...new Set(this.records.map((record) => record.episode))];
     this.episodes = this.select('episode',
       [...episodes.map((e): [string, string] => [String(e), String(e + 1)]), ['-1', 'all']], '0',
@@ -94,6 +75,8 @@ class FlightsView {
         button('«', 'to the beginning (Home)', () => this.seek(0)), this.play, this.scrubber,
         this.shownTime, this.speed),
       el('div', { class: 'controls' }, this.episodes, this.camera, split, this.trailColour, trails,
+        button('save picture', 'windows and charts as they are, as PNG', () => this.savePicture()),
+        button('save data', 'the flights in view as CSV', () => this.saveData()),
         el('details', { class: 'keys' }, el('summary', {}, 'keys'), el('p', {}, KEYS))),
       this.legend, this.strips.element,
     );
@@ -204,13 +187,22 @@ class FlightsView {
       box.prepend(swatch);
       return box;
     });
-    const scale = this.scales[this.colouring];
-    const bar = el('span', { class: 'ramp' });
-    const stops = [0, 0.25, 0.5, 0.75, 1].map((s) =>
-      `rgb(${ramp(s).map((c) => Math.round(255 * c)).join(',')})`);
-    bar.style.background = `linear-gradient(to right, ${stops.join(',')})`;
-    this.legend.replaceChildren(...rows,
-      ...(scale.low ? [el('span', { class: 'key' }, `${scale.low} `, bar, ` ${scale.high}`)] : []));
+    this.legend.replaceChildren(...rows, ...rampOf(this.scales[this.colouring]));
+  }
+
+  private savePicture(): void {
+    const windows = this.panes.flatMap((pane) => {
+      const canvas = pane.picture();
+      const title = `${pane.title}, ${this.clock.time.toFixed(2)} s`;
+      return canvas ? [{ title, canvas }] : [];
+    });
+    montage(windows, this.strips.pictures()).toBlob((blob) => {
+      if (blob) download('flights.png', blob);
+    });
+  }
+
+  private saveData(): void {
+    download('flights.csv', new Blob([csvOf(this.shown(), this.set.agents)], { type: 'text/csv' }));
   }
 
   private toggle(): void {
@@ -226,6 +218,17 @@ class FlightsView {
   private step(by: number): void {
     const count = new Set(this.records.map((record) => record.episode)).size;
     this.chooseEpisode((Math.max(this.episode, 0) + by + count) % count);
+  }
+
+  /** To the beginning of the next (1) or the previous (-1) target of the followed mission. */
+  private stepTarget(by: number): void {
+    const record = this.shown()[this.followed];
+    const now = record.targetAt(this.clock.time);
+    // A moment after a target came one means the target before.
+    const isEarly = this.clock.time - record.targetTimes(now)[0] < 1;
+    const next = by > 0 ? now + 1 : now - (isEarly ? 1 : 0);
+    const shown = Math.min(Math.max(next, 0), record.newTargets.length);
+    this.seek(record.targetTimes(shown)[0] + (shown > 0 ? AFTER_S : 0));
   }
 
   private follow(): void {
@@ -244,6 +247,8 @@ class FlightsView {
     End: () => this.seek(this.clock.end),
     n: () => this.step(1),
     p: () => this.step(-1),
+    '[': () => this.stepTarget(-1),
+    ']': () => this.stepTarget(1),
     f: () => this.follow(),
     s: () => {
       const box = document.querySelectorAll<HTMLInputElement>('.controls .tick input')[0];
@@ -283,11 +288,17 @@ class FlightsView {
     // Where time jumps, a chase does not lag.
     const lag = wasPlaying ? seconds : Infinity;
     for (const pane of this.panes) pane.show(this.clock.time, this.trail, lag);
-    this.strips.mark(this.clock.time, this.clock.isPlaying);
+    if (!this.clock.isPlaying || now - this.readAt >= READ_MS) this.read(now);
     this.scrubber.value = String(this.clock.time);
     this.shownTime.textContent = `${this.clock.time.toFixed(2)} / ${this.clock.end.toFixed(2)} s`;
     this.play.textContent = this.clock.isPlaying ? '⏸' : '▶';
   };
+
+  private read(now: number): void {
+    this.readAt = now;
+    for (const pane of this.panes) pane.read(this.clock.time);
+    this.strips.mark(this.clock.time);
+  }
 
   stop(): void {
     cancelAnimationFrame(this.frame);
@@ -302,8 +313,8 @@ export function showFlights(place: HTMLElement, pack: ReportPack): () => void {
   const { flights } = pack.document;
   const body = el('div');
   if (flights.length > 1) {
-    place.append(choice('flights of', flights.map((set, i) => [String(i), set.agents.join(', ')]),
-      '0', (value) => {
+    place.append(choice('flights of', flights.map((set, i) =>
+      [String(i), `${set.agents.join(', ')}: ${set.conditions}`]), '0', (value) => {
         view.stop();
         body.replaceChildren();
         view = new FlightsView(body, flights[Number(value)], pack);

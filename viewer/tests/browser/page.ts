@@ -91,3 +91,39 @@ export async function difference(page: Page, a: Buffer, b: Buffer): Promise<numb
   }
   return different / (first.length / 4);
 }
+
+/** The mean colours of a screenshot's cells, `columns` by `rows`, as "rrggbb": what of it does not
+ * depend on how a version of the browser smooths lines and letters. */
+export async function gridOf(
+  page: Page, shot: Buffer, columns: number, rows: number,
+): Promise<string[]> {
+  const [bytes] = await pixelsOf(page, [shot]);
+  // Of a PNG's header.
+  const [width, height] = [shot.readUInt32BE(16), shot.readUInt32BE(20)];
+  const sums = new Float64Array(4 * columns * rows);
+  for (let y = 0; y < height; y += 1) {
+    const row = Math.floor((y * rows) / height);
+    for (let x = 0; x < width; x += 1) {
+      const cell = 4 * (row * columns + Math.floor((x * columns) / width));
+      const pixel = 4 * (y * width + x);
+      for (let k = 0; k < 3; k += 1) sums[cell + k] += bytes[pixel + k];
+      sums[cell + 3] += 1;
+    }
+  }
+  return Array.from({ length: rows }, (_, row) => Array.from({ length: columns }, (__, column) => {
+    const cell = 4 * (row * columns + column);
+    return [0, 1, 2].map((k) => Math.round(sums[cell + k] / sums[cell + 3]).toString(16)
+      .padStart(2, '0')).join('');
+  }).join(' '));
+}
+
+/** The share of cells of two grids that differ by more than a tolerance, 0 to 255. */
+export function gridDifference(a: string[], b: string[], tolerance: number): number {
+  const partsOf = (grid: string[]) => grid.flatMap((row) => row.split(' ')).map((cell) =>
+    [0, 2, 4].map((k) => parseInt(cell.slice(k, k + 2), 16)));
+  const [first, second] = [partsOf(a), partsOf(b)];
+  if (first.length !== second.length) return 1;
+  const different = first.filter((cell, i) =>
+    cell.some((part, k) => Math.abs(part - second[i][k]) > tolerance));
+  return different.length / first.length;
+}

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { readFileSync } from 'node:fs';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { fixture, HOSTILE } from '../fixture';
@@ -90,6 +91,49 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     expect(await page.locator('.pane').count()).toBe(2);
     await page.keyboard.press('End');
     await expect.poll(() => page.textContent('.hud'), PATIENCE).toContain('target reached');
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('smooths the curves of a training by a slider', async () => {
+    const { page, errors } = await open(browser, `${plain}#training`);
+    const chart = page.locator('.chart', { hasText: 'success in training' });
+    const slider = page.locator('label', { hasText: 'smoothing' }).locator('input');
+    await slider.fill('0');
+    const rough = await chart.screenshot();
+    await slider.fill('100');
+    expect(await difference(page, rough, await chart.screenshot())).toBeGreaterThan(0.0005);
+    expect(await page.locator('.chart', { hasText: 'hold' }).count()).toBe(1);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('keeps the time in the charts that it shows a part of', async () => {
+    const { page } = await open(browser, plain);
+    await page.locator('label', { hasText: 'charts show' }).locator('select').selectOption('2');
+    await page.locator('.scrubber').fill('7');
+    await showsTime(page, (time) => time === 7);
+    await page.locator('.strips .u-over').first().click();
+    // In the middle of a chart of 2 s is the same time.
+    await showsTime(page, (time) => Math.abs(time - 7) < 0.1);
+    await page.close();
+  });
+
+  it('hands out what is in view as files', async () => {
+    const { page, errors } = await open(browser, plain);
+    const saved = async (face: string) => {
+      const [file] = await Promise.all([page.waitForEvent('download'),
+        page.locator('button', { hasText: face }).click()]);
+      return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+    };
+    const table = await saved('save data');
+    expect(table.name).toBe('flights.csv');
+    const lines = table.bytes.toString('utf8').split('\r\n');
+    expect(lines[0].startsWith('agent,episode,time_s,north_ft')).toBe(true);
+    expect(lines.length).toBe(2 * 600 + 2);
+    const picture = await saved('save picture');
+    expect(picture.name).toBe('flights.png');
+    expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
     expect(errors).toEqual([]);
     await page.close();
   });

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which strip charts a set of flights has: what an engineer reads.
+import type { FlightSet } from '../report';
+import type { FlightRecord } from './record';
+
+export interface Strip {
+  title: string;
+  /** Columns in one chart: the first solid, the second dashed, on an axis of its own if of another
+   * unit. */
+  columns: string[];
+  isOn: boolean;
+  tolerance?: number;
+  secondAxis?: boolean;
+}
+
+const UNITS: [RegExp, string][] = [
+  [/_deg_s$/, 'deg/s'], [/_deg$/, 'deg'], [/_fps$/, 'ft/s'], [/_ft$/, 'ft'], [/_g$/, 'g'],
+];
+
+/** "true_airspeed_fps" is "true airspeed, ft/s". */
+export function titleOf(column: string): string {
+  const found = UNITS.find(([pattern]) => pattern.test(column));
+  const name = column.replace(found ? found[0] : /$^/, '').replace(/_/g, ' ');
+  return found ? `${name}, ${found[1]}` : name;
+}
+
+/** What is held from one policy step to the next, and drawn so. */
+export function isCommand(column: string): boolean {
+  return /^(action|command|target)_/.test(column);
+}
+
+/** The charts that a set of flights has, of any of its agents. */
+export function stripsOf(set: FlightSet, records: FlightRecord[]): Strip[] {
+  const isThere = (column: string) => records.some((record) => record.has(column));
+  const errors = set.targets.map((target) => ({
+    title: titleOf(`error_${target.column}`), columns: [`error_${target.column}`], isOn: true,
+    tolerance: target.tolerance,
+  }));
+  const pair = (command: string, surface: string, isOn: boolean): Strip => ({
+    title: `${titleOf(command)}, and dashed ${titleOf(surface)}`, columns: [command, surface],
+    isOn, secondAxis: true,
+  });
+  /** With what a high-level policy commands, if one does. */
+  const one = (column: string, isOn: boolean): Strip => {
+    const command = `command_${column}`;
+    return isThere(command)
+      ? { title: `${titleOf(column)}, and dashed as commanded`, columns: [column, command], isOn: true }
+      : { title: titleOf(column), columns: [column], isOn };
+  };
+  return [
+    ...errors,
+    { title: 'normal load factor, g', columns: ['load_factor_g'], isOn: true },
+    one('alpha_deg', true), one('beta_deg', true), one('roll_deg', true),
+    pair('action_pitch', 'elevator_deg', true), pair('action_roll', 'aileron_deg', true),
+    pair('action_yaw', 'rudder_deg', false), pair('action_throttle', 'power', true),
+    one('p_deg_s', true), one('q_deg_s', false), one('r_deg_s', false),
+    one('pitch_deg', false), one('yaw_deg', false), one('true_airspeed_fps', true),
+    one('mach', false), one('altitude_ft', true), one('lateral_load_factor_g', false),
+    one('leading_edge_flap_deg', false), one('reward', false),
+    ...['action_target_pitch', 'action_target_yaw', 'action_target_speed'].map((c) => one(c, false)),
+  ].filter((strip) => strip.columns.every(isThere));
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Vector3 } from 'three';
+import { describe, expect, it } from 'vitest';
+import { FlightRecord, Pose } from '../src/flights/record';
+import { csvOf } from '../src/flights/save';
+import { stripsOf } from '../src/flights/strip_list';
+import type { ArrayReference } from '../src/pack';
+import type { FlightSet, ReportPack } from '../src/report';
+
+/** A flight by its columns, rows of a second. */
+function record(columns: Record<string, number[]>, more: object = {}): FlightRecord {
+  const names = Object.keys(columns);
+  const references = Object.fromEntries(names.map((name, i) =>
+    [name, { f32: [i, columns[name].length] } as ArrayReference]));
+  const pack = {
+    array: (reference: { f32: [number, number] }) =>
+      Float32Array.from(columns[names[reference.f32[0]]]),
+  } as unknown as ReportPack;
+  return new FlightRecord({
+    agent: 0, episode: 0, end: 'time_limit', return: 0, duration_s: columns.north_ft.length - 1,
+    new_target_s: [], reached_s: [], interval_s: 1, columns: references, ...more,
+  }, pack);
+}
+
+const STRAIGHT = { north_ft: [0, 100, 200, 300], east_ft: [0, 0, 0, 0], altitude_ft: [5, 5, 7, 7],
+  roll_deg: [0, 0, 0, 0], pitch_deg: [0, 0, 0, 0], yaw_deg: [170, -170, -170, -170] };
+
+describe('a record', () => {
+  it('is linear between rows, and its ends outside', () => {
+    const flown = record(STRAIGHT);
+    expect(flown.value('north_ft', 1.5)).toBe(150);
+    expect(flown.value('north_ft', -1)).toBe(0);
+    expect(flown.value('north_ft', 99)).toBe(300);
+    expect(flown.value('yaw_deg', 0.5)).toBeCloseTo(180, 4);
+    expect(flown.place(1.5, new Vector3()).toArray()).toEqual([0, 6, -150]);
+  });
+  it('turns the short way round', () => {
+    const nose = new Vector3(0, 0, -1).applyQuaternion(record(STRAIGHT).pose(0.5, new Pose()).attitude);
+    expect(nose.distanceTo(new Vector3(0, 0, 1))).toBeLessThan(1e-6);
+  });
+  it('holds targets and commands for their step, whose row is at its end', () => {
+    const flown = record({ ...STRAIGHT, target_yaw_deg: [10, 10, 90, 90], action_roll: [1, 1, -1, 0] });
+    expect([0, 0.5, 1, 1.01, 2, 2.5].map((t) => flown.value('target_yaw_deg', t)))
+      .toEqual([10, 10, 10, 90, 90, 90]);
+    expect(flown.value('action_roll', 1.5)).toBe(-1);
+  });
+  it('knows the targets of its mission', () => {
+    const flown = record(STRAIGHT, { new_target_s: [1, 2], reached_s: [1] });
+    expect([0, 1, 1.1, 2.5].map((t) => flown.targetAt(t))).toEqual([0, 0, 1, 2]);
+    expect(flown.targetTimes(1)).toEqual([1, 2]);
+    expect(flown.targetTimes(2)).toEqual([2, 3]);
+    expect([0, 1, 2].map((target) => flown.isReached(target, 3))).toEqual([true, false, false]);
+    expect(flown.isReached(0, 0.5)).toBe(false);
+  });
+});
+
+it('a table has every row of every flight, and quotes names', () => {
+  const text = csvOf([record(STRAIGHT), record({ ...STRAIGHT, mach: [1, 1, 1, 1] })], ['a "b", c']);
+  const lines = text.trimEnd().split('\r\n');
+  expect(lines[0]).toBe('agent,episode,time_s,north_ft,east_ft,altitude_ft,roll_deg,pitch_deg,yaw_deg,mach');
+  expect(lines.length).toBe(9);
+  expect(lines[2]).toBe('"a ""b"", c",1,1,100,0,5,0,0,-170,');
+  expect(lines[8].endsWith(',1')).toBe(true);
+});
+
+it('commands of one agent are charted beside what is flown', () => {
+  const set = { targets: [] } as unknown as FlightSet;
+  const titles = (records: FlightRecord[]) => stripsOf(set, records).map(({ title }) => title);
+  const plain = record(STRAIGHT);
+  const high = record({ ...STRAIGHT, command_yaw_deg: [0, 0, 0, 0] });
+  expect(titles([plain])).toContain('yaw, deg');
+  expect(titles([plain, high])).toContain('yaw, deg, and dashed as commanded');
+});
