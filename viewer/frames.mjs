@@ -5,7 +5,7 @@
 // remains is the page's own work on the processor.
 import { existsSync } from 'node:fs';
 import { resolve } from 'node:path';
-import { chromium } from 'playwright-core';
+import { launchChromium } from './chromium.mjs';
 
 const [report, frames = '300', size = '1280x900'] = process.argv.slice(2);
 if (!report || !existsSync(report)) {
@@ -13,13 +13,7 @@ if (!report || !existsSync(report)) {
   process.exit(2);
 }
 const [width, height] = size.split('x').map(Number);
-const executablePath = [process.env.SKEIN_CHROMIUM, '/usr/bin/chromium', '/usr/bin/google-chrome']
-  .find((path) => path && existsSync(path));
-const browser = await chromium.launch({
-  executablePath,
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-    '--disable-accelerated-2d-canvas', '--disable-gpu-rasterization'],
-});
+const browser = await launchChromium();
 
 const session = await browser.newBrowserCDPSession();
 
@@ -54,10 +48,12 @@ function percentile(values, share) {
 
 const shown = (values) => `median ${percentile(values, 0.5)} ms, 95th percentile ${percentile(values, 0.95)} ms`;
 
-/** Processor time of the processes of pages so far, s. */
-async function pagesTime() {
+/** Processor time so far, s: of the processes of pages, and of the one that draws. */
+async function processTimes() {
   const { processInfo } = await session.send('SystemInfo.getProcessInfo');
-  return processInfo.filter(({ type }) => type === 'renderer').reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+  const of = (kind) => processInfo.filter(({ type }) => type.toLowerCase() === kind)
+    .reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+  return { page: of('renderer'), drawing: of('gpu') };
 }
 
 async function measure(isDrawn) {
@@ -77,7 +73,7 @@ async function measure(isDrawn) {
       await page.waitForTimeout(300);
       done = await page.evaluate(() => window.frameTimes.work.length);
     }
-    return { done, time: await pagesTime() };
+    return { done, ...await processTimes() };
   };
   const begin = await reach(WARM_UP);
   const end = await reach(begin.done + Number(frames));
@@ -85,14 +81,15 @@ async function measure(isDrawn) {
   await page.close();
   return {
     between: result.between.slice(WARM_UP), work: result.work.slice(WARM_UP),
-    cpu_ms: 1000 * (end.time - begin.time) / (end.done - begin.done),
+    page_ms: (1000 * (end.page - begin.page)) / (end.done - begin.done),
+    drawing_ms: (1000 * (end.drawing - begin.drawing)) / (end.done - begin.done),
     calls: Math.round(result.calls / result.work.length),
   };
 }
 
 const alone = await measure(false);
 console.log(`${frames} frames of ${size}, ${alone.calls} drawing calls each`);
-console.log(`the page's own work:         ${shown(alone.work)}; processor time ${alone.cpu_ms.toFixed(1)} ms`);
+console.log(`the page's own work:         ${shown(alone.work)}; processor time ${alone.page_ms.toFixed(1)} ms`);
 const drawn = await measure(true);
-console.log(`drawn, from frame to frame:  ${shown(drawn.between)}`);
+console.log(`drawn, from frame to frame:  ${shown(drawn.between)}; processor time ${drawn.drawing_ms.toFixed(0)} ms more to draw`);
 await browser.close();

@@ -3,19 +3,12 @@
 //   node picture.mjs REPORT.html OUT.png [JSON]
 // JSON: view, seek (s), keys (pressed in turn), choose (label: value of a select), theme, width,
 // height, whole (of the page, not of the window).
-import { existsSync } from 'node:fs';
 import { resolve } from 'node:path';
-import { chromium } from 'playwright-core';
+import { launchChromium } from './chromium.mjs';
 
 const [report, out, text = '{}'] = process.argv.slice(2);
 const asked = { theme: 'light', width: 1200, height: 900, keys: [], choose: {}, whole: false, ...JSON.parse(text) };
-const executablePath = [process.env.SKEIN_CHROMIUM, '/usr/bin/chromium', '/usr/bin/google-chrome']
-  .find((path) => path && existsSync(path));
-const browser = await chromium.launch({
-  executablePath,
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-    '--disable-accelerated-2d-canvas', '--disable-gpu-rasterization'],
-});
+const browser = await launchChromium();
 const page = await browser.newPage({
   viewport: { width: asked.width, height: asked.height }, colorScheme: asked.theme,
 });

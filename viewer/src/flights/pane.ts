@@ -4,7 +4,7 @@ import { WebGLRenderer } from 'three';
 import { el } from '../dom';
 import { colourOf } from '../palette';
 import type { FlightSet } from '../report';
-import { FlightScene } from './scene';
+import { FlightScene, MANY } from './scene';
 import type { FlightRecord } from './record';
 
 const READINGS: [name: string, column: string, unit: string, decimals: number][] = [
@@ -29,10 +29,20 @@ export function targetsOf(record: FlightRecord, time: number): string {
   return `   target ${record.targetAt(time) + 1} of ${count} (${reached.filter(Boolean).length} reached)`;
 }
 
-/** None where the browser has no WebGL: readings and charts then show the flights alone. */
-function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer | null {
+/** Whether what draws is a program on the processor. */
+function isDrawnBySoftware(): boolean {
+  const context = document.createElement('canvas').getContext('webgl2');
+  const names = context?.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? String(context?.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
+/** None where the browser has no WebGL: readings and charts then show the flights alone. Of many
+ * aircraft a processor smooths no edges, which takes it half of the time. */
+function rendererOn(canvas: HTMLCanvasElement, isMany: boolean): WebGLRenderer | null {
   try {
-    return new WebGLRenderer({ canvas, antialias: true });
+    return new WebGLRenderer({ canvas, antialias: !isMany || !isDrawnBySoftware() });
   } catch {
     return null;
   }
@@ -51,7 +61,7 @@ export class Pane {
     records: FlightRecord[], private readonly set: FlightSet, followed: number,
     private readonly changed: () => void,
   ) {
-    this.renderer = rendererOn(this.canvas);
+    this.renderer = rendererOn(this.canvas, records.length > MANY);
     this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new FlightScene(records, set, this.canvas, followed);
     const { spacingFt, altitudeFt } = this.scene.ground;

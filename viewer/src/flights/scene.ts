@@ -18,7 +18,7 @@ import { type Colouring, Trails } from './trails';
 /** An aircraft is drawn at least so large, as a share of its distance; of many smaller. */
 const LEAST_SIZE = 0.03;
 const LEAST_SIZE_OF_MANY = 0.012;
-const MANY = 60;
+export const MANY = 60;
 /** Of many, those are outlines that are no larger than that share of their distance. */
 const FAR_SIZE = 0.02;
 const SPAN_FT = 31;
