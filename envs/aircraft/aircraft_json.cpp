@@ -100,6 +100,28 @@ class Watcher {
   std::string last_key_;
 };
 
+/// Without the unit in which it ends; empty if it ends in none.
+std::string WithoutUnit(const std::string& key) {
+  // What ends in another one stands before it.
+  for (const std::string unit : {"_slug_ft2", "_kg_m2", "_slug", "_kg", "_ft2", "_m2", "_ft", "_m",
+                                 "_lbf", "_n", "_deg", "_rad"}) {
+    if (key.size() <= unit.size()) continue;
+    const std::size_t length = key.size() - unit.size();
+    if (key.compare(length, unit.size(), unit) == 0) return key.substr(0, length);
+  }
+  return "";
+}
+
+/// " (it has mass_kg: another unit)" if there is such a key in place of `key`.
+std::string InAnotherUnit(const json& values, const std::string& key) {
+  const std::string quantity = WithoutUnit(key);
+  if (quantity.empty()) return "";
+  for (const auto& [other, value] : values.items()) {
+    if (WithoutUnit(other) == quantity) return " (it has " + other + ": another unit)";
+  }
+  return "";
+}
+
 }  // namespace
 
 json ParseAircraftJson(std::string_view text, const std::string& who) {
@@ -121,7 +143,9 @@ Section::Section(const json& values, std::string path) : values_(values), path_(
 
 const json& Section::At(const char* key) {
   const auto found = values_.find(key);
-  if (found == values_.end()) throw Error(path_ + " lacks " + key);
+  if (found == values_.end()) {
+    throw Error(path_ + " lacks " + key + InAnotherUnit(values_, key));
+  }
   read_.insert(key);
   return *found;
 }

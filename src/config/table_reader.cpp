@@ -29,7 +29,7 @@ toml::table ParseToml(const std::string& text, const std::string& source) {
 }
 
 const toml::node* TableReader::Find(const std::string& key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return table_.get(key);
 }
 

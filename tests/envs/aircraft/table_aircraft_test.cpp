@@ -61,6 +61,11 @@ TEST(TableAircraft, ErrorsNameTheField) {
       "is unstable");
   EXPECT_EQ(ErrorAfter([](json* file) { file->at("aerodynamics").at("tables").erase("Cmq"); }),
             "aircraft mine.aerodynamics.tables lacks Cmq");
+  EXPECT_EQ(ErrorAfter([](json* file) {
+              file->at("airframe").erase("wing_area_ft2");
+              file->at("airframe")["wing_area_m2"] = 27.87;
+            }),
+            "aircraft mine.airframe lacks wing_area_ft2 (it has wing_area_m2: another unit)");
 }
 
 TEST(TableAircraft, ATableOnFewerAxesIsConstantAlongTheOthers) {

@@ -15,6 +15,7 @@
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
 #include "tests/error_message.h"
+#include "tests/scratch_directory.h"
 
 namespace skein {
 namespace {
@@ -109,6 +110,14 @@ TEST(TaskFileTest, RefusesInOneLineThatNamesTheField) {
     EXPECT_EQ(message.rfind("my.toml", 0), 0u) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+}
+
+TEST(TaskFileTest, NamesTheLineOfASetting) {
+  const ScratchDirectory scratch;
+  const std::string file = scratch / "hold.toml";
+  WriteFile(file, Minimal() + "[ppo]\nlearning_rate = 1e-3\ngama = 0.9\n");
+  const std::string message = MessageOf([&] { ResolveConfig({file, "default", "", {}}); });
+  EXPECT_NE(message.find("hold.toml:14: unknown key ppo.gama"), std::string::npos) << message;
 }
 
 TEST(TaskFileTest, RefusesTooMuch) {
