@@ -7,7 +7,9 @@ import { resolve } from 'node:path';
 import { launchChromium } from './chromium.mjs';
 
 const [report, out, text = '{}'] = process.argv.slice(2);
-const asked = { theme: 'light', width: 1200, height: 900, keys: [], choose: {}, whole: false, ...JSON.parse(text) };
+const asked = {
+  theme: 'light', width: 1200, height: 900, keys: [], choose: {}, whole: false, ...JSON.parse(text),
+};
 const browser = await launchChromium();
 const page = await browser.newPage({
   viewport: { width: asked.width, height: asked.height }, colorScheme: asked.theme,
@@ -19,6 +21,8 @@ for (const [label, value] of Object.entries(asked.choose)) {
 }
 for (const key of asked.keys) await page.keyboard.press(key);
 if (asked.seek !== undefined) await page.locator('.scrubber').fill(String(asked.seek));
+// No ring about what was last used.
+await page.evaluate(() => document.activeElement?.blur());
 await page.waitForTimeout(1500);
 await page.screenshot({ path: out, fullPage: asked.whole });
 await browser.close();

@@ -95,6 +95,25 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     await page.close();
   });
 
+  it('goes from target to target of a mission', async () => {
+    const { page, errors } = await open(browser, plain);
+    const reads = (text: string) => expect.poll(() => page.textContent('.hud'), PATIENCE).toContain(text);
+    expect(await page.textContent('.hud')).not.toContain('target 1');
+    await page.keyboard.press('f');
+    await reads('target 1 of 2 (0 reached)');
+    await page.keyboard.press(']');
+    await showsTime(page, (time) => time === 5);
+    await reads('target 2 of 2');
+    await page.keyboard.press('End');
+    await reads('target 2 of 2 (1 reached)');
+    await page.keyboard.press('[');
+    await showsTime(page, (time) => time === 5);
+    await page.keyboard.press('[');
+    await showsTime(page, (time) => time === 0);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
   it('smooths the curves of a training by a slider', async () => {
     const { page, errors } = await open(browser, `${plain}#training`);
     const chart = page.locator('.chart', { hasText: 'success in training' });
