@@ -79,21 +79,23 @@ interface Drawn {
   bands: uPlot.Band[];
 }
 
+type Shown = (value: number | null) => string;
+
 /** A line a run. */
-function overlaid(lines: Line[], valueOf: uPlot.Series.Value): Drawn {
+function overlaid(lines: Line[], shown: Shown): Drawn {
   const xs = union(lines.map((line) => line.xs));
   return {
     data: [xs, ...lines.map((line) => xs.map((x) => at(line.xs, line.ys, x)))],
     series: lines.map((line, i) => ({
       label: line.name, stroke: colourOf(i), dash: dashOf(Math.floor(i / 8)), width: 1.6,
-      spanGaps: true, points: { show: false }, value: valueOf,
+      spanGaps: true, points: { show: false }, value: (_, value) => shown(value),
     })),
     bands: [],
   };
 }
 
 /** Mean and range of the lines of each repetition. */
-function overSeeds(lines: Line[], valueOf: uPlot.Series.Value): Drawn {
+function overSeeds(lines: Line[], shown: Shown): Drawn {
   const xs = union(lines.map((line) => line.xs));
   const drawn: Drawn = { data: [xs], series: [], bands: [] };
   const data: (number[] | Series)[] = [xs];
@@ -101,28 +103,30 @@ function overSeeds(lines: Line[], valueOf: uPlot.Series.Value): Drawn {
     const own = lines.filter((line) => line.repetition === repetition);
     const over = band(own.map((line) => xs.map((x) => at(line.xs, line.ys, x))));
     const colour = colourOf(i);
-    const edge = { stroke: 'transparent', points: { show: false }, spanGaps: true, value: valueOf };
+    // In the legend the mean says the edges.
+    const edge = { stroke: 'transparent', points: { show: false }, spanGaps: true, class: 'edge' };
     const first = data.length;
     data.push(over.high, over.low, over.mean);
-    drawn.series.push(
-      { label: `highest of ${own.length}`, ...edge }, { label: 'lowest', ...edge },
-      { label: `mean of ${own.map((line) => line.name).join(', ')}`, stroke: colour, width: 2,
-        spanGaps: true, points: { show: false }, value: valueOf },
-    );
+    const value: uPlot.Series.Value = (plot, mean, _, row) => {
+      const of = (k: number) => shown((row === null ? null : plot.data[k][row]) ?? null);
+      return own.length > 1 ? `${shown(mean)} (${of(first + 1)} to ${of(first)})` : shown(mean);
+    };
+    drawn.series.push(edge, edge, {
+      label: `mean of ${own.map((line) => line.name).join(', ')}`, stroke: colour, width: 2,
+      spanGaps: true, points: { show: false }, value,
+    });
     drawn.bands.push({ series: [first, first + 1], fill: faded(colour, 0.25) });
   });
   drawn.data = data as uPlot.AlignedData;
   return drawn;
 }
 
-const percentOf = (value: number | null) =>
-  (value === null ? '–' : `${(100 * value).toFixed(1)} %`);
-const percent: uPlot.Series.Value = (_, value) => percentOf(value);
+const percentOf: Shown = (value) => (value === null ? '–' : `${(100 * value).toFixed(1)} %`);
+const numberOf: Shown = (value) => (value === null ? '–' : value.toPrecision(4));
 
 function drawnOf(curve: Curve, lines: Line[], isOverSeeds: boolean): Drawn {
-  const plain: uPlot.Series.Value = (_, value) => (value === null ? '–' : value.toPrecision(4));
-  const valueOf = curve.isShare ? percent : plain;
-  return isOverSeeds ? overSeeds(lines, valueOf) : overlaid(lines, valueOf);
+  const shown = curve.isShare ? percentOf : numberOf;
+  return isOverSeeds ? overSeeds(lines, shown) : overlaid(lines, shown);
 }
 
 function drawCurve(place: HTMLElement, curve: Curve, drawn: Drawn): Chart {
