@@ -48,11 +48,17 @@ TEST_F(TaskFilePipelineTest, NeedsItsFileNoMoreOnceItIsTrained) {
     EXPECT_THAT(result.output, HasSubstr("on bank_and_altitude"));
     EXPECT_THAT(ReadFile(flights), HasSubstr("observation_climb_rate_fps_scaled"));
   }
-  const std::string header = scratch_ / "policy.h";
-  const ProgramResult exported = CallSkein({"export", policy, "--format", "c", "-o", header});
-  ASSERT_EQ(exported.exit_code, 0) << exported.error;
-  EXPECT_THAT(ReadFile(header), HasSubstr("bank_and_altitude_step("));
-  EXPECT_THAT(ReadFile(header), HasSubstr("climb_rate_fps"));
+  // Every form says what the task's own numbers are, in its bytes.
+  for (const char* format : {"c", "onnx", "safetensors"}) {
+    const std::string out = scratch_ / (std::string("policy.") + format);
+    const ProgramResult exported = CallSkein({"export", policy, "--format", format, "-o", out});
+    ASSERT_EQ(exported.exit_code, 0) << exported.error;
+    EXPECT_THAT(exported.output, HasSubstr("task bank_and_altitude"));
+    for (const char* number : {"climb_rate_fps", "error_roll", "error_altitude"}) {
+      EXPECT_THAT(ReadFile(out), HasSubstr(number)) << format;
+    }
+  }
+  EXPECT_THAT(ReadFile(scratch_ / "policy.c"), HasSubstr("bank_and_altitude_step("));
 }
 
 TEST_F(TaskFilePipelineTest, ResumesToTheSameBits) {
