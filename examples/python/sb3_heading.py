@@ -48,9 +48,9 @@ def make_model(options, envs):
     shared = {"n_steps": 32, "gamma": GAMMA, "learning_rate": lambda left: 1e-3 * left, "seed": options.seed,
               "policy_kwargs": {"log_std_init": -1.5}, "stats_window_size": 500, "device": "cpu"}
     if options.recurrent:
-        shared["policy_kwargs"] |= {"lstm_hidden_size": 32, "net_arch": [32], "shared_lstm": True,
-                                    "enable_critic_lstm": False}
-        return RecurrentPPO("MlpLstmPolicy", envs, n_epochs=4, batch_size=2048, **shared)
+        # A critic that sees what is observed, not what the actor's memory makes of it.
+        shared["policy_kwargs"] |= {"lstm_hidden_size": 64, "enable_critic_lstm": False}
+        return RecurrentPPO("MlpLstmPolicy", envs, n_epochs=8, batch_size=1024, **shared)
     return PPO("MlpPolicy", envs, n_epochs=8, batch_size=512, **shared)
 
 
