@@ -93,6 +93,10 @@ nb::object Simulate(const Plant& plant, const Row<const double>& initial_state,
     const nb::gil_scoped_release released;
     for (std::size_t k = 0; k < steps; ++k) {
       state = plant.StepRk4(state, ToControls(controls.data() + k * kNumControls), dt);
+      if (!state.allFinite()) {
+        throw Error("simulate: the state is not finite after step " + std::to_string(k + 1) +
+                    " of " + std::to_string(steps));
+      }
       states.insert(states.end(), state.data(), state.data() + kNumRigidBody);
     }
   }

@@ -9,9 +9,11 @@ from typing import Any, Union
 
 from skein import _skein
 from skein._skein import Config, ConfigurationError
-from skein.checks import text
+from skein.checks import shown, text
 
 TaskOrConfig = Union[str, Config]
+
+_MOST_TABLES = 8  # in one another; no key is in as many
 
 
 def configure(
@@ -59,7 +61,11 @@ def presets(task: str) -> list[str]:
 
 
 def _flattened(prefix: str, settings: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    if prefix.count(".") > _MOST_TABLES:
+        raise ConfigurationError(f"settings: {prefix[:60]}... is in more than {_MOST_TABLES} tables")
     for name, value in settings.items():
+        if not isinstance(name, str):
+            raise ConfigurationError(f"settings: a key must be a text, not {shown(name)}")
         if isinstance(value, Mapping):
             yield from _flattened(f"{prefix}{name}.", value)
         else:

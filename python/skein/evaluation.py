@@ -119,6 +119,8 @@ def compare(
     """
     _check_counts(episodes, seed, threads)
     configured = configure(task, **config)
+    if not isinstance(agents, (Mapping, list, tuple)):
+        raise ConfigurationError(f"compare: agents must be a list or a dict, not {type(agents).__name__}")
     named = agents.values() if isinstance(agents, Mapping) else agents
     cores = [agent_of(agent, configured, seed)._core for agent in named]
     if not cores:

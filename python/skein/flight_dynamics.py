@@ -119,6 +119,7 @@ def trim(
 
 def linearise(point: Trim) -> LinearModel:
     """The linear model about a steady flight, of the aircraft that was trimmed, by central differences."""
+    _require_trim("linearise", point)
     return LinearModel(*point._plant.linearise(point.state, point.controls))
 
 
@@ -134,7 +135,11 @@ def simulate(
         state: (13,), STATE_NAMES: begin there and not in the trim's state.
         duration_s: of the flight, with controls that are held.
         dt: time step, s.
+
+    Raises:
+        Error: a state is not finite.
     """
+    _require_trim("simulate", start)
     dt = number("dt", dt)
     if dt <= 0:
         raise ConfigurationError(f"dt must be above 0, not {dt}")
@@ -151,3 +156,8 @@ def simulate(
     begin = rows("state", start.state if state is None else state, (len(STATE_NAMES),), np.float64)
     states = start._plant.simulate(begin, flown, dt)
     return Trajectory(dt * np.arange(len(states), dtype=np.float64), states)
+
+
+def _require_trim(what: str, point: Any) -> None:
+    if not isinstance(point, Trim):
+        raise ConfigurationError(f"{what}: a skein.Trim is needed, not {type(point).__name__}")

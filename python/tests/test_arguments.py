@@ -58,6 +58,9 @@ def calls(tmp_path, policy):
         (lambda a, b: skein.trim(15000, 500, cg=a, turn_rate_deg_s=b), 2),
         (lambda a, b: skein.simulate(trim, a, duration_s=b), 2),
         (lambda a, b: skein.simulate(trim, trim.controls, duration_s=a, state=b), 2),
+        (lambda a: skein.simulate(a, trim.controls, duration_s=1), 1),
+        (lambda a: skein.linearise(a), 1),
+        (lambda a: skein.compare(a, "heading", episodes=2), 1),
         (lambda a: skein.Run(a), 1),
         (lambda a: skein.train("heading", below, callback=a), 1),
         (lambda a: skein.train("heading", below, low_level=a, threads=1), 1),
@@ -101,3 +104,20 @@ def test_what_is_refused_is_also_a_value_error():
     for wrong in (np.zeros((2, 5)), np.zeros((2, 4), complex), "actions"):
         with pytest.raises(ValueError, match="actions must"):
             envs.step(wrong)
+
+
+def test_keys_are_texts_in_a_few_tables():
+    with pytest.raises(skein.ConfigurationError, match="key must be a text, not 1"):
+        skein.configure("heading", env={1: 2})
+    endless = {}
+    endless["env"] = endless
+    with pytest.raises(skein.ConfigurationError, match="more than 8 tables"):
+        skein.configure("heading", **endless)
+
+
+def test_a_flight_that_leaves_the_numbers_says_at_which_step():
+    trim = skein.trim(15000, 500)
+    controls = np.tile(trim.controls, (5, 1))
+    controls[3, 1] = np.nan
+    with pytest.raises(skein.Error, match="not finite after step 4 of 5"):
+        skein.simulate(trim, controls)
