@@ -17,6 +17,7 @@
 #include "src/bench/version.h"
 #include "src/commands/command_tree.h"
 #include "src/commands/commands.h"
+#include "src/commands/plot_command.h"
 #include "src/config/configuration.h"
 #include "src/config/key_reference.h"
 #include "src/config/nearest_name.h"
@@ -106,6 +107,7 @@ void AddCommands(CLI::App* app) {
   AddCompareCommand(app);
   AddReplayCommand(app);
   AddStudyCommand(app);
+  AddPlotCommand(app);
   AddReportCommand(app);
   AddFdmCommand(app);
   AddAircraftCommand(app);

@@ -121,8 +121,7 @@ void AddCompareCommand(CLI::App* app) {
   texts.preset = "environment settings to begin with (default: default)";
   texts.json = "write all results here";
   texts.flights =
-      "write every agent's first episodes, FILE.csv for agent A to FILE.A.csv, for scripts/plot "
-      "flights";
+      "write every agent's first episodes, FILE.csv for agent A to FILE.A.csv, for skein plot";
   AddFlightOptions(command, texts, &options->flight);
   command->get_option("--task")->required();
   command->add_option("--csv", options->csv, "write a row for every agent here")->type_name("FILE");

@@ -105,7 +105,7 @@ void AddEvalCommand(CLI::App* app) {
       "environment settings to begin with (default: the run's own; for a policy file, default)";
   texts.json = "write the results here";
   texts.flights =
-      "write the first episodes here, a CSV row for every control step, for scripts/plot flights "
+      "write the first episodes here, a CSV row for every control step, for skein plot "
       "(mean or sampled actions, as --deterministic says)";
   AddFlightOptions(command, texts, &options->flight);
   command

@@ -7,14 +7,10 @@
 #include <memory>
 #include <optional>
 
-#include "src/agents/agent_names.h"
-#include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
-#include "src/commands/flight_options.h"
-#include "src/config/presets.h"
+#include "src/commands/flown_agents.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
-#include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 #include "src/replay/password_hash.h"
@@ -22,20 +18,17 @@
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
 #include "src/run/run_signals.h"
-#include "train/policy/recurrent_policy.h"
 
 namespace skein {
 namespace {
 
-constexpr int kDefaultEpisodes = 8, kMostEpisodes = 1000;
+constexpr int kDefaultEpisodes = 8;
 
 struct ReplayOptions {
-  std::string policy;
-  std::vector<std::string> agents;
+  FlownAgents flown;
   std::string format, out;
   std::optional<int> live_port;
   TelemetryOptions telemetry;
-  FlightOptions flight;
 };
 
 /// Writes the same episodes by all agents.
@@ -49,17 +42,18 @@ struct ReplayFormat {
 void WriteCsv(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {
   for (const AgentFlights& flown : agents) {
     const bool is_alone = agents.size() == 1;
-    WriteFlightsCsv(options.flight, is_alone ? options.out : PathOfAgent(options.out, flown.agent),
+    WriteFlightsCsv(options.flown.flight,
+                    is_alone ? options.out : PathOfAgent(options.out, flown.agent),
                     "by " + flown.agent, flown);
   }
 }
 
 void WriteAcmi(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {
-  WriteFlightsAcmi(options.flight, options.out, agents);
+  WriteFlightsAcmi(options.flown.flight, options.out, agents);
 }
 
 void WriteHtml(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {
-  WriteReport(options.out, FlightsData(agents, options.flight.seed));
+  WriteReport(options.out, FlightsData(agents, options.flown.flight.seed));
   fmt::print("{}: {} by {}, for a browser\n", options.out,
              Counted(static_cast<int>(agents.front().flights.size()), "episode"),
              Counted(static_cast<int>(agents.size()), "agent"));
@@ -92,34 +86,6 @@ const ReplayFormat& ChooseFormat(const ReplayOptions& options) {
                                fmt::join(FormatNames(), ", "), options.out));
 }
 
-std::vector<std::string> NamesOf(const ReplayOptions& options) {
-  std::vector<std::string> names;
-  if (!options.policy.empty()) names.push_back("policy:" + options.policy);
-  names.insert(names.end(), options.agents.begin(), options.agents.end());
-  if (names.empty()) throw UsageError("--policy or --agents is needed: who flies?");
-  return names;
-}
-
-/// The first agent that is a policy and says its own task.
-std::optional<RecurrentPolicy> PolicyOf(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    const std::string file = PolicyFileOfAgent(name);
-    if (file.empty() || file == kUntrained) continue;
-    RecurrentPolicy policy = RecurrentPolicy::Load(file);
-    if (!policy.task().empty()) return policy;
-  }
-  return std::nullopt;
-}
-
-ProgramConfig Configure(const ReplayOptions& options, const std::vector<std::string>& names) {
-  const FlightOptions& flight = options.flight;
-  ProgramConfig config = ConfigFor(flight, options.policy, PolicyOf(names));
-  const EnvConfig asked = config.train.env;
-  ApplyOverrides(flight, &config);
-  AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });
-  return config;
-}
-
 void CheckOutputs(const ReplayOptions& options, const std::vector<std::string>& names) {
   if (options.live_port) {
     AsUsage([&] { TelemetryPasswordHashes(options.telemetry.password); });
@@ -134,9 +100,9 @@ void CheckOutputs(const ReplayOptions& options, const std::vector<std::string>& 
   CheckWritable(paths);
 }
 
-void Stream(const ReplayOptions& options, const std::vector<AgentFlights>& agents,
-            WorkerPool& pool) {
-  const AcmiRecording recording = AcmiOf(options.flight, agents);
+void Stream(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {
+  WorkerPool pool(1);
+  const AcmiRecording recording = AcmiOf(options.flown.flight, agents);
   TelemetryOptions telemetry = options.telemetry;
   telemetry.port = *options.live_port;
   const RunSignals signals(pool);
@@ -152,18 +118,10 @@ void Stream(const ReplayOptions& options, const std::vector<AgentFlights>& agent
 }
 
 void Replay(const ReplayOptions& options) {
-  const FlightOptions& flight = options.flight;
-  const std::vector<std::string> names = NamesOf(options);
-  CheckOutputs(options, names);
-  const ProgramConfig config = Configure(options, names);
-  WorkerPool pool(flight.threads);
-  std::vector<AgentFlights> agents;
-  for (const NamedAgent& named : FindAgents(names, config, flight.seed)) {
-    agents.push_back(RecordFirst(flight, named.name, named.agent,
-                                 named.agent.EnvironmentFor(config.train.env), pool));
-  }
+  CheckOutputs(options, NamesOf(options.flown));
+  const std::vector<AgentFlights> agents = FlyEpisodes(options.flown);
   if (options.live_port) {
-    Stream(options, agents, pool);
+    Stream(options, agents);
   } else {
     ChooseFormat(options).write(options, agents);
   }
@@ -205,26 +163,10 @@ void AddOutputOptions(CLI::App* command, ReplayOptions* options) {
 
 void AddReplayCommand(CLI::App* app) {
   auto options = std::make_shared<ReplayOptions>();
-  options->flight.episodes = kDefaultEpisodes;
+  options->flown.flight.episodes = kDefaultEpisodes;
   CLI::App* command =
       app->add_subcommand("replay", "Record flights, or stream them, to watch them in Tacview");
-  command
-      ->add_option("--policy", options->policy,
-                   "policy file, checkpoint or directory of a run, whose environment is flown in")
-      ->type_name("FILE_OR_RUN");
-  command
-      ->add_option(
-          "--agents", options->agents,
-          fmt::format("who flies the same episodes, beside it or instead: {}", AgentNames()))
-      ->type_name("AGENT,...")
-      ->delimiter(',');
-  FlightOptionTexts texts;
-  texts.task = fmt::format("what to fly: {} (default: the task of the run or of a policy)",
-                           fmt::join(PresetTasks(), ", "));
-  texts.preset =
-      "environment settings to begin with (default: the run's own; without one, default)";
-  AddEpisodeOptions(command, texts, &options->flight);
-  command->get_option("--episodes")->check(CLI::Range(1, kMostEpisodes));
+  AddFlownAgents(command, &options->flown);
   AddOutputOptions(command, options.get());
   command->footer(
       "The episodes are the first that skein eval and compare fly with the same seed; policies fly "
@@ -235,10 +177,7 @@ void AddReplayCommand(CLI::App* app) {
       "windy=hard "
       "-o windy.acmi\n"
       "         skein replay --policy runs/short --live 42674");
-  command->callback([options] {
-    options->flight.flights_count = options->flight.episodes;
-    Replay(*options);
-  });
+  command->callback([options] { Replay(*options); });
 }
 
 }  // namespace skein

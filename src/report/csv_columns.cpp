@@ -34,7 +34,7 @@ const std::vector<double>* CsvColumns::Find(const std::string& name) const {
   return nullptr;
 }
 
-CsvColumns ParseCsv(const std::string& text) {
+CsvColumns ParseCsv(const std::string& text, const std::string& word_column) {
   CsvColumns table;
   std::string_view rest(text);
   while (!rest.empty()) {
@@ -48,7 +48,10 @@ CsvColumns ParseCsv(const std::string& text) {
       table.names.assign(cells.begin(), cells.end());
       table.values.resize(cells.size());
     } else {
-      for (std::size_t k = 0; k < cells.size(); ++k) table.values[k].push_back(NumberIn(cells[k]));
+      for (std::size_t k = 0; k < cells.size(); ++k) {
+        table.values[k].push_back(NumberIn(cells[k]));
+        if (table.names[k] == word_column) table.words.emplace_back(cells[k]);
+      }
     }
   }
   return table;

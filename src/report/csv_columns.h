@@ -10,6 +10,7 @@ namespace skein {
 struct CsvColumns {
   std::vector<std::string> names;
   std::vector<std::vector<double>> values;  ///< [column][row]; NaN where a cell holds no number
+  std::vector<std::string> words;           ///< [row] of the column that was asked for as text
   int rows_left_out = 0;  ///< torn ones: not as many cells as the header, or no end
 
   std::size_t rows() const { return values.empty() ? 0 : values.front().size(); }
@@ -19,6 +20,7 @@ struct CsvColumns {
 
 /// Reads CSV without quotes, as metrics.csv and files of flights are. A row that a crash has cut
 /// short is left out and counted; so is one of another length. Text that is empty has no columns.
-CsvColumns ParseCsv(const std::string& text);
+/// The cells of `word_column`, if there is one, are kept as text, too.
+CsvColumns ParseCsv(const std::string& text, const std::string& word_column = "");
 
 }  // namespace skein

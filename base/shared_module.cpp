@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/shared_module.h"
+
+#include <dlfcn.h>
+
+namespace skein {
+
+void* FindModuleEntry(const std::string& file, const char* entry) {
+  // Never closed: a library's threads and registries last as long as the process.
+  void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw Error(dlerror());
+  void* const address = dlsym(library, entry);
+  if (address == nullptr) throw Error(file + " is no module of Skein");
+  return address;
+}
+
+}  // namespace skein

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace skein {
+namespace {
+
+constexpr double kPadding = 0.06;        // of a range
+constexpr double kLabelGap = 4;          // between an axis and its numbers, points
+constexpr double kRoundingGuard = 1e-9;  // of a step, so that ends that are multiples count
+
+constexpr std::array<std::pair<const char*, const char*>, 7> kUnits = {{{"_deg_s", "deg/s"},
+                                                                        {"_fps", "ft/s"},
+                                                                        {"_deg", "deg"},
+                                                                        {"_ft", "ft"},
+                                                                        {"_rate", "%"},
+                                                                        {"_g", "g"},
+                                                                        {"_s", "s"}}};
+
+std::string WithBlanks(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+bool IsRate(const std::string& unit) { return unit == "%"; }
+
+/// A thousands separator for every three digits of the whole part.
+std::string WithCommas(const std::string& number) {
+  const std::size_t begin = number[0] == '-' ? 1 : 0;
+  std::size_t at = std::min(number.find('.'), number.size());
+  std::string text = number;
+  while (at > begin + 3) text.insert(at -= 3, ",");
+  return text;
+}
+
+}  // namespace
+
+std::string InWords(const std::string& column) {
+  for (const auto& [ending, unit] : kUnits) {
+    const std::string end(ending);
+    if (column.size() <= end.size() || column.substr(column.size() - end.size()) != end) continue;
+    const std::size_t kept = column.size() - (IsRate(unit) ? 0 : end.size());
+    return fmt::format("{}, {}", WithBlanks(column.substr(0, kept)), unit);
+  }
+  return WithBlanks(column);
+}
+
+std::vector<double> Ticks(const Range& range, double count) {
+  const double span = range.max - range.min;
+  const double rough = span > 0 ? span / std::max(count, 1.0) : 1;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10 * power;
+  for (const double multiple : {5.0, 2.0, 1.0}) {
+    if (multiple * power >= rough * 0.999) step = multiple * power;
+  }
+  std::vector<double> ticks;
+  const double first = std::ceil(range.min / step - kRoundingGuard);
+  const double last = std::floor(range.max / step + kRoundingGuard);
+  for (double i = first; i <= last; ++i) ticks.push_back(i == 0 ? 0 : i * step);
+  return ticks;
+}
+
+std::string TickText(double value) {
+  const std::string text = fmt::format("{:.5g}", value);
+  return text.find('e') == std::string::npos ? WithCommas(text) : text;
+}
+
+Range SpanOf(const std::vector<double>& values) {
+  Range span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    span = {std::min(span.min, value), std::max(span.max, value)};
+  }
+  return span.min <= span.max ? span : Range{0, 1};
+}
+
+Range Padded(const std::vector<double>& values) {
+  const Range span = SpanOf(values);
+  const double pad = span.max > span.min ? kPadding * (span.max - span.min)
+                                         : std::max(1.0, 1e-3 * std::abs(span.max));
+  return {span.min - pad, span.max + pad};
+}
+
+double LabelWidth(const std::vector<double>& ticks) {
+  double width = 0;
+  for (const double tick : ticks) width = std::max(width, TextWidth(TickText(tick), kSmallSize));
+  return width + kLabelGap;
+}
+
+PagePoint Panel::Place(double x, double y) const {
+  const auto share = [](double value, const Range& range) {
+    return range.max > range.min ? (value - range.min) / (range.max - range.min) : 0.5;
+  };
+  return {left() + width_ * share(x, x_range_), bottom() - height_ * share(y, y_range_)};
+}
+
+std::vector<PagePoint> Panel::Placed(const std::vector<PagePoint>& points) const {
+  std::vector<PagePoint> placed;
+  placed.reserve(points.size());
+  for (const PagePoint& point : points) placed.push_back(Place(point.x, point.y));
+  return placed;
+}
+
+void Panel::DrawGrid(const std::vector<double>& x_ticks, const std::vector<double>& y_ticks,
+                     std::vector<Shape>* shapes) const {
+  constexpr double kHair = 0.5;
+  for (const double y : y_ticks) {
+    const double height = Place(0, y).y;
+    shapes->emplace_back(Line({{left(), height}, {right(), height}}, kGridGrey, kHair));
+  }
+  for (const double x : x_ticks) {
+    const double across = Place(x, 0).x;
+    shapes->emplace_back(Line({{across, top()}, {across, bottom()}}, kGridGrey, kHair));
+  }
+  shapes->emplace_back(
+      Line({{left(), top()}, {left(), bottom()}, {right(), bottom()}}, kGrey, 1.2 * kHair));
+}
+
+void Panel::LabelLeft(const std::vector<double>& ticks, std::vector<Shape>* shapes) const {
+  for (const double tick : ticks) {
+    const PagePoint at{left() - kLabelGap, Place(0, tick).y + 0.35 * kSmallSize};
+    shapes->emplace_back(Words{at, TickText(tick), kSmallSize, Anchor::kEnd});
+  }
+}
+
+void Panel::LabelBottom(const std::vector<double>& ticks, std::vector<Shape>* shapes) const {
+  for (const double tick : ticks) {
+    const PagePoint at{Place(tick, 0).x, bottom() + kLabelGap + kSmallSize};
+    shapes->emplace_back(Words{at, TickText(tick), kSmallSize, Anchor::kMiddle});
+  }
+}
+
+void Panel::DrawCurve(const std::vector<PagePoint>& points, Colour colour, double width, Dash dash,
+                      std::vector<Shape>* shapes) const {
+  if (points.empty()) return;
+  if (points.size() == 1) {
+    shapes->emplace_back(Disc{Place(points[0].x, points[0].y), 1.5, colour, std::nullopt});
+    return;
+  }
+  Path curve = Line(Simplified(Placed(points)), colour, width);
+  curve.dash = dash;
+  shapes->emplace_back(std::move(curve));
+}
+
+void Panel::DrawBand(const std::vector<PagePoint>& low, const std::vector<PagePoint>& high,
+                     Colour colour, double opacity, std::vector<Shape>* shapes) const {
+  if (low.empty()) return;
+  std::vector<PagePoint> outline = Simplified(Placed(low));
+  const std::vector<PagePoint> above = Simplified(Placed(high));
+  outline.insert(outline.end(), above.rbegin(), above.rend());
+  shapes->emplace_back(Area(std::move(outline), colour, opacity));
+}
+
+}  // namespace skein

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/range.h"
+#include "src/plot/picture.h"
+
+namespace skein {
+
+/// "true airspeed, ft/s" of the column true_airspeed_fps; of success_rate, which is shown in
+/// percent, "success rate, %".
+std::string InWords(const std::string& column);
+
+/// Round numbers (1, 2 or 5 times a power of ten apart) within the range, about `count` of them.
+std::vector<double> Ticks(const Range& range, double count);
+
+/// A tick in letters: "12,500", "-0.02".
+std::string TickText(double value);
+
+/// Of the numbers among `values`, with some room around; 0 to 1 of none.
+Range Padded(const std::vector<double>& values);
+/// Of the numbers among `values`; 0 to 1 of none.
+Range SpanOf(const std::vector<double>& values);
+
+/// A rectangle on which values of two ranges are drawn.
+class Panel {
+ public:
+  Panel(PagePoint left_top, double width, double height, Range x_range, Range y_range)
+      : left_top_(left_top), width_(width), height_(height), x_range_(x_range), y_range_(y_range) {}
+
+  double left() const { return left_top_.x; }
+  double top() const { return left_top_.y; }
+  double right() const { return left_top_.x + width_; }
+  double bottom() const { return left_top_.y + height_; }
+  double width() const { return width_; }
+  const Range& x_range() const { return x_range_; }
+  const Range& y_range() const { return y_range_; }
+
+  PagePoint Place(double x, double y) const;
+  /// `points` hold values.
+  std::vector<PagePoint> Placed(const std::vector<PagePoint>& points) const;
+
+  /// Grey lines at the ticks, and the panel's left and lower edge.
+  void DrawGrid(const std::vector<double>& x_ticks, const std::vector<double>& y_ticks,
+                std::vector<Shape>* shapes) const;
+  void LabelLeft(const std::vector<double>& ticks, std::vector<Shape>* shapes) const;
+  void LabelBottom(const std::vector<double>& ticks, std::vector<Shape>* shapes) const;
+  /// A curve through values, simplified; `dashed` for what is asked for.
+  void DrawCurve(const std::vector<PagePoint>& points, Colour colour, double width, Dash dash,
+                 std::vector<Shape>* shapes) const;
+  /// The area between two curves over the same x.
+  void DrawBand(const std::vector<PagePoint>& low, const std::vector<PagePoint>& high,
+                Colour colour, double opacity, std::vector<Shape>* shapes) const;
+
+ private:
+  PagePoint left_top_;
+  double width_, height_;
+  Range x_range_, y_range_;
+};
+
+/// The room that the numbers of LabelLeft take, points.
+double LabelWidth(const std::vector<double>& ticks);
+
+}  // namespace skein

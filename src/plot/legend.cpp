@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/legend.h"
+
+#include <cmath>
+#include <utility>
+
+namespace skein {
+namespace {
+
+constexpr double kAfterSample = 5, kAfterEntry = 14, kLineHeight = 13;
+
+}  // namespace
+
+Sample LineSample(Colour colour, double width, Dash dash) {
+  return [=](PagePoint left, std::vector<Shape>* shapes) {
+    Path line = Line({left, {left.x + kSampleWidth, left.y}}, colour, width);
+    line.dash = dash;
+    shapes->emplace_back(std::move(line));
+  };
+}
+
+Sample BandSample(Colour colour, double opacity) {
+  return [=](PagePoint left, std::vector<Shape>* shapes) {
+    const double right = left.x + kSampleWidth, top = left.y - 4, bottom = left.y + 4;
+    shapes->emplace_back(
+        Area({{left.x, top}, {right, top}, {right, bottom}, {left.x, bottom}}, colour, opacity));
+  };
+}
+
+double DrawLegend(PagePoint at, double right, const std::vector<LegendEntry>& entries,
+                  std::vector<Shape>* shapes) {
+  double x = at.x, y = at.y;
+  for (const LegendEntry& entry : entries) {
+    const double before = kSampleWidth + kAfterSample;
+    if (x > at.x && x + before + TextWidth(entry.words) > right) {
+      x = at.x;
+      y += kLineHeight;
+    }
+    entry.sample({x, y - 0.35 * kTextSize}, shapes);
+    const std::vector<std::string> lines =
+        Wrapped(entry.words, std::max(right - x - before, 1.0), kTextSize);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      if (k > 0) y += kLineHeight;
+      shapes->emplace_back(Words{{x + before, y}, lines[k]});
+    }
+    x += before + TextWidth(entry.words) + kAfterEntry;
+  }
+  return y;
+}
+
+double DrawTitle(const std::string& title, double width, std::vector<Shape>* shapes) {
+  double y = kMargin;
+  for (const std::string& line : Wrapped(title, width - 2 * kMargin, kTitleSize)) {
+    y += 1.3 * kTitleSize;
+    Words words{{kMargin, y - 0.3 * kTitleSize}, line, kTitleSize};
+    words.is_bold = true;
+    shapes->emplace_back(std::move(words));
+  }
+  return title.empty() ? y : y + 4;
+}
+
+Picture FinishedPicture(double width, double bottom, const std::string& title,
+                        std::vector<Shape> shapes) {
+  return {width, std::ceil(bottom + kMargin), title, std::move(shapes)};
+}
+
+}  // namespace skein

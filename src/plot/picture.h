@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace skein {
+
+/// A place on the paper: points (1/72 inch) to the right and down from the upper left corner.
+struct PagePoint {
+  double x = 0, y = 0;
+};
+
+using Colour = std::uint32_t;  ///< 0xRRGGBB
+
+/// Okabe and Ito (2008): distinguishable with every kind of colour blindness.
+inline constexpr std::array<Colour, 6> kAgentColours = {0x0072B2, 0xD55E00, 0x009E73,
+                                                        0xCC79A7, 0xE69F00, 0x56B4E9};
+inline constexpr Colour kInk = 0x222222, kGrey = 0x666666, kGridGrey = 0xDDDDDD, kWhite = 0xFFFFFF;
+
+/// The colour of the agent or setting of that number; after the last the first again.
+inline Colour ColourOf(std::size_t index) { return kAgentColours[index % kAgentColours.size()]; }
+/// Between two colours, `share` of the second.
+Colour Mixed(Colour colour, Colour other, double share);
+
+enum class Dash { kNone, kDashed, kShort };
+
+/// A line through points, or the area that it encloses.
+struct Path {
+  std::vector<PagePoint> points;
+  std::optional<Colour> fill, stroke;
+  double width = 1;  ///< of the stroke, points
+  bool is_closed = false;
+  Dash dash = Dash::kNone;
+  double opacity = 1;
+};
+
+struct Disc {
+  PagePoint middle;
+  double radius = 1;
+  std::optional<Colour> fill, stroke;
+  double width = 1;
+};
+
+enum class Anchor { kStart, kMiddle, kEnd };
+
+/// One line of text at its base line.
+struct Words {
+  PagePoint at;
+  std::string text;
+  double size = 8;  ///< points
+  Anchor anchor = Anchor::kStart;
+  Colour colour = kInk;
+  bool is_bold = false;
+  bool has_halo = false;  ///< white around the letters keeps them legible on lines
+};
+
+using Shape = std::variant<Path, Disc, Words>;
+
+/// What is drawn, in order, on white.
+struct Picture {
+  double width = 0, height = 0;  ///< points
+  std::string title;             ///< for readers of screens and lists of files
+  std::vector<Shape> shapes;
+};
+
+inline constexpr double kTextSize = 8, kSmallSize = 7.2, kTitleSize = 10;
+
+Path Line(std::vector<PagePoint> points, Colour colour, double width = 1);
+Path Area(std::vector<PagePoint> corners, Colour fill, double opacity = 1);
+
+/// As wide as letters are at most in the common sans-serif fonts, as nobody knows the reader's.
+double TextWidth(const std::string& text, double size = kTextSize);
+/// `text` in lines of at most `width`, cut at blanks.
+std::vector<std::string> Wrapped(const std::string& text, double width, double size);
+
+/// The points that a line needs to stay within 0.15 points of all of them (Douglas and Peucker).
+std::vector<PagePoint> Simplified(const std::vector<PagePoint>& points);
+
+}  // namespace skein

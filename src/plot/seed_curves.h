@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/plot/picture.h"
+#include "src/report/run_record.h"
+
+namespace skein {
+
+/// Runs that differ in their seed alone.
+struct CurveSetting {
+  std::string task, name;
+  std::vector<RunRecord> runs;
+};
+
+/// The mean of a column over the runs of a setting, and its lowest and highest, against millions of
+/// control steps: where all runs have values, at the steps of any.
+struct SeedCurve {
+  std::vector<PagePoint> mean, low, high;
+};
+
+/// Empty if a run has no value of the column yet. Shares are in percent.
+SeedCurve CurveOf(const CurveSetting& setting, const std::string& column);
+
+/// Whether a column holds shares, which are shown in percent.
+bool IsShare(const std::string& column);
+
+/// The value at x of a curve, which lies between its first point and its last.
+double Interpolated(const std::vector<PagePoint>& curve, double x);
+
+/// Of the quickest run: the others had less of their machine. Nothing without recorded times.
+std::optional<double> MinutesPerMillion(const CurveSetting& setting);
+
+/// `runs` as settings, in their order: `seeds` in a row, or without it those of one configuration
+/// but for the seed. Throws Error on runs of several tasks in one setting, and if there are not as
+/// many names as settings.
+std::vector<CurveSetting> SettingsOf(std::vector<RunRecord> runs, std::optional<int> seeds,
+                                     const std::vector<std::string>& names);
+
+}  // namespace skein

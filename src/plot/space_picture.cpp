@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/space_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "src/plot/aircraft_glyph.h"
+#include "src/plot/axes.h"
+#include "src/plot/ground.h"
+#include "src/plot/label_places.h"
+#include "src/plot/target_marks.h"
+
+namespace skein {
+namespace {
+
+constexpr double kLeft = 34, kRight = 50, kTop = 22;  // around the scene, points
+constexpr double kGlyphPerWidth = 1 / 32.0, kMostGlyph = 20, kLeastGlyph = 10;
+constexpr double kMostHeight = 0.75;  // of the scene, of the width
+constexpr double kOthersSize = 0.75;  // of the other agents' aircraft
+constexpr double kRibbonSpan = 0.5;   // of the ribbon, in wing spans
+constexpr double kRibbonInterval_s = 0.1;
+constexpr double kFrontOfRibbon = 1.2;  // lengths by which aircraft are nearer than the ribbon
+constexpr double kShadowOpacity = 0.5;
+constexpr Colour kShadow = 0x8C8C8C;
+constexpr std::size_t kRowsPerObstacle = 20;
+constexpr std::size_t kPathParts = 12;
+
+/// What is drawn together: what is nearer to the viewer covers what is farther.
+struct Piece {
+  double nearness;
+  std::vector<Shape> shapes;
+};
+
+class SpaceDrawing {
+ public:
+  SpaceDrawing(const Recordings& recordings, const SpaceOptions& options)
+      : recordings_(recordings),
+        options_(options),
+        tracks_(TracksOf(recordings)),
+        view_(options.azimuth_deg, options.elevation_deg),
+        ground_(PointsOf(tracks_)),
+        glyph_(std::clamp(options.width * kGlyphPerWidth, kLeastGlyph, kMostGlyph)) {}
+
+  Picture Draw() {
+    top_ = DrawTitle(options_.title, options_.width, &shapes_) + kTop;
+    std::vector<SpacePoint> corners = ground_.Outline(view_);
+    for (const SpacePoint& point : PointsOf(tracks_)) corners.push_back(point);
+    const double height = view_.FitWithin(corners, {kLeft, top_}, options_.width - kLeft - kRight,
+                                          kMostHeight * options_.width);
+    enlarged_ = glyph_ / kGlyphLength_ft / view_.scale();
+    interval_s_ = options_.interval_s.value_or(RoundInterval(view_, tracks_, glyph_));
+    for (Shape& shape : ground_.Draw(view_)) shapes_.push_back(std::move(shape));
+    for (const Track& track : tracks_) DrawShadow(track);
+    for (const Track& track : tracks_) DrawTargetOf(track);
+    DrawFlights();
+    DrawStarts();
+    DrawTimes(top_ + height + 24);
+    const double bottom = DrawLegend({kMargin, top_ + height + 48}, options_.width - kMargin,
+                                     LegendEntries(), &shapes_);
+    return FinishedPicture(options_.width, bottom,
+                           options_.title.empty() ? "Flights in space" : options_.title,
+                           std::move(shapes_));
+  }
+
+ private:
+  static std::vector<SpacePoint> PointsOf(const std::vector<Track>& tracks) {
+    std::vector<SpacePoint> points;
+    for (const Track& track : tracks) {
+      points.push_back(track.TargetPoint());
+      for (std::size_t row = 0; row < track.points.size(); row += 10) {
+        points.push_back(track.points[row]);
+      }
+      points.push_back(track.points.back());
+    }
+    return points;
+  }
+
+  void DrawShadow(const Track& track) {
+    std::vector<PagePoint> points;
+    for (const SpacePoint& point : track.points) {
+      points.push_back(view_.Place(ground_.Below(point)));
+    }
+    Path shadow = Line(Simplified(points), track.is_first ? kShadow : track.colour, 0.8);
+    shadow.opacity = kShadowOpacity;
+    shapes_.emplace_back(std::move(shadow));
+  }
+
+  void DrawPost(const SpacePoint& point, Colour colour) {
+    Path post = Line({view_.Place(point), view_.Place(ground_.Below(point))}, colour, 0.6);
+    post.opacity = kShadowOpacity;
+    shapes_.emplace_back(std::move(post));
+  }
+
+  void DrawTargetOf(const Track& track) {
+    if (track.HasTargetInSpace()) {
+      DrawPost(track.TargetPoint(), kInk);
+    } else {
+      DrawPost(track.points.back(), track.colour);
+    }
+    DrawTarget(view_, track, recordings_, &shapes_);
+  }
+
+  /// The area that the wings sweep, darker from above and paler from below.
+  void AddRibbon(const Track& track, std::vector<Piece>* pieces) const {
+    const double half = kRibbonSpan * kGlyphHalfSpan_ft * enlarged_;
+    const std::vector<std::size_t> rows = track.Instants(kRibbonInterval_s);
+    const auto side = [&](std::size_t row, double sign) {
+      return SpacePoint(track.points[row] + sign * half * track.attitudes[row].right);
+    };
+    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+      const bool from_above = track.attitudes[rows[k]].up.dot(view_.to_viewer()) > 0;
+      const Colour fill = Mixed(track.colour, kWhite, from_above ? 0.5 : 0.78);
+      const SpacePoint corners[] = {side(rows[k], -1), side(rows[k], 1), side(rows[k + 1], 1),
+                                    side(rows[k + 1], -1)};
+      std::vector<PagePoint> placed;
+      for (const SpacePoint& corner : corners) placed.push_back(view_.Place(corner));
+      Path area = Area(std::move(placed), fill);
+      area.stroke = fill;  // closes the seams between the areas
+      area.width = 0.4;
+      pieces->push_back(
+          {(view_.Nearness(corners[0]) + view_.Nearness(corners[2])) / 2, {std::move(area)}});
+    }
+  }
+
+  void AddAircraft(const Track& track, std::size_t row, double enlarged,
+                   std::vector<Piece>* pieces) const {
+    const double front = kFrontOfRibbon * kGlyphLength_ft * enlarged;
+    pieces->push_back(
+        {view_.Nearness(track.points[row]) + front,
+         AircraftGlyph(view_, track.points[row], track.attitudes[row], track.colour, enlarged)});
+  }
+
+  /// A plain line, cut so that what is nearer covers it.
+  void AddPath(const Track& track, std::vector<Piece>* pieces) const {
+    const std::size_t length = std::max<std::size_t>(1, track.points.size() / kPathParts);
+    for (std::size_t begin = 0; begin + 1 < track.points.size(); begin += length) {
+      const std::size_t end = std::min(begin + length, track.points.size() - 1);
+      std::vector<PagePoint> placed;
+      for (std::size_t row = begin; row <= end; ++row) {
+        placed.push_back(view_.Place(track.points[row]));
+      }
+      pieces->push_back({view_.Nearness(track.points[(begin + end) / 2]),
+                         {Line(Simplified(placed), track.colour, 1.3)}});
+    }
+  }
+
+  void DrawFlights() {
+    std::vector<Piece> pieces;
+    for (const Track& track : tracks_) {
+      if (!track.is_first) {
+        AddPath(track, &pieces);
+        AddAircraft(track, track.points.size() - 1, kOthersSize * enlarged_, &pieces);
+        continue;
+      }
+      AddRibbon(track, &pieces);
+      const std::vector<std::size_t> rows = track.Instants(interval_s_);
+      for (std::size_t k = rows.size() > 1 ? 1 : 0; k < rows.size(); ++k) {
+        AddAircraft(track, rows[k], enlarged_, &pieces);
+      }
+    }
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const Piece& a, const Piece& b) { return a.nearness < b.nearness; });
+    for (Piece& piece : pieces) {
+      std::move(piece.shapes.begin(), piece.shapes.end(), std::back_inserter(shapes_));
+    }
+  }
+
+  /// Dots, and one word for all of them, as episodes begin near each other.
+  void DrawStarts() {
+    const auto lower = [this](const Track& a, const Track& b) {
+      return view_.Place(a.points[0]).y < view_.Place(b.points[0]).y;
+    };
+    const Track& lowest = *std::max_element(tracks_.begin(), tracks_.end(), lower);
+    DrawPost(lowest.points[0], kInk);
+    for (const Track& track : tracks_) {
+      shapes_.emplace_back(Disc{view_.Place(track.points[0]), 2, kInk, std::nullopt});
+    }
+    Words words{view_.Place(lowest.points[0]), "start", kTextSize, Anchor::kMiddle};
+    words.at.y += 14;
+    words.has_halo = true;
+    shapes_.emplace_back(std::move(words));
+  }
+
+  /// How long each flight was, beside its end, where little is covered.
+  void DrawTimes(double bottom) {
+    LabelPlaces places({kMargin, top_ - kTop, options_.width - kMargin, bottom});
+    constexpr double kHeavy = 10;
+    for (const Track& track : tracks_) {
+      for (std::size_t row = 0; row < track.points.size(); row += kRowsPerObstacle) {
+        places.Avoid(view_.Place(track.points[row]), track.is_first ? glyph_ / 4 : 2.5, 1);
+      }
+      const PagePoint end = view_.Place(track.points.back()), tip = TargetTip(view_, track);
+      const PagePoint target = view_.Place(track.TargetPoint());
+      places.Avoid(end, glyph_ / 2, kHeavy);
+      for (const double share : {0.3, 0.6, 1.0}) {
+        places.Avoid({target.x + share * (tip.x - target.x), target.y + share * (tip.y - target.y)},
+                     4, kHeavy);
+      }
+    }
+    for (const Shape& shape : shapes_) {
+      if (const auto* const words = std::get_if<Words>(&shape)) places.Avoid(*words);
+    }
+    for (const Track& track : tracks_) {
+      Words words{
+          {}, TimeLabel(*track.flight), kTextSize, Anchor::kStart, Mixed(track.colour, 0, 0.15)};
+      words.has_halo = true;
+      const std::optional<Words> put = places.PutAround(words, view_.Place(track.points.back()));
+      if (put) shapes_.emplace_back(*put);
+    }
+  }
+
+  std::vector<LegendEntry> LegendEntries() const {
+    std::vector<LegendEntry> entries;
+    for (const Recording& agent : recordings_.agents) {
+      if (&agent != &recordings_.agents.front()) {
+        entries.push_back({LineSample(agent.colour, 1.3), agent.name});
+        continue;
+      }
+      entries.push_back(
+          {[colour = agent.colour](PagePoint left, std::vector<Shape>* shapes) {
+             View above(0, 90);
+             above.PutOrigin({left.x + kSampleWidth / 2, left.y}, kSampleWidth / kGlyphLength_ft);
+             for (Shape& shape :
+                  AircraftGlyph(above, SpacePoint::Zero(), BodyAxesOf(0, 0, 90), colour, 1)) {
+               shapes->push_back(std::move(shape));
+             }
+           },
+           fmt::format("{}: an aircraft every {:g}\u00a0s, {} times its size, pale from "
+                       "below",
+                       agent.name, interval_s_, TickText(std::round(enlarged_)))});
+    }
+    if (!recordings_.targets.empty()) {
+      entries.push_back(TargetEntry(tracks_.front(), recordings_));
+    }
+    entries.push_back({[](PagePoint left, std::vector<Shape>* shapes) {
+                         shapes->emplace_back(
+                             Words{{left.x + kSampleWidth, left.y + 0.35 * kTextSize},
+                                   "12 s",
+                                   kTextSize,
+                                   Anchor::kEnd});
+                       },
+                       "length of a flight, where there is room"});
+    entries.push_back({LineSample(kShadow, 0.8),
+                       fmt::format("shadow at {}\u00a0ft", TickText(ground_.floor_ft()))});
+    return entries;
+  }
+
+  const Recordings& recordings_;
+  const SpaceOptions& options_;
+  std::vector<Track> tracks_;
+  View view_;
+  Ground ground_;
+  double glyph_, enlarged_ = 1, interval_s_ = 1, top_ = 0;
+  std::vector<Shape> shapes_;
+};
+
+}  // namespace
+
+Picture SpacePicture(const Recordings& recordings, const SpaceOptions& options) {
+  return SpaceDrawing(recordings, options).Draw();
+}
+
+}  // namespace skein

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/target_marks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <utility>
+
+namespace skein {
+namespace {
+
+constexpr double kArrowLength = 32, kHeadLength = 5.5, kRingRadius = 5;  // points
+constexpr double kEdge = 0.8;
+
+double ToleranceOf(const Recordings& recordings, const char* column) {
+  const auto found = recordings.tolerances.find(column);
+  return found == recordings.tolerances.end() ? 0 : found->second;
+}
+
+SpacePoint ArrowTip(const View& view, const SpacePoint& target, const BodyAxes& axes) {
+  return target + kArrowLength / view.scale() * axes.forward;
+}
+
+/// The edges of a box, as seen through.
+void DrawBox(const View& view, const SpacePoint& middle, const SpacePoint& half,
+             std::vector<Shape>* shapes) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double a : {-1.0, 1.0}) {
+      for (const double b : {-1.0, 1.0}) {
+        SpacePoint corner;
+        corner[(axis + 1) % 3] = a * half[(axis + 1) % 3];
+        corner[(axis + 2) % 3] = b * half[(axis + 2) % 3];
+        corner[axis] = -half[axis];
+        const PagePoint begin = view.Place(middle + corner);
+        corner[axis] = half[axis];
+        const PagePoint end = view.Place(middle + corner);
+        if (std::hypot(end.x - begin.x, end.y - begin.y) < 0.05) continue;
+        shapes->emplace_back(Line({begin, end}, kInk, kEdge));
+      }
+    }
+  }
+}
+
+void DrawHeading(const View& view, const SpacePoint& target, const BodyAxes& axes,
+                 const Recordings& recordings, std::vector<Shape>* shapes) {
+  constexpr double kSteps = 4, kRadians = 0.017453292519943295;
+  const double yaw = ToleranceOf(recordings, "yaw_deg");
+  if (yaw > 0) {
+    std::vector<PagePoint> sector = {view.Place(target)};
+    for (double k = -kSteps; k <= kSteps; ++k) {
+      const double angle = kRadians * yaw * k / kSteps;
+      BodyAxes turned = axes;
+      turned.forward = std::cos(angle) * axes.forward + std::sin(angle) * axes.right;
+      sector.push_back(view.Place(ArrowTip(view, target, turned)));
+    }
+    shapes->emplace_back(Area(std::move(sector), kInk, 0.3));
+  }
+  const SpacePoint up = ToleranceOf(recordings, "altitude_ft") * kUpward;
+  shapes->emplace_back(Line({view.Place(target - up), view.Place(target + up)}, kInk, 2));
+  DrawArrow(view.Place(target), view.Place(ArrowTip(view, target, axes)), shapes);
+}
+
+}  // namespace
+
+void DrawArrow(PagePoint begin, PagePoint end, std::vector<Shape>* shapes) {
+  const double length = std::hypot(end.x - begin.x, end.y - begin.y);
+  if (length == 0) return;
+  const double x = kHeadLength * (end.x - begin.x) / length;
+  const double y = kHeadLength * (end.y - begin.y) / length;
+  shapes->emplace_back(Line({begin, {end.x - 0.7 * x, end.y - 0.7 * y}}, kInk, 1));
+  shapes->emplace_back(Area(
+      {end, {end.x - x - 0.4 * y, end.y - y + 0.4 * x}, {end.x - x + 0.4 * y, end.y - y - 0.4 * x}},
+      kInk));
+}
+
+PagePoint TargetTip(const View& view, const Track& track) {
+  const auto axes = track.HasTargetInSpace() ? std::nullopt : track.TargetAxes();
+  const SpacePoint target = track.TargetPoint();
+  return view.Place(axes ? ArrowTip(view, target, *axes) : target);
+}
+
+void DrawTarget(const View& view, const Track& track, const Recordings& recordings,
+                std::vector<Shape>* shapes) {
+  const SpacePoint target = track.TargetPoint();
+  if (track.HasTargetInSpace()) {
+    shapes->emplace_back(Disc{view.Place(target), kRingRadius, std::nullopt, kInk, kEdge});
+    DrawBox(view, target,
+            {ToleranceOf(recordings, "north_ft"), ToleranceOf(recordings, "east_ft"),
+             ToleranceOf(recordings, "altitude_ft")},
+            shapes);
+  } else if (const auto axes = track.TargetAxes()) {
+    DrawHeading(view, target, *axes, recordings, shapes);
+  }
+}
+
+LegendEntry TargetEntry(const Track& track, const Recordings& recordings) {
+  const double altitude = ToleranceOf(recordings, "altitude_ft");
+  if (track.HasTargetInSpace()) {
+    return {[](PagePoint left, std::vector<Shape>* shapes) {
+              shapes->emplace_back(Disc{
+                  {left.x + kSampleWidth / 2, left.y}, kRingRadius, std::nullopt, kInk, kEdge});
+            },
+            altitude > 0 ? fmt::format("target, box ±{:g}\u00a0ft", altitude) : "target"};
+  }
+  std::string words = track.Asked("pitch_deg") ? "target heading and pitch" : "target heading";
+  std::vector<std::string> known;
+  if (const double yaw = ToleranceOf(recordings, "yaw_deg"); yaw > 0) {
+    known.push_back(fmt::format("±{:g}°", yaw));
+  }
+  if (track.Asked("altitude_ft")) {
+    words += " at target altitude";
+    if (altitude > 0) known.push_back(fmt::format("±{:g}\u00a0ft", altitude));
+  }
+  if (!known.empty()) words += fmt::format(" ({})", fmt::join(known, ", "));
+  return {[](PagePoint left, std::vector<Shape>* shapes) {
+            DrawArrow(left, {left.x + kSampleWidth, left.y}, shapes);
+          },
+          words};
+}
+
+}  // namespace skein

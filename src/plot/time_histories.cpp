@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/time_histories.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "src/files/text_table.h"
+#include "src/plot/axes.h"
+#include "src/plot/legend.h"
+
+namespace skein {
+namespace {
+
+constexpr double kLeastPanelWidth = 88, kAside = 14, kBetween = 23;
+constexpr double kQuantityHeight = 66, kActionHeight = 32;
+constexpr double kPointsPerTick = 34;
+constexpr double kToleranceOpacity = 0.3;
+constexpr double kMostLabelWidth = 44;
+
+bool IsAction(const std::string& row) { return row.rfind("action_", 0) == 0; }
+
+std::string RowWords(const std::string& row) {
+  if (!IsAction(row)) return InWords(row);
+  const std::string name = InWords(row.substr(std::string("action_").size()));
+  return name.rfind("target ", 0) == 0 ? name + " (high-level action), -1 to 1"
+                                       : name + " action, -1 to 1";
+}
+
+/// The targets' quantities, then the actions of any agent.
+std::vector<std::string> RowsOf(const Recordings& recordings) {
+  std::vector<std::string> rows = recordings.targets;
+  for (const Recording& agent : recordings.agents) {
+    for (const std::string& name : agent.flights.front().table.names) {
+      if (IsAction(name) && std::find(rows.begin(), rows.end(), name) == rows.end()) {
+        rows.push_back(name);
+      }
+    }
+  }
+  return rows;
+}
+
+class HistoryDrawing {
+ public:
+  HistoryDrawing(const Recordings& recordings, const HistoryOptions& options)
+      : recordings_(recordings),
+        options_(options),
+        episodes_(EpisodesOf(recordings)),
+        rows_(options.columns.empty() ? RowsOf(recordings) : options.columns) {
+    for (const DrawnEpisode& episode : episodes_) {
+      for (const DrawnEpisode::Entry& entry : episode.flights) {
+        times_.max = std::max(times_.max, entry.flight->duration_s());
+      }
+    }
+    const auto count = static_cast<double>(episodes_.size());
+    panel_width_ = (options.width - kMargin - left_ - (count - 1) * kAside) / count;
+  }
+
+  Picture Draw() {
+    double top = DrawTitle(options_.title, options_.width, &shapes_);
+    top = DrawHeads(top + kTextSize);
+    for (const std::string& row : rows_) top = DrawRow(row, top + kBetween - 6);
+    const double x = (left_ + options_.width - kMargin) / 2;
+    shapes_.emplace_back(Words{{x, top + 22}, "time, s", kTextSize, Anchor::kMiddle});
+    const double bottom =
+        DrawLegend({left_, top + 38}, options_.width - kMargin, LegendEntries(), &shapes_);
+    return FinishedPicture(options_.width, bottom,
+                           options_.title.empty() ? "Flights over time" : options_.title,
+                           std::move(shapes_));
+  }
+
+ private:
+  double LeftOf(std::size_t column) const {
+    return left_ + static_cast<double>(column) * (panel_width_ + kAside);
+  }
+
+  /// Number of the episode, and how each flight ended.
+  double DrawHeads(double top) {
+    double lowest = top;
+    for (std::size_t k = 0; k < episodes_.size(); ++k) {
+      double y = top;
+      Words head{{LeftOf(k), y}, "episode " + episodes_[k].flights.front().flight->episode};
+      head.is_bold = true;
+      shapes_.emplace_back(head);
+      for (const auto& [agent, flight] : episodes_[k].flights) {
+        const Colour colour = recordings_.agents.size() == 1 ? kInk : agent->colour;
+        for (const std::string& line : Wrapped(EndOf(*flight), panel_width_, kSmallSize)) {
+          y += 1.25 * kSmallSize;
+          shapes_.emplace_back(Words{{LeftOf(k), y}, line, kSmallSize, Anchor::kStart, colour});
+        }
+      }
+      lowest = std::max(lowest, y);
+    }
+    return lowest;
+  }
+
+  Range RangeOf(const std::string& row) const {
+    if (IsAction(row)) return {-1.1, 1.1};
+    std::vector<double> values;
+    for (const DrawnEpisode& episode : episodes_) {
+      for (const DrawnEpisode::Entry& entry : episode.flights) {
+        for (const auto& points : {FlownIn(entry, row), entry.flight->Target(row)}) {
+          for (const PagePoint& point : points) values.push_back(point.y);
+        }
+      }
+    }
+    return Padded(values);
+  }
+
+  /// Empty of an agent without such a column, as the other agents' high-level actions are.
+  static std::vector<PagePoint> FlownIn(const DrawnEpisode::Entry& entry, const std::string& row) {
+    return IsAction(row) && !entry.flight->Has(row) ? std::vector<PagePoint>()
+                                                    : entry.flight->Flown(row);
+  }
+
+  double DrawRow(const std::string& row, double top) {
+    const Range range = RangeOf(row);
+    const double height = IsAction(row) ? kActionHeight : kQuantityHeight;
+    const std::vector<double> up =
+        IsAction(row) ? std::vector<double>{-1, 0, 1} : Ticks(range, height / 16);
+    const std::vector<double> across = Ticks(times_, panel_width_ / kPointsPerTick);
+    Words words{{left_, top - 4}, RowWords(row)};
+    words.is_bold = true;
+    shapes_.emplace_back(words);
+    for (std::size_t k = 0; k < episodes_.size(); ++k) {
+      const Panel panel({LeftOf(k), top}, panel_width_, height, times_, range);
+      panel.DrawGrid(across, up, &shapes_);
+      if (k == 0) panel.LabelLeft(up, &shapes_);
+      if (row == rows_.back()) panel.LabelBottom(across, &shapes_);
+      DrawCell(panel, episodes_[k], row);
+    }
+    return top + height;
+  }
+
+  /// One quantity or action of one episode, of all agents; the first agent's on top.
+  void DrawCell(const Panel& panel, const DrawnEpisode& episode, const std::string& row) {
+    const auto longest = std::max_element(episode.flights.begin(), episode.flights.end(),
+                                          [](const auto& a, const auto& b) {
+                                            return a.flight->duration_s() < b.flight->duration_s();
+                                          });
+    DrawTarget(panel, longest->flight->Target(row), row);
+    for (auto entry = episode.flights.rbegin(); entry != episode.flights.rend(); ++entry) {
+      panel.DrawCurve(FlownIn(*entry, row), entry->agent->colour, IsAction(row) ? 0.7 : 1.2,
+                      Dash::kNone, &shapes_);
+    }
+  }
+
+  void DrawTarget(const Panel& panel, const std::vector<PagePoint>& target,
+                  const std::string& row) {
+    const auto tolerance = recordings_.tolerances.find(row);
+    if (tolerance != recordings_.tolerances.end()) {
+      std::vector<PagePoint> low = target, high = target;
+      for (PagePoint& point : low) point.y -= tolerance->second;
+      for (PagePoint& point : high) point.y += tolerance->second;
+      panel.DrawBand(low, high, kGrey, kToleranceOpacity, &shapes_);
+    }
+    panel.DrawCurve(target, kInk, 0.9, Dash::kDashed, &shapes_);
+  }
+
+  std::vector<LegendEntry> LegendEntries() const {
+    std::vector<LegendEntry> entries;
+    for (const Recording& agent : recordings_.agents) {
+      entries.push_back({LineSample(agent.colour, 1.2), agent.name});
+    }
+    const auto has = [this](const auto& known) {
+      return std::any_of(rows_.begin(), rows_.end(), known);
+    };
+    const std::vector<std::string>& targets = recordings_.targets;
+    if (has([&](const std::string& row) {
+          return std::find(targets.begin(), targets.end(), row) != targets.end();
+        })) {
+      entries.push_back({LineSample(kInk, 0.9, Dash::kDashed), "target"});
+    }
+    if (has([&](const std::string& row) { return recordings_.tolerances.count(row) > 0; })) {
+      entries.push_back({BandSample(kGrey, kToleranceOpacity), "tolerance"});
+    }
+    return entries;
+  }
+
+  const Recordings& recordings_;
+  const HistoryOptions& options_;
+  std::vector<DrawnEpisode> episodes_;
+  std::vector<std::string> rows_;
+  Range times_{0, 0};
+  double left_ = kMostLabelWidth, panel_width_ = 0;
+  std::vector<Shape> shapes_;
+};
+
+}  // namespace
+
+int MostHistories(double width) {
+  const double room = width - kMargin - kMostLabelWidth + kAside;
+  return std::max(1, static_cast<int>(room / (kLeastPanelWidth + kAside)));
+}
+
+Picture TimeHistories(const Recordings& recordings, const HistoryOptions& options) {
+  const auto count = static_cast<int>(EpisodesOf(recordings).size());
+  if (count > MostHistories(options.width)) {
+    throw Error(
+        fmt::format("{} do not fit side by side: at most {} do in a picture of {:.3g} in "
+                    "(--width); choose with --show",
+                    Counted(count, "episode"), MostHistories(options.width), options.width / 72));
+  }
+  return HistoryDrawing(recordings, options).Draw();
+}
+
+}  // namespace skein

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "src/plot/projection.h"
+#include "src/plot/recordings.h"
+
+namespace skein {
+
+/// A flight in space.
+struct Track {
+  const DrawnFlight* flight = nullptr;
+  Colour colour = 0;
+  bool is_first = false;  ///< of the first agent, which is drawn with aircraft
+  std::vector<SpacePoint> points;
+  std::vector<BodyAxes> attitudes;
+  std::vector<double> times;  ///< s
+
+  /// Row numbers `interval_s` apart, and the last one.
+  std::vector<std::size_t> Instants(double interval_s) const;
+  /// The last target of a quantity, if the task has one.
+  std::optional<double> Asked(const char* quantity) const;
+  bool HasTargetInSpace() const;
+  /// A target in space, or else the target's altitude, if any, at the last place.
+  SpacePoint TargetPoint() const;
+  /// Of the target's heading and pitch; nothing if the task asks for no heading.
+  std::optional<BodyAxes> TargetAxes() const;
+};
+
+/// Throws Error if the flight has no positions or attitudes.
+Track TrackOf(const DrawnEpisode::Entry& entry, bool is_first);
+
+/// Of all agents' episodes, episode by episode.
+std::vector<Track> TracksOf(const Recordings& recordings);
+
+/// How many seconds lie between two aircraft of a length on the paper that do not touch: a round
+/// number.
+double RoundInterval(const View& view, const std::vector<Track>& tracks, double glyph_length);
+
+/// "12.3 s", and how it ended if not at the target.
+std::string TimeLabel(const DrawnFlight& flight);
+
+}  // namespace skein

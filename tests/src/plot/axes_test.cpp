@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/axes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace skein {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of a few operations in float64, relative
+
+TEST(Ticks, AreRoundAndEvenAndWithinTheRange) {
+  for (const Range& range : {Range{0, 1}, {-3.2, 17.9}, {19000, 23456}, {0, 1e8}, {1e-4, 3e-4}}) {
+    const std::vector<double> ticks = Ticks(range, 5);
+    ASSERT_GE(ticks.size(), 2u);
+    EXPECT_LE(ticks.size(), 7u);
+    const double slack = kRounding * std::abs(range.max);
+    EXPECT_GE(ticks.front(), range.min - slack);
+    EXPECT_LE(ticks.back(), range.max + slack);
+    const double step = ticks[1] - ticks[0];
+    const double digit = step / std::pow(10.0, std::floor(std::log10(step * (1 + kRounding))));
+    EXPECT_TRUE(std::abs(digit - 1) < kRounding || std::abs(digit - 2) < 10 * kRounding ||
+                std::abs(digit - 5) < 10 * kRounding)
+        << step;
+    for (std::size_t k = 0; k + 1 < ticks.size(); ++k) {
+      EXPECT_NEAR(ticks[k + 1] - ticks[k], step, kRounding * std::abs(ticks.back()));
+    }
+  }
+}
+
+TEST(Ticks, OfNothingAreStillFinite) {
+  for (const double tick : Ticks({5, 5}, 4)) EXPECT_TRUE(std::isfinite(tick));
+  EXPECT_TRUE(std::isfinite(Padded({}).max));
+  EXPECT_LT(Padded({7, 7}).min, 7);
+}
+
+TEST(AxisWords, HaveUnits) {
+  EXPECT_EQ(InWords("true_airspeed_fps"), "true airspeed, ft/s");
+  EXPECT_EQ(InWords("p_deg_s"), "p, deg/s");
+  EXPECT_EQ(InWords("load_factor_g"), "load factor, g");
+  EXPECT_EQ(InWords("mach"), "mach");
+}
+
+TEST(AxisWords, NumbersHaveSeparators) {
+  EXPECT_EQ(TickText(12500), "12,500");
+  EXPECT_EQ(TickText(-1250), "-1,250");
+  EXPECT_EQ(TickText(-0.02), "-0.02");
+  EXPECT_EQ(TickText(100), "100");
+}
+
+TEST(Panels, PlaceTheirCorners) {
+  const Panel panel({10, 20}, 100, 50, {0, 2}, {-1, 1});
+  EXPECT_EQ(panel.Place(0, -1).x, 10);
+  EXPECT_EQ(panel.Place(0, -1).y, 70);
+  EXPECT_EQ(panel.Place(2, 1).x, 110);
+  EXPECT_EQ(panel.Place(2, 1).y, 20);
+}
+
+}  // namespace
+}  // namespace skein

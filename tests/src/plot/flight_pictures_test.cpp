@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/files/output_file.h"
+#include "src/plot/label_places.h"
+#include "src/plot/recordings.h"
+#include "src/plot/space_picture.h"
+#include "src/plot/time_histories.h"
+#include "src/plot/tracks_picture.h"
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+
+namespace skein {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// A climbing turn at 1000 ft/s across the heading of 180 degrees.
+std::string FlightRows(int episode, double target_yaw) {
+  std::string rows;
+  for (int k = 0; k <= 100; ++k) {
+    const double yaw = 150 + 0.6 * k, t = 0.1 * k;
+    rows += fmt::format("{},{},{},{},{},60,5,{},{},22000,{},{},{},{}\n", episode, t, -1000 * t,
+                        100 * t, 20000 + 200 * t, std::remainder(yaw, 360), k == 0 ? "" : "0.5",
+                        target_yaw, 2000 - 200 * t, std::remainder(target_yaw - yaw, 360),
+                        k == 100 ? "target_reached" : "");
+  }
+  return rows;
+}
+
+class FlightPictures : public ::testing::Test {
+ protected:
+  std::string Write(const std::string& name, int episodes,
+                    const std::string& quantity = "altitude_ft") {
+    std::string text = fmt::format(
+        "episode,time_s,north_ft,east_ft,altitude_ft,roll_deg,pitch_deg,yaw_deg,action_roll,"
+        "target_{0},target_yaw_deg,error_{0},error_yaw_deg,termination\n",
+        quantity);
+    for (int episode = 0; episode < episodes; ++episode) text += FlightRows(episode, -160);
+    WriteFile(scratch_ / name, text);
+    return scratch_ / name;
+  }
+
+  static std::vector<std::string> WordsOf(const Picture& picture) {
+    std::vector<std::string> all;
+    for (const Shape& shape : picture.shapes) {
+      if (const auto* const words = std::get_if<Words>(&shape)) all.push_back(words->text);
+    }
+    return all;
+  }
+
+  /// All words lie on the paper, and no two on each other.
+  static void ExpectLegible(const Picture& picture) {
+    std::vector<PageBox> boxes;
+    for (const Shape& shape : picture.shapes) {
+      const auto* const words = std::get_if<Words>(&shape);
+      if (words == nullptr) continue;
+      const PageBox box = BoxOf(*words);
+      EXPECT_GE(box.left, 0) << words->text;
+      EXPECT_LE(box.right, picture.width) << words->text;
+      EXPECT_GE(box.top, 0) << words->text;
+      EXPECT_LE(box.bottom, picture.height) << words->text;
+      for (const PageBox& other : boxes) EXPECT_FALSE(box.Overlaps(other)) << words->text;
+      boxes.push_back(box);
+    }
+  }
+
+  Recordings TwoAgents(int episodes) {
+    Recordings recordings =
+        ReadRecordings({Write("f.policy.csv", episodes), Write("f.autopilot.csv", episodes)});
+    Choose({{}, {}, {{"altitude_ft", 100}, {"yaw_deg", 5}}}, &recordings);
+    return recordings;
+  }
+
+  const ScratchDirectory scratch_;
+};
+
+TEST_F(FlightPictures, AgentsOfTheSameEpisodesShareColumns) {
+  const Recordings recordings = TwoAgents(2);
+  const std::vector<DrawnEpisode> episodes = EpisodesOf(recordings);
+  ASSERT_EQ(episodes.size(), 2u);
+  EXPECT_EQ(episodes[1].flights.size(), 2u);
+  EXPECT_EQ(recordings.agents[0].name, "policy");
+  const Picture picture = TimeHistories(recordings, {{}, 518, "Two flights"});
+  const std::vector<std::string> words = WordsOf(picture);
+  for (const char* wanted : {"episode 0", "episode 1", "target reached after 10.0 s", "policy",
+                             "autopilot", "altitude, ft", "yaw, deg", "roll action, -1 to 1",
+                             "time, s", "tolerance", "target", "Two flights"}) {
+    EXPECT_THAT(words, Contains(wanted));
+  }
+  ExpectLegible(picture);
+}
+
+TEST_F(FlightPictures, AnglesHaveNoJumpsAndTargetsLieBesideThem) {
+  const Recordings recordings = ReadRecordings({Write("f.csv", 1)});
+  const DrawnFlight& flight = recordings.agents[0].flights[0];
+  const std::vector<PagePoint> flown = flight.Flown("yaw_deg"), target = flight.Target("yaw_deg");
+  constexpr double kText = 1e-4;  // degrees: files hold 6 digits
+  for (std::size_t k = 0; k < flown.size(); ++k) {
+    EXPECT_NEAR(flown[k].y, 150 + 0.6 * static_cast<double>(k), kText);
+    EXPECT_NEAR(target[k].y, 200, kText);
+  }
+}
+
+TEST_F(FlightPictures, SpaceShowsEachEndAndItsScales) {
+  const Picture picture = SpacePicture(TwoAgents(1), {});
+  const std::vector<std::string> words = WordsOf(picture);
+  EXPECT_EQ(std::count(words.begin(), words.end(), "10.0 s"), 2);
+  for (const char* wanted : {"N", "start", "altitude,", "north,", "east,",
+                             "target heading at target altitude (±5°, ±100\u00a0ft)"}) {
+    EXPECT_THAT(words, Contains(wanted));
+  }
+  ExpectLegible(picture);
+}
+
+TEST_F(FlightPictures, MapsHaveEqualScales) {
+  const Picture picture = TracksPicture(TwoAgents(1), {});
+  const std::vector<std::string> words = WordsOf(picture);
+  for (const char* wanted : {"N", "start", "north, 1000 ft", "east, 1000 ft", "altitude, 1000 ft",
+                             "time, s", "target altitude"}) {
+    EXPECT_THAT(words, Contains(wanted));
+  }
+  // The path of 10,000 ft to the south and 1000 ft to the east is the longest line of its colour.
+  PagePoint span;
+  for (const Shape& shape : picture.shapes) {
+    const auto* const path = std::get_if<Path>(&shape);
+    if (path == nullptr || path->stroke != ColourOf(0) || path->is_closed) continue;
+    const PagePoint own{path->points.back().x - path->points.front().x,
+                        path->points.back().y - path->points.front().y};
+    if (own.y > span.y) span = own;
+  }
+  EXPECT_NEAR(span.x / span.y, 0.1, 1e-6);
+}
+
+TEST_F(FlightPictures, FitAColumnOfAPaper) {
+  constexpr double kColumn = 3.5 * 72;
+  const Recordings one = TwoAgents(1);
+  for (const Picture& picture :
+       {TimeHistories(one, {{}, kColumn, ""}), SpacePicture(one, {25, 28, {}, kColumn, ""}),
+        TracksPicture(one, {{}, kColumn, ""})}) {
+    EXPECT_EQ(picture.width, kColumn);
+    ExpectLegible(picture);
+    for (const Shape& shape : picture.shapes) {
+      const auto* const words = std::get_if<Words>(&shape);
+      if (words != nullptr) {
+        EXPECT_GE(words->size, 7) << words->text;
+      }
+    }
+  }
+  EXPECT_THAT(MessageOf([&] {
+                TimeHistories(TwoAgents(9), {{}, kColumn, ""});
+              }),
+              HasSubstr("9 episodes do not fit side by side"));
+}
+
+TEST_F(FlightPictures, AFileThatIsCutShortIsDrawnAsFarAsItGoes) {
+  const std::string file = Write("f.csv", 2);
+  const std::string text = ReadFile(file);
+  WriteFile(file, text.substr(0, text.size() - 40));
+  const Recordings recordings = ReadRecordings({file});
+  EXPECT_THAT(recordings.notes, ElementsAre(HasSubstr("1 row cut short and left out")));
+  EXPECT_EQ(recordings.agents[0].flights[1].end, "unfinished");
+  EXPECT_EQ(EpisodesOf(recordings).size(), 2u);
+}
+
+TEST_F(FlightPictures, WhatCannotBeDrawnIsSaid) {
+  const std::string flights = Write("a.csv", 2), other = Write("b.csv", 2, "height_ft");
+  const auto choosing = [&](const RecordingChoice& choice) {
+    return MessageOf([&] {
+      Recordings recordings = ReadRecordings({flights});
+      Choose(choice, &recordings);
+    });
+  };
+  EXPECT_THAT(MessageOf([&] {
+                ReadRecordings({flights, other});
+              }),
+              HasSubstr("b.csv: flights of another task"));
+  EXPECT_THAT(choosing({{}, {7}, {}}), HasSubstr("no episode 7; there are 0, 1"));
+  EXPECT_THAT(choosing({{}, {}, {{"speed", 20}}}),
+              HasSubstr("speed has no target; these have: altitude_ft, yaw_deg"));
+  EXPECT_THAT(choosing({{"x", "y"}, {}, {}}), HasSubstr("2 names for 1 agent"));
+  EXPECT_THAT(MessageOf([&] { ReadRecordings({scratch_ / "nowhere.csv"}); }),
+              HasSubstr("nowhere.csv"));
+  WriteFile(scratch_ / "empty.csv", "");
+  EXPECT_THAT(MessageOf([&] { ReadRecordings({scratch_ / "empty.csv"}); }),
+              HasSubstr("empty.csv: no column episode"));
+  WriteFile(scratch_ / "none.csv", "episode,time_s,termination\n");
+  EXPECT_THAT(MessageOf([&] { ReadRecordings({scratch_ / "none.csv"}); }),
+              HasSubstr("none.csv: holds no flights"));
+  WriteFile(scratch_ / "bare.csv", "episode,time_s,termination\n0,0,\n");
+  EXPECT_THAT(
+      MessageOf([&] { SpacePicture(ReadRecordings({scratch_ / "bare.csv"}), SpaceOptions()); }),
+      HasSubstr("bare.csv: no column north_ft"));
+}
+
+}  // namespace
+}  // namespace skein

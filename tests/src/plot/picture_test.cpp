@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/picture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "src/files/output_file.h"
+#include "src/plot/label_places.h"
+#include "src/plot/pdf_module.h"
+#include "src/plot/picture_file.h"
+#include "src/plot/svg_writer.h"
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+
+namespace skein {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kTolerated = 0.15;  // points, as Simplified promises
+
+double DistanceToPart(const PagePoint& point, const PagePoint& a, const PagePoint& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const double along = std::clamp(((point.x - a.x) * dx + (point.y - a.y) * dy) / square, 0.0, 1.0);
+  return std::hypot(point.x - a.x - along * dx, point.y - a.y - along * dy);
+}
+
+TEST(Lines, SimplifiedStayNearAllPoints) {
+  std::vector<PagePoint> points;
+  for (int k = 0; k < 1000; ++k) {
+    points.push_back({0.5 * k, 40 * std::sin(0.02 * k) + 3 * std::sin(0.3 * k)});
+  }
+  const std::vector<PagePoint> kept = Simplified(points);
+  EXPECT_LT(kept.size(), points.size() / 2);
+  for (const PagePoint& point : points) {
+    double nearest = 1e9;
+    for (std::size_t k = 0; k + 1 < kept.size(); ++k) {
+      nearest = std::min(nearest, DistanceToPart(point, kept[k], kept[k + 1]));
+    }
+    EXPECT_LE(nearest, kTolerated);
+  }
+}
+
+TEST(Labels, NeverCoverEachOtherNorLeaveThePaper) {
+  LabelPlaces places({0, 0, 400, 400});
+  std::vector<PageBox> boxes;
+  for (int k = 0; k < 40; ++k) {
+    Words words;
+    words.text = "12.3 s";
+    const std::optional<Words> put = places.PutAround(words, {200, 200.0 + k % 3});
+    if (!put) continue;
+    const PageBox box = BoxOf(*put);
+    for (const PageBox& other : boxes) EXPECT_FALSE(box.Overlaps(other)) << k;
+    EXPECT_TRUE(box.left >= 0 && box.right <= 400 && box.top >= 0 && box.bottom <= 400);
+    boxes.push_back(box);
+  }
+  EXPECT_GE(boxes.size(), 8u) << "there is room";
+  EXPECT_LT(boxes.size(), 40u) << "and then there is none";
+}
+
+/// One of each shape, with words as they come from files of strangers.
+Picture Sample() {
+  Picture picture;
+  picture.width = 200;
+  picture.height = 100;
+  picture.title = "a < b & \"c\"";
+  picture.shapes.emplace_back(Line({{3.14159, 2.71828}, {10.05, 7.77}, {9, 100.123}}, kInk));
+  picture.shapes.emplace_back(Area({{0, 0}, {10, 0}, {0, 10}}, kGrey, 0.5));
+  picture.shapes.emplace_back(Disc{{50, 50}, 5, std::nullopt, kInk});
+  picture.shapes.emplace_back(Words{{20, 20}, "</text><script>&amp; ±5°\x01\xff"});
+  return picture;
+}
+
+std::string Written(const std::string& name) {
+  const ScratchDirectory scratch;
+  WritePicture(scratch / name, Sample());
+  return ReadFile(scratch / name);
+}
+
+TEST(Svg, HoldsTextAsTextAndNothingElse) {
+  const std::string svg = Written("out.svg");
+  EXPECT_THAT(svg, HasSubstr("&lt;/text&gt;&lt;script&gt;&amp;amp; ±5° \uFFFD</text>"));
+  EXPECT_THAT(svg, Not(HasSubstr("<script")));
+  EXPECT_THAT(svg, HasSubstr("<title>a &lt; b &amp; &quot;c&quot;</title>"));
+  EXPECT_THAT(svg, HasSubstr("width=\"200pt\" height=\"100pt\""));
+  // Steps from rounded place to rounded place: 3.1 2.7, 10.1 7.8, 9 100.1.
+  EXPECT_THAT(svg, HasSubstr("d=\"M3.1 2.7l7 5.1 -1.1 92.3\""));
+}
+
+TEST(Svg, TheSamePictureIsTheSameFile) { EXPECT_EQ(Written("a.svg"), Written("b.svg")); }
+
+bool HasCairo() {
+  return MessageOf([] { LoadPdfModule(); }).empty();
+}
+
+TEST(Pdf, HasOnePageOfThePicturesSizeAndNoDate) {
+  if (!HasCairo()) GTEST_SKIP() << "built without cairo";
+  const std::string pdf = Written("a.pdf");
+  EXPECT_EQ(pdf.rfind("%PDF-1.", 0), 0u);
+  EXPECT_THAT(pdf, HasSubstr("/Count 1"));
+  EXPECT_THAT(pdf, HasSubstr("/MediaBox [ 0 0 200 100 ]"));
+  EXPECT_THAT(pdf, Not(HasSubstr("CreationDate")));
+  EXPECT_THAT(pdf, HasSubstr("%%EOF"));
+  EXPECT_TRUE(pdf == Written("b.pdf")) << "not the same file";
+}
+
+TEST(Pdf, WithoutTheLibraryOneLineSaysWhatToInstall) {
+  EXPECT_THAT(MessageOf([] { LoadPdfModule("libskein_nowhere.so"); }),
+              AllOf(HasSubstr("libskein_nowhere.so"), HasSubstr("libcairo2-dev"), HasSubstr(".svg"),
+                    Not(HasSubstr("\n"))));
+  EXPECT_THAT(MessageOf([] { LoadPdfModule("libm.so.6"); }), HasSubstr("no module of Skein"));
+}
+
+TEST(PictureFiles, AreToldByTheirEnding) {
+  EXPECT_EQ(MessageOf([] { CheckPictureFile("a.svg"); }), "");
+  EXPECT_THAT(MessageOf([] { CheckPictureFile("a.png"); }),
+              HasSubstr("a.png: let the name end in"));
+  EXPECT_THAT(MessageOf([] { CheckPictureFile(".svg"); }), HasSubstr("let the name end in"));
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/projection.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "src/plot/ground.h"
+
+namespace skein {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of a few operations in float64 on numbers near 1
+
+double Length(const View& view, const SpacePoint& step) {
+  const PagePoint a = view.Place(SpacePoint::Zero()), b = view.Place(step);
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+TEST(BodyAxesTest, AreOrthonormalAndNotMirrored) {
+  for (const SpacePoint& angles :
+       {SpacePoint(0, 0, 0), SpacePoint(60, 20, -130), SpacePoint(-170, -80, 179)}) {
+    const BodyAxes axes = BodyAxesOf(angles.x(), angles.y(), angles.z());
+    EXPECT_NEAR(axes.forward.norm(), 1, kRounding);
+    EXPECT_NEAR(axes.right.norm(), 1, kRounding);
+    // North, east, up is left-handed: forward x right points down in it, and up is its negative.
+    EXPECT_NEAR((axes.forward.cross(axes.right) - axes.up).norm(), 0, kRounding);
+  }
+}
+
+TEST(BodyAxesTest, ARightBankLowersTheRightWingAndPitchRaisesTheNose) {
+  EXPECT_LT(BodyAxesOf(30, 0, 45).right.z(), 0);
+  EXPECT_GT(BodyAxesOf(0, 30, 45).forward.z(), 0);
+  EXPECT_GT(BodyAxesOf(0, 0, 90).forward.y(), 0.99) << "yaw 90 is to the east";
+}
+
+TEST(ViewTest, KeepsLengthsAcrossAndShowsNothingOfTheLineOfSight) {
+  const View view(30, 25);
+  const double azimuth = 30 * M_PI / 180;
+  EXPECT_NEAR(Length(view, {-std::sin(azimuth), std::cos(azimuth), 0}), 1, kRounding);
+  EXPECT_NEAR(Length(view, view.to_viewer()), 0, kRounding);
+  EXPECT_LT(view.Place({0, 0, 100}).y, view.Place({0, 0, 0}).y) << "up is up";
+}
+
+TEST(ViewTest, FromAboveIsAMap) {
+  const View map(0, 90);
+  EXPECT_NEAR(map.Place(kNorthward).y, -1, kRounding);
+  EXPECT_NEAR(map.Place(kEastward).x, 1, kRounding);
+  EXPECT_NEAR(Length(map, kUpward), 0, kRounding);
+}
+
+TEST(ViewTest, FitsItsCorners) {
+  View view(-40, 20);
+  const std::vector<SpacePoint> corners = {{0, 0, 0}, {5000, 0, 0}, {0, 7000, 0}, {100, 200, 9000}};
+  const double height = view.Fit(corners, {50, 60}, 800);
+  PagePoint low{1e9, 1e9}, high{-1e9, -1e9};
+  for (const SpacePoint& corner : corners) {
+    const PagePoint place = view.Place(corner);
+    low = {std::min(low.x, place.x), std::min(low.y, place.y)};
+    high = {std::max(high.x, place.x), std::max(high.y, place.y)};
+  }
+  constexpr double kPoints = 1e-9;
+  EXPECT_NEAR(low.x, 50, kPoints);
+  EXPECT_NEAR(high.x, 850, kPoints);
+  EXPECT_NEAR(low.y, 60, kPoints);
+  EXPECT_NEAR(high.y, 60 + height, kPoints);
+}
+
+TEST(GroundTest, LiesUnderAllPoints) {
+  const std::vector<SpacePoint> points = {{0, 0, 19000}, {12000, -7000, 23100}};
+  const Ground ground(points);
+  for (const SpacePoint& point : points) {
+    EXPECT_LE(ground.north().min, point.x());
+    EXPECT_GE(ground.north().max, point.x());
+    EXPECT_LE(ground.east().min, point.y());
+    EXPECT_GE(ground.east().max, point.y());
+    EXPECT_LT(ground.floor_ft(), point.z());
+    EXPECT_GE(ground.ceiling_ft(), point.z());
+  }
+}
+
+TEST(GroundTest, OfOnePointHasASize) {
+  const Ground ground({{0, 0, 20000}});
+  EXPECT_GT(ground.north().max, ground.north().min);
+  EXPECT_GT(ground.ceiling_ft(), ground.floor_ft());
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/training_curves.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/error_message.h"
+
+namespace skein {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+constexpr double kRounding = 1e-12;
+
+/// A run with a share at every million of steps, that took a minute for each.
+RunRecord RunOf(const std::string& name, const std::vector<double>& shares,
+                const std::string& task = "heading", std::uint64_t seed = 0) {
+  RunRecord run;
+  run.path = run.name = name;
+  run.config.train.env.task = task;
+  run.config.train.seed = seed;
+  run.metrics.names = {"env_steps", "evaluation_success_rate"};
+  run.metrics.values.resize(2);
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    run.metrics.values[0].push_back(1e6 * static_cast<double>(k + 1));
+    run.metrics.values[1].push_back(shares[k]);
+  }
+  run.timing.names = {"env_steps", "rollout_s", "update_s", "evaluation_s"};
+  run.timing.values = {{1e6, 2e6}, {10, 10}, {20, 20}, {0, 60}};
+  return run;
+}
+
+std::vector<std::string> WordsOf(const Picture& picture) {
+  std::vector<std::string> all;
+  for (const Shape& shape : picture.shapes) {
+    if (const auto* const words = std::get_if<Words>(&shape)) all.push_back(words->text);
+  }
+  return all;
+}
+
+TEST(TrainingCurvesTest, MeanAndBandAreThoseOfTheSeeds) {
+  const CurveSetting setting{
+      "heading", "", {RunOf("a", {0.1, std::nan(""), 0.5}), RunOf("b", {0.3, 0.4, 0.9})}};
+  const SeedCurve curve = CurveOf(setting, "evaluation_success_rate");
+  const double means[] = {20, 35, 70}, lows[] = {10, 30, 50}, highs[] = {30, 40, 90};
+  ASSERT_EQ(curve.mean.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(curve.mean[k].y, means[k], 100 * kRounding);
+    EXPECT_NEAR(curve.low[k].y, lows[k], 100 * kRounding);
+    EXPECT_NEAR(curve.high[k].y, highs[k], 100 * kRounding);
+    EXPECT_NEAR(curve.mean[k].x, static_cast<double>(k + 1), kRounding);
+  }
+  EXPECT_NEAR(*MinutesPerMillion(setting), 1, kRounding) << "120 s for two million";
+}
+
+TEST(TrainingCurvesTest, RunsOfOneConfigurationAreSeedsOfASetting) {
+  const auto runs = [] {
+    return std::vector<RunRecord>{RunOf("a", {0.1, 0.2}, "heading", 1),
+                                  RunOf("b", {0.2, 0.3}, "control", 1),
+                                  RunOf("c", {0.3, 0.4}, "heading", 2)};
+  };
+  const std::vector<CurveSetting> settings = SettingsOf(runs(), std::nullopt, {});
+  ASSERT_EQ(settings.size(), 2u);
+  EXPECT_EQ(settings[0].runs.size(), 2u);
+  EXPECT_EQ(settings[1].task, "control");
+  EXPECT_THAT(MessageOf([&] { SettingsOf(runs(), 2, {}); }),
+              HasSubstr("b: of another task than a"));
+  EXPECT_THAT(MessageOf([&] { SettingsOf(runs(), std::nullopt, {"x"}); }),
+              HasSubstr("1 name for 2 settings"));
+}
+
+TEST(TrainingCurvesTest, EachTaskHasAPanel) {
+  const std::vector<CurveSetting> settings =
+      SettingsOf({RunOf("a", {0.1, 0.5}), RunOf("b", {0.2, 0.7}, "control")}, std::nullopt, {});
+  CurveOptions options;
+  options.autopilots["heading"] = {"aggressive autopilot", 0.995};
+  options.machine = "two threads";
+  const std::vector<std::string> words = WordsOf(TrainingCurves(settings, options));
+  for (const char* wanted :
+       {"Heading: a new altitude, heading and speed", "Control: a new pitch, heading and speed",
+        "aggressive autopilot: 99.5 %", "minutes on two threads", "control steps, million",
+        "one seed"}) {
+    EXPECT_THAT(words, Contains(wanted));
+  }
+}
+
+TEST(TrainingCurvesTest, WhatIsNotThereIsSaid) {
+  const std::vector<CurveSetting> settings =
+      SettingsOf({RunOf("a", {std::nan("")})}, std::nullopt, {});
+  EXPECT_THAT(MessageOf([&] { TrainingCurves(settings, {}); }),
+              HasSubstr("a: column evaluation_success_rate has no values yet"));
+  CurveOptions options;
+  options.columns = {"altitude"};
+  EXPECT_THAT(MessageOf([&] { TrainingCurves(settings, options); }),
+              HasSubstr("a: metrics.csv has no column altitude; there are env_steps"));
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "src/files/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+#include "tests/src/tiny_training.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class PlotPipeline : public ::testing::Test {
+ protected:
+  ProgramResult Plot(const std::string& kind, const std::string& out,
+                     const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"plot",       kind,
+                                          "--task",     "heading",
+                                          "--agents",   "zero,random:0.2",
+                                          "--episodes", "2",
+                                          "--set",      "env.time_limit_steps=60",
+                                          "--set",      "env.heading.earliest_success_step=60",
+                                          "-o",         scratch_ / out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return CallSkein(arguments);
+  }
+
+  const ScratchDirectory scratch_;
+};
+
+TEST_F(PlotPipeline, DrawsFlightsOfAgentsTwiceTheSame) {
+  for (const std::string kind : {"space", "tracks", "flights"}) {
+    const ProgramResult result = Plot(kind, kind + ".svg");
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_EQ(result.output, scratch_ / (kind + ".svg\n"));
+    const std::string svg = ReadFile(scratch_ / (kind + ".svg"));
+    EXPECT_THAT(svg, HasSubstr(">zero"));
+    EXPECT_THAT(svg, HasSubstr(">random:0.2<"));
+    Plot(kind, "again.svg", {"--threads", "1"});
+    EXPECT_TRUE(svg == ReadFile(scratch_ / "again.svg")) << kind;
+  }
+}
+
+TEST_F(PlotPipeline, FilesAreDrawnAsTheirFlights) {
+  const std::string flights = scratch_ / "flights.csv";
+  const ProgramResult replay = CallSkein(
+      {"replay", "--task", "heading", "--agents", "zero,random:0.2", "--episodes", "2", "--set",
+       "env.time_limit_steps=60", "--set", "env.heading.earliest_success_step=60", "-o", flights});
+  ASSERT_EQ(replay.exit_code, 0) << replay.error;
+  const ProgramResult result =
+      CallSkein({"plot", "tracks", scratch_ / "flights.zero.csv",
+                 scratch_ / "flights.random-0.2.csv", "--names", "zero,random:0.2", "--tolerance",
+                 "altitude_ft=100,yaw_deg=5,true_airspeed_fps=20", "-o", scratch_ / "files.svg"});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(ReadFile(scratch_ / "files.svg"), HasSubstr(">random:0.2<"));
+}
+
+TEST_F(PlotPipeline, DrawsATrainingAndWhatACrashHasLeftOfIt) {
+  const std::string run = scratch_ / "run";
+  ASSERT_EQ(CallSkein(TinyTraining(run)).exit_code, 0);
+  const auto plot = [&](const std::string& column) {
+    return CallSkein({"plot", "curves", run, "--columns", column, "-o", scratch_ / "curves.svg"});
+  };
+  EXPECT_EQ(plot("evaluation_success_rate,return_mean").exit_code, 0);
+  EXPECT_THAT(ReadFile(scratch_ / "curves.svg"), HasSubstr("mean return of the training episodes"));
+  std::filesystem::resize_file(run + "/metrics.csv",
+                               std::filesystem::file_size(run + "/metrics.csv") - 20);
+  const ProgramResult torn = plot("return_mean");
+  EXPECT_EQ(torn.exit_code, 0) << torn.error;
+  EXPECT_THAT(torn.error, HasSubstr("1 row cut short and left out"));
+  ExpectOneLine(plot("altitude").error, "metrics.csv has no column altitude");
+}
+
+TEST_F(PlotPipeline, WhatIsAskedWronglyIsRefusedInOneLine) {
+  const auto expect = [&](const std::vector<std::string>& arguments, int code,
+                          const std::string& part) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, code) << part;
+    ExpectOneLine(result.error, part);
+  };
+  const std::string out = scratch_ / "out.svg";
+  expect({"plot", "flights", "--task", "heading", "-o", out}, 2, "who flies?");
+  expect({"plot", "flights", "a.csv", "--agents", "zero", "-o", out}, 2, "not both");
+  expect({"plot", "flights", scratch_ / "nowhere.csv", "-o", out}, 1, "nowhere.csv");
+  expect({"plot", "flights", "a.csv", "-o", "out.png"}, 2, "out.png: let the name end in");
+  expect({"plot", "flights", "a.csv", "-o", scratch_ / "no/out.svg"}, 1, "cannot be written");
+  expect({"plot", "space", "--agents", "zero", "--task", "heading", "--episodes", "0", "-o", out},
+         2, "--episodes");
+  expect({"plot", "curves", scratch_.path(), "-o", out}, 1, "not the directory of a run");
+  expect({"plot", "space", "--agents", "zero", "--task", "heading", "--tolerance", "x", "-o", out},
+         2, "COLUMN=NUMBER");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(PlotPipeline, ComparisonsGiveTheAutopilotsFigure) {
+  const std::string run = scratch_ / "run", comparison = scratch_ / "comparison.json";
+  ASSERT_EQ(CallSkein(TinyTraining(run)).exit_code, 0);
+  const std::string out = scratch_ / "curves.svg";
+  WriteFile(comparison,
+            "{\"task\": \"heading\", \"agents\": [{\"name\": \"policy:x\", \"success_rate\": 1.0},"
+            " {\"name\": \"autopilot\", \"success_rate\": 0.75}]}");
+  const auto plot = [&] {
+    return CallSkein({"plot", "curves", run, "--comparison", comparison, "-o", out});
+  };
+  EXPECT_EQ(plot().exit_code, 0);
+  EXPECT_THAT(ReadFile(out), HasSubstr("aggressive autopilot: 75.0 %"));
+  WriteFile(comparison, "[]");
+  ExpectOneLine(plot().error, "not what skein compare --json writes");
+}
+
+/// cairo is the price of a PDF alone.
+TEST(PlotLibraries, NothingIsLoadedBeforeItIsNeeded) {
+  RunningProgram program({"plot", "--help"}, [] { setenv("LD_DEBUG", "files", 1); });
+  const ProgramResult result = program.Wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("libfmt"));
+  EXPECT_THAT(result.error, Not(HasSubstr("cairo")));
+}
+
+}  // namespace
+}  // namespace skein
