@@ -18,6 +18,7 @@
 #include "src/evaluation/flight_file.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
+#include "src/files/zip_archive.h"
 #include "src/replay/acmi_flights.h"
 #include "src/run/run_directory.h"
 #include "train/policy/policy_parameters.h"
@@ -178,7 +179,11 @@ AcmiRecording AcmiOf(const FlightOptions& options, const std::vector<AgentFlight
 
 void WriteFlightsAcmi(const FlightOptions& options, const std::string& path,
                       const std::vector<AgentFlights>& agents) {
-  WriteFile(path, AcmiFile(AcmiOf(options, agents)));
+  const std::string file = AcmiFile(AcmiOf(options, agents));
+  const std::string zipped = ".zip.acmi";
+  const bool is_zipped =
+      path.size() > zipped.size() && path.substr(path.size() - zipped.size()) == zipped;
+  WriteFile(path, is_zipped ? ZipArchive("flights.txt.acmi", file) : file);
   fmt::print("{}: {} by {}, for Tacview\n", path,
              Counted(static_cast<int>(agents.front().flights.size()), "episode"),
              Counted(static_cast<int>(agents.size()), "agent"));

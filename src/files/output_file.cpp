@@ -96,7 +96,7 @@ void WriteFile(const std::string& path, const std::string& text) {
   if (stat(path.c_str(), &status) == 0) {
     if (const int stream = StandardStream(status); stream >= 0) {
       std::FILE* const out = stream == STDOUT_FILENO ? stdout : stderr;
-      if (std::fputs(text.c_str(), out) == EOF || std::fflush(out) != 0) {
+      if (std::fwrite(text.data(), 1, text.size(), out) != text.size() || std::fflush(out) != 0) {
         throw Error(path + ": cannot be written: " + SystemReason());
       }
       return;

@@ -50,6 +50,18 @@ bool SpeaksUtf8() {
   return false;
 }
 
+/// What a line takes up: escape sequences nothing, a character of several bytes one column.
+std::size_t ColumnsOf(const std::string& line) {
+  std::size_t columns = 0;
+  bool is_escape = false;
+  for (const char byte : line) {
+    if (byte == '\x1b') is_escape = true;
+    columns += !is_escape && (byte & 0xC0) != 0x80;
+    if (byte == 'm') is_escape = false;
+  }
+  return columns;
+}
+
 }  // namespace
 
 ProgressDisplay::ProgressDisplay()
@@ -89,20 +101,32 @@ std::string ProgressDisplay::Block(const Progress& progress) {
   std::vector<std::string> lines = LiveView(progress, style);
   // One row is the cursor's. What has scrolled out at the top could not be reached again.
   lines.resize(std::min<std::size_t>(lines.size(), std::max(2, int{size.ws_row}) - 1));
-  if (continued.exchange(false)) block_lines_ = 0;
-  std::string text =
-      block_lines_ > 0
-          ? fmt::format("\r\x1b[{}A", std::min<std::size_t>(block_lines_, size.ws_row - 1))
-          : "";
-  for (const std::string& line : lines) text += line + "\x1b[K\n";
-  block_lines_ = lines.size();
+  std::string text = ToItsTop();
+  block_.clear();
+  for (const std::string& line : lines) {
+    text += line + "\x1b[K\n";
+    block_.push_back(ColumnsOf(line));
+  }
   return text + "\x1b[J";
 }
 
+/// Leads the cursor to the first row of the block, if there is one.
+std::string ProgressDisplay::ToItsTop() {
+  if (continued.exchange(false)) block_.clear();
+  if (block_.empty()) return "";
+  const winsize size = TerminalSize();
+  std::size_t rows = 0;
+  for (const std::size_t columns : block_) {
+    rows += columns == 0 ? 1 : (columns - 1) / size.ws_col + 1;
+  }
+  return fmt::format("\r\x1b[{}A",
+                     std::clamp<std::size_t>(rows, 1, std::max(2, int{size.ws_row}) - 1));
+}
+
 std::string ProgressDisplay::Erased() {
-  if (continued.exchange(false)) block_lines_ = 0;
-  if (block_lines_ == 0) return "";
-  return fmt::format("\r\x1b[{}A\x1b[J", std::exchange(block_lines_, 0));
+  const std::string to_top = ToItsTop();
+  block_.clear();
+  return to_top.empty() ? "" : to_top + "\x1b[J";
 }
 
 void ProgressDisplay::Print(const std::string& line) { Write(Erased() + line + "\n"); }

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "src/run/progress.h"
 
@@ -11,9 +12,10 @@ namespace skein {
 
 /// Shows a training on the standard output. On a terminal that can (TERM is not dumb) a block of
 /// lines that is drawn anew in its place, in colour unless NO_COLOR is set (no-color.org); else a
-/// line every ten seconds. The cursor always rests below what was written and no mode of the
-/// terminal is changed, so that a program that is stopped or killed leaves it whole. Falls silent
-/// when the output breaks (its reader has gone, its disk is full). One at a time.
+/// line every ten seconds. A terminal that becomes narrower breaks the lines of the block, and it
+/// is drawn anew over all of them. The cursor always rests below what was written and no mode of
+/// the terminal is changed, so that a program that is stopped or killed leaves it whole. Falls
+/// silent when the output breaks (its reader has gone, its disk is full). One at a time.
 class ProgressDisplay {
  public:
   ProgressDisplay();
@@ -31,12 +33,13 @@ class ProgressDisplay {
 
  private:
   std::string Block(const Progress& progress);
+  std::string ToItsTop();
   std::string Erased();
   void Write(const std::string& text);
 
   struct sigaction replaced_ {};  ///< what handled SIGCONT before
   bool terminal_ = false, colour_ = false, unicode_ = false;
-  std::size_t block_lines_ = 0;  ///< above the cursor
+  std::vector<std::size_t> block_;  ///< columns of its lines, above the cursor
   bool shown_ = false;
   bool silent_ = false;
   std::string failure_;
