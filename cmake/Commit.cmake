@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Writes OUTPUT, a C++ source that defines skein::kCommit with the commit of the git work tree SOURCE, if it is not so
 # already: runs with every build, and costs a compilation of these lines only after a commit.
+cmake_minimum_required(VERSION 3.25)
 set(commit unknown)
 find_program(git git)
 if(git)
