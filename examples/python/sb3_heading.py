@@ -45,13 +45,13 @@ class Curve(BaseCallback):
 
 
 def make_model(options, envs):
-    shared = {"n_steps": 32, "gamma": GAMMA, "learning_rate": lambda left: 1e-3 * left, "seed": options.seed,
+    shared = {"n_steps": 32, "n_epochs": 8, "batch_size": 512, "gamma": GAMMA, "learning_rate": lambda left: 1e-3 * left, "seed": options.seed,
               "policy_kwargs": {"log_std_init": -1.5}, "stats_window_size": 500, "device": "cpu"}
     if options.recurrent:
         # A critic that sees what is observed, not what the actor's memory makes of it.
         shared["policy_kwargs"] |= {"lstm_hidden_size": 64, "enable_critic_lstm": False}
-        return RecurrentPPO("MlpLstmPolicy", envs, n_epochs=8, batch_size=1024, **shared)
-    return PPO("MlpPolicy", envs, n_epochs=8, batch_size=512, **shared)
+        return RecurrentPPO("MlpLstmPolicy", envs, **shared)
+    return PPO("MlpPolicy", envs, **shared)
 
 
 def evaluate(model, episodes):

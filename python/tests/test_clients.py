@@ -10,9 +10,9 @@ from conftest import ROOT
 
 import skein
 
-# What a training of a few minutes must reach of 500 fresh episodes; actions of zero reach 0.12, random ones 0.39. The
-# recurrent learner takes its time.
-LEAST_SUCCESS, LEAST_SUCCESS_RECURRENT = 0.8, 0.6
+# Of 500 fresh episodes: well below what one seed of each reached (docs/how-to/python.md: 0.93 the least), far above what
+# learns nothing; actions of zero reach 0.12, random ones 0.39.
+LEAST_SUCCESS = 0.85
 
 
 def test_the_easy_preset_is_not_won_by_doing_nothing():
@@ -56,15 +56,8 @@ def learnt(tmp_path, example, *arguments):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(
-    ("arguments", "least"),
-    [
-        (["ppo_heading.py"], LEAST_SUCCESS),
-        (["sb3_heading.py"], LEAST_SUCCESS),
-        (["sb3_heading.py", "--recurrent"], LEAST_SUCCESS_RECURRENT),
-    ],
-)
-def test_a_learner_of_others_learns_the_easy_preset(tmp_path, arguments, least):
+@pytest.mark.parametrize("arguments", [["ppo_heading.py"], ["sb3_heading.py"], ["sb3_heading.py", "--recurrent"]])
+def test_a_learner_of_others_learns_the_easy_preset(tmp_path, arguments):
     pytest.importorskip("sb3_contrib")
     pytest.importorskip("torch")
-    assert learnt(tmp_path, *arguments)["success_rate"] > least
+    assert learnt(tmp_path, *arguments)["success_rate"] > LEAST_SUCCESS
