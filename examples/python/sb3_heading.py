@@ -45,8 +45,8 @@ class Curve(BaseCallback):
 
 
 def make_model(options, envs):
-    shared = {"n_steps": 32, "n_epochs": 8, "batch_size": 512, "gamma": GAMMA, "learning_rate": lambda left: 1e-3 * left, "seed": options.seed,
-              "policy_kwargs": {"log_std_init": -1.5}, "stats_window_size": 500, "device": "cpu"}
+    shared = {"n_steps": 32, "n_epochs": 8, "batch_size": 512, "gamma": GAMMA, "learning_rate": lambda left: 1e-3 * left,
+              "policy_kwargs": {"log_std_init": -1.5}, "stats_window_size": 500, "device": "cpu", "seed": options.seed}
     if options.recurrent:
         # A critic that sees what is observed, not what the actor's memory makes of it.
         shared["policy_kwargs"] |= {"lstm_hidden_size": 64, "enable_critic_lstm": False}
