@@ -38,40 +38,63 @@ class Findings {
   std::vector<Finding> findings_;
 };
 
+/// What an aircraft weighs and measures, in the units of its file.
+struct Sizes {
+  double mass, wing_area, span, chord, Ixx, Iyy, Izz;
+  const char *mass_unit, *length_unit, *inertia_unit;  ///< as the keys end
+  double kg_per_mass = 1, metres_per_length = 1;
+};
+
+Sizes SizesOf(const DerivativeAircraft& a) {
+  return {a.mass_kg,   a.wing_area_m2, a.span_m, a.chord_m, a.Ixx_kg_m2,
+          a.Iyy_kg_m2, a.Izz_kg_m2,    "kg",     "m",       "kg_m2"};
+}
+
+Sizes SizesOf(const Airframe& a) {
+  return {a.mass_slug, a.wing_area_ft2, a.span_ft, a.chord_ft, a.Ixx,      a.Iyy,
+          a.Izz,       "slug",          "ft",      "slug_ft2", kKgPerSlug, kMetresPerFoot};
+}
+
 /// Radii of gyration over half the span, as Roskam tabulates them (Airplane Design V, appendix B;
 /// there pitch and yaw also by the length, which a derivative model does not have): what aircraft
 /// from gliders to fighters have, widened by a quarter.
-void CheckInertia(const DerivativeAircraft& a, Findings* findings) {
-  const auto ratio = [&](double inertia) { return 2 * std::sqrt(inertia / a.mass_kg) / a.span_m; };
+void CheckInertia(const Sizes& a, Findings* findings) {
+  const auto ratio = [&](double inertia) { return 2 * std::sqrt(inertia / a.mass) / a.span; };
   const struct {
     const char* name;
     double inertia, low, high;
-  } axes[] = {{"Ixx_kg_m2", a.Ixx_kg_m2, 0.13, 0.5},
-              {"Iyy_kg_m2", a.Iyy_kg_m2, 0.15, 1.1},
-              {"Izz_kg_m2", a.Izz_kg_m2, 0.22, 1.2}};
+  } axes[] = {{"Ixx", a.Ixx, 0.13, 0.5}, {"Iyy", a.Iyy, 0.15, 1.1}, {"Izz", a.Izz, 0.22, 1.2}};
   for (const auto& axis : axes) {
     const double found = ratio(axis.inertia);
-    findings->Warn(found < axis.low || found > axis.high,
-                   Say("airframe.%s = %g is a radius of gyration of %.2f half spans; aircraft have "
-                       "%.2f to %.2f",
-                       axis.name, axis.inertia, found, axis.low, axis.high));
+    findings->Warn(
+        found < axis.low || found > axis.high,
+        Say("airframe.%s_%s = %g is a radius of gyration of %.2f half spans; aircraft have "
+            "%.2f to %.2f",
+            axis.name, a.inertia_unit, axis.inertia, found, axis.low, axis.high));
   }
-  findings->Error(a.Izz_kg_m2 > a.Ixx_kg_m2 + a.Iyy_kg_m2,
-                  Say("airframe.Izz_kg_m2 = %g is above the sum of the other two, %g: no body has "
+  findings->Error(a.Izz > a.Ixx + a.Iyy,
+                  Say("airframe.Izz_%s = %g is above the sum of the other two, %g: no body has "
                       "such moments of inertia",
-                      a.Izz_kg_m2, a.Ixx_kg_m2 + a.Iyy_kg_m2));
+                      a.inertia_unit, a.Izz, a.Ixx + a.Iyy));
 }
 
-void CheckGeometry(const DerivativeAircraft& a, Findings* findings) {
-  const double mean_chord = a.wing_area_m2 / a.span_m;
-  findings->Warn(
-      a.chord_m < 0.7 * mean_chord || a.chord_m > 1.6 * mean_chord,
-      Say("airframe.chord_m = %g, while wing area over span is %.3g", a.chord_m, mean_chord));
-  const double loading = a.mass_kg * 9.81 / a.wing_area_m2;
+void CheckGeometry(const Sizes& a, Findings* findings) {
+  const double mean_chord = a.wing_area / a.span;
+  findings->Warn(a.chord < 0.7 * mean_chord || a.chord > 1.6 * mean_chord,
+                 Say("airframe.chord_%s = %g, while wing area over span is %.3g", a.length_unit,
+                     a.chord, mean_chord));
+  const double loading =
+      a.mass * a.kg_per_mass * 9.81 / (a.wing_area * a.metres_per_length * a.metres_per_length);
   findings->Warn(loading < 20 || loading > 8000,
-                 Say("a wing loading of %.0f N/m2 is that of no aircraft: airframe.mass_kg, "
-                     "wing_area_m2",
-                     loading));
+                 Say("a wing loading of %.0f N/m2 is that of no aircraft: airframe.mass_%s, "
+                     "wing_area_%s2",
+                     loading, a.mass_unit, a.length_unit));
+}
+
+/// Of its weight and measures.
+void CheckSizes(const Sizes& sizes, Findings* findings) {
+  CheckGeometry(sizes, findings);
+  CheckInertia(sizes, findings);
 }
 
 void CheckLongitudinal(const LongitudinalDerivatives& k, Findings* findings) {
@@ -178,10 +201,15 @@ void CheckMode(const char* name, std::complex<double> mode, double slow_s, const
 
 }  // namespace
 
+std::vector<Finding> CheckAirframe(const Airframe& airframe) {
+  Findings findings;
+  CheckSizes(SizesOf(airframe), &findings);
+  return findings.Take();
+}
+
 std::vector<Finding> CheckDerivatives(const DerivativeAircraft& aircraft) {
   Findings findings;
-  CheckGeometry(aircraft, &findings);
-  CheckInertia(aircraft, &findings);
+  CheckSizes(SizesOf(aircraft), &findings);
   CheckLongitudinal(aircraft.longitudinal, &findings);
   CheckLateral(aircraft.lateral, &findings);
   if (const auto* piston = std::get_if<PistonPropulsion>(&aircraft.propulsion)) {

@@ -22,6 +22,9 @@ struct Finding {
   std::string text;
 };
 
+/// Of the airframe of a model of tables: ratios of mass and lengths.
+std::vector<Finding> CheckAirframe(const Airframe& airframe);
+
 /// Of the numbers of a derivative model alone: signs, ratios of mass and lengths, the propeller.
 std::vector<Finding> CheckDerivatives(const DerivativeAircraft& aircraft);
 

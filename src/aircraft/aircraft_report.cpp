@@ -131,7 +131,9 @@ CheckedAircraft LoadForCheck(const std::string& aircraft) {
   const AircraftDocument document = DocumentOf(aircraft);
   if (document.model == "tables") {
     const Aircraft tables = MakeAircraft(document);
-    return Checked(tables, LimitsOfGains(tables.flight_control));
+    CheckedAircraft checked = Checked(tables, LimitsOfGains(tables.flight_control));
+    checked.findings = CheckAirframe(tables.airframe);
+    return checked;
   }
   const DerivativeAircraft model =
       ReadDerivativeAircraft(document.name, document.text, FlightControlSection::kOptional);

@@ -33,16 +33,14 @@ bool CanBeAroundStart(const TermTarget& target) {
 bool IsPartOfPoint(const TermTarget& other, const TermTarget& target) {
   const TermValue value = target.quantity.value;
   return other.draw_from == TermTarget::Draw::kPoint &&
-         (value == TermValue::kNorth || value == TermValue::kEast ||
-          value == TermValue::kAltitude);
+         (value == TermValue::kNorth || value == TermValue::kEast || value == TermValue::kAltitude);
 }
 
 /// Of lengths and speeds the aircraft's own, of angles a radian, of rates a radian per second.
 TermUnit UsualUnit(const TermTarget& target) {
   const std::string& name = target.quantity.name;
   const auto ends_in = [&name](const std::string& end) {
-    return name.size() > end.size() &&
-           name.compare(name.size() - end.size(), end.size(), end) == 0;
+    return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
   };
   if (name == "point" || ends_in("_ft")) return {ReferenceUnit::kAltitudeError, 1};
   if (ends_in("_fps")) return {ReferenceUnit::kSpeed, 1};
@@ -118,8 +116,7 @@ void ReadTarget(const toml::table& table, const std::string& source, TermTaskCon
       throw Error(fmt::format("{}: two targets are called {}", own.Here(), target.name));
     }
     if (other.quantity.value == target.quantity.value || IsPartOfPoint(other, target)) {
-      throw Error(
-          fmt::format("{}: {} has a target already, {}", own.Here(), quantity, other.name));
+      throw Error(fmt::format("{}: {} has a target already, {}", own.Here(), quantity, other.name));
     }
   }
   own.RefuseOthers();

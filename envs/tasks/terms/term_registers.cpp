@@ -19,8 +19,7 @@ TermRegisters::TermRegisters(const TermTaskConfig& config, const TermColumns& co
       return length == 0 ? 0.0f : static_cast<float>(2 * M_PI / length);
     };
     program_.terrain.push_back({static_cast<float>(wave.height_ft), per(wave.wavelength_north_ft),
-                                per(wave.wavelength_east_ft),
-                                static_cast<float>(wave.phase_rad)});
+                                per(wave.wavelength_east_ft), static_cast<float>(wave.phase_rad)});
   }
 }
 
@@ -49,7 +48,9 @@ int TermRegisters::Scaled(int number, double factor) {
   return known->second;
 }
 
-int TermRegisters::FlightColumn(Op operation, int column) { return Add({operation, New(), column}); }
+int TermRegisters::FlightColumn(Op operation, int column) {
+  return Add({operation, New(), column});
+}
 
 int TermRegisters::Value(T value, int target, float constant) {
   const auto key = std::make_pair(value, value == T::kTargetError ? target
@@ -82,8 +83,7 @@ int TermRegisters::Angle(T sine, T cosine) {
 
 int TermRegisters::FlightValue(T value) {
   if (value >= T::kU && value <= T::kR) {
-    return FlightColumn(Op::kFlightColumn,
-                        kU + static_cast<int>(value) - static_cast<int>(T::kU));
+    return FlightColumn(Op::kFlightColumn, kU + static_cast<int>(value) - static_cast<int>(T::kU));
   }
   if (value >= T::kWindNorth && value <= T::kWindDown) {
     return FlightColumn(Op::kWindColumn,

@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "envs/aircraft/derivative_aircraft_file.h"
+#include "envs/aircraft/f16.h"
+#include "envs/aircraft/units.h"
 
 namespace skein {
 namespace {
@@ -60,6 +62,25 @@ TEST(AircraftFindings, EveryWrongSignOrRatioIsNamed) {
     DerivativeAircraft aircraft = AerosondeModel();
     one.spoil(&aircraft);
     EXPECT_THAT(TextOf(CheckDerivatives(aircraft), one.kind), HasSubstr(one.says));
+  }
+}
+
+TEST(AircraftFindings, TablesInAnotherUnitStandOut) {
+  const Airframe f16 = F16().airframe;
+  EXPECT_TRUE(CheckAirframe(f16).empty());
+  const struct {
+    std::function<void(Airframe*)> spoil;
+    const char* says;
+  } cases[] = {
+      {[](auto* a) { a->mass_slug *= kKgPerSlug; }, "airframe.mass_slug, wing_area_ft2"},
+      {[](auto* a) { a->wing_area_ft2 *= kMetresPerFoot * kMetresPerFoot; }, "wing loading"},
+      {[](auto* a) { a->chord_ft *= kMetresPerFoot; }, "airframe.chord_ft = 3.45"},
+      {[](auto* a) { a->Ixx *= 10; }, "airframe.Ixx_slug_ft2"},
+  };
+  for (const auto& one : cases) {
+    Airframe airframe = f16;
+    one.spoil(&airframe);
+    EXPECT_THAT(TextOf(CheckAirframe(airframe), Finding::kWarning), HasSubstr(one.says));
   }
 }
 
