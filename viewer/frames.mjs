@@ -9,7 +9,7 @@ import { launchChromium } from './chromium.mjs';
 
 const [report, frames = '300', size = '1280x900'] = process.argv.slice(2);
 if (!report || !existsSync(report)) {
-  console.error('frames.mjs: error: no such report; usage: node frames.mjs REPORT.html [FRAMES] [WIDTHxHEIGHT]');
+  console.error('frames.mjs: error: no such report: node frames.mjs REPORT.html [FRAMES] [SIZE]');
   process.exit(2);
 }
 const [width, height] = size.split('x').map(Number);
@@ -46,7 +46,8 @@ function percentile(values, share) {
   return sorted[Math.min(Math.floor(share * sorted.length), sorted.length - 1)].toFixed(1);
 }
 
-const shown = (values) => `median ${percentile(values, 0.5)} ms, 95th percentile ${percentile(values, 0.95)} ms`;
+const shown = (values) =>
+  `median ${percentile(values, 0.5)} ms, 95th percentile ${percentile(values, 0.95)} ms`;
 
 /** Processor time so far, s: of the processes of pages, and of the one that draws. */
 async function processTimes() {
@@ -61,7 +62,7 @@ async function measure(isDrawn) {
   page.setDefaultTimeout(600000);
   await page.addInitScript(timeFrames, isDrawn);
   await page.goto(`file://${resolve(report)}#flights`);
-  await page.waitForSelector('.pane canvas');
+  await page.waitForSelector('.pane canvas', { timeout: 60000 });
   await page.locator('label', { hasText: 'episode' }).locator('select').selectOption('-1');
   // Slowly, so that it plays on to the last frame that is timed.
   await page.locator('.player select').selectOption('0.25');
@@ -89,7 +90,9 @@ async function measure(isDrawn) {
 
 const alone = await measure(false);
 console.log(`${frames} frames of ${size}, ${alone.calls} drawing calls each`);
-console.log(`the page's own work:         ${shown(alone.work)}; processor time ${alone.page_ms.toFixed(1)} ms`);
+console.log(`the page's own work:         ${shown(alone.work)}; `
+  + `processor time ${alone.page_ms.toFixed(1)} ms`);
 const drawn = await measure(true);
-console.log(`drawn, from frame to frame:  ${shown(drawn.between)}; processor time ${drawn.drawing_ms.toFixed(0)} ms more to draw`);
+console.log(`drawn, from frame to frame:  ${shown(drawn.between)}; `
+  + `processor time ${drawn.drawing_ms.toFixed(0)} ms more to draw`);
 await browser.close();

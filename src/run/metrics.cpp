@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 
 #include "base/error.h"
 #include "src/files/output_file.h"
@@ -16,7 +17,8 @@ namespace {
 
 std::string Cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
-constexpr const char* kEvaluationSuccess = "evaluation_success_rate";
+/// How names of what an evaluation says begin.
+constexpr std::string_view kEvaluated = "evaluation_";
 
 double EvaluationSuccess(const IterationReport& report) {
   return report.evaluation_success_rate < 0 ? std::nan("") : report.evaluation_success_rate;
@@ -32,7 +34,7 @@ std::vector<std::pair<std::string, double>> LaterValues(const IterationReport& r
 std::vector<std::pair<std::string, double>> Values(const IterationReport& report) {
   return {{"return_mean", report.return_mean},
           {"success_rate", report.success_rate},
-          {kEvaluationSuccess, EvaluationSuccess(report)},
+          {"evaluation_success_rate", EvaluationSuccess(report)},
           {"policy_loss", report.policy_loss},
           {"value_loss", report.value_loss},
           {"entropy", report.entropy},
@@ -98,8 +100,9 @@ std::vector<std::pair<std::string, double>> Scalars(const IterationReport& repor
   for (const auto& values : {Values(report), LaterValues(report)}) {
     for (const auto& [name, value] : values) {
       if (!std::isfinite(value)) continue;
-      scalars.emplace_back(name == kEvaluationSuccess ? "eval/success_rate" : "train/" + name,
-                           value);
+      const bool is_evaluated = name.rfind(kEvaluated, 0) == 0;
+      scalars.emplace_back(
+          is_evaluated ? "eval/" + name.substr(kEvaluated.size()) : "train/" + name, value);
     }
   }
   if (report.episodes > 0) {

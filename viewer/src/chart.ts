@@ -55,7 +55,10 @@ export class Chart {
     this.plot = new uPlot({
       width: width(),
       height: options.height,
-      series: [{ label: options.nameX, value: (_, x) => (x === null ? '–' : options.formatX(x)) }, ...options.series],
+      series: [
+        { label: options.nameX, value: (_, x) => (x === null ? '–' : options.formatX(x)) },
+        ...options.series,
+      ],
       bands: options.bands,
       scales: { x: { time: false }, ...options.scales },
       axes: options.axes ?? [

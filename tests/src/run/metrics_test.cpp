@@ -62,6 +62,7 @@ TEST(Metrics, ScalarsLeaveOutWhatDoesNotExist) {
 TEST(Metrics, ScalarsAreGroupedAsTensorBoardShowsThem) {
   IterationReport report;
   report.evaluation_success_rate = 0.75;
+  report.evaluation_hold_within = 0.5;
   report.rollout_seconds = 1.5;
   report.update_seconds = 2.5;
   const auto scalars = Scalars(report, 1000);
@@ -72,6 +73,7 @@ TEST(Metrics, ScalarsAreGroupedAsTensorBoardShowsThem) {
     return std::nan("");
   };
   EXPECT_EQ(value("eval/success_rate"), 0.75);
+  EXPECT_EQ(value("eval/hold_within"), 0.5);
   EXPECT_EQ(value("time/fps"), 250);
   EXPECT_EQ(value("train/return_mean"), 0);
 }

@@ -47,7 +47,8 @@ export class Ghosts {
     this.fleet.begin();
     this.records.forEach((record, i) => {
       record.place(time, this.at);
-      const [pitch, yaw] = [record.value('command_pitch_deg', time), record.value('command_yaw_deg', time)];
+      const pitch = record.value('command_pitch_deg', time);
+      const yaw = record.value('command_yaw_deg', time);
       const flown = Math.max(record.value('true_airspeed_fps', time), 1);
       const share = record.value('command_true_airspeed_fps', time) / flown;
       const scale = scaleOf(this.at);

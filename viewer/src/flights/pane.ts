@@ -25,8 +25,9 @@ export function readingsOf(record: FlightRecord, time: number): string {
 export function targetsOf(record: FlightRecord, time: number): string {
   const count = record.newTargets.length + 1;
   if (count === 1) return '';
-  const reached = Array.from({ length: count }, (_, i) => record.isReached(i, time));
-  return `   target ${record.targetAt(time) + 1} of ${count} (${reached.filter(Boolean).length} reached)`;
+  const all = Array.from({ length: count }, (_, target) => record.isReached(target, time));
+  const reached = all.filter(Boolean).length;
+  return `   target ${record.targetAt(time) + 1} of ${count} (${reached} reached)`;
 }
 
 /** Whether what draws is a program on the processor. */

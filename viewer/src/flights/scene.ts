@@ -54,7 +54,8 @@ export class FlightScene {
     this.stems = this.makeStems();
     this.scene.background = new Color(styleColour('--sky'));
     this.scene.add(new AmbientLight('#ffffff', 1.5), this.ground.group, this.fleet.group,
-      this.trails.group, this.stems, this.ghosts.group, this.ladder.group, ...this.goals.map((goal) => goal.group));
+      this.trails.group, this.stems, this.ghosts.group, this.ladder.group,
+      ...this.goals.map((goal) => goal.group));
     const sun = new DirectionalLight('#ffffff', 2.2);
     sun.position.set(0.5, 1, 0.3);
     this.scene.add(sun);

@@ -200,7 +200,8 @@ export class Strips {
 
   /** The charts' pictures, with their titles. */
   pictures(): { title: string; canvas: HTMLCanvasElement }[] {
-    return this.charts.map(({ chart, strip }) => ({ title: strip.title, canvas: chart.plot.ctx.canvas }));
+    return this.charts.map(({ chart, strip }) =>
+      ({ title: strip.title, canvas: chart.plot.ctx.canvas }));
   }
 
   stop(): void {

@@ -97,7 +97,8 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
 
   it('goes from target to target of a mission', async () => {
     const { page, errors } = await open(browser, plain);
-    const reads = (text: string) => expect.poll(() => page.textContent('.hud'), PATIENCE).toContain(text);
+    const reads = (text: string) =>
+      expect.poll(() => page.textContent('.hud'), PATIENCE).toContain(text);
     expect(await page.textContent('.hud')).not.toContain('target 1');
     await page.keyboard.press('f');
     await reads('target 1 of 2 (0 reached)');
