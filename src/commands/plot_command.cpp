@@ -90,7 +90,7 @@ void AddFlightSources(CLI::App* command, FlightPlotOptions* options) {
                    "numbers of the episodes that are drawn (default: the first that have room)")
       ->type_name("I,J,...")
       ->delimiter(',')
-      ->check(CLI::NonNegativeNumber);
+      ->transform(WholeNumber(0, kMostRecordedEpisodes - 1));
   command
       ->add_option("--tolerance", options->tolerances,
                    "errors that count as reached, of files, which do not hold them, such as "
@@ -277,7 +277,7 @@ void AddCurvesPlot(CLI::App* plot) {
                    "so many runs in a row are seeds of one setting (default: those of one "
                    "configuration)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->transform(WholeNumber(1, 1000));
   command->add_option("--names", options->names, "what the settings are called")
       ->type_name("NAME,...")
       ->delimiter(',');
