@@ -8,13 +8,17 @@
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/denormals.h"
 #include "base/error.h"
@@ -106,23 +110,64 @@ class Watch : public std::enable_shared_from_this<Watch> {
 }  // namespace
 
 struct WorkerPool::Arena {
-  explicit Arena(int threads) : arena(threads) {
-    // oneTBB makes no more threads than CPUs unless it is told to.
-    if (threads > tbb::info::default_concurrency()) {
-      more_threads.emplace(tbb::global_control::max_allowed_parallelism,
-                           static_cast<std::size_t>(threads));
-    }
-  }
+  explicit Arena(int threads) : arena(threads) {}
+
+  /// One for as many threads, of a pool that is gone or a new one. oneTBB 2021.8 gives workers to
+  /// no arena any more once a process has made and destroyed some tens of them, so none is
+  /// destroyed.
+  static std::unique_ptr<Arena> Take(int threads);
+  static void GiveBack(std::unique_ptr<Arena> arena);
 
   std::optional<tbb::global_control> more_threads;
   tbb::task_arena arena;
   std::shared_ptr<Watch> watch;  ///< null: workers sleep when they like
+
+ private:
+  /// Those that no pool has. Never destroyed: pools may be, late.
+  struct Spare {
+    std::mutex mutex;
+    std::vector<std::unique_ptr<Arena>> arenas;
+  };
+  static Spare& AllSpare() {
+    static auto* const spare = new Spare;
+    return *spare;
+  }
 };
 
-WorkerPool::WorkerPool(int threads)
-    : threads_(ThreadCount(threads)), arena_(std::make_unique<Arena>(threads_)) {}
+std::unique_ptr<WorkerPool::Arena> WorkerPool::Arena::Take(int threads) {
+  Spare& spare = AllSpare();
+  std::unique_ptr<Arena> taken;
+  {
+    const std::lock_guard<std::mutex> lock(spare.mutex);
+    const auto found =
+        std::find_if(spare.arenas.begin(), spare.arenas.end(),
+                     [&](const auto& arena) { return arena->arena.max_concurrency() == threads; });
+    if (found != spare.arenas.end()) {
+      taken = std::move(*found);
+      spare.arenas.erase(found);
+    }
+  }
+  if (taken == nullptr) taken = std::make_unique<Arena>(threads);
+  // oneTBB makes no more threads than CPUs unless it is told to.
+  if (threads > tbb::info::default_concurrency()) {
+    taken->more_threads.emplace(tbb::global_control::max_allowed_parallelism,
+                                static_cast<std::size_t>(threads));
+  }
+  return taken;
+}
 
-WorkerPool::~WorkerPool() = default;
+void WorkerPool::Arena::GiveBack(std::unique_ptr<Arena> arena) {
+  arena->more_threads.reset();
+  arena->watch.reset();
+  Spare& spare = AllSpare();
+  const std::lock_guard<std::mutex> lock(spare.mutex);
+  spare.arenas.push_back(std::move(arena));
+}
+
+WorkerPool::WorkerPool(int threads)
+    : threads_(ThreadCount(threads)), arena_(Arena::Take(threads_)) {}
+
+WorkerPool::~WorkerPool() { Arena::GiveBack(std::move(arena_)); }
 
 void WorkerPool::ForEach(int count, const std::function<void(int index, int worker)>& body) {
   if (threads_ == 1) {

@@ -34,15 +34,34 @@ TEST_P(WorkerPoolTest, WorkersThatStayAwakeWorkAsBefore) {
   EXPECT_EQ(runs, kCount * GetParam());
 }
 
-TEST(WorkerPool, MayEndWhileItsWorkersAreAwake) {
-  constexpr int kPools = 10;
+/// Whether as many calls run at the same time: each waits for all the others.
+bool RunTogether(WorkerPool* pool, int count) {
+  std::atomic<int> arrived{0};
+  std::atomic<bool> met{true};
+  pool->ForEach(count, [&](int, int) {
+    ++arrived;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (arrived < count) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        met = false;
+        return;
+      }
+      std::this_thread::yield();
+    }
+  });
+  return met;
+}
+
+TEST(WorkerPool, HasItsWorkersHoweverManyCameBeforeIt) {
   std::atomic<int> runs{0};
-  for (int round = 0; round < kPools; ++round) {
+  for (int round = 0; round < kCount; ++round) {
     WorkerPool pool(2);
-    pool.StayAwake();
+    if (round % 2 == 0) pool.StayAwake();
     pool.ForEach(2, [&](int, int) { ++runs; });
   }
-  EXPECT_EQ(runs, 2 * kPools);
+  EXPECT_EQ(runs, 2 * kCount);
+  WorkerPool pool(2);
+  EXPECT_TRUE(RunTogether(&pool, 2));
 }
 
 TEST_P(WorkerPoolTest, CallsOfOneWorkerNeverOverlap) {
@@ -62,23 +81,7 @@ TEST_P(WorkerPoolTest, CallsOfOneWorkerNeverOverlap) {
   EXPECT_FALSE(out_of_range);
 }
 
-TEST_P(WorkerPoolTest, ThreadsRunAtTheSameTime) {
-  std::atomic<int> arrived{0};
-  std::atomic<bool> met{true};
-  // Each call waits for all the others: only as many threads as calls can get through.
-  pool_.ForEach(GetParam(), [&](int, int) {
-    ++arrived;
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (arrived < GetParam()) {
-      if (std::chrono::steady_clock::now() > deadline) {
-        met = false;
-        return;
-      }
-      std::this_thread::yield();
-    }
-  });
-  EXPECT_TRUE(met);
-}
+TEST_P(WorkerPoolTest, ThreadsRunAtTheSameTime) { EXPECT_TRUE(RunTogether(&pool_, GetParam())); }
 
 TEST_P(WorkerPoolTest, AnExceptionReachesTheCallerAndThePoolWorksOn) {
   const auto fail = [&] {
