@@ -324,8 +324,8 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_EQ(
       CallSkein({"trian", "heading"}).error,
       "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
-      "compare, replay, study, report, fdm, aircraft, export, bench, list, info, help, completion, "
-      "man (see skein --help)\n");
+      "compare, replay, study, plot, report, fdm, aircraft, export, bench, list, info, help, "
+      "completion, man (see skein --help)\n");
   EXPECT_THAT(
       CallSkein({"fdm", "fly"}).error,
       HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));
