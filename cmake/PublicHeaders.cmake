@@ -61,5 +61,6 @@ if(SKEIN_BUILD_TRAIN)
     train/ppo/learner_config.h
     train/ppo/ppo_config.h
     train/ppo/train_config.h
-    train/ppo/trainer.h)
+    train/ppo/trainer.h
+    train/ranks/ranks.h)
 endif()

@@ -12,7 +12,7 @@ namespace skein {
 
 /// What one control step did to consecutive aircraft of a tile.
 struct ControlStep {
-  int first_aircraft = 0;         ///< global index
+  int first_aircraft = 0;         ///< index in the environment
   Tile state;                     ///< at its end; `state.count` aircraft
   const float* action = nullptr;  ///< row-major [count][kActionSize], held during it, not clipped
   const float* reward = nullptr;  ///< of the step, terminal reward included; 0 after the end

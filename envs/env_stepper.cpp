@@ -108,9 +108,10 @@ struct alignas(kCacheLine) EnvStepper::SensedState {
 };
 
 EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_aircraft,
-                       std::shared_ptr<const Policy> low_level)
+                       std::shared_ptr<const Policy> low_level, int first_aircraft)
     : config_(Validated(config)),
       seed_(seed),
+      first_aircraft_(first_aircraft),
       task_(MakeTask(config_)),
       aircraft_(ConfiguredAircraft(config_)),
       kernel_aircraft_(MakeKernelAircraft(aircraft_, config_.atmosphere)),
@@ -170,8 +171,8 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
   }
   if (low_level_ != nullptr) low_level_->Reset(block.first_aircraft + i);
   const auto stream = [&](simd::RandomPurpose purpose) {
-    return simd::RandomStream({seed_, static_cast<std::uint32_t>(block.first_aircraft + i),
-                               static_cast<std::uint32_t>(episode), 0, purpose});
+    return simd::RandomStream(
+        {seed_, KeyOf(block, i), static_cast<std::uint32_t>(episode), 0, purpose});
   };
   simd::RandomStream initial = stream(simd::RandomPurpose::kInitialState);
   const FreshFlight flight = reset_.Draw(&initial);
@@ -190,9 +191,8 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
 
 /// Draws the plant of an aircraft whose episode and flight are set: it is the nominal one's trim.
 void EnvStepper::BeginPlant(const EnvBlock& block, int i) const {
-  simd::RandomStream random({seed_, static_cast<std::uint32_t>(block.first_aircraft + i),
-                             static_cast<std::uint32_t>(block.episode[i]), 0,
-                             simd::RandomPurpose::kPlant});
+  simd::RandomStream random({seed_, KeyOf(block, i), static_cast<std::uint32_t>(block.episode[i]),
+                             0, simd::RandomPurpose::kPlant});
   SetPlant(DrawPlant(drawn_plant_, &random), aircraft_, config_.control_interval_s, block.plants,
            i);
   if (block.delay_line.delays.columns() == 0) return;
@@ -201,7 +201,7 @@ void EnvStepper::BeginPlant(const EnvBlock& block, int i) const {
 }
 
 GustKeys EnvStepper::GustKeysOf(const EnvBlock& block) const {
-  return {seed_, static_cast<std::uint32_t>(block.first_aircraft), block.episode, block.step};
+  return {seed_, KeyOf(block, 0), block.episode, block.step};
 }
 
 ObservationNoise EnvStepper::NoiseOf(const EnvBlock& block) const {
@@ -209,7 +209,7 @@ ObservationNoise EnvStepper::NoiseOf(const EnvBlock& block) const {
   noise.standard_deviation = config_.observation_noise;
   noise.max_standard_deviation = most_noise_;
   noise.seed = seed_;
-  noise.first_aircraft = static_cast<std::uint32_t>(block.first_aircraft);
+  noise.first_aircraft = KeyOf(block, 0);
   noise.episode = block.episode;
   noise.step = block.step;
   return noise;
@@ -263,7 +263,8 @@ const float* EnvStepper::StickActions(const EnvBlock& block, const float* action
       low_level_->SetTargets(action, block.flight, sensed, scratch.low_level);
       low_level_->ResetObservationMean(block.first_aircraft, block.count);
     }
-    low_level_->Act(*kernel_aircraft_, sensed, NoiseOf(block), block.plants, scratch.low_level);
+    low_level_->Act(block.first_aircraft, *kernel_aircraft_, sensed, NoiseOf(block), block.plants,
+                    scratch.low_level);
     // The first sample is the one in the observation that the high-level policy has just acted by.
     if (low_level_->averages_observations() && !is_first) {
       alignas(kCacheLine) float errors[kNumTaskErrors * kAircraftPerBlock];
@@ -329,7 +330,7 @@ void EnvStepper::DrawTargets(const EnvBlock& block, const Scratch& scratch) cons
 /// Around where the episode began, and of points around where the aircraft is.
 void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
   const auto episode = static_cast<std::uint32_t>(block.episode[i]);
-  const auto aircraft = static_cast<std::uint32_t>(block.first_aircraft + i);
+  const std::uint32_t aircraft = KeyOf(block, i);
   simd::RandomStream initial({seed_, aircraft, episode, 0, simd::RandomPurpose::kInitialState});
   FlightStart start = reset_.Draw(&initial).start;
   const double altitude_ft = -block.flight[kDown][i];

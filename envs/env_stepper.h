@@ -28,11 +28,12 @@ namespace skein {
 class EnvStepper {
  public:
   /// Throws Error on a configuration that cannot be flown, and on a low-level policy that does not
-  /// fit it. `low_level` may be null.
+  /// fit it. `low_level` may be null. `first_aircraft` is VecEnv's.
   EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_aircraft,
-             std::shared_ptr<const Policy> low_level);
+             std::shared_ptr<const Policy> low_level, int first_aircraft);
 
   const EnvConfig& config() const { return config_; }
+  int first_aircraft() const { return first_aircraft_; }
   const Task& task() const { return *task_; }
   /// What must be remembered of each aircraft.
   EnvColumns columns() const;
@@ -75,6 +76,10 @@ class EnvStepper {
   struct Scratch;
   struct SensedState;
 
+  /// What keys the random numbers of the block's `i`-th aircraft.
+  std::uint32_t KeyOf(const EnvBlock& block, int i) const {
+    return static_cast<std::uint32_t>(first_aircraft_ + block.first_aircraft + i);
+  }
   ObservationNoise NoiseOf(const EnvBlock& block) const;
   GustKeys GustKeysOf(const EnvBlock& block) const;
   void BeginPlant(const EnvBlock& block, int i) const;
@@ -94,6 +99,7 @@ class EnvStepper {
 
   EnvConfig config_;
   std::uint64_t seed_;
+  int first_aircraft_;
   std::unique_ptr<Task> task_;
   Aircraft aircraft_;
   std::shared_ptr<const KernelAircraft> kernel_aircraft_;

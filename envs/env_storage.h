@@ -29,7 +29,7 @@ struct EnvBlock {
   std::int32_t* step = nullptr;     ///< control steps of the episode
   std::int32_t* episode = nullptr;  ///< its number
   EpisodeProgress progress;
-  int first_aircraft = 0;  ///< global index
+  int first_aircraft = 0;  ///< index in the environment
   int count = 0;
   std::size_t index = 0;  ///< of the block in memory
 };

@@ -156,14 +156,13 @@ void LowLevelFlight::SetTargets(const float* action, Tile flight, Tile sensed,
   (high_level_, action, flight, sensed, {scratch.target[0], kMaxCount, flight.count});
 }
 
-void LowLevelFlight::Act(const KernelAircraft& aircraft, Tile flight, const ObservationNoise& noise,
-                         const PlantTile& plants, Scratch& scratch) {
+void LowLevelFlight::Act(int first, const KernelAircraft& aircraft, Tile flight,
+                         const ObservationNoise& noise, const PlantTile& plants, Scratch& scratch) {
   // Of the Control task's columns, those that its errors are made of.
   const Tile target{scratch.target[0], kMaxCount, flight.count};
   control_->Errors(flight, target, scratch.error[0], kMaxCount);
   ObserveTile(aircraft, flight, {scratch.error[0], kMaxCount}, noise, scratch.observation, plants);
-  low_level_->Act(flight.count, scratch.observation,
-                  state_.data() + StateBegin(static_cast<int>(noise.first_aircraft)),
+  low_level_->Act(flight.count, scratch.observation, state_.data() + StateBegin(first),
                   scratch.action);
 }
 

@@ -67,10 +67,10 @@ class LowLevelFlight {
     return control_step % low_level_->action_repeat() == 0;
   }
 
-  /// One policy step of the low-level policy for the aircraft `noise.first_aircraft` and those that
-  /// follow: leaves its actions in `scratch.action`. `flight` is what their sensors show; noise and
-  /// plants are those of the aircraft's own observation.
-  void Act(const KernelAircraft& aircraft, Tile flight, const ObservationNoise& noise,
+  /// One policy step of the low-level policy for the aircraft `first` and those that follow: leaves
+  /// its actions in `scratch.action`. `flight` is what their sensors show; noise and plants are
+  /// those of the aircraft's own observation.
+  void Act(int first, const KernelAircraft& aircraft, Tile flight, const ObservationNoise& noise,
            const PlantTile& plants, Scratch& scratch);
 
   /// Begins the high-level policy's means anew for the `count` aircraft from `first` on: it has

@@ -34,8 +34,8 @@ int RequireTileSize(int tile_size) {
 
 struct VecEnv::Impl {
   Impl(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size,
-       std::shared_ptr<const Policy> low_level)
-      : stepper(config, seed, RequireAircraft(num_aircraft), std::move(low_level)),
+       std::shared_ptr<const Policy> low_level, int first_aircraft)
+      : stepper(config, seed, RequireAircraft(num_aircraft), std::move(low_level), first_aircraft),
         storage(num_aircraft, RequireTileSize(tile_size), stepper.columns()) {
     Restart();
   }
@@ -61,13 +61,15 @@ struct VecEnv::Impl {
 };
 
 VecEnv::VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size,
-               std::shared_ptr<const Policy> low_level)
-    : impl_(std::make_unique<Impl>(config, num_aircraft, seed, tile_size, std::move(low_level))) {}
+               std::shared_ptr<const Policy> low_level, int first_aircraft)
+    : impl_(std::make_unique<Impl>(config, num_aircraft, seed, tile_size, std::move(low_level),
+                                   first_aircraft)) {}
 VecEnv::~VecEnv() = default;
 VecEnv::VecEnv(VecEnv&&) noexcept = default;
 
 const EnvConfig& VecEnv::config() const { return impl_->stepper.config(); }
 int VecEnv::num_aircraft() const { return impl_->storage.num_aircraft(); }
+int VecEnv::first_aircraft() const { return impl_->stepper.first_aircraft(); }
 int VecEnv::num_tiles() const { return impl_->storage.num_tiles(); }
 int VecEnv::tile_begin(int tile) const { return impl_->storage.tile_begin(tile); }
 int VecEnv::tile_count(int tile) const { return impl_->storage.tile_count(tile); }

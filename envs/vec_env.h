@@ -21,18 +21,19 @@ namespace skein {
 /// policy's, and the low-level policy flies.
 class VecEnv {
  public:
-  /// Aircraft get the global indices [0, num_aircraft). `tile_size` is rounded up to a multiple
-  /// of 32. Throws Error on a configuration that cannot be flown. All aircraft start in a fresh
-  /// episode.
+  /// Aircraft get the indices [0, num_aircraft). `tile_size` is rounded up to a multiple of 32.
+  /// Throws Error on a configuration that cannot be flown. All aircraft start in a fresh episode.
+  /// The first flies as aircraft `first_aircraft` of a larger environment does, and so on.
   VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size = 256,
-         std::shared_ptr<const Policy> low_level = nullptr);
+         std::shared_ptr<const Policy> low_level = nullptr, int first_aircraft = 0);
   ~VecEnv();
   VecEnv(VecEnv&&) noexcept;  ///< what was moved from can only be destroyed
 
   const EnvConfig& config() const;  ///< as given
   int num_aircraft() const;         ///< of all tiles
+  int first_aircraft() const;       ///< of a larger environment, the first of these
   int num_tiles() const;            ///< indices of tiles are [0, num_tiles())
-  int tile_begin(int tile) const;   ///< global index of the tile's first aircraft
+  int tile_begin(int tile) const;   ///< index of the tile's first aircraft
   int tile_count(int tile) const;   ///< the tile's aircraft
   int observation_size() const;     ///< 22 of the built-in tasks
   int action_size() const;          ///< 4; 3 with a low-level policy

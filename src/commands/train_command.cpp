@@ -26,6 +26,8 @@
 #include "src/run/run_directory.h"
 #include "src/run/training_run.h"
 #include "train/policy/low_level_file.h"
+#include "train/ranks/collectives.h"
+#include "train/ranks/rank_module.h"
 
 namespace skein {
 namespace {
@@ -39,6 +41,7 @@ struct TrainOptions {
   std::optional<double> steps;
   std::optional<double> seed;
   int threads = 0;
+  double rank_timeout_s = 600;
   std::string low_level;
   std::string from;
   std::string out;
@@ -71,8 +74,8 @@ std::string RunToResume(const TrainOptions& options) {
                           options.task.empty() ? "" : " of " + options.task, kRunsRoot));
 }
 
-void Resume(const TrainOptions& options) {
-  RunDirectory directory = RunDirectory::Open(RunToResume(options));
+/// The configuration of the run to resume, unless something else is asked for.
+ProgramConfig ConfigureResumed(const TrainOptions& options, const RunDirectory& directory) {
   ProgramConfig config = ReadRecord(directory.config());
   CheckConsistent(config);
   if (!options.task.empty() && TaskNameOf(options.task) != config.train.env.task) {
@@ -105,9 +108,26 @@ void Resume(const TrainOptions& options) {
                       directory.path(), options.low_level));
     }
   }
+  return config;
+}
+
+void Resume(const TrainOptions& options, Ranks& ranks) {
+  std::optional<RunDirectory> directory;
+  ProgramConfig config;
+  DoTogether(ranks, [&] {
+    const std::string run = RunToResume(options);
+    directory.emplace(ranks.rank() == 0 ? RunDirectory::Open(run) : RunDirectory::Visit(run));
+    config = ConfigureResumed(options, *directory);
+  });
   WorkerPool pool(options.threads);
-  const std::string path = directory.path();
-  if (TrainingRun::Resume(config, std::move(directory), pool) == 0) ReportFinishedRun(path, pool);
+  if (ranks.rank() != 0) {
+    FollowResumedRun(config, *directory, pool, ranks);
+    return;
+  }
+  const std::string path = directory->path();
+  if (TrainingRun::Resume(config, std::move(*directory), pool, {}, ranks) == 0) {
+    ReportFinishedRun(path, pool);
+  }
 }
 
 /// What --low-level names, or else what the policy in `from` (unless empty) was trained over.
@@ -117,6 +137,57 @@ ChosenLowLevelPolicy FindLowLevelPolicy(const TrainOptions& options, const EnvCo
     if (ChosenLowLevelPolicy own = LowLevelPolicyIn(from); own.policy != nullptr) return own;
   }
   return ChooseLowLevelPolicy(env, options.low_level);
+}
+
+/// Begins a new run.
+void Begin(const TrainOptions& options, Ranks& ranks) {
+  if (options.task.empty()) {
+    throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
+  }
+  ProgramConfig config;
+  RunOrigin origin;
+  DoTogether(ranks, [&] {
+    config = Configure(options, options.task);
+    origin.from = options.from.empty() ? "" : NetworksFileOf(options.from);
+    const ChosenLowLevelPolicy low_level =
+        FindLowLevelPolicy(options, config.train.env, origin.from);
+    config.train.low_level = low_level.policy;
+    origin.low_level = low_level.description;
+  });
+  origin.preset = IsTaskFile(options.task) ? "of " + options.task : options.preset;
+  if (!options.config.empty()) origin.preset += " and " + options.config;
+  WorkerPool pool(options.threads);
+  if (ranks.rank() != 0) {
+    FollowRun(config, origin.from, pool, ranks);
+    return;
+  }
+  std::string path;
+  origin.directory = &path;
+  if (TrainingRun::Begin(config, options.out, pool, origin, ranks) == 0) {
+    ReportFinishedRun(path, pool);
+  }
+}
+
+/// Alone, or with the other processes that the launcher has started.
+void TrainOnRanks(const TrainOptions& options) {
+  const std::unique_ptr<Ranks> joined = JoinLaunchedProcesses(options.rank_timeout_s);
+  Ranks& ranks = joined == nullptr ? OneRank() : *joined;
+  try {
+    if ((ranks.count() & (ranks.count() - 1)) != 0) {
+      throw Error(
+          fmt::format("{} processes cannot train together: a power of two can, up to "
+                      "learner.shards",
+                      ranks.count()));
+    }
+    if (options.resume_option->count() > 0) {
+      Resume(options, ranks);
+    } else {
+      Begin(options, ranks);
+    }
+  } catch (const std::exception&) {
+    // Every rank has been told: rank 0 says it.
+    if (ranks.rank() == 0) throw;
+  }
 }
 
 void Train(TrainOptions options) {
@@ -132,24 +203,7 @@ void Train(TrainOptions options) {
     fmt::print("{}", DescribeKeys(Configure(options, task)));
     return;
   }
-  if (options.resume_option->count() > 0) {
-    Resume(options);
-    return;
-  }
-  if (options.task.empty()) {
-    throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
-  }
-  ProgramConfig config = Configure(options, options.task);
-  const std::string from = options.from.empty() ? "" : NetworksFileOf(options.from);
-  const ChosenLowLevelPolicy low_level = FindLowLevelPolicy(options, config.train.env, from);
-  config.train.low_level = low_level.policy;
-  std::string preset = IsTaskFile(options.task) ? "of " + options.task : options.preset;
-  if (!options.config.empty()) preset += " and " + options.config;
-  WorkerPool pool(options.threads);
-  std::string path;
-  RunOrigin origin{preset, low_level.description, from};
-  origin.directory = &path;
-  if (TrainingRun::Begin(config, options.out, pool, origin) == 0) ReportFinishedRun(path, pool);
+  TrainOnRanks(options);
 }
 
 constexpr const char* kFooter =
@@ -170,6 +224,22 @@ constexpr const char* kFooter =
     "  skein train my_task.toml\n"
     "  skein train heading --aircraft my.json\n"
     "  skein train --resume runs/short";
+
+/// Who computes: threads, and other processes.
+void AddWorkerOptions(CLI::App* command, TrainOptions* options) {
+  command
+      ->add_option("--threads", options->threads,
+                   "worker threads; results do not depend on it (default: one per CPU)")
+      ->transform(WholeNumber(1, 1024));
+  command
+      ->add_option(
+          "--rank-timeout", options->rank_timeout_s,
+          "of trainings on several processes (mpirun, srun): seconds after which a process "
+          "that does not answer ends all")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
 
 }  // namespace
 
@@ -239,10 +309,7 @@ void AddTrainCommand(CLI::App* app) {
           ->excludes(file)
           ->excludes(out)
           ->excludes(from);
-  command
-      ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one per CPU)")
-      ->transform(WholeNumber(1, 1024));
+  AddWorkerOptions(command, options.get());
   command->add_flag("--help-keys", options->help_keys,
                     "list every configuration key with type, range, value and meaning, and exit; "
                     "--help-keys=markdown: as docs/reference/configuration.md");

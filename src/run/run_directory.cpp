@@ -56,6 +56,11 @@ fs::file_time_type LastWritten(const std::string& run) {
   return latest;
 }
 
+void RequireRun(const std::string& path) {
+  if (IsRunDirectory(path)) return;
+  throw Error(fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
+}
+
 /// Makes a directory, durably; false if it is there already.
 bool Make(const std::string& path) {
   std::error_code failure;
@@ -123,17 +128,22 @@ RunDirectory RunDirectory::CreateIn(const std::string& root, const std::string& 
 }
 
 RunDirectory RunDirectory::Open(const std::string& path) {
-  if (!IsRunDirectory(path)) {
-    throw Error(
-        fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
-  }
+  RequireRun(path);
   return RunDirectory(path);
 }
 
+RunDirectory RunDirectory::Visit(const std::string& path) {
+  RequireRun(path);
+  return {path, FileDescriptor(path + "/config.toml", OpenMode::kRead)};
+}
+
 RunDirectory::RunDirectory(const std::string& path)
-    : path_(WithoutTrailingSlashes(path)), lock_(LockDirectory(MakeDirectories(path_))) {
+    : RunDirectory(path, LockDirectory(MakeDirectories(WithoutTrailingSlashes(path)))) {
   MakeDirectories(checkpoints());
 }
+
+RunDirectory::RunDirectory(const std::string& path, FileDescriptor lock)
+    : path_(WithoutTrailingSlashes(path)), lock_(std::move(lock)) {}
 
 std::string RunDirectory::low_level() const {
   const std::string path = path_ + "/low_level.skein", older = path_ + "/controller.skein";

@@ -38,6 +38,8 @@ class RunDirectory {
   static RunDirectory CreateIn(const std::string& root, const std::string& task);
   /// Opens one that holds a run. Throws Error if it does not, or another process holds it.
   static RunDirectory Open(const std::string& path);
+  /// The same without holding it, for processes that train with the one that does.
+  static RunDirectory Visit(const std::string& path);
 
   const std::string& path() const { return path_; }
   std::string config() const { return path_ + "/config.toml"; }
@@ -65,6 +67,7 @@ class RunDirectory {
  private:
   /// Makes the folders that are missing, and takes the lock.
   explicit RunDirectory(const std::string& path);
+  RunDirectory(const std::string& path, FileDescriptor lock);
 
   std::string path_;
   FileDescriptor lock_;

@@ -43,7 +43,7 @@ bool IsMainThread() { return gettid() == getpid(); }
 
 }  // namespace
 
-RunSignals::RunSignals(WorkerPool& pool) : handles_(IsMainThread()) {
+RunSignals::RunSignals(WorkerPool& pool) : pool_(pool), handles_(IsMainThread()) {
   if (!handles_) return;
   outer_pool_ = stopped_pool.exchange(&pool);
   outer_signal_ = stop_signal.exchange(0);
@@ -76,7 +76,19 @@ void RunSignals::Install(int signal, void (*handler)(int)) {
   replaced_.push_back({signal, before});
 }
 
-int RunSignals::StopSignal() const { return handles_ ? stop_signal.load() : 0; }
+int RunSignals::StopSignal() const {
+  const int own = handles_ ? stop_signal.load() : 0;
+  return own != 0 ? own : adopted_signal_;
+}
+
+void RunSignals::Adopt(int signal) {
+  if (signal == SIGUSR1) {
+    save_requested = true;
+    return;
+  }
+  if (adopted_signal_ == 0) adopted_signal_ = signal;
+  pool_.RequestStop();
+}
 
 bool RunSignals::TakeSaveRequest() { return handles_ && save_requested.exchange(false); }
 

@@ -24,6 +24,9 @@ class RunSignals {
 
   /// The signal that asked for a stop, or 0.
   int StopSignal() const;
+  /// Does what the signal, which another process has got, would do here; but if it comes here too,
+  /// it is the first.
+  void Adopt(int signal);
   /// Whether a save was asked for since the last call.
   bool TakeSaveRequest();
 
@@ -34,9 +37,11 @@ class RunSignals {
   };
   void Install(int signal, void (*handler)(int));
 
+  WorkerPool& pool_;
   bool handles_;
   WorkerPool* outer_pool_ = nullptr;
   int outer_signal_ = 0;
+  int adopted_signal_ = 0;
   std::vector<Replaced> replaced_;
 };
 

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "base/error.h"
@@ -73,6 +74,17 @@ std::string CannotRestore(const Checkpoint& newest, const std::vector<Checkpoint
   return message;
 }
 
+/// Restores the newest checkpoint, if there is one, and returns the SIMD target that it was made
+/// on.
+std::string RestoreNewest(const std::vector<Checkpoint>& checkpoints, Trainer& trainer) {
+  if (checkpoints.empty()) return Name(simd::ActiveTarget());
+  try {
+    return trainer.Restore(checkpoints.back().path);
+  } catch (const Error& error) {
+    throw Error(CannotRestore(checkpoints.back(), checkpoints, error.what()));
+  }
+}
+
 /// Takes over the networks of the file `from`, and says so; nothing if it is empty.
 std::string StartNetworks(const std::string& from, Trainer& trainer) {
   if (from.empty()) return "";
@@ -84,15 +96,19 @@ std::string StartNetworks(const std::string& from, Trainer& trainer) {
 }  // namespace
 
 int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
-                       const RunOrigin& origin) {
+                       const RunOrigin& origin, Ranks& ranks) {
   // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
-  Trainer trainer(config.train, pool);
-  const std::string started_from = StartNetworks(origin.from, trainer);
+  std::string started_from;
+  const std::unique_ptr<Trainer> trainer =
+      MakeTrainer(config.train, pool, ranks,
+                  [&](Trainer& made) { started_from = StartNetworks(origin.from, made); });
+  const std::string description = DescribeRanks(config.train, pool, ranks);
+  RankLeader leader(ranks);
   RunDirectory directory = path.empty() ? RunDirectory::CreateIn(kRunsRoot, config.train.env.task)
                                         : RunDirectory::Create(path);
   if (origin.directory != nullptr) *origin.directory = directory.path();
   ProgramConfig resolved = config;
-  resolved.train = trainer.config();
+  resolved.train = trainer->config();
   if (config.train.low_level != nullptr) {
     TensorFile low_level;
     StoreLowLevelPolicy(*config.train.low_level, low_level);
@@ -105,11 +121,14 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
     WriteFile(directory.aircraft(), AircraftText(aircraft));
   }
   // A run that is killed before its first checkpoint would begin anew with fresh networks.
-  if (!origin.from.empty()) trainer.Save(directory.checkpoint(0));
+  if (!origin.from.empty()) {
+    leader.Say(RankCommand::kSave);
+    trainer->Save(directory.checkpoint(0));
+  }
   // Last: it makes the directory one of a run.
   const std::string comment = started_from.empty() ? "" : "# " + started_from + "\n";
   WriteFile(directory.config(), comment + DumpToml(resolved));
-  TrainingRun run(resolved, std::move(directory), trainer, pool);
+  TrainingRun run(resolved, std::move(directory), *trainer, pool, leader, description);
   run.goes_on_ = origin.goes_on;
   run.SayBanner();
   for (const std::string& line :
@@ -120,33 +139,30 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
 }
 
 int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool,
-                        GoesOn goes_on) {
-  directory.RemoveTemporaries();
-  Trainer trainer(config.train, pool);
-  const std::vector<Checkpoint> checkpoints = directory.Checkpoints();
-  if (checkpoints.empty() && std::filesystem::exists(directory.final_policy())) {
-    throw Error(fmt::format("cannot resume: {} has been trained to its end and has no checkpoint",
-                            directory.path()));
-  }
-  const std::string target = Name(simd::ActiveTarget());
-  std::string saved_on = target;
-  if (!checkpoints.empty()) {
-    try {
-      saved_on = trainer.Restore(checkpoints.back().path);
-    } catch (const Error& error) {
-      throw Error(CannotRestore(checkpoints.back(), checkpoints, error.what()));
+                        GoesOn goes_on, Ranks& ranks) {
+  std::string saved_on;
+  const std::unique_ptr<Trainer> made = MakeTrainer(config.train, pool, ranks, [&](Trainer& begun) {
+    directory.RemoveTemporaries();
+    const std::vector<Checkpoint> checkpoints = directory.Checkpoints();
+    if (checkpoints.empty() && std::filesystem::exists(directory.final_policy())) {
+      throw Error(fmt::format("cannot resume: {} has been trained to its end and has no checkpoint",
+                              directory.path()));
     }
-  }
+    saved_on = RestoreNewest(checkpoints, begun);
+  });
+  Trainer& trainer = *made;
+  const std::string description = DescribeRanks(config.train, pool, ranks);
+  RankLeader leader(ranks);
   const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration(), MetricsHeader());
   TrimRows(directory.timing(), trainer.iteration(), TimingHeader());
-  TrainingRun run(config, std::move(directory), trainer, pool);
+  TrainingRun run(config, std::move(directory), trainer, pool, leader, description);
   run.goes_on_ = std::move(goes_on);
   run.SayBanner();
   if (rows != trainer.iteration()) {
     run.log_.Say(fmt::format("warning: metrics.csv has {} rows for {} iterations", rows,
                              trainer.iteration()));
   }
-  if (saved_on != target) {
+  if (const std::string target = Name(simd::ActiveTarget()); saved_on != target) {
     run.log_.Say(
         fmt::format("warning: saved with SIMD target {0}, resuming with {1}: no longer bit-exact "
                     "(SKEIN_SIMD={0} forces it)",
@@ -156,11 +172,13 @@ int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wor
 }
 
 TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
-                         WorkerPool& pool)
+                         WorkerPool& pool, RankLeader& leader, std::string ranks)
     : config_(config),
       directory_(std::move(directory)),
       trainer_(trainer),
       pool_(pool),
+      leader_(leader),
+      ranks_(std::move(ranks)),
       signals_(pool),
       log_(directory_.log()),
       metrics_(directory_.metrics(), OpenMode::kAppend),
@@ -201,6 +219,7 @@ void TrainingRun::SayBanner() {
                   FormatCount(static_cast<double>(train.total_steps)), train.ppo.num_aircraft,
                   train.seed, InLines("  ", DescribeConditions(train.env)),
                   Describe(trainer_.backend()), DescribeWorkers(pool_)));
+  if (!ranks_.empty()) log_.Say(ranks_);
 }
 
 void TrainingRun::TrainAndEvaluate() {
@@ -211,6 +230,7 @@ void TrainingRun::TrainAndEvaluate() {
   while (!trainer_.finished() && !pool_.stopping()) {
     const IterationReport report = Iterate();
     if (report.dropped) {
+      leader_.Say(RankCommand::kNone, signals_);  // to learn which rank's signal it was
       dropped = fmt::format("; dropped the iteration that was under way and its {} steps",
                             FormatCount(static_cast<double>(report.dropped_steps)));
       break;
@@ -228,6 +248,7 @@ void TrainingRun::TrainAndEvaluate() {
   }
   if (saved_iteration_ != trainer_.iteration()) SaveCheckpoint();
   log_.Note(FormatProgress(meter.progress()));
+  leader_.End();
   if (!trainer_.finished()) {
     SayStopped(dropped);
     return;
@@ -249,6 +270,7 @@ void TrainingRun::SayStopped(const std::string& dropped) {
 }
 
 IterationReport TrainingRun::Iterate() {
+  leader_.Say(RankCommand::kIterate, signals_);
   try {
     IterationReport report = trainer_.Iterate();
     report.iteration = trainer_.iteration();
@@ -258,7 +280,7 @@ IterationReport TrainingRun::Iterate() {
     const std::string path = fmt::format("{}/before-failure-{:06}.skein", directory_.checkpoints(),
                                          trainer_.iteration());
     try {
-      trainer_.Save(path);
+      Save(path);
     } catch (const Error& failure) {
       throw Error(fmt::format("{}; the state from before could not be saved: {}", error.what(),
                               failure.what()));
@@ -298,11 +320,16 @@ bool TrainingRun::CheckpointIsDue() const {
          std::chrono::duration<double>(Clock::now() - last_save_).count() >= config.interval_s;
 }
 
+void TrainingRun::Save(const std::string& path) {
+  leader_.Say(RankCommand::kSave, signals_);
+  trainer_.Save(path);
+}
+
 void TrainingRun::SaveCheckpoint() {
   // Rows first: a checkpoint must never be newer than the records that it continues.
   metrics_.Sync();
   timing_.Sync();
-  trainer_.Save(directory_.checkpoint(trainer_.iteration()));
+  Save(directory_.checkpoint(trainer_.iteration()));
   saved_iteration_ = trainer_.iteration();
   last_save_ = Clock::now();
   directory_.Prune(config_.checkpoint.keep);
@@ -352,6 +379,23 @@ void TrainingRun::SayResult(const EvaluationReport& report, const std::string& p
       "watch           {} replay --policy {} -o flights.acmi",
       ToSummary(report), policy, directory_.path(), again, skein, run);
   log_.Say(all, in_short);
+}
+
+void FollowRun(const ProgramConfig& config, const std::string& from, WorkerPool& pool,
+               Ranks& ranks) {
+  const std::unique_ptr<Trainer> trainer =
+      MakeTrainer(config.train, pool, ranks, [&](Trainer& made) { StartNetworks(from, made); });
+  DescribeRanks(config.train, pool, ranks);
+  FollowLeader(*trainer, pool, ranks);
+}
+
+void FollowResumedRun(const ProgramConfig& config, const RunDirectory& directory, WorkerPool& pool,
+                      Ranks& ranks) {
+  const std::unique_ptr<Trainer> trainer =
+      MakeTrainer(config.train, pool, ranks,
+                  [&](Trainer& made) { RestoreNewest(directory.Checkpoints(), made); });
+  DescribeRanks(config.train, pool, ranks);
+  FollowLeader(*trainer, pool, ranks);
 }
 
 }  // namespace skein

@@ -11,11 +11,13 @@
 #include "src/evaluation/evaluation_report.h"
 #include "src/run/event_file.h"
 #include "src/run/metrics.h"
+#include "src/run/rank_leader.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_log.h"
 #include "src/run/run_signals.h"
 #include "train/files/file_descriptor.h"
 #include "train/ppo/trainer.h"
+#include "train/ranks/ranks.h"
 
 namespace skein {
 
@@ -32,23 +34,24 @@ struct RunOrigin {
 };
 
 /// One training run in its directory: iterations, records, checkpoints, signals, and at the end the
-/// evaluation over fresh episodes.
+/// evaluation over fresh episodes. With several ranks this is rank 0's, which leads the others
+/// (FollowRun), and writes and says everything.
 class TrainingRun {
  public:
   /// A new run in a new directory: `path`, or one in kRunsRoot if that is empty. Returns the signal
   /// that ended it early, or 0. Throws Error if it cannot be made, or `origin.from` does not fit
   /// the configuration.
   static int Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
-                   const RunOrigin& origin = {});
+                   const RunOrigin& origin = {}, Ranks& ranks = OneRank());
   /// Resumes the directory's newest checkpoint, or the start if it has none, over the low-level
   /// policy that the run began with; `goes_on` and what is returned are those of a new run. Throws
   /// Error if the checkpoint is damaged or made with another configuration.
   static int Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool,
-                    GoesOn goes_on = {});
+                    GoesOn goes_on = {}, Ranks& ranks = OneRank());
 
  private:
   TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
-              WorkerPool& pool);
+              WorkerPool& pool, RankLeader& leader, std::string ranks);
 
   /// To the end, or until it is stopped; says in the log what ended it. Returns the signal that
   /// did, or 0.
@@ -57,6 +60,7 @@ class TrainingRun {
   void SayBanner();
   IterationReport Iterate();
   void Record(const IterationReport& report);
+  void Save(const std::string& path);
   void SaveCheckpoint();
   bool CheckpointIsDue() const;
   void Finish();
@@ -69,6 +73,8 @@ class TrainingRun {
   RunDirectory directory_;
   Trainer& trainer_;
   WorkerPool& pool_;
+  RankLeader& leader_;
+  std::string ranks_;  ///< for people; empty if there is one
   RunSignals signals_;
   RunLog log_;
   FileDescriptor metrics_, timing_;
@@ -77,5 +83,12 @@ class TrainingRun {
   std::chrono::steady_clock::time_point last_save_;
   std::uint64_t saved_iteration_ = 0;
 };
+
+/// The part of every rank but 0 in a run that rank 0 begins, or resumes from `directory`: until
+/// that ends. `from` is as of RunOrigin.
+void FollowRun(const ProgramConfig& config, const std::string& from, WorkerPool& pool,
+               Ranks& ranks);
+void FollowResumedRun(const ProgramConfig& config, const RunDirectory& directory, WorkerPool& pool,
+                      Ranks& ranks);
 
 }  // namespace skein

@@ -25,12 +25,20 @@ void Redirect(int descriptor, const std::string& path) {
   if (file < 0 || dup2(file, descriptor) < 0) _exit(125);
 }
 
+ProgramWords SkeinWith(const std::vector<std::string>& arguments) {
+  ProgramWords program{{SKEIN_PROGRAM}};
+  program.words.insert(program.words.end(), arguments.begin(), arguments.end());
+  return program;
+}
+
 }  // namespace
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
-                               const std::function<void()>& before) {
-  std::vector<std::string> words = {SKEIN_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+                               const std::function<void()>& before)
+    : RunningProgram(SkeinWith(arguments), before) {}
+
+RunningProgram::RunningProgram(const ProgramWords& program, const std::function<void()>& before) {
+  std::vector<std::string> words = program.words;
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -39,7 +47,7 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
     Redirect(STDOUT_FILENO, scratch_ / kOutput);
     Redirect(STDERR_FILENO, scratch_ / kError);
     if (before) before();
-    execv(argv[0], argv.data());
+    execvp(argv[0], argv.data());
     _exit(126);
   }
 }
@@ -86,6 +94,10 @@ ProgramResult RunningProgram::Wait() {
 ProgramResult RunSkein(const std::vector<std::string>& arguments,
                        const std::function<void()>& before) {
   return RunningProgram(arguments, before).Wait();
+}
+
+ProgramResult RunWords(const std::vector<std::string>& words) {
+  return RunningProgram(ProgramWords{words}).Wait();
 }
 
 ProgramResult CallSkein(const std::vector<std::string>& arguments) {

@@ -19,9 +19,15 @@ struct ProgramResult {
   std::string error;   ///< standard error
 };
 
-/// The program `skein` as a child process.
+/// Words that name a program of their own, such as mpirun.
+struct ProgramWords {
+  std::vector<std::string> words;
+};
+
+/// The program `skein`, or another one, as a child process.
 class RunningProgram {
  public:
+  explicit RunningProgram(const ProgramWords& program, const std::function<void()>& before = {});
   /// Starts it with the given arguments. `before` runs in the child ahead of the program (limits
   /// and the like).
   explicit RunningProgram(const std::vector<std::string>& arguments,
@@ -48,6 +54,8 @@ class RunningProgram {
 
 ProgramResult RunSkein(const std::vector<std::string>& arguments,
                        const std::function<void()>& before = {});
+
+ProgramResult RunWords(const std::vector<std::string>& words);
 
 /// The same without a process of its own, for what ends by itself: LibTorch is not loaded again.
 ProgramResult CallSkein(const std::vector<std::string>& arguments);

@@ -120,7 +120,7 @@ VecEnv MakeEvaluationEnv(const Agent& agent, const EnvConfig& config,
                          const EvaluationOptions& options) {
   if (options.episodes <= 0) throw Error("an evaluation needs at least one episode");
   VecEnv env(EvaluationConfig(config), options.episodes, options.seed ^ kEvaluationStream,
-             kTileSize, agent.low_level());
+             kTileSize, agent.low_level(), options.first_episode);
   agent.CheckFits(env);
   return env;
 }

@@ -20,6 +20,7 @@ namespace skein {
 struct EvaluationOptions {
   int episodes = 1000;
   std::uint64_t seed = 0;
+  int first_episode = 0;        ///< number of the first of them
   bool flight_metrics = false;  ///< measure how episodes were flown, too
 };
 

@@ -10,7 +10,7 @@ TileAgent::TileAgent(const Agent& agent, const VecEnv& env, int tile, std::uint6
       env_(env),
       tile_(tile),
       count_(env.tile_count(tile)),
-      turn_{seed, static_cast<std::uint32_t>(env.tile_begin(tile)), 0},
+      turn_{seed, static_cast<std::uint32_t>(env.first_aircraft() + env.tile_begin(tile)), 0},
       observation_(static_cast<std::size_t>(count_) * env.observation_size()),
       state_(static_cast<std::size_t>(count_) * agent.state_size(), 0.0f),
       action_(static_cast<std::size_t>(count_) * env.action_size()) {}

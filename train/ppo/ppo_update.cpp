@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "train/ppo/broken_shard.h"
 #include "train/ppo/minibatch_step.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
@@ -17,13 +19,6 @@ namespace {
 /// enough to keep the gradients in memory.
 constexpr int kMaxAccumulators = 32;
 constexpr double kAdvantageEpsilon = 1e-8;
-
-void RequireSane(const char* network, double loss, double norm) {
-  if (std::isfinite(loss) && norm <= kExplodedGradientNorm) return;
-  throw Error("the " + std::string(network) + "'s training exploded (loss " + std::to_string(loss) +
-              ", gradient norm " + std::to_string(norm) +
-              "); lower ppo.learning_rate, or ppo.max_gradient_norm");
-}
 
 }  // namespace
 
@@ -94,25 +89,29 @@ struct PpoUpdate::Gathered {
   }
 };
 
-PpoUpdate::PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPool& pool)
+PpoUpdate::PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPool& pool,
+                     Ranks& ranks)
     : config_(config.ppo),
       seed_(config.seed),
       tanh_mean_(config.network.tanh_mean),
       tile_chunks_(std::max(1, config.learner.tile_samples / config.ppo.chunk_length)),
       pool_(pool),
+      ranks_(ranks),
       sides_{Side{networks.actor, {}, {}}, Side{networks.critic, {}, {}}} {
   for (int i = 0; i < pool.threads(); ++i) gathered_.push_back(std::make_shared<Gathered>());
 }
 
-PpoUpdate::Source PpoUpdate::SourceOf(const Rollout& rollout, const ValueScale& scale) const {
+PpoUpdate::Source PpoUpdate::SourceOf(const Rollout& rollout, const ValueScale& scale) {
   if (!config_.normalise_advantages) return {rollout, scale};
-  const auto count = static_cast<double>(rollout.samples());
-  const auto sum = SumSamples<1>(
+  const auto count = static_cast<double>(rollout.all_samples());
+  auto sum = SumSamples<1>(
       rollout, [&](std::int64_t row, Sums<1>& sums) { sums[0] += rollout.advantage[row]; });
+  SumOverRanks(ranks_, sum.size(), sum.data());
   const double mean = sum[0] / count;
-  const auto squares = SumSamples<1>(rollout, [&](std::int64_t row, Sums<1>& sums) {
+  auto squares = SumSamples<1>(rollout, [&](std::int64_t row, Sums<1>& sums) {
     sums[0] += (rollout.advantage[row] - mean) * (rollout.advantage[row] - mean);
   });
+  SumOverRanks(ranks_, squares.size(), squares.data());
   return {rollout, scale, mean, 1 / (std::sqrt(squares[0] / count) + kAdvantageEpsilon)};
 }
 
@@ -203,36 +202,79 @@ LossSums PpoUpdate::SumLosses(int slices) const {
   return SumByTree(shards);
 }
 
-LossSums PpoUpdate::RunMinibatch(const Source& source, const Minibatch& minibatch,
-                                 double learning_rate) {
+bool PpoUpdate::SumOverAllRanks(LossSums& losses) {
+  struct Message {
+    LossSums losses;
+    int stopping;
+  } message{losses, pool_.stopping()};
+  CombineOverRanks(ranks_, 1, &message, [](Message& mine, const Message& theirs) {
+    mine.losses += theirs.losses;
+    mine.stopping += theirs.stopping;
+  });
+  if (message.stopping > 0) return false;
+  losses = message.losses;
+  for (Side& side : sides_) {
+    SumOverRanks(ranks_, side.accumulators[0].size(), side.accumulators[0].data());
+  }
+  return true;
+}
+
+std::string PpoUpdate::FirstBrokenShard() {
+  const auto is_finite = [](const LossSums& losses) {
+    return std::isfinite(losses.policy_loss) && std::isfinite(losses.value_loss);
+  };
+  const std::size_t slices = sides_[0].losses.size() / static_cast<std::size_t>(shards_.count);
+  int first = shards_.total;
+  for (std::size_t i = 0; i < sides_[0].losses.size() && first == shards_.total; ++i) {
+    if (is_finite(sides_[0].losses[i]) && is_finite(sides_[1].losses[i])) continue;
+    first = shards_.first + static_cast<int>(i / slices);
+  }
+  return NameFirstBroken(shards_, first, ranks_);
+}
+
+void PpoUpdate::RequireSane(const char* network, double loss, double norm) {
+  if (std::isfinite(loss) && norm <= kExplodedGradientNorm) return;
+  exploded_ = true;
+  throw Error("the " + std::string(network) + "'s training exploded (loss " + std::to_string(loss) +
+              ", gradient norm " + std::to_string(norm) + FirstBrokenShard() +
+              "); lower ppo.learning_rate, or ppo.max_gradient_norm");
+}
+
+bool PpoUpdate::RunMinibatch(const Source& source, const Minibatch& minibatch, double learning_rate,
+                             UpdateReport& report) {
   Accumulate(source, minibatch);
-  if (pool_.stopping()) return {};
   SumAll(minibatch.slices);
+  LossSums losses = SumLosses(minibatch.slices);
+  if (!SumOverAllRanks(losses)) return false;
   pool_.ForEach(2, [&](int i, int) {
     Side& side = sides_[i];
     AdamOptimiser& optimiser = side.trained.optimiser;
     side.trained.network->FinishGradient(side.accumulators[0].data(), optimiser.gradient());
     side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, optimiser);
   });
-  const LossSums total = SumLosses(minibatch.slices);
-  RequireSane("actor", total.policy_loss, sides_[0].norm);
-  RequireSane("critic", total.value_loss, sides_[1].norm);
-  return total;
+  RequireSane("actor", losses.policy_loss, sides_[0].norm);
+  RequireSane("critic", losses.value_loss, sides_[1].norm);
+  report.losses += losses;
+  report.actor_gradient_norm += sides_[0].norm;
+  report.critic_gradient_norm += sides_[1].norm;
+  return true;
 }
 
 UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
                             std::uint64_t iteration, double learning_rate, double handling_weight) {
   handling_weight_ = handling_weight;
+  shards_ = rollout.shards;
+  exploded_ = false;
   const Source source = SourceOf(rollout, scale);
   UpdateReport report;
   gradient_seconds_ = 0;
   for (int epoch = 0; epoch < config_.epochs; ++epoch) {
     const Minibatches minibatches(rollout, config_.minibatches, seed_, iteration, epoch);
     for (int minibatch = 0; minibatch < config_.minibatches; ++minibatch) {
-      if (pool_.stopping()) return report;
-      report.losses += RunMinibatch(source, Cut(minibatches.At(minibatch), rollout), learning_rate);
-      report.actor_gradient_norm += sides_[0].norm;
-      report.critic_gradient_norm += sides_[1].norm;
+      const Minibatch cut = Cut(minibatches.At(minibatch), rollout);
+      if (RunMinibatch(source, cut, learning_rate, report)) continue;
+      report.stopped = true;
+      return report;
     }
   }
   const double count = static_cast<double>(config_.epochs) * config_.minibatches;

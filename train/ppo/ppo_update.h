@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/worker_pool.h"
@@ -11,11 +12,13 @@
 #include "train/ppo/minibatches.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/train_config.h"
+#include "train/ranks/ranks.h"
 
 namespace skein {
 
 /// What an update did: means over all minibatches.
 struct UpdateReport {
+  bool stopped = false;  ///< some rank's pool was asked to stop: it is unfinished
   LossSums losses;
   double actor_gradient_norm = 0, critic_gradient_norm = 0;  ///< before clipping
   double gradient_seconds = 0;  ///< in forward, losses and backward, of all minibatches
@@ -26,15 +29,19 @@ struct UpdateReport {
 /// that no bit depends on the threads.
 class PpoUpdate {
  public:
-  /// `networks` must outlive the update.
-  PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPool& pool);
+  /// `networks`, `pool` and `ranks` must outlive the update.
+  PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPool& pool,
+            Ranks& ranks = OneRank());
 
   /// `iteration` keys the shuffles; `handling_weight` multiplies the action smoothness. Throws
-  /// Error if a loss or a gradient is not finite, or a gradient's norm exceeds
+  /// Error, on all ranks alike, if a loss or a gradient is not finite, or a gradient's norm exceeds
   /// kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may then have moved. So they
-  /// may if the pool is stopping: the update then ends within a tile, unfinished.
+  /// may if a pool is stopping: the update then ends within a tile of its rank, unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
                    double learning_rate, double handling_weight = 1);
+
+  /// Whether Run has thrown because training exploded.
+  bool exploded() const { return exploded_; }
 
  private:
   /// A network and its gradient: [shard][slice] accumulators and sums of losses.
@@ -59,13 +66,15 @@ class PpoUpdate {
   struct Gathered;
 
   bool is_actor(const Side& side) const { return &side == &sides_[0]; }
-  Source SourceOf(const Rollout& rollout, const ValueScale& scale) const;
+  Source SourceOf(const Rollout& rollout, const ValueScale& scale);
   Minibatch Cut(std::vector<Chunks> shards, const Rollout& rollout) const;
   /// What of a shard's chunks belongs to a slice.
   Chunks SliceOf(const Chunks& shard, int slice, int slices) const;
   LossSettings SettingsFor(const Minibatch& minibatch, int chunk_length) const;
-  /// One step of both optimisers; their losses.
-  LossSums RunMinibatch(const Source& source, const Minibatch& minibatch, double learning_rate);
+  /// One step of both optimisers; adds their losses and norms. False, with nothing done, if a pool
+  /// is stopping.
+  bool RunMinibatch(const Source& source, const Minibatch& minibatch, double learning_rate,
+                    UpdateReport& report);
   /// Leaves the gradients of both networks in their accumulators.
   void Accumulate(const Source& source, const Minibatch& minibatch);
   void AccumulateSlice(Side& side, const Source& source, const Chunks& chunks,
@@ -73,16 +82,24 @@ class PpoUpdate {
   /// Leaves the sums in the first accumulators.
   void SumAll(int slices);
   LossSums SumLosses(int slices) const;
+  /// Adds what the other ranks have of both gradients and the losses; false if a pool is stopping.
+  bool SumOverAllRanks(LossSums& losses);
+  void RequireSane(const char* network, double loss, double norm);
+  /// The first shard whose losses are not finite, for people; empty if there is none.
+  std::string FirstBrokenShard();
 
   PpoConfig config_;
   std::uint64_t seed_;
   bool tanh_mean_;
   int tile_chunks_;
   WorkerPool& pool_;
+  Ranks& ranks_;
+  ShardRange shards_;                                ///< of the rollout under way
   std::array<Side, 2> sides_;                        ///< actor, critic
   std::vector<std::shared_ptr<Gathered>> gathered_;  ///< one per worker
   double handling_weight_ = 1;                       ///< of the update under way
   double gradient_seconds_ = 0;                      ///< of the update so far
+  bool exploded_ = false;
 };
 
 }  // namespace skein

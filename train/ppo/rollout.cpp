@@ -161,7 +161,7 @@ class TileRollout {
               static_cast<std::uint32_t>(policy_step));
     std::fill(scratch_.policy_step_high.begin(), scratch_.policy_step_high.end(),
               static_cast<std::uint32_t>(policy_step >> 32));
-    simd::FillNormals(settings_.seed, static_cast<std::uint32_t>(begin_),
+    simd::FillNormals(settings_.seed, static_cast<std::uint32_t>(env_.first_aircraft() + begin_),
                       scratch_.policy_step_low.data(), scratch_.policy_step_high.data(),
                       simd::RandomPurpose::kActionNoise, count_, size, scratch_.noise.data());
     float* const action = rollout_.action.data() + row * size;

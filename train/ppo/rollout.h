@@ -25,6 +25,8 @@ struct Rollout {
           int privileged_size = 0, const ShardRange& shards = {});
 
   std::int64_t samples() const { return static_cast<std::int64_t>(steps) * aircraft; }
+  /// Of all ranks together.
+  std::int64_t all_samples() const { return samples() * (shards.total / shards.count); }
   int chunks() const { return steps / chunk_length; }  ///< per aircraft
   int shard_aircraft() const { return aircraft / shards.count; }
   std::int64_t row(int step, int index) const {
@@ -55,8 +57,8 @@ struct Rollout {
   std::vector<float> actor_state, critic_state;  ///< [chunks][aircraft][state_size] at chunk starts
 };
 
-/// Sums over all samples: `add(row, sums)` adds what a row has. Shard by shard, each step by step,
-/// and over shards by the tree.
+/// Sums over all samples that are here: `add(row, sums)` adds what a row has. Shard by shard, each
+/// step by step, and over shards by the tree.
 template <std::size_t kCount, typename Add>
 Sums<kCount> SumSamples(const Rollout& rollout, const Add& add) {
   std::vector<Sums<kCount>> of_shards(static_cast<std::size_t>(rollout.shards.count));

@@ -4,19 +4,23 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include "base/error.h"
+#include "base/fnv_hash.h"
 #include "envs/vec_env.h"
 #include "train/policy/evaluate.h"
 #include "train/policy/policy_environment.h"
 #include "train/ppo/actor_critic.h"
+#include "train/ppo/broken_shard.h"
 #include "train/ppo/learning_rate.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/ppo_update.h"
 #include "train/ppo/reward_check.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/training_state.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
@@ -28,8 +32,8 @@ double SecondsSince(std::chrono::steady_clock::time_point start) {
 /// Sums over the samples of a rollout: of the value targets and what the critic missed of them.
 enum ValueSum { kTarget, kTargetSquared, kError, kErrorSquared, kNumValueSums };
 
-/// Their means.
-Sums<kNumValueSums> ValueMeans(const Rollout& rollout) {
+/// Their means over all ranks.
+Sums<kNumValueSums> ValueMeans(const Rollout& rollout, Ranks& ranks) {
   Sums<kNumValueSums> means =
       SumSamples<kNumValueSums>(rollout, [&](std::int64_t row, Sums<kNumValueSums>& sums) {
         const double target = rollout.target[row], error = target - rollout.value[row];
@@ -38,7 +42,8 @@ Sums<kNumValueSums> ValueMeans(const Rollout& rollout) {
         sums[kError] += error;
         sums[kErrorSquared] += error * error;
       });
-  for (double& mean : means) mean /= static_cast<double>(rollout.samples());
+  SumOverRanks(ranks, means.size(), means.data());
+  for (double& mean : means) mean /= static_cast<double>(rollout.all_samples());
   return means;
 }
 
@@ -57,26 +62,49 @@ const TrainConfig& Validated(const TrainConfig& config) {
   return config;
 }
 
+/// The shards of a rank. Throws Error unless they are equally many on all.
+ShardRange ShardsOf(int shards, const Ranks& ranks) {
+  if (shards % ranks.count() == 0) {
+    const int count = shards / ranks.count();
+    return {shards, ranks.rank() * count, count};
+  }
+  std::string possible = "1";
+  for (int count = 2; count <= shards; count *= 2) possible += ", " + std::to_string(count);
+  throw Error("a training of learner.shards = " + std::to_string(shards) + " cannot be done by " +
+              std::to_string(ranks.count()) + " ranks; possible are " + possible +
+              "; more need a new run of more shards");
+}
+
 }  // namespace
 
 struct Trainer::Impl {
-  Impl(const TrainConfig& training, WorkerPool& workers)
+  Impl(const TrainConfig& training, WorkerPool& workers, Ranks& processes)
       : config(Validated(training)),
         pool(workers),
-        env(config.env, config.ppo.num_aircraft, config.seed, config.learner.rollout_tile,
-            LowLevelPolicy()),
+        ranks(processes),
+        shards(ShardsOf(config.learner.shards, ranks)),
+        env(config.env, FlownHere(), config.seed, config.learner.rollout_tile, LowLevelPolicy(),
+            ranks.rank() * FlownHere()),
         networks(config, env.observation_size(), PrivilegedSize(config.ppo, env),
                  env.action_size()),
-        rollout(config.ppo, env.observation_size(), env.action_size(), StateSize(),
-                PrivilegedSize(config.ppo, env), {config.learner.shards, 0, config.learner.shards}),
-        recurrent(config.ppo.num_aircraft, StateSize()),
-        update(config, networks, pool),
+        rollout(OwnRollout(), env.observation_size(), env.action_size(), StateSize(),
+                PrivilegedSize(config.ppo, env), shards),
+        recurrent(FlownHere(), StateSize()),
+        update(config, networks, pool, ranks),
         adapted_learning_rate(config.ppo.target_kl > 0 ? config.ppo.learning_rate : 0) {
     config.learner.precision = networks.backend.precision;
     if (config.ppo.condition_ramp > 0) {
       env.SetConditionShare(0);
       env.Restart();
     }
+  }
+
+  /// Aircraft of this rank.
+  int FlownHere() const { return config.ppo.num_aircraft / ranks.count(); }
+  PpoConfig OwnRollout() const {
+    PpoConfig own = config.ppo;
+    own.num_aircraft = FlownHere();
+    return own;
   }
 
   /// On the learner's backend, whatever computed it before.
@@ -108,6 +136,7 @@ struct Trainer::Impl {
   /// What handling costs, as a share of its full weight.
   double HandlingWeight() const { return Grown(config.ppo.handling_ramp); }
 
+  /// Its aircraft are those of this rank.
   TrainingState State() const {
     TrainingState state;
     const AdamOptimiser &actor = networks.actor.optimiser, &critic = networks.critic.optimiser;
@@ -143,6 +172,60 @@ struct Trainer::Impl {
     best_return = state.best_return;
   }
 
+  /// The whole training's, on rank 0.
+  TrainingState GatheredState() const {
+    TrainingState state = State();
+    GatherAtRankZero(ranks, state.recurrent.actor);
+    GatherAtRankZero(ranks, state.recurrent.critic);
+    GatherAtRankZero(ranks, state.recurrent.not_done);
+    GatherAtRankZero(ranks, state.env);
+    return state;
+  }
+
+  /// Of a whole training's state what is this rank's.
+  TrainingState OwnShare(TrainingState state) const {
+    const auto take = [this](auto& values) {
+      const auto size = static_cast<std::int64_t>(values.size());
+      const auto begin = values.begin();
+      values = {begin + ShareBegin(size, ranks.rank(), ranks),
+                begin + ShareBegin(size, ranks.rank() + 1, ranks)};
+    };
+    take(state.recurrent.actor);
+    take(state.recurrent.critic);
+    take(state.recurrent.not_done);
+    take(state.env);
+    return state;
+  }
+
+  /// Adds the other ranks' statistics; true if a pool is stopping.
+  bool SumStatistics(EpisodeStatistics& episodes) const {
+    struct Message {
+      EpisodeStatistics statistics;
+      int stopping;
+    } message{episodes, pool.stopping()};
+    CombineOverRanks(ranks, 1, &message, [](Message& mine, const Message& theirs) {
+      mine.statistics += theirs.statistics;
+      mine.stopping += theirs.stopping;
+    });
+    episodes = message.statistics;
+    return message.stopping > 0;
+  }
+
+  /// Whether some rank's pool was asked to stop. Throws Error on all ranks if their parameters are
+  /// not the same.
+  bool AgreeOnEnd() {
+    if (ranks.count() == 1) return pool.stopping();
+    FnvHash hash;
+    for (const TrainedNetwork* const network : {&networks.actor, &networks.critic}) {
+      const AdamOptimiser& optimiser = network->optimiser;
+      hash.Add(optimiser.parameters(), static_cast<std::size_t>(optimiser.size()) * sizeof(float));
+    }
+    fails_alike = true;
+    if (UnionOverRanks(ranks, pool.stopping()) != 0) return true;
+    RequireSameOnRanks(ranks, "the hash of their parameters after an iteration", hash.Hex());
+    return false;
+  }
+
   RecurrentPolicy CurrentPolicy() const {
     const TrainedNetwork& actor = networks.actor;
     return RecurrentPolicy(
@@ -164,10 +247,12 @@ struct Trainer::Impl {
     settings.gae_lambda = config.ppo.gae_lambda;
     settings.tanh_mean = config.network.tanh_mean;
     settings.value_scale = popart.scale();
-    const EpisodeStatistics episodes =
+    EpisodeStatistics episodes =
         CollectRollout(env, *networks.actor.network, *networks.critic.network, networks.LogStd(),
                        settings, pool, recurrent, rollout);
-    if (!pool.stopping()) RequireUsableRewards(config, rollout.reward);
+    const double simulator_seconds = episodes.simulator_seconds;
+    stopped = SumStatistics(episodes);
+    if (!stopped) CheckRewards();
     policy_steps += config.ppo.rollout_steps;
     const auto count = static_cast<double>(episodes.episodes);
     report.episodes = episodes.episodes;
@@ -176,15 +261,38 @@ struct Trainer::Impl {
     report.return_mean = episodes.return_sum / count;  // 0 / 0 says that there are none
     report.success_rate =
         episodes.terminations[static_cast<int>(Termination::kTargetReached)] / count;
-    value_means = ValueMeans(rollout);
+    value_means = ValueMeans(rollout, ranks);
     report.explained_variance = ExplainedVariance(value_means);
     report.rollout_seconds = SecondsSince(start);
-    report.simulator_seconds = episodes.simulator_seconds / pool.threads();
+    report.simulator_seconds = simulator_seconds / pool.threads();
     return episodes.policy_steps * config.env.action_repeat;
   }
 
+  void CheckRewards() {
+    fails_alike = true;
+    DoTogether(ranks, [&] { RequireUsableRewards(config, rollout.reward); });
+    fails_alike = false;
+  }
+
+  /// Through the moments what is not finite in one shard would spread to all.
+  void RequireFiniteTargets() {
+    if (shards.total == 1 || std::isfinite(value_means[kErrorSquared])) return;
+    fails_alike = true;
+    int first = shards.total;
+    for (int i = 0; i < rollout.aircraft && first == shards.total; ++i) {
+      for (int step = 0; step < rollout.steps; ++step) {
+        if (std::isfinite(rollout.target[rollout.row(step, i)])) continue;
+        first = shards.first + i / rollout.shard_aircraft();
+        break;
+      }
+    }
+    throw Error("the critic's training exploded: value targets are not finite" +
+                NameFirstBroken(shards, first, ranks) +
+                "; lower ppo.learning_rate, or ppo.max_gradient_norm");
+  }
+
   void Learn(IterationReport& report) {
-    if (pool.stopping()) return;
+    RequireFiniteTargets();
     const auto start = std::chrono::steady_clock::now();
     report.learning_rate = LearningRate();
     if (config.ppo.popart) {
@@ -193,6 +301,7 @@ struct Trainer::Impl {
     }
     const UpdateReport done =
         update.Run(rollout, popart.scale(), iteration, report.learning_rate, HandlingWeight());
+    stopped = done.stopped;
     report.gradient_seconds = done.gradient_seconds;
     report.policy_loss = done.losses.policy_loss;
     report.value_loss = done.losses.value_loss;
@@ -211,18 +320,32 @@ struct Trainer::Impl {
     report.update_seconds = SecondsSince(start);
   }
 
+  /// The same episodes each time, each rank its share, and others than an evaluation with the run's
+  /// own seed flies.
+  EvaluationResult Evaluation() const {
+    std::vector<Episode> episodes(static_cast<std::size_t>(config.evaluation.episodes));
+    const auto begin = [&](int rank) {
+      return ShareBegin(config.evaluation.episodes, rank, ranks);
+    };
+    EvaluationOptions options;
+    options.first_episode = static_cast<int>(begin(ranks.rank()));
+    options.episodes = static_cast<int>(begin(ranks.rank() + 1)) - options.first_episode;
+    options.seed = ~config.seed;
+    if (options.episodes > 0) {
+      const FlownEpisodes own =
+          FlyEpisodes(Agent::MeanOf(CurrentPolicy()), config.env, options, pool);
+      std::copy(own.episodes.begin(), own.episodes.end(), episodes.begin() + options.first_episode);
+    }
+    ShareWithAllRanks(ranks, episodes);
+    return Summarise(episodes, config.env.control_interval_s);
+  }
+
   void EvaluateIfDue(IterationReport& report) {
-    if (pool.stopping()) return;
     const PeriodicEvaluationConfig& evaluation = config.evaluation;
     if (evaluation.interval_iterations <= 0) return;
     if (iteration % evaluation.interval_iterations != 0 && env_steps() < config.total_steps) return;
     const auto start = std::chrono::steady_clock::now();
-    EvaluationOptions options;
-    options.episodes = evaluation.episodes;
-    // The same episodes each time, and others than an evaluation with the run's own seed flies.
-    options.seed = ~config.seed;
-    const EvaluationResult result =
-        Evaluate(Agent::MeanOf(CurrentPolicy()), config.env, options, pool);
+    const EvaluationResult result = Evaluation();
     report.evaluation_success_rate = result.success_rate;
     report.evaluation_hold_within = result.hold_within_mean;
     report.best = result.success_rate > best_success_rate ||
@@ -236,6 +359,8 @@ struct Trainer::Impl {
 
   TrainConfig config;
   WorkerPool& pool;
+  Ranks& ranks;
+  ShardRange shards;
   VecEnv env;
   ActorCritic networks;
   Rollout rollout;
@@ -246,11 +371,13 @@ struct Trainer::Impl {
   double adapted_learning_rate;
   std::uint64_t iteration = 0;
   std::uint64_t policy_steps = 0;
+  bool stopped = false;      ///< some rank's pool was asked to stop, as all ranks have learned
+  bool fails_alike = false;  ///< what is thrown now is thrown on all ranks
   double best_success_rate = -1, best_return = 0;
 };
 
-Trainer::Trainer(const TrainConfig& config, WorkerPool& pool)
-    : impl_(std::make_unique<Impl>(config, pool)) {}
+Trainer::Trainer(const TrainConfig& config, WorkerPool& pool, Ranks& ranks)
+    : impl_(std::make_unique<Impl>(config, pool, ranks)) {}
 Trainer::~Trainer() = default;
 
 const TrainConfig& Trainer::config() const { return impl_->config; }
@@ -261,22 +388,27 @@ bool Trainer::finished() const { return impl_->env_steps() >= impl_->config.tota
 const BackendChoice& Trainer::backend() const { return impl_->networks.backend; }
 
 IterationReport Trainer::Iterate() {
-  const TrainingState before = impl_->State();
+  Impl& impl = *impl_;
+  const TrainingState before = impl.State();
+  impl.fails_alike = false;
   try {
     IterationReport report;
-    const std::uint64_t flown = impl_->CollectExperience(report);
-    impl_->Learn(report);
-    report.iteration = ++impl_->iteration;
-    report.env_steps = impl_->env_steps();
-    impl_->EvaluateIfDue(report);
-    if (!impl_->pool.stopping()) return report;
-    impl_->SetState(before);
+    const std::uint64_t flown = impl.CollectExperience(report);
+    if (!impl.stopped) impl.Learn(report);
+    report.iteration = ++impl.iteration;
+    report.env_steps = impl.env_steps();
+    if (!impl.stopped) impl.EvaluateIfDue(report);
+    if (!impl.stopped) impl.stopped = impl.AgreeOnEnd();
+    if (!impl.stopped) return report;
+    impl.SetState(before);
     IterationReport dropped;
     dropped.dropped = true;
     dropped.dropped_steps = flown;
     return dropped;
-  } catch (...) {
-    impl_->SetState(before);
+  } catch (const std::exception& error) {
+    const bool alike = impl.fails_alike || impl.update.exploded() || impl.ranks.count() == 1;
+    if (!alike) impl.ranks.Abort(error.what());
+    impl.SetState(before);
     throw;
   }
 }
@@ -294,16 +426,18 @@ bool Trainer::StartFrom(const std::string& path) {
 RecurrentPolicy Trainer::policy() const { return impl_->CurrentPolicy(); }
 
 void Trainer::Save(const std::string& path) const {
-  StoreCheckpoint(impl_->config, impl_->networks.actor.layout(), impl_->State()).Write(path);
+  const TrainingState state = impl_->GatheredState();
+  if (impl_->ranks.rank() != 0) return;
+  StoreCheckpoint(impl_->config, impl_->networks.actor.layout(), state).Write(path);
 }
 
 std::string Trainer::Restore(const std::string& path) {
   const TensorFile file = TensorFile::Read(path);
-  impl_->SetState(LoadCheckpoint(file, path, impl_->config, impl_->networks.actor.layout(),
-                                 impl_->networks.critic.layout()));
+  impl_->SetState(impl_->OwnShare(LoadCheckpoint(
+      file, path, impl_->config, impl_->networks.actor.layout(), impl_->networks.critic.layout())));
   return file.metadata.at(kSimdTargetKey);
 }
 
-std::uint64_t Trainer::Signature() const { return Hash(impl_->State()); }
+std::uint64_t Trainer::Signature() const { return Hash(impl_->GatheredState()); }
 
 }  // namespace skein

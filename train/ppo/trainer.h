@@ -12,14 +12,15 @@
 #include "train/network/backend.h"
 #include "train/policy/recurrent_policy.h"
 #include "train/ppo/train_config.h"
+#include "train/ranks/ranks.h"
 
 namespace skein {
 
 /// What one iteration (rollout and update) did. All but the seconds is bit-identical for any number
-/// of threads.
+/// of threads, and on all ranks.
 struct IterationReport {
-  /// The pool was asked to stop: nothing was done after all, and of the other fields only
-  /// dropped_steps means anything.
+  /// The pool, of any rank, was asked to stop: nothing was done after all, and of the other fields
+  /// only dropped_steps means anything.
   bool dropped = false;
   std::uint64_t dropped_steps = 0;  ///< control steps discarded
   std::uint64_t iteration = 0;
@@ -47,11 +48,14 @@ struct IterationReport {
 };
 
 /// Recurrent PPO on a VecEnv. A run is a function of the configuration: same bits for any thread
-/// count, interrupted or not.
+/// count, and any number of ranks, interrupted or not. With several ranks each flies its part of
+/// the shards, all take the same steps, and what is marked as joint is called on all of them
+/// together.
 class Trainer {
  public:
-  /// Throws Error on a configuration that cannot be trained. The pool must outlive it.
-  Trainer(const TrainConfig& config, WorkerPool& pool);
+  /// Throws Error on a configuration that cannot be trained, or not on so many ranks. The pool and
+  /// the ranks must outlive it.
+  Trainer(const TrainConfig& config, WorkerPool& pool, Ranks& ranks = OneRank());
   ~Trainer();
 
   /// The configuration, its precision as it was chosen (train/network/backend.h).
@@ -61,10 +65,12 @@ class Trainer {
   bool finished() const;                 ///< the step budget is used up
   const BackendChoice& backend() const;  ///< what computes the networks
 
-  /// One rollout and update. Throws Error if a loss or gradient is not finite or explodes; the
-  /// whole state is then that before the iteration, and can be saved. So it is if the pool was
+  /// Joint: one rollout and update. Throws Error if a loss or gradient is not finite or explodes;
+  /// the whole state is then that before the iteration, and can be saved. So it is if the pool was
   /// asked to stop, which takes no longer than a policy step of a tile of aircraft or the gradient
-  /// of a tile of samples.
+  /// of a tile of samples on its rank, and with several ranks until the others reach the next
+  /// exchange: the end of the rollout or of a minibatch. All ranks throw alike; what goes wrong on
+  /// one alone ends all processes.
   IterationReport Iterate();
 
   /// Takes over the networks of a policy file or checkpoint: the actor, and the critic with its
@@ -76,15 +82,16 @@ class Trainer {
   /// The actor as it is now.
   RecurrentPolicy policy() const;
 
-  /// Everything needed to resume bit-exactly, written atomically (temporary file, fsync, rename,
-  /// directory fsync).
+  /// Joint: everything needed to resume bit-exactly, written by rank 0 atomically (temporary file,
+  /// fsync, rename, directory fsync). The file is the same for any number of ranks.
   void Save(const std::string& path) const;
   /// Returns the SIMD target that the checkpoint was made on: on another one training resumes, but
   /// not bit-exactly. Throws Error if the file is damaged or was made with another configuration of
   /// networks, environment or learner, or another low-level policy; nothing has changed then.
   std::string Restore(const std::string& path);
 
-  /// A 64-bit hash (FNV-1a) of parameters, optimiser, value statistics and environment state.
+  /// Joint: a 64-bit hash (FNV-1a) of parameters, optimiser, value statistics and environment
+  /// state; on rank 0.
   std::uint64_t Signature() const;
 
  private:

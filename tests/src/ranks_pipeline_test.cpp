@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs trainings of several processes as a user does, with mpirun; skipped where there is none.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/error.h"
+#include "src/files/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+#include "tests/src/tiny_training.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::vector<std::string> kShards = {"--set", "learner.shards=8", "--threads", "1"};
+
+/// Processes of this program that train in `run` beside mpirun itself, as the system lists them.
+std::vector<pid_t> ProcessesOf(const std::string& run) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    try {
+      const std::string words = ReadFile(entry.path().string() + "/cmdline");
+      const bool is_rank = words.rfind(SKEIN_PROGRAM, 0) == 0;
+      if (is_rank && words.find(run) != std::string::npos) found.push_back(std::stoi(name));
+    } catch (const Error&) {  // it has ended
+    }
+  }
+  return found;
+}
+
+class RanksPipeline : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v mpirun > /dev/null 2>&1") != 0 || !fs::exists(SKEIN_MPI_MODULE)) {
+      GTEST_SKIP() << "no mpirun, or built without MPI";
+    }
+  }
+
+  /// The words that start `count` ranks; `environment` is set for the last of them alone.
+  static std::vector<std::string> Mpirun(int count, const std::vector<std::string>& arguments,
+                                         const std::string& environment = "") {
+    std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
+    const auto ranks = [&](int several) {
+      words.insert(words.end(), {"-np", std::to_string(several), SKEIN_PROGRAM});
+      words.insert(words.end(), arguments.begin(), arguments.end());
+    };
+    if (environment.empty()) {
+      ranks(count);
+      return words;
+    }
+    ranks(count - 1);
+    words.insert(words.end(), {":", "-x", environment});
+    ranks(1);
+    return words;
+  }
+
+  void ExpectSameRun(const std::string& a, const std::string& b) {
+    for (const char* file :
+         {"/metrics.csv", "/checkpoints/checkpoint-000012.skein", "/checkpoints/policy-final.skein",
+          "/checkpoints/policy-best.skein", "/config.toml"}) {
+      ExpectSameFile(a + file, b + file);
+    }
+  }
+
+  const ScratchDirectory scratch_;
+  std::string root_ = scratch_.path();
+  std::string reference_ = root_ + "/reference", run_ = root_ + "/run";
+};
+
+TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcess) {
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  for (const int count : {2, 4}) {
+    const std::string run = run_ + std::to_string(count);
+    const ProgramResult result = RunWords(Mpirun(count, TinyTraining(run, kShards)));
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    ExpectSameRun(reference_, run);
+    EXPECT_THAT(result.output, HasSubstr(std::to_string(count) + " ranks"));
+    EXPECT_EQ(result.output.find("training heading"), result.output.rfind("training heading"))
+        << "rank 0 alone speaks";
+  }
+}
+
+TEST_F(RanksPipeline, ASignalToOneRankStopsAllAndTheRunGoesOnWithAnyNumber) {
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  RunningProgram training(ProgramWords{Mpirun(4, TinyTraining(run_, kShards))});
+  ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 3); }));
+  const std::vector<pid_t> ranks = ProcessesOf(run_);
+  ASSERT_EQ(ranks.size(), 4u);
+  kill(ranks.back(), SIGTERM);
+  const ProgramResult stopped = training.Wait();
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.error;
+  EXPECT_THAT(stopped.output, HasSubstr("stopped by SIGTERM"));
+  const ProgramResult resumed = RunWords(Mpirun(2, {"train", "--resume", run_, "--threads", "1"}));
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(RanksPipeline, ARankThatIsAskedToSaveHasItSavedOnce) {
+  std::vector<std::string> arguments = TinyTraining(run_, kShards);
+  arguments.insert(arguments.end(), {"--set", "checkpoint.interval_iterations=0"});
+  RunningProgram training(ProgramWords{Mpirun(2, arguments)});
+  ASSERT_TRUE(training.WaitUntil([&] {
+    if (!fs::exists(run_ + "/metrics.csv")) return false;
+    const std::string rows = ReadFile(run_ + "/metrics.csv");
+    return std::count(rows.begin(), rows.end(), '\n') > 2;
+  }));
+  const std::vector<pid_t> ranks = ProcessesOf(run_);
+  ASSERT_EQ(ranks.size(), 2u);
+  kill(ranks.back(), SIGUSR1);
+  ASSERT_EQ(training.Wait().exit_code, 0);
+  const std::string log = ReadFile(run_ + "/log.txt");
+  EXPECT_THAT(log, HasSubstr("as asked"));
+  EXPECT_EQ(log.find("as asked"), log.rfind("as asked"));
+}
+
+TEST_F(RanksPipeline, AKilledRankEndsTheJobAndOneProcessGoesOn) {
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  RunningProgram training(ProgramWords{Mpirun(4, TinyTraining(run_, kShards))});
+  ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 3); }));
+  const std::vector<pid_t> ranks = ProcessesOf(run_);
+  ASSERT_EQ(ranks.size(), 4u);
+  kill(ranks[1], SIGKILL);
+  EXPECT_NE(training.Wait().exit_code, 0);
+  EXPECT_TRUE(ProcessesOf(run_).empty());
+  ASSERT_EQ(RunSkein({"train", "--resume", run_}).exit_code, 0);
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(RanksPipeline, AHungRankIsNamedAndEndsTheJob) {
+  std::vector<std::string> arguments = TinyTraining(run_, kShards);
+  arguments.insert(arguments.end(), {"--rank-timeout", "2"});
+  RunningProgram training(ProgramWords{Mpirun(4, arguments)});
+  ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+  const std::vector<pid_t> ranks = ProcessesOf(run_);
+  ASSERT_EQ(ranks.size(), 4u);
+  kill(ranks[2], SIGSTOP);
+  const ProgramResult result = training.Wait();
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("has not answered for 2 s"));
+  EXPECT_TRUE(ProcessesOf(run_).empty());
+}
+
+TEST_F(RanksPipeline, RanksThatComputeDifferentlyAreRefusedAndNamed) {
+  const ProgramResult result = RunWords(Mpirun(2, TinyTraining(run_, kShards), "SKEIN_SIMD=avx2"));
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("ranks differ in what they train with"));
+  EXPECT_THAT(result.error, HasSubstr("rank 1 ("));
+  EXPECT_FALSE(fs::exists(run_));
+}
+
+TEST_F(RanksPipeline, NumbersThatAreNotPossibleAreRefused) {
+  const ProgramResult three = RunWords(Mpirun(3, TinyTraining(run_, kShards)));
+  EXPECT_NE(three.exit_code, 0);
+  EXPECT_THAT(three.error, HasSubstr("a power of two"));
+  const ProgramResult unsharded = RunWords(Mpirun(2, TinyTraining(run_, {"--threads", "1"})));
+  EXPECT_NE(unsharded.exit_code, 0);
+  EXPECT_THAT(unsharded.error, HasSubstr("learner.shards = 1 cannot be done by 2 ranks"));
+  const ProgramResult wrong = RunWords(Mpirun(2, {"train", "heading", "--set", "ppo.gamma=2"}));
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_EQ(wrong.error.find("ppo.gamma = 2"), wrong.error.rfind("ppo.gamma = 2")) << "said once";
+}
+
+TEST_F(RanksPipeline, WhatRankZeroCannotWriteStopsAll) {
+  const ProgramResult result = RunWords(Mpirun(2, TinyTraining("/dev/full/run", kShards)));
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("/dev/full/run"));
+}
+
+}  // namespace
+}  // namespace skein

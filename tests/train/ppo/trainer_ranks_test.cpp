@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// A training on several ranks is the training of one, bit for bit. Ranks are threads here.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <fstream>
+#include <limits>
+
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+#include "tests/train/hierarchy_config.h"
+#include "tests/train/ranks/thread_ranks.h"
+#include "tests/train/small_config.h"
+#include "train/files/tensor_access.h"
+#include "train/ppo/ppo_update.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kShards = 16;
+
+std::string BytesOf(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TrainConfig Sharded(TrainConfig config) {
+  config.learner.shards = kShards;
+  return config;
+}
+
+/// What a training leaves behind.
+struct Outcome {
+  std::uint64_t signature = 0;
+  std::vector<std::string> metrics;
+  std::string checkpoint;
+};
+
+/// The report's numbers, but for seconds, to the last bit.
+std::string TextOf(const IterationReport& report) {
+  std::string text = std::to_string(report.env_steps) + " " + std::to_string(report.episodes);
+  for (const int ended : report.terminations) text += " " + std::to_string(ended);
+  for (const double number :
+       {report.return_mean, report.success_rate, report.policy_loss, report.value_loss,
+        report.entropy, report.approximate_kl, report.clip_fraction, report.action_change,
+        report.actor_gradient_norm, report.critic_gradient_norm, report.explained_variance,
+        report.learning_rate, report.log_std_mean, report.evaluation_success_rate}) {
+    text += " " + ExactText(number);
+  }
+  return text + (report.best ? " best" : "");
+}
+
+class TrainerRanksTest : public testing::Test {
+ protected:
+  /// Trains on so many ranks to the end, or for `iterations`, from the checkpoint `from` if there
+  /// is one, and leaves a checkpoint in `to`.
+  static Outcome Train(const TrainConfig& config, int count, const std::string& from,
+                       const std::string& to, int iterations = std::numeric_limits<int>::max()) {
+    Outcome outcome;
+    RunOnRanks(count, [&](Ranks& ranks) {
+      WorkerPool pool(1);
+      Trainer trainer(config, pool, ranks);
+      if (!from.empty()) trainer.Restore(from);
+      std::vector<std::string> metrics;
+      for (int i = 0; i < iterations && !trainer.finished(); ++i) {
+        metrics.push_back(TextOf(trainer.Iterate()));
+      }
+      trainer.Save(to);
+      const std::uint64_t signature = trainer.Signature();
+      if (ranks.rank() == 0) outcome = {signature, metrics, BytesOf(to)};
+    });
+    return outcome;
+  }
+
+  void ExpectSameForAnyRanks(const TrainConfig& config, const std::vector<int>& counts) {
+    const Outcome expected = Train(config, 1, "", scratch_ / "one");
+    EXPECT_FALSE(expected.checkpoint.empty());
+    for (const int count : counts) {
+      const Outcome outcome = Train(config, count, "", scratch_ / "several");
+      EXPECT_EQ(outcome.signature, expected.signature) << count << " ranks";
+      EXPECT_EQ(outcome.metrics, expected.metrics) << count << " ranks";
+      EXPECT_TRUE(outcome.checkpoint == expected.checkpoint) << count << " ranks";
+    }
+  }
+
+  const ScratchDirectory scratch_;
+};
+
+class TrainerRanksPrecisionTest : public TrainerRanksTest,
+                                  public testing::WithParamInterface<LearnerPrecision> {};
+
+TEST_P(TrainerRanksPrecisionTest, EveryBitIsTheSameForAnyNumberOfRanks) {
+  TrainConfig config = Sharded(SmallConfig());
+  config.learner.precision = GetParam();
+  config.env.observation_noise = 0.05;
+  ExpectSameForAnyRanks(config, {2, 4, 8, 16});
+}
+
+INSTANTIATE_TEST_SUITE_P(Precisions, TrainerRanksPrecisionTest,
+                         testing::Values(LearnerPrecision::kFloat32, LearnerPrecision::kMixed,
+                                         LearnerPrecision::kBfloat16, LearnerPrecision::kFast),
+                         [](const testing::TestParamInfo<LearnerPrecision>& param) {
+                           return Name(param.param);
+                         });
+
+TEST_F(TrainerRanksTest, AHighLevelPolicyTrainsTheSameOnAnyNumberOfRanks) {
+  ExpectSameForAnyRanks(Sharded(SmallHighLevelConfig()), {2, 4});
+}
+
+TEST_F(TrainerRanksTest, SoDoWindsPlantsAndACriticThatSeesMore) {
+  TrainConfig config = Sharded(SmallConfig());
+  config.env.wind.speed_fps = {0, 60};
+  config.env.wind.turbulence_fps = {0, 5};
+  config.env.truncate_at_time_limit = config.ppo.privileged_critic = true;
+  config.ppo.target_kl = 0.01;
+  ExpectSameForAnyRanks(config, {2, 8});
+}
+
+TEST_F(TrainerRanksTest, ResumesBitExactlyOnAnotherNumberOfRanks) {
+  const TrainConfig config = Sharded(SmallConfig());
+  const Outcome expected = Train(config, 1, "", scratch_ / "whole");
+  Outcome outcome = Train(config, 8, "", scratch_ / "a", 1);
+  outcome = Train(config, 2, scratch_ / "a", scratch_ / "b", 1);
+  outcome = Train(config, 1, scratch_ / "b", scratch_ / "c");
+  EXPECT_EQ(outcome.signature, expected.signature);
+  EXPECT_TRUE(outcome.checkpoint == expected.checkpoint);
+  outcome = Train(config, 1, "", scratch_ / "a", 2);
+  outcome = Train(config, 4, scratch_ / "a", scratch_ / "b");
+  EXPECT_TRUE(outcome.checkpoint == expected.checkpoint);
+}
+
+TEST_F(TrainerRanksTest, AStopOfOneRankDropsTheIterationOfAll) {
+  RunOnRanks(4, [&](Ranks& ranks) {
+    WorkerPool pool(1);
+    Trainer trainer(Sharded(SmallConfig()), pool, ranks);
+    trainer.Iterate();
+    const std::uint64_t before = trainer.Signature();
+    if (ranks.rank() == 2) pool.RequestStop();
+    EXPECT_TRUE(trainer.Iterate().dropped) << ranks.Describe(ranks.rank());
+    EXPECT_EQ(trainer.Signature(), before) << ranks.Describe(ranks.rank());
+    EXPECT_EQ(trainer.iteration(), 1u);
+  });
+}
+
+TEST_F(TrainerRanksTest, SoManyRanksAsThereAreNoShardsForAreRefused) {
+  TrainConfig config = SmallConfig();
+  config.learner.shards = 4;
+  RunOnRanks(8, [&](Ranks& ranks) {
+    WorkerPool pool(1);
+    const std::string message = MessageOf([&] { const Trainer trainer(config, pool, ranks); });
+    EXPECT_THAT(message, HasSubstr("8 ranks"));
+    EXPECT_THAT(message, HasSubstr("1, 2, 4"));
+  });
+}
+
+/// The update of a rollout of random numbers, of which one rank's has a NaN in a log-probability.
+TEST_F(TrainerRanksTest, ALossThatIsNotFiniteStopsAllRanksAndNamesTheShard) {
+  TrainConfig config = SmallConfig();
+  config.learner.shards = 8;
+  RunOnRanks(4, [&](Ranks& ranks) {
+    WorkerPool pool(1);
+    ActorCritic networks(config, 22, 0, 4);
+    PpoConfig own = config.ppo;
+    own.num_aircraft /= ranks.count();
+    Rollout rollout(own, 22, 4, networks.actor.layout().shape().state_size(), 0,
+                    {8, 2 * ranks.rank(), 2});
+    std::fill(rollout.not_done.begin(), rollout.not_done.end(), 1.0f);
+    if (ranks.rank() == 2) rollout.log_prob[13] = std::numeric_limits<float>::quiet_NaN();
+    PpoUpdate update(config, networks, pool, ranks);
+    const std::string message = MessageOf([&] { update.Run(rollout, {}, 0, 1e-3); });
+    EXPECT_THAT(message, HasSubstr("actor's training exploded"));
+    EXPECT_THAT(message, HasSubstr("shard 5 on rank 2"));
+    EXPECT_TRUE(update.exploded());
+  });
+}
+
+}  // namespace
+}  // namespace skein

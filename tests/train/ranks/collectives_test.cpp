@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train/ranks/collectives.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "tests/error_message.h"
+#include "tests/train/ranks/thread_ranks.h"
+#include "train/ppo/shards.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CollectivesTest : public testing::TestWithParam<int> {};
+
+TEST_P(CollectivesTest, SumsAreThoseOfTheTreeAndTheSameOnAllRanks) {
+  std::mt19937 generator(1);
+  std::normal_distribution<float> normal;
+  std::vector<float> numbers(static_cast<std::size_t>(GetParam()));
+  for (float& number : numbers) number = normal(generator);
+  const float expected = SumByTree(numbers);
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    float sum = numbers[static_cast<std::size_t>(ranks.rank())];
+    SumOverRanks(ranks, 1, &sum);
+    EXPECT_EQ(sum, expected) << ranks.Describe(ranks.rank());
+  });
+}
+
+TEST_P(CollectivesTest, SharesReachAllRanksInOrderHoweverUnequal) {
+  for (const int size : {1, 5, 40}) {
+    std::vector<int> expected(static_cast<std::size_t>(size));
+    std::iota(expected.begin(), expected.end(), 100);
+    RunOnRanks(GetParam(), [&](Ranks& ranks) {
+      std::vector<int> values(expected.size(), -1);
+      const auto begin = ShareBegin(size, ranks.rank(), ranks);
+      const auto end = ShareBegin(size, ranks.rank() + 1, ranks);
+      std::copy(expected.begin() + begin, expected.begin() + end, values.begin() + begin);
+      ShareWithAllRanks(ranks, values);
+      EXPECT_EQ(values, expected);
+    });
+  }
+}
+
+TEST_P(CollectivesTest, RankZeroGathersInOrder) {
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    std::vector<int> values{2 * ranks.rank(), 2 * ranks.rank() + 1};
+    GatherAtRankZero(ranks, values);
+    if (ranks.rank() != 0) return;
+    std::vector<int> expected(2 * static_cast<std::size_t>(GetParam()));
+    std::iota(expected.begin(), expected.end(), 0);
+    EXPECT_EQ(values, expected);
+  });
+}
+
+TEST_P(CollectivesTest, WhatFailsOnOneRankFailsOnAllAndIsNamed) {
+  const int last = GetParam() - 1;
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    DoTogether(ranks, [] {});
+    const std::string message = MessageOf([&] {
+      DoTogether(ranks, [&] {
+        if (ranks.rank() == last) throw Error("no such file");
+      });
+    });
+    EXPECT_THAT(message, HasSubstr("no such file"));
+    if (ranks.rank() != last) {
+      EXPECT_THAT(message, HasSubstr("rank " + std::to_string(last)));
+    }
+  });
+}
+
+TEST_P(CollectivesTest, RanksThatDifferAreNamedOnAll) {
+  const int last = GetParam() - 1;
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    RequireSameOnRanks(ranks, "the version", "1.0");
+    const std::string message = MessageOf(
+        [&] { RequireSameOnRanks(ranks, "the version", ranks.rank() == last ? "1.1" : "1.0"); });
+    if (last == 0) {
+      EXPECT_EQ(message, "");
+    } else {
+      EXPECT_EQ(message, "ranks differ in the version: rank 0 has 1.0, rank " +
+                             std::to_string(last) + " 1.1");
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranks, CollectivesTest, testing::Values(1, 2, 4, 8, 16),
+                         testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace skein

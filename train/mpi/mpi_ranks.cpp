@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train/mpi/mpi_ranks.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+namespace skein {
+namespace {
+
+constexpr int kDataTag = 1, kWaitingTag = 2;
+/// MPI counts in ints.
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+/// A waiting rank asks without pause at first, then leaves its processor to others.
+constexpr std::chrono::microseconds kEager{200}, kPause{20};
+/// The first of the ranks that wait says who hangs; the others only if it does not.
+constexpr std::chrono::seconds kGrace{5};
+
+}  // namespace
+
+MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &count_);
+  std::vector<char> names(static_cast<std::size_t>(count_) * MPI_MAX_PROCESSOR_NAME, '\0');
+  char own[MPI_MAX_PROCESSOR_NAME] = {};
+  int length = 0;
+  MPI_Get_processor_name(own, &length);
+  MPI_Allgather(own, MPI_MAX_PROCESSOR_NAME, MPI_CHAR, names.data(), MPI_MAX_PROCESSOR_NAME,
+                MPI_CHAR, MPI_COMM_WORLD);
+  for (int rank = 0; rank < count_; ++rank) {
+    hosts_.emplace_back(names.data() + static_cast<std::size_t>(rank) * MPI_MAX_PROCESSOR_NAME);
+  }
+}
+
+MpiRanks::~MpiRanks() { MPI_Finalize(); }
+
+std::string MpiRanks::Describe(int rank) const {
+  return "rank " + std::to_string(rank) + " (" + hosts_[static_cast<std::size_t>(rank)] + ")";
+}
+
+void MpiRanks::Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
+                        std::size_t receive_bytes) {
+  std::vector<MPI_Request> requests;
+  for (std::size_t begin = 0; begin < receive_bytes; begin += kMostBytes) {
+    const auto bytes = static_cast<int>(std::min(kMostBytes, receive_bytes - begin));
+    MPI_Irecv(static_cast<char*>(receive) + begin, bytes, MPI_BYTE, partner, kDataTag,
+              MPI_COMM_WORLD, &requests.emplace_back());
+  }
+  for (std::size_t begin = 0; begin < send_bytes; begin += kMostBytes) {
+    const auto bytes = static_cast<int>(std::min(kMostBytes, send_bytes - begin));
+    MPI_Isend(static_cast<const char*>(send) + begin, bytes, MPI_BYTE, partner, kDataTag,
+              MPI_COMM_WORLD, &requests.emplace_back());
+  }
+  Wait(requests);
+}
+
+void MpiRanks::Wait(std::vector<MPI_Request>& requests) {
+  const Clock::time_point start = Clock::now();
+  bool is_patient = false, told = false;
+  for (;;) {
+    int done = 0;
+    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
+    if (done != 0) return;
+    const Clock::duration waited = Clock::now() - start;
+    if (waited < kEager) continue;
+    if (!is_patient) {
+      HearOthers();  // of earlier waits
+      waits_.assign(static_cast<std::size_t>(count_), false);
+      is_patient = true;
+    }
+    std::this_thread::sleep_for(kPause);
+    if (!told && waited > timeout_ / 2) {
+      TellOthers();
+      told = true;
+    }
+    if (waited > timeout_) GiveUp(waited);
+  }
+}
+
+void MpiRanks::TellOthers() {
+  for (int rank = 0; rank < count_; ++rank) {
+    if (rank == rank_) continue;
+    MPI_Request request;
+    // An empty message is sent at once, whether or not it is ever received.
+    MPI_Isend(nullptr, 0, MPI_BYTE, rank, kWaitingTag, MPI_COMM_WORLD, &request);
+    MPI_Request_free(&request);
+  }
+}
+
+void MpiRanks::HearOthers() {
+  waits_.resize(static_cast<std::size_t>(count_));
+  for (;;) {
+    int there = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, kWaitingTag, MPI_COMM_WORLD, &there, &status);
+    if (there == 0) return;
+    MPI_Recv(nullptr, 0, MPI_BYTE, status.MPI_SOURCE, kWaitingTag, MPI_COMM_WORLD,
+             MPI_STATUS_IGNORE);
+    waits_[static_cast<std::size_t>(status.MPI_SOURCE)] = true;
+  }
+}
+
+void MpiRanks::GiveUp(std::chrono::duration<double> waited) {
+  HearOthers();
+  waits_[static_cast<std::size_t>(rank_)] = true;
+  std::string hanging;
+  for (int rank = 0; rank < count_; ++rank) {
+    if (waits_[static_cast<std::size_t>(rank)]) {
+      if (rank < rank_ && waited < timeout_ + kGrace) return;
+      continue;
+    }
+    hanging += (hanging.empty() ? "" : ", ") + Describe(rank);
+  }
+  char limit[32];
+  std::snprintf(limit, sizeof limit, "%g", timeout_.count());
+  Abort((hanging.empty() ? "some rank" : hanging) + " has not answered for " + limit +
+        " s (--rank-timeout); all ranks end, and --resume goes on from the last checkpoint");
+}
+
+void MpiRanks::Abort(const std::string& reason) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "skein: error: %s: %s\n", Describe(rank_).c_str(), reason.c_str());
+  std::fflush(stderr);
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  std::abort();  // not reached: MPI_Abort is only not declared so
+}
+
+}  // namespace skein

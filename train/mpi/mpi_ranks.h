@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mpi.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "train/ranks/ranks.h"
+
+namespace skein {
+
+/// The processes of an MPI job.
+class MpiRanks final : public Ranks {
+ public:
+  explicit MpiRanks(double timeout_s);
+  ~MpiRanks() override;
+
+  int rank() const override { return rank_; }
+  int count() const override { return count_; }
+  std::string Describe(int rank) const override;
+  void Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
+                std::size_t receive_bytes) override;
+  [[noreturn]] void Abort(const std::string& reason) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void Wait(std::vector<MPI_Request>& requests);
+  /// Tells all others that this rank waits, so that they know that it does not hang.
+  void TellOthers();
+  /// Takes note of who has told so since it was asked last.
+  void HearOthers();
+  /// Ends all if this is the first rank of those that wait, or none of them has for a while.
+  void GiveUp(std::chrono::duration<double> waited);
+
+  std::chrono::duration<double> timeout_;
+  int rank_ = 0, count_ = 1;
+  std::vector<std::string> hosts_;
+  std::vector<bool> waits_;  ///< by rank: has told since this rank began to wait
+};
+
+}  // namespace skein

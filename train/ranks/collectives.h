@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "train/ranks/ranks.h"
+
+namespace skein {
+
+/// Combines `count` values with those of all ranks: combine(mine, theirs) puts the combination of
+/// two values into the first. Recursive doubling: neighbours first, then pairs of pairs, so that a
+/// sum is that of SumByTree (train/ppo/shards.h) over the ranks. Every rank gets the same bits if
+/// combine commutes exactly, as an addition does.
+template <typename Value, typename Combine>
+void CombineOverRanks(Ranks& ranks, std::size_t count, Value* values, const Combine& combine) {
+  std::vector<Value> theirs(ranks.count() > 1 ? count : 0);
+  for (int distance = 1; distance < ranks.count(); distance *= 2) {
+    const std::size_t bytes = count * sizeof(Value);
+    ranks.Exchange(ranks.rank() ^ distance, values, bytes, theirs.data(), bytes);
+    for (std::size_t i = 0; i < count; ++i) combine(values[i], theirs[i]);
+  }
+}
+
+/// The sums of `count` numbers over all ranks.
+template <typename Value>
+void SumOverRanks(Ranks& ranks, std::size_t count, Value* values) {
+  CombineOverRanks(ranks, count, values, [](Value& mine, const Value& theirs) { mine += theirs; });
+}
+
+/// The union of all ranks' bits.
+inline std::uint64_t UnionOverRanks(Ranks& ranks, std::uint64_t bits) {
+  CombineOverRanks(ranks, 1, &bits,
+                   [](std::uint64_t& mine, std::uint64_t theirs) { mine |= theirs; });
+  return bits;
+}
+
+/// Where a rank's share of `size` begins.
+inline std::int64_t ShareBegin(std::int64_t size, int rank, const Ranks& ranks) {
+  return size * rank / ranks.count();
+}
+
+/// Gives all ranks all of `values`, of which each rank has filled its share.
+template <typename Value>
+void ShareWithAllRanks(Ranks& ranks, std::vector<Value>& values) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  const auto size = static_cast<std::int64_t>(values.size());
+  for (int distance = 1; distance < ranks.count(); distance *= 2) {
+    const int own = ranks.rank() / distance * distance, theirs = own ^ distance;
+    const auto begin = [&](int rank) { return ShareBegin(size, rank, ranks); };
+    const auto bytes = [&](int first) {
+      return static_cast<std::size_t>(begin(first + distance) - begin(first)) * sizeof(Value);
+    };
+    ranks.Exchange(ranks.rank() ^ distance, values.data() + begin(own), bytes(own),
+                   values.data() + begin(theirs), bytes(theirs));
+  }
+}
+
+/// Puts all ranks' values, equally many of each, one rank's behind the other's, into rank 0's;
+/// other ranks' stay.
+template <typename Value>
+void GatherAtRankZero(Ranks& ranks, std::vector<Value>& values) {
+  const std::size_t size = values.size(), bytes = size * sizeof(Value);
+  if (ranks.rank() != 0) {
+    ranks.Exchange(0, values.data(), bytes, nullptr, 0);
+    return;
+  }
+  values.resize(size * static_cast<std::size_t>(ranks.count()));
+  for (int rank = 1; rank < ranks.count(); ++rank) {
+    ranks.Exchange(rank, nullptr, 0, values.data() + size * static_cast<std::size_t>(rank), bytes);
+  }
+}
+
+/// All ranks' texts, by rank, on every rank.
+std::vector<std::string> TextsOfRanks(Ranks& ranks, const std::string& text);
+
+/// Does `work` on every rank. If that throws an Error on any of them, throws on all: on rank 0 its
+/// own exception if it has one, else an Error that names the ranks and says what befell the first.
+void DoTogether(Ranks& ranks, const std::function<void()>& work);
+
+/// Throws Error on every rank, naming those that differ, unless `text`, which says what `what` is,
+/// is the same on all.
+void RequireSameOnRanks(Ranks& ranks, const std::string& what, const std::string& text);
+
+}  // namespace skein

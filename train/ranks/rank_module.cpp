@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train/ranks/rank_module.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+/// OpenMPI's mpirun, and launchers that speak PMI; PMIx says the size only if asked, Slurm does.
+constexpr const char* kSizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+
+int NumberIn(const char* variable) {
+  const char* const text = std::getenv(variable);
+  return text == nullptr ? 0 : std::atoi(text);
+}
+
+const RankModule& LoadRankModule() {
+  const auto refuse = [](const std::string& reason) {
+    throw Error("started as one of " + std::to_string(LaunchedProcesses()) +
+                " processes, but trainings on several are not available (" + reason +
+                "): install MPI (Debian: libopenmpi-dev) and build Skein with SKEIN_BUILD_MPI=ON, "
+                "or start one process");
+  };
+  // Never closed: MPI cannot be started a second time in a process.
+  void* const library = dlopen(kMpiModule, RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) refuse(dlerror());
+  const auto entry = reinterpret_cast<RankModuleEntry*>(dlsym(library, kRankModuleEntry));
+  if (entry == nullptr) refuse(std::string(kMpiModule) + " is no module of Skein");
+  const RankModule* const module = entry(SKEIN_BUILD_ID);
+  if (module == nullptr)
+    refuse(std::string(kMpiModule) + " is of another build than " SKEIN_BUILD_ID);
+  return *module;
+}
+
+}  // namespace
+
+int LaunchedProcesses() {
+  for (const char* const size : kSizes) {
+    if (NumberIn(size) > 0) return NumberIn(size);
+  }
+  const bool is_slurm_step = std::getenv("PMIX_RANK") != nullptr;
+  return is_slurm_step && NumberIn("SLURM_STEP_NUM_TASKS") > 0 ? NumberIn("SLURM_STEP_NUM_TASKS")
+                                                               : 1;
+}
+
+std::unique_ptr<Ranks> JoinLaunchedProcesses(double timeout_s) {
+  const int launched = LaunchedProcesses();
+  if (launched == 1) return nullptr;
+  std::unique_ptr<Ranks> ranks = LoadRankModule().Join(timeout_s);
+  if (ranks->count() == launched) return ranks;
+  throw Error("started as one of " + std::to_string(launched) + " processes, but MPI sees " +
+              std::to_string(ranks->count()) +
+              ": start with the mpirun of the MPI that Skein was built with, or srun --mpi=pmix");
+}
+
+}  // namespace skein

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "train/ranks/ranks.h"
+
+namespace skein {
+
+/// MPI in a shared object of its own (train/mpi/), so that nothing else links it and a plain start
+/// does not load it. The module needs no function of the program that loads it; both must come from
+/// one build.
+class RankModule {
+ public:
+  virtual ~RankModule() = default;
+  /// Joins the other processes of the launcher, for the rest of the process's life or until the
+  /// result is destroyed, which waits for the others to do the same. Throws Error if the launcher
+  /// is not one of this MPI, or the number of ranks is no power of two. A partner that does not
+  /// answer for `timeout_s` ends all.
+  virtual std::unique_ptr<Ranks> Join(double timeout_s) const = 0;
+};
+
+/// The function that the module exports under kRankModuleEntry. `build` is the caller's
+/// SKEIN_BUILD_ID; null if the module's own is another.
+using RankModuleEntry = const RankModule*(const char* build);
+inline constexpr const char* kRankModuleEntry = "skein_rank_module";
+inline constexpr const char* kMpiModule = "libskein_mpi.so";
+
+/// How many processes the launcher of this one has started together (mpirun, or srun with PMIx or
+/// PMI), as its environment says; 1 without a launcher.
+int LaunchedProcesses();
+
+/// Joins them by MPI if there are several; else null: the process trains alone. Throws Error that
+/// says how to get the module if it is not there, or not of this build.
+std::unique_ptr<Ranks> JoinLaunchedProcesses(double timeout_s);
+
+}  // namespace skein

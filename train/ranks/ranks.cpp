@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train/ranks/ranks.h"
+
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+class SingleRank final : public Ranks {
+ public:
+  int rank() const override { return 0; }
+  int count() const override { return 1; }
+  std::string Describe(int /*rank*/) const override { return "the only process"; }
+  void Exchange(int partner, const void* /*send*/, std::size_t /*send_bytes*/, void* /*receive*/,
+                std::size_t /*receive_bytes*/) override {
+    throw Error("there is no rank " + std::to_string(partner) + " to exchange anything with");
+  }
+  [[noreturn]] void Abort(const std::string& reason) override { throw Error(reason); }
+};
+
+}  // namespace
+
+Ranks& OneRank() {
+  static SingleRank rank;
+  return rank;
+}
+
+}  // namespace skein
