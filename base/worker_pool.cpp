@@ -139,9 +139,9 @@ std::unique_ptr<WorkerPool::Arena> WorkerPool::Arena::Take(int threads) {
   std::unique_ptr<Arena> taken;
   {
     const std::lock_guard<std::mutex> lock(spare.mutex);
-    const auto found =
-        std::find_if(spare.arenas.begin(), spare.arenas.end(),
-                     [&](const auto& arena) { return arena->arena.max_concurrency() == threads; });
+    const auto found = std::find_if(
+        spare.arenas.begin(), spare.arenas.end(),
+        [&](const auto& unused) { return unused->arena.max_concurrency() == threads; });
     if (found != spare.arenas.end()) {
       taken = std::move(*found);
       spare.arenas.erase(found);

@@ -178,7 +178,7 @@ void TurnOnWhatIsOff(TrainConfig* config) {
   for (const Field& field : FieldsOf(*config)) {
     if (!field.is_off) continue;
     if (std::holds_alternative<bool*>(field.place)) field.SetText("true");
-    if (field.IsNumber()) field.SetText("1");
+    if (field.IsNumber()) field.SetText(field.bounds.Contains(2) ? "2" : "1");
     if (std::holds_alternative<std::string*>(field.place)) field.SetText("some");
   }
 }
