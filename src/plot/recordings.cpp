@@ -266,7 +266,7 @@ void KeepFirstEpisodes(int count, Recordings* recordings) {
 }
 
 std::string EndOf(const DrawnFlight& flight) {
-  return fmt::format("{} after {:.1f} s", flight.end, flight.duration_s());
+  return fmt::format("{}; {:.1f}\u00a0s flown", flight.end, flight.duration_s());
 }
 
 }  // namespace skein

@@ -75,7 +75,7 @@ struct DrawnEpisode {
 /// Flights that begin alike and have the same number are of the same episode.
 std::vector<DrawnEpisode> EpisodesOf(const Recordings& recordings);
 
-/// "target reached after 12.3 s".
+/// "target reached; 12.3 s flown", the time included for which a reached target was held.
 std::string EndOf(const DrawnFlight& flight);
 
 }  // namespace skein

@@ -90,9 +90,10 @@ TEST_F(FlightPictures, AgentsOfTheSameEpisodesShareColumns) {
   EXPECT_EQ(recordings.agents[0].name, "policy");
   const Picture picture = TimeHistories(recordings, {{}, 518, "Two flights"});
   const std::vector<std::string> words = WordsOf(picture);
-  for (const char* wanted : {"episode 0", "episode 1", "target reached after 10.0 s", "policy",
-                             "autopilot", "altitude, ft", "yaw, deg", "roll action, -1 to 1",
-                             "time, s", "tolerance", "target", "Two flights"}) {
+  for (const char* wanted :
+       {"episode 0", "episode 1", "target reached; 10.0\u00a0s flown", "policy", "autopilot",
+        "altitude, ft", "yaw, deg", "roll action, -1 to 1", "time, s", "tolerance", "target",
+        "Two flights"}) {
     EXPECT_THAT(words, Contains(wanted));
   }
   ExpectLegible(picture);
