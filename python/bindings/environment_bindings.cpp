@@ -26,7 +26,7 @@ namespace nb = nanobind;
 namespace skein {
 namespace {
 
-constexpr int kMostPerTile = 128;  // few enough that all threads end at about the same time
+constexpr int kMostPerTile = 256;  // few enough that all threads end at about the same time
 constexpr int kTileGrain = 32;     // VecEnv's tiles are multiples of it
 
 int ThreadsFor(int num_envs, int threads) {
@@ -113,29 +113,28 @@ class BatchEnv {
     return static_cast<int>(count);
   }
 
-  /// Of the episodes that ended in the latest step: environments, last observations, returns, and
-  /// lengths in control steps.
+  /// Of the episodes that ended in the latest step: environments and last observations; and of all
+  /// environments, zero where none ended, returns and lengths in control steps.
   nb::tuple Ends() const {
-    std::vector<float> observation, episode_return;
-    std::vector<std::int32_t> steps;
     std::vector<std::int64_t> index;
+    std::vector<float> observation, episode_return(rows());
+    std::vector<std::int32_t> steps(rows());
     for (const std::vector<std::int64_t>& ended : ended_) {
       index.insert(index.end(), ended.begin(), ended.end());
     }
     const std::size_t count = index.size();
+    observation.reserve(count * observation_size());
     for (const std::int64_t i : index) {
       const auto row = static_cast<std::size_t>(i);
-      const auto begin =
-          final_observation_.begin() + static_cast<std::ptrdiff_t>(row * observation_size());
-      observation.insert(observation.end(), begin,
-                         begin + static_cast<std::ptrdiff_t>(observation_size()));
-      episode_return.push_back(episode_return_[row]);
-      steps.push_back(episode_steps_[row]);
+      const float* const last = final_observation_.data() + row * observation_size();
+      observation.insert(observation.end(), last, last + observation_size());
+      episode_return[row] = episode_return_[row];
+      steps[row] = episode_steps_[row];
     }
     return nb::make_tuple(ToNumpy(std::move(index), {count}),
                           ToNumpy(std::move(observation), {count, observation_size()}),
-                          ToNumpy(std::move(episode_return), {count}),
-                          ToNumpy(std::move(steps), {count}));
+                          ToNumpy(std::move(episode_return), {rows()}),
+                          ToNumpy(std::move(steps), {rows()}));
   }
 
   nb::object State() const {

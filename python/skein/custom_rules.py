@@ -93,7 +93,7 @@ class FlightColumns(Mapping[str, NDArray[Any]]):
 
 
 Rule = Callable[[FlightColumns], Any]
-Ends = tuple[NDArray[np.int64], FloatArray, NDArray[np.floating[Any]], NDArray[np.int32]]
+Ends = tuple[NDArray[np.int64], FloatArray, FloatArray, NDArray[np.int32]]
 
 
 class CustomRules:
@@ -141,7 +141,7 @@ class CustomRules:
         self._ended: list[tuple[Any, ...]] = []
         if ended:
             index, final, _, steps = self._core.ends()
-            self._ended.append((index, final, steps))
+            self._ended.append((index, final, steps[index]))
         if ends is not None:
             ends &= termination == 0
             ended += self._end(ends, observation, termination, terminated)
@@ -149,8 +149,10 @@ class CustomRules:
 
     def ends(self) -> Ends:
         """As of BatchEnv.ends, of episodes that the task or the function ended in the latest step."""
-        index, final, steps = (np.concatenate(parts) for parts in zip(*self._ended, strict=True))
-        returns = self._returns[index]
+        index, final, ended_steps = (np.concatenate(parts) for parts in zip(*self._ended, strict=True))
+        returns = np.zeros(self._core.num_envs, np.float32)
+        steps = np.zeros(self._core.num_envs, np.int32)
+        returns[index], steps[index] = self._returns[index], ended_steps
         self._returns[index] = 0
         self._steps[index] = 0
         return index, final, returns, steps

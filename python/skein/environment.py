@@ -220,33 +220,25 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
         ended = self._stepped.step(shown, observation, reward, termination, terminated, truncated)
         info: Info = {"termination": termination}
         if ended:
-            self._report_ends(termination, info)
+            self._report_ends(termination, terminated | truncated, info)
         return observation, reward, terminated, truncated, info
 
     def close_extras(self, **kwargs: Any) -> None:
         self._is_closed = True
 
-    def _report_ends(self, termination: NDArray[np.uint8], info: Info) -> None:
+    def _report_ends(self, termination: NDArray[np.uint8], mask: BoolArray, info: Info) -> None:
         index, observations, returns, steps = self._stepped.ends()
-        mask = np.zeros(self.num_envs, bool)
-        mask[index] = True
-
-        def spread(values: Any, dtype: Any) -> NDArray[Any]:
-            column = np.zeros(self.num_envs, dtype)
-            column[index] = values
-            return column
-
         final, reasons = np.empty(self.num_envs, object), np.empty(self.num_envs, object)  # of None
-        for environment, row in zip(index.tolist(), observations, strict=True):
-            final[environment] = row
         reasons[index] = _TERMINATIONS[termination[index]]
+        for row, environment in enumerate(index.tolist()):
+            final[environment] = observations[row]
         info["final_obs"], info["_final_obs"] = final, mask
         info["final_info"] = {
             "termination": reasons,
             "_termination": mask,
-            "episode_return": spread(returns, np.float32),
+            "episode_return": returns,
             "_episode_return": mask,
-            "episode_control_steps": spread(steps, np.int32),
+            "episode_control_steps": steps,
             "_episode_control_steps": mask,
         }
         info["_final_info"] = mask
