@@ -19,4 +19,17 @@ inline Range Lowest(const Range& range, double share) {
   return {range.min, Narrowed(range, range.min, share).max};
 }
 
+/// `share`^power, of a power of at least 0.
+inline double WholePower(double share, int power) {
+  double product = 1;
+  for (int k = 0; k < power; ++k) product *= share;
+  return product;
+}
+
+/// Where the `share`^power, of a share in [0, 1), lies in the range: uniform shares favour its
+/// least values where power is above 1.
+inline double BentInto(const Range& range, double share, int power) {
+  return range.min + (range.max - range.min) * WholePower(share, power);
+}
+
 }  // namespace skein

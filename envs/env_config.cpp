@@ -59,6 +59,13 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
            "if larger, every episode draws its standard deviation between the two (--condition "
            "noisy sets both)")
       .OffUnless(config.observation_noise_max > 0);
+  list.Add("draw_power", &config.draw_power, {1, 8},
+           "initial altitudes and airspeeds, winds, turbulence and noise are drawn at u^x of the "
+           "way "
+           "through their ranges, plants from u^(x-1) of theirs, u uniform: 1 is uniform, more "
+           "favours the ordinary (training only)")
+      .TrainingOnly()
+      .OffUnless(config.draw_power > 1);
   list.Add("reward_scale", &config.reward_scale, Bounds::NotNegative(),
            "multiplies the step rewards, not the terminal ones");
   list.Add("target_mach_min", &config.target_mach_min, {0, 3},

@@ -48,6 +48,10 @@ struct EnvConfig {
   double observation_noise = 0.01;
   /// If larger, every episode draws its standard deviation between the two.
   double observation_noise_max = 0;
+  /// Episodes draw initial altitudes and airspeeds, winds, turbulence and noise at u^draw_power, u
+  /// uniform in [0, 1), of the way through their ranges, and plants from u^(draw_power - 1) of
+  /// theirs around the nominal one: 1 is uniform, more favours what is ordinary (training only).
+  int draw_power = 1;
   double reward_scale = 1;  ///< multiplies the step rewards (not the terminal ones)
   /// Targets drawn below these are raised to them, so that a regime holds throughout; 0: as drawn.
   double target_mach_min = 0;         ///< of target speeds, at the target's or the start's altitude

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/range.h"
 #include "envs/actions.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
-#include "envs/plant/plant_draw.h"
 #include "envs/plant/sensor_freeze.h"
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
@@ -122,7 +122,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       progress_(RulesOf(config_, *task_)),
       costs_(config_.reward),
       reset_(config_, aircraft_),
-      wind_(config_.wind),
+      wind_(config_.wind, config_.draw_power),
       drawn_plant_(config_.plant),
       most_noise_(config_.observation_noise_max),
       privileged_(*task_, progress_, wind_.enabled(), config_.plant.enabled()) {
@@ -193,11 +193,16 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
 void EnvStepper::BeginPlant(const EnvBlock& block, int i) const {
   simd::RandomStream random({seed_, KeyOf(block, i), static_cast<std::uint32_t>(block.episode[i]),
                              0, simd::RandomPurpose::kPlant});
-  SetPlant(DrawPlant(drawn_plant_, &random), aircraft_, config_.control_interval_s, block.plants,
-           i);
+  SetPlant(PlantOf(&random), aircraft_, config_.control_interval_s, block.plants, i);
   if (block.delay_line.delays.columns() == 0) return;
   const double throttle = ThrottleForPower(aircraft_.throttle_gearing, block.flight[kPower][i]);
   FillDelayLine(block.delay_line, block.flight, {static_cast<float>(throttle), 0, 0, 0}, i);
+}
+
+PlantDraw EnvStepper::PlantOf(simd::RandomStream* random) const {
+  if (config_.draw_power == 1) return DrawPlant(drawn_plant_, random);
+  const double share = WholePower(random->Uniform(), config_.draw_power - 1);
+  return DrawPlant(drawn_plant_.Narrowed(share), random);
 }
 
 GustKeys EnvStepper::GustKeysOf(const EnvBlock& block) const {
@@ -208,6 +213,7 @@ ObservationNoise EnvStepper::NoiseOf(const EnvBlock& block) const {
   ObservationNoise noise;
   noise.standard_deviation = config_.observation_noise;
   noise.max_standard_deviation = most_noise_;
+  noise.power = config_.draw_power;
   noise.seed = seed_;
   noise.first_aircraft = KeyOf(block, 0);
   noise.episode = block.episode;

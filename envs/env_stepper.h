@@ -14,6 +14,7 @@
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/low_level_flight.h"
+#include "envs/plant/plant_draw.h"
 #include "envs/policy.h"
 #include "envs/privileged_observation.h"
 #include "envs/step_output.h"
@@ -83,6 +84,7 @@ class EnvStepper {
   ObservationNoise NoiseOf(const EnvBlock& block) const;
   GustKeys GustKeysOf(const EnvBlock& block) const;
   void BeginPlant(const EnvBlock& block, int i) const;
+  PlantDraw PlantOf(simd::RandomStream* random) const;
   Tile Sensed(const EnvBlock& block, SensedState& state) const;
   void ObserveSample(const EnvBlock& block, float* observation) const;
   void FreezeSensors(const EnvBlock& block) const;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/range.h"
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/engine.h"
 #include "envs/state/attitude.h"
@@ -65,6 +66,7 @@ FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
       true_airspeed_fps_(initial_.true_airspeed_fps),
       plant_(aircraft, config.atmosphere),
       flight_control_(aircraft, config.flight_control, config.control_interval_s),
+      draw_power_(config.draw_power),
       trims_(SolveTrims(config.initial, plant_)) {
   CheckMach(config);
 }
@@ -83,8 +85,8 @@ TrimmedStart FlightReset::UntrimmedAt(double altitude_ft, double true_airspeed_f
 }
 
 FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
-  const double altitude_ft = random->Uniform(altitude_ft_.min, altitude_ft_.max);
-  const double speed_ft_s = random->Uniform(true_airspeed_fps_.min, true_airspeed_fps_.max);
+  const double altitude_ft = BentInto(altitude_ft_, random->Uniform(), draw_power_);
+  const double speed_ft_s = BentInto(true_airspeed_fps_, random->Uniform(), draw_power_);
   const TrimmedStart start =
       trims_ ? trims_->At(altitude_ft, speed_ft_s) : UntrimmedAt(altitude_ft, speed_ft_s);
   const RigidBodyState state =

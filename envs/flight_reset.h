@@ -42,6 +42,7 @@ class FlightReset {
   Range altitude_ft_, true_airspeed_fps_;  ///< what is drawn from
   Plant plant_;
   FlightControl flight_control_;
+  int draw_power_;
   std::optional<TrimTable> trims_;
 };
 

@@ -144,8 +144,10 @@ HWY_INLINE void AddNoise(const ObservationNoise& noise, const PhiloxKeys& keys, 
   const auto step = hn::BitCast(du, hn::LoadU(di, noise.step + first));
   V scale = Constant(noise.standard_deviation);
   if (noise.max_standard_deviation > noise.standard_deviation) {
-    const V share =
+    const V uniform =
         FirstUniform(d, keys, index, episode, hn::Zero(du), simd::RandomPurpose::kNoiseLevel);
+    V share = uniform;
+    for (int k = 1; k < noise.power; ++k) share = hn::Mul(share, uniform);
     scale =
         hn::MulAdd(share, Constant(noise.max_standard_deviation - noise.standard_deviation), scale);
   }

@@ -31,8 +31,10 @@ struct ObservationNoise {
   std::uint32_t first_aircraft = 0;  ///< global index of the tile's first aircraft
   const std::int32_t* episode = nullptr;
   const std::int32_t* step = nullptr;
-  /// If larger, every aircraft's episode has its own standard deviation, uniform between the two.
+  /// If larger, every aircraft's episode has its own standard deviation, at u^power, u uniform in
+  /// [0, 1), of the way between the two.
   double max_standard_deviation = 0;
+  int power = 1;
 };
 
 /// What of a row does not come from the flight.

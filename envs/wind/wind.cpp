@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "base/range.h"
 #include "envs/aircraft/aircraft.h"
 #include "envs/state/attitude.h"
 #include "simd/random.h"
@@ -17,9 +18,11 @@ void Wind::Begin(Tile tile, int index, const GustKeys& keys) const {
   key.b = static_cast<std::uint32_t>(keys.episode[index]);
   key.purpose = simd::RandomPurpose::kWind;
   simd::RandomStream random(key);
-  const auto draw = [&random](const Range& range) { return random.Uniform(range.min, range.max); };
+  const auto draw = [&](const Range& range) {
+    return BentInto(range, random.Uniform(), draw_power_);
+  };
   const double speed = draw(drawn_.speed_fps);
-  const double from = draw(drawn_.from_deg) / kDegPerRad;
+  const double from = random.Uniform(drawn_.from_deg.min, drawn_.from_deg.max) / kDegPerRad;
   const double turbulence = draw(drawn_.turbulence_fps);
   const Eigen::Vector3d wind(-speed * std::cos(from), -speed * std::sin(from), 0);
 

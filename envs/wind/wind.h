@@ -12,7 +12,9 @@ namespace skein {
 /// configured ranges.
 class Wind {
  public:
-  explicit Wind(const WindConfig& config) : config_(config), drawn_(config) {}
+  /// Speeds and turbulence are drawn with BentInto's `power`.
+  Wind(const WindConfig& config, int draw_power)
+      : config_(config), drawn_(config), draw_power_(draw_power) {}
 
   /// From now on winds and turbulence are drawn from the weakest `share`, in [0, 1], of their
   /// ranges.
@@ -37,6 +39,7 @@ class Wind {
  private:
   WindConfig config_;
   WindConfig drawn_;  ///< what the next episodes are drawn from
+  int draw_power_;
 };
 
 }  // namespace skein
