@@ -78,7 +78,7 @@ SharedAircraft Find(const std::string& aircraft) {
   }
   std::string names;
   for (const std::string& name : AircraftNames()) names += (names.empty() ? "" : ", ") + name;
-  throw Error("environment: unknown aircraft \"" + aircraft + "\"; known: " + names +
+  throw Error("unknown aircraft \"" + aircraft + "\"; known: " + names +
               ", or the path of a file, FILE.json");
 }
 

@@ -14,6 +14,7 @@
 #include "src/aircraft/aircraft_report.h"
 #include "src/aircraft/aircraft_text.h"
 #include "src/aircraft/start_findings.h"
+#include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
@@ -99,8 +100,9 @@ void AddAircraftCommand(CLI::App* app) {
   CLI::App* check = aircraft->add_subcommand(
       "check", "Say what is missing or implausible in an aircraft, with figures");
   check->add_option("aircraft", *checked, "its file, or the name of one that comes with Skein")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("NAME_OR_FILE")
+      ->required()
+      ->check(IsAircraft());
   check->add_option("--task", *task, "whose starts it must be able to fly: a task, or FILE.toml")
       ->type_name("TASK")
       ->capture_default_str();

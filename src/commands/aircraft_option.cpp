@@ -29,8 +29,9 @@ CLI::Validator IsAircraft() {
             const std::vector<std::string> names = AircraftNames();
             const bool is_known = std::find(names.begin(), names.end(), aircraft) != names.end();
             if (is_known || IsAircraftPath(aircraft)) return "";
-            return fmt::format("{} is no aircraft: {}, or the path of a file, FILE.json", aircraft,
-                               fmt::join(names, ", "));
+            return fmt::format(
+                "unknown aircraft \"{}\"; known: {}, or the path of a file, FILE.json", aircraft,
+                fmt::join(names, ", "));
           },
           // Shells complete what stands in braces.
           fmt::format("{{{}}}", fmt::join(AircraftNames(), ","))};

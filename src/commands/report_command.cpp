@@ -28,10 +28,15 @@ struct ReportOptions {
   int threads = 0;
 };
 
+bool HasDesktop() {
+  return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+}
+
 /// Hands a file or an address to the desktop's browser, and does not wait for it.
 void Open(const std::string& place) {
-  const std::string command = "xdg-open " + ShellWord(place) + " >/dev/null 2>&1 &";
-  if (std::system(command.c_str()) != 0) {
+  const std::string command =
+      "command -v xdg-open >/dev/null && { xdg-open " + ShellWord(place) + " >/dev/null 2>&1 & }";
+  if (!HasDesktop() || std::system(command.c_str()) != 0) {
     fmt::print("no browser could be started; open {} yourself\n", place);
   }
 }

@@ -216,7 +216,7 @@ void TrainingRun::SayBanner() {
                   "  {}",
                   first_step == 0 ? "training" : "resuming", train.env.task, directory_.path(),
                   FormatCount(static_cast<double>(first_step)),
-                  FormatCount(static_cast<double>(train.total_steps)), train.ppo.num_aircraft,
+                  FormatCount(static_cast<double>(LastStep(train))), train.ppo.num_aircraft,
                   train.seed, InLines("  ", DescribeConditions(train.env)),
                   Describe(trainer_.backend()), DescribeWorkers(pool_)));
   if (!ranks_.empty()) log_.Say(ranks_);
@@ -265,7 +265,7 @@ void TrainingRun::SayStopped(const std::string& dropped) {
   log_.Say(fmt::format("stopped by {} after {} of {} steps{}; resume with: {} train --resume {}",
                        signal != 0 ? fmt::format("SIG{}", sigabbrev_np(signal)) : "its caller",
                        FormatCount(static_cast<double>(trainer_.env_steps())),
-                       FormatCount(static_cast<double>(config_.train.total_steps)), dropped,
+                       FormatCount(static_cast<double>(LastStep(config_.train))), dropped,
                        ShellWord(CommandName()), ShellWord(directory_.path())));
 }
 

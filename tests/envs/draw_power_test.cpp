@@ -46,7 +46,8 @@ double SquareOfRollRate(const EnvConfig& config) {
   env.Observe(0, buffers.observation.data());
   double sum = 0;
   for (int i = 0; i < kAircraft; ++i) {
-    const double seen = buffers.observation[static_cast<std::size_t>(i * kObservationSize) + kRollRate];
+    const double seen =
+        buffers.observation[static_cast<std::size_t>(i * kObservationSize) + kRollRate];
     sum += seen * seen;
   }
   return sum / kAircraft;

@@ -109,7 +109,7 @@ TEST_F(AircraftCommand, BadInputIsOneLine) {
   };
   refused({"aircraft"}, 2, "subcommand");
   refused({"aircraft", "check"}, 2, "aircraft is required");
-  refused({"aircraft", "check", "f17"}, 1, "unknown aircraft \"f17\"");
+  refused({"aircraft", "check", "f17"}, 2, "unknown aircraft \"f17\"");
   refused({"aircraft", "check", "f16", "--task", "nonsense"}, 2, "unknown task nonsense");
   refused({"aircraft", "check", scratch_ / "no.json"}, 1, "no.json");
   refused({"aircraft", "tune", scratch_ / "no.json"}, 1, "no.json");
