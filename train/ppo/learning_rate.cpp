@@ -2,11 +2,17 @@
 #include "train/ppo/learning_rate.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace skein {
 
 double LargestLearningRate(const PpoConfig& config, double done) {
-  return config.learning_rate * (1 - done * (1 - config.final_learning_rate_fraction));
+  const double last = config.final_learning_rate_fraction;
+  if (config.learning_rate_decay == Decay::kExponential) {
+    return config.learning_rate * std::pow(last, done);
+  }
+  return config.learning_rate * (1 - done * (1 - last));
 }
 
 double AdaptedLearningRate(const PpoConfig& config, double learning_rate, double approximate_kl) {
@@ -14,6 +20,15 @@ double AdaptedLearningRate(const PpoConfig& config, double learning_rate, double
   if (approximate_kl > 2 * config.target_kl) adapted /= kLearningRateFactor;
   if (approximate_kl < config.target_kl / 2) adapted *= kLearningRateFactor;
   return std::clamp(adapted, kLeastLearningRateShare * config.learning_rate, config.learning_rate);
+}
+
+void MoveAverage(const float* parameters, std::uint64_t iteration, int iterations,
+                 std::vector<float>* mean) {
+  const auto known = std::min(iteration, static_cast<std::uint64_t>(iterations));
+  const float share = 1 / static_cast<float>(known);
+  for (std::size_t i = 0; i < mean->size(); ++i) {
+    (*mean)[i] = (1 - share) * (*mean)[i] + share * parameters[i];
+  }
 }
 
 }  // namespace skein

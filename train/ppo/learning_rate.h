@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "train/ppo/ppo_config.h"
 
 namespace skein {
@@ -9,14 +12,21 @@ namespace skein {
 /// one as a share of ppo.learning_rate.
 inline constexpr double kLearningRateFactor = 1.5, kLeastLearningRateShare = 0.01;
 
-/// The largest learning rate when `done`, in [0, 1], of the budget is used up: it falls linearly
-/// from ppo.learning_rate to ppo.final_learning_rate_fraction of it. Without ppo.target_kl, the
-/// learning rate.
+/// The largest learning rate when `done`, in [0, 1], of the budget is used up: it falls from
+/// ppo.learning_rate to ppo.final_learning_rate_fraction of it, as ppo.learning_rate_decay has it.
+/// Without ppo.target_kl, the learning rate.
 double LargestLearningRate(const PpoConfig& config, double done);
 
 /// What the learning rate after an iteration at `learning_rate` may be by its approximate_kl, for
 /// ppo.target_kl above 0: divided by kLearningRateFactor above twice the target, multiplied by it
 /// below half of the target, within kLeastLearningRateShare to 1 times ppo.learning_rate.
 double AdaptedLearningRate(const PpoConfig& config, double learning_rate, double approximate_kl);
+
+/// Moves the mean of parameters to what it is after iteration `iteration`, from 1 on, which left
+/// `parameters`: their plain mean until there are `iterations` of them, then by 1 / `iterations` of
+/// the difference. (Polyak and Juditsky 1992, "Acceleration of stochastic approximation by
+/// averaging".)
+void MoveAverage(const float* parameters, std::uint64_t iteration, int iterations,
+                 std::vector<float>* mean);
 
 }  // namespace skein

@@ -24,12 +24,19 @@ void ListAdamFields(PpoConfig& config, FieldList& list) {
   list.Add("learning_rate", &config.learning_rate, Bounds::PositiveFraction(),
            "Adam's learning rate at the start");
   list.Add("final_learning_rate_fraction", &config.final_learning_rate_fraction, Bounds::Fraction(),
-           "share of it at the budget's end, linear in between; 1 keeps it constant");
+           "share of it at the budget's end; 1 keeps it constant");
+  list.Add("learning_rate_decay", &config.learning_rate_decay, kDecayNames,
+           "how it falls to that in between")
+      .OffUnless(config.learning_rate_decay != Decay::kLinear);
   list.Add("target_kl", &config.target_kl, Bounds::NotNegative(),
            "an iteration's KL divergence above twice this lowers the next one's learning rate, "
-           "below half of it raises it again, up to the linear one; 0: the linear one")
+           "below half of it raises it again, up to what the decay allows; 0: as the decay has it")
       .OffUnless(config.target_kl > 0);
   list.Add("adam_epsilon", &config.adam_epsilon, Bounds::PositiveFraction(), "Adam's epsilon");
+  list.Add("average_iterations", &config.average_iterations, {0, 1000000},
+           "the policy that is evaluated and kept is the running mean of the actor over about so "
+           "many iterations; 0: the actor after the last one")
+      .OffUnless(config.average_iterations > 0);
 }
 
 }  // namespace
@@ -82,6 +89,12 @@ void Validate(const PpoConfig& config) {
   if (config.rollout_steps % config.chunk_length != 0) {
     throw Error("configuration: ppo.rollout_steps = " + std::to_string(config.rollout_steps) +
                 " is not a multiple of ppo.chunk_length = " + std::to_string(config.chunk_length));
+  }
+  if (config.learning_rate_decay == Decay::kExponential &&
+      config.final_learning_rate_fraction == 0) {
+    throw Error(
+        "configuration: ppo.final_learning_rate_fraction = 0, which an exponential "
+        "ppo.learning_rate_decay never comes to");
   }
   if (config.action_smoothness_coefficient > 0 && config.chunk_length < 2) {
     throw Error(

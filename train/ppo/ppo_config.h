@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <utility>
+
 namespace skein {
 
 class FieldList;
+
+/// How the learning rate falls over the budget.
+enum class Decay { kLinear, kExponential };
+inline constexpr std::array<std::pair<Decay, const char*>, 2> kDecayNames{
+    {{Decay::kLinear, "linear"}, {Decay::kExponential, "exponential"}}};
 
 /// How rollouts are flown and learned from.
 struct PpoConfig {
@@ -13,12 +21,16 @@ struct PpoConfig {
   int epochs = 2;
   int minibatches = 16;
   double learning_rate = 1e-3;
-  /// Linear in steps done to this fraction at the budget's end; 1 keeps it constant.
+  /// The learning rate falls to this fraction at the budget's end; 1 keeps it constant.
   double final_learning_rate_fraction = 0.02;
+  Decay learning_rate_decay = Decay::kLinear;
   /// Of an iteration's approximate_kl, by which the learning rate is adapted below that line; 0: it
   /// is not.
   double target_kl = 0;
   double adam_epsilon = 1e-5;
+  /// The policy that is evaluated and kept is the mean of the actor after about so many of the last
+  /// iterations (MoveAverage); 0: the actor itself.
+  int average_iterations = 0;
   double gamma = 0.99;  ///< per policy step
   double gae_lambda = 0.95;
   double clip = 0.2;

@@ -92,6 +92,7 @@ struct Trainer::Impl {
         recurrent(FlownHere(), StateSize()),
         update(config, networks, pool, ranks),
         adapted_learning_rate(config.ppo.target_kl > 0 ? config.ppo.learning_rate : 0) {
+    BeginAverage();
     config.learner.precision = networks.backend.precision;
     if (config.ppo.condition_ramp > 0) {
       env.SetConditionShare(0);
@@ -111,6 +112,10 @@ struct Trainer::Impl {
   std::shared_ptr<const Policy> LowLevelPolicy() const {
     if (config.low_level == nullptr) return nullptr;
     return config.low_level->OnBackend(config.learner.backend);
+  }
+
+  void BeginAverage() {
+    if (config.ppo.average_iterations > 0) mean_actor = networks.actor.optimiser.ParameterVector();
   }
 
   int StateSize() const { return networks.actor.layout().shape().state_size(); }
@@ -142,6 +147,7 @@ struct Trainer::Impl {
     const AdamOptimiser &actor = networks.actor.optimiser, &critic = networks.critic.optimiser;
     state.actor = actor.ParameterVector();
     state.critic = critic.ParameterVector();
+    state.mean_actor = mean_actor;
     state.actor_adam = actor.state();
     state.critic_adam = critic.state();
     state.popart = popart;
@@ -161,6 +167,7 @@ struct Trainer::Impl {
     env.Restore(state.env);
     networks.actor.optimiser.SetParameters(state.actor);
     networks.critic.optimiser.SetParameters(state.critic);
+    mean_actor = state.mean_actor;
     networks.actor.optimiser.Restore(state.actor_adam);
     networks.critic.optimiser.Restore(state.critic_adam);
     popart = state.popart;
@@ -226,10 +233,12 @@ struct Trainer::Impl {
     return false;
   }
 
+  /// What is evaluated and kept: the actor, or its mean.
   RecurrentPolicy CurrentPolicy() const {
     const TrainedNetwork& actor = networks.actor;
     return RecurrentPolicy(
-        PolicyInTraining(config, actor.layout().shape(), actor.optimiser.ParameterVector()),
+        PolicyInTraining(config, actor.layout().shape(),
+                         mean_actor.empty() ? actor.optimiser.ParameterVector() : mean_actor),
         config.learner.backend);
   }
 
@@ -311,6 +320,10 @@ struct Trainer::Impl {
       adapted_learning_rate =
           AdaptedLearningRate(config.ppo, report.learning_rate, report.approximate_kl);
     }
+    if (!mean_actor.empty() && !stopped) {
+      MoveAverage(networks.actor.optimiser.parameters(), iteration + 1,
+                  config.ppo.average_iterations, &mean_actor);
+    }
     report.clip_fraction = done.losses.clip_fraction;
     report.action_change = done.losses.action_change;
     report.actor_gradient_norm = done.actor_gradient_norm;
@@ -369,6 +382,7 @@ struct Trainer::Impl {
   PpoUpdate update;
   PopArt popart;
   double adapted_learning_rate;
+  std::vector<float> mean_actor;  ///< empty without ppo.average_iterations
   std::uint64_t iteration = 0;
   std::uint64_t policy_steps = 0;
   bool stopped = false;      ///< some rank's pool was asked to stop, as all ranks have learned
@@ -417,6 +431,7 @@ bool Trainer::StartFrom(const std::string& path) {
   const StartingNetworks networks = LoadNetworks(
       path, impl_->config, impl_->networks.actor.layout(), impl_->networks.critic.layout());
   impl_->networks.actor.optimiser.SetParameters(networks.actor);
+  impl_->BeginAverage();
   if (networks.critic.empty()) return false;
   impl_->networks.critic.optimiser.SetParameters(networks.critic);
   impl_->popart = networks.popart;

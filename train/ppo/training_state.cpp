@@ -23,6 +23,8 @@ constexpr const char* kOldFormat = "skein-checkpoint-1";
 constexpr const char* kConfigPrefix = "config.";
 /// A tensor of one number, only in checkpoints of an adapted learning rate.
 constexpr const char* kAdaptedLearningRate = "adapted_learning_rate";
+/// What is trained where the policy is the mean of it.
+constexpr const char* kTrainedActor = "trained_actor/parameters";
 
 /// Calls visit(name, vector) for each array of the state that is stored whole.
 template <typename State, typename Visit>
@@ -95,7 +97,9 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
   for (const auto& [name, value] : DescribeConfig(config)) {
     file.metadata[kConfigPrefix + name] = value;
   }
-  StorePolicy(*PolicyInTraining(config, actor.shape(), state.actor), file);
+  const bool averages = config.ppo.average_iterations > 0;
+  StorePolicy(*PolicyInTraining(config, actor.shape(), averages ? state.mean_actor : state.actor),
+              file);
   VisitFloats(state, [&](const char* name, const std::vector<float>& values) {
     StoreTensor(file, name, {static_cast<std::int64_t>(values.size())}, values.data(),
                 values.size());
@@ -108,6 +112,10 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
   StoreTensor(file, "scalars", {scalars.size()}, scalars.data(), scalars.size());
   if (config.ppo.target_kl > 0) {
     StoreTensor(file, kAdaptedLearningRate, {1}, &state.adapted_learning_rate, 1);
+  }
+  if (averages) {
+    StoreTensor(file, kTrainedActor, {static_cast<std::int64_t>(state.actor.size())},
+                state.actor.data(), state.actor.size());
   }
   return file;
 }
@@ -163,6 +171,10 @@ TrainingState LoadCheckpoint(TensorFile file, const std::string& path, const Tra
   if (config.ppo.target_kl > 0) {
     state.adapted_learning_rate = LoadTensor<double>(file, path, kAdaptedLearningRate, {1})[0];
   }
+  if (config.ppo.average_iterations > 0) {
+    state.mean_actor =
+        std::exchange(state.actor, LoadTensor<float>(file, path, kTrainedActor, {actor.size()}));
+  }
   return state;
 }
 
@@ -200,6 +212,7 @@ std::uint64_t Hash(const TrainingState& state) {
   add(Counters(state));
   add(Scalars(state));
   if (state.adapted_learning_rate > 0) add(std::array{state.adapted_learning_rate});
+  add(state.mean_actor);
   return hash.value();
 }
 

@@ -17,6 +17,7 @@ namespace skein {
 /// All that a training run depends on beside its configuration.
 struct TrainingState {
   std::vector<float> actor, critic;  ///< flat parameters
+  std::vector<float> mean_actor;     ///< MoveAverage's; empty without ppo.average_iterations
   AdamState actor_adam, critic_adam;
   PopArt popart;
   double adapted_learning_rate = 0;  ///< AdaptedLearningRate so far; 0 without ppo.target_kl
@@ -34,8 +35,8 @@ inline constexpr const char* kSimdTargetKey = "checkpoint.simd_target";
 /// configuration key (`skein train --help-keys`).
 std::map<std::string, std::string> DescribeConfig(const TrainConfig& config);
 
-/// Writes a checkpoint: configuration, state, and the actor as a policy that RecurrentPolicy::Load
-/// reads.
+/// Writes a checkpoint: configuration, state, and the actor, or its mean if there is one, as a
+/// policy that RecurrentPolicy::Load reads.
 TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor,
                            const TrainingState& state);
 

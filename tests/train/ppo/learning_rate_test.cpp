@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -43,6 +46,36 @@ TEST(LargestLearningRateTest, FallsLinearlyToItsFraction) {
   EXPECT_NEAR(LargestLearningRate(config, 0), 1e-3, kRounding);
   EXPECT_NEAR(LargestLearningRate(config, 0.5), 6e-4, kRounding);
   EXPECT_NEAR(LargestLearningRate(config, 1), 2e-4, kRounding);
+}
+
+TEST(LargestLearningRateTest, FallsBySharesThatAreAlwaysTheSame) {
+  PpoConfig config;
+  config.learning_rate = 1e-3;
+  config.final_learning_rate_fraction = 0.04;
+  config.learning_rate_decay = Decay::kExponential;
+  EXPECT_NEAR(LargestLearningRate(config, 0), 1e-3, kRounding);
+  EXPECT_NEAR(LargestLearningRate(config, 0.5), 2e-4, kRounding);
+  EXPECT_NEAR(LargestLearningRate(config, 1), 4e-5, kRounding);
+}
+
+TEST(MoveAverageTest, IsThePlainMeanUntilThereAreEnough) {
+  std::vector<float> mean{7, 7};
+  const float parameters[][2] = {{1, 2}, {3, 4}, {8, 0}};
+  for (int i = 0; i < 3; ++i) {
+    MoveAverage(parameters[i], static_cast<std::uint64_t>(i) + 1, 4, &mean);
+  }
+  constexpr Tolerance kSingle{1e-6, "float32 rounding of means of about 4"};
+  EXPECT_NEAR(mean[0], 4, kSingle);
+  EXPECT_NEAR(mean[1], 2, kSingle);
+}
+
+TEST(MoveAverageTest, ForgetsBySharesThatAreAlwaysTheSame) {
+  std::vector<float> mean{0};
+  const float one = 1;
+  for (std::uint64_t iteration = 100; iteration < 102; ++iteration) {
+    MoveAverage(&one, iteration, 4, &mean);
+  }
+  EXPECT_EQ(mean[0], 0.4375F);
 }
 
 }  // namespace

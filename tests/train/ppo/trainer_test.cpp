@@ -410,6 +410,45 @@ TEST_F(TrainerTest, AnAdaptedLearningRateResumesBitExactly) {
   EXPECT_NE(RefusalOf(SmallConfig(), path_).find("ppo.target_kl"), std::string::npos);
 }
 
+TEST_F(TrainerTest, KeepsTheMeanOfItsActorsAndTrainsAsWithoutIt) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  Trainer plain(config, pool);
+  config.ppo.average_iterations = 2;
+  Trainer averaging(config, pool);
+  const auto values = [](const Trainer& trainer) { return trainer.policy().parameters()->values; };
+  EXPECT_EQ(values(averaging), values(plain));
+  std::vector<float> expected;
+  while (!plain.finished()) {
+    plain.Iterate();
+    averaging.Iterate();
+    const std::vector<float> actor = values(plain);
+    if (expected.empty()) expected = actor;
+    for (std::size_t i = 0; i < actor.size(); ++i)
+      expected[i] = 0.5F * expected[i] + 0.5F * actor[i];
+    EXPECT_EQ(values(averaging), expected);
+    EXPECT_EQ(expected == actor, plain.iteration() == 1);
+  }
+}
+
+TEST_F(TrainerTest, AMeanOfActorsResumesBitExactly) {
+  WorkerPool pool(1);
+  TrainConfig config = SmallConfig();
+  config.ppo.average_iterations = 5;
+  Trainer whole(config, pool);
+  whole.Iterate();
+  whole.Iterate();
+  whole.Save(path_);
+  Trainer resumed(config, pool);
+  resumed.Restore(path_);
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  EXPECT_EQ(RecurrentPolicy::Load(path_).parameters()->values, whole.policy().parameters()->values);
+  whole.Iterate();
+  resumed.Iterate();
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  EXPECT_NE(RefusalOf(SmallConfig(), path_).find("ppo.average_iterations"), std::string::npos);
+}
+
 TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
   SKEIN_SKIP_WITHOUT_LIBTORCH();
   TrainConfig config = SmallConfig();
