@@ -30,6 +30,9 @@ void ListFields(HeadingConfig& config, FieldList& list) {
            "control step before which nothing counts as reached");
   list.Add("speed_error_weight", &config.speed_error_weight, Bounds::NotNegative(),
            "reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm");
+  list.Add("altitude_error_weight", &config.altitude_error_weight, Bounds::NotNegative(),
+           "reward lost per step and unit of altitude error (F-16: 1 km), beside the errors' norm")
+      .OffUnless(config.altitude_error_weight > 0);
 }
 
 }  // namespace skein

@@ -6,7 +6,7 @@ namespace skein {
 class FieldList;
 
 /// Targets of the Heading task relative to the initial state, when they count as reached, and what
-/// a speed error costs.
+/// errors cost.
 struct HeadingConfig {
   double altitude_change_ft = 3000;  ///< initial altitude + U(-x, x)
   double yaw_change_rad = 3;         ///< initial yaw + U(-x, x), wrapped
@@ -24,6 +24,9 @@ struct HeadingConfig {
   /// Reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm; the
   /// paper's is 0. The speed is what most targets wait for, and weighs least in the norm.
   double speed_error_weight = 0;
+  /// The same of the altitude error (F-16: 1 km): under noise and with sensors that are off, what
+  /// the norm has for the last hundred feet is too little.
+  double altitude_error_weight = 0;
 };
 
 /// Its settings (base/field_list.h).

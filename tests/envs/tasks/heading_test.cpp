@@ -116,6 +116,18 @@ TEST_P(HeadingTest, SpeedErrorsCostTheirWeightBesideTheNorm) {
   EXPECT_NEAR(reward_[1], reward_[0], 2 * kFloat32);
 }
 
+TEST_P(HeadingTest, AltitudeErrorsCostTheirWeightBesideTheNorm) {
+  config_.heading.altitude_error_weight = 2;
+  task_ = MakeTask(config_);
+  for (const int side : {0, 1}) {
+    SetLevel(side, 0);
+    SetTarget(side, 20000 + (side == 0 ? 0.2 : -0.2) * kFtPerKm, 0.3, 1000 + 0.6 * 340 / 0.3048);
+  }
+  ComputeReward();
+  EXPECT_NEAR(reward_[0], -(0.7 + 2 * 0.2), 2 * kFloat32);
+  EXPECT_NEAR(reward_[1], reward_[0], 2 * kFloat32);
+}
+
 TEST_P(HeadingTest, MirroredErrorsGetTheSameReward) {
   for (const int side : {0, 1}) {
     const double sign = side == 0 ? 1 : -1;
