@@ -39,9 +39,11 @@ set(SKEIN_PUBLIC_HEADERS
     # One aircraft in float64.
     envs/reference/closed_loop.h
     envs/reference/flight_control.h
+    envs/reference/linear_flight.h
     envs/reference/linearise.h
     envs/reference/plant.h
-    envs/reference/trim.h)
+    envs/reference/trim.h
+    envs/tuning/linear_modes.h)
 
 if(SKEIN_BUILD_TRAIN)
   list(

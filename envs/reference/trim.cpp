@@ -38,7 +38,12 @@ std::string Describe(const TrimRequest& request) {
                 "altitude %g ft, speed %g ft/s, flight-path angle %g rad, turn rate %g rad/s",
                 request.altitude_ft, request.true_airspeed_ft_s, request.flight_path_angle_rad,
                 request.turn_rate_rad_s);
-  return text.data();
+  std::string where = text.data();
+  if (request.pull_up_rate_rad_s != 0) {
+    std::snprintf(text.data(), text.size(), ", pull-up %g rad/s", request.pull_up_rate_rad_s);
+    where += text.data();
+  }
+  return where;
 }
 
 /// Pitch angle that gives the flight-path angle at zero sideslip: Stevens and Lewis, Aircraft
@@ -62,10 +67,12 @@ TrimPoint FlightAt(const Plant& plant, const TrimRequest& request, const Vector6
   point.state.setZero();
   point.state[kU] = speed * std::cos(point.alpha_rad);
   point.state[kW] = speed * std::sin(point.alpha_rad);
-  // A turn about the vertical, seen in body axes.
+  // A turn about the vertical and one about the horizontal across the flight, seen in body axes.
+  const double level = request.turn_rate_rad_s * std::cos(point.pitch_rad);
+  const double sine = std::sin(point.bank_rad), cosine = std::cos(point.bank_rad);
   point.state[kP] = -request.turn_rate_rad_s * std::sin(point.pitch_rad);
-  point.state[kQ] = request.turn_rate_rad_s * std::cos(point.pitch_rad) * std::sin(point.bank_rad);
-  point.state[kR] = request.turn_rate_rad_s * std::cos(point.pitch_rad) * std::cos(point.bank_rad);
+  point.state[kQ] = level * sine + request.pull_up_rate_rad_s * cosine;
+  point.state[kR] = level * cosine - request.pull_up_rate_rad_s * sine;
   point.state[kDown] = -request.altitude_ft;
   point.state.segment<4>(kQ0) = QuaternionFromEuler({point.bank_rad, point.pitch_rad, 0});
 
@@ -166,14 +173,16 @@ TrimPoint Trim(const Plant& plant, const TrimRequest& request) {
   const double density = AirAt(plant.atmosphere(), request.altitude_ft).density_slug_ft3;
   const double lateral_g =
       speed * request.turn_rate_rad_s * std::cos(request.flight_path_angle_rad) / kGravityFtS2;
-  const double lift_coefficient = airframe.mass_slug * kGravityFtS2 * std::hypot(1, lateral_g) /
+  const double upward_g = 1 + speed * request.pull_up_rate_rad_s / kGravityFtS2;
+  const double lift_coefficient = airframe.mass_slug * kGravityFtS2 *
+                                  std::copysign(std::hypot(upward_g, lateral_g), upward_g) /
                                   (0.5 * density * speed * speed * airframe.wing_area_ft2);
   // A wing of this aspect ratio lifts about 4 per radian.
   constexpr double kLiftSlopePerRad = 4;
   constexpr double kMaxFirstAlpha = 0.5;
   Vector6 guess;
-  guess << std::min(lift_coefficient / kLiftSlopePerRad, kMaxFirstAlpha), std::atan(lateral_g), -2,
-      0, 0, 2000;
+  guess << std::clamp(lift_coefficient / kLiftSlopePerRad, -kMaxFirstAlpha, kMaxFirstAlpha),
+      std::atan(lateral_g), -2, 0, 0, 2000;
   return SolveWithinLimits(plant, request, guess);
 }
 

@@ -2,7 +2,9 @@
 #include "envs/tuning/closed_loop_model.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "envs/aircraft/engine.h"
 #include "envs/state/state.h"
@@ -46,6 +48,12 @@ Eigen::VectorXd Entries(const Eigen::VectorXd& memory, const std::vector<int>& c
   for (std::size_t i = 0; i < columns.size(); ++i)
     entries[static_cast<long>(i)] = memory[columns[i]];
   return entries;
+}
+
+/// Whether an eigenvalue of a step is neither a delay's nor neutral.
+bool IsMotion(std::complex<double> eigenvalue, double dt) {
+  constexpr double kDelay = 1e-6, kNeutral = 1e-5;
+  return std::abs(eigenvalue) >= kDelay && std::abs(eigenvalue - 1.0) >= kNeutral * dt;
 }
 
 /// The loop's step map from its memory at the trim.
@@ -122,18 +130,23 @@ std::vector<double> ClosedLoopModel::StepResponse(int input, int column, double 
 }
 
 std::vector<std::complex<double>> ClosedLoopModel::Modes() const {
-  constexpr double kDelay = 1e-6, kNeutral = 1e-5;
   const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
   std::vector<std::complex<double>> modes;
   for (const std::complex<double>& value : eigenvalues) {
-    if (std::abs(value) < kDelay || std::abs(value - 1.0) < kNeutral * dt) continue;
-    modes.push_back(std::log(value) / dt);
+    if (IsMotion(value, dt)) modes.push_back(std::log(value) / dt);
   }
   return modes;
 }
 
-double DampingRatio(std::complex<double> mode) {
-  return mode == 0.0 ? 0 : -mode.real() / std::abs(mode);
+std::vector<LinearMode> ClosedLoopModel::ModesWithShares() const {
+  std::vector<LinearMode> modes;
+  for (LinearMode mode : FindLinearModes(A)) {
+    if (!IsMotion(mode.eigenvalue, dt)) continue;
+    mode.eigenvalue = std::log(mode.eigenvalue) / dt;
+    modes.push_back(std::move(mode));
+  }
+  std::sort(modes.begin(), modes.end(), IsSlower);
+  return modes;
 }
 
 }  // namespace skein

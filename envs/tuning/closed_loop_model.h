@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "envs/reference/closed_loop.h"
+#include "envs/tuning/linear_modes.h"
 
 namespace skein {
 
@@ -25,14 +26,13 @@ struct ClosedLoopModel {
   std::vector<double> StepResponse(int input, int column, double seconds) const;
   /// log(eigenvalues) / dt, 1/s, of those that are neither zero (delays) nor one (neutral).
   std::vector<std::complex<double>> Modes() const;
+  /// The same of each pair once, the slowest first, with what they are made of.
+  std::vector<LinearMode> ModesWithShares() const;
 };
 
 /// By central differences. `delayed` holds surface commands back by one step. Throws nothing; kinks
 /// of limiters at the trim give the mean of both sides' slopes.
 ClosedLoopModel LineariseClosedLoop(const Plant& plant, const TrimPoint& trim, LoopAxis axis,
                                     double dt, bool delayed);
-
-/// Damping ratio of a mode: 1 for one that only decays, -1 for one that only grows.
-double DampingRatio(std::complex<double> mode);
 
 }  // namespace skein

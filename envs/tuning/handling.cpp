@@ -124,12 +124,6 @@ NaturalModes FindNaturalModes(const Plant& plant, const TrimPoint& trim) {
   return modes;
 }
 
-double TimeToDouble(std::complex<double> mode) {
-  constexpr double kNeutral = 1e-4;
-  return mode.real() > kNeutral ? std::log(2.0) / mode.real()
-                                : std::numeric_limits<double>::infinity();
-}
-
 Handling AssessHandling(const Plant& plant, const TrimPoint& trim) {
   constexpr double kPush = 4;
   Handling handling;

@@ -6,6 +6,7 @@
 
 #include "envs/reference/plant.h"
 #include "envs/reference/trim.h"
+#include "envs/tuning/linear_modes.h"
 
 namespace skein {
 
@@ -18,9 +19,6 @@ struct NaturalModes {
 /// each pair the one with the greater imaginary part), of the lateral ones the pair that swings,
 /// the fastest and the slowest. Without a pair that swings, dutch_roll is the one in the middle.
 NaturalModes FindNaturalModes(const Plant& plant, const TrimPoint& trim);
-
-/// Seconds in which a mode doubles; infinity if it does not grow.
-double TimeToDouble(std::complex<double> mode);
 
 /// How an aircraft with flight control flies at one trim: its closed loop's linear model, and
 /// flights of the float64 closed loop.

@@ -6,11 +6,11 @@
 namespace skein {
 
 std::vector<double> SearchPattern(const std::function<double(const std::vector<double>&)>& cost,
-                                  std::vector<double> start) {
-  constexpr double kFirstFactor = 2, kLastFactor = 1.1;
+                                  std::vector<double> start, double last_factor) {
+  constexpr double kFirstFactor = 2;
   std::vector<double> best = std::move(start);
   double least = cost(best);
-  for (double factor = kFirstFactor; factor > kLastFactor;) {
+  for (double factor = kFirstFactor; factor > last_factor;) {
     bool is_better = false;
     for (double& value : best) {
       const double here = value;

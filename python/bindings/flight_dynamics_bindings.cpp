@@ -66,7 +66,7 @@ nb::dict TrimOf(const Plant& plant, double altitude_ft, double true_airspeed_fps
   point["power"] = flight.trim.power;
   for (const auto& [name, number] : flight.Numbers()) point[name] = number;
   nb::list limits;
-  for (const std::string& limit : flight.exceeded_limits) limits.append(limit);
+  for (const std::string& limit : WordsOf(flight.exceeded_limits)) limits.append(limit);
   point["exceeded_limits"] = nb::tuple(limits);
   return point;
 }
@@ -116,7 +116,7 @@ void BindFlightDynamics(nb::module_& module) {
       [](const std::string& aircraft, const std::string& atmosphere, std::optional<double> cg,
          double engine_angular_momentum) {
         return AsUsage([&] {
-          return MakePlant(aircraft, AtmosphereNamed(atmosphere), cg, engine_angular_momentum);
+          return MakePlant(aircraft, AtmosphereNamed(atmosphere), {cg, engine_angular_momentum});
         });
       },
       nb::arg("aircraft"), nb::arg("atmosphere"), nb::arg("cg").none(),

@@ -30,13 +30,13 @@ std::optional<Finding> CheckLevelFlight(const Plant& plant, const std::string& t
   request.altitude_ft = altitude_ft;
   request.true_airspeed_ft_s = speed_fps;
   Finding::Kind kind = Finding::kError;
-  std::vector<std::string> limits = BelowStall(plant, request);
+  std::vector<std::string> limits = WordsOf(BelowStall(plant, request));
   if (limits.empty()) {
     try {
-      limits = ExceededLimits(plant, request, Trim(plant, request));
+      limits = WordsOf(ExceededLimits(plant, request, Trim(plant, request)));
       kind = Finding::kWarning;
     } catch (const Error& error) {
-      limits = LimitsOnTheWay(plant, request);
+      limits = WordsOf(LimitsOnTheWay(plant, request));
       if (limits.empty()) limits = {fmt::format("cannot be: {}", error.what())};
     }
   }

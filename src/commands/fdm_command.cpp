@@ -8,17 +8,13 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "base/error.h"
-#include "envs/state/attitude.h"
-#include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
-#include "src/config/whole_number.h"
+#include "src/commands/fdm_commands.h"
+#include "src/commands/flight_condition.h"
 #include "src/fdm/fdm_evaluation.h"
 #include "src/fdm/fdm_file.h"
-#include "src/fdm/fdm_plant.h"
-#include "src/fdm/steady_flight.h"
 #include "src/files/output_file.h"
 
 namespace skein {
@@ -30,22 +26,12 @@ const std::map<std::string, FdmPrecision> kPrecisions = {{"float64", FdmPrecisio
                                                          {"float32", FdmPrecision::kFloat32}};
 struct FileOptions {
   std::string in, out;
-  std::string aircraft = "f16";
+  ModelOptions model;
   std::string precision = "float64";
-  std::string atmosphere = "stevens_lewis";
 
   FdmModel Model() const {
-    return {aircraft, AtmosphereNamed(atmosphere), kPrecisions.at(precision)};
+    return {model.aircraft, AtmosphereNamed(model.atmosphere), kPrecisions.at(precision)};
   }
-};
-
-struct TrimOptions {
-  SteadyFlightRequest request;
-  std::optional<double> cg;
-  double engine_angular_momentum = 0;
-  std::string aircraft = "f16";
-  std::string atmosphere = "stevens_lewis";
-  std::string json;
 };
 
 template <std::size_t kCount>
@@ -137,72 +123,6 @@ void Simulate(const FileOptions& options) {
              options.out);
 }
 
-std::string DescribeTrim(const TrimOptions& options, double cg, const SteadyFlight& flight) {
-  const auto& [trim, output, limits] = flight;
-  std::string text = fmt::format(
-      "steady flight of {} at {} ft and {} ft/s, flight path {} deg, turn {} deg/s, cg {}\n"
-      "  thrust           {:14.6f} lbf   (engine power {:.4f} %)\n"
-      "  alpha            {:14.6f} deg\n"
-      "  beta             {:14.6f} deg\n"
-      "  bank             {:14.6f} deg\n"
-      "  pitch            {:14.6f} deg\n"
-      "  elevator         {:14.6f} deg\n"
-      "  aileron          {:14.6f} deg\n"
-      "  rudder           {:14.6f} deg\n"
-      "  leading-edge flap{:14.6f} deg\n"
-      "  load factor      {:14.6f} g\n"
-      "  Mach             {:14.6f}\n"
-      "  dynamic pressure {:14.6f} lbf/ft2\n"
-      "  residual         {:14.3e} ft/s2 or rad/s2\n",
-      options.aircraft, options.request.altitude_ft, options.request.true_airspeed_ft_s,
-      options.request.flight_path_deg, options.request.turn_rate_deg_s, cg,
-      trim.controls.thrust_lbf, trim.power, trim.alpha_rad * kDegPerRad,
-      output.air.beta_rad * kDegPerRad, trim.bank_rad * kDegPerRad, trim.pitch_rad * kDegPerRad,
-      trim.controls.elevator_deg, trim.controls.aileron_deg, trim.controls.rudder_deg,
-      trim.controls.leading_edge_flap_deg, output.nz, output.air.mach,
-      output.air.dynamic_pressure_psf, trim.residual);
-  for (const std::string& limit : limits) text += "  this flight " + limit + "\n";
-  return text;
-}
-
-Json TrimJson(const TrimOptions& options, double cg, const SteadyFlight& flight) {
-  const RigidBodyState& state = flight.trim.state;
-  Json json = {{"aircraft", options.aircraft},
-               {"altitude_ft", options.request.altitude_ft},
-               {"speed_fps", options.request.true_airspeed_ft_s},
-               {"flight_path_deg", options.request.flight_path_deg},
-               {"turn_rate_deg_s", options.request.turn_rate_deg_s},
-               {"params", {{"xcg", cg}, {"heng", options.engine_angular_momentum}}},
-               {"state", std::vector<double>(state.data(), state.data() + state.size())},
-               {"controls", ToNumbers(flight.trim.controls)},
-               {"power", flight.trim.power},
-               {"within_model", flight.exceeded_limits.empty()},
-               {"exceeded_limits", flight.exceeded_limits}};
-  for (const auto& [name, number] : flight.Numbers()) json[name] = number;
-  return json;
-}
-
-void FindTrim(const TrimOptions& options) {
-  const Plant plant = MakePlant(options.aircraft, AtmosphereNamed(options.atmosphere), options.cg,
-                                options.engine_angular_momentum);
-  const double cg = plant.aircraft().airframe.cg;
-  const SteadyFlight flight = FindSteadyFlight(plant, options.request);
-  fmt::print("{}", DescribeTrim(options, cg, flight));
-  if (!options.json.empty()) WriteJson(options.json, TrimJson(options, cg, flight));
-}
-
-void AddModel(CLI::App* command, std::string* aircraft, std::string* atmosphere) {
-  command->add_option("--aircraft", *aircraft, AircraftHelp("whose equations of motion"))
-      ->check(IsAircraft())
-      ->type_name("NAME_OR_FILE")
-      ->capture_default_str();
-  command
-      ->add_option("--atmosphere", *atmosphere,
-                   "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
-      ->check(CLI::IsMember(AtmosphereNames()))
-      ->capture_default_str();
-}
-
 void AddFileCommand(CLI::App* fdm, const std::string& name, const std::string& description,
                     const std::string& footer, void (*run)(const FileOptions&)) {
   auto options = std::make_shared<FileOptions>();
@@ -219,46 +139,9 @@ void AddFileCommand(CLI::App* fdm, const std::string& name, const std::string& d
                    "instruction set)")
       ->check(CLI::IsMember(kPrecisions))
       ->capture_default_str();
-  AddModel(command, &options->aircraft, &options->atmosphere);
+  AddModel(command, &options->model);
   command->footer(footer);
   command->callback([options, run] { run(*options); });
-}
-
-void AddTrimCommand(CLI::App* fdm) {
-  auto options = std::make_shared<TrimOptions>();
-  CLI::App* command = fdm->add_subcommand("trim", "Find the controls of steady flight");
-  command->add_option("--altitude-ft", options->request.altitude_ft, "altitude, ft")
-      ->transform(FiniteNumber())
-      ->required();
-  command->add_option("--speed-fps", options->request.true_airspeed_ft_s, "true airspeed, ft/s")
-      ->transform(NumberAboveZero())
-      ->required();
-  command
-      ->add_option("--flight-path-deg", options->request.flight_path_deg,
-                   "flight-path angle, deg, positive in a climb")
-      ->transform(FiniteNumber())
-      ->capture_default_str();
-  command
-      ->add_option("--turn-rate-deg-s", options->request.turn_rate_deg_s,
-                   "turn rate, deg/s, positive to the right; the turn is coordinated")
-      ->transform(FiniteNumber())
-      ->capture_default_str();
-  command
-      ->add_option("--xcg", options->cg,
-                   "centre of gravity, fraction of the mean chord (default: the aircraft's own)")
-      ->transform(FiniteNumber());
-  command
-      ->add_option("--heng", options->engine_angular_momentum,
-                   "angular momentum of the engine, slug ft2/s")
-      ->transform(FiniteNumber())
-      ->capture_default_str();
-  AddModel(command, &options->aircraft, &options->atmosphere);
-  command->add_option("--json", options->json, "also write state, controls and air data here")
-      ->type_name("FILE");
-  command->footer(
-      "Signs: elevator + trailing edge down, aileron + rolls left, rudder + yaws left.\n"
-      "Example: skein fdm trim --altitude-ft 15000 --speed-fps 500");
-  command->callback([options] { FindTrim(*options); });
 }
 
 }  // namespace
@@ -267,6 +150,8 @@ void AddFdmCommand(CLI::App* app) {
   CLI::App* fdm = app->add_subcommand("fdm", "Ask the flight dynamics model directly");
   fdm->require_subcommand(1);
   AddTrimCommand(fdm);
+  AddLineariseCommand(fdm);
+  AddSweepCommand(fdm);
   AddFileCommand(
       fdm, "eval", "Evaluate the equations of motion at the points of a file",
       "Writes coeffs, xdot and air data of every entry of points and edge_points, and flies the\n"

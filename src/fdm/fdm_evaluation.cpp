@@ -18,8 +18,8 @@ namespace skein {
 namespace {
 
 Plant PlantWith(const FdmModel& model, const FdmParameters& parameters) {
-  return MakePlant(model.aircraft, model.atmosphere, parameters.cg,
-                   parameters.engine_angular_momentum);
+  return MakePlant(model.aircraft, model.atmosphere,
+                   {parameters.cg, parameters.engine_angular_momentum});
 }
 
 RigidBodyState ToState(const FdmState& numbers) {

@@ -25,11 +25,19 @@ AtmosphereModel AtmosphereNamed(const std::string& name) {
       fmt::format("atmosphere \"{}\": {} are known", name, fmt::join(AtmosphereNames(), " and ")));
 }
 
-Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere, std::optional<double> cg,
-                double engine_angular_momentum) {
+Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere,
+                const PlantSetting& setting) {
   Aircraft flown = LoadAircraft(aircraft);
-  if (cg) flown.airframe.cg = *cg;
-  flown.airframe.engine_angular_momentum = engine_angular_momentum;
+  const auto require = [&](bool asked, const MachFunction& data, const char* what) {
+    if (asked && data.mach.empty()) {
+      throw UsageError(fmt::format("aircraft {} has no data of {}", flown.name, what));
+    }
+    return asked;
+  };
+  flown.drag_rises = require(setting.drag_rises, flown.drag_rise, "drag rise");
+  flown.engine.grows = require(setting.thrust_grows, flown.engine.growth, "thrust above Mach 1");
+  if (setting.cg) flown.airframe.cg = *setting.cg;
+  flown.airframe.engine_angular_momentum = setting.engine_angular_momentum;
   return {std::move(flown), atmosphere};
 }
 

@@ -237,6 +237,121 @@ TEST_F(FdmPipeline, ATrimOfWhatIsNoNumberIsWrongUsage) {
   }
 }
 
+// A pull-up bends the path upwards by the load factor's excess over gravity's share.
+TEST_F(FdmPipeline, APullUpTurnsAsItsLoadFactorSays) {
+  constexpr Tolerance kResidual{1e-6, "residual of the trim"};
+  constexpr double kGravity = 32.17, kSpeed = 600, kLoadFactor = 3;
+  const std::string path = folder_ + "/pull_up.json";
+  ASSERT_EQ(CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "600",
+                       "--flight-path-deg", "20", "--pull-up-g", "3", "--json", path})
+                .exit_code,
+            0);
+  const json trim = json::parse(ReadFile(path));
+  const json out = Run("eval", {{"points", json::array({trim})}}, "float64");
+  const json& rate = out["points"][0]["xdot"];
+  for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(rate[c].get<double>(), 0, kResidual);
+  const double climb = std::asin(-rate[8].get<double>() / kSpeed);
+  EXPECT_NEAR(climb, 20 * M_PI / 180, kResidual);
+  const double p = trim["state"][3], q = trim["state"][4], r = trim["state"][5];
+  EXPECT_NEAR(std::hypot(p, q, r), kGravity * (kLoadFactor - std::cos(climb)) / kSpeed, kResidual);
+}
+
+TEST_F(FdmPipeline, ASteadyWindCarriesTheFlightAndNoMore) {
+  constexpr Tolerance kRounding{1e-9, "rounding"};
+  const auto trim = [&](const std::vector<std::string>& wind) {
+    const std::string path = folder_ + "/windy.json";
+    std::vector<std::string> words = {"fdm",         "trim", "--altitude-ft", "5000",
+                                      "--speed-fps", "500",  "--json",        path};
+    words.insert(words.end(), wind.begin(), wind.end());
+    EXPECT_EQ(CallSkein(words).exit_code, 0);
+    return json::parse(ReadFile(path));
+  };
+  const json calm = trim({}), windy = trim({"--wind-fps", "-30,20,5"});
+  EXPECT_EQ(calm["controls"], windy["controls"]);
+  EXPECT_NEAR(calm["mach"].get<double>(), windy["mach"].get<double>(), kRounding);
+  const double wind[] = {-30, 20, 5};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(windy["ground_velocity_fps"][i].get<double>(),
+                calm["ground_velocity_fps"][i].get<double>() + wind[i], kRounding * 500);
+  }
+}
+
+TEST_F(FdmPipeline, AGridSaysOfEveryPointWhyItIsNotFlown) {
+  const std::string csv = folder_ + "/grid.csv", path = folder_ + "/grid.json";
+  const ProgramResult result =
+      CallSkein({"fdm", "trim", "--altitude-ft", "0..40000:20000", "--speed-fps", "100..1100:500",
+                 "--csv", csv, "--json", path, "--picture", folder_ + "/grid.svg"});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("s below stall speed"));
+  const json grid = json::parse(ReadFile(path));
+  ASSERT_EQ(grid["points"].size(), 9u);
+  EXPECT_THAT(ReadFile(folder_ + "/grid.svg"), HasSubstr("below stall speed"));
+  const std::string table = ReadFile(csv);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 10);
+  for (const json& point : grid["points"]) {
+    const std::vector<std::string> one = {"fdm",           "trim",
+                                          "--altitude-ft", point["altitude_ft"].dump(),
+                                          "--speed-fps",   point["speed_fps"].dump(),
+                                          "--json",        folder_ + "/one.json"};
+    // The point alone says the same.
+    const ProgramResult alone = CallSkein(one);
+    const bool is_flown =
+        alone.exit_code == 0 && json::parse(ReadFile(folder_ + "/one.json"))["within_model"];
+    EXPECT_EQ(point["flown"].get<bool>(), is_flown) << point;
+    EXPECT_EQ(point.contains("reason"), !is_flown) << point;
+  }
+  EXPECT_EQ(grid["points"][0]["limit"], "below stall speed");
+}
+
+TEST_F(FdmPipeline, WrongGridsAreWrongUsage) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--altitude-ft", "0..10:0", "--speed-fps", "500"}, "FROM..TO:STEP"},
+      {{"--altitude-ft", "10..0:5", "--speed-fps", "500"}, "FROM..TO:STEP"},
+      {{"--altitude-ft", "0..1e9:1", "--speed-fps", "500"}, "FROM..TO:STEP"},
+      {{"--altitude-ft", "0", "--speed-fps", "0,500"}, "is not a number above 0"},
+      {{"--altitude-ft", "0..9999:1", "--speed-fps", "1..9999:1"}, "more than 100000"},
+      {{"--altitude-ft", "0", "--speed-fps", "500", "--csv", folder_ + "/x.csv"}, "--csv"},
+      {{"--altitude-ft", "0", "--speed-fps", "500", "--wind-fps", "1,2"}, "NORTH,EAST,DOWN"},
+      {{"--altitude-ft", "0", "--speed-fps", "500", "--pull-up-g", "2", "--turn-rate-deg-s", "3"},
+       "excludes --pull-up-g"},
+      {{"--altitude-ft", "0", "--speed-fps", "80", "--aircraft", "aerosonde", "--drag-rise"},
+       "no data of drag rise"}};
+  for (const auto& [words, expected] : cases) {
+    std::vector<std::string> command = {"fdm", "trim"};
+    command.insert(command.end(), words.begin(), words.end());
+    const ProgramResult result = CallSkein(command);
+    EXPECT_EQ(result.exit_code, 2) << expected;
+    EXPECT_THAT(result.error, HasSubstr(expected));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+}
+
+TEST_F(FdmPipeline, LinearModelsHaveNamesForRowsAndColumns) {
+  constexpr Tolerance kDigits{2e-3, "of the known modes, and power for thrust"};
+  const std::string path = folder_ + "/model.json";
+  const ProgramResult result = CallSkein(
+      {"fdm", "linearise", "--altitude-ft", "15000", "--speed-fps", "500", "--json", path});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const json point = json::parse(ReadFile(path))["points"][0];
+  const auto has_shapes = [](const json& model) {
+    const std::size_t states = model["states"].size(), outputs = model["outputs"].size();
+    return model["A"].size() == states && model["A"][0].size() == states &&
+           model["B"].size() == states && model["B"][0].size() == model["inputs"].size() &&
+           model["C"].size() == outputs && model["C"][0].size() == states &&
+           model["D"].size() == outputs && model["D"][0].size() == model["inputs"].size();
+  };
+  EXPECT_TRUE(has_shapes(point["bare_airframe"]));
+  EXPECT_TRUE(has_shapes(point["with_flight_control"]["longitudinal"]));
+  EXPECT_TRUE(has_shapes(point["with_flight_control"]["lateral"]));
+  const json& modes = point["bare_airframe"]["modes"];
+  ASSERT_EQ(modes.size(), 5u);
+  EXPECT_EQ(modes[0]["name"], "short period");
+  EXPECT_NEAR(modes[0]["eigenvalue_per_s"][0].get<double>(), -0.781, kDigits);
+  EXPECT_NEAR(modes[0]["eigenvalue_per_s"][1].get<double>(), 0.727, kDigits);
+  EXPECT_EQ(modes[2]["name"], "Dutch roll");
+  EXPECT_THAT(result.output, HasSubstr("with flight control, longitudinal, 50 control steps"));
+}
+
 TEST_F(FdmPipeline, ATrimAboveTheTablesSaysSo) {
   const ProgramResult result =
       CallSkein({"fdm", "trim", "--altitude-ft", "60000", "--speed-fps", "900"});

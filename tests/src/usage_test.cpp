@@ -39,6 +39,8 @@ TEST(Usage, EveryCommandHasHelp) {
                                              {"study"},
                                              {"fdm"},
                                              {"fdm", "trim"},
+                                             {"fdm", "linearise"},
+                                             {"fdm", "sweep"},
                                              {"aircraft"},
                                              {"aircraft", "check"},
                                              {"aircraft", "tune"},
@@ -326,9 +328,9 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
       "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
       "compare, replay, study, plot, report, fdm, aircraft, export, bench, list, info, help, "
       "completion, man (see skein --help)\n");
-  EXPECT_THAT(
-      CallSkein({"fdm", "fly"}).error,
-      HasSubstr("unknown command fly; known commands: trim, eval, simulate (see skein fdm"));
+  EXPECT_THAT(CallSkein({"fdm", "float"}).error,
+              HasSubstr("unknown command float; known commands: trim, linearise, sweep, eval, "
+                        "simulate (see skein fdm"));
 }
 
 TEST(Usage, UnknownOptionsSuggestTheNearest) {

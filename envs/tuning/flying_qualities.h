@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "envs/reference/plant.h"
+#include "envs/reference/trim.h"
+#include "envs/tuning/equivalent_system.h"
+#include "envs/tuning/linear_modes.h"
+#include "envs/tuning/loop_margins.h"
+
+namespace skein {
+
+/// The response to a step of a stick from trim, in the float64 closed loop.
+struct StepResponse {
+  double size = 0;     ///< of the step, share of the full stick
+  double reached = 0;  ///< at the end, g or deg/s, without what it was before
+  double rise_s = 0;   ///< from a tenth to nine tenths of that; not a number where it is not risen
+  double overshoot = 0;  ///< beyond that, as a share of it
+};
+
+/// A requirement of MIL-F-8785C and how it is met: class IV, flight phase category A.
+struct Requirement {
+  const char* paragraph = nullptr;
+  const char* what = nullptr;
+  const char* unit = nullptr;
+  double value = 0;
+  int level = 0;                 ///< 1 to 3; 4: not even that
+  const char* limits = nullptr;  ///< of levels 1, 2 and 3
+};
+
+/// How a break of a loop stands.
+struct LoopAt {
+  LoopBreak where;
+  LoopMargins margins;
+};
+
+/// How an aircraft with flight control flies about a trim.
+struct FlyingQualities {
+  EquivalentShortPeriod short_period;
+  EquivalentRoll roll;
+  LinearMode dutch_roll;            ///< the lateral mode that sideslip swings in
+  double load_factor_by_alpha = 0;  ///< of the airframe at constant speed, g/rad
+  StepResponse pitch_step, roll_step;
+  double bank_90_s = 0;  ///< full roll stick to 90 deg of bank; infinity: not within 5 s
+  std::vector<LoopAt> loops;
+  std::vector<Requirement> requirements;
+};
+
+/// At 50 control steps a second. The trim is one in still air, with level wings.
+FlyingQualities AssessFlyingQualities(const Plant& plant, const TrimPoint& trim);
+
+/// Levels by MIL-F-8785C of figures alone; 4 beyond level 3.
+int ShortPeriodDampingLevel(double damping_ratio);                   ///< 3.2.2.1.2
+int AnticipationLevel(double anticipation, double frequency_rad_s);  ///< 3.2.2.1.1
+int PhugoidLevel(double damping_ratio, double time_to_double_s);     ///< 3.2.1.2
+int DutchRollLevel(double damping_ratio, double frequency_rad_s);    ///< 3.3.1.1
+int RollModeLevel(double time_constant_s);                           ///< 3.3.1.2
+int SpiralLevel(double time_to_double_s);                            ///< 3.3.1.3
+int RollPerformanceLevel(double bank_90_s);                          ///< 3.3.4.1
+
+}  // namespace skein

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/commands/flight_condition.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/number_text.h"
+#include "src/commands/aircraft_option.h"
+#include "src/config/number_list.h"
+#include "src/config/whole_number.h"
+
+namespace skein {
+namespace {
+
+constexpr double kAny = -std::numeric_limits<double>::infinity();
+
+std::string Span(const std::vector<double>& values) {
+  return values.size() == 1 ? ShortestText(values.front())
+                            : ShortestText(values.front()) + " to " + ShortestText(values.back());
+}
+
+void AddManoeuvre(CLI::App* command, FlightCondition* options) {
+  SteadyFlightRequest* manoeuvre = &options->grid.manoeuvre;
+  command
+      ->add_option("--flight-path-deg", manoeuvre->flight_path_deg,
+                   "flight-path angle, deg, positive in a climb")
+      ->transform(FiniteNumber())
+      ->capture_default_str();
+  CLI::Option* turn =
+      command
+          ->add_option("--turn-rate-deg-s", manoeuvre->turn_rate_deg_s,
+                       "turn rate, deg/s, positive to the right; the turn is coordinated")
+          ->transform(FiniteNumber())
+          ->capture_default_str();
+  command
+      ->add_option("--pull-up-g", manoeuvre->load_factor,
+                   "load factor of a pull-up with level wings: force across the flight path over "
+                   "weight, 1 in level flight; less is a push-over")
+      ->transform(FiniteNumber())
+      ->excludes(turn);
+}
+
+void AddPlantSetting(CLI::App* command, PlantSetting* setting) {
+  command
+      ->add_option("--xcg", setting->cg,
+                   "centre of gravity, fraction of the mean chord (default: the aircraft's own)")
+      ->transform(FiniteNumber());
+  command
+      ->add_option("--heng", setting->engine_angular_momentum,
+                   "angular momentum of the engine, slug ft2/s")
+      ->transform(FiniteNumber())
+      ->capture_default_str();
+  command->add_flag("--drag-rise", setting->drag_rises, "drag rises with the Mach number");
+  command->add_flag("--thrust-growth", setting->thrust_grows, "thrust grows above Mach 1");
+}
+
+}  // namespace
+
+void AddModel(CLI::App* command, ModelOptions* options) {
+  command->add_option("--aircraft", options->aircraft, AircraftHelp("whose equations of motion"))
+      ->check(IsAircraft())
+      ->type_name("NAME_OR_FILE")
+      ->capture_default_str();
+  command
+      ->add_option("--atmosphere", options->atmosphere,
+                   "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
+      ->check(CLI::IsMember(AtmosphereNames()))
+      ->capture_default_str();
+}
+
+void AddPicture(CLI::App* command, const std::string& what, std::string* picture) {
+  command
+      ->add_option("--picture", *picture,
+                   fmt::format("draw {}: SVG or PDF by the ending of the name", what))
+      ->type_name("FILE");
+}
+
+void AddFlightCondition(CLI::App* command, FlightCondition* options) {
+  AddNumberList(command, "--altitude-ft", &options->grid.altitude_ft, kAny, "finite number",
+                "altitude, ft: one, several (A,B,C) or FROM..TO:STEP")
+      ->required();
+  AddNumberList(command, "--speed-fps", &options->grid.speed_fps, 0, "number above 0",
+                "true airspeed, ft/s: the same")
+      ->required();
+  AddManoeuvre(command, options);
+  AddPlantSetting(command, &options->setting);
+  AddModel(command, &options->model);
+}
+
+Plant FlightCondition::MakePlant() const {
+  return skein::MakePlant(model.aircraft, AtmosphereNamed(model.atmosphere), setting);
+}
+
+std::string FlightCondition::Describe(const Plant& plant) const {
+  const SteadyFlightRequest& manoeuvre = grid.manoeuvre;
+  std::string text =
+      fmt::format("{} at {} ft and {} ft/s, flight path {} deg, ", model.aircraft,
+                  Span(grid.altitude_ft), Span(grid.speed_fps), manoeuvre.flight_path_deg);
+  text += manoeuvre.load_factor ? fmt::format("pull-up of {} g", *manoeuvre.load_factor)
+                                : fmt::format("turn {} deg/s", manoeuvre.turn_rate_deg_s);
+  return text + fmt::format(", cg {}", plant.aircraft().airframe.cg);
+}
+
+nlohmann::ordered_json FlightCondition::ToJson(const Plant& plant) const {
+  nlohmann::ordered_json json = {
+      {"aircraft", model.aircraft},
+      {"atmosphere", model.atmosphere},
+      {"flight_path_deg", grid.manoeuvre.flight_path_deg},
+      {"turn_rate_deg_s", grid.manoeuvre.turn_rate_deg_s},
+      {"params",
+       {{"xcg", plant.aircraft().airframe.cg}, {"heng", setting.engine_angular_momentum}}},
+      {"drag_rise", setting.drag_rises},
+      {"thrust_growth", setting.thrust_grows}};
+  if (grid.manoeuvre.load_factor) json["pull_up_g"] = *grid.manoeuvre.load_factor;
+  return json;
+}
+
+}  // namespace skein

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "src/config/usage_error.h"
+#include "src/fdm/fdm_plant.h"
+#include "src/fdm/flight_grid.h"
+
+namespace skein {
+
+/// Which aircraft flies, and in what air.
+struct ModelOptions {
+  std::string aircraft = "f16";
+  std::string atmosphere = "stevens_lewis";
+};
+
+/// --aircraft, --atmosphere.
+void AddModel(CLI::App* command, ModelOptions* options);
+
+/// A flight condition of `skein fdm`: an aircraft, in steady flights.
+struct FlightCondition {
+  ModelOptions model;
+  PlantSetting setting;
+  FlightGrid grid;
+
+  /// Throws UsageError and what LoadAircraft throws.
+  Plant MakePlant() const;
+  /// "f16 at 15000 ft and 500 ft/s, ..., cg 0.3"
+  std::string Describe(const Plant& plant) const;
+  /// What a document of results begins with.
+  nlohmann::ordered_json ToJson(const Plant& plant) const;
+};
+
+/// What `at` returns of the flights of a grid. A flight that there is not is named on the error
+/// stream; the Error of the only one, or of all, is thrown.
+template <typename Result>
+std::vector<Result> AtEveryPoint(const FlightGrid& grid,
+                                 const std::function<Result(const SteadyFlightRequest&)>& at) {
+  std::vector<Result> results;
+  for (std::size_t i = 0; i < grid.altitude_ft.size(); ++i) {
+    for (std::size_t k = 0; k < grid.speed_fps.size(); ++k) {
+      try {
+        results.push_back(at(grid.At(i, k)));
+      } catch (const UsageError&) {
+        throw;
+      } catch (const Error& error) {
+        if (grid.IsOnePoint()) throw;
+        fmt::print(stderr, "note: {}\n", error.what());
+      }
+    }
+  }
+  if (results.empty()) throw Error("there is no steady flight at any of these points");
+  return results;
+}
+
+/// As wide as a page's text, points.
+inline constexpr double kPictureWidth = 7.2 * 72;
+
+/// --picture, which draws `what`.
+void AddPicture(CLI::App* command, const std::string& what, std::string* picture);
+
+/// The options of a condition; `options` are to outlive `command`.
+void AddFlightCondition(CLI::App* command, FlightCondition* options);
+
+}  // namespace skein

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/fdm/steady_flight.h"
+
+namespace skein {
+
+/// The same manoeuvre at every altitude and speed.
+struct FlightGrid {
+  SteadyFlightRequest manoeuvre;  ///< but for altitude and speed
+  std::vector<double> altitude_ft, speed_fps;
+
+  bool IsOnePoint() const { return altitude_ft.size() * speed_fps.size() == 1; }
+  SteadyFlightRequest At(std::size_t altitude, std::size_t speed) const;
+};
+
+/// Whether and how it is flown at one point.
+struct GridPoint {
+  SteadyFlightRequest request;
+  std::optional<SteadyFlight> flight;
+  std::vector<ExceededLimit> limits;  ///< why it is not, the first reason first
+
+  bool IsFlown() const { return limits.empty(); }
+};
+
+/// A point's letter and words in the picture of a grid; of none: flown.
+char LetterOf(std::optional<FlightLimit> limit);
+const char* WordsOf(std::optional<FlightLimit> limit);
+
+/// The points of a grid: altitude by altitude, at each speed by speed.
+class FlownGrid {
+ public:
+  /// Trims every point. Throws UsageError of a grid that nobody can ask for (more than 100,000
+  /// points; a turn that is a pull-up).
+  FlownGrid(const Plant& plant, FlightGrid grid);
+
+  const FlightGrid& grid() const { return grid_; }
+  const std::vector<GridPoint>& points() const { return points_; }
+  const GridPoint& At(std::size_t altitude, std::size_t speed) const {
+    return points_[altitude * grid_.speed_fps.size() + speed];
+  }
+
+  /// A map of letters, and of every altitude the slowest and the fastest speed and the greatest
+  /// excess power.
+  std::string Describe() const;
+  /// A line for every point, behind one of names.
+  std::string Csv() const;
+
+ private:
+  std::string Map() const;
+  std::string DescribeRow(std::size_t altitude) const;
+
+  FlightGrid grid_;
+  std::vector<GridPoint> points_;
+};
+
+/// A point of a grid, or a flight alone, for JSON files.
+nlohmann::ordered_json ToJson(const GridPoint& point);
+nlohmann::ordered_json ToJson(const SteadyFlight& flight);
+
+}  // namespace skein

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/fdm/flying_qualities_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/number_text.h"
+#include "src/files/text_table.h"
+
+namespace skein {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string Figure(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-";
+}
+
+std::string LevelText(int level) { return level > 3 ? "below 3" : fmt::format("level {}", level); }
+
+std::string DescribeStep(const char* name, const StepResponse& step, const char* unit) {
+  return fmt::format("{} step of {:.0f} %: {} {}, rise {} s, overshoot {} %\n", name,
+                     100 * step.size, Figure(step.reached), unit, Figure(step.rise_s),
+                     Figure(100 * step.overshoot));
+}
+
+std::string DescribeLoops(const FlyingQualities& qualities) {
+  std::vector<std::vector<std::string>> rows = {
+      {"loop broken at", "gain up", "gain down", "phase", "at", "delay"}};
+  for (const LoopAt& loop : qualities.loops) {
+    const LoopMargins& margins = loop.margins;
+    rows.push_back({kLoopBreaks[static_cast<std::size_t>(loop.where)].second,
+                    Figure(margins.gain_up_db) + " dB", Figure(margins.gain_down_db) + " dB",
+                    Figure(margins.phase_deg) + " deg", Figure(margins.crossover_rad_s) + " rad/s",
+                    Figure(margins.delay_s) + " s"});
+  }
+  return InColumns(rows);
+}
+
+/// The worst level of the requirements of a paragraph that begins with `prefix`; "-" without any.
+std::string WorstLevel(const FlyingQualities& qualities, const std::string& prefix) {
+  int worst = 0;
+  for (const Requirement& requirement : qualities.requirements) {
+    if (std::string(requirement.paragraph).rfind(prefix, 0) == 0) {
+      worst = std::max(worst, requirement.level);
+    }
+  }
+  return worst == 0 ? "-" : worst > 3 ? ">3" : std::to_string(worst);
+}
+
+/// Of what is not finite: null.
+Json NumberJson(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json ToJson(const StepResponse& step, const char* reached) {
+  return {{"stick", step.size},
+          {reached, NumberJson(step.reached)},
+          {"rise_s", NumberJson(step.rise_s)},
+          {"overshoot", NumberJson(step.overshoot)}};
+}
+
+Json ToJson(const LoopAt& loop) {
+  const LoopMargins& margins = loop.margins;
+  return {{"broken_at", kLoopBreaks[static_cast<std::size_t>(loop.where)].second},
+          {"gain_up_db", NumberJson(margins.gain_up_db)},
+          {"gain_up_rad_s", NumberJson(margins.gain_up_rad_s)},
+          {"gain_down_db", NumberJson(margins.gain_down_db)},
+          {"phase_deg", NumberJson(margins.phase_deg)},
+          {"crossover_rad_s", NumberJson(margins.crossover_rad_s)},
+          {"delay_s", NumberJson(margins.delay_s)}};
+}
+
+Json ToJson(const Requirement& requirement) {
+  return {{"paragraph", requirement.paragraph}, {"what", requirement.what},
+          {"unit", requirement.unit},           {"value", NumberJson(requirement.value)},
+          {"level", requirement.level},         {"limits", requirement.limits}};
+}
+
+}  // namespace
+
+std::string Describe(const FlyingQualities& qualities) {
+  std::string text = DescribeStep("pitch stick", qualities.pitch_step, "g") +
+                     DescribeStep("roll stick", qualities.roll_step, "deg/s");
+  const EquivalentShortPeriod& pitch = qualities.short_period;
+  text += fmt::format(
+      "equivalent short period: {:.2f} rad/s, damping {:.2f}, delay {:.3f} s (mismatch {:.1f}); "
+      "n/alpha {:.1f} g/rad\n"
+      "equivalent roll mode: {:.2f} s, delay {:.3f} s (mismatch {:.1f})\n\n",
+      pitch.frequency_rad_s, pitch.damping_ratio, pitch.delay_s, pitch.mismatch,
+      qualities.load_factor_by_alpha, qualities.roll.time_constant_s, qualities.roll.delay_s,
+      qualities.roll.mismatch);
+  std::vector<std::vector<std::string>> rows = {
+      {"MIL-F-8785C", "class IV, category A", "", "", "limits of levels 1; 2; 3"}};
+  for (const Requirement& requirement : qualities.requirements) {
+    const std::string unit = requirement.unit == std::string("1") ? "" : requirement.unit;
+    rows.push_back({requirement.paragraph, requirement.what,
+                    Figure(requirement.value) + (unit.empty() ? "" : " " + unit),
+                    LevelText(requirement.level), requirement.limits});
+  }
+  return text + InColumns(rows) + "\n" + DescribeLoops(qualities);
+}
+
+std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
+  std::vector<std::vector<std::string>> rows = {{"altitude", "speed", "short period", "phugoid",
+                                                 "Dutch roll", "roll", "spiral", "bank 90",
+                                                 "gain, dB", "phase, deg", "least at"}};
+  for (const AssessedFlight& flight : flights) {
+    const FlyingQualities& qualities = flight.qualities;
+    const auto gain = [](const LoopAt& loop) {
+      return std::min(loop.margins.gain_up_db, loop.margins.gain_down_db);
+    };
+    const auto least_gain =
+        std::min_element(qualities.loops.begin(), qualities.loops.end(),
+                         [&](const LoopAt& a, const LoopAt& b) { return gain(a) < gain(b); });
+    const auto least_phase = std::min_element(
+        qualities.loops.begin(), qualities.loops.end(),
+        [](const LoopAt& a, const LoopAt& b) { return a.margins.phase_deg < b.margins.phase_deg; });
+    const auto name = [](const auto& loop) {
+      return std::string(kLoopBreaks[static_cast<std::size_t>(loop->where)].second);
+    };
+    rows.push_back({ShortestText(flight.request.altitude_ft),
+                    ShortestText(flight.request.true_airspeed_ft_s),
+                    WorstLevel(qualities, "3.2.2.1"), WorstLevel(qualities, "3.2.1.2"),
+                    WorstLevel(qualities, "3.3.1.1"), WorstLevel(qualities, "3.3.1.2"),
+                    WorstLevel(qualities, "3.3.1.3"), WorstLevel(qualities, "3.3.4.1"),
+                    Figure(gain(*least_gain)), Figure(least_phase->margins.phase_deg),
+                    name(least_gain) + ", " + name(least_phase)});
+  }
+  return InColumns(rows);
+}
+
+Json ToJson(const AssessedFlight& flight) {
+  const FlyingQualities& qualities = flight.qualities;
+  const LinearMode& dutch_roll = qualities.dutch_roll;
+  Json json = {{"altitude_ft", flight.request.altitude_ft},
+               {"speed_fps", flight.request.true_airspeed_ft_s},
+               {"pitch_step", ToJson(qualities.pitch_step, "load_factor_g")},
+               {"roll_step", ToJson(qualities.roll_step, "p_deg_s")},
+               {"load_factor_by_alpha_g_per_rad", qualities.load_factor_by_alpha},
+               {"equivalent_short_period",
+                {{"frequency_rad_s", qualities.short_period.frequency_rad_s},
+                 {"damping_ratio", qualities.short_period.damping_ratio},
+                 {"delay_s", qualities.short_period.delay_s},
+                 {"mismatch", qualities.short_period.mismatch}}},
+               {"equivalent_roll",
+                {{"time_constant_s", qualities.roll.time_constant_s},
+                 {"delay_s", qualities.roll.delay_s},
+                 {"mismatch", qualities.roll.mismatch}}},
+               {"dutch_roll",
+                {{"eigenvalue_per_s", {dutch_roll.eigenvalue.real(), dutch_roll.eigenvalue.imag()}},
+                 {"frequency_rad_s", dutch_roll.frequency_rad_s()},
+                 {"damping_ratio", dutch_roll.damping_ratio()}}},
+               {"bank_90_s", NumberJson(qualities.bank_90_s)}};
+  for (const Requirement& requirement : qualities.requirements) {
+    json["requirements"].push_back(ToJson(requirement));
+  }
+  for (const LoopAt& loop : qualities.loops) json["loops"].push_back(ToJson(loop));
+  return json;
+}
+
+}  // namespace skein

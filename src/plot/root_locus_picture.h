@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/fdm/linearised_flight.h"
+#include "src/plot/picture.h"
+
+namespace skein {
+
+/// The modes of the bare airframe in the complex plane, a dot for every flight, from pale for the
+/// first to full for the last: all at the left, the slow ones again at the right.
+Picture DrawRootLocus(const std::vector<LinearisedFlight>& flights, double width,
+                      const std::string& title);
+
+}  // namespace skein

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Margins and equivalent systems of loops whose figures follow from formulas, and the levels of
+// MIL-F-8785C at their limits.
+#include "envs/tuning/flying_qualities.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "envs/aircraft/registry.h"
+#include "envs/tuning/trial_flight.h"
+#include "tests/tolerance.h"
+
+namespace skein {
+namespace {
+
+/// gain exp(-steps dt s) / s, sampled: a loop of an integrator and a delay.
+SampledSystem DelayedIntegrator(double gain, int steps, double dt) {
+  const long size = steps + 1;
+  SampledSystem system{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size),
+                       Eigen::RowVectorXd::Zero(size), dt};
+  system.A(0, 0) = 1;
+  system.c[0] = gain * dt;
+  if (steps == 0) {
+    system.b[0] = 1;
+    return system;
+  }
+  system.A(0, 1) = 1;
+  for (long i = 1; i + 1 < size; ++i) system.A(i, i + 1) = 1;
+  system.b[size - 1] = 1;
+  return system;
+}
+
+TEST(LoopMargins, OfAnIntegratorWithDelayFollowTheFormula) {
+  constexpr Tolerance kSampling{0.02, "second order in the step, and interpolation"};
+  constexpr double kGain = 2, kDt = 0.01;
+  constexpr int kSteps = 20;
+  const LoopMargins margins = FindLoopMargins(DelayedIntegrator(kGain, kSteps, kDt));
+  const double delay = (kSteps + 0.5) * kDt;  // the hold's half step, too
+  // |L| is one at the gain; the phase is -90 deg less the delay's; it is -180 at pi / (2 delay).
+  EXPECT_NEAR(margins.crossover_rad_s, kGain, kSampling * kGain);
+  EXPECT_NEAR(margins.phase_deg, 90 - kGain * delay * kDegPerRad, kSampling * 90);
+  EXPECT_NEAR(margins.delay_s, margins.phase_deg / kDegPerRad / kGain, kSampling * delay);
+  const double limit = M_PI / 2 / delay;
+  EXPECT_NEAR(margins.gain_up_db, 20 * std::log10(limit / kGain), kSampling * 10);
+  EXPECT_TRUE(std::isinf(margins.gain_down_db));
+}
+
+// The gain margin of the real loop is the gain that makes it unstable.
+TEST(LoopMargins, AreWhereTheAircraftBecomesUnstable) {
+  constexpr double kSlight = 0.02;
+  // Phugoid and spiral may grow slowly, with any gain: factor of a step.
+  constexpr double kSlowest = 1 + 3e-4;
+  const Plant plant(LoadAircraft("f16"), AtmosphereModel::kStevensLewis);
+  TrimRequest request;
+  request.altitude_ft = 15000;
+  request.true_airspeed_ft_s = 500;
+  const TrimPoint trim = Trim(plant, request);
+  for (const auto& [where, name] : kLoopBreaks) {
+    const SampledSystem loop = BreakLoop(plant, trim, where, kTrialInterval);
+    const LoopMargins margins = FindLoopMargins(loop);
+    ASSERT_TRUE(std::isfinite(margins.gain_up_db)) << name;
+    const double limit = std::pow(10, margins.gain_up_db / 20);
+    const auto fastest_growth = [&loop](double gain) {
+      const Eigen::MatrixXd closed = loop.A - gain * loop.b * loop.c;
+      return FindLinearModes(closed).back().frequency_rad_s();  // the largest eigenvalue
+    };
+    EXPECT_LT(fastest_growth(limit * (1 - kSlight)), kSlowest) << name;
+    EXPECT_GT(fastest_growth(limit * (1 + kSlight)), kSlowest) << name;
+  }
+}
+
+/// x'' + 2 damping frequency x' + frequency^2 x = u, u held over steps; output x' + lead x.
+SampledSystem SecondOrder(double frequency, double damping, double lead, double dt) {
+  // Small steps of a Taylor series of the matrix exponential.
+  Eigen::Matrix3d rate = Eigen::Matrix3d::Zero();
+  rate(0, 1) = 1;
+  rate(1, 0) = -frequency * frequency;
+  rate(1, 1) = -2 * damping * frequency;
+  rate(1, 2) = 1;
+  Eigen::Matrix3d power = Eigen::Matrix3d::Identity(), sum = power;
+  for (int i = 1; i < 12; ++i) {
+    power = power * rate * dt / i;
+    sum += power;
+  }
+  return {sum.topLeftCorner(2, 2), sum.topRightCorner(2, 1), Eigen::RowVector2d(lead, 1), dt};
+}
+
+TEST(EquivalentSystem, FindsTheSystemThatItIsGiven) {
+  constexpr Tolerance kFit{0.01, "of the search"};
+  constexpr Tolerance kHold{2e-3, "of the search and the hold, s"};
+  constexpr double kDt = 0.02;
+  const auto pitch = FitShortPeriod(SecondOrder(4, 0.6, 0.8, kDt), 0.8);
+  EXPECT_NEAR(pitch.frequency_rad_s, 4, 4 * kFit);
+  EXPECT_NEAR(pitch.damping_ratio, 0.6, kFit);
+  EXPECT_NEAR(pitch.delay_s, kDt / 2, kHold);  // a held input lags by half a step
+  EXPECT_LT(pitch.mismatch, 0.1);
+  SampledSystem roll{Eigen::MatrixXd(1, 1), Eigen::VectorXd(1), Eigen::RowVectorXd(1), kDt};
+  roll.A << std::exp(-kDt / 0.4);
+  roll.b << 1;
+  roll.c << 3;
+  EXPECT_NEAR(FitRoll(roll).time_constant_s, 0.4, 0.4 * kFit);
+}
+
+TEST(FlyingQualities, LevelsEndWhereTheStandardEndsThem) {
+  EXPECT_EQ(ShortPeriodDampingLevel(0.35), 1);
+  EXPECT_EQ(ShortPeriodDampingLevel(0.349), 2);
+  EXPECT_EQ(ShortPeriodDampingLevel(2.1), 3);
+  EXPECT_EQ(ShortPeriodDampingLevel(0.1), 4);
+  EXPECT_EQ(AnticipationLevel(0.28, 1), 1);
+  EXPECT_EQ(AnticipationLevel(0.28, 0.9), 2);
+  EXPECT_EQ(AnticipationLevel(5, 3), 2);
+  EXPECT_EQ(AnticipationLevel(11, 9), 3);
+  EXPECT_EQ(AnticipationLevel(0.1, 3), 4);
+  EXPECT_EQ(PhugoidLevel(0.04, INFINITY), 1);
+  EXPECT_EQ(PhugoidLevel(0, INFINITY), 2);
+  EXPECT_EQ(PhugoidLevel(-0.01, 60), 3);
+  EXPECT_EQ(PhugoidLevel(-0.1, 50), 4);
+  EXPECT_EQ(DutchRollLevel(0.19, 2), 1);
+  EXPECT_EQ(DutchRollLevel(0.19, 1.5), 2) << "damping times frequency";
+  EXPECT_EQ(DutchRollLevel(0.01, 2), 3);
+  EXPECT_EQ(DutchRollLevel(-0.01, 2), 4);
+  EXPECT_EQ(RollModeLevel(1), 1);
+  EXPECT_EQ(RollModeLevel(1.3), 2);
+  EXPECT_EQ(RollModeLevel(11), 4);
+  EXPECT_EQ(SpiralLevel(INFINITY), 1);
+  EXPECT_EQ(SpiralLevel(9), 2);
+  EXPECT_EQ(SpiralLevel(3), 4);
+  EXPECT_EQ(RollPerformanceLevel(1.3), 1);
+  EXPECT_EQ(RollPerformanceLevel(INFINITY), 4);
+}
+
+}  // namespace
+}  // namespace skein
