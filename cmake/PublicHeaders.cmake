@@ -30,6 +30,7 @@ set(SKEIN_PUBLIC_HEADERS
     envs/wind/wind_config.h
     # Aircraft, autopilots and the air.
     envs/air/atmosphere.h
+    envs/air/gravity.h
     envs/aircraft/aerodynamic_tables.h
     envs/aircraft/aircraft.h
     envs/aircraft/flight_control_gains.h

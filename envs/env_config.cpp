@@ -31,6 +31,8 @@ void RequireSteps(const EnvConfig& config, const char* key, double seconds) {
 // the fastest has a corner at 50 rad/s, and Tustin's rule needs it below 2/dt.
 constexpr double kLongestControlInterval = 0.04;
 
+constexpr double kStrongestGravity = 1000;  // ft/s^2, beyond any planet's
+
 std::vector<std::string> HierarchicalTasks() {
   std::vector<std::string> names;
   for (const std::string& name : TaskNames()) {
@@ -84,6 +86,13 @@ void ListAircraftFields(EnvConfig& config, FieldList& list) {
       .FixedForPolicies();
   list.Add("atmosphere", &config.atmosphere, kAtmosphereNames,
            "air: the published F-16 models' or the U.S. Standard Atmosphere 1976");
+  list.Add("gravity_ft_s2", &config.gravity.at_sea_level_ft_s2, {0, kStrongestGravity, true},
+           "gravity at sea level; load factors stay multiples of 32.17 ft/s^2")
+      .OffUnless(config.gravity.at_sea_level_ft_s2 != kGravityFtS2);
+  list.Add("gravity_falls_with_altitude", &config.gravity.falls_with_altitude,
+           "true: with the square of the distance from the earth's centre; false: it is the same "
+           "at every altitude")
+      .OffUnless(config.gravity.falls_with_altitude);
   list.Add("flight_control", &config.flight_control, kFlightControlNames,
            "the four-channel flight control system, or commands straight to the actuators")
       .FixedForPolicies();

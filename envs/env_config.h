@@ -5,6 +5,7 @@
 #include <string>
 
 #include "envs/air/atmosphere.h"
+#include "envs/air/gravity.h"
 #include "envs/high_level_config.h"
 #include "envs/initial_config.h"
 #include "envs/plant/plant_config.h"
@@ -31,6 +32,7 @@ struct EnvConfig {
   std::string task_file_hash, task_interface;
   std::string aircraft = "f16";
   AtmosphereModel atmosphere = AtmosphereModel::kStevensLewis;
+  Gravity gravity;
   FlightControlMode flight_control = FlightControlMode::kFull;
   double cg = 0.30;                    ///< fraction of the mean chord
   double engine_angular_momentum = 0;  ///< slug ft^2/s

@@ -114,7 +114,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       first_aircraft_(first_aircraft),
       task_(MakeTask(config_)),
       aircraft_(ConfiguredAircraft(config_)),
-      kernel_aircraft_(MakeKernelAircraft(aircraft_, config_.atmosphere)),
+      kernel_aircraft_(MakeKernelAircraft(aircraft_, config_.atmosphere, config_.gravity)),
       flight_control_(aircraft_, config_.flight_control, config_.control_interval_s),
       limits_(EndsOf(config_), config_.episode()),
       remembers_actions_(config_.reward.action_change > 0 ||

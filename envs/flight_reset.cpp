@@ -64,7 +64,7 @@ FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
     : initial_(config.initial),
       altitude_ft_(initial_.altitude_ft),
       true_airspeed_fps_(initial_.true_airspeed_fps),
-      plant_(aircraft, config.atmosphere),
+      plant_(aircraft, config.atmosphere, 1, config.gravity),
       flight_control_(aircraft, config.flight_control, config.control_interval_s),
       draw_power_(config.draw_power),
       trims_(SolveTrims(config.initial, plant_)) {

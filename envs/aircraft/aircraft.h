@@ -5,13 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "envs/air/gravity.h"
 #include "envs/aircraft/aerodynamic_tables.h"
 #include "envs/aircraft/flight_control_gains.h"
 
 namespace skein {
-
-/// Gravity of the published F-16 models, ft/s^2.
-inline constexpr double kGravityFtS2 = 32.17;
 
 inline constexpr double kDegPerRad = 57.295779513082320877;
 

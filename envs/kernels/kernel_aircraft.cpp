@@ -74,7 +74,7 @@ KernelAtmosphere MakeAtmosphere(AtmosphereModel model) {
   return air;
 }
 
-KernelConstants MakeConstants(const Airframe& a) {
+KernelConstants MakeConstants(const Airframe& a, const Gravity& gravity) {
   KernelConstants k;
   k.inverse_aileron_reference = static_cast<float>(1 / a.aileron_reference_deg);
   k.inverse_rudder_reference = static_cast<float>(1 / a.rudder_reference_deg);
@@ -88,7 +88,10 @@ KernelConstants MakeConstants(const Airframe& a) {
   k.half_wing_area = static_cast<float>(a.wing_area_ft2 / 2);
   k.inverse_mass = static_cast<float>(1 / a.mass_slug);
   k.inverse_weight = static_cast<float>(1 / (a.mass_slug * kGravityFtS2));
-  k.gravity = static_cast<float>(kGravityFtS2);
+  k.gravity = static_cast<float>(gravity.at_sea_level_ft_s2);
+  if (gravity.falls_with_altitude) {
+    k.gravity_inverse_radius = static_cast<float>(1 / kStandard1976.earth_radius_ft);
+  }
 
   const double determinant = a.Ixx * a.Izz - a.Ixz * a.Ixz;
   const double h = a.engine_angular_momentum;
@@ -242,14 +245,15 @@ KernelAxis MakeKernelAxis(const std::vector<double>& nodes, const char* name) {
 }
 
 std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraft,
-                                                         AtmosphereModel atmosphere) {
+                                                         AtmosphereModel atmosphere,
+                                                         const Gravity& gravity) {
   auto kernel = std::make_shared<KernelAircraft>();
   kernel->source = aircraft;
   kernel->atmosphere_model = atmosphere;
   FillAerodynamics(aircraft.aerodynamics, kernel.get());
   kernel->engine = MakeEngine(aircraft.engine, aircraft.power_lag);
   kernel->atmosphere = MakeAtmosphere(atmosphere);
-  kernel->constants = MakeConstants(aircraft.airframe);
+  kernel->constants = MakeConstants(aircraft.airframe, gravity);
   kernel->depends_on_mach = aircraft.drag_rises || aircraft.engine.grows;
   kernel->drag_rise = MakeMachFunction(aircraft.drag_rise, aircraft.drag_rises, 0);
   kernel->thrust_growth = MakeMachFunction(aircraft.engine.growth, aircraft.engine.grows, 1);

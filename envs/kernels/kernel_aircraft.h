@@ -137,7 +137,8 @@ struct KernelConstants {
   float chord_per_span = 0;
   float half_wing_area = 0;  ///< ft^2
   float inverse_mass = 0, inverse_weight = 0;
-  float gravity = 0;
+  float gravity = 0;                 ///< at sea level, ft/s^2
+  float gravity_inverse_radius = 0;  ///< 1/ft; 0: it is the same at every altitude
   /// p' = qS (p_Cl Cl + p_Cn Cn) + p_qr q r + p_pq p q + p_q q, and likewise r'.
   float p_Cl = 0, p_Cn = 0, p_qr = 0, p_pq = 0, p_q = 0;
   float r_Cl = 0, r_Cn = 0, r_qr = 0, r_pq = 0, r_q = 0;

@@ -40,6 +40,9 @@ HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const State& sta
   if constexpr (kEngine) {
     if (HWY_UNLIKELY(aircraft.depends_on_mach)) AddMachEffects(aircraft, state.block);
   }
+  if (HWY_UNLIKELY(aircraft.constants.gravity_inverse_radius != 0)) {
+    MeasureGravity(aircraft.constants, state, state.block);
+  }
   EvaluateStateRates(aircraft.constants, state, *state.block, coefficients);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "envs/air/atmosphere.h"
+#include "envs/air/gravity.h"
 #include "envs/aircraft/aircraft.h"
 #include "envs/plant/plant_columns.h"
 #include "envs/state/state.h"
@@ -18,7 +19,8 @@ struct KernelAircraft;
 
 /// Throws Error if the aircraft's tables do not fit the kernels' arrangement (kernel_aircraft.h).
 std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraft,
-                                                         AtmosphereModel atmosphere);
+                                                         AtmosphereModel atmosphere,
+                                                         const Gravity& gravity = {});
 
 /// Floating-point operations for one aircraft of one evaluation of the equations of motion with
 /// given thrust, and of one RK4 step with engine, for rates as a fraction of simd::MeasurePeak. As

@@ -79,6 +79,17 @@ HWY_INLINE void MeasureFlowAngles(const KernelAircraft& aircraft, const State& s
   }
 }
 
+/// Gravity that falls with altitude.
+template <class State>
+HWY_INLINE void MeasureGravity(const KernelConstants& k, const State& state, KernelBlock* block) {
+  const FloatTag d;
+  for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
+    const V distance = hn::NegMulAdd(state.Get(kDown, lane), Constant(k.gravity_inverse_radius),
+                                     Constant(1));  // from the earth's centre, in its radii
+    hn::Store(hn::Div(Constant(k.gravity), hn::Mul(distance, distance)), d, block->gravity + lane);
+  }
+}
+
 /// Dynamic pressure times wing area; Mach number where the engine needs it.
 template <bool kEngine, class State>
 HWY_INLINE void MeasureDynamicPressure(const KernelAircraft& aircraft, const State& state,

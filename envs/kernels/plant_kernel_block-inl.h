@@ -50,6 +50,7 @@ struct alignas(64) KernelBlock {
       rudder[kLanesPerBlock];  // of the tables' deflections
   float elevator_fraction[kLanesPerBlock], elevator_effect[kLanesPerBlock];
   std::int32_t elevator_slot[kLanesPerBlock];  // the interval's first slot, relative to the cell's
+  float gravity[kLanesPerBlock];  // ft/s^2; where it falls with altitude, of the present stage
 
   // The cells that aircraft are in and the functions there.
   std::int32_t cell_slot[kLanesPerBlock];  // first slot of the aerodynamic cell

@@ -131,7 +131,7 @@ HWY_INLINE void EquationsOfMotion(const KernelConstants& k, const State& state,
   const V qbar_S = hn::Load(d, block.qbar_S + lane);
 
   const AttitudeMatrix<V> t = AttitudeMatrixOf(q0, qx, qy, qz);
-  const V gravity = Constant(k.gravity);
+  const V gravity = hn::Load(d, block.gravity + lane);
   const V inverse_mass = state.plant.Scaled(kPlantInverseMass, lane, Constant(k.inverse_mass));
   const V per_mass = hn::Mul(qbar_S, inverse_mass);
   const V thrust = hn::Mul(hn::Load(d, block.thrust + lane), inverse_mass);

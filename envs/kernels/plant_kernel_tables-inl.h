@@ -24,7 +24,8 @@ namespace skein {
 namespace HWY_NAMESPACE {
 namespace plant_kernel {
 
-/// What the surfaces' positions mean to the tables; held during a step.
+/// What the surfaces' positions mean to the tables, and gravity unless it falls with altitude; held
+/// during a step.
 template <class Plant>
 HWY_INLINE void LocateSurfaces(const KernelAircraft& aircraft, const BlockControls& controls,
                                const Plant& plant, int lane, KernelBlock* block) {
@@ -54,6 +55,7 @@ HWY_INLINE void LocateSurfaces(const KernelAircraft& aircraft, const BlockContro
   const V slot = hn::MulAdd(elevator.start, Constant(kNumElevatorLines * PatchLine::kNumSlots),
                             Constant(kNumSurfaceLines * PatchLine::kNumSlots));
   hn::Store(TruncateToInt(d, slot), di, block->elevator_slot + lane);
+  hn::Store(Constant(k.gravity), d, block->gravity + lane);
 }
 
 /// Slots `slot` to `slot + kLanes` of the set's patches for one aircraft of the block.

@@ -48,8 +48,12 @@ AirData MeasureAir(AtmosphereModel atmosphere, const RigidBodyState& state,
   return data;
 }
 
-Plant::Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_factor)
-    : aircraft_(std::move(aircraft)), atmosphere_(atmosphere), density_factor_(density_factor) {}
+Plant::Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_factor,
+             const Gravity& gravity)
+    : aircraft_(std::move(aircraft)),
+      atmosphere_(atmosphere),
+      density_factor_(density_factor),
+      gravity_(gravity) {}
 
 PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& controls,
                             const Eigen::Vector3d& wind) const {
@@ -83,7 +87,7 @@ PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& control
   const Eigen::Vector3d moments = qbar_S * lengths.cwiseProduct(output.coefficients.tail<3>());
 
   const Eigen::Vector3d specific_force = force / airframe.mass_slug;
-  const Eigen::Vector3d gravity = kGravityFtS2 * body_from_ned.col(2);
+  const Eigen::Vector3d gravity = gravity_.At(-state[kDown]) * body_from_ned.col(2);
   output.nx = specific_force.x() / kGravityFtS2;
   output.ny = specific_force.y() / kGravityFtS2;
   output.nz = -specific_force.z() / kGravityFtS2;

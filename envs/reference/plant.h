@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "envs/air/atmosphere.h"
+#include "envs/air/gravity.h"
 #include "envs/aircraft/aircraft.h"
 
 namespace skein {
@@ -49,10 +50,12 @@ struct PlantOutput {
 class Plant {
  public:
   /// Of any aircraft, flown in any atmosphere, whose density is `density_factor` times the model's.
-  Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_factor = 1);
+  Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_factor = 1,
+        const Gravity& gravity = {});
 
   const Aircraft& aircraft() const { return aircraft_; }      ///< as given
   AtmosphereModel atmosphere() const { return atmosphere_; }  ///< as given
+  const Gravity& gravity() const { return gravity_; }         ///< as given
 
   /// Air data in the plant's air.
   AirData AirAround(const RigidBodyState& state, const Eigen::Vector3d& wind) const {
@@ -72,6 +75,7 @@ class Plant {
   Aircraft aircraft_;
   AtmosphereModel atmosphere_;
   double density_factor_;
+  Gravity gravity_;
 };
 
 }  // namespace skein

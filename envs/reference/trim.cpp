@@ -171,10 +171,11 @@ TrimPoint Trim(const Plant& plant, const TrimRequest& request) {
   const Airframe& airframe = plant.aircraft().airframe;
   const double speed = request.true_airspeed_ft_s;
   const double density = AirAt(plant.atmosphere(), request.altitude_ft).density_slug_ft3;
+  const double gravity = plant.gravity().At(request.altitude_ft);
   const double lateral_g =
-      speed * request.turn_rate_rad_s * std::cos(request.flight_path_angle_rad) / kGravityFtS2;
-  const double upward_g = 1 + speed * request.pull_up_rate_rad_s / kGravityFtS2;
-  const double lift_coefficient = airframe.mass_slug * kGravityFtS2 *
+      speed * request.turn_rate_rad_s * std::cos(request.flight_path_angle_rad) / gravity;
+  const double upward_g = 1 + speed * request.pull_up_rate_rad_s / gravity;
+  const double lift_coefficient = airframe.mass_slug * gravity *
                                   std::copysign(std::hypot(upward_g, lateral_g), upward_g) /
                                   (0.5 * density * speed * speed * airframe.wing_area_ft2);
   // A wing of this aspect ratio lifts about 4 per radian.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "envs/state/attitude.h"
 #include "envs/wind/dryden_constants.h"
@@ -94,7 +95,19 @@ HWY_INLINE V AdvanceTransverse(const Response& response, float* first, float* la
   return hn::MulAdd(Constant(dryden::kFirst), next1, hn::Mul(Constant(dryden::kSecond), next2));
 }
 
-void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys) {
+/// Standard deviation of the vertical gust.
+HWY_INLINE V DeviationAt(Tile tile, int first, TurbulenceLaw law) {
+  const FloatTag d;
+  const float* drawn = tile[kTurbulenceStdDev] + first;
+  if (law == TurbulenceLaw::kUniform) return hn::LoadU(d, drawn);
+  float deviation[kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    deviation[lane] = static_cast<float>(TurbulenceAt(drawn[lane], -tile[kDown][first + lane]));
+  }
+  return hn::LoadU(d, deviation);
+}
+
+void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys, TurbulenceLaw law) {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
@@ -124,8 +137,9 @@ void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys) {
     const V down = AdvanceTransverse(vertical, tile[kGustDown] + first,
                                      tile[kGustDownLagged] + first, normals[3], normals[4]);
 
-    const V down_fps = hn::Mul(get(kTurbulenceStdDev), down);
-    const V horizontal_fps = hn::Mul(get(kTurbulenceStdDev), scales.ratio);
+    const V deviation = DeviationAt(tile, first, law);
+    const V down_fps = hn::Mul(deviation, down);
+    const V horizontal_fps = hn::Mul(deviation, scales.ratio);
     const V forward_fps = hn::Mul(horizontal_fps, forward);
     const V right_fps = hn::Mul(horizontal_fps, right);
     const AttitudeMatrix<V> t = AttitudeMatrixOf(get(kQ0), get(kQx), get(kQy), get(kQz));
@@ -163,7 +177,26 @@ DrydenScales DrydenScalesAt(double altitude_ft) {
   return scales;
 }
 
-void StartGusts(Tile tile, int index, const GustKeys& keys) {
+double TurbulenceAt(double at_20000_ft, double altitude_ft) {
+  const auto* above = std::upper_bound(
+      std::begin(dryden::kTurbulenceByAltitude) + 1, std::end(dryden::kTurbulenceByAltitude) - 1,
+      altitude_ft, [](double altitude, const auto& row) { return altitude < row.altitude_ft; });
+  const dryden::TurbulenceRow &low = above[-1], &high = *above;
+  const double fraction =
+      std::clamp((altitude_ft - low.altitude_ft) / (high.altitude_ft - low.altitude_ft), 0.0, 1.0);
+  // By severity, from calm on: here, and at 20,000 ft.
+  double here[] = {0, low.light, low.moderate, low.severe};
+  const double there[] = {0, high.light, high.moderate, high.severe};
+  for (int i = 0; i < 4; ++i) here[i] += fraction * (there[i] - here[i]);
+  int i = 0;
+  while (i < 2 && at_20000_ft > kTurbulenceSeverities[i + 1].standard_deviation_fps) ++i;
+  const double from = kTurbulenceSeverities[i].standard_deviation_fps;
+  const double to = kTurbulenceSeverities[i + 1].standard_deviation_fps;
+  if (at_20000_ft > to) return here[3] * at_20000_ft / to;
+  return here[i] + (here[i + 1] - here[i]) * (at_20000_ft - from) / (to - from);
+}
+
+void StartGusts(Tile tile, int index, const GustKeys& keys, TurbulenceLaw law) {
   float normals[5];
   const auto episode = static_cast<std::uint32_t>(keys.episode[index]);
   const std::uint32_t start = 0;
@@ -188,14 +221,17 @@ void StartGusts(Tile tile, int index, const GustKeys& keys) {
 
   const auto get = [&](int column) { return static_cast<double>(tile[column][index]); };
   gust.head<2>() *= DrydenScalesAt(-get(kDown)).horizontal_ratio;
+  const double drawn = get(kTurbulenceStdDev);
+  const double deviation =
+      law == TurbulenceLaw::kUniform ? drawn : TurbulenceAt(drawn, -get(kDown));
   const Eigen::Vector4d attitude(get(kQ0), get(kQx), get(kQy), get(kQz));
   const Eigen::Vector3d wind = Eigen::Vector3d(get(kSteadyWindNorth), get(kSteadyWindEast), 0) +
-                               get(kTurbulenceStdDev) * (BodyFromNed(attitude).transpose() * gust);
+                               deviation * (BodyFromNed(attitude).transpose() * gust);
   for (int k = 0; k < 3; ++k) set(kWindNorth + k, wind[k]);
 }
 
-void AdvanceGusts(Tile tile, float dt, const GustKeys& keys) {
-  SKEIN_DISPATCH(AdvanceGustsKernel)(tile, dt, keys);
+void AdvanceGusts(Tile tile, float dt, const GustKeys& keys, TurbulenceLaw law) {
+  SKEIN_DISPATCH(AdvanceGustsKernel)(tile, dt, keys, law);
 }
 
 }  // namespace skein

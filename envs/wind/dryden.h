@@ -24,6 +24,11 @@ struct TurbulenceSeverity {
 inline constexpr std::array<TurbulenceSeverity, 4> kTurbulenceSeverities = {
     {{"calm", 0}, {"light", 3.7}, {"moderate", 7.3}, {"severe", 21}}};
 
+/// Standard deviation of a gust at an altitude, ft/s, where that at 20,000 ft is `at_20000_ft`:
+/// MIL-F-8785C, figure 7. Between the severities above it is interpolated, below the least and
+/// above the greatest in proportion; below 500 ft and above 80,000 ft it is that there.
+double TurbulenceAt(double at_20000_ft, double altitude_ft);
+
 /// How long gusts are, and how much stronger horizontal ones are than vertical ones.
 struct DrydenScales {
   double horizontal_ft = 0, vertical_ft = 0;  ///< L of forward and right, and of down
@@ -42,15 +47,21 @@ struct GustKeys {
   const std::int32_t* step = nullptr;  ///< control steps flown in the episode
 };
 
+/// Whether gusts are as strong as kTurbulenceStdDev everywhere, or at 20,000 ft and elsewhere as
+/// TurbulenceAt says.
+enum class TurbulenceLaw { kUniform, kByAltitude };
+
 /// Draws the gusts of aircraft `index` of a windy tile, whose flight and kTurbulenceStdDev are set,
 /// from their stationary distribution, and sets its wind.
-void StartGusts(Tile tile, int index, const GustKeys& keys);
+void StartGusts(Tile tile, int index, const GustKeys& keys,
+                TurbulenceLaw law = TurbulenceLaw::kUniform);
 
 /// Moves the gusts of a windy tile's aircraft on by `dt` seconds, exactly as the filters of the
 /// spectra above respond to white noise over that time, and sets the wind: the steady one and the
 /// gusts, turned to north, east, down by the present attitude. A gust is never shorter than the
 /// way through the air in `dt`. Reads the columns of the velocity relative to
 /// the air and brings them up to date.
-void AdvanceGusts(Tile tile, float dt, const GustKeys& keys);
+void AdvanceGusts(Tile tile, float dt, const GustKeys& keys,
+                  TurbulenceLaw law = TurbulenceLaw::kUniform);
 
 }  // namespace skein

@@ -20,4 +20,16 @@ inline constexpr double kSecond = 1 - kFirst;
 inline constexpr double kFirstDeviation = 0.7071067811865476;
 inline constexpr double kSecondVariance = 0.25, kCovariance = 0.25;
 
+/// MIL-F-8785C, figure 7, as JSBSim reads it: standard deviations by altitude, ft/s, that are
+/// exceeded with the probabilities of light, moderate and severe turbulence.
+struct TurbulenceRow {
+  double altitude_ft, light, moderate, severe;
+};
+inline constexpr TurbulenceRow kTurbulenceByAltitude[] = {
+    {500, 6.6, 8.6, 15.6},   {1750, 6.9, 9.6, 17.6},  {3750, 7.4, 10.6, 23.0},
+    {7500, 6.7, 10.1, 23.6}, {15000, 4.6, 8.0, 22.1}, {25000, 2.7, 6.6, 20.0},
+    {35000, 0.4, 5.0, 16.0}, {45000, 0.0, 4.2, 15.1}, {55000, 0.0, 2.7, 12.1},
+    {65000, 0.0, 0.0, 7.9},  {75000, 0.0, 0.0, 6.2},  {80000, 0.0, 0.0, 5.1},
+};
+
 }  // namespace skein::dryden

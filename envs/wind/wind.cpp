@@ -31,7 +31,7 @@ void Wind::Begin(Tile tile, int index, const GustKeys& keys) const {
   };
   for (int k = 0; k < 2; ++k) set(kSteadyWindNorth + k, wind[k]);
   set(kTurbulenceStdDev, turbulence);
-  StartGusts(tile, index, keys);
+  StartGusts(tile, index, keys, law());
 
   const auto get = [&](int column) { return static_cast<double>(tile[column][index]); };
   const Eigen::Matrix3d body_from_ned = BodyFromNed({get(kQ0), get(kQx), get(kQy), get(kQz)});

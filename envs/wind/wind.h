@@ -33,10 +33,14 @@ class Wind {
 
   /// The wind of the next control step, `dt` seconds long.
   void Advance(Tile tile, float dt, const GustKeys& keys) const {
-    if (config_.turbulence_fps.max > 0) AdvanceGusts(tile, dt, keys);
+    if (config_.turbulence_fps.max > 0) AdvanceGusts(tile, dt, keys, law());
   }
 
  private:
+  TurbulenceLaw law() const {
+    return config_.turbulence_by_altitude ? TurbulenceLaw::kByAltitude : TurbulenceLaw::kUniform;
+  }
+
   WindConfig config_;
   WindConfig drawn_;  ///< what the next episodes are drawn from
   int draw_power_;

@@ -17,6 +17,10 @@ void ListFields(WindConfig& config, FieldList& list) {
   list.AddRange("turbulence", "fps", &config.turbulence_fps, speed,
                 "lowest standard deviation of Dryden turbulence",
                 "highest standard deviation of Dryden turbulence; each episode draws its own");
+  list.Add("turbulence_by_altitude", &config.turbulence_by_altitude,
+           "true: that is the standard deviation at 20,000 ft, elsewhere it is that of "
+           "MIL-F-8785C; false: it is the same at every altitude")
+      .OffUnless(config.turbulence_by_altitude);
   list.Add(
       "step_at_reset", &config.step_at_reset,
       "true: trimmed in still air, the steady wind then is a step; false: trimmed in the wind");

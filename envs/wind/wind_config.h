@@ -13,6 +13,9 @@ struct WindConfig {
   Range from_deg{0, 360};  ///< where it comes from: 0 is north, 90 is east
   /// Standard deviation of Dryden turbulence (envs/wind/dryden.h); 0 has none.
   Range turbulence_fps{0, 0};
+  /// That is the standard deviation at 20,000 ft, and elsewhere what MIL-F-8785C has for it
+  /// (TurbulenceAt); false: it is the same at every altitude.
+  bool turbulence_by_altitude = false;
   /// The aircraft is trimmed in still air, keeps its velocity over ground and meets the steady wind
   /// as a step at the start of the episode. false: it is trimmed in the moving air.
   bool step_at_reset = true;

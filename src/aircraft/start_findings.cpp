@@ -59,7 +59,7 @@ std::vector<Finding> CheckStart(const std::string& aircraft, const std::string& 
     return {{Finding::kWarning, fmt::format("it cannot fly task {} yet: {}", task, error.what())}};
   }
   const EnvConfig& env = config.train.env;
-  const Plant plant(LoadAircraft(env.aircraft), env.atmosphere);
+  const Plant plant(LoadAircraft(env.aircraft), env.atmosphere, 1, env.gravity);
   std::vector<Finding> findings;
   for (const double speed :
        {env.initial.true_airspeed_fps.min, env.initial.true_airspeed_fps.max}) {

@@ -70,6 +70,8 @@ Assignments HighAltitude(const LevelRequest& request, const std::string& level) 
   Append("initial.altitude", "_ft", altitude, &assignments);
   assignments.push_back(
       fmt::format("env.target_altitude_min_ft={}", request.is_held ? altitude.min : 0));
+  // The published models' air is up to 9 % too dense above their tropopause.
+  assignments.emplace_back("env.atmosphere=standard_1976");
   return assignments;
 }
 

@@ -76,7 +76,7 @@ class RecordedFlight {
 
 FlightControlTrace RecordFlightControl(const EnvConfig& env, int flights, int steps,
                                        std::uint64_t seed) {
-  const Plant plant(LoadAircraft(env.aircraft), env.atmosphere);
+  const Plant plant(LoadAircraft(env.aircraft), env.atmosphere, 1, env.gravity);
   const int redrawn_after = static_cast<int>(std::lround(1 / env.control_interval_s));
   FlightControlTrace trace;
   for (int flight = 0; flight < flights; ++flight) {

@@ -225,7 +225,7 @@ TEST_P(PlantKernelGoldenTest, GoldenPoints) { CompareWithGolden("points"); }
 TEST_P(PlantKernelGoldenTest, GoldenEdgePoints) { CompareWithGolden("edge_points"); }
 
 void CompareWithPlant(const Plant& plant, int count, double tolerance) {
-  const auto kernel = MakeKernelAircraft(plant.aircraft(), plant.atmosphere());
+  const auto kernel = MakeKernelAircraft(plant.aircraft(), plant.atmosphere(), plant.gravity());
   RandomFlight random(plant.aircraft(), 7);
   TestTile states(count, kNumRigidBody);
   TestControls controls(count);
@@ -257,6 +257,14 @@ TEST_P(PlantKernelTest, AgreesForOtherMassEngineAndAtmosphere) {
   aircraft.airframe.mass_slug *= 1.2;
   aircraft.airframe.Ixz *= -2;
   CompareWithPlant(Plant(aircraft, AtmosphereModel::kStandard1976), 20000, kFloat32Point);
+}
+
+TEST_P(PlantKernelTest, AgreesInOtherGravity) {
+  for (const bool falls : {false, true}) {
+    const Gravity gravity{20, falls};
+    CompareWithPlant(Plant(plant_.aircraft(), plant_.atmosphere(), 1, gravity), 5000,
+                     kFloat32Point);
+  }
 }
 
 /// The float64 aircraft with engine: rigid body and power.

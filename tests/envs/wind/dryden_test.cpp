@@ -4,74 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
+#include "tests/envs/wind/gusts.h"
 #include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
-constexpr double kDeviation = 7.3;
+constexpr double kDeviation = Gusts::kDeviation;
 
-/// Aircraft that fly straight on through turbulence, without being moved by it: gusts alone.
-class Gusts {
- public:
-  Gusts(int count, double speed_ft_s, double altitude_ft, std::uint32_t first_aircraft = 0)
-      : tile_(count, kNumWindyColumns),
-        episode_(tile_.stride(), 2),
-        step_(tile_.stride()),
-        first_(first_aircraft),
-        speed_(static_cast<float>(speed_ft_s)) {
-    tile_.Fill(kQ0, 1);
-    tile_.Fill(kDown, static_cast<float>(-altitude_ft));
-    tile_.Fill(kTurbulenceStdDev, static_cast<float>(kDeviation));
-    for (int i = 0; i < count; ++i) StartGusts(tile_.tile(), i, keys());
-  }
-
-  void Advance(double dt) {
-    // Gusts meet a speed that they do not change.
-    tile_.Fill(kAirU, speed_);
-    tile_.Fill(kAirV, 0);
-    tile_.Fill(kAirW, 0);
-    AdvanceGusts(tile_.tile(), static_cast<float>(dt), keys());
-    for (std::int32_t& step : step_) ++step;
-  }
-
-  /// North, east and down are forward, right and down of every aircraft.
-  std::vector<double> Of(int component) {
-    return {tile_.tile()[kWindNorth + component],
-            tile_.tile()[kWindNorth + component] + tile_.count()};
-  }
-  TestTile& tile() { return tile_; }
-
- private:
-  GustKeys keys() const { return {11, first_, episode_.data(), step_.data()}; }
-
-  TestTile tile_;
-  std::vector<std::int32_t> episode_, step_;
-  std::uint32_t first_;
-  float speed_;
-};
-
-double MeanProduct(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum / static_cast<double>(a.size());
-}
-
-/// One-sided densities of unit variance over spatial frequency, rad/ft (envs/wind/dryden.h).
-double Spectrum(int component, double scale_ft, double frequency) {
-  const double square = std::pow(scale_ft * frequency, 2);
-  return component == 0 ? 2 * scale_ft / M_PI / (1 + square)
-                        : scale_ft / M_PI * (1 + 3 * square) / std::pow(1 + square, 2);
-}
-
-/// Their transforms: correlation over a distance of `way` scales.
+/// The transforms of the spectra: correlation over a distance of `way` scales.
 double Correlation(int component, double way) {
   return std::exp(-way) * (component == 0 ? 1 : 1 - way / 2);
 }
@@ -158,40 +104,45 @@ TEST_P(DrydenTest, CorrelationFallsWithTheWayThroughTheAir) {
 }
 
 TEST_P(DrydenTest, SpectraAreDrydens) {
-  constexpr int kCount = 1024, kSteps = 1024;
-  constexpr double kSpeed = 1000, kDt = 0.1, kScale = 1750;
-  Gusts gusts(kCount, kSpeed, 20000);
-  std::vector<std::vector<double>> record[3];
-  for (int step = 0; step < kSteps; ++step) {
-    gusts.Advance(kDt);
-    for (int k = 0; k < 3; ++k) record[k].push_back(gusts.Of(k));
-  }
-  // Periodograms under Hann's window, averaged over the aircraft: five standard errors are 16 %.
-  // Up to an eighth of the sampling theorem's limit, what is folded back adds 2 %.
   constexpr Tolerance kPeriodogram{0.18, "five standard errors, and what is folded back"};
-  const double spacing = kSpeed * kDt;
+  constexpr double kScale = 1750;
+  const MeasuredSpectra spectra;
   for (const int cycles : {3, 5, 8, 13, 21, 34, 60}) {
-    const double frequency = 2 * M_PI * cycles / (kSteps * spacing);
-    std::vector<double> cosine, sine;
-    double window_power = 0;
-    for (int step = 0; step < kSteps; ++step) {
-      const double window = 0.5 - 0.5 * std::cos(2 * M_PI * (step + 0.5) / kSteps);
-      cosine.push_back(window * std::cos(frequency * spacing * step));
-      sine.push_back(window * std::sin(frequency * spacing * step));
-      window_power += window * window;
-    }
+    const double frequency = MeasuredSpectra::Frequency(cycles);
     for (int k = 0; k < 3; ++k) {
-      std::vector<double> real(kCount), imaginary(kCount);
-      for (std::size_t step = 0; step < kSteps; ++step) {
-        for (std::size_t i = 0; i < kCount; ++i) {
-          real[i] += cosine[step] * record[k][step][i];
-          imaginary[i] += sine[step] * record[k][step][i];
-        }
-      }
-      const double power = MeanProduct(real, real) + MeanProduct(imaginary, imaginary);
-      const double density = power * spacing / (M_PI * window_power) / (kDeviation * kDeviation);
-      EXPECT_NEAR(density / Spectrum(k, kScale, frequency), 1, kPeriodogram)
+      EXPECT_NEAR(spectra.Density(k, cycles) / Spectrum(k, kScale, frequency), 1, kPeriodogram)
           << "component " << k << ", L W = " << kScale * frequency;
+    }
+  }
+}
+
+// Figure 7 of the standard, at its nodes and between.
+TEST(TurbulenceTest, FollowsTheStandardByAltitude) {
+  constexpr Tolerance kFigure{0.06, "the severities at 20,000 ft are rounded to 0.05 ft/s"};
+  constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+  EXPECT_NEAR(TurbulenceAt(3.7, 35000), 0.4, kRounding);
+  EXPECT_NEAR(TurbulenceAt(7.3, 35000), 5.0, kRounding);
+  EXPECT_NEAR(TurbulenceAt(21, 35000), 16.0, kRounding);
+  EXPECT_NEAR(TurbulenceAt(7.3, 40000), 4.6, kRounding);
+  EXPECT_NEAR(TurbulenceAt(5.5, 15000), 6.3, kRounding) << "half way between two severities";
+  EXPECT_NEAR(TurbulenceAt(42, 25000), 40, kRounding) << "twice as strong as severe";
+  EXPECT_NEAR(TurbulenceAt(1.85, 7500), 3.35, kRounding) << "half as strong as light";
+  EXPECT_EQ(TurbulenceAt(7.3, 100), 8.6);
+  EXPECT_EQ(TurbulenceAt(7.3, 90000), 0);
+  for (const TurbulenceSeverity& severity : kTurbulenceSeverities) {
+    const double deviation = severity.standard_deviation_fps;
+    EXPECT_NEAR(TurbulenceAt(deviation, 20000), deviation, kFigure) << severity.name;
+  }
+}
+
+TEST_P(DrydenTest, GustsAreAsStrongAsTheirAltitudeHasThem) {
+  constexpr int kCount = 4000;
+  const double tolerance = kStandardErrors * std::sqrt(2.0 / kCount);  // of a variance
+  Gusts gusts(kCount, 1000, 35000, 0, TurbulenceLaw::kByAltitude);
+  for (int step = 0; step <= 20; ++step) {
+    if (step > 0) gusts.Advance(0.02);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(MeanProduct(gusts.Of(k), gusts.Of(k)) / (5.0 * 5.0), 1, tolerance) << step;
     }
   }
 }
