@@ -11,9 +11,12 @@ namespace skein::validation {
 /// equator, flown by the float64 plant.
 std::vector<Section> FallingBodies();
 
-/// The F-16: cases 11 and 12 and the static shots of NASA/TM-2015-218675, trims of the University
-/// of Minnesota and of Stevens and Lewis, modes.
+/// Cases 11 and 12 and the static shots of NASA/TM-2015-218675, by the F-16 of Stevens and Lewis,
+/// which is theirs, and by Skein's.
 std::vector<Section> PublishedF16Figures();
+
+/// Trims of the University of Minnesota; trims and modes of Stevens and Lewis.
+std::vector<Section> PublishedTrims();
 
 /// The U.S. Standard Atmosphere 1976, and turbulence of MIL-F-8785C.
 std::vector<Section> PublishedAirFigures();

@@ -22,6 +22,8 @@ TEST(Validation, BodiesFallAsInOtherSimulators) { ExpectToHold(FallingBodies());
 
 TEST(Validation, TheF16IsThePublishedOne) { ExpectToHold(PublishedF16Figures()); }
 
+TEST(Validation, TrimsAndModesArePublishedOnes) { ExpectToHold(PublishedTrims()); }
+
 TEST(Validation, AirIsThatOfTheStandards) { ExpectToHold(PublishedAirFigures()); }
 
 // What is outside of its range does not hold: the tests above can fail.
