@@ -152,6 +152,7 @@ void AddFdmCommand(CLI::App* app) {
   AddTrimCommand(fdm);
   AddLineariseCommand(fdm);
   AddSweepCommand(fdm);
+  AddFlyCommand(fdm);
   AddFileCommand(
       fdm, "eval", "Evaluate the equations of motion at the points of a file",
       "Writes coeffs, xdot and air data of every entry of points and edge_points, and flies the\n"

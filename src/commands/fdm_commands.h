@@ -9,5 +9,6 @@ namespace skein {
 void AddTrimCommand(CLI::App* fdm);
 void AddLineariseCommand(CLI::App* fdm);
 void AddSweepCommand(CLI::App* fdm);
+void AddFlyCommand(CLI::App* fdm);
 
 }  // namespace skein

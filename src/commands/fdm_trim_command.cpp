@@ -10,7 +10,6 @@
 #include "envs/state/state.h"
 #include "src/commands/fdm_commands.h"
 #include "src/commands/flight_condition.h"
-#include "src/config/number_list.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
 #include "src/plot/flight_grid_picture.h"
@@ -62,14 +61,6 @@ std::string DescribeGroundVelocity(const SteadyFlight& flight) {
                      rate[kNorth], rate[kEast], rate[kDown]);
 }
 
-Eigen::Vector3d ReadWind(const std::string& text) {
-  const auto numbers = ReadNumberList(text);
-  if (!numbers || numbers->size() != 3) {
-    throw UsageError(fmt::format("--wind-fps {}: give three numbers, NORTH,EAST,DOWN", text));
-  }
-  return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-}
-
 void TrimOnePoint(const TrimOptions& options, const Plant& plant) {
   const FlightGrid& grid = options.condition.grid;
   if (!options.csv.empty()) throw UsageError("--csv is for several altitudes or speeds");
@@ -113,11 +104,7 @@ void AddTrimCommand(CLI::App* fdm) {
   CLI::App* command = fdm->add_subcommand(
       "trim", "Find the controls of steady flight, at one point or over a grid");
   AddFlightCondition(command, &options->condition);
-  command
-      ->add_option("--wind-fps", options->wind,
-                   "velocity of the air, ft/s; the flight heads north, its speed and flight path "
-                   "are through the air")
-      ->type_name("NORTH,EAST,DOWN");
+  AddWind(command, &options->wind);
   command->add_option("--json", options->json, "also write state, controls and air data here")
       ->type_name("FILE");
   command->add_option("--csv", options->csv, "of a grid: a line for every point")

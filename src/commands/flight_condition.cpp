@@ -70,6 +70,22 @@ void AddModel(CLI::App* command, ModelOptions* options) {
       ->capture_default_str();
 }
 
+void AddWind(CLI::App* command, std::string* wind) {
+  command
+      ->add_option("--wind-fps", *wind,
+                   "velocity of the air, ft/s; the flight heads north, its speed and flight path "
+                   "are through the air")
+      ->type_name("NORTH,EAST,DOWN");
+}
+
+Eigen::Vector3d ReadWind(const std::string& text) {
+  const auto numbers = ReadNumberList(text);
+  if (!numbers || numbers->size() != 3) {
+    throw UsageError(fmt::format("--wind-fps {}: give three numbers, NORTH,EAST,DOWN", text));
+  }
+  return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
 void AddPicture(CLI::App* command, const std::string& what, std::string* picture) {
   command
       ->add_option("--picture", *picture,

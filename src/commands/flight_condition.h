@@ -66,6 +66,10 @@ inline constexpr double kPictureWidth = 7.2 * 72;
 /// --picture, which draws `what`.
 void AddPicture(CLI::App* command, const std::string& what, std::string* picture);
 
+/// --wind-fps, which ReadWind reads: north, east, down. Throws UsageError.
+void AddWind(CLI::App* command, std::string* wind);
+Eigen::Vector3d ReadWind(const std::string& wind);
+
 /// The options of a condition; `options` are to outlive `command`.
 void AddFlightCondition(CLI::App* command, FlightCondition* options);
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/files/output_file.h"
+#include "src/report/csv_columns.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/tolerance.h"
@@ -350,6 +351,88 @@ TEST_F(FdmPipeline, LinearModelsHaveNamesForRowsAndColumns) {
   EXPECT_NEAR(modes[0]["eigenvalue_per_s"][1].get<double>(), 0.727, kDigits);
   EXPECT_EQ(modes[2]["name"], "Dutch roll");
   EXPECT_THAT(result.output, HasSubstr("with flight control, longitudinal, 50 control steps"));
+}
+
+TEST_F(FdmPipeline, HandsOffTheFlightGoesOnInAnyWind) {
+  constexpr Tolerance kAltitude{1.5, "a centred stick asks for 1 g, the trim has 0.997: ft in 5 s"};
+  const auto fly = [&](const std::string& wind) {
+    const std::string path = folder_ + "/fly.csv";
+    const ProgramResult result =
+        CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps", "500", "--seconds", "5",
+                   "--wind-fps", wind, "-o", path});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return ParseCsv(ReadFile(path));
+  };
+  const CsvColumns calm = fly("0,0,0"), windy = fly("-40,30,0");
+  ASSERT_EQ(calm.rows(), 251u);
+  EXPECT_NEAR(calm.Find("altitude_ft")->back(), 15000, kAltitude);
+  for (const char* same : {"altitude_ft", "alpha_deg", "load_factor_g", "elevator_deg"}) {
+    EXPECT_NEAR(windy.Find(same)->back(), calm.Find(same)->back(), 1e-3) << same;
+  }
+  EXPECT_NEAR(windy.Find("north_ft")->back(), calm.Find("north_ft")->back() - 5 * 40, kAltitude);
+  EXPECT_NEAR(windy.Find("east_ft")->back(), calm.Find("east_ft")->back() + 5 * 30, kAltitude);
+}
+
+TEST_F(FdmPipeline, GustsHaveTheirDeviationAndSeed) {
+  const auto fly = [&](const std::string& seed) {
+    const std::string path = folder_ + "/gusts.csv";
+    EXPECT_EQ(
+        CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps", "500", "--seconds", "300",
+                   "--step-s", "0.05", "--turbulence-fps", "5", "--seed", seed, "-o", path})
+            .exit_code,
+        0);
+    return ParseCsv(ReadFile(path));
+  };
+  const CsvColumns first = fly("1"), again = fly("1"), other = fly("2");
+  EXPECT_EQ(first.values.at(18), again.values.at(18));
+  const std::vector<double>&gusts = *first.Find("wind_down_fps"),
+        &others = *other.Find("wind_down_fps");
+  EXPECT_NE(gusts, others);
+  double square = 0;
+  for (const double gust : gusts) square += gust * gust / static_cast<double>(gusts.size());
+  // 300 s are some 40 independent gusts of 1750 ft at 500 ft/s.
+  constexpr Tolerance kSamples{0.3, "of 5 ft/s, relative"};
+  EXPECT_NEAR(std::sqrt(square), 5, kSamples * 5);
+}
+
+TEST_F(FdmPipeline, SticksOfAFileAreFlown) {
+  const std::string sticks = folder_ + "/sticks.csv", path = folder_ + "/fly.csv";
+  WriteFile(sticks, "time_s,roll\n0,0\n1,0.2\n2,0");
+  const std::vector<std::string> words = {
+      "fdm",       "fly", "--altitude-ft", "15000", "--speed-fps", "500",
+      "--seconds", "3",   "--commands",    sticks,  "-o",          path};
+  ASSERT_EQ(CallSkein(words).exit_code, 0);
+  const CsvColumns flown = ParseCsv(ReadFile(path));
+  const std::vector<double>& stick = *flown.Find("action_roll");
+  EXPECT_EQ(stick[50], 0) << "in the step that ends at 1 s";
+  EXPECT_EQ(stick[51], 0.2);
+  EXPECT_EQ(stick[101], 0);
+  EXPECT_GT(flown.Find("p_deg_s")->at(100), 30);
+  EXPECT_GT(flown.Find("roll_deg")->at(100), 20);
+  const ProgramResult drawn =
+      CallSkein({"plot", "flights", path, "--columns", "p_deg_s", "-o", folder_ + "/fly.svg"});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.error;
+  const ProgramResult lost = CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps",
+                                        "500", "--seconds", "30", "--step-s", "0.5", "-o", path});
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_THAT(lost.error, HasSubstr("is a step of 0.5 s short enough?"));
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"", "expected a header"},
+      {"time_s,roll\n", "expected a header"},
+      {"time_s,roll\n0,0,0\n", "expected a header"},
+      {"roll\n0\n", "no column time_s"},
+      {"time_s,stick\n0,0\n", "column stick"},
+      {"time_s,roll\n1,0\n1,0\n", "row 2: times are from 0 on and increase"},
+      {"time_s,roll\nx,0\n", "row 1: times"},
+      {"time_s,roll\n0,2\n", "row 1: roll is not a number from -1 to 1"},
+      {"time_s,throttle\n0,-1\n", "throttle is not a number from 0 to 1"}};
+  for (const auto& [text, expected] : wrong) {
+    WriteFile(sticks, text);
+    const ProgramResult result = CallSkein(words);
+    EXPECT_EQ(result.exit_code, 1) << text;
+    EXPECT_THAT(result.error, HasSubstr(expected));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
 }
 
 TEST_F(FdmPipeline, ATrimAboveTheTablesSaysSo) {

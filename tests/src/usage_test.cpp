@@ -41,6 +41,7 @@ TEST(Usage, EveryCommandHasHelp) {
                                              {"fdm", "trim"},
                                              {"fdm", "linearise"},
                                              {"fdm", "sweep"},
+                                             {"fdm", "fly"},
                                              {"aircraft"},
                                              {"aircraft", "check"},
                                              {"aircraft", "tune"},
@@ -329,7 +330,7 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
       "compare, replay, study, plot, report, fdm, aircraft, export, bench, list, info, help, "
       "completion, man (see skein --help)\n");
   EXPECT_THAT(CallSkein({"fdm", "float"}).error,
-              HasSubstr("unknown command float; known commands: trim, linearise, sweep, eval, "
+              HasSubstr("unknown command float; known commands: trim, linearise, sweep, fly, eval, "
                         "simulate (see skein fdm"));
 }
 

@@ -186,6 +186,18 @@ TEST(StevensLewis, TheModelOfAPullUpIsThatOfSection37) {
   EXPECT_NEAR(model.D(0, 1), 0.0333, kLastDigit);
 }
 
+// With the centre of gravity aft, the short period is two real modes, of which one grows.
+TEST(StevensLewis, AnUnstableAircraftHasARealShortPeriod) {
+  const std::vector<FlightMode> modes = FindFlightModes(BookModel(0.38, 0));
+  const auto is_short = [](const FlightMode& mode) { return mode.name == "short period, real"; };
+  EXPECT_EQ(std::count_if(modes.begin(), modes.end(), is_short), 2);
+  const auto grows = std::find_if(modes.begin(), modes.end(), [](const FlightMode& mode) {
+    return std::isfinite(mode.time_to_double_s());
+  });
+  ASSERT_NE(grows, modes.end());
+  EXPECT_TRUE(is_short(*grows)) << grows->name;
+}
+
 TEST(StevensLewis, ModesAreThoseOfSection38) {
   constexpr Tolerance kDigits{1.5e-3, "digits printed, and what couples the axes"};
   const struct {

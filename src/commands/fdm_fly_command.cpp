@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "envs/aircraft/engine.h"
+#include "src/commands/fdm_commands.h"
+#include "src/commands/flight_condition.h"
+#include "src/config/whole_number.h"
+#include "src/fdm/commanded_flight.h"
+#include "src/files/output_file.h"
+
+namespace skein {
+namespace {
+
+constexpr double kMostSteps = 1e7;
+constexpr double kMostSeed = 9007199254740992;  // 2^53
+
+const std::map<std::string, FlightControlMode> kModes = {{"full", FlightControlMode::kFull},
+                                                         {"direct", FlightControlMode::kDirect}};
+
+struct FlyOptions {
+  FlightCondition condition;
+  CommandedFlight flight;
+  std::string mode = "full";
+  std::string wind, commands;
+  std::string out = "flight.csv";
+};
+
+void Fly(FlyOptions options) {
+  CheckWritable(options.out);
+  if (!options.condition.grid.IsOnePoint()) throw UsageError("one altitude and one speed are flown");
+  CommandedFlight& flight = options.flight;
+  if (flight.seconds / flight.step_s > kMostSteps) {
+    throw UsageError(fmt::format("{} s in steps of {} s are more than {:.0f} steps",
+                                 flight.seconds, flight.step_s, kMostSteps));
+  }
+  flight.mode = kModes.at(options.mode);
+  if (!options.wind.empty()) flight.wind_ft_s = ReadWind(options.wind);
+  const Plant plant = options.condition.MakePlant();
+  const SteadyFlight start = FindSteadyFlight(plant, options.condition.grid.At(0, 0));
+  if (!options.commands.empty()) {
+    PilotCommands trimmed;
+    trimmed.throttle = start.throttle;
+    flight.commands = ReadStickCommands(options.commands, trimmed);
+  }
+  WriteFile(options.out, FlyCommands(plant, start.trim, flight));
+  fmt::print("flew {} for {} s: {}\n", options.condition.Describe(plant), flight.seconds,
+             options.out);
+  for (const ExceededLimit& limit : start.exceeded_limits) {
+    fmt::print("the flight at its start {}\n", limit.words);
+  }
+}
+
+}  // namespace
+
+void AddFlyCommand(CLI::App* fdm) {
+  auto options = std::make_shared<FlyOptions>();
+  CLI::App* command = fdm->add_subcommand(
+      "fly", "Fly from steady flight with flight control, actuators and engine, by a file of sticks");
+  AddFlightCondition(command, &options->condition);
+  AddWind(command, &options->wind);
+  command
+      ->add_option("--turbulence-fps", options->flight.turbulence_ft_s,
+                   "standard deviation of Dryden gusts, ft/s (MIL-F-8785C at 20,000 ft: light 3.7, "
+                   "moderate 7.3, severe 21)")
+      ->check(CLI::Range(0.0, 200.0))
+      ->capture_default_str();
+  command->add_option("--seed", options->flight.seed, "of the gusts")
+      ->transform(WholeNumber(0, kMostSeed))
+      ->capture_default_str();
+  command
+      ->add_option("--commands", options->commands,
+                   "CSV of time_s and any of throttle, pitch, roll, yaw, held until the next row "
+                   "(default: hands off)")
+      ->type_name("FILE");
+  command->add_option("--seconds", options->flight.seconds, "length of the flight, s")
+      ->transform(NumberAboveZero())
+      ->capture_default_str();
+  command->add_option("--step-s", options->flight.step_s, "control interval, s")
+      ->transform(NumberAboveZero())
+      ->capture_default_str();
+  command->add_option("--substeps", options->flight.substeps, "Runge-Kutta steps in it")
+      ->transform(WholeNumber(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--flight-control", options->mode,
+                   "full: sticks through the laws; direct: full stick is full deflection")
+      ->check(CLI::IsMember(kModes))
+      ->capture_default_str();
+  command
+      ->add_option("-o,--out", options->out,
+                   "columns of files of flights, which skein plot flights draws")
+      ->type_name("FILE.csv")
+      ->capture_default_str();
+  command->footer(
+      "Example: skein fdm fly --altitude-ft 15000 --speed-fps 500 --commands sticks.csv -o fly.csv\n"
+      "         skein plot flights fly.csv --columns load_factor_g,alpha_deg,elevator_deg");
+  command->callback([options] { Fly(*options); });
+}
+
+}  // namespace skein

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/fdm/commanded_flight.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "envs/aircraft/engine.h"
+#include "envs/state/attitude.h"
+#include "envs/state/state.h"
+#include "src/fdm/gusts.h"
+#include "src/files/output_file.h"
+#include "src/report/csv_columns.h"
+
+namespace skein {
+namespace {
+
+constexpr int kDigits = 7;  // as in other files of flights
+
+struct StickColumn {
+  const char* name;
+  double PilotCommands::*stick;
+  double least;
+};
+constexpr std::array<StickColumn, 4> kStickColumns = {{{"throttle", &PilotCommands::throttle, 0},
+                                                       {"pitch", &PilotCommands::pitch, -1},
+                                                       {"roll", &PilotCommands::roll, -1},
+                                                       {"yaw", &PilotCommands::yaw, -1}}};
+
+constexpr const char* kHeader =
+    "episode,time_s,north_ft,east_ft,altitude_ft,u_fps,v_fps,w_fps,roll_deg,pitch_deg,yaw_deg,"
+    "p_deg_s,q_deg_s,r_deg_s,alpha_deg,beta_deg,true_airspeed_fps,mach,wind_north_fps,"
+    "wind_east_fps,wind_down_fps,load_factor_g,lateral_load_factor_g,power,elevator_deg,"
+    "aileron_deg,rudder_deg,leading_edge_flap_deg,action_throttle,action_pitch,action_roll,"
+    "action_yaw,termination\n";
+
+void CheckColumns(const CsvColumns& table, const std::string& path) {
+  if (table.rows() == 0 || table.rows_left_out > 0) {
+    throw Error(path + ": expected a header and rows of as many numbers");
+  }
+  if (table.Find("time_s") == nullptr) throw Error(path + ": no column time_s");
+  for (const std::string& name : table.names) {
+    bool is_known = name == "time_s";
+    for (const StickColumn& column : kStickColumns) is_known = is_known || name == column.name;
+    if (!is_known) {
+      throw Error(fmt::format("{}: column {}: time_s, throttle, pitch, roll and yaw are known",
+                              path, name));
+    }
+  }
+}
+
+/// Of the aircraft, body axes, ft/s.
+Eigen::Vector3d VelocityThrough(const ClosedLoop& loop, const Eigen::Vector3d& wind) {
+  const RigidBodyState& state = loop.state();
+  return state.segment<3>(kU) - BodyFromNed(state.segment<4>(kQ0)) * wind;
+}
+
+std::string Row(const ClosedLoop& loop, const Eigen::Vector3d& wind, double time,
+                const PilotCommands* sticks) {
+  const RigidBodyState& state = loop.state();
+  const EulerAngles attitude = EulerFromQuaternion(state.segment<4>(kQ0));
+  const AirData air = loop.air();
+  const SurfaceAngles& surfaces = loop.surfaces();
+  std::string row = "0";
+  for (const double value :
+       {time, state[kNorth], state[kEast], -state[kDown], state[kU], state[kV], state[kW],
+        attitude.roll * kDegPerRad, attitude.pitch * kDegPerRad, attitude.yaw * kDegPerRad,
+        state[kP] * kDegPerRad, state[kQ] * kDegPerRad, state[kR] * kDegPerRad,
+        air.alpha_rad * kDegPerRad, air.beta_rad * kDegPerRad, air.true_airspeed_ft_s, air.mach,
+        wind.x(), wind.y(), wind.z(), loop.nz(), loop.ny(), loop.power(), surfaces.elevator_deg,
+        surfaces.aileron_deg, surfaces.rudder_deg, surfaces.leading_edge_flap_deg}) {
+    row += "," + RoundedText(value, kDigits);
+  }
+  for (const StickColumn& column : kStickColumns) {
+    row += "," + (sticks == nullptr ? "" : RoundedText(sticks->*column.stick, kDigits));
+  }
+  return row + ",\n";
+}
+
+}  // namespace
+
+std::vector<StickCommand> ReadStickCommands(const std::string& path,
+                                            const PilotCommands& trimmed) {
+  std::string text = ReadFile(path);
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  const CsvColumns table = ParseCsv(text);
+  CheckColumns(table, path);
+  std::vector<StickCommand> commands;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    StickCommand command{(*table.Find("time_s"))[row], trimmed};
+    if (!(command.time_s >= 0) || !(commands.empty() || command.time_s > commands.back().time_s)) {
+      throw Error(fmt::format("{}: row {}: times are from 0 on and increase", path, row + 1));
+    }
+    for (const StickColumn& column : kStickColumns) {
+      const std::vector<double>* values = table.Find(column.name);
+      if (values == nullptr) continue;
+      const double value = (*values)[row];
+      if (!(value >= column.least && value <= 1)) {
+        throw Error(fmt::format("{}: row {}: {} is not a number from {} to 1", path, row + 1,
+                                column.name, column.least));
+      }
+      command.sticks.*column.stick = value;
+    }
+    commands.push_back(command);
+  }
+  return commands;
+}
+
+std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const CommandedFlight& flight) {
+  constexpr double kBound = 1e9;      // of every state, ft, ft/s, rad/s
+  constexpr double kRounding = 1e-9;  // s: a time that is a multiple of the step but for rounding
+  ClosedLoop loop(plant, trim, flight.mode, flight.step_s, flight.substeps);
+  // What moves with the air is at rest as in still air.
+  loop.mutable_state().segment<3>(kU) +=
+      BodyFromNed(trim.state.segment<4>(kQ0)) * flight.wind_ft_s;
+  Gusts gusts(flight.turbulence_ft_s, flight.seed);
+  Eigen::Vector3d wind = flight.wind_ft_s + gusts.Start(loop.state());
+  loop.set_wind(wind);
+  PilotCommands sticks;
+  sticks.throttle = ThrottleForPower(plant.aircraft().throttle_gearing, trim.power);
+  std::string text = kHeader + Row(loop, wind, 0, nullptr);
+  std::size_t next = 0;
+  const long steps = std::lround(flight.seconds / flight.step_s);
+  for (long i = 0; i < steps; ++i) {
+    const double time = static_cast<double>(i) * flight.step_s;
+    for (; next < flight.commands.size() && flight.commands[next].time_s <= time + kRounding;
+         ++next) {
+      sticks = flight.commands[next].sticks;
+    }
+    loop.Step(sticks);
+    const double end = static_cast<double>(i + 1) * flight.step_s;
+    if (!(loop.state().cwiseAbs().maxCoeff() < kBound)) {
+      throw Error(fmt::format("after {} s the flight is beyond all numbers: is a step of {} s short "
+                              "enough?",
+                              RoundedText(end, kDigits), flight.step_s));
+    }
+    wind = flight.wind_ft_s + gusts.Advance(loop.state(), VelocityThrough(loop, wind), flight.step_s);
+    loop.set_wind(wind);
+    text += Row(loop, wind, end, &sticks);
+  }
+  return text;
+}
+
+}  // namespace skein
