@@ -18,7 +18,8 @@ std::vector<double> EvenNodes(double min, double max, int count) {
   return nodes;
 }
 
-TrimmedStart Summary(const TrimPoint& point) {
+/// `gravity_g` is what the wing must hold up, in multiples of kGravityFtS2.
+TrimmedStart Summary(const TrimPoint& point, double gravity_g) {
   TrimmedStart start;
   start.alpha_rad = point.alpha_rad;
   start.bank_rad = point.bank_rad;
@@ -28,8 +29,8 @@ TrimmedStart Summary(const TrimPoint& point) {
   start.rudder_deg = point.controls.rudder_deg;
   start.leading_edge_flap_deg = point.controls.leading_edge_flap_deg;
   start.power = point.power;
-  start.nz = std::cos(point.pitch_rad) * std::cos(point.bank_rad);
-  start.ny = -std::cos(point.pitch_rad) * std::sin(point.bank_rad);
+  start.nz = gravity_g * std::cos(point.pitch_rad) * std::cos(point.bank_rad);
+  start.ny = -gravity_g * std::cos(point.pitch_rad) * std::sin(point.bank_rad);
   return start;
 }
 
@@ -80,7 +81,7 @@ TrimTable::TrimTable(const Plant& plant, double min_altitude_ft, double max_alti
       request.true_airspeed_ft_s = speed_ft_s_[j];
       const bool first = j + 1 == static_cast<int>(speed_ft_s_.size());
       previous = first ? Trim(plant, request) : Trim(plant, request, previous);
-      row[j] = Summary(previous);
+      row[j] = Summary(previous, plant.gravity().At(altitude) / kGravityFtS2);
     }
     nodes_.insert(nodes_.end(), row.begin(), row.end());
   }

@@ -12,7 +12,8 @@ struct TrimmedStart {
   double alpha_rad = 0, bank_rad = 0, pitch_rad = 0;
   double elevator_deg = 0, aileron_deg = 0, rudder_deg = 0, leading_edge_flap_deg = 0;
   double power = 0;  ///< engine power, 0..100, clipped to what the engine has
-  /// What the accelerometers read: nz = cos(pitch) cos(bank), ny = -cos(pitch) sin(bank), g.
+  /// What the accelerometers read, g: in usual gravity nz = cos(pitch) cos(bank), ny = -cos(pitch)
+  /// sin(bank).
   double nz = 0, ny = 0;
 };
 

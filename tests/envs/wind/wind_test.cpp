@@ -93,6 +93,20 @@ TEST(WindTest, StillAirHasNone) {
   }
 }
 
+TEST(WindTest, TurbulenceByAltitudeIsThatOfTheStandard) {
+  constexpr Tolerance kRatio{1e-5, "float32 rounding, relative"};
+  EnvConfig uniform = Calm();
+  uniform.initial.altitude_ft = {35000, 35000};
+  uniform.wind.turbulence_fps = {7.3, 7.3};
+  EnvConfig by_altitude = uniform;
+  by_altitude.wind.turbulence_by_altitude = true;
+  const VecEnv same(uniform, kCount, 1, kCount), weaker(by_altitude, kCount, 1, kCount);
+  for (int i = 0; i < kCount; ++i) {
+    const double ratio = weaker.StateOf(i, kWindDown) / same.StateOf(i, kWindDown);
+    EXPECT_NEAR(ratio / (5.0 / 7.3), 1, kRatio);
+  }
+}
+
 // Galileo: nothing but the position tells a steady wind from still air.
 TEST(WindTest, FlightTrimmedInTheWindIsFlightInStillAirCarriedAway) {
   constexpr Tolerance kTurnedAxes{1e-6, "float32 rounding of the same start"};
