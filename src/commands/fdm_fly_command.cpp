@@ -31,11 +31,12 @@ struct FlyOptions {
 
 void Fly(FlyOptions options) {
   CheckWritable(options.out);
-  if (!options.condition.grid.IsOnePoint()) throw UsageError("one altitude and one speed are flown");
+  if (!options.condition.grid.IsOnePoint())
+    throw UsageError("one altitude and one speed are flown");
   CommandedFlight& flight = options.flight;
   if (flight.seconds / flight.step_s > kMostSteps) {
-    throw UsageError(fmt::format("{} s in steps of {} s are more than {:.0f} steps",
-                                 flight.seconds, flight.step_s, kMostSteps));
+    throw UsageError(fmt::format("{} s in steps of {} s are more than {:.0f} steps", flight.seconds,
+                                 flight.step_s, kMostSteps));
   }
   flight.mode = kModes.at(options.mode);
   if (!options.wind.empty()) flight.wind_ft_s = ReadWind(options.wind);
@@ -59,7 +60,8 @@ void Fly(FlyOptions options) {
 void AddFlyCommand(CLI::App* fdm) {
   auto options = std::make_shared<FlyOptions>();
   CLI::App* command = fdm->add_subcommand(
-      "fly", "Fly from steady flight with flight control, actuators and engine, by a file of sticks");
+      "fly",
+      "Fly from steady flight with flight control, actuators and engine, by a file of sticks");
   AddFlightCondition(command, &options->condition);
   AddWind(command, &options->wind);
   command
@@ -96,7 +98,8 @@ void AddFlyCommand(CLI::App* fdm) {
       ->type_name("FILE.csv")
       ->capture_default_str();
   command->footer(
-      "Example: skein fdm fly --altitude-ft 15000 --speed-fps 500 --commands sticks.csv -o fly.csv\n"
+      "Example: skein fdm fly --altitude-ft 15000 --speed-fps 500 --commands sticks.csv -o "
+      "fly.csv\n"
       "         skein plot flights fly.csv --columns load_factor_g,alpha_deg,elevator_deg");
   command->callback([options] { Fly(*options); });
 }

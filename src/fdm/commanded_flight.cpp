@@ -66,13 +66,33 @@ std::string Row(const ClosedLoop& loop, const Eigen::Vector3d& wind, double time
   const AirData air = loop.air();
   const SurfaceAngles& surfaces = loop.surfaces();
   std::string row = "0";
-  for (const double value :
-       {time, state[kNorth], state[kEast], -state[kDown], state[kU], state[kV], state[kW],
-        attitude.roll * kDegPerRad, attitude.pitch * kDegPerRad, attitude.yaw * kDegPerRad,
-        state[kP] * kDegPerRad, state[kQ] * kDegPerRad, state[kR] * kDegPerRad,
-        air.alpha_rad * kDegPerRad, air.beta_rad * kDegPerRad, air.true_airspeed_ft_s, air.mach,
-        wind.x(), wind.y(), wind.z(), loop.nz(), loop.ny(), loop.power(), surfaces.elevator_deg,
-        surfaces.aileron_deg, surfaces.rudder_deg, surfaces.leading_edge_flap_deg}) {
+  for (const double value : {time,
+                             state[kNorth],
+                             state[kEast],
+                             -state[kDown],
+                             state[kU],
+                             state[kV],
+                             state[kW],
+                             attitude.roll * kDegPerRad,
+                             attitude.pitch * kDegPerRad,
+                             attitude.yaw * kDegPerRad,
+                             state[kP] * kDegPerRad,
+                             state[kQ] * kDegPerRad,
+                             state[kR] * kDegPerRad,
+                             air.alpha_rad * kDegPerRad,
+                             air.beta_rad * kDegPerRad,
+                             air.true_airspeed_ft_s,
+                             air.mach,
+                             wind.x(),
+                             wind.y(),
+                             wind.z(),
+                             loop.nz(),
+                             loop.ny(),
+                             loop.power(),
+                             surfaces.elevator_deg,
+                             surfaces.aileron_deg,
+                             surfaces.rudder_deg,
+                             surfaces.leading_edge_flap_deg}) {
     row += "," + RoundedText(value, kDigits);
   }
   for (const StickColumn& column : kStickColumns) {
@@ -83,8 +103,7 @@ std::string Row(const ClosedLoop& loop, const Eigen::Vector3d& wind, double time
 
 }  // namespace
 
-std::vector<StickCommand> ReadStickCommands(const std::string& path,
-                                            const PilotCommands& trimmed) {
+std::vector<StickCommand> ReadStickCommands(const std::string& path, const PilotCommands& trimmed) {
   std::string text = ReadFile(path);
   if (!text.empty() && text.back() != '\n') text += '\n';
   const CsvColumns table = ParseCsv(text);
@@ -115,8 +134,7 @@ std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const Command
   constexpr double kRounding = 1e-9;  // s: a time that is a multiple of the step but for rounding
   ClosedLoop loop(plant, trim, flight.mode, flight.step_s, flight.substeps);
   // What moves with the air is at rest as in still air.
-  loop.mutable_state().segment<3>(kU) +=
-      BodyFromNed(trim.state.segment<4>(kQ0)) * flight.wind_ft_s;
+  loop.mutable_state().segment<3>(kU) += BodyFromNed(trim.state.segment<4>(kQ0)) * flight.wind_ft_s;
   Gusts gusts(flight.turbulence_ft_s, flight.seed);
   Eigen::Vector3d wind = flight.wind_ft_s + gusts.Start(loop.state());
   loop.set_wind(wind);
@@ -134,11 +152,13 @@ std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const Command
     loop.Step(sticks);
     const double end = static_cast<double>(i + 1) * flight.step_s;
     if (!(loop.state().cwiseAbs().maxCoeff() < kBound)) {
-      throw Error(fmt::format("after {} s the flight is beyond all numbers: is a step of {} s short "
-                              "enough?",
-                              RoundedText(end, kDigits), flight.step_s));
+      throw Error(
+          fmt::format("after {} s the flight is beyond all numbers: is a step of {} s short "
+                      "enough?",
+                      RoundedText(end, kDigits), flight.step_s));
     }
-    wind = flight.wind_ft_s + gusts.Advance(loop.state(), VelocityThrough(loop, wind), flight.step_s);
+    wind =
+        flight.wind_ft_s + gusts.Advance(loop.state(), VelocityThrough(loop, wind), flight.step_s);
     loop.set_wind(wind);
     text += Row(loop, wind, end, &sticks);
   }

@@ -17,8 +17,8 @@ struct StickCommand {
 };
 
 /// Reads CSV of time_s (from 0 on, increasing) and any of throttle (0 to 1), pitch, roll and yaw
-/// (-1 to 1); a column that is not there stays as in `trimmed`. Throws Error that names the file and
-/// what is wrong.
+/// (-1 to 1); a column that is not there stays as in `trimmed`. Throws Error that names the file
+/// and what is wrong.
 std::vector<StickCommand> ReadStickCommands(const std::string& path, const PilotCommands& trimmed);
 
 /// How the float64 closed loop is flown from a trim.
@@ -29,14 +29,14 @@ struct CommandedFlight {
   double seconds = 10;
   /// The air's velocity, north, east, down, ft/s; the aircraft is trimmed in it.
   Eigen::Vector3d wind_ft_s = Eigen::Vector3d::Zero();
-  double turbulence_ft_s = 0;  ///< standard deviation of Dryden gusts, which begin at once
-  std::uint64_t seed = 0;      ///< of the gusts
+  double turbulence_ft_s = 0;          ///< standard deviation of Dryden gusts, which begin at once
+  std::uint64_t seed = 0;              ///< of the gusts
   std::vector<StickCommand> commands;  ///< none: hands off
 };
 
 /// The flight as CSV in columns of files of flights (docs/reference/file-formats.md): a row at time
-/// 0 and one at the end of each control step. `trim` is one in still air. Throws Error if a state is
-/// beyond 1e9 or no number.
+/// 0 and one at the end of each control step. `trim` is one in still air. Throws Error if a state
+/// is beyond 1e9 or no number.
 std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const CommandedFlight& flight);
 
 }  // namespace skein
