@@ -35,25 +35,6 @@ DerivativeAircraft Body(double mass_slug) {
   return body;
 }
 
-Plant Brick(bool damped) {
-  const json& brick = CheckCases().at("brick");
-  const auto number = [&brick](const char* key) { return brick.at(key).get<double>(); };
-  DerivativeAircraft body = Body(number("mass_slug"));
-  body.Ixx_kg_m2 = number("Ixx_slug_ft2") * kKgM2PerSlugFt2;
-  body.Iyy_kg_m2 = number("Iyy_slug_ft2") * kKgM2PerSlugFt2;
-  body.Izz_kg_m2 = number("Izz_slug_ft2") * kKgM2PerSlugFt2;
-  body.Ixz_kg_m2 = 0;
-  body.wing_area_m2 = number("area_ft2") * kMetresPerFoot * kMetresPerFoot;
-  body.span_m = number("span_ft") * kMetresPerFoot;
-  body.chord_m = number("chord_ft") * kMetresPerFoot;
-  if (damped) {
-    body.lateral.Cl_p = number("Clp");
-    body.longitudinal.Cm_q = number("Cmq");
-    body.lateral.Cn_r = number("Cnr");
-  }
-  return Plant(MakeAircraft(body), AtmosphereModel::kStandard1976, 1, FallingGravity());
-}
-
 /// The sphere's drag against the air that comes in its x-y plane, from any side but behind, with
 /// nodes a degree apart: within 4e-5.
 AerodynamicTables SphereTables(double drag_coefficient) {
@@ -139,11 +120,18 @@ Eigen::Vector3d EulerDegrees(const RigidBodyState& state, double turned_rad) {
                                       std::atan2(t(0, 1), t(0, 0)));
 }
 
+/// At rest at the altitude of all cases.
+RigidBodyState Released(const EulerAngles& attitude) {
+  RigidBodyState state = RigidBodyState::Zero();
+  state[kDown] = -kStartFt;
+  state.segment<4>(kQ0) = QuaternionFromEuler(attitude);
+  return state;
+}
+
 struct CheckCase {
   const char* number;
   Plant plant;
-  EulerAngles attitude;
-  Eigen::Vector3d rates_deg_s;
+  RigidBodyState start;
   /// Of the air, to the east, ft/s, by altitude.
   std::function<double(double)> wind_fps;
 };
@@ -192,10 +180,7 @@ Section Fly(const char* name, const CheckCase& flown) {
   const json& check_case = CheckCases().at("cases").at(flown.number);
   Section section{name, "simulators", {}, "rotating earth"};
   Fall fall;
-  fall.state.setZero();
-  fall.state[kDown] = -kStartFt;
-  fall.state.segment<3>(kP) = flown.rates_deg_s / kDegPerRad;
-  fall.state.segment<4>(kQ0) = QuaternionFromEuler(flown.attitude);
+  fall.state = flown.start;
   const auto times = check_case.at("t_s").get<std::vector<double>>();
   for (std::size_t i = 0; i < times.size(); ++i) {
     while (fall.t < times[i] - kStep_s / 2) {
@@ -209,18 +194,42 @@ Section Fly(const char* name, const CheckCase& flown) {
 
 }  // namespace
 
+Plant Brick(bool damped) {
+  const json& brick = CheckCases().at("brick");
+  const auto number = [&brick](const char* key) { return brick.at(key).get<double>(); };
+  DerivativeAircraft body = Body(number("mass_slug"));
+  body.Ixx_kg_m2 = number("Ixx_slug_ft2") * kKgM2PerSlugFt2;
+  body.Iyy_kg_m2 = number("Iyy_slug_ft2") * kKgM2PerSlugFt2;
+  body.Izz_kg_m2 = number("Izz_slug_ft2") * kKgM2PerSlugFt2;
+  body.Ixz_kg_m2 = 0;
+  body.wing_area_m2 = number("area_ft2") * kMetresPerFoot * kMetresPerFoot;
+  body.span_m = number("span_ft") * kMetresPerFoot;
+  body.chord_m = number("chord_ft") * kMetresPerFoot;
+  if (damped) {
+    body.lateral.Cl_p = number("Clp");
+    body.longitudinal.Cm_q = number("Cmq");
+    body.lateral.Cn_r = number("Cnr");
+  }
+  return Plant(MakeAircraft(body), AtmosphereModel::kStandard1976, 1, FallingGravity());
+}
+
+RigidBodyState FallingBrick() {
+  RigidBodyState state = Released({});
+  state.segment<3>(kP) = Eigen::Vector3d(10, 20, 30) / kDegPerRad;
+  return state;
+}
+
 std::vector<Section> FallingBodies() {
   const auto calm = [](double) { return 0.0; };
   const auto steady = [](double) { return 20.0; };
   const auto shear = [](double altitude_ft) { return 0.003 * altitude_ft - 20; };
-  const EulerAngles level, nose_down{0, -90 / kDegPerRad, 0};
-  const Eigen::Vector3d still(0, 0, 0), tumbling(10, 20, 30);
-  return {Fly("case-01", {"01", Sphere(false), level, still, calm}),
-          Fly("case-02", {"02", Brick(false), level, tumbling, calm}),
-          Fly("case-03", {"03", Brick(true), level, tumbling, calm}),
-          Fly("case-06", {"06", Sphere(true), nose_down, still, calm}),
-          Fly("case-07", {"07", Sphere(true), nose_down, still, steady}),
-          Fly("case-08", {"08", Sphere(true), nose_down, still, shear})};
+  const RigidBodyState level = Released({}), nose_down = Released({0, -90 / kDegPerRad, 0});
+  return {Fly("case-01", {"01", Sphere(false), level, calm}),
+          Fly("case-02", {"02", Brick(false), FallingBrick(), calm}),
+          Fly("case-03", {"03", Brick(true), FallingBrick(), calm}),
+          Fly("case-06", {"06", Sphere(true), nose_down, calm}),
+          Fly("case-07", {"07", Sphere(true), nose_down, steady}),
+          Fly("case-08", {"08", Sphere(true), nose_down, shear})};
 }
 
 }  // namespace skein::validation
