@@ -8,10 +8,12 @@
 #include <cmath>
 #include <optional>
 
+#include "base/fnv_hash.h"
 #include "envs/autopilot/autopilot.h"
 #include "src/agents/policy_file.h"
 #include "src/config/nearest_name.h"
 #include "src/config/usage_error.h"
+#include "src/files/output_file.h"
 #include "train/policy/other_aircraft.h"
 #include "train/policy/policy_environment.h"
 
@@ -118,6 +120,11 @@ std::string PolicyFileOfAgent(const std::string& name) {
   const std::string file = PolicyArgumentOf(name).file;
   if (file.empty()) throw UsageError(fmt::format("agent {}: policy: needs a file or a run", name));
   return PolicyFileOf(file);
+}
+
+std::string FingerprintOfAgent(const std::string& name) {
+  const std::string file = PolicyFileOfAgent(name);
+  return file.empty() || file == kUntrained ? "" : HexHash(ReadFile(file, kLargestRecord));
 }
 
 Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {

@@ -18,6 +18,9 @@ std::string AutopilotVariantOf(const std::string& name);
 /// The file of a policy that is called "policy:FILE_OR_RUN[@sampled]"; empty for other agents.
 std::string PolicyFileOfAgent(const std::string& name);
 
+/// The FNV hash of that file's content; nothing for other agents, as their names say all.
+std::string FingerprintOfAgent(const std::string& name);
+
 /// How an agent may be called, for people.
 struct AgentForm {
   std::string name;     ///< "random[:SECONDS]"

@@ -28,6 +28,12 @@ std::string DescribeWorkers(const WorkerPool& pool) {
                      Counted(pool.threads(), "thread"));
 }
 
+std::string DescribeProgram() {
+  const BuildInfo& build = Build();
+  return fmt::format("version {} of commit {} by {}, SIMD target {}", build.version, build.commit,
+                     build.compiler, Name(simd::ActiveTarget()));
+}
+
 nlohmann::ordered_json DescribeMachine() {
   const std::string libtorch = LibTorchVersion();
   auto supported = nlohmann::ordered_json::array();

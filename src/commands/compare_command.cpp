@@ -7,18 +7,22 @@
 #include <memory>
 #include <utility>
 
+#include "base/fnv_hash.h"
 #include "src/agents/agent_names.h"
 #include "src/bench/machine.h"
 #include "src/commands/commands.h"
 #include "src/commands/flight_options.h"
+#include "src/commands/launched_ranks.h"
 #include "src/config/configuration.h"
 #include "src/config/presets.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
+#include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
 #include "src/report/run_report.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
@@ -86,15 +90,20 @@ void WritePage(const CompareOptions& options, const std::function<std::string()>
   fmt::print("report          {}\n", options.html);
 }
 
-void CompareAgents(const CompareOptions& options) {
+/// What the agents are and what they fly, in short.
+std::string Identity(const CompareOptions& options, const ProgramConfig& config) {
+  std::string agents;
+  for (const std::string& name : options.agents) agents += name + FingerprintOfAgent(name) + "\n";
   const FlightOptions& flight = options.flight;
-  const ProgramConfig config = Configure(flight);
-  CheckWritable(Outputs(options));
-  if (!options.html.empty()) ReportTemplate();  // without one there is nothing to fly for
-  const std::vector<NamedAgent> agents = FindAgents(options.agents, config, flight.seed);
-  WorkerPool pool(flight.threads);
-  const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool);
-  fmt::print("{}\n(preset {}; {})\n", ToText(comparison), flight.preset, DescribeWorkers(pool));
+  return fmt::format("{}, agents {}, environment {}, {} episodes of seed {}", DescribeProgram(),
+                     HexHash(agents), HexHash(EnvironmentJson(config).dump()), flight.episodes,
+                     flight.seed);
+}
+
+void WriteAll(const CompareOptions& options, const Comparison& comparison,
+              const ProgramConfig& config, const std::vector<NamedAgent>& agents,
+              WorkerPool& pool) {
+  const FlightOptions& flight = options.flight;
   if (!options.csv.empty()) {
     WriteFile(options.csv, ToCsv(comparison));
   }
@@ -102,6 +111,27 @@ void CompareAgents(const CompareOptions& options) {
   if (RecordsFlights(flight)) WriteRecords(flight, agents, config.train.env, pool);
   if (options.no_html) return;
   WritePage(options, [&] { return PageData(options, comparison, config, agents, pool); });
+}
+
+/// On all ranks together.
+void CompareAgents(const CompareOptions& options, Ranks& ranks) {
+  const FlightOptions& flight = options.flight;
+  ProgramConfig config;
+  std::vector<NamedAgent> agents;
+  std::string identity;
+  DoTogether(ranks, [&] {
+    config = Configure(flight);
+    if (ranks.rank() == 0) CheckWritable(Outputs(options));
+    if (!options.html.empty()) ReportTemplate();  // without one there is nothing to fly for
+    agents = FindAgents(options.agents, config, flight.seed);
+    if (ranks.count() > 1) identity = Identity(options, config);
+  });
+  RequireSameOnRanks(ranks, "what they compare", identity);
+  WorkerPool pool(flight.threads);
+  const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool, ranks);
+  if (ranks.rank() != 0) return;
+  fmt::print("{}\n(preset {}; {})\n", ToText(comparison), flight.preset, DescribeWorkers(pool));
+  WriteAll(options, comparison, config, agents, pool);
 }
 
 }  // namespace
@@ -142,7 +172,10 @@ void AddCompareCommand(CLI::App* app) {
       "--episodes 1000 --csv table.csv\n"
       "         skein compare --task heading --condition windy=60fps,moderate --agents "
       "policy:runs/a,zero");
-  command->callback([options] { CompareAgents(*options); });
+  command->callback([options] {
+    OnLaunchedRanks(options->flight.rank_timeout_s,
+                    [&](Ranks& ranks) { CompareAgents(*options, ranks); });
+  });
 }
 
 }  // namespace skein

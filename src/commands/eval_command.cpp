@@ -7,18 +7,23 @@
 #include <memory>
 #include <optional>
 
+#include "base/fnv_hash.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/bench/machine.h"
 #include "src/commands/commands.h"
 #include "src/commands/flight_options.h"
+#include "src/commands/launched_ranks.h"
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
+#include "train/files/tensor_file.h"
 #include "train/policy/other_aircraft.h"
+#include "train/policy/policy_parameters.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
@@ -53,7 +58,14 @@ void WriteRecords(const EvalOptions& options, const std::string& path,
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, {flown});
 }
 
-void Evaluate(const EvalOptions& options) {
+/// The policy that is flown, and where.
+struct Subject {
+  std::string path;
+  ProgramConfig config;
+  RecurrentPolicy policy;
+};
+
+Subject FindSubject(const EvalOptions& options) {
   const FlightOptions& flight = options.flight;
   const std::string path = PolicyFileOf(options.policy);
   if (path != kUntrained && !options.low_level.empty()) {
@@ -72,19 +84,43 @@ void Evaluate(const EvalOptions& options) {
   }
   RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);
   if (options.other_aircraft) policy = ForAnyAircraft(policy);
-  CheckWritable({flight.json, flight.flights, flight.acmi});
+  return {path, config, policy};
+}
+
+/// What is flown, in short.
+std::string Identity(const Subject& subject, const FlightOptions& flight) {
+  TensorFile policy;
+  StorePolicy(*subject.policy.parameters(), policy);
+  return fmt::format("{}, policy {}, environment {}, {} episodes of seed {}", DescribeProgram(),
+                     HexHash(policy.Bytes()), HexHash(EnvironmentJson(subject.config).dump()),
+                     flight.episodes, flight.seed);
+}
+
+/// On all ranks together.
+void Evaluate(const EvalOptions& options, Ranks& ranks) {
+  const FlightOptions& flight = options.flight;
+  std::optional<Subject> subject;
+  std::string identity;
+  DoTogether(ranks, [&] {
+    subject.emplace(FindSubject(options));
+    if (ranks.rank() == 0) CheckWritable({flight.json, flight.flights, flight.acmi});
+    if (ranks.count() > 1) identity = Identity(*subject, flight);
+  });
+  RequireSameOnRanks(ranks, "what they fly", identity);
+  const auto& [path, config, policy] = *subject;
+  const EnvConfig& env = config.train.env;
   WorkerPool pool(flight.threads);
   const EvaluationReport report =
-      EvaluateBothWays(policy, config.train.env, flight.episodes, flight.seed, pool);
-  fmt::print("{} on {}, {}, seed {}\n{}\n  {}\n  {}\n  {}\n{}\n", path, config.train.env.task,
+      EvaluateBothWays(policy, env, flight.episodes, flight.seed, pool, ranks);
+  if (ranks.rank() != 0) return;
+  fmt::print("{} on {}, {}, seed {}\n{}\n  {}\n  {}\n  {}\n{}\n", path, env.task,
              Counted(flight.episodes, "episode"), flight.seed,
-             InLines("  ", DescribeConditions(config.train.env)), Rates(policy, config.train.env),
-             Describe(policy.backend()), DescribeWorkers(pool),
-             ToText(report, options.deterministic));
+             InLines("  ", DescribeConditions(env)), Rates(policy, env), Describe(policy.backend()),
+             DescribeWorkers(pool), ToText(report, options.deterministic));
   if (!flight.json.empty()) {
     WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));
   }
-  if (RecordsFlights(flight)) WriteRecords(options, path, policy, config.train.env, pool);
+  if (RecordsFlights(flight)) WriteRecords(options, path, policy, env, pool);
 }
 
 }  // namespace
@@ -127,7 +163,10 @@ void AddEvalCommand(CLI::App* app) {
       "         skein eval --policy runs/short --deterministic --flights flights.csv\n"
       "         skein eval --policy runs/short --condition windy=60fps,moderate --condition "
       "noisy=0.03");
-  command->callback([options] { Evaluate(*options); });
+  command->callback([options] {
+    OnLaunchedRanks(options->flight.rank_timeout_s,
+                    [&](Ranks& ranks) { Evaluate(*options, ranks); });
+  });
 }
 
 }  // namespace skein

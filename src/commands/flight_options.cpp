@@ -67,6 +67,7 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
 
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {
   AddEpisodeOptions(command, texts, options);
+  AddRankTimeoutOption(command, &options->rank_timeout_s);
   command->add_option("--json", options->json, texts.json)->type_name("FILE");
   CLI::Option* flights =
       command->add_option("--flights", options->flights, texts.flights)->type_name("FILE");

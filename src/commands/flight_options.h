@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/commands/launched_ranks.h"
 #include "src/config/program_config.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/flight_table.h"
@@ -27,6 +28,7 @@ struct FlightOptions {
   int episodes = 1000;
   std::uint64_t seed = 0;
   int threads = 0;
+  double rank_timeout_s = kRankTimeoutS;
   std::string json;
   std::string flights, acmi;
   int flights_count = 8;

@@ -8,6 +8,7 @@
 
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
+#include "src/commands/launched_ranks.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/files/shell_text.h"
@@ -15,6 +16,7 @@
 #include "src/report/run_report.h"
 #include "src/study/study.h"
 #include "src/study/study_run.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
@@ -27,6 +29,7 @@ struct StudyOptions {
   std::string out;
   StudyChoice choice;
   int threads = 0;
+  double rank_timeout_s = kRankTimeoutS;
 };
 
 /// The options of the command line that say what of the study is carried out, for it to be resumed.
@@ -39,18 +42,22 @@ std::string ChoiceText(const StudyChoice& choice) {
   return text;
 }
 
-void CarryOut(const StudyOptions& options) {
-  const Study study = AsUsage([&] { return ReadStudy(options.file, options.choice); });
+/// On all ranks together.
+void CarryOut(const StudyOptions& options, Ranks& ranks) {
   const std::string directory =
       options.out.empty() ? "studies/" + std::filesystem::path(options.file).stem().string()
                           : options.out;
   WorkerPool pool(options.threads);
-  StudyRun run(study, directory, pool);
+  Study study;
+  DoTogether(ranks,
+             [&] { study = AsUsage([&] { return ReadStudy(options.file, options.choice); }); });
+  StudyRun run(study, directory, pool, ranks);
   if (!run.Run()) {
     fmt::print("stopped; resume with: skein study {} --out {}{}\n", options.file, directory,
                ChoiceText(options.choice));
     return;
   }
+  if (ranks.rank() != 0) return;
   fmt::print("{}\nresults         {}/results.csv, results.json\n", run.ToText(), directory);
   WriteReportAtEnd(directory + "/report.html", [&] {
     ReportRequest request;
@@ -97,12 +104,16 @@ void AddStudyCommand(CLI::App* app) {
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")
       ->transform(WholeNumber(1, 1024));
+  AddRankTimeoutOption(command, &options->rank_timeout_s);
   command->footer(
       "The same command resumes after an interruption of any kind, and skips what is finished.\n"
-      "Seeds and levels may be added later.\n"
+      "Seeds and levels may be added later. Under mpirun processes share out trainings and "
+      "episodes.\n"
       "Example: skein study configs/studies/noise.toml\n"
       "         skein study configs/studies/heading.toml --level windy-middle --seeds 1,2,3");
-  command->callback([options] { CarryOut(*options); });
+  command->callback([options] {
+    OnLaunchedRanks(options->rank_timeout_s, [&](Ranks& ranks) { CarryOut(*options, ranks); });
+  });
 }
 
 }  // namespace skein

@@ -13,6 +13,7 @@
 #include "src/agents/policy_file.h"
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
+#include "src/commands/launched_ranks.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
@@ -26,8 +27,8 @@
 #include "src/run/run_directory.h"
 #include "src/run/training_run.h"
 #include "train/policy/low_level_file.h"
+#include "train/ppo/rank_shards.h"
 #include "train/ranks/collectives.h"
-#include "train/ranks/rank_module.h"
 
 namespace skein {
 namespace {
@@ -41,7 +42,7 @@ struct TrainOptions {
   std::optional<double> steps;
   std::optional<double> seed;
   int threads = 0;
-  double rank_timeout_s = 600;
+  double rank_timeout_s = kRankTimeoutS;
   std::string low_level;
   std::string from;
   std::string out;
@@ -118,6 +119,7 @@ void Resume(const TrainOptions& options, Ranks& ranks) {
     const std::string run = RunToResume(options);
     directory.emplace(ranks.rank() == 0 ? RunDirectory::Open(run) : RunDirectory::Visit(run));
     config = ConfigureResumed(options, *directory);
+    AsUsage([&] { return ShardsOfRank(config.train, ranks); });
   });
   WorkerPool pool(options.threads);
   if (ranks.rank() != 0) {
@@ -148,6 +150,7 @@ void Begin(const TrainOptions& options, Ranks& ranks) {
   RunOrigin origin;
   DoTogether(ranks, [&] {
     config = Configure(options, options.task);
+    AsUsage([&] { return ShardsOfRank(config.train, ranks); });
     origin.from = options.from.empty() ? "" : NetworksFileOf(options.from);
     const ChosenLowLevelPolicy low_level =
         FindLowLevelPolicy(options, config.train.env, origin.from);
@@ -168,28 +171,6 @@ void Begin(const TrainOptions& options, Ranks& ranks) {
   }
 }
 
-/// Alone, or with the other processes that the launcher has started.
-void TrainOnRanks(const TrainOptions& options) {
-  const std::unique_ptr<Ranks> joined = JoinLaunchedProcesses(options.rank_timeout_s);
-  Ranks& ranks = joined == nullptr ? OneRank() : *joined;
-  try {
-    if ((ranks.count() & (ranks.count() - 1)) != 0) {
-      throw Error(
-          fmt::format("{} processes cannot train together: a power of two can, up to "
-                      "learner.shards",
-                      ranks.count()));
-    }
-    if (options.resume_option->count() > 0) {
-      Resume(options, ranks);
-    } else {
-      Begin(options, ranks);
-    }
-  } catch (const std::exception&) {
-    // Every rank has been told: rank 0 says it.
-    if (ranks.rank() == 0) throw;
-  }
-}
-
 void Train(TrainOptions options) {
   if (!options.aircraft.empty()) {
     options.assignments.insert(options.assignments.begin(), AircraftAssignment(options.aircraft));
@@ -203,7 +184,13 @@ void Train(TrainOptions options) {
     fmt::print("{}", DescribeKeys(Configure(options, task)));
     return;
   }
-  TrainOnRanks(options);
+  OnLaunchedRanks(options.rank_timeout_s, [&](Ranks& ranks) {
+    if (options.resume_option->count() > 0) {
+      Resume(options, ranks);
+    } else {
+      Begin(options, ranks);
+    }
+  });
 }
 
 constexpr const char* kFooter =
@@ -231,14 +218,7 @@ void AddWorkerOptions(CLI::App* command, TrainOptions* options) {
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")
       ->transform(WholeNumber(1, 1024));
-  command
-      ->add_option(
-          "--rank-timeout", options->rank_timeout_s,
-          "of trainings on several processes (mpirun, srun): seconds after which a process "
-          "that does not answer ends all")
-      ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  AddRankTimeoutOption(command, &options->rank_timeout_s);
 }
 
 }  // namespace

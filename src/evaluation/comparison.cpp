@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "src/config/conditions.h"
-#include "train/policy/evaluate.h"
+#include "train/ranks/shared_episodes.h"
 
 namespace skein {
 namespace {
@@ -73,7 +73,7 @@ void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin) {
 }
 
 Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& config, int episodes,
-                   std::uint64_t seed, WorkerPool& pool) {
+                   std::uint64_t seed, WorkerPool& pool, Ranks& ranks) {
   const EnvConfig& episodes_env = config.train.env;
   Comparison comparison;
   comparison.task = episodes_env.task;
@@ -89,8 +89,8 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
   std::vector<Episode> first;
   for (const NamedAgent& named : agents) {
     const EnvConfig env = named.agent.EnvironmentFor(episodes_env);
-    const FlownEpisodes flown = FlyEpisodes(named.agent, env, options, pool);
-    if (pool.stopping()) return comparison;
+    const FlownEpisodes flown = FlyEpisodesOnRanks(named.agent, env, options, pool, ranks);
+    if (flown.stopped) return comparison;
     ComparedAgent compared{
         named.name, env.action_repeat, SummariseFlights(flown.episodes, env), {}};
     if (comparison.agents.empty()) {

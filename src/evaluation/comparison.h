@@ -11,6 +11,7 @@
 #include "src/evaluation/estimate.h"
 #include "src/evaluation/flight_summary.h"
 #include "train/policy/agent.h"
+#include "train/ranks/ranks.h"
 
 namespace skein {
 
@@ -50,10 +51,10 @@ struct Comparison {
 /// along itself: its rate, and how a high-level policy is shown what it sees.
 void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin);
 
-/// Flies every agent over the same episodes of `config`'s environment, each at its own rate. If the
-/// pool is stopping, ends early, and the result says nothing.
+/// On all ranks together: flies every agent over the same episodes of `config`'s environment, each
+/// at its own rate. If the pool is stopping, ends early, and the result says nothing.
 Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& config, int episodes,
-                   std::uint64_t seed, WorkerPool& pool);
+                   std::uint64_t seed, WorkerPool& pool, Ranks& ranks = OneRank());
 
 /// A table for people, 100 columns wide, an agent a column; without a newline at the end.
 std::string ToText(const Comparison& comparison);

@@ -8,6 +8,7 @@
 
 #include "src/config/settings.h"
 #include "src/files/text_table.h"
+#include "train/ranks/shared_episodes.h"
 
 namespace skein {
 namespace {
@@ -39,13 +40,13 @@ std::string Lines(const char* mode, const FlightSummary& summary) {
 }  // namespace
 
 EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
-                                  std::uint64_t seed, WorkerPool& pool) {
+                                  std::uint64_t seed, WorkerPool& pool, Ranks& ranks) {
   EvaluationOptions options;
   options.episodes = episodes;
   options.seed = seed;
   options.flight_metrics = true;
   const auto fly = [&](const Agent& agent) {
-    return SummariseFlights(FlyEpisodes(agent, env, options, pool).episodes, env);
+    return SummariseFlights(FlyEpisodesOnRanks(agent, env, options, pool, ranks).episodes, env);
   };
   return {fly(Agent::MeanOf(policy)), fly(Agent::SamplingFrom(policy))};
 }

@@ -10,6 +10,7 @@
 #include "src/config/program_config.h"
 #include "src/evaluation/flight_summary.h"
 #include "train/policy/recurrent_policy.h"
+#include "train/ranks/ranks.h"
 
 namespace skein {
 
@@ -19,9 +20,9 @@ struct EvaluationReport {
   FlightSummary sampled;        ///< with sampled actions
 };
 
-/// Flies `episodes` episodes of each kind; clocks are not staggered.
+/// On all ranks together: flies `episodes` episodes of each kind; clocks are not staggered.
 EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
-                                  std::uint64_t seed, WorkerPool& pool);
+                                  std::uint64_t seed, WorkerPool& pool, Ranks& ranks = OneRank());
 
 /// The document of `skein eval --json` and evaluation.json: policy, task, mode, seed, the keys of
 /// FlightSummary for the mode asked for, both modes in full, and the environment's settings.

@@ -12,8 +12,7 @@
 
 #include "base/error.h"
 #include "base/fnv_hash.h"
-#include "simd/target.h"
-#include "src/bench/version.h"
+#include "src/bench/machine.h"
 #include "train/policy/policy_parameters.h"
 #include "train/ppo/training_state.h"
 #include "train/ranks/collectives.h"
@@ -26,12 +25,6 @@ constexpr std::array<std::pair<std::uint64_t, int>, 4> kSignals{
     {{1 << 8, SIGINT}, {1 << 9, SIGTERM}, {1 << 10, SIGHUP}, {1 << 11, SIGUSR1}}};
 constexpr std::uint64_t kCommands = 0xFF;
 
-std::string HashOf(const std::string& text) {
-  FnvHash hash;
-  hash.Add(text.data(), text.size());
-  return hash.Hex();
-}
-
 /// What must be the same on all ranks, for people.
 std::string Identity(const Trainer& trainer) {
   std::string configuration;
@@ -40,11 +33,8 @@ std::string Identity(const Trainer& trainer) {
   }
   TensorFile beginning;
   StorePolicy(*trainer.policy().parameters(), beginning);
-  const BuildInfo& build = Build();
-  return fmt::format(
-      "version {} of commit {} by {}, SIMD target {}, configuration {}, policy {} of iteration {}",
-      build.version, build.commit, build.compiler, Name(simd::ActiveTarget()),
-      HashOf(configuration), HashOf(beginning.Bytes()), trainer.iteration());
+  return fmt::format("{}, configuration {}, policy {} of iteration {}", DescribeProgram(),
+                     HexHash(configuration), HexHash(beginning.Bytes()), trainer.iteration());
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -14,8 +13,7 @@
 #include "envs/task_registry.h"
 #include "simd/target.h"
 #include "src/agents/agent_names.h"
-#include "src/agents/low_level_option.h"
-#include "src/agents/policy_file.h"
+#include "src/bench/machine.h"
 #include "src/config/configuration.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
@@ -25,10 +23,9 @@
 #include "src/report/report_data.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
-#include "src/run/training_run.h"
 #include "src/study/study_report.h"
-#include "train/policy/low_level_file.h"
 #include "train/policy/policy_environment.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
@@ -36,58 +33,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Removes what a process killed while it made a run's directory has left: no run is in it yet.
-void RemoveStub(const std::string& run) {
-  for (const char* name :
-       {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp", "/task.toml",
-        "/task.toml.tmp", "/aircraft.json", "/aircraft.json.tmp", "/lock", "/checkpoints"}) {
-    std::error_code ignored;  // RunDirectory::Create says what is in the way
-    fs::remove(run + name, ignored);
-  }
-}
-
-/// The configuration of the run in `directory`, which must be the one asked for.
-ProgramConfig ConfigOfRun(const RunDirectory& directory, ProgramConfig asked) {
-  ProgramConfig config = ReadRecord(directory.config());
-  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env);
-  // What "auto" was on the machine that began it.
-  if (asked.train.learner.precision == LearnerPrecision::kAuto) {
-    asked.train.learner.precision = config.train.learner.precision;
-  }
-  std::vector<std::string> differences = Differences(config, asked);
-  if (!IsSamePolicy(config.train.low_level.get(), asked.train.low_level.get())) {
-    differences.push_back("another low-level policy");
-  }
-  if (!differences.empty()) {
-    throw Error(fmt::format(
-        "{}: was trained with another configuration than the study asks for: {}; choose another "
-        "--out, or remove it",
-        directory.path(), differences.front()));
-  }
-  return config;
-}
-
 struct AgentInStudy {
   std::string shown;
   std::string name;  ///< as of FindAgent
 };
-
-/// The file's FNV hash for a policy; for other agents nothing, as their names say all.
-std::string Fingerprint(const std::string& agent) {
-  const std::string file = PolicyFileOfAgent(agent);
-  if (file.empty() || file == kUntrained) return "";
-  const std::string bytes = ReadFile(file, kLargestRecord);
-  FnvHash hash;
-  hash.Add(bytes.data(), bytes.size());
-  return hash.Hex();
-}
 
 /// What a comparison depends on.
 Json Identity(const std::vector<AgentInStudy>& agents, const Study& study,
               const ProgramConfig& config) {
   Json names = Json::array(), quantities = Json::array();
   for (const AgentInStudy& agent : agents) {
-    names.push_back({{"name", agent.shown}, {"policy", Fingerprint(agent.name)}});
+    names.push_back({{"name", agent.shown}, {"policy", FingerprintOfAgent(agent.name)}});
   }
   for (const Quantity& quantity : QuantitiesOf(config.train.env)) {
     quantities.push_back(quantity.key);
@@ -108,20 +64,6 @@ Json KnownComparison(const std::string& path, const Json& identity) {
   return document;
 }
 
-/// The configuration of one training. Throws Error if the task needs a low-level policy and the
-/// study has none.
-ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const StudyLevel& level,
-                            std::uint64_t seed) {
-  ProgramConfig config = TrainingConfig(study, task, level, seed);
-  if (!NeedsLowLevel(config.train.env)) return config;
-  if (study.low_level.empty()) {
-    throw UsageError(fmt::format(
-        "task {} needs low_level = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
-  }
-  config.train.low_level = ChooseLowLevelPolicy(config.train.env, study.low_level).policy;
-  return config;
-}
-
 /// Throws Error if a policy of `who` that is trained in `trained` cannot fly in `flown`.
 void CheckFlies(const EnvConfig& trained, EnvConfig flown, const std::string& who) {
   const auto made_with = PolicyEnvironment(trained);
@@ -129,8 +71,8 @@ void CheckFlies(const EnvConfig& trained, EnvConfig flown, const std::string& wh
   CheckMadeWith(flown, made_with, who);
 }
 
-/// The study. Throws Error on a configuration or agent of it that cannot be.
-const Study& Checked(const Study& study) {
+/// Throws Error on a configuration or agent of the study that cannot be.
+void Check(const Study& study) {
   bool has_high_level = false;
   for (const std::string& task : study.tasks) {
     for (const StudyLevel& level : study.levels) {
@@ -152,7 +94,36 @@ const Study& Checked(const Study& study) {
   if (!has_high_level && !study.low_level.empty()) {
     throw UsageError("low_level is for tasks of a high-level policy, and the study has none");
   }
-  return study;
+}
+
+/// Of all configurations.
+std::string HashOf(const Study& study) {
+  std::string text;
+  for (const std::string& task : study.tasks) {
+    for (const StudyLevel& level : study.levels) {
+      text += DumpToml(LevelConfig(study, task, level));
+      for (const std::uint64_t seed : study.seeds) {
+        text += DumpToml(TrainingConfig(study, task, level, seed));
+      }
+    }
+  }
+  return HexHash(text);
+}
+
+/// On all ranks together: flies them over the same episodes; nothing if it was asked to stop.
+std::optional<Comparison> FlyAll(const std::vector<AgentInStudy>& agents,
+                                 const ProgramConfig& config, const Study::Evaluation& evaluation,
+                                 WorkerPool& pool, Ranks& ranks) {
+  std::vector<NamedAgent> named;
+  DoTogether(ranks, [&] {
+    for (const AgentInStudy& agent : agents) {
+      named.push_back({agent.shown, FindAgent(agent.name, config, evaluation.seed)});
+    }
+  });
+  const RunSignals signals(pool);
+  Comparison comparison = Compare(named, config, evaluation.episodes, evaluation.seed, pool, ranks);
+  if (AgreeOnStop(ranks, pool)) return std::nullopt;
+  return comparison;
 }
 
 /// Makes it, or throws Error if there is something in it that is not a study.
@@ -167,72 +138,44 @@ const std::string& MakeStudyDirectory(const std::string& path) {
 
 }  // namespace
 
-StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool& pool)
-    : study_(Checked(study)),
+StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool& pool, Ranks& ranks)
+    : study_(study),
       directory_(directory),
       pool_(pool),
-      lock_(LockDirectory(MakeStudyDirectory(directory))),
+      ranks_(ranks),
+      trainings_(study, directory, pool, ranks),
       results_(Json::array()) {
-  MakeDirectories(directory_ + "/comparisons");
-  MakeDirectories(directory_ + "/runs");
-  CheckWritable({directory_ + "/results.csv", directory_ + "/results.json"});
-}
-
-std::string StudyRun::RunPath(const std::string& task, const StudyLevel& level,
-                              std::uint64_t seed) const {
-  const std::string of_level = study_.training.per_level ? "-" + FileNamePart(level.name) : "";
-  return fmt::format("{}/runs/{}{}-seed{}", directory_, FileNamePart(task), of_level, seed);
+  DoTogether(ranks, [&] { Check(study); });
+  if (ranks.count() > 1) {
+    RequireSameOnRanks(ranks, "what they study", DescribeProgram() + ", study " + HashOf(study));
+  }
+  DoOnRankZero(ranks, [&] {
+    lock_.emplace(LockDirectory(MakeStudyDirectory(directory)));
+    MakeDirectories(directory_ + "/comparisons");
+    MakeDirectories(directory_ + "/runs");
+    CheckWritable({directory_ + "/results.csv", directory_ + "/results.json"});
+  });
 }
 
 bool StudyRun::Run() {
+  // So that no rank waits for the last training of a level.
+  if (ranks_.count() > 1 && !trainings_.Train(trainings_.Paths())) return false;
   for (const std::string& task : study_.tasks) {
     for (const StudyLevel& level : study_.levels) {
-      for (const std::uint64_t seed : study_.seeds) {
-        if (!Train(task, level, seed)) return false;
-      }
-      if (!Evaluate(task, level)) return false;
-      WriteResults();
+      if (!trainings_.Train(RunPaths(task, level)) || !Evaluate(task, level)) return false;
+      DoOnRankZero(ranks_, [this] { WriteResults(); });
     }
   }
   return true;
 }
 
-std::vector<std::string> StudyRun::RunPaths() const {
+std::vector<std::string> StudyRun::RunPaths(const std::string& task,
+                                            const StudyLevel& level) const {
   std::vector<std::string> paths;
-  for (const std::string& task : study_.tasks) {
-    for (const StudyLevel& level : study_.levels) {
-      for (const std::uint64_t seed : study_.seeds) {
-        const std::string other = RunPath(task, level, seed);
-        if (std::find(paths.begin(), paths.end(), other) == paths.end()) paths.push_back(other);
-      }
-    }
+  for (const std::uint64_t seed : study_.seeds) {
+    paths.push_back(RunPath(study_, directory_, task, level, seed));
   }
   return paths;
-}
-
-void StudyRun::SayTraining(const std::string& path) const {
-  const std::vector<std::string> paths = RunPaths();
-  const auto place = std::find(paths.begin(), paths.end(), path) - paths.begin();
-  fmt::print("training {} of {}: {}\n", place + 1, paths.size(), path);
-  std::fflush(stdout);
-}
-
-bool StudyRun::Train(const std::string& task, const StudyLevel& level, std::uint64_t seed) {
-  const std::string path = RunPath(task, level, seed);
-  const ProgramConfig config = ConfigToTrain(study_, task, level, seed);
-  if (!IsRunDirectory(path)) {
-    RemoveStub(path);
-    SayTraining(path);
-    TrainingRun::Begin(config, path, pool_);
-    return !pool_.stopping();
-  }
-  RunDirectory directory = RunDirectory::Open(path);
-  const ProgramConfig begun = ConfigOfRun(directory, config);
-  if (!fs::exists(directory.evaluation())) {
-    SayTraining(path);
-    TrainingRun::Resume(begun, std::move(directory), pool_);
-  }
-  return !pool_.stopping();
 }
 
 bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
@@ -241,26 +184,26 @@ bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
   const ProgramConfig config = LevelConfig(study_, task, level);
   std::vector<AgentInStudy> agents;
   for (const std::uint64_t seed : study_.seeds) {
-    agents.push_back({fmt::format("seed {}", seed), "policy:" + RunPath(task, level, seed)});
+    agents.push_back(
+        {fmt::format("seed {}", seed), "policy:" + RunPath(study_, directory_, task, level, seed)});
   }
   for (const std::string& agent : study_.agents) agents.push_back({agent, agent});
-  const Json identity = Identity(agents, study_, config);
-  Json document = KnownComparison(path, identity);
-  if (document.is_null()) {
-    std::vector<NamedAgent> named;
-    for (const AgentInStudy& agent : agents) {
-      named.push_back({agent.shown, FindAgent(agent.name, config, study_.evaluation.seed)});
-    }
+  Json identity, document;  // rank 0's
+  DoOnRankZero(ranks_, [&] {
+    identity = Identity(agents, study_, config);
+    document = KnownComparison(path, identity);
+  });
+  if (UnionOverRanks(ranks_, document.is_null() ? 0 : 1) == 0) {
     fmt::print("{}, {}: flying {} over {}\n", task, level.name,
-               Counted(static_cast<int>(named.size()), "agent"),
+               Counted(static_cast<int>(agents.size()), "agent"),
                Counted(study_.evaluation.episodes, "episode"));
-    const RunSignals signals(pool_);
-    const Comparison comparison =
-        Compare(named, config, study_.evaluation.episodes, study_.evaluation.seed, pool_);
-    if (pool_.stopping()) return false;
-    document = ToJson(comparison, config);
-    document["identity"] = identity;
-    WriteJson(path, document);
+    const auto comparison = FlyAll(agents, config, study_.evaluation, pool_, ranks_);
+    if (!comparison) return false;
+    DoOnRankZero(ranks_, [&] {
+      document = ToJson(*comparison, config);
+      document["identity"] = identity;
+      WriteJson(path, document);
+    });
   }
   results_.push_back({{"task", task}, {"level", level.name}, {"comparison", document}});
   return true;

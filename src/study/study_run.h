@@ -2,13 +2,16 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/worker_pool.h"
 #include "src/evaluation/quantities.h"
 #include "src/study/study.h"
+#include "src/study/study_trainings.h"
 #include "train/files/file_descriptor.h"
+#include "train/ranks/ranks.h"
 
 namespace skein {
 
@@ -18,28 +21,30 @@ namespace skein {
 ///   results.csv, results.json     all of them so far
 class StudyRun {
  public:
-  /// Makes the directory and holds it exclusively. Throws Error on a configuration or agent of the
-  /// study that cannot be, before there is a directory.
-  StudyRun(const Study& study, const std::string& directory, WorkerPool& pool);
+  /// On all ranks together: rank 0 makes the directory and holds it exclusively. Throws Error on a
+  /// configuration or agent of the study that cannot be, or if ranks compute or study differently,
+  /// before there is a directory.
+  StudyRun(const Study& study, const std::string& directory, WorkerPool& pool,
+           Ranks& ranks = OneRank());
 
-  /// Does what is left to do. Returns false if it was asked to stop (SIGINT, SIGTERM): the same
-  /// call resumes bit-exactly. Throws Error if a run in the directory was trained with
-  /// another configuration.
+  /// On all ranks together: does what is left to do. Several ranks share out all trainings first,
+  /// then the episodes of every level; the files are the same. Returns false if it was asked to
+  /// stop (SIGINT, SIGTERM): the same call resumes bit-exactly. Throws Error if a run in the
+  /// directory was trained with another configuration.
   bool Run();
 
-  /// The table of all levels for people; without a newline at the end.
+  /// The table of all levels for people, on rank 0; without a newline at the end.
   std::string ToText() const;
 
   /// The directories of all trainings, in their order.
-  std::vector<std::string> RunPaths() const;
-  /// Of each level the comparison as a page shows it (ShownComparison), with `level`, its name.
+  std::vector<std::string> RunPaths() const { return trainings_.Paths(); }
+  /// Of each level the comparison as a page shows it (ShownComparison), with `level`, its name; on
+  /// rank 0.
   std::vector<nlohmann::ordered_json> ShownComparisons() const;
 
  private:
-  std::string RunPath(const std::string& task, const StudyLevel& level, std::uint64_t seed) const;
-  /// Says which of the study's trainings is the next.
-  void SayTraining(const std::string& path) const;
-  bool Train(const std::string& task, const StudyLevel& level, std::uint64_t seed);
+  /// Of the trainings that serve a level.
+  std::vector<std::string> RunPaths(const std::string& task, const StudyLevel& level) const;
   bool Evaluate(const std::string& task, const StudyLevel& level);
   /// Of all tasks and levels, each once.
   std::vector<Quantity> Measured() const;
@@ -48,8 +53,10 @@ class StudyRun {
   const Study& study_;
   std::string directory_;
   WorkerPool& pool_;
-  FileDescriptor lock_;
-  nlohmann::ordered_json results_;  ///< array of task, level, comparison
+  Ranks& ranks_;
+  StudyTrainings trainings_;
+  std::optional<FileDescriptor> lock_;  ///< rank 0's
+  nlohmann::ordered_json results_;      ///< array of task, level, comparison (of rank 0 alone)
 };
 
 }  // namespace skein

@@ -2,16 +2,13 @@
 // Runs trainings of several processes as a user does, with mpirun; skipped where there is none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 
-#include "base/error.h"
 #include "src/files/output_file.h"
-#include "tests/scratch_directory.h"
+#include "tests/src/ranks_fixture.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
 
@@ -23,48 +20,8 @@ using ::testing::HasSubstr;
 
 const std::vector<std::string> kShards = {"--set", "learner.shards=8", "--threads", "1"};
 
-/// Processes of this program that train in `run` beside mpirun itself, as the system lists them.
-std::vector<pid_t> ProcessesOf(const std::string& run) {
-  std::vector<pid_t> found;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    try {
-      const std::string words = ReadFile(entry.path().string() + "/cmdline");
-      const bool is_rank = words.rfind(SKEIN_PROGRAM, 0) == 0;
-      if (is_rank && words.find(run) != std::string::npos) found.push_back(std::stoi(name));
-    } catch (const Error&) {  // it has ended
-    }
-  }
-  return found;
-}
-
-class RanksPipeline : public ::testing::Test {
+class RanksPipeline : public RanksFixture {
  protected:
-  void SetUp() override {
-    if (std::system("command -v mpirun > /dev/null 2>&1") != 0 || !fs::exists(SKEIN_MPI_MODULE)) {
-      GTEST_SKIP() << "no mpirun, or built without MPI";
-    }
-  }
-
-  /// The words that start `count` ranks; `environment` is set for the last of them alone.
-  static std::vector<std::string> Mpirun(int count, const std::vector<std::string>& arguments,
-                                         const std::string& environment = "") {
-    std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
-    const auto ranks = [&](int several) {
-      words.insert(words.end(), {"-np", std::to_string(several), SKEIN_PROGRAM});
-      words.insert(words.end(), arguments.begin(), arguments.end());
-    };
-    if (environment.empty()) {
-      ranks(count);
-      return words;
-    }
-    ranks(count - 1);
-    words.insert(words.end(), {":", "-x", environment});
-    ranks(1);
-    return words;
-  }
-
   void ExpectSameRun(const std::string& a, const std::string& b) {
     for (const char* file :
          {"/metrics.csv", "/checkpoints/checkpoint-000012.skein", "/checkpoints/policy-final.skein",
@@ -73,9 +30,7 @@ class RanksPipeline : public ::testing::Test {
     }
   }
 
-  const ScratchDirectory scratch_;
-  std::string root_ = scratch_.path();
-  std::string reference_ = root_ + "/reference", run_ = root_ + "/run";
+  std::string reference_ = scratch_ / "reference", run_ = scratch_ / "run";
 };
 
 TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcess) {
@@ -161,11 +116,12 @@ TEST_F(RanksPipeline, RanksThatComputeDifferentlyAreRefusedAndNamed) {
 
 TEST_F(RanksPipeline, NumbersThatAreNotPossibleAreRefused) {
   const ProgramResult three = RunWords(Mpirun(3, TinyTraining(run_, kShards)));
-  EXPECT_NE(three.exit_code, 0);
+  EXPECT_EQ(three.exit_code, 2);
   EXPECT_THAT(three.error, HasSubstr("a power of two"));
   const ProgramResult unsharded = RunWords(Mpirun(2, TinyTraining(run_, {"--threads", "1"})));
-  EXPECT_NE(unsharded.exit_code, 0);
+  EXPECT_EQ(unsharded.exit_code, 2);
   EXPECT_THAT(unsharded.error, HasSubstr("learner.shards = 1 cannot be done by 2 ranks"));
+  EXPECT_THAT(unsharded.error, HasSubstr("--set learner.shards=2"));
   const ProgramResult wrong = RunWords(Mpirun(2, {"train", "heading", "--set", "ppo.gamma=2"}));
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_EQ(wrong.error.find("ppo.gamma = 2"), wrong.error.rfind("ppo.gamma = 2")) << "said once";

@@ -9,7 +9,7 @@
 namespace skein {
 namespace {
 
-constexpr int kDataTag = 1, kWaitingTag = 2;
+constexpr int kDataTag = 1, kWaitingTag = 2, kNoticeTag = 3;
 /// MPI counts in ints.
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 /// A waiting rank asks without pause at first, then leaves its processor to others.
@@ -35,7 +35,10 @@ MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
   }
 }
 
-MpiRanks::~MpiRanks() { MPI_Finalize(); }
+MpiRanks::~MpiRanks() {
+  for (Sent& sent : sent_) MPI_Wait(&sent.request, MPI_STATUS_IGNORE);
+  MPI_Finalize();
+}
 
 std::string MpiRanks::Describe(int rank) const {
   return "rank " + std::to_string(rank) + " (" + hosts_[static_cast<std::size_t>(rank)] + ")";
@@ -55,6 +58,27 @@ void MpiRanks::Exchange(int partner, const void* send, std::size_t send_bytes, v
               MPI_COMM_WORLD, &requests.emplace_back());
   }
   Wait(requests);
+}
+
+void MpiRanks::Notify(int rank, std::int64_t word) {
+  sent_.remove_if([](Sent& sent) {
+    int done = 0;
+    MPI_Test(&sent.request, &done, MPI_STATUS_IGNORE);
+    return done != 0;
+  });
+  Sent& sent = sent_.emplace_back(Sent{word, MPI_REQUEST_NULL});
+  MPI_Isend(&sent.word, 1, MPI_INT64_T, rank, kNoticeTag, MPI_COMM_WORLD, &sent.request);
+}
+
+std::optional<Notice> MpiRanks::TakeNotice() {
+  int there = 0;
+  MPI_Status status;
+  MPI_Iprobe(MPI_ANY_SOURCE, kNoticeTag, MPI_COMM_WORLD, &there, &status);
+  if (there == 0) return std::nullopt;
+  Notice notice{status.MPI_SOURCE, 0};
+  MPI_Recv(&notice.word, 1, MPI_INT64_T, notice.sender, kNoticeTag, MPI_COMM_WORLD,
+           MPI_STATUS_IGNORE);
+  return notice;
 }
 
 void MpiRanks::Wait(std::vector<MPI_Request>& requests) {

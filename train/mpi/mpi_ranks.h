@@ -4,6 +4,9 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <cstdint>
+#include <list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,10 +25,18 @@ class MpiRanks final : public Ranks {
   std::string Describe(int rank) const override;
   void Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
                 std::size_t receive_bytes) override;
+  void Notify(int rank, std::int64_t word) override;
+  std::optional<Notice> TakeNotice() override;
   [[noreturn]] void Abort(const std::string& reason) override;
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  /// A notice on its way: it stays where it is until MPI has it.
+  struct Sent {
+    std::int64_t word;
+    MPI_Request request;
+  };
 
   void Wait(std::vector<MPI_Request>& requests);
   /// Tells all others that this rank waits, so that they know that it does not hang.
@@ -38,6 +49,7 @@ class MpiRanks final : public Ranks {
   std::chrono::duration<double> timeout_;
   int rank_ = 0, count_ = 1;
   std::vector<std::string> hosts_;
+  std::list<Sent> sent_;
   std::vector<bool> waits_;  ///< by rank: has told since this rank began to wait
 };
 

@@ -20,19 +20,6 @@ constexpr int kTileSize = 128;
 /// Keeps the episodes of an evaluation apart from those of training with the same seed.
 constexpr std::uint64_t kEvaluationStream = 0xA5B35705E7C0FFEE;
 
-std::uint64_t HashOfStarts(const VecEnv& env) {
-  FnvHash hash;
-  for (int aircraft = 0; aircraft < env.num_aircraft(); ++aircraft) {
-    for (int column = 0; column < kNumRecordedColumns; ++column) {
-      const float value = env.StateOf(aircraft, column);
-      hash.Add(&value, sizeof value);
-    }
-    const std::vector<float> target = env.TargetOf(aircraft);
-    hash.Add(target.data(), target.size() * sizeof target[0]);
-  }
-  return hash.value();
-}
-
 /// Control steps within tolerances after which a target counts, at least the one of first touch.
 std::int32_t DwellSteps(const EnvConfig& env) {
   const double steps = MakeTask(env)->dwell_s() / env.control_interval_s;
@@ -130,14 +117,24 @@ TileAgent MakeEvaluationAgent(const Agent& agent, const VecEnv& env, int tile,
   return {agent, env, tile, options.seed ^ kEvaluationStream};
 }
 
-FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& config,
-                          const EvaluationOptions& options, WorkerPool& pool) {
-  VecEnv env = MakeEvaluationEnv(agent, config, options);
-  FlownEpisodes flown;
-  flown.starts = HashOfStarts(env);
+std::uint64_t HashOfStarts(const VecEnv& env, std::optional<std::uint64_t> before) {
+  FnvHash hash(before.value_or(FnvHash().value()));
+  for (int aircraft = 0; aircraft < env.num_aircraft(); ++aircraft) {
+    for (int column = 0; column < kNumRecordedColumns; ++column) {
+      const float value = env.StateOf(aircraft, column);
+      hash.Add(&value, sizeof value);
+    }
+    const std::vector<float> target = env.TargetOf(aircraft);
+    hash.Add(target.data(), target.size() * sizeof target[0]);
+  }
+  return hash.value();
+}
+
+std::vector<Episode> FlyEpisodes(const Agent& agent, VecEnv& env, const EvaluationOptions& options,
+                                 WorkerPool& pool) {
   Episode unflown;
   unflown.metrics.fill(std::numeric_limits<float>::quiet_NaN());
-  flown.episodes.assign(options.episodes, unflown);
+  std::vector<Episode> episodes(static_cast<std::size_t>(options.episodes), unflown);
   const std::int32_t dwell_steps = DwellSteps(env.config());
   const bool is_measured = options.flight_metrics || env.config().hold_s > 0;
   std::vector<FlightMeasurer> measurers(static_cast<std::size_t>(pool.threads()),
@@ -145,8 +142,18 @@ FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& config,
   pool.ForEach(env.num_tiles(), [&](int tile, int worker) {
     FlightMeasurer& measurer = measurers[static_cast<std::size_t>(worker)];
     TileEvaluation(agent, env, tile, options, dwell_steps, is_measured ? &measurer : nullptr)
-        .Fly(pool, flown.episodes.data() + env.tile_begin(tile));
+        .Fly(pool, episodes.data() + env.tile_begin(tile));
   });
+  return episodes;
+}
+
+FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& config,
+                          const EvaluationOptions& options, WorkerPool& pool) {
+  VecEnv env = MakeEvaluationEnv(agent, config, options);
+  FlownEpisodes flown;
+  flown.starts = HashOfStarts(env);
+  flown.episodes = FlyEpisodes(agent, env, options, pool);
+  flown.stopped = pool.stopping();
   return flown;
 }
 

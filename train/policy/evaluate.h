@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/worker_pool.h"
@@ -44,9 +45,8 @@ struct Episode {
 /// than long ones.
 struct FlownEpisodes {
   std::vector<Episode> episodes;
-  /// FNV hash of every episode's initial state and target: equal for all agents that fly the same
-  /// episodes.
-  std::uint64_t starts = 0;
+  std::uint64_t starts = 0;  ///< HashOfStarts: equal for all agents that fly the same episodes
+  bool stopped = false;      ///< the pool was asked to stop: the episodes say nothing
 };
 
 /// Means over episodes.
@@ -63,8 +63,8 @@ struct EvaluationResult {
 };
 
 /// Initial states, targets, noise and wind of the i-th episode depend on (env, options.seed, i)
-/// alone, not on the agent. If the pool is stopping, ends within a policy step, and the result says
-/// nothing. Throws Error where the agent does not fit the task.
+/// alone, not on the agent. If the pool is stopping, ends within a policy step. Throws Error where
+/// the agent does not fit the task.
 FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& env,
                           const EvaluationOptions& options, WorkerPool& pool);
 
@@ -81,5 +81,11 @@ VecEnv MakeEvaluationEnv(const Agent& agent, const EnvConfig& env,
 /// And who flies a tile of it.
 TileAgent MakeEvaluationAgent(const Agent& agent, const VecEnv& env, int tile,
                               const EvaluationOptions& options);
+/// Flies the episodes of such an environment, which nobody has flown yet.
+std::vector<Episode> FlyEpisodes(const Agent& agent, VecEnv& env, const EvaluationOptions& options,
+                                 WorkerPool& pool);
+/// FNV hash of the initial state and target of every episode of such an environment, continued from
+/// that of the episodes `before` them.
+std::uint64_t HashOfStarts(const VecEnv& env, std::optional<std::uint64_t> before = std::nullopt);
 
 }  // namespace skein

@@ -10,6 +10,8 @@
 #include "train/network/network.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/trainer.h"
+#include "train/ranks/collectives.h"
+#include "train/ranks/timed_ranks.h"
 
 namespace skein {
 namespace {
@@ -28,18 +30,32 @@ double LowLevelFlopsPerPolicyStep(const TrainConfig& config) {
   return actions * config.low_level->FlopsPerAction();
 }
 
+/// `count` / each of the seconds.
+std::vector<double> RatesOf(double count, const std::vector<double>& seconds) {
+  std::vector<double> rates;
+  for (const double one : seconds) rates.push_back(count / one);
+  return rates;
+}
+
 /// One configuration in training, and its seconds by iteration.
 struct Runner {
-  Runner(const TrainConfig& config, WorkerPool& pool)
-      : trainer(std::make_unique<Trainer>(config, pool)), threads(pool.threads()) {
+  Runner(const TrainConfig& config, WorkerPool& pool, TimedRanks& processes)
+      : ranks(processes),
+        trainer(std::make_unique<Trainer>(config, pool, processes)),
+        threads(pool.threads()) {
     trainer->Iterate();
   }
 
   void Iterate() {
+    UnionOverRanks(ranks, 0);  // what came before took ranks differently long
+    const double exchanged_s = ranks.exchange_seconds();
+    const std::uint64_t sent_before = ranks.sent_bytes();
     const auto start = std::chrono::steady_clock::now();
     const IterationReport report = trainer->Iterate();
     whole.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    exchange.push_back((ranks.exchange_seconds() - exchanged_s) / whole.back());
+    sent_bytes = static_cast<double>(ranks.sent_bytes() - sent_before);
     rollout.push_back(report.rollout_seconds);
     simulator.push_back(report.simulator_seconds / report.rollout_seconds);
     update.push_back(report.update_seconds);
@@ -55,7 +71,7 @@ struct Runner {
     return simd::MeasurePeak(threads).median_gflops;
   }
 
-  LearnerRates Rates() const {
+  LearnerRates Rates() {
     const TrainConfig& config = trainer->config();
     const double policy_steps =
         static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps;
@@ -78,28 +94,37 @@ struct Runner {
     rates.peak_gflops = Median(peak);
     rates.iteration_s = Median(whole);
     rates.efficiency = Median(efficiency);
+    rates.exchange_share = Median(exchange);
+    SumOverRanks(ranks, 1, &rates.exchange_share);
+    rates.exchange_share /= ranks.count();
+    rates.sent_bytes = sent_bytes;
+    rates.samples = {whole, RatesOf(policy_steps, rollout), RatesOf(samples, update),
+                     RatesOf(samples, gradient)};
     return rates;
   }
 
+  TimedRanks& ranks;
   std::unique_ptr<Trainer> trainer;
   int threads;
-  std::vector<double> whole, rollout, simulator, update, gradient, efficiency, peak;
+  std::vector<double> whole, rollout, simulator, update, gradient, efficiency, exchange, peak;
+  double sent_bytes = 0;
 };
 
 }  // namespace
 
 std::vector<LearnerRates> MeasureLearners(const std::vector<TrainConfig>& configs, int iterations,
-                                          WorkerPool& pool) {
+                                          WorkerPool& pool, Ranks& ranks) {
+  TimedRanks timed(ranks);
   std::vector<Runner> runners;
   for (TrainConfig config : configs) {
     config.evaluation.interval_iterations = 0;
-    runners.emplace_back(config, pool);
+    runners.emplace_back(config, pool, timed);
   }
   for (int i = 0; i < iterations; ++i) {
     for (Runner& runner : runners) runner.Iterate();
   }
   std::vector<LearnerRates> rates;
-  for (const Runner& runner : runners) rates.push_back(runner.Rates());
+  for (Runner& runner : runners) rates.push_back(runner.Rates());
   return rates;
 }
 

@@ -6,6 +6,7 @@
 #include "base/worker_pool.h"
 #include "train/network/backend.h"
 #include "train/ppo/train_config.h"
+#include "train/ranks/ranks.h"
 
 namespace skein {
 
@@ -25,12 +26,20 @@ struct LearnerRates {
   double peak_gflops = 0;
   /// Of an iteration, the share that rollout and gradients alone would take.
   double efficiency = 0;
+  /// Of an iteration, the share in which ranks exchange or wait for each other, mean over ranks.
+  double exchange_share = 0;
+  double sent_bytes = 0;  ///< in an iteration, by this rank
+  /// Of every iteration, in their order.
+  struct Samples {
+    std::vector<double> iteration_s, rollout_policy_steps_per_s, update_samples_per_s,
+        gradient_samples_per_s;
+  } samples;
 };
 
-/// Trains every configuration for `iterations` iterations after one to warm up, in turns with each
-/// other and with the measurements of the peak, so that all meet the same machine. Their
-/// evaluations are left out.
+/// On all ranks together: trains every configuration for `iterations` iterations after one to warm
+/// up, in turns with each other and with the measurements of the peak, so that all meet the same
+/// machine. Their evaluations are left out.
 std::vector<LearnerRates> MeasureLearners(const std::vector<TrainConfig>& configs, int iterations,
-                                          WorkerPool& pool);
+                                          WorkerPool& pool, Ranks& ranks = OneRank());
 
 }  // namespace skein

@@ -203,16 +203,7 @@ LossSums PpoUpdate::SumLosses(int slices) const {
 }
 
 bool PpoUpdate::SumOverAllRanks(LossSums& losses) {
-  struct Message {
-    LossSums losses;
-    int stopping;
-  } message{losses, pool_.stopping()};
-  CombineOverRanks(ranks_, 1, &message, [](Message& mine, const Message& theirs) {
-    mine.losses += theirs.losses;
-    mine.stopping += theirs.stopping;
-  });
-  if (message.stopping > 0) return false;
-  losses = message.losses;
+  if (SumOverRanksOrGiveUp(ranks_, pool_.stopping(), losses)) return false;
   for (Side& side : sides_) {
     SumOverRanks(ranks_, side.accumulators[0].size(), side.accumulators[0].data());
   }

@@ -6,21 +6,18 @@
 #include "base/error.h"
 
 namespace skein {
-namespace {
 
-bool Serves(int shards, int num_aircraft, int chunks_per_aircraft, int minibatches) {
-  return num_aircraft % shards == 0 &&
+bool AreShardsPossible(int shards, int num_aircraft, int chunks_per_aircraft, int minibatches) {
+  const bool is_power = (shards & (shards - 1)) == 0;
+  return is_power && num_aircraft % shards == 0 &&
          static_cast<long long>(num_aircraft / shards) * chunks_per_aircraft >= minibatches;
 }
 
-}  // namespace
-
 void ValidateShards(int shards, int num_aircraft, int chunks_per_aircraft, int minibatches) {
-  const bool is_power = (shards & (shards - 1)) == 0;
-  if (is_power && Serves(shards, num_aircraft, chunks_per_aircraft, minibatches)) return;
+  if (AreShardsPossible(shards, num_aircraft, chunks_per_aircraft, minibatches)) return;
   std::string possible = "1";
   for (int power = 2; power <= num_aircraft / 2 + 1; power *= 2) {
-    if (!Serves(power, num_aircraft, chunks_per_aircraft, minibatches)) break;
+    if (!AreShardsPossible(power, num_aircraft, chunks_per_aircraft, minibatches)) break;
     possible += ", " + std::to_string(power);
   }
   throw Error("configuration: learner.shards = " + std::to_string(shards) +

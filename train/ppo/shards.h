@@ -17,9 +17,11 @@ struct ShardRange {
   int count = 1;  ///< computed here
 };
 
-/// Throws Error, which names the nearest values that would do, unless `shards` is a power of two
-/// that divides `num_aircraft` and leaves every shard a chunk of each minibatch: it has
-/// `chunks_per_aircraft` for each of its aircraft.
+/// Whether `shards` is a power of two that divides `num_aircraft` and leaves every shard a chunk of
+/// each minibatch: it has `chunks_per_aircraft` for each of its aircraft.
+bool AreShardsPossible(int shards, int num_aircraft, int chunks_per_aircraft, int minibatches);
+
+/// Throws Error, which names the values that would do, unless they are possible.
 void ValidateShards(int shards, int num_aircraft, int chunks_per_aircraft, int minibatches);
 
 /// Several sums that are formed at once.

@@ -10,17 +10,18 @@
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "envs/vec_env.h"
-#include "train/policy/evaluate.h"
 #include "train/policy/policy_environment.h"
 #include "train/ppo/actor_critic.h"
 #include "train/ppo/broken_shard.h"
 #include "train/ppo/learning_rate.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/ppo_update.h"
+#include "train/ppo/rank_shards.h"
 #include "train/ppo/reward_check.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/training_state.h"
 #include "train/ranks/collectives.h"
+#include "train/ranks/shared_episodes.h"
 
 namespace skein {
 namespace {
@@ -62,19 +63,6 @@ const TrainConfig& Validated(const TrainConfig& config) {
   return config;
 }
 
-/// The shards of a rank. Throws Error unless they are equally many on all.
-ShardRange ShardsOf(int shards, const Ranks& ranks) {
-  if (shards % ranks.count() == 0) {
-    const int count = shards / ranks.count();
-    return {shards, ranks.rank() * count, count};
-  }
-  std::string possible = "1";
-  for (int count = 2; count <= shards; count *= 2) possible += ", " + std::to_string(count);
-  throw Error("a training of learner.shards = " + std::to_string(shards) + " cannot be done by " +
-              std::to_string(ranks.count()) + " ranks; possible are " + possible +
-              "; more need a new run of more shards");
-}
-
 }  // namespace
 
 struct Trainer::Impl {
@@ -82,7 +70,7 @@ struct Trainer::Impl {
       : config(Validated(training)),
         pool(workers),
         ranks(processes),
-        shards(ShardsOf(config.learner.shards, ranks)),
+        shards(ShardsOfRank(config, ranks)),
         env(config.env, FlownHere(), config.seed, config.learner.rollout_tile, LowLevelPolicy(),
             ranks.rank() * FlownHere()),
         networks(config, env.observation_size(), PrivilegedSize(config.ppo, env),
@@ -204,20 +192,6 @@ struct Trainer::Impl {
     return state;
   }
 
-  /// Adds the other ranks' statistics; true if a pool is stopping.
-  bool SumStatistics(EpisodeStatistics& episodes) const {
-    struct Message {
-      EpisodeStatistics statistics;
-      int stopping;
-    } message{episodes, pool.stopping()};
-    CombineOverRanks(ranks, 1, &message, [](Message& mine, const Message& theirs) {
-      mine.statistics += theirs.statistics;
-      mine.stopping += theirs.stopping;
-    });
-    episodes = message.statistics;
-    return message.stopping > 0;
-  }
-
   /// Whether some rank's pool was asked to stop. Throws Error on all ranks if their parameters are
   /// not the same.
   bool AgreeOnEnd() {
@@ -260,7 +234,7 @@ struct Trainer::Impl {
         CollectRollout(env, *networks.actor.network, *networks.critic.network, networks.LogStd(),
                        settings, pool, recurrent, rollout);
     const double simulator_seconds = episodes.simulator_seconds;
-    stopped = SumStatistics(episodes);
+    stopped = SumOverRanksOrGiveUp(ranks, pool.stopping(), episodes);
     if (!stopped) CheckRewards();
     policy_steps += config.ppo.rollout_steps;
     const auto count = static_cast<double>(episodes.episodes);
@@ -335,22 +309,15 @@ struct Trainer::Impl {
 
   /// The same episodes each time, each rank its share, and others than an evaluation with the run's
   /// own seed flies.
-  EvaluationResult Evaluation() const {
-    std::vector<Episode> episodes(static_cast<std::size_t>(config.evaluation.episodes));
-    const auto begin = [&](int rank) {
-      return ShareBegin(config.evaluation.episodes, rank, ranks);
-    };
+  EvaluationResult Evaluation() {
     EvaluationOptions options;
-    options.first_episode = static_cast<int>(begin(ranks.rank()));
-    options.episodes = static_cast<int>(begin(ranks.rank() + 1)) - options.first_episode;
+    options.episodes = config.evaluation.episodes;
     options.seed = ~config.seed;
-    if (options.episodes > 0) {
-      const FlownEpisodes own =
-          FlyEpisodes(Agent::MeanOf(CurrentPolicy()), config.env, options, pool);
-      std::copy(own.episodes.begin(), own.episodes.end(), episodes.begin() + options.first_episode);
-    }
-    ShareWithAllRanks(ranks, episodes);
-    return Summarise(episodes, config.env.control_interval_s);
+    fails_alike = true;
+    const FlownEpisodes flown =
+        FlyEpisodesOnRanks(Agent::MeanOf(CurrentPolicy()), config.env, options, pool, ranks);
+    fails_alike = false;
+    return Summarise(flown.episodes, config.env.control_interval_s);
   }
 
   void EvaluateIfDue(IterationReport& report) {

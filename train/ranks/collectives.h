@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/worker_pool.h"
 #include "train/ranks/ranks.h"
 
 namespace skein {
@@ -33,11 +34,35 @@ void SumOverRanks(Ranks& ranks, std::size_t count, Value* values) {
   CombineOverRanks(ranks, count, values, [](Value& mine, const Value& theirs) { mine += theirs; });
 }
 
+/// The same of one value, which has +=, and in the same message whether some rank gives up; that is
+/// what it returns.
+template <typename Value>
+bool SumOverRanksOrGiveUp(Ranks& ranks, bool gives_up, Value& value) {
+  struct Message {
+    Value value;
+    int giving_up;
+    void operator+=(const Message& theirs) {
+      value += theirs.value;
+      giving_up += theirs.giving_up;
+    }
+  } message{value, gives_up};
+  SumOverRanks(ranks, 1, &message);
+  value = message.value;
+  return message.giving_up > 0;
+}
+
 /// The union of all ranks' bits.
 inline std::uint64_t UnionOverRanks(Ranks& ranks, std::uint64_t bits) {
   CombineOverRanks(ranks, 1, &bits,
                    [](std::uint64_t& mine, std::uint64_t theirs) { mine |= theirs; });
   return bits;
+}
+
+/// Whether some rank's pool was asked to stop: then every rank's is.
+inline bool AgreeOnStop(Ranks& ranks, WorkerPool& pool) {
+  if (UnionOverRanks(ranks, pool.stopping()) == 0) return false;
+  pool.RequestStop();
+  return true;
 }
 
 /// Where a rank's share of `size` begins.
@@ -82,6 +107,13 @@ std::vector<std::string> TextsOfRanks(Ranks& ranks, const std::string& text);
 /// Does `work` on every rank. If that throws an Error on any of them, throws on all: on rank 0 its
 /// own exception if it has one, else an Error that names the ranks and says what befell the first.
 void DoTogether(Ranks& ranks, const std::function<void()>& work);
+
+/// Does `work` on rank 0 alone; what it throws is thrown on all, as by DoTogether.
+inline void DoOnRankZero(Ranks& ranks, const std::function<void()>& work) {
+  DoTogether(ranks, [&] {
+    if (ranks.rank() == 0) work();
+  });
+}
 
 /// Throws Error on every rank, naming those that differ, unless `text`, which says what `what` is,
 /// is the same on all.

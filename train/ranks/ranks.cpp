@@ -13,9 +13,16 @@ class SingleRank final : public Ranks {
   std::string Describe(int /*rank*/) const override { return "the only process"; }
   void Exchange(int partner, const void* /*send*/, std::size_t /*send_bytes*/, void* /*receive*/,
                 std::size_t /*receive_bytes*/) override {
-    throw Error("there is no rank " + std::to_string(partner) + " to exchange anything with");
+    Refuse(partner);
   }
+  void Notify(int rank, std::int64_t /*word*/) override { Refuse(rank); }
+  std::optional<Notice> TakeNotice() override { return std::nullopt; }
   [[noreturn]] void Abort(const std::string& reason) override { throw Error(reason); }
+
+ private:
+  [[noreturn]] static void Refuse(int rank) {
+    throw Error("there is no rank " + std::to_string(rank) + " to exchange anything with");
+  }
 };
 
 }  // namespace

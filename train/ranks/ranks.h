@@ -2,11 +2,19 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace skein {
 
-/// The processes of one training, numbered [0, count()). All of them call what exchanges anything
+/// A word that another rank has sent.
+struct Notice {
+  int sender = 0;
+  std::int64_t word = 0;
+};
+
+/// The processes of one job, numbered [0, count()). All of them call what exchanges anything
 /// (train/ranks/collectives.h) in the same order, each on one thread at a time.
 class Ranks {
  public:
@@ -22,12 +30,18 @@ class Ranks {
   virtual void Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
                         std::size_t receive_bytes) = 0;
 
+  /// Sends a word to another rank and does not wait for it to be taken.
+  virtual void Notify(int rank, std::int64_t word) = 0;
+  /// The next word that has come from another rank, of one rank in the order in which it sent them;
+  /// nothing if there is none yet.
+  virtual std::optional<Notice> TakeNotice() = 0;
+
   /// Ends all processes with an exit code that is not 0, after saying `reason`, one line, on the
   /// standard error: for what has gone wrong in this process alone.
   [[noreturn]] virtual void Abort(const std::string& reason) = 0;
 };
 
-/// A process that trains alone.
+/// A process that works alone.
 Ranks& OneRank();
 
 }  // namespace skein

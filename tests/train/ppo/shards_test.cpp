@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <set>
 
+#include "base/error.h"
 #include "tests/error_message.h"
 #include "tests/tolerance.h"
 #include "tests/train/small_config.h"
 #include "train/ppo/minibatch_step.h"
 #include "train/ppo/minibatches.h"
+#include "train/ppo/rank_shards.h"
 #include "train/ppo/trainer.h"
 #include "train/ppo/training_state.h"
 
@@ -41,6 +44,51 @@ TEST(ShardTreeTest, BitsDoNotDependOnHowShardsAreGrouped) {
       std::accumulate(parts.begin(), parts.end(), 0.0,
                       [](double sum, const Sums<2>& part) { return sum + part[0]; });
   EXPECT_NE(in_order, whole[0]) << "numbers whose sum shows its order";
+}
+
+/// One of so many ranks, which exchanges nothing.
+class OneOf final : public Ranks {
+ public:
+  OneOf(int rank, int count) : rank_(rank), count_(count) {}
+  int rank() const override { return rank_; }
+  int count() const override { return count_; }
+  std::string Describe(int rank) const override { return std::to_string(rank); }
+  void Exchange(int, const void*, std::size_t, void*, std::size_t) override {}
+  void Notify(int, std::int64_t) override {}
+  std::optional<Notice> TakeNotice() override { return std::nullopt; }
+  [[noreturn]] void Abort(const std::string& reason) override { throw Error(reason); }
+
+ private:
+  int rank_, count_;
+};
+
+TEST(ShardsOfRankTest, EveryShardIsSomeRanksOnce) {
+  TrainConfig config = SmallConfig();
+  config.learner.shards = 16;
+  for (const int count : {1, 2, 4, 8, 16}) {
+    int next = 0;
+    for (int rank = 0; rank < count; ++rank) {
+      const ShardRange own = ShardsOfRank(config, OneOf(rank, count));
+      EXPECT_EQ(own.first, next);
+      EXPECT_EQ(own.total, 16);
+      next += own.count;
+    }
+    EXPECT_EQ(next, 16);
+  }
+}
+
+TEST(ShardsOfRankTest, ARefusalNamesANumberThatWorks) {
+  TrainConfig config = SmallConfig();  // of 96 aircraft: 32 shards at most
+  for (const int count : {2, 8, 32, 64, 512}) {
+    config.learner.shards = 1;
+    const std::string message = MessageOf([&] { ShardsOfRank(config, OneOf(0, count)); });
+    const std::string option = "--set learner.shards=";
+    ASSERT_THAT(message, HasSubstr(option));
+    config.learner.shards = std::stoi(message.substr(message.find(option) + option.size()));
+    EXPECT_NO_THROW(ValidateLearning(config)) << message;
+    EXPECT_NO_THROW(ShardsOfRank(config, OneOf(0, std::min(count, 32)))) << message;
+    EXPECT_EQ(message.find("the most that its aircraft allow") != std::string::npos, count > 32);
+  }
 }
 
 /// [shard][slice] vectors, and what SumGradients must leave of one element.

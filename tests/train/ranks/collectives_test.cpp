@@ -31,6 +31,38 @@ TEST_P(CollectivesTest, SumsAreThoseOfTheTreeAndTheSameOnAllRanks) {
   });
 }
 
+TEST_P(CollectivesTest, ASumSaysWhetherSomeRankGivesUp) {
+  const int last = GetParam() - 1;
+  for (const bool gives_up : {false, true}) {
+    RunOnRanks(GetParam(), [&](Ranks& ranks) {
+      int sum = ranks.rank();
+      const bool here = gives_up && ranks.rank() == last;
+      EXPECT_EQ(SumOverRanksOrGiveUp(ranks, here, sum), gives_up);
+      EXPECT_EQ(sum, last * ranks.count() / 2);
+    });
+  }
+}
+
+TEST_P(CollectivesTest, AStopOnOneRankIsEveryRanks) {
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    WorkerPool pool(1);
+    EXPECT_FALSE(AgreeOnStop(ranks, pool));
+    if (ranks.rank() == ranks.count() / 2) pool.RequestStop();
+    EXPECT_TRUE(AgreeOnStop(ranks, pool));
+    EXPECT_TRUE(pool.stopping());
+  });
+}
+
+TEST_P(CollectivesTest, WhatRankZeroDoesFailsOnAll) {
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    int done = 0;
+    DoOnRankZero(ranks, [&] { ++done; });
+    EXPECT_EQ(done, ranks.rank() == 0 ? 1 : 0);
+    EXPECT_THAT(MessageOf([&] { DoOnRankZero(ranks, [] { throw Error("no space"); }); }),
+                HasSubstr("no space"));
+  });
+}
+
 TEST_P(CollectivesTest, SharesReachAllRanksInOrderHoweverUnequal) {
   for (const int size : {1, 5, 40}) {
     std::vector<int> expected(static_cast<std::size_t>(size));

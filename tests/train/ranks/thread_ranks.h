@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -36,9 +37,23 @@ class Mailboxes {
     box.pop_front();
   }
 
+  void PutNotice(int to, const Notice& notice) {
+    const std::lock_guard lock(mutex_);
+    notices_[to].push_back(notice);
+  }
+  std::optional<Notice> TakeNotice(int to) {
+    const std::lock_guard lock(mutex_);
+    std::deque<Notice>& box = notices_[to];
+    if (box.empty()) return std::nullopt;
+    const Notice notice = box.front();
+    box.pop_front();
+    return notice;
+  }
+
  private:
   std::mutex mutex_;
   std::condition_variable arrived_;
+  std::map<int, std::deque<Notice>> notices_;
   std::map<std::pair<int, int>, std::deque<std::vector<char>>> boxes_;
 };
 
@@ -56,6 +71,8 @@ class ThreadRank final : public Ranks {
     if (send_bytes > 0) mailboxes_.Put(rank_, partner, send, send_bytes);
     if (receive_bytes > 0) mailboxes_.Take(partner, rank_, receive, receive_bytes);
   }
+  void Notify(int rank, std::int64_t word) override { mailboxes_.PutNotice(rank, {rank_, word}); }
+  std::optional<Notice> TakeNotice() override { return mailboxes_.TakeNotice(rank_); }
   [[noreturn]] void Abort(const std::string& reason) override { throw Error("aborted: " + reason); }
 
  private:

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/types.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "src/files/output_file.h"
+#include "tests/scratch_directory.h"
+
+namespace skein {
+
+/// Processes of this program with `word` among their arguments, beside mpirun itself, as the system
+/// lists them.
+inline std::vector<pid_t> ProcessesOf(const std::string& word) {
+  std::vector<pid_t> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    try {
+      const std::string words = ReadFile(entry.path().string() + "/cmdline");
+      const bool is_rank = words.rfind(SKEIN_PROGRAM, 0) == 0;
+      if (is_rank && words.find(word) != std::string::npos) found.push_back(std::stoi(name));
+    } catch (const Error&) {  // it has ended
+    }
+  }
+  return found;
+}
+
+/// Jobs of several processes, with mpirun; skipped where there is none.
+class RanksFixture : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v mpirun > /dev/null 2>&1") != 0 ||
+        !std::filesystem::exists(SKEIN_MPI_MODULE)) {
+      GTEST_SKIP() << "no mpirun, or built without MPI";
+    }
+  }
+
+  /// The words that start `count` ranks; `environment` is set for the last of them alone.
+  static std::vector<std::string> Mpirun(int count, const std::vector<std::string>& arguments,
+                                         const std::string& environment = "") {
+    std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
+    const auto ranks = [&](int several) {
+      words.insert(words.end(), {"-np", std::to_string(several), SKEIN_PROGRAM});
+      words.insert(words.end(), arguments.begin(), arguments.end());
+    };
+    if (environment.empty()) {
+      ranks(count);
+      return words;
+    }
+    ranks(count - 1);
+    words.insert(words.end(), {":", "-x", environment});
+    ranks(1);
+    return words;
+  }
+
+  const ScratchDirectory scratch_;
+};
+
+}  // namespace skein

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "train/ppo/shards.h"
+#include "train/ppo/train_config.h"
+#include "train/ranks/ranks.h"
+
+namespace skein {
+
+/// The shards of this rank, equally many as of every other. Throws Error, which says how many
+/// shards so many ranks need, if the configuration's cannot be dealt out so.
+ShardRange ShardsOfRank(const TrainConfig& config, const Ranks& ranks);
+
+}  // namespace skein
