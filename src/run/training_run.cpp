@@ -74,10 +74,9 @@ std::string CannotRestore(const Checkpoint& newest, const std::vector<Checkpoint
   return message;
 }
 
-/// Restores the newest checkpoint, if there is one, and returns the SIMD target that it was made
-/// on.
-std::string RestoreNewest(const std::vector<Checkpoint>& checkpoints, Trainer& trainer) {
-  if (checkpoints.empty()) return Name(simd::ActiveTarget());
+/// Restores the newest checkpoint, if there is one.
+CheckpointOrigin RestoreNewest(const std::vector<Checkpoint>& checkpoints, Trainer& trainer) {
+  if (checkpoints.empty()) return {Name(simd::ActiveTarget()), ""};
   try {
     return trainer.Restore(checkpoints.back().path);
   } catch (const Error& error) {
@@ -140,7 +139,7 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
 
 int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool,
                         GoesOn goes_on, Ranks& ranks) {
-  std::string saved_on;
+  CheckpointOrigin origin;
   const std::unique_ptr<Trainer> made = MakeTrainer(config.train, pool, ranks, [&](Trainer& begun) {
     directory.RemoveTemporaries();
     const std::vector<Checkpoint> checkpoints = directory.Checkpoints();
@@ -148,25 +147,31 @@ int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wor
       throw Error(fmt::format("cannot resume: {} has been trained to its end and has no checkpoint",
                               directory.path()));
     }
-    saved_on = RestoreNewest(checkpoints, begun);
+    origin = RestoreNewest(checkpoints, begun);
   });
   Trainer& trainer = *made;
   const std::string description = DescribeRanks(config.train, pool, ranks);
   RankLeader leader(ranks);
+  const bool is_whole = origin.records.empty() || BeginsAs(directory.metrics(), origin.records);
   const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration(), MetricsHeader());
   TrimRows(directory.timing(), trainer.iteration(), TimingHeader());
   TrainingRun run(config, std::move(directory), trainer, pool, leader, description);
   run.goes_on_ = std::move(goes_on);
   run.SayBanner();
-  if (rows != trainer.iteration()) {
+  if (!is_whole) {
+    run.log_.Say(
+        fmt::format("warning: metrics.csv is not what this run wrote in its first {} iterations: "
+                    "it was damaged or edited since; the training itself is not touched by that",
+                    trainer.iteration()));
+  } else if (rows != trainer.iteration()) {
     run.log_.Say(fmt::format("warning: metrics.csv has {} rows for {} iterations", rows,
                              trainer.iteration()));
   }
-  if (const std::string target = Name(simd::ActiveTarget()); saved_on != target) {
+  if (const std::string target = Name(simd::ActiveTarget()); origin.simd_target != target) {
     run.log_.Say(
         fmt::format("warning: saved with SIMD target {0}, resuming with {1}: no longer bit-exact "
                     "(SKEIN_SIMD={0} forces it)",
-                    saved_on, target));
+                    origin.simd_target, target));
   }
   return run.Run();
 }
@@ -181,13 +186,11 @@ TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Tr
       ranks_(std::move(ranks)),
       signals_(pool),
       log_(directory_.log()),
-      metrics_(directory_.metrics(), OpenMode::kAppend),
-      timing_(directory_.timing(), OpenMode::kAppend),
+      metrics_(directory_.metrics(), MetricsHeader()),
+      timing_(directory_.timing(), TimingHeader()),
       events_(directory_.path(), UnixTime(), static_cast<std::int64_t>(trainer.env_steps()) + 1),
       last_save_(Clock::now()),
       saved_iteration_(trainer.iteration()) {
-  if (metrics_.size() == 0) metrics_.Write(MetricsHeader());
-  if (timing_.size() == 0) timing_.Write(TimingHeader());
   events_.AppendSummary(UnixTime(), static_cast<std::int64_t>(trainer.env_steps()),
                         EncodeHyperparameters(DumpToml(config), directory_.path(), UnixTime()));
 }
@@ -291,8 +294,8 @@ IterationReport TrainingRun::Iterate() {
 
 void TrainingRun::Record(const IterationReport& report) {
   const double now = UnixTime();
-  metrics_.Write(MetricsRow(report));
-  timing_.Write(TimingRow(report, now));
+  metrics_.Append(MetricsRow(report));
+  timing_.Append(TimingRow(report, now));
   events_.Append(now, static_cast<std::int64_t>(report.env_steps),
                  Scalars(report, static_cast<double>(ControlStepsPerIteration(config_.train))));
   if (report.non_finite > 0) {
@@ -322,7 +325,7 @@ bool TrainingRun::CheckpointIsDue() const {
 
 void TrainingRun::Save(const std::string& path) {
   leader_.Say(RankCommand::kSave, signals_);
-  trainer_.Save(path);
+  trainer_.Save(path, metrics_.Mark());
 }
 
 void TrainingRun::SaveCheckpoint() {

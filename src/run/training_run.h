@@ -12,10 +12,10 @@
 #include "src/run/event_file.h"
 #include "src/run/metrics.h"
 #include "src/run/rank_leader.h"
+#include "src/run/record_file.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_log.h"
 #include "src/run/run_signals.h"
-#include "train/files/file_descriptor.h"
 #include "train/ppo/trainer.h"
 #include "train/ranks/ranks.h"
 
@@ -77,7 +77,7 @@ class TrainingRun {
   std::string ranks_;  ///< for people; empty if there is one
   RunSignals signals_;
   RunLog log_;
-  FileDescriptor metrics_, timing_;
+  RecordFile metrics_, timing_;
   EventFile events_;
   GoesOn goes_on_;
   std::chrono::steady_clock::time_point last_save_;

@@ -321,6 +321,32 @@ TEST_F(TrainingPipeline, DamagedCheckpointsAreRefused) {
   EXPECT_TRUE(ReadFile(path) == whole) << "flown again from the one before";
 }
 
+TEST_F(TrainingPipeline, DamagedRecordsAreNoticedAndTheTrainingGoesOn) {
+  FlyReference();
+  const std::string metrics = ReadFile(reference_ + "/metrics.csv");
+  for (const char* name : {"checkpoint-000011.skein", "checkpoint-000012.skein"}) {
+    fs::copy(reference_ + "/checkpoints/" + name, root_ + "/" + name);
+  }
+  const auto resume_with = [&](const std::string& rows) {
+    fs::remove(reference_ + kLastCheckpoint);
+    WriteFile(reference_ + "/metrics.csv", rows);
+    const ProgramResult resumed = RunSkein({"train", "--resume", reference_});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
+    return resumed.output;
+  };
+  constexpr const char* kNoticed = "warning: metrics.csv is not what this run wrote";
+  EXPECT_THAT(resume_with(metrics), Not(HasSubstr("warning")));
+  std::string flipped = metrics;
+  flipped[metrics.find("\n5,") + 8] ^= 1;
+  EXPECT_THAT(resume_with(flipped), HasSubstr(kNoticed));
+  ExpectSameFile(reference_ + "/checkpoints/checkpoint-000011.skein",
+                 root_ + "/checkpoint-000011.skein");
+  EXPECT_THAT(resume_with(metrics.substr(0, metrics.find("\n5,") + 1)), HasSubstr(kNoticed));
+  // A torn last row is a kill's, and computed again.
+  EXPECT_THAT(resume_with(metrics.substr(0, metrics.size() - 5)), Not(HasSubstr("warning")));
+  ExpectSameFile(reference_ + kLastCheckpoint, root_ + "/checkpoint-000012.skein");
+}
+
 TEST_F(TrainingPipeline, AFullDiskLosesNothing) {
   FlyReference();
   // Larger than the records, smaller than a checkpoint: as a disk that fills up while saving.

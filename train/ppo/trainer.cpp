@@ -407,17 +407,20 @@ bool Trainer::StartFrom(const std::string& path) {
 
 RecurrentPolicy Trainer::policy() const { return impl_->CurrentPolicy(); }
 
-void Trainer::Save(const std::string& path) const {
+void Trainer::Save(const std::string& path, const std::string& records) const {
   const TrainingState state = impl_->GatheredState();
   if (impl_->ranks.rank() != 0) return;
-  StoreCheckpoint(impl_->config, impl_->networks.actor.layout(), state).Write(path);
+  TensorFile file = StoreCheckpoint(impl_->config, impl_->networks.actor.layout(), state);
+  if (!records.empty()) file.metadata[kRecordsKey] = records;
+  file.Write(path);
 }
 
-std::string Trainer::Restore(const std::string& path) {
+CheckpointOrigin Trainer::Restore(const std::string& path) {
   const TensorFile file = TensorFile::Read(path);
   impl_->SetState(impl_->OwnShare(LoadCheckpoint(
       file, path, impl_->config, impl_->networks.actor.layout(), impl_->networks.critic.layout())));
-  return file.metadata.at(kSimdTargetKey);
+  const auto records = file.metadata.find(kRecordsKey);
+  return {file.metadata.at(kSimdTargetKey), records == file.metadata.end() ? "" : records->second};
 }
 
 std::uint64_t Trainer::Signature() const { return Hash(impl_->GatheredState()); }

@@ -47,6 +47,12 @@ struct IterationReport {
   double gradient_seconds = 0;   ///< of the update: forward, losses and backward
 };
 
+/// What a checkpoint says of where it comes from.
+struct CheckpointOrigin {
+  std::string simd_target;  ///< that it was made on
+  std::string records;      ///< as they were given to Trainer::Save
+};
+
 /// Recurrent PPO on a VecEnv. A run is a function of the configuration: same bits for any thread
 /// count, and any number of ranks, interrupted or not. With several ranks each flies its part of
 /// the shards, all take the same steps, and what is marked as joint is called on all of them
@@ -83,12 +89,13 @@ class Trainer {
   RecurrentPolicy policy() const;
 
   /// Joint: everything needed to resume bit-exactly, written by rank 0 atomically (temporary file,
-  /// fsync, rename, directory fsync). The file is the same for any number of ranks.
-  void Save(const std::string& path) const;
-  /// Returns the SIMD target that the checkpoint was made on: on another one training resumes, but
-  /// not bit-exactly. Throws Error if the file is damaged or was made with another configuration of
+  /// fsync, rename, directory fsync). The file is the same for any number of ranks. `records` is
+  /// kept for Restore to return.
+  void Save(const std::string& path, const std::string& records = "") const;
+  /// On another SIMD target than that of the checkpoint training resumes, but not bit-exactly.
+  /// Throws Error if the file is damaged or was made with another configuration of
   /// networks, environment or learner, or another low-level policy; nothing has changed then.
-  std::string Restore(const std::string& path);
+  CheckpointOrigin Restore(const std::string& path);
 
   /// Joint: a 64-bit hash (FNV-1a) of parameters, optimiser, value statistics and environment
   /// state; on rank 0.

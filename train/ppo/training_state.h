@@ -30,6 +30,8 @@ struct TrainingState {
 
 /// Metadata key of a checkpoint: the SIMD target that it was made on.
 inline constexpr const char* kSimdTargetKey = "checkpoint.simd_target";
+/// And what its run's records were then, if it is one of a run.
+inline constexpr const char* kRecordsKey = "checkpoint.records";
 
 /// Every field of a configuration that training depends on, as text, by the name of its
 /// configuration key (`skein train --help-keys`).

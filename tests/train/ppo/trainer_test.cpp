@@ -193,15 +193,18 @@ TEST_F(TrainerTest, StatisticsLeaveOutEpisodesWithStaggeredClocks) {
   EXPECT_GT(second.episodes, 0u);
 }
 
-TEST_F(TrainerTest, RestoringTellsTheSimdTargetOfTheCheckpoint) {
+TEST_F(TrainerTest, RestoringTellsWhereTheCheckpointComesFrom) {
   WorkerPool pool(1);
   Trainer trainer(SmallConfig(), pool);
   trainer.Save(path_);
-  EXPECT_EQ(trainer.Restore(path_), Name(simd::ActiveTarget()));
+  EXPECT_EQ(trainer.Restore(path_).simd_target, Name(simd::ActiveTarget()));
+  EXPECT_EQ(trainer.Restore(path_).records, "");
+  trainer.Save(path_, "three rows");
+  EXPECT_EQ(trainer.Restore(path_).records, "three rows");
   TensorFile file = TensorFile::Read(path_);
   file.metadata[kSimdTargetKey] = "another";
   file.Write(path_);
-  EXPECT_EQ(trainer.Restore(path_), "another");
+  EXPECT_EQ(trainer.Restore(path_).simd_target, "another");
 }
 
 TEST_P(TrainerPrecisionTest, AnExplosionLeavesTheStateOfBefore) {
