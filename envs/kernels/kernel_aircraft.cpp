@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "envs/air/atmosphere_constants.h"
 #include "envs/aircraft/engine.h"
+#include "envs/kernels/kernel_airframe.h"
 #include "envs/kernels/kernel_tables.h"
 #include "envs/kernels/plant_kernel.h"
 
@@ -257,6 +258,17 @@ std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraf
   kernel->depends_on_mach = aircraft.drag_rises || aircraft.engine.grows;
   kernel->drag_rise = MakeMachFunction(aircraft.drag_rise, aircraft.drag_rises, 0);
   kernel->thrust_growth = MakeMachFunction(aircraft.engine.growth, aircraft.engine.grows, 1);
+  return kernel;
+}
+
+std::shared_ptr<const KernelAircraft> WithAirframe(std::shared_ptr<const KernelAircraft> aircraft,
+                                                   const Airframe& airframe,
+                                                   const Gravity& gravity) {
+  // Made as one that may change, by the two functions of this file.
+  auto kernel = aircraft.use_count() == 1 ? std::const_pointer_cast<KernelAircraft>(aircraft)
+                                          : std::make_shared<KernelAircraft>(*aircraft);
+  kernel->source.airframe = airframe;
+  kernel->constants = MakeConstants(airframe, gravity);
   return kernel;
 }
 

@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "base/aligned_vector.h"
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
+#include "envs/kernels/kernel_airframe.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/reference/plant.h"
 #include "envs/state/attitude.h"
@@ -17,9 +21,10 @@
 namespace skein {
 namespace {
 
-Plant PlantWith(const FdmModel& model, const FdmParameters& parameters) {
-  return MakePlant(model.aircraft, model.atmosphere,
-                   {parameters.cg, parameters.engine_angular_momentum});
+Plant PlantWith(Aircraft aircraft, const FdmModel& model, const FdmParameters& parameters) {
+  aircraft.airframe.cg = parameters.cg;
+  aircraft.airframe.engine_angular_momentum = parameters.engine_angular_momentum;
+  return {std::move(aircraft), model.atmosphere};
 }
 
 RigidBodyState ToState(const FdmState& numbers) {
@@ -74,10 +79,9 @@ class OpenLoopTile {
   AlignedVector<float> columns_;
 };
 
-void EvaluateWithKernel(const Aircraft& aircraft, AtmosphereModel atmosphere,
-                        const std::vector<FdmPoint>& points, const std::vector<std::size_t>& which,
+void EvaluateWithKernel(const KernelAircraft& kernel, const std::vector<FdmPoint>& points,
+                        const std::vector<std::size_t>& which,
                         std::vector<FdmPointResult>* results) {
-  const auto kernel = MakeKernelAircraft(aircraft, atmosphere);
   const int count = static_cast<int>(which.size());
   OpenLoopTile tile(count);
   for (int i = 0; i < count; ++i) {
@@ -85,7 +89,7 @@ void EvaluateWithKernel(const Aircraft& aircraft, AtmosphereModel atmosphere,
     tile.SetControls(i, points[which[static_cast<std::size_t>(i)]].controls);
   }
   std::vector<float> rates(kNumRigidBody * tile.stride()), coefficients(6 * tile.stride());
-  EvaluateTile(*kernel, tile.state(), tile.controls(), rates.data(), coefficients.data());
+  EvaluateTile(kernel, tile.state(), tile.controls(), rates.data(), coefficients.data());
   for (std::size_t i = 0; i < which.size(); ++i) {
     FdmPointResult& result = (*results)[which[i]];
     for (std::size_t c = 0; c < 13; ++c) result.state_rate[c] = rates[c * tile.stride() + i];
@@ -128,21 +132,19 @@ FdmControls ControlsAt(const FdmTrajectory& trajectory, double t) {
 std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
                                            const FdmModel& model) {
   std::vector<FdmPointResult> results(points.size());
-  std::vector<bool> done(points.size());
-  for (std::size_t first = 0; first < points.size(); ++first) {
-    if (done[first]) continue;
-    // Points with equal parameters share one aircraft.
-    std::vector<std::size_t> which;
-    for (std::size_t i = first; i < points.size(); ++i) {
-      if (points[i].parameters == points[first].parameters) which.push_back(i);
-    }
-    const Plant plant = PlantWith(model, points[first].parameters);
-    for (const std::size_t i : which) {
-      results[i] = EvaluateScalar(plant, points[i]);
-      done[i] = true;
-    }
-    if (model.precision == FdmPrecision::kFloat32) {
-      EvaluateWithKernel(plant.aircraft(), model.atmosphere, points, which, &results);
+  const Aircraft aircraft = LoadAircraft(model.aircraft);
+  std::shared_ptr<const KernelAircraft> kernel;
+  if (model.precision == FdmPrecision::kFloat32) {
+    kernel = MakeKernelAircraft(aircraft, model.atmosphere);
+  }
+  std::map<FdmParameters, std::vector<std::size_t>> groups;  // which share one plant
+  for (std::size_t i = 0; i < points.size(); ++i) groups[points[i].parameters].push_back(i);
+  for (const auto& [parameters, which] : groups) {
+    const Plant plant = PlantWith(aircraft, model, parameters);
+    for (const std::size_t i : which) results[i] = EvaluateScalar(plant, points[i]);
+    if (kernel != nullptr) {
+      kernel = WithAirframe(std::move(kernel), plant.aircraft().airframe);
+      EvaluateWithKernel(*kernel, points, which, &results);
     }
   }
   return results;
@@ -151,7 +153,7 @@ std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
 std::vector<FdmState> FlyTrajectory(const FdmTrajectory& trajectory, double dt,
                                     const FdmModel& model) {
   const std::vector<long> steps = StepsOf(trajectory, dt);
-  const Plant plant = PlantWith(model, trajectory.parameters);
+  const Plant plant = PlantWith(LoadAircraft(model.aircraft), model, trajectory.parameters);
   std::shared_ptr<const KernelAircraft> kernel;
   OpenLoopTile tile(1);
   if (model.precision == FdmPrecision::kFloat32) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace skein {
@@ -16,8 +17,9 @@ struct FdmParameters {
   double cg = 0.30;                    ///< `xcg`, fraction of the mean chord
   double engine_angular_momentum = 0;  ///< `heng`, slug ft^2/s
 
-  bool operator==(const FdmParameters& other) const {
-    return cg == other.cg && engine_angular_momentum == other.engine_angular_momentum;
+  bool operator<(const FdmParameters& other) const {
+    return std::tie(cg, engine_angular_momentum) <
+           std::tie(other.cg, other.engine_angular_momentum);
   }
 };
 

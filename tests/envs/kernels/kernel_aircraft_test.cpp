@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "base/error.h"
 #include "envs/aircraft/f16.h"
+#include "envs/kernels/kernel_airframe.h"
 #include "envs/kernels/plant_kernel.h"
 #include "gtest/gtest.h"
 #include "tests/tolerance.h"
@@ -52,6 +54,23 @@ TEST(KernelAxis, NodesLieAtIntegersAndTheEndsClamp) {
   ExpectNodesAtIntegers({0, 1});
   ExpectNodesAtIntegers({-3, -1, 0, 1, 2});        // wide cells below only
   ExpectNodesAtIntegers({0.5, 0.6, 0.7, 1, 1.3});  // wide cells above only
+}
+
+TEST(KernelAircraft, AnotherAirframeIsAsIfMadeWithIt) {
+  Aircraft aircraft = F16();
+  const auto before = Make(aircraft);
+  aircraft.airframe.cg += 0.05;
+  aircraft.airframe.engine_angular_momentum = 160;
+  const KernelConstants expected = Make(aircraft)->constants;
+  const auto equals = [](const KernelConstants& a, const KernelConstants& b) {
+    return std::memcmp(&a, &b, sizeof(KernelConstants)) == 0;
+  };
+  const KernelConstants own = before->constants;
+  EXPECT_FALSE(equals(own, expected));
+  // One that others hold stays as it is.
+  EXPECT_TRUE(equals(WithAirframe(before, aircraft.airframe)->constants, expected));
+  EXPECT_TRUE(equals(before->constants, own));
+  EXPECT_TRUE(equals(WithAirframe(Make(F16()), aircraft.airframe)->constants, expected));
 }
 
 TEST(KernelAxis, OtherArrangementsAreErrors) {
