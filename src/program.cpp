@@ -128,12 +128,8 @@ void AddCommands(CLI::App* app) {
       "Every command has --help. Exit codes: 0 success, 1 failure, 2 wrong usage.");
 }
 
-}  // namespace
-
-int RunProgram(int argc, char** argv) {
-  OccupyStandardStreams();
-  // It asks a training to save: before there is one, or after it, it is no reason to die.
-  std::signal(SIGUSR1, SIG_IGN);
+/// What the command line asks for. Throws what goes wrong beyond the line itself.
+int RunCommand(int argc, char** argv) {
   CLI::App app("Skein: fixed-wing flight simulation and recurrent PPO on SIMD CPU cores", "skein");
   AddCommands(&app);
   try {
@@ -146,17 +142,41 @@ int RunProgram(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     PrintError(fmt::format("{} (see {} --help)", WrongUsage(app, error), CommandPath(app)));
     return kExitUsage;
+  }
+}
+
+/// The same, which throws nothing but std::bad_alloc.
+int RunToExitCode(int argc, char** argv) {
+  try {
+    return RunCommand(argc, argv);
   } catch (const UsageError& error) {
     PrintError(error.what());
     return kExitUsage;
   } catch (const std::filesystem::filesystem_error& error) {
     PrintError(fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::bad_alloc&) {
-    PrintError("out of memory; fewer aircraft or shorter rollouts need less");
+    throw;
   } catch (const std::exception& error) {
     PrintError(error.what());
   }
   return kExitFailure;
+}
+
+}  // namespace
+
+int RunProgram(int argc, char** argv) {
+  OccupyStandardStreams();
+  // It asks a training to save: before there is one, or after it, it is no reason to die.
+  std::signal(SIGUSR1, SIG_IGN);
+  try {
+    return RunToExitCode(argc, argv);
+  } catch (const std::bad_alloc&) {
+    // In a way that needs no memory.
+    std::fflush(stdout);
+    std::fputs("skein: error: out of memory; fewer aircraft or shorter rollouts need less\n",
+               stderr);
+    return kExitFailure;
+  }
 }
 
 }  // namespace skein
