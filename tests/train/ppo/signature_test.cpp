@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a short training gives on every SIMD target and in every precision, to the bit: a change of
+// one of these numbers is a change of results, and its message says why. They are those of g++ 12
+// and glibc 2.36; other compilers and libraries may round elsewhere.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "simd/target.h"
+#include "tests/train/small_config.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+namespace {
+
+using simd::Target;
+
+struct Expected {
+  Target target;
+  LearnerPrecision precision;
+  std::uint64_t signature;
+};
+
+constexpr Expected kExpected[] = {
+    {Target::kAvx512, LearnerPrecision::kFloat32, 0x22dbcc307423886du},
+    {Target::kAvx512, LearnerPrecision::kMixed, 0xb76331ac9428da07u},
+    {Target::kAvx512, LearnerPrecision::kFast, 0xac3b898e3cc2c2a0u},
+    {Target::kAvx512, LearnerPrecision::kBfloat16, 0x4fc88d90f802ad18u},
+    {Target::kAvx2, LearnerPrecision::kFloat32, 0xf529b791c1e795b7u},
+    {Target::kAvx2, LearnerPrecision::kMixed, 0x23aea04c4d32be6au},
+    {Target::kAvx2, LearnerPrecision::kFast, 0x2ea56d6060fc1674u},
+    {Target::kAvx2, LearnerPrecision::kBfloat16, 0xbae907509110eedeu},
+    {Target::kSse4, LearnerPrecision::kFloat32, 0xa5c8659b25b90b6bu},
+    {Target::kSse4, LearnerPrecision::kMixed, 0xf77c24b3767551f4u},
+    {Target::kSse4, LearnerPrecision::kFast, 0xf3a9103d491a8d6bu},
+    {Target::kSse4, LearnerPrecision::kBfloat16, 0x5750a500bc55ab5bu},
+    {Target::kScalar, LearnerPrecision::kFloat32, 0xdf74a984cad5347cu},
+    {Target::kScalar, LearnerPrecision::kMixed, 0x3814dace5ea5acb5u},
+    {Target::kScalar, LearnerPrecision::kFast, 0xbb06e40e32a44800u},
+    {Target::kScalar, LearnerPrecision::kBfloat16, 0x95335454a87f2991u},
+};
+
+bool IsSupported(Target target) {
+  const std::vector<Target> supported = simd::SupportedTargets();
+  return std::count(supported.begin(), supported.end(), target) > 0;
+}
+
+class Signature : public ::testing::TestWithParam<Expected> {
+ protected:
+  ~Signature() override { simd::ForceTarget(before_); }
+
+ private:
+  const Target before_ = simd::ActiveTarget();
+};
+
+TEST_P(Signature, IsAsExpected) {
+#if !defined(__GNUC__) || defined(__clang__) || __GNUC__ != 12 || __GLIBC__ != 2 || \
+    __GLIBC_MINOR__ != 36
+  GTEST_SKIP() << "the numbers are of g++ 12 and glibc 2.36";
+#endif
+  if (!IsSupported(GetParam().target)) GTEST_SKIP() << "this processor has no such target";
+  simd::ForceTarget(GetParam().target);
+  TrainConfig config = SmallConfig();
+  config.learner.precision = GetParam().precision;
+  WorkerPool pool(2);
+  Trainer trainer(config, pool);
+  while (!trainer.finished()) trainer.Iterate();
+  EXPECT_EQ(trainer.Signature(), GetParam().signature) << std::hex << trainer.Signature();
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Signature, ::testing::ValuesIn(kExpected), [](const auto& tested) {
+  return std::string(Name(tested.param.target)) + "_" + Name(tested.param.precision);
+});
+
+}  // namespace
+}  // namespace skein
