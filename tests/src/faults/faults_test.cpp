@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lets the calls of a program on its files, and its allocations, fail, one after the other:
+// whatever the call, no file is torn, the program says in one line what happened, and doing it
+// again gives what it would have given at once.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "src/files/output_file.h"
+#include "src/run/run_directory.h"
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/faults/faulted_commands.h"
+#include "tests/src/faults/faulted_program.h"
+#include "tests/src/tiny_training.h"
+#include "train/files/tensor_file.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+/// Contents by path below a folder.
+using Files = std::map<std::string, std::string>;
+
+constexpr const char* kOlder = "what an earlier command wrote\n";
+
+bool HasEnding(const std::string& text, const std::string& ending) {
+  return text.size() >= ending.size() &&
+         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/// Whether a file says when things happened, so that no two are equal.
+bool TellsTime(const std::string& name) {
+  const std::string file = fs::path(name).filename().string();
+  return file == "log.txt" || file == "timing.csv" || file == "lock" ||
+         file.rfind("events.out.", 0) == 0 || HasEnding(file, ".tmp");
+}
+
+Files FilesIn(const std::string& folder) {
+  Files files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    if (entry.is_regular_file() && !TellsTime(name)) {
+      files[name] = ReadFile(entry.path().string());
+    }
+  }
+  return files;
+}
+
+bool IsPage(const std::string& name) { return HasEnding(name, ".html"); }
+
+/// Pages say when they were made, and how long trainings took: of them the ends must be there.
+bool IsSame(const std::string& name, const std::string& a, const std::string& b) {
+  constexpr std::size_t kEnd = 64;
+  if (!IsPage(name)) return a == b;
+  return a.size() > kEnd && a.substr(0, kEnd) == b.substr(0, kEnd) &&
+         HasEnding(b, a.substr(a.size() - kEnd));
+}
+
+void ExpectSameFiles(const Files& expected, const Files& files) {
+  for (const auto& [name, bytes] : expected) {
+    const auto found = files.find(name);
+    if (found == files.end()) {
+      ADD_FAILURE() << name << " is missing";
+    } else {
+      EXPECT_TRUE(IsSame(name, bytes, found->second)) << name << " differs";
+    }
+  }
+  for (const auto& [name, bytes] : files) {
+    EXPECT_TRUE(expected.count(name) == 1 || IsPage(name)) << name << " is left over";
+  }
+}
+
+class Faults : public ::testing::TestWithParam<FaultedCommand> {
+ protected:
+  void SetUp() override {
+    if (!CanFault()) GTEST_SKIP() << "sanitizers have calls of their own in the way";
+    if (GetParam().sample == 0 && !TriesAll()) GTEST_SKIP() << "slow: with the long tests alone";
+    fs::create_directory(before_);
+    GetParam().prepare(before_);
+    Restart();
+    const ProgramResult whole = RunSkein(Line());
+    if (whole.error.find("made without Node") != std::string::npos) GTEST_SKIP() << whole.error;
+    ASSERT_EQ(whole.exit_code, 0) << whole.error;
+    after_ = FilesIn(work_);
+    LeaveOlderOutputs();
+    Restart();
+  }
+
+  void Restart() {
+    fs::remove_all(work_);
+    fs::copy(before_, work_, fs::copy_options::recursive);
+  }
+
+  Arguments Line() const { return GetParam().arguments(work_); }
+
+  /// Of a command that replaces files: what it writes is there already, from an earlier time.
+  void LeaveOlderOutputs() {
+    const Files inputs = FilesIn(before_);
+    const bool is_training = Line().front() == "train" || Line().front() == "study";
+    for (const auto& [name, bytes] : after_) {
+      if (!is_training && inputs.count(name) == 0) WriteFile(before_ + "/" + name, kOlder);
+    }
+    before_files_ = FilesIn(before_);
+  }
+
+  /// Each file is the older one, the newer one, or one between them that is whole.
+  void ExpectNoTornFile() const {
+    const Files files = FilesIn(work_);
+    for (const auto& [name, bytes] : files) {
+      SCOPED_TRACE(name);
+      const auto older = before_files_.find(name), newer = after_.find(name);
+      if (older != before_files_.end() && older->second == bytes) continue;
+      if (newer != after_.end() && IsSame(name, newer->second, bytes)) continue;
+      if (HasEnding(name, "metrics.csv")) {
+        EXPECT_EQ(after_.at(name).rfind(bytes, 0), 0u) << "rows are appended";
+      } else if (HasEnding(name, ".skein")) {
+        EXPECT_EQ(MessageOf([&] { TensorFile::Read(work_ + "/" + name); }), "");
+      } else {
+        ADD_FAILURE() << "is neither the older nor the newer file";
+      }
+    }
+    for (const auto& [name, bytes] : before_files_) {
+      EXPECT_TRUE(files.count(name) == 1 || after_.count(name) == 0) << name << " is gone";
+    }
+  }
+
+  /// What is there after a command that ended well: a training that cannot write its page says so,
+  /// and has done what it was for.
+  Files Promised(const ProgramResult& result) const {
+    Files promised = after_;
+    if (result.output.find("\nreport          none: ") == std::string::npos) return promised;
+    for (auto file = promised.begin(); file != promised.end();) {
+      file = IsPage(file->first) ? promised.erase(file) : std::next(file);
+    }
+    return promised;
+  }
+
+  void ExpectHonestEnd(Fault fault, const ProgramResult& result) const {
+    if (fault == Fault::kKilled) {
+      EXPECT_EQ(result.signal, SIGKILL);
+    } else if (fault == Fault::kNoMemory && result.signal == SIGABRT) {
+      // Destructors of the JSON library ask for memory, and may throw nothing.
+      EXPECT_THAT(result.error, ::testing::HasSubstr("std::bad_alloc"));
+    } else if (result.exit_code == 0) {
+      EXPECT_EQ(result.error, "");
+      ExpectSameFiles(Promised(result), FilesIn(work_));
+    } else {
+      EXPECT_NE(fault, Fault::kShort);
+      EXPECT_EQ(result.exit_code, 1) << "signal " << result.signal;
+      ExpectOneLine(result.error, "");
+    }
+  }
+
+  /// Does what a user would do next, without a fault.
+  void ExpectRecovery() {
+    Arguments line = Line();
+    if (line.front() == "train") {
+      if (IsRunDirectory(work_ + "/run")) {
+        line = {"train", "--resume", work_ + "/run"};
+      } else {
+        fs::remove_all(work_ + "/run");
+      }
+    }
+    const ProgramResult result = RunSkein(line);
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    ExpectSameFiles(after_, FilesIn(work_));
+    for (const auto& entry : fs::recursive_directory_iterator(work_)) {
+      EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+    }
+  }
+
+  void Try(Fault fault, std::size_t call, const std::string& what) {
+    SCOPED_TRACE(std::string(Name(fault)) + ", call " + std::to_string(call) + ": " + what);
+    Restart();
+    const FaultedRun run = RunFaulted(Line(), work_, fault, call);
+    ExpectNoTornFile();
+    ExpectHonestEnd(fault, run.result);
+    ExpectRecovery();
+  }
+
+  const ScratchDirectory scratch_;
+  const std::string work_ = scratch_ / "work", before_ = scratch_ / "before";
+  Files before_files_, after_;
+};
+
+/// The numbers of the calls that the fault can befall.
+std::vector<std::size_t> CallsFor(Fault fault, const std::vector<std::string>& calls) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    const bool moves_bytes = calls[i].rfind("read ", 0) == 0 || calls[i].rfind("write ", 0) == 0;
+    if (fault != Fault::kShort || moves_bytes) numbers.push_back(i + 1);
+  }
+  return numbers;
+}
+
+/// "open 12, write 30".
+std::string CountedByKind(const std::vector<std::string>& calls) {
+  std::map<std::string, int> counts;
+  for (const std::string& call : calls) ++counts[call.substr(0, call.find(' '))];
+  std::string text;
+  for (const auto& [kind, count] : counts) {
+    text += (text.empty() ? "" : ", ") + kind + " " + std::to_string(count);
+  }
+  return text;
+}
+
+TEST_P(Faults, OfFilesLoseNothing) {
+  const FaultedRun whole = RunFaulted(Line(), work_, Fault::kNone, 0);
+  ASSERT_EQ(whole.result.exit_code, 0) << whole.result.error;
+  ExpectSameFiles(after_, FilesIn(work_));
+  ASSERT_FALSE(whole.calls.empty());
+  int tried = 0;
+  for (const Fault fault : {Fault::kFails, Fault::kFull, Fault::kShort, Fault::kKilled}) {
+    const std::vector<std::size_t> calls = CallsFor(fault, whole.calls);
+    for (const std::size_t place : Tried(calls.size(), GetParam().sample)) {
+      const std::size_t call = calls[place - 1];
+      ++tried;
+      ASSERT_NO_FATAL_FAILURE(Try(fault, call, whole.calls[call - 1]));
+    }
+  }
+  std::cout << GetParam().name << ": " << whole.calls.size() << " calls ("
+            << CountedByKind(whole.calls) << "), " << tried << " faults\n";
+}
+
+TEST_P(Faults, OfMemoryLoseNothing) {
+  if (!TriesAll()) GTEST_SKIP() << "slow: with the long tests alone";
+  const FaultedRun whole = RunFaulted(Line(), work_, Fault::kMemory, 0);
+  ASSERT_EQ(whole.result.exit_code, 0) << whole.result.error;
+  ASSERT_EQ(whole.calls.size(), 1u);
+  const std::size_t allocations = std::stoul(whole.calls[0].substr(whole.calls[0].find(' ')));
+  // Too many to try each.
+  constexpr std::size_t kTried = 200;
+  int tried = 0;
+  for (const Fault fault : {Fault::kMemory, Fault::kNoMemory}) {
+    for (std::size_t part = 0; part < kTried; ++part) {
+      ++tried;
+      ASSERT_NO_FATAL_FAILURE(Try(fault, 1 + allocations * part / kTried, "allocation"));
+    }
+  }
+  std::cout << GetParam().name << ": " << allocations << " allocations, " << tried << " faults\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Faults, ::testing::ValuesIn(FaultedCommands()),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace skein
