@@ -36,9 +36,10 @@ double Time(const std::function<void()>& step) {
 }
 
 SimulatorRate MedianRate(std::vector<double> seconds, int aircraft) {
-  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
-  std::nth_element(seconds.begin(), middle, seconds.end());
-  return {*middle, aircraft / *middle};
+  std::vector<double> sorted = seconds;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return {*middle, aircraft / *middle, std::move(seconds)};
 }
 
 SimulatorRate Measure(int aircraft, int steps, const std::function<void()>& step) {

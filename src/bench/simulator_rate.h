@@ -12,6 +12,7 @@ namespace skein {
 struct SimulatorRate {
   double step_s = 0;                ///< median time of one control step of all aircraft
   double aircraft_steps_per_s = 0;  ///< all aircraft over that median
+  std::vector<double> seconds;      ///< of every step, in their order
 };
 
 /// One RK4 step (0.02 s, four evaluations of the tables, the equations of motion and the engine) of

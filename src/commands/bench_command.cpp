@@ -5,23 +5,32 @@
 #include "src/commands/aircraft_option.h"
 #include "src/commands/benchmarks.h"
 #include "src/commands/commands.h"
+#include "src/commands/launched_ranks.h"
 #include "src/config/conditions.h"
 #include "src/config/whole_number.h"
 #include "src/files/output_file.h"
+#include "train/ranks/rank_module.h"
 
 namespace skein {
 namespace {
 
-CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& description,
-                   const std::shared_ptr<BenchOptions>& options, void (*run)(const BenchOptions&)) {
+CLI::App* AddAny(CLI::App* bench, const std::string& name, const std::string& description,
+                 const std::shared_ptr<BenchOptions>& options, void (*run)(const BenchOptions&)) {
   CLI::App* command = bench->add_subcommand(name, description);
-  command->add_option("--threads", options->threads, "worker threads (default: one per CPU)")
-      ->transform(WholeNumber(1, 1024));
   command->add_option("--json", options->json, "also write the figures here")->type_name("FILE");
   command->callback([options, run] {
-    CheckWritable(options->json);
+    // Of several processes one alone writes: the benchmark sees to it.
+    if (LaunchedProcesses() == 1) CheckWritable(options->json);
     run(*options);
   });
+  return command;
+}
+
+CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& description,
+                   const std::shared_ptr<BenchOptions>& options, void (*run)(const BenchOptions&)) {
+  CLI::App* command = AddAny(bench, name, description, options, run);
+  command->add_option("--threads", options->threads, "worker threads (default: one per CPU)")
+      ->transform(WholeNumber(1, 1024));
   return command;
 }
 
@@ -63,6 +72,45 @@ CLI::App* AddLearner(CLI::App* bench, const std::string& name, const std::string
       ->type_name("RUN_OR_POLICY");
   AddConfiguration(command, options);
   return command;
+}
+
+void AddScaling(CLI::App* bench, const std::shared_ptr<BenchOptions>& options) {
+  CLI::App* command =
+      AddLearner(bench, "scaling", "Iterations on ranks x threads that use all processors", options,
+                 BenchScaling);
+  command->get_option("--threads")->description("processors used in all (default: all)");
+  command
+      ->add_option("--launcher", options->launcher,
+                   "what starts ranks: these words, -n and how many")
+      ->type_name("WORDS")
+      ->capture_default_str();
+  command->footer(
+      "Starts skein bench iteration with one process, and by the launcher with as many ranks as "
+      "powers of\n"
+      "two divide the processors; learner.shards, unless set, is the largest of them.\n"
+      "Example: skein bench scaling --launcher \"mpirun --map-by socket --bind-to socket\"");
+}
+
+void AddCompare(CLI::App* bench, const std::shared_ptr<BenchOptions>& options) {
+  CLI::App* command =
+      AddAny(bench, "compare", "What changed between runs of a benchmark, and what is beyond noise",
+             options, CompareBenchmarkFiles);
+  command
+      ->add_option("before", options->before,
+                   "what a benchmark wrote with --json; of several runs FILE,FILE,...")
+      ->type_name("BEFORE")
+      ->required();
+  command->add_option("after", options->after, "as many of the other build")
+      ->type_name("AFTER")
+      ->required();
+  command->add_flag("--other-machine", options->other_machine,
+                    "compare runs of another processor, SIMD target or number of threads, too");
+  command->footer(
+      "Ratios, after / before, with 95 % intervals. Run both builds in turns, several times: one "
+      "run each\n"
+      "does not hold what differs from run to run.\n"
+      "Example: skein bench compare old.1.json,old.2.json,old.3.json "
+      "new.1.json,new.2.json,new.3.json");
 }
 
 }  // namespace
@@ -107,15 +155,20 @@ void AddBenchCommand(CLI::App* app) {
           "The fused kernels beside LibTorch, iteration by iteration in turns; medians. Where the\n"
           "processor multiplies bfloat16, every precision.\n"
           "Example: skein bench update --set learner.precision=bf16");
-  AddLearner(bench, "iteration", "Whole iterations, and the time that the budget would take",
-             options, BenchIteration)
-      ->footer(
-          "How much of an iteration rollout and gradients take: the rest is optimiser, advantages\n"
-          "and what else lies between.\n"
-          "Examples:\n"
-          "  skein bench iteration --preset paper --set ppo.rollout_steps=96\n"
-          "  skein bench iteration --task tracking --preset planner --low-level "
-          "policies/control.skein");
+  CLI::App* iteration =
+      AddLearner(bench, "iteration", "Whole iterations, and the time that the budget would take",
+                 options, BenchIteration);
+  AddRankTimeoutOption(iteration, &options->rank_timeout_s);
+  iteration->footer(
+      "How much of an iteration rollout and gradients take: the rest is optimiser, advantages\n"
+      "and what else lies between. Under mpirun processes train together.\n"
+      "Examples:\n"
+      "  skein bench iteration --preset paper --set ppo.rollout_steps=96\n"
+      "  skein bench iteration --task tracking --preset planner --low-level "
+      "policies/control.skein\n"
+      "  mpirun -np 2 skein bench iteration --set learner.shards=32 --threads 8");
+  AddScaling(bench, options);
+  AddCompare(bench, options);
   AddBench(bench, "signature", "One hash of a fixed short training", options, BenchSignature)
       ->footer(
           "The same for any number of threads on one SIMD target: a change of the hash is a change "

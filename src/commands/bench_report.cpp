@@ -27,11 +27,19 @@ TrainConfig BenchConfig(const BenchOptions& options) {
   });
 }
 
-void Report(const BenchOptions& options, int threads, Json results) {
+void Report(const BenchOptions& options, const BenchResults& results) {
   if (options.json.empty()) return;
-  results["threads"] = threads;
-  results["machine"] = DescribeMachine();
-  WriteJson(options.json, results);
+  Json document{{"benchmark", results.benchmark}};
+  document.update(results.other);
+  if (!results.figures.empty()) document["figures"] = ToJson(results.figures);
+  document["settings"] = {{"task", options.task},           {"beside", options.beside},
+                          {"preset", options.preset},       {"aircraft", options.aircraft},
+                          {"low_level", options.low_level}, {"conditions", options.conditions},
+                          {"set", options.assignments}};
+  if (results.benchmark == "sim") document["settings"]["num_aircraft"] = options.num_aircraft;
+  document["threads"] = results.threads;
+  document["machine"] = DescribeMachine();
+  WriteJson(options.json, document);
 }
 
 std::string ShareOfPeak(double gflops, double peak_gflops, const char* type) {

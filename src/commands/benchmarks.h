@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "src/bench/figure.h"
+#include "src/commands/launched_ranks.h"
 #include "train/ppo/train_config.h"
 
 namespace skein {
@@ -22,6 +24,10 @@ struct BenchOptions {
   std::string low_level;
   std::vector<std::string> conditions, assignments;
   std::string json;
+  double rank_timeout_s = kRankTimeoutS;
+  std::string launcher = "mpirun --oversubscribe --bind-to none";  ///< starts the ranks of scaling
+  std::string before, after;  ///< files that are compared, separated by commas
+  bool other_machine = false;
 };
 
 /// Each prints its figures for people, and writes them to options.json if that is given. Throws
@@ -31,12 +37,22 @@ void BenchRollout(const BenchOptions& options);
 void BenchUpdate(const BenchOptions& options);
 void BenchIteration(const BenchOptions& options);
 void BenchSignature(const BenchOptions& options);
+void BenchScaling(const BenchOptions& options);
+void CompareBenchmarkFiles(const BenchOptions& options);
 
 /// The configuration of the task's preset with the conditions and assignments.
 TrainConfig BenchConfig(const BenchOptions& options);
 
-/// Writes `results`, with what they were measured on, to options.json if that is given.
-void Report(const BenchOptions& options, int threads, nlohmann::ordered_json results);
+/// What was measured.
+struct BenchResults {
+  std::string benchmark;
+  int threads = 0;
+  std::vector<Figure> figures;
+  nlohmann::ordered_json other;  ///< by the names of docs/reference/commands.md
+};
+
+/// Writes it, with how and on what it was measured, to options.json if that is given.
+void Report(const BenchOptions& options, const BenchResults& results);
 
 /// What part of the measured peak of products in `type` it is, for people and for files.
 std::string ShareOfPeak(double gflops, double peak_gflops, const char* type = "float32");

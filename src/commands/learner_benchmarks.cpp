@@ -4,11 +4,16 @@
 
 #include "simd/target.h"
 #include "src/agents/low_level_option.h"
+#include "src/bench/machine.h"
 #include "src/commands/benchmarks.h"
+#include "src/config/usage_error.h"
+#include "src/files/output_file.h"
 #include "src/run/progress.h"
 #include "train/network/backend_module.h"
 #include "train/ppo/learner_rates.h"
+#include "train/ppo/rank_shards.h"
 #include "train/ppo/trainer.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
@@ -115,10 +120,100 @@ Json Compare(const std::vector<LearnerRates>& learners, const Comparison& compar
   return results;
 }
 
+using Samples = LearnerRates::Samples;
+
+/// One figure of every learner.
+std::vector<Figure> FiguresOf(const std::vector<LearnerRates>& learners, const std::string& name,
+                              std::vector<double> Samples::*samples) {
+  std::vector<Figure> figures;
+  for (const LearnerRates& rates : learners) {
+    const BackendChoice& backend = rates.backend;
+    figures.push_back(
+        {fmt::format("{}_{}_{}", Name(backend.backend), Name(backend.precision), name), true,
+         rates.samples.*samples});
+  }
+  return figures;
+}
+
 double PeakMemoryGb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) * 1024 / 1e9;
+}
+
+std::string Workers(int ranks, int threads) {
+  if (ranks == 1) return fmt::format("{} threads", threads);
+  return fmt::format("{} ranks x {} threads", ranks, threads);
+}
+
+/// What whole iterations came to.
+struct IterationFigures {
+  IterationFigures(const TrainConfig& config, const LearnerRates& rates)
+      : control_steps(static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps *
+                      config.env.action_repeat),
+        steps_per_s(control_steps / rates.iteration_s),
+        budget_h(static_cast<double>(config.total_steps) / steps_per_s / 3600) {}
+
+  double control_steps, steps_per_s, budget_h;
+};
+
+void PrintIteration(const TrainConfig& config, const LearnerRates& rates, int ranks, int threads) {
+  const IterationFigures figures(config, rates);
+  fmt::print(
+      "iteration: {} aircraft x {} policy steps, {} epochs, {}; {}\n"
+      "  {:.2f} s an iteration, {} control steps/s\n"
+      "  rollout {} policy steps/s ({} {:.0f} % of it), gradients {} samples/s\n"
+      "  these two alone would take {:.1f} % of the time; {:.2f} GB of memory at most\n"
+      "  {} control steps would take {:.2f} h\n",
+      config.ppo.num_aircraft, config.ppo.rollout_steps, config.ppo.epochs, Workers(ranks, threads),
+      Describe(rates.backend), rates.iteration_s, FormatCount(figures.steps_per_s),
+      FormatCount(rates.rollout_policy_steps_per_s), NameSimulator(config),
+      100 * rates.simulator_share, FormatCount(rates.gradient_samples_per_s),
+      100 * rates.efficiency, PeakMemoryGb(), FormatCount(static_cast<double>(config.total_steps)),
+      figures.budget_h);
+  if (ranks == 1) return;
+  fmt::print(
+      "  ranks exchange, or wait for each other, {:.1f} % of the time; {:.1f} MB sent each\n",
+      100 * rates.exchange_share, rates.sent_bytes / 1e6);
+}
+
+Json IterationJson(const TrainConfig& config, const LearnerRates& rates, int ranks) {
+  const IterationFigures figures(config, rates);
+  return {{"backend", Name(rates.backend.backend)},
+          {"precision", Name(rates.backend.precision)},
+          {"ranks", ranks},
+          {"iteration_s", rates.iteration_s},
+          {"control_steps_per_s", figures.steps_per_s},
+          {"policy_steps_per_s", rates.rollout_policy_steps_per_s},
+          {"simulator_share", rates.simulator_share},
+          {"gradient_samples_per_s", rates.gradient_samples_per_s},
+          {"efficiency", rates.efficiency},
+          {"exchange_share", rates.exchange_share},
+          {"sent_mb", rates.sent_bytes / 1e6},
+          {"memory_gb", PeakMemoryGb()},
+          {"budget_steps", config.total_steps},
+          {"budget_h", figures.budget_h}};
+}
+
+/// On all ranks together.
+void MeasureIteration(const BenchOptions& options, Ranks& ranks) {
+  TrainConfig config;
+  DoTogether(ranks, [&] {
+    config = LearnerBenchConfig(options);
+    AsUsage([&] { return ShardsOfRank(config, ranks); });
+    if (ranks.rank() == 0) CheckWritable(options.json);
+  });
+  RequireSameOnRanks(ranks, "what they measure", DescribeProgram());
+  WorkerPool pool(options.threads);
+  const LearnerRates rates = MeasureLearners({config}, options.iterations, pool, ranks)[0];
+  if (ranks.rank() != 0) return;
+  PrintIteration(config, rates, ranks.count(), pool.threads());
+  Report(options, {"iteration",
+                   pool.threads(),
+                   {{"iteration_s", false, rates.samples.iteration_s},
+                    {"policy_steps_per_s", true, rates.samples.rollout_policy_steps_per_s},
+                    {"gradient_samples_per_s", true, rates.samples.gradient_samples_per_s}},
+                   IterationJson(config, rates, ranks.count())});
 }
 
 }  // namespace
@@ -138,7 +233,9 @@ void BenchRollout(const BenchOptions& options) {
              FormatCount(control_steps), NameSimulator(config), 100 * learners[0].simulator_share);
   results["control_steps_per_s"] = control_steps;
   results["simulator_share"] = learners[0].simulator_share;
-  Report(options, pool.threads(), results);
+  Report(options, {"rollout", pool.threads(),
+                   FiguresOf(learners, "policy_steps_per_s", &Samples::rollout_policy_steps_per_s),
+                   results});
 }
 
 void BenchUpdate(const BenchOptions& options) {
@@ -147,43 +244,15 @@ void BenchUpdate(const BenchOptions& options) {
   const std::vector<LearnerRates> learners =
       MeasureLearners(LearnersOf(config), options.iterations, pool);
   fmt::print("update: {} threads; {}\n", pool.threads(), Describe(learners[0].backend));
-  Report(options, pool.threads(),
-         Compare(learners, {"samples", "samples_per_s", &LearnerRates::update_samples_per_s,
-                            &LearnerRates::update_flops_per_sample}));
+  const Json results =
+      Compare(learners, {"samples", "samples_per_s", &LearnerRates::update_samples_per_s,
+                         &LearnerRates::update_flops_per_sample});
+  Report(options, {"update", pool.threads(),
+                   FiguresOf(learners, "samples_per_s", &Samples::update_samples_per_s), results});
 }
 
 void BenchIteration(const BenchOptions& options) {
-  WorkerPool pool(options.threads);
-  const TrainConfig config = LearnerBenchConfig(options);
-  const LearnerRates rates = MeasureLearners({config}, options.iterations, pool)[0];
-  const double steps = static_cast<double>(config.ppo.num_aircraft) * config.ppo.rollout_steps *
-                       config.env.action_repeat;
-  const double steps_per_s = steps / rates.iteration_s;
-  const double hours = static_cast<double>(config.total_steps) / steps_per_s / 3600;
-  fmt::print(
-      "iteration: {} aircraft x {} policy steps, {} epochs, {} threads; {}\n"
-      "  {:.2f} s an iteration, {} control steps/s\n"
-      "  rollout {} policy steps/s ({} {:.0f} % of it), gradients {} samples/s\n"
-      "  these two alone would take {:.1f} % of the time; {:.2f} GB of memory at most\n"
-      "  {} control steps would take {:.2f} h\n",
-      config.ppo.num_aircraft, config.ppo.rollout_steps, config.ppo.epochs, pool.threads(),
-      Describe(rates.backend), rates.iteration_s, FormatCount(steps_per_s),
-      FormatCount(rates.rollout_policy_steps_per_s), NameSimulator(config),
-      100 * rates.simulator_share, FormatCount(rates.gradient_samples_per_s),
-      100 * rates.efficiency, PeakMemoryGb(), FormatCount(static_cast<double>(config.total_steps)),
-      hours);
-  Report(options, pool.threads(),
-         {{"backend", Name(rates.backend.backend)},
-          {"precision", Name(rates.backend.precision)},
-          {"iteration_s", rates.iteration_s},
-          {"control_steps_per_s", steps_per_s},
-          {"policy_steps_per_s", rates.rollout_policy_steps_per_s},
-          {"simulator_share", rates.simulator_share},
-          {"gradient_samples_per_s", rates.gradient_samples_per_s},
-          {"efficiency", rates.efficiency},
-          {"memory_gb", PeakMemoryGb()},
-          {"budget_steps", config.total_steps},
-          {"budget_h", hours}});
+  OnLaunchedRanks(options.rank_timeout_s, [&](Ranks& ranks) { MeasureIteration(options, ranks); });
 }
 
 void BenchSignature(const BenchOptions& options) {
@@ -192,7 +261,10 @@ void BenchSignature(const BenchOptions& options) {
   while (!trainer.finished()) trainer.Iterate();
   const std::string signature = fmt::format("{:016x}", trainer.Signature());
   fmt::print("{}\n", signature);
-  Report(options, pool.threads(), {{"signature", signature}, {"iterations", trainer.iteration()}});
+  Report(options, {"signature",
+                   pool.threads(),
+                   {},
+                   {{"signature", signature}, {"iterations", trainer.iteration()}}});
 }
 
 }  // namespace skein

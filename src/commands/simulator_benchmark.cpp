@@ -47,21 +47,29 @@ std::string Beyond(const SimulatorRate& rate, const SimulatorRate& base) {
   return fmt::format("{:+.0f} %", 100 * (rate.step_s / base.step_s - 1));
 }
 
+/// Puts the rate called `key` into the results.
+void Keep(const std::string& key, const SimulatorRate& rate, BenchResults& results) {
+  results.other[key] = ToJson(rate);
+  std::vector<double> milliseconds;
+  for (const double seconds : rate.seconds) milliseconds.push_back(1e3 * seconds);
+  results.figures.push_back({key + "_step_ms", false, milliseconds});
+}
+
 /// Prints and keeps the first of `rates`, with `note`, and the nominal plants' behind it.
 void ReportEnvironment(const std::string& what, const std::string& key,
                        const std::vector<SimulatorRate>& rates, const std::string& note,
-                       const BenchOptions& options, Json& results) {
+                       const BenchOptions& options, BenchResults& results) {
   PrintRate(what, rates[0], note);
-  results[key] = ToJson(rates[0]);
+  Keep(key, rates[0], results);
   if (rates.size() == 1) return;
   if (!options.beside.empty()) {
     PrintRate("... of " + options.beside, rates[1],
               " (" + options.task + ": " + Beyond(rates[0], rates[1]) + ")");
-    results[key + "_beside"] = ToJson(rates[1]);
+    Keep(key + "_beside", rates[1], results);
     return;
   }
   PrintRate("... of nominal plants", rates[1], " (drawn ones: " + Beyond(rates[0], rates[1]) + ")");
-  results[key + "_of_nominal_plants"] = ToJson(rates[1]);
+  Keep(key + "_of_nominal_plants", rates[1], results);
 }
 
 }  // namespace
@@ -82,10 +90,10 @@ void BenchSimulator(const BenchOptions& options) {
              options.steps, pool.threads(), Name(simd::ActiveTarget()));
   PrintRate("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
   PrintRate("F-16: ... with flight control, actuators", controlled);
-  Json results{{"aircraft", options.num_aircraft},
-               {"steps", options.steps},
-               {"rk4", ToJson(rk4)},
-               {"plant", ToJson(controlled)}};
+  BenchResults results{"sim", pool.threads(), {}, {}};
+  results.other = {{"aircraft", options.num_aircraft}, {"steps", options.steps}};
+  Keep("rk4", rk4, results);
+  Keep("plant", controlled, results);
   const std::vector<SimulatorRate> whole = MeasureBesideOther(clean, options, pool);
   ReportEnvironment("the whole environment, without noise", "environment", whole, "", options,
                     results);
@@ -96,7 +104,8 @@ void BenchSimulator(const BenchOptions& options) {
   }
   fmt::print("  (the paper's GPU: {:.0f} ms for an Euler step of 10^6 without flight control)\n",
              1e3 * kPaperEulerStepS);
-  Report(options, pool.threads(), WithShareOfPeak(results, gflops, peak.gflops));
+  results.other = WithShareOfPeak(results.other, gflops, peak.gflops);
+  Report(options, results);
 }
 
 }  // namespace skein

@@ -16,16 +16,18 @@
 namespace skein {
 namespace {
 
-/// Of what a program complained of the line that says most: a compiler's first error, else the last
-/// line, which is where Python names its exception.
+/// Of what a program complained of the line that says most: a first error that calls itself one,
+/// else the line below a rule, which is where mpirun begins, else the last line, which is where
+/// Python names its exception.
 std::string Essence(const std::string& complaint) {
   std::istringstream lines(complaint);
-  std::string last;
+  std::string last, below_rule;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("error:") != std::string::npos) return line;
+    if (below_rule.empty() && last.rfind("-----", 0) == 0) below_rule = line;
     if (!line.empty()) last = line;
   }
-  return last;
+  return below_rule.empty() ? last : below_rule;
 }
 
 }  // namespace

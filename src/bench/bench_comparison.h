@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/evaluation/estimate.h"
+
+namespace skein {
+
+/// How a figure changed.
+struct FigureChange {
+  std::string name;
+  bool more_is_better = false;
+  double before = 0, after = 0;  ///< geometric means of what the ratio is estimated from
+  Estimate ratio;                ///< after / before, with its 95 % interval (NaN: none)
+};
+
+/// What two sets of runs of one benchmark, `skein bench ... --json`, say of each other.
+struct BenchComparison {
+  std::string benchmark;
+  int runs = 0;  ///< on either side
+  /// On what and by what the first run of either side was measured, for people.
+  std::string machine, before, after;
+  std::vector<FigureChange> changes;
+  std::vector<std::string> unmatched;  ///< figures that not all runs have
+};
+
+/// The runs in the files `before`, and as many in `after`. Of one run on either side the samples
+/// are compared (Welch's t of their logarithms, in at most ten parts, as what is measured in a row
+/// is alike); of several the medians, in pairs in the order of the files (Student's t of the
+/// logarithms of their ratios): that holds what differs from run to run, too. Throws Error if they
+/// are not of one benchmark with the same settings, or, unless `other_machine`, not of one
+/// processor, SIMD target and number of threads.
+BenchComparison CompareBenchmarks(const std::vector<std::string>& before,
+                                  const std::vector<std::string>& after, bool other_machine);
+
+/// Whether the interval excludes that nothing has changed.
+bool IsBeyondNoise(const FigureChange& change);
+
+/// A table for people; without a newline at the end.
+std::string ToText(const BenchComparison& comparison);
+
+/// Keys: benchmark, runs, machine, before, after, figures: by name before, after, ratio, low, high
+/// (null: no interval), beyond_noise.
+nlohmann::ordered_json ToJson(const BenchComparison& comparison);
+
+}  // namespace skein

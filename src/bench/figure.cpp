@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/bench/figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace skein {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostSamples = 1000;
+
+/// The sample at `share` of the way from the smallest to the largest.
+double Quantile(std::vector<double> samples, double share) {
+  if (samples.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size() - 1));
+  std::nth_element(samples.begin(), samples.begin() + place, samples.end());
+  return samples[static_cast<std::size_t>(place)];
+}
+
+}  // namespace
+
+double MedianOf(std::vector<double> samples) { return Quantile(std::move(samples), 0.5); }
+
+std::vector<double> MediansOfParts(const std::vector<double>& samples, std::size_t most) {
+  const std::size_t parts = std::min(samples.size(), most);
+  std::vector<double> medians;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const auto at = [&](std::size_t index) {
+      return samples.begin() + static_cast<std::ptrdiff_t>(index * samples.size() / parts);
+    };
+    medians.push_back(MedianOf({at(part), at(part + 1)}));
+  }
+  return medians;
+}
+
+Json ToJson(const std::vector<Figure>& figures) {
+  Json json = Json::object();
+  for (const Figure& figure : figures) {
+    const double median = MedianOf(figure.samples);
+    const double spread = Quantile(figure.samples, 0.75) - Quantile(figure.samples, 0.25);
+    json[figure.name] = {{"better", figure.more_is_better ? "more" : "less"},
+                         {"median", median},
+                         {"spread", spread / median},
+                         {"samples", MediansOfParts(figure.samples, kMostSamples)}};
+  }
+  return json;
+}
+
+std::vector<Figure> ReadFigures(const Json& figures, const std::string& path) {
+  std::vector<Figure> read;
+  try {
+    for (const auto& [name, json] : figures.items()) {
+      Figure figure{name, json.at("better") == "more", json.at("samples")};
+      for (const double sample : figure.samples) {
+        if (!(sample > 0) || std::isinf(sample)) throw Error("a sample is not above 0");
+      }
+      if (figure.samples.empty()) throw Error("there is no sample");
+      read.push_back(std::move(figure));
+    }
+  } catch (const std::exception& error) {
+    throw Error(path + ": figures cannot be read: " + error.what());
+  }
+  return read;
+}
+
+}  // namespace skein

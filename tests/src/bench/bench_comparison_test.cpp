@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/bench/bench_comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "src/bench/figure.h"
+#include "src/files/output_file.h"
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+class BenchComparisonTest : public ::testing::Test {
+ protected:
+  /// A run whose only figures are these.
+  std::string Write(const std::string& name, const std::vector<Figure>& figures,
+                    const Json& changes = Json::object()) {
+    Json document{{"benchmark", "sim"},
+                  {"figures", ToJson(figures)},
+                  {"settings", {{"task", "heading"}}},
+                  {"threads", 2},
+                  {"machine", {{"cpu", "one"}, {"simd", "avx2"}, {"commit", name}}}};
+    document.merge_patch(changes);
+    const std::string path = scratch_ / name;
+    WriteJson(path, document);
+    return path;
+  }
+
+  /// Log-normal samples about `middle`.
+  std::vector<double> Samples(double middle, double deviation, int count = 10) {
+    std::normal_distribution<double> normal(std::log(middle), deviation);
+    std::vector<double> samples;
+    for (int i = 0; i < count; ++i) samples.push_back(std::exp(normal(generator_)));
+    return samples;
+  }
+
+  FigureChange Change(const std::string& name, bool more_is_better, double before, double after,
+                      double deviation) {
+    const std::string a = Write("a", {{name, more_is_better, Samples(before, deviation)}});
+    const std::string b = Write("b", {{name, more_is_better, Samples(after, deviation)}});
+    return CompareBenchmarks({a}, {b}, false).changes.at(0);
+  }
+
+  const ScratchDirectory scratch_;
+  std::mt19937 generator_{7};
+};
+
+TEST_F(BenchComparisonTest, FindsAChangeThatIsLargerThanTheSpread) {
+  const FigureChange slower = Change("step_ms", false, 10, 11, 0.01);
+  EXPECT_TRUE(IsBeyondNoise(slower));
+  EXPECT_GT(slower.ratio.low, 1.07);
+  EXPECT_LT(slower.ratio.high, 1.13);
+  const FigureChange faster = Change("steps_per_s", true, 10, 11, 0.01);
+  EXPECT_TRUE(IsBeyondNoise(faster));
+  EXPECT_FALSE(IsBeyondNoise(Change("step_ms", false, 10, 10.1, 0.1)));
+}
+
+TEST_F(BenchComparisonTest, NineteenOfTwentyIntervalsHoldTheRatio) {
+  constexpr int kTrials = 400;
+  int covered = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Estimate ratio = Change("step_ms", false, 3, 4, 0.2).ratio;
+    covered += ratio.low <= 4.0 / 3 && 4.0 / 3 <= ratio.high;
+  }
+  // Three standard deviations of a binomial about 95 %.
+  EXPECT_NEAR(covered, 0.95 * kTrials, 3 * std::sqrt(kTrials * 0.95 * 0.05));
+}
+
+TEST_F(BenchComparisonTest, PairsOfRunsCancelWhatBothSee) {
+  std::vector<std::string> before, after;
+  for (int i = 0; i < 5; ++i) {
+    const double load = 1 + 0.5 * i;  // of the machine while the pair ran
+    const std::string n = std::to_string(i);
+    before.push_back(Write("a" + n, {{"step_ms", false, Samples(load, 0.001)}}));
+    after.push_back(Write("b" + n, {{"step_ms", false, Samples(0.98 * load, 0.001)}}));
+  }
+  const BenchComparison paired = CompareBenchmarks(before, after, false);
+  EXPECT_EQ(paired.runs, 5);
+  EXPECT_TRUE(IsBeyondNoise(paired.changes.at(0)));
+  EXPECT_LT(paired.changes[0].ratio.high, 0.99);
+  EXPECT_THAT(ToText(paired), HasSubstr("better by 2"));
+  after.pop_back();
+  EXPECT_THAT(MessageOf([&] { CompareBenchmarks(before, after, false); }),
+              HasSubstr("5 runs before and 4 runs after"));
+}
+
+TEST_F(BenchComparisonTest, OneSampleLeavesNoInterval) {
+  const std::string a = Write("a", {{"step_ms", false, {1}}});
+  const std::string b = Write("b", {{"step_ms", false, {2}}});
+  const BenchComparison comparison = CompareBenchmarks({a}, {b}, false);
+  EXPECT_FALSE(IsBeyondNoise(comparison.changes.at(0)));
+  EXPECT_THAT(ToText(comparison), HasSubstr("one sample: no interval"));
+  EXPECT_TRUE(ToJson(comparison)["figures"]["step_ms"]["low"].is_null());
+}
+
+TEST_F(BenchComparisonTest, WhatOnlyOneSideHasIsSaid) {
+  const std::string a = Write("a", {{"x", false, {1, 1}}, {"old", false, {1}}});
+  const std::string b = Write("b", {{"x", false, {1, 1}}, {"new", false, {1}}});
+  const BenchComparison comparison = CompareBenchmarks({a}, {b}, false);
+  EXPECT_EQ(comparison.changes.size(), 1u);
+  EXPECT_THAT(ToText(comparison), HasSubstr("not in all runs: old, new"));
+}
+
+TEST_F(BenchComparisonTest, WhatCannotBeComparedIsRefused) {
+  const std::vector<Figure> figures{{"x", false, {1, 2}}};
+  const std::string a = Write("a", figures);
+  const auto refusal = [&](const Json& changes, bool other_machine = false) {
+    const std::string b = Write("b", figures, changes);
+    return MessageOf([&] { CompareBenchmarks({a}, {b}, other_machine); });
+  };
+  EXPECT_EQ(refusal(Json::object()), "");
+  EXPECT_THAT(refusal({{"benchmark", "update"}}), HasSubstr("benchmark is sim in one and update"));
+  EXPECT_THAT(refusal({{"settings", {{"task", "control"}}}}), HasSubstr("settings"));
+  for (const Json& changes : {Json{{"threads", 4}}, Json{{"machine", {{"cpu", "other"}}}},
+                              Json{{"machine", {{"simd", "avx512"}}}}}) {
+    EXPECT_THAT(refusal(changes), HasSubstr("--other-machine"));
+    EXPECT_EQ(refusal(changes, true), "");
+  }
+  EXPECT_THAT(refusal({{"figures", nullptr}}), HasSubstr("nothing that could be compared"));
+  EXPECT_THAT(refusal({{"benchmark", nullptr}}), HasSubstr("not what skein bench --json writes"));
+  EXPECT_THAT(refusal({{"figures", {{"x", 3}}}}), HasSubstr("figures cannot be read"));
+  EXPECT_THAT(refusal({{"figures", {{"x", {{"samples", {1, -1}}}}}}}), HasSubstr("not above 0"));
+  EXPECT_THAT(refusal({{"figures", {{"x", {{"samples", Json::array()}}}}}}),
+              HasSubstr("there is no sample"));
+  WriteFile(scratch_ / "c", "no JSON");
+  EXPECT_THAT(MessageOf([&] { CompareBenchmarks({a}, {scratch_ / "c"}, false); }),
+              HasSubstr("not what skein bench --json writes"));
+  EXPECT_NE(MessageOf([&] { CompareBenchmarks({a}, {scratch_ / "none"}, false); }), "");
+}
+
+TEST(FigureTest, PartsKeepTheOrderAndAreOfEqualLength) {
+  std::vector<double> samples;
+  for (int i = 0; i < 3000; ++i) samples.push_back(1 + i);
+  EXPECT_EQ(MediansOfParts(samples, 3), (std::vector<double>{500, 1500, 2500}));
+  EXPECT_EQ(MediansOfParts({3, 1, 2}, 10), (std::vector<double>{3, 1, 2}));
+  const Json json = ToJson({{"x", true, samples}});
+  EXPECT_EQ(json["x"]["samples"].size(), 1000u);
+  EXPECT_EQ(json["x"]["median"], 1500);
+  const std::vector<Figure> read = ReadFigures(json, "file");
+  EXPECT_EQ(read.at(0).samples, MediansOfParts(samples, 1000));
+  EXPECT_TRUE(read[0].more_is_better);
+}
+
+}  // namespace
+}  // namespace skein
