@@ -14,10 +14,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<std::string> kSmall = {"--iterations", "2",     "--set",
-                                         "ppo.num_aircraft=64",   "--set",
-                                         "ppo.rollout_steps=16",  "--set",
-                                         "ppo.minibatches=2"};
+const std::vector<std::string> kSmall = {"--iterations", "2",
+                                         "--set",        "ppo.num_aircraft=64",
+                                         "--set",        "ppo.rollout_steps=16",
+                                         "--set",        "ppo.minibatches=2"};
 
 class BenchRanks : public RanksFixture {
  protected:

@@ -50,6 +50,13 @@ const ShippedPolicy kPolicies[] = {
      0.97,
      HoldLimits{0.97, 5, 0.2, 0.3},
      SmoothnessLimits{0.4, 4, 0.01}},
+    {"heading-robust",
+     "heading",
+     {"--set", "env.heading.dwell_s=3", "--hold", "30", "--condition", "plant=middle",
+      "--condition", "noisy=middle"},
+     0.94,
+     HoldLimits{0.75, 6, 0.5, 0.3},
+     SmoothnessLimits{0.9, 5, 0.01}},
     // Steep dives and climbs cannot be held: thrust.
     {"control",
      "control",
