@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "envs/air/atmosphere_constants.h"
@@ -264,9 +265,10 @@ std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraf
 std::shared_ptr<const KernelAircraft> WithAirframe(std::shared_ptr<const KernelAircraft> aircraft,
                                                    const Airframe& airframe,
                                                    const Gravity& gravity) {
+  const std::shared_ptr<const KernelAircraft> given = std::move(aircraft);
   // Made as one that may change, by the two functions of this file.
-  auto kernel = aircraft.use_count() == 1 ? std::const_pointer_cast<KernelAircraft>(aircraft)
-                                          : std::make_shared<KernelAircraft>(*aircraft);
+  auto kernel = given.use_count() == 1 ? std::const_pointer_cast<KernelAircraft>(given)
+                                       : std::make_shared<KernelAircraft>(*given);
   kernel->source.airframe = airframe;
   kernel->constants = MakeConstants(airframe, gravity);
   return kernel;

@@ -84,6 +84,7 @@ TEST(Settings, TheUnitOfEveryPhysicalQuantityIsInItsName) {
   for (const Field& setting : FieldsOf(config)) {
     if (setting.key.rfind("env.reward.", 0) == 0) continue;  // weights, of quantities in their help
     if (setting.key.rfind("env.plant.", 0) == 0) continue;   // factors
+    if (std::holds_alternative<bool*>(setting.place)) continue;
     for (const char* quantity : {"altitude", "airspeed", "alpha_m", "beta_m", "yaw", "speed_"}) {
       if (setting.key.find(quantity) == std::string::npos) continue;
       const std::string unit = setting.key.substr(setting.key.rfind('_'));
@@ -180,6 +181,9 @@ void TurnOnWhatIsOff(TrainConfig* config) {
     if (std::holds_alternative<bool*>(field.place)) field.SetText("true");
     if (field.IsNumber()) field.SetText(field.bounds.Contains(2) ? "2" : "1");
     if (std::holds_alternative<std::string*>(field.place)) field.SetText("some");
+    if (const auto* choice = std::get_if<NamedChoice>(&field.place)) {
+      field.SetText(choice->names().back());
+    }
   }
 }
 
