@@ -92,7 +92,8 @@ bool IsSlower(const LinearMode& a, const LinearMode& b) {
 
 std::vector<LinearMode> FindLinearModes(const Eigen::MatrixXd& A) {
   const Eigen::EigenSolver<Eigen::MatrixXd> right(A), left(A.transpose());
-  const Eigen::VectorXcd values = right.eigenvalues(), left_values = left.eigenvalues();
+  const Eigen::VectorXcd& values = right.eigenvalues();
+  const Eigen::VectorXcd& left_values = left.eigenvalues();
   const Eigen::MatrixXcd right_vectors = right.eigenvectors(), left_vectors = left.eigenvectors();
   std::vector<LinearMode> modes;
   for (long i = 0; i < values.size(); ++i) {
