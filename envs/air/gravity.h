@@ -14,7 +14,7 @@ struct Gravity {
   /// 1976; false: it is the same at every altitude.
   bool falls_with_altitude = false;
 
-  double At(double altitude_ft) const;
+  double At(double altitude_ft) const;  ///< ft/s^2, at an altitude in ft
 };
 
 }  // namespace skein

@@ -23,9 +23,9 @@ struct LinearMode {
   /// Perez-Arriaga, G. C. Verghese, F. C. Schweppe, IEEE Trans. PAS-101, 1982).
   std::vector<double> shares;
 
-  double frequency_rad_s() const { return std::abs(eigenvalue); }  ///< undamped
-  bool swings() const { return eigenvalue.imag() > 0; }
-  double damping_ratio() const { return DampingRatio(eigenvalue); }
+  double frequency_rad_s() const { return std::abs(eigenvalue); }       ///< undamped
+  bool swings() const { return eigenvalue.imag() > 0; }                 ///< one of a conjugate pair
+  double damping_ratio() const { return DampingRatio(eigenvalue); }     ///< as of DampingRatio
   double time_constant_s() const { return -1 / eigenvalue.real(); }     ///< below 0: it grows
   double time_to_half_s() const { return TimeToDouble(-eigenvalue); }   ///< or infinity
   double time_to_double_s() const { return TimeToDouble(eigenvalue); }  ///< or infinity

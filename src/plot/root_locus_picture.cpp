@@ -14,7 +14,7 @@
 namespace skein {
 namespace {
 
-constexpr double kLeft = 40, kAside = 40, kHeightPerWidth = 0.9;
+constexpr double kLeft = 40, kHeightPerWidth = 0.9;
 constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr double kRadius = 2, kPale = 0.75;
 constexpr double kSlow = 0.5;  // 1/s: what the second panel shows
