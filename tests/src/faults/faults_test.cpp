@@ -37,6 +37,8 @@ bool HasEnding(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+bool IsOfMemory(Fault fault) { return fault == Fault::kMemory || fault == Fault::kNoMemory; }
+
 /// Whether a file says when things happened, so that no two are equal.
 bool TellsTime(const std::string& name) {
   const std::string file = fs::path(name).filename().string();
@@ -147,8 +149,8 @@ class Faults : public ::testing::TestWithParam<FaultedCommand> {
   void ExpectHonestEnd(Fault fault, const ProgramResult& result) const {
     if (fault == Fault::kKilled) {
       EXPECT_EQ(result.signal, SIGKILL);
-    } else if (fault == Fault::kNoMemory && result.signal == SIGABRT) {
-      // Destructors of the JSON library ask for memory, and may throw nothing.
+    } else if (IsOfMemory(fault) && result.signal == SIGABRT) {
+      // Functions of CLI11 and destructors of the JSON library that may throw nothing ask for it.
       EXPECT_THAT(result.error, ::testing::HasSubstr("std::bad_alloc"));
     } else if (result.exit_code == 0) {
       EXPECT_EQ(result.error, "");
