@@ -41,6 +41,22 @@ class TrainerTest : public testing::Test {
     return "";
   }
 
+  /// From the checkpoint, path_, of two iterations, which flies as the training's policy does.
+  void ExpectToResumeBitExactly(const TrainConfig& config) const {
+    WorkerPool pool(1);
+    Trainer whole(config, pool);
+    whole.Iterate();
+    whole.Iterate();
+    whole.Save(path_);
+    Trainer resumed(config, pool);
+    resumed.Restore(path_);
+    EXPECT_EQ(resumed.Signature(), whole.Signature());
+    EXPECT_EQ(RecurrentPolicy::Load(path_).parameters()->values,
+              whole.policy().parameters()->values);
+    EXPECT_EQ(resumed.Iterate().learning_rate, whole.Iterate().learning_rate);
+    EXPECT_EQ(resumed.Signature(), whole.Signature());
+  }
+
   const ScratchDirectory scratch_;
   const std::string path_ = scratch_ / "checkpoint.skein";
 };
@@ -398,18 +414,9 @@ TEST_F(TrainerTest, LearningRateFollowsTheDivergenceBelowTheLine) {
 }
 
 TEST_F(TrainerTest, AnAdaptedLearningRateResumesBitExactly) {
-  WorkerPool pool(1);
   TrainConfig config = SmallConfig();
   config.ppo.target_kl = 1e-9;
-  Trainer whole(config, pool);
-  whole.Iterate();
-  whole.Iterate();
-  whole.Save(path_);
-  Trainer resumed(config, pool);
-  resumed.Restore(path_);
-  EXPECT_EQ(resumed.Signature(), whole.Signature());
-  EXPECT_EQ(resumed.Iterate().learning_rate, whole.Iterate().learning_rate);
-  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  ExpectToResumeBitExactly(config);
   EXPECT_NE(RefusalOf(SmallConfig(), path_).find("ppo.target_kl"), std::string::npos);
 }
 
@@ -435,20 +442,9 @@ TEST_F(TrainerTest, KeepsTheMeanOfItsActorsAndTrainsAsWithoutIt) {
 }
 
 TEST_F(TrainerTest, AMeanOfActorsResumesBitExactly) {
-  WorkerPool pool(1);
   TrainConfig config = SmallConfig();
   config.ppo.average_iterations = 5;
-  Trainer whole(config, pool);
-  whole.Iterate();
-  whole.Iterate();
-  whole.Save(path_);
-  Trainer resumed(config, pool);
-  resumed.Restore(path_);
-  EXPECT_EQ(resumed.Signature(), whole.Signature());
-  EXPECT_EQ(RecurrentPolicy::Load(path_).parameters()->values, whole.policy().parameters()->values);
-  whole.Iterate();
-  resumed.Iterate();
-  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  ExpectToResumeBitExactly(config);
   EXPECT_NE(RefusalOf(SmallConfig(), path_).find("ppo.average_iterations"), std::string::npos);
 }
 
