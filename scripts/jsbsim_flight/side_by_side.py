@@ -6,7 +6,7 @@ import os
 import subprocess
 import tempfile
 
-from jsbsim_flight.vehicle import AILERON_RAD, DT, ELEVATOR_RAD, RUDDER_RAD, SUBSTEPS, Vehicle, write_direct_model
+from jsbsim_flight.vehicle import AILERON_RAD, DT, ELEVATOR_RAD, RUDDER_RAD, SUBSTEPS, Vehicle, load_direct_model
 
 CONDITIONS = [(5000, 500), (15000, 500), (15000, 700), (25000, 700), (35000, 850)]  # ft, ft/s
 STEP_CONDITION = (15000, 500)
@@ -30,10 +30,7 @@ class Airframe(Vehicle):
     """JSBSim's F-16 without its control system, each surface where it was trimmed plus what set() adds."""
 
     def load(self):
-        with tempfile.TemporaryDirectory() as folder:
-            write_direct_model(folder)
-            self.fdm.set_aircraft_path(folder)
-            self.fdm.load_model("f16")
+        load_direct_model(self.fdm)
 
     def surfaces(self):
         raise NotImplementedError  # no observation is made of this one

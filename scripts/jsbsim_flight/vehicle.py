@@ -59,6 +59,14 @@ def write_direct_model(folder):
     tree.write(os.path.join(folder, "f16", "f16.xml"))
 
 
+def load_direct_model(fdm):
+    """Loads what write_direct_model writes."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_direct_model(folder)
+        fdm.set_aircraft_path(folder)
+        fdm.load_model("f16")
+
+
 class Vehicle:
     """One F-16 of JSBSim in trimmed flight, wings level, heading north; step() flies a control step."""
 
@@ -139,10 +147,7 @@ class SkeinControl(Vehicle):
         self.laws.settle(self.state(), self.positions)
 
     def load(self):
-        with tempfile.TemporaryDirectory() as folder:
-            write_direct_model(folder)
-            self.fdm.set_aircraft_path(folder)
-            self.fdm.load_model("f16")
+        load_direct_model(self.fdm)
 
     def surfaces(self):
         return self.positions
