@@ -121,8 +121,8 @@ class TrimmedFlock {
 /// An environment with what its workers hand it and get from it.
 class SteppedEnvironment {
  public:
-  SteppedEnvironment(EnvConfig config, int aircraft, WorkerPool& pool)
-      : env_(At50Hz(std::move(config)), aircraft, 1, kTileSize), pool_(pool) {
+  SteppedEnvironment(const EnvConfig& config, int aircraft, WorkerPool& pool)
+      : env_(config, aircraft, 1, kTileSize), pool_(pool) {
     const auto observations = static_cast<std::size_t>(env_.observation_size());
     const auto actions = static_cast<std::size_t>(env_.action_size());
     int largest = 0;
@@ -158,11 +158,6 @@ class SteppedEnvironment {
     std::vector<std::int32_t> episode_steps;
   };
 
-  static EnvConfig At50Hz(EnvConfig config) {
-    config.action_repeat = 1;
-    return config;
-  }
-
   VecEnv env_;
   WorkerPool& pool_;
   std::vector<Buffers> workers_;
@@ -190,7 +185,7 @@ std::vector<SimulatorRate> MeasureEnvironments(const std::vector<EnvConfig>& con
       // The first of a turn finds the other's columns in the caches.
       environments[k]->Step();
       for (int i = done; i < std::min(steps, done + kStepsOfTurn); ++i) {
-        seconds[k].push_back(Time([&] { environments[k]->Step(); }));
+        seconds[k].push_back(Time([&] { environments[k]->Step(); }) / configs[k].action_repeat);
       }
     }
   }

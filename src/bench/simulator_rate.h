@@ -21,9 +21,9 @@ struct SimulatorRate {
 enum class PlantPart { kRk4, kFlightControlAndRk4 };
 SimulatorRate MeasurePlant(PlantPart part, int aircraft, int steps, WorkerPool& pool);
 
-/// The whole environment of each configuration: observe, one control step with actions that were
-/// drawn once, reward, terminate, reset. They take turns of a few steps, so that what else the
-/// machine does slows all alike.
+/// The whole environment of each configuration: observe, hold actions that were drawn once for its
+/// action_repeat control steps, reward, terminate, reset; `steps` times. Rates are of a control
+/// step. They take turns of a few steps, so that what else the machine does slows all alike.
 std::vector<SimulatorRate> MeasureEnvironments(const std::vector<EnvConfig>& configs, int aircraft,
                                                int steps, WorkerPool& pool);
 

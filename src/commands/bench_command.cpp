@@ -130,17 +130,24 @@ void AddBenchCommand(CLI::App* app) {
   sim->add_option("--beside", options->beside,
                   "measure the environment of this task, too, in turns with the other")
       ->type_name("TASK");
-  sim->add_option("--steps", options->steps, "control steps timed; the median counts")
+  sim->add_option("--steps", options->steps, "steps timed; the median counts")
       ->transform(WholeNumber(1, 1000000))
+      ->capture_default_str();
+  sim->add_option(
+         "--action-repeat", options->action_repeat,
+         "control steps for which an environment holds an action; from 2 on beside one that "
+         "does not")
+      ->transform(WholeNumber(1, 1000))
       ->capture_default_str();
   AddConfiguration(sim, options);
   sim->footer(
       "Trimmed F-16s through one RK4 step of 0.02 s, without and with flight control; then the "
       "whole\n"
-      "environment (observe, step, reward, terminate, reset) at 50 Hz under random actions, "
-      "without\n"
-      "and with observation noise, of the aircraft that is asked for. Environments of drawn plants "
-      "take turns with nominal ones.\n"
+      "environment (observe, step, reward, terminate, reset) under random actions, without and "
+      "with\n"
+      "observation noise, of the aircraft that is asked for: times are of a control step. "
+      "Environments\n"
+      "of drawn plants take turns with nominal ones.\n"
       "Examples:\n"
       "  skein bench sim --num-aircraft 1000000 --steps 30 --threads 2\n"
       "  skein bench sim --num-aircraft 4096 --steps 2000 --condition plant=middle");

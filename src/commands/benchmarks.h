@@ -15,6 +15,7 @@ namespace skein {
 struct BenchOptions {
   int num_aircraft = 1000000;
   int steps = 30;
+  int action_repeat = 1;
   int threads = 0;
   int iterations = 3;
   std::string task = "heading";

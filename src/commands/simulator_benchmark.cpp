@@ -20,22 +20,35 @@ Json ToJson(const SimulatorRate& rate) {
 // NeuralPlane (NeurIPS 2024): one Euler step of 10^6 F-16s without flight control on a GPU.
 constexpr double kPaperEulerStepS = 0.2;
 
-/// An environment, and beside it that of the task asked for, or else the same of nominal plants if
-/// its own are drawn.
-std::vector<SimulatorRate> MeasureBesideOther(const EnvConfig& config, const BenchOptions& options,
-                                              WorkerPool& pool) {
-  std::vector<EnvConfig> configs{config};
+/// What is measured in turns with an environment, so that they can be compared.
+struct Beside {
+  std::string key;   ///< appended to the environment's
+  std::string what;  ///< for people
+  EnvConfig config;
+};
+
+/// The task that was asked for; else the same environment of nominal plants, if its own are drawn,
+/// and with an action every control step, if its own are held.
+std::vector<Beside> Others(const EnvConfig& config, const BenchOptions& options) {
   if (!options.beside.empty()) {
     BenchOptions other = options;
     other.task = options.beside;
-    configs.push_back(BenchConfig(other).env);
-    configs.back().observation_noise = config.observation_noise;
-    configs.back().observation_noise_max = config.observation_noise_max;
-  } else if (config.plant.enabled()) {
-    configs.push_back(config);
-    configs.back().plant = {};
+    EnvConfig beside = BenchConfig(other).env;
+    beside.action_repeat = config.action_repeat;
+    beside.observation_noise = config.observation_noise;
+    beside.observation_noise_max = config.observation_noise_max;
+    return {{"beside", "of " + options.beside, beside}};
   }
-  return MeasureEnvironments(configs, options.num_aircraft, options.steps, pool);
+  std::vector<Beside> others;
+  if (config.plant.enabled()) {
+    others.push_back({"of_nominal_plants", "of nominal plants", config});
+    others.back().config.plant = {};
+  }
+  if (config.action_repeat > 1) {
+    others.push_back({"unheld", "with an action every control step", config});
+    others.back().config.action_repeat = 1;
+  }
+  return others;
 }
 
 void PrintRate(const std::string& what, const SimulatorRate& rate, const std::string& note = "") {
@@ -55,28 +68,33 @@ void Keep(const std::string& key, const SimulatorRate& rate, BenchResults& resul
   results.figures.push_back({key + "_step_ms", false, milliseconds});
 }
 
-/// Prints and keeps the first of `rates`, with `note`, and the nominal plants' behind it.
-void ReportEnvironment(const std::string& what, const std::string& key,
-                       const std::vector<SimulatorRate>& rates, const std::string& note,
-                       const BenchOptions& options, BenchResults& results) {
-  PrintRate(what, rates[0], note);
+/// Measures, prints and keeps the environment as `key`, with the others behind it. Beside `quiet`,
+/// if that is there, the line says how much more it takes.
+SimulatorRate ReportEnvironment(const std::string& what, const std::string& key,
+                                const EnvConfig& config, const SimulatorRate* quiet,
+                                const BenchOptions& options, WorkerPool& pool,
+                                BenchResults& results) {
+  const std::vector<Beside> others = Others(config, options);
+  std::vector<EnvConfig> configs{config};
+  for (const Beside& other : others) configs.push_back(other.config);
+  const std::vector<SimulatorRate> rates =
+      MeasureEnvironments(configs, options.num_aircraft, options.steps, pool);
+  PrintRate(what, rates[0], quiet == nullptr ? "" : " (" + Beyond(rates[0], *quiet) + ")");
   Keep(key, rates[0], results);
-  if (rates.size() == 1) return;
-  if (!options.beside.empty()) {
-    PrintRate("... of " + options.beside, rates[1],
-              " (" + options.task + ": " + Beyond(rates[0], rates[1]) + ")");
-    Keep(key + "_beside", rates[1], results);
-    return;
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    PrintRate("... " + others[k].what, rates[k + 1],
+              " (the one above: " + Beyond(rates[0], rates[k + 1]) + ")");
+    Keep(key + "_" + others[k].key, rates[k + 1], results);
   }
-  PrintRate("... of nominal plants", rates[1], " (drawn ones: " + Beyond(rates[0], rates[1]) + ")");
-  Keep(key + "_of_nominal_plants", rates[1], results);
+  return rates[0];
 }
 
 }  // namespace
 
 void BenchSimulator(const BenchOptions& options) {
   WorkerPool pool(options.threads);
-  const EnvConfig noisy = BenchConfig(options).env;
+  EnvConfig noisy = BenchConfig(options).env;
+  noisy.action_repeat = options.action_repeat;
   EnvConfig clean = noisy;
   clean.observation_noise = clean.observation_noise_max = 0;
   const simd::PeakRate peak = simd::MeasurePeak(pool.threads());
@@ -91,16 +109,17 @@ void BenchSimulator(const BenchOptions& options) {
   PrintRate("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
   PrintRate("F-16: ... with flight control, actuators", controlled);
   BenchResults results{"sim", pool.threads(), {}, {}};
-  results.other = {{"aircraft", options.num_aircraft}, {"steps", options.steps}};
+  results.other = {{"aircraft", options.num_aircraft},
+                   {"steps", options.steps},
+                   {"action_repeat", options.action_repeat}};
   Keep("rk4", rk4, results);
   Keep("plant", controlled, results);
-  const std::vector<SimulatorRate> whole = MeasureBesideOther(clean, options, pool);
-  ReportEnvironment("the whole environment, without noise", "environment", whole, "", options,
-                    results);
+  const SimulatorRate quiet =
+      ReportEnvironment("the whole environment, without noise", "environment", clean, nullptr,
+                        options, pool, results);
   if (noisy.observation_noise > 0 || noisy.observation_noise_max > 0) {
-    const std::vector<SimulatorRate> with_noise = MeasureBesideOther(noisy, options, pool);
-    ReportEnvironment("the whole environment, with noise", "environment_with_noise", with_noise,
-                      " (" + Beyond(with_noise[0], whole[0]) + ")", options, results);
+    ReportEnvironment("the whole environment, with noise", "environment_with_noise", noisy, &quiet,
+                      options, pool, results);
   }
   fmt::print("  (the paper's GPU: {:.0f} ms for an Euler step of 10^6 without flight control)\n",
              1e3 * kPaperEulerStepS);
