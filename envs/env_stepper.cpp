@@ -53,6 +53,21 @@ bool Is(std::int32_t termination, Termination which) {
 /// ft, and at most: targets drawn anywhere would lead into the ground in the end.
 constexpr double kPitchPerFootLost = 5e-5;
 constexpr double kLargestPitchBack = 0.25;
+/// No target of a mission leads lower than this share of the height at which the flight began, even
+/// if it is dived for until its time is up, at this many times the airspeed of the flight's start.
+/// Heights are above the altitude at which flights end.
+constexpr double kMissionClearance = 0.1;
+constexpr double kMissionDiveSpeed = 1.3;
+
+/// Limits the targets of a mission's flight that began at `start` and is at `altitude_ft`.
+void LimitDescent(const EnvConfig& config, double altitude_ft, FlightStart* start) {
+  const double floor_ft = config.termination.min_altitude_ft;
+  start->lowest_altitude_ft = floor_ft + kMissionClearance * (start->altitude_ft - floor_ft);
+  const double flown_ft = kMissionDiveSpeed * start->true_airspeed_ft_s * config.time_limit_steps *
+                          config.control_interval_s;
+  const double descent = (altitude_ft - start->lowest_altitude_ft) / flown_ft;
+  start->lowest_pitch_rad = -std::asin(std::clamp(descent, -1.0, 1.0));
+}
 
 /// Of a target that is held its reward comes when it is reached, not at the end of the hold.
 TerminationConfig EndsOf(const EnvConfig& config) {
@@ -175,13 +190,14 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
         {seed_, KeyOf(block, i), static_cast<std::uint32_t>(episode), 0, purpose});
   };
   simd::RandomStream initial = stream(simd::RandomPurpose::kInitialState);
-  const FreshFlight flight = reset_.Draw(&initial);
+  FreshFlight flight = reset_.Draw(&initial);
   for (int column = 0; column < kNumColumns; ++column) {
     block.flight[column][i] = flight.columns[static_cast<std::size_t>(column)];
   }
   if (wind_.enabled()) wind_.Begin(block.flight, i, GustKeysOf(block));
   if (block.plants.is_drawn()) BeginPlant(block, i);
   simd::RandomStream target = stream(simd::RandomPurpose::kTarget);
+  if (config_.mission.enabled()) LimitDescent(config_, flight.start.altitude_ft, &flight.start);
   task_->Reset(flight.start, &target, block.task, i);
   if (config_.stagger_clocks && episode == 0) {
     simd::RandomStream clock = stream(simd::RandomPurpose::kClockStagger);
@@ -340,6 +356,7 @@ void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
   simd::RandomStream initial({seed_, aircraft, episode, 0, simd::RandomPurpose::kInitialState});
   FlightStart start = reset_.Draw(&initial).start;
   const double altitude_ft = -block.flight[kDown][i];
+  LimitDescent(config_, altitude_ft, &start);
   start.pitch_rad = std::clamp(kPitchPerFootLost * (start.altitude_ft - altitude_ft),
                                -kLargestPitchBack, kLargestPitchBack);
   if (task_->is_point()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/control.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "envs/state/attitude.h"
@@ -110,7 +111,8 @@ class ControlTask : public Task {
       return centre + random->Uniform(-change, change);
     };
     EulerAngles attitude;
-    attitude.pitch = Folded(around(start.pitch_rad, config_.pitch_change_rad));
+    attitude.pitch =
+        std::max(Folded(around(start.pitch_rad, config_.pitch_change_rad)), start.lowest_pitch_rad);
     attitude.yaw = std::remainder(around(start.yaw_rad, config_.yaw_change_rad), 2 * M_PI);
     const double speed = limits_.TrueAirspeed(
         around(start.true_airspeed_ft_s, config_.speed_change_fps), start.altitude_ft);

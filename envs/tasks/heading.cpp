@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/heading.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "envs/state/attitude.h"
@@ -113,7 +114,9 @@ class HeadingTask : public Task {
     const auto around = [random](double centre, double change) {
       return centre + random->Uniform(-change, change);
     };
-    const double altitude = limits_.Altitude(around(start.altitude_ft, config_.altitude_change_ft));
+    const double altitude =
+        std::max(limits_.Altitude(around(start.altitude_ft, config_.altitude_change_ft)),
+                 start.lowest_altitude_ft);
     task[kTargetAltitude][index] = static_cast<float>(altitude);
     const double yaw = around(start.yaw_rad, config_.yaw_change_rad);
     task[kTargetYaw][index] = static_cast<float>(std::remainder(yaw, 2 * M_PI));

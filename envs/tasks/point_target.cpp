@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/point_target.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "envs/aircraft/aircraft.h"
@@ -18,7 +19,8 @@ std::array<double, 3> DrawPoint(const PointDraw& draw, const FlightStart& start,
   const double elevation = around(start.pitch_rad, draw.elevation_deg);
   return {start.north_ft + distance * std::cos(elevation) * std::cos(azimuth),
           start.east_ft + distance * std::cos(elevation) * std::sin(azimuth),
-          limits.Altitude(start.altitude_ft + distance * std::sin(elevation))};
+          std::max(limits.Altitude(start.altitude_ft + distance * std::sin(elevation)),
+                   start.lowest_altitude_ft)};
 }
 
 }  // namespace skein

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct FlightStart {
   double true_airspeed_ft_s = 0;
   double pitch_rad = 0, yaw_rad = 0;
   double north_ft = 0, east_ft = 0;
+  /// The lowest altitude and pitch that targets may ask for: those drawn below are raised to them.
+  double lowest_altitude_ft = -std::numeric_limits<double>::infinity();
+  double lowest_pitch_rad = -std::numeric_limits<double>::infinity();
 };
 
 /// The task's part of one control step's reward, and whether the target counts as reached; one

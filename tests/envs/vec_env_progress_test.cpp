@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -103,6 +104,61 @@ TEST(VecEnvProgress, AMissionGivesTargetAfterTargetAndEndsWithItsLength) {
       EXPECT_TRUE(termination == 0 || termination == static_cast<int>(Termination::kTimeLimit));
     }
   }
+}
+
+/// The altitude under which no target of a mission that began at 6000 ft may lead.
+constexpr double kFloorFt = 2500 + 0.1 * (6000 - 2500);
+
+EnvConfig LowMission(const std::string& task) {
+  EnvConfig config = Mission(task);
+  config.initial.altitude_ft = {6000, 6000};
+  config.initial.true_airspeed_fps = {1000, 1000};
+  config.time_limit_steps = 1000;
+  return config;
+}
+
+TEST(VecEnvProgress, NoPitchOfAMissionLeadsIntoTheGroundByItsTimeLimit) {
+  EnvConfig config = LowMission("control");
+  config.control.pitch_change_rad = 0.5;
+  config.control.pitch_tolerance_deg = config.control.yaw_tolerance_deg = 180;
+  config.control.speed_tolerance_fps = 1000;
+  VecEnv env(config, 32, 1);
+  int limited = 0, targets = 0;
+  std::vector<float> last(32, 9);
+  for (int step = 0; step < 60; ++step) {
+    for (int i = 0; i < 32; ++i) {
+      const float pitch = env.TargetOf(i)[0];
+      const double room = -env.StateOf(i, kDown) - kFloorFt;
+      const double lowest = -std::asin(room / (1.3 * 1000 * 20));
+      if (pitch != last[i]) {
+        EXPECT_GE(pitch, lowest - 1e-3) << i;  // a policy step may have been flown since
+        ++targets;
+        limited += pitch < lowest + 1e-3;
+      }
+      last[i] = pitch;
+    }
+    Fly(&env, 1);
+  }
+  EXPECT_GE(targets, 64);
+  EXPECT_GT(limited, targets / 8);  // without the limit four in ten were lower
+  EXPECT_LT(limited, targets / 2);
+}
+
+TEST(VecEnvProgress, NoPointOfAMissionIsLowerThanATenthOfTheStartsHeight) {
+  EnvConfig config = LowMission("tracking");
+  config.tracking.distance_ft = {9000, 10000};
+  config.tracking.position_tolerance_ft = 20000;
+  VecEnv env(config, 32, 1);
+  int limited = 0;
+  for (int step = 0; step < 20; ++step) {
+    for (int i = 0; i < 32; ++i) {
+      const float altitude = env.TargetOf(i)[2];
+      EXPECT_GE(altitude, static_cast<float>(kFloorFt)) << i;
+      limited += altitude == static_cast<float>(kFloorFt);
+    }
+    Fly(&env, 1);
+  }
+  EXPECT_GT(limited, 0);
 }
 
 TEST(VecEnvProgress, EveryTargetOfAMissionIsWorthATerminalReward) {

@@ -184,9 +184,13 @@ class TermTask : public Task {
     const double drawn = random->Uniform(target.draw.min, target.draw.max);
     const double asked =
         target.draw_from == Draw::kAroundStart ? StartOf(start, value) + drawn : drawn;
-    if (value == TermValue::kAltitude) return limits_.Altitude(asked);
+    if (value == TermValue::kAltitude) {
+      return std::max(limits_.Altitude(asked), start.lowest_altitude_ft);
+    }
     if (value == TermValue::kTrueAirspeed) return limits_.TrueAirspeed(asked, altitude_ft);
-    if (value == TermValue::kPitch) return std::asin(std::sin(asked));
+    if (value == TermValue::kPitch) {
+      return std::max(std::asin(std::sin(asked)), start.lowest_pitch_rad);
+    }
     return IsWrapped(value) ? std::remainder(asked, 2 * M_PI) : asked;
   }
 
