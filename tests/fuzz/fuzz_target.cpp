@@ -3,11 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "base/error.h"
-#include "base/fnv_hash.h"
 #include "envs/aircraft/aircraft_document.h"
 #include "envs/kernels/plant_kernel.h"
 #include "src/config/configuration.h"
@@ -17,24 +15,14 @@
 #include "src/run/metrics.h"
 #include "src/run/record_file.h"
 #include "src/study/study.h"
-#include "tests/scratch_directory.h"
-#include "tests/train/small_config.h"
-#include "train/policy/recurrent_policy.h"
-#include "train/ppo/trainer.h"
+#include "tests/fuzz/container_readers.h"
+#include "tests/fuzz/fuzzed_file.h"
+#include "tests/fuzz/simd_agreement.h"
 
 namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Where a reader that wants a path finds the file.
-const std::string& InFile(const std::string& bytes, const char* extension = "") {
-  static const ScratchDirectory scratch;
-  static std::string path;
-  path = scratch / "file" + extension;
-  std::ofstream(path, std::ios::binary) << bytes;
-  return path;
-}
 
 /// The files of a folder of the repository, and of the folders in it, whose names end so.
 std::vector<std::string> Shipped(const std::string& folder, const std::string& extension) {
@@ -46,88 +34,6 @@ std::vector<std::string> Shipped(const std::string& folder, const std::string& e
 }
 
 std::string AsItIs(std::string file) { return file; }
-
-// Containers of tensors: policies and checkpoints.
-
-constexpr std::size_t kLengthBytes = 8, kDigits = 16;
-
-std::uint64_t HeaderLength(const std::string& file) {
-  std::uint64_t length = 0;
-  for (std::size_t i = 0; i < kLengthBytes; ++i) {
-    length |= std::uint64_t{static_cast<unsigned char>(file[i])} << (8 * i);
-  }
-  return length;
-}
-
-/// The header's length is what its end says, and the checksum that of the file.
-std::string RepairedContainer(std::string file) {
-  if (file.size() < kLengthBytes) return file;
-  std::uint64_t length = HeaderLength(file);
-  if (length > file.size() - kLengthBytes || file[kLengthBytes + length - 1] == '}') {
-    const std::size_t end = file.find("}}");
-    if (end == std::string::npos) return file;
-    length = end + 2 - kLengthBytes;
-    for (std::size_t i = 0; i < kLengthBytes; ++i) file[i] = static_cast<char>(length >> (8 * i));
-  }
-  const std::string field = "\"checksum\":\"";
-  const std::size_t place = file.find(field, kLengthBytes);
-  if (place == std::string::npos || place + field.size() + kDigits > kLengthBytes + length) {
-    return file;
-  }
-  file.replace(place + field.size(), kDigits, kDigits, '0');
-  FnvHash hash;
-  hash.Add(file.data() + kLengthBytes, file.size() - kLengthBytes);
-  return file.replace(place + field.size(), kDigits, hash.Hex());
-}
-
-TrainConfig FuzzedTraining() {
-  TrainConfig config = SmallConfig();
-  config.network.hidden_size = config.network.gru_size = 8;
-  config.ppo.num_aircraft = 32;
-  config.ppo.minibatches = 1;
-  config.evaluation.interval_iterations = 0;
-  return config;
-}
-
-WorkerPool& OneWorker() {
-  static WorkerPool pool(1);
-  return pool;
-}
-
-std::vector<std::string> PolicySeeds() {
-  NetworkConfig network;
-  network.hidden_size = network.gru_size = 4;
-  const std::string path = InFile("", ".skein");
-  RecurrentPolicy::Untrained(network, 22, 4, 1).Save(path);
-  return {ReadFile(path)};
-}
-
-void ReadPolicy(const std::string& file) { RecurrentPolicy::Load(InFile(file, ".skein")); }
-
-std::vector<std::string> CheckpointSeeds() {
-  Trainer trainer(FuzzedTraining(), OneWorker());
-  trainer.Iterate();
-  const std::string path = InFile("", ".skein");
-  trainer.Save(path, "100 0123456789abcdef");
-  return {ReadFile(path)};
-}
-
-/// A checkpoint that is refused leaves the training as it was, and one that is taken is gone on
-/// with, whatever its numbers are.
-void ReadCheckpoint(const std::string& file) {
-  Trainer trainer(FuzzedTraining(), OneWorker());
-  const std::uint64_t before = trainer.Signature();
-  try {
-    trainer.Restore(InFile(file, ".skein"));
-  } catch (const Error&) {
-    if (trainer.Signature() != before)
-      throw std::logic_error("a refused checkpoint has changed it");
-    throw;
-  }
-  if (!trainer.finished()) trainer.Iterate();
-}
-
-// Texts.
 
 std::vector<std::string> ConfigurationSeeds() { return Shipped("configs/heading", ".toml"); }
 
@@ -190,12 +96,15 @@ const std::vector<FuzzTarget>& FuzzTargets() {
   static const std::vector<FuzzTarget> targets = {
       {"policy", PolicySeeds, RepairedContainer, ReadPolicy},
       {"checkpoint", CheckpointSeeds, RepairedContainer, ReadCheckpoint},
+      {"resume", CheckpointSeeds, RepairedContainer, ResumeTraining},
       {"configuration", ConfigurationSeeds, AsItIs, ReadConfiguration},
       {"study", StudySeeds, AsItIs, CheckStudy},
       {"task", TaskSeeds, AsItIs, ReadTask},
       {"aircraft", AircraftSeeds, AsItIs, ReadAircraft},
       {"fdm", FdmSeeds, AsItIs, ReadFdm},
       {"metrics", MetricsSeeds, AsItIs, ReadMetrics},
+      {"plant", PlantSeeds, WholePlantRecords, ComparePlants},
+      {"network", NetworkSeeds, WholeNetworkRecords, CompareNetworks},
   };
   return targets;
 }
