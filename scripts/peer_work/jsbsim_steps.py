@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Steps one F-16 of JSBSim through its Python package, and one of jsbgym's environments, and prints the microseconds
-that a simulated second takes of either (by the median of their steps), as JSON: what scripts/compare_python compares with, in an environment of theirs.
+"""Steps one F-16 of JSBSim through its Python package, and one of jsbgym's environments: for every line of the standard
+input one line of JSON with the microseconds that a simulated second takes of either, by the median of their steps.
+What scripts/peers and scripts/compare_python compare with, in an environment of theirs.
 
-  scripts/step_peers SECONDS      (to be flown of each; needs pip install jsbsim jsbgym)
+  scripts/peer_work/jsbsim_steps.py SECONDS      (to be flown of each; needs pip install jsbsim jsbgym)
 """
-import json
 import os
 import statistics
 import sys
@@ -15,6 +15,8 @@ import gymnasium
 import jsbgym  # noqa: F401, registers its environments
 import jsbsim
 import numpy as np
+
+from serving import serve
 
 DT = 0.02  # s
 ALTITUDE_FT, SPEED_FPS = 15000, 700
@@ -63,11 +65,10 @@ def gym_us(seconds):
 
 def main():
     seconds = float(sys.argv[1])
-    shown = os.dup(1)
+    shown = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # JSBSim writes banners
-    figures = {"jsbsim_version": jsbsim.__version__, "jsbsim_us": jsbsim_us(seconds), "jsbgym": GYM,
-               "jsbgym_us": gym_us(seconds)}
-    os.write(shown, (json.dumps(figures) + "\n").encode())
+    serve({"jsbsim_version": jsbsim.__version__, "jsbgym": GYM, "control_step_s": DT, "policy_step_s": GYM_STEP_S},
+          lambda: {"jsbsim_us": jsbsim_us(seconds), "jsbgym_us": gym_us(seconds)}, shown)
 
 
 if __name__ == "__main__":
