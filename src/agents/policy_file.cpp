@@ -8,14 +8,27 @@
 #include "base/error.h"
 #include "envs/vec_env.h"
 #include "src/config/configuration.h"
+#include "src/files/installed_file.h"
 #include "src/run/run_directory.h"
 #include "train/policy/policy_parameters.h"
 
 namespace skein {
 
+namespace {
+
+/// `path`; of policies/NAME that the working directory lacks, the policy that came with the
+/// program.
+std::string PathOrInstalledPolicy(const std::string& path) {
+  if (path.rfind(kPoliciesRoot, 0) != 0 || std::filesystem::exists(path)) return path;
+  const std::string installed = InstalledFile(path);
+  return installed.empty() ? path : installed;
+}
+
+}  // namespace
+
 std::string PolicyFileOf(const std::string& path) {
   if (!IsRunDirectory(path)) {
-    if (!std::filesystem::is_directory(path)) return path;
+    if (!std::filesystem::is_directory(path)) return PathOrInstalledPolicy(path);
     throw Error(
         fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
   }

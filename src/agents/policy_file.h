@@ -13,9 +13,13 @@ namespace skein {
 /// The word that stands for freshly initialised networks in place of a policy file.
 inline constexpr const char* kUntrained = "untrained";
 
+/// Where the shipped policies lie: in the working directory, or else in the installation.
+inline constexpr const char* kPoliciesRoot = "policies/";
+
 /// The file of the policy that `path` stands for: of the directory of a run its best policy, else
-/// the final one, else the newest checkpoint; otherwise `path` itself. Throws Error on a directory
-/// that holds no run, or a run that has not saved a policy yet.
+/// the final one, else the newest checkpoint; of policies/NAME that is not there, the policy of
+/// that name that was installed with the program; otherwise `path` itself. Throws Error on a
+/// directory that holds no run, or a run that has not saved a policy yet.
 std::string PolicyFileOf(const std::string& path);
 
 /// The file whose networks training starts from if it is to start from `path`: of the directory of

@@ -3,10 +3,13 @@
 
 namespace skein {
 
-extern const char* const kCommit;  // of the generated commit.cpp (cmake/Commit.cmake)
+// Of the generated commit.cpp (cmake/Commit.cmake).
+extern const char* const kCommit;
+extern const char* const kCommitDate;
 
 const BuildInfo& Build() {
-  static const BuildInfo build{SKEIN_VERSION, kCommit, SKEIN_COMPILER, SKEIN_BUILD_TYPE};
+  static const BuildInfo build{SKEIN_VERSION, kCommit, kCommitDate, SKEIN_COMPILER,
+                               SKEIN_BUILD_TYPE};
   return build;
 }
 

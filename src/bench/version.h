@@ -7,6 +7,7 @@ namespace skein {
 struct BuildInfo {
   const char* version;   ///< "0.2.0"
   const char* commit;    ///< of the source tree, "-dirty" behind it if changed; or "unknown"
+  const char* date;      ///< of the commit: "2026-11-22"; empty if it is unknown
   const char* compiler;  ///< "GNU 12.2.0"
   const char* type;      ///< of the build: "Release"
 };

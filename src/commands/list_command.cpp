@@ -3,9 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,9 +13,11 @@
 #include "envs/aircraft/registry.h"
 #include "envs/task_registry.h"
 #include "src/agents/agent_names.h"
+#include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
+#include "src/files/installed_file.h"
 #include "src/files/text_table.h"
 #include "src/run/run_summary.h"
 #include "train/policy/policy_parameters.h"
@@ -25,8 +27,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 using Rows = std::vector<Row>;
-
-constexpr const char* kPoliciesRoot = "policies";
 
 std::string PresetNames(const std::string& task) {
   std::vector<std::string> names;
@@ -88,7 +88,7 @@ Rows Agents() {
 
 Row PolicyRow(const std::string& path) {
   try {
-    const auto policy = LoadPolicy(TensorFile::Read(path), path);
+    const auto policy = LoadPolicy(TensorFile::Read(PolicyFileOf(path)), path);
     const auto aircraft = policy->environment.find("aircraft");
     return {path, policy->task.empty() ? "unknown" : policy->task,
             aircraft == policy->environment.end() ? "unknown" : aircraft->second,
@@ -99,15 +99,17 @@ Row PolicyRow(const std::string& path) {
 }
 
 Rows Policies() {
-  std::vector<std::string> paths;
-  std::error_code absent;
-  for (const auto& entry : std::filesystem::directory_iterator(kPoliciesRoot, absent)) {
-    if (entry.path().extension() == ".skein") paths.push_back(entry.path().string());
+  std::set<std::string> paths;
+  for (const std::string& folder : {std::string(kPoliciesRoot), InstalledFile(kPoliciesRoot)}) {
+    std::error_code absent;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, absent)) {
+      if (entry.path().extension() != ".skein") continue;
+      paths.insert(kPoliciesRoot + entry.path().filename().string());
+    }
   }
-  std::sort(paths.begin(), paths.end());
   Rows rows = {{"policy", "task", "aircraft", "holds an action for"}};
   for (const std::string& path : paths) rows.push_back(PolicyRow(path));
-  if (paths.empty()) rows.push_back({fmt::format("(none in {}/ here)", kPoliciesRoot)});
+  if (paths.empty()) rows.push_back({fmt::format("(none in {} here)", kPoliciesRoot)});
   return rows;
 }
 
@@ -152,7 +154,7 @@ void AddListCommand(CLI::App* app) {
       ->check(CLI::IsMember(names));
   command->footer(
       "Policies are those of the folder policies/, runs those of runs/, both of the working "
-      "directory.\n"
+      "directory, and the policies that were installed with the program.\n"
       "Example: skein list conditions");
   command->callback([what] { Print(*what); });
 }

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cctype>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,23 @@ std::string Escaped(const std::string& text) {
   return escaped;
 }
 
+/// Prose, escaped, in lines of up to kLineLength characters where it has spaces to break at.
+std::string Prose(const std::string& text) {
+  constexpr std::size_t kLineLength = 80;
+  std::string lines, line;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string next = Escaped(line.empty() ? word : " " + word);
+    if (line.size() + next.size() > kLineLength) {
+      lines += line + "\n";
+      line = Escaped(word);
+    } else {
+      line += next;
+    }
+  }
+  return lines + line;
+}
+
 std::string Upper(std::string text) {
   for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return text;
@@ -44,13 +62,13 @@ std::string OptionEntry(const OptionForm& option) {
   }
   const std::string value =
       option.is_argument || option.value.empty() ? "" : " \\fI" + Escaped(option.value) + "\\fR";
-  std::string description = Escaped(option.description);
+  std::string description = option.description;
   const bool says_choices = option.choices.empty() || option.value.find('=') != std::string::npos ||
                             option.description.find(option.choices.front()) != std::string::npos;
   if (!says_choices) {
-    description += Escaped(fmt::format(" (one of {})", fmt::join(option.choices, ", ")));
+    description += fmt::format(" (one of {})", fmt::join(option.choices, ", "));
   }
-  return fmt::format(".TP\n{}{}\n{}\n", fmt::join(names, ", "), value, description);
+  return fmt::format(".TP\n{}{}\n{}\n", fmt::join(names, ", "), value, Prose(description));
 }
 
 std::string Synopsis(const CommandForm& command) {
@@ -64,7 +82,7 @@ std::string Synopsis(const CommandForm& command) {
 
 std::string Section(const CommandForm& command) {
   std::string text = fmt::format(".SS {}\n{}.PP\n{}.\n", Escaped(command.path), Synopsis(command),
-                                 Escaped(command.app->get_description()));
+                                 Prose(command.app->get_description()));
   for (const OptionForm& option : command.options) text += OptionEntry(option);
   if (const std::string footer = command.app->get_footer(); !footer.empty()) {
     text += fmt::format(".PP\n.nf\n{}\n.fi\n", Escaped(footer));
@@ -76,19 +94,19 @@ std::string Section(const CommandForm& command) {
 std::string ManualPage(const std::vector<CommandForm>& commands) {
   const CommandForm& program = commands.front();
   std::string text = fmt::format(
-      ".TH SKEIN 1 \"\" \"skein {}\" \"User Commands\"\n"
+      ".TH SKEIN 1 \"{}\" \"skein {}\" \"User Commands\"\n"
       ".SH NAME\nskein \\- {}\n"
       ".SH SYNOPSIS\n{}"
       ".SH OPTIONS\n",
-      Build().version, Escaped(program.app->get_description()), Synopsis(program));
+      Build().date, Build().version, Escaped(program.app->get_description()), Synopsis(program));
   for (const OptionForm& option : program.options) text += OptionEntry(option);
   text += ".SH COMMANDS\n";
   for (std::size_t i = 1; i < commands.size(); ++i) text += Section(commands[i]);
   text += fmt::format(".SH EXAMPLES\n.nf\n{}\n.fi\n", Escaped(program.app->get_footer()));
   return text +
          ".SH EXIT STATUS\n"
-         "0 on success, 1 on failure, 2 on wrong usage. An error is one line on the standard "
-         "error.\n"
+         "0 on success, 1 on failure, 2 on wrong usage.\n"
+         "An error is one line on the standard error.\n"
          ".SH ENVIRONMENT\n"
          ".TP\n\\fBSKEIN_SIMD\\fR\n"
          "forces a SIMD target: avx512, avx2, sse4 or scalar\n"

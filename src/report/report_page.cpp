@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/report/report_page.h"
 
-#include <filesystem>
-
 #include "base/error.h"
+#include "src/files/installed_file.h"
 #include "src/files/output_file.h"
 #include "src/report/data_pack.h"
 
 namespace skein {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kDataMark = "SKEIN-REPORT-DATA";
 constexpr const char* kNoConnections = "connect-src 'none'";
@@ -27,10 +24,10 @@ std::string Replaced(std::string page, const std::string& mark, const std::strin
 }  // namespace
 
 std::optional<std::string> FindReportTemplate() {
-  std::error_code failure;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", failure).parent_path();
-  for (const char* place : {"../share/skein/report.html", "../viewer/report.html"}) {
-    if (fs::exists(folder / place, failure)) return ReadFile((folder / place).string());
+  // Of a build tree it lies where an installation has share/skein/.
+  for (const char* name : {"report.html", "../../viewer/report.html"}) {
+    const std::string path = InstalledFile(name);
+    if (!path.empty()) return ReadFile(path);
   }
   return std::nullopt;
 }

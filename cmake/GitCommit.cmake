@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+# find_git_commit(SOURCE FORMAT): sets `commit` to the commit of the git work tree SOURCE, "-dirty" behind it if files have
+# changed, or to "unknown"; and `commit_date` to its date in FORMAT of git, such as %cs for 2026-11-22, or to nothing.
+function(find_git_commit source format)
+  set(commit unknown)
+  set(commit_date "")
+  find_program(git git)
+  if(git)
+    # SOURCE may lie unpacked inside another work tree, whose commit says nothing about it.
+    execute_process(COMMAND ${git} -C ${source} rev-parse --show-toplevel OUTPUT_VARIABLE top ERROR_QUIET
+                    OUTPUT_STRIP_TRAILING_WHITESPACE)
+    get_filename_component(top "${top}" REALPATH)
+    get_filename_component(source "${source}" REALPATH)
+    if(top STREQUAL source)
+      execute_process(COMMAND ${git} -C ${source} describe --always --dirty --abbrev=10 --match=
+                      OUTPUT_VARIABLE description ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failure)
+      if(NOT failure)
+        set(commit ${description})
+        execute_process(COMMAND ${git} -C ${source} show --no-patch --format=${format} OUTPUT_VARIABLE commit_date
+                        OUTPUT_STRIP_TRAILING_WHITESPACE)
+      endif()
+    endif()
+  endif()
+  set(commit ${commit} PARENT_SCOPE)
+  set(commit_date "${commit_date}" PARENT_SCOPE)
+endfunction()
