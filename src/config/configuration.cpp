@@ -219,7 +219,8 @@ void ApplyAssignment(const std::string& assignment, const std::string& source,
     throw Error(fmt::format("{} {}: expected key=value", source, assignment));
   }
   const std::vector<Field> fields = FieldsOf(*config);
-  const Field& field = FindField(fields, KeyOf(assignment), source);
+  const std::string key = KeyOf(assignment);
+  const Field& field = FindField(fields, key, source);
   RequireOfTask(field, config->train.env.task, source);
   Assign(field, ParseValue(Trimmed(assignment.substr(equals + 1)), field), source);
 }
