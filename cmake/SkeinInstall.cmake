@@ -8,11 +8,14 @@ set(SKEIN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
 set(skein_targets skein_settings skein_base skein_simd skein_envs)
 if(SKEIN_BUILD_TRAIN)
   list(APPEND skein_targets skein_policy skein_train)
-  install(TARGETS skein RUNTIME)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/policies DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
+  install(TARGETS skein RUNTIME COMPONENT program)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/policies DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT program
+          FILES_MATCHING PATTERN *.skein)
+  install(FILES ${PROJECT_SOURCE_DIR}/policies/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+          RENAME policies.md)
 endif()
 
-install(TARGETS ${skein_targets} EXPORT skein)
+install(TARGETS ${skein_targets} EXPORT skein COMPONENT development)
 add_custom_target(
   public_headers
   COMMAND ${CMAKE_COMMAND} "-DHEADERS=${SKEIN_PUBLIC_HEADERS}" -DSOURCE=${PROJECT_SOURCE_DIR}
@@ -23,9 +26,10 @@ install(
     set(HEADERS \"${SKEIN_PUBLIC_HEADERS}\")
     set(SOURCE \"${PROJECT_SOURCE_DIR}\")
     set(OUTPUT \"${PROJECT_BINARY_DIR}/include\")
-    include(\"${CMAKE_CURRENT_LIST_DIR}/StagePublicHeaders.cmake\")")
-install(DIRECTORY ${PROJECT_BINARY_DIR}/include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT skein NAMESPACE skein:: FILE skein-targets.cmake DESTINATION ${SKEIN_PACKAGE_DIR})
+    include(\"${CMAKE_CURRENT_LIST_DIR}/StagePublicHeaders.cmake\")"
+  COMPONENT development)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(EXPORT skein NAMESPACE skein:: FILE skein-targets.cmake DESTINATION ${SKEIN_PACKAGE_DIR} COMPONENT development)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/skein-config.cmake.in
                               ${PROJECT_BINARY_DIR}/skein-config.cmake
@@ -33,5 +37,6 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/skein-config.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/skein-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/skein-config.cmake
-              ${PROJECT_BINARY_DIR}/skein-config-version.cmake DESTINATION ${SKEIN_PACKAGE_DIR})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+              ${PROJECT_BINARY_DIR}/skein-config-version.cmake DESTINATION ${SKEIN_PACKAGE_DIR} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)

@@ -19,6 +19,13 @@ if(NOT on_include_path STREQUAL skein)
   message(FATAL_ERROR "besides skein/ these were installed under include/: ${on_include_path}")
 endif()
 
+# The program finds what was installed with it from wherever it is called.
+if(EXISTS ${SCRATCH}/prefix/bin/skein)
+  set(skein ${CMAKE_COMMAND} -E chdir ${SCRATCH} prefix/bin/skein)
+  run("policies/heading.skein +heading" ${skein} list policies)
+  run("success rate" ${skein} eval --policy policies/heading.skein --episodes 8)
+endif()
+
 run("" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${SCRATCH}/build -G Ninja -DEXAMPLES=${EXAMPLES}
     -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
 run("" ${CMAKE_COMMAND} --build ${SCRATCH}/build)
