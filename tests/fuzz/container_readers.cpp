@@ -50,7 +50,8 @@ struct KeptTraining {
   const std::uint64_t signature = trainer.Signature();
 };
 
-/// Restores from `file`. Throws std::logic_error if it is refused, and yet has changed the training.
+/// Restores from `file`. Throws std::logic_error if it is refused, and yet has changed the
+/// training.
 void RestoreOrLeave(Trainer& trainer, const std::string& file) {
   const std::uint64_t before = trainer.Signature();
   try {

@@ -148,11 +148,11 @@ enum PlantInput : std::size_t { kSpeed, kAlpha, kBeta, kFirstAngle = 9, kFirstCo
 
 // Speed, angles of attack and sideslip; angular rates; position; roll, pitch, yaw; thrust and
 // surfaces; power and its command: in and beyond the flight envelope of the F-16.
-constexpr Bounds kPlantBounds[] = {
-    {150, 1500},    {-0.52f, 1.75f},  {-0.7f, 0.7f}, {-2, 2},     {-2, 2},          {-2, 2},
-    {-3e4f, 3e4f},  {-3e4f, 3e4f},    {-6e4f, 0},    {-kPi, kPi}, {-kPi, kPi},      {-kPi, kPi},
-    {-3000, 28000}, {-27.5f, 27.5f},  {-21.5f, 21.5f}, {-30, 30}, {0, 25},          {0, 100},
-    {0, 100}};
+constexpr Bounds kPlantBounds[] = {{150, 1500},    {-0.52f, 1.75f}, {-0.7f, 0.7f},   {-2, 2},
+                                   {-2, 2},        {-2, 2},         {-3e4f, 3e4f},   {-3e4f, 3e4f},
+                                   {-6e4f, 0},     {-kPi, kPi},     {-kPi, kPi},     {-kPi, kPi},
+                                   {-3000, 28000}, {-27.5f, 27.5f}, {-21.5f, 21.5f}, {-30, 30},
+                                   {0, 25},        {0, 100},        {0, 100}};
 constexpr std::size_t kPlantWords = std::size(kPlantBounds);
 constexpr int kControls = 5, kCoefficients = 6, kStepped = kPowerCommand + 1;
 
@@ -226,8 +226,8 @@ PlantRows Fly(Target target, const PlantInputs& inputs) {
   TestTile coefficients(flown.states.count(), kCoefficients);
   const Tile controls = flown.controls.tile();
   EvaluateTile(*aircraft, flown.states.tile(),
-               {controls[0], controls[1], controls[2], controls[3], controls[4]},
-               rates.tile().base, coefficients.tile().base);
+               {controls[0], controls[1], controls[2], controls[3], controls[4]}, rates.tile().base,
+               coefficients.tile().base);
   StepTile(*aircraft, flown.states.tile(), kDt, 1);
   return OfFiniteAircraft({RowsOf(rates, kNumRigidBody), RowsOf(coefficients, kCoefficients),
                            RowsOf(flown.states, kStepped)});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same inputs through the kernels of every SIMD target, as fuzz targets. A file holds records of
-// little-endian words of 32 bits, one per input of an aircraft: a place between the input's bounds,
-// or, for the two largest words, infinity and NaN.
+// The same inputs through the kernels of every SIMD target, as fuzz targets. A file holds records
+// of little-endian words of 32 bits, one per input of an aircraft: a place between the input's
+// bounds, or, for the two largest words, infinity and NaN.
 #pragma once
 
 #include <string>
