@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -162,19 +163,45 @@ int RunToExitCode(int argc, char** argv) {
   return kExitFailure;
 }
 
+/// In a way that needs no memory.
+void PrintOutOfMemory() {
+  std::fflush(stdout);
+  std::fputs("skein: error: out of memory; fewer aircraft or shorter rollouts need less\n", stderr);
+}
+
+std::terminate_handler TerminateOtherwise();
+
+/// Libraries ask for memory in functions that may throw nothing (CLI11's search for subcommands,
+/// destructors of the JSON library): where there is none, that is said as anywhere else.
+[[noreturn]] void EndWithoutMemory() {
+  try {
+    if (std::current_exception() != nullptr) throw;
+  } catch (const std::bad_alloc&) {
+    PrintOutOfMemory();
+    std::_Exit(kExitFailure);
+  } catch (...) {
+  }
+  TerminateOtherwise()();
+  std::abort();
+}
+
+/// What ends the program for all other reasons. The first call puts EndWithoutMemory before it.
+std::terminate_handler TerminateOtherwise() {
+  static const std::terminate_handler handler = std::set_terminate(EndWithoutMemory);
+  return handler;
+}
+
 }  // namespace
 
 int RunProgram(int argc, char** argv) {
   OccupyStandardStreams();
   // It asks a training to save: before there is one, or after it, it is no reason to die.
   std::signal(SIGUSR1, SIG_IGN);
+  TerminateOtherwise();
   try {
     return RunToExitCode(argc, argv);
   } catch (const std::bad_alloc&) {
-    // In a way that needs no memory.
-    std::fflush(stdout);
-    std::fputs("skein: error: out of memory; fewer aircraft or shorter rollouts need less\n",
-               stderr);
+    PrintOutOfMemory();
     return kExitFailure;
   }
 }
