@@ -2,8 +2,10 @@
 // A few thousand damaged files for every reader, without libFuzzer: scripts/fuzz tries millions.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
+#include "src/files/output_file.h"
 #include "tests/damage.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -31,6 +33,19 @@ TEST_P(Reader, RefusesDamagedFilesInOneLineOrTakesThem) {
   // Neither all of them nor none: both ways are walked.
   EXPECT_GT(taken, 0);
   EXPECT_LT(taken, static_cast<int>(kFiles));
+}
+
+/// What libFuzzer found to walk other ways than the seeds do (scripts/fuzz).
+TEST_P(Reader, TakesOrRefusesTheKeptCorpus) {
+  const std::string folder = std::string(SKEIN_SOURCE "/tests/fuzz/corpus/") + GetParam().name;
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "nothing is kept for it";
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    SCOPED_TRACE(entry.path());
+    EXPECT_NO_THROW(Takes(GetParam(), ReadFile(entry.path().string())));
+    ++files;
+  }
+  EXPECT_GT(files, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Reader, ::testing::ValuesIn(FuzzTargets()),
