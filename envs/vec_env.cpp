@@ -186,4 +186,15 @@ std::vector<float> VecEnv::TargetOf(int aircraft) const {
   return target;
 }
 
+void VecEnv::SetTarget(int aircraft, const std::vector<float>& target) {
+  const Task& task = impl_->stepper.task();
+  if (target.size() != static_cast<std::size_t>(task.num_targets())) {
+    throw Error("environment: a target of " + std::to_string(target.size()) +
+                " numbers, but the task's have " + std::to_string(task.num_targets()));
+  }
+  const Tile columns = impl_->storage.BlockFrom(aircraft).task;
+  for (std::size_t k = 0; k < target.size(); ++k) columns[static_cast<int>(k)][0] = target[k];
+  task.FollowTargets(columns, 0);
+}
+
 }  // namespace skein

@@ -87,6 +87,9 @@ class VecEnv {
   /// The target of one aircraft: altitude ft, yaw rad, speed ft/s for Heading; pitch rad,
   /// yaw rad, speed ft/s for Control; north, east and altitude, ft, for Tracking.
   std::vector<float> TargetOf(int aircraft) const;
+  /// Another target for the episode under way of one aircraft, as of TargetOf. Throws Error on one
+  /// of another size.
+  void SetTarget(int aircraft, const std::vector<float>& target);
 
  private:
   struct Impl;

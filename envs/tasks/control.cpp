@@ -116,16 +116,21 @@ class ControlTask : public Task {
     attitude.yaw = std::remainder(around(start.yaw_rad, config_.yaw_change_rad), 2 * M_PI);
     const double speed = limits_.TrueAirspeed(
         around(start.true_airspeed_ft_s, config_.speed_change_fps), start.altitude_ft);
-    const Eigen::Vector4d quaternion = QuaternionFromEuler(attitude);
-
     const auto set = [task, index](int column, double value) {
       task[column][index] = static_cast<float>(value);
     };
     set(kControlPitch, attitude.pitch);
     set(kControlYaw, attitude.yaw);
     set(kControlSpeed, speed);
-    for (int k = 0; k < 4; ++k) set(kControlQ0 + k, quaternion[k]);
+    SetAttitude(attitude, task, index);
     set(kControlTolerance, random->Uniform(config_.training_tolerance_min, 1));
+  }
+
+  void FollowTargets(Tile task, int index) const override {
+    EulerAngles attitude;
+    attitude.pitch = task[kControlPitch][index];
+    attitude.yaw = task[kControlYaw][index];
+    SetAttitude(attitude, task, index);
   }
 
   float ToleranceShare(Tile task, int index) const override {
@@ -142,6 +147,11 @@ class ControlTask : public Task {
   }
 
  private:
+  static void SetAttitude(const EulerAngles& attitude, Tile task, int index) {
+    const Eigen::Vector4d quaternion = QuaternionFromEuler(attitude);
+    for (int k = 0; k < 4; ++k) task[kControlQ0 + k][index] = static_cast<float>(quaternion[k]);
+  }
+
   ControlConfig config_;
   TargetLimits limits_;
   ReferenceUnits units_;

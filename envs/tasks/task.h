@@ -86,6 +86,10 @@ class Task {
   virtual void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
                      int index) const = 0;
 
+  /// Brings what the tile's columns hold beside the targets of aircraft `index`, and follows from
+  /// them, up to date: they were not drawn, but set.
+  virtual void FollowTargets(Tile /*task*/, int /*index*/) const {}
+
   /// The tolerances that the episode of aircraft `index` asks for, as a share of those of
   /// evaluations.
   virtual float ToleranceShare(Tile task, int index) const = 0;

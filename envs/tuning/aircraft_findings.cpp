@@ -2,6 +2,7 @@
 #include "envs/tuning/aircraft_findings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -9,7 +10,9 @@
 #include "base/error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/units.h"
+#include "envs/reference/linear_flight.h"
 #include "envs/state/state.h"
+#include "envs/tuning/linear_modes.h"
 
 namespace skein {
 namespace {
@@ -192,11 +195,17 @@ std::string WhyNot(const Plant& plant, const TuningLimits& limits, double altitu
   }
 }
 
-void CheckMode(const char* name, std::complex<double> mode, double slow_s, const TrimPoint& trim,
-               Findings* findings) {
-  const double time = TimeToDouble(mode);
-  findings->Warn(time < slow_s, Say("%s the %s doubles in %.1f s without flight control",
-                                    Where(trim).c_str(), name, time));
+/// How fast a mode may grow, doubling in so many seconds, without trouble for a pilot or a policy
+/// (MIL-F-8785C: a spiral in 12 s or more is level 2, a phugoid in 55 s level 3).
+double LeastTimeToDouble(ModeFamily family) {
+  switch (family) {
+    case ModeFamily::kPhugoid:
+      return 20;
+    case ModeFamily::kSpiral:
+      return 4;
+    default:
+      return 5;
+  }
 }
 
 }  // namespace
@@ -246,17 +255,15 @@ std::vector<Finding> CheckEnvelope(const Plant& plant, const TuningLimits& limit
 }
 
 std::vector<Finding> CheckModes(const Plant& plant, const FlightEnvelope& envelope) {
-  // A pilot, or a policy, has no trouble with what doubles more slowly (MIL-F-8785C: a spiral in
-  // 12 s or more is level 2, a phugoid in 55 s level 3).
-  constexpr double kFast_s = 5, kSpiral_s = 4, kPhugoid_s = 20;
   Findings findings;
   for (const TrimPoint& trim : envelope.AllTrims()) {
-    const NaturalModes modes = FindNaturalModes(plant, trim);
-    CheckMode("short period", modes.short_period, kFast_s, trim, &findings);
-    CheckMode("phugoid", modes.phugoid, kPhugoid_s, trim, &findings);
-    CheckMode("roll mode", modes.roll, kFast_s, trim, &findings);
-    CheckMode("Dutch roll", modes.dutch_roll, kFast_s, trim, &findings);
-    CheckMode("spiral", modes.spiral, kSpiral_s, trim, &findings);
+    for (const FlightMode& mode :
+         FindFlightModes(LineariseFlight(plant, trim, FlapMotion::kFixed))) {
+      const double time = mode.time_to_double_s();
+      findings.Warn(time < LeastTimeToDouble(mode.family),
+                    Say("%s the mode \"%s\" doubles in %.1f s without flight control",
+                        Where(trim).c_str(), mode.name.c_str(), time));
+    }
   }
   return findings.Take();
 }

@@ -139,7 +139,7 @@ FlightEnvelope FindEnvelope(const Plant& plant, const EnvelopeLimits& limits, in
     row.altitude_ft = altitudes > 1 ? limits.max_altitude_ft * i / (altitudes - 1) : 0;
     const double density = AirAt(plant.atmosphere(), row.altitude_ft).density_slug_ft3;
     row.stall_speed_ft_s = std::sqrt(
-        2 * airframe.mass_slug * kGravityFtS2 /
+        2 * airframe.mass_slug * plant.gravity().At(row.altitude_ft) /
         (density * airframe.wing_area_ft2 * std::max(envelope.greatest_lift.coefficient, 1e-6)));
     const LevelFlight flight(plant, limits, row.altitude_ft, max_alpha);
     row.trims = TrimsAt(flight, row.stall_speed_ft_s, speeds);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "envs/reference/linear_flight.h"
@@ -81,33 +82,87 @@ StepResponse MeasureStep(const std::vector<double>& values, double start, double
   return response;
 }
 
-/// Seconds until the bank has changed by 90 deg, with full roll stick.
-double TimeToBank90(const Plant& plant, const TrimPoint& trim) {
-  constexpr double kSeconds = 5, kBank = 90;
+/// Seconds until the bank has changed by `bank_deg`, with full roll stick.
+double TimeToBank(const Plant& plant, const TrimPoint& trim, double bank_deg) {
+  constexpr double kSeconds = 8;
   const TrialFlight flight = FlyTrial(plant, trim, kSeconds, Held(0, 1, 0));
   for (std::size_t i = 0; i < flight.bank.size(); ++i) {
     const double change = flight.bank[i] - trim.bank_rad * kDegPerRad;
-    if (change >= kBank || change < -kBank) return flight.time[i];
+    if (change >= bank_deg || change < -bank_deg) return flight.time[i];
   }
   return std::numeric_limits<double>::infinity();
 }
 
-void AssessPitch(const Plant& plant, const TrimPoint& trim, FlyingQualities* qualities) {
+std::string Figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+/// "from 0.16", "0.16 to 10", "to 10".
+std::string Span(double least, double most) {
+  if (std::isinf(most)) return "from " + Figure(least);
+  return (least > 0 ? Figure(least) + " " : "") + "to " + Figure(most);
+}
+
+/// What `of` says of the levels, one after the other.
+template <typename Of>
+std::string OfLevels(const Of& of) {
+  return of(0) + "; " + of(1) + "; " + of(2);
+}
+
+std::string FromLevels(const LevelLimit& least) {
+  return OfLevels([&](std::size_t level) { return "from " + Figure(least[level]); });
+}
+
+std::string ToLevels(const LevelLimit& most) {
+  return OfLevels([&](std::size_t level) { return "to " + Figure(most[level]); });
+}
+
+std::string AnticipationText(const LevelLimits& limits) {
+  return OfLevels([&](std::size_t level) {
+    const double frequency = limits.short_period_frequency_min[level],
+                 load_factor = limits.load_factor_by_alpha_min[level];
+    return Span(limits.anticipation_min[level], limits.anticipation_max[level]) +
+           (frequency > 0 ? " and " + Figure(frequency) + " rad/s" : "") +
+           (load_factor > 0 ? ", n/alpha " + Figure(load_factor) : "");
+  });
+}
+
+std::string DutchRollText(const LevelLimits& limits) {
+  return OfLevels([&](std::size_t level) {
+    const double product = limits.dutch_roll_product_min[level];
+    return "from " + Figure(limits.dutch_roll_frequency_min[level]) +
+           (product > 0 ? (level == 0 ? ", damping x frequency from " : ", ") + Figure(product)
+                        : "");
+  });
+}
+
+void AssessShortPeriod(const Plant& plant, const TrimPoint& trim, const Axis& axis,
+                       const LevelLimits& limits, FlyingQualities* qualities) {
   const LinearFlight bare = LineariseFlight(plant, trim, FlapMotion::kScheduled);
   const double inverse_T = -bare.A(kAngleOfAttack, kAngleOfAttack);
-  const Axis axis(plant, trim, LoopAxis::kLongitudinal);
   qualities->short_period = FitShortPeriod(axis.From(0, kPitchRateOutput), inverse_T);
   const double frequency = qualities->short_period.frequency_rad_s;
-  qualities->load_factor_by_alpha = bare.C(0, kAngleOfAttack);
-  const double anticipation = frequency * frequency / qualities->load_factor_by_alpha;
+  const double damping = qualities->short_period.damping_ratio;
+  const double load_factor = qualities->load_factor_by_alpha = bare.C(0, kAngleOfAttack);
+  const double anticipation = frequency * frequency / load_factor;
   auto& requirements = qualities->requirements;
-  requirements.push_back({"3.2.2.1.1", "control anticipation (frequency^2 over n/alpha)",
-                          "1/(g s2)", anticipation, AnticipationLevel(anticipation, frequency),
-                          "0.28 to 3.6 and 1 rad/s; 0.16 to 10 and 0.6 rad/s; from 0.16"});
-  requirements.push_back({"3.2.2.1.2", "short-period damping", "1",
-                          qualities->short_period.damping_ratio,
-                          ShortPeriodDampingLevel(qualities->short_period.damping_ratio),
-                          "0.35 to 1.3; 0.25 to 2; from 0.15"});
+  requirements.push_back(
+      {"3.2.2.1.1", "control anticipation (frequency^2 over n/alpha)", "1/(g s2)", anticipation,
+       AnticipationLevel(limits, anticipation, frequency, load_factor), AnticipationText(limits)});
+  requirements.push_back({"3.2.2.1.2", "short-period damping", "1", damping,
+                          ShortPeriodDampingLevel(limits, damping),
+                          OfLevels([&](std::size_t level) {
+                            return Span(limits.short_period_damping_min[level],
+                                        limits.short_period_damping_max[level]);
+                          })});
+}
+
+void AssessPitch(const Plant& plant, const TrimPoint& trim, const LevelLimits& limits,
+                 FlyingQualities* qualities) {
+  const Axis axis(plant, trim, LoopAxis::kLongitudinal);
+  AssessShortPeriod(plant, trim, axis, limits, qualities);
   const LinearMode* phugoid = axis.LeastStable();
   if (phugoid == nullptr) return;
   const double damping = phugoid->damping_ratio(), doubles = phugoid->time_to_double_s();
@@ -115,92 +170,60 @@ void AssessPitch(const Plant& plant, const TrimPoint& trim, FlyingQualities* qua
                           "phugoid damping",
                           "1",
                           damping,
-                          PhugoidLevel(damping, doubles),
-                          "from 0.04; from 0; doubles from 55 s"};
+                          PhugoidLevel(limits, damping, doubles),
+                          "from " + Figure(limits.phugoid_damping_min[0]) + "; from " +
+                              Figure(limits.phugoid_damping_min[1]) + "; doubles from " +
+                              Figure(limits.phugoid_double_min_s) + " s"};
   if (!phugoid->swings()) {
     requirement.what = "phugoid, which does not swing: time to double";
     requirement.unit = "s";
     requirement.value = doubles;
   }
-  requirements.push_back(requirement);
+  qualities->requirements.push_back(requirement);
 }
 
-void AssessLateral(const Plant& plant, const TrimPoint& trim, FlyingQualities* qualities) {
+void AssessDutchRoll(const Axis& axis, const LevelLimits& limits, FlyingQualities* qualities) {
+  const LinearMode* const mode = axis.SwingingIn({kV, kR});
+  if (mode == nullptr) return;
+  qualities->dutch_roll = *mode;
+  const double frequency = mode->frequency_rad_s(), damping = mode->damping_ratio();
+  const int level = DutchRollLevel(limits, damping, frequency);
+  qualities->requirements.push_back({"3.3.1.1", "Dutch roll damping", "1", damping, level,
+                                     FromLevels(limits.dutch_roll_damping_min)});
+  qualities->requirements.push_back(
+      {"3.3.1.1", "Dutch roll frequency", "rad/s", frequency, level, DutchRollText(limits)});
+}
+
+void AssessLateral(const Plant& plant, const TrimPoint& trim, const LevelLimits& limits,
+                   FlyingQualities* qualities) {
   const Axis axis(plant, trim, LoopAxis::kLateral);
+  AssessDutchRoll(axis, limits, qualities);
   auto& requirements = qualities->requirements;
-  if (const LinearMode* mode = axis.SwingingIn({kV, kR})) {
-    qualities->dutch_roll = *mode;
-    const double frequency = mode->frequency_rad_s(), damping = mode->damping_ratio();
-    const int level = DutchRollLevel(damping, frequency);
-    requirements.push_back(
-        {"3.3.1.1", "Dutch roll damping", "1", damping, level, "from 0.19; from 0.02; from 0"});
-    requirements.push_back({"3.3.1.1", "Dutch roll frequency", "rad/s", frequency, level,
-                            "from 1, damping x frequency from 0.35; from 0.4, 0.05; from 0.4"});
-  }
   qualities->roll = FitRoll(axis.From(0, kRollRateOutput));
-  requirements.push_back({"3.3.1.2", "roll mode time constant", "s",
-                          qualities->roll.time_constant_s,
-                          RollModeLevel(qualities->roll.time_constant_s), "to 1; to 1.4; to 10"});
+  const double time = qualities->roll.time_constant_s;
+  requirements.push_back({"3.3.1.2", "roll mode time constant", "s", time,
+                          RollModeLevel(limits, time), ToLevels(limits.roll_time_max_s)});
   if (const LinearMode* spiral = axis.LeastStable()) {
     const double doubles = spiral->time_to_double_s();
-    requirements.push_back({"3.3.1.3", "spiral: time to double", "s", doubles, SpiralLevel(doubles),
-                            "from 12; from 8; from 4"});
+    requirements.push_back({"3.3.1.3", "spiral: time to double", "s", doubles,
+                            SpiralLevel(limits, doubles), FromLevels(limits.spiral_double_min_s)});
   }
-  qualities->bank_90_s = TimeToBank90(plant, trim);
-  requirements.push_back({"3.3.4.1", "full stick to 90 deg of bank", "s", qualities->bank_90_s,
-                          RollPerformanceLevel(qualities->bank_90_s), "to 1.3; to 1.7; to 2.6"});
+  qualities->bank_deg = limits.bank_deg;
+  qualities->bank_s = TimeToBank(plant, trim, limits.bank_deg);
+  requirements.push_back({limits.roll_paragraph,
+                          "full stick to " + Figure(limits.bank_deg) + " deg of bank", "s",
+                          qualities->bank_s, RollPerformanceLevel(limits, qualities->bank_s),
+                          ToLevels(limits.bank_time_max_s)});
 }
 
 }  // namespace
 
-int ShortPeriodDampingLevel(double damping_ratio) {
-  if (damping_ratio >= 0.35 && damping_ratio <= 1.3) return 1;
-  if (damping_ratio >= 0.25 && damping_ratio <= 2) return 2;
-  return damping_ratio >= 0.15 ? 3 : 4;
-}
-
-int AnticipationLevel(double anticipation, double frequency_rad_s) {
-  if (anticipation >= 0.28 && anticipation <= 3.6 && frequency_rad_s >= 1) return 1;
-  if (anticipation >= 0.16 && anticipation <= 10 && frequency_rad_s >= 0.6) return 2;
-  return anticipation >= 0.16 ? 3 : 4;
-}
-
-int PhugoidLevel(double damping_ratio, double time_to_double_s) {
-  if (damping_ratio >= 0.04) return 1;
-  if (damping_ratio >= 0) return 2;
-  return time_to_double_s >= 55 ? 3 : 4;
-}
-
-int DutchRollLevel(double damping_ratio, double frequency_rad_s) {
-  const double product = damping_ratio * frequency_rad_s;
-  if (damping_ratio >= 0.19 && product >= 0.35 && frequency_rad_s >= 1) return 1;
-  if (damping_ratio >= 0.02 && product >= 0.05 && frequency_rad_s >= 0.4) return 2;
-  return damping_ratio >= 0 && frequency_rad_s >= 0.4 ? 3 : 4;
-}
-
-int RollModeLevel(double time_constant_s) {
-  if (time_constant_s <= 1) return 1;
-  if (time_constant_s <= 1.4) return 2;
-  return time_constant_s <= 10 ? 3 : 4;
-}
-
-int SpiralLevel(double time_to_double_s) {
-  if (time_to_double_s >= 12) return 1;
-  if (time_to_double_s >= 8) return 2;
-  return time_to_double_s >= 4 ? 3 : 4;
-}
-
-int RollPerformanceLevel(double bank_90_s) {
-  if (bank_90_s <= 1.3) return 1;
-  if (bank_90_s <= 1.7) return 2;
-  return bank_90_s <= 2.6 ? 3 : 4;
-}
-
-FlyingQualities AssessFlyingQualities(const Plant& plant, const TrimPoint& trim) {
+FlyingQualities AssessFlyingQualities(const Plant& plant, const TrimPoint& trim,
+                                      const LevelLimits& limits) {
   constexpr double kPitchStick = 0.1, kRollStick = 0.2, kPitchSeconds = 3, kRollSeconds = 2;
   FlyingQualities qualities;
-  AssessPitch(plant, trim, &qualities);
-  AssessLateral(plant, trim, &qualities);
+  AssessPitch(plant, trim, limits, &qualities);
+  AssessLateral(plant, trim, limits, &qualities);
   const TrialFlight pitch = FlyTrial(plant, trim, kPitchSeconds, Held(kPitchStick, 0, 0));
   const double level = plant.Evaluate(trim.state, trim.controls).nz;
   qualities.pitch_step = MeasureStep(pitch.nz, level, kPitchStick);

@@ -7,6 +7,7 @@
 #include "envs/reference/plant.h"
 #include "envs/reference/trim.h"
 #include "envs/tuning/equivalent_system.h"
+#include "envs/tuning/level_limits.h"
 #include "envs/tuning/linear_modes.h"
 #include "envs/tuning/loop_margins.h"
 
@@ -20,14 +21,14 @@ struct StepResponse {
   double overshoot = 0;  ///< beyond that, as a share of it
 };
 
-/// A requirement of MIL-F-8785C and how it is met: class IV, flight phase category A.
+/// A requirement of MIL-F-8785C and how it is met.
 struct Requirement {
   const char* paragraph = nullptr;
-  const char* what = nullptr;
+  std::string what;
   const char* unit = nullptr;
   double value = 0;
-  int level = 0;                 ///< 1 to 3; 4: not even that
-  const char* limits = nullptr;  ///< of levels 1, 2 and 3
+  int level = 0;       ///< 1 to 3; 4: not even that
+  std::string limits;  ///< of levels 1, 2 and 3
 };
 
 /// How a break of a loop stands.
@@ -43,21 +44,14 @@ struct FlyingQualities {
   LinearMode dutch_roll;            ///< the lateral mode that sideslip swings in
   double load_factor_by_alpha = 0;  ///< of the airframe at constant speed, g/rad
   StepResponse pitch_step, roll_step;
-  double bank_90_s = 0;  ///< full roll stick to 90 deg of bank; infinity: not within 5 s
+  /// From full roll stick to a change of bank (LevelLimits::bank_deg); infinity: not within 8 s.
+  double bank_deg = 0, bank_s = 0;
   std::vector<LoopAt> loops;
   std::vector<Requirement> requirements;
 };
 
-/// At 50 control steps a second. The trim is one in still air, with level wings.
-FlyingQualities AssessFlyingQualities(const Plant& plant, const TrimPoint& trim);
-
-/// Levels by MIL-F-8785C of figures alone; 4 beyond level 3.
-int ShortPeriodDampingLevel(double damping_ratio);                   ///< 3.2.2.1.2
-int AnticipationLevel(double anticipation, double frequency_rad_s);  ///< 3.2.2.1.1
-int PhugoidLevel(double damping_ratio, double time_to_double_s);     ///< 3.2.1.2
-int DutchRollLevel(double damping_ratio, double frequency_rad_s);    ///< 3.3.1.1
-int RollModeLevel(double time_constant_s);                           ///< 3.3.1.2
-int SpiralLevel(double time_to_double_s);                            ///< 3.3.1.3
-int RollPerformanceLevel(double bank_90_s);                          ///< 3.3.4.1
+/// At 50 control steps a second, against `limits`. The trim is one in still air, with level wings.
+FlyingQualities AssessFlyingQualities(const Plant& plant, const TrimPoint& trim,
+                                      const LevelLimits& limits);
 
 }  // namespace skein

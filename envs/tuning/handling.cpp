@@ -1,44 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/tuning/handling.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <complex>
 #include <vector>
 
-#include "envs/reference/linearise.h"
-#include "envs/state/state.h"
 #include "envs/tuning/closed_loop_model.h"
 #include "envs/tuning/trial_flight.h"
 
 namespace skein {
 namespace {
 
-using Mode = std::complex<double>;
-
-/// Eigenvalues of four columns of the linear model, the slowest first.
-std::array<Mode, 4> ModesOf(const LinearModel& model, const std::array<int, 4>& columns) {
-  Eigen::Matrix4d A;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) A(i, j) = model.A(columns[i], columns[j]);
-  }
-  const Eigen::Vector4cd eigenvalues = Eigen::EigenSolver<Eigen::Matrix4d>(A, false).eigenvalues();
-  std::array<Mode, 4> modes;
-  for (int i = 0; i < 4; ++i) modes[i] = eigenvalues[i];
-  std::sort(modes.begin(), modes.end(), [](Mode a, Mode b) {
-    const double difference = std::abs(a) - std::abs(b);
-    // Of a pair the one above the real axis comes last.
-    if (std::abs(difference) > 1e-9 * std::abs(a)) return difference < 0;
-    return a.imag() < b.imag();
-  });
-  return modes;
-}
-
 double LeastDamping(const ClosedLoopModel& model) {
   constexpr double kSlowest = 0.5;
   double least = 1;
-  for (const Mode& mode : model.Modes()) {
+  for (const std::complex<double>& mode : model.Modes()) {
     if (std::abs(mode) >= kSlowest) least = std::min(least, DampingRatio(mode));
   }
   return least;
@@ -46,7 +23,8 @@ double LeastDamping(const ClosedLoopModel& model) {
 
 double LeastTimeToDouble(const ClosedLoopModel& model) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Mode& mode : model.Modes()) least = std::min(least, TimeToDouble(mode));
+  for (const std::complex<double>& mode : model.Modes())
+    least = std::min(least, TimeToDouble(mode));
   return least;
 }
 
@@ -104,25 +82,6 @@ void AssessFullSticks(const Plant& plant, const TrimPoint& trim, Handling* handl
 }
 
 }  // namespace
-
-NaturalModes FindNaturalModes(const Plant& plant, const TrimPoint& trim) {
-  const LinearModel model = Linearise(plant, trim.state, trim.controls);
-  NaturalModes modes;
-  const std::array<Mode, 4> longitudinal = ModesOf(model, {kU, kW, kQ, kQy});
-  modes.phugoid = longitudinal[1];
-  modes.short_period = longitudinal[3];
-  std::array<Mode, 4> lateral = ModesOf(model, {kV, kP, kR, kQx});
-  const auto swings =
-      std::find_if(lateral.begin(), lateral.end(), [](Mode mode) { return mode.imag() > 0; });
-  modes.dutch_roll = swings == lateral.end() ? lateral[1] : *swings;
-  std::vector<Mode> real;
-  for (const Mode& mode : lateral) {
-    if (mode.imag() == 0) real.push_back(mode);
-  }
-  modes.spiral = real.empty() ? lateral[0] : real.front();
-  modes.roll = real.empty() ? lateral[3] : real.back();
-  return modes;
-}
 
 Handling AssessHandling(const Plant& plant, const TrimPoint& trim) {
   constexpr double kPush = 4;

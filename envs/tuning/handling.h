@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <complex>
 #include <limits>
 
 #include "envs/reference/plant.h"
 #include "envs/reference/trim.h"
-#include "envs/tuning/linear_modes.h"
 
 namespace skein {
-
-/// The aircraft's own modes at a trim, controls held: 1/s.
-struct NaturalModes {
-  std::complex<double> short_period, phugoid, roll, dutch_roll, spiral;
-};
-
-/// From the linear model: of the longitudinal eigenvalues the two fastest and the two slowest (of
-/// each pair the one with the greater imaginary part), of the lateral ones the pair that swings,
-/// the fastest and the slowest. Without a pair that swings, dutch_roll is the one in the middle.
-NaturalModes FindNaturalModes(const Plant& plant, const TrimPoint& trim);
 
 /// How an aircraft with flight control flies at one trim: its closed loop's linear model, and
 /// flights of the float64 closed loop.

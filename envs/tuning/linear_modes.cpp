@@ -74,6 +74,14 @@ std::vector<std::string> LateralNames(const std::vector<FlightMode>& modes) {
   return names;
 }
 
+ModeFamily FamilyOf(const std::string& name) {
+  const auto begins = [&name](const char* start) { return name.rfind(start, 0) == 0; };
+  if (begins("short period")) return ModeFamily::kShortPeriod;
+  if (begins("phugoid") || name == "third oscillatory") return ModeFamily::kPhugoid;
+  if (begins("Dutch roll")) return ModeFamily::kDutchRoll;
+  return name == "roll" ? ModeFamily::kRoll : ModeFamily::kSpiral;
+}
+
 }  // namespace
 
 double DampingRatio(std::complex<double> mode) {
@@ -120,6 +128,7 @@ std::vector<FlightMode> FindFlightModes(const LinearFlight& model) {
     longitudinal[i].name = longitudinal_names[i];
   for (std::size_t i = 0; i < lateral.size(); ++i) lateral[i].name = lateral_names[i];
   longitudinal.insert(longitudinal.end(), lateral.begin(), lateral.end());
+  for (FlightMode& mode : longitudinal) mode.family = FamilyOf(mode.name);
   return longitudinal;
 }
 

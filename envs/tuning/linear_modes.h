@@ -37,9 +37,13 @@ bool IsSlower(const LinearMode& a, const LinearMode& b);
 /// The modes of x' = A x, the slowest first.
 std::vector<LinearMode> FindLinearModes(const Eigen::MatrixXd& A);
 
+/// The five motions of a conventional airframe.
+enum class ModeFamily { kShortPeriod, kPhugoid, kRoll, kDutchRoll, kSpiral };
+
 /// A mode of the bare airframe, with its name.
 struct FlightMode : LinearMode {
   std::string name;
+  ModeFamily family = ModeFamily::kShortPeriod;  ///< what it is, or is nearest to
 };
 
 /// The modes of speed, alpha, pitch, q, beta, bank, p and r, altitude and power held: those that
@@ -49,8 +53,8 @@ struct FlightMode : LinearMode {
 /// by speed and by whether they swing: of the longitudinal pairs the faster is the short period, of
 /// the real lateral ones the fastest is roll and the slowest spiral. Names of what is rarer: "short
 /// period, real" and "phugoid, real" where a pair has become two real modes (an unstable airframe),
-/// "third oscillatory" for a pair between two real ones, "roll-spiral" for a second lateral pair,
-/// "Dutch roll, real".
+/// "third oscillatory" (a phugoid by its family) for a pair between two real ones, "roll-spiral" (a
+/// spiral) for a second lateral pair, "Dutch roll, real".
 std::vector<FlightMode> FindFlightModes(const LinearFlight& model);
 
 }  // namespace skein

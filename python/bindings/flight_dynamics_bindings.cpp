@@ -116,7 +116,8 @@ void BindFlightDynamics(nb::module_& module) {
       [](const std::string& aircraft, const std::string& atmosphere, std::optional<double> cg,
          double engine_angular_momentum) {
         return AsUsage([&] {
-          return MakePlant(aircraft, AtmosphereNamed(atmosphere), {cg, engine_angular_momentum});
+          return MakePlant(aircraft, AtmosphereNamed(atmosphere), {},
+                           {cg, engine_angular_momentum});
         });
       },
       nb::arg("aircraft"), nb::arg("atmosphere"), nb::arg("cg").none(),

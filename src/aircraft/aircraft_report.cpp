@@ -12,7 +12,9 @@
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
 #include "envs/aircraft/units.h"
+#include "envs/reference/linear_flight.h"
 #include "envs/state/state.h"
+#include "envs/tuning/linear_modes.h"
 #include "src/files/text_table.h"
 
 namespace skein {
@@ -117,10 +119,13 @@ std::string DescribeModes(const Plant& plant, const FlightEnvelope& envelope) {
   };
   row("speed, m/s", {"short period", "phugoid", "roll", "Dutch roll", "spiral"});
   for (const TrimPoint& trim : envelope.rows.front().trims) {
-    const NaturalModes modes = FindNaturalModes(plant, trim);
-    row(fmt::format("{:.1f}", Speed(trim)),
-        {ModeText(modes.short_period), ModeText(modes.phugoid), ModeText(modes.roll),
-         ModeText(modes.dutch_roll), ModeText(modes.spiral)});
+    std::vector<std::string> cells(5);
+    for (const FlightMode& mode :
+         FindFlightModes(LineariseFlight(plant, trim, FlapMotion::kFixed))) {
+      std::string& cell = cells[static_cast<std::size_t>(mode.family)];
+      cell += (cell.empty() ? "" : ", ") + ModeText(mode.eigenvalue);
+    }
+    row(fmt::format("{:.1f}", Speed(trim)), cells);
   }
   return text;
 }

@@ -30,7 +30,8 @@ struct FileOptions {
   std::string precision = "float64";
 
   FdmModel Model() const {
-    return {model.aircraft, AtmosphereNamed(model.atmosphere), kPrecisions.at(precision)};
+    return {model.aircraft, AtmosphereNamed(model.atmosphere), model.gravity,
+            kPrecisions.at(precision)};
   }
 };
 

@@ -4,8 +4,10 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "envs/aircraft/engine.h"
+#include "src/commands/agent_flight.h"
 #include "src/commands/fdm_commands.h"
 #include "src/commands/flight_condition.h"
 #include "src/config/whole_number.h"
@@ -24,22 +26,18 @@ const std::map<std::string, FlightControlMode> kModes = {{"full", FlightControlM
 struct FlyOptions {
   FlightCondition condition;
   CommandedFlight flight;
+  FlownAgents flown;
+  bool by_altitude = false;
   std::string mode = "full";
   std::string wind, commands;
   std::string out = "flight.csv";
 };
 
-void Fly(FlyOptions options) {
+void FlySticks(const FlyOptions& options) {
   CheckWritable(options.out);
-  if (!options.condition.grid.IsOnePoint())
-    throw UsageError("one altitude and one speed are flown");
-  CommandedFlight& flight = options.flight;
-  if (flight.seconds / flight.step_s > kMostSteps) {
-    throw UsageError(fmt::format("{} s in steps of {} s are more than {:.0f} steps", flight.seconds,
-                                 flight.step_s, kMostSteps));
-  }
+  CommandedFlight flight = options.flight;
   flight.mode = kModes.at(options.mode);
-  if (!options.wind.empty()) flight.wind_ft_s = ReadWind(options.wind);
+  if (options.by_altitude) flight.turbulence_law = TurbulenceLaw::kByAltitude;
   const Plant plant = options.condition.MakePlant();
   const SteadyFlight start = FindSteadyFlight(plant, options.condition.grid.At(0, 0));
   if (!options.commands.empty()) {
@@ -48,11 +46,31 @@ void Fly(FlyOptions options) {
     flight.commands = ReadStickCommands(options.commands, trimmed);
   }
   WriteFile(options.out, FlyCommands(plant, start.trim, flight));
-  fmt::print("flew {} for {} s: {}\n", options.condition.Describe(plant), flight.seconds,
-             options.out);
   for (const ExceededLimit& limit : start.exceeded_limits) {
     fmt::print("the flight at its start {}\n", limit.words);
   }
+  fmt::print("flew {} for {} s: {}\n", options.condition.Describe(plant), flight.seconds,
+             options.out);
+}
+
+void Fly(const CLI::App& command, FlyOptions options) {
+  CommandedFlight& flight = options.flight;
+  if (!options.condition.grid.IsOnePoint())
+    throw UsageError("one altitude and one speed are flown");
+  if (flight.seconds / flight.step_s > kMostSteps) {
+    throw UsageError(fmt::format("{} s in steps of {} s are more than {:.0f} steps", flight.seconds,
+                                 flight.step_s, kMostSteps));
+  }
+  if (!options.wind.empty()) flight.wind_ft_s = ReadWind(options.wind);
+  if (options.flown.policy.empty() && options.flown.agents.empty()) {
+    RequireNoAgentOptions(command);
+    return FlySticks(options);
+  }
+  options.flown.flight.seed = flight.seed;
+  FlyAgents(command,
+            {options.condition, options.wind.empty() ? nullptr : &flight.wind_ft_s, flight.seconds,
+             options.out},
+            std::move(options.flown));
 }
 
 }  // namespace
@@ -61,7 +79,8 @@ void AddFlyCommand(CLI::App* fdm) {
   auto options = std::make_shared<FlyOptions>();
   CLI::App* command = fdm->add_subcommand(
       "fly",
-      "Fly from steady flight with flight control, actuators and engine, by a file of sticks");
+      "Fly from steady flight with flight control, actuators and engine: by a file of sticks, by a "
+      "policy or by an autopilot");
   AddFlightCondition(command, &options->condition);
   AddWind(command, &options->wind);
   command
@@ -70,14 +89,21 @@ void AddFlyCommand(CLI::App* fdm) {
                    "moderate 7.3, severe 21)")
       ->check(CLI::Range(0.0, 200.0))
       ->capture_default_str();
-  command->add_option("--seed", options->flight.seed, "of the gusts")
+  command->add_flag("--turbulence-by-altitude", options->by_altitude,
+                    "that is the deviation at 20,000 ft, elsewhere it is MIL-F-8785C's");
+  command->add_option("--seed", options->flight.seed, "of the gusts, and of all that agents meet")
       ->transform(WholeNumber(0, kMostSeed))
       ->capture_default_str();
-  command
-      ->add_option("--commands", options->commands,
-                   "CSV of time_s and any of throttle, pitch, roll, yaw, held until the next row "
-                   "(default: hands off)")
-      ->type_name("FILE");
+  CLI::Option* commands =
+      command
+          ->add_option("--commands", options->commands,
+                       "CSV of time_s and any of throttle, pitch, roll, yaw, held until the next "
+                       "row (default: hands off)")
+          ->type_name("FILE");
+  AddAgentsOfFly(command, &options->flown);
+  for (const char* agents : {"--policy", "--agents"}) {
+    commands->excludes(command->get_option(agents));
+  }
   command->add_option("--seconds", options->flight.seconds, "length of the flight, s")
       ->transform(NumberAboveZero())
       ->capture_default_str();
@@ -98,10 +124,17 @@ void AddFlyCommand(CLI::App* fdm) {
       ->type_name("FILE.csv")
       ->capture_default_str();
   command->footer(
+      "A file of sticks is flown in float64. Agents fly as in skein replay, in the environment of "
+      "the policy's run or of the preset,\n"
+      "with what is given here set in it.\n"
       "Example: skein fdm fly --altitude-ft 15000 --speed-fps 500 --commands sticks.csv -o "
       "fly.csv\n"
+      "         skein fdm fly --altitude-ft 15000 --speed-fps 800 --agents autopilot --task "
+      "heading "
+      "\\\n"
+      "           --target yaw_deg=90 --target altitude_ft=16000 --seconds 60\n"
       "         skein plot flights fly.csv --columns load_factor_g,alpha_deg,elevator_deg");
-  command->callback([options] { Fly(*options); });
+  command->callback([options, command] { Fly(*command, *options); });
 }
 
 }  // namespace skein

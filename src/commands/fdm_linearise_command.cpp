@@ -36,7 +36,6 @@ void FindLinearModels(const LineariseOptions& options) {
         return LineariseSteadyFlight(plant, request, kFlaps.at(options.flap));
       });
   fmt::print("linear models of {}, flap {}\n", options.condition.Describe(plant), options.flap);
-  fmt::print("{}", flights.size() == 1 ? Describe(flights.front()) : DescribeModes(flights));
   for (const LinearisedFlight& linearised : flights) {
     for (const ExceededLimit& limit : linearised.flight.exceeded_limits) {
       fmt::print("the flight at {} ft and {} ft/s {}\n",
@@ -44,6 +43,7 @@ void FindLinearModels(const LineariseOptions& options) {
                  ShortestText(linearised.request.true_airspeed_ft_s), limit.words);
     }
   }
+  fmt::print("{}", flights.size() == 1 ? Describe(flights.front()) : DescribeModes(flights));
   if (!options.picture.empty()) {
     WritePicture(options.picture, DrawRootLocus(flights, kPictureWidth, ""));
   }

@@ -9,40 +9,46 @@
 #include "src/commands/flight_condition.h"
 #include "src/fdm/flying_qualities_report.h"
 #include "src/files/output_file.h"
+#include "src/plot/handling_levels_picture.h"
+#include "src/plot/picture_file.h"
 
 namespace skein {
 namespace {
 
 struct SweepOptions {
   FlightCondition condition;
-  std::string json;
+  std::string airplane_class = "IV", category = "A";
+  std::string json, picture;
+
+  std::string Standard() const {
+    return fmt::format("class {}, category {}", airplane_class, category);
+  }
 };
 
-/// Throws Error of a flight that is not steady for want of thrust.
-AssessedFlight Assess(const Plant& plant, const SteadyFlightRequest& request) {
-  const SteadyFlight flight = FindSteadyFlight(plant, request);
-  for (const ExceededLimit& limit : flight.exceeded_limits) {
-    if (limit.limit == FlightLimit::kEngineTables) continue;
-    throw Error(fmt::format("flight at {} ft and {} ft/s {}", request.altitude_ft,
-                            request.true_airspeed_ft_s, limit.words));
-  }
-  return {request, AssessFlyingQualities(plant, flight.trim)};
-}
-
 void Sweep(const SweepOptions& options) {
-  CheckWritable(options.json);
+  if (!options.picture.empty()) CheckPictureFile(options.picture);
+  CheckWritable({options.json, options.picture});
   const SteadyFlightRequest& manoeuvre = options.condition.grid.manoeuvre;
   if (manoeuvre.turn_rate_deg_s != 0 || manoeuvre.load_factor) {
     throw UsageError("flying qualities are of flight with level wings, without a pull-up");
   }
   const Plant plant = options.condition.MakePlant();
-  const auto flights = AtEveryPoint<AssessedFlight>(
-      options.condition.grid,
-      [&](const SteadyFlightRequest& request) { return Assess(plant, request); });
-  fmt::print("flying qualities of {}, with flight control\n\n{}", options.condition.Describe(plant),
-             flights.size() == 1 ? Describe(flights.front().qualities) : DescribeLevels(flights));
+  const LevelLimits limits = LimitsNamed(options.airplane_class, options.category);
+  const auto flights =
+      AtEveryPoint<AssessedFlight>(options.condition.grid, [&](const SteadyFlightRequest& request) {
+        return AssessSteadyFlight(plant, request, limits);
+      });
+  fmt::print("flying qualities of {}, with flight control; levels of {}\n\n{}",
+             options.condition.Describe(plant), options.Standard(),
+             flights.size() == 1 ? Describe(flights.front().qualities, options.Standard())
+                                 : DescribeLevels(flights));
+  if (!options.picture.empty()) {
+    WritePicture(options.picture, DrawHandlingLevels(flights, limits, kPictureWidth, ""));
+  }
   if (options.json.empty()) return;
   nlohmann::ordered_json json = options.condition.ToJson(plant);
+  json["class"] = options.airplane_class;
+  json["category"] = options.category;
   for (const AssessedFlight& flight : flights) json["points"].push_back(ToJson(flight));
   WriteJson(options.json, json);
 }
@@ -55,7 +61,20 @@ void AddSweepCommand(CLI::App* fdm) {
       "sweep",
       "Flying qualities with flight control: steps, levels of MIL-F-8785C, margins of the loops");
   AddFlightCondition(command, &options->condition);
+  command
+      ->add_option("--class", options->airplane_class,
+                   "of aeroplanes, by MIL-F-8785C: I small and light, II medium weight, III large "
+                   "and heavy, IV high manoeuvrability")
+      ->check(CLI::IsMember(AirplaneClassNames()))
+      ->capture_default_str();
+  command
+      ->add_option("--category", options->category,
+                   "of flight phases: A rapid manoeuvres and tracking, B gradual ones, C take-off "
+                   "and landing")
+      ->check(CLI::IsMember(FlightPhaseCategoryNames()))
+      ->capture_default_str();
   command->add_option("--json", options->json, "also write the figures here")->type_name("FILE");
+  AddPicture(command, "the equivalent short period against the levels", &options->picture);
   command->footer(
       "What the figures mean: docs/how-to/ask-the-model.md.\n"
       "Example: skein fdm sweep --altitude-ft 5000..35000:10000 --speed-fps 400..1000:100");

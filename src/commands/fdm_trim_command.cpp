@@ -12,6 +12,7 @@
 #include "src/commands/flight_condition.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
+#include "src/plot/drag_polar_picture.h"
 #include "src/plot/flight_grid_picture.h"
 #include "src/plot/picture_file.h"
 
@@ -22,13 +23,17 @@ using Json = nlohmann::ordered_json;
 
 struct TrimOptions {
   FlightCondition condition;
-  std::string wind, json, csv, picture;
+  std::string wind, json, csv, picture, polar;
 };
 
 std::string DescribeTrim(const SteadyFlight& flight) {
   const auto& trim = flight.trim;
   const auto& output = flight.output;
-  std::string text = fmt::format(
+  std::string text;
+  for (const ExceededLimit& limit : flight.exceeded_limits) {
+    text += "  this flight " + limit.words + "\n";
+  }
+  text += fmt::format(
       "  thrust           {:14.6f} lbf   (engine power {:.4f} %, throttle {:.4f})\n"
       "  alpha            {:14.6f} deg\n"
       "  beta             {:14.6f} deg\n"
@@ -39,6 +44,8 @@ std::string DescribeTrim(const SteadyFlight& flight) {
       "  rudder           {:14.6f} deg\n"
       "  leading-edge flap{:14.6f} deg\n"
       "  load factor      {:14.6f} g\n"
+      "  lift coefficient {:14.6f}\n"
+      "  drag coefficient {:14.6f}\n"
       "  Mach             {:14.6f}\n"
       "  dynamic pressure {:14.6f} lbf/ft2\n"
       "  excess power     {:14.6f} ft/s at full throttle ({:.1f} lbf)\n"
@@ -46,12 +53,9 @@ std::string DescribeTrim(const SteadyFlight& flight) {
       trim.controls.thrust_lbf, trim.power, flight.throttle, trim.alpha_rad * kDegPerRad,
       output.air.beta_rad * kDegPerRad, trim.bank_rad * kDegPerRad, trim.pitch_rad * kDegPerRad,
       trim.controls.elevator_deg, trim.controls.aileron_deg, trim.controls.rudder_deg,
-      trim.controls.leading_edge_flap_deg, output.nz, output.air.mach,
-      output.air.dynamic_pressure_psf, flight.excess_power_ft_s, flight.available_thrust_lbf,
-      trim.residual);
-  for (const ExceededLimit& limit : flight.exceeded_limits) {
-    text += "  this flight " + limit.words + "\n";
-  }
+      trim.controls.leading_edge_flap_deg, output.nz, flight.lift_coefficient(),
+      flight.drag_coefficient(), output.air.mach, output.air.dynamic_pressure_psf,
+      flight.excess_power_ft_s, flight.available_thrust_lbf, trim.residual);
   return text;
 }
 
@@ -65,6 +69,7 @@ void TrimOnePoint(const TrimOptions& options, const Plant& plant) {
   const FlightGrid& grid = options.condition.grid;
   if (!options.csv.empty()) throw UsageError("--csv is for several altitudes or speeds");
   if (!options.picture.empty()) throw UsageError("--picture is for several altitudes and speeds");
+  if (!options.polar.empty()) throw UsageError("--polar is for several speeds");
   const SteadyFlight flight = FindSteadyFlight(plant, grid.At(0, 0));
   fmt::print("steady flight of {}\n{}{}", options.condition.Describe(plant), DescribeTrim(flight),
              options.wind.empty() ? "" : DescribeGroundVelocity(flight));
@@ -83,6 +88,9 @@ void TrimGrid(const TrimOptions& options, const Plant& plant) {
   if (!options.picture.empty()) {
     WritePicture(options.picture, DrawFlightGrid(flown, kPictureWidth, ""));
   }
+  if (!options.polar.empty()) {
+    WritePicture(options.polar, DrawDragPolars(flown, kPictureWidth, ""));
+  }
   if (options.json.empty()) return;
   Json json = options.condition.ToJson(plant);
   for (const GridPoint& point : flown.points()) json["points"].push_back(ToJson(point));
@@ -90,8 +98,10 @@ void TrimGrid(const TrimOptions& options, const Plant& plant) {
 }
 
 void FindTrim(TrimOptions options) {
-  if (!options.picture.empty()) CheckPictureFile(options.picture);
-  CheckWritable({options.json, options.csv, options.picture});
+  for (const std::string& picture : {options.picture, options.polar}) {
+    if (!picture.empty()) CheckPictureFile(picture);
+  }
+  CheckWritable({options.json, options.csv, options.picture, options.polar});
   if (!options.wind.empty()) options.condition.grid.manoeuvre.wind_ft_s = ReadWind(options.wind);
   const Plant plant = options.condition.MakePlant();
   (options.condition.grid.IsOnePoint() ? TrimOnePoint : TrimGrid)(options, plant);
@@ -110,6 +120,10 @@ void AddTrimCommand(CLI::App* fdm) {
   command->add_option("--csv", options->csv, "of a grid: a line for every point")
       ->type_name("FILE");
   AddPicture(command, "where a grid is flown", &options->picture);
+  command
+      ->add_option("--polar", options->polar,
+                   "draw the drag polar of trimmed flight at each altitude: SVG or PDF")
+      ->type_name("FILE");
   command->footer(
       "Signs: elevator + trailing edge down, aileron + rolls left, rudder + yaws left.\n"
       "Examples: skein fdm trim --altitude-ft 15000 --speed-fps 500\n"

@@ -68,6 +68,13 @@ void AddModel(CLI::App* command, ModelOptions* options) {
                    "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
       ->check(CLI::IsMember(AtmosphereNames()))
       ->capture_default_str();
+  command
+      ->add_option("--gravity-ft-s2", options->gravity.at_sea_level_ft_s2,
+                   "gravity at sea level; load factors stay multiples of 32.17 ft/s2")
+      ->transform(NumberAboveZero())
+      ->capture_default_str();
+  command->add_flag("--gravity-falls-with-altitude", options->gravity.falls_with_altitude,
+                    "as in the U.S. Standard Atmosphere 1976");
 }
 
 void AddWind(CLI::App* command, std::string* wind) {
@@ -106,7 +113,8 @@ void AddFlightCondition(CLI::App* command, FlightCondition* options) {
 }
 
 Plant FlightCondition::MakePlant() const {
-  return skein::MakePlant(model.aircraft, AtmosphereNamed(model.atmosphere), setting);
+  return skein::MakePlant(model.aircraft, AtmosphereNamed(model.atmosphere), model.gravity,
+                          setting);
 }
 
 std::string FlightCondition::Describe(const Plant& plant) const {
@@ -123,6 +131,8 @@ nlohmann::ordered_json FlightCondition::ToJson(const Plant& plant) const {
   nlohmann::ordered_json json = {
       {"aircraft", model.aircraft},
       {"atmosphere", model.atmosphere},
+      {"gravity_ft_s2", model.gravity.at_sea_level_ft_s2},
+      {"gravity_falls_with_altitude", model.gravity.falls_with_altitude},
       {"flight_path_deg", grid.manoeuvre.flight_path_deg},
       {"turn_rate_deg_s", grid.manoeuvre.turn_rate_deg_s},
       {"params",

@@ -9,19 +9,21 @@
 #include <string>
 #include <vector>
 
+#include "envs/air/gravity.h"
 #include "src/config/usage_error.h"
 #include "src/fdm/fdm_plant.h"
 #include "src/fdm/flight_grid.h"
 
 namespace skein {
 
-/// Which aircraft flies, and in what air.
+/// Which aircraft flies, in what air and under what gravity.
 struct ModelOptions {
   std::string aircraft = "f16";
   std::string atmosphere = "stevens_lewis";
+  Gravity gravity;
 };
 
-/// --aircraft, --atmosphere.
+/// --aircraft, --atmosphere, --gravity-ft-s2, --gravity-falls-with-altitude.
 void AddModel(CLI::App* command, ModelOptions* options);
 
 /// A flight condition of `skein fdm`: an aircraft, in steady flights.

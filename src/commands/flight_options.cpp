@@ -25,12 +25,12 @@
 
 namespace skein {
 
-void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {
+void AddEnvironmentOptions(CLI::App* command, const FlightOptionTexts& texts,
+                           FlightOptions* options) {
   command->add_option("--task", options->task, texts.task)->type_name("TASK");
   options->preset_option =
       command->add_option("--preset", options->preset, texts.preset)->type_name("PRESET");
   command->add_option("--config", options->config, "TOML file on top of them")->type_name("FILE");
-  AddAircraftOption(command, &options->aircraft);
   command->add_option("--condition", options->conditions, ConditionHelp())
       ->type_name("NAME=LEVEL")
       ->allow_extra_args(false);
@@ -39,6 +39,11 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
                    "one configuration key, such as env.observation_noise=0.03; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {
+  AddEnvironmentOptions(command, texts, options);
+  AddAircraftOption(command, &options->aircraft);
   CLI::Option* hold =
       command
           ->add_option("--hold", options->hold_s,
@@ -158,6 +163,7 @@ AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, 
   EvaluationOptions evaluation;
   evaluation.episodes = options.episodes;
   evaluation.seed = options.seed;
+  evaluation.target = options.target;
   return FlyAndRecord(name, agent, env, evaluation, options.flights_count, pool);
 }
 

@@ -34,6 +34,7 @@ struct FlightOptions {
   int flights_count = 8;
   CLI::Option* flights_count_option = nullptr;
   bool flights_observations = false;
+  std::vector<std::optional<float>> target;  ///< EvaluationOptions::target of recorded flights
 };
 
 /// What of their help the commands say differently.
@@ -41,7 +42,11 @@ struct FlightOptionTexts {
   std::string task, preset, json, flights;
 };
 
-/// Adds those of the environment and the episodes to a command; `options` must live as long as it.
+/// Adds --task, --preset, --config, --condition and --set to a command; `options` must live as long
+/// as it.
+void AddEnvironmentOptions(CLI::App* command, const FlightOptionTexts& texts,
+                           FlightOptions* options);
+/// Adds those, and those of the aircraft and the episodes.
 void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);
 /// Adds those, and those of the files that results and flights go to.
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);

@@ -4,12 +4,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "envs/aircraft/aircraft.h"
+#include "envs/task_registry.h"
 #include "src/agents/agent_names.h"
 #include "src/agents/policy_file.h"
 #include "src/config/presets.h"
 #include "src/config/usage_error.h"
+#include "src/config/whole_number.h"
 #include "src/evaluation/comparison.h"
 #include "train/policy/recurrent_policy.h"
 
@@ -27,17 +32,66 @@ std::optional<RecurrentPolicy> PolicyOf(const std::vector<std::string>& names) {
   return std::nullopt;
 }
 
+long StepsOf(double seconds, const EnvConfig& env) {
+  return std::lround(seconds / env.control_interval_s);
+}
+
+/// Neither the time limit nor a reached target ends an episode before.
+void GoOnFor(double seconds, EnvConfig* env) {
+  const long steps = StepsOf(seconds, *env);
+  env->time_limit_steps = std::max(env->time_limit_steps, static_cast<int>(steps));
+  if (!MakeTask(*env)->is_point()) env->hold_s = std::max(env->hold_s, seconds);
+}
+
+/// What is given of the target `name` as `text`, "NAME=VALUE".
+double ValueOf(const std::string& text, const std::string& name) {
+  constexpr double kFarthest = 1e7;  // of lengths in float32, where a foot is a foot
+  const std::size_t equals = text.find('=');
+  const std::optional<double> value =
+      equals == std::string::npos ? std::nullopt : ReadNumber(text.substr(equals + 1));
+  if (!value || !(std::abs(*value) <= kFarthest)) {
+    throw UsageError(fmt::format("--target {}: give {}=NUMBER", text, name));
+  }
+  if (name == "pitch_deg" && std::abs(*value) > 90) {
+    throw UsageError(fmt::format("--target {}: a pitch lies from -90 to 90 deg", text));
+  }
+  return *value;
+}
+
+/// Of texts in the units of people, in those of the task.
+std::vector<std::optional<float>> TargetOf(const std::vector<std::string>& texts,
+                                           const EnvConfig& env) {
+  if (texts.empty()) return {};
+  const std::vector<TargetQuantity> quantities = MakeTask(env)->target_quantities();
+  std::vector<std::string> known;
+  for (const TargetQuantity& quantity : quantities) known.emplace_back(quantity.column);
+  std::vector<std::optional<float>> target(quantities.size());
+  for (const std::string& text : texts) {
+    const auto found = std::find(known.begin(), known.end(), text.substr(0, text.find('=')));
+    if (found == known.end()) {
+      throw UsageError(
+          fmt::format("--target {}: targets of {} are {}", text, env.task, fmt::join(known, ", ")));
+    }
+    const auto index = static_cast<std::size_t>(found - known.begin());
+    const double value = ValueOf(text, *found);
+    target[index] = static_cast<float>(
+        quantities[index].is_angle ? std::remainder(value, 360.0) / kDegPerRad : value);
+  }
+  return target;
+}
+
 ProgramConfig Configure(const FlownAgents& flown, const std::vector<std::string>& names) {
   ProgramConfig config = ConfigFor(flown.flight, flown.policy, PolicyOf(names));
   const EnvConfig asked = config.train.env;
   ApplyOverrides(flown.flight, &config);
   AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });
+  if (flown.seconds) GoOnFor(*flown.seconds, &config.train.env);
   return config;
 }
 
 }  // namespace
 
-void AddFlownAgents(CLI::App* command, FlownAgents* flown) {
+void AddAgents(CLI::App* command, FlownAgents* flown) {
   command
       ->add_option("--policy", flown->policy,
                    "policy file, checkpoint or directory of a run, whose environment is flown in")
@@ -48,12 +102,20 @@ void AddFlownAgents(CLI::App* command, FlownAgents* flown) {
           fmt::format("who flies the same episodes, beside it or instead: {}", AgentNames()))
       ->type_name("AGENT,...")
       ->delimiter(',');
+}
+
+FlightOptionTexts TextsOfFlownAgents() {
   FlightOptionTexts texts;
   texts.task = fmt::format("what to fly: {} (default: the task of the run or of a policy)",
                            fmt::join(PresetTasks(), ", "));
   texts.preset =
       "environment settings to begin with (default: the run's own; without one, default)";
-  AddEpisodeOptions(command, texts, &flown->flight);
+  return texts;
+}
+
+void AddFlownAgents(CLI::App* command, FlownAgents* flown) {
+  AddAgents(command, flown);
+  AddEpisodeOptions(command, TextsOfFlownAgents(), &flown->flight);
   command->get_option("--episodes")->check(CLI::Range(1, kMostRecordedEpisodes));
 }
 
@@ -65,16 +127,26 @@ std::vector<std::string> NamesOf(const FlownAgents& flown) {
   return names;
 }
 
+std::string TaskOf(const FlownAgents& flown) {
+  return ConfigFor(flown.flight, flown.policy, PolicyOf(NamesOf(flown))).train.env.task;
+}
+
 std::vector<AgentFlights> FlyEpisodes(const FlownAgents& flown) {
   FlightOptions flight = flown.flight;
   flight.flights_count = flight.episodes;
   const std::vector<std::string> names = NamesOf(flown);
   const ProgramConfig config = Configure(flown, names);
+  flight.target = TargetOf(flown.targets, config.train.env);
   WorkerPool pool(flight.threads);
   std::vector<AgentFlights> agents;
   for (const NamedAgent& named : FindAgents(names, config, flight.seed)) {
     agents.push_back(RecordFirst(flight, named.name, named.agent,
                                  named.agent.EnvironmentFor(config.train.env), pool));
+    if (!flown.seconds) continue;
+    for (RecordedFlight& recorded : agents.back().flights) {
+      const auto most = static_cast<std::size_t>(StepsOf(*flown.seconds, config.train.env));
+      recorded.steps.resize(std::min(recorded.steps.size(), most));
+    }
   }
   return agents;
 }

@@ -135,7 +135,7 @@ std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const Command
   ClosedLoop loop(plant, trim, flight.mode, flight.step_s, flight.substeps);
   // What moves with the air is at rest as in still air.
   loop.mutable_state().segment<3>(kU) += BodyFromNed(trim.state.segment<4>(kQ0)) * flight.wind_ft_s;
-  Gusts gusts(flight.turbulence_ft_s, flight.seed);
+  Gusts gusts(flight.turbulence_ft_s, flight.turbulence_law, flight.seed);
   Eigen::Vector3d wind = flight.wind_ft_s + gusts.Start(loop.state());
   loop.set_wind(wind);
   PilotCommands sticks;

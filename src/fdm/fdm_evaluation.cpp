@@ -24,7 +24,7 @@ namespace {
 Plant PlantWith(Aircraft aircraft, const FdmModel& model, const FdmParameters& parameters) {
   aircraft.airframe.cg = parameters.cg;
   aircraft.airframe.engine_angular_momentum = parameters.engine_angular_momentum;
-  return {std::move(aircraft), model.atmosphere};
+  return {std::move(aircraft), model.atmosphere, 1, model.gravity};
 }
 
 RigidBodyState ToState(const FdmState& numbers) {
@@ -135,7 +135,7 @@ std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
   const Aircraft aircraft = LoadAircraft(model.aircraft);
   std::shared_ptr<const KernelAircraft> kernel;
   if (model.precision == FdmPrecision::kFloat32) {
-    kernel = MakeKernelAircraft(aircraft, model.atmosphere);
+    kernel = MakeKernelAircraft(aircraft, model.atmosphere, model.gravity);
   }
   std::map<FdmParameters, std::vector<std::size_t>> groups;  // which share one plant
   for (std::size_t i = 0; i < points.size(); ++i) groups[points[i].parameters].push_back(i);
@@ -143,7 +143,7 @@ std::vector<FdmPointResult> EvaluatePoints(const std::vector<FdmPoint>& points,
     const Plant plant = PlantWith(aircraft, model, parameters);
     for (const std::size_t i : which) results[i] = EvaluateScalar(plant, points[i]);
     if (kernel != nullptr) {
-      kernel = WithAirframe(std::move(kernel), plant.aircraft().airframe);
+      kernel = WithAirframe(std::move(kernel), plant.aircraft().airframe, model.gravity);
       EvaluateWithKernel(*kernel, points, which, &results);
     }
   }
@@ -157,7 +157,7 @@ std::vector<FdmState> FlyTrajectory(const FdmTrajectory& trajectory, double dt,
   std::shared_ptr<const KernelAircraft> kernel;
   OpenLoopTile tile(1);
   if (model.precision == FdmPrecision::kFloat32) {
-    kernel = MakeKernelAircraft(plant.aircraft(), model.atmosphere);
+    kernel = MakeKernelAircraft(plant.aircraft(), model.atmosphere, model.gravity);
     tile.SetState(0, trajectory.initial_state);
   }
   std::vector<FdmState> states;

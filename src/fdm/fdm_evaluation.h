@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "envs/air/atmosphere.h"
+#include "envs/air/gravity.h"
 #include "src/fdm/fdm_file.h"
 
 namespace skein {
@@ -19,6 +20,7 @@ enum class FdmPrecision {
 struct FdmModel {
   std::string aircraft = "f16";  ///< a name of envs/aircraft/registry.h
   AtmosphereModel atmosphere = AtmosphereModel::kStevensLewis;
+  Gravity gravity;
   FdmPrecision precision = FdmPrecision::kFloat64;
 };
 

@@ -25,7 +25,7 @@ AtmosphereModel AtmosphereNamed(const std::string& name) {
       fmt::format("atmosphere \"{}\": {} are known", name, fmt::join(AtmosphereNames(), " and ")));
 }
 
-Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere,
+Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere, const Gravity& gravity,
                 const PlantSetting& setting) {
   Aircraft flown = LoadAircraft(aircraft);
   const auto require = [&](bool asked, const MachFunction& data, const char* what) {
@@ -38,7 +38,7 @@ Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere,
   flown.engine.grows = require(setting.thrust_grows, flown.engine.growth, "thrust above Mach 1");
   if (setting.cg) flown.airframe.cg = *setting.cg;
   flown.airframe.engine_angular_momentum = setting.engine_angular_momentum;
-  return {std::move(flown), atmosphere};
+  return {std::move(flown), atmosphere, 1, gravity};
 }
 
 Controls ToControls(const double* numbers) {

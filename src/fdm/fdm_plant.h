@@ -26,7 +26,7 @@ struct PlantSetting {
 
 /// The float64 aircraft of what LoadAircraft takes. Throws as LoadAircraft, and UsageError of a
 /// setting that the aircraft has no data for.
-Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere,
+Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere, const Gravity& gravity,
                 const PlantSetting& setting);
 
 /// From the five numbers of FdmControls, and to them.

@@ -51,7 +51,7 @@ GridPoint Fly(const Plant& plant, const SteadyFlightRequest& request) {
   } catch (const UsageError&) {
     throw;
   } catch (const Error& error) {
-    point.limits = LimitsOnTheWay(plant, ToTrimRequest(request));
+    point.limits = LimitsOnTheWay(plant, ToTrimRequest(plant, request));
     // What lies outside the tables is not why: an engine is no matter of balance.
     if (point.limits.empty() || point.limits.front().limit == FlightLimit::kEngineTables) {
       point.limits.insert(point.limits.begin(), {FlightLimit::kControls, error.what()});

@@ -2,12 +2,15 @@
 #include "src/fdm/flying_qualities_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/number_text.h"
+#include "src/config/usage_error.h"
 #include "src/files/text_table.h"
 
 namespace skein {
@@ -78,9 +81,38 @@ Json ToJson(const Requirement& requirement) {
           {"level", requirement.level},         {"limits", requirement.limits}};
 }
 
+/// The place of `name` among `names`.
+std::size_t IndexOf(const std::string& name, const std::vector<std::string>& names,
+                    const char* what) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw UsageError(fmt::format("{} \"{}\": {} are known", what, name, fmt::join(names, ", ")));
+}
+
 }  // namespace
 
-std::string Describe(const FlyingQualities& qualities) {
+std::vector<std::string> AirplaneClassNames() { return {"I", "II", "III", "IV"}; }
+
+std::vector<std::string> FlightPhaseCategoryNames() { return {"A", "B", "C"}; }
+
+LevelLimits LimitsNamed(const std::string& airplane_class, const std::string& category) {
+  return LimitsOf(
+      static_cast<AirplaneClass>(IndexOf(airplane_class, AirplaneClassNames(), "class")),
+      static_cast<FlightPhaseCategory>(IndexOf(category, FlightPhaseCategoryNames(), "category")));
+}
+
+AssessedFlight AssessSteadyFlight(const Plant& plant, const SteadyFlightRequest& request,
+                                  const LevelLimits& limits) {
+  const SteadyFlight flight = FindSteadyFlight(plant, request);
+  for (const ExceededLimit& limit : flight.exceeded_limits) {
+    if (limit.limit == FlightLimit::kEngineTables) continue;
+    throw Error(fmt::format("flight at {} ft and {} ft/s {}", request.altitude_ft,
+                            request.true_airspeed_ft_s, limit.words));
+  }
+  return {request, AssessFlyingQualities(plant, flight.trim, limits)};
+}
+
+std::string Describe(const FlyingQualities& qualities, const std::string& standard) {
   std::string text = DescribeStep("pitch stick", qualities.pitch_step, "g") +
                      DescribeStep("roll stick", qualities.roll_step, "deg/s");
   const EquivalentShortPeriod& pitch = qualities.short_period;
@@ -92,7 +124,7 @@ std::string Describe(const FlyingQualities& qualities) {
       qualities.load_factor_by_alpha, qualities.roll.time_constant_s, qualities.roll.delay_s,
       qualities.roll.mismatch);
   std::vector<std::vector<std::string>> rows = {
-      {"MIL-F-8785C", "class IV, category A", "", "", "limits of levels 1; 2; 3"}};
+      {"MIL-F-8785C", standard, "", "", "limits of levels 1; 2; 3"}};
   for (const Requirement& requirement : qualities.requirements) {
     const std::string unit = requirement.unit == std::string("1") ? "" : requirement.unit;
     rows.push_back({requirement.paragraph, requirement.what,
@@ -104,8 +136,8 @@ std::string Describe(const FlyingQualities& qualities) {
 
 std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
   std::vector<std::vector<std::string>> rows = {{"altitude", "speed", "short period", "phugoid",
-                                                 "Dutch roll", "roll", "spiral", "bank 90",
-                                                 "gain, dB", "phase, deg", "least at"}};
+                                                 "Dutch roll", "roll", "spiral", "bank", "gain, dB",
+                                                 "phase, deg", "least at"}};
   for (const AssessedFlight& flight : flights) {
     const FlyingQualities& qualities = flight.qualities;
     const auto gain = [](const LoopAt& loop) {
@@ -124,7 +156,7 @@ std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
                     ShortestText(flight.request.true_airspeed_ft_s),
                     WorstLevel(qualities, "3.2.2.1"), WorstLevel(qualities, "3.2.1.2"),
                     WorstLevel(qualities, "3.3.1.1"), WorstLevel(qualities, "3.3.1.2"),
-                    WorstLevel(qualities, "3.3.1.3"), WorstLevel(qualities, "3.3.4.1"),
+                    WorstLevel(qualities, "3.3.1.3"), WorstLevel(qualities, "3.3.4"),
                     Figure(gain(*least_gain)), Figure(least_phase->margins.phase_deg),
                     name(least_gain) + ", " + name(least_phase)});
   }
@@ -152,7 +184,8 @@ Json ToJson(const AssessedFlight& flight) {
                 {{"eigenvalue_per_s", {dutch_roll.eigenvalue.real(), dutch_roll.eigenvalue.imag()}},
                  {"frequency_rad_s", dutch_roll.frequency_rad_s()},
                  {"damping_ratio", dutch_roll.damping_ratio()}}},
-               {"bank_90_s", NumberJson(qualities.bank_90_s)}};
+               {"bank_deg", qualities.bank_deg},
+               {"bank_s", NumberJson(qualities.bank_s)}};
   for (const Requirement& requirement : qualities.requirements) {
     json["requirements"].push_back(ToJson(requirement));
   }

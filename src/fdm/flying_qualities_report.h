@@ -16,8 +16,18 @@ struct AssessedFlight {
   FlyingQualities qualities;
 };
 
-/// Every figure of one point, for people.
-std::string Describe(const FlyingQualities& qualities);
+/// The names of classes ("I" to "IV") and categories ("A" to "C") of MIL-F-8785C.
+std::vector<std::string> AirplaneClassNames();
+std::vector<std::string> FlightPhaseCategoryNames();
+/// The limits of such a class and category. Throws UsageError on another name.
+LevelLimits LimitsNamed(const std::string& airplane_class, const std::string& category);
+
+/// Throws Error of a flight that is not steady, or is for want of thrust not.
+AssessedFlight AssessSteadyFlight(const Plant& plant, const SteadyFlightRequest& request,
+                                  const LevelLimits& limits);
+
+/// Every figure of one point, for people; `standard` says what its levels are of.
+std::string Describe(const FlyingQualities& qualities, const std::string& standard);
 /// Levels and least margins of several points, a line each.
 std::string DescribeLevels(const std::vector<AssessedFlight>& flights);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/fdm/gusts.h"
 
-#include "envs/wind/dryden.h"
-
 namespace skein {
 
-Gusts::Gusts(double standard_deviation_ft_s, std::uint64_t seed)
-    : seed_(seed),
+Gusts::Gusts(double standard_deviation_ft_s, TurbulenceLaw law, std::uint64_t seed)
+    : law_(law),
+      seed_(seed),
       stride_(TileStride(1)),
       columns_(kNumWindyColumns * stride_),
       episode_(stride_),
@@ -16,7 +15,7 @@ Gusts::Gusts(double standard_deviation_ft_s, std::uint64_t seed)
 
 Eigen::Vector3d Gusts::Start(const RigidBodyState& state) {
   SetState(state);
-  StartGusts(tile(), 0, {seed_, 0, episode_.data(), step_.data()});
+  StartGusts(tile(), 0, {seed_, 0, episode_.data(), step_.data()}, law_);
   return wind();
 }
 
@@ -25,7 +24,7 @@ Eigen::Vector3d Gusts::Advance(const RigidBodyState& state, const Eigen::Vector3
   SetState(state);
   for (int k = 0; k < 3; ++k) tile()[kAirU + k][0] = static_cast<float>(velocity[k]);
   ++step_[0];
-  AdvanceGusts(tile(), static_cast<float>(dt), {seed_, 0, episode_.data(), step_.data()});
+  AdvanceGusts(tile(), static_cast<float>(dt), {seed_, 0, episode_.data(), step_.data()}, law_);
   return wind();
 }
 

@@ -8,6 +8,7 @@
 #include "base/aligned_vector.h"
 #include "envs/reference/plant.h"
 #include "envs/state/state.h"
+#include "envs/wind/dryden.h"
 
 namespace skein {
 
@@ -15,8 +16,8 @@ namespace skein {
 /// draw with this seed for its first aircraft.
 class Gusts {
  public:
-  /// `standard_deviation_ft_s` is the vertical gust's.
-  Gusts(double standard_deviation_ft_s, std::uint64_t seed);
+  /// `standard_deviation_ft_s` is the vertical gust's, as `law` says.
+  Gusts(double standard_deviation_ft_s, TurbulenceLaw law, std::uint64_t seed);
 
   /// The first gust around an aircraft in still air, north, east, down, ft/s.
   Eigen::Vector3d Start(const RigidBodyState& state);
@@ -28,6 +29,7 @@ class Gusts {
   void SetState(const RigidBodyState& state);
   Eigen::Vector3d wind();
 
+  TurbulenceLaw law_;
   std::uint64_t seed_;
   std::size_t stride_;
   AlignedVector<float> columns_;

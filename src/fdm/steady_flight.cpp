@@ -10,32 +10,44 @@
 
 namespace skein {
 
-std::array<std::pair<const char*, double>, 8> SteadyFlight::Numbers() const {
+double SteadyFlight::lift_coefficient() const {
+  return output.coefficients[0] * std::sin(trim.alpha_rad) -
+         output.coefficients[2] * std::cos(trim.alpha_rad);
+}
+
+double SteadyFlight::drag_coefficient() const {
+  return -output.coefficients[0] * std::cos(trim.alpha_rad) -
+         output.coefficients[2] * std::sin(trim.alpha_rad);
+}
+
+std::array<std::pair<const char*, double>, 10> SteadyFlight::Numbers() const {
   return {{{"alpha_deg", trim.alpha_rad * kDegPerRad},
            {"beta_deg", output.air.beta_rad * kDegPerRad},
            {"bank_deg", trim.bank_rad * kDegPerRad},
            {"pitch_deg", trim.pitch_rad * kDegPerRad},
            {"load_factor_g", output.nz},
+           {"lift_coefficient", lift_coefficient()},
+           {"drag_coefficient", drag_coefficient()},
            {"mach", output.air.mach},
            {"qbar_psf", output.air.dynamic_pressure_psf},
            {"residual", trim.residual}}};
 }
 
-TrimRequest ToTrimRequest(const SteadyFlightRequest& request) {
+TrimRequest ToTrimRequest(const Plant& plant, const SteadyFlightRequest& request) {
   TrimRequest asked{request.altitude_ft, request.true_airspeed_ft_s,
                     request.flight_path_deg / kDegPerRad, request.turn_rate_deg_s / kDegPerRad};
   if (!request.load_factor) return asked;
   if (request.turn_rate_deg_s != 0) {
     throw UsageError("a pull-up has level wings: give a load factor or a turn rate, not both");
   }
-  asked.pull_up_rate_rad_s = kGravityFtS2 *
+  asked.pull_up_rate_rad_s = plant.gravity().At(request.altitude_ft) *
                              (*request.load_factor - std::cos(asked.flight_path_angle_rad)) /
                              request.true_airspeed_ft_s;
   return asked;
 }
 
 SteadyFlight FindSteadyFlight(const Plant& plant, const SteadyFlightRequest& request) {
-  const TrimRequest asked = ToTrimRequest(request);
+  const TrimRequest asked = ToTrimRequest(plant, request);
   const Aircraft& aircraft = plant.aircraft();
   SteadyFlight flight;
   flight.trim = TrimOrExplain(plant, asked);
@@ -46,9 +58,9 @@ SteadyFlight FindSteadyFlight(const Plant& plant, const SteadyFlightRequest& req
   flight.throttle = ThrottleForPower(aircraft.throttle_gearing, flight.trim.power);
   flight.available_thrust_lbf =
       Thrust(aircraft.engine, kMaximumPower, request.altitude_ft, flight.output.air.mach);
-  flight.excess_power_ft_s = request.true_airspeed_ft_s *
-                             (flight.available_thrust_lbf - flight.trim.controls.thrust_lbf) /
-                             (aircraft.airframe.mass_slug * kGravityFtS2);
+  flight.excess_power_ft_s =
+      request.true_airspeed_ft_s * (flight.available_thrust_lbf - flight.trim.controls.thrust_lbf) /
+      (aircraft.airframe.mass_slug * plant.gravity().At(request.altitude_ft));
   return flight;
 }
 

@@ -39,15 +39,18 @@ struct SteadyFlight {
 
   /// What describes it beside state, controls and engine power, by the names of files and of
   /// Python.
-  std::array<std::pair<const char*, double>, 8> Numbers() const;
+  std::array<std::pair<const char*, double>, 10> Numbers() const;
+  /// Of the aerodynamic force across and against the flight path, in the plane of symmetry.
+  double lift_coefficient() const;
+  double drag_coefficient() const;
 };
 
 /// Throws UsageError on a turn that is a pull-up, too, and Error where there is no such flight; it
 /// says which limit is in the way, if one is.
 SteadyFlight FindSteadyFlight(const Plant& plant, const SteadyFlightRequest& request);
 
-/// The trim that `request` asks for, in still air: a steady wind does not change it. Throws
-/// UsageError as above.
-TrimRequest ToTrimRequest(const SteadyFlightRequest& request);
+/// The trim that `request` asks for of `plant`, in still air: a steady wind does not change it.
+/// Throws UsageError as above.
+TrimRequest ToTrimRequest(const Plant& plant, const SteadyFlightRequest& request);
 
 }  // namespace skein

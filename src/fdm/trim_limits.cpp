@@ -90,9 +90,10 @@ std::vector<ExceededLimit> BelowStall(const Plant& plant, const TrimRequest& req
   const Airframe& airframe = plant.aircraft().airframe;
   const double speed = request.true_airspeed_ft_s;
   const double climb = std::cos(request.flight_path_angle_rad);
-  const double lateral_g = climb * speed * request.turn_rate_rad_s / kGravityFtS2;
-  const double upward_g = climb + speed * request.pull_up_rate_rad_s / kGravityFtS2;
-  const double weight_lbf = airframe.mass_slug * kGravityFtS2 * std::hypot(upward_g, lateral_g);
+  const double gravity = plant.gravity().At(request.altitude_ft);
+  const double lateral_g = climb * speed * request.turn_rate_rad_s / gravity;
+  const double upward_g = climb + speed * request.pull_up_rate_rad_s / gravity;
+  const double weight_lbf = airframe.mass_slug * gravity * std::hypot(upward_g, lateral_g);
   const GreatestLift lift = FindGreatestLift(plant, request.altitude_ft, speed, kAlphaStepDeg);
   const double density = AirAt(plant.atmosphere(), request.altitude_ft).density_slug_ft3;
   const double stall_speed = std::sqrt(
@@ -119,7 +120,7 @@ TrimPoint TrimOrExplain(const Plant& plant, const TrimRequest& request) {
   } catch (const Error& error) {
     const std::vector<std::string> limits = WordsOf(LimitsOnTheWay(plant, request));
     if (limits.empty()) throw;
-    throw Error(fmt::format("{}: this flight {}", error.what(), fmt::join(limits, ", and ")));
+    throw Error(fmt::format("this flight {}; {}", fmt::join(limits, ", and "), error.what()));
   }
 }
 

@@ -218,6 +218,7 @@ TEST_F(FdmPipeline, ATrimBeyondTheEngineSaysSo) {
   EXPECT_THAT(fast_text,
               HasSubstr("this flight is faster than the engine's tables, which end at Mach 1"));
   EXPECT_EQ(fast["exceeded_limits"].size(), 2u);
+  EXPECT_LT(fast_text.find("this flight"), fast_text.find("alpha")) << "the reason comes first";
 }
 
 TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
@@ -225,7 +226,8 @@ TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
       CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "30"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
-  EXPECT_THAT(result.error, HasSubstr("this flight is below stall speed: at 15000 ft"));
+  EXPECT_EQ(result.error.find("skein: error: this flight is below stall speed: at 15000 ft"), 0u)
+      << result.error;
 }
 
 TEST_F(FdmPipeline, ATrimOfWhatIsNoNumberIsWrongUsage) {
@@ -274,6 +276,44 @@ TEST_F(FdmPipeline, ASteadyWindCarriesTheFlightAndNoMore) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(windy["ground_velocity_fps"][i].get<double>(),
                 calm["ground_velocity_fps"][i].get<double>() + wind[i], kRounding * 500);
+  }
+}
+
+// Half the weight needs half the lift: the aircraft flies as one of half the mass, but for inertia.
+TEST_F(FdmPipeline, GravityIsAskedFor) {
+  const auto alpha = [&](const std::vector<std::string>& gravity) {
+    const std::string path = folder_ + "/gravity.json";
+    std::vector<std::string> words = {"fdm",         "trim", "--altitude-ft", "40000",
+                                      "--speed-fps", "700",  "--json",        path};
+    words.insert(words.end(), gravity.begin(), gravity.end());
+    EXPECT_EQ(CallSkein(words).exit_code, 0);
+    return json::parse(ReadFile(path))["alpha_deg"].get<double>();
+  };
+  EXPECT_LT(alpha({"--gravity-ft-s2", "16.085"}), 0.6 * alpha({}));
+  EXPECT_LT(alpha({"--gravity-falls-with-altitude"}), alpha({}));
+  EXPECT_EQ(alpha({"--gravity-ft-s2", "32.17"}), alpha({}));
+}
+
+// At the same place, what is dropped gains speed by the gravity there, in both precisions.
+TEST_F(FdmPipeline, GravityActsOnThePointsOfAFile) {
+  constexpr Tolerance kFloat32{2e-4, "float32, ft/s2"};
+  const std::vector<double> level = {500, 0, 0, 0, 0, 0, 0, 0, -40000, 1, 0, 0, 0};
+  const json point = {{"state", level}, {"controls", {0, 0, 0, 0, 0}}};
+  WriteFile(folder_ + "/in.json", json{{"points", json::array({point})}}.dump());
+  const auto downward = [&](const std::string& precision, const std::vector<std::string>& gravity) {
+    const std::string out = folder_ + "/out.json";
+    std::vector<std::string> words = {"fdm",   "eval", "--in",        folder_ + "/in.json",
+                                      "--out", out,    "--precision", precision};
+    words.insert(words.end(), gravity.begin(), gravity.end());
+    EXPECT_EQ(CallSkein(words).exit_code, 0);
+    return json::parse(ReadFile(out))["points"][0]["xdot"][2].get<double>();
+  };
+  const double share = std::pow(1 + 40000 / 20855531.5, -2);  // a radius of 6,356,766 m
+  for (const char* precision : {"float64", "float32"}) {
+    const double usual = downward(precision, {});
+    EXPECT_NEAR(downward(precision, {"--gravity-ft-s2", "5.3"}), usual - 32.17 + 5.3, kFloat32);
+    EXPECT_NEAR(downward(precision, {"--gravity-falls-with-altitude"}), usual - 32.17 * (1 - share),
+                kFloat32);
   }
 }
 
@@ -353,85 +393,52 @@ TEST_F(FdmPipeline, LinearModelsHaveNamesForRowsAndColumns) {
   EXPECT_THAT(result.output, HasSubstr("with flight control, longitudinal, 50 control steps"));
 }
 
-TEST_F(FdmPipeline, HandsOffTheFlightGoesOnInAnyWind) {
-  constexpr Tolerance kAltitude{1.5, "a centred stick asks for 1 g, the trim has 0.997: ft in 5 s"};
-  const auto fly = [&](const std::string& wind) {
-    const std::string path = folder_ + "/fly.csv";
-    const ProgramResult result =
-        CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps", "500", "--seconds", "5",
-                   "--wind-fps", wind, "-o", path});
-    EXPECT_EQ(result.exit_code, 0) << result.error;
-    return ParseCsv(ReadFile(path));
-  };
-  const CsvColumns calm = fly("0,0,0"), windy = fly("-40,30,0");
-  ASSERT_EQ(calm.rows(), 251u);
-  EXPECT_NEAR(calm.Find("altitude_ft")->back(), 15000, kAltitude);
-  for (const char* same : {"altitude_ft", "alpha_deg", "load_factor_g", "elevator_deg"}) {
-    EXPECT_NEAR(windy.Find(same)->back(), calm.Find(same)->back(), 1e-3) << same;
-  }
-  EXPECT_NEAR(windy.Find("north_ft")->back(), calm.Find("north_ft")->back() - 5 * 40, kAltitude);
-  EXPECT_NEAR(windy.Find("east_ft")->back(), calm.Find("east_ft")->back() + 5 * 30, kAltitude);
+// Level flight: thrust and aerodynamic force along and across the path hold drag and weight.
+TEST_F(FdmPipeline, LiftAndDragAreInBalanceWithWeightAndThrust) {
+  constexpr Tolerance kBalance{1e-6, "of the trim, relative"};
+  constexpr Tolerance kBank{2e-4, "the aerodynamic tables are not symmetrical: it banks a little"};
+  constexpr double kWingAreaFt2 = 300, kWeightLbf = 636.94 * 32.17;
+  const std::string path = folder_ + "/trim.json";
+  ASSERT_EQ(
+      CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "500", "--json", path})
+          .exit_code,
+      0);
+  const json trim = json::parse(ReadFile(path));
+  const double force_lbf = trim["qbar_psf"].get<double>() * kWingAreaFt2;
+  const double alpha = trim["alpha_deg"].get<double>() * M_PI / 180;
+  const double thrust_lbf = trim["controls"][0];
+  EXPECT_NEAR(trim["drag_coefficient"].get<double>() * force_lbf, thrust_lbf * std::cos(alpha),
+              kBalance * kWeightLbf);
+  EXPECT_NEAR(trim["lift_coefficient"].get<double>() * force_lbf,
+              kWeightLbf - thrust_lbf * std::sin(alpha), kBank * kWeightLbf);
 }
 
-TEST_F(FdmPipeline, GustsHaveTheirDeviationAndSeed) {
-  const auto fly = [&](const std::string& seed) {
-    const std::string path = folder_ + "/gusts.csv";
-    EXPECT_EQ(
-        CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps", "500", "--seconds", "300",
-                   "--step-s", "0.05", "--turbulence-fps", "5", "--seed", seed, "-o", path})
-            .exit_code,
-        0);
-    return ParseCsv(ReadFile(path));
-  };
-  const CsvColumns first = fly("1"), again = fly("1"), other = fly("2");
-  EXPECT_EQ(first.values.at(18), again.values.at(18));
-  const std::vector<double>&gusts = *first.Find("wind_down_fps"),
-        &others = *other.Find("wind_down_fps");
-  EXPECT_NE(gusts, others);
-  double square = 0;
-  for (const double gust : gusts) square += gust * gust / static_cast<double>(gusts.size());
-  // 300 s are some 40 independent gusts of 1750 ft at 500 ft/s.
-  constexpr Tolerance kSamples{0.3, "of 5 ft/s, relative"};
-  EXPECT_NEAR(std::sqrt(square), 5, kSamples * 5);
-}
-
-TEST_F(FdmPipeline, SticksOfAFileAreFlown) {
-  const std::string sticks = folder_ + "/sticks.csv", path = folder_ + "/fly.csv";
-  WriteFile(sticks, "time_s,roll\n0,0\n1,0.2\n2,0");
-  const std::vector<std::string> words = {
-      "fdm",       "fly", "--altitude-ft", "15000", "--speed-fps", "500",
-      "--seconds", "3",   "--commands",    sticks,  "-o",          path};
-  ASSERT_EQ(CallSkein(words).exit_code, 0);
-  const CsvColumns flown = ParseCsv(ReadFile(path));
-  const std::vector<double>& stick = *flown.Find("action_roll");
-  EXPECT_EQ(stick[50], 0) << "in the step that ends at 1 s";
-  EXPECT_EQ(stick[51], 0.2);
-  EXPECT_EQ(stick[101], 0);
-  EXPECT_GT(flown.Find("p_deg_s")->at(100), 30);
-  EXPECT_GT(flown.Find("roll_deg")->at(100), 20);
-  const ProgramResult drawn =
-      CallSkein({"plot", "flights", path, "--columns", "p_deg_s", "-o", folder_ + "/fly.svg"});
-  EXPECT_EQ(drawn.exit_code, 0) << drawn.error;
-  const ProgramResult lost = CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps",
-                                        "500", "--seconds", "30", "--step-s", "0.5", "-o", path});
-  EXPECT_EQ(lost.exit_code, 1);
-  EXPECT_THAT(lost.error, HasSubstr("is a step of 0.5 s short enough?"));
-  const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"", "expected a header"},
-      {"time_s,roll\n", "expected a header"},
-      {"time_s,roll\n0,0,0\n", "expected a header"},
-      {"roll\n0\n", "no column time_s"},
-      {"time_s,stick\n0,0\n", "column stick"},
-      {"time_s,roll\n1,0\n1,0\n", "row 2: times are from 0 on and increase"},
-      {"time_s,roll\nx,0\n", "row 1: times"},
-      {"time_s,roll\n0,2\n", "row 1: roll is not a number from -1 to 1"},
-      {"time_s,throttle\n0,-1\n", "throttle is not a number from 0 to 1"}};
-  for (const auto& [text, expected] : wrong) {
-    WriteFile(sticks, text);
-    const ProgramResult result = CallSkein(words);
-    EXPECT_EQ(result.exit_code, 1) << text;
-    EXPECT_THAT(result.error, HasSubstr(expected));
-    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+TEST_F(FdmPipeline, PicturesShowPolarsAndHandlingLevels) {
+  const std::string polar = folder_ + "/polar.svg", levels = folder_ + "/levels.svg";
+  ASSERT_EQ(CallSkein({"fdm", "trim", "--altitude-ft", "0,40000", "--speed-fps", "300..900:100",
+                       "--drag-rise", "--polar", polar})
+                .exit_code,
+            0);
+  EXPECT_THAT(ReadFile(polar), HasSubstr("40,000 ft: lift over drag at most"));
+  const std::string path = folder_ + "/sweep.json";
+  const ProgramResult result =
+      CallSkein({"fdm", "sweep", "--altitude-ft", "15000", "--speed-fps", "500,700", "--class",
+                 "II", "--category", "C", "--picture", levels, "--json", path});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("levels of class II, category C"));
+  EXPECT_THAT(ReadFile(levels), HasSubstr("boundary of level 1"));
+  const json sweep = json::parse(ReadFile(path));
+  EXPECT_EQ(sweep["class"], "II");
+  EXPECT_EQ(sweep["points"][0]["bank_deg"], 30);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"sweep", "--class", "V"},
+                                                {"sweep", "--picture", "x.png"},
+                                                {"trim", "--polar", folder_ + "/one.svg"}}) {
+    std::vector<std::string> command = {"fdm"};
+    command.insert(command.end(), words.begin(), words.end());
+    command.insert(command.end(), {"--altitude-ft", "15000", "--speed-fps", "500"});
+    const ProgramResult wrong = CallSkein(command);
+    EXPECT_EQ(wrong.exit_code, 2) << words[1];
+    EXPECT_EQ(std::count(wrong.error.begin(), wrong.error.end(), '\n'), 1) << wrong.error;
   }
 }
 

@@ -26,6 +26,17 @@ std::int32_t DwellSteps(const EnvConfig& env) {
   return std::max(1, static_cast<std::int32_t>(std::lround(steps)));
 }
 
+/// Puts what there is of `target` in the place of what was drawn.
+void SetTargets(const std::vector<std::optional<float>>& target, VecEnv& env) {
+  if (target.empty()) return;
+  for (int aircraft = 0; aircraft < env.num_aircraft(); ++aircraft) {
+    std::vector<float> flown = env.TargetOf(aircraft);
+    if (target.size() > flown.size()) throw Error("the task has fewer targets than were given");
+    for (std::size_t k = 0; k < target.size(); ++k) flown[k] = target[k].value_or(flown[k]);
+    env.SetTarget(aircraft, flown);
+  }
+}
+
 /// Flies a tile's first episodes.
 class TileEvaluation {
  public:
@@ -109,6 +120,7 @@ VecEnv MakeEvaluationEnv(const Agent& agent, const EnvConfig& config,
   VecEnv env(EvaluationConfig(config), options.episodes, options.seed ^ kEvaluationStream,
              kTileSize, agent.low_level(), options.first_episode);
   agent.CheckFits(env);
+  SetTargets(options.target, env);
   return env;
 }
 

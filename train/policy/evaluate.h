@@ -23,6 +23,9 @@ struct EvaluationOptions {
   std::uint64_t seed = 0;
   int first_episode = 0;        ///< number of the first of them
   bool flight_metrics = false;  ///< measure how episodes were flown, too
+  /// What all of them fly to first, in the order of Task::target_quantities, angles in radians;
+  /// where there is nothing, and beyond the end, what is drawn.
+  std::vector<std::optional<float>> target = {};
 };
 
 /// How one episode went.

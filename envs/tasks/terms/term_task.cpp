@@ -126,14 +126,25 @@ class TermTask : public Task {
       if (target.quantity.value == TermValue::kYaw) yaw = value;
       set(column, value);
     }
-    if (columns_.attitude >= 0) {
-      EulerAngles attitude;
-      attitude.pitch = pitch;
-      attitude.yaw = yaw;
-      const Eigen::Vector4d quaternion = QuaternionFromEuler(attitude);
-      for (int k = 0; k < 4; ++k) set(columns_.attitude + k, quaternion[k]);
-    }
+    EulerAngles attitude;
+    attitude.pitch = pitch;
+    attitude.yaw = yaw;
+    SetAttitude(attitude, task, index);
     ResetTolerances(start, random, set);
+  }
+
+  void FollowTargets(Tile task, int index) const override {
+    if (columns_.attitude < 0) return;
+    Eigen::Vector4d before;
+    for (int k = 0; k < 4; ++k) before[k] = task[columns_.attitude + k][index];
+    EulerAngles attitude = EulerFromQuaternion(before);
+    for (std::size_t k = 0; k < config_->targets.size(); ++k) {
+      const TermValue value = config_->targets[k].quantity.value;
+      const float target = task[TermColumns::OfTarget(*config_, static_cast<int>(k))][index];
+      if (value == TermValue::kPitch) attitude.pitch = target;
+      if (value == TermValue::kYaw) attitude.yaw = target;
+    }
+    SetAttitude(attitude, task, index);
   }
 
   float ToleranceShare(Tile task, int index) const override {
@@ -176,6 +187,14 @@ class TermTask : public Task {
   void Run(const TermProgram& program, Tile flight, Tile task, float* columns,
            std::size_t stride) const {
     RunTermProgram(program, *kernel_aircraft_, flight, task, {columns, stride});
+  }
+
+  void SetAttitude(const EulerAngles& attitude, Tile task, int index) const {
+    if (columns_.attitude < 0) return;
+    const Eigen::Vector4d quaternion = QuaternionFromEuler(attitude);
+    for (int k = 0; k < 4; ++k) {
+      task[columns_.attitude + k][index] = static_cast<float>(quaternion[k]);
+    }
   }
 
   double DrawValue(const TermTarget& target, const FlightStart& start, double altitude_ft,

@@ -103,31 +103,54 @@ TEST(EquivalentSystem, FindsTheSystemThatItIsGiven) {
 }
 
 TEST(FlyingQualities, LevelsEndWhereTheStandardEndsThem) {
-  EXPECT_EQ(ShortPeriodDampingLevel(0.35), 1);
-  EXPECT_EQ(ShortPeriodDampingLevel(0.349), 2);
-  EXPECT_EQ(ShortPeriodDampingLevel(2.1), 3);
-  EXPECT_EQ(ShortPeriodDampingLevel(0.1), 4);
-  EXPECT_EQ(AnticipationLevel(0.28, 1), 1);
-  EXPECT_EQ(AnticipationLevel(0.28, 0.9), 2);
-  EXPECT_EQ(AnticipationLevel(5, 3), 2);
-  EXPECT_EQ(AnticipationLevel(11, 9), 3);
-  EXPECT_EQ(AnticipationLevel(0.1, 3), 4);
-  EXPECT_EQ(PhugoidLevel(0.04, INFINITY), 1);
-  EXPECT_EQ(PhugoidLevel(0, INFINITY), 2);
-  EXPECT_EQ(PhugoidLevel(-0.01, 60), 3);
-  EXPECT_EQ(PhugoidLevel(-0.1, 50), 4);
-  EXPECT_EQ(DutchRollLevel(0.19, 2), 1);
-  EXPECT_EQ(DutchRollLevel(0.19, 1.5), 2) << "damping times frequency";
-  EXPECT_EQ(DutchRollLevel(0.01, 2), 3);
-  EXPECT_EQ(DutchRollLevel(-0.01, 2), 4);
-  EXPECT_EQ(RollModeLevel(1), 1);
-  EXPECT_EQ(RollModeLevel(1.3), 2);
-  EXPECT_EQ(RollModeLevel(11), 4);
-  EXPECT_EQ(SpiralLevel(INFINITY), 1);
-  EXPECT_EQ(SpiralLevel(9), 2);
-  EXPECT_EQ(SpiralLevel(3), 4);
-  EXPECT_EQ(RollPerformanceLevel(1.3), 1);
-  EXPECT_EQ(RollPerformanceLevel(INFINITY), 4);
+  const LevelLimits limits = LimitsOf(AirplaneClass::kIV, FlightPhaseCategory::kA);
+  EXPECT_EQ(ShortPeriodDampingLevel(limits, 0.35), 1);
+  EXPECT_EQ(ShortPeriodDampingLevel(limits, 0.349), 2);
+  EXPECT_EQ(ShortPeriodDampingLevel(limits, 2.1), 3);
+  EXPECT_EQ(ShortPeriodDampingLevel(limits, 0.1), 4);
+  EXPECT_EQ(AnticipationLevel(limits, 0.28, 1, 1), 1);
+  EXPECT_EQ(AnticipationLevel(limits, 0.28, 0.9, 1), 2);
+  EXPECT_EQ(AnticipationLevel(limits, 5, 3, 1), 2);
+  EXPECT_EQ(AnticipationLevel(limits, 11, 9, 1), 3);
+  EXPECT_EQ(AnticipationLevel(limits, 0.1, 3, 1), 4);
+  EXPECT_EQ(PhugoidLevel(limits, 0.04, INFINITY), 1);
+  EXPECT_EQ(PhugoidLevel(limits, 0, INFINITY), 2);
+  EXPECT_EQ(PhugoidLevel(limits, -0.01, 60), 3);
+  EXPECT_EQ(PhugoidLevel(limits, -0.1, 50), 4);
+  EXPECT_EQ(DutchRollLevel(limits, 0.19, 2), 1);
+  EXPECT_EQ(DutchRollLevel(limits, 0.19, 1.5), 2) << "damping times frequency";
+  EXPECT_EQ(DutchRollLevel(limits, 0.01, 2), 3);
+  EXPECT_EQ(DutchRollLevel(limits, -0.01, 2), 4);
+  EXPECT_EQ(RollModeLevel(limits, 1), 1);
+  EXPECT_EQ(RollModeLevel(limits, 1.3), 2);
+  EXPECT_EQ(RollModeLevel(limits, 11), 4);
+  EXPECT_EQ(SpiralLevel(limits, INFINITY), 1);
+  EXPECT_EQ(SpiralLevel(limits, 9), 2);
+  EXPECT_EQ(SpiralLevel(limits, 3), 4);
+  EXPECT_EQ(RollPerformanceLevel(limits, 1.3), 1);
+  EXPECT_EQ(RollPerformanceLevel(limits, INFINITY), 4);
+}
+
+TEST(FlyingQualities, LevelsDependOnClassAndCategory) {
+  const auto of = [](AirplaneClass airplane, FlightPhaseCategory category) {
+    return LimitsOf(airplane, category);
+  };
+  const LevelLimits light = of(AirplaneClass::kI, FlightPhaseCategory::kC);
+  EXPECT_EQ(AnticipationLevel(light, 0.16, 0.87, 2.7), 1);
+  EXPECT_EQ(AnticipationLevel(light, 0.16, 0.87, 2.6), 2) << "n/alpha";
+  EXPECT_EQ(AnticipationLevel(light, 0.16, 0.87, 1.7), 3);
+  EXPECT_EQ(DutchRollLevel(light, 0.15, 1), 1);
+  EXPECT_EQ(RollPerformanceLevel(light, 1.8), 2);
+  EXPECT_EQ(light.bank_deg, 30);
+  const LevelLimits cruise = of(AirplaneClass::kI, FlightPhaseCategory::kB);
+  EXPECT_EQ(AnticipationLevel(cruise, 0.085, 0.3, 1), 1) << "frequency alone is not asked for";
+  EXPECT_EQ(ShortPeriodDampingLevel(cruise, 1.9), 1);
+  EXPECT_EQ(SpiralLevel(cruise, 19), 2);
+  EXPECT_EQ(RollModeLevel(cruise, 1.4), 1);
+  const LevelLimits heavy = of(AirplaneClass::kIII, FlightPhaseCategory::kC);
+  EXPECT_EQ(DutchRollLevel(heavy, 0.2, 0.5), 1) << "a product of 0.1 is enough";
+  EXPECT_EQ(RollModeLevel(heavy, 3), 2);
+  EXPECT_STREQ(heavy.roll_paragraph, "3.3.4.2");
 }
 
 }  // namespace

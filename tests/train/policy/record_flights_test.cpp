@@ -131,6 +131,31 @@ TEST_F(RecordFlightsTest, TheLastStateIsTheOneThatEndedTheFlight) {
   EXPECT_GT(overloads, 5);
 }
 
+// A target that is given is flown as one that was drawn, and what follows from it, too: Control's
+// reward is by a quaternion of the target's angles.
+TEST_F(RecordFlightsTest, FliesToTheTargetThatIsGiven) {
+  constexpr Tolerance kFloat32{1e-5, "a quaternion of angles in float32"};
+  for (const char* task : {"heading", "control"}) {
+    env_.task = task;
+    options_.target.clear();
+    const RecordedFlight drawn = Record(1, pool_).front();
+    options_.target.assign(drawn.target.begin(), drawn.target.end());
+    const RecordedFlight given = Record(1, pool_).front();
+    ASSERT_EQ(given.steps.size(), drawn.steps.size()) << task;
+    for (std::size_t i = 0; i < drawn.steps.size(); ++i) {
+      ASSERT_EQ(given.steps[i].state, drawn.steps[i].state) << task << ", step " << i;
+      ASSERT_NEAR(given.steps[i].reward, drawn.steps[i].reward, kFloat32) << task;
+    }
+    options_.target = {std::nullopt, 0.5f};
+    const RecordedFlight other = Record(1, pool_).front();
+    EXPECT_EQ(other.initial_state, drawn.initial_state);
+    EXPECT_EQ(other.target, (std::vector<float>{drawn.target[0], 0.5f, drawn.target[2]}));
+    EXPECT_NE(other.steps.back().state, drawn.steps.back().state);
+    options_.target.resize(4);
+    EXPECT_THROW(Record(1, pool_), Error);
+  }
+}
+
 TEST_F(RecordFlightsTest, MissionsShowTheTargetOfEveryStepAndWhenItIsReached) {
   env_.mission.length_s = 20;
   env_.mission.dwell_s = 0;

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/commands/agent_flight.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/number_text.h"
+#include "envs/aircraft/aircraft.h"
+#include "src/config/usage_error.h"
+#include "src/files/output_file.h"
+#include "src/files/text_table.h"
+
+namespace skein {
+namespace {
+
+/// An option and the keys that it sets, to what it was given.
+struct OptionKeys {
+  const char* option;
+  std::vector<const char*> keys;
+};
+
+const std::vector<OptionKeys>& KeysOfOptions() {
+  static const std::vector<OptionKeys> keys = {
+      {"--xcg", {"env.cg_chord_fraction"}},
+      {"--heng", {"env.engine_angular_momentum_slug_ft2_per_s"}},
+      {"--drag-rise", {"env.drag_rise"}},
+      {"--thrust-growth", {"env.thrust_growth_above_mach_1"}},
+      {"--atmosphere", {"env.atmosphere"}},
+      {"--gravity-ft-s2", {"env.gravity_ft_s2"}},
+      {"--gravity-falls-with-altitude", {"env.gravity_falls_with_altitude"}},
+      {"--turbulence-fps", {"env.wind.turbulence_min_fps", "env.wind.turbulence_max_fps"}},
+      {"--turbulence-by-altitude", {"env.wind.turbulence_by_altitude"}},
+      {"--step-s", {"env.control_interval_s"}},
+      {"--substeps", {"env.substeps"}},
+      {"--flight-control", {"env.flight_control"}}};
+  return keys;
+}
+
+/// Of tasks whose targets are drawn around the start: how far. A target that is not given then is
+/// what the flight begins with.
+std::vector<std::string> TargetsAtStart(const std::string& task) {
+  std::vector<std::string> assignments;
+  const auto none = [&](const std::vector<const char*>& changes) {
+    for (const char* change : changes) {
+      assignments.push_back(fmt::format("env.{}.{}=0", task, change));
+    }
+  };
+  if (task == "heading") none({"altitude_change_ft", "yaw_change_rad", "speed_change_fps"});
+  if (task == "control") none({"pitch_change_rad", "yaw_change_rad", "speed_change_fps"});
+  return assignments;
+}
+
+std::vector<std::string> WindAssignments(const Eigen::Vector3d& wind) {
+  if (wind.z() != 0) {
+    throw UsageError("--wind-fps: an environment's steady wind is horizontal; down must be 0");
+  }
+  const double from_deg = std::atan2(-wind.y(), -wind.x()) * kDegPerRad;
+  std::vector<std::string> assignments = {"env.wind.step_at_reset=false"};
+  for (const char* end : {"min", "max"}) {
+    assignments.push_back(
+        fmt::format("env.wind.speed_{}_fps={}", end, ShortestText(std::hypot(wind.x(), wind.y()))));
+    assignments.push_back(fmt::format("env.wind.from_{}_deg={}", end, ShortestText(from_deg)));
+  }
+  return assignments;
+}
+
+std::vector<std::string> AssignmentsOf(const CLI::App& command, const AgentFlight& flight) {
+  std::vector<std::string> assignments = {"env.initial.trimmed=true"};
+  const FlightGrid& grid = flight.condition.grid;
+  for (const char* end : {"min", "max"}) {
+    assignments.push_back(
+        fmt::format("env.initial.altitude_{}_ft={}", end, ShortestText(grid.altitude_ft.front())));
+    assignments.push_back(fmt::format("env.initial.true_airspeed_{}_fps={}", end,
+                                      ShortestText(grid.speed_fps.front())));
+  }
+  for (const OptionKeys& entry : KeysOfOptions()) {
+    const CLI::Option* option = command.get_option(entry.option);
+    if (option->count() == 0) continue;
+    for (const char* key : entry.keys) {
+      assignments.push_back(fmt::format("{}={}", key, option->as<std::string>()));
+    }
+  }
+  if (flight.wind_ft_s != nullptr) {
+    for (std::string& text : WindAssignments(*flight.wind_ft_s)) {
+      assignments.push_back(std::move(text));
+    }
+  }
+  return assignments;
+}
+
+void RequireLevelStart(const CLI::App& command) {
+  for (const char* option : {"--flight-path-deg", "--turn-rate-deg-s", "--pull-up-g"}) {
+    if (command.get_option(option)->count() == 0) continue;
+    throw UsageError(fmt::format("{}: what agents fly begins in level flight", option));
+  }
+}
+
+/// Where the flight led: how it ended, and of each target what was asked for and reached.
+void Report(const AgentFlights& flown, double seconds) {
+  const RecordedFlight& flight = flown.flights.front();
+  const FlightTable table = TableOf(flown.env, flight);
+  const Termination end = table.terminations.back();
+  fmt::print("{}: {:.4g} s{}\n", flown.agent, table.columns.front().back(),
+             end == Termination::kNone
+                 ? ""
+                 : fmt::format(" of {}, ended by {}", ShortestText(seconds),
+                               kTerminationNames[static_cast<std::size_t>(end)]));
+  std::vector<std::vector<std::string>> rows = {{"", "at the start", "target", "at the end"}};
+  for (const TargetQuantity& quantity : flown.targets) {
+    const std::string name = quantity.column;
+    const auto figure = [](double value) { return fmt::format("{:.2f}", value); };
+    rows.push_back({name, figure(table.Column(name).front()),
+                    figure(table.Column("target_" + name).back()),
+                    figure(table.Column(name).back())});
+  }
+  fmt::print("{}", InColumns(rows));
+}
+
+}  // namespace
+
+void AddAgentsOfFly(CLI::App* command, FlownAgents* flown) {
+  AddAgents(command, flown);
+  AddEnvironmentOptions(command, TextsOfFlownAgents(), &flown->flight);
+  command
+      ->add_option("--target", flown->targets,
+                   "what an agent flies to, such as altitude_ft=16000, yaw_deg=90, "
+                   "true_airspeed_fps=600; may be repeated (default: as the flight begins, of "
+                   "points and task files as drawn)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+}
+
+void RequireNoAgentOptions(const CLI::App& command) {
+  for (const char* option :
+       {"--task", "--preset", "--config", "--condition", "--set", "--target"}) {
+    if (command.get_option(option)->count() == 0) continue;
+    throw UsageError(fmt::format("{} is for --policy and --agents", option));
+  }
+}
+
+void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents flown) {
+  RequireLevelStart(command);
+  const std::vector<std::string> names = NamesOf(flown);
+  std::vector<std::string> paths;
+  for (const std::string& name : names) {
+    paths.push_back(names.size() == 1 ? flight.out : PathOfAgent(flight.out, name));
+  }
+  CheckWritable(paths);
+  FlightOptions& options = flown.flight;
+  if (command.get_option("--aircraft")->count() > 0) {
+    options.aircraft = flight.condition.model.aircraft;
+  }
+  std::vector<std::string> assignments = AssignmentsOf(command, flight);
+  for (std::string& text : TargetsAtStart(TaskOf(flown))) assignments.push_back(std::move(text));
+  options.assignments.insert(options.assignments.begin(), assignments.begin(), assignments.end());
+  options.episodes = 1;
+  flown.seconds = flight.seconds;
+  const std::vector<AgentFlights> agents = FlyEpisodes(flown);
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    Report(agents[i], flight.seconds);
+    WriteFlightsCsv(options, paths[i], "by " + agents[i].agent, agents[i]);
+  }
+}
+
+}  // namespace skein

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/plot/handling_levels_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "base/number_text.h"
+#include "src/plot/axes.h"
+#include "src/plot/legend.h"
+
+namespace skein {
+namespace {
+
+constexpr double kLeft = 40, kHeightPerWidth = 0.9, kBelowPanel = 40;
+constexpr double kMapHeightPerWidth = 0.24, kPointsPerTick = 46, kHeightPerTick = 24;
+constexpr double kRadius = 2.2, kPale = 0.7;
+constexpr double kLeastPadding = 0.1;  // decades beyond the outermost figures
+
+/// Of levels 1, 2, 3 and what is below; paler than the colours of altitudes.
+constexpr std::array<Colour, 4> kLevelColours = {0xBFE3C8, 0xF6DE8D, 0xE9A08A, 0x8A8A8A};
+constexpr std::array<Dash, 3> kLevelDashes = {Dash::kNone, Dash::kDashed, Dash::kShort};
+
+double LoadFactorByAlpha(const AssessedFlight& flight) {
+  return flight.qualities.load_factor_by_alpha;
+}
+double Frequency(const AssessedFlight& flight) {
+  return flight.qualities.short_period.frequency_rad_s;
+}
+double Damping(const AssessedFlight& flight) { return flight.qualities.short_period.damping_ratio; }
+
+/// The worse of what 3.2.2.1 asks of the frequency and of the damping.
+int ShortPeriodLevel(const AssessedFlight& flight) {
+  int worst = 1;
+  for (const Requirement& requirement : flight.qualities.requirements) {
+    const bool counts = std::string(requirement.paragraph).rfind("3.2.2.1", 0) == 0;
+    if (counts) worst = std::max(worst, requirement.level);
+  }
+  return worst;
+}
+
+Range Decades(const std::vector<double>& values) {
+  std::vector<double> logs;
+  for (const double value : values) logs.push_back(std::log10(value));
+  const Range span = SpanOf(logs);
+  return {span.min - kLeastPadding, span.max + kLeastPadding};
+}
+
+/// Of a panel of logarithms: 1, 2 and 5 times powers of ten.
+std::vector<double> LogTicks(const Range& decades) {
+  std::vector<double> ticks;
+  for (double power = std::floor(decades.min); power <= decades.max; ++power) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double tick = power + std::log10(digit);
+      if (tick >= decades.min && tick <= decades.max) ticks.push_back(tick);
+    }
+  }
+  return ticks;
+}
+
+class LevelsDrawing {
+ public:
+  LevelsDrawing(const std::vector<AssessedFlight>& flights, const LevelLimits& limits, double width)
+      : flights_(flights), limits_(limits), width_(width) {
+    std::vector<double> speeds;
+    for (const AssessedFlight& flight : flights) {
+      altitudes_.emplace(flight.request.altitude_ft, 0);
+      speeds.push_back(flight.request.true_airspeed_ft_s);
+    }
+    speeds_ = SpanOf(speeds);
+    std::size_t index = 0;
+    for (auto& [altitude, colour] : altitudes_) colour = ColourOf(index++);
+  }
+
+  Picture Draw(const std::string& title) {
+    const double top = DrawTitle(title, width_, &shapes_) + 8;
+    const double panel_width = (width_ - 2 * kLeft - kMargin) / 2;
+    DrawFrequencies({kLeft, top}, panel_width);
+    DrawDamping({2 * kLeft + panel_width, top}, panel_width);
+    const double middle = top + kHeightPerWidth * panel_width + kBelowPanel;
+    const double map_bottom = DrawMap(middle);
+    const double bottom =
+        DrawLegend({kLeft, map_bottom + kBelowPanel}, width_ - kMargin, Entries(), &shapes_);
+    return FinishedPicture(width_, bottom, title.empty() ? "Handling levels" : title,
+                           std::move(shapes_));
+  }
+
+ private:
+  void Name(const Panel& panel, const std::string& words) {
+    shapes_.emplace_back(Words{{panel.left() + panel.width() / 2, panel.bottom() + 22},
+                               words,
+                               kTextSize,
+                               Anchor::kMiddle});
+  }
+
+  Colour ColourAt(const AssessedFlight& flight) const {
+    const double width = speeds_.max - speeds_.min;
+    const double share = width > 0 ? (flight.request.true_airspeed_ft_s - speeds_.min) / width : 1;
+    return Mixed(altitudes_.at(flight.request.altitude_ft), kWhite, kPale * (1 - share));
+  }
+
+  void DrawDot(const Panel& panel, double x, double y, const AssessedFlight& flight) {
+    const bool is_shown = x >= panel.x_range().min && x <= panel.x_range().max &&
+                          y >= panel.y_range().min && y <= panel.y_range().max;
+    if (is_shown)
+      shapes_.emplace_back(Disc{panel.Place(x, y), kRadius, ColourAt(flight), kGrey, 0.3});
+  }
+
+  /// frequency = sqrt(anticipation n/alpha), as far as the panel shows it; a line in logarithms.
+  void DrawAnticipation(const Panel& panel, double anticipation, Dash dash) {
+    const Range &x = panel.x_range(), &y = panel.y_range();
+    const double at_zero = 0.5 * std::log10(anticipation);
+    const double from = std::max(x.min, 2 * (y.min - at_zero));
+    const double to = std::min(x.max, 2 * (y.max - at_zero));
+    if (from >= to) return;
+    panel.DrawCurve({{from, at_zero + from / 2}, {to, at_zero + to / 2}}, kInk, 0.8, dash,
+                    &shapes_);
+  }
+
+  /// A boundary at a height, as far as it is in the panel.
+  void DrawLevelLine(const Panel& panel, double height, Dash dash) {
+    if (!(height > panel.y_range().min && height < panel.y_range().max)) return;
+    panel.DrawCurve({{panel.x_range().min, height}, {panel.x_range().max, height}}, kInk, 0.8, dash,
+                    &shapes_);
+  }
+
+  void DrawFrequencies(PagePoint corner, double width) {
+    std::vector<double> across, up;
+    for (const AssessedFlight& flight : flights_) {
+      across.push_back(LoadFactorByAlpha(flight));
+      up.push_back(Frequency(flight));
+    }
+    for (const double frequency : limits_.short_period_frequency_min) {
+      if (frequency > 0) up.push_back(frequency);
+    }
+    const Panel panel(corner, width, kHeightPerWidth * width, Decades(across), Decades(up));
+    const auto x_ticks = LogTicks(panel.x_range()), y_ticks = LogTicks(panel.y_range());
+    panel.DrawGrid(x_ticks, y_ticks, &shapes_);
+    for (const double tick : x_ticks) {
+      shapes_.emplace_back(Words{{panel.Place(tick, 0).x, panel.bottom() + 10},
+                                 TickText(std::pow(10, tick)),
+                                 kSmallSize,
+                                 Anchor::kMiddle});
+    }
+    for (const double tick : y_ticks) {
+      shapes_.emplace_back(Words{{panel.left() - 3, panel.Place(0, tick).y + 0.35 * kSmallSize},
+                                 TickText(std::pow(10, tick)),
+                                 kSmallSize,
+                                 Anchor::kEnd});
+    }
+    for (std::size_t level = 0; level < kLevelDashes.size(); ++level) {
+      for (const LevelLimit& limit : {limits_.anticipation_min, limits_.anticipation_max}) {
+        const bool is_new = level == 0 || limit[level] != limit[level - 1];
+        if (is_new && std::isfinite(limit[level])) {
+          DrawAnticipation(panel, limit[level], kLevelDashes[level]);
+        }
+      }
+      if (limits_.short_period_frequency_min[level] > 0) {
+        DrawLevelLine(panel, std::log10(limits_.short_period_frequency_min[level]),
+                      kLevelDashes[level]);
+      }
+    }
+    Name(panel, "n/alpha, g/rad; upwards frequency, rad/s");
+    for (const AssessedFlight& flight : flights_) {
+      DrawDot(panel, std::log10(LoadFactorByAlpha(flight)), std::log10(Frequency(flight)), flight);
+    }
+  }
+
+  void DrawDamping(PagePoint corner, double width) {
+    std::vector<double> across, up = {0};
+    for (const AssessedFlight& flight : flights_) {
+      across.push_back(flight.request.true_airspeed_ft_s);
+      up.push_back(Damping(flight));
+    }
+    for (const double damping : limits_.short_period_damping_max) up.push_back(damping);
+    const Panel panel(corner, width, kHeightPerWidth * width, Padded(across), Padded(up));
+    const auto x_ticks = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
+    const auto y_ticks = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
+    panel.DrawGrid(x_ticks, y_ticks, &shapes_);
+    panel.LabelLeft(y_ticks, &shapes_);
+    panel.LabelBottom(x_ticks, &shapes_);
+    for (std::size_t level = 0; level < kLevelDashes.size(); ++level) {
+      DrawLevelLine(panel, limits_.short_period_damping_min[level], kLevelDashes[level]);
+      DrawLevelLine(panel, limits_.short_period_damping_max[level], kLevelDashes[level]);
+    }
+    Name(panel, "true airspeed, ft/s; upwards damping ratio");
+    for (const AssessedFlight& flight : flights_) {
+      DrawDot(panel, flight.request.true_airspeed_ft_s, Damping(flight), flight);
+    }
+  }
+
+  /// A mark for every flight in the colour of its level; returns the map's lower edge.
+  double DrawMap(double top) {
+    constexpr double kHalfWidth = 7, kHalfHeight = 5;
+    std::vector<double> across, up;
+    for (const AssessedFlight& flight : flights_) {
+      across.push_back(flight.request.true_airspeed_ft_s);
+      up.push_back(flight.request.altitude_ft);
+    }
+    const double width = width_ - kLeft - kMargin;
+    const Panel panel({kLeft, top}, width, kMapHeightPerWidth * width, Padded(across), Padded(up));
+    const auto x_ticks = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
+    const auto y_ticks = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
+    panel.DrawGrid(x_ticks, y_ticks, &shapes_);
+    panel.LabelLeft(y_ticks, &shapes_);
+    panel.LabelBottom(x_ticks, &shapes_);
+    Name(panel, "true airspeed, ft/s; upwards altitude, ft: the level of both");
+    for (const AssessedFlight& flight : flights_) {
+      const Colour colour = kLevelColours[static_cast<std::size_t>(ShortPeriodLevel(flight)) - 1];
+      const PagePoint at =
+          panel.Place(flight.request.true_airspeed_ft_s, flight.request.altitude_ft);
+      const double left = at.x - kHalfWidth, right = at.x + kHalfWidth;
+      const double high = at.y - kHalfHeight, low = at.y + kHalfHeight;
+      shapes_.emplace_back(Area({{left, high}, {right, high}, {right, low}, {left, low}}, colour));
+    }
+    return panel.bottom();
+  }
+
+  static LegendEntry DotEntry(Colour colour, const std::string& words) {
+    return {[colour](PagePoint left, std::vector<Shape>* shapes) {
+              shapes->emplace_back(
+                  Disc{{left.x + kSampleWidth / 2, left.y}, kRadius, colour, std::nullopt});
+            },
+            words};
+  }
+
+  std::vector<LegendEntry> Entries() const {
+    std::vector<LegendEntry> entries;
+    for (std::size_t level = 0; level < kLevelDashes.size(); ++level) {
+      entries.push_back({LineSample(kInk, 0.8, kLevelDashes[level]),
+                         fmt::format("boundary of level {}", level + 1)});
+    }
+    for (const auto& [altitude, colour] : altitudes_) {
+      entries.push_back(DotEntry(colour, TickText(altitude) + " ft"));
+    }
+    std::array<bool, kLevelColours.size()> seen{};
+    for (const AssessedFlight& flight : flights_) {
+      seen[static_cast<std::size_t>(ShortPeriodLevel(flight)) - 1] = true;
+    }
+    for (std::size_t level = 0; level < seen.size(); ++level) {
+      if (!seen[level]) continue;
+      entries.push_back({BandSample(kLevelColours[level], 1),
+                         level < 3 ? fmt::format("level {}", level + 1) : "below level 3"});
+    }
+    return entries;
+  }
+
+  const std::vector<AssessedFlight>& flights_;
+  const LevelLimits& limits_;
+  double width_;
+  Range speeds_;
+  std::map<double, Colour> altitudes_;
+  std::vector<Shape> shapes_;
+};
+
+}  // namespace
+
+Picture DrawHandlingLevels(const std::vector<AssessedFlight>& flights, const LevelLimits& limits,
+                           double width, const std::string& title) {
+  return LevelsDrawing(flights, limits, width).Draw(title);
+}
+
+}  // namespace skein

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skein fdm fly`: sticks of a file in the float64 closed loop, and agents in the environments.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "src/files/output_file.h"
+#include "src/report/csv_columns.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+#include "tests/tolerance.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kHeadingPolicy = SKEIN_SOURCE "/policies/heading.skein";
+
+using Words = std::vector<std::string>;
+
+Words operator+(Words a, const Words& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+class FdmFly : public ::testing::Test {
+ protected:
+  CsvColumns Flown(const Words& words) const {
+    const std::string path = folder_ + "/flown.csv";
+    const ProgramResult result = CallSkein(Words{"fdm", "fly"} + words + Words{"-o", path});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return ParseCsv(ReadFile(path));
+  }
+
+  ScratchDirectory scratch_;
+  const std::string folder_ = scratch_.path();
+};
+
+TEST_F(FdmFly, HandsOffTheFlightGoesOnInAnyWind) {
+  constexpr Tolerance kAltitude{1.5, "a centred stick asks for 1 g, the trim has 0.997: ft in 5 s"};
+  const auto fly = [&](const std::string& wind) {
+    const std::string path = folder_ + "/fly.csv";
+    const ProgramResult result =
+        CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps", "500", "--seconds", "5",
+                   "--wind-fps", wind, "-o", path});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return ParseCsv(ReadFile(path));
+  };
+  const CsvColumns calm = fly("0,0,0"), windy = fly("-40,30,0");
+  ASSERT_EQ(calm.rows(), 251u);
+  EXPECT_NEAR(calm.Find("altitude_ft")->back(), 15000, kAltitude);
+  for (const char* same : {"altitude_ft", "alpha_deg", "load_factor_g", "elevator_deg"}) {
+    EXPECT_NEAR(windy.Find(same)->back(), calm.Find(same)->back(), 1e-3) << same;
+  }
+  EXPECT_NEAR(windy.Find("north_ft")->back(), calm.Find("north_ft")->back() - 5 * 40, kAltitude);
+  EXPECT_NEAR(windy.Find("east_ft")->back(), calm.Find("east_ft")->back() + 5 * 30, kAltitude);
+}
+
+TEST_F(FdmFly, GustsHaveTheirDeviationAndSeed) {
+  const auto fly = [&](const std::string& seed) {
+    const std::string path = folder_ + "/gusts.csv";
+    EXPECT_EQ(
+        CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps", "500", "--seconds", "300",
+                   "--step-s", "0.05", "--turbulence-fps", "5", "--seed", seed, "-o", path})
+            .exit_code,
+        0);
+    return ParseCsv(ReadFile(path));
+  };
+  const CsvColumns first = fly("1"), again = fly("1"), other = fly("2");
+  EXPECT_EQ(first.values.at(18), again.values.at(18));
+  const std::vector<double>&gusts = *first.Find("wind_down_fps"),
+        &others = *other.Find("wind_down_fps");
+  EXPECT_NE(gusts, others);
+  double square = 0;
+  for (const double gust : gusts) square += gust * gust / static_cast<double>(gusts.size());
+  // 300 s are some 40 independent gusts of 1750 ft at 500 ft/s.
+  constexpr Tolerance kSamples{0.3, "of 5 ft/s, relative"};
+  EXPECT_NEAR(std::sqrt(square), 5, kSamples * 5);
+}
+
+TEST_F(FdmFly, GustsMayBeAsStrongAsTheStandardHasThemThere) {
+  const auto deviation = [&](const std::string& altitude) {
+    const std::string path = folder_ + "/gusts.csv";
+    const ProgramResult result = CallSkein(
+        {"fdm", "fly", "--altitude-ft", altitude, "--speed-fps", "700", "--seconds", "100",
+         "--step-s", "0.05", "--turbulence-fps", "7.3", "--turbulence-by-altitude", "-o", path});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    const CsvColumns table = ParseCsv(ReadFile(path));
+    double square = 0;
+    for (const double gust : *table.Find("wind_down_fps")) square += gust * gust;
+    return std::sqrt(square / static_cast<double>(table.rows()));
+  };
+  // MIL-F-8785C, figure 7: 7.3 ft/s at 20,000 ft, 5.0 at 35,000 ft; the same random numbers.
+  constexpr Tolerance kPath{0.1, "gusts of the same draws, met along another path, relative"};
+  EXPECT_NEAR(deviation("35000") / deviation("20000"), 5.0 / 7.3, kPath);
+}
+
+TEST_F(FdmFly, SticksOfAFileAreFlown) {
+  const std::string sticks = folder_ + "/sticks.csv", path = folder_ + "/fly.csv";
+  WriteFile(sticks, "time_s,roll\n0,0\n1,0.2\n2,0");
+  const std::vector<std::string> words = {
+      "fdm",       "fly", "--altitude-ft", "15000", "--speed-fps", "500",
+      "--seconds", "3",   "--commands",    sticks,  "-o",          path};
+  ASSERT_EQ(CallSkein(words).exit_code, 0);
+  const CsvColumns flown = ParseCsv(ReadFile(path));
+  const std::vector<double>& stick = *flown.Find("action_roll");
+  EXPECT_EQ(stick[50], 0) << "in the step that ends at 1 s";
+  EXPECT_EQ(stick[51], 0.2);
+  EXPECT_EQ(stick[101], 0);
+  EXPECT_GT(flown.Find("p_deg_s")->at(100), 30);
+  EXPECT_GT(flown.Find("roll_deg")->at(100), 20);
+  const ProgramResult drawn =
+      CallSkein({"plot", "flights", path, "--columns", "p_deg_s", "-o", folder_ + "/fly.svg"});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.error;
+  const ProgramResult lost = CallSkein({"fdm", "fly", "--altitude-ft", "15000", "--speed-fps",
+                                        "500", "--seconds", "30", "--step-s", "0.5", "-o", path});
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_THAT(lost.error, HasSubstr("is a step of 0.5 s short enough?"));
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"", "expected a header"},
+      {"time_s,roll\n", "expected a header"},
+      {"time_s,roll\n0,0,0\n", "expected a header"},
+      {"roll\n0\n", "no column time_s"},
+      {"time_s,stick\n0,0\n", "column stick"},
+      {"time_s,roll\n1,0\n1,0\n", "row 2: times are from 0 on and increase"},
+      {"time_s,roll\nx,0\n", "row 1: times"},
+      {"time_s,roll\n0,2\n", "row 1: roll is not a number from -1 to 1"},
+      {"time_s,throttle\n0,-1\n", "throttle is not a number from 0 to 1"}};
+  for (const auto& [text, expected] : wrong) {
+    WriteFile(sticks, text);
+    const ProgramResult result = CallSkein(words);
+    EXPECT_EQ(result.exit_code, 1) << text;
+    EXPECT_THAT(result.error, HasSubstr(expected));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+}
+
+Words StartOf(const std::string& altitude, const std::string& speed) {
+  Words words;
+  for (const char* end : {"min", "max"}) {
+    words =
+        words + Words{"--set", "env.initial.altitude_" + std::string(end) + "_ft=" + altitude,
+                      "--set", "env.initial.true_airspeed_" + std::string(end) + "_fps=" + speed};
+  }
+  return words;
+}
+
+// The environments fly for it: not one bit of the file is another.
+TEST_F(FdmFly, APolicyFliesAsInAReplayFromTheSameStart) {
+  const std::string replayed = folder_ + "/replayed.csv", flown = folder_ + "/flown.csv";
+  Words words = {"replay", "--policy", kHeadingPolicy, "--episodes", "1",     "--seed",
+                 "3",      "--hold",   "2500",         "-o",         replayed};
+  for (const char* key :
+       {"heading.altitude_change_ft=0", "heading.yaw_change_rad=0", "heading.speed_change_fps=0",
+        "wind.speed_min_fps=50", "wind.speed_max_fps=50", "wind.from_min_deg=-90",
+        "wind.from_max_deg=-90", "wind.step_at_reset=false", "wind.turbulence_min_fps=3.7",
+        "wind.turbulence_max_fps=3.7", "wind.turbulence_by_altitude=true", "drag_rise=true",
+        "gravity_falls_with_altitude=true", "atmosphere=standard_1976", "substeps=2",
+        "time_limit_steps=2500"}) {
+    words = words + Words{"--set", std::string("env.") + key};
+  }
+  words = words + StartOf("21000", "900");
+  const ProgramResult replay = CallSkein(words);
+  ASSERT_EQ(replay.exit_code, 0) << replay.error;
+  const ProgramResult fly = CallSkein({"fdm",
+                                       "fly",
+                                       "--policy",
+                                       kHeadingPolicy,
+                                       "--altitude-ft",
+                                       "21000",
+                                       "--speed-fps",
+                                       "900",
+                                       "--seed",
+                                       "3",
+                                       "--wind-fps",
+                                       "0,50,0",
+                                       "--turbulence-fps",
+                                       "3.7",
+                                       "--turbulence-by-altitude",
+                                       "--drag-rise",
+                                       "--gravity-falls-with-altitude",
+                                       "--atmosphere",
+                                       "standard_1976",
+                                       "--substeps",
+                                       "2",
+                                       "--seconds",
+                                       "50",
+                                       "-o",
+                                       flown});
+  ASSERT_EQ(fly.exit_code, 0) << fly.error;
+  // The replay goes on: it holds what it has reached.
+  const std::string text = ReadFile(flown);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2502);
+  EXPECT_EQ(text, ReadFile(replayed).substr(0, text.size()));
+}
+
+TEST_F(FdmFly, AgentsFlyToTheTargetsThatAreGiven) {
+  const Words start = {"--altitude-ft", "20000", "--speed-fps", "1000", "--seconds", "60"};
+  for (const Words& agent :
+       {Words{"--policy", kHeadingPolicy}, Words{"--agents", "autopilot", "--task", "heading"}}) {
+    const CsvColumns flown =
+        Flown(start + agent + Words{"--target", "yaw_deg=450", "--target", "altitude_ft=21000"});
+    ASSERT_EQ(flown.rows(), 3001u);
+    EXPECT_NEAR(flown.Find("target_yaw_deg")->front(), 90, 1e-4) << "a whole turn less";
+    EXPECT_EQ(flown.Find("target_altitude_ft")->back(), 21000);
+    EXPECT_EQ(flown.Find("target_true_airspeed_fps")->back(), 1000) << "as at the start";
+    EXPECT_EQ(flown.Find("altitude_ft")->front(), 20000);
+    EXPECT_NEAR(flown.Find("yaw_deg")->back(), 90, 5);
+    EXPECT_NEAR(flown.Find("altitude_ft")->back(), 21000, 100);
+  }
+  const CsvColumns control = Flown({"--altitude-ft", "20000", "--speed-fps", "1000", "--policy",
+                                    SKEIN_SOURCE "/policies/control.skein", "--target",
+                                    "pitch_deg=10", "--seconds", "15"});
+  EXPECT_NEAR(control.Find("pitch_deg")->back(), 10, 5);
+}
+
+TEST_F(FdmFly, WhatAgentsCannotFlySaysSo) {
+  const Words start = {"fdm",  "fly", "--altitude-ft",   "20000", "--speed-fps",
+                       "1000", "-o",  folder_ + "/x.csv"};
+  const Words autopilot = {"--agents", "autopilot", "--task", "heading"};
+  const std::vector<std::pair<Words, std::string>> cases = {
+      {{"--agents", "autopilot"}, "--task is needed"},
+      {{"--target", "yaw_deg=3"}, "--target is for --policy and --agents"},
+      {{"--agents", "autopilot", "--commands", "x.csv"}, "excludes"},
+      {autopilot + Words{"--target", "pitch_deg=3"},
+       "targets of heading are altitude_ft, yaw_deg, true_airspeed_fps"},
+      {autopilot + Words{"--target", "yaw_deg"}, "give yaw_deg=NUMBER"},
+      {autopilot + Words{"--target", "yaw_deg=nan"}, "give yaw_deg=NUMBER"},
+      {{"--agents", "autopilot", "--task", "control", "--target", "pitch_deg=91"}, "-90 to 90"},
+      {autopilot + Words{"--pull-up-g", "3"}, "begins in level flight"},
+      {autopilot + Words{"--wind-fps", "0,0,3"}, "down must be 0"},
+      {{"--agents", "pilot", "--task", "heading"}, "pilot"},
+      {autopilot + Words{"--set", "ppo.epochs=3"}, "is for trainings"}};
+  for (const auto& [words, expected] : cases) {
+    const ProgramResult result = CallSkein(start + words);
+    EXPECT_EQ(result.exit_code, 2) << expected << result.error;
+    EXPECT_THAT(result.error, HasSubstr(expected));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+  const ProgramResult stalled =
+      CallSkein({"fdm", "fly", "--altitude-ft", "20000", "--speed-fps", "60", "--agents",
+                 "autopilot", "--task", "heading", "-o", folder_ + "/x.csv"});
+  EXPECT_NE(stalled.exit_code, 0);
+  EXPECT_EQ(std::count(stalled.error.begin(), stalled.error.end(), '\n'), 1) << stalled.error;
+}
+
+}  // namespace
+}  // namespace skein
