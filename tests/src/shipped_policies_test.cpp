@@ -57,6 +57,13 @@ const ShippedPolicy kPolicies[] = {
      0.94,
      HoldLimits{0.75, 6, 0.5, 0.3},
      SmoothnessLimits{0.9, 5, 0.01}},
+    {"control-robust",
+     "control",
+     {"--set", "env.control.dwell_s=3", "--hold", "30", "--condition", "plant=middle",
+      "--condition", "noisy=middle"},
+     0.88,
+     HoldLimits{0.7, 5, 0.2, 0.3},
+     SmoothnessLimits{0.6, 4.5, 0.01}},
     // Steep dives and climbs cannot be held: thrust.
     {"control",
      "control",
