@@ -38,6 +38,9 @@ std::string NearestName(const std::string& name, const std::vector<std::string>&
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     if (IsLastPartOf(name, candidate)) return candidate;
+    // The distance is at least the difference in length.
+    const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
+    if (longer - shorter >= best) continue;
     const std::size_t distance = EditDistance(name, candidate);
     if (distance < best) {
       best = distance;
