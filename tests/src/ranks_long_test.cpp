@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many ranks, and ranks that die at any moment: what takes minutes.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <random>
+
+#include "tests/src/ranks_fixture.h"
+#include "tests/src/run_program.h"
+#include "tests/src/training_fixture.h"
+
+namespace skein {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const std::vector<std::string> kShards = {"--set", "learner.shards=16", "--threads", "1"};
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class ManyRanks : public RanksFixture {
+ protected:
+  /// Kills one of `count` ranks after `delay_s`, or none if they have ended by then, and returns
+  /// once the job has.
+  void TrainAndKill(int count, double delay_s, std::mt19937* random) {
+    const Clock::time_point start = Clock::now();
+    RunningProgram training(ProgramWords{Mpirun(count, TinyTraining(run_, kShards))});
+    training.WaitUntil([&] { return SecondsSince(start) > delay_s; });
+    const std::vector<pid_t> ranks = ProcessesOf(run_);
+    if (!ranks.empty()) kill(ranks[(*random)() % ranks.size()], SIGKILL);
+    const Clock::time_point killed = Clock::now();
+    training.Wait();
+    EXPECT_LT(SecondsSince(killed), kTimeout_s);
+    for (const pid_t rank : ranks) EXPECT_NE(kill(rank, 0), 0) << "process " << rank << " is left";
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
+  }
+
+  /// Goes on by one process, or begins if the job was killed before it had made its run.
+  void Finish() {
+    const bool has_begun = std::filesystem::exists(run_ + "/config.toml");
+    if (!has_begun) std::filesystem::remove_all(run_);
+    const ProgramResult result =
+        RunSkein(has_begun ? std::vector<std::string>{"train", "--resume", run_, "--threads", "1"}
+                           : TinyTraining(run_, kShards));
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+  }
+
+  static constexpr double kTimeout_s = 60;
+  std::string reference_ = scratch_ / "reference", run_ = scratch_ / "run";
+};
+
+TEST_F(ManyRanks, ThirtyKillsAtAnyMomentLoseNothing) {
+  constexpr int kKills = 30;
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  const Clock::time_point start = Clock::now();
+  ASSERT_EQ(RunWords(Mpirun(4, TinyTraining(run_, kShards))).exit_code, 0);
+  const double whole_s = SecondsSince(start);
+  std::mt19937 random(1);
+  for (int trial = 0; trial < kKills; ++trial) {
+    SCOPED_TRACE(trial);
+    std::filesystem::remove_all(run_);
+    const double share = std::uniform_real_distribution<>(0, 1)(random);
+    TrainAndKill(trial % 2 == 0 ? 4 : 2, share * whole_s, &random);
+    Finish();
+    ExpectSameRun(reference_, run_);
+  }
+}
+
+TEST_F(ManyRanks, SixteenAreOneInEveryPrecision) {
+  for (const char* precision : {"fp32", "mixed", "bf16", "fast"}) {
+    SCOPED_TRACE(precision);
+    std::vector<std::string> more = kShards;
+    more.insert(more.end(), {"--set", std::string("learner.precision=") + precision});
+    const std::string alone = reference_ + precision, together = run_ + precision;
+    ASSERT_EQ(RunSkein(TinyTraining(alone, more)).exit_code, 0);
+    const ProgramResult result = RunWords(Mpirun(16, TinyTraining(together, more)));
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    ExpectSameRun(alone, together);
+  }
+}
+
+}  // namespace
+}  // namespace skein
