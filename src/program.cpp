@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "base/choice_error.h"
 #include "src/bench/version.h"
-#include "src/commands/command_tree.h"
 #include "src/commands/commands.h"
 #include "src/commands/plot_command.h"
+#include "src/commands/wrong_usage.h"
 #include "src/config/configuration.h"
 #include "src/config/key_reference.h"
-#include "src/config/nearest_name.h"
 #include "src/config/usage_error.h"
 #include "train/files/file_descriptor.h"
 
@@ -44,37 +44,15 @@ void PrintError(const std::string& message) {
   fmt::print(stderr, "skein: error: {}\n", FirstLine(message));
 }
 
-/// The deepest subcommand that the command line reached, as "skein fdm eval".
-std::string CommandPath(const CLI::App& app) {
-  std::string path = app.get_name();
-  for (const CLI::App* sub : app.get_subcommands()) path += " " + CommandPath(*sub);
-  return path;
-}
-
-/// What is wrong with the command line. Names that are not known come first: CLI11 says that what
-/// is required is missing where it was misspelt.
-std::string WrongUsage(const CLI::App& app, const CLI::ParseError& error) {
-  const CLI::App* deepest = &app;
-  while (!deepest->get_subcommands().empty()) deepest = deepest->get_subcommands().front();
-  const std::vector<std::string> unknown = deepest->remaining();
-  for (const std::string& argument : unknown) {
-    if (argument.rfind('-', 0) != 0) continue;
-    if (argument.rfind("--controller", 0) == 0) return "--controller is now called --low-level";
-    return "unknown option " + argument + DidYouMean(argument, OptionNames(*deepest));
-  }
-  if (CommandsOf(*deepest).empty() || unknown.empty()) return FirstLine(error.what());
-  return UnknownCommand(*deepest, unknown.front());
-}
-
 /// Throws on an empty argument and on "--option=": an unset variable of a shell is no choice.
 void RefuseEmptyValues(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument.empty()) {
-      throw CLI::ArgumentMismatch(fmt::format("the argument after {} is empty", argv[i - 1]));
+      throw CLI::ValidationError(fmt::format("the argument after {} is empty", argv[i - 1]));
     }
     if (argument.rfind("--", 0) == 0 && argument.find('=') == argument.size() - 1) {
-      throw CLI::ArgumentMismatch(argument + " has no value");
+      throw CLI::ValidationError(argument + " has no value");
     }
   }
 }
@@ -141,7 +119,7 @@ int RunCommand(int argc, char** argv) {
     app.exit(success);
     return ExitCode();
   } catch (const CLI::ParseError& error) {
-    PrintError(fmt::format("{} (see {} --help)", WrongUsage(app, error), CommandPath(app)));
+    PrintError(WrongUsage(app, error));
     return kExitUsage;
   }
 }
@@ -151,6 +129,9 @@ int RunToExitCode(int argc, char** argv) {
   try {
     return RunCommand(argc, argv);
   } catch (const UsageError& error) {
+    PrintError(error.what());
+    return kExitUsage;
+  } catch (const ChoiceError& error) {
     PrintError(error.what());
     return kExitUsage;
   } catch (const std::filesystem::filesystem_error& error) {

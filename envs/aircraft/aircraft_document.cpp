@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "envs/aircraft/aircraft_json.h"
@@ -118,8 +119,10 @@ AircraftDocument ReadAircraftDocument(const std::string& name, std::string_view 
 AircraftDocument ReadAircraftDocumentFile(const std::string& path) {
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
-  if (!std::filesystem::exists(status)) throw Error(path + ": there is no such aircraft file");
-  if (!std::filesystem::is_regular_file(status)) throw Error(path + ": is not a file");
+  if (!std::filesystem::exists(status)) {
+    throw ChoiceError(path + ": there is no such aircraft file");
+  }
+  if (!std::filesystem::is_regular_file(status)) throw ChoiceError(path + ": is not a file");
   std::ifstream file(path, std::ios::binary);
   // One byte beyond what is allowed shows that it is too long.
   std::string text(kMaxAircraftBytes + 1, '\0');

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 #include "envs/aircraft/aircraft_document.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
@@ -78,8 +79,8 @@ SharedAircraft Find(const std::string& aircraft) {
   }
   std::string names;
   for (const std::string& name : AircraftNames()) names += (names.empty() ? "" : ", ") + name;
-  throw Error("unknown aircraft \"" + aircraft + "\"; known: " + names +
-              ", or the path of a file, FILE.json");
+  throw ChoiceError("unknown aircraft \"" + aircraft + "\"; known: " + names +
+                    ", or the path of a file, FILE.json");
 }
 
 }  // namespace

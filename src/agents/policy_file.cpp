@@ -9,6 +9,7 @@
 #include "envs/vec_env.h"
 #include "src/config/configuration.h"
 #include "src/files/installed_file.h"
+#include "src/run/require_run.h"
 #include "src/run/run_directory.h"
 #include "train/policy/policy_parameters.h"
 
@@ -27,11 +28,8 @@ std::string PathOrInstalledPolicy(const std::string& path) {
 }  // namespace
 
 std::string PolicyFileOf(const std::string& path) {
-  if (!IsRunDirectory(path)) {
-    if (!std::filesystem::is_directory(path)) return PathOrInstalledPolicy(path);
-    throw Error(
-        fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
-  }
+  if (!std::filesystem::is_directory(path)) return PathOrInstalledPolicy(path);
+  RequireRun(path);
   const std::string checkpoints = path + "/checkpoints";
   for (const char* name : {"/policy-best.skein", "/policy-final.skein"}) {
     if (std::filesystem::exists(checkpoints + name)) return checkpoints + name;

@@ -41,8 +41,9 @@ FlightLimits LimitsOfGains(const FlightControlGains& gains) {
   return limits;
 }
 
-CheckedAircraft Checked(const Aircraft& aircraft, const FlightLimits& limits) {
-  return {aircraft.name,
+CheckedAircraft Checked(const AircraftDocument& document, const Aircraft& aircraft,
+                        const FlightLimits& limits) {
+  return {document,
           Plant(aircraft, kAtmosphere),
           {limits.max_load_factor_g, limits.min_load_factor_g, LimitsOfEnvelope(limits, aircraft)},
           true,
@@ -136,13 +137,13 @@ CheckedAircraft LoadForCheck(const std::string& aircraft) {
   const AircraftDocument document = DocumentOf(aircraft);
   if (document.model == "tables") {
     const Aircraft tables = MakeAircraft(document);
-    CheckedAircraft checked = Checked(tables, LimitsOfGains(tables.flight_control));
+    CheckedAircraft checked = Checked(document, tables, LimitsOfGains(tables.flight_control));
     checked.findings = CheckAirframe(tables.airframe);
     return checked;
   }
   const DerivativeAircraft model =
       ReadDerivativeAircraft(document.name, document.text, FlightControlSection::kOptional);
-  CheckedAircraft checked = Checked(MakeAircraft(model), model.limits);
+  CheckedAircraft checked = Checked(document, MakeAircraft(model), model.limits);
   checked.has_flight_control = model.has_flight_control;
   checked.findings = CheckDerivatives(model);
   return checked;

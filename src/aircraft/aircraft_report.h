@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "envs/aircraft/aircraft_document.h"
 #include "envs/tuning/aircraft_findings.h"
 
 namespace skein {
@@ -11,7 +12,7 @@ namespace skein {
 /// An aircraft as it is checked: in the U.S. Standard Atmosphere 1976, the centre of gravity where
 /// its tables or derivatives are taken.
 struct CheckedAircraft {
-  std::string name;
+  AircraftDocument document;
   Plant plant;
   TuningLimits limits;
   bool has_flight_control = true;

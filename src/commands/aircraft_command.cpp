@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "envs/aircraft/aircraft_document.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/aircraft/flight_control_file.h"
 #include "src/aircraft/aircraft_report.h"
@@ -48,7 +47,7 @@ void Check(const std::string& aircraft, const std::string& task) {
   fmt::print("{}\n", report.figures);
   const int errors = PrintFindings(report.findings);
   if (errors > 0) throw Error(fmt::format("{} has {}", aircraft, Counted(errors, "error")));
-  fmt::print("{}: {}, no errors\n", checked.name,
+  fmt::print("{}: {}, no errors\n", checked.document.name,
              Counted(static_cast<int>(report.findings.size()), "warning"));
 }
 
@@ -63,12 +62,12 @@ void WriteTuned(const std::string& path, const std::string& text, const FlightCo
 
 void Tune(const std::string& in, const std::string& out) {
   CheckWritable(out);
-  const AircraftDocument document = ReadAircraftDocumentFile(in);
+  const CheckedAircraft checked = LoadForCheck(in);
+  const AircraftDocument& document = checked.document;
   if (document.model != "derivatives") {
     throw Error(in + ": gains are derived of models of derivatives, and this one is of " +
                 document.model);
   }
-  const CheckedAircraft checked = LoadForCheck(in);
   if (PrintFindings(checked.findings) > 0) {
     throw Error(in + ": flight control cannot be derived before these are put right");
   }
@@ -90,6 +89,22 @@ void Tune(const std::string& in, const std::string& out) {
   fmt::print("wrote {}\n", out);
 }
 
+void AddTune(CLI::App* aircraft) {
+  auto in = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+  CLI::App* tune = aircraft->add_subcommand(
+      "tune", "Derive all gains of flight control from a derivative model's linear model");
+  tune->add_option("aircraft", *in,
+                   "its file, with or without a section flight_control, or the name of one that "
+                   "comes with Skein")
+      ->type_name("NAME_OR_FILE")
+      ->required()
+      ->check(CompletesAircraft());
+  tune->add_option("-o,--out", *out, "write the file with the gains here; may be the same file")
+      ->type_name("FILE");
+  tune->footer("Example: skein aircraft tune my_aircraft.json -o my_aircraft.json");
+  tune->callback([in, out] { Tune(*in, *out); });
+}
+
 }  // namespace
 
 void AddAircraftCommand(CLI::App* app) {
@@ -102,7 +117,7 @@ void AddAircraftCommand(CLI::App* app) {
   check->add_option("aircraft", *checked, "its file, or the name of one that comes with Skein")
       ->type_name("NAME_OR_FILE")
       ->required()
-      ->check(IsAircraft());
+      ->check(CompletesAircraft());
   check->add_option("--task", *task, "whose starts it must be able to fly: a task, or FILE.toml")
       ->type_name("TASK")
       ->capture_default_str();
@@ -111,16 +126,7 @@ void AddAircraftCommand(CLI::App* app) {
       "Example: skein aircraft check my_aircraft.json");
   check->callback([checked, task] { Check(*checked, *task); });
 
-  auto in = std::make_shared<std::string>(), out = std::make_shared<std::string>();
-  CLI::App* tune = aircraft->add_subcommand(
-      "tune", "Derive all gains of flight control from a derivative model's linear model");
-  tune->add_option("file", *in, "its file, with or without a section flight_control")
-      ->type_name("FILE")
-      ->required();
-  tune->add_option("-o,--out", *out, "write the file with the gains here; may be the same file")
-      ->type_name("FILE");
-  tune->footer("Example: skein aircraft tune my_aircraft.json -o my_aircraft.json");
-  tune->callback([in, out] { Tune(*in, *out); });
+  AddTune(aircraft);
 }
 
 }  // namespace skein

@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <vector>
-
 #include "envs/aircraft/registry.h"
 
 namespace skein {
@@ -24,16 +21,9 @@ CLI::Option* AddAircraftOption(CLI::App* command, std::string* aircraft) {
       ->type_name("NAME_OR_FILE");
 }
 
-CLI::Validator IsAircraft() {
-  return {[](const std::string& aircraft) -> std::string {
-            const std::vector<std::string> names = AircraftNames();
-            const bool is_known = std::find(names.begin(), names.end(), aircraft) != names.end();
-            if (is_known || IsAircraftPath(aircraft)) return "";
-            return fmt::format(
-                "unknown aircraft \"{}\"; known: {}, or the path of a file, FILE.json", aircraft,
-                fmt::join(names, ", "));
-          },
-          // Shells complete what stands in braces.
+CLI::Validator CompletesAircraft() {
+  // Shells complete what stands in braces.
+  return {[](const std::string&) { return std::string(); },
           fmt::format("{{{}}}", fmt::join(AircraftNames(), ","))};
 }
 

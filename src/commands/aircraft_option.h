@@ -12,7 +12,8 @@ std::string AircraftHelp(const std::string& what);
 /// Adds --aircraft, which chooses what flies (src/config/aircraft_choice.h).
 CLI::Option* AddAircraftOption(CLI::App* command, std::string* aircraft);
 
-/// Refuses names of no aircraft. Whether a file is one is seen when it is read.
-CLI::Validator IsAircraft();
+/// For an option that names an aircraft: shells complete the names. What is none is refused where
+/// it is read.
+CLI::Validator CompletesAircraft();
 
 }  // namespace skein

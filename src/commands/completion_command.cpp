@@ -9,6 +9,7 @@
 
 #include "src/commands/command_forms.h"
 #include "src/commands/commands.h"
+#include "src/config/one_of.h"
 #include "src/files/shell_text.h"
 
 namespace skein {
@@ -189,7 +190,7 @@ void AddCompletionCommand(CLI::App* app) {
   command->add_option("shell", *shell, "whose script")
       ->type_name("SHELL")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+      ->check(OneOf(std::vector<std::string>{"bash", "zsh", "fish"}));
   command->footer("Installed with the program; without, for bash: source <(skein completion bash)");
   command->callback([app, shell] {
     const std::vector<CommandForm> commands = CommandForms(*app);

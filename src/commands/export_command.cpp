@@ -7,6 +7,7 @@
 #include "envs/aircraft/registry.h"
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
+#include "src/config/one_of.h"
 #include "src/config/usage_error.h"
 #include "src/export/policy_export.h"
 
@@ -67,11 +68,11 @@ void AddExportCommand(CLI::App* app) {
           ->add_option("--format", options->format,
                        "of the policy: an ONNX model, a TorchScript module, safetensors by "
                        "PyTorch's names, or one C99 header")
-          ->check(CLI::IsMember(FormNames()));
+          ->check(OneOf(FormNames()));
   command
       ->add_option("--flight-control", options->flight_control,
                    "write the flight control laws that the policy flies through, as one C99 header")
-      ->check(CLI::IsMember({"c"}))
+      ->check(OneOf(std::vector<std::string>{"c"}))
       ->excludes(format);
   options->aircraft_option =
       command
@@ -79,7 +80,7 @@ void AddExportCommand(CLI::App* app) {
                        AircraftHelp("of a policy file that was trained on an own aircraft, that "
                                     "aircraft's file; with --flight-control and without a policy: "
                                     "whose laws"))
-          ->check(IsAircraft())
+          ->check(CompletesAircraft())
           ->type_name("NAME_OR_FILE")
           ->capture_default_str();
   command->add_option("-o,--out", options->out, "write it here")->type_name("FILE")->required();

@@ -13,6 +13,7 @@
 #include "src/commands/commands.h"
 #include "src/commands/fdm_commands.h"
 #include "src/commands/flight_condition.h"
+#include "src/config/one_of.h"
 #include "src/fdm/fdm_evaluation.h"
 #include "src/fdm/fdm_file.h"
 #include "src/files/output_file.h"
@@ -98,6 +99,7 @@ void WriteDocument(const FileOptions& options, Json document) {
 }
 
 void Evaluate(const FileOptions& options) {
+  CheckWritable(options.out);
   FdmFile file = ReadFdmFile(options.in);
   Json document = std::move(file.document);
   WritePoints(options, "points", file.points, &document);
@@ -110,6 +112,7 @@ void Evaluate(const FileOptions& options) {
 }
 
 void Simulate(const FileOptions& options) {
+  CheckWritable(options.out);
   FdmFile file = ReadFdmFile(options.in);
   if (!file.document.contains("trajectories")) {
     throw Error(options.in + ": trajectories is missing; `skein fdm simulate` flies nothing else");
@@ -138,7 +141,7 @@ void AddFileCommand(CLI::App* fdm, const std::string& name, const std::string& d
       ->add_option("--precision", options->precision,
                    "float64: the scalar plant; float32: the SIMD kernel (SKEIN_SIMD chooses its "
                    "instruction set)")
-      ->check(CLI::IsMember(kPrecisions))
+      ->check(OneOf(kPrecisions))
       ->capture_default_str();
   AddModel(command, &options->model);
   command->footer(footer);

@@ -10,6 +10,8 @@
 #include "src/commands/agent_flight.h"
 #include "src/commands/fdm_commands.h"
 #include "src/commands/flight_condition.h"
+#include "src/config/number_in.h"
+#include "src/config/one_of.h"
 #include "src/config/whole_number.h"
 #include "src/fdm/commanded_flight.h"
 #include "src/files/output_file.h"
@@ -87,7 +89,7 @@ void AddFlyCommand(CLI::App* fdm) {
       ->add_option("--turbulence-fps", options->flight.turbulence_ft_s,
                    "standard deviation of Dryden gusts, ft/s (MIL-F-8785C at 20,000 ft: light 3.7, "
                    "moderate 7.3, severe 21)")
-      ->check(CLI::Range(0.0, 200.0))
+      ->transform(NumberIn(0, 200))
       ->capture_default_str();
   command->add_flag("--turbulence-by-altitude", options->by_altitude,
                     "that is the deviation at 20,000 ft, elsewhere it is MIL-F-8785C's");
@@ -116,7 +118,7 @@ void AddFlyCommand(CLI::App* fdm) {
   command
       ->add_option("--flight-control", options->mode,
                    "full: sticks through the laws; direct: full stick is full deflection")
-      ->check(CLI::IsMember(kModes))
+      ->check(OneOf(kModes))
       ->capture_default_str();
   command
       ->add_option("-o,--out", options->out,

@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "src/commands/fdm_commands.h"
 #include "src/commands/flight_condition.h"
+#include "src/config/one_of.h"
 #include "src/fdm/linearised_flight.h"
 #include "src/files/output_file.h"
 #include "src/plot/picture_file.h"
@@ -64,7 +65,7 @@ void AddLineariseCommand(CLI::App* fdm) {
   command
       ->add_option("--flap", options->flap,
                    "the leading-edge flap of the bare airframe: an input, or on its schedule")
-      ->check(CLI::IsMember(kFlaps))
+      ->check(OneOf(kFlaps))
       ->capture_default_str();
   command->add_option("--json", options->json, "also write the matrices and modes here")
       ->type_name("FILE");

@@ -7,6 +7,7 @@
 
 #include "src/commands/fdm_commands.h"
 #include "src/commands/flight_condition.h"
+#include "src/config/one_of.h"
 #include "src/fdm/flying_qualities_report.h"
 #include "src/files/output_file.h"
 #include "src/plot/handling_levels_picture.h"
@@ -65,13 +66,13 @@ void AddSweepCommand(CLI::App* fdm) {
       ->add_option("--class", options->airplane_class,
                    "of aeroplanes, by MIL-F-8785C: I small and light, II medium weight, III large "
                    "and heavy, IV high manoeuvrability")
-      ->check(CLI::IsMember(AirplaneClassNames()))
+      ->check(OneOf(AirplaneClassNames()))
       ->capture_default_str();
   command
       ->add_option("--category", options->category,
                    "of flight phases: A rapid manoeuvres and tracking, B gradual ones, C take-off "
                    "and landing")
-      ->check(CLI::IsMember(FlightPhaseCategoryNames()))
+      ->check(OneOf(FlightPhaseCategoryNames()))
       ->capture_default_str();
   command->add_option("--json", options->json, "also write the figures here")->type_name("FILE");
   AddPicture(command, "the equivalent short period against the levels", &options->picture);

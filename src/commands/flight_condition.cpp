@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "src/commands/aircraft_option.h"
 #include "src/config/number_list.h"
+#include "src/config/one_of.h"
 #include "src/config/whole_number.h"
 
 namespace skein {
@@ -60,13 +61,13 @@ void AddPlantSetting(CLI::App* command, PlantSetting* setting) {
 
 void AddModel(CLI::App* command, ModelOptions* options) {
   command->add_option("--aircraft", options->aircraft, AircraftHelp("whose equations of motion"))
-      ->check(IsAircraft())
+      ->check(CompletesAircraft())
       ->type_name("NAME_OR_FILE")
       ->capture_default_str();
   command
       ->add_option("--atmosphere", options->atmosphere,
                    "air of the published F-16 models, or U.S. Standard Atmosphere 1976")
-      ->check(CLI::IsMember(AtmosphereNames()))
+      ->check(OneOf(AtmosphereNames()))
       ->capture_default_str();
   command
       ->add_option("--gravity-ft-s2", options->gravity.at_sea_level_ft_s2,

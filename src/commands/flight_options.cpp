@@ -59,7 +59,7 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
       ->transform(NumberAboveZero())
       ->excludes(hold);
   command->add_option("--episodes", options->episodes, "number of episodes")
-      ->transform(WholeNumber(1, 10000000))
+      ->transform(WholeNumber(1, texts.most_episodes))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "seed of the episodes")
       ->transform(WholeNumber(0, 0x1p53))

@@ -40,6 +40,7 @@ struct FlightOptions {
 /// What of their help the commands say differently.
 struct FlightOptionTexts {
   std::string task, preset, json, flights;
+  double most_episodes = 1e7;
 };
 
 /// Adds --task, --preset, --config, --condition and --set to a command; `options` must live as long

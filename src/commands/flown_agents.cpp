@@ -110,13 +110,13 @@ FlightOptionTexts TextsOfFlownAgents() {
                            fmt::join(PresetTasks(), ", "));
   texts.preset =
       "environment settings to begin with (default: the run's own; without one, default)";
+  texts.most_episodes = kMostRecordedEpisodes;
   return texts;
 }
 
 void AddFlownAgents(CLI::App* command, FlownAgents* flown) {
   AddAgents(command, flown);
   AddEpisodeOptions(command, TextsOfFlownAgents(), &flown->flight);
-  command->get_option("--episodes")->check(CLI::Range(1, kMostRecordedEpisodes));
 }
 
 std::vector<std::string> NamesOf(const FlownAgents& flown) {

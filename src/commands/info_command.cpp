@@ -15,6 +15,7 @@ namespace skein {
 namespace {
 
 void PrintInfo(const std::string& json_path) {
+  CheckWritable(json_path);
   const nlohmann::ordered_json info = DescribeMachine();
   if (!json_path.empty()) WriteJson(json_path, info);
   const std::string libtorch = info["libtorch"].is_null()

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "src/config/usage_error.h"
+#include "src/config/whole_number.h"
 #include "train/files/file_descriptor.h"
 #include "train/ranks/rank_module.h"
 
@@ -39,7 +40,7 @@ void AddRankTimeoutOption(CLI::App* command, double* timeout_s) {
                    "of several processes (mpirun, srun): seconds after which one that does not "
                    "answer ends all")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber)
+      ->transform(NumberAboveZero())
       ->capture_default_str();
 }
 

@@ -16,6 +16,7 @@
 #include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"
+#include "src/config/one_of.h"
 #include "src/config/presets.h"
 #include "src/files/installed_file.h"
 #include "src/files/text_table.h"
@@ -151,7 +152,7 @@ void AddListCommand(CLI::App* app) {
   for (const Listing& listing : kListings) names.emplace_back(listing.name);
   command->add_option("what", *what, "what to list (default: all)")
       ->type_name("WHAT")
-      ->check(CLI::IsMember(names));
+      ->check(OneOf(names));
   command->footer(
       "Policies are those of the folder policies/, runs those of runs/, both of the working "
       "directory, and the policies that were installed with the program.\n"

@@ -2,6 +2,7 @@
 #include "src/commands/plot_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -13,6 +14,7 @@
 
 #include "src/agents/agent_names.h"
 #include "src/commands/flown_agents.h"
+#include "src/config/number_in.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/files/output_file.h"
@@ -70,7 +72,7 @@ void AddPaperOptions(CLI::App* command, const std::string& kind, PaperOptions* p
       ->add_option("--width", paper->width_in,
                    "of the picture, in; letters keep their 8 points: 3.5 is a column of a paper")
       ->type_name("INCHES")
-      ->check(CLI::Range(2.5, 60.0))
+      ->transform(NumberIn(2.5, 60))
       ->capture_default_str();
 }
 
@@ -82,7 +84,9 @@ void AddFlightSources(CLI::App* command, FlightPlotOptions* options) {
                    "compare), one for each agent")
       ->type_name("FLIGHTS.csv...");
   AddFlownAgents(command, &options->flown);
-  command->add_option("--names", options->choice.names, "what the agents are called")
+  command
+      ->add_option("--names", options->choice.names,
+                   "what the agents are called, in the order of the files or of --agents")
       ->type_name("NAME,...")
       ->delimiter(',');
   command
@@ -205,7 +209,7 @@ void AddSpacePlot(CLI::App* plot) {
       ->capture_default_str();
   command->add_option("--elevation", view->elevation_deg, "how far it looks down")
       ->type_name("DEG")
-      ->check(CLI::Range(1.0, 89.0))
+      ->transform(NumberIn(1, 89))
       ->capture_default_str();
   command->footer(
       "Aircraft are those of the first agent; the others' flights are lines.\n"
@@ -241,6 +245,16 @@ void ReadComparison(const std::string& path, CurveOptions* curves) {
   throw Error(path + ": compares no autopilot; name one in skein compare --agents");
 }
 
+/// Which runs the names of --names stand for: the shell has perhaps put them in an order of its
+/// own.
+void NoteNames(const std::vector<CurveSetting>& settings, std::vector<std::string>* notes) {
+  for (const CurveSetting& setting : settings) {
+    std::vector<std::string> paths;
+    for (const RunRecord& run : setting.runs) paths.push_back(run.path);
+    notes->push_back(fmt::format("{}: {}", setting.name, fmt::join(paths, ", ")));
+  }
+}
+
 void DrawCurves(const CurvePlotOptions& options) {
   CurveOptions curves = options.curves;
   curves.width = options.paper.width();
@@ -255,8 +269,11 @@ void DrawCurves(const CurvePlotOptions& options) {
       notes->push_back(
           fmt::format("{}/metrics.csv: {} cut short and left out", path, Counted(torn, "row")));
     }
-    return TrainingCurves(
-        AsUsage([&] { return SettingsOf(std::move(runs), options.seeds, options.names); }), curves);
+    std::vector<CurveSetting> settings =
+        AsUsage([&] { return SettingsOf(std::move(runs), options.seeds, options.names); });
+    if (!options.names.empty()) NoteNames(settings, notes);
+    LeaveOutRunsWithoutValues(curves.columns, &settings, notes);
+    return TrainingCurves(settings, curves);
   });
 }
 
@@ -278,7 +295,9 @@ void AddCurvesPlot(CLI::App* plot) {
                    "configuration)")
       ->type_name("N")
       ->transform(WholeNumber(1, 1000));
-  command->add_option("--names", options->names, "what the settings are called")
+  command
+      ->add_option("--names", options->names,
+                   "what the settings are called, in the order of the runs")
       ->type_name("NAME,...")
       ->delimiter(',');
   command

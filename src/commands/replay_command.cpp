@@ -9,6 +9,7 @@
 
 #include "src/commands/commands.h"
 #include "src/commands/flown_agents.h"
+#include "src/config/one_of.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/files/output_file.h"
@@ -136,7 +137,7 @@ void AddOutputOptions(CLI::App* command, ReplayOptions* options) {
           "acmi, for Tacview: all agents in one file; csv, a row for every control step: "
           "of several agents FILE.csv becomes FILE.AGENT.csv; html, a page that shows them "
           "(default: by the name of the file)")
-      ->check(CLI::IsMember(FormatNames()))
+      ->check(OneOf(FormatNames()))
       ->needs(out);
   CLI::Option* live =
       command
@@ -164,8 +165,8 @@ void AddOutputOptions(CLI::App* command, ReplayOptions* options) {
 void AddReplayCommand(CLI::App* app) {
   auto options = std::make_shared<ReplayOptions>();
   options->flown.flight.episodes = kDefaultEpisodes;
-  CLI::App* command =
-      app->add_subcommand("replay", "Record flights, or stream them, to watch them in Tacview");
+  CLI::App* command = app->add_subcommand(
+      "replay", "Fly episodes and write them, for Tacview, as CSV or as a page, or stream them");
   AddFlownAgents(command, &options->flown);
   AddOutputOptions(command, options.get());
   command->footer(

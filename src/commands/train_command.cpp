@@ -71,8 +71,8 @@ ProgramConfig Configure(const TrainOptions& options, const std::string& task) {
 std::string RunToResume(const TrainOptions& options) {
   if (!options.resume.empty() && options.resume != "latest") return options.resume;
   if (const auto latest = LatestRun(kRunsRoot, TaskNameOf(options.task))) return *latest;
-  throw Error(fmt::format("nothing to resume: there is no run{} in {}/",
-                          options.task.empty() ? "" : " of " + options.task, kRunsRoot));
+  throw UsageError(fmt::format("nothing to resume: there is no run{} in {}/",
+                               options.task.empty() ? "" : " of " + options.task, kRunsRoot));
 }
 
 /// The configuration of the run to resume, unless something else is asked for.

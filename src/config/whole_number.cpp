@@ -6,20 +6,21 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
+#include <functional>
 #include <utility>
 
 #include "base/number_text.h"
+#include "src/config/number_in.h"
 
 namespace skein {
 namespace {
 
-/// Takes what is finite and above `min`, which `kind` says in words.
-CLI::Validator NumberAbove(double min, const std::string& kind) {
+/// Takes what is finite and `is_right`, which `kind` says in words.
+CLI::Validator NumberThat(const std::function<bool(double)>& is_right, const std::string& kind) {
   return CLI::Validator(
-      [min, kind](std::string& text) {
+      [is_right, kind](std::string& text) {
         const std::optional<double> number = ReadNumber(text);
-        if (!number || !std::isfinite(*number) || !(*number > min)) {
+        if (!number || !std::isfinite(*number) || !is_right(*number)) {
           return fmt::format("'{}' is not a {}", text, kind);
         }
         text = ShortestText(*number);
@@ -62,9 +63,16 @@ CLI::Validator WholeNumber(double min, double max) {
 }
 
 CLI::Validator FiniteNumber() {
-  return NumberAbove(-std::numeric_limits<double>::infinity(), "finite number");
+  return NumberThat([](double) { return true; }, "finite number");
 }
 
-CLI::Validator NumberAboveZero() { return NumberAbove(0, "number above 0"); }
+CLI::Validator NumberAboveZero() {
+  return NumberThat([](double number) { return number > 0; }, "number above 0");
+}
+
+CLI::Validator NumberIn(double min, double max) {
+  return NumberThat([min, max](double number) { return number >= min && number <= max; },
+                    fmt::format("number in [{:g} - {:g}]", min, max));
+}
 
 }  // namespace skein

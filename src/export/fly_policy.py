@@ -91,7 +91,7 @@ def torchscript_policy(path):
     return act, shapes[first][0], numpy.zeros((1, layers * shapes["gru_weight_hh_l0"][1]), numpy.float32)
 
 
-PACKAGES = {"onnx": "onnx and onnxruntime", "safetensors": "numpy and safetensors", "torchscript": "numpy and torch"}
+PACKAGES = {"onnx": "numpy onnx onnxruntime", "safetensors": "numpy safetensors", "torchscript": "numpy torch"}
 
 
 def main():
@@ -100,7 +100,8 @@ def main():
         act, size, zeros = globals()[form + "_policy"](path)
         import numpy
     except ImportError as error:
-        sys.exit(f"{sys.executable} needs the packages {PACKAGES[form]} ({error})")
+        sys.exit(f"{sys.executable} has no package {error.name}: {sys.executable} -m pip install {PACKAGES[form]}, "
+                 "or name a Python that has them by the environment variable SKEIN_PYTHON")
     rows = numpy.frombuffer(sys.stdin.buffer.read(), numpy.float32).reshape(-1, 1 + size)
     state = zeros
     for row in rows:

@@ -23,7 +23,10 @@ std::string Essence(const std::string& complaint) {
   std::istringstream lines(complaint);
   std::string last, below_rule;
   for (std::string line; std::getline(lines, line);) {
-    if (line.find("error:") != std::string::npos) return line;
+    // As compilers write it, and as mpirun does.
+    for (const char* mark : {"error:", ": Error:"}) {
+      if (line.find(mark) != std::string::npos) return line;
+    }
     if (below_rule.empty() && last.rfind("-----", 0) == 0) below_rule = line;
     if (!line.empty()) last = line;
   }

@@ -14,6 +14,7 @@
 #include <set>
 #include <system_error>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 #include "train/files/file_descriptor.h"
 
@@ -64,7 +65,9 @@ void CheckWritable(const std::string& path) {
   if (path.empty()) return;
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) {
-    if (S_ISDIR(status.st_mode)) throw Error(path + ": cannot be written: it is a directory");
+    if (S_ISDIR(status.st_mode)) {
+      throw ChoiceError(path + ": cannot be written: it is a directory");
+    }
     if (access(path.c_str(), W_OK) != 0) {
       throw Error(path + ": cannot be written: " + SystemReason());
     }
@@ -72,7 +75,11 @@ void CheckWritable(const std::string& path) {
   }
   // It is written beside its place first (ReplaceFile).
   if (!CanBeMade(ReplacedFile(path) + ".tmp")) {
-    throw Error(path + ": cannot be written: " + SystemReason());
+    const std::string message = path + ": cannot be written: " + SystemReason();
+    const auto folder = std::filesystem::absolute(path).parent_path();
+    std::error_code failure;
+    if (!std::filesystem::is_directory(folder, failure)) throw ChoiceError(message);
+    throw Error(message);
   }
 }
 

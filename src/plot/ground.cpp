@@ -64,6 +64,12 @@ int EveryNth(double dx, double dy, double width) {
   return 20;
 }
 
+double WidestOf(const std::vector<std::string>& lines) {
+  double widest = 0;
+  for (const std::string& line : lines) widest = std::max(widest, TextWidth(line, kSmallSize));
+  return widest;
+}
+
 }  // namespace
 
 Ground::Ground(const std::vector<SpacePoint>& points) : points_(points) {
@@ -146,10 +152,11 @@ void Ground::DrawEdge(const View& view, bool is_along_north, double across,
     return is_along_north ? SpacePoint(value, across, floor_ft())
                           : SpacePoint(across, value, floor_ft());
   };
-  double widest = 0;
+  std::vector<std::string> numbers;
   for (const double value : Multiples(along, step_ft_)) {
-    widest = std::max(widest, TextWidth(TickText(value / kThousand), kSmallSize));
+    numbers.push_back(TickText(value / kThousand));
   }
+  const double widest = WidestOf(numbers);
   const PagePoint first = view.Place(point(0)), next = view.Place(point(step_ft_));
   const int every = EveryNth(next.x - first.x, next.y - first.y, widest);
   for (const double value : Multiples(along, step_ft_)) {
@@ -166,8 +173,10 @@ void Ground::DrawEdge(const View& view, bool is_along_north, double across,
   const std::string direction = is_along_north ? "north" : "east";
   // Beside the ground there is less room than below it.
   const bool is_beside = name.anchor != Anchor::kMiddle;
-  for (const std::string& line :
-       Wrapped(direction + ", 1000\u00a0ft", is_beside ? 1 : 1000, kSmallSize)) {
+  const std::vector<std::string> lines =
+      Wrapped(direction + ", 1000\u00a0ft", is_beside ? 1 : 1000, kSmallSize);
+  if (name.anchor == Anchor::kEnd) name.at.x = std::max(name.at.x, 2 + WidestOf(lines));
+  for (const std::string& line : lines) {
     name.text = line;
     shapes->emplace_back(name);
     name.at.y += 1.2 * kSmallSize;

@@ -215,7 +215,10 @@ void Choose(const RecordingChoice& choice, Recordings* recordings) {
   }
   for (std::size_t k = 0; k < recordings->agents.size(); ++k) {
     Recording& agent = recordings->agents[k];
-    if (!names.empty()) agent.name = names[k];
+    if (!names.empty()) {
+      recordings->notes.push_back(fmt::format("{}: {}", names[k], agent.flights.front().source));
+      agent.name = names[k];
+    }
     if (!choice.episodes.empty()) ChooseEpisodes(choice.episodes, &agent);
   }
   for (const auto& [column, tolerance] : choice.tolerances) {

@@ -38,6 +38,29 @@ std::vector<PagePoint> ValuesOf(const RunRecord& run, const std::string& column)
 
 }  // namespace
 
+void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
+                               std::vector<CurveSetting>* settings,
+                               std::vector<std::string>* notes) {
+  std::vector<std::string> without;
+  const auto is_without = [&](const RunRecord& run) {
+    for (const std::string& column : columns) {
+      if (run.metrics.rows() > 0 && !ValuesOf(run, column).empty()) continue;
+      without.push_back(fmt::format("{}: column {} has no values yet", run.path, column));
+      return true;
+    }
+    return false;
+  };
+  for (CurveSetting& setting : *settings) {
+    std::vector<RunRecord>& runs = setting.runs;
+    runs.erase(std::remove_if(runs.begin(), runs.end(), is_without), runs.end());
+  }
+  settings->erase(std::remove_if(settings->begin(), settings->end(),
+                                 [](const CurveSetting& setting) { return setting.runs.empty(); }),
+                  settings->end());
+  if (settings->empty()) throw Error(without.front());
+  for (const std::string& run : without) notes->push_back(run + "; left out");
+}
+
 bool IsShare(const std::string& column) {
   const std::string ending = "success_rate";
   return column.size() >= ending.size() && column.substr(column.size() - ending.size()) == ending;

@@ -22,6 +22,12 @@ struct SeedCurve {
   std::vector<PagePoint> mean, low, high;
 };
 
+/// Takes the runs out of `settings` that have no value of one of the columns yet, and settings
+/// without a run left; a note says which. Throws Error if that is all of them.
+void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
+                               std::vector<CurveSetting>* settings,
+                               std::vector<std::string>* notes);
+
 /// Empty if a run has no value of the column yet. Shares are in percent.
 SeedCurve CurveOf(const CurveSetting& setting, const std::string& column);
 

@@ -95,13 +95,15 @@ class SpaceDrawing {
     shapes_.emplace_back(std::move(post));
   }
 
+  double arrow_ft() const { return TargetArrow(options_.width) / view_.scale(); }
+
   void DrawTargetOf(const Track& track) {
     if (track.HasTargetInSpace()) {
       DrawPost(track.TargetPoint(), kInk);
     } else {
       DrawPost(track.points.back(), track.colour);
     }
-    DrawTarget(view_, track, recordings_, &shapes_);
+    DrawTarget(view_, track, recordings_, arrow_ft(), &shapes_);
   }
 
   /// The area that the wings sweep, darker from above and paler from below.
@@ -193,7 +195,8 @@ class SpaceDrawing {
       for (std::size_t row = 0; row < track.points.size(); row += kRowsPerObstacle) {
         places.Avoid(view_.Place(track.points[row]), track.is_first ? glyph_ / 4 : 2.5, 1);
       }
-      const PagePoint end = view_.Place(track.points.back()), tip = TargetTip(view_, track);
+      const PagePoint end = view_.Place(track.points.back());
+      const PagePoint tip = view_.Place(TargetTip(track, arrow_ft()));
       const PagePoint target = view_.Place(track.TargetPoint());
       places.Avoid(end, glyph_ / 2, kHeavy);
       for (const double share : {0.3, 0.6, 1.0}) {

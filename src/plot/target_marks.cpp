@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,15 +12,12 @@ namespace skein {
 namespace {
 
 constexpr double kArrowLength = 32, kHeadLength = 5.5, kRingRadius = 5;  // points
+constexpr double kPageWidth = 518, kShortestArrow = 14;                  // points
 constexpr double kEdge = 0.8;
 
 double ToleranceOf(const Recordings& recordings, const char* column) {
   const auto found = recordings.tolerances.find(column);
   return found == recordings.tolerances.end() ? 0 : found->second;
-}
-
-SpacePoint ArrowTip(const View& view, const SpacePoint& target, const BodyAxes& axes) {
-  return target + kArrowLength / view.scale() * axes.forward;
 }
 
 /// The edges of a box, as seen through.
@@ -43,22 +41,21 @@ void DrawBox(const View& view, const SpacePoint& middle, const SpacePoint& half,
 }
 
 void DrawHeading(const View& view, const SpacePoint& target, const BodyAxes& axes,
-                 const Recordings& recordings, std::vector<Shape>* shapes) {
+                 const Recordings& recordings, double arrow_ft, std::vector<Shape>* shapes) {
   constexpr double kSteps = 4, kRadians = 0.017453292519943295;
   const double yaw = ToleranceOf(recordings, "yaw_deg");
   if (yaw > 0) {
     std::vector<PagePoint> sector = {view.Place(target)};
     for (double k = -kSteps; k <= kSteps; ++k) {
       const double angle = kRadians * yaw * k / kSteps;
-      BodyAxes turned = axes;
-      turned.forward = std::cos(angle) * axes.forward + std::sin(angle) * axes.right;
-      sector.push_back(view.Place(ArrowTip(view, target, turned)));
+      const SpacePoint turned = std::cos(angle) * axes.forward + std::sin(angle) * axes.right;
+      sector.push_back(view.Place(target + arrow_ft * turned));
     }
     shapes->emplace_back(Area(std::move(sector), kInk, 0.3));
   }
   const SpacePoint up = ToleranceOf(recordings, "altitude_ft") * kUpward;
   shapes->emplace_back(Line({view.Place(target - up), view.Place(target + up)}, kInk, 2));
-  DrawArrow(view.Place(target), view.Place(ArrowTip(view, target, axes)), shapes);
+  DrawArrow(view.Place(target), view.Place(target + arrow_ft * axes.forward), shapes);
 }
 
 }  // namespace
@@ -74,13 +71,17 @@ void DrawArrow(PagePoint begin, PagePoint end, std::vector<Shape>* shapes) {
       kInk));
 }
 
-PagePoint TargetTip(const View& view, const Track& track) {
-  const auto axes = track.HasTargetInSpace() ? std::nullopt : track.TargetAxes();
-  const SpacePoint target = track.TargetPoint();
-  return view.Place(axes ? ArrowTip(view, target, *axes) : target);
+double TargetArrow(double picture_width) {
+  return std::clamp(kArrowLength * picture_width / kPageWidth, kShortestArrow, kArrowLength);
 }
 
-void DrawTarget(const View& view, const Track& track, const Recordings& recordings,
+SpacePoint TargetTip(const Track& track, double arrow_ft) {
+  const auto axes = track.HasTargetInSpace() ? std::nullopt : track.TargetAxes();
+  const SpacePoint target = track.TargetPoint();
+  return axes ? SpacePoint(target + arrow_ft * axes->forward) : target;
+}
+
+void DrawTarget(const View& view, const Track& track, const Recordings& recordings, double arrow_ft,
                 std::vector<Shape>* shapes) {
   const SpacePoint target = track.TargetPoint();
   if (track.HasTargetInSpace()) {
@@ -90,7 +91,7 @@ void DrawTarget(const View& view, const Track& track, const Recordings& recordin
              ToleranceOf(recordings, "altitude_ft")},
             shapes);
   } else if (const auto axes = track.TargetAxes()) {
-    DrawHeading(view, target, *axes, recordings, shapes);
+    DrawHeading(view, target, *axes, recordings, arrow_ft, shapes);
   }
 }
 

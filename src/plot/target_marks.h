@@ -13,12 +13,18 @@ namespace skein {
 /// A line with a head at its end.
 void DrawArrow(PagePoint begin, PagePoint end, std::vector<Shape>* shapes);
 
-/// Where a track's target is marked last: the end of the arrow into its heading, or the target.
-PagePoint TargetTip(const View& view, const Track& track);
+/// Length of the arrow into a target's heading in a picture of that width, points: shorter in one
+/// that is narrower than a page.
+double TargetArrow(double picture_width);
+
+/// Where a track's target is marked last: the end of the arrow into its heading, which is so many
+/// feet long, or the target.
+SpacePoint TargetTip(const Track& track, double arrow_ft);
 
 /// What a track was to reach: a ring at a target in space with the box of its tolerances, or else
-/// an arrow into its heading at its altitude with the sector and the height that count as reached.
-void DrawTarget(const View& view, const Track& track, const Recordings& recordings,
+/// an arrow of so many feet into its heading at its altitude with the sector and the height that
+/// count as reached.
+void DrawTarget(const View& view, const Track& track, const Recordings& recordings, double arrow_ft,
                 std::vector<Shape>* shapes);
 
 /// What the marks mean.

@@ -44,16 +44,28 @@ class TracksDrawing {
  private:
   double width() const { return options_.width - kLeft - kMargin; }
 
+  double arrow_ft() const { return TargetArrow(options_.width) / view_.scale(); }
+
   /// The map in thousands of feet, as wide as the paper or as high as is allowed.
   Panel MapPanel(double top) const {
+    // How long the arrows into target headings are is known with the scale alone.
+    const Panel without = MapPanel(top, 0);
+    const double scale =
+        without.width() / (without.x_range().max - without.x_range().min) / kThousand;
+    return MapPanel(top, TargetArrow(options_.width) / scale);
+  }
+
+  Panel MapPanel(double top, double arrow_ft) const {
     SpacePoint low = tracks_[0].points[0], high = low;
     for (const Track& track : tracks_) {
       for (const SpacePoint& point : track.points) {
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
       }
-      low = low.cwiseMin(track.TargetPoint());
-      high = high.cwiseMax(track.TargetPoint());
+      for (const double arrow : {0.0, arrow_ft}) {
+        low = low.cwiseMin(TargetTip(track, arrow));
+        high = high.cwiseMax(TargetTip(track, arrow));
+      }
     }
     const double margin = kMapMargin * std::max({(high - low).x(), (high - low).y(), 100.0});
     const double north = (high - low).x() + 2 * margin, east = (high - low).y() + 2 * margin;
@@ -104,7 +116,9 @@ class TracksDrawing {
     shapes_.emplace_back(Words{{map.left(), map.top() - 4}, "north, 1000 ft", kTextSize});
     view_.PutOrigin(Onto(map, SpacePoint::Zero()),
                     map.width() / (map.x_range().max - map.x_range().min) / kThousand);
-    for (const Track& track : tracks_) DrawTarget(view_, track, recordings_, &shapes_);
+    for (const Track& track : tracks_) {
+      DrawTarget(view_, track, recordings_, arrow_ft(), &shapes_);
+    }
     interval_s_ = options_.interval_s.value_or(RoundInterval(view_, tracks_, 2 * kGlyph));
     for (auto track = tracks_.rbegin(); track != tracks_.rend(); ++track) DrawTrack(*track);
     for (const Track& track : tracks_) {
@@ -137,7 +151,8 @@ class TracksDrawing {
         places.Avoid(flown.back(), kGlyph / 3, 1);
       }
       places.Avoid(view_.Place(track.points.back()), kGlyph / 2, 5);
-      const PagePoint target = view_.Place(track.TargetPoint()), tip = TargetTip(view_, track);
+      const PagePoint target = view_.Place(track.TargetPoint());
+      const PagePoint tip = view_.Place(TargetTip(track, arrow_ft()));
       for (const double share : {0.3, 0.6, 1.0}) {
         flown.push_back(
             {target.x + share * (tip.x - target.x), target.y + share * (tip.y - target.y)});

@@ -13,7 +13,7 @@
 #include "src/config/settings.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
-#include "src/run/run_directory.h"
+#include "src/run/require_run.h"
 
 namespace skein {
 namespace {
@@ -83,10 +83,7 @@ ProgramConfig PresetOf(const RunRecord& run) {
 }  // namespace
 
 RunRecord ReadRunRecord(const std::string& path) {
-  if (!IsRunDirectory(path)) {
-    throw Error(
-        fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
-  }
+  RequireRun(path);
   RunRecord run;
   run.path = path;
   const fs::path absolute = fs::weakly_canonical(path);

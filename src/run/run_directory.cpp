@@ -13,8 +13,10 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 #include "src/config/configuration.h"
+#include "src/run/require_run.h"
 #include "train/files/file_descriptor.h"
 
 namespace skein {
@@ -54,11 +56,6 @@ fs::file_time_type LastWritten(const std::string& run) {
     if (!failure) latest = std::max(latest, time);
   }
   return latest;
-}
-
-void RequireRun(const std::string& path) {
-  if (IsRunDirectory(path)) return;
-  throw Error(fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
 }
 
 /// Makes a directory, durably; false if it is there already.
@@ -104,10 +101,16 @@ bool IsRunDirectory(const std::string& path) {
   return fs::is_regular_file(path + "/config.toml", failure);
 }
 
+void RequireRun(const std::string& path) {
+  if (IsRunDirectory(path)) return;
+  throw ChoiceError(
+      fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
+}
+
 RunDirectory RunDirectory::Create(const std::string& path) {
   std::error_code failure;
   if (fs::exists(path, failure) && !(fs::is_directory(path) && fs::is_empty(path, failure))) {
-    throw Error(
+    throw ChoiceError(
         IsRunDirectory(path)
             ? fmt::format("{0}: holds a run already; continue it with --resume {0}, or "
                           "choose another --out",

@@ -107,12 +107,13 @@ TEST_F(AircraftCommand, BadInputIsOneLine) {
     EXPECT_EQ(result.exit_code, exit_code) << why;
     ExpectOneLine(result.error, why);
   };
-  refused({"aircraft"}, 2, "subcommand");
-  refused({"aircraft", "check"}, 2, "aircraft is required");
+  refused({"aircraft"}, 2, "a command is needed: check, tune");
+  refused({"aircraft", "check"}, 2, "NAME_OR_FILE is required");
   refused({"aircraft", "check", "f17"}, 2, "unknown aircraft \"f17\"");
   refused({"aircraft", "check", "f16", "--task", "nonsense"}, 2, "unknown task nonsense");
-  refused({"aircraft", "check", scratch_ / "no.json"}, 1, "no.json");
-  refused({"aircraft", "tune", scratch_ / "no.json"}, 1, "no.json");
+  refused({"aircraft", "check", scratch_ / "no.json"}, 2, "no.json");
+  refused({"aircraft", "tune", scratch_ / "no.json"}, 2, "no.json");
+  refused({"aircraft", "tune", "f17"}, 2, "unknown aircraft \"f17\"");
   WriteFile(mine_, "{");
   refused({"aircraft", "check", mine_}, 1, mine_);
   refused({"aircraft", "tune", mine_}, 1, mine_);
@@ -125,9 +126,10 @@ TEST_F(AircraftCommand, BadInputIsOneLine) {
   Write(broken);
   refused({"aircraft", "tune", mine_, "-o", tuned_}, 1, "mass_kg");
   Write(Cessna(150, 190));
-  refused({"aircraft", "tune", mine_, "-o", scratch_ / "no/tuned.json"}, 1, "no/tuned.json");
+  refused({"aircraft", "tune", mine_, "-o", scratch_ / "no/tuned.json"}, 2, "no/tuned.json");
   WriteFile(mine_, AircraftText("f16"));
   refused({"aircraft", "tune", mine_, "-o", tuned_}, 1, "this one is of tables");
+  refused({"aircraft", "tune", "f16", "-o", tuned_}, 1, "this one is of tables");
   EXPECT_FALSE(std::filesystem::exists(tuned_));
 }
 

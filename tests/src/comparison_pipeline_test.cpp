@@ -145,7 +145,7 @@ TEST_F(ComparisonPipeline, HoldsAndMissionsThatCannotBeAreErrors) {
       {{"--hold", "1e9"}, "env.hold_s = 1e+09"},
       {{"--hold", "1e-9"}, "env.hold_s = 1e-09"},
       {{"--mission", "-1"}, "--mission: '-1' is not a number above 0"},
-      {{"--hold", "5", "--mission", "1"}, "--hold excludes --mission"}};
+      {{"--hold", "5", "--mission", "1"}, "--hold and --mission exclude each other"}};
   for (const auto& [options, message] : wrong) {
     std::vector<std::string> arguments = Command({"--agents", "zero"});
     arguments.insert(arguments.end(), options.begin(), options.end());
@@ -222,7 +222,7 @@ TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
       {"policy:" + scratch_.path(), "not the directory of a run"}};
   for (const auto& [agents, message] : absent) {
     const ProgramResult result = CallSkein(Command({"--agents", agents}));
-    EXPECT_EQ(result.exit_code, 1) << agents;
+    EXPECT_EQ(result.exit_code, 2) << agents;
     EXPECT_THAT(result.error, HasSubstr(message));
   }
   const ProgramResult rate =

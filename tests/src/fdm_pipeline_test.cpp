@@ -179,7 +179,7 @@ TEST_F(FdmPipeline, MalformedInputIsNamedInOneLine) {
   }
   const ProgramResult absent =
       CallSkein({"fdm", "eval", "--in", folder_ + "/absent.json", "--out", folder_ + "/x.json"});
-  EXPECT_EQ(absent.exit_code, 1);
+  EXPECT_EQ(absent.exit_code, 2);
   EXPECT_THAT(absent.error, HasSubstr("No such file"));
 }
 
@@ -354,7 +354,7 @@ TEST_F(FdmPipeline, WrongGridsAreWrongUsage) {
       {{"--altitude-ft", "0", "--speed-fps", "500", "--csv", folder_ + "/x.csv"}, "--csv"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--wind-fps", "1,2"}, "NORTH,EAST,DOWN"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--pull-up-g", "2", "--turn-rate-deg-s", "3"},
-       "excludes --pull-up-g"},
+       "--turn-rate-deg-s and --pull-up-g exclude each other"},
       {{"--altitude-ft", "0", "--speed-fps", "80", "--aircraft", "aerosonde", "--drag-rise"},
        "no data of drag rise"}};
   for (const auto& [words, expected] : cases) {

@@ -200,7 +200,7 @@ TEST_F(OwnAircraft, TheFlightDynamicsTakeAFile) {
   EXPECT_EQ(trim.exit_code, 0) << trim.error;
   Refused({"fdm", "trim", "--aircraft", scratch_ / "no.json", "--altitude-ft", "1500",
            "--speed-fps", "82"},
-          1, "there is no such aircraft file");
+          2, "there is no such aircraft file");
 }
 
 }  // namespace

@@ -87,12 +87,12 @@ TEST_F(PlotPipeline, WhatIsAskedWronglyIsRefusedInOneLine) {
   const std::string out = scratch_ / "out.svg";
   expect({"plot", "flights", "--task", "heading", "-o", out}, 2, "who flies?");
   expect({"plot", "flights", "a.csv", "--agents", "zero", "-o", out}, 2, "not both");
-  expect({"plot", "flights", scratch_ / "nowhere.csv", "-o", out}, 1, "nowhere.csv");
+  expect({"plot", "flights", scratch_ / "nowhere.csv", "-o", out}, 2, "nowhere.csv");
   expect({"plot", "flights", "a.csv", "-o", "out.png"}, 2, "out.png: let the name end in");
-  expect({"plot", "flights", "a.csv", "-o", scratch_ / "no/out.svg"}, 1, "cannot be written");
+  expect({"plot", "flights", "a.csv", "-o", scratch_ / "no/out.svg"}, 2, "cannot be written");
   expect({"plot", "space", "--agents", "zero", "--task", "heading", "--episodes", "0", "-o", out},
          2, "--episodes");
-  expect({"plot", "curves", scratch_.path(), "-o", out}, 1, "not the directory of a run");
+  expect({"plot", "curves", scratch_.path(), "-o", out}, 2, "not the directory of a run");
   expect({"plot", "space", "--agents", "zero", "--task", "heading", "--tolerance", "x", "-o", out},
          2, "COLUMN=NUMBER");
   EXPECT_FALSE(std::filesystem::exists(out));

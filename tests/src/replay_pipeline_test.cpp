@@ -77,11 +77,13 @@ TEST_F(ReplayPipeline, WrongUsageIsAnErrorOfOneLineThatLeavesNothingBehind) {
       {{"--agents", "zero"}, "-o FILE or --live PORT is needed"},
       {{"--agents", "zero", "-o", scratch_ / "flights.txt"},
        "--format is needed, one of acmi, csv"},
-      {{"--agents", "zero", "-o", out, "--format", "svg"}, "svg"},
+      {{"--agents", "zero", "-o", out, "--format", "svg"},
+       "--format: unknown svg; did you mean csv?; known: acmi"},
       {{"--agents", "zero,zero", "-o", out}, "zero is there twice"},
-      {{"--agents", "zero", "-o", out, "--episodes", "1001"}, "1001"},
-      {{"--agents", "zero", "-o", out, "--live", "0"}, "--out excludes --live"},
-      {{"--agents", "zero", "-o", out, "--password", "x"}, "--password requires --live"},
+      {{"--agents", "zero", "-o", out, "--episodes", "1001"},
+       "--episodes: '1001' is not a whole number in [1 - 1000]"},
+      {{"--agents", "zero", "-o", out, "--live", "0"}, "--out and --live exclude each other"},
+      {{"--agents", "zero", "-o", out, "--password", "x"}, "--password needs --live"},
       {{"--agents", "zero", "--live", "0", "--password", "\xFF"}, "not UTF-8"},
       {{"--agents", "zero", "-o", out, "--set", "env.action_repeat=2"}, "env.action_repeat"}};
   for (const auto& [arguments, message] : wrong) {
@@ -94,7 +96,7 @@ TEST_F(ReplayPipeline, WrongUsageIsAnErrorOfOneLineThatLeavesNothingBehind) {
   EXPECT_TRUE(std::filesystem::is_empty(scratch_.path()));
   const ProgramResult unwritable =
       CallSkein(Command("replay", {"--agents", "zero", "-o", scratch_ / "absent/flights.acmi"}));
-  EXPECT_EQ(unwritable.exit_code, 1);
+  EXPECT_EQ(unwritable.exit_code, 2);
   EXPECT_THAT(unwritable.error, HasSubstr("absent/flights.acmi: cannot be written"));
 }
 

@@ -245,7 +245,7 @@ TEST_F(TrainingPipeline, TwoRunsDoNotShareADirectory) {
   EXPECT_EQ(second.exit_code, 1);
   ExpectOneLine(second.error, "another skein is at work here");
   const ProgramResult third = RunSkein(TinyTraining(run_));
-  EXPECT_EQ(third.exit_code, 1);
+  EXPECT_EQ(third.exit_code, 2);
   ExpectOneLine(third.error, "--resume");
 }
 
@@ -422,7 +422,7 @@ TEST_F(TrainingPipeline, ADirectoryThatCannotBeMadeIsNamed) {
   ExpectOneLine(inside_a_file.error, "/dev/null/run");
   WriteFile(root_ + "/file", "");
   const ProgramResult on_a_file = CallSkein(TinyTraining(root_ + "/file"));
-  EXPECT_EQ(on_a_file.exit_code, 1);
+  EXPECT_EQ(on_a_file.exit_code, 2);
   ExpectOneLine(on_a_file.error, root_ + "/file");
 }
 

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 
 namespace skein {
@@ -40,7 +41,12 @@ std::string SystemReason() { return std::strerror(errno); }
 FileDescriptor::FileDescriptor(const std::string& path, OpenMode mode, const std::string& name)
     : name_(name.empty() ? path : name),
       value_(open(path.c_str(), FlagsOf(mode) | O_CLOEXEC, 0666)) {
-  if (value_ < 0) Fail("cannot be opened");
+  if (value_ >= 0) return;
+  const bool leads_nowhere = errno == ENOENT || errno == ENOTDIR;
+  if (mode == OpenMode::kRead && leads_nowhere) {
+    throw ChoiceError(name_ + ": cannot be opened: " + SystemReason());
+  }
+  Fail("cannot be opened");
 }
 
 FileDescriptor::FileDescriptor(FileDescriptor&& other) noexcept
@@ -70,6 +76,7 @@ std::size_t FileDescriptor::ReadSome(char* bytes, std::size_t size) {
   do {
     count = read(value_, bytes, size);
   } while (count < 0 && errno == EINTR);
+  if (count < 0 && errno == EISDIR) throw ChoiceError(name_ + ": is a directory, not a file");
   if (count < 0) Fail("cannot be read");
   return static_cast<std::size_t>(count);
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "train/files/file_descriptor.h"
@@ -206,7 +207,10 @@ TensorFile TensorFile::Read(const std::string& path) {
   // Asked before it is opened, which could wait for ever on a pipe.
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) {
-    throw Error(path + ": " + (code ? code.message() : "not a regular file"));
+    const std::string message = path + ": " + (code ? code.message() : "not a regular file");
+    // Links in a circle and the like are there, but cannot be read.
+    if (!code || !std::filesystem::exists(path, code)) throw ChoiceError(message);
+    throw Error(message);
   }
   FileDescriptor in(path, OpenMode::kRead);
   const std::uint64_t size = in.size();

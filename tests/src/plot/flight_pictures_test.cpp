@@ -72,6 +72,18 @@ class FlightPictures : public ::testing::Test {
     }
   }
 
+  /// All lines and areas lie on the paper, too.
+  static void ExpectOnThePaper(const Picture& picture) {
+    for (const Shape& shape : picture.shapes) {
+      const auto* const path = std::get_if<Path>(&shape);
+      if (path == nullptr) continue;
+      for (const PagePoint& point : path->points) {
+        EXPECT_GE(point.x, 0);
+        EXPECT_LE(point.x, picture.width);
+      }
+    }
+  }
+
   Recordings TwoAgents(int episodes) {
     Recordings recordings =
         ReadRecordings({Write("f.policy.csv", episodes), Write("f.autopilot.csv", episodes)});
@@ -97,6 +109,18 @@ TEST_F(FlightPictures, AgentsOfTheSameEpisodesShareColumns) {
     EXPECT_THAT(words, Contains(wanted));
   }
   ExpectLegible(picture);
+}
+
+TEST_F(FlightPictures, ColumnsOfAPaperHoldArrowsAndWords) {
+  constexpr double kColumn = 252;  // 3.5 in
+  for (const int episodes : {1, 4}) {
+    const Recordings recordings = TwoAgents(episodes);
+    for (const Picture& picture : {TracksPicture(recordings, {std::nullopt, kColumn, ""}),
+                                   SpacePicture(recordings, {25, 28, std::nullopt, kColumn, ""})}) {
+      ExpectLegible(picture);
+      ExpectOnThePaper(picture);
+    }
+  }
 }
 
 TEST_F(FlightPictures, AnglesHaveNoJumpsAndTargetsLieBesideThem) {

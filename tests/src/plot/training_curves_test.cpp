@@ -73,6 +73,23 @@ TEST(TrainingCurvesTest, RunsOfOneConfigurationAreSeedsOfASetting) {
               HasSubstr("1 name for 2 settings"));
 }
 
+TEST(TrainingCurvesTest, RunsWithoutAValueAreLeftOutAndNamed) {
+  const std::vector<std::string> columns = {"evaluation_success_rate"};
+  std::vector<CurveSetting> settings =
+      SettingsOf({RunOf("a", {std::nan("")}), RunOf("b", {0.2, 0.7}, "control"), RunOf("c", {})},
+                 std::nullopt, {"first", "second"});
+  std::vector<std::string> notes;
+  LeaveOutRunsWithoutValues(columns, &settings, &notes);
+  ASSERT_EQ(settings.size(), 1u);
+  EXPECT_EQ(settings[0].name, "second");
+  EXPECT_THAT(
+      notes, testing::ElementsAre("a: column evaluation_success_rate has no values yet; left out",
+                                  "c: column evaluation_success_rate has no values yet; left out"));
+  std::vector<CurveSetting> none = SettingsOf({RunOf("a", {})}, std::nullopt, {});
+  EXPECT_THAT(MessageOf([&] { LeaveOutRunsWithoutValues(columns, &none, &notes); }),
+              HasSubstr("a: column evaluation_success_rate has no values yet"));
+}
+
 TEST(TrainingCurvesTest, EachTaskHasAPanel) {
   const std::vector<CurveSetting> settings =
       SettingsOf({RunOf("a", {0.1, 0.5}), RunOf("b", {0.2, 0.7}, "control")}, std::nullopt, {});

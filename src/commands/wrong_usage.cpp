@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/commands/wrong_usage.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <sstream>
+
+#include "src/commands/command_tree.h"
+#include "src/config/nearest_name.h"
+
+namespace skein {
+namespace {
+
+/// The deepest subcommand that the command line reached.
+const CLI::App& DeepestOf(const CLI::App& program) {
+  const CLI::App* deepest = &program;
+  while (!deepest->get_subcommands().empty()) deepest = deepest->get_subcommands().front();
+  return *deepest;
+}
+
+/// As "skein fdm eval".
+std::string CommandPath(const CLI::App& app) {
+  std::string path = app.get_name();
+  for (const CLI::App* sub : app.get_subcommands()) path += " " + CommandPath(*sub);
+  return path;
+}
+
+std::vector<const CLI::Option*> GivenOptions(const CLI::App& command) {
+  return command.get_options([](const CLI::Option* option) { return option->count() > 0; });
+}
+
+/// "--policy", or of an argument without dashes what it stands for, "FILE".
+std::string NameOf(const CLI::Option& option) {
+  if (option.nonpositional()) return option.get_name();
+  const std::string type = option.get_type_name();
+  return type.substr(0, type.find(':'));
+}
+
+/// Two options that were given and exclude each other.
+std::string Excluded(const CLI::App& command) {
+  for (const CLI::Option* option : GivenOptions(command)) {
+    for (const CLI::Option* other : option->get_excludes()) {
+      if (other->count() == 0) continue;
+      return fmt::format("{} and {} exclude each other", option->get_name(), other->get_name());
+    }
+  }
+  return "two of the options exclude each other";
+}
+
+/// An option that was given without another one, which it is for.
+std::string Lonely(const CLI::App& command) {
+  for (const CLI::Option* option : GivenOptions(command)) {
+    for (const CLI::Option* other : option->get_needs()) {
+      if (other->count() > 0) continue;
+      return fmt::format("{} needs {}", option->get_name(), other->get_name());
+    }
+  }
+  return "an option needs another one";
+}
+
+/// What of a command is required and was not given; `otherwise` if nothing is.
+std::string Missing(const CLI::App& command, const std::string& otherwise) {
+  if (!CommandsOf(command).empty()) {
+    std::vector<std::string> names;
+    for (const CLI::App* below : CommandsOf(command)) names.push_back(below->get_name());
+    return fmt::format("a command is needed: {}", fmt::join(names, ", "));
+  }
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_required() && option->count() == 0) return NameOf(*option) + " is required";
+  }
+  return otherwise;
+}
+
+/// The option that a text of CLI11 is about: its first word that begins with a dash.
+std::string OptionIn(const std::string& text) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (word.front() == '-') return word.substr(0, word.find_first_of(":,="));
+  }
+  return "an argument";
+}
+
+/// Too few or too many values.
+std::string Mismatch(const std::string& text) {
+  const bool is_missing = text.find("missing") != std::string::npos;
+  return OptionIn(text) + (is_missing ? " needs a value" : " has more values than it takes");
+}
+
+/// What is wrong with the options of a command, all of which are known.
+std::string WrongOptions(const CLI::App& command, const CLI::ParseError& error) {
+  const std::string kind = error.get_name(), text = error.what();
+  if (kind == "ExcludesError") return Excluded(command);
+  if (kind == "RequiresError") return Lonely(command);
+  if (kind == "RequiredError") return Missing(command, text);
+  if (kind == "ArgumentMismatch") return Mismatch(text);
+  if (kind == "ConversionError") return OptionIn(text) + " does not take such a value";
+  return text;  // a ValidationError, whose words are the program's own
+}
+
+/// Names that are not known come first: CLI11 says that what is required is missing where it was
+/// misspelt.
+std::string WhatIsWrong(const CLI::App& command, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = command.remaining();
+  for (const std::string& argument : unknown) {
+    if (argument.rfind('-', 0) != 0) continue;
+    if (argument.rfind("--controller", 0) == 0) return "--controller is now called --low-level";
+    return "unknown option " + argument + DidYouMean(argument, OptionNames(command));
+  }
+  if (unknown.empty()) return WrongOptions(command, error);
+  if (CommandsOf(command).empty()) return "unexpected argument " + unknown.front();
+  return UnknownCommand(command, unknown.front());
+}
+
+}  // namespace
+
+std::string WrongUsage(const CLI::App& program, const CLI::ParseError& error) {
+  return fmt::format("{} (see {} --help)", WhatIsWrong(DeepestOf(program), error),
+                     CommandPath(program));
+}
+
+}  // namespace skein

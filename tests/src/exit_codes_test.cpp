@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// The law of exit codes in docs/reference/commands.md, over all commands.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/files/output_file.h"
+#include "tests/scratch_directory.h"
+#include "tests/src/run_program.h"
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// Commands that read `path`, each by another option or argument.
+std::vector<std::vector<std::string>> ReadersOf(const std::string& path, const std::string& out) {
+  const std::vector<std::string> trim = {"--altitude-ft", "15000", "--speed-fps", "500"};
+  std::vector<std::vector<std::string>> readers = {
+      {"train", path + ".toml"},
+      {"train", "heading", "--config", path},
+      {"train", "heading", "--aircraft", path + ".json"},
+      {"train", "heading", "--from", path},
+      {"train", "heading", "--resume", path},
+      {"train", "tracking", "--preset", "planner", "--low-level", path},
+      {"eval", "--policy", path, "--task", "heading"},
+      {"eval", "--policy", "untrained", "--task", path + ".toml"},
+      {"eval", "--policy", "untrained", "--task", "heading", "--config", path},
+      {"eval", "--policy", "untrained", "--task", "heading", "--aircraft", path + ".json"},
+      {"eval", "--policy", "untrained", "--task", "tracking", "--low-level", path},
+      {"compare", "--task", "heading", "--no-html", "--agents", "policy:" + path},
+      {"replay", "--policy", path, "-o", out + ".acmi"},
+      {"replay", "--task", "heading", "--agents", "policy:" + path, "-o", out + ".acmi"},
+      {"study", path, "--out", out},
+      {"plot", "space", path, "-o", out + ".svg"},
+      {"plot", "tracks", "--policy", path, "-o", out + ".svg"},
+      {"plot", "flights", path, "-o", out + ".svg"},
+      {"plot", "curves", path, "-o", out + ".svg"},
+      {"plot", "curves", path, "--comparison", path, "-o", out + ".svg"},
+      {"report", path},
+      {"fdm", "eval", "--in", path, "--out", out},
+      {"fdm", "simulate", "--in", path, "--out", out},
+      {"aircraft", "check", path + ".json"},
+      {"aircraft", "tune", path + ".json"},
+      {"export", path, "--format", "c", "-o", out},
+      {"export", "--flight-control", "c", "--aircraft", path + ".json", "-o", out},
+      {"bench", "compare", path, path},
+      {"bench", "sim", "--aircraft", path + ".json"},
+      {"bench", "iteration", "--task", "tracking", "--preset", "planner", "--low-level", path}};
+  for (std::vector<std::string> words :
+       std::vector<std::vector<std::string>>{{"fdm", "trim", "--aircraft", path + ".json"},
+                                             {"fdm", "linearise", "--aircraft", path + ".json"},
+                                             {"fdm", "sweep", "--aircraft", path + ".json"},
+                                             {"fdm", "fly", "-o", out, "--commands", path}}) {
+    words.insert(words.end(), trim.begin(), trim.end());
+    readers.push_back(words);
+  }
+  return readers;
+}
+
+TEST(ExitCodes, APathThatIsNotThereIsWrongUsageInEveryCommand) {
+  const ScratchDirectory scratch;
+  for (const auto& arguments : ReadersOf(scratch / "absent", scratch / "out")) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.error;
+    EXPECT_THAT(result.error, HasSubstr(scratch / "absent"));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+  EXPECT_TRUE(fs::is_empty(scratch.path()));
+}
+
+TEST(ExitCodes, AFolderWithoutARunIsWrongUsageInEveryCommand) {
+  const ScratchDirectory scratch;
+  const std::string folder = scratch / "folder";
+  for (const char* ending : {"", ".toml", ".json"}) fs::create_directory(folder + ending);
+  for (const auto& arguments : ReadersOf(folder, scratch / "out")) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.error;
+    EXPECT_THAT(result.error, HasSubstr(folder));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+}
+
+TEST(ExitCodes, AnOutputWhoseFolderIsNotThereIsWrongUsageInEveryCommand) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch / "absent/file";
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"info", "--json", out},
+           {"eval", "--policy", "untrained", "--task", "heading", "--json", out},
+           {"compare", "--task", "heading", "--agents", "zero", "--csv", out},
+           {"replay", "--task", "heading", "--agents", "zero", "-o", out + ".csv"},
+           {"plot", "tracks", "--task", "heading", "--agents", "zero", "-o", out + ".svg"},
+           {"fdm", "trim", "--altitude-ft", "0", "--speed-fps", "500", "--json", out},
+           {"fdm", "fly", "--altitude-ft", "0", "--speed-fps", "500", "-o", out},
+           {"fdm", "eval", "--in", "x", "--out", out},
+           {"aircraft", "tune", "cessna172", "-o", out},
+           {"export", "--flight-control", "c", "-o", out},
+           {"bench", "sim", "--json", out}}) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.error;
+    EXPECT_THAT(result.error, HasSubstr("cannot be written"));
+  }
+}
+
+TEST(ExitCodes, AFileThatIsDamagedIsAFailure) {
+  const ScratchDirectory scratch;
+  const std::string damaged = scratch / "damaged";
+  WriteFile(damaged, "GIF89a");
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"eval", "--policy", damaged, "--task", "heading"},
+           {"train", "heading", "--from", damaged},
+           {"compare", "--task", "heading", "--no-html", "--agents", "policy:" + damaged},
+           {"plot", "flights", damaged, "-o", scratch / "out.svg"},
+           {"fdm", "eval", "--in", damaged, "--out", scratch / "out"},
+           {"export", damaged, "--format", "c", "-o", scratch / "out"}}) {
+    EXPECT_EQ(CallSkein(arguments).exit_code, 1) << arguments[0];
+  }
+}
+
+TEST(ExitCodes, WhatIsTypedWronglyIsSaidInTheProgramsOwnWords) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"fdm"}, "a command is needed: trim, linearise, sweep, fly, eval, simulate"},
+      {{"eval"}, "--policy is required"},
+      {{"plot", "curves"}, "RUN... is required"},
+      {{"eval", "--policy"}, "--policy needs a value"},
+      {{"train", "heading", "control"}, "unexpected argument control"},
+      {{"list", "pilots"}, "what: unknown pilots; known: tasks, presets"},
+      {{"plot", "curves", "x", "--width", "1"}, "--width: '1' is not a number in [2.5 - 60]"},
+      {{"plot", "curves", "x", "--width", "wide"}, "--width: 'wide' is not a number in"},
+      {{"fdm", "eval", "--in", "x", "--out", "y", "--precision", "float"},
+       "--precision: unknown float; did you mean float32?; known: float32, float64"},
+      {{"fdm", "trim", "--altitude-ft", "0", "--speed-fps", "500", "--aircraft", "f17"},
+       "unknown aircraft \"f17\"; known: aerosonde, cessna172, f16"},
+      {{"train", "heading", "--aircraft", "f17"},
+       "unknown aircraft \"f17\"; known: aerosonde, cessna172, f16"},
+      {{"aircraft", "tune", "f17"}, "unknown aircraft \"f17\"; known: aerosonde, cessna172, f16"}};
+  for (const auto& [arguments, message] : wrong) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << message;
+    EXPECT_EQ(result.error.rfind("skein: error: " + message, 0), 0u) << result.error;
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+}
+
+}  // namespace
+}  // namespace skein
