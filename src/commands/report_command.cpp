@@ -16,6 +16,7 @@
 #include "src/report/report_page.h"
 #include "src/report/report_server.h"
 #include "src/report/run_record.h"
+#include "src/report/training_times.h"
 #include "src/run/run_signals.h"
 
 namespace skein {
@@ -23,7 +24,7 @@ namespace {
 
 struct ReportOptions {
   ReportRequest request;
-  std::string output;
+  std::string output, json;
   bool opens = false, watches = false;
   int threads = 0;
 };
@@ -32,10 +33,13 @@ bool HasDesktop() {
   return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
 }
 
-/// Hands a file or an address to the desktop's browser, and does not wait for it.
+/// Hands a file or an address to the desktop's browser, and waits for it two seconds at most: a
+/// desktop without a browser fails at once, and one with it may go on for as long as that is open.
 void Open(const std::string& place) {
-  const std::string command =
-      "command -v xdg-open >/dev/null && { xdg-open " + ShellWord(place) + " >/dev/null 2>&1 & }";
+  const std::string command = "command -v xdg-open >/dev/null || exit 1; xdg-open " +
+                              ShellWord(place) +
+                              " >/dev/null 2>&1 & for i in 1 2 3 4 5 6 7 8 9 10; do sleep 0.2; "
+                              "kill -0 $! 2>/dev/null || { wait $!; exit; }; done";
   if (!HasDesktop() || std::system(command.c_str()) != 0) {
     fmt::print("no browser could be started; open {} yourself\n", place);
   }
@@ -64,6 +68,19 @@ void CheckSomethingToShow(const std::vector<std::string>& runs) {
       runs.front()));
 }
 
+/// What the trainings took, as far as they say it.
+void SayTimes(const ReportOptions& options) {
+  auto all = nlohmann::ordered_json::array();
+  for (const std::string& run : options.request.runs) {
+    const std::optional<TrainingTimes> times = TimesOf(ReadRunRecord(run));
+    if (!times) continue;
+    fmt::print("{}\n{}\n", run, ToText(*times));
+    all.push_back({{"run", run}});
+    all.back().update(ToJson(*times));
+  }
+  if (!options.json.empty()) WriteJson(options.json, all);
+}
+
 void Report(const ReportOptions& options) {
   WorkerPool pool(options.threads);
   if (options.watches) {
@@ -75,8 +92,9 @@ void Report(const ReportOptions& options) {
                                  ? options.request.runs.front() + "/report.html"
                                  : "report.html";
   CheckSomethingToShow(options.request.runs);
+  CheckWritable({output, options.json});
+  SayTimes(options);
   ReportTemplate();
-  CheckWritable(output);
   WriteReport(output, ReportData(options.request, pool));
   fmt::print("{}\n", output);
   if (options.opens) Open(output);
@@ -108,11 +126,17 @@ void AddReportCommand(CLI::App* app) {
                    "how many of them are shown in space; 0: none")
       ->transform(WholeNumber(0, 1000))
       ->capture_default_str();
-  command
-      ->add_flag("--watch", options->watches,
-                 "serve the page on 127.0.0.1, and keep it fresh while the runs go on")
-      ->excludes(output);
+  CLI::Option* watch =
+      command
+          ->add_flag("--watch", options->watches,
+                     "serve the page on 127.0.0.1, and keep it fresh while the runs go on")
+          ->excludes(output);
   command->add_flag("--open", options->opens, "show it in a browser");
+  command
+      ->add_option("--json", options->json,
+                   "write what the trainings took here: seconds, and the share of each part")
+      ->type_name("FILE")
+      ->excludes(watch);
   command
       ->add_option("--threads", options->threads,
                    "worker threads; results do not depend on it (default: one per CPU)")

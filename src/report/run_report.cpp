@@ -7,8 +7,25 @@
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
+#include "src/report/training_times.h"
 
 namespace skein {
+namespace {
+
+/// What a training took, on the standard output and in RUN/summary.json; no more of a failure than
+/// a missing page is.
+void SayTimes(const std::string& run) {
+  try {
+    const std::optional<TrainingTimes> times = TimesOf(ReadRunRecord(run));
+    if (!times) return;
+    fmt::print("{}\n", ToText(*times));
+    WriteJson(run + "/summary.json", ToJson(*times));
+  } catch (const Error& error) {
+    fmt::print("summary         none: {}\n", error.what());
+  }
+}
+
+}  // namespace
 
 void WriteReportAtEnd(const std::string& path, const std::function<std::string()>& data) {
   try {
@@ -23,6 +40,7 @@ void WriteReportAtEnd(const std::string& path, const std::function<std::string()
 
 void ReportFinishedRun(const std::string& run, WorkerPool& pool) {
   if (pool.stopping()) return;
+  SayTimes(run);
   constexpr int kEpisodes = 200;
   WriteReportAtEnd(run + "/report.html", [&] {
     ReportRequest request;

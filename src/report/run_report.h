@@ -13,8 +13,8 @@ namespace skein {
 /// one.
 void WriteReportAtEnd(const std::string& path, const std::function<std::string()>& data);
 
-/// RUN/report.html of a run that has just finished, of fewer episodes than skein report. Does
-/// nothing if the pool is stopping.
+/// RUN/summary.json and RUN/report.html of a run that has just finished, the page of fewer episodes
+/// than skein report. Does nothing if the pool is stopping.
 void ReportFinishedRun(const std::string& run, WorkerPool& pool);
 
 }  // namespace skein

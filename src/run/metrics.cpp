@@ -85,13 +85,18 @@ std::string MetricsRow(const IterationReport& report) {
 }
 
 std::string TimingHeader() {
-  return "iteration,env_steps,unix_time_s,rollout_s,update_s,evaluation_s\n";
+  return "iteration,env_steps,unix_time_s,rollout_s,update_s,evaluation_s,simulator_s,gradient_s,"
+         "files_s,start_s,whole_s\n";
 }
 
-std::string TimingRow(const IterationReport& report, double unix_time_s) {
-  return fmt::format("{},{},{:.3f},{:.6f},{:.6f},{:.6f}\n", report.iteration, report.env_steps,
-                     unix_time_s, report.rollout_seconds, report.update_seconds,
-                     report.evaluation_seconds);
+std::string TimingRow(const IterationReport& report, double unix_time_s, const TurnSeconds& turn) {
+  std::string row = fmt::format("{},{},{:.3f}", report.iteration, report.env_steps, unix_time_s);
+  for (const double seconds :
+       {report.rollout_seconds, report.update_seconds, report.evaluation_seconds,
+        report.simulator_seconds, report.gradient_seconds, turn.files, turn.start, turn.whole}) {
+    row += fmt::format(",{:.6f}", seconds);
+  }
+  return row + "\n";
 }
 
 std::vector<std::pair<std::string, double>> Scalars(const IterationReport& report,

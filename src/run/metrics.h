@@ -16,9 +16,17 @@ std::string MetricsHeader();
 /// compared byte for byte. Cells without a value (no episode ended, no evaluation) are empty.
 std::string MetricsRow(const IterationReport& report);
 
+/// What passed by the clock from the row before, or the start of the program's part in the run, to
+/// this one, s.
+struct TurnSeconds {
+  double whole = 0;
+  double start = 0;  ///< of it, before the first iteration
+  double files = 0;  ///< of it, records and checkpoints: those of the iteration before
+};
+
 /// timing.csv: the seconds of each iteration.
 std::string TimingHeader();
-std::string TimingRow(const IterationReport& report, double unix_time_s);
+std::string TimingRow(const IterationReport& report, double unix_time_s, const TurnSeconds& turn);
 
 /// The report as named scalars for TensorBoard; values that do not exist are left out.
 /// `control_steps` were flown in the iteration, by all aircraft together.

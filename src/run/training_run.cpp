@@ -32,6 +32,10 @@ using Clock = std::chrono::steady_clock;
 // Far from the seeds that people choose for training, so that the final episodes are fresh.
 constexpr std::uint64_t kFreshSeedOffset = 1000000007;
 
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 double UnixTime() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
@@ -96,6 +100,7 @@ std::string StartNetworks(const std::string& from, Trainer& trainer) {
 
 int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
                        const RunOrigin& origin, Ranks& ranks) {
+  const Clock::time_point start = Clock::now();
   // Before the directory, so that a configuration that cannot be trained leaves nothing behind.
   std::string started_from;
   const std::unique_ptr<Trainer> trainer =
@@ -127,7 +132,7 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
   // Last: it makes the directory one of a run.
   const std::string comment = started_from.empty() ? "" : "# " + started_from + "\n";
   WriteFile(directory.config(), comment + DumpToml(resolved));
-  TrainingRun run(resolved, std::move(directory), *trainer, pool, leader, description);
+  TrainingRun run(resolved, std::move(directory), *trainer, pool, leader, description, start);
   run.goes_on_ = origin.goes_on;
   run.SayBanner();
   for (const std::string& line :
@@ -139,6 +144,7 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
 
 int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool,
                         GoesOn goes_on, Ranks& ranks) {
+  const Clock::time_point start = Clock::now();
   CheckpointOrigin origin;
   const std::unique_ptr<Trainer> made = MakeTrainer(config.train, pool, ranks, [&](Trainer& begun) {
     directory.RemoveTemporaries();
@@ -155,7 +161,7 @@ int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wor
   const bool is_whole = origin.records.empty() || BeginsAs(directory.metrics(), origin.records);
   const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration(), MetricsHeader());
   TrimRows(directory.timing(), trainer.iteration(), TimingHeader());
-  TrainingRun run(config, std::move(directory), trainer, pool, leader, description);
+  TrainingRun run(config, std::move(directory), trainer, pool, leader, description, start);
   run.goes_on_ = std::move(goes_on);
   run.SayBanner();
   if (!is_whole) {
@@ -177,7 +183,8 @@ int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wor
 }
 
 TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
-                         WorkerPool& pool, RankLeader& leader, std::string ranks)
+                         WorkerPool& pool, RankLeader& leader, std::string ranks,
+                         Clock::time_point begun)
     : config_(config),
       directory_(std::move(directory)),
       trainer_(trainer),
@@ -190,6 +197,7 @@ TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Tr
       timing_(directory_.timing(), TimingHeader()),
       events_(directory_.path(), UnixTime(), static_cast<std::int64_t>(trainer.env_steps()) + 1),
       last_save_(Clock::now()),
+      turn_begin_(begun),
       saved_iteration_(trainer.iteration()) {
   events_.AppendSummary(UnixTime(), static_cast<std::int64_t>(trainer.env_steps()),
                         EncodeHyperparameters(DumpToml(config), directory_.path(), UnixTime()));
@@ -222,6 +230,11 @@ void TrainingRun::SayBanner() {
                   FormatCount(static_cast<double>(LastStep(train))), train.ppo.num_aircraft,
                   train.seed, InLines("  ", DescribeConditions(train.env)),
                   Describe(trainer_.backend()), DescribeWorkers(pool_)));
+  if (const std::uint64_t last = LastStep(train); last != train.total_steps) {
+    log_.Say(fmt::format("  the budget of {} steps is made whole iterations of {}",
+                         FormatCount(static_cast<double>(train.total_steps)),
+                         FormatCount(static_cast<double>(ControlStepsPerIteration(train)))));
+  }
   if (!ranks_.empty()) log_.Say(ranks_);
 }
 
@@ -229,6 +242,7 @@ void TrainingRun::TrainAndEvaluate() {
   const std::uint64_t first_step = trainer_.env_steps();
   const Clock::time_point start = Clock::now();
   ProgressMeter meter(first_step, LastStep(config_.train), start);
+  turn_.start = SecondsSince(turn_begin_);
   std::string dropped;
   while (!trainer_.finished() && !pool_.stopping()) {
     const IterationReport report = Iterate();
@@ -256,10 +270,9 @@ void TrainingRun::TrainAndEvaluate() {
     SayStopped(dropped);
     return;
   }
-  log_.Say(
-      fmt::format("trained for {} steps in {}",
-                  FormatCount(static_cast<double>(trainer_.env_steps() - first_step)),
-                  FormatDuration(std::chrono::duration<double>(Clock::now() - start).count())));
+  log_.Say(fmt::format("trained for {} steps in {}",
+                       FormatCount(static_cast<double>(trainer_.env_steps() - first_step)),
+                       FormatDuration(SecondsSince(start))));
   Finish();
 }
 
@@ -294,8 +307,10 @@ IterationReport TrainingRun::Iterate() {
 
 void TrainingRun::Record(const IterationReport& report) {
   const double now = UnixTime();
+  turn_.whole = SecondsSince(turn_begin_);
+  turn_begin_ = Clock::now();
   metrics_.Append(MetricsRow(report));
-  timing_.Append(TimingRow(report, now));
+  timing_.Append(TimingRow(report, now, turn_));
   events_.Append(now, static_cast<std::int64_t>(report.env_steps),
                  Scalars(report, static_cast<double>(ControlStepsPerIteration(config_.train))));
   if (report.non_finite > 0) {
@@ -311,6 +326,8 @@ void TrainingRun::Record(const IterationReport& report) {
                           report.best ? ", the best so far" : ""));
   }
   if (report.best) trainer_.policy().Save(directory_.best_policy());
+  turn_ = {};
+  turn_.files = SecondsSince(turn_begin_);
 }
 
 bool TrainingRun::CheckpointIsDue() const {
@@ -319,8 +336,7 @@ bool TrainingRun::CheckpointIsDue() const {
       trainer_.iteration() % static_cast<std::uint64_t>(config.interval_iterations) == 0) {
     return true;
   }
-  return config.interval_s > 0 &&
-         std::chrono::duration<double>(Clock::now() - last_save_).count() >= config.interval_s;
+  return config.interval_s > 0 && SecondsSince(last_save_) >= config.interval_s;
 }
 
 void TrainingRun::Save(const std::string& path) {
@@ -329,6 +345,7 @@ void TrainingRun::Save(const std::string& path) {
 }
 
 void TrainingRun::SaveCheckpoint() {
+  const Clock::time_point start = Clock::now();
   // Rows first: a checkpoint must never be newer than the records that it continues.
   metrics_.Sync();
   timing_.Sync();
@@ -336,6 +353,7 @@ void TrainingRun::SaveCheckpoint() {
   saved_iteration_ = trainer_.iteration();
   last_save_ = Clock::now();
   directory_.Prune(config_.checkpoint.keep);
+  turn_.files += SecondsSince(start);
 }
 
 void TrainingRun::Finish() {

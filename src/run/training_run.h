@@ -50,8 +50,10 @@ class TrainingRun {
                     GoesOn goes_on = {}, Ranks& ranks = OneRank());
 
  private:
+  /// `begun`: when the program's part in the run began.
   TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
-              WorkerPool& pool, RankLeader& leader, std::string ranks);
+              WorkerPool& pool, RankLeader& leader, std::string ranks,
+              std::chrono::steady_clock::time_point begun);
 
   /// To the end, or until it is stopped; says in the log what ended it. Returns the signal that
   /// did, or 0.
@@ -81,6 +83,8 @@ class TrainingRun {
   EventFile events_;
   GoesOn goes_on_;
   std::chrono::steady_clock::time_point last_save_;
+  std::chrono::steady_clock::time_point turn_begin_;  ///< when the row before was made
+  TurnSeconds turn_;                                  ///< what is known of the next row's
   std::uint64_t saved_iteration_ = 0;
 };
 

@@ -2,12 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
 #include "src/report/run_record.h"
+#include "src/report/training_times.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
@@ -84,7 +88,7 @@ TEST_F(ReportPipeline, ARunWithoutAnIterationIsOneLine) {
   }
   std::filesystem::create_directory(scratch_ / "empty");
   const ProgramResult empty = CallSkein({"report", scratch_ / "empty"});
-  EXPECT_EQ(empty.exit_code, 1);
+  EXPECT_EQ(empty.exit_code, 2);
   ExpectOneLine(empty.error, "no config.toml");
 }
 
@@ -113,9 +117,53 @@ TEST_F(ReportPipeline, AWrittenComparisonIsShownWithoutFlyingAgain) {
   EXPECT_GT(ReportData(request, pool).size(), bare.size());
 }
 
+TEST_F(ReportPipeline, SharesOfATrainingsTimeSumToOne) {
+  const std::string run = Copy();
+  const std::optional<TrainingTimes> times = TimesOf(ReadRunRecord(run));
+  ASSERT_TRUE(times);
+  EXPECT_GT(times->seconds, 0);
+  double sum = 0;
+  for (const auto& [name, share] : times->shares) {
+    EXPECT_GE(share, 0) << name;
+    sum += share;
+  }
+  constexpr double kRounding = 1e-9;
+  EXPECT_NEAR(sum, 1, kRounding);
+  const ProgramResult told =
+      CallSkein({"report", run, "--episodes", "0", "--flights", "0", "--json", scratch_ / "times"});
+  EXPECT_THAT(told.output, HasSubstr("environment ")) << "also by a build without a page";
+  const auto json = nlohmann::json::parse(ReadFile(scratch_ / "times"));
+  EXPECT_EQ(json[0]["seconds"], times->seconds);
+  EXPECT_EQ(json[0]["shares"].size(), times->shares.size());
+}
+
+TEST_F(ReportPipeline, TheTimeToATrainedPolicyIsThatOfItsEvaluation) {
+  RunRecord run;
+  run.metrics.names = {"iteration", "evaluation_success_rate"};
+  run.metrics.values = {{1, 2, 3}, {std::nan(""), 0.95, 1}};
+  run.timing.names = {"iteration",  "rollout_s", "update_s", "evaluation_s", "simulator_s",
+                      "gradient_s", "files_s",   "start_s",  "whole_s"};
+  run.timing.values = {{1, 2, 3}, {2, 2, 2},     {4, 4, 4}, {0, 1, 1}, {1, 1, 1},
+                       {3, 3, 3}, {0, 0.5, 0.5}, {1, 0, 0}, {8, 8, 8}};
+  const std::optional<TrainingTimes> times = TimesOf(run);
+  ASSERT_TRUE(times);
+  EXPECT_EQ(times->seconds, 24);
+  EXPECT_EQ(times->seconds_to_trained, 16);
+  EXPECT_THAT(
+      times->shares,
+      testing::ElementsAre(testing::Pair("environment", 3. / 24), testing::Pair("policy", 3. / 24),
+                           testing::Pair("gradients", 9. / 24), testing::Pair("optimiser", 3. / 24),
+                           testing::Pair("evaluation", 2. / 24), testing::Pair("files", 1. / 24),
+                           testing::Pair("start", 1. / 24), testing::Pair("other", 2. / 24)));
+  run.metrics.values[1] = {0.5, 0.6, 0.7};
+  EXPECT_EQ(TimesOf(run)->seconds_to_trained, std::nullopt);
+  run.timing.values[8][0] = std::nan("");
+  EXPECT_FALSE(TimesOf(run)) << "a row of an older version";
+}
+
 TEST_F(ReportPipeline, WhatIsNoRunIsOneLine) {
   const ProgramResult missing = CallSkein({"report", scratch_ / "nothing"});
-  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_EQ(missing.exit_code, 2);
   ExpectOneLine(missing.error, "not the directory of a run");
   const std::string newer = Copy();
   WriteFile(newer + "/config.toml", ReadFile(newer + "/config.toml") + "[later]\nkey = 1\n");

@@ -39,7 +39,7 @@ bool HasEnding(const std::string& text, const std::string& ending) {
 /// Whether a file says when things happened, so that no two are equal.
 bool TellsTime(const std::string& name) {
   const std::string file = fs::path(name).filename().string();
-  return file == "log.txt" || file == "timing.csv" || file == "lock" ||
+  return file == "log.txt" || file == "timing.csv" || file == "summary.json" || file == "lock" ||
          file.rfind("events.out.", 0) == 0 || HasEnding(file, ".tmp");
 }
 

@@ -30,7 +30,7 @@ TEST(Metrics, RowsHaveTheColumnsOfTheHeader) {
     return std::count(line.begin(), line.end(), ',');
   };
   EXPECT_EQ(commas(MetricsHeader()), commas(MetricsRow({})));
-  EXPECT_EQ(commas(TimingHeader()), commas(TimingRow({}, 0)));
+  EXPECT_EQ(commas(TimingHeader()), commas(TimingRow({}, 0, {})));
 }
 
 TEST(Metrics, NoColumnOfMetricsDependsOnTheClock) {
