@@ -3,6 +3,7 @@
 #include <nanobind/stl/string.h>
 
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,9 @@
 #include "python/bindings/bindings.h"
 #include "src/config/usage_error.h"
 #include "src/fdm/fdm_plant.h"
+#include "src/fdm/flight_grid.h"
+#include "src/fdm/flying_qualities_report.h"
+#include "src/fdm/linearised_flight.h"
 #include "src/fdm/steady_flight.h"
 
 namespace nb = nanobind;
@@ -56,19 +60,50 @@ Controls ControlsIn(const Row<const double>& numbers) {
   return ToControls(numbers.data());
 }
 
-nb::dict TrimOf(const Plant& plant, double altitude_ft, double true_airspeed_fps,
-                double flight_path_deg, double turn_rate_deg_s) {
-  const SteadyFlight flight =
-      FindSteadyFlight(plant, {altitude_ft, true_airspeed_fps, flight_path_deg, turn_rate_deg_s});
+nb::dict TrimOf(const Plant& plant, const SteadyFlightRequest& request) {
+  const SteadyFlight flight = FindSteadyFlight(plant, request);
   nb::dict point;
   point["state"] = ToNumpyVector(flight.trim.state);
   point["controls"] = ToNumpyVector(ToNumbers(flight.trim.controls));
   point["power"] = flight.trim.power;
+  point["throttle"] = flight.throttle;
+  point["available_thrust_lbf"] = flight.available_thrust_lbf;
+  point["excess_power_fps"] = flight.excess_power_ft_s;
   for (const auto& [name, number] : flight.Numbers()) point[name] = number;
   nb::list limits;
   for (const std::string& limit : WordsOf(flight.exceeded_limits)) limits.append(limit);
   point["exceeded_limits"] = nb::tuple(limits);
   return point;
+}
+
+/// The points of a grid as JSON, altitude by altitude.
+std::string TrimGridOf(const Plant& plant, const Row<const double>& altitude_ft,
+                       const Row<const double>& true_airspeed_fps,
+                       const SteadyFlightRequest& manoeuvre) {
+  const auto numbers = [](const Row<const double>& row) {
+    return std::vector<double>(row.data(), row.data() + row.size());
+  };
+  const FlightGrid grid{manoeuvre, numbers(altitude_ft), numbers(true_airspeed_fps)};
+  const nb::gil_scoped_release released;
+  const FlownGrid flown(plant, grid);
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (const GridPoint& point : flown.points()) points.push_back(ToJson(point));
+  return points.dump();
+}
+
+std::string LinearModelsOf(const Plant& plant, const SteadyFlightRequest& request,
+                           bool flap_is_scheduled) {
+  const nb::gil_scoped_release released;
+  return ToJson(
+             LineariseSteadyFlight(plant, request,
+                                   flap_is_scheduled ? FlapMotion::kScheduled : FlapMotion::kFixed))
+      .dump();
+}
+
+std::string FlyingQualitiesOf(const Plant& plant, const SteadyFlightRequest& request,
+                              const std::string& airplane_class, const std::string& category) {
+  const nb::gil_scoped_release released;
+  return ToJson(AssessSteadyFlight(plant, request, LimitsNamed(airplane_class, category))).dump();
 }
 
 nb::tuple LineariseAt(const Plant& plant, const Row<const double>& state,
@@ -106,22 +141,39 @@ nb::object Simulate(const Plant& plant, const Row<const double>& initial_state,
 }  // namespace
 
 void BindFlightDynamics(nb::module_& module) {
+  nb::class_<SteadyFlightRequest>(module, "FlightRequest")
+      .def(
+          "__init__",
+          [](SteadyFlightRequest* request, double altitude_ft, double true_airspeed_fps,
+             double flight_path_deg, double turn_rate_deg_s, std::optional<double> pull_up_g) {
+            new (request) SteadyFlightRequest{altitude_ft, true_airspeed_fps, flight_path_deg,
+                                              turn_rate_deg_s, pull_up_g};
+          },
+          nb::arg("altitude_ft"), nb::arg("true_airspeed_fps"), nb::arg("flight_path_deg"),
+          nb::arg("turn_rate_deg_s"), nb::arg("pull_up_g").none());
   nb::class_<Plant>(module, "Plant")
-      .def("trim", &TrimOf, nb::arg("altitude_ft"), nb::arg("true_airspeed_fps"),
-           nb::arg("flight_path_deg"), nb::arg("turn_rate_deg_s"))
+      .def("trim", &TrimOf, nb::arg("request"))
+      .def("trim_grid", &TrimGridOf, nb::arg("altitude_ft"), nb::arg("true_airspeed_fps"),
+           nb::arg("manoeuvre"))
+      .def("linear_models", &LinearModelsOf, nb::arg("request"), nb::arg("flap_is_scheduled"))
+      .def("flying_qualities", &FlyingQualitiesOf, nb::arg("request"), nb::arg("airplane_class"),
+           nb::arg("category"))
       .def("linearise", &LineariseAt, nb::arg("state"), nb::arg("controls"))
       .def("simulate", &Simulate, nb::arg("initial_state"), nb::arg("controls"), nb::arg("dt"));
   module.def(
       "make_plant",
-      [](const std::string& aircraft, const std::string& atmosphere, std::optional<double> cg,
-         double engine_angular_momentum) {
+      [](const std::string& aircraft, const std::string& atmosphere, double gravity_ft_s2,
+         bool gravity_falls_with_altitude, std::optional<double> cg, double engine_angular_momentum,
+         bool drag_rise, bool thrust_growth) {
         return AsUsage([&] {
-          return MakePlant(aircraft, AtmosphereNamed(atmosphere), {},
-                           {cg, engine_angular_momentum});
+          return MakePlant(aircraft, AtmosphereNamed(atmosphere),
+                           {gravity_ft_s2, gravity_falls_with_altitude},
+                           {cg, engine_angular_momentum, drag_rise, thrust_growth});
         });
       },
-      nb::arg("aircraft"), nb::arg("atmosphere"), nb::arg("cg").none(),
-      nb::arg("engine_angular_momentum"));
+      nb::arg("aircraft"), nb::arg("atmosphere"), nb::arg("gravity_ft_s2"),
+      nb::arg("gravity_falls_with_altitude"), nb::arg("cg").none(),
+      nb::arg("engine_angular_momentum"), nb::arg("drag_rise"), nb::arg("thrust_growth"));
 }
 
 }  // namespace skein

@@ -28,7 +28,18 @@ from skein.configuration import configure, presets
 from skein.custom_rules import CUSTOM_TERMINATION, FlightColumns
 from skein.environment import FlightEnv, FlightVectorEnv, make, make_vec, register_environments
 from skein.evaluation import Comparison, Evaluation, compare, evaluate, record
-from skein.flight_dynamics import LinearModel, Trajectory, Trim, linearise, simulate, trim
+from skein.flight_dynamics import (
+    LinearModel,
+    Trajectory,
+    Trim,
+    TrimGrid,
+    flying_qualities,
+    linear_models,
+    linearise,
+    simulate,
+    trim,
+    trim_grid,
+)
 from skein.training import Run, train
 
 __all__ = [
@@ -52,10 +63,13 @@ __all__ = [
     "Run",
     "Trajectory",
     "Trim",
+    "TrimGrid",
     "__version__",
     "compare",
     "configure",
     "evaluate",
+    "flying_qualities",
+    "linear_models",
     "linearise",
     "load_policy",
     "make",
@@ -66,6 +80,7 @@ __all__ = [
     "simulate",
     "train",
     "trim",
+    "trim_grid",
 ]
 
 register_environments()

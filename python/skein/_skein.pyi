@@ -95,10 +95,23 @@ class BatchEnv:
     def snapshot(self) -> NDArray[np.uint32]: ...
     def restore(self, words: NDArray[np.uint32]) -> None: ...
 
+class FlightRequest:
+    def __init__(
+        self,
+        altitude_ft: float,
+        true_airspeed_fps: float,
+        flight_path_deg: float,
+        turn_rate_deg_s: float,
+        pull_up_g: float | None,
+    ) -> None: ...
+
 class Plant:
-    def trim(
-        self, altitude_ft: float, true_airspeed_fps: float, flight_path_deg: float, turn_rate_deg_s: float
-    ) -> dict[str, Any]: ...
+    def trim(self, request: FlightRequest) -> dict[str, Any]: ...
+    def trim_grid(
+        self, altitude_ft: NDArray[np.float64], true_airspeed_fps: NDArray[np.float64], manoeuvre: FlightRequest
+    ) -> str: ...
+    def linear_models(self, request: FlightRequest, flap_is_scheduled: bool) -> str: ...
+    def flying_qualities(self, request: FlightRequest, airplane_class: str, category: str) -> str: ...
     def linearise(
         self, state: NDArray[np.float64], controls: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
@@ -124,7 +137,16 @@ def compare(
 def record(
     agent: FlyingAgent, config: Config, count: int, seed: int, threads: int, with_observations: bool
 ) -> str: ...
-def make_plant(aircraft: str, atmosphere: str, cg: float | None, engine_angular_momentum: float) -> Plant: ...
+def make_plant(
+    aircraft: str,
+    atmosphere: str,
+    gravity_ft_s2: float,
+    gravity_falls_with_altitude: bool,
+    cg: float | None,
+    engine_angular_momentum: float,
+    drag_rise: bool,
+    thrust_growth: bool,
+) -> Plant: ...
 def train(
     config: Config,
     out: str,

@@ -2,6 +2,7 @@
 """One aircraft in float64: steady flight, linear models, and flight with given controls."""
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass, field
 from typing import Any
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from skein import _skein
 from skein._skein import ConfigurationError
-from skein.checks import MOST_STEPS, is_vector, number, rows, text, whole_number
+from skein.checks import MOST_STEPS, is_vector, number, rows, shown, text, whole_number
 
 DoubleArray = NDArray[np.float64]
 
@@ -19,6 +20,8 @@ STATE_NAMES = _skein.STATE_NAMES[:13]
 """u, v, w (body axes, ft/s), p, q, r (rad/s), north, east, down (ft), the attitude's quaternion q0, qx, qy, qz."""
 CONTROL_NAMES = ("thrust_lbf", "elevator_deg", "aileron_deg", "rudder_deg", "leading_edge_flap_deg")
 """Elevator + is trailing edge down, aileron + rolls left, rudder + yaws left."""
+GRAVITY_FT_S2 = 32.17
+"""Of the published F-16 models."""
 
 
 @dataclass(frozen=True)
@@ -31,11 +34,19 @@ class Trim:
     """(5,), CONTROL_NAMES."""
     power: float
     """Engine power, 0 to 100, that gives the thrust, clipped to what the engine has."""
+    throttle: float
+    """That commands the power, 0 to 1."""
+    available_thrust_lbf: float
+    """At full throttle."""
+    excess_power_fps: float
+    """What full throttle would climb at constant speed, ft/s."""
     alpha_deg: float
     beta_deg: float
     bank_deg: float
     pitch_deg: float
     load_factor_g: float
+    lift_coefficient: float
+    drag_coefficient: float
     mach: float
     qbar_psf: float
     """Dynamic pressure, lbf/ft^2."""
@@ -44,6 +55,37 @@ class Trim:
     exceeded_limits: tuple[str, ...]
     """Limits of the aircraft and its model that this flight exceeds, in words; empty if there are none."""
     _plant: _skein.Plant = field(repr=False, compare=False)
+    _request: _skein.FlightRequest = field(repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class TrimGrid:
+    """The same manoeuvre at every altitude and speed; `grid["excess_power_fps"]` is a figure of every point."""
+
+    altitude_ft: DoubleArray
+    """(n,)"""
+    true_airspeed_fps: DoubleArray
+    """(m,)"""
+    points: list[list[dict[str, Any]]]
+    """[altitude][speed]: the elements of `points` that `skein fdm trim --json` writes."""
+
+    @property
+    def flown(self) -> NDArray[np.bool_]:
+        """(n, m): whether flight is steady there, within the thrust, the surfaces' range and the tables."""
+        return np.array([[point["flown"] for point in row] for row in self.points], bool)
+
+    @property
+    def limit(self) -> list[list[str]]:
+        """[altitude][speed]: what ends flight there ("below stall speed"); empty where it is flown."""
+        return [[point.get("limit", "") for point in row] for row in self.points]
+
+    def __getitem__(self, name: str) -> DoubleArray:
+        """(n, m): a figure of every point, such as "excess_power_fps"; not a number where there is no trim."""
+        found = [[point.get(name, np.nan) for point in row] for row in self.points]
+        known = {key for row in self.points for point in row for key, value in point.items() if _is_number(value)}
+        if name not in known:
+            raise KeyError(f"{name}: no figure; there are {', '.join(sorted(known))}")
+        return np.array(found, np.float64)
 
 
 @dataclass(frozen=True)
@@ -83,10 +125,15 @@ def trim(
     *,
     flight_path_deg: float = 0,
     turn_rate_deg_s: float = 0,
+    pull_up_g: float | None = None,
     aircraft: str | os.PathLike[str] = "f16",
     atmosphere: str = "stevens_lewis",
+    gravity_ft_s2: float = GRAVITY_FT_S2,
+    gravity_falls_with_altitude: bool = False,
     cg: float | None = None,
     engine_angular_momentum: float = 0,
+    drag_rise: bool = False,
+    thrust_growth: bool = False,
 ) -> Trim:
     """Steady flight at an altitude and speed.
 
@@ -94,33 +141,114 @@ def trim(
         altitude_ft, true_airspeed_fps: of the flight.
         flight_path_deg: positive in a climb.
         turn_rate_deg_s: positive to the right; the turn is coordinated.
+        pull_up_g: load factor of a pull-up with level wings, force across the flight path over weight; no turn then.
         aircraft: one of skein.AIRCRAFT, or the path of a file.
         atmosphere: "stevens_lewis" or "standard_1976".
+        gravity_ft_s2: at sea level; load_factor_g stays a multiple of 32.17.
+        gravity_falls_with_altitude: as in the U.S. Standard Atmosphere 1976.
         cg: centre of gravity, fraction of the mean chord; without it the aircraft's own.
         engine_angular_momentum: slug ft^2/s.
+        drag_rise, thrust_growth: with the Mach number, of aircraft that have the data.
 
     Raises:
         Error: there is no such flight; the message says which limit is in the way.
     """
-    plant = _skein.make_plant(
-        text("aircraft", aircraft),
-        text("atmosphere", atmosphere),
-        None if cg is None else number("cg", cg),
-        number("engine_angular_momentum", engine_angular_momentum),
+    plant = _plant(
+        aircraft,
+        atmosphere,
+        gravity_ft_s2,
+        gravity_falls_with_altitude,
+        cg,
+        engine_angular_momentum,
+        drag_rise,
+        thrust_growth,
     )
-    point = plant.trim(
-        number("altitude_ft", altitude_ft),
-        number("true_airspeed_fps", true_airspeed_fps),
-        number("flight_path_deg", flight_path_deg),
-        number("turn_rate_deg_s", turn_rate_deg_s),
+    request = _request(altitude_ft, true_airspeed_fps, flight_path_deg, turn_rate_deg_s, pull_up_g)
+    return Trim(**plant.trim(request), _plant=plant, _request=request)
+
+
+def trim_grid(
+    altitude_ft: Any,
+    true_airspeed_fps: Any,
+    *,
+    flight_path_deg: float = 0,
+    turn_rate_deg_s: float = 0,
+    pull_up_g: float | None = None,
+    aircraft: str | os.PathLike[str] = "f16",
+    atmosphere: str = "stevens_lewis",
+    gravity_ft_s2: float = GRAVITY_FT_S2,
+    gravity_falls_with_altitude: bool = False,
+    cg: float | None = None,
+    engine_angular_momentum: float = 0,
+    drag_rise: bool = False,
+    thrust_growth: bool = False,
+) -> TrimGrid:
+    """Steady flight at every altitude of (n,) and every speed of (m,), or why there is none: a flight envelope.
+
+    Args: as of skein.trim.
+    """
+    plant = _plant(
+        aircraft,
+        atmosphere,
+        gravity_ft_s2,
+        gravity_falls_with_altitude,
+        cg,
+        engine_angular_momentum,
+        drag_rise,
+        thrust_growth,
     )
-    return Trim(**point, _plant=plant)
+    altitudes = _grid_axis("altitude_ft", altitude_ft, -np.inf)
+    speeds = _grid_axis("true_airspeed_fps", true_airspeed_fps, 0)
+    manoeuvre = _request(0, 1, flight_path_deg, turn_rate_deg_s, pull_up_g)
+    points = json.loads(plant.trim_grid(altitudes, speeds, manoeuvre))
+    by_altitude = [points[begin : begin + len(speeds)] for begin in range(0, len(points), len(speeds))]
+    return TrimGrid(altitudes, speeds, by_altitude)
 
 
 def linearise(point: Trim) -> LinearModel:
     """The linear model about a steady flight, of the aircraft that was trimmed, by central differences."""
     _require_trim("linearise", point)
     return LinearModel(*point._plant.linearise(point.state, point.controls))
+
+
+def linear_models(point: Trim, *, flap: str = "fixed") -> dict[str, Any]:
+    """The linear models of a steady flight in the variables of flight dynamics, with named modes: what an element of
+    `points` of `skein fdm linearise --json` holds, A, B, C and D as arrays.
+
+    Args:
+        point: what skein.trim gave.
+        flap: "fixed" makes the leading-edge flap of the bare airframe an input, "scheduled" lets it follow its schedule.
+    """
+    _require_trim("linear_models", point)
+    if flap not in ("fixed", "scheduled"):
+        raise ConfigurationError(f'flap must be "fixed" or "scheduled", not {shown(flap)}')
+    models: dict[str, Any] = json.loads(point._plant.linear_models(point._request, flap == "scheduled"))
+    for model in (models["bare_airframe"], *models["with_flight_control"].values()):
+        for name in "ABCD":
+            model[name] = np.array(model[name], np.float64)
+    return models
+
+
+def flying_qualities(point: Trim, *, airplane_class: str = "IV", category: str = "A") -> dict[str, Any]:
+    """How the aircraft with flight control flies about a steady flight with level wings: what an element of `points` of
+    `skein fdm sweep --json` holds: step responses, levels of MIL-F-8785C, margins of the loops.
+
+    Args:
+        point: what skein.trim gave.
+        airplane_class: of MIL-F-8785C, "I" to "IV".
+        category: of flight phases, "A" to "C".
+
+    Raises:
+        ConfigurationError: it is a turn or a pull-up.
+        Error: the flight is not steady for want of thrust.
+    """
+    _require_trim("flying_qualities", point)
+    found: dict[str, Any] = json.loads(
+        point._plant.flying_qualities(
+            point._request, text("airplane_class", airplane_class), text("category", category)
+        )
+    )
+    return found
 
 
 def simulate(
@@ -156,6 +284,52 @@ def simulate(
     begin = rows("state", start.state if state is None else state, (len(STATE_NAMES),), np.float64)
     states = start._plant.simulate(begin, flown, dt)
     return Trajectory(dt * np.arange(len(states), dtype=np.float64), states)
+
+
+def _plant(
+    aircraft: Any,
+    atmosphere: Any,
+    gravity_ft_s2: Any,
+    gravity_falls_with_altitude: Any,
+    cg: Any,
+    engine_angular_momentum: Any,
+    drag_rise: Any,
+    thrust_growth: Any,
+) -> _skein.Plant:
+    gravity = number("gravity_ft_s2", gravity_ft_s2)
+    if gravity <= 0:
+        raise ConfigurationError(f"gravity_ft_s2 must be above 0, not {gravity}")
+    return _skein.make_plant(
+        text("aircraft", aircraft),
+        text("atmosphere", atmosphere),
+        gravity,
+        bool(gravity_falls_with_altitude),
+        None if cg is None else number("cg", cg),
+        number("engine_angular_momentum", engine_angular_momentum),
+        bool(drag_rise),
+        bool(thrust_growth),
+    )
+
+
+def _request(altitude_ft: Any, speed: Any, flight_path_deg: Any, turn_rate: Any, pull_up_g: Any) -> _skein.FlightRequest:
+    return _skein.FlightRequest(
+        number("altitude_ft", altitude_ft),
+        number("true_airspeed_fps", speed),
+        number("flight_path_deg", flight_path_deg),
+        number("turn_rate_deg_s", turn_rate),
+        None if pull_up_g is None else number("pull_up_g", pull_up_g),
+    )
+
+
+def _grid_axis(name: str, values: Any, above: float) -> DoubleArray:
+    axis: DoubleArray = rows(name, values, (None,), np.float64)
+    if axis.size == 0 or not np.isfinite(axis).all() or not (axis > above).all():
+        raise ConfigurationError(f"{name} must hold finite numbers" + (" above 0" if above == 0 else ""))
+    return axis
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _require_trim(what: str, point: Any) -> None:

@@ -71,3 +71,77 @@ def test_an_own_aircraft_is_trimmed_about_its_own_centre_of_gravity(tmp_path):
     assert abs(own.load_factor_g - 1) < 0.01 and abs(own.beta_deg) < 1e-6
     with pytest.raises(skein.ConfigurationError, match="cg must be a finite number"):
         skein.trim(3000, 180, aircraft=file, cg=float("nan"))
+
+
+def test_a_pull_up_turns_as_its_load_factor_says():
+    pull_up = skein.trim(15000, 600, pull_up_g=3)
+    np.testing.assert_allclose(np.linalg.norm(pull_up.state[3:6]), 32.17 * (3 - 1) / 600, rtol=1e-6)
+    assert pull_up.load_factor_g > 2.9
+    with pytest.raises(skein.ConfigurationError, match="pull-up has level wings"):
+        skein.trim(15000, 600, pull_up_g=3, turn_rate_deg_s=4)
+
+
+def test_gravity_and_drag_rise_are_the_aircrafts_world():
+    usual = skein.trim(40000, 800)
+    assert skein.trim(40000, 800, gravity_ft_s2=16.085).alpha_deg < 0.6 * usual.alpha_deg
+    assert skein.trim(40000, 800, gravity_falls_with_altitude=True).alpha_deg < usual.alpha_deg
+    assert skein.trim(40000, 1000, drag_rise=True).drag_coefficient > skein.trim(40000, 1000).drag_coefficient
+    light = skein.trim(40000, 800, gravity_ft_s2=16.085)
+    flight = skein.simulate(light, light.controls, duration_s=1)
+    np.testing.assert_allclose(flight["down_ft"], -40000, atol=1e-3)
+    with pytest.raises(skein.ConfigurationError, match="above 0"):
+        skein.trim(15000, 500, gravity_ft_s2=0)
+    with pytest.raises(skein.ConfigurationError, match="no data of drag rise"):
+        skein.trim(3000, 80, aircraft="aerosonde", drag_rise=True)
+
+
+def test_a_grid_has_the_points_trimmed_alone():
+    grid = skein.trim_grid([5000, 15000], np.array([100.0, 500, 700]))
+    assert grid.flown.tolist() == [[False, True, True]] * 2
+    assert grid.limit[0] == ["below stall speed", "", ""]
+    alone = skein.trim(15000, 700)
+    for name in ("alpha_deg", "excess_power_fps", "lift_coefficient", "throttle"):
+        assert grid[name][1, 2] == getattr(alone, name)
+        assert np.isnan(grid[name][0, 0])
+    with pytest.raises(KeyError, match="no figure"):
+        grid["speed"]
+    with pytest.raises(skein.ConfigurationError, match="finite numbers"):
+        skein.trim_grid([np.nan], [500])
+    with pytest.raises(skein.ConfigurationError, match="altitude_ft"):
+        skein.trim_grid("high", [500])
+    with pytest.raises(skein.ConfigurationError, match="altitude_ft must hold"):
+        skein.trim_grid([], [500])
+    with pytest.raises(skein.ConfigurationError, match="true_airspeed_fps must hold finite numbers above 0"):
+        skein.trim_grid([5000], [500, 0])
+
+
+def test_linear_models_have_modes_with_names():
+    point = skein.trim(15000, 500)
+    models = skein.linear_models(point)
+    bare = models["bare_airframe"]
+    assert bare["A"].shape == (9, 9) and bare["B"].shape[0] == 9
+    names = [mode["name"] for mode in bare["modes"]]
+    assert names == ["short period", "phugoid", "Dutch roll", "roll", "spiral"]
+    # The airframe's modes are those of its matrix with altitude held.
+    eigenvalues = np.linalg.eigvals(bare["A"][:8, :8])
+    for mode in bare["modes"]:
+        assert np.abs(eigenvalues - complex(*mode["eigenvalue_per_s"])).min() < 1e-9
+    scheduled = skein.linear_models(point, flap="scheduled")["bare_airframe"]
+    assert scheduled["B"].shape[1] == bare["B"].shape[1] - 1
+    with pytest.raises(skein.ConfigurationError, match="flap"):
+        skein.linear_models(point, flap="loose")
+
+
+def test_flying_qualities_are_of_a_class_and_category():
+    point = skein.trim(3000, 180, aircraft="cessna172")
+    cruise, fighter = skein.flying_qualities(point, airplane_class="I", category="B"), skein.flying_qualities(point)
+    assert cruise["bank_deg"] == 60 and fighter["bank_deg"] == 90
+    assert cruise["equivalent_short_period"] == fighter["equivalent_short_period"]
+    assert {requirement["level"] for requirement in cruise["requirements"]} <= {1, 2, 3, 4}
+    assert len(cruise["loops"]) == len(fighter["loops"]) > 0
+    with pytest.raises(skein.ConfigurationError, match="I, II, III, IV are known"):
+        skein.flying_qualities(point, airplane_class="V")
+    with pytest.raises(skein.ConfigurationError, match="Trim"):
+        skein.flying_qualities((3000, 180))
+    with pytest.raises(skein.ConfigurationError, match="level wings"):
+        skein.flying_qualities(skein.trim(15000, 600, pull_up_g=3))

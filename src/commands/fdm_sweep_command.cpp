@@ -29,10 +29,6 @@ struct SweepOptions {
 void Sweep(const SweepOptions& options) {
   if (!options.picture.empty()) CheckPictureFile(options.picture);
   CheckWritable({options.json, options.picture});
-  const SteadyFlightRequest& manoeuvre = options.condition.grid.manoeuvre;
-  if (manoeuvre.turn_rate_deg_s != 0 || manoeuvre.load_factor) {
-    throw UsageError("flying qualities are of flight with level wings, without a pull-up");
-  }
   const Plant plant = options.condition.MakePlant();
   const LevelLimits limits = LimitsNamed(options.airplane_class, options.category);
   const auto flights =

@@ -103,6 +103,9 @@ LevelLimits LimitsNamed(const std::string& airplane_class, const std::string& ca
 
 AssessedFlight AssessSteadyFlight(const Plant& plant, const SteadyFlightRequest& request,
                                   const LevelLimits& limits) {
+  if (request.turn_rate_deg_s != 0 || request.load_factor) {
+    throw UsageError("flying qualities are of flight with level wings, without a pull-up");
+  }
   const SteadyFlight flight = FindSteadyFlight(plant, request);
   for (const ExceededLimit& limit : flight.exceeded_limits) {
     if (limit.limit == FlightLimit::kEngineTables) continue;

@@ -22,7 +22,8 @@ std::vector<std::string> FlightPhaseCategoryNames();
 /// The limits of such a class and category. Throws UsageError on another name.
 LevelLimits LimitsNamed(const std::string& airplane_class, const std::string& category);
 
-/// Throws Error of a flight that is not steady, or is for want of thrust not.
+/// Throws UsageError of a turn or pull-up, and Error of a flight that is not steady, as for want of
+/// thrust.
 AssessedFlight AssessSteadyFlight(const Plant& plant, const SteadyFlightRequest& request,
                                   const LevelLimits& limits);
 
