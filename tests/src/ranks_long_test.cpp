@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <random>
+#include <thread>
 
 #include "tests/src/ranks_fixture.h"
 #include "tests/src/run_program.h"
@@ -35,8 +37,12 @@ class ManyRanks : public RanksFixture {
     if (!ranks.empty()) kill(ranks[(*random)() % ranks.size()], SIGKILL);
     const Clock::time_point killed = Clock::now();
     training.Wait();
-    EXPECT_LT(SecondsSince(killed), kTimeout_s);
-    for (const pid_t rank : ranks) EXPECT_NE(kill(rank, 0), 0) << "process " << rank << " is left";
+    // mpirun may end a moment before the system has put away what it killed.
+    const auto is_left = [](pid_t rank) { return kill(rank, 0) == 0; };
+    while (std::any_of(ranks.begin(), ranks.end(), is_left) && SecondsSince(killed) < kTimeout_s) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_LT(SecondsSince(killed), kTimeout_s) << "the job, or a rank, is left";
     EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
   }
 
