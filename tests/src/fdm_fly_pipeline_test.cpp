@@ -226,7 +226,7 @@ TEST_F(FdmFly, WhatAgentsCannotFlySaysSo) {
   const std::vector<std::pair<Words, std::string>> cases = {
       {{"--agents", "autopilot"}, "--task is needed"},
       {{"--target", "yaw_deg=3"}, "--target is for --policy and --agents"},
-      {{"--agents", "autopilot", "--commands", "x.csv"}, "excludes"},
+      {{"--agents", "autopilot", "--commands", "x.csv"}, "exclude each other"},
       {autopilot + Words{"--target", "pitch_deg=3"},
        "targets of heading are altitude_ft, yaw_deg, true_airspeed_fps"},
       {autopilot + Words{"--target", "yaw_deg"}, "give yaw_deg=NUMBER"},
