@@ -154,7 +154,7 @@ Words StartOf(const std::string& altitude, const std::string& speed) {
 TEST_F(FdmFly, APolicyFliesAsInAReplayFromTheSameStart) {
   const std::string replayed = folder_ + "/replayed.csv", flown = folder_ + "/flown.csv";
   Words words = {"replay", "--policy", kHeadingPolicy, "--episodes", "1",     "--seed",
-                 "3",      "--hold",   "2500",         "-o",         replayed};
+                 "3",      "--hold",   "50",           "-o",         replayed};
   for (const char* key :
        {"heading.altitude_change_ft=0", "heading.yaw_change_rad=0", "heading.speed_change_fps=0",
         "wind.speed_min_fps=50", "wind.speed_max_fps=50", "wind.from_min_deg=-90",
