@@ -23,7 +23,7 @@ endif()
 if(EXISTS ${SCRATCH}/prefix/bin/skein)
   set(skein ${CMAKE_COMMAND} -E chdir ${SCRATCH} prefix/bin/skein)
   run("policies/heading.skein +heading" ${skein} list policies)
-  run("success rate" ${skein} eval --policy policies/heading.skein --episodes 8)
+  run("deterministic success" ${skein} eval --policy policies/heading.skein --episodes 8)
 endif()
 
 run("" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${SCRATCH}/build -G Ninja -DEXAMPLES=${EXAMPLES}
