@@ -27,8 +27,9 @@ inline constexpr const char* kRunsRoot = "runs";
 /// The directory of one training run, held exclusively while the object lives:
 ///   config.toml, low_level.skein (of high-level policies), task.toml (of task files),
 ///   aircraft.json (of aircraft that come from a file), log.txt, metrics.csv, timing.csv,
-///   events.out.tfevents.*, evaluation.json, checkpoints/checkpoint-<iteration>.skein,
-///   checkpoints/policy-best.skein, checkpoints/policy-final.skein
+///   events.out.tfevents.*, evaluation.json, summary.json, report.html,
+///   checkpoints/checkpoint-<iteration>.skein, checkpoints/policy-best.skein,
+///   checkpoints/policy-final.skein
 class RunDirectory {
  public:
   /// Makes a new one. Throws Error if `path` exists and is not an empty directory, cannot be made,
