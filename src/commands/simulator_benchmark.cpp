@@ -104,7 +104,7 @@ void BenchSimulator(const BenchOptions& options) {
   const SimulatorRate rk4 = plant(PlantPart::kRk4);
   const SimulatorRate controlled = plant(PlantPart::kFlightControlAndRk4);
   const double gflops = rk4.aircraft_steps_per_s * kFlopsPerRk4Step / 1e9;
-  fmt::print("simulator: {} aircraft, {} control steps, {} threads, {}\n", options.num_aircraft,
+  fmt::print("simulator: {} aircraft, {} steps, {} threads, {}\n", options.num_aircraft,
              options.steps, pool.threads(), Name(simd::ActiveTarget()));
   PrintRate("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
   PrintRate("F-16: ... with flight control, actuators", controlled);
