@@ -39,9 +39,10 @@ struct LevelLimits {
   LevelLimit bank_time_max_s;
 };
 
+/// Of aeroplanes of that class, in flight phases of that category.
 LevelLimits LimitsOf(AirplaneClass airplane, FlightPhaseCategory category);
 
-// The level of figures alone: 1 to 3, or 4 beyond level 3.
+/// The level of figures alone, by the limits of the same names: 1 to 3, or 4 beyond level 3.
 int AnticipationLevel(const LevelLimits& limits, double anticipation, double frequency_rad_s,
                       double load_factor_by_alpha);
 int ShortPeriodDampingLevel(const LevelLimits& limits, double damping_ratio);

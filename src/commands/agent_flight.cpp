@@ -103,7 +103,7 @@ void Report(const AgentFlights& flown, double seconds) {
   const RecordedFlight& flight = flown.flights.front();
   const FlightTable table = TableOf(flown.env, flight);
   const Termination end = table.terminations.back();
-  fmt::print("{}: {:.4g} s{}\n", flown.agent, table.columns.front().back(),
+  fmt::print("{}: {:.6g} s{}\n", flown.agent, table.columns.front().back(),
              end == Termination::kNone
                  ? ""
                  : fmt::format(" of {}, ended by {}", ShortestText(seconds),
