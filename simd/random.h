@@ -20,6 +20,7 @@ enum class RandomPurpose : std::uint32_t {
   kGust = 10,
   kNoiseLevel = 11,
   kPlant = 12,
+  kHeldActionNoise = 13,
 };
 
 /// Constants of Philox4x32-10 (Salmon et al., SC 2011, section 3.3).

@@ -296,7 +296,7 @@ TEST_F(FdmPipeline, GravityIsAskedFor) {
 
 // At the same place, what is dropped gains speed by the gravity there, in both precisions.
 TEST_F(FdmPipeline, GravityActsOnThePointsOfAFile) {
-  constexpr Tolerance kFloat32{2e-4, "float32, ft/s2"};
+  constexpr Tolerance kInFloat32{2e-4, "float32, ft/s2"};
   const std::vector<double> level = {500, 0, 0, 0, 0, 0, 0, 0, -40000, 1, 0, 0, 0};
   const json point = {{"state", level}, {"controls", {0, 0, 0, 0, 0}}};
   WriteFile(folder_ + "/in.json", json{{"points", json::array({point})}}.dump());
@@ -311,9 +311,9 @@ TEST_F(FdmPipeline, GravityActsOnThePointsOfAFile) {
   const double share = std::pow(1 + 40000 / 20855531.5, -2);  // a radius of 6,356,766 m
   for (const char* precision : {"float64", "float32"}) {
     const double usual = downward(precision, {});
-    EXPECT_NEAR(downward(precision, {"--gravity-ft-s2", "5.3"}), usual - 32.17 + 5.3, kFloat32);
+    EXPECT_NEAR(downward(precision, {"--gravity-ft-s2", "5.3"}), usual - 32.17 + 5.3, kInFloat32);
     EXPECT_NEAR(downward(precision, {"--gravity-falls-with-altitude"}), usual - 32.17 * (1 - share),
-                kFloat32);
+                kInFloat32);
   }
 }
 

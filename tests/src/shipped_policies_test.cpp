@@ -72,6 +72,12 @@ const ShippedPolicy kPolicies[] = {
      HoldLimits{0.85, 4, 0.15, 0.3},
      SmoothnessLimits{0.4, 4, 0.01}},
     {"tracking", "tracking", {}, 0.97, std::nullopt, SmoothnessLimits{0.4, 2, 0.01}},
+    {"tracking-robust",
+     "tracking",
+     {"--condition", "plant=middle", "--condition", "noisy=middle"},
+     0.9,
+     std::nullopt,
+     SmoothnessLimits{0.8, 4, 0.01}},
     {"tracking-planner", "tracking", {}, 0.92, std::nullopt, std::nullopt},
 };
 

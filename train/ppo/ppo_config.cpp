@@ -67,6 +67,17 @@ void ListFields(PpoConfig& config, FieldList& list) {
            "noise widen from the least of their ranges, plants from the nominal one; 0: from the "
            "start")
       .OffUnless(config.condition_ramp > 0);
+  list.Add("held_noise_share", &config.held_noise_share, Bounds::Fraction(),
+           "share of the exploration's variance that stays the same for ppo.held_noise_steps: what "
+           "acts slowly, as a throttle does, shows little of noise that is drawn every step; 0: "
+           "none")
+      .OffUnless(config.held_noise_share > 0);
+  list.Add("held_noise_steps", &config.held_noise_steps, {1, 1000000},
+           "policy steps for which that share is held")
+      .OffUnless(config.held_noise_share > 0);
+  list.Add("held_noise_actions", &config.held_noise_actions, {1, 1000},
+           "of the first so many actions: the throttle is the first")
+      .OffUnless(config.held_noise_share > 0);
   list.Add("value_coefficient", &config.value_coefficient, Bounds::Positive(),
            "weight of the value loss");
   list.Add("clip_value_loss", &config.clip_value_loss, "clip the value's change like the ratio");

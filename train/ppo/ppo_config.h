@@ -45,6 +45,10 @@ struct PpoConfig {
   /// mildest to all of its ranges: a policy learns to fly before it learns to fly in everything.
   /// 0: all from the start.
   double condition_ramp = 0;
+  /// Share of the exploration's variance that is held for some policy steps (HeldNoise).
+  double held_noise_share = 0;
+  int held_noise_steps = 10;
+  int held_noise_actions = 1;  ///< of the first so many: the throttle's alone
   double value_coefficient = 1;
   bool clip_value_loss = false;
   /// The critic also sees what no policy observes (VecEnv::ObservePrivileged).

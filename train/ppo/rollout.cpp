@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "simd/random.h"
 #include "train/network/ppo_loss.h"
 
 namespace skein {
@@ -18,7 +17,7 @@ struct TileScratch {
       truncation_value;
   std::vector<std::uint8_t> termination;
   std::vector<std::int32_t> episode_steps;
-  std::vector<std::uint32_t> policy_step_low, policy_step_high;
+  ActionNoiseScratch action_noise;
 
   void Resize(std::size_t count, const Rollout& rollout) {
     noise.resize(count * rollout.action_size);
@@ -30,8 +29,6 @@ struct TileScratch {
     episode_return.resize(count);
     termination.resize(count);
     episode_steps.resize(count);
-    policy_step_low.resize(count);
-    policy_step_high.resize(count);
   }
 };
 
@@ -156,14 +153,10 @@ class TileRollout {
     GaussianMean(static_cast<std::int64_t>(count_) * size, settings_.tanh_mean,
                  scratch_.workspace.output(), scratch_.mean.data());
 
-    const std::uint64_t policy_step = settings_.first_policy_step + step;
-    std::fill(scratch_.policy_step_low.begin(), scratch_.policy_step_low.end(),
-              static_cast<std::uint32_t>(policy_step));
-    std::fill(scratch_.policy_step_high.begin(), scratch_.policy_step_high.end(),
-              static_cast<std::uint32_t>(policy_step >> 32));
-    simd::FillNormals(settings_.seed, static_cast<std::uint32_t>(env_.first_aircraft() + begin_),
-                      scratch_.policy_step_low.data(), scratch_.policy_step_high.data(),
-                      simd::RandomPurpose::kActionNoise, count_, size, scratch_.noise.data());
+    FillActionNoise(
+        {settings_.seed, static_cast<std::uint32_t>(env_.first_aircraft() + begin_),
+         settings_.first_policy_step + static_cast<std::uint64_t>(step), settings_.held_noise},
+        count_, size, scratch_.action_noise, scratch_.noise.data());
     float* const action = rollout_.action.data() + row * size;
     for (int i = 0; i < count_; ++i) {
       for (int j = 0; j < size; ++j) {

@@ -8,6 +8,7 @@
 #include "base/worker_pool.h"
 #include "envs/vec_env.h"
 #include "train/network/recurrent_network.h"
+#include "train/ppo/action_noise.h"
 #include "train/ppo/ppo_config.h"
 #include "train/ppo/shards.h"
 
@@ -107,6 +108,7 @@ struct RolloutSettings {
   std::uint64_t first_policy_step = 0;
   double gamma = 0.99, gae_lambda = 0.95;
   bool tanh_mean = true;
+  HeldNoise held_noise;
   ValueScale value_scale;
 };
 

@@ -229,6 +229,8 @@ struct Trainer::Impl {
     settings.gamma = config.ppo.gamma;
     settings.gae_lambda = config.ppo.gae_lambda;
     settings.tanh_mean = config.network.tanh_mean;
+    settings.held_noise = {config.ppo.held_noise_share, config.ppo.held_noise_steps,
+                           config.ppo.held_noise_actions};
     settings.value_scale = popart.scale();
     EpisodeStatistics episodes =
         CollectRollout(env, *networks.actor.network, *networks.critic.network, networks.LogStd(),
