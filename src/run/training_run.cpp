@@ -219,22 +219,22 @@ int TrainingRun::Run() {
 void TrainingRun::SayBanner() {
   const TrainConfig& train = config_.train;
   const std::uint64_t first_step = trainer_.env_steps();
+  const bool is_rounded = LastStep(train) != train.total_steps;
+  const std::string asked = is_rounded
+                                ? fmt::format(" ({} in whole iterations)",
+                                              FormatCount(static_cast<double>(train.total_steps)))
+                                : "";
   log_.Say(
       fmt::format("{} {} in {}\n"
-                  "  {} of {} control steps, {} aircraft, seed {}\n"
+                  "  {} of {} control steps{}, {} aircraft, seed {}\n"
                   "{}\n"
                   "  {}\n"
                   "  {}",
                   first_step == 0 ? "training" : "resuming", train.env.task, directory_.path(),
                   FormatCount(static_cast<double>(first_step)),
-                  FormatCount(static_cast<double>(LastStep(train))), train.ppo.num_aircraft,
+                  FormatCount(static_cast<double>(LastStep(train))), asked, train.ppo.num_aircraft,
                   train.seed, InLines("  ", DescribeConditions(train.env)),
                   Describe(trainer_.backend()), DescribeWorkers(pool_)));
-  if (const std::uint64_t last = LastStep(train); last != train.total_steps) {
-    log_.Say(fmt::format("  the budget of {} steps is made whole iterations of {}",
-                         FormatCount(static_cast<double>(train.total_steps)),
-                         FormatCount(static_cast<double>(ControlStepsPerIteration(train)))));
-  }
   if (!ranks_.empty()) log_.Say(ranks_);
 }
 
@@ -264,6 +264,7 @@ void TrainingRun::TrainAndEvaluate() {
     }
   }
   if (saved_iteration_ != trainer_.iteration()) SaveCheckpoint();
+  directory_.Prune(config_.checkpoint.keep);  // an earlier process may have failed just before it
   log_.Note(FormatProgress(meter.progress()));
   leader_.End();
   if (!trainer_.finished()) {

@@ -154,7 +154,7 @@ TEST_F(HighLevelPipeline, LowLevelPoliciesThatDoNotFitAreNamed) {
   };
   refused(HighLevelTraining(run_, ""), "needs --low-level");
   refused(HighLevelTraining(run_, heading), "a policy of task heading", 1);
-  refused(HighLevelTraining(run_, root_ + "/absent.skein"), root_ + "/absent.skein", 1);
+  refused(HighLevelTraining(run_, root_ + "/absent.skein"), root_ + "/absent.skein");
   refused(TinyTraining(run_, {"--low-level", heading}), "not for heading");
   refused({"train", "--resume", heading, "--low-level", heading}, "not for heading");
   refused({"eval", "--policy", heading, "--low-level", heading}, "--policy untrained");

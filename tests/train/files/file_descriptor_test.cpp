@@ -48,7 +48,7 @@ TEST_F(FileDescriptorTest, ErrorsOfTheSystemAreNamed) {
   EXPECT_EQ(message_of([&] { FileDescriptor(path_, OpenMode::kRead); }),
             path_ + ": cannot be opened: No such file or directory");
   EXPECT_EQ(message_of([&] { FileDescriptor(scratch_.path(), OpenMode::kRead).ReadToEnd(100); }),
-            scratch_.path() + ": cannot be read: Is a directory");
+            scratch_.path() + ": is a directory, not a file");
   EXPECT_EQ(message_of([] { FileDescriptor("/dev/full", OpenMode::kWrite).Write("x"); }),
             "/dev/full: cannot be written: No space left on device");
 }
