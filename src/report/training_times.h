@@ -32,7 +32,7 @@ std::optional<TrainingTimes> TimesOf(const RunRecord& run);
 /// seconds, seconds_to_95_percent (null if it never was), shares.
 nlohmann::ordered_json ToJson(const TrainingTimes& times);
 
-/// Two lines for people.
+/// A line for people, with the parts of 1 % and more.
 std::string ToText(const TrainingTimes& times);
 
 }  // namespace skein
