@@ -90,7 +90,8 @@ std::string Mismatch(const std::string& text) {
 
 /// What is wrong with the options of a command, all of which are known.
 std::string WrongOptions(const CLI::App& command, const CLI::ParseError& error) {
-  const std::string kind = error.get_name(), text = error.what();
+  const std::string kind = error.get_name();
+  std::string text = error.what();
   if (kind == "ExcludesError") return Excluded(command);
   if (kind == "RequiresError") return Lonely(command);
   if (kind == "RequiredError") return Missing(command, text);
