@@ -74,7 +74,7 @@ void SayTimes(const ReportOptions& options) {
   for (const std::string& run : options.request.runs) {
     const std::optional<TrainingTimes> times = TimesOf(ReadRunRecord(run));
     if (!times) continue;
-    fmt::print("{}\n{}\n", run, ToText(*times));
+    fmt::print("{}\n{}\n{}\n", run, ToText(*times), SharesText(*times));
     all.push_back({{"run", run}});
     all.back().update(ToJson(*times));
   }

@@ -21,8 +21,6 @@ double Total(const RunRecord& run, const std::string& column) {
   return sum;
 }
 
-constexpr double kLeastTold = 0.01;  ///< of a share that people are told of
-
 /// The first iteration whose evaluation came to kTrainedSuccess.
 std::optional<double> TrainedIteration(const RunRecord& run) {
   const std::vector<double>* const iterations = run.metrics.Find("iteration");
@@ -82,17 +80,20 @@ nlohmann::ordered_json ToJson(const TrainingTimes& times) {
 }
 
 std::string ToText(const TrainingTimes& times) {
-  std::vector<std::string> shares;
-  for (const auto& [name, share] : times.shares) {
-    if (share >= kLeastTold) shares.push_back(fmt::format("{} {:.0f} %", name, 100 * share));
-  }
   const std::string trained =
       times.seconds_to_trained
           ? fmt::format("{:.0f} % deterministic success after {}", 100 * kTrainedSuccess,
                         FormatDuration(*times.seconds_to_trained))
           : fmt::format("no evaluation came to {:.0f} % success", 100 * kTrainedSuccess);
-  return fmt::format("time            {}; {}; {}", FormatDuration(times.seconds), trained,
-                     fmt::join(shares, ", "));
+  return fmt::format("time            {}; {}", FormatDuration(times.seconds), trained);
+}
+
+std::string SharesText(const TrainingTimes& times) {
+  std::vector<std::string> shares;
+  for (const auto& [name, share] : times.shares) {
+    shares.push_back(fmt::format("{} {:.1f} %", name, 100 * share));
+  }
+  return fmt::format("                {}", fmt::join(shares, ", "));
 }
 
 }  // namespace skein

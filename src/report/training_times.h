@@ -32,7 +32,8 @@ std::optional<TrainingTimes> TimesOf(const RunRecord& run);
 /// seconds, seconds_to_95_percent (null if it never was), shares.
 nlohmann::ordered_json ToJson(const TrainingTimes& times);
 
-/// A line for people, with the parts of 1 % and more.
+/// A line for people without the shares, and one with them.
 std::string ToText(const TrainingTimes& times);
+std::string SharesText(const TrainingTimes& times);
 
 }  // namespace skein
