@@ -57,6 +57,17 @@ class FdmPipeline : public ::testing::Test {
     EXPECT_EQ(result.exit_code, 0) << result.error;
     return json::parse(ReadFile(folder_ + "/out.json"));
   }
+
+  /// What `skein fdm trim` writes of the flight at an altitude and speed, with `more` flags.
+  json Trimmed(const std::string& altitude_ft, const std::string& speed_fps,
+               const std::vector<std::string>& more) {
+    const std::string path = folder_ + "/trim.json";
+    std::vector<std::string> words = {"fdm",         "trim",    "--altitude-ft", altitude_ft,
+                                      "--speed-fps", speed_fps, "--json",        path};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(CallSkein(words).exit_code, 0);
+    return json::parse(ReadFile(path));
+  }
 };
 
 TEST_F(FdmPipeline, Float64EqualsTheReference) {
@@ -261,15 +272,8 @@ TEST_F(FdmPipeline, APullUpTurnsAsItsLoadFactorSays) {
 
 TEST_F(FdmPipeline, ASteadyWindCarriesTheFlightAndNoMore) {
   constexpr Tolerance kRounding{1e-9, "rounding"};
-  const auto trim = [&](const std::vector<std::string>& wind) {
-    const std::string path = folder_ + "/windy.json";
-    std::vector<std::string> words = {"fdm",         "trim", "--altitude-ft", "5000",
-                                      "--speed-fps", "500",  "--json",        path};
-    words.insert(words.end(), wind.begin(), wind.end());
-    EXPECT_EQ(CallSkein(words).exit_code, 0);
-    return json::parse(ReadFile(path));
-  };
-  const json calm = trim({}), windy = trim({"--wind-fps", "-30,20,5"});
+  const json calm = Trimmed("5000", "500", {});
+  const json windy = Trimmed("5000", "500", {"--wind-fps", "-30,20,5"});
   EXPECT_EQ(calm["controls"], windy["controls"]);
   EXPECT_NEAR(calm["mach"].get<double>(), windy["mach"].get<double>(), kRounding);
   const double wind[] = {-30, 20, 5};
@@ -282,12 +286,7 @@ TEST_F(FdmPipeline, ASteadyWindCarriesTheFlightAndNoMore) {
 // Half the weight needs half the lift: the aircraft flies as one of half the mass, but for inertia.
 TEST_F(FdmPipeline, GravityIsAskedFor) {
   const auto alpha = [&](const std::vector<std::string>& gravity) {
-    const std::string path = folder_ + "/gravity.json";
-    std::vector<std::string> words = {"fdm",         "trim", "--altitude-ft", "40000",
-                                      "--speed-fps", "700",  "--json",        path};
-    words.insert(words.end(), gravity.begin(), gravity.end());
-    EXPECT_EQ(CallSkein(words).exit_code, 0);
-    return json::parse(ReadFile(path))["alpha_deg"].get<double>();
+    return Trimmed("40000", "700", gravity)["alpha_deg"].get<double>();
   };
   EXPECT_LT(alpha({"--gravity-ft-s2", "16.085"}), 0.6 * alpha({}));
   EXPECT_LT(alpha({"--gravity-falls-with-altitude"}), alpha({}));
