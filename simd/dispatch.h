@@ -43,9 +43,10 @@
 //
 // Rules: dispatch once, at the top of a tile's work. A header shared by kernels is named *-inl.h
 // and guarded by HWY_TARGET_TOGGLE as simd/math-inl.h is, instead of #pragma once. Other headers
-// stand above HWY_TARGET_INCLUDE. Lambdas in kernels need HWY_ATTR. MulAdd is fused on avx512 and
-// avx2 and rounds twice on sse4 and scalar: targets agree to rounding; on one target results are
-// bit-equal wherever a lane lies.
+// stand above HWY_TARGET_INCLUDE. Lambdas in kernels need HWY_ATTR. MulAdd is fused on avx512, avx2
+// and neon and rounds twice on sse4 and scalar: targets agree to rounding; on one target results
+// are bit-equal wherever a lane lies. Of a number and a NaN, Min and Max take the second operand on
+// x86 but for scalar, and the number elsewhere.
 
 /// The build of an HWY_EXPORTed function for the active target; throws Error if SKEIN_SIMD asks for
 /// an unknown or unsupported one.

@@ -43,7 +43,7 @@ HWY_INLINE V Reciprocal(D d, V x) {
   const V residual = hn::NegMulAdd(x, estimate, hn::Set(d, 1.0f));
   return hn::MulAdd(residual, estimate, estimate);
 #else
-  // The 12-bit estimates of AVX2 and SSE4 would need two Newton steps: no faster than a division.
+  // The estimates of 12 bits (8 on NEON) would need more Newton steps: no faster than a division.
   return hn::Div(hn::Set(d, 1.0f), x);
 #endif
 }

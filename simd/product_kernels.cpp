@@ -23,8 +23,8 @@ using simd::PanelProduct;
 using simd::RowBlock;
 
 // Sums of a tile, and vectors of a whole panel: with the vectors of B and a broadcast of A they
-// fill the registers, 32 on avx512 and 16 on the others.
-#if HWY_TARGET == HWY_AVX3
+// fill the registers, 32 on avx512 and AArch64 and 16 on the others.
+#if HWY_TARGET == HWY_AVX3 || (HWY_ARCH_ARM_A64 && HWY_TARGET != HWY_SCALAR)
 constexpr int kSums = 24, kPanelVectors = 4;
 #elif HWY_TARGET == HWY_AVX2
 constexpr int kSums = 12, kPanelVectors = 2;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simd/target.h"
 
-#include <cpuid.h>
 #include <hwy/targets.h>
 
 #include <atomic>
@@ -13,30 +12,45 @@
 namespace skein::simd {
 namespace {
 
-static_assert(HWY_TARGETS == (HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_SCALAR),
-              "Highway's targets are chosen by the compile definitions in simd/CMakeLists.txt");
+// Kernels use nothing that NEON has with AES alone, which later Highways tell apart.
+#ifdef HWY_NEON_WITHOUT_AES
+constexpr std::int64_t kHighwayNeon = HWY_NEON_WITHOUT_AES;
+#else
+constexpr std::int64_t kHighwayNeon = HWY_NEON;
+#endif
 
-constexpr Target kAllTargets[] = {Target::kAvx512, Target::kAvx2, Target::kSse4, Target::kScalar};
+struct TargetFacts {
+  Target target;
+  const char* name;
+  std::int64_t highway;  // Highway's bit for it
+  bool fuses_multiply_add;
+};
 
-std::int64_t HighwayTarget(Target target) {
-  switch (target) {
-    case Target::kAvx512:
-      return HWY_AVX3;
-    case Target::kAvx2:
-      return HWY_AVX2;
-    case Target::kSse4:
-      return HWY_SSE4;
-    case Target::kScalar:
-      break;
-  }
-  return HWY_SCALAR;
+/// As Target numbers them, best first.
+constexpr TargetFacts kTargets[] = {{Target::kAvx512, "avx512", HWY_AVX3, true},
+                                    {Target::kAvx2, "avx2", HWY_AVX2, true},
+                                    {Target::kSse4, "sse4", HWY_SSE4, false},
+                                    {Target::kNeon, "neon", kHighwayNeon, true},
+                                    {Target::kScalar, "scalar", HWY_SCALAR, false}};
+
+constexpr std::int64_t KnownToHighway() {
+  std::int64_t bits = 0;
+  for (const TargetFacts& facts : kTargets) bits |= facts.highway;
+  return bits;
 }
 
+// The compile definitions in simd/CMakeLists.txt see to it.
+static_assert((HWY_TARGETS & ~KnownToHighway()) == 0, "kernels are built for a nameless target");
+static_assert((HWY_TARGETS & HWY_SCALAR) != 0, "kernels are not built for the scalar target");
+
+const TargetFacts& FactsOf(Target target) { return kTargets[static_cast<int>(target)]; }
+
 bool IsSupported(Target target) {
-  const std::int64_t bit = HighwayTarget(target);
+  const std::int64_t bit = FactsOf(target).highway;
   if ((HWY_TARGETS & bit) == 0) return false;
-  // The scalar build needs nothing of the CPU; libhwy may have been built to report EMU128 instead.
-  return target == Target::kScalar || (hwy::SupportedTargets() & bit) != 0;
+  // What the whole program is compiled for needs no question to the CPU. That has the scalar build,
+  // which libhwy may have been built to report as EMU128.
+  return (HWY_BASELINE_TARGETS & bit) != 0 || (hwy::SupportedTargets() & bit) != 0;
 }
 
 std::string SupportedNames() {
@@ -58,10 +72,10 @@ void RequireSupported(Target target, const std::string& origin) {
 Target RequestedTarget() {
   const char* const variable = std::getenv("SKEIN_SIMD");
   if (variable == nullptr || *variable == '\0') return SupportedTargets().front();
-  for (const Target target : kAllTargets) {
-    if (variable == std::string(Name(target))) {
-      RequireSupported(target, "SKEIN_SIMD");
-      return target;
+  for (const TargetFacts& facts : kTargets) {
+    if (variable == std::string(facts.name)) {
+      RequireSupported(facts.target, "SKEIN_SIMD");
+      return facts.target;
     }
   }
   throw Error("SKEIN_SIMD: unknown SIMD target \"" + std::string(variable) +
@@ -70,7 +84,7 @@ Target RequestedTarget() {
 
 /// Points Highway's dispatch tables at `target`.
 Target Install(Target target) {
-  hwy::GetChosenTarget().Update(HighwayTarget(target));
+  hwy::GetChosenTarget().Update(FactsOf(target).highway);
   return target;
 }
 
@@ -80,36 +94,21 @@ std::atomic<Target>& Current() {
 }
 
 #ifdef SKEIN_NATIVE_BFLOAT16
-bool CpuHasBfloat16() {
-  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
-  constexpr unsigned kExtendedFeatures = 7, kSecondLeaf = 1, kAvx512Bf16 = 1u << 5;
-  return __get_cpuid_count(kExtendedFeatures, kSecondLeaf, &eax, &ebx, &ecx, &edx) != 0 &&
-         (eax & kAvx512Bf16) != 0;
-}
+bool CpuHasBfloat16() { return __builtin_cpu_supports("avx512bf16") != 0; }
 #else
 bool CpuHasBfloat16() { return false; }
 #endif
 
 }  // namespace
 
-const char* Name(Target target) {
-  switch (target) {
-    case Target::kAvx512:
-      return "avx512";
-    case Target::kAvx2:
-      return "avx2";
-    case Target::kSse4:
-      return "sse4";
-    case Target::kScalar:
-      break;
-  }
-  return "scalar";
-}
+const char* Name(Target target) { return FactsOf(target).name; }
+
+bool FusesMultiplyAdd(Target target) { return FactsOf(target).fuses_multiply_add; }
 
 std::vector<Target> SupportedTargets() {
   std::vector<Target> supported;
-  for (const Target target : kAllTargets) {
-    if (IsSupported(target)) supported.push_back(target);
+  for (const TargetFacts& facts : kTargets) {
+    if (IsSupported(facts.target)) supported.push_back(facts.target);
   }
   return supported;
 }

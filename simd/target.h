@@ -6,11 +6,15 @@
 
 namespace skein::simd {
 
-/// The instruction sets that every kernel is built for.
-enum class Target { kAvx512, kAvx2, kSse4, kScalar };
+/// The instruction sets that kernels are built for: the first three on x86-64, kNeon on AArch64,
+/// kScalar everywhere.
+enum class Target { kAvx512, kAvx2, kSse4, kNeon, kScalar };
 
-/// "avx512", "avx2", "sse4" or "scalar".
+/// "avx512", "avx2", "sse4", "neon" or "scalar".
 const char* Name(Target target);
+
+/// Whether a multiply-add of kernels (hn::MulAdd) rounds once on `target`, not twice.
+bool FusesMultiplyAdd(Target target);
 
 /// The targets that this build contains and this CPU runs, best first. Never empty: the scalar
 /// build always runs.

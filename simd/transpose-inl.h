@@ -67,10 +67,10 @@ HWY_INLINE void Transpose(D d, V* rows) {
     rows[4 + j] = hn::ConcatUpperUpper(d, rows[4 + j], rows[j]);
     rows[j] = low;
   }
-#elif HWY_TARGET == HWY_SSE4
+#elif HWY_TARGET != HWY_SCALAR
+  static_assert(kLanes == 4, "a square of one block");
   TransposeBlocks(d, rows);
 #else
-  static_assert(HWY_TARGET == HWY_SCALAR, "a square of one element");
   static_cast<void>(d);
   static_cast<void>(rows);
 #endif

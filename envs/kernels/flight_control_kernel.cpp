@@ -22,12 +22,12 @@ namespace {
 
 /// x limited to [low, high]; NaN stays NaN, so that it shows in the state.
 HWY_INLINE V Clip(V x, V low, V high) {
-#if HWY_TARGET == HWY_SCALAR
-  // Here Min and Max prefer the operand that is a number.
-  return hn::IfThenElse(hn::Lt(x, low), low, hn::IfThenElse(hn::Gt(x, high), high, x));
-#else
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
   // Of a number and a NaN, x86 takes the second.
   return hn::Min(high, hn::Max(low, x));
+#else
+  // Here Min and Max prefer the operand that is a number.
+  return hn::IfThenElse(hn::Lt(x, low), low, hn::IfThenElse(hn::Gt(x, high), high, x));
 #endif
 }
 

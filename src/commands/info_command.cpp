@@ -43,7 +43,7 @@ void AddInfoCommand(CLI::App* app) {
       app->add_subcommand("info", "Show version, processor, SIMD target, threads and LibTorch");
   command->add_option("--json", *json, "also write it here")->type_name("FILE");
   command->footer(
-      "The environment variable SKEIN_SIMD (avx512, avx2, sse4, scalar) forces a "
+      "The environment variable SKEIN_SIMD (avx512, avx2, sse4, neon, scalar) forces a "
       "target.");
   command->callback([json] { PrintInfo(*json); });
 }

@@ -109,7 +109,7 @@ std::string ManualPage(const std::vector<CommandForm>& commands) {
          "An error is one line on the standard error.\n"
          ".SH ENVIRONMENT\n"
          ".TP\n\\fBSKEIN_SIMD\\fR\n"
-         "forces a SIMD target: avx512, avx2, sse4 or scalar\n"
+         "forces a SIMD target: avx512, avx2, sse4, neon or scalar\n"
          ".TP\n\\fBNO_COLOR\\fR\n"
          "if set, progress is shown without colour\n";
 }

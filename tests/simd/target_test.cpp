@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "gmock/gmock.h"
@@ -22,6 +23,14 @@ namespace {
 
 int LanesOfKernel() { return static_cast<int>(hwy::HWY_NAMESPACE::Lanes(HWY_FULL(float)())); }
 
+/// Of (1 + e)^2 - 1, e = 2^-12, a product that rounds has lost the e^2.
+bool KernelFusesMultiplyAdd() {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const HWY_FULL(float) d;
+  const auto x = hn::Set(d, 1 + 0x1p-12f);
+  return hn::GetLane(hn::MulAdd(x, x, hn::Set(d, -1.0f))) != 0x1p-11f;
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace skein
@@ -34,6 +43,7 @@ namespace {
 using simd::Target;
 
 HWY_EXPORT(LanesOfKernel);
+HWY_EXPORT(KernelFusesMultiplyAdd);
 
 class TargetTest : public testing::Test {
  protected:
@@ -50,6 +60,7 @@ int LanesOf(Target target) {
     case Target::kAvx2:
       return 8;
     case Target::kSse4:
+    case Target::kNeon:
       return 4;
     case Target::kScalar:
       break;
@@ -57,8 +68,23 @@ int LanesOf(Target target) {
   return 1;
 }
 
-TEST_F(TargetTest, EveryKernelIsBuiltForExactlyFourTargets) {
+TEST_F(TargetTest, KernelsAreBuiltForTheArchitecturesTargetsAndNoOthers) {
+#if HWY_ARCH_X86
   EXPECT_EQ(HWY_TARGETS, HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_SCALAR);
+#elif HWY_ARCH_ARM_A64
+  EXPECT_THAT(simd::SupportedTargets(), testing::ElementsAre(Target::kNeon, Target::kScalar));
+#else
+  EXPECT_THAT(simd::SupportedTargets(), testing::ElementsAre(Target::kScalar));
+#endif
+}
+
+TEST_F(TargetTest, NamesAreOfTheTargetThatTheyName) {
+  const std::pair<Target, std::string> names[] = {{Target::kAvx512, "avx512"},
+                                                  {Target::kAvx2, "avx2"},
+                                                  {Target::kSse4, "sse4"},
+                                                  {Target::kNeon, "neon"},
+                                                  {Target::kScalar, "scalar"}};
+  for (const auto& [target, name] : names) EXPECT_EQ(simd::Name(target), name);
 }
 
 TEST_F(TargetTest, ScalarIsAlwaysSupportedAndLast) {
@@ -71,6 +97,7 @@ TEST_F(TargetTest, ForcingATargetRunsItsBuildOfAKernel) {
     simd::ForceTarget(target);
     EXPECT_EQ(simd::ActiveTarget(), target);
     EXPECT_EQ(SKEIN_DISPATCH(LanesOfKernel)(), LanesOf(target));
+    EXPECT_EQ(SKEIN_DISPATCH(KernelFusesMultiplyAdd)(), simd::FusesMultiplyAdd(target));
   }
 }
 

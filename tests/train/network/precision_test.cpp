@@ -314,7 +314,7 @@ TEST_P(RealRolloutTest, LogProbabilitiesAgreeWithDoublePrecision) {
 std::vector<simd::Target> FastTargets() {
   std::vector<simd::Target> targets;
   for (const simd::Target target : simd::SupportedTargets()) {
-    if (target == simd::Target::kAvx512 || target == simd::Target::kAvx2) targets.push_back(target);
+    if (simd::FusesMultiplyAdd(target)) targets.push_back(target);
   }
   return targets.empty() ? simd::SupportedTargets() : targets;
 }

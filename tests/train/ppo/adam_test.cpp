@@ -86,8 +86,7 @@ TEST_P(AdamTest, AgreesWithLibTorchOverAThousandSteps) {
     largest = std::max<double>(largest, std::abs(reference[i]));
     difference = std::max<double>(difference, std::abs(adam.parameters()[i] - reference[i]));
   }
-  const bool fused = GetParam() == simd::Target::kAvx512 || GetParam() == simd::Target::kAvx2;
-  EXPECT_LE(difference / largest, fused ? kFused : kUnfused);
+  EXPECT_LE(difference / largest, simd::FusesMultiplyAdd(GetParam()) ? kFused : kUnfused);
 }
 
 TEST_P(AdamTest, ResumesBitExactly) {
