@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What scripts/soak calls flat, and what it finds in samples of a training that leaks or slows down."""
+import importlib.machinery
+import importlib.util
+import pathlib
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/soak"
+
+
+def load(path):
+    loader = importlib.machinery.SourceFileLoader("soak", str(path))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("soak", loader))
+    loader.exec_module(module)
+    return module
+
+
+soak = load(SCRIPT)
+
+
+def samples(**changes):
+    """Of 200 moments; `changes` says of a name what it is at the share 0 to 1 of the time."""
+    rows = []
+    for number in range(200):
+        share = number / 199
+        row = {"memory_mb": 300.0 if share > 0.05 else 40.0, "threads": 3, "descriptors": 12, "files": 9,
+               "steps": int(1e6 * share), "processor_s": 100 * share}
+        row.update({name: change(share) for name, change in changes.items()})
+        rows.append(row)
+    return rows
+
+
+class Soak(unittest.TestCase):
+    def test_a_flat_training_is_flat_whatever_it_takes_to_begin(self):
+        self.assertEqual(list(soak.grown(samples())), [])
+
+    def test_each_growth_is_found(self):
+        growing = {"memory_mb": lambda share: 300 + 30 * share, "descriptors": lambda share: 12 + int(4 * share),
+                   "threads": lambda share: 3 + int(2 * share + 0.5), "files": lambda share: 9 + int(50 * share)}
+        for name, change in growing.items():
+            findings = list(soak.grown(samples(**{name: change})))
+            self.assertEqual(len(findings), 1, name)
+            self.assertIn(name.split("_")[0], findings[0])
+
+    def test_a_training_that_slows_down_is_found(self):
+        findings = list(soak.grown(samples(steps=lambda share: int(1e6 * (share - 0.2 * share ** 2)))))
+        self.assertEqual(len(findings), 1)
+        self.assertIn("the rate fell", findings[0])
+
+    def test_a_training_that_does_nothing_is_found(self):
+        self.assertIn("nothing was trained", "".join(soak.grown(samples(steps=lambda share: 0))))
+
+
+if __name__ == "__main__":
+    unittest.main()
