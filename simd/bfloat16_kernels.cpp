@@ -60,12 +60,22 @@ inline __attribute__((always_inline)) void Tile(const PanelProduct& p, const Wor
   }
 }
 
+/// Fetches the sums of a tile, which come from the outer caches, if not from memory.
+template <int kRows, int kVectors>
+inline __attribute__((always_inline)) void Fetch(const float* sums, std::int64_t stride) {
+#pragma GCC unroll 64
+  for (int t = 0; t < kRows * kVectors; ++t) {
+    _mm_prefetch(sums + t / kVectors * stride + t % kVectors * kLanes, _MM_HINT_T0);
+  }
+}
+
 /// Tiles of kRows rows, as many as fit between `row` and the end; then one tile of the rest.
 template <int kRows, int kVectors, bool kTransposed>
 void Strips(const PanelProduct& p, std::int64_t row) {
   if constexpr (kRows > 0) {
     const __mmask16 last = FirstLanes(p.columns - (kVectors - 1) * kLanes);
     for (; row + kRows <= p.rows; row += kRows) {
+      Fetch<kRows, kVectors>(p.out + (row + kRows) * p.out_stride, p.out_stride);  // of the next
       Tile<kRows, kVectors, kTransposed>(
           p, static_cast<const Word*>(p.a) + row * (kTransposed ? 1 : p.a_stride),
           p.init + row * p.init_stride, p.out + row * p.out_stride, last);
@@ -90,37 +100,56 @@ void MultiplyPanelOf(const PanelProduct& p) {
 
 void MultiplyPanel(const PanelProduct& p) { MultiplyPanelOf<kPanelVectors>(p); }
 
+/// Words of 2 * kLanes floats of one row, of which the first `left` are there.
+__m512i RoundedRow(const float* in, std::int64_t left) {
+  const __m512 low = _mm512_maskz_loadu_ps(FirstLanes(left), in);
+  const __m512 high = left > kLanes ? _mm512_maskz_loadu_ps(FirstLanes(left - kLanes), in + kLanes)
+                                    : _mm512_setzero_ps();
+  return (__m512i)_mm512_cvtne2ps_pbh(high, low);
+}
+
 void RoundRows(const RowBlock& block, std::int64_t words_stride, void* words) {
+  constexpr std::int64_t kElements = 2 * kLanes;
   for (std::int64_t i = 0; i < block.rows; ++i) {
     const float* const in = block.data + i * block.stride;
     char* const out = static_cast<char*>(words) + i * words_stride * sizeof(Word);
-    for (std::int64_t j = 0; j < block.columns; j += 2 * kLanes) {
-      const std::int64_t left = block.columns - j;
-      const __m512 low = _mm512_maskz_loadu_ps(FirstLanes(left), in + j);
-      const __m512 high = left > kLanes
-                              ? _mm512_maskz_loadu_ps(FirstLanes(left - kLanes), in + j + kLanes)
-                              : _mm512_setzero_ps();
+    std::int64_t j = 0;
+    for (; j + kElements <= block.columns; j += kElements) {
+      const __m512i row =
+          (__m512i)_mm512_cvtne2ps_pbh(_mm512_loadu_ps(in + j + kLanes), _mm512_loadu_ps(in + j));
+      _mm512_storeu_si512(out + j / 2 * sizeof(Word), row);
+    }
+    const std::int64_t left = block.columns - j;
+    if (left > 0) {
       _mm512_mask_storeu_epi32(out + j / 2 * sizeof(Word), FirstLanes((left + 1) / 2),
-                               (__m512i)_mm512_cvtne2ps_pbh(high, low));
+                               RoundedRow(in + j, left));
     }
   }
+}
+
+/// Pairs of an even and an odd row's lanes.
+__m512i Paired(__m512 even, __m512 odd) {
+  // Lane by lane, the even row's half of the vector and the odd row's.
+  alignas(64) static constexpr std::int16_t kLanesInTurns[2 * kLanes] = {
+      0, 16, 1, 17, 2,  18, 3,  19, 4,  20, 5,  21, 6,  22, 7,  23,
+      8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31};
+  const __m512i halves = (__m512i)_mm512_cvtne2ps_pbh(odd, even);
+  return _mm512_maskz_permutexvar_epi16(~__mmask32{0}, _mm512_load_si512(kLanesInTurns), halves);
 }
 
 void PackRows(const RowBlock& block, std::int64_t words_stride, void* words) {
   for (std::int64_t i = 0; i < block.rows; i += 2) {
     const float* const even = block.data + i * block.stride;
+    // A row behind an odd number of them is zero.
+    const bool last = i + 1 == block.rows;
+    const float* const odd = last ? even : even + block.stride;
+    const __mmask16 odd_lanes = last ? 0 : kAllLanes;
     char* const out = static_cast<char*>(words) + i / 2 * words_stride * sizeof(Word);
     for (std::int64_t j = 0; j < block.columns; j += kLanes) {
       const __mmask16 mask = FirstLanes(block.columns - j);
-      const __m512 low = _mm512_maskz_loadu_ps(mask, even + j);
-      const __m512 high = i + 1 < block.rows ? _mm512_maskz_loadu_ps(mask, even + block.stride + j)
-                                             : _mm512_setzero_ps();
-      // Zero-masked forms: g++ 12 warns of its own definitions of the others (GCC bug 105593).
-      const __m512i even_words =
-          _mm512_maskz_cvtepu16_epi32(kAllLanes, (__m256i)_mm512_cvtneps_pbh(low));
-      const __m512i odd_words = _mm512_maskz_slli_epi32(
-          kAllLanes, _mm512_maskz_cvtepu16_epi32(kAllLanes, (__m256i)_mm512_cvtneps_pbh(high)), 16);
-      _mm512_store_si512(out + j * sizeof(Word), _mm512_or_si512(even_words, odd_words));
+      _mm512_store_si512(out + j * sizeof(Word),
+                         Paired(_mm512_maskz_loadu_ps(mask, even + j),
+                                _mm512_maskz_loadu_ps(mask & odd_lanes, odd + j)));
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/product_kernels.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -66,6 +67,16 @@ HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64
   }
 }
 
+/// Fetches the sums of a tile, which come from the outer caches, if not from memory.
+template <int kRows, int kVectors>
+HWY_INLINE void Fetch(const float* sums, std::int64_t stride) {
+  constexpr int kLineFloats = 16;  // of a cache line
+  HWY_UNROLL(16)
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j < kVectors * kLanes; j += kLineFloats) hwy::Prefetch(sums + i * stride + j);
+  }
+}
+
 /// Tiles of kRows rows, as many as fit between `row` and the end; then one tile of the rest.
 template <int kRows, int kVectors, bool kTransposed>
 void Strips(const PanelProduct& p, std::int64_t row) {
@@ -76,6 +87,7 @@ void Strips(const PanelProduct& p, std::int64_t row) {
       const float* const strip = a + row * (kTransposed ? 1 : p.a_stride);
       const float* const init = p.init + row * p.init_stride;
       float* const out = p.out + row * p.out_stride;
+      Fetch<kRows, kVectors>(out + kRows * p.out_stride, p.out_stride);  // of the next tile
       if (p.columns == kVectors * kLanes) {
         Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, p.b_stride, init,
                                            p.init_stride, out, p.out_stride);

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the time of a tile goes: every part of what a network does with a tile of an update or of
+// a rollout, on one core, with its share of the peak. Tiles of all precisions take turns with each
+// other, with the network itself, and with the measurements of the peak. Times are lower quartiles
+// over the turns: other programs take the processor from a long part more often than from a short
+// one.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <vector>
+
+#include "base/denormals.h"
+#include "base/error.h"
+#include "bench/tile_parts.h"
+#include "simd/peak.h"
+#include "train/network/fused_network.h"
+
+namespace skein::bench {
+namespace {
+
+using simd::Precision;
+
+constexpr std::size_t kParts = static_cast<std::size_t>(TilePart::kCount);
+
+double LowerQuartile(std::vector<double> values) {
+  const auto quartile = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
+  std::nth_element(values.begin(), quartile, values.end());
+  return *quartile;
+}
+
+/// The best of the roofs of one core so far, FLOP/s.
+struct Roofs {
+  double float32 = 0, bfloat16 = 0;
+
+  void Measure() {
+    const double single = 1e9 * simd::MeasurePeak(1).gflops_per_core;
+    const auto pairs = simd::MeasureBfloat16Peak(1);
+    float32 = std::max(float32, single);
+    bfloat16 = std::max(bfloat16, pairs ? 1e9 * pairs->gflops_per_core : single);
+  }
+  double Of(Precision precision) const {
+    return precision == Precision::kFloat32 ? float32 : bfloat16;
+  }
+};
+
+bool IsForward(TilePart part) {
+  return part == TilePart::kHiddenForward || part == TilePart::kGateInputForward ||
+         part == TilePart::kGateStateForward;
+}
+
+/// Tiles of `steps` x `batch` samples in one precision.
+class Tiles {
+ public:
+  Tiles(const char* name, const NetworkPrecision& precision, int steps, int batch, bool backward)
+      : name_(name),
+        precision_(precision),
+        backward_(backward),
+        replay_(precision, steps, batch),
+        network_(replay_.layout(), precision),
+        accumulator_(network_.accumulator_size()) {
+    network_.SetParameters(replay_.parameters().data());
+  }
+
+  void Turn() {
+    const TileReplay::Seconds seconds = replay_.Run(backward_);
+    for (std::size_t i = 0; i < kParts; ++i) parts_[i].push_back(seconds[i]);
+    const auto start = std::chrono::steady_clock::now();
+    if (backward_) {
+      network_.AccumulateGradient(replay_.tile(), replay_.settings(), workspace_,
+                                  accumulator_.data());
+    } else {
+      network_.Forward(replay_.tile().sequence, workspace_);
+    }
+    whole_.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+
+  void Print(const Roofs& roofs) const {
+    const double whole = LowerQuartile(whole_);
+    double sum = 0, at_peak = 0;
+    std::printf("\n%s, %s of %d x %d samples\n%-38s %9s %9s %9s\n", name_,
+                backward_ ? "an update's tile" : "a rollout's step", replay_.tile().sequence.steps,
+                replay_.tile().sequence.batch, "", "us", "% of it", "% of peak");
+    for (std::size_t i = 0; i < kParts; ++i) {
+      const auto part = static_cast<TilePart>(i);
+      const double seconds = LowerQuartile(parts_[i]);
+      if (seconds == 0) continue;
+      const double ideal = SecondsAtPeak(part, roofs);
+      sum += seconds;
+      at_peak += ideal;
+      PrintRow(Name(part), seconds, whole, ideal);
+    }
+    PrintRow("all parts", sum, whole, at_peak);
+    PrintRow("the network, without clocks", whole, whole, at_peak);
+  }
+
+ private:
+  /// What the part's products would take there.
+  double SecondsAtPeak(TilePart part, const Roofs& roofs) const {
+    const double flops = replay_.Flops(part);
+    const double forward = roofs.Of(precision_.forward), backward = roofs.Of(precision_.backward);
+    if (part != TilePart::kHead) return flops / (IsForward(part) ? forward : backward);
+    return flops / 3 * (1 / forward + (backward_ ? 2 / backward : 0));
+  }
+
+  static void PrintRow(const char* name, double seconds, double whole, double ideal) {
+    std::printf("%-38s %9.1f %9.1f", name, 1e6 * seconds, 100 * seconds / whole);
+    if (ideal > 0) std::printf(" %9.1f", 100 * ideal / seconds);
+    std::printf("\n");
+  }
+
+  const char* name_;
+  NetworkPrecision precision_;
+  bool backward_;
+  TileReplay replay_;
+  FusedNetwork network_;
+  NetworkWorkspace workspace_;
+  AlignedVector<float> accumulator_;
+  std::array<std::vector<double>, kParts> parts_;
+  std::vector<double> whole_;
+};
+
+void Run(int rounds) {
+  const DenormalsFlushed flushed;
+  constexpr NetworkPrecision kFloat32, kMixed{Precision::kFloat32, Precision::kBfloat16},
+      kBfloat16{Precision::kBfloat16, Precision::kBfloat16};
+  std::vector<Tiles> tiles;
+  tiles.reserve(5);
+  tiles.emplace_back("fp32", kFloat32, 8, 48, true);
+  tiles.emplace_back("mixed", kMixed, 8, 48, true);
+  tiles.emplace_back("bf16", kBfloat16, 8, 48, true);
+  tiles.emplace_back("fp32", kFloat32, 1, 256, false);
+  tiles.emplace_back("bf16", kBfloat16, 1, 256, false);
+  Roofs roofs;
+  for (int round = 0; round < rounds; ++round) {
+    if (round % 50 == 0) roofs.Measure();
+    for (Tiles& each : tiles) each.Turn();
+  }
+  std::printf("peak of a core: %.1f GFLOP/s in float32, %.1f in bfloat16\n", roofs.float32 / 1e9,
+              roofs.bfloat16 / 1e9);
+  for (const Tiles& each : tiles) each.Print(roofs);
+}
+
+}  // namespace
+}  // namespace skein::bench
+
+int main(int argc, char** argv) {
+  const int rounds = argc == 2 ? std::atoi(argv[1]) : argc == 1 ? 200 : 0;
+  if (rounds < 1) {
+    std::cerr << "usage: bench_tile [ROUNDS]\n";
+    return 2;
+  }
+  try {
+    skein::bench::Run(rounds);
+  } catch (const skein::Error& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

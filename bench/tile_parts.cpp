@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/tile_parts.h"
+
+#include <algorithm>
+
+#include "bench/learner_meter.h"
+#include "train/network/network_kernels.h"
+
+namespace skein::bench {
+namespace {
+
+constexpr int kObservations = 22, kActions = 4;
+constexpr int kHiddenLayers = 2;       // on each side of the GRU
+constexpr std::int64_t kBlock = 96;    // rows, as FusedNetwork's
+constexpr int kSize = 128;             // of layers and state
+constexpr std::int64_t kGateStride = 4 * kSize + 16;
+constexpr std::int64_t kStride = kSize + 16;
+
+template <typename Visit>
+void ForEachBlock(std::int64_t rows, const Visit& visit) {
+  for (std::int64_t first = 0; first < rows; first += kBlock) {
+    visit(first, std::min(kBlock, rows - first));
+  }
+}
+
+NetworkShape Shape() { return ActorShape(NetworkConfig(), kObservations, kActions); }
+
+}  // namespace
+
+const char* Name(TilePart part) {
+  switch (part) {
+    case TilePart::kObservation: return "observation: LayerNorm";
+    case TilePart::kHiddenForward: return "hidden layers: products forward";
+    case TilePart::kHiddenNormalise: return "hidden layers: ReLU, LayerNorm";
+    case TilePart::kGateInputForward: return "GRU: products of its input";
+    case TilePart::kGateStateForward: return "GRU: products of its state";
+    case TilePart::kState: return "GRU: states masked, bias, both ways";
+    case TilePart::kGates: return "GRU: gates";
+    case TilePart::kStateNormalise: return "GRU: LayerNorm";
+    case TilePart::kHead: return "head: products, both ways";
+    case TilePart::kLoss: return "loss";
+    case TilePart::kHiddenToInput: return "hidden layers: products to inputs";
+    case TilePart::kHiddenToWeight: return "hidden layers: products to weights";
+    case TilePart::kNormaliseBackward: return "ReLU, LayerNorm backward, bias";
+    case TilePart::kGatesBackward: return "GRU: gates backward, bias";
+    case TilePart::kGateStateToInput: return "GRU: products to states";
+    case TilePart::kGateStateToWeight: return "GRU: products to the state's weight";
+    case TilePart::kGateInputToInput: return "GRU: products to its input";
+    case TilePart::kGateInputToWeight: return "GRU: products to the input's weight";
+    case TilePart::kCount: break;
+  }
+  return "";
+}
+
+TileReplay::TileReplay(const NetworkPrecision& precision, int steps, int batch)
+    : layout_(Shape()),
+      folded_layout_(layout_),
+      gate_input_(folded_layout_.gru(0).input, precision),
+      gate_state_(folded_layout_.gru(0).hidden, precision),
+      head_(folded_layout_.linear(layout_.head()), precision),
+      parameters_(InitialParameters(layout_, 0.01, 0, 1, 0)),
+      folded_(folded_layout_.size()),
+      gradient_(folded_layout_.size(), 0.0f),
+      observation_(Normal(static_cast<std::int64_t>(steps) * batch * kObservations)),
+      initial_state_(Normal(static_cast<std::int64_t>(batch) * kSize, 0.3f)),
+      action_(Normal(static_cast<std::int64_t>(steps) * batch * kActions)),
+      advantage_(Normal(static_cast<std::int64_t>(steps) * batch)),
+      not_done_(advantage_.size(), 1.0f),
+      log_prob_(advantage_.size(), -5.5f) {
+  folded_layout_.Fold(parameters_.data(), folded_.data());
+  for (int i = 0; i < layout_.head(); ++i) {
+    if (i != layout_.gru_input()) hidden_.emplace_back(folded_layout_.linear(i), precision);
+  }
+  for (LinearLayer& linear : hidden_) linear.SetParameters(folded_.data());
+  for (LinearLayer* const linear : {&gate_input_, &gate_state_, &head_}) {
+    linear->SetParameters(folded_.data());
+  }
+  tile_.sequence = {steps, batch, observation_.data(), initial_state_.data(), not_done_.data()};
+  tile_.actor = {action_.data(), log_prob_.data(), advantage_.data()};
+  settings_.sample_weight = 1.0 / static_cast<double>(tile_.sequence.rows());
+  activations_.Reserve(layout_.shape(), steps, batch);
+  output_.resize(tile_.sequence.rows() * kActions);
+}
+
+TileReplay::Seconds TileReplay::Run(bool backward) {
+  seconds_ = {};
+  Forward();
+  if (backward) {
+    Time(TilePart::kLoss, [&] {
+      const std::int64_t log_std = folded_layout_.log_std();
+      ActorLoss(tile_, kActions, settings_, output_.data(), folded_.data() + log_std,
+                activations_.output_gradient.data(), gradient_.data() + log_std);
+    });
+    Backward();
+  }
+  return seconds_;
+}
+
+double TileReplay::Flops(TilePart part) const {
+  const double product = 2.0 * static_cast<double>(tile_.sequence.rows());
+  const double hidden = product * kSize * (kObservations + (2 * kHiddenLayers - 1) * kSize);
+  const double gates = product * kSize * 3 * kSize;
+  switch (part) {
+    case TilePart::kHiddenForward:
+    case TilePart::kHiddenToWeight: return hidden;
+    case TilePart::kHiddenToInput: return hidden - product * kSize * kObservations;
+    case TilePart::kGateInputForward:
+    case TilePart::kGateStateForward:
+    case TilePart::kGateStateToWeight:
+    case TilePart::kGateInputToInput:
+    case TilePart::kGateInputToWeight: return gates;
+    case TilePart::kGateStateToInput:
+      return gates * (tile_.sequence.steps - 1) / tile_.sequence.steps;
+    case TilePart::kHead: return 3 * product * kSize * kActions;
+    default: return 0;
+  }
+}
+
+const float* TileReplay::InputOf(int hidden) const {
+  if (hidden == kHiddenLayers) return activations_.normalised_state.data();
+  return hidden == 0 ? activations_.observation.data()
+                     : activations_.hidden[hidden - 1].normalised.data();
+}
+
+void TileReplay::HiddenForward(int index, std::int64_t first, std::int64_t count) {
+  const LinearLayer& linear = hidden_[index];
+  const std::int64_t in = RowStride(linear.place().in);
+  FusedActivations::HiddenRows& rows = activations_.hidden[index];
+  float* const values = rows.normalised.data() + first * kStride;
+  Time(TilePart::kHiddenForward, [&] {
+    linear.Forward(count, InputOf(index) + first * in, in, folded_.data() + linear.place().bias,
+                   false, values, kStride, &activations_.products);
+  });
+  Time(TilePart::kHiddenNormalise, [&] {
+    ReluNormalise(count, kSize, values, rows.inverse_std.data() + first,
+                  rows.zero_level.data() + first);
+  });
+}
+
+void TileReplay::StepForward(int step) {
+  const std::int64_t batch = tile_.sequence.batch, begin = step * batch;
+  FusedActivations::GruRows& rows = activations_.gru[0];
+  float* const previous = rows.previous.data() + begin * kStride;
+  const float* const bias = folded_.data() + gate_state_.place().bias + 2 * kSize;
+  Time(TilePart::kState, [&] {
+    if (step == 0) {
+      for (std::int64_t i = 0; i < batch; ++i) {
+        std::copy_n(initial_state_.data() + i * kSize, kSize, previous + i * kStride);
+      }
+    } else {
+      ScaleRows(batch, kSize, not_done_.data() + begin,
+                rows.state.data() + (begin - batch) * kStride, previous);
+    }
+  });
+  ForEachBlock(batch, [&](std::int64_t first, std::int64_t count) {
+    float* const gates = rows.gates.data() + (begin + first) * kGateStride;
+    Time(TilePart::kState, [&] {
+      for (std::int64_t i = 0; i < count; ++i) {
+        std::copy_n(bias, kSize, gates + i * kGateStride + 3 * kSize);
+      }
+    });
+    Time(TilePart::kGateStateForward, [&] {
+      gate_state_.Forward(count, previous + first * kStride, kStride, nullptr, true, gates + kSize,
+                          kGateStride, &activations_.products);
+    });
+    Time(TilePart::kGates, [&] {
+      GruStep(count, kSize, previous + first * kStride, gates, kGateStride,
+              rows.state.data() + (begin + first) * kStride);
+    });
+  });
+}
+
+void TileReplay::Forward() {
+  const std::int64_t rows = tile_.sequence.rows();
+  FusedActivations& own = activations_;
+  ForEachBlock(rows, [&](std::int64_t first, std::int64_t count) {
+    Time(TilePart::kObservation, [&] {
+      NormaliseRows(count, kObservations, observation_.data() + first * kObservations,
+                    own.observation.data() + first * RowStride(kObservations));
+    });
+    for (int i = 0; i < kHiddenLayers; ++i) HiddenForward(i, first, count);
+    Time(TilePart::kGateInputForward, [&] {
+      gate_input_.Forward(count, own.hidden[kHiddenLayers - 1].normalised.data() + first * kStride,
+                          kStride, folded_.data() + gate_input_.place().bias, false,
+                          own.gru[0].gates.data() + first * kGateStride, kGateStride,
+                          &own.products);
+    });
+  });
+  for (int step = 0; step < tile_.sequence.steps; ++step) StepForward(step);
+  ForEachBlock(rows, [&](std::int64_t first, std::int64_t count) {
+    Time(TilePart::kStateNormalise, [&] {
+      NormaliseWithStd(count, kSize, own.gru[0].state.data() + first * kStride,
+                       own.normalised_state.data() + first * kStride,
+                       own.state_inverse_std.data() + first);
+    });
+    for (int i = kHiddenLayers; i < 2 * kHiddenLayers; ++i) HiddenForward(i, first, count);
+    Time(TilePart::kHead, [&] {
+      head_.Forward(count, own.hidden[2 * kHiddenLayers - 1].normalised.data() + first * kStride,
+                    kStride, folded_.data() + head_.place().bias, false,
+                    output_.data() + first * kActions, kActions, &own.products);
+    });
+  });
+}
+
+void TileReplay::HiddenBackward(int index, float* input_gradient, std::int64_t first,
+                                std::int64_t count, float* gradient) {
+  const LinearLayer& linear = hidden_[index];
+  const std::int64_t in = RowStride(linear.place().in);
+  const FusedActivations::HiddenRows& rows = activations_.hidden[index];
+  Time(TilePart::kNormaliseBackward, [&] {
+    ReluNormaliseBackward(count, kSize, rows.normalised.data() + first * kStride,
+                          rows.inverse_std.data() + first, rows.zero_level.data() + first, gradient,
+                          gradient_.data() + linear.place().bias);
+  });
+  Time(TilePart::kHiddenToWeight, [&] {
+    linear.BackwardToWeight(count, InputOf(index) + first * in, in, gradient, kStride,
+                            gradient_.data(), &activations_.products);
+  });
+  if (input_gradient == nullptr) return;
+  Time(TilePart::kHiddenToInput, [&] {
+    linear.BackwardToInput(count, gradient, kStride, false, input_gradient, in,
+                           &activations_.products);
+  });
+}
+
+void TileReplay::StepBackward(int step) {
+  const std::int64_t batch = tile_.sequence.batch;
+  FusedActivations::GruRows& own = activations_.gru[0];
+  ForEachBlock(batch, [&](std::int64_t offset, std::int64_t count) {
+    const std::int64_t first = step * batch + offset;
+    float* const gates = own.gates.data() + first * kGateStride;
+    float* const gradient = activations_.state_gradient[0].data() + first * kStride;
+    Time(TilePart::kGatesBackward, [&] {
+      GruStepBackward(count, kSize, own.previous.data() + first * kStride, gates, kGateStride,
+                      gradient, activations_.gate_sums.data());
+    });
+    if (step == 0) return;
+    Time(TilePart::kGateStateToInput, [&] {
+      gate_state_.BackwardToInput(count, gates + kSize, kGateStride, true, gradient, kStride,
+                                  &activations_.products);
+    });
+    Time(TilePart::kState, [&] {
+      AddScaledRows(count, kSize, not_done_.data() + first, gradient, gradient - batch * kStride);
+    });
+  });
+}
+
+void TileReplay::Backward() {
+  const std::int64_t rows = tile_.sequence.rows();
+  FusedActivations& own = activations_;
+  float* const by_state = own.state_gradient[0].data();
+  float* const block[2] = {own.block_gradient[0].data(), own.block_gradient[1].data()};
+  ForEachBlock(rows, [&](std::int64_t first, std::int64_t count) {
+    Time(TilePart::kHead, [&] {
+      const float* const by_output = own.output_gradient.data() + first * kActions;
+      AddColumnSums(count, kActions, by_output, kActions, gradient_.data() + head_.place().bias);
+      head_.BackwardToWeight(
+          count, own.hidden[2 * kHiddenLayers - 1].normalised.data() + first * kStride, kStride,
+          by_output, kActions, gradient_.data(), &own.products);
+      head_.BackwardToInput(count, by_output, kActions, false, block[0], kStride, &own.products);
+    });
+    float* const by_block_state = by_state + first * kStride;
+    HiddenBackward(3, block[1], first, count, block[0]);
+    HiddenBackward(2, by_block_state, first, count, block[1]);
+    Time(TilePart::kNormaliseBackward, [&] {
+      NormaliseBackward(count, kSize, own.normalised_state.data() + first * kStride,
+                        own.state_inverse_std.data() + first, by_block_state);
+    });
+  });
+  for (int step = tile_.sequence.steps - 1; step >= 0; --step) StepBackward(step);
+  float* const gates = own.gru[0].gates.data();
+  Time(TilePart::kGateStateToWeight, [&] {
+    gate_state_.BackwardToWeight(rows, own.gru[0].previous.data(), kStride, gates + kSize,
+                                 kGateStride, gradient_.data(), &own.products);
+  });
+  ForEachBlock(rows, [&](std::int64_t first, std::int64_t count) {
+    const float* const own_gates = gates + first * kGateStride;
+    Time(TilePart::kGateInputToWeight, [&] {
+      gate_input_.BackwardToWeight(
+          count, own.hidden[kHiddenLayers - 1].normalised.data() + first * kStride, kStride,
+          own_gates, kGateStride, gradient_.data(), &own.products);
+    });
+    Time(TilePart::kGateInputToInput, [&] {
+      gate_input_.BackwardToInput(count, own_gates, kGateStride, false, block[0], kStride,
+                                  &own.products);
+    });
+    HiddenBackward(1, block[1], first, count, block[0]);
+    HiddenBackward(0, nullptr, first, count, block[1]);
+  });
+}
+
+}  // namespace skein::bench

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "base/aligned_vector.h"
+#include "train/network/fused_activations.h"
+#include "train/network/linear_layer.h"
+#include "train/network/ppo_loss.h"
+
+namespace skein::bench {
+
+/// Parts of what a network does with a tile of samples.
+enum class TilePart {
+  kObservation,          ///< its LayerNorm
+  kHiddenForward,        ///< products
+  kHiddenNormalise,      ///< ReLU and LayerNorm
+  kGateInputForward,     ///< products of the GRU's input
+  kGateStateForward,     ///< products of its state, step by step
+  kState,                ///< states zeroed where episodes begin, forward and backward
+  kGates,                ///< sigmoids and tanh
+  kStateNormalise,       ///< LayerNorm of the state
+  kHead,                 ///< products forward and backward
+  kLoss,                 ///< gradient with respect to the output
+  kHiddenToInput,        ///< products backward with respect to the input
+  kHiddenToWeight,       ///< and to the weight
+  kNormaliseBackward,    ///< ReLU, LayerNorm, bias
+  kGatesBackward,        ///< of the sigmoids and tanh, bias
+  kGateStateToInput,     ///< products with respect to the state before, step by step
+  kGateStateToWeight,    ///< and to its weight
+  kGateInputToInput,     ///< products with respect to the GRU's input
+  kGateInputToWeight,    ///< and to its weight
+  kCount,
+};
+
+/// What the part does, for people.
+const char* Name(TilePart part);
+
+/// Computes a tile of one network, an actor of the default settings, as FusedNetwork does: the same
+/// calls in the same order on memory laid out alike, but with a clock between any two parts.
+class TileReplay {
+ public:
+  using Seconds = std::array<double, static_cast<std::size_t>(TilePart::kCount)>;
+
+  TileReplay(const NetworkPrecision& precision, int steps, int batch);
+
+  const NetworkLayout& layout() const { return layout_; }
+  const SampleTile& tile() const { return tile_; }
+  const LossSettings& settings() const { return settings_; }
+  const std::vector<float>& parameters() const { return parameters_; }
+
+  /// What each part took, forward alone or backward, too.
+  Seconds Run(bool backward);
+  /// Floating-point operations of the part's products in a tile, a multiply-add is two; zero if it
+  /// has none.
+  double Flops(TilePart part) const;
+
+ private:
+  template <typename Call>
+  void Time(TilePart part, const Call& call) {
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    seconds_[static_cast<std::size_t>(part)] +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  const float* InputOf(int hidden) const;
+  void HiddenForward(int index, std::int64_t first, std::int64_t count);
+  void StepForward(int step);
+  void Forward();
+  void HiddenBackward(int index, float* input_gradient, std::int64_t first, std::int64_t count,
+                      float* gradient);
+  void StepBackward(int step);
+  void Backward();
+
+  NetworkLayout layout_;
+  FoldedLayout folded_layout_;
+  std::vector<LinearLayer> hidden_;
+  LinearLayer gate_input_, gate_state_, head_;
+  std::vector<float> parameters_;
+  AlignedVector<float> folded_, gradient_, output_;
+  FusedActivations activations_;
+  AlignedVector<float> observation_, initial_state_, action_, advantage_, not_done_, log_prob_;
+  SampleTile tile_;
+  LossSettings settings_;
+  Seconds seconds_{};
+};
+
+}  // namespace skein::bench
