@@ -60,10 +60,30 @@ seed = 5
 name = "quiet"
 )";
 
+const char* const kSticks = "time_s,pitch\n0.1,0.2\n0.3,0\n";
+
+const char* const kTrajectory = R"({"trajectories": [
+ {"initial_state": [500, 0, 20, 0, 0, 0, 0, 0, -15000, 1, 0, 0, 0],
+  "trim_controls": [2000, -2, 0, 0, 0], "t": [0, 0.1, 0.4]}]})";
+
 const char* const kPoints = R"({"points": [
  {"state": [500, 0, 20, 0, 0, 0, 0, 0, -15000, 1, 0, 0, 0], "controls": [2000, -2, 0, 0, 0]},
  {"state": [600, 0, 20, 0, 0, 0, 0, 0, -15000, 1, 0, 0, 0], "controls": [2000, -2, 0, 0, 0],
   "params": {"xcg": 0.35}}]})";
+
+/// `fdm COMMAND` at two altitudes and two speeds, with OPTIONS of it that name files to write.
+FaultedCommand OverGrid(const char* name, const std::string& command,
+                        const std::vector<std::pair<std::string, std::string>>& options) {
+  return {name, [](const std::string&) {},
+          [=](const std::string& folder) {
+            Arguments line = {"fdm",        command,       "--altitude-ft",
+                              "5000,15000", "--speed-fps", "500,600"};
+            for (const auto& [option, file] : options) {
+              line.insert(line.end(), {option, folder + "/" + file});
+            }
+            return line;
+          }};
+}
 
 /// `export --format FORMAT -o FILE` of a shipped policy.
 FaultedCommand Export(const char* name, const std::string& format) {
@@ -83,11 +103,60 @@ FaultedCommand CheckedExport() {
   return command;
 }
 
+/// Those that ask the flight dynamics model.
+std::vector<FaultedCommand> ModelCommands() {
+  return {
+      {"fdm_eval", [](const std::string& folder) { WriteFile(folder + "/points.json", kPoints); },
+       [](const std::string& folder) {
+         return Arguments{
+             "fdm", "eval", "--in", folder + "/points.json", "--out", folder + "/evaluated.json"};
+       }},
+      {"fdm_simulate",
+       [](const std::string& folder) { WriteFile(folder + "/flights.json", kTrajectory); },
+       [](const std::string& folder) {
+         return Arguments{
+             "fdm", "simulate", "--in", folder + "/flights.json", "--out", folder + "/flown.json"};
+       }},
+      OverGrid("fdm_trim", "trim",
+               {{"--json", "trim.json"},
+                {"--csv", "trim.csv"},
+                {"--picture", "trim.svg"},
+                {"--polar", "polar.svg"}}),
+      OverGrid("fdm_linearise", "linearise",
+               {{"--json", "modes.json"}, {"--picture", "modes.svg"}}),
+      OverGrid("fdm_sweep", "sweep", {{"--json", "levels.json"}, {"--picture", "levels.svg"}}),
+      {"fdm_fly", [](const std::string& folder) { WriteFile(folder + "/sticks.csv", kSticks); },
+       [](const std::string& folder) {
+         return Arguments{"fdm",
+                          "fly",
+                          "--altitude-ft",
+                          "15000",
+                          "--speed-fps",
+                          "500",
+                          "--commands",
+                          folder + "/sticks.csv",
+                          "--seconds",
+                          "0.5",
+                          "-o",
+                          folder + "/flown.csv"};
+       }},
+      {"aircraft_tune",
+       [](const std::string& folder) {
+         fs::copy(SKEIN_SOURCE "/data/aerosonde/aircraft.json", folder + "/aerosonde.json");
+       },
+       [](const std::string& folder) {
+         return Arguments{"aircraft", "tune", folder + "/aerosonde.json", "-o",
+                          folder + "/tuned.json"};
+       },
+       0},
+  };
+}
+
 }  // namespace
 
 std::vector<FaultedCommand> FaultedCommands() {
   const auto nothing = [](const std::string&) {};
-  return {
+  std::vector<FaultedCommand> commands = {
       {"train", nothing, ShortTraining, 3},
       {"resume", BeginRun,
        [](const std::string& folder) {
@@ -125,15 +194,13 @@ std::vector<FaultedCommand> FaultedCommands() {
          return Arguments{"study", folder + "/study.toml", "--out", folder + "/study"};
        },
        2},
-      {"fdm_eval", [](const std::string& folder) { WriteFile(folder + "/points.json", kPoints); },
-       [](const std::string& folder) {
-         return Arguments{
-             "fdm", "eval", "--in", folder + "/points.json", "--out", folder + "/evaluated.json"};
-       }},
       CheckedExport(),
       Export("export_onnx", "onnx"),
       Export("export_safetensors", "safetensors"),
   };
+  const std::vector<FaultedCommand> of_model = ModelCommands();
+  commands.insert(commands.end(), of_model.begin(), of_model.end());
+  return commands;
 }
 
 }  // namespace skein
