@@ -7,9 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/field_list.h"
 #include "base/number_text.h"
 #include "envs/aircraft/aircraft.h"
 #include "src/config/usage_error.h"
+#include "src/fdm/fdm_plant.h"
+#include "src/fdm/trim_limits.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 
@@ -39,54 +42,60 @@ const std::vector<OptionKeys>& KeysOfOptions() {
   return keys;
 }
 
-/// Of tasks whose targets are drawn around the start: how far. A target that is not given then is
-/// what the flight begins with.
-std::vector<std::string> TargetsAtStart(const std::string& task) {
-  std::vector<std::string> assignments;
-  const auto none = [&](const std::vector<const char*>& changes) {
-    for (const char* change : changes) {
-      assignments.push_back(fmt::format("env.{}.{}=0", task, change));
+/// An option and what it sets, KEY=VALUE.
+using OwnAssignments = std::vector<std::pair<std::string, std::string>>;
+
+/// Of tasks whose targets are drawn around the start: not at all, in settings env.TASK.X_change_Y.
+/// A target that is not given then is what the flight begins with.
+OwnAssignments TargetsAtStart(const std::string& task) {
+  OwnAssignments assignments;
+  ProgramConfig config;
+  const std::string table = fmt::format("env.{}.", task);
+  for (const Field& field : FieldsOf(config)) {
+    const bool is_change = field.key.find("_change_", table.size()) != std::string::npos;
+    if (field.key.rfind(table, 0) == 0 && is_change) {
+      assignments.emplace_back("--target", field.key + "=0");
     }
-  };
-  if (task == "heading") none({"altitude_change_ft", "yaw_change_rad", "speed_change_fps"});
-  if (task == "control") none({"pitch_change_rad", "yaw_change_rad", "speed_change_fps"});
+  }
   return assignments;
 }
 
-std::vector<std::string> WindAssignments(const Eigen::Vector3d& wind) {
+OwnAssignments WindAssignments(const Eigen::Vector3d& wind) {
   if (wind.z() != 0) {
     throw UsageError("--wind-fps: an environment's steady wind is horizontal; down must be 0");
   }
   const double from_deg = std::atan2(-wind.y(), -wind.x()) * kDegPerRad;
-  std::vector<std::string> assignments = {"env.wind.step_at_reset=false"};
+  const char* const option = "--wind-fps";
+  OwnAssignments assignments = {{option, "env.wind.step_at_reset=false"}};
+  const std::string speed = ShortestText(std::hypot(wind.x(), wind.y()));
   for (const char* end : {"min", "max"}) {
-    assignments.push_back(
-        fmt::format("env.wind.speed_{}_fps={}", end, ShortestText(std::hypot(wind.x(), wind.y()))));
-    assignments.push_back(fmt::format("env.wind.from_{}_deg={}", end, ShortestText(from_deg)));
+    assignments.emplace_back(option, fmt::format("env.wind.speed_{}_fps={}", end, speed));
+    assignments.emplace_back(option,
+                             fmt::format("env.wind.from_{}_deg={}", end, ShortestText(from_deg)));
   }
   return assignments;
 }
 
-std::vector<std::string> AssignmentsOf(const CLI::App& command, const AgentFlight& flight) {
-  std::vector<std::string> assignments = {"env.initial.trimmed=true"};
+OwnAssignments AssignmentsOf(const CLI::App& command, const AgentFlight& flight) {
+  OwnAssignments assignments = {{"--altitude-ft", "env.initial.trimmed=true"}};
   const FlightGrid& grid = flight.condition.grid;
+  const std::string altitude = ShortestText(grid.altitude_ft.front()),
+                    speed = ShortestText(grid.speed_fps.front());
   for (const char* end : {"min", "max"}) {
-    assignments.push_back(
-        fmt::format("env.initial.altitude_{}_ft={}", end, ShortestText(grid.altitude_ft.front())));
-    assignments.push_back(fmt::format("env.initial.true_airspeed_{}_fps={}", end,
-                                      ShortestText(grid.speed_fps.front())));
+    assignments.emplace_back("--altitude-ft",
+                             fmt::format("env.initial.altitude_{}_ft={}", end, altitude));
+    assignments.emplace_back("--speed-fps",
+                             fmt::format("env.initial.true_airspeed_{}_fps={}", end, speed));
   }
   for (const OptionKeys& entry : KeysOfOptions()) {
     const CLI::Option* option = command.get_option(entry.option);
     if (option->count() == 0) continue;
     for (const char* key : entry.keys) {
-      assignments.push_back(fmt::format("{}={}", key, option->as<std::string>()));
+      assignments.emplace_back(entry.option, fmt::format("{}={}", key, option->as<std::string>()));
     }
   }
   if (flight.wind_ft_s != nullptr) {
-    for (std::string& text : WindAssignments(*flight.wind_ft_s)) {
-      assignments.push_back(std::move(text));
-    }
+    for (auto& own : WindAssignments(*flight.wind_ft_s)) assignments.push_back(std::move(own));
   }
   return assignments;
 }
@@ -96,6 +105,15 @@ void RequireLevelStart(const CLI::App& command) {
     if (command.get_option(option)->count() == 0) continue;
     throw UsageError(fmt::format("{}: what agents fly begins in level flight", option));
   }
+}
+
+/// Throws Error that says why, if there is no steady flight that the environment can begin with.
+void RequireSteadyFlight(const EnvConfig& env) {
+  if (!env.initial.trimmed) return;
+  const Plant plant =
+      MakePlant(env.aircraft, env.atmosphere, env.gravity,
+                {env.cg, env.engine_angular_momentum, env.drag_rises, env.thrust_grows});
+  TrimOrExplain(plant, {env.initial.altitude_ft.min, env.initial.true_airspeed_fps.min});
 }
 
 /// Where the flight led: how it ended, and of each target what was asked for and reached.
@@ -153,11 +171,11 @@ void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents f
   if (command.get_option("--aircraft")->count() > 0) {
     options.aircraft = flight.condition.model.aircraft;
   }
-  std::vector<std::string> assignments = AssignmentsOf(command, flight);
-  for (std::string& text : TargetsAtStart(TaskOf(flown))) assignments.push_back(std::move(text));
-  options.assignments.insert(options.assignments.begin(), assignments.begin(), assignments.end());
+  options.own_assignments = AssignmentsOf(command, flight);
+  for (auto& own : TargetsAtStart(TaskOf(flown))) options.own_assignments.push_back(std::move(own));
   options.episodes = 1;
   flown.seconds = flight.seconds;
+  RequireSteadyFlight(ConfigurationOf(flown).train.env);
   const std::vector<AgentFlights> agents = FlyEpisodes(flown);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     Report(agents[i], flight.seconds);

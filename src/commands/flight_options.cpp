@@ -130,9 +130,14 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
         ApplyConditionsAndAssignments({}, {AircraftAssignment(options.aircraft)}, changed,
                                       "--aircraft");
       }
-      ApplyConditionsAndAssignments(options.conditions, options.assignments, changed);
-      ApplyConditionsAndAssignments(
-          {}, FlightLengthAssignments(options.hold_s, options.mission_min), changed);
+      ApplyConditionsAndAssignments(options.conditions, {}, changed);
+      for (const auto& [option, assignment] : options.own_assignments) {
+        ApplyConditionsAndAssignments({}, {assignment}, changed, option);
+      }
+      ApplyConditionsAndAssignments({}, options.assignments, changed);
+      ApplyConditionsAndAssignments({},
+                                    FlightLengthAssignments(options.hold_s, options.mission_min),
+                                    changed, options.hold_s ? "--hold" : "--mission");
       RequireTask(*changed, task);
     });
     RequireOwnScale(base, flown);

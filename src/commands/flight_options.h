@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/commands/launched_ranks.h"
@@ -34,6 +35,8 @@ struct FlightOptions {
   int flights_count = 8;
   CLI::Option* flights_count_option = nullptr;
   bool flights_observations = false;
+  /// What options of the command alone set, before --set: the option, for errors, and KEY=VALUE.
+  std::vector<std::pair<std::string, std::string>> own_assignments;
   std::vector<std::optional<float>> target;  ///< EvaluationOptions::target of recorded flights
 };
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/field_list.h"
+#include "base/number_text.h"
 #include "envs/aircraft/aircraft.h"
 #include "envs/task_registry.h"
 #include "src/agents/agent_names.h"
@@ -16,6 +18,7 @@
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/evaluation/comparison.h"
+#include "src/files/text_table.h"
 #include "train/policy/recurrent_policy.h"
 
 namespace skein {
@@ -36,6 +39,15 @@ long StepsOf(double seconds, const EnvConfig& env) {
   return std::lround(seconds / env.control_interval_s);
 }
 
+void RequireRoomFor(double seconds, std::size_t agents, const EnvConfig& env) {
+  const double steps = seconds / env.control_interval_s * static_cast<double>(agents);
+  if (steps <= kMostRecordedSteps) return;
+  throw UsageError(
+      fmt::format("{} s in steps of {} s, by {}, are more than the {} steps that are kept",
+                  ShortestText(seconds), ShortestText(env.control_interval_s),
+                  Counted(static_cast<int>(agents), "agent"), kMostRecordedSteps));
+}
+
 /// Neither the time limit nor a reached target ends an episode before.
 void GoOnFor(double seconds, EnvConfig* env) {
   const long steps = StepsOf(seconds, *env);
@@ -43,17 +55,28 @@ void GoOnFor(double seconds, EnvConfig* env) {
   if (!MakeTask(*env)->is_point()) env->hold_s = std::max(env->hold_s, seconds);
 }
 
+/// Where a target of that name may lie.
+Bounds BoundsOf(const std::string& name) {
+  constexpr double kFarthest = 1e7;  // of lengths in float32, where a foot is a foot
+  if (name == "pitch_deg") return {-90, 90};
+  // As where flights may begin.
+  if (name == "altitude_ft") return {0, 60000};
+  if (name == "true_airspeed_fps") return {10, 3000};
+  return {-kFarthest, kFarthest};
+}
+
 /// What is given of the target `name` as `text`, "NAME=VALUE".
 double ValueOf(const std::string& text, const std::string& name) {
-  constexpr double kFarthest = 1e7;  // of lengths in float32, where a foot is a foot
   const std::size_t equals = text.find('=');
   const std::optional<double> value =
       equals == std::string::npos ? std::nullopt : ReadNumber(text.substr(equals + 1));
-  if (!value || !(std::abs(*value) <= kFarthest)) {
+  if (!value || !std::isfinite(*value)) {
     throw UsageError(fmt::format("--target {}: give {}=NUMBER", text, name));
   }
-  if (name == "pitch_deg" && std::abs(*value) > 90) {
-    throw UsageError(fmt::format("--target {}: a pitch lies from -90 to 90 deg", text));
+  const Bounds bounds = BoundsOf(name);
+  if (!bounds.Contains(*value)) {
+    throw UsageError(fmt::format("--target {}: give a number from {} to {}", text, ShortestText(bounds.min),
+                                 ShortestText(bounds.max)));
   }
   return *value;
 }
@@ -73,6 +96,7 @@ std::vector<std::optional<float>> TargetOf(const std::vector<std::string>& texts
           fmt::format("--target {}: targets of {} are {}", text, env.task, fmt::join(known, ", ")));
     }
     const auto index = static_cast<std::size_t>(found - known.begin());
+    if (target[index]) throw UsageError(fmt::format("--target {}: it is there twice", *found));
     const double value = ValueOf(text, *found);
     target[index] = static_cast<float>(
         quantities[index].is_angle ? std::remainder(value, 360.0) / kDegPerRad : value);
@@ -85,7 +109,10 @@ ProgramConfig Configure(const FlownAgents& flown, const std::vector<std::string>
   const EnvConfig asked = config.train.env;
   ApplyOverrides(flown.flight, &config);
   AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });
-  if (flown.seconds) GoOnFor(*flown.seconds, &config.train.env);
+  if (flown.seconds) {
+    RequireRoomFor(*flown.seconds, names.size(), config.train.env);
+    GoOnFor(*flown.seconds, &config.train.env);
+  }
   return config;
 }
 
@@ -130,6 +157,8 @@ std::vector<std::string> NamesOf(const FlownAgents& flown) {
 std::string TaskOf(const FlownAgents& flown) {
   return ConfigFor(flown.flight, flown.policy, PolicyOf(NamesOf(flown))).train.env.task;
 }
+
+ProgramConfig ConfigurationOf(const FlownAgents& flown) { return Configure(flown, NamesOf(flown)); }
 
 std::vector<AgentFlights> FlyEpisodes(const FlownAgents& flown) {
   FlightOptions flight = flown.flight;

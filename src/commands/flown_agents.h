@@ -19,6 +19,8 @@ struct FlownAgents {
 };
 
 inline constexpr int kMostRecordedEpisodes = 1000;
+/// Of all agents in FlownAgents::seconds; each takes 1300 bytes until it is written.
+inline constexpr long kMostRecordedSteps = 500000;
 
 /// Adds --policy and --agents; `flown` must live as long as the command.
 void AddAgents(CLI::App* command, FlownAgents* flown);
@@ -33,6 +35,9 @@ std::vector<std::string> NamesOf(const FlownAgents& flown);
 
 /// The task that FlyEpisodes flies. Throws UsageError if nothing says one.
 std::string TaskOf(const FlownAgents& flown);
+
+/// The configuration that FlyEpisodes flies in. Throws UsageError on what cannot be.
+ProgramConfig ConfigurationOf(const FlownAgents& flown);
 
 /// The same episodes, flown by everybody in the environment of the policy's run, else of the preset
 /// of the task, with the changes that were asked for. Throws UsageError on what cannot be.

@@ -232,6 +232,13 @@ TEST_F(FdmFly, WhatAgentsCannotFlySaysSo) {
       {autopilot + Words{"--target", "yaw_deg"}, "give yaw_deg=NUMBER"},
       {autopilot + Words{"--target", "yaw_deg=nan"}, "give yaw_deg=NUMBER"},
       {{"--agents", "autopilot", "--task", "control", "--target", "pitch_deg=91"}, "-90 to 90"},
+      {autopilot + Words{"--target", "true_airspeed_fps=-5"}, "from 10 to 3000"},
+      {autopilot + Words{"--target", "altitude_ft=1e6"}, "from 0 to 60000"},
+      {autopilot + Words{"--target", "yaw_deg=3", "--target", "yaw_deg=4"},
+       "--target yaw_deg: it is there twice"},
+      {autopilot + Words{"--xcg", "5"}, "--xcg: env.cg_chord_fraction = 5 is out of range"},
+      {autopilot + Words{"--step-s", "5"}, "--step-s: env.control_interval_s = 5 is out of range"},
+      {autopilot + Words{"--seconds", "1e5"}, "more than the 500000 steps that are kept"},
       {autopilot + Words{"--pull-up-g", "3"}, "begins in level flight"},
       {autopilot + Words{"--wind-fps", "0,0,3"}, "down must be 0"},
       {{"--agents", "pilot", "--task", "heading"}, "pilot"},
@@ -245,7 +252,8 @@ TEST_F(FdmFly, WhatAgentsCannotFlySaysSo) {
   const ProgramResult stalled =
       CallSkein({"fdm", "fly", "--altitude-ft", "20000", "--speed-fps", "60", "--agents",
                  "autopilot", "--task", "heading", "-o", folder_ + "/x.csv"});
-  EXPECT_NE(stalled.exit_code, 0);
+  EXPECT_EQ(stalled.exit_code, 1);
+  EXPECT_THAT(stalled.error, HasSubstr("this flight is below stall speed"));
   EXPECT_EQ(std::count(stalled.error.begin(), stalled.error.end(), '\n'), 1) << stalled.error;
 }
 
