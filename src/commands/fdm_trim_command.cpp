@@ -67,9 +67,6 @@ std::string DescribeGroundVelocity(const SteadyFlight& flight) {
 
 void TrimOnePoint(const TrimOptions& options, const Plant& plant) {
   const FlightGrid& grid = options.condition.grid;
-  if (!options.csv.empty()) throw UsageError("--csv is for several altitudes or speeds");
-  if (!options.picture.empty()) throw UsageError("--picture is for several altitudes and speeds");
-  if (!options.polar.empty()) throw UsageError("--polar is for several speeds");
   const SteadyFlight flight = FindSteadyFlight(plant, grid.At(0, 0));
   fmt::print("steady flight of {}\n{}{}", options.condition.Describe(plant), DescribeTrim(flight),
              options.wind.empty() ? "" : DescribeGroundVelocity(flight));
@@ -97,7 +94,21 @@ void TrimGrid(const TrimOptions& options, const Plant& plant) {
   WriteJson(options.json, json);
 }
 
+/// Before the work: what cannot be written of this grid.
+void RequireGridFor(const TrimOptions& options) {
+  const FlightGrid& grid = options.condition.grid;
+  const bool has_altitudes = grid.altitude_ft.size() > 1, has_speeds = grid.speed_fps.size() > 1;
+  if (!options.csv.empty() && grid.IsOnePoint()) {
+    throw UsageError("--csv is for several altitudes or speeds");
+  }
+  if (!options.picture.empty() && !(has_altitudes && has_speeds)) {
+    throw UsageError("--picture is for several altitudes and several speeds");
+  }
+  if (!options.polar.empty() && !has_speeds) throw UsageError("--polar is for several speeds");
+}
+
 void FindTrim(TrimOptions options) {
+  RequireGridFor(options);
   for (const std::string& picture : {options.picture, options.polar}) {
     if (!picture.empty()) CheckPictureFile(picture);
   }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/number_text.h"
-#include "src/config/usage_error.h"
 #include "src/plot/axes.h"
 #include "src/plot/legend.h"
 
@@ -58,7 +57,6 @@ Range FromZero(const std::vector<double>& values) {
 }  // namespace
 
 Picture DrawDragPolars(const FlownGrid& flown, double width, const std::string& title) {
-  if (flown.grid().speed_fps.size() < 2) throw UsageError("polars need several speeds");
   std::vector<Polar> polars;
   std::vector<double> drag = {0}, lift = {0};
   for (std::size_t i = 0; i < flown.grid().altitude_ft.size(); ++i) {

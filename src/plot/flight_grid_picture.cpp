@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/config/usage_error.h"
 #include "src/plot/axes.h"
 #include "src/plot/legend.h"
 
@@ -115,9 +114,6 @@ class GridDrawing {
 }  // namespace
 
 Picture DrawFlightGrid(const FlownGrid& flown, double width, const std::string& title) {
-  if (flown.grid().altitude_ft.size() < 2 || flown.grid().speed_fps.size() < 2) {
-    throw UsageError("a picture needs several altitudes and several speeds");
-  }
   return GridDrawing(flown, width).Draw(title);
 }
 

@@ -9,8 +9,8 @@
 namespace skein {
 
 /// Where flight is steady, over speed and altitude: a cell for every point of the grid, shaded by
-/// what could be climbed at full throttle; others by what ends flight there. Throws UsageError of a
-/// grid of fewer than two altitudes or speeds.
+/// what could be climbed at full throttle; others by what ends flight there. Of a grid of two
+/// altitudes and two speeds or more.
 Picture DrawFlightGrid(const FlownGrid& flown, double width, const std::string& title);
 
 }  // namespace skein
