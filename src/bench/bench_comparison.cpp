@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "src/bench/figure.h"
+#include "src/config/usage_error.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 
@@ -190,9 +191,9 @@ Json NumberOrNull(double number) { return std::isnan(number) ? Json() : Json(num
 BenchComparison CompareBenchmarks(const std::vector<std::string>& before,
                                   const std::vector<std::string>& after, bool other_machine) {
   if (before.size() != after.size()) {
-    throw Error(fmt::format("{} before and {} after: as many are needed, measured in turns",
-                            Counted(static_cast<int>(before.size()), "run"),
-                            Counted(static_cast<int>(after.size()), "run")));
+    throw UsageError(fmt::format("{} before and {} after: as many are needed, measured in turns",
+                                 Counted(static_cast<int>(before.size()), "run"),
+                                 Counted(static_cast<int>(after.size()), "run")));
   }
   const std::vector<Run> old_runs = ReadRuns(before), new_runs = ReadRuns(after);
   const Run &first = old_runs[0], &first_after = new_runs[0];

@@ -30,9 +30,9 @@ struct BenchComparison {
 /// The runs in the files `before`, and as many in `after`. Of one run on either side the samples
 /// are compared (Welch's t of their logarithms, in at most ten parts, as what is measured in a row
 /// is alike); of several the medians, in pairs in the order of the files (Student's t of the
-/// logarithms of their ratios): that holds what differs from run to run, too. Throws Error if they
-/// are not of one benchmark with the same settings, or, unless `other_machine`, not of one
-/// processor, SIMD target and number of threads.
+/// logarithms of their ratios): that holds what differs from run to run, too. Throws UsageError if
+/// they are not as many, and Error if they are not of one benchmark with the same settings, or,
+/// unless `other_machine`, not of one processor, SIMD target and number of threads.
 BenchComparison CompareBenchmarks(const std::vector<std::string>& before,
                                   const std::vector<std::string>& after, bool other_machine);
 

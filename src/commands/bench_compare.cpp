@@ -5,16 +5,14 @@
 
 #include "src/bench/bench_comparison.h"
 #include "src/commands/benchmarks.h"
-#include "src/config/usage_error.h"
 #include "src/files/output_file.h"
 
 namespace skein {
 
 void CompareBenchmarkFiles(const BenchOptions& options) {
   const auto files = [](const std::string& list) { return CLI::detail::split(list, ','); };
-  const BenchComparison comparison = AsUsage([&] {
-    return CompareBenchmarks(files(options.before), files(options.after), options.other_machine);
-  });
+  const BenchComparison comparison =
+      CompareBenchmarks(files(options.before), files(options.after), options.other_machine);
   fmt::print("{}\n", ToText(comparison));
   if (!options.json.empty()) WriteJson(options.json, ToJson(comparison));
 }

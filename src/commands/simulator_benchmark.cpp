@@ -6,6 +6,8 @@
 #include "simd/target.h"
 #include "src/bench/simulator_rate.h"
 #include "src/commands/benchmarks.h"
+#include "src/config/configuration.h"
+#include "src/config/usage_error.h"
 #include "src/run/progress.h"
 
 namespace skein {
@@ -89,9 +91,18 @@ SimulatorRate ReportEnvironment(const std::string& what, const std::string& key,
   return rates[0];
 }
 
+/// Which --action-repeat, or its default, would take the place of.
+void RequireNoActionRepeat(const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments) {
+    if (KeyOf(assignment) != "env.action_repeat") continue;
+    throw UsageError(fmt::format("--set {}: here that is --action-repeat", assignment));
+  }
+}
+
 }  // namespace
 
 void BenchSimulator(const BenchOptions& options) {
+  RequireNoActionRepeat(options.assignments);
   WorkerPool pool(options.threads);
   EnvConfig noisy = BenchConfig(options).env;
   noisy.action_repeat = options.action_repeat;

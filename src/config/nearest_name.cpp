@@ -38,11 +38,12 @@ std::string NearestName(const std::string& name, const std::vector<std::string>&
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     if (IsLastPartOf(name, candidate)) return candidate;
-    // The distance is at least the difference in length.
     const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
+    // The distance is at least the difference in length.
     if (longer - shorter >= best) continue;
     const std::size_t distance = EditDistance(name, candidate);
-    if (distance < best) {
+    // Of short names half may differ: else any two letters would be near each other.
+    if (distance < best && distance <= shorter / 2) {
       best = distance;
       nearest = candidate;
     }

@@ -7,8 +7,8 @@
 namespace skein {
 
 /// The candidate that `name` was probably meant to be: one that ends in ".name", else the one with
-/// the smallest edit distance (Levenshtein) if at most a third of the name differs. Empty if none
-/// is near.
+/// the smallest edit distance (Levenshtein), if that is at most two, or a third of the name, and at
+/// most half of the shorter of both. Empty if none is near.
 std::string NearestName(const std::string& name, const std::vector<std::string>& candidates);
 
 /// "; did you mean X?" for the nearest candidate, or an empty string.

@@ -118,9 +118,18 @@ TEST(ExitCodes, AFileThatIsDamagedIsAFailure) {
            {"compare", "--task", "heading", "--no-html", "--agents", "policy:" + damaged},
            {"plot", "flights", damaged, "-o", scratch / "out.svg"},
            {"fdm", "eval", "--in", damaged, "--out", scratch / "out"},
+           {"bench", "compare", damaged, damaged},
+           {"plot", "curves", scratch / "run", "--comparison", damaged, "-o", scratch / "out.svg"},
            {"export", damaged, "--format", "c", "-o", scratch / "out"}}) {
     EXPECT_EQ(CallSkein(arguments).exit_code, 1) << arguments[0];
   }
+}
+
+TEST(ExitCodes, ASimdTargetThatIsNotThereIsWrongUsage) {
+  const ProgramResult result = RunSkein({"bench", "sim"}, [] { setenv("SKEIN_SIMD", "foo", 1); });
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.error.rfind("skein: error: SKEIN_SIMD: unknown SIMD target \"foo\"", 0), 0u);
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
 }
 
 TEST(ExitCodes, WhatIsTypedWronglyIsSaidInTheProgramsOwnWords) {
@@ -131,6 +140,13 @@ TEST(ExitCodes, WhatIsTypedWronglyIsSaidInTheProgramsOwnWords) {
       {{"eval", "--policy"}, "--policy needs a value"},
       {{"train", "heading", "control"}, "unexpected argument control"},
       {{"list", "pilots"}, "what: unknown pilots; known: tasks, presets"},
+      {{"bench", "sim", "--set", "env.action_repeat=5"},
+       "--set env.action_repeat=5: here that is --action-repeat"},
+      {{"bench", "compare", "a,b", "c"}, "2 runs before and 1 run after: as many are needed"},
+      {{"fdm", "trim", "--altitude-ft", "0,5000", "--speed-fps", "500", "--polar", "x.svg"},
+       "--polar is for several speeds"},
+      {{"fdm", "trim", "--altitude-ft", "0,5000", "--speed-fps", "500", "--picture", "x.svg"},
+       "--picture is for several altitudes and several speeds"},
       {{"plot", "curves", "x", "--width", "1"}, "--width: '1' is not a number in [2.5 - 60]"},
       {{"plot", "curves", "x", "--width", "wide"}, "--width: 'wide' is not a number in"},
       {{"fdm", "eval", "--in", "x", "--out", "y", "--precision", "float"},

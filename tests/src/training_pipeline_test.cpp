@@ -76,11 +76,11 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   // It flies no other task, though the sizes fit, no other aircraft, and below no high-level policy
   // of another control interval.
   const ProgramResult file = CallSkein({"eval", "--policy", policy, "--task", "heading"});
-  EXPECT_EQ(file.exit_code, 1);
+  EXPECT_EQ(file.exit_code, 2);
   ExpectOneLine(file.error, "env.task = control, but is to fly with env.task = heading");
   const ProgramResult compared =
       CallSkein({"compare", "--task", "heading", "--agents", "zero,policy:" + policy});
-  EXPECT_EQ(compared.exit_code, 1);
+  EXPECT_EQ(compared.exit_code, 2);
   ExpectOneLine(compared.error, "agent policy:" + policy);
   const ProgramResult aircraft =
       CallSkein({"eval", "--policy", policy, "--task", "control", "--preset", "aerosonde"});
@@ -207,17 +207,17 @@ TEST_F(TrainingPipeline, ANewRunCanStartFromTheNetworksOfAnother) {
 TEST_F(TrainingPipeline, NetworksThatDoNotFitAreRefusedInOneLine) {
   FlyReference({"--steps", "5120"});
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message,
-                           const char* task = "heading") {
+                           int exit_code = 1, const char* task = "heading") {
     std::vector<std::string> arguments = more;
     arguments.insert(arguments.end(), {"--from", reference_});
     arguments = TinyTrainingOf(task, run_, arguments);
     const ProgramResult result = CallSkein(arguments);
-    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.exit_code, exit_code) << message;
     ExpectOneLine(result.error, message);
     EXPECT_FALSE(fs::exists(run_));
   };
   refused({"--set", "network.gru_size=32"}, "other sizes than the configuration's");
-  refused({}, "env.task = heading", "control");
+  refused({}, "env.task = heading", 2, "control");
   refused({"--preset", "aerosonde"}, "env.aircraft");
   EXPECT_EQ(CallSkein({"train", "--resume", reference_, "--from", reference_}).exit_code, 2);
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/choice_error.h"
 #include "train/files/tensor_file.h"
 #include "train/network/ppo_loss.h"
 #include "train/network/recurrent_network.h"
@@ -73,8 +73,8 @@ double RecurrentPolicy::FlopsPerAction() const { return ForwardFlops(actor_->net
 void RecurrentPolicy::CheckMadeFor(const EnvConfig& env, const std::string& who) const {
   const Parameters& made = *actor_->parameters;
   if (!made.task.empty() && made.task != env.task) {
-    throw Error(who + " was made with env.task = " + made.task +
-                ", but is to fly with env.task = " + env.task);
+    throw ChoiceError(who + " was made with env.task = " + made.task +
+                      ", but is to fly with env.task = " + env.task);
   }
   CheckMadeWith(env, made.environment, who);
   if (low_level() != nullptr) CheckLowLevelMadeFor(env, *low_level(), who + "'s low-level policy");
