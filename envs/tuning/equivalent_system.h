@@ -8,7 +8,11 @@ namespace skein {
 // Low-order equivalent systems, as MIL-F-8785C, 3.1.12, asks for of aircraft whose flight control
 // adds modes: the simple transfer function whose frequency response is nearest between 0.1 and 10
 // rad/s. Nearest is the least mismatch, 20 times the mean of (gain ratio, dB)^2 + 0.02 (phase
-// difference, deg)^2 (MIL-STD-1797A, appendix, 4.2.1.2); below 10 a pilot hardly notices it.
+// difference, deg)^2 (MIL-STD-1797A, appendix, 4.2.1.2).
+
+/// Up to that mismatch a pilot hardly tells an aircraft from its equivalent system (there); beyond
+/// it the aircraft has none, and requirements of its figures say little.
+inline constexpr double kMostMismatch = 10;
 
 /// q / stick = K (s + 1/T) exp(-delay s) / (s^2 + 2 damping frequency s + frequency^2).
 struct EquivalentShortPeriod {

@@ -147,16 +147,19 @@ void AssessShortPeriod(const Plant& plant, const TrimPoint& trim, const Axis& ax
   const double damping = qualities->short_period.damping_ratio;
   const double load_factor = qualities->load_factor_by_alpha = bare.C(0, kAngleOfAttack);
   const double anticipation = frequency * frequency / load_factor;
+  const bool is_doubtful = qualities->short_period.mismatch > kMostMismatch;
   auto& requirements = qualities->requirements;
-  requirements.push_back(
-      {"3.2.2.1.1", "control anticipation (frequency^2 over n/alpha)", "1/(g s2)", anticipation,
-       AnticipationLevel(limits, anticipation, frequency, load_factor), AnticipationText(limits)});
+  requirements.push_back({"3.2.2.1.1", "control anticipation (frequency^2 over n/alpha)",
+                          "1/(g s2)", anticipation,
+                          AnticipationLevel(limits, anticipation, frequency, load_factor),
+                          AnticipationText(limits), is_doubtful});
   requirements.push_back({"3.2.2.1.2", "short-period damping", "1", damping,
                           ShortPeriodDampingLevel(limits, damping),
                           OfLevels([&](std::size_t level) {
                             return Span(limits.short_period_damping_min[level],
                                         limits.short_period_damping_max[level]);
-                          })});
+                          }),
+                          is_doubtful});
 }
 
 void AssessPitch(const Plant& plant, const TrimPoint& trim, const LevelLimits& limits,
@@ -202,7 +205,8 @@ void AssessLateral(const Plant& plant, const TrimPoint& trim, const LevelLimits&
   qualities->roll = FitRoll(axis.From(0, kRollRateOutput));
   const double time = qualities->roll.time_constant_s;
   requirements.push_back({"3.3.1.2", "roll mode time constant", "s", time,
-                          RollModeLevel(limits, time), ToLevels(limits.roll_time_max_s)});
+                          RollModeLevel(limits, time), ToLevels(limits.roll_time_max_s),
+                          qualities->roll.mismatch > kMostMismatch});
   if (const LinearMode* spiral = axis.LeastStable()) {
     const double doubles = spiral->time_to_double_s();
     requirements.push_back({"3.3.1.3", "spiral: time to double", "s", doubles,

@@ -29,6 +29,8 @@ struct Requirement {
   double value = 0;
   int level = 0;       ///< 1 to 3; 4: not even that
   std::string limits;  ///< of levels 1, 2 and 3
+  /// The value is of an equivalent system whose mismatch is beyond kMostMismatch.
+  bool is_doubtful = false;
 };
 
 /// How a break of a loop stands.

@@ -22,7 +22,25 @@ std::string Figure(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-";
 }
 
-std::string LevelText(int level) { return level > 3 ? "below 3" : fmt::format("level {}", level); }
+std::string LevelText(const Requirement& requirement) {
+  const int level = requirement.level;
+  return (level > 3 ? "below 3" : fmt::format("level {}", level)) +
+         (requirement.is_doubtful ? "?" : "");
+}
+
+/// Below a table with doubtful levels.
+std::string DoubtNote() {
+  return fmt::format(
+      "?: of an equivalent system with a mismatch above {} (MIL-STD-1797A): the aircraft has none, "
+      "and the level says little\n",
+      kMostMismatch);
+}
+
+bool HasDoubt(const FlyingQualities& qualities) {
+  const auto& all = qualities.requirements;
+  return std::any_of(all.begin(), all.end(),
+                     [](const Requirement& requirement) { return requirement.is_doubtful; });
+}
 
 std::string DescribeStep(const char* name, const StepResponse& step, const char* unit) {
   return fmt::format("{} step of {:.0f} %: {} {}, rise {} s, overshoot {} %\n", name,
@@ -46,12 +64,15 @@ std::string DescribeLoops(const FlyingQualities& qualities) {
 /// The worst level of the requirements of a paragraph that begins with `prefix`; "-" without any.
 std::string WorstLevel(const FlyingQualities& qualities, const std::string& prefix) {
   int worst = 0;
+  bool is_doubtful = false;
   for (const Requirement& requirement : qualities.requirements) {
     if (std::string(requirement.paragraph).rfind(prefix, 0) == 0) {
       worst = std::max(worst, requirement.level);
+      is_doubtful = is_doubtful || requirement.is_doubtful;
     }
   }
-  return worst == 0 ? "-" : worst > 3 ? ">3" : std::to_string(worst);
+  if (worst == 0) return "-";
+  return (worst > 3 ? ">3" : std::to_string(worst)) + (is_doubtful ? "?" : "");
 }
 
 /// Of what is not finite: null.
@@ -76,9 +97,13 @@ Json ToJson(const LoopAt& loop) {
 }
 
 Json ToJson(const Requirement& requirement) {
-  return {{"paragraph", requirement.paragraph}, {"what", requirement.what},
-          {"unit", requirement.unit},           {"value", NumberJson(requirement.value)},
-          {"level", requirement.level},         {"limits", requirement.limits}};
+  return {{"paragraph", requirement.paragraph},
+          {"what", requirement.what},
+          {"unit", requirement.unit},
+          {"value", NumberJson(requirement.value)},
+          {"level", requirement.level},
+          {"limits", requirement.limits},
+          {"is_doubtful", requirement.is_doubtful}};
 }
 
 /// The place of `name` among `names`.
@@ -132,9 +157,10 @@ std::string Describe(const FlyingQualities& qualities, const std::string& standa
     const std::string unit = requirement.unit == std::string("1") ? "" : requirement.unit;
     rows.push_back({requirement.paragraph, requirement.what,
                     Figure(requirement.value) + (unit.empty() ? "" : " " + unit),
-                    LevelText(requirement.level), requirement.limits});
+                    LevelText(requirement), requirement.limits});
   }
-  return text + InColumns(rows) + "\n" + DescribeLoops(qualities);
+  text += InColumns(rows) + (HasDoubt(qualities) ? DoubtNote() : "");
+  return text + "\n" + DescribeLoops(qualities);
 }
 
 std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
@@ -163,7 +189,10 @@ std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
                     Figure(gain(*least_gain)), Figure(least_phase->margins.phase_deg),
                     name(least_gain) + ", " + name(least_phase)});
   }
-  return InColumns(rows);
+  const bool has_doubt =
+      std::any_of(flights.begin(), flights.end(),
+                  [](const AssessedFlight& flight) { return HasDoubt(flight.qualities); });
+  return InColumns(rows) + (has_doubt ? DoubtNote() : "");
 }
 
 Json ToJson(const AssessedFlight& flight) {

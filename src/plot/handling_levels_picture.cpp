@@ -33,6 +33,10 @@ double Frequency(const AssessedFlight& flight) {
 }
 double Damping(const AssessedFlight& flight) { return flight.qualities.short_period.damping_ratio; }
 
+bool HasEquivalentSystem(const AssessedFlight& flight) {
+  return flight.qualities.short_period.mismatch <= kMostMismatch;
+}
+
 /// The worse of what 3.2.2.1 asks of the frequency and of the damping.
 int ShortPeriodLevel(const AssessedFlight& flight) {
   int worst = 1;
@@ -106,8 +110,12 @@ class LevelsDrawing {
   void DrawDot(const Panel& panel, double x, double y, const AssessedFlight& flight) {
     const bool is_shown = x >= panel.x_range().min && x <= panel.x_range().max &&
                           y >= panel.y_range().min && y <= panel.y_range().max;
-    if (is_shown)
+    if (!is_shown) return;
+    if (HasEquivalentSystem(flight)) {
       shapes_.emplace_back(Disc{panel.Place(x, y), kRadius, ColourAt(flight), kGrey, 0.3});
+    } else {
+      shapes_.emplace_back(Disc{panel.Place(x, y), kRadius, kWhite, ColourAt(flight), 0.8});
+    }
   }
 
   /// frequency = sqrt(anticipation n/alpha), as far as the panel shows it; a line in logarithms.
@@ -118,6 +126,13 @@ class LevelsDrawing {
     const double to = std::min(x.max, 2 * (y.max - at_zero));
     if (from >= to) return;
     panel.DrawCurve({{from, at_zero + from / 2}, {to, at_zero + to / 2}}, kInk, 0.8, dash,
+                    &shapes_);
+  }
+
+  /// A boundary upwards, as far as it is in the panel.
+  void DrawLevelColumn(const Panel& panel, double across, Dash dash) {
+    if (!(across > panel.x_range().min && across < panel.x_range().max)) return;
+    panel.DrawCurve({{across, panel.y_range().min}, {across, panel.y_range().max}}, kInk, 0.8, dash,
                     &shapes_);
   }
 
@@ -136,6 +151,9 @@ class LevelsDrawing {
     }
     for (const double frequency : limits_.short_period_frequency_min) {
       if (frequency > 0) up.push_back(frequency);
+    }
+    for (const double load_factor : limits_.load_factor_by_alpha_min) {
+      if (load_factor > 0) across.push_back(load_factor);
     }
     const Panel panel(corner, width, kHeightPerWidth * width, Decades(across), Decades(up));
     const auto x_ticks = LogTicks(panel.x_range()), y_ticks = LogTicks(panel.y_range());
@@ -162,6 +180,10 @@ class LevelsDrawing {
       if (limits_.short_period_frequency_min[level] > 0) {
         DrawLevelLine(panel, std::log10(limits_.short_period_frequency_min[level]),
                       kLevelDashes[level]);
+      }
+      if (limits_.load_factor_by_alpha_min[level] > 0) {
+        DrawLevelColumn(panel, std::log10(limits_.load_factor_by_alpha_min[level]),
+                        kLevelDashes[level]);
       }
     }
     Name(panel, "n/alpha, g/rad; upwards frequency, rad/s");
@@ -216,6 +238,9 @@ class LevelsDrawing {
       const double left = at.x - kHalfWidth, right = at.x + kHalfWidth;
       const double high = at.y - kHalfHeight, low = at.y + kHalfHeight;
       shapes_.emplace_back(Area({{left, high}, {right, high}, {right, low}, {left, low}}, colour));
+      if (!HasEquivalentSystem(flight)) {
+        shapes_.emplace_back(Disc{at, kRadius, kWhite, kGrey, 0.8});
+      }
     }
     return panel.bottom();
   }
@@ -245,6 +270,13 @@ class LevelsDrawing {
       if (!seen[level]) continue;
       entries.push_back({BandSample(kLevelColours[level], 1),
                          level < 3 ? fmt::format("level {}", level + 1) : "below level 3"});
+    }
+    if (!std::all_of(flights_.begin(), flights_.end(), HasEquivalentSystem)) {
+      entries.push_back({[](PagePoint left, std::vector<Shape>* shapes) {
+                           shapes->emplace_back(Disc{
+                               {left.x + kSampleWidth / 2, left.y}, kRadius, kWhite, kGrey, 0.8});
+                         },
+                         fmt::format("no equivalent system: mismatch above {}", kMostMismatch)});
     }
     return entries;
   }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "src/fdm/flying_qualities_report.h"
+#include "src/plot/handling_levels_picture.h"
+
+namespace skein {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kWidth = 500;
+
+/// A flight at 15000 ft with n/alpha of 8 g/rad.
+AssessedFlight FlightWith(double mismatch) {
+  AssessedFlight flight;
+  flight.request.altitude_ft = 15000;
+  flight.request.true_airspeed_ft_s = 500;
+  flight.qualities.short_period = {2, 0.7, 0.05, mismatch};
+  flight.qualities.load_factor_by_alpha = 8;
+  flight.qualities.requirements.push_back(
+      {"3.2.2.1.2", "short-period damping", "1", 0.7, 1, "", mismatch > kMostMismatch});
+  for (const auto& [where, name] : kLoopBreaks) flight.qualities.loops.push_back({where, {}});
+  return flight;
+}
+
+/// Boundaries of levels, in ink, that run straight upwards.
+std::size_t Columns(const LevelLimits& limits) {
+  const std::vector<AssessedFlight> flights = {FlightWith(1)};
+  const Picture picture = DrawHandlingLevels(flights, limits, kWidth, "");
+  return static_cast<std::size_t>(
+      std::count_if(picture.shapes.begin(), picture.shapes.end(), [](const Shape& shape) {
+        const auto* const path = std::get_if<Path>(&shape);
+        return path != nullptr && path->stroke == kInk && path->points.size() == 2 &&
+               path->points[0].x == path->points[1].x && path->points[0].y != path->points[1].y;
+      }));
+}
+
+TEST(HandlingLevels, EveryLeastLoadFactorByAlphaIsDrawn) {
+  const LevelLimits landing = LimitsNamed("IV", "C");
+  const auto& least = landing.load_factor_by_alpha_min;
+  const auto wanted = static_cast<std::size_t>(
+      std::count_if(least.begin(), least.end(), [](double limit) { return limit > 0; }));
+  ASSERT_GT(wanted, 0u);
+  EXPECT_EQ(Columns(landing), wanted);
+  EXPECT_EQ(Columns(LimitsNamed("IV", "A")), 0u) << "which asks for none";
+}
+
+std::string AllWords(const Picture& picture) {
+  std::string text;
+  for (const Shape& shape : picture.shapes) {
+    if (const auto* const words = std::get_if<Words>(&shape)) text += words->text + "\n";
+  }
+  return text;
+}
+
+TEST(HandlingLevels, AFlightWithoutAnEquivalentSystemIsDoubted) {
+  const LevelLimits limits = LimitsNamed("IV", "A");
+  for (const bool is_doubtful : {false, true}) {
+    const AssessedFlight flight = FlightWith(is_doubtful ? kMostMismatch + 1 : kMostMismatch);
+    const std::vector<AssessedFlight> flights = {flight};
+    const auto expects = [&](const std::string& text, const std::string& doubt) {
+      if (is_doubtful) {
+        EXPECT_THAT(text, HasSubstr(doubt));
+      } else {
+        EXPECT_THAT(text, Not(HasSubstr(doubt)));
+      }
+    };
+    expects(Describe(flight.qualities, ""), "level 1?");
+    expects(Describe(flight.qualities, ""), "mismatch above 10");
+    expects(DescribeLevels(flights), "1?");
+    expects(AllWords(DrawHandlingLevels(flights, limits, kWidth, "")), "mismatch above 10");
+  }
+}
+
+}  // namespace
+}  // namespace skein
