@@ -61,7 +61,7 @@ std::optional<Words> LabelPlaces::Put(Words words, PagePoint beside,
     least = cost;
     best = words;
   }
-  if (best) Avoid(*best);
+  if (best) Forbid(BoxOf(*best));
   return best;
 }
 
@@ -73,7 +73,7 @@ std::optional<Words> LabelPlaces::PutAround(const Words& words, PagePoint point)
 bool LabelPlaces::IsFree(const PageBox& box) const {
   const bool is_inside = box.left >= paper_.left && box.right <= paper_.right &&
                          box.top >= paper_.top && box.bottom <= paper_.bottom;
-  return is_inside && std::none_of(words_.begin(), words_.end(),
+  return is_inside && std::none_of(forbidden_.begin(), forbidden_.end(),
                                    [&](const PageBox& other) { return box.Overlaps(other); });
 }
 

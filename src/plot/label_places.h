@@ -28,8 +28,8 @@ class LabelPlaces {
 
   /// What words had better not cover: a square of half side `reach`.
   void Avoid(PagePoint middle, double reach, double weight);
-  /// Other words, which no words may cover.
-  void Avoid(const Words& words) { words_.push_back(BoxOf(words)); }
+  /// What no words may cover, such as other words.
+  void Forbid(const PageBox& box) { forbidden_.push_back(box); }
 
   /// Places `words`, which may lie at any of the `offsets` from a point, an earlier one rather than
   /// a later, and takes note of them; nothing if all of them cover other words or leave the paper.
@@ -48,7 +48,7 @@ class LabelPlaces {
 
   PageBox paper_;
   std::vector<Obstacle> taken_;
-  std::vector<PageBox> words_;
+  std::vector<PageBox> forbidden_;
 };
 
 }  // namespace skein

@@ -205,7 +205,7 @@ class SpaceDrawing {
       }
     }
     for (const Shape& shape : shapes_) {
-      if (const auto* const words = std::get_if<Words>(&shape)) places.Avoid(*words);
+      if (const auto* const words = std::get_if<Words>(&shape)) places.Forbid(BoxOf(*words));
     }
     for (const Track& track : tracks_) {
       Words words{

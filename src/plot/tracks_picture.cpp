@@ -101,9 +101,11 @@ class TracksDrawing {
   }
 
   void DrawMap(const Panel& map) {
-    const double step_count = map.width() / kPointsPerTick;
-    const std::vector<double> across = Ticks(map.x_range(), step_count);
-    const double step = across.size() > 1 ? across[1] - across[0] : 1;
+    double step_count = map.width() / kPointsPerTick;
+    std::vector<double> across = Ticks(map.x_range(), step_count);
+    // In a narrow picture the first choice may have one number in view, which is no scale.
+    while (across.size() < 2) across = Ticks(map.x_range(), step_count *= 2);
+    const double step = across[1] - across[0];
     const std::vector<double> up =
         Ticks(map.y_range(), (map.y_range().max - map.y_range().min) / step);
     map.DrawGrid(across, up, &shapes_);
@@ -199,7 +201,9 @@ class TracksDrawing {
     for (Shape& shape : NorthArrow(paper, SpacePoint::Zero(), kLength)) {
       shapes_.push_back(std::move(shape));
     }
-    places->Avoid(best, kLength, 20);
+    // With its letter, which stands beyond the tip.
+    places->Forbid({best.x - kLength / 3, best.y - kLength - kTextSize, best.x + kLength / 3,
+                    best.y + kLength / 2 + 2});
   }
 
   void DrawAltitudes(const Panel& panel) {

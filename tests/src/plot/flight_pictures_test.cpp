@@ -185,6 +185,21 @@ TEST_F(FlightPictures, FitAColumnOfAPaper) {
               HasSubstr("9 episodes do not fit side by side"));
 }
 
+TEST_F(FlightPictures, ANarrowMapOfAWideFlightHasAScale) {
+  std::string text =
+      "episode,time_s,north_ft,east_ft,altitude_ft,roll_deg,pitch_deg,yaw_deg,termination\n";
+  for (const int side : {-1, 1}) {
+    for (int k = 0; k <= 10; ++k) {
+      text += fmt::format("{},{},{},{},20000,0,0,{},{}\n", (side + 1) / 2, 3 * k, 1000 * k,
+                          side * 3000 * k, 70 * side, k == 10 ? "target_reached" : "");
+    }
+  }
+  WriteFile(scratch_ / "wide.csv", text);
+  const Picture picture = TracksPicture(ReadRecordings({scratch_ / "wide.csv"}), {{}, 252, ""});
+  ExpectLegible(picture);
+  EXPECT_THAT(WordsOf(picture), Contains("20"));
+}
+
 TEST_F(FlightPictures, AFileThatIsCutShortIsDrawnAsFarAsItGoes) {
   const std::string file = Write("f.csv", 2);
   const std::string text = ReadFile(file);
