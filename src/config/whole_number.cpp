@@ -6,30 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <utility>
 
-#include "base/number_text.h"
 #include "src/config/number_in.h"
 
 namespace skein {
-namespace {
-
-/// Takes what is finite and `is_right`, which `kind` says in words.
-CLI::Validator NumberThat(const std::function<bool(double)>& is_right, const std::string& kind) {
-  return CLI::Validator(
-      [is_right, kind](std::string& text) {
-        const std::optional<double> number = ReadNumber(text);
-        if (!number || !std::isfinite(*number) || !is_right(*number)) {
-          return fmt::format("'{}' is not a {}", text, kind);
-        }
-        text = ShortestText(*number);
-        return std::string();
-      },
-      kind);
-}
-
-}  // namespace
 
 std::optional<double> ReadNumber(const std::string& text) {
   // By exponent, not by multiplying, so that 1.35G is the double nearest to 1.35e9.
@@ -68,11 +49,6 @@ CLI::Validator FiniteNumber() {
 
 CLI::Validator NumberAboveZero() {
   return NumberThat([](double number) { return number > 0; }, "number above 0");
-}
-
-CLI::Validator NumberIn(double min, double max) {
-  return NumberThat([min, max](double number) { return number >= min && number <= max; },
-                    fmt::format("number in [{:g} - {:g}]", min, max));
 }
 
 }  // namespace skein

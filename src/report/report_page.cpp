@@ -24,9 +24,7 @@ std::string Replaced(std::string page, const std::string& mark, const std::strin
 }  // namespace
 
 std::optional<std::string> FindReportTemplate() {
-  // Of a build tree it lies where an installation has share/skein/.
-  for (const char* name : {"report.html", "../../viewer/report.html"}) {
-    const std::string path = InstalledFile(name);
+  for (const std::string& path : {InstalledFile("report.html"), BuiltFile("viewer/report.html")}) {
     if (!path.empty()) return ReadFile(path);
   }
   return std::nullopt;

@@ -101,12 +101,6 @@ bool IsRunDirectory(const std::string& path) {
   return fs::is_regular_file(path + "/config.toml", failure);
 }
 
-void RequireRun(const std::string& path) {
-  if (IsRunDirectory(path)) return;
-  throw ChoiceError(
-      fmt::format("{}: not the directory of a run (there is no config.toml in it)", path));
-}
-
 RunDirectory RunDirectory::Create(const std::string& path) {
   std::error_code failure;
   if (fs::exists(path, failure) && !(fs::is_directory(path) && fs::is_empty(path, failure))) {
