@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/error.h"
+#include "base/choice_error.h"
 
 namespace skein::simd {
 namespace {
@@ -63,8 +63,8 @@ std::string SupportedNames() {
 
 void RequireSupported(Target target, const std::string& origin) {
   if (!IsSupported(target)) {
-    throw Error(origin + ": SIMD target \"" + Name(target) +
-                "\" is not supported by this CPU and build; supported: " + SupportedNames());
+    throw ChoiceError(origin + ": SIMD target \"" + Name(target) +
+                      "\" is not supported by this CPU and build; supported: " + SupportedNames());
   }
 }
 
@@ -78,8 +78,8 @@ Target RequestedTarget() {
       return facts.target;
     }
   }
-  throw Error("SKEIN_SIMD: unknown SIMD target \"" + std::string(variable) +
-              "\"; one of: " + SupportedNames());
+  throw ChoiceError("SKEIN_SIMD: unknown SIMD target \"" + std::string(variable) +
+                    "\"; one of: " + SupportedNames());
 }
 
 /// Points Highway's dispatch tables at `target`.
