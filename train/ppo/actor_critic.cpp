@@ -19,8 +19,13 @@ TrainedNetwork FreshNetwork(const TrainConfig& config, const NetworkShape& shape
           ? InitialParameters(layout, config.network.actor_head_scale,
                               config.network.initial_log_std, config.seed, kActorStream)
           : InitialParameters(layout, kCriticHeadScale, kCriticLogStd, config.seed, kCriticStream);
+  RateFactor rate_factor;
+  if (shape.gaussian && config.ppo.log_std_rate_factor != 1) {
+    rate_factor = {layout.log_std(), layout.log_std() + shape.output_size,
+                   config.ppo.log_std_rate_factor};
+  }
   return {MakeNetwork(backend, layout, precision),
-          AdamOptimiser(parameters, config.ppo.adam_epsilon)};
+          AdamOptimiser(parameters, config.ppo.adam_epsilon, rate_factor)};
 }
 
 }  // namespace

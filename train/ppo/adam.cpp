@@ -2,6 +2,7 @@
 #include "train/ppo/adam.h"
 
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "base/error.h"
@@ -21,9 +22,11 @@ AlignedVector<float> Padded(const std::vector<float>& values) {
 
 }  // namespace
 
-AdamOptimiser::AdamOptimiser(const std::vector<float>& parameters, double epsilon)
+AdamOptimiser::AdamOptimiser(const std::vector<float>& parameters, double epsilon,
+                             const RateFactor& rate_factor)
     : size_(static_cast<std::int64_t>(parameters.size())),
       epsilon_(epsilon),
+      rate_factor_(rate_factor),
       parameters_(Padded(parameters)),
       gradient_(parameters_.size(), 0.0f),
       first_moment_(parameters_.size(), 0.0f),
@@ -45,7 +48,13 @@ void AdamOptimiser::Step(double learning_rate) {
   step.root_correction = static_cast<float>(std::sqrt(1 - std::pow(kBeta2, t)));
   step.epsilon = static_cast<float>(epsilon_);
   step.step_size = static_cast<float>(learning_rate / (1 - std::pow(kBeta1, t)));
+  float* const hastened = parameters() + rate_factor_.begin;
+  const std::vector<float> before(hastened, parameters() + rate_factor_.end);
   TakeAdamStep(step);
+  const auto factor = static_cast<float>(rate_factor_.factor);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    hastened[i] = before[i] + factor * (hastened[i] - before[i]);
+  }
 }
 
 void AdamOptimiser::SetParameters(const std::vector<float>& parameters) {

@@ -14,6 +14,12 @@ struct AdamState {
   std::vector<float> first_moment, second_moment;
 };
 
+/// Successive parameters that learn at a multiple of the others' rate.
+struct RateFactor {
+  std::int64_t begin = 0, end = 0;
+  double factor = 1;
+};
+
 /// A flat parameter vector, its gradient, and Adam on them (Kingma and Ba 2015, "Adam: a method for
 /// stochastic optimization", Algorithm 1, with betas 0.9 and 0.999). Bias is corrected as in
 /// PyTorch's Adam: epsilon is added to the corrected root. Deterministic, in float32, on the
@@ -21,7 +27,8 @@ struct AdamState {
 class AdamOptimiser {
  public:
   /// `epsilon` must be positive.
-  AdamOptimiser(const std::vector<float>& parameters, double epsilon);
+  AdamOptimiser(const std::vector<float>& parameters, double epsilon,
+                const RateFactor& rate_factor = {});
 
   std::int64_t size() const { return size_; }
   float* parameters() { return parameters_.data(); }
@@ -41,6 +48,7 @@ class AdamOptimiser {
  private:
   std::int64_t size_ = 0;
   double epsilon_;
+  RateFactor rate_factor_;
   std::int64_t step_ = 0;
   // Padded by zeros to whole vectors of every SIMD target; zeros stay zeros.
   AlignedVector<float> parameters_, gradient_, first_moment_, second_moment_;

@@ -33,6 +33,9 @@ void ListAdamFields(PpoConfig& config, FieldList& list) {
            "below half of it raises it again, up to what the decay allows; 0: as the decay has it")
       .OffUnless(config.target_kl > 0);
   list.Add("adam_epsilon", &config.adam_epsilon, Bounds::PositiveFraction(), "Adam's epsilon");
+  list.Add("log_std_rate_factor", &config.log_std_rate_factor, Bounds::Positive(),
+           "the actions' standard deviations learn at so many times the learning rate")
+      .OffUnless(config.log_std_rate_factor != 1);
   list.Add("average_iterations", &config.average_iterations, {0, 1000000},
            "the policy that is evaluated and kept is the running mean of the actor over about so "
            "many iterations; 0: the actor after the last one")

@@ -28,6 +28,9 @@ struct PpoConfig {
   /// is not.
   double target_kl = 0;
   double adam_epsilon = 1e-5;
+  /// The standard deviations learn at so many times the learning rate. At the rate of the weights
+  /// they are hardly narrower when it has fallen.
+  double log_std_rate_factor = 1;
   /// The policy that is evaluated and kept is the mean of the actor after about so many of the last
   /// iterations (MoveAverage); 0: the actor itself.
   int average_iterations = 0;

@@ -100,6 +100,20 @@ TEST_P(AdamTest, ResumesBitExactly) {
   EXPECT_EQ(ParametersOf(second), ParametersOf(whole));
 }
 
+TEST_P(AdamTest, MovesAPartSoManyTimesAsFar) {
+  constexpr int kBegin = 3, kEnd = 7;
+  AdamOptimiser even(FirstParameters(), kEpsilon);
+  AdamOptimiser hastened(FirstParameters(), kEpsilon, {kBegin, kEnd, 16});
+  TakeSteps(0, 1, even);
+  TakeSteps(0, 1, hastened);
+  const std::vector<float> first = FirstParameters();
+  for (int i = 0; i < kSize; ++i) {
+    const float way = even.parameters()[i] - first[i];
+    const float times = i >= kBegin && i < kEnd ? 16 : 1;
+    EXPECT_FLOAT_EQ(hastened.parameters()[i], first[i] + times * way) << i;
+  }
+}
+
 TEST_P(AdamTest, RefusesMomentsOfAnotherSize) {
   AdamOptimiser adam(FirstParameters(), kEpsilon);
   AdamState state = adam.state();
