@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/fnv_hash.h"
 #include "gtest/gtest.h"
 #include "simd/bfloat16.h"
 #include "simd/target.h"
@@ -359,6 +360,32 @@ TEST_P(Bfloat16ProductTest, PairsOfBfloat16AreAddedOddElementFirst) {
 std::string ParameterName(const testing::TestParamInfo<std::tuple<Target, Precision>>& test) {
   const bool is_float32 = std::get<1>(test.param) == Precision::kFloat32;
   return Name(std::get<0>(test.param)) + std::string(is_float32 ? "_float32" : "_bfloat16");
+}
+
+/// Of whole numbers, as the normal distribution's are not the same in every standard library.
+Matrix RandomOnEveryMachine(std::int64_t rows, std::int64_t columns, unsigned seed) {
+  std::mt19937 generator(seed);
+  Matrix matrix(rows, columns);
+  for (float& x : matrix.data) x = static_cast<float>(generator()) * 0x1p-32f - 0.5f;
+  return matrix;
+}
+
+/// x86-64 and AArch64, any lanes. Products of bfloat16 are exact in float32.
+TEST_P(MatrixProductTest, BitsDependOnWhetherMultiplyAddsRoundOnceAlone) {
+  const Matrix a = RandomOnEveryMachine(65, 71, 1), b = RandomOnEveryMachine(71, 37, 2);
+  Matrix product(65, 37), gradient = b;
+  Multiply(a, Packed(b, precision()), nullptr, false, &product);
+  AddTransposedProduct(a, product, precision(), &gradient);
+  FnvHash hash;
+  for (const Matrix* matrix : {&product, &gradient}) {
+    hash.Add(matrix->data.data(), matrix->data.size() * sizeof(float));
+  }
+  if (precision() == Precision::kBfloat16) {
+    EXPECT_EQ(hash.Hex(), "b09b4b0e95bec95e");
+  } else {
+    EXPECT_EQ(hash.Hex(),
+              FusesMultiplyAdd(ActiveTarget()) ? "d97fa330c2870d95" : "85c61b094f729a1d");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryTarget, MatrixProductTest,
