@@ -10,16 +10,16 @@ namespace skein::bench {
 namespace {
 
 constexpr int kObservations = 22, kActions = 4;
-constexpr int kHiddenLayers = 2;       // on each side of the GRU
-constexpr std::int64_t kBlock = 96;    // rows, as FusedNetwork's
-constexpr int kSize = 128;             // of layers and state
+constexpr int kHiddenLayers = 2;                                 // on each side of the GRU
+constexpr std::int64_t kForwardBlock = 48, kBackwardBlock = 96;  // rows, as FusedNetwork's
+constexpr int kSize = 128;                                       // of layers and state
 constexpr std::int64_t kGateStride = 4 * kSize + 16;
 constexpr std::int64_t kStride = kSize + 16;
 
 template <typename Visit>
-void ForEachBlock(std::int64_t rows, const Visit& visit) {
-  for (std::int64_t first = 0; first < rows; first += kBlock) {
-    visit(first, std::min(kBlock, rows - first));
+void ForEachBlock(std::int64_t rows, std::int64_t most, const Visit& visit) {
+  for (std::int64_t first = 0; first < rows; first += most) {
+    visit(first, std::min(most, rows - first));
   }
 }
 
@@ -29,25 +29,44 @@ NetworkShape Shape() { return ActorShape(NetworkConfig(), kObservations, kAction
 
 const char* Name(TilePart part) {
   switch (part) {
-    case TilePart::kObservation: return "observation: LayerNorm";
-    case TilePart::kHiddenForward: return "hidden layers: products forward";
-    case TilePart::kHiddenNormalise: return "hidden layers: ReLU, LayerNorm";
-    case TilePart::kGateInputForward: return "GRU: products of its input";
-    case TilePart::kGateStateForward: return "GRU: products of its state";
-    case TilePart::kState: return "GRU: states masked, bias, both ways";
-    case TilePart::kGates: return "GRU: gates";
-    case TilePart::kStateNormalise: return "GRU: LayerNorm";
-    case TilePart::kHead: return "head: products, both ways";
-    case TilePart::kLoss: return "loss";
-    case TilePart::kHiddenToInput: return "hidden layers: products to inputs";
-    case TilePart::kHiddenToWeight: return "hidden layers: products to weights";
-    case TilePart::kNormaliseBackward: return "ReLU, LayerNorm backward, bias";
-    case TilePart::kGatesBackward: return "GRU: gates backward, bias";
-    case TilePart::kGateStateToInput: return "GRU: products to states";
-    case TilePart::kGateStateToWeight: return "GRU: products to the state's weight";
-    case TilePart::kGateInputToInput: return "GRU: products to its input";
-    case TilePart::kGateInputToWeight: return "GRU: products to the input's weight";
-    case TilePart::kCount: break;
+    case TilePart::kObservation:
+      return "observation: LayerNorm";
+    case TilePart::kHiddenForward:
+      return "hidden layers: products forward";
+    case TilePart::kHiddenNormalise:
+      return "hidden layers: ReLU, LayerNorm";
+    case TilePart::kGateInputForward:
+      return "GRU: products of its input";
+    case TilePart::kGateStateForward:
+      return "GRU: products of its state";
+    case TilePart::kState:
+      return "GRU: states masked, bias, both ways";
+    case TilePart::kGates:
+      return "GRU: gates";
+    case TilePart::kStateNormalise:
+      return "GRU: LayerNorm";
+    case TilePart::kHead:
+      return "head: products, both ways";
+    case TilePart::kLoss:
+      return "loss";
+    case TilePart::kHiddenToInput:
+      return "hidden layers: products to inputs";
+    case TilePart::kHiddenToWeight:
+      return "hidden layers: products to weights";
+    case TilePart::kNormaliseBackward:
+      return "ReLU, LayerNorm backward, bias";
+    case TilePart::kGatesBackward:
+      return "GRU: gates backward, bias";
+    case TilePart::kGateStateToInput:
+      return "GRU: products to states";
+    case TilePart::kGateStateToWeight:
+      return "GRU: products to the state's weight";
+    case TilePart::kGateInputToInput:
+      return "GRU: products to its input";
+    case TilePart::kGateInputToWeight:
+      return "GRU: products to the input's weight";
+    case TilePart::kCount:
+      break;
   }
   return "";
 }
@@ -84,7 +103,7 @@ TileReplay::TileReplay(const NetworkPrecision& precision, int steps, int batch)
 
 TileReplay::Seconds TileReplay::Run(bool backward) {
   seconds_ = {};
-  Forward();
+  Forward(backward);
   if (backward) {
     Time(TilePart::kLoss, [&] {
       const std::int64_t log_std = folded_layout_.log_std();
@@ -102,17 +121,22 @@ double TileReplay::Flops(TilePart part) const {
   const double gates = product * kSize * 3 * kSize;
   switch (part) {
     case TilePart::kHiddenForward:
-    case TilePart::kHiddenToWeight: return hidden;
-    case TilePart::kHiddenToInput: return hidden - product * kSize * kObservations;
+    case TilePart::kHiddenToWeight:
+      return hidden;
+    case TilePart::kHiddenToInput:
+      return hidden - product * kSize * kObservations;
     case TilePart::kGateInputForward:
     case TilePart::kGateStateForward:
     case TilePart::kGateStateToWeight:
     case TilePart::kGateInputToInput:
-    case TilePart::kGateInputToWeight: return gates;
+    case TilePart::kGateInputToWeight:
+      return gates;
     case TilePart::kGateStateToInput:
       return gates * (tile_.sequence.steps - 1) / tile_.sequence.steps;
-    case TilePart::kHead: return 3 * product * kSize * kActions;
-    default: return 0;
+    case TilePart::kHead:
+      return 3 * product * kSize * kActions;
+    default:
+      return 0;
   }
 }
 
@@ -137,69 +161,67 @@ void TileReplay::HiddenForward(int index, std::int64_t first, std::int64_t count
   });
 }
 
-void TileReplay::StepForward(int step) {
-  const std::int64_t batch = tile_.sequence.batch, begin = step * batch;
+void TileReplay::StateForward(int step, std::int64_t first, std::int64_t count, std::int64_t kept) {
+  const std::int64_t batch = tile_.sequence.batch;
   FusedActivations::GruRows& rows = activations_.gru[0];
-  float* const previous = rows.previous.data() + begin * kStride;
+  float* const previous = rows.previous.data() + kept * kStride;
+  float* const next = rows.state.data() + kept * kStride;
+  float* const gates = rows.gates.data() + kept * kGateStride;
   const float* const bias = folded_.data() + gate_state_.place().bias + 2 * kSize;
   Time(TilePart::kState, [&] {
     if (step == 0) {
-      for (std::int64_t i = 0; i < batch; ++i) {
-        std::copy_n(initial_state_.data() + i * kSize, kSize, previous + i * kStride);
+      for (std::int64_t i = 0; i < count; ++i) {
+        std::copy_n(initial_state_.data() + (first + i) * kSize, kSize, previous + i * kStride);
       }
     } else {
-      ScaleRows(batch, kSize, not_done_.data() + begin,
-                rows.state.data() + (begin - batch) * kStride, previous);
+      ScaleRows(count, kSize, not_done_.data() + step * batch + first, next - batch * kStride,
+                previous);
+    }
+    for (std::int64_t i = 0; i < count; ++i) {
+      std::copy_n(bias, kSize, gates + i * kGateStride + 3 * kSize);
     }
   });
-  ForEachBlock(batch, [&](std::int64_t first, std::int64_t count) {
-    float* const gates = rows.gates.data() + (begin + first) * kGateStride;
-    Time(TilePart::kState, [&] {
-      for (std::int64_t i = 0; i < count; ++i) {
-        std::copy_n(bias, kSize, gates + i * kGateStride + 3 * kSize);
-      }
-    });
-    Time(TilePart::kGateStateForward, [&] {
-      gate_state_.Forward(count, previous + first * kStride, kStride, nullptr, true, gates + kSize,
-                          kGateStride, &activations_.products);
-    });
-    Time(TilePart::kGates, [&] {
-      GruStep(count, kSize, previous + first * kStride, gates, kGateStride,
-              rows.state.data() + (begin + first) * kStride);
-    });
+  Time(TilePart::kGateStateForward, [&] {
+    gate_state_.Forward(count, previous, kStride, nullptr, true, gates + kSize, kGateStride,
+                        &activations_.products);
+  });
+  Time(TilePart::kGates, [&] { GruStep(count, kSize, previous, gates, kGateStride, next); });
+}
+
+void TileReplay::RowsForward(int step, std::int64_t first, std::int64_t count, std::int64_t kept) {
+  FusedActivations& own = activations_;
+  const std::int64_t row = step * tile_.sequence.batch + first;
+  Time(TilePart::kObservation, [&] {
+    NormaliseRows(count, kObservations, observation_.data() + row * kObservations,
+                  own.observation.data() + kept * RowStride(kObservations));
+  });
+  for (int i = 0; i < kHiddenLayers; ++i) HiddenForward(i, kept, count);
+  Time(TilePart::kGateInputForward, [&] {
+    gate_input_.Forward(count, own.hidden[kHiddenLayers - 1].normalised.data() + kept * kStride,
+                        kStride, folded_.data() + gate_input_.place().bias, false,
+                        own.gru[0].gates.data() + kept * kGateStride, kGateStride, &own.products);
+  });
+  StateForward(step, first, count, kept);
+  Time(TilePart::kStateNormalise, [&] {
+    NormaliseWithStd(count, kSize, own.gru[0].state.data() + kept * kStride,
+                     own.normalised_state.data() + kept * kStride,
+                     own.state_inverse_std.data() + kept);
+  });
+  for (int i = kHiddenLayers; i < 2 * kHiddenLayers; ++i) HiddenForward(i, kept, count);
+  Time(TilePart::kHead, [&] {
+    head_.Forward(count, own.hidden[2 * kHiddenLayers - 1].normalised.data() + kept * kStride,
+                  kStride, folded_.data() + head_.place().bias, false,
+                  output_.data() + row * kActions, kActions, &own.products);
   });
 }
 
-void TileReplay::Forward() {
-  const std::int64_t rows = tile_.sequence.rows();
-  FusedActivations& own = activations_;
-  ForEachBlock(rows, [&](std::int64_t first, std::int64_t count) {
-    Time(TilePart::kObservation, [&] {
-      NormaliseRows(count, kObservations, observation_.data() + first * kObservations,
-                    own.observation.data() + first * RowStride(kObservations));
+void TileReplay::Forward(bool keeps) {
+  const std::int64_t batch = tile_.sequence.batch;
+  for (int step = 0; step < tile_.sequence.steps; ++step) {
+    ForEachBlock(batch, kForwardBlock, [&](std::int64_t first, std::int64_t count) {
+      RowsForward(step, first, count, keeps ? step * batch + first : 0);
     });
-    for (int i = 0; i < kHiddenLayers; ++i) HiddenForward(i, first, count);
-    Time(TilePart::kGateInputForward, [&] {
-      gate_input_.Forward(count, own.hidden[kHiddenLayers - 1].normalised.data() + first * kStride,
-                          kStride, folded_.data() + gate_input_.place().bias, false,
-                          own.gru[0].gates.data() + first * kGateStride, kGateStride,
-                          &own.products);
-    });
-  });
-  for (int step = 0; step < tile_.sequence.steps; ++step) StepForward(step);
-  ForEachBlock(rows, [&](std::int64_t first, std::int64_t count) {
-    Time(TilePart::kStateNormalise, [&] {
-      NormaliseWithStd(count, kSize, own.gru[0].state.data() + first * kStride,
-                       own.normalised_state.data() + first * kStride,
-                       own.state_inverse_std.data() + first);
-    });
-    for (int i = kHiddenLayers; i < 2 * kHiddenLayers; ++i) HiddenForward(i, first, count);
-    Time(TilePart::kHead, [&] {
-      head_.Forward(count, own.hidden[2 * kHiddenLayers - 1].normalised.data() + first * kStride,
-                    kStride, folded_.data() + head_.place().bias, false,
-                    output_.data() + first * kActions, kActions, &own.products);
-    });
-  });
+  }
 }
 
 void TileReplay::HiddenBackward(int index, float* input_gradient, std::int64_t first,
@@ -226,7 +248,7 @@ void TileReplay::HiddenBackward(int index, float* input_gradient, std::int64_t f
 void TileReplay::StepBackward(int step) {
   const std::int64_t batch = tile_.sequence.batch;
   FusedActivations::GruRows& own = activations_.gru[0];
-  ForEachBlock(batch, [&](std::int64_t offset, std::int64_t count) {
+  ForEachBlock(batch, kBackwardBlock, [&](std::int64_t offset, std::int64_t count) {
     const std::int64_t first = step * batch + offset;
     float* const gates = own.gates.data() + first * kGateStride;
     float* const gradient = activations_.state_gradient[0].data() + first * kStride;
@@ -250,13 +272,13 @@ void TileReplay::Backward() {
   FusedActivations& own = activations_;
   float* const by_state = own.state_gradient[0].data();
   float* const block[2] = {own.block_gradient[0].data(), own.block_gradient[1].data()};
-  ForEachBlock(rows, [&](std::int64_t first, std::int64_t count) {
+  ForEachBlock(rows, kBackwardBlock, [&](std::int64_t first, std::int64_t count) {
     Time(TilePart::kHead, [&] {
       const float* const by_output = own.output_gradient.data() + first * kActions;
       AddColumnSums(count, kActions, by_output, kActions, gradient_.data() + head_.place().bias);
-      head_.BackwardToWeight(
-          count, own.hidden[2 * kHiddenLayers - 1].normalised.data() + first * kStride, kStride,
-          by_output, kActions, gradient_.data(), &own.products);
+      head_.BackwardToWeight(count,
+                             own.hidden[2 * kHiddenLayers - 1].normalised.data() + first * kStride,
+                             kStride, by_output, kActions, gradient_.data(), &own.products);
       head_.BackwardToInput(count, by_output, kActions, false, block[0], kStride, &own.products);
     });
     float* const by_block_state = by_state + first * kStride;
@@ -273,7 +295,7 @@ void TileReplay::Backward() {
     gate_state_.BackwardToWeight(rows, own.gru[0].previous.data(), kStride, gates + kSize,
                                  kGateStride, gradient_.data(), &own.products);
   });
-  ForEachBlock(rows, [&](std::int64_t first, std::int64_t count) {
+  ForEachBlock(rows, kBackwardBlock, [&](std::int64_t first, std::int64_t count) {
     const float* const own_gates = gates + first * kGateStride;
     Time(TilePart::kGateInputToWeight, [&] {
       gate_input_.BackwardToWeight(

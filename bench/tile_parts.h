@@ -15,24 +15,24 @@ namespace skein::bench {
 
 /// Parts of what a network does with a tile of samples.
 enum class TilePart {
-  kObservation,          ///< its LayerNorm
-  kHiddenForward,        ///< products
-  kHiddenNormalise,      ///< ReLU and LayerNorm
-  kGateInputForward,     ///< products of the GRU's input
-  kGateStateForward,     ///< products of its state, step by step
-  kState,                ///< states zeroed where episodes begin, forward and backward
-  kGates,                ///< sigmoids and tanh
-  kStateNormalise,       ///< LayerNorm of the state
-  kHead,                 ///< products forward and backward
-  kLoss,                 ///< gradient with respect to the output
-  kHiddenToInput,        ///< products backward with respect to the input
-  kHiddenToWeight,       ///< and to the weight
-  kNormaliseBackward,    ///< ReLU, LayerNorm, bias
-  kGatesBackward,        ///< of the sigmoids and tanh, bias
-  kGateStateToInput,     ///< products with respect to the state before, step by step
-  kGateStateToWeight,    ///< and to its weight
-  kGateInputToInput,     ///< products with respect to the GRU's input
-  kGateInputToWeight,    ///< and to its weight
+  kObservation,        ///< its LayerNorm
+  kHiddenForward,      ///< products
+  kHiddenNormalise,    ///< ReLU and LayerNorm
+  kGateInputForward,   ///< products of the GRU's input
+  kGateStateForward,   ///< products of its state, step by step
+  kState,              ///< states zeroed where episodes begin, forward and backward
+  kGates,              ///< sigmoids and tanh
+  kStateNormalise,     ///< LayerNorm of the state
+  kHead,               ///< products forward and backward
+  kLoss,               ///< gradient with respect to the output
+  kHiddenToInput,      ///< products backward with respect to the input
+  kHiddenToWeight,     ///< and to the weight
+  kNormaliseBackward,  ///< ReLU, LayerNorm, bias
+  kGatesBackward,      ///< of the sigmoids and tanh, bias
+  kGateStateToInput,   ///< products with respect to the state before, step by step
+  kGateStateToWeight,  ///< and to its weight
+  kGateInputToInput,   ///< products with respect to the GRU's input
+  kGateInputToWeight,  ///< and to its weight
   kCount,
 };
 
@@ -69,8 +69,9 @@ class TileReplay {
 
   const float* InputOf(int hidden) const;
   void HiddenForward(int index, std::int64_t first, std::int64_t count);
-  void StepForward(int step);
-  void Forward();
+  void StateForward(int step, std::int64_t first, std::int64_t count, std::int64_t kept);
+  void RowsForward(int step, std::int64_t first, std::int64_t count, std::int64_t kept);
+  void Forward(bool keeps);
   void HiddenBackward(int index, float* input_gradient, std::int64_t first, std::int64_t count,
                       float* gradient);
   void StepBackward(int step);

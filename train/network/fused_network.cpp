@@ -10,16 +10,23 @@
 namespace skein {
 namespace {
 
-// Rows that go through a layer's product and what follows it together: their values stay in the
-// first two levels of the cache, while the layer's weights are read once for all of them.
+// Rows that go through all layers together: their values stay in the first two levels of the cache,
+// while the layers' weights are read once for all of them.
+constexpr std::int64_t kForwardRows = 48;
+// Rows that go back through a layer together: the weight's gradient is read and written once for
+// all of them, too.
 constexpr std::int64_t kLayerRows = 96;
 
-/// Calls visit(first, count) for `rows` rows, kLayerRows at a time.
+/// Calls visit(first, count) for `rows` rows, `most` at a time.
+template <typename Visit>
+void ForEachRows(std::int64_t rows, std::int64_t most, const Visit& visit) {
+  for (std::int64_t first = 0; first < rows; first += most) {
+    visit(first, std::min(most, rows - first));
+  }
+}
 template <typename Visit>
 void ForEachLayerRows(std::int64_t rows, const Visit& visit) {
-  for (std::int64_t first = 0; first < rows; first += kLayerRows) {
-    visit(first, std::min(kLayerRows, rows - first));
-  }
+  ForEachRows(rows, kLayerRows, visit);
 }
 
 /// Floats between rows of gates: four gates, and a cache line so that rows do not all fall into the
@@ -31,7 +38,7 @@ void Grow(AlignedVector<float>& vector, std::int64_t size) {
 }
 
 /// One layer's part of the states [batch][layers][size], times not_done, into padded rows.
-void LoadState(int batch, int layers, int layer, int size, const float* not_done,
+void LoadState(std::int64_t batch, int layers, int layer, int size, const float* not_done,
                const float* state, float* rows) {
   const int padded = PaddedWidth(size);
   const std::int64_t stride = RowStride(size);
@@ -43,7 +50,8 @@ void LoadState(int batch, int layers, int layer, int size, const float* not_done
   }
 }
 
-void StoreState(int batch, int layers, int layer, int size, const float* rows, float* state) {
+void StoreState(std::int64_t batch, int layers, int layer, int size, const float* rows,
+                float* state) {
   const std::int64_t stride = RowStride(size);
   for (std::int64_t i = 0; i < batch; ++i) {
     std::copy_n(rows + i * stride, size, state + (i * layers + layer) * size);
@@ -154,82 +162,88 @@ void FusedNetwork::GatesForward(int layer, std::int64_t first, std::int64_t coun
       activations.gru[layer].gates.data() + first * stride, stride, &activations.products);
 }
 
-void FusedNetwork::GruForward(int layer, const SequenceTile& tile,
-                              FusedActivations& activations) const {
+void FusedNetwork::GruForward(int layer, const SequenceTile& tile, const TileRows& tile_rows,
+                              NetworkWorkspace& workspace) const {
   const NetworkShape& shape = layout_.shape();
   const Gru& gru = gru_[layer];
-  const std::int64_t batch = tile.batch;
   const int size = PaddedWidth(shape.gru_size);
   const std::int64_t stride = GateStride(size), state = RowStride(size);
+  const auto [step, sequence, count, kept] = tile_rows;
+  FusedActivations& activations = workspace.fused_;
   FusedActivations::GruRows& rows = activations.gru[layer];
+  const float* const not_done = tile.not_done + step * tile.batch + sequence;
+  const std::int64_t states = sequence * shape.state_size();
+  float* const previous = rows.previous.data() + kept * state;
+  float* const next = rows.state.data() + kept * state;
+  float* const gates = rows.gates.data() + kept * stride;
+  if (step == 0) {
+    LoadState(count, shape.gru_layers, layer, shape.gru_size, not_done, tile.initial_state + states,
+              previous);
+  } else {
+    ScaleRows(count, size, not_done, next - tile.batch * state, previous);
+  }
+  for (std::int64_t i = 0; i < count; ++i) {
+    std::copy_n(gru.new_bias.begin(), size, gates + i * stride + 3 * size);
+  }
+  gru.hidden.Forward(count, previous, state, nullptr, true, gates + size, stride,
+                     &activations.products);
+  GruStep(count, size, previous, gates, stride, next);
+  if (step + 1 == tile.steps) {
+    StoreState(count, shape.gru_layers, layer, shape.gru_size, next,
+               workspace.final_state_.data() + states);
+  }
+}
+
+void FusedNetwork::RowsForward(const SequenceTile& tile, const TileRows& tile_rows,
+                               NetworkWorkspace& workspace) const {
+  const NetworkShape& shape = layout_.shape();
+  FusedActivations& activations = workspace.fused_;
+  const std::int64_t row = tile_rows.step * tile.batch + tile_rows.sequence;
+  const std::int64_t count = tile_rows.count, kept = tile_rows.kept;
+  const int observations = shape.observation_size;
+  NormaliseRows(count, observations, tile.observation + row * observations,
+                activations.observation.data() + kept * RowStride(observations));
+  for (int i = 0; i < shape.hidden_layers; ++i) HiddenForward(i, kept, count, activations);
+  for (int i = 0; i < shape.gru_layers; ++i) {
+    GatesForward(i, kept, count, activations);
+    GruForward(i, tile, tile_rows, workspace);
+  }
+  const std::int64_t state = kept * RowStride(shape.gru_size);
+  NormaliseWithStd(
+      count, shape.gru_size, activations.gru[shape.gru_layers - 1].state.data() + state,
+      activations.normalised_state.data() + state, activations.state_inverse_std.data() + kept);
+  for (int i = shape.hidden_layers; i < 2 * shape.hidden_layers; ++i) {
+    HiddenForward(i, kept, count, activations);
+  }
+  const std::int64_t in = RowStride(head_.place().in);
+  head_.Forward(count, InputOf(2 * shape.hidden_layers, activations) + kept * in, in,
+                folded(head_.place().bias), false,
+                workspace.output_.data() + row * shape.output_size, shape.output_size,
+                &activations.products);
+}
+
+void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace,
+                           bool keeps_all) const {
+  const NetworkShape& shape = layout_.shape();
+  const bool keeps = keeps_all || tile.steps > 1;
+  workspace.fused_.Reserve(shape, tile.steps, tile.batch);
+  Grow(workspace.output_, tile.rows() * shape.output_size);
+  Grow(workspace.final_state_, static_cast<std::int64_t>(tile.batch) * shape.state_size());
   for (int step = 0; step < tile.steps; ++step) {
-    const std::int64_t begin = step * batch;
-    float* const previous = rows.previous.data() + begin * state;
-    if (step == 0) {
-      LoadState(tile.batch, shape.gru_layers, layer, shape.gru_size, tile.not_done,
-                tile.initial_state, previous);
-    } else {
-      ScaleRows(batch, size, tile.not_done + begin, rows.state.data() + (begin - batch) * state,
-                previous);
-    }
-    ForEachLayerRows(batch, [&](std::int64_t first, std::int64_t count) {
-      float* const gates = rows.gates.data() + (begin + first) * stride;
-      for (std::int64_t i = 0; i < count; ++i) {
-        std::copy_n(gru.new_bias.begin(), size, gates + i * stride + 3 * size);
-      }
-      gru.hidden.Forward(count, previous + first * state, state, nullptr, true, gates + size,
-                         stride, &activations.products);
-      GruStep(count, size, previous + first * state, gates, stride,
-              rows.state.data() + (begin + first) * state);
+    ForEachRows(tile.batch, kForwardRows, [&](std::int64_t first, std::int64_t count) {
+      const std::int64_t kept = keeps ? step * std::int64_t{tile.batch} + first : 0;
+      RowsForward(tile, {step, first, count, kept}, workspace);
     });
   }
 }
 
 void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace) const {
-  const NetworkShape& shape = layout_.shape();
-  const std::int64_t rows = tile.rows();
-  const int observations = shape.observation_size;
-  const std::int64_t stride = RowStride(shape.gru_size);
-  FusedActivations& activations = workspace.fused_;
-  activations.Reserve(shape, tile.steps, tile.batch);
-  Grow(workspace.output_, rows * shape.output_size);
-  Grow(workspace.final_state_, static_cast<std::int64_t>(tile.batch) * shape.state_size());
-
-  ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
-    NormaliseRows(count, observations, tile.observation + first * observations,
-                  activations.observation.data() + first * RowStride(observations));
-    for (int i = 0; i < shape.hidden_layers; ++i) HiddenForward(i, first, count, activations);
-    GatesForward(0, first, count, activations);
-  });
-  for (int i = 0; i < shape.gru_layers; ++i) {
-    if (i > 0) {
-      ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
-        GatesForward(i, first, count, activations);
-      });
-    }
-    GruForward(i, tile, activations);
-    StoreState(tile.batch, shape.gru_layers, i, shape.gru_size,
-               activations.gru[i].state.data() + (rows - tile.batch) * stride,
-               workspace.final_state_.data());
-  }
-  const float* const state = activations.gru[shape.gru_layers - 1].state.data();
-  ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
-    NormaliseWithStd(count, shape.gru_size, state + first * stride,
-                     activations.normalised_state.data() + first * stride,
-                     activations.state_inverse_std.data() + first);
-    for (int i = shape.hidden_layers; i < 2 * shape.hidden_layers; ++i) {
-      HiddenForward(i, first, count, activations);
-    }
-    const std::int64_t in = RowStride(head_.place().in), outputs = shape.output_size;
-    head_.Forward(count, InputOf(2 * shape.hidden_layers, activations) + first * in, in,
-                  folded(head_.place().bias), false, workspace.output_.data() + first * outputs,
-                  outputs, &activations.products);
-  });
+  Forward(tile, workspace, false);
 }
 
 LossSums FusedNetwork::AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
                                           NetworkWorkspace& workspace, float* accumulator) const {
-  Forward(tile.sequence, workspace);
+  Forward(tile.sequence, workspace, true);
   const std::int64_t log_std = folded_layout_.log_std();
   float* const output_gradient = workspace.fused_.output_gradient.data();
   const LossSums sums =

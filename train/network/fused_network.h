@@ -41,13 +41,27 @@ class FusedNetwork : public RecurrentNetwork {
   const float* InputOf(int index, const FusedActivations& activations) const;
   const float* GruInputOf(int layer, const FusedActivations& activations) const;
 
+  /// Rows of one step of a tile, `count` from `sequence` on, whose activations are kept from the
+  /// row `kept` on.
+  struct TileRows {
+    int step;
+    std::int64_t sequence, count, kept;
+  };
+
+  /// Keeps the activations of all rows if there is more than one step, or `keeps_all`; else those
+  /// of a few rows follow each other in the same memory, which stays in the cache.
+  void Forward(const SequenceTile& tile, NetworkWorkspace& workspace, bool keeps_all) const;
+  /// The whole network. What is `kept` of the step before must lie `tile.batch` rows before it.
+  void RowsForward(const SequenceTile& tile, const TileRows& tile_rows,
+                   NetworkWorkspace& workspace) const;
   /// normalise(relu(linear(in))) of the rows [first, first + count).
   void HiddenForward(int index, std::int64_t first, std::int64_t count,
                      FusedActivations& activations) const;
   /// Input products of a GRU's gates, of the rows [first, first + count).
   void GatesForward(int layer, std::int64_t first, std::int64_t count,
                     FusedActivations& activations) const;
-  void GruForward(int layer, const SequenceTile& tile, FusedActivations& activations) const;
+  void GruForward(int layer, const SequenceTile& tile, const TileRows& tile_rows,
+                  NetworkWorkspace& workspace) const;
 
   /// Adds the gradient with respect to the folded parameters to `folded_gradient`, given the one
   /// with respect to the output, [steps][batch][output_size]. Uses up what Forward left.

@@ -7,6 +7,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "train/network/network_kernels.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -67,6 +68,8 @@ HWY_INLINE void NormaliseTogether(std::int64_t first, int columns, const float* 
         // Unlike a maximum with zero, this keeps not-a-number on every target.
         x = hn::IfThenZeroElse(hn::Lt(x, hn::Zero(d)), x);
         hn::StoreU(x, d, out + i * stride + j);
+      } else {
+        hwy::Prefetch(out + (i + kRows) * stride + j);  // of the next rows
       }
       sum[i] = hn::Add(sum[i], x);
     }

@@ -203,6 +203,34 @@ TEST_P(RecurrentNetworkTest, FinalStateContinuesTheSequence) {
   }
 }
 
+TEST_P(RecurrentNetworkTest, SequencesDependNeitherOnOthersNorOnHowStepsAreCalled) {
+  constexpr int kSequences = 130, kSteps = 2;  // more than one block of rows, and a rest
+  const NetworkShape shape{6, 20, 33, 3, true, 1, 2};
+  const NetworkLayout layout(shape);
+  FusedNetwork network(layout);
+  network.SetParameters(DisturbedParameters(layout).data());
+  const RandomTile samples(shape, kSteps, kSequences);
+  NetworkWorkspace together, alone;
+  network.Forward(samples.tile().sequence, together);
+  for (int i = 0; i < kSequences; ++i) {
+    std::vector<float> state(samples.state.begin() + i * shape.state_size(),
+                             samples.state.begin() + (i + 1) * shape.state_size());
+    for (int step = 0; step < kSteps; ++step) {
+      const int row = step * kSequences + i;
+      network.Forward({1, 1, samples.observation.data() + row * shape.observation_size,
+                       state.data(), samples.not_done.data() + row},
+                      alone);
+      EXPECT_TRUE(std::equal(alone.output(), alone.output() + shape.output_size,
+                             together.output() + row * shape.output_size))
+          << "step " << step << " of sequence " << i;
+      std::copy_n(alone.final_state(), shape.state_size(), state.begin());
+    }
+    EXPECT_TRUE(
+        std::equal(state.begin(), state.end(), together.final_state() + i * shape.state_size()))
+        << "state of sequence " << i;
+  }
+}
+
 TEST_P(RecurrentNetworkTest, ResetInsideAChunkEqualsTwoSequences) {
   const NetworkShape shape{6, 20, 9, 3, true, 1, 2};
   const NetworkLayout layout(shape);
