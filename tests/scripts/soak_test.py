@@ -37,6 +37,10 @@ class Soak(unittest.TestCase):
     def test_a_flat_training_is_flat_whatever_it_takes_to_begin(self):
         self.assertEqual(list(soak.grown(samples())), [])
 
+    def test_a_look_at_a_checkpoint_that_is_being_written_is_no_growth(self):
+        moments = iter([0] * 190 + [1] + [0] * 9)
+        self.assertEqual(list(soak.grown(samples(descriptors=lambda share: 12 + next(moments)))), [])
+
     def test_each_growth_is_found(self):
         growing = {"memory_mb": lambda share: 300 + 30 * share, "descriptors": lambda share: 12 + int(4 * share),
                    "threads": lambda share: 3 + int(2 * share + 0.5), "files": lambda share: 9 + int(50 * share)}
