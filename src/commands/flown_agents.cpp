@@ -75,8 +75,8 @@ double ValueOf(const std::string& text, const std::string& name) {
   }
   const Bounds bounds = BoundsOf(name);
   if (!bounds.Contains(*value)) {
-    throw UsageError(fmt::format("--target {}: give a number from {} to {}", text, ShortestText(bounds.min),
-                                 ShortestText(bounds.max)));
+    throw UsageError(fmt::format("--target {}: give a number from {} to {}", text,
+                                 ShortestText(bounds.min), ShortestText(bounds.max)));
   }
   return *value;
 }

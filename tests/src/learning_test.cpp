@@ -29,6 +29,10 @@ TEST(Learning, HeadingIsReachedAndHeldAfterItsBudget) {
   EXPECT_GT(TrainedSuccess("heading", "1e8"), 0.9);
 }
 
+TEST(Learning, HeadingIsReachedAndHeldAfterAQuarterOfThatByTheQuickPreset) {
+  EXPECT_GT(TrainedSuccess("heading", "2.5e7", {"--preset", "quick"}), 0.9);
+}
+
 TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
   EXPECT_GT(TrainedSuccess("control", "6e7"), 0.9);
 }

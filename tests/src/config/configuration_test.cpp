@@ -262,7 +262,7 @@ TEST(Configuration, UnknownPresetsAndTasksListWhatThereIs) {
           EXPECT_STREQ(
               error.what(),
               "unknown preset fast of task heading; known presets: aerosonde, cessna172, default, "
-              "easy, paper, robust");
+              "easy, paper, quick, robust");
           throw;
         }
       },
