@@ -126,14 +126,16 @@ std::optional<Comparison> FlyAll(const std::vector<AgentInStudy>& agents,
   return comparison;
 }
 
-/// Makes it, or throws Error if there is something in it that is not a study.
+/// Makes it with the folder by which a study is known, or throws Error if there is something in it
+/// that is not a study.
 const std::string& MakeStudyDirectory(const std::string& path) {
   std::error_code failure;
   const bool is_new = !fs::exists(path, failure) || fs::is_empty(path, failure);
   if (!is_new && !fs::is_directory(path + "/comparisons", failure)) {
     throw Error(path + ": is not empty and holds no study; choose another --out");
   }
-  return MakeDirectories(path);
+  MakeDirectories(path + "/comparisons");
+  return path;
 }
 
 }  // namespace
@@ -151,7 +153,6 @@ StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool&
   }
   DoOnRankZero(ranks, [&] {
     lock_.emplace(LockDirectory(MakeStudyDirectory(directory)));
-    MakeDirectories(directory_ + "/comparisons");
     MakeDirectories(directory_ + "/runs");
     CheckWritable({directory_ + "/results.csv", directory_ + "/results.json"});
   });

@@ -399,7 +399,7 @@ TEST(Usage, InfoNamesThePrecisionOfThisProcessor) {
 
 TEST(Usage, AnUnknownSimdTargetIsAnError) {
   const ProgramResult result = RunSkein({"info"}, [] { setenv("SKEIN_SIMD", "mmx", 1); });
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.error, HasSubstr("mmx"));
 }
 
