@@ -20,6 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr const char* kHeadingPolicy = SKEIN_SOURCE "/policies/heading.skein";
+constexpr const char* kControlPolicy = SKEIN_SOURCE "/policies/control.skein";
 
 using Words = std::vector<std::string>;
 
@@ -214,8 +215,7 @@ TEST_F(FdmFly, AgentsFlyToTheTargetsThatAreGiven) {
     EXPECT_NEAR(flown.Find("altitude_ft")->back(), 21000, 100);
   }
   const CsvColumns control = Flown({"--altitude-ft", "20000", "--speed-fps", "1000", "--policy",
-                                    SKEIN_SOURCE "/policies/control.skein", "--target",
-                                    "pitch_deg=10", "--seconds", "15"});
+                                    kControlPolicy, "--target", "pitch_deg=10", "--seconds", "15"});
   EXPECT_NEAR(control.Find("pitch_deg")->back(), 10, 5);
 }
 

@@ -434,7 +434,7 @@ TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
     arguments.insert(arguments.end(), {"--json", path});
     const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.error;
-    const auto json = nlohmann::json::parse(ReadFile(path));
+    auto json = nlohmann::json::parse(ReadFile(path));
     EXPECT_GT(json["fraction_of_peak"], 0);
     EXPECT_DOUBLE_EQ(json["fraction_of_peak"].get<double>(),
                      json["gflops"].get<double>() / json["peak_gflops"].get<double>());

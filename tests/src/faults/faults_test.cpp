@@ -140,7 +140,8 @@ class Faults : public ::testing::TestWithParam<FaultedCommand> {
   /// Each file is the older one, the newer one, or one between them that is whole.
   void ExpectNoTornFile() const {
     const Files files = FilesIn(work_);
-    for (const auto& [name, bytes] : files) {
+    for (const auto& file : files) {
+      const auto &name = file.first, &bytes = file.second;  // no bindings: a lambda reads them
       SCOPED_TRACE(name);
       const auto older = before_files_.find(name), newer = after_.find(name);
       if (older != before_files_.end() && older->second == bytes) continue;
