@@ -8,7 +8,7 @@
 
 #include <chrono>
 #include <csignal>
-#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "src/files/output_file.h"
@@ -21,7 +21,7 @@ constexpr const char* kOutput = "output";
 constexpr const char* kError = "error";
 
 void Redirect(int descriptor, const std::string& path) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  const int file = open(path.c_str(), O_WRONLY);
   if (file < 0 || dup2(file, descriptor) < 0) _exit(125);
 }
 
@@ -42,6 +42,8 @@ RunningProgram::RunningProgram(const ProgramWords& program, const std::function<
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  // There from the start, however soon the program is killed.
+  for (const char* const stream : {kOutput, kError}) std::ofstream file(scratch_ / stream);
   process_ = fork();
   if (process_ == 0) {
     Redirect(STDOUT_FILENO, scratch_ / kOutput);
@@ -76,10 +78,7 @@ bool RunningProgram::WaitUntil(const std::function<bool()>& condition) {
   return false;
 }
 
-std::string RunningProgram::output() const {
-  const std::string path = scratch_ / kOutput;
-  return std::filesystem::exists(path) ? ReadFile(path) : "";
-}
+std::string RunningProgram::output() const { return ReadFile(scratch_ / kOutput); }
 
 ProgramResult RunningProgram::Wait() {
   Reap(true);
