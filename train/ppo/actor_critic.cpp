@@ -20,6 +20,7 @@ TrainedNetwork FreshNetwork(const TrainConfig& config, const NetworkShape& shape
                               config.network.initial_log_std, config.seed, kActorStream)
           : InitialParameters(layout, kCriticHeadScale, kCriticLogStd, config.seed, kCriticStream);
   RateFactor rate_factor;
+  // None for a factor of 1: a step that is taken apart and put together rounds.
   if (shape.gaussian && config.ppo.log_std_rate_factor != 1) {
     rate_factor = {layout.log_std(), layout.log_std() + shape.output_size,
                    config.ppo.log_std_rate_factor};
