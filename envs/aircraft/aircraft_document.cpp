@@ -8,6 +8,7 @@
 
 #include "base/choice_error.h"
 #include "base/error.h"
+#include "base/file_error.h"
 #include "base/fnv_hash.h"
 #include "envs/aircraft/aircraft_json.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
@@ -127,7 +128,7 @@ AircraftDocument ReadAircraftDocumentFile(const std::string& path) {
   // One byte beyond what is allowed shows that it is too long.
   std::string text(kMaxAircraftBytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad() || (!file && !file.eof())) throw Error(path + ": cannot be read");
+  if (file.bad() || (!file && !file.eof())) throw FileError(path + ": cannot be read");
   text.resize(static_cast<std::size_t>(file.gcount()));
   return ReadAircraftDocument(NameOfFile(path), text, path);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/file_error.h"
 
 namespace skein {
 
@@ -14,12 +15,14 @@ class UsageError : public Error {
   explicit UsageError(const std::string& message) : Error(message) {}
 };
 
-/// What `read` returns. An Error of it becomes a UsageError: for steps that only interpret what was
-/// asked for.
+/// What `read` returns. An Error of it becomes a UsageError, a FileError excepted: for steps that
+/// only interpret what was asked for.
 template <typename Read>
 auto AsUsage(const Read& read) -> decltype(read()) {
   try {
     return read();
+  } catch (const FileError&) {
+    throw;
   } catch (const Error& error) {
     throw UsageError(error.what());
   }

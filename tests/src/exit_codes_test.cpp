@@ -125,6 +125,29 @@ TEST(ExitCodes, AFileThatIsDamagedIsAFailure) {
   }
 }
 
+// The kernel's file of a process's memory is there, and its first byte cannot be read, whoever
+// asks.
+TEST(ExitCodes, AFileThatIsThereAndCannotBeReadIsAFailure) {
+  const ScratchDirectory scratch;
+  const std::string unreadable = scratch / "unreadable";
+  for (const char* ending : {"", ".toml", ".json"}) {
+    fs::create_symlink("/proc/self/mem", unreadable + ending);
+  }
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"study", unreadable, "--out", scratch / "out"},
+           {"train", unreadable + ".toml"},
+           {"train", "heading", "--config", unreadable},
+           {"train", "heading", "--aircraft", unreadable + ".json"},
+           {"eval", "--policy", "untrained", "--task", "heading", "--config", unreadable},
+           {"fdm", "eval", "--in", unreadable, "--out", scratch / "out"}}) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 1) << result.error;
+    EXPECT_THAT(result.error, HasSubstr(unreadable));
+    EXPECT_THAT(result.error, HasSubstr("cannot be read"));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+}
+
 TEST(ExitCodes, ASimdTargetThatIsNotThereIsWrongUsage) {
   const ProgramResult result = RunSkein({"bench", "sim"}, [] { setenv("SKEIN_SIMD", "foo", 1); });
   EXPECT_EQ(result.exit_code, 2);

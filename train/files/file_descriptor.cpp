@@ -14,6 +14,7 @@
 
 #include "base/choice_error.h"
 #include "base/error.h"
+#include "base/file_error.h"
 
 namespace skein {
 namespace {
@@ -113,7 +114,7 @@ void FileDescriptor::Close() {
 }
 
 void FileDescriptor::Fail(const char* what) const {
-  throw Error(name_ + ": " + what + ": " + SystemReason());
+  throw FileError(name_ + ": " + what + ": " + SystemReason());
 }
 
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write) {
