@@ -137,7 +137,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       progress_(RulesOf(config_, *task_)),
       costs_(config_.reward),
       reset_(config_, aircraft_),
-      wind_(config_.wind, config_.draw_power),
+      wind_(config_.wind, config_.draw_power, aircraft_.airframe.span_ft),
       drawn_plant_(config_.plant),
       most_noise_(config_.observation_noise_max),
       privileged_(*task_, progress_, wind_.enabled(), config_.plant.enabled()) {
@@ -151,6 +151,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
 EnvColumns EnvStepper::columns() const {
   EnvColumns columns;
   columns.windy = wind_.enabled();
+  columns.rotational_gusts = config_.wind.has_rotational_gusts();
   columns.task = task_->num_columns();
   if (remembers_actions_) columns.last_action = action_size();
   columns.progress = progress_.enabled();
@@ -242,6 +243,7 @@ Tile EnvStepper::Sensed(const EnvBlock& block, SensedState& state) const {
   if (config_.plant.observation_delay_steps.max == 0) return block.flight;
   Tile sensed = block.flight;
   sensed.base = state.columns[0];
+  sensed.rotational_gusts = false;  // no sensor shows them
   sensed.stride = SensedState::kStride;
   DelayState(block.delay_line, block.plants, block.flight, sensed);
   return sensed;

@@ -30,7 +30,7 @@ void EnvStorage::AlignedDelete::operator()(std::byte* bytes) const {
 EnvStorage::EnvStorage(int num_aircraft, int requested_tile_size, const EnvColumns& columns)
     : num_aircraft_(num_aircraft),
       columns_(columns),
-      flight_columns_(columns.windy ? kNumWindyColumns : kNumColumns) {
+      flight_columns_(Tile{nullptr, 0, 0, columns.windy, columns.rotational_gusts}.num_columns()) {
   tile_size_ = RoundUp(std::min(requested_tile_size, num_aircraft), kLaneMultiple);
   num_tiles_ = (num_aircraft + tile_size_ - 1) / tile_size_;
   blocks_per_tile_ = (tile_size_ + kAircraftPerBlock - 1) / kAircraftPerBlock;
@@ -52,7 +52,7 @@ EnvBlock EnvStorage::BlockAt(int tile, int begin) {
   block.first_aircraft = tile * tile_size_ + begin;
   block.count = std::min(kAircraftPerBlock - lane, tile_count(tile) - begin);
   float* const base = reinterpret_cast<float*>(memory_.get() + block_bytes_ * block.index) + lane;
-  block.flight = {base, stride_, block.count, columns_.windy};
+  block.flight = {base, stride_, block.count, columns_.windy, columns_.rotational_gusts};
   block.task = {block.flight[flight_columns_], stride_, block.count};
   block.last_action = {block.task[columns_.task], stride_, block.count};
   float* const plants = block.last_action[columns_.last_action];

@@ -37,11 +37,12 @@ struct EnvBlock {
 /// What an environment remembers of each aircraft, beside its episode's return, clock and number.
 struct EnvColumns {
   bool windy = false;
-  int task = 0;           ///< columns of the task
-  int last_action = 0;    ///< remembered actions of the last policy step
-  int plant = 0;          ///< columns of PlantColumn; 0: every plant is nominal
-  Delays delays = {};     ///< of the delay line
-  bool progress = false;  ///< EpisodeProgress
+  int task = 0;                   ///< columns of the task
+  int last_action = 0;            ///< remembered actions of the last policy step
+  int plant = 0;                  ///< columns of PlantColumn; 0: every plant is nominal
+  Delays delays = {};             ///< of the delay line
+  bool progress = false;          ///< EpisodeProgress
+  bool rotational_gusts = false;  ///< where it is windy
 };
 
 /// The memory of an environment's aircraft, in tiles of blocks. What is worked on together lies

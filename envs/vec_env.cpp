@@ -169,12 +169,11 @@ void VecEnv::Restore(const std::vector<std::uint32_t>& snapshot) {
 }
 
 float VecEnv::StateOf(int aircraft, int column) const {
-  if (column < 0 || column >= kNumWindyColumns) {
+  if (column < 0 || column >= kNumRotationalGustColumns) {
     throw Error("environment: no state column " + std::to_string(column));
   }
   const Tile flight = impl_->storage.BlockFrom(aircraft).flight;
-  const bool is_stored = column < kNumColumns || flight.windy;
-  return is_stored ? flight[column][0] : 0;
+  return column < flight.num_columns() ? flight[column][0] : 0;
 }
 
 std::vector<float> VecEnv::TargetOf(int aircraft) const {

@@ -117,7 +117,7 @@ struct Prefetcher {
 };
 
 /// One RK4 step of a block.
-template <bool kEngine, bool kWindy, class Plant, class Observer>
+template <bool kEngine, AirMotion kAir, class Plant, class Observer>
 HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& controls,
                           float* base, std::size_t stride, float dt, const Plant& plant,
                           const Observer& coefficients, Prefetcher* prefetcher,
@@ -125,17 +125,17 @@ HWY_INLINE void StepBlock(const KernelAircraft& aircraft, const BlockControls& c
   const IgnoreCoefficients ignore;
   prefetcher->FetchPart();
   EvaluateBlock<kEngine>(aircraft,
-                         StageState<kFirstStage, kWindy, Plant>{base, stride, block, 0, plant},
+                         StageState<kFirstStage, kAir, Plant>{base, stride, block, 0, plant},
                          controls, ignore);
   for (int middle = 0; middle < 2; ++middle) {
     prefetcher->FetchPart();
     EvaluateBlock<kEngine>(
-        aircraft, StageState<kMiddleStage, kWindy, Plant>{base, stride, block, dt / 2, plant},
+        aircraft, StageState<kMiddleStage, kAir, Plant>{base, stride, block, dt / 2, plant},
         controls, ignore);
   }
   prefetcher->FetchPart();
   EvaluateBlock<kEngine>(aircraft,
-                         StageState<kLastStage, kWindy, Plant>{base, stride, block, dt, plant},
+                         StageState<kLastStage, kAir, Plant>{base, stride, block, dt, plant},
                          controls, coefficients);
 }
 
@@ -170,14 +170,14 @@ void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
                            controls.rudder_deg + first,   controls.leading_edge_flap_deg + first};
     LocateSurfacesOfBlock(aircraft, at, NominalPlant(), &block);
     for (int substep = 0; substep < substeps; ++substep) {
-      StepBlock<false, false>(aircraft, at, tile.base + first, tile.stride,
-                              dt / static_cast<float>(substeps), NominalPlant(),
-                              IgnoreCoefficients(), &prefetcher, &block);
+      StepBlock<false, kStillAir>(aircraft, at, tile.base + first, tile.stride,
+                                  dt / static_cast<float>(substeps), NominalPlant(),
+                                  IgnoreCoefficients(), &prefetcher, &block);
     }
   }
 }
 
-template <bool kWindy, bool kDrawn>
+template <AirMotion kAir, bool kDrawn>
 void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
                 MemoryAhead ahead, const PlantTile& plants) {
   KernelBlock block;
@@ -201,11 +201,11 @@ void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substep
     }
     LocateSurfacesOfBlock(aircraft, at, plant, &block);
     for (int substep = 0; substep < substeps; ++substep) {
-      StepBlock<true, kWindy>(aircraft, at, tile.base + first, tile.stride,
-                              dt / static_cast<float>(substeps), plant, load_factors, &prefetcher,
-                              &block);
+      StepBlock<true, kAir>(aircraft, at, tile.base + first, tile.stride,
+                            dt / static_cast<float>(substeps), plant, load_factors, &prefetcher,
+                            &block);
     }
-    if constexpr (kWindy) {
+    if constexpr (kAir != kStillAir) {
       for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
         UpdateAirVelocity(FloatTag(), tile, first + lane);
       }
@@ -215,22 +215,32 @@ void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substep
 
 void StepTileInStillAir(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
                         MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<false, false>(aircraft, tile, dt, substeps, ahead, plants);
+  StepTileIn<kStillAir, false>(aircraft, tile, dt, substeps, ahead, plants);
 }
 
 void StepTileInWind(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
                     MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<true, false>(aircraft, tile, dt, substeps, ahead, plants);
+  StepTileIn<kMovingAir, false>(aircraft, tile, dt, substeps, ahead, plants);
+}
+
+void StepTileInRotationalGusts(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                               MemoryAhead ahead, const PlantTile& plants) {
+  StepTileIn<kTurningAir, false>(aircraft, tile, dt, substeps, ahead, plants);
 }
 
 void StepDrawnPlantsInStillAir(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
                                MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<false, true>(aircraft, tile, dt, substeps, ahead, plants);
+  StepTileIn<kStillAir, true>(aircraft, tile, dt, substeps, ahead, plants);
 }
 
 void StepDrawnPlantsInWind(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
                            MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<true, true>(aircraft, tile, dt, substeps, ahead, plants);
+  StepTileIn<kMovingAir, true>(aircraft, tile, dt, substeps, ahead, plants);
+}
+
+void StepDrawnPlantsInRotationalGusts(const KernelAircraft& aircraft, Tile tile, float dt,
+                                      int substeps, MemoryAhead ahead, const PlantTile& plants) {
+  StepTileIn<kTurningAir, true>(aircraft, tile, dt, substeps, ahead, plants);
 }
 
 }  // namespace
@@ -245,8 +255,10 @@ HWY_EXPORT(EvaluateTileKernel);
 HWY_EXPORT(StepTileOpenLoopKernel);
 HWY_EXPORT(StepTileInStillAir);
 HWY_EXPORT(StepTileInWind);
+HWY_EXPORT(StepTileInRotationalGusts);
 HWY_EXPORT(StepDrawnPlantsInStillAir);
 HWY_EXPORT(StepDrawnPlantsInWind);
+HWY_EXPORT(StepDrawnPlantsInRotationalGusts);
 
 void EvaluateTile(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
                   float* state_rate, float* coefficients) {
@@ -261,11 +273,16 @@ void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlCo
 void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps, MemoryAhead ahead,
               const PlantTile& plants) {
   if (plants.is_drawn()) {
-    if (tile.windy) {
+    if (tile.rotational_gusts) {
+      SKEIN_DISPATCH(StepDrawnPlantsInRotationalGusts)
+      (aircraft, tile, dt, substeps, ahead, plants);
+    } else if (tile.windy) {
       SKEIN_DISPATCH(StepDrawnPlantsInWind)(aircraft, tile, dt, substeps, ahead, plants);
     } else {
       SKEIN_DISPATCH(StepDrawnPlantsInStillAir)(aircraft, tile, dt, substeps, ahead, plants);
     }
+  } else if (tile.rotational_gusts) {
+    SKEIN_DISPATCH(StepTileInRotationalGusts)(aircraft, tile, dt, substeps, ahead, plants);
   } else if (tile.windy) {
     SKEIN_DISPATCH(StepTileInWind)(aircraft, tile, dt, substeps, ahead, plants);
   } else {

@@ -61,10 +61,11 @@ struct MemoryAhead {
 
 /// `substeps` RK4 steps of dt / substeps seconds each: rigid body and engine power (lag towards
 /// kPowerCommand, thrust by power, altitude and Mach at every stage) with the surfaces held at the
-/// columns' positions, in the wind of a windy tile's columns. Afterwards kNz and kNy hold the
-/// specific forces of the last stage of the last step, which is what the accelerometers read at the
-/// next control step, and kAirU, kAirV, kAirW of a windy tile are up to date. On the way `ahead` is
-/// fetched into the caches: many aircraft would else wait for memory. `plants` may be drawn.
+/// columns' positions, in the wind and rotational gusts of the tile's columns. Afterwards kNz and
+/// kNy hold the specific forces of the last stage of the last step, which is what the
+/// accelerometers read at the next control step, and kAirU, kAirV, kAirW of a windy tile are up to
+/// date. On the way `ahead` is fetched into the caches: many aircraft would else wait for memory.
+/// `plants` may be drawn.
 void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
               MemoryAhead ahead = {}, const PlantTile& plants = {});
 

@@ -108,10 +108,13 @@ using NominalPlant = BlockPlant<false>;
 
 enum Stage : int { kFirstStage, kMiddleStage, kLastStage };
 
+/// What the air does: nothing; moves; moves and turns.
+enum AirMotion : int { kStillAir, kMovingAir, kTurningAir };
+
 /// The state at one stage of the integration. It is not stored: `Get` adds `step` times the
 /// previous stage's rates to the state at the start of the step, `Put` takes the rates at this
 /// stage, after the last `Get` of the same column and lane.
-template <Stage kStageOf, bool kWindy = false, class Plant = NominalPlant>
+template <Stage kStageOf, AirMotion kAir = kStillAir, class Plant = NominalPlant>
 struct StageState {
   static constexpr Stage kStage = kStageOf;
   float* base;  // of the block's state columns
@@ -137,7 +140,7 @@ struct StageState {
   /// Velocity relative to the air, which moves as at the start of the step.
   HWY_INLINE BodyVelocity<V> AirVelocity(int lane) const {
     const BodyVelocity<V> inertial{Get(kU, lane), Get(kV, lane), Get(kW, lane)};
-    if constexpr (kWindy) {
+    if constexpr (kAir != kStillAir) {
       const auto wind = [&](int column)
                             HWY_ATTR { return hn::LoadU(FloatTag(), Column(column, lane)); };
       const auto attitude =
@@ -145,6 +148,17 @@ struct StageState {
       return LessWind(inertial, attitude, wind(kWindNorth), wind(kWindEast), wind(kWindDown));
     } else {
       return inertial;
+    }
+  }
+
+  /// The angular rate `column` relative to the air, which turns as at the start of the step.
+  HWY_INLINE V RateThroughAir(int column, int lane) const {
+    const V rate = Get(column, lane);
+    if constexpr (kAir == kTurningAir) {
+      const int of_air = kGustRollRate + column - kP;
+      return hn::Sub(rate, hn::LoadU(FloatTag(), Column(of_air, lane)));
+    } else {
+      return rate;
     }
   }
 

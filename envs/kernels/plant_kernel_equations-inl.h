@@ -94,9 +94,10 @@ HWY_INLINE Coefficients EvaluateAerodynamics(const KernelConstants& k, const Sta
   const V inverse_speed =
       plant.Scaled(kPlantDamping, lane, hn::Load(d, block.inverse_speed + lane));
   const V half_span = hn::Mul(inverse_speed, Constant(k.half_span));
-  const V p_hat = hn::Mul(state.Get(kP, lane), half_span);
-  const V q_hat = hn::Mul(state.Get(kQ, lane), hn::Mul(inverse_speed, Constant(k.half_chord)));
-  const V r_hat = hn::Mul(state.Get(kR, lane), half_span);
+  const V p_hat = hn::Mul(state.RateThroughAir(kP, lane), half_span);
+  const V q_hat =
+      hn::Mul(state.RateThroughAir(kQ, lane), hn::Mul(inverse_speed, Constant(k.half_chord)));
+  const V r_hat = hn::Mul(state.RateThroughAir(kR, lane), half_span);
 
   Coefficients sum;
   const V Cx = plant.Scaled(kPlantAxialForce, lane, c.Patch<kLongitudinal>(kPatchCx));

@@ -107,7 +107,7 @@ ClosedLoop::Flight ClosedLoop::RateOf(const Flight& flight, double power_command
   controls.aileron_deg = surfaces_.aileron_deg;
   controls.rudder_deg = surfaces_.rudder_deg;
   controls.leading_edge_flap_deg = surfaces_.leading_edge_flap_deg;
-  *output = plant_.Evaluate(flight.body, controls, wind_);
+  *output = plant_.Evaluate(flight.body, controls, wind_, air_rates_);
   return {output->state_rate, PowerRate(plant_.aircraft().power_lag, flight.power, power_command)};
 }
 

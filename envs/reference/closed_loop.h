@@ -41,9 +41,13 @@ class ClosedLoop {
   /// Makes surface commands reach the actuators one control step late, as a computer's delay would.
   void set_delayed(bool delayed) { delayed_ = delayed; }
 
-  /// The air's velocity from now on, north, east, down, ft/s; zero at first. The aircraft keeps its
-  /// velocity over ground.
-  void set_wind(const Eigen::Vector3d& wind) { wind_ = wind; }
+  /// The air's velocity from now on, north, east, down, ft/s, and its angular rates, body axes,
+  /// rad/s; zero at first. The aircraft keeps its velocity over ground.
+  void set_wind(const Eigen::Vector3d& wind,
+                const Eigen::Vector3d& air_rates = Eigen::Vector3d::Zero()) {
+    wind_ = wind;
+    air_rates_ = air_rates;
+  }
 
   /// All that the next step depends on, as ClosedLoopMemory lays it out.
   Eigen::VectorXd memory() const;
@@ -71,7 +75,7 @@ class ClosedLoop {
   double dt_;
   int substeps_;
   bool delayed_ = false;
-  Eigen::Vector3d wind_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d wind_ = Eigen::Vector3d::Zero(), air_rates_ = Eigen::Vector3d::Zero();
   RigidBodyState state_;
   double power_ = 0;
   double nz_ = 1, ny_ = 0;

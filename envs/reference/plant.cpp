@@ -56,7 +56,7 @@ Plant::Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_facto
       gravity_(gravity) {}
 
 PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& controls,
-                            const Eigen::Vector3d& wind) const {
+                            const Eigen::Vector3d& wind, const Eigen::Vector3d& air_rates) const {
   const Airframe& airframe = aircraft_.airframe;
   const Eigen::Vector3d velocity = state.segment<3>(kU);
   const Eigen::Vector3d rates = state.segment<3>(kP);
@@ -65,6 +65,7 @@ PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& control
 
   PlantOutput output;
   const AirData& air = output.air = AirAround(state, wind);
+  const Eigen::Vector3d damped = rates - air_rates;
 
   AerodynamicCondition condition;
   condition.alpha_deg = air.alpha_rad * kDegPerRad;
@@ -73,9 +74,9 @@ PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& control
   condition.aileron_deg = controls.aileron_deg;
   condition.rudder_deg = controls.rudder_deg;
   condition.leading_edge_flap_deg = controls.leading_edge_flap_deg;
-  condition.p_hat = rates.x() * airframe.span_ft / (2 * air.true_airspeed_ft_s);
-  condition.q_hat = rates.y() * airframe.chord_ft / (2 * air.true_airspeed_ft_s);
-  condition.r_hat = rates.z() * airframe.span_ft / (2 * air.true_airspeed_ft_s);
+  condition.p_hat = damped.x() * airframe.span_ft / (2 * air.true_airspeed_ft_s);
+  condition.q_hat = damped.y() * airframe.chord_ft / (2 * air.true_airspeed_ft_s);
+  condition.r_hat = damped.z() * airframe.span_ft / (2 * air.true_airspeed_ft_s);
   output.coefficients = EvaluateAerodynamics(aircraft_, condition);
 
   if (aircraft_.drag_rises) output.coefficients[0] -= ValueAt(aircraft_.drag_rise, air.mach);

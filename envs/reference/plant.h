@@ -62,9 +62,11 @@ class Plant {
     return MeasureAir(atmosphere_, state, wind, density_factor_);
   }
 
-  /// `wind` is the air's velocity, north, east, down, ft/s.
+  /// `wind` is the air's velocity, north, east, down, ft/s; `air_rates` are its angular rates, body
+  /// axes, rad/s, to which the aircraft's are relative in the damping.
   PlantOutput Evaluate(const RigidBodyState& state, const Controls& controls,
-                       const Eigen::Vector3d& wind = Eigen::Vector3d::Zero()) const;
+                       const Eigen::Vector3d& wind = Eigen::Vector3d::Zero(),
+                       const Eigen::Vector3d& air_rates = Eigen::Vector3d::Zero()) const;
 
   /// One classic RK4 step of `dt` seconds with controls and wind held; the quaternion is
   /// renormalised after it.

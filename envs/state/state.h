@@ -70,18 +70,33 @@ enum Column : int {
   kGustRightLagged,
   kGustDown,
   kGustDownLagged,  ///< states of the gusts' filters, of unit scale (envs/wind/dryden.h)
-  kNumWindyColumns
+  kNumWindyColumns,
+
+  // Rotational gusts (envs/wind/dryden.h): only tiles that have `rotational_gusts` have these.
+  kGustRollRate = kNumWindyColumns,
+  kGustPitchRate,
+  kGustYawRate,    ///< angular rates of the air, body axes, rad/s, held during a control step
+  kGustRollState,  ///< state of the filter of kGustRollRate, of unit scale
+  kGustRightSmoothed,
+  kGustDownSmoothed,  ///< transverse gusts without what is short beside the wing, of unit scale
+  kNumRotationalGustColumns
 };
 
 /// A view of a tile's columns: column c of aircraft i lies at base[c * stride + i]. `stride` is a
 /// multiple of 16 and at least `count` rounded up to 32: kernels also process the padding lanes,
 /// whose contents must be finite. A tile has kNumColumns columns, or kNumWindyColumns if it is
-/// `windy`; else its air is still.
+/// `windy`; else its air is still. One that is windy may have kNumRotationalGustColumns.
 struct Tile {
   float* base = nullptr;
   std::size_t stride = 0;
   int count = 0;
   bool windy = false;
+  bool rotational_gusts = false;
+
+  int num_columns() const {
+    if (rotational_gusts) return kNumRotationalGustColumns;
+    return windy ? kNumWindyColumns : kNumColumns;
+  }
 
   /// The first of the three columns of the velocity relative to the air, in body axes.
   int air_velocity() const { return windy ? kAirU : kU; }

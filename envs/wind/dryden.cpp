@@ -17,6 +17,8 @@
 #include <hwy/highway.h>
 
 #include "envs/state/air_velocity-inl.h"
+#include "envs/wind/gust_filters-inl.h"
+#include "envs/wind/rotational_gusts-inl.h"
 #include "simd/math-inl.h"
 #include "simd/random-inl.h"
 #include "simd/vocabulary-inl.h"
@@ -47,54 +49,6 @@ HWY_INLINE Scales ScalesAt(V altitude_ft) {
   return scales;
 }
 
-/// The exact response over one step to white noise, of x1 and x2 and of the forward gust:
-///   x1 becomes decay x1 + first n1
-///   x2 becomes decay x2 + lag x1 + along n1 + second n2
-///   the forward gust u becomes decay u + forward n1
-struct Response {
-  V decay, lag, first, along, second, forward;
-};
-
-/// `way` is the step as a fraction of L / V. With x = 2 way, the covariances are the incomplete
-/// gamma functions 1 - e^-x (1 + x + ... ), which cancel to nothing at small x: here they come from
-/// their series, which serves to x = 2.
-HWY_INLINE Response ResponseTo(V way) {
-  const FloatTag d;
-  way = ClampTo(d, way, 1e-6f, 1.0f);
-  const V x = hn::Add(way, way);
-  // r3 = (e^x - 1 - x - x^2/2) / x^3, and likewise r2 and r1.
-  const V r3 = Polynomial(
-      d, x,
-      {0.166666667f, 0.0416666667f, 0.00833333333f, 0.00138888889f, 0.000198412698f,
-       2.48015873e-05f, 2.75573192e-06f, 2.75573192e-07f, 2.50521084e-08f, 2.08767570e-09f});
-  const V r2 = hn::MulAdd(x, r3, Constant(0.5));
-  const V r1 = hn::MulAdd(x, r2, Constant(1));
-  const V decay_squared = hn::Div(Constant(1), hn::MulAdd(x, r1, Constant(1)));
-  const V scale = hn::Mul(decay_squared, x);
-  Response response;
-  response.decay = hn::Sqrt(decay_squared);
-  response.lag = hn::Mul(response.decay, way);
-  response.forward = hn::Sqrt(hn::Mul(scale, r1));
-  response.first = hn::Mul(response.forward, Constant(dryden::kFirstDeviation));
-  response.along = hn::Div(hn::Mul(hn::Mul(scale, x), hn::Mul(r2, Constant(0.25))), response.first);
-  const V rest =
-      hn::NegMulAdd(Constant(0.125), hn::Div(hn::Mul(r2, r2), r1), hn::Mul(Constant(0.25), r3));
-  response.second = hn::Sqrt(hn::Mul(hn::Mul(scale, hn::Mul(x, x)), rest));
-  return response;
-}
-
-/// Moves a transverse gust's two states on. Returns the gust, of unit variance.
-HWY_INLINE V AdvanceTransverse(const Response& response, float* first, float* lagged, V n1, V n2) {
-  const FloatTag d;
-  const V x1 = hn::LoadU(d, first), x2 = hn::LoadU(d, lagged);
-  const V next1 = hn::MulAdd(response.decay, x1, hn::Mul(response.first, n1));
-  const V noise = hn::MulAdd(response.along, n1, hn::Mul(response.second, n2));
-  const V next2 = hn::MulAdd(response.decay, x2, hn::MulAdd(response.lag, x1, noise));
-  hn::StoreU(next1, d, first);
-  hn::StoreU(next2, d, lagged);
-  return hn::MulAdd(Constant(dryden::kFirst), next1, hn::Mul(Constant(dryden::kSecond), next2));
-}
-
 /// Standard deviation of the vertical gust.
 HWY_INLINE V DeviationAt(Tile tile, int first, TurbulenceLaw law) {
   const FloatTag d;
@@ -107,7 +61,7 @@ HWY_INLINE V DeviationAt(Tile tile, int first, TurbulenceLaw law) {
   return hn::LoadU(d, deviation);
 }
 
-void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys, TurbulenceLaw law) {
+void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys, const Turbulence& turbulence) {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
@@ -128,6 +82,9 @@ void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys, TurbulenceLaw
     const Scales scales = ScalesAt(hn::Neg(get(kDown)));
     const Response horizontal = ResponseTo(hn::Div(way, scales.horizontal));
     const Response vertical = ResponseTo(hn::Div(way, scales.vertical));
+    if (tile.rotational_gusts) {
+      RotationalGusts(way, turbulence.span_ft).Advance(tile, first, horizontal, vertical, normals);
+    }
 
     const V forward =
         hn::MulAdd(horizontal.decay, get(kGustForward), hn::Mul(horizontal.forward, normals[0]));
@@ -137,11 +94,15 @@ void AdvanceGustsKernel(Tile tile, float dt, const GustKeys& keys, TurbulenceLaw
     const V down = AdvanceTransverse(vertical, tile[kGustDown] + first,
                                      tile[kGustDownLagged] + first, normals[3], normals[4]);
 
-    const V deviation = DeviationAt(tile, first, law);
+    const V deviation = DeviationAt(tile, first, turbulence.law);
     const V down_fps = hn::Mul(deviation, down);
     const V horizontal_fps = hn::Mul(deviation, scales.ratio);
     const V forward_fps = hn::Mul(horizontal_fps, forward);
     const V right_fps = hn::Mul(horizontal_fps, right);
+    if (tile.rotational_gusts) {
+      RotationalGusts(way, turbulence.span_ft)
+          .PutRates(tile, first, {right, down, horizontal_fps, deviation, scales.vertical});
+    }
     const AttitudeMatrix<V> t = AttitudeMatrixOf(get(kQ0), get(kQx), get(kQy), get(kQz));
     const auto put = [&](int column, V steady, V along_x, V along_y, V along_z) HWY_ATTR {
       const V wind =
@@ -196,42 +157,98 @@ double TurbulenceAt(double at_20000_ft, double altitude_ft) {
   return here[i] + (here[i + 1] - here[i]) * (at_20000_ft - from) / (to - from);
 }
 
-void StartGusts(Tile tile, int index, const GustKeys& keys, TurbulenceLaw law) {
-  float normals[5];
-  const auto episode = static_cast<std::uint32_t>(keys.episode[index]);
-  const std::uint32_t start = 0;
-  simd::FillNormals(keys.seed, keys.first_aircraft + static_cast<std::uint32_t>(index), &episode,
-                    &start, simd::RandomPurpose::kGustStart, 1, 5, normals);
+namespace {
+
+/// The states of a transverse gust from two independent deviates, by their covariance.
+struct TransverseStart {
+  double first, lagged;
+
+  TransverseStart(double n1, double n2)
+      : first(dryden::kFirstDeviation * n1), lagged(kAlong * n1 + Rest() * n2) {}
+  double gust() const { return dryden::kFirst * first + dryden::kSecond * lagged; }
+
+  static constexpr double kAlong = dryden::kCovariance / dryden::kFirstDeviation;
+  static double Rest() { return std::sqrt(dryden::kSecondVariance - kAlong * kAlong); }
+};
+
+/// The gust smoothed over `length` scales, from the same two deviates and a third: its covariances
+/// are those of the stationary filter.
+double SmoothedStart(double length, double n1, double n2, double n3) {
+  const double share = 1 / (1 + length);
+  const double with_first = share * dryden::kGustWithFirst;
+  const double with_second = share * (length * with_first + dryden::kGustWithSecond);
+  const double variance = dryden::kFirst * with_first + dryden::kSecond * with_second;
+  const double along1 = with_first / dryden::kFirstDeviation;
+  const double along2 = (with_second - TransverseStart::kAlong * along1) / TransverseStart::Rest();
+  const double rest = std::max(0.0, variance - along1 * along1 - along2 * along2);
+  return along1 * n1 + along2 * n2 + std::sqrt(rest) * n3;
+}
+
+/// What StartGusts has drawn of an aircraft's linear gusts.
+struct StartedGusts {
+  const float* normals;
+  double right, down;
+  DrydenScales scales;
+  double deviation;
+};
+
+void StartRotationalGusts(Tile tile, int index, const StartedGusts& gusts, double span_ft) {
+  const double roll_ft = dryden::kRollLengthPerSpan * span_ft;
+  const double yaw_ft = dryden::kYawLengthPerSpan * span_ft;
+  const float* const n = gusts.normals;
+  const double right = SmoothedStart(yaw_ft / gusts.scales.horizontal_ft, n[1], n[2], n[7]);
+  const double down = SmoothedStart(roll_ft / gusts.scales.vertical_ft, n[3], n[4], n[6]);
+  const double roll_deviation = dryden::kRollStrength * gusts.deviation /
+                                std::cbrt(gusts.scales.vertical_ft * roll_ft * roll_ft);
   const auto set = [&](int column, double value) {
     tile[column][index] = static_cast<float>(value);
   };
-  // A transverse gust from two independent deviates, by the covariance of its states.
-  const auto start_transverse = [&](int first, int lagged, double n1, double n2) {
-    const double along = dryden::kCovariance / dryden::kFirstDeviation;
-    const double x1 = dryden::kFirstDeviation * n1;
-    const double x2 = along * n1 + std::sqrt(dryden::kSecondVariance - along * along) * n2;
-    set(first, x1);
-    set(lagged, x2);
-    return dryden::kFirst * x1 + dryden::kSecond * x2;
+  set(kGustRollState, n[5]);
+  set(kGustRightSmoothed, right);
+  set(kGustDownSmoothed, down);
+  set(kGustRollRate, roll_deviation * n[5]);
+  set(kGustPitchRate, gusts.deviation * (down - gusts.down) / roll_ft);
+  set(kGustYawRate,
+      gusts.deviation * gusts.scales.horizontal_ratio * (gusts.right - right) / yaw_ft);
+}
+
+}  // namespace
+
+void StartGusts(Tile tile, int index, const GustKeys& keys, const Turbulence& turbulence) {
+  float normals[8];
+  const auto episode = static_cast<std::uint32_t>(keys.episode[index]);
+  const std::uint32_t start = 0;
+  simd::FillNormals(keys.seed, keys.first_aircraft + static_cast<std::uint32_t>(index), &episode,
+                    &start, simd::RandomPurpose::kGustStart, 1, 8, normals);
+  const auto set = [&](int column, double value) {
+    tile[column][index] = static_cast<float>(value);
   };
+  const TransverseStart right(normals[1], normals[2]), down(normals[3], normals[4]);
   set(kGustForward, normals[0]);
-  Eigen::Vector3d gust;
-  gust << normals[0], start_transverse(kGustRight, kGustRightLagged, normals[1], normals[2]),
-      start_transverse(kGustDown, kGustDownLagged, normals[3], normals[4]);
+  set(kGustRight, right.first);
+  set(kGustRightLagged, right.lagged);
+  set(kGustDown, down.first);
+  set(kGustDownLagged, down.lagged);
 
   const auto get = [&](int column) { return static_cast<double>(tile[column][index]); };
-  gust.head<2>() *= DrydenScalesAt(-get(kDown)).horizontal_ratio;
+  const DrydenScales scales = DrydenScalesAt(-get(kDown));
+  Eigen::Vector3d gust(normals[0], right.gust(), down.gust());
+  gust.head<2>() *= scales.horizontal_ratio;
   const double drawn = get(kTurbulenceStdDev);
   const double deviation =
-      law == TurbulenceLaw::kUniform ? drawn : TurbulenceAt(drawn, -get(kDown));
+      turbulence.law == TurbulenceLaw::kUniform ? drawn : TurbulenceAt(drawn, -get(kDown));
   const Eigen::Vector4d attitude(get(kQ0), get(kQx), get(kQy), get(kQz));
   const Eigen::Vector3d wind = Eigen::Vector3d(get(kSteadyWindNorth), get(kSteadyWindEast), 0) +
                                deviation * (BodyFromNed(attitude).transpose() * gust);
   for (int k = 0; k < 3; ++k) set(kWindNorth + k, wind[k]);
+  if (tile.rotational_gusts) {
+    StartRotationalGusts(tile, index, {normals, right.gust(), down.gust(), scales, deviation},
+                         turbulence.span_ft);
+  }
 }
 
-void AdvanceGusts(Tile tile, float dt, const GustKeys& keys, TurbulenceLaw law) {
-  SKEIN_DISPATCH(AdvanceGustsKernel)(tile, dt, keys, law);
+void AdvanceGusts(Tile tile, float dt, const GustKeys& keys, const Turbulence& turbulence) {
+  SKEIN_DISPATCH(AdvanceGustsKernel)(tile, dt, keys, turbulence);
 }
 
 }  // namespace skein

@@ -20,6 +20,16 @@ inline constexpr double kSecond = 1 - kFirst;
 inline constexpr double kFirstDeviation = 0.7071067811865476;
 inline constexpr double kSecondVariance = 0.25, kCovariance = 0.25;
 
+/// Rotational gusts: MIL-F-8785C, section 3.7. A wing of span b smooths what is short beside a
+/// length: 4 b / pi for roll and pitch, 3 b / pi for yaw.
+inline constexpr double kRollLengthPerSpan = 1.2732395447351628;
+inline constexpr double kYawLengthPerSpan = 0.954929658551372;
+/// Standard deviation of the roll rate over that of the vertical gust, times L^(1/3) (4 b /
+/// pi)^(2/3): the square root of 0.8 pi / 2, the spectrum's integral.
+inline constexpr double kRollStrength = 1.1209982432795858;
+/// Of a transverse gust and one of its states, x1 and x2.
+inline constexpr double kGustWithFirst = (1 + kFirst) / 4, kGustWithSecond = 0.25;
+
 /// MIL-F-8785C, figure 7, as JSBSim reads it: standard deviations by altitude, ft/s, that are
 /// exceeded with the probabilities of light, moderate and severe turbulence.
 struct TurbulenceRow {

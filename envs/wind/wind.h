@@ -12,9 +12,9 @@ namespace skein {
 /// configured ranges.
 class Wind {
  public:
-  /// Speeds and turbulence are drawn with BentInto's `power`.
-  Wind(const WindConfig& config, int draw_power)
-      : config_(config), drawn_(config), draw_power_(draw_power) {}
+  /// Speeds and turbulence are drawn with BentInto's `power`. `span_ft` is the aircraft's.
+  Wind(const WindConfig& config, int draw_power, double span_ft)
+      : config_(config), drawn_(config), draw_power_(draw_power), span_ft_(span_ft) {}
 
   /// From now on winds and turbulence are drawn from the weakest `share`, in [0, 1], of their
   /// ranges.
@@ -23,7 +23,7 @@ class Wind {
     drawn_.turbulence_fps = Lowest(config_.turbulence_fps, share);
   }
 
-  /// Whether tiles must be windy.
+  /// Whether tiles must be windy; rotational gusts are there if WindConfig has them.
   bool enabled() const { return config_.enabled(); }
 
   /// Draws the wind of an episode of aircraft `index`, whose flight in still air the tile holds,
@@ -37,13 +37,15 @@ class Wind {
   }
 
  private:
-  TurbulenceLaw law() const {
-    return config_.turbulence_by_altitude ? TurbulenceLaw::kByAltitude : TurbulenceLaw::kUniform;
+  Turbulence law() const {
+    return {config_.turbulence_by_altitude ? TurbulenceLaw::kByAltitude : TurbulenceLaw::kUniform,
+            span_ft_};
   }
 
   WindConfig config_;
   WindConfig drawn_;  ///< what the next episodes are drawn from
   int draw_power_;
+  double span_ft_;
 };
 
 }  // namespace skein

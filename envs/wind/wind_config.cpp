@@ -21,6 +21,10 @@ void ListFields(WindConfig& config, FieldList& list) {
            "true: that is the standard deviation at 20,000 ft, elsewhere it is that of "
            "MIL-F-8785C; false: it is the same at every altitude")
       .OffUnless(config.turbulence_by_altitude);
+  list.Add("rotational_gusts", &config.rotational_gusts,
+           "true: turbulence also turns the air about the body axes, as MIL-F-8785C has it for the "
+           "aircraft's span; false: it only moves it")
+      .OffUnless(config.rotational_gusts);
   list.Add(
       "step_at_reset", &config.step_at_reset,
       "true: trimmed in still air, the steady wind then is a step; false: trimmed in the wind");

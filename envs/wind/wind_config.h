@@ -16,12 +16,16 @@ struct WindConfig {
   /// That is the standard deviation at 20,000 ft, and elsewhere what MIL-F-8785C has for it
   /// (TurbulenceAt); false: it is the same at every altitude.
   bool turbulence_by_altitude = false;
+  /// Gusts also turn (envs/wind/dryden.h).
+  bool rotational_gusts = false;
   /// The aircraft is trimmed in still air, keeps its velocity over ground and meets the steady wind
   /// as a step at the start of the episode. false: it is trimmed in the moving air.
   bool step_at_reset = true;
 
   /// Whether any episode has wind.
   bool enabled() const { return speed_fps.max > 0 || turbulence_fps.max > 0; }
+  /// Whether any episode's gusts turn.
+  bool has_rotational_gusts() const { return rotational_gusts && turbulence_fps.max > 0; }
 };
 
 /// Its settings (base/field_list.h).

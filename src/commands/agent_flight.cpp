@@ -36,6 +36,7 @@ const std::vector<OptionKeys>& KeysOfOptions() {
       {"--gravity-falls-with-altitude", {"env.gravity_falls_with_altitude"}},
       {"--turbulence-fps", {"env.wind.turbulence_min_fps", "env.wind.turbulence_max_fps"}},
       {"--turbulence-by-altitude", {"env.wind.turbulence_by_altitude"}},
+      {"--rotational-gusts", {"env.wind.rotational_gusts"}},
       {"--step-s", {"env.control_interval_s"}},
       {"--substeps", {"env.substeps"}},
       {"--flight-control", {"env.flight_control"}}};

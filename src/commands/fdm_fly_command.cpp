@@ -39,7 +39,7 @@ void FlySticks(const FlyOptions& options) {
   CheckWritable(options.out);
   CommandedFlight flight = options.flight;
   flight.mode = kModes.at(options.mode);
-  if (options.by_altitude) flight.turbulence_law = TurbulenceLaw::kByAltitude;
+  if (options.by_altitude) flight.gusts.law = TurbulenceLaw::kByAltitude;
   const Plant plant = options.condition.MakePlant();
   const SteadyFlight start = FindSteadyFlight(plant, options.condition.grid.At(0, 0));
   if (!options.commands.empty()) {
@@ -68,7 +68,7 @@ void Fly(const CLI::App& command, FlyOptions options) {
     RequireNoAgentOptions(command);
     return FlySticks(options);
   }
-  options.flown.flight.seed = flight.seed;
+  options.flown.flight.seed = flight.gusts.seed;
   FlyAgents(command,
             {options.condition, options.wind.empty() ? nullptr : &flight.wind_ft_s, flight.seconds,
              options.out},
@@ -86,14 +86,18 @@ void AddFlyCommand(CLI::App* fdm) {
   AddFlightCondition(command, &options->condition);
   AddWind(command, &options->wind);
   command
-      ->add_option("--turbulence-fps", options->flight.turbulence_ft_s,
+      ->add_option("--turbulence-fps", options->flight.gusts.standard_deviation_ft_s,
                    "standard deviation of Dryden gusts, ft/s (MIL-F-8785C at 20,000 ft: light 3.7, "
                    "moderate 7.3, severe 21)")
       ->transform(NumberIn(0, 200))
       ->capture_default_str();
   command->add_flag("--turbulence-by-altitude", options->by_altitude,
                     "that is the deviation at 20,000 ft, elsewhere it is MIL-F-8785C's");
-  command->add_option("--seed", options->flight.seed, "of the gusts, and of all that agents meet")
+  command->add_flag("--rotational-gusts", options->flight.gusts.rotational,
+                    "gusts also turn, as MIL-F-8785C has it for the aircraft's span");
+  command
+      ->add_option("--seed", options->flight.gusts.seed,
+                   "of the gusts, and of all that agents meet")
       ->transform(WholeNumber(0, kMostSeed))
       ->capture_default_str();
   CLI::Option* commands =

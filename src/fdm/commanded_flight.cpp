@@ -12,7 +12,6 @@
 #include "envs/aircraft/engine.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
-#include "src/fdm/gusts.h"
 #include "src/files/output_file.h"
 #include "src/report/csv_columns.h"
 
@@ -135,9 +134,13 @@ std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const Command
   ClosedLoop loop(plant, trim, flight.mode, flight.step_s, flight.substeps);
   // What moves with the air is at rest as in still air.
   loop.mutable_state().segment<3>(kU) += BodyFromNed(trim.state.segment<4>(kQ0)) * flight.wind_ft_s;
-  Gusts gusts(flight.turbulence_ft_s, flight.turbulence_law, flight.seed);
-  Eigen::Vector3d wind = flight.wind_ft_s + gusts.Start(loop.state());
-  loop.set_wind(wind);
+  Gusts gusts(flight.gusts, plant.aircraft().airframe.span_ft);
+  Eigen::Vector3d wind;
+  const auto meet = [&](const Gust& gust) {
+    wind = flight.wind_ft_s + gust.wind_ft_s;
+    loop.set_wind(wind, gust.air_rates_rad_s);
+  };
+  meet(gusts.Start(loop.state()));
   PilotCommands sticks;
   sticks.throttle = ThrottleForPower(plant.aircraft().throttle_gearing, trim.power);
   std::string text = kHeader + Row(loop, wind, 0, nullptr);
@@ -157,9 +160,7 @@ std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const Command
                       "enough?",
                       RoundedText(end, kDigits), flight.step_s));
     }
-    wind =
-        flight.wind_ft_s + gusts.Advance(loop.state(), VelocityThrough(loop, wind), flight.step_s);
-    loop.set_wind(wind);
+    meet(gusts.Advance(loop.state(), VelocityThrough(loop, wind), flight.step_s));
     text += Row(loop, wind, end, &sticks);
   }
   return text;

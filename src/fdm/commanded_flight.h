@@ -2,12 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "envs/reference/closed_loop.h"
-#include "envs/wind/dryden.h"
+#include "src/fdm/gusts.h"
 
 namespace skein {
 
@@ -30,9 +29,7 @@ struct CommandedFlight {
   double seconds = 10;
   /// The air's velocity, north, east, down, ft/s; the aircraft is trimmed in it.
   Eigen::Vector3d wind_ft_s = Eigen::Vector3d::Zero();
-  double turbulence_ft_s = 0;  ///< standard deviation of Dryden gusts, which begin at once
-  TurbulenceLaw turbulence_law = TurbulenceLaw::kUniform;
-  std::uint64_t seed = 0;              ///< of the gusts
+  GustSettings gusts;                  ///< which begin at once
   std::vector<StickCommand> commands;  ///< none: hands off
 };
 

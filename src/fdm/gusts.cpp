@@ -3,29 +3,30 @@
 
 namespace skein {
 
-Gusts::Gusts(double standard_deviation_ft_s, TurbulenceLaw law, std::uint64_t seed)
-    : law_(law),
-      seed_(seed),
+Gusts::Gusts(const GustSettings& settings, double span_ft)
+    : turbulence_{settings.law, span_ft},
+      rotational_(settings.rotational),
+      seed_(settings.seed),
       stride_(TileStride(1)),
-      columns_(kNumWindyColumns * stride_),
+      columns_(kNumRotationalGustColumns * stride_),
       episode_(stride_),
       step_(stride_) {
-  tile()[kTurbulenceStdDev][0] = static_cast<float>(standard_deviation_ft_s);
+  tile()[kTurbulenceStdDev][0] = static_cast<float>(settings.standard_deviation_ft_s);
 }
 
-Eigen::Vector3d Gusts::Start(const RigidBodyState& state) {
+Gust Gusts::Start(const RigidBodyState& state) {
   SetState(state);
-  StartGusts(tile(), 0, {seed_, 0, episode_.data(), step_.data()}, law_);
-  return wind();
+  StartGusts(tile(), 0, {seed_, 0, episode_.data(), step_.data()}, turbulence_);
+  return Present();
 }
 
-Eigen::Vector3d Gusts::Advance(const RigidBodyState& state, const Eigen::Vector3d& velocity,
-                               double dt) {
+Gust Gusts::Advance(const RigidBodyState& state, const Eigen::Vector3d& velocity, double dt) {
   SetState(state);
   for (int k = 0; k < 3; ++k) tile()[kAirU + k][0] = static_cast<float>(velocity[k]);
   ++step_[0];
-  AdvanceGusts(tile(), static_cast<float>(dt), {seed_, 0, episode_.data(), step_.data()}, law_);
-  return wind();
+  AdvanceGusts(tile(), static_cast<float>(dt), {seed_, 0, episode_.data(), step_.data()},
+               turbulence_);
+  return Present();
 }
 
 void Gusts::SetState(const RigidBodyState& state) {
@@ -34,8 +35,11 @@ void Gusts::SetState(const RigidBodyState& state) {
   }
 }
 
-Eigen::Vector3d Gusts::wind() {
-  return {tile()[kWindNorth][0], tile()[kWindEast][0], tile()[kWindDown][0]};
+Gust Gusts::Present() {
+  const auto vector = [&](int first) {
+    return Eigen::Vector3d(tile()[first][0], tile()[first + 1][0], tile()[first + 2][0]);
+  };
+  return {vector(kWindNorth), vector(kGustRollRate)};
 }
 
 }  // namespace skein

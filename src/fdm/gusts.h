@@ -12,24 +12,39 @@
 
 namespace skein {
 
+/// What Gusts are like.
+struct GustSettings {
+  double standard_deviation_ft_s = 0;  ///< the vertical gust's, as `law` says
+  TurbulenceLaw law = TurbulenceLaw::kUniform;
+  bool rotational = false;  ///< they turn, too
+  std::uint64_t seed = 0;
+};
+
+/// How the air moves around an aircraft.
+struct Gust {
+  Eigen::Vector3d wind_ft_s;        ///< north, east, down
+  Eigen::Vector3d air_rates_rad_s;  ///< body axes
+};
+
 /// Dryden turbulence (envs/wind/dryden.h) around one aircraft: the gusts that the environment would
 /// draw with this seed for its first aircraft.
 class Gusts {
  public:
-  /// `standard_deviation_ft_s` is the vertical gust's, as `law` says.
-  Gusts(double standard_deviation_ft_s, TurbulenceLaw law, std::uint64_t seed);
+  /// `span_ft` is the aircraft's.
+  Gusts(const GustSettings& settings, double span_ft);
 
-  /// The first gust around an aircraft in still air, north, east, down, ft/s.
-  Eigen::Vector3d Start(const RigidBodyState& state);
+  /// The first gust around an aircraft in still air.
+  Gust Start(const RigidBodyState& state);
   /// The gust `dt` seconds later. `velocity` is the aircraft's through the air, body axes.
-  Eigen::Vector3d Advance(const RigidBodyState& state, const Eigen::Vector3d& velocity, double dt);
+  Gust Advance(const RigidBodyState& state, const Eigen::Vector3d& velocity, double dt);
 
  private:
-  Tile tile() { return {columns_.data(), stride_, 1, true}; }
+  Tile tile() { return {columns_.data(), stride_, 1, true, rotational_}; }
   void SetState(const RigidBodyState& state);
-  Eigen::Vector3d wind();
+  Gust Present();
 
-  TurbulenceLaw law_;
+  Turbulence turbulence_;
+  bool rotational_;
   std::uint64_t seed_;
   std::size_t stride_;
   AlignedVector<float> columns_;

@@ -10,16 +10,20 @@
 
 namespace skein {
 
-/// A tile that owns its columns, zero at first. With kNumWindyColumns it is windy.
+/// A tile that owns its columns, zero at first. With kNumWindyColumns it is windy, with
+/// kNumRotationalGustColumns it has rotational gusts, too.
 class TestTile {
  public:
   explicit TestTile(int count, int num_columns = kNumColumns)
       : stride_(TileStride(count)),
         count_(count),
-        windy_(num_columns == kNumWindyColumns),
+        num_columns_(num_columns),
         values_(stride_ * static_cast<std::size_t>(num_columns)) {}
 
-  Tile tile() { return {values_.data(), stride_, count_, windy_}; }
+  Tile tile() {
+    return {values_.data(), stride_, count_, num_columns_ >= kNumWindyColumns,
+            num_columns_ == kNumRotationalGustColumns};
+  }
   float& at(int column, int i) { return tile()[column][i]; }
   /// The same value for all aircraft, padding included.
   void Fill(int column, float value) {
@@ -32,7 +36,7 @@ class TestTile {
  private:
   std::size_t stride_;
   int count_;
-  bool windy_;
+  int num_columns_;
   std::vector<float> values_;
 };
 

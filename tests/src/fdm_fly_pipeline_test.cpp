@@ -101,6 +101,22 @@ TEST_F(FdmFly, GustsMayBeAsStrongAsTheStandardHasThemThere) {
   EXPECT_NEAR(deviation("35000") / deviation("20000"), 5.0 / 7.3, kPath);
 }
 
+TEST_F(FdmFly, RotationalGustsTurnTheAircraftInTheSameLinearOnes) {
+  const Words words = {"--altitude-ft", "15000", "--speed-fps",      "500", "--seconds", "10",
+                       "--seed",        "5",     "--turbulence-fps", "7"};
+  const CsvColumns linear = Flown(words), turning = Flown(words + Words{"--rotational-gusts"});
+  EXPECT_EQ(linear.Find("wind_down_fps")->front(), turning.Find("wind_down_fps")->front());
+  EXPECT_EQ(linear.Find("p_deg_s")->front(), turning.Find("p_deg_s")->front());
+  const std::vector<double>&before = *linear.Find("p_deg_s"), &after = *turning.Find("p_deg_s");
+  double square = 0;
+  for (std::size_t row = 0; row < before.size(); ++row) {
+    square += std::pow(after[row] - before[row], 2) / static_cast<double>(before.size());
+  }
+  // The air rolls by 3 deg/s; the aircraft's damping and the flight control leave a part of it.
+  EXPECT_GT(std::sqrt(square), 0.1);
+  EXPECT_LT(std::sqrt(square), 3);
+}
+
 TEST_F(FdmFly, SticksOfAFileAreFlown) {
   const std::string sticks = folder_ + "/sticks.csv", path = folder_ + "/fly.csv";
   WriteFile(sticks, "time_s,roll\n0,0\n1,0.2\n2,0");
@@ -160,9 +176,9 @@ TEST_F(FdmFly, APolicyFliesAsInAReplayFromTheSameStart) {
        {"heading.altitude_change_ft=0", "heading.yaw_change_rad=0", "heading.speed_change_fps=0",
         "wind.speed_min_fps=50", "wind.speed_max_fps=50", "wind.from_min_deg=-90",
         "wind.from_max_deg=-90", "wind.step_at_reset=false", "wind.turbulence_min_fps=3.7",
-        "wind.turbulence_max_fps=3.7", "wind.turbulence_by_altitude=true", "drag_rise=true",
-        "gravity_falls_with_altitude=true", "atmosphere=standard_1976", "substeps=2",
-        "time_limit_steps=2500"}) {
+        "wind.turbulence_max_fps=3.7", "wind.turbulence_by_altitude=true",
+        "wind.rotational_gusts=true", "drag_rise=true", "gravity_falls_with_altitude=true",
+        "atmosphere=standard_1976", "substeps=2", "time_limit_steps=2500"}) {
     words = words + Words{"--set", std::string("env.") + key};
   }
   words = words + StartOf("21000", "900");
@@ -183,6 +199,7 @@ TEST_F(FdmFly, APolicyFliesAsInAReplayFromTheSameStart) {
                                        "--turbulence-fps",
                                        "3.7",
                                        "--turbulence-by-altitude",
+                                       "--rotational-gusts",
                                        "--drag-rise",
                                        "--gravity-falls-with-altitude",
                                        "--atmosphere",

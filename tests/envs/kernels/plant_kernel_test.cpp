@@ -126,11 +126,14 @@ class RandomFlight {
     }
   }
 
-  /// The columns of the air's velocity: for the F-16 up to 150 ft/s each way.
+  /// The columns of the air's velocity: for the F-16 up to 150 ft/s each way. And of its rates.
   void FillWind(TestTile* tile) {
     for (int i = 0; i < static_cast<int>(tile->stride()); ++i) {
       for (const int column : {kWindNorth, kWindEast, kWindDown}) {
         tile->at(column, i) = static_cast<float>(speed_unit_ * Uniform(-0.134, 0.134));
+      }
+      for (int k = 0; tile->tile().rotational_gusts && k < 3; ++k) {
+        tile->at(kGustRollRate + k, i) = static_cast<float>(Uniform(-1, 1));
       }
     }
   }
@@ -275,12 +278,13 @@ struct PoweredState {
 
 /// StepTile's specification in double precision. Returns nz and ny of the last stage.
 std::pair<double, double> StepPowered(const Plant& plant, Controls surfaces, double power_command,
-                                      const Eigen::Vector3d& wind, double dt, PoweredState* state) {
+                                      const Eigen::Vector3d& wind, const Eigen::Vector3d& air_rates,
+                                      double dt, PoweredState* state) {
   PlantOutput output;
   const auto rate = [&](const RigidBodyState& body, double power) {
     const AirData air = plant.AirAround(body, wind);
     surfaces.thrust_lbf = Thrust(plant.aircraft().engine, power, -body[kDown], air.mach);
-    output = plant.Evaluate(body, surfaces, wind);
+    output = plant.Evaluate(body, surfaces, wind, air_rates);
     return PoweredState{output.state_rate,
                         PowerRate(plant.aircraft().power_lag, power, power_command)};
   };
@@ -297,16 +301,20 @@ std::pair<double, double> StepPowered(const Plant& plant, Controls surfaces, dou
   return {output.nz, output.ny};
 }
 
-/// Of random flights, in still air or in wind, of `count` aircraft at most. `plants` make what
-/// `kernel` flies `plant`.
-void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy,
+/// Columns of tiles whose air moves, or moves and turns.
+constexpr int kWindyAirs[] = {kNumWindyColumns, kNumRotationalGustColumns};
+
+/// Of random flights of `count` aircraft, in air that does what tiles of `columns` have. `plants`
+/// make what `kernel` flies `plant`.
+void CompareSteps(const Plant& plant, const KernelAircraft& kernel, int columns,
                   const PlantTile& plants = {}, int count = 20000) {
   constexpr double kDt = 0.02;
   // A stage that crosses military power or a table's kink on one side only adds the most.
   constexpr Tolerance kFloat32Step{2e-5, "float32 states and rates of a step"};
   constexpr Tolerance kLoadFactor{2e-4, "float32 states, fractions of cells and sums"};
   RandomFlight random(plant.aircraft(), 11);
-  TestTile tile(count, windy ? kNumWindyColumns : kNumColumns);
+  TestTile tile(count, columns);
+  const bool windy = tile.tile().windy;
   random.Fill(&tile);
   random.FillEngineAndSurfaces(&tile);
   if (windy) random.FillWind(&tile);
@@ -320,9 +328,12 @@ void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy,
     surfaces.aileron_deg = before.at(kAileron, i);
     surfaces.rudder_deg = before.at(kRudder, i);
     surfaces.leading_edge_flap_deg = before.at(kLeadingEdgeFlap, i);
-    Eigen::Vector3d wind = Eigen::Vector3d::Zero();
+    Eigen::Vector3d wind = Eigen::Vector3d::Zero(), rates = wind;
     for (int k = 0; windy && k < 3; ++k) wind[k] = before.at(kWindNorth + k, i);
-    const auto [nz, ny] = StepPowered(plant, surfaces, before.at(kPowerCommand, i), wind,
+    for (int k = 0; tile.tile().rotational_gusts && k < 3; ++k) {
+      rates[k] = before.at(kGustRollRate + k, i);
+    }
+    const auto [nz, ny] = StepPowered(plant, surfaces, before.at(kPowerCommand, i), wind, rates,
                                       static_cast<float>(kDt), &state);
     for (int c = 0; c < kNumRigidBody; ++c) {
       states.Add("column " + std::to_string(c), tile.at(c, i), state.body[c]);
@@ -341,18 +352,18 @@ void CompareSteps(const Plant& plant, const KernelAircraft& kernel, bool windy,
 }
 
 TEST_P(PlantKernelTest, AStepAgreesWithTheFloat64PlantAndEngine) {
-  CompareSteps(plant_, *kernel_, false);
+  CompareSteps(plant_, *kernel_, kNumColumns);
 }
 
 TEST_P(PlantKernelTest, AStepInWindAgreesWithTheFloat64PlantAndEngine) {
-  CompareSteps(plant_, *kernel_, true);
+  for (const int air : kWindyAirs) CompareSteps(plant_, *kernel_, air);
 }
 
 TEST_P(PlantKernelTest, AStepWithEffectsOfTheMachNumberAgreesWithTheFloat64PlantAndEngine) {
   Aircraft aircraft = F16();
   aircraft.drag_rises = aircraft.engine.grows = true;
   const Plant plant(aircraft, AtmosphereModel::kStevensLewis);
-  CompareSteps(plant, *MakeKernelAircraft(aircraft, plant.atmosphere()), false);
+  CompareSteps(plant, *MakeKernelAircraft(aircraft, plant.atmosphere()), kNumColumns);
 }
 
 TEST_P(PlantKernelTest, AStepOfADrawnPlantAgreesWithTheFloat64Plant) {
@@ -378,7 +389,8 @@ TEST_P(PlantKernelTest, AStepOfADrawnPlantAgreesWithTheFloat64Plant) {
       columns.Fill(column, columns.at(column, 0));
     }
     const Plant drawn(DrawnAircraft(plant_.aircraft(), draw), plant_.atmosphere(), draw.density);
-    for (const bool windy : {false, true}) CompareSteps(drawn, *kernel_, windy, plants, kCount);
+    CompareSteps(drawn, *kernel_, kNumColumns, plants, kCount);
+    for (const int air : kWindyAirs) CompareSteps(drawn, *kernel_, air, plants, kCount);
   }
 }
 

@@ -249,5 +249,24 @@ TEST(Plant, DragRisesWithTheMachNumberIfAskedTo) {
   }
 }
 
+// Damping is by the rates relative to the air; inertia and attitude know only the aircraft's own.
+TEST(Plant, AirThatTurnsWithTheAircraftDampsNothing) {
+  const Plant plant(F16(), AtmosphereModel::kStevensLewis);
+  RigidBodyState still = RigidBodyState::Zero();
+  still.segment<3>(kU) << 600, 20, 40;
+  still[kDown] = -15000;
+  still.segment<4>(kQ0) = QuaternionFromEuler({0.3, 0.1, -1});
+  const Eigen::Vector3d rates(0.4, -0.2, 0.1), none = Eigen::Vector3d::Zero();
+  RigidBodyState turning = still;
+  turning.segment<3>(kP) = rates;
+  const PlantOutput at_rest = plant.Evaluate(still, {}), damped = plant.Evaluate(turning, {}),
+                    carried = plant.Evaluate(turning, {}, none, rates);
+  EXPECT_EQ(carried.coefficients, at_rest.coefficients);
+  EXPECT_NE(carried.coefficients, damped.coefficients);
+  EXPECT_EQ(carried.state_rate.tail<7>(), damped.state_rate.tail<7>());
+  // Air that turns alone does to the moments what the aircraft's turning back would.
+  EXPECT_EQ(plant.Evaluate(still, {}, none, -rates).coefficients, damped.coefficients);
+}
+
 }  // namespace
 }  // namespace skein

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "envs/air/atmosphere.h"
+#include "envs/aircraft/f16.h"
 #include "tests/envs/validation/sections.h"
 #include "tests/envs/wind/gusts.h"
 
@@ -56,7 +57,7 @@ Section TurbulenceSpectra() {
   Section section{"turbulence-spectra", "MIL-F-8785C", {}};
   for (int k = 0; k < 3; ++k) {
     for (const int cycles : {3, 8, 21, 60}) {
-      const double frequency = MeasuredSpectra::Frequency(cycles);
+      const double frequency = spectra.Frequency(cycles);
       const double standard = Spectrum(k, kScaleFt, frequency);
       char what[80];
       std::snprintf(what, sizeof what, "%s gust, density at L Ω = %.2f, ft/rad", kComponents[k],
@@ -68,10 +69,31 @@ Section TurbulenceSpectra() {
   return section;
 }
 
+/// Likewise of its rotational gusts, for the F-16's span.
+Section RotationalGustSpectra() {
+  constexpr double kFiveStandardErrors = 0.18, kScaleFt = 1750, kDt = 0.01;
+  constexpr const char* kRates[] = {"roll", "pitch", "yaw"};
+  const double span_ft = F16().airframe.span_ft;
+  const MeasuredSpectra spectra(kDt, span_ft);
+  Section section{"rotational-gust-spectra", "MIL-F-8785C", {}};
+  for (int k = 0; k < 3; ++k) {
+    for (const int cycles : {3, 8, 21, 60}) {
+      const double frequency = spectra.Frequency(cycles);
+      const double standard = RateSpectrum(3 + k, kScaleFt, span_ft, frequency);
+      char what[80];
+      std::snprintf(what, sizeof what, "%s rate, density at b Ω = %.3f, 1/(ft rad)", kRates[k],
+                    span_ft * frequency);
+      section.figures.push_back(PublishedOnce(what, standard, spectra.Density(3 + k, cycles),
+                                              kFiveStandardErrors * standard, 6));
+    }
+  }
+  return section;
+}
+
 }  // namespace
 
 std::vector<Section> PublishedAirFigures() {
-  return {StandardAtmosphere(), ModelAtmosphere(), TurbulenceSpectra()};
+  return {StandardAtmosphere(), ModelAtmosphere(), TurbulenceSpectra(), RotationalGustSpectra()};
 }
 
 }  // namespace skein::validation

@@ -108,7 +108,7 @@ TEST_P(DrydenTest, SpectraAreDrydens) {
   constexpr double kScale = 1750;
   const MeasuredSpectra spectra;
   for (const int cycles : {3, 5, 8, 13, 21, 34, 60}) {
-    const double frequency = MeasuredSpectra::Frequency(cycles);
+    const double frequency = spectra.Frequency(cycles);
     for (int k = 0; k < 3; ++k) {
       EXPECT_NEAR(spectra.Density(k, cycles) / Spectrum(k, kScale, frequency), 1, kPeriodogram)
           << "component " << k << ", L W = " << kScale * frequency;
@@ -138,7 +138,7 @@ TEST(TurbulenceTest, FollowsTheStandardByAltitude) {
 TEST_P(DrydenTest, GustsAreAsStrongAsTheirAltitudeHasThem) {
   constexpr int kCount = 4000;
   const double tolerance = kStandardErrors * std::sqrt(2.0 / kCount);  // of a variance
-  Gusts gusts(kCount, 1000, 35000, 0, TurbulenceLaw::kByAltitude);
+  Gusts gusts(kCount, 1000, 35000, 0, {TurbulenceLaw::kByAltitude});
   for (int step = 0; step <= 20; ++step) {
     if (step > 0) gusts.Advance(0.02);
     for (int k = 0; k < 3; ++k) {
