@@ -32,7 +32,8 @@ Figure PublishedOften(const std::string& what, std::vector<double> published, do
 
 std::vector<Section> AllSections() {
   std::vector<Section> all;
-  for (auto* sections : {FallingBodies, PublishedF16Figures, PublishedTrims, PublishedAirFigures}) {
+  for (auto* sections : {FallingBodies, PublishedF16Figures, PublishedManoeuvres, PublishedTrims,
+                         PublishedAirFigures}) {
     std::vector<Section> next = sections();
     std::move(next.begin(), next.end(), std::back_inserter(all));
   }

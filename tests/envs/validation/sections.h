@@ -20,6 +20,9 @@ RigidBodyState FallingBrick();
 /// which is theirs, and by Skein's.
 std::vector<Section> PublishedF16Figures();
 
+/// Case 13 of NASA/TM-2015-218675: the ends of its manoeuvres, and forces in them.
+std::vector<Section> PublishedManoeuvres();
+
 /// Trims of the University of Minnesota; trims and modes of Stevens and Lewis.
 std::vector<Section> PublishedTrims();
 

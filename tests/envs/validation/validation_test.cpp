@@ -29,6 +29,8 @@ TEST(Validation, BodiesFallAsInOtherSimulators) { ExpectToHold(FallingBodies());
 
 TEST(Validation, TheF16IsThePublishedOne) { ExpectToHold(PublishedF16Figures()); }
 
+TEST(Validation, TheF16ManoeuvresAsThePublishedOne) { ExpectToHold(PublishedManoeuvres()); }
+
 TEST(Validation, TrimsAndModesArePublishedOnes) { ExpectToHold(PublishedTrims()); }
 
 TEST(Validation, AirIsThatOfTheStandards) { ExpectToHold(PublishedAirFigures()); }
