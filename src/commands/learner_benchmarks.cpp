@@ -173,8 +173,9 @@ void PrintIteration(const TrainConfig& config, const LearnerRates& rates, int ra
       figures.budget_h);
   if (ranks == 1) return;
   fmt::print(
-      "  ranks exchange, or wait for each other, {:.1f} % of the time; {:.1f} MB sent each\n",
-      100 * rates.exchange_share, rates.sent_bytes / 1e6);
+      "  ranks exchange, or wait for each other, {:.1f} % of the time and {:.3f} s in all, some of "
+      "them while they compute; {:.1f} MB sent each\n",
+      100 * rates.exchange_share, rates.exchange_s, rates.sent_bytes / 1e6);
 }
 
 Json IterationJson(const TrainConfig& config, const LearnerRates& rates, int ranks) {
@@ -189,6 +190,8 @@ Json IterationJson(const TrainConfig& config, const LearnerRates& rates, int ran
           {"gradient_samples_per_s", rates.gradient_samples_per_s},
           {"efficiency", rates.efficiency},
           {"exchange_share", rates.exchange_share},
+          {"exchange_s", rates.exchange_s},
+          {"exchanges", rates.exchanges},
           {"sent_mb", rates.sent_bytes / 1e6},
           {"memory_gb", PeakMemoryGb()},
           {"budget_steps", config.total_steps},

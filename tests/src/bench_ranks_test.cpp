@@ -43,6 +43,7 @@ TEST_F(BenchRanks, IterationsOfSeveralRanksSayHowLongTheyExchange) {
   EXPECT_EQ(json["ranks"], 2);
   EXPECT_GT(json["exchange_share"], 0);
   EXPECT_LT(json["exchange_share"], 1);
+  EXPECT_GT(json["exchange_s"], 0);
   EXPECT_GT(json["sent_mb"], 0);
   EXPECT_EQ(json["figures"]["iteration_s"]["samples"].size(), 2u);
 }

@@ -6,13 +6,16 @@
 #include <cstdlib>
 #include <thread>
 
+#include "base/error.h"
+
 namespace skein {
 namespace {
 
 constexpr int kDataTag = 1, kWaitingTag = 2, kNoticeTag = 3;
 /// MPI counts in ints.
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-/// A waiting rank asks without pause at first, then leaves its processor to others.
+/// A waiting rank asks without pause at first, then leaves its processor to others; beside a thread
+/// that computes, at once.
 constexpr std::chrono::microseconds kEager{200}, kPause{20};
 /// The first of the ranks that wait says who hangs; the others only if it does not.
 constexpr std::chrono::seconds kGrace{5};
@@ -21,7 +24,13 @@ constexpr std::chrono::seconds kGrace{5};
 
 MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
   int provided = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+  if (provided < MPI_THREAD_SERIALIZED) {
+    throw Error("this MPI serves one thread of a process alone (thread level " +
+                std::to_string(provided) +
+                "), but gradients are exchanged while others are computed: install one that has "
+                "MPI_THREAD_SERIALIZED");
+  }
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   std::vector<char> names(static_cast<std::size_t>(count_) * MPI_MAX_PROCESSOR_NAME, '\0');
@@ -44,18 +53,21 @@ std::string MpiRanks::Describe(int rank) const {
   return "rank " + std::to_string(rank) + " (" + hosts_[static_cast<std::size_t>(rank)] + ")";
 }
 
-void MpiRanks::Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
-                        std::size_t receive_bytes) {
+void MpiRanks::ExchangeAll(int partner, const std::vector<Transfer>& transfers) {
   std::vector<MPI_Request> requests;
-  for (std::size_t begin = 0; begin < receive_bytes; begin += kMostBytes) {
-    const auto bytes = static_cast<int>(std::min(kMostBytes, receive_bytes - begin));
-    MPI_Irecv(static_cast<char*>(receive) + begin, bytes, MPI_BYTE, partner, kDataTag,
-              MPI_COMM_WORLD, &requests.emplace_back());
+  for (const Transfer& transfer : transfers) {
+    for (std::size_t begin = 0; begin < transfer.receive_bytes; begin += kMostBytes) {
+      const auto bytes = static_cast<int>(std::min(kMostBytes, transfer.receive_bytes - begin));
+      MPI_Irecv(static_cast<char*>(transfer.receive) + begin, bytes, MPI_BYTE, partner, kDataTag,
+                MPI_COMM_WORLD, &requests.emplace_back());
+    }
   }
-  for (std::size_t begin = 0; begin < send_bytes; begin += kMostBytes) {
-    const auto bytes = static_cast<int>(std::min(kMostBytes, send_bytes - begin));
-    MPI_Isend(static_cast<const char*>(send) + begin, bytes, MPI_BYTE, partner, kDataTag,
-              MPI_COMM_WORLD, &requests.emplace_back());
+  for (const Transfer& transfer : transfers) {
+    for (std::size_t begin = 0; begin < transfer.send_bytes; begin += kMostBytes) {
+      const auto bytes = static_cast<int>(std::min(kMostBytes, transfer.send_bytes - begin));
+      MPI_Isend(static_cast<const char*>(transfer.send) + begin, bytes, MPI_BYTE, partner, kDataTag,
+                MPI_COMM_WORLD, &requests.emplace_back());
+    }
   }
   Wait(requests);
 }
@@ -83,13 +95,15 @@ std::optional<Notice> MpiRanks::TakeNotice() {
 
 void MpiRanks::Wait(std::vector<MPI_Request>& requests) {
   const Clock::time_point start = Clock::now();
+  const bool computes = std::this_thread::get_id() == computing_;
+  const Clock::duration eager = computes ? kEager : Clock::duration::zero();
   bool is_patient = false, told = false;
   for (;;) {
     int done = 0;
     MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
     if (done != 0) return;
     const Clock::duration waited = Clock::now() - start;
-    if (waited < kEager) continue;
+    if (waited < eager) continue;
     if (!is_patient) {
       HearOthers();  // of earlier waits
       waits_.assign(static_cast<std::size_t>(count_), false);

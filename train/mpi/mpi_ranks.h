@@ -8,13 +8,14 @@
 #include <list>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "train/ranks/ranks.h"
 
 namespace skein {
 
-/// The processes of an MPI job.
+/// The processes of an MPI job. Made on the thread that computes.
 class MpiRanks final : public Ranks {
  public:
   explicit MpiRanks(double timeout_s);
@@ -23,8 +24,7 @@ class MpiRanks final : public Ranks {
   int rank() const override { return rank_; }
   int count() const override { return count_; }
   std::string Describe(int rank) const override;
-  void Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
-                std::size_t receive_bytes) override;
+  void ExchangeAll(int partner, const std::vector<Transfer>& transfers) override;
   void Notify(int rank, std::int64_t word) override;
   std::optional<Notice> TakeNotice() override;
   [[noreturn]] void Abort(const std::string& reason) override;
@@ -47,6 +47,7 @@ class MpiRanks final : public Ranks {
   void GiveUp(std::chrono::duration<double> waited);
 
   std::chrono::duration<double> timeout_;
+  std::thread::id computing_ = std::this_thread::get_id();
   int rank_ = 0, count_ = 1;
   std::vector<std::string> hosts_;
   std::list<Sent> sent_;

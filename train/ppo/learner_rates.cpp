@@ -48,13 +48,15 @@ struct Runner {
 
   void Iterate() {
     UnionOverRanks(ranks, 0);  // what came before took ranks differently long
-    const double exchanged_s = ranks.exchange_seconds();
-    const std::uint64_t sent_before = ranks.sent_bytes();
+    const double exchanged_s = ranks.exchange_seconds(), idle_s = ranks.idle_seconds();
+    const std::uint64_t exchanges_before = ranks.exchanges(), sent_before = ranks.sent_bytes();
     const auto start = std::chrono::steady_clock::now();
     const IterationReport report = trainer->Iterate();
     whole.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    exchange.push_back((ranks.exchange_seconds() - exchanged_s) / whole.back());
+    exchange.push_back(ranks.exchange_seconds() - exchanged_s);
+    idle.push_back((ranks.idle_seconds() - idle_s + report.wait_seconds) / whole.back());
+    exchanges = static_cast<double>(ranks.exchanges() - exchanges_before);
     sent_bytes = static_cast<double>(ranks.sent_bytes() - sent_before);
     rollout.push_back(report.rollout_seconds);
     simulator.push_back(report.simulator_seconds / report.rollout_seconds);
@@ -94,9 +96,11 @@ struct Runner {
     rates.peak_gflops = Median(peak);
     rates.iteration_s = Median(whole);
     rates.efficiency = Median(efficiency);
-    rates.exchange_share = Median(exchange);
-    SumOverRanks(ranks, 1, &rates.exchange_share);
-    rates.exchange_share /= ranks.count();
+    Sums<2> means{Median(idle), Median(exchange)};
+    SumOverRanks(ranks, means.size(), means.data());
+    rates.exchange_share = means[0] / ranks.count();
+    rates.exchange_s = means[1] / ranks.count();
+    rates.exchanges = exchanges;
     rates.sent_bytes = sent_bytes;
     rates.samples = {whole, RatesOf(policy_steps, rollout), RatesOf(samples, update),
                      RatesOf(samples, gradient)};
@@ -106,8 +110,8 @@ struct Runner {
   TimedRanks& ranks;
   std::unique_ptr<Trainer> trainer;
   int threads;
-  std::vector<double> whole, rollout, simulator, update, gradient, efficiency, exchange, peak;
-  double sent_bytes = 0;
+  std::vector<double> whole, rollout, simulator, update, gradient, efficiency, idle, exchange, peak;
+  double exchanges = 0, sent_bytes = 0;
 };
 
 }  // namespace

@@ -26,8 +26,11 @@ struct LearnerRates {
   double peak_gflops = 0;
   /// Of an iteration, the share that rollout and gradients alone would take.
   double efficiency = 0;
-  /// Of an iteration, the share in which ranks exchange or wait for each other, mean over ranks.
+  /// Of an iteration, the share in which ranks compute nothing but exchange or wait for each other,
+  /// mean over ranks.
   double exchange_share = 0;
+  double exchange_s = 0;  ///< in an iteration, beside computation too, mean over ranks
+  double exchanges = 0;   ///< in an iteration, by this rank, one after the other
   double sent_bytes = 0;  ///< in an iteration, by this rank
   /// Of every iteration, in their order.
   struct Samples {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/denormals.h"
 #include "base/error.h"
 #include "train/ppo/broken_shard.h"
 #include "train/ppo/minibatch_step.h"
@@ -19,6 +20,10 @@ namespace {
 /// enough to keep the gradients in memory.
 constexpr int kMaxAccumulators = 32;
 constexpr double kAdvantageEpsilon = 1e-8;
+
+double SecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -97,7 +102,8 @@ PpoUpdate::PpoUpdate(const TrainConfig& config, ActorCritic& networks, WorkerPoo
       tile_chunks_(std::max(1, config.learner.tile_samples / config.ppo.chunk_length)),
       pool_(pool),
       ranks_(ranks),
-      sides_{Side{networks.actor, {}, {}}, Side{networks.critic, {}, {}}} {
+      sides_{Side{"actor", &LossSums::policy_loss, networks.actor},
+             Side{"critic", &LossSums::value_loss, networks.critic}} {
   for (int i = 0; i < pool.threads(); ++i) gathered_.push_back(std::make_shared<Gathered>());
 }
 
@@ -115,12 +121,16 @@ PpoUpdate::Source PpoUpdate::SourceOf(const Rollout& rollout, const ValueScale& 
   return {rollout, scale, mean, 1 / (std::sqrt(squares[0] / count) + kAdvantageEpsilon)};
 }
 
+int PpoUpdate::Slices(int chunks, const ShardRange& shards) const {
+  return std::min((chunks + tile_chunks_ - 1) / tile_chunks_,
+                  std::max(1, kMaxAccumulators / shards.total));
+}
+
 PpoUpdate::Minibatch PpoUpdate::Cut(std::vector<Chunks> shards, const Rollout& rollout) const {
   const int chunks = shards[0].count;
   Minibatch minibatch;
   minibatch.shards = std::move(shards);
-  minibatch.slices = std::min((chunks + tile_chunks_ - 1) / tile_chunks_,
-                              std::max(1, kMaxAccumulators / rollout.shards.total));
+  minibatch.slices = Slices(chunks, rollout.shards);
   minibatch.chunks = static_cast<double>(chunks) * rollout.shards.total;
   return minibatch;
 }
@@ -161,94 +171,117 @@ void PpoUpdate::AccumulateSlice(Side& side, const Source& source, const Chunks& 
   }
 }
 
-void PpoUpdate::Accumulate(const Source& source, const Minibatch& minibatch) {
+void PpoUpdate::ComputeGradients(const Source& source, const Minibatch& minibatch,
+                                 const std::vector<Side*>& sides) {
   const LossSettings settings = SettingsFor(minibatch, source.rollout.chunk_length);
   const int accumulators = static_cast<int>(minibatch.shards.size()) * minibatch.slices;
-  for (Side& side : sides_) {
-    side.accumulators.resize(accumulators);
-    side.losses.resize(accumulators);
+  for (Side* const side : sides) {
+    side->accumulators.resize(accumulators);
+    side->losses.resize(accumulators);
   }
-  pool_.ForEach(2, [&](int i, int) { sides_[i].trained.TakeParameters(); });
   const auto start = std::chrono::steady_clock::now();
-  pool_.ForEach(2 * accumulators, [&](int index, int worker) {
-    const int accumulator = index / 2;
+  const auto count = static_cast<int>(sides.size());
+  pool_.ForEach(count * accumulators, [&](int index, int worker) {
+    const int accumulator = index / count;
     const Chunks& shard = minibatch.shards[accumulator / minibatch.slices];
-    AccumulateSlice(sides_[index % 2], source,
+    AccumulateSlice(*sides[index % count], source,
                     SliceOf(shard, accumulator % minibatch.slices, minibatch.slices), settings,
                     accumulator, worker);
   });
-  gradient_seconds_ +=
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  gradient_seconds_ += SecondsSince(start);
+  for (Side* const side : sides) SumAccumulators(*side, minibatch.slices);
 }
 
-void PpoUpdate::SumAll(int slices) {
-  for (Side& side : sides_) {
-    const auto size = static_cast<std::int64_t>(side.accumulators[0].size());
-    const auto blocks = static_cast<int>((size + kSumBlock - 1) / kSumBlock);
-    pool_.ForEach(blocks, [&](int block, int) {
-      const std::int64_t begin = block * kSumBlock;
-      SumGradients(begin, std::min(size, begin + kSumBlock), slices, side.accumulators);
-    });
-  }
+void PpoUpdate::SumAccumulators(Side& side, int slices) {
+  const auto size = static_cast<std::int64_t>(side.accumulators[0].size());
+  const auto blocks = static_cast<int>((size + kSumBlock - 1) / kSumBlock);
+  pool_.ForEach(blocks, [&](int block, int) {
+    const std::int64_t begin = block * kSumBlock;
+    SumGradients(begin, std::min(size, begin + kSumBlock), slices, side.accumulators);
+  });
+  std::vector<LossSums> shards(side.losses.size() / slices);
+  for (std::size_t i = 0; i < side.losses.size(); ++i) shards[i / slices] += side.losses[i];
+  side.beside = {SumByTree(shards), pool_.stopping()};
 }
 
-LossSums PpoUpdate::SumLosses(int slices) const {
-  const auto& [actor, critic] = sides_;
-  std::vector<LossSums> shards(actor.losses.size() / slices);
-  for (std::size_t i = 0; i < actor.losses.size(); ++i) {
-    shards[i / slices] += actor.losses[i];
-    shards[i / slices] += critic.losses[i];
-  }
-  return SumByTree(shards);
+void PpoUpdate::AddOtherRanks(Side& side) {
+  const DenormalsFlushed flushed;  // as where shards are summed within a rank
+  SumManyOverRanks(ranks_, side.accumulators[0].size(), side.accumulators[0].data(), side.beside);
 }
 
-bool PpoUpdate::SumOverAllRanks(LossSums& losses) {
-  if (SumOverRanksOrGiveUp(ranks_, pool_.stopping(), losses)) return false;
-  for (Side& side : sides_) {
-    SumOverRanks(ranks_, side.accumulators[0].size(), side.accumulators[0].data());
-  }
-  return true;
+void PpoUpdate::Step(Side& side, double learning_rate) {
+  if (side.beside.stopping > 0) return;
+  const DenormalsFlushed flushed;
+  AdamOptimiser& optimiser = side.trained.optimiser;
+  side.trained.network->FinishGradient(side.accumulators[0].data(), optimiser.gradient());
+  side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, optimiser);
+  side.trained.TakeParameters();
 }
 
-std::string PpoUpdate::FirstBrokenShard() {
-  const auto is_finite = [](const LossSums& losses) {
-    return std::isfinite(losses.policy_loss) && std::isfinite(losses.value_loss);
-  };
-  const std::size_t slices = sides_[0].losses.size() / static_cast<std::size_t>(shards_.count);
+std::string PpoUpdate::FirstBrokenShard(const Side& side) {
+  const std::size_t slices = side.losses.size() / static_cast<std::size_t>(shards_.count);
   int first = shards_.total;
-  for (std::size_t i = 0; i < sides_[0].losses.size() && first == shards_.total; ++i) {
-    if (is_finite(sides_[0].losses[i]) && is_finite(sides_[1].losses[i])) continue;
+  for (std::size_t i = 0; i < side.losses.size() && first == shards_.total; ++i) {
+    if (std::isfinite(side.losses[i].*side.loss)) continue;
     first = shards_.first + static_cast<int>(i / slices);
   }
   return NameFirstBroken(shards_, first, ranks_);
 }
 
-void PpoUpdate::RequireSane(const char* network, double loss, double norm) {
-  if (std::isfinite(loss) && norm <= kExplodedGradientNorm) return;
+void PpoUpdate::RequireSane(const Side& side) {
+  const double loss = side.beside.losses.*side.loss;
+  if (std::isfinite(loss) && side.norm <= kExplodedGradientNorm) return;
   exploded_ = true;
-  throw Error("the " + std::string(network) + "'s training exploded (loss " + std::to_string(loss) +
-              ", gradient norm " + std::to_string(norm) + FirstBrokenShard() +
-              "); lower ppo.learning_rate, or ppo.max_gradient_norm");
+  throw Error("the " + std::string(side.name) + "'s training exploded (loss " +
+              std::to_string(loss) + ", gradient norm " + std::to_string(side.norm) +
+              FirstBrokenShard(side) + "); lower ppo.learning_rate, or ppo.max_gradient_norm");
 }
 
-bool PpoUpdate::RunMinibatch(const Source& source, const Minibatch& minibatch, double learning_rate,
-                             UpdateReport& report) {
-  Accumulate(source, minibatch);
-  SumAll(minibatch.slices);
-  LossSums losses = SumLosses(minibatch.slices);
-  if (!SumOverAllRanks(losses)) return false;
-  pool_.ForEach(2, [&](int i, int) {
-    Side& side = sides_[i];
-    AdamOptimiser& optimiser = side.trained.optimiser;
-    side.trained.network->FinishGradient(side.accumulators[0].data(), optimiser.gradient());
-    side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, optimiser);
-  });
-  RequireSane("actor", losses.policy_loss, sides_[0].norm);
-  RequireSane("critic", losses.value_loss, sides_[1].norm);
-  report.losses += losses;
-  report.actor_gradient_norm += sides_[0].norm;
-  report.critic_gradient_norm += sides_[1].norm;
+bool PpoUpdate::AddTo(UpdateReport& report, const Side& side) {
+  if (side.beside.stopping > 0) return false;
+  RequireSane(side);
+  report.losses += side.beside.losses;
+  (is_actor(side) ? report.actor_gradient_norm : report.critic_gradient_norm) += side.norm;
   return true;
+}
+
+bool PpoUpdate::StepTogether(const Source& source, const Minibatch& minibatch, double learning_rate,
+                             UpdateReport& report) {
+  auto& [actor, critic] = sides_;
+  ComputeGradients(source, minibatch, {&actor, &critic});
+  for (Side& side : sides_) AddOtherRanks(side);
+  pool_.ForEach(2, [&](int i, int) { Step(sides_[i], learning_rate); });
+  return AddTo(report, critic) && AddTo(report, actor);
+}
+
+bool PpoUpdate::StepOneByOne(const Source& source, const Minibatch& minibatch, double learning_rate,
+                             Stepping& stepping, UpdateReport& report) {
+  auto& [actor, critic] = sides_;
+  for (Side* const side : {&critic, &actor}) {
+    ComputeGradients(source, minibatch, {side});
+    if (!Await(stepping, report)) return false;
+    stepping = {side, std::async(std::launch::async, [this, side, learning_rate] {
+                  AddOtherRanks(*side);
+                  Step(*side, learning_rate);
+                })};
+  }
+  return true;
+}
+
+bool PpoUpdate::Await(Stepping& stepping, UpdateReport& report) {
+  if (!stepping.done.valid()) return true;
+  const auto start = std::chrono::steady_clock::now();
+  stepping.done.get();
+  report.wait_seconds += SecondsSince(start);
+  return AddTo(report, *stepping.side);
+}
+
+bool PpoUpdate::IsOneByOne(const Rollout& rollout) {
+  if (ranks_.count() == 1) return false;
+  const int chunks = rollout.chunks() * rollout.shard_aircraft() / config_.minibatches;
+  const int tasks = rollout.shards.count * Slices(chunks, rollout.shards);
+  const auto rounds = [&](int of) { return (of + pool_.threads() - 1) / pool_.threads(); };
+  return UnionOverRanks(ranks_, 2 * rounds(tasks) > rounds(2 * tasks)) == 0;
 }
 
 UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
@@ -257,17 +290,22 @@ UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
   shards_ = rollout.shards;
   exploded_ = false;
   const Source source = SourceOf(rollout, scale);
+  pool_.ForEach(2, [&](int i, int) { sides_[i].trained.TakeParameters(); });
+  const bool one_by_one = IsOneByOne(rollout);
+  Stepping stepping;
   UpdateReport report;
   gradient_seconds_ = 0;
   for (int epoch = 0; epoch < config_.epochs; ++epoch) {
     const Minibatches minibatches(rollout, config_.minibatches, seed_, iteration, epoch);
     for (int minibatch = 0; minibatch < config_.minibatches; ++minibatch) {
       const Minibatch cut = Cut(minibatches.At(minibatch), rollout);
-      if (RunMinibatch(source, cut, learning_rate, report)) continue;
-      report.stopped = true;
-      return report;
+      report.stopped = one_by_one ? !StepOneByOne(source, cut, learning_rate, stepping, report)
+                                  : !StepTogether(source, cut, learning_rate, report);
+      if (report.stopped) return report;
     }
   }
+  report.stopped = !Await(stepping, report);
+  if (report.stopped) return report;
   const double count = static_cast<double>(config_.epochs) * config_.minibatches;
   LossSums& losses = report.losses;
   for (double* const mean : {&losses.policy_loss, &losses.value_loss, &losses.entropy,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,11 +23,14 @@ struct UpdateReport {
   LossSums losses;
   double actor_gradient_norm = 0, critic_gradient_norm = 0;  ///< before clipping
   double gradient_seconds = 0;  ///< in forward, losses and backward, of all minibatches
+  /// In which this thread waited for another to exchange gradients and take a step.
+  double wait_seconds = 0;
 };
 
 /// PPO's epochs over a rollout: minibatches of shuffled chunks. What a shard has in one is cut into
 /// a fixed number of slices; the gradients of slices and shards are summed in a fixed order, so
-/// that no bit depends on the threads.
+/// that no bit depends on the threads. Of several ranks, while the gradients of one network are
+/// computed, another thread exchanges those of the other and takes its step.
 class PpoUpdate {
  public:
   /// `networks`, `pool` and `ranks` must outlive the update.
@@ -44,12 +48,29 @@ class PpoUpdate {
   bool exploded() const { return exploded_; }
 
  private:
+  /// What ranks sum beside a gradient.
+  struct Beside {
+    LossSums losses;
+    int stopping = 0;  ///< ranks whose pool is
+    void operator+=(const Beside& theirs) {
+      losses += theirs.losses;
+      stopping += theirs.stopping;
+    }
+  };
   /// A network and its gradient: [shard][slice] accumulators and sums of losses.
   struct Side {
+    const char* name;
+    double LossSums::*loss;
     TrainedNetwork& trained;
-    std::vector<AlignedVector<float>> accumulators;
-    std::vector<LossSums> losses;
+    std::vector<AlignedVector<float>> accumulators{};
+    std::vector<LossSums> losses{};
+    Beside beside{};  ///< of this rank's accumulators, then of all ranks'
     double norm = 0;
+  };
+  /// A network whose gradient other ranks' are added to, and whose step is taken, meanwhile.
+  struct Stepping {
+    Side* side = nullptr;
+    std::future<void> done;
   };
   /// What samples are gathered from, and the scale in which the losses see them.
   struct Source {
@@ -67,26 +88,40 @@ class PpoUpdate {
 
   bool is_actor(const Side& side) const { return &side == &sides_[0]; }
   Source SourceOf(const Rollout& rollout, const ValueScale& scale);
+  /// Of what a shard has in a minibatch.
+  int Slices(int chunks, const ShardRange& shards) const;
   Minibatch Cut(std::vector<Chunks> shards, const Rollout& rollout) const;
   /// What of a shard's chunks belongs to a slice.
   Chunks SliceOf(const Chunks& shard, int slice, int slices) const;
   LossSettings SettingsFor(const Minibatch& minibatch, int chunk_length) const;
-  /// One step of both optimisers; adds their losses and norms. False, with nothing done, if a pool
-  /// is stopping.
-  bool RunMinibatch(const Source& source, const Minibatch& minibatch, double learning_rate,
+  /// Whether the ranks compute one network after the other: unless some rank's threads had less to
+  /// do then.
+  bool IsOneByOne(const Rollout& rollout);
+  /// One step of both optimisers; adds their losses and norms. False if a pool is stopping.
+  bool StepTogether(const Source& source, const Minibatch& minibatch, double learning_rate,
                     UpdateReport& report);
-  /// Leaves the gradients of both networks in their accumulators.
-  void Accumulate(const Source& source, const Minibatch& minibatch);
+  /// Computes a minibatch's gradients while the step that was begun before them is taken, and
+  /// begins the next. False if a pool is stopping.
+  bool StepOneByOne(const Source& source, const Minibatch& minibatch, double learning_rate,
+                    Stepping& stepping, UpdateReport& report);
+  /// Waits for a step that was begun, if there is one, and adds its losses and norm. False if a
+  /// pool is stopping.
+  bool Await(Stepping& stepping, UpdateReport& report);
+  bool AddTo(UpdateReport& report, const Side& side);
+  /// Leaves the gradients of networks in their first accumulators.
+  void ComputeGradients(const Source& source, const Minibatch& minibatch,
+                        const std::vector<Side*>& sides);
   void AccumulateSlice(Side& side, const Source& source, const Chunks& chunks,
                        const LossSettings& settings, int accumulator, int worker);
-  /// Leaves the sums in the first accumulators.
-  void SumAll(int slices);
-  LossSums SumLosses(int slices) const;
-  /// Adds what the other ranks have of both gradients and the losses; false if a pool is stopping.
-  bool SumOverAllRanks(LossSums& losses);
-  void RequireSane(const char* network, double loss, double norm);
+  /// Leaves the sum in the first accumulator.
+  void SumAccumulators(Side& side, int slices);
+  /// Adds what the other ranks have of a gradient and beside it.
+  void AddOtherRanks(Side& side);
+  /// Clips and takes a network's step, unless a pool is stopping.
+  void Step(Side& side, double learning_rate);
+  void RequireSane(const Side& side);
   /// The first shard whose losses are not finite, for people; empty if there is none.
-  std::string FirstBrokenShard();
+  std::string FirstBrokenShard(const Side& side);
 
   PpoConfig config_;
   std::uint64_t seed_;

@@ -288,6 +288,7 @@ struct Trainer::Impl {
         update.Run(rollout, popart.scale(), iteration, report.learning_rate, HandlingWeight());
     stopped = done.stopped;
     report.gradient_seconds = done.gradient_seconds;
+    report.wait_seconds = done.wait_seconds;
     report.policy_loss = done.losses.policy_loss;
     report.value_loss = done.losses.value_loss;
     report.entropy = done.losses.entropy;

@@ -45,6 +45,7 @@ struct IterationReport {
   double rollout_seconds = 0, update_seconds = 0, evaluation_seconds = 0;
   double simulator_seconds = 0;  ///< of the rollout, mean of the threads
   double gradient_seconds = 0;   ///< of the update: forward, losses and backward
+  double wait_seconds = 0;       ///< of the update: UpdateReport::wait_seconds
 };
 
 /// What a checkpoint says of where it comes from.

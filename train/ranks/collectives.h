@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/worker_pool.h"
@@ -49,6 +50,50 @@ bool SumOverRanksOrGiveUp(Ranks& ranks, bool gives_up, Value& value) {
   SumOverRanks(ranks, 1, &message);
   value = message.value;
   return message.giving_up > 0;
+}
+
+/// From so many bytes on, numbers are summed part by part: what a message takes to arrive, 30 us,
+/// is what 37 kB take at 10 Gbit/s.
+inline constexpr std::size_t kSummedByParts = std::size_t{1} << 16;
+
+/// The sums of `count` numbers over all ranks, to the bits of SumOverRanks, and that of `more`,
+/// which has +=, in the same messages. Of many numbers every rank sums its part alone and then gets
+/// the others' (Rabenseifner 2004, "Optimization of Collective Reduction Operations"): it sends 2
+/// (1
+/// - 1 / R) times as many instead of log2 R times, in twice as many messages.
+template <typename More>
+void SumManyOverRanks(Ranks& ranks, std::size_t count, float* values, More& more) {
+  static_assert(std::is_trivially_copyable_v<More>);
+  struct Part {
+    std::size_t begin, end;
+    std::size_t bytes() const { return (end - begin) * sizeof(float); }
+  };
+  const bool by_parts = ranks.count() > 2 && count * sizeof(float) >= kSummedByParts;
+  std::vector<Part> parts{{0, count}};  // this rank's, each within that before it
+  std::vector<float> theirs(ranks.count() > 1 ? count : 0);
+  for (int distance = 1; distance < ranks.count(); distance *= 2) {
+    Part own = parts.back(), given = own;
+    if (by_parts) {
+      own.end = given.begin = own.begin + (own.end - own.begin) / 2;
+      if ((ranks.rank() & distance) != 0) std::swap(own, given);
+    }
+    More their_more;
+    ranks.ExchangeAll(ranks.rank() ^ distance,
+                      {{values + given.begin, given.bytes(), theirs.data(), own.bytes()},
+                       {&more, sizeof(More), &their_more, sizeof(More)}});
+    for (std::size_t i = own.begin; i < own.end; ++i) values[i] += theirs[i - own.begin];
+    more += their_more;
+    parts.push_back(own);
+  }
+  for (int distance = by_parts ? ranks.count() / 2 : 0; distance > 0; distance /= 2) {
+    const Part own = parts.back();
+    parts.pop_back();
+    Part other = parts.back();
+    (own.begin == other.begin ? other.begin : other.end) =
+        own.begin == other.begin ? own.end : own.begin;
+    ranks.Exchange(ranks.rank() ^ distance, values + own.begin, own.bytes(), values + other.begin,
+                   other.bytes());
+  }
 }
 
 /// The union of all ranks' bits.

@@ -11,8 +11,7 @@ class SingleRank final : public Ranks {
   int rank() const override { return 0; }
   int count() const override { return 1; }
   std::string Describe(int /*rank*/) const override { return "the only process"; }
-  void Exchange(int partner, const void* /*send*/, std::size_t /*send_bytes*/, void* /*receive*/,
-                std::size_t /*receive_bytes*/) override {
+  void ExchangeAll(int partner, const std::vector<Transfer>& /*transfers*/) override {
     Refuse(partner);
   }
   void Notify(int rank, std::int64_t /*word*/) override { Refuse(rank); }

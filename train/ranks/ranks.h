@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace skein {
 
@@ -14,8 +15,16 @@ struct Notice {
   std::int64_t word = 0;
 };
 
+/// What goes to another rank and what comes from it; either may be 0 bytes.
+struct Transfer {
+  const void* send = nullptr;
+  std::size_t send_bytes = 0;
+  void* receive = nullptr;
+  std::size_t receive_bytes = 0;
+};
+
 /// The processes of one job, numbered [0, count()). All of them call what exchanges anything
-/// (train/ranks/collectives.h) in the same order, each on one thread at a time.
+/// (train/ranks/collectives.h) in the same order, each on one thread at a time, whichever it is.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -25,10 +34,14 @@ class Ranks {
   /// For people: "rank 3 (node7)".
   virtual std::string Describe(int rank) const = 0;
 
-  /// Sends `send_bytes` to `partner` and receives `receive_bytes` from it, both at once; either may
-  /// be 0. Does not return unless it has: a partner that does not answer ends all processes.
-  virtual void Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
-                        std::size_t receive_bytes) = 0;
+  /// Sends and receives all of `transfers` at once; `partner` has as many, in the same order. Does
+  /// not return unless it has: a partner that does not answer ends all processes.
+  virtual void ExchangeAll(int partner, const std::vector<Transfer>& transfers) = 0;
+  /// One of them.
+  void Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
+                std::size_t receive_bytes) {
+    ExchangeAll(partner, {{send, send_bytes, receive, receive_bytes}});
+  }
 
   /// Sends a word to another rank and does not wait for it to be taken.
   virtual void Notify(int rank, std::int64_t word) = 0;

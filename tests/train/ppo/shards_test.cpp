@@ -53,7 +53,7 @@ class OneOf final : public Ranks {
   int rank() const override { return rank_; }
   int count() const override { return count_; }
   std::string Describe(int rank) const override { return std::to_string(rank); }
-  void Exchange(int, const void*, std::size_t, void*, std::size_t) override {}
+  void ExchangeAll(int, const std::vector<Transfer>&) override {}
   void Notify(int, std::int64_t) override {}
   std::optional<Notice> TakeNotice() override { return std::nullopt; }
   [[noreturn]] void Abort(const std::string& reason) override { throw Error(reason); }

@@ -57,12 +57,13 @@ std::string TextOf(const IterationReport& report) {
 class TrainerRanksTest : public testing::Test {
  protected:
   /// Trains on so many ranks to the end, or for `iterations`, from the checkpoint `from` if there
-  /// is one, and leaves a checkpoint in `to`.
+  /// is one, and leaves a checkpoint in `to`. Rank 0 has `threads`, others one.
   static Outcome Train(const TrainConfig& config, int count, const std::string& from,
-                       const std::string& to, int iterations = std::numeric_limits<int>::max()) {
+                       const std::string& to, int iterations = std::numeric_limits<int>::max(),
+                       int threads = 1) {
     Outcome outcome;
     RunOnRanks(count, [&](Ranks& ranks) {
-      WorkerPool pool(1);
+      WorkerPool pool(ranks.rank() == 0 ? threads : 1);
       Trainer trainer(config, pool, ranks);
       if (!from.empty()) trainer.Restore(from);
       std::vector<std::string> metrics;
@@ -120,6 +121,18 @@ TEST_F(TrainerRanksTest, SoDoWindsPlantsAndACriticThatSeesMore) {
   ExpectSameForAnyRanks(config, {2, 8});
 }
 
+/// A rank with more threads than tasks of a network: all compute both networks at once.
+TEST_F(TrainerRanksTest, ItIsTheSameWhereNetworksAreNotComputedOneByOne) {
+  const TrainConfig config = Sharded(SmallConfig());
+  const Outcome expected = Train(config, 1, "", scratch_ / "one");
+  for (const int count : {2, 8}) {
+    const Outcome outcome =
+        Train(config, count, "", scratch_ / "several", std::numeric_limits<int>::max(), 64);
+    EXPECT_EQ(outcome.signature, expected.signature) << count << " ranks";
+    EXPECT_EQ(outcome.metrics, expected.metrics) << count << " ranks";
+  }
+}
+
 TEST_F(TrainerRanksTest, ResumesBitExactlyOnAnotherNumberOfRanks) {
   const TrainConfig config = Sharded(SmallConfig());
   const Outcome expected = Train(config, 1, "", scratch_ / "whole");
@@ -157,11 +170,15 @@ TEST_F(TrainerRanksTest, SoManyRanksAsThereAreNoShardsForAreRefused) {
   });
 }
 
-/// The update of a rollout of random numbers, of which one rank's has a NaN in a log-probability.
-TEST_F(TrainerRanksTest, ALossThatIsNotFiniteStopsAllRanksAndNamesTheShard) {
+/// The update of a rollout of zeros, of which one rank's has a NaN in what a loss takes.
+class ALossThatIsNotFinite
+    : public testing::TestWithParam<std::pair<const char*, std::vector<float> Rollout::*>> {};
+
+TEST_P(ALossThatIsNotFinite, StopsAllRanksAndNamesTheShard) {
+  const auto& [network, column] = GetParam();
   TrainConfig config = SmallConfig();
   config.learner.shards = 8;
-  RunOnRanks(4, [&](Ranks& ranks) {
+  RunOnRanks(4, [&, network = network, column = column](Ranks& ranks) {
     WorkerPool pool(1);
     ActorCritic networks(config, 22, 0, 4);
     PpoConfig own = config.ppo;
@@ -169,14 +186,19 @@ TEST_F(TrainerRanksTest, ALossThatIsNotFiniteStopsAllRanksAndNamesTheShard) {
     Rollout rollout(own, 22, 4, networks.actor.layout().shape().state_size(), 0,
                     {8, 2 * ranks.rank(), 2});
     std::fill(rollout.not_done.begin(), rollout.not_done.end(), 1.0f);
-    if (ranks.rank() == 2) rollout.log_prob[13] = std::numeric_limits<float>::quiet_NaN();
+    if (ranks.rank() == 2) (rollout.*column)[13] = std::numeric_limits<float>::quiet_NaN();
     PpoUpdate update(config, networks, pool, ranks);
     const std::string message = MessageOf([&] { update.Run(rollout, {}, 0, 1e-3); });
-    EXPECT_THAT(message, HasSubstr("actor's training exploded"));
+    EXPECT_THAT(message, HasSubstr(std::string(network) + "'s training exploded"));
     EXPECT_THAT(message, HasSubstr("shard 5 on rank 2"));
     EXPECT_TRUE(update.exploded());
   });
 }
+
+INSTANTIATE_TEST_SUITE_P(Columns, ALossThatIsNotFinite,
+                         testing::Values(std::pair{"actor", &Rollout::log_prob},
+                                         std::pair{"critic", &Rollout::target}),
+                         [](const auto& param) { return std::string(param.param.first) + "s"; });
 
 }  // namespace
 }  // namespace skein

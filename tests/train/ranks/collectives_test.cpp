@@ -10,6 +10,7 @@
 #include "tests/error_message.h"
 #include "tests/train/ranks/thread_ranks.h"
 #include "train/ppo/shards.h"
+#include "train/ranks/timed_ranks.h"
 
 namespace skein {
 namespace {
@@ -28,6 +29,44 @@ TEST_P(CollectivesTest, SumsAreThoseOfTheTreeAndTheSameOnAllRanks) {
     float sum = numbers[static_cast<std::size_t>(ranks.rank())];
     SumOverRanks(ranks, 1, &sum);
     EXPECT_EQ(sum, expected) << ranks.Describe(ranks.rank());
+  });
+}
+
+TEST_P(CollectivesTest, SumsOfManyNumbersAreThoseOfTheTreeAndTheSameOnAllRanks) {
+  for (const std::size_t count : {std::size_t{1}, std::size_t{5}, 3 * kSummedByParts / 8 + 1}) {
+    std::mt19937 generator(1);
+    std::normal_distribution<float> normal;
+    std::vector<std::vector<float>> numbers(static_cast<std::size_t>(GetParam()));
+    for (std::vector<float>& of_rank : numbers) {
+      for (std::size_t i = 0; i < count; ++i) of_rank.push_back(normal(generator));
+    }
+    std::vector<float> expected;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::vector<float> parts;
+      for (const std::vector<float>& of_rank : numbers) parts.push_back(of_rank[i]);
+      expected.push_back(SumByTree(parts));
+    }
+    RunOnRanks(GetParam(), [&](Ranks& ranks) {
+      std::vector<float> sums = numbers[static_cast<std::size_t>(ranks.rank())];
+      int more = ranks.rank();
+      SumManyOverRanks(ranks, count, sums.data(), more);
+      EXPECT_EQ(sums, expected) << ranks.Describe(ranks.rank());
+      EXPECT_EQ(more, (ranks.count() - 1) * ranks.count() / 2);
+    });
+  }
+}
+
+TEST_P(CollectivesTest, NoRankSendsManyNumbersMoreThanTwice) {
+  constexpr std::size_t kCount = kSummedByParts;
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    TimedRanks timed(ranks);
+    std::vector<float> sums(kCount);
+    int more = 0;
+    SumManyOverRanks(timed, kCount, sums.data(), more);
+    std::size_t expected = 2 * (kCount - kCount / static_cast<std::size_t>(ranks.count()));
+    expected *= sizeof(float);
+    for (int others = 1; others < ranks.count(); others *= 2) expected += sizeof more;
+    EXPECT_EQ(timed.sent_bytes(), expected);
   });
 }
 

@@ -66,10 +66,13 @@ class ThreadRank final : public Ranks {
   int rank() const override { return rank_; }
   int count() const override { return count_; }
   std::string Describe(int rank) const override { return "rank " + std::to_string(rank); }
-  void Exchange(int partner, const void* send, std::size_t send_bytes, void* receive,
-                std::size_t receive_bytes) override {
-    if (send_bytes > 0) mailboxes_.Put(rank_, partner, send, send_bytes);
-    if (receive_bytes > 0) mailboxes_.Take(partner, rank_, receive, receive_bytes);
+  void ExchangeAll(int partner, const std::vector<Transfer>& transfers) override {
+    for (const auto& [send, bytes, receive, receive_bytes] : transfers) {
+      if (bytes > 0) mailboxes_.Put(rank_, partner, send, bytes);
+    }
+    for (const auto& [send, send_bytes, receive, bytes] : transfers) {
+      if (bytes > 0) mailboxes_.Take(partner, rank_, receive, bytes);
+    }
   }
   void Notify(int rank, std::int64_t word) override { mailboxes_.PutNotice(rank, {rank_, word}); }
   std::optional<Notice> TakeNotice() override { return mailboxes_.TakeNotice(rank_); }
