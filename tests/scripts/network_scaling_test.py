@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What scripts/network_scaling makes of measurements, without a network."""
+import importlib.machinery
+import importlib.util
+import pathlib
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "network_scaling"
+
+
+def load():
+    loader = importlib.machinery.SourceFileLoader("network_scaling", str(SCRIPT))
+    loader_spec = importlib.util.spec_from_loader("network_scaling", loader)
+    module = importlib.util.module_from_spec(loader_spec)
+    loader.exec_module(module)
+    return module
+
+
+scaling = load()
+MODEL = {"share": 1.15, "latencies": 2.0, "latency_us": 30, "gradient_mb": 1.2}
+
+
+def row_of(rate_gbit_s, delay_us, share, latencies, rest_s):
+    """What a network would show in which the model holds."""
+    row = {"ranks": 2, "rate_gbit_s": rate_gbit_s, "delay_us": delay_us, "round_trip_us": 40 + 2 * delay_us,
+           "exchanges": 42, "sent_mb": 19.5, "gradient_s": 0.05}
+    row["exchange_s"] = share * scaling.ideal_s(row) + latencies * scaling.latency_s(row) + rest_s
+    row["idle_s"] = scaling.idle_s(row["exchange_s"], row["gradient_s"], scaling.MINIBATCHES)
+    row["iteration_s"] = 0.3 + row["idle_s"]
+    return row
+
+
+class Fit(unittest.TestCase):
+    def test_finds_what_a_byte_and_a_message_take(self):
+        rows = [row_of(rate, delay, 1.2, 2.5, 0.02) for rate in (1, 5, 25) for delay in (50, 200, 1000)]
+        fit, = scaling.fit(rows)
+        self.assertAlmostEqual(fit["share_of_ideal"], 1.2, places=6)
+        self.assertAlmostEqual(fit["latencies"], 2.5, places=6)
+        self.assertAlmostEqual(fit["rest_s"], 0.02, places=6)
+        for row in rows:
+            self.assertAlmostEqual(scaling.predicted_s(row, fit), row["iteration_s"], places=6)
+
+    def test_does_without_delays(self):
+        fit, = scaling.fit([row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 5, 25)])
+        self.assertAlmostEqual(fit["share_of_ideal"], 1.2, places=6)
+        self.assertIsNone(fit["latencies"])
+
+    def test_does_with_one_rate(self):
+        fit, = scaling.fit([row_of(10, delay, 1, 2.5, 0.02) for delay in (50, 200, 1000)])
+        self.assertEqual(fit["share_of_ideal"], 1)
+        self.assertAlmostEqual(fit["latencies"], 2.5, places=6)
+        self.assertAlmostEqual(fit["rest_s"], 0.02, places=6)
+
+
+class Model(unittest.TestCase):
+    def test_a_network_that_takes_no_time_costs_nothing(self):
+        free = {**MODEL, "latency_us": 0, "gradient_mb": 0}
+        for overlaps in (False, True):
+            self.assertEqual(scaling.seconds(64, 2.0, 1.4, 32, 10, free, overlaps), 2.0)
+
+    def test_overlap_hides_no_more_than_the_gradients_and_no_more_than_the_exchange(self):
+        for nodes in scaling.NODES:
+            for gradient_s in (0.0, 0.01, 10.0):
+                plain, hidden = (scaling.seconds(nodes, 12.0, gradient_s, 32, 10, MODEL, overlaps)
+                                 for overlaps in (False, True))
+                self.assertGreaterEqual(hidden, max(12.0, plain - gradient_s))
+                if gradient_s > 0.01:
+                    self.assertLess(hidden, plain)
+
+
+if __name__ == "__main__":
+    unittest.main()
