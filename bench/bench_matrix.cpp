@@ -102,7 +102,7 @@ void Layer(benchmark::State& state) {
       state, rows * depth * columns,
       [&](Precision precision) {
         simd::Multiply(rows, a.data(), Stride(depth), packed[static_cast<int>(precision)], nullptr,
-                       false, out.data(), Stride(columns), &workspace);
+                       0, out.data(), Stride(columns), &workspace);
       },
       [&] {
         MatMul({a.data(), rows, depth, Stride(depth)}, Transpose::kNo,

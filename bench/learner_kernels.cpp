@@ -73,18 +73,6 @@ void NormaliseBackward(benchmark::State& state) {
   });
 }
 
-void ScaleRows(benchmark::State& state) {
-  Pass(state, kChunks, kColumns, [](Rows& rows) {
-    skein::ScaleRows(kChunks, kColumns, rows.not_done.data(), rows.a.data(), rows.b.data());
-  });
-}
-
-void AddScaledRows(benchmark::State& state) {
-  Pass(state, kChunks, kColumns, [](Rows& rows) {
-    skein::AddScaledRows(kChunks, kColumns, rows.not_done.data(), rows.a.data(), rows.b.data());
-  });
-}
-
 void GruStep(benchmark::State& state) {
   Pass(state, kChunks, kColumns, [](Rows& rows) {
     skein::GruStep(kChunks, kColumns, rows.a.data(), rows.gates.data(), Rows::gate_stride,
@@ -94,8 +82,9 @@ void GruStep(benchmark::State& state) {
 
 void GruStepBackward(benchmark::State& state) {
   Pass(state, kChunks, kColumns, [](Rows& rows) {
+    const LaterStep later{rows.a.data(), rows.not_done.data()};
     skein::GruStepBackward(kChunks, kColumns, rows.a.data(), rows.gates.data(), Rows::gate_stride,
-                           rows.b.data(), rows.sums.data());
+                           later, rows.b.data(), rows.sums.data());
   });
 }
 
@@ -111,8 +100,6 @@ SKEIN_KERNEL(ReluNormalise);
 SKEIN_KERNEL(ReluNormaliseBackward);
 SKEIN_KERNEL(NormaliseWithStd);
 SKEIN_KERNEL(NormaliseBackward);
-SKEIN_KERNEL(ScaleRows);
-SKEIN_KERNEL(AddScaledRows);
 SKEIN_KERNEL(GruStep);
 SKEIN_KERNEL(GruStepBackward);
 SKEIN_KERNEL(AddColumnSums);

@@ -40,7 +40,7 @@ const char* Name(TilePart part) {
     case TilePart::kGateStateForward:
       return "GRU: products of its state";
     case TilePart::kState:
-      return "GRU: states masked, bias, both ways";
+      return "GRU: states masked";
     case TilePart::kGates:
       return "GRU: gates";
     case TilePart::kStateNormalise:
@@ -146,14 +146,35 @@ const float* TileReplay::InputOf(int hidden) const {
                      : activations_.hidden[hidden - 1].normalised.data();
 }
 
+void TileReplay::FetchRows(const float* rows, std::int64_t first, std::int64_t count,
+                           std::int64_t stride) {
+  activations_.products.FetchSoon(rows + first * stride, count * stride);
+}
+
+void TileReplay::FetchForward(std::int64_t kept, std::int64_t count) {
+  const auto hidden = [&](int index) {
+    FetchRows(activations_.hidden[index].normalised.data(), kept, count, kStride);
+  };
+  for (int i = 1; i < kHiddenLayers; ++i) hidden(i);
+  FetchRows(activations_.gru[0].gates.data(), kept, count, kGateStride);
+  FetchRows(activations_.gru[0].states.data(), kept + tile_.sequence.batch, count, kStride);
+  FetchRows(activations_.normalised_state.data(), kept, count, kStride);
+  for (int i = kHiddenLayers; i < 2 * kHiddenLayers; ++i) hidden(i);
+  kept += count;
+  if (kept >= tile_.sequence.rows()) return;
+  FetchRows(observation_.data(), kept, count, kObservations);
+  FetchRows(activations_.observation.data(), kept, count, RowStride(kObservations));
+  hidden(0);
+}
+
 void TileReplay::HiddenForward(int index, std::int64_t first, std::int64_t count) {
   const LinearLayer& linear = hidden_[index];
   const std::int64_t in = RowStride(linear.place().in);
   FusedActivations::HiddenRows& rows = activations_.hidden[index];
   float* const values = rows.normalised.data() + first * kStride;
   Time(TilePart::kHiddenForward, [&] {
-    linear.Forward(count, InputOf(index) + first * in, in, folded_.data() + linear.place().bias,
-                   false, values, kStride, &activations_.products);
+    linear.Forward(count, InputOf(index) + first * in, in, folded_.data() + linear.place().bias, 0,
+                   values, kStride, &activations_.products);
   });
   Time(TilePart::kHiddenNormalise, [&] {
     ReluNormalise(count, kSize, values, rows.inverse_std.data() + first,
@@ -164,26 +185,21 @@ void TileReplay::HiddenForward(int index, std::int64_t first, std::int64_t count
 void TileReplay::StateForward(int step, std::int64_t first, std::int64_t count, std::int64_t kept) {
   const std::int64_t batch = tile_.sequence.batch;
   FusedActivations::GruRows& rows = activations_.gru[0];
-  float* const previous = rows.previous.data() + kept * kStride;
-  float* const next = rows.state.data() + kept * kStride;
+  float* const previous = rows.states.data() + kept * kStride;
+  float* const next = previous + batch * kStride;
   float* const gates = rows.gates.data() + kept * kGateStride;
-  const float* const bias = folded_.data() + gate_state_.place().bias + 2 * kSize;
   Time(TilePart::kState, [&] {
     if (step == 0) {
       for (std::int64_t i = 0; i < count; ++i) {
         std::copy_n(initial_state_.data() + (first + i) * kSize, kSize, previous + i * kStride);
       }
     } else {
-      ScaleRows(count, kSize, not_done_.data() + step * batch + first, next - batch * kStride,
-                previous);
-    }
-    for (std::int64_t i = 0; i < count; ++i) {
-      std::copy_n(bias, kSize, gates + i * kGateStride + 3 * kSize);
+      MaskRows(count, kSize, not_done_.data() + step * batch + first, previous);
     }
   });
   Time(TilePart::kGateStateForward, [&] {
-    gate_state_.Forward(count, previous, kStride, nullptr, true, gates + kSize, kGateStride,
-                        &activations_.products);
+    gate_state_.Forward(count, previous, kStride, folded_.data() + gate_state_.place().bias,
+                        2 * kSize, gates + kSize, kGateStride, &activations_.products);
   });
   Time(TilePart::kGates, [&] { GruStep(count, kSize, previous, gates, kGateStride, next); });
 }
@@ -198,20 +214,21 @@ void TileReplay::RowsForward(int step, std::int64_t first, std::int64_t count, s
   for (int i = 0; i < kHiddenLayers; ++i) HiddenForward(i, kept, count);
   Time(TilePart::kGateInputForward, [&] {
     gate_input_.Forward(count, own.hidden[kHiddenLayers - 1].normalised.data() + kept * kStride,
-                        kStride, folded_.data() + gate_input_.place().bias, false,
+                        kStride, folded_.data() + gate_input_.place().bias, 0,
                         own.gru[0].gates.data() + kept * kGateStride, kGateStride, &own.products);
   });
   StateForward(step, first, count, kept);
   Time(TilePart::kStateNormalise, [&] {
-    NormaliseWithStd(count, kSize, own.gru[0].state.data() + kept * kStride,
+    const std::int64_t batch = tile_.sequence.batch;
+    NormaliseWithStd(count, kSize, own.gru[0].states.data() + (batch + kept) * kStride,
                      own.normalised_state.data() + kept * kStride,
                      own.state_inverse_std.data() + kept);
   });
   for (int i = kHiddenLayers; i < 2 * kHiddenLayers; ++i) HiddenForward(i, kept, count);
   Time(TilePart::kHead, [&] {
     head_.Forward(count, own.hidden[2 * kHiddenLayers - 1].normalised.data() + kept * kStride,
-                  kStride, folded_.data() + head_.place().bias, false,
-                  output_.data() + row * kActions, kActions, &own.products);
+                  kStride, folded_.data() + head_.place().bias, 0, output_.data() + row * kActions,
+                  kActions, &own.products);
   });
 }
 
@@ -219,6 +236,7 @@ void TileReplay::Forward(bool keeps) {
   const std::int64_t batch = tile_.sequence.batch;
   for (int step = 0; step < tile_.sequence.steps; ++step) {
     ForEachBlock(batch, kForwardBlock, [&](std::int64_t first, std::int64_t count) {
+      if (keeps) FetchForward(step * batch + first, count);
       RowsForward(step, first, count, keeps ? step * batch + first : 0);
     });
   }
@@ -234,14 +252,15 @@ void TileReplay::HiddenBackward(int index, float* input_gradient, std::int64_t f
                           rows.inverse_std.data() + first, rows.zero_level.data() + first, gradient,
                           gradient_.data() + linear.place().bias);
   });
+  if (input_gradient != nullptr) {
+    Time(TilePart::kHiddenToInput, [&] {
+      linear.BackwardToInput(count, gradient, kStride, false, input_gradient, in,
+                             &activations_.products);
+    });
+  }
   Time(TilePart::kHiddenToWeight, [&] {
     linear.BackwardToWeight(count, InputOf(index) + first * in, in, gradient, kStride,
                             gradient_.data(), &activations_.products);
-  });
-  if (input_gradient == nullptr) return;
-  Time(TilePart::kHiddenToInput, [&] {
-    linear.BackwardToInput(count, gradient, kStride, false, input_gradient, in,
-                           &activations_.products);
   });
 }
 
@@ -252,27 +271,42 @@ void TileReplay::StepBackward(int step) {
     const std::int64_t first = step * batch + offset;
     float* const gates = own.gates.data() + first * kGateStride;
     float* const gradient = activations_.state_gradient[0].data() + first * kStride;
+    LaterStep later;
+    if (step + 1 < tile_.sequence.steps) {
+      later = {gradient + batch * kStride, not_done_.data() + first + batch};
+    }
     Time(TilePart::kGatesBackward, [&] {
-      GruStepBackward(count, kSize, own.previous.data() + first * kStride, gates, kGateStride,
+      GruStepBackward(count, kSize, own.states.data() + first * kStride, gates, kGateStride, later,
                       gradient, activations_.gate_sums.data());
     });
     if (step == 0) return;
+    FetchRows(own.gates.data(), first - batch, count, kGateStride);
+    FetchRows(own.states.data(), first - batch, count, kStride);
+    FetchRows(activations_.state_gradient[0].data(), first - batch, count, kStride);
     Time(TilePart::kGateStateToInput, [&] {
       gate_state_.BackwardToInput(count, gates + kSize, kGateStride, true, gradient, kStride,
                                   &activations_.products);
     });
-    Time(TilePart::kState, [&] {
-      AddScaledRows(count, kSize, not_done_.data() + first, gradient, gradient - batch * kStride);
-    });
   });
 }
 
-void TileReplay::Backward() {
+void TileReplay::BackwardBehindGru() {
   const std::int64_t rows = tile_.sequence.rows();
   FusedActivations& own = activations_;
   float* const by_state = own.state_gradient[0].data();
   float* const block[2] = {own.block_gradient[0].data(), own.block_gradient[1].data()};
   ForEachBlock(rows, kBackwardBlock, [&](std::int64_t first, std::int64_t count) {
+    for (int i = 2 * kHiddenLayers - 1; i >= kHiddenLayers; --i) {
+      FetchRows(InputOf(i), first, count, kStride);
+    }
+    FetchRows(by_state, first, count, kStride);
+    if (first + count < rows) {
+      FetchRows(InputOf(2 * kHiddenLayers), first + count, count, kStride);
+    } else {
+      const std::int64_t batch = tile_.sequence.batch;
+      FetchRows(own.gru[0].gates.data(), rows - batch, batch, kGateStride);
+      FetchRows(own.gru[0].states.data(), rows - batch, batch, kStride);
+    }
     Time(TilePart::kHead, [&] {
       const float* const by_output = own.output_gradient.data() + first * kActions;
       AddColumnSums(count, kActions, by_output, kActions, gradient_.data() + head_.place().bias);
@@ -289,14 +323,30 @@ void TileReplay::Backward() {
                         own.state_inverse_std.data() + first, by_block_state);
     });
   });
+}
+
+void TileReplay::Backward() {
+  const std::int64_t rows = tile_.sequence.rows();
+  FusedActivations& own = activations_;
+  float* const block[2] = {own.block_gradient[0].data(), own.block_gradient[1].data()};
+  BackwardBehindGru();
   for (int step = tile_.sequence.steps - 1; step >= 0; --step) StepBackward(step);
-  float* const gates = own.gru[0].gates.data();
-  Time(TilePart::kGateStateToWeight, [&] {
-    gate_state_.BackwardToWeight(rows, own.gru[0].previous.data(), kStride, gates + kSize,
-                                 kGateStride, gradient_.data(), &own.products);
-  });
+  const float* const gates = own.gru[0].gates.data();
+  const float* const states = own.gru[0].states.data();
   ForEachBlock(rows, kBackwardBlock, [&](std::int64_t first, std::int64_t count) {
     const float* const own_gates = gates + first * kGateStride;
+    for (int i = kHiddenLayers - 1; i >= 0; --i) {
+      FetchRows(own.hidden[i].normalised.data(), first, count, kStride);
+    }
+    FetchRows(own.observation.data(), first, count, RowStride(kObservations));
+    if (first + count < rows) {
+      FetchRows(gates, first + count, count, kGateStride);
+      FetchRows(states, first + count, count, kStride);
+    }
+    Time(TilePart::kGateStateToWeight, [&] {
+      gate_state_.BackwardToWeight(count, states + first * kStride, kStride, own_gates + kSize,
+                                   kGateStride, gradient_.data(), &own.products);
+    });
     Time(TilePart::kGateInputToWeight, [&] {
       gate_input_.BackwardToWeight(
           count, own.hidden[kHiddenLayers - 1].normalised.data() + first * kStride, kStride,

@@ -20,7 +20,7 @@ enum class TilePart {
   kHiddenNormalise,    ///< ReLU and LayerNorm
   kGateInputForward,   ///< products of the GRU's input
   kGateStateForward,   ///< products of its state, step by step
-  kState,              ///< states zeroed where episodes begin, forward and backward
+  kState,              ///< states zeroed where episodes begin
   kGates,              ///< sigmoids and tanh
   kStateNormalise,     ///< LayerNorm of the state
   kHead,               ///< products forward and backward
@@ -68,6 +68,8 @@ class TileReplay {
   }
 
   const float* InputOf(int hidden) const;
+  void FetchRows(const float* rows, std::int64_t first, std::int64_t count, std::int64_t stride);
+  void FetchForward(std::int64_t kept, std::int64_t count);
   void HiddenForward(int index, std::int64_t first, std::int64_t count);
   void StateForward(int step, std::int64_t first, std::int64_t count, std::int64_t kept);
   void RowsForward(int step, std::int64_t first, std::int64_t count, std::int64_t kept);
@@ -75,6 +77,7 @@ class TileReplay {
   void HiddenBackward(int index, float* input_gradient, std::int64_t first, std::int64_t count,
                       float* gradient);
   void StepBackward(int step);
+  void BackwardBehindGru();
   void Backward();
 
   NetworkLayout layout_;

@@ -23,10 +23,11 @@ __mmask16 FirstLanes(std::int64_t count) {
 }
 
 /// out = init + A B for kRows rows and kVectors vectors of columns, of which `last` says which
-/// lanes of the last one are not padding.
-template <int kRows, int kVectors, bool kTransposed>
+/// lanes of the last one are not padding; with kFetch, lines from `fetch` on are fetched.
+template <int kRows, int kVectors, bool kTransposed, bool kFetch = false>
 inline __attribute__((always_inline)) void Tile(const PanelProduct& p, const Word* a,
-                                                const float* init, float* out, __mmask16 last) {
+                                                const float* init, float* out, __mmask16 last,
+                                                const char* fetch = nullptr) {
   const auto mask = [&](int j) -> __mmask16 { return j + 1 < kVectors ? kAllLanes : last; };
   const char* b = static_cast<const char*>(p.b);
   // One loop, not two: g++ unrolls nested ones too late to keep the sums in registers.
@@ -41,6 +42,10 @@ inline __attribute__((always_inline)) void Tile(const PanelProduct& p, const Wor
     __m512i right[kVectors];
 #pragma GCC unroll 16
     for (int j = 0; j < kVectors; ++j) right[j] = _mm512_loadu_si512(b + j * sizeof(__m512i));
+    if constexpr (kFetch) {
+      _mm_prefetch(fetch, _MM_HINT_T1);
+      fetch += kFetchBytes;
+    }
 #pragma GCC unroll 16
     for (int i = 0; i < kRows; ++i) {
       const __m512i left = _mm512_set1_epi32(kTransposed ? a[i] : a[i * p.a_stride]);
@@ -76,9 +81,17 @@ void Strips(const PanelProduct& p, std::int64_t row) {
     const __mmask16 last = FirstLanes(p.columns - (kVectors - 1) * kLanes);
     for (; row + kRows <= p.rows; row += kRows) {
       Fetch<kRows, kVectors>(p.out + (row + kRows) * p.out_stride, p.out_stride);  // of the next
-      Tile<kRows, kVectors, kTransposed>(
-          p, static_cast<const Word*>(p.a) + row * (kTransposed ? 1 : p.a_stride),
-          p.init + row * p.init_stride, p.out + row * p.out_stride, last);
+      const Word* const a = static_cast<const Word*>(p.a) + row * (kTransposed ? 1 : p.a_stride);
+      const float* const init = p.init + row * p.init_stride;
+      float* const out = p.out + row * p.out_stride;
+      constexpr bool kWhole = kRows == kSums / kPanelVectors && kVectors == kPanelVectors;
+      if (kWhole && p.fetch->next < p.fetch->end) {
+        const char* const fetch = p.fetch->next;
+        p.fetch->next += p.depth * kFetchBytes;
+        Tile<kRows, kVectors, kTransposed, kWhole>(p, a, init, out, last, fetch);
+      } else {
+        Tile<kRows, kVectors, kTransposed>(p, a, init, out, last);
+      }
     }
     if (row < p.rows) Strips<kRows - 1, kVectors, kTransposed>(p, row);
   }

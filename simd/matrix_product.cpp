@@ -84,11 +84,28 @@ struct RightBlock {
   std::int64_t row_stride = 0;  // 0 if packed
 };
 
-/// Multiplies a block of A by all panels of a block of B; a null `init` is zero.
+/// What sums start from: in the first `accumulated` columns what is in `out`, in the others the
+/// bias, or zero if that is null.
+struct Start {
+  const float* bias = nullptr;
+  std::int64_t accumulated = 0;
+};
+
+/// Writes what the columns [first, end) start from, which is not there yet, to all rows of `out`.
+void WriteStart(const Start& start, std::int64_t first, std::int64_t end, std::int64_t rows,
+                float* out, std::int64_t stride) {
+  if (first >= end) return;
+  for (std::int64_t i = 0; i < rows; ++i) {
+    for (std::int64_t j = first; j < end; ++j) {
+      out[i * stride + j] = start.bias == nullptr ? 0.0f : start.bias[j];
+    }
+  }
+}
+
+/// Multiplies a block of A by all panels of a block of B.
 void MultiplyPanels(const ProductKernels& kernels, const PanelRow& panels, const RightBlock& b,
-                    PanelProduct product) {
+                    const Start& start, PanelProduct product, ProductWorkspace* workspace) {
   static constexpr float kZeros[64] = {};
-  const float* const init = product.init;
   float* const out = product.out;
   for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
     const std::int64_t column = panels.first_column(panel);
@@ -97,8 +114,17 @@ void MultiplyPanels(const ProductKernels& kernels, const PanelRow& panels, const
     product.b_stride = packed ? panels.stride(panel) : b.row_stride;
     product.vectors = panels.vectors(panel);
     product.columns = panels.columns(panel);
-    product.init = init == nullptr ? kZeros : init + column;
     product.out = out + column;
+    if (column < start.accumulated) {
+      WriteStart(start, start.accumulated, column + product.columns, product.rows, out,
+                 product.out_stride);
+      product.init = product.out;
+      product.init_stride = product.out_stride;
+    } else {
+      product.init = start.bias == nullptr ? kZeros : start.bias + column;
+      product.init_stride = 0;
+    }
+    product.fetch = workspace->NextFetch();
     kernels.multiply_panel(product);
   }
 }
@@ -113,6 +139,19 @@ void CopyStrided(const RowBlock& block, std::int64_t column_stride, std::int64_t
 }
 
 }  // namespace
+
+void ProductWorkspace::FetchSoon(const float* data, std::int64_t size) {
+  fetches_[asked_++ % kMostFetches] = {reinterpret_cast<const char*>(data),
+                                       reinterpret_cast<const char*>(data + size)};
+  fetched_ = std::max(fetched_, asked_ - std::min(asked_, kMostFetches));
+}
+
+FetchRange* ProductWorkspace::NextFetch() {
+  const auto is_empty = [](const FetchRange& range) { return range.next >= range.end; };
+  while (fetched_ < asked_ && is_empty(fetches_[fetched_ % kMostFetches])) ++fetched_;
+  // Behind the last one lies one that is empty, or the oldest, which is.
+  return &fetches_[fetched_ % kMostFetches];
+}
 
 void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* data,
                         std::int64_t depth_stride, std::int64_t column_stride,
@@ -155,7 +194,7 @@ void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* d
 }
 
 void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const PackedMatrix& b,
-              const float* bias, bool accumulate, float* out, std::int64_t out_stride,
+              const float* bias, std::int64_t accumulated, float* out, std::int64_t out_stride,
               ProductWorkspace* workspace) {
   if (b.depth() == 0 || b.target() != ActiveTarget()) {
     throw Error(std::string("Multiply: the matrix is not packed for ") + Name(ActiveTarget()));
@@ -164,19 +203,12 @@ void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const Pa
   const PanelRow panels(kernels, b.columns());
   const std::int64_t words = Words(b.depth(), b.precision(), kernels);
   const FlushIf flush(b.precision() == Precision::kBfloat16);
-  if (bias != nullptr && accumulate) {
-    for (std::int64_t i = 0; i < rows; ++i) {
-      for (std::int64_t j = 0; j < b.columns(); ++j) out[i * out_stride + j] += bias[j];
-    }
-    bias = nullptr;
-  }
   for (std::int64_t row = 0; row < rows; row += kRowBlock) {
     PanelProduct product;
     product.rows = std::min(kRowBlock, rows - row);
     product.out = out + row * out_stride;
     product.out_stride = out_stride;
-    product.init = accumulate ? product.out : bias;
-    product.init_stride = accumulate ? out_stride : 0;
+    Start start{bias, accumulated};
     for (std::int64_t word = 0; word < words; word += kDepthBlock) {
       product.depth = std::min(kDepthBlock, words - word);
       const std::int64_t first = word * kernels.elements_per_word;
@@ -192,9 +224,9 @@ void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const Pa
         kernels.round_rows({product.rows, elements, block, a_stride}, kRoundedStride, rounded);
         product.a = rounded;
       }
-      MultiplyPanels(kernels, panels, {b.words() + word * panels.padded_columns()}, product);
-      product.init = product.out;
-      product.init_stride = out_stride;
+      MultiplyPanels(kernels, panels, {b.words() + word * panels.padded_columns()}, start, product,
+                     workspace);
+      start.accumulated = b.columns();
     }
   }
 }
@@ -213,8 +245,8 @@ void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t lef
   PanelProduct product;
   product.rows = left_columns;
   product.a_transposed = true;
-  product.init = product.out = out;
-  product.init_stride = product.out_stride = out_stride;
+  product.out = out;
+  product.out_stride = out_stride;
   for (std::int64_t row = 0; row < rows; row += block_rows) {
     const std::int64_t count = std::min(block_rows, rows - row);
     product.depth = Words(count, precision, kernels);
@@ -237,7 +269,7 @@ void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t lef
       }
       b = {words};
     }
-    MultiplyPanels(kernels, panels, b, product);
+    MultiplyPanels(kernels, panels, b, {nullptr, right_columns}, product, workspace);
   }
 }
 

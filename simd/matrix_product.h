@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/aligned_vector.h"
+#include "simd/product_kernels.h"
 #include "simd/target.h"
 
 namespace skein::simd {
@@ -21,6 +23,15 @@ enum class Precision {
 /// Scratch memory of one thread's products; grows to what they need.
 class ProductWorkspace {
  public:
+  /// The next products fetch these floats into the second-level cache while they compute, a line of
+  /// the cache for each step along their depth, in the order of the calls. Of more ranges than
+  /// kMostFetches the oldest are forgotten.
+  void FetchSoon(const float* data, std::int64_t size);
+  static constexpr std::uint64_t kMostFetches = 32;
+  /// For the kernels: what is to be fetched next, empty if nothing is. Valid until the next call of
+  /// either.
+  FetchRange* NextFetch();
+
   /// At least `size` floats from a cache line's boundary on, until the next call.
   float* Left(std::int64_t size) { return Grown(left_, size); }
   float* Right(std::int64_t size) { return Grown(right_, size); }
@@ -32,6 +43,8 @@ class ProductWorkspace {
   }
 
   AlignedVector<float> left_, right_;
+  std::array<FetchRange, kMostFetches> fetches_;  ///< of all ranges asked for, the last
+  std::uint64_t asked_ = 0, fetched_ = 0;         ///< ranges
 };
 
 /// The right factor of a product, [depth][columns], copied into the order in which the kernels of
@@ -60,14 +73,14 @@ class PackedMatrix {
   AlignedVector<float> words_;
 };
 
-/// out = A B, plus what was in `out` if `accumulate`, plus `bias` in every row unless that is null.
-/// A has `rows` rows of b.depth() columns, `out` b.columns(); strides are floats between rows. An
-/// element of `out` is one sum in one order (what is added, then along the depth): how rows are
-/// divided among calls changes no bit. Not-a-number and infinity spread to the elements that
-/// depend on them, and to no other. `out` must not overlap A. Throws Error if `b` was packed for
-/// another target or not at all.
+/// out = A B, plus what was in `out` in its first `accumulated` columns, and in the others `bias`
+/// (by the column of `out`) unless that is null. A has `rows` rows of b.depth() columns, `out`
+/// b.columns(); strides are floats between rows. An element of `out` is one sum in one order (what
+/// is added, then along the depth): how rows are divided among calls changes no bit. Not-a-number
+/// and infinity spread to the elements that depend on them, and to no other. `out` must not
+/// overlap A. Throws Error if `b` was packed for another target or not at all.
 void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const PackedMatrix& b,
-              const float* bias, bool accumulate, float* out, std::int64_t out_stride,
+              const float* bias, std::int64_t accumulated, float* out, std::int64_t out_stride,
               ProductWorkspace* workspace);
 
 /// out += left^T right, the gradient by a weight: out[i][j] += sum over r of left[r][i] right[r][j]

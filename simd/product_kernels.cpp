@@ -33,11 +33,16 @@ constexpr int kSums = 12, kPanelVectors = 2;
 constexpr int kSums = 8, kPanelVectors = 2;
 #endif
 
-/// out = init + A B for kRows rows and kVectors vectors of columns.
-template <int kRows, int kVectors, bool kTransposed>
+/// Fetches a line of the cache into the second level.
+HWY_INLINE void FetchOuter(const char* line) { __builtin_prefetch(line, 0, 2); }
+
+/// out = init + A B for kRows rows and kVectors vectors of columns; with kFetch, lines from `fetch`
+/// on are fetched.
+template <int kRows, int kVectors, bool kTransposed, bool kFetch = false>
 HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64_t a_stride,
                      const float* HWY_RESTRICT b, std::int64_t b_stride, const float* init,
-                     std::int64_t init_stride, float* out, std::int64_t out_stride) {
+                     std::int64_t init_stride, float* out, std::int64_t out_stride,
+                     const char* fetch = nullptr) {
   const FloatTag d;
   // One loop, not two: g++ unrolls nested ones too late to keep the sums in registers.
   V sum[kRows * kVectors];
@@ -50,6 +55,10 @@ HWY_INLINE void Tile(std::int64_t depth, const float* HWY_RESTRICT a, std::int64
     V right[kVectors];
     HWY_UNROLL(16)
     for (int j = 0; j < kVectors; ++j) right[j] = hn::LoadU(d, b + j * kLanes);
+    if constexpr (kFetch) {
+      FetchOuter(fetch);
+      fetch += simd::kFetchBytes;
+    }
     HWY_UNROLL(16)
     for (int i = 0; i < kRows; ++i) {
       const V left = hn::Set(d, kTransposed ? a[i] : a[i * a_stride]);
@@ -88,7 +97,13 @@ void Strips(const PanelProduct& p, std::int64_t row) {
       const float* const init = p.init + row * p.init_stride;
       float* const out = p.out + row * p.out_stride;
       Fetch<kRows, kVectors>(out + kRows * p.out_stride, p.out_stride);  // of the next tile
-      if (p.columns == kVectors * kLanes) {
+      constexpr bool kWhole = kRows == kSums / kPanelVectors && kVectors == kPanelVectors;
+      if (kWhole && p.columns == kVectors * kLanes && p.fetch->next < p.fetch->end) {
+        const char* const fetch = p.fetch->next;
+        p.fetch->next += p.depth * simd::kFetchBytes;
+        Tile<kRows, kVectors, kTransposed, kWhole>(p.depth, strip, p.a_stride, b, p.b_stride, init,
+                                                   p.init_stride, out, p.out_stride, fetch);
+      } else if (p.columns == kVectors * kLanes) {
         Tile<kRows, kVectors, kTransposed>(p.depth, strip, p.a_stride, b, p.b_stride, init,
                                            p.init_stride, out, p.out_stride);
       } else {

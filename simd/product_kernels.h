@@ -10,6 +10,14 @@
 
 namespace skein::simd {
 
+/// Memory that is to be fetched into the second-level cache, from `next` on. Up to a tile's lines
+/// too many may be: fetching reads nothing.
+struct FetchRange {
+  const char* next = nullptr;
+  const char* end = nullptr;
+};
+inline constexpr std::int64_t kFetchBytes = 64;  ///< a line of the cache
+
 /// out = init + A B for all rows and one panel of B. Sums of an element run in the order of the
 /// words, whatever the shape is.
 struct PanelProduct {
@@ -26,6 +34,7 @@ struct PanelProduct {
   std::int64_t init_stride = 0;
   float* out = nullptr;  ///< may be `init`
   std::int64_t out_stride = 0;
+  FetchRange* fetch = nullptr;  ///< whole tiles fetch a line for each word of their depth
 };
 
 /// Rows of float32 that are to become words.

@@ -57,10 +57,10 @@ PackedMatrix Packed(const Matrix& b, Precision precision) {
   return packed;
 }
 
-void Multiply(const Matrix& a, const PackedMatrix& b, const float* bias, bool accumulate,
+void Multiply(const Matrix& a, const PackedMatrix& b, const float* bias, std::int64_t accumulated,
               Matrix* out) {
   ProductWorkspace workspace;
-  simd::Multiply(a.rows, a.data.data(), a.stride, b, bias, accumulate, out->data.data(),
+  simd::Multiply(a.rows, a.data.data(), a.stride, b, bias, accumulated, out->data.data(),
                  out->stride, &workspace);
 }
 
@@ -136,15 +136,18 @@ TEST_P(MatrixProductTest, MultiplyIsTheSumInDoublePrecision) {
     const Matrix before = Random(shape.rows, shape.columns, 4);
     const PackedMatrix packed = Packed(b, precision());
     for (const bool biased : {false, true}) {
-      for (const bool accumulate : {false, true}) {
+      for (const std::int64_t accumulated : {std::int64_t{0}, shape.columns / 2, shape.columns}) {
         Matrix out = before;
-        Multiply(a, packed, biased ? bias.data.data() : nullptr, accumulate, &out);
+        Multiply(a, packed, biased ? bias.data.data() : nullptr, accumulated, &out);
         ExpectUntouchedBetweenRows(out);
         for (std::int64_t i = 0; i < shape.rows; ++i) {
           for (std::int64_t j = 0; j < shape.columns; ++j) {
             Sum sum;
-            if (biased) sum.Add(bias.At(0, j));
-            if (accumulate) sum.Add(before.At(i, j));
+            if (j < accumulated) {
+              sum.Add(before.At(i, j));
+            } else if (biased) {
+              sum.Add(bias.At(0, j));
+            }
             for (std::int64_t k = 0; k < shape.depth; ++k) {
               sum.Add(Operand(a.At(i, k), precision()) * Operand(b.At(k, j), precision()));
             }
@@ -189,8 +192,8 @@ TEST_P(MatrixProductTest, TransposedMatrixPacksByItsStrides) {
   PackedMatrix packed;
   packed.Pack(130, 70, transposed.data.data(), 1, transposed.stride, precision());
   Matrix expected(9, 70), out(9, 70);
-  Multiply(a, Packed(b, precision()), nullptr, false, &expected);
-  Multiply(a, packed, nullptr, false, &out);
+  Multiply(a, Packed(b, precision()), nullptr, 0, &expected);
+  Multiply(a, packed, nullptr, 0, &out);
   EXPECT_TRUE(SameBits(out, expected));
 }
 
@@ -201,24 +204,25 @@ TEST_P(MatrixProductTest, PackingAgainForgetsWhatWasPackedBefore) {
   EXPECT_EQ(packed.depth(), 7);
   EXPECT_EQ(packed.columns(), 5);
   Matrix expected(4, 5), out(4, 5);
-  Multiply(a, Packed(small, precision()), nullptr, false, &expected);
-  Multiply(a, packed, nullptr, false, &out);
+  Multiply(a, Packed(small, precision()), nullptr, 0, &expected);
+  Multiply(a, packed, nullptr, 0, &out);
   EXPECT_TRUE(SameBits(out, expected));
 }
 
 TEST_P(MatrixProductTest, DividingRowsAmongCallsChangesNoBit) {
-  const std::int64_t rows = 230, depth = 450, columns = 75;
+  const std::int64_t rows = 230, depth = 450, columns = 75, accumulated = 30;
   const Matrix a = Random(rows, depth, 1), b = Random(depth, columns, 2);
   const Matrix bias = Random(1, columns, 3), before = Random(rows, columns, 4);
   const PackedMatrix packed = Packed(b, precision());
   Matrix whole = before;
-  Multiply(a, packed, bias.data.data(), true, &whole);
+  Multiply(a, packed, bias.data.data(), accumulated, &whole);
   for (const std::int64_t part : {1, 5, 13, 48, 97}) {
     Matrix out = before;
     ProductWorkspace workspace;
     for (std::int64_t row = 0; row < rows; row += part) {
       simd::Multiply(std::min(part, rows - row), &a.data[row * a.stride], a.stride, packed,
-                     bias.data.data(), true, &out.data[row * out.stride], out.stride, &workspace);
+                     bias.data.data(), accumulated, &out.data[row * out.stride], out.stride,
+                     &workspace);
     }
     EXPECT_TRUE(SameBits(out, whole)) << part << " rows a call";
   }
@@ -249,7 +253,7 @@ TEST_P(MatrixProductTest, NotFiniteInputsReachWhatDependsOnThemAndNothingElse) {
     Matrix a = Random(rows, depth, 1), b = Random(depth, columns, 2);
     a.At(rows - 1, depth - 1) = poison;
     Matrix out(rows, columns);
-    Multiply(a, Packed(b, precision()), nullptr, false, &out);
+    Multiply(a, Packed(b, precision()), nullptr, 0, &out);
     for (std::int64_t i = 0; i < rows; ++i) {
       for (std::int64_t j = 0; j < columns; ++j) {
         ASSERT_EQ(std::isfinite(out.At(i, j)), i != rows - 1) << i << ", " << j;
@@ -257,7 +261,7 @@ TEST_P(MatrixProductTest, NotFiniteInputsReachWhatDependsOnThemAndNothingElse) {
     }
     a = Random(rows, depth, 1);
     b.At(depth - 1, columns - 1) = poison;
-    Multiply(a, Packed(b, precision()), nullptr, false, &out);
+    Multiply(a, Packed(b, precision()), nullptr, 0, &out);
     for (std::int64_t i = 0; i < rows; ++i) {
       for (std::int64_t j = 0; j < columns; ++j) {
         ASSERT_EQ(std::isfinite(out.At(i, j)), j != columns - 1) << i << ", " << j;
@@ -289,10 +293,48 @@ TEST_P(MatrixProductTest, NoRowsDoNothing) {
   Matrix out = Random(1, 4, 2);
   const Matrix before = out;
   ProductWorkspace workspace;
-  simd::Multiply(0, nullptr, 4, packed, nullptr, false, out.data.data(), 4, &workspace);
+  simd::Multiply(0, nullptr, 4, packed, nullptr, 0, out.data.data(), 4, &workspace);
   simd::AddTransposedProduct(0, nullptr, 1, 1, nullptr, 4, 4, precision(), out.data.data(), 4,
                              &workspace);
   EXPECT_TRUE(SameBits(out, before));
+}
+
+TEST_P(MatrixProductTest, FetchingMemoryChangesNoBit) {
+  const Matrix a = Random(97, 70, 1), b = Random(70, 130, 2), right = Random(97, 130, 3);
+  const PackedMatrix packed = Packed(b, precision());
+  Matrix expected(97, 130), out(97, 130), expected_gradient(70, 130), gradient(70, 130);
+  Multiply(a, packed, nullptr, 0, &expected);
+  AddTransposedProduct(a, right, precision(), &expected_gradient);
+
+  const std::vector<float> memory(5000);
+  ProductWorkspace workspace;
+  workspace.FetchSoon(memory.data(), 1000);
+  workspace.FetchSoon(memory.data() + 3000, 2000);
+  simd::Multiply(a.rows, a.data.data(), a.stride, packed, nullptr, 0, out.data.data(), out.stride,
+                 &workspace);
+  simd::AddTransposedProduct(a.rows, a.data.data(), a.stride, a.columns, right.data.data(),
+                             right.stride, right.columns, precision(), gradient.data.data(),
+                             gradient.stride, &workspace);
+  EXPECT_TRUE(SameBits(out, expected));
+  EXPECT_TRUE(SameBits(gradient, expected_gradient));
+  // There were more words of depth than lines.
+  const FetchRange* const left = workspace.NextFetch();
+  EXPECT_GE(left->next, left->end);
+}
+
+TEST(ProductWorkspaceTest, FetchesInTheOrderAskedForAndForgetsTheOldest) {
+  constexpr auto kMost = static_cast<std::int64_t>(ProductWorkspace::kMostFetches);
+  const std::vector<float> memory(2 * kMost);
+  ProductWorkspace workspace;
+  EXPECT_EQ(workspace.NextFetch()->next, workspace.NextFetch()->end);
+  for (std::int64_t i = 0; i < kMost + 3; ++i) workspace.FetchSoon(&memory[i], 1);
+  for (std::int64_t i = 3; i < kMost + 3; ++i) {
+    FetchRange* const range = workspace.NextFetch();
+    EXPECT_EQ(range->next, reinterpret_cast<const char*>(&memory[i]));
+    EXPECT_EQ(range->end - range->next, static_cast<std::ptrdiff_t>(sizeof(float)));
+    range->next = range->end;
+  }
+  EXPECT_EQ(workspace.NextFetch()->next, workspace.NextFetch()->end);
 }
 
 class Bfloat16ProductTest : public testing::TestWithParam<Target> {
@@ -330,10 +372,10 @@ TEST_P(Bfloat16ProductTest, OperandsAreRoundedAsStated) {
   one.At(0, 0) = 1;
   column.data = row.data = values;
   Matrix out(count, 1, 0);
-  Multiply(column, Packed(one, Precision::kBfloat16), nullptr, false, &out);
+  Multiply(column, Packed(one, Precision::kBfloat16), nullptr, 0, &out);
   for (std::int64_t i = 0; i < count; ++i) expect_rounded(out.At(i, 0), values[i]);
   Matrix across(1, count, 0);
-  Multiply(one, Packed(row, Precision::kBfloat16), nullptr, false, &across);
+  Multiply(one, Packed(row, Precision::kBfloat16), nullptr, 0, &across);
   for (std::int64_t i = 0; i < count; ++i) expect_rounded(across.At(0, i), values[i]);
   std::fill(across.data.begin(), across.data.end(), 0.0f);
   AddTransposedProduct(one, row, Precision::kBfloat16, &across);
@@ -347,7 +389,7 @@ TEST_P(Bfloat16ProductTest, PairsOfBfloat16AreAddedOddElementFirst) {
   a.At(0, 0) = -large;
   a.At(0, 1) = b.At(0, 0) = b.At(1, 0) = 1;
   bias.At(0, 0) = large;
-  Multiply(a, Packed(b, Precision::kBfloat16), bias.data.data(), false, &out);
+  Multiply(a, Packed(b, Precision::kBfloat16), bias.data.data(), 0, &out);
   EXPECT_EQ(out.At(0, 0), 0);
   Matrix left(2, 1);
   left.At(0, 0) = -large;
@@ -374,7 +416,7 @@ Matrix RandomOnEveryMachine(std::int64_t rows, std::int64_t columns, unsigned se
 TEST_P(MatrixProductTest, BitsDependOnWhetherMultiplyAddsRoundOnceAlone) {
   const Matrix a = RandomOnEveryMachine(65, 71, 1), b = RandomOnEveryMachine(71, 37, 2);
   Matrix product(65, 37), gradient = b;
-  Multiply(a, Packed(b, precision()), nullptr, false, &product);
+  Multiply(a, Packed(b, precision()), nullptr, 0, &product);
   AddTransposedProduct(a, product, precision(), &gradient);
   FnvHash hash;
   for (const Matrix* matrix : {&product, &gradient}) {
@@ -415,7 +457,7 @@ TEST(MatrixProduct, TargetsWithFusedMultiplyAddsAgreeBitForBit) {
       for (const Target target : {Target::kAvx512, Target::kAvx2}) {
         ForceTarget(target);
         products.emplace_back(shape.rows, shape.columns);
-        Multiply(a, Packed(b, precision), nullptr, false, &products.back());
+        Multiply(a, Packed(b, precision), nullptr, 0, &products.back());
         gradients.push_back(b);
         AddTransposedProduct(a, right, precision, &gradients.back());
       }
@@ -434,10 +476,10 @@ TEST(MatrixProduct, MatrixOfAnotherTargetIsAnError) {
   const Matrix a = Random(2, 4, 2);
   Matrix out(2, 4);
   if (SupportedTargets().size() > 1) {
-    EXPECT_THROW(Multiply(a, packed, nullptr, false, &out), Error);
+    EXPECT_THROW(Multiply(a, packed, nullptr, 0, &out), Error);
   }
   ForceTarget(before);
-  EXPECT_THROW(Multiply(a, PackedMatrix(), nullptr, false, &out), Error);
+  EXPECT_THROW(Multiply(a, PackedMatrix(), nullptr, 0, &out), Error);
 }
 
 TEST(MatrixProduct, EmptyMatrixIsAnError) {

@@ -72,17 +72,16 @@ void UnfoldLinear(const FoldedLinear& linear, const float* parameters, const flo
     const std::int64_t flat =
         linear.flat_weight + static_cast<std::int64_t>(flat_row) * linear.flat_in;
     const float* const weight = parameters + flat;
-    const float* const folded =
-        folded_gradient + linear.weight + static_cast<std::int64_t>(row) * linear.in;
     const float bias_gradient = folded_gradient[linear.bias + row];
     gradient[linear.flat_bias + flat_row] = bias_gradient;
-    if (!has_norm) {
-      std::copy_n(folded, linear.flat_in, gradient + flat);
-      continue;
-    }
     for (int j = 0; j < linear.flat_in; ++j) {
-      gradient[flat + j] = folded[j] * gamma[j] + bias_gradient * beta[j];
-      gamma_gradient[j] += static_cast<double>(weight[j]) * folded[j];
+      const float folded = folded_gradient[linear.WeightGradient(row, j)];
+      if (!has_norm) {
+        gradient[flat + j] = folded;
+        continue;
+      }
+      gradient[flat + j] = folded * gamma[j] + bias_gradient * beta[j];
+      gamma_gradient[j] += static_cast<double>(weight[j]) * folded;
       beta_gradient[j] += static_cast<double>(weight[j]) * bias_gradient;
     }
   }
@@ -135,6 +134,7 @@ FoldedLayout::FoldedLayout(const NetworkLayout& layout) {
     linear.flat_bias = layer.bias;
     linear.norm_weight = layer.norm_weight;
     linear.norm_bias = layer.norm_bias;
+    linear.gradient_by_input = i == 0;
     linear_.push_back(linear);
   }
   for (int i = 0; i < shape.gru_layers; ++i) {

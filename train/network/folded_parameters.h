@@ -15,6 +15,9 @@ namespace skein {
 struct FoldedLinear {
   int in = 0, out = 0;  ///< padded
   std::int64_t weight = 0, bias = 0;
+  /// The weight's gradient lies [in][out]: `in` is not padded, and would leave lanes of a product's
+  /// columns empty.
+  bool gradient_by_input = false;
 
   // What it is folded from.
   int flat_in = 0;
@@ -25,6 +28,10 @@ struct FoldedLinear {
 
   /// The flat row that is the folded one's `row`; -1 for padding.
   int FlatRow(int row) const;
+  /// Where a folded gradient has the one with respect to the weight from input `j` to output `row`.
+  std::int64_t WeightGradient(int row, int j) const {
+    return weight + (gradient_by_input ? std::int64_t{j} * out + row : std::int64_t{row} * in + j);
+  }
 };
 
 /// The linear layers of one GRU layer. Gates of the input layer are in the order n, r, z, of the

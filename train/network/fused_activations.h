@@ -18,8 +18,10 @@ struct FusedActivations {
     AlignedVector<float> normalised, inverse_std, zero_level;
   };
   struct GruRows {
-    AlignedVector<float> gates;            ///< [n | r | z | q], GateStride apart
-    AlignedVector<float> previous, state;  ///< before and after the step
+    AlignedVector<float> gates;  ///< [n | r | z | q], GateStride apart
+    /// Before each step, zero where an episode begins; behind them those after the last step.
+    AlignedVector<float> states;
+    AlignedVector<float> outputs;  ///< states after each step, if another GRU layer reads them
   };
 
   /// Grows to hold a tile of `steps` x `batch`; contents are lost.

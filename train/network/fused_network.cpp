@@ -58,6 +58,12 @@ void StoreState(std::int64_t batch, int layers, int layer, int size, const float
   }
 }
 
+/// `count` rows from `first` on are fetched by the next products.
+void FetchRows(const float* rows, std::int64_t first, std::int64_t count, std::int64_t stride,
+               FusedActivations& activations) {
+  activations.products.FetchSoon(rows + first * stride, count * stride);
+}
+
 void AddTo(std::int64_t count, const float* values, float* sums) {
   for (std::int64_t i = 0; i < count; ++i) sums[i] += values[i];
 }
@@ -79,8 +85,8 @@ void FusedActivations::Reserve(const NetworkShape& shape, int steps, int batch) 
   gru.resize(std::max<std::size_t>(gru.size(), shape.gru_layers));
   for (int i = 0; i < shape.gru_layers; ++i) {
     Grow(gru[i].gates, rows * GateStride(size));
-    Grow(gru[i].previous, rows * state);
-    Grow(gru[i].state, rows * state);
+    Grow(gru[i].states, (rows + batch) * state);
+    if (i + 1 < shape.gru_layers) Grow(gru[i].outputs, rows * state);
   }
   Grow(normalised_state, rows * state);
   Grow(state_inverse_std, rows);
@@ -107,7 +113,7 @@ FusedNetwork::FusedNetwork(const NetworkLayout& layout, const NetworkPrecision& 
   for (int i = 0; i < shape.gru_layers; ++i) {
     const FoldedGru& place = folded_layout_.gru(i);
     gru_.push_back({LinearLayer(place.input, precision), LinearLayer(place.hidden, precision),
-                    AlignedVector<float>(3 * size), AlignedVector<float>(size)});
+                    AlignedVector<float>(3 * size)});
   }
 }
 
@@ -119,10 +125,8 @@ void FusedNetwork::SetParameters(const float* parameters) {
   for (Gru& gru : gru_) {
     gru.input.SetParameters(folded_.data());
     gru.hidden.SetParameters(folded_.data());
-    const float* const hidden_bias = folded(gru.hidden.place().bias);  // r, z, n
     std::copy_n(folded(gru.input.place().bias), 3 * size, gru.gate_bias.begin());
-    AddTo(2 * size, hidden_bias, gru.gate_bias.data() + size);
-    std::copy_n(hidden_bias + 2 * size, size, gru.new_bias.begin());
+    AddTo(2 * size, folded(gru.hidden.place().bias), gru.gate_bias.data() + size);  // r, z
   }
   head_.SetParameters(folded_.data());
 }
@@ -134,7 +138,7 @@ const float* FusedNetwork::InputOf(int index, const FusedActivations& activation
 }
 
 const float* FusedNetwork::GruInputOf(int layer, const FusedActivations& activations) const {
-  if (layer > 0) return activations.gru[layer - 1].state.data();
+  if (layer > 0) return activations.gru[layer - 1].outputs.data();
   const int before = layout_.shape().hidden_layers;
   return before == 0 ? activations.observation.data()
                      : activations.hidden[before - 1].normalised.data();
@@ -147,7 +151,7 @@ void FusedNetwork::HiddenForward(int index, std::int64_t first, std::int64_t cou
   FusedActivations::HiddenRows& rows = activations.hidden[index];
   float* const values = rows.normalised.data() + first * out;
   linear.Forward(count, InputOf(index, activations) + first * in, in, folded(linear.place().bias),
-                 false, values, out, &activations.products);
+                 0, values, out, &activations.products);
   ReluNormalise(count, layout_.shape().hidden_size, values, rows.inverse_std.data() + first,
                 rows.zero_level.data() + first);
 }
@@ -158,7 +162,7 @@ void FusedNetwork::GatesForward(int layer, std::int64_t first, std::int64_t coun
   const std::int64_t in = RowStride(linear.place().in);
   const std::int64_t stride = GateStride(PaddedWidth(layout_.shape().gru_size));
   linear.Forward(
-      count, GruInputOf(layer, activations) + first * in, in, gru_[layer].gate_bias.data(), false,
+      count, GruInputOf(layer, activations) + first * in, in, gru_[layer].gate_bias.data(), 0,
       activations.gru[layer].gates.data() + first * stride, stride, &activations.products);
 }
 
@@ -173,21 +177,22 @@ void FusedNetwork::GruForward(int layer, const SequenceTile& tile, const TileRow
   FusedActivations::GruRows& rows = activations.gru[layer];
   const float* const not_done = tile.not_done + step * tile.batch + sequence;
   const std::int64_t states = sequence * shape.state_size();
-  float* const previous = rows.previous.data() + kept * state;
-  float* const next = rows.state.data() + kept * state;
+  float* const previous = rows.states.data() + kept * state;
+  float* const next = previous + tile.batch * state;
   float* const gates = rows.gates.data() + kept * stride;
   if (step == 0) {
     LoadState(count, shape.gru_layers, layer, shape.gru_size, not_done, tile.initial_state + states,
               previous);
   } else {
-    ScaleRows(count, size, not_done, next - tile.batch * state, previous);
+    MaskRows(count, size, not_done, previous);
   }
-  for (std::int64_t i = 0; i < count; ++i) {
-    std::copy_n(gru.new_bias.begin(), size, gates + i * stride + 3 * size);
-  }
-  gru.hidden.Forward(count, previous, state, nullptr, true, gates + size, stride,
-                     &activations.products);
+  // The state's part of the new gate stands alone; the others are added to the input's.
+  gru.hidden.Forward(count, previous, state, folded(gru.hidden.place().bias), 2 * size,
+                     gates + size, stride, &activations.products);
   GruStep(count, size, previous, gates, stride, next);
+  if (layer + 1 < shape.gru_layers) {
+    std::copy_n(next, count * state, rows.outputs.data() + kept * state);
+  }
   if (step + 1 == tile.steps) {
     StoreState(count, shape.gru_layers, layer, shape.gru_size, next,
                workspace.final_state_.data() + states);
@@ -209,17 +214,41 @@ void FusedNetwork::RowsForward(const SequenceTile& tile, const TileRows& tile_ro
     GruForward(i, tile, tile_rows, workspace);
   }
   const std::int64_t state = kept * RowStride(shape.gru_size);
-  NormaliseWithStd(
-      count, shape.gru_size, activations.gru[shape.gru_layers - 1].state.data() + state,
-      activations.normalised_state.data() + state, activations.state_inverse_std.data() + kept);
+  NormaliseWithStd(count, shape.gru_size,
+                   activations.gru[shape.gru_layers - 1].states.data() +
+                       tile.batch * RowStride(shape.gru_size) + state,
+                   activations.normalised_state.data() + state,
+                   activations.state_inverse_std.data() + kept);
   for (int i = shape.hidden_layers; i < 2 * shape.hidden_layers; ++i) {
     HiddenForward(i, kept, count, activations);
   }
   const std::int64_t in = RowStride(head_.place().in);
   head_.Forward(count, InputOf(2 * shape.hidden_layers, activations) + kept * in, in,
-                folded(head_.place().bias), false,
-                workspace.output_.data() + row * shape.output_size, shape.output_size,
-                &activations.products);
+                folded(head_.place().bias), 0, workspace.output_.data() + row * shape.output_size,
+                shape.output_size, &activations.products);
+}
+
+void FusedNetwork::FetchForward(const SequenceTile& tile, std::int64_t row, std::int64_t count,
+                                FusedActivations& activations) const {
+  const NetworkShape& shape = layout_.shape();
+  const std::int64_t width = RowStride(shape.hidden_size), state = RowStride(shape.gru_size);
+  const auto hidden = [&](int index) {
+    FetchRows(activations.hidden[index].normalised.data(), row, count, width, activations);
+  };
+  for (int i = 1; i < shape.hidden_layers; ++i) hidden(i);
+  for (int i = 0; i < shape.gru_layers; ++i) {
+    FetchRows(activations.gru[i].gates.data(), row, count, GateStride(PaddedWidth(shape.gru_size)),
+              activations);
+    FetchRows(activations.gru[i].states.data(), row + tile.batch, count, state, activations);
+  }
+  FetchRows(activations.normalised_state.data(), row, count, state, activations);
+  for (int i = shape.hidden_layers; i < 2 * shape.hidden_layers; ++i) hidden(i);
+  row += count;
+  if (row >= tile.rows()) return;
+  const int observations = shape.observation_size;
+  FetchRows(tile.observation, row, count, observations, activations);
+  FetchRows(activations.observation.data(), row, count, RowStride(observations), activations);
+  if (shape.hidden_layers > 0) hidden(0);
 }
 
 void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace,
@@ -231,8 +260,9 @@ void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace
   Grow(workspace.final_state_, static_cast<std::int64_t>(tile.batch) * shape.state_size());
   for (int step = 0; step < tile.steps; ++step) {
     ForEachRows(tile.batch, kForwardRows, [&](std::int64_t first, std::int64_t count) {
-      const std::int64_t kept = keeps ? step * std::int64_t{tile.batch} + first : 0;
-      RowsForward(tile, {step, first, count, kept}, workspace);
+      const std::int64_t row = step * std::int64_t{tile.batch} + first;
+      if (keeps) FetchForward(tile, row, count, workspace.fused_);
+      RowsForward(tile, {step, first, count, keeps ? row : 0}, workspace);
     });
   }
 }
@@ -268,16 +298,17 @@ void FusedNetwork::HiddenBackward(int index, float* input_gradient, std::int64_t
   ReluNormaliseBackward(count, layout_.shape().hidden_size, rows.normalised.data() + first * out,
                         rows.inverse_std.data() + first, rows.zero_level.data() + first, gradient,
                         folded_gradient + linear.place().bias);
+  if (input_gradient != nullptr) {
+    linear.BackwardToInput(count, gradient, out, false, input_gradient, in, &activations.products);
+  }
   linear.BackwardToWeight(count, InputOf(index, activations) + first * in, in, gradient, out,
                           folded_gradient, &activations.products);
-  if (input_gradient == nullptr) return;
-  linear.BackwardToInput(count, gradient, out, false, input_gradient, in, &activations.products);
 }
 
 void FusedNetwork::GruBackward(int layer, const SequenceTile& tile, FusedActivations& activations,
                                float* state_gradient, float* folded_gradient) const {
   const Gru& gru = gru_[layer];
-  const std::int64_t rows = tile.rows(), batch = tile.batch;
+  const std::int64_t batch = tile.batch;
   const int size = PaddedWidth(layout_.shape().gru_size);
   const std::int64_t stride = GateStride(size), state = RowStride(size);
   const FusedActivations::GruRows& own = activations.gru[layer];
@@ -289,16 +320,18 @@ void FusedNetwork::GruBackward(int layer, const SequenceTile& tile, FusedActivat
       const std::int64_t first = step * batch + offset;
       float* const gates = all_gates + first * stride;
       float* const gradient = state_gradient + first * state;
-      GruStepBackward(count, size, own.previous.data() + first * state, gates, stride, gradient,
-                      sums);
+      LaterStep later;
+      if (step + 1 < tile.steps) later = {gradient + batch * state, tile.not_done + first + batch};
+      GruStepBackward(count, size, own.states.data() + first * state, gates, stride, later,
+                      gradient, sums);
       if (step == 0) return;
+      FetchRows(all_gates, first - batch, count, stride, activations);
+      FetchRows(own.states.data(), first - batch, count, state, activations);
+      FetchRows(state_gradient, first - batch, count, state, activations);
       gru.hidden.BackwardToInput(count, gates + size, stride, true, gradient, state,
                                  &activations.products);
-      AddScaledRows(count, size, tile.not_done + first, gradient, gradient - batch * state);
     });
   }
-  gru.hidden.BackwardToWeight(rows, own.previous.data(), state, all_gates + size, stride,
-                              folded_gradient, &activations.products);
   AddTo(3 * size, sums, folded_gradient + gru.input.place().bias);
   AddTo(3 * size, sums + size, folded_gradient + gru.hidden.place().bias);
 }
@@ -322,6 +355,18 @@ void FusedNetwork::Backward(const SequenceTile& tile, const float* output_gradie
     AddColumnSums(count, outputs, by_output, outputs, folded_gradient + head_.place().bias);
     head_.BackwardToWeight(count, InputOf(layers, activations) + first * in, in, by_output, outputs,
                            folded_gradient, &activations.products);
+    for (int i = layers - 1; i >= shape.hidden_layers; --i) {
+      FetchRows(InputOf(i, activations), first, count, RowStride(hidden_[i].place().in),
+                activations);
+    }
+    FetchRows(by_state, first, count, state, activations);
+    if (first + count < rows) {
+      FetchRows(InputOf(layers, activations), first + count, count, in, activations);
+    } else {
+      const FusedActivations::GruRows& gru = activations.gru[shape.gru_layers - 1];
+      FetchRows(gru.gates.data(), rows - tile.batch, tile.batch, stride, activations);
+      FetchRows(gru.states.data(), rows - tile.batch, tile.batch, state, activations);
+    }
     int current = 0;
     head_.BackwardToInput(count, by_output, outputs, false,
                           shape.hidden_layers == 0 ? by_block_state : block[current], in,
@@ -340,7 +385,21 @@ void FusedNetwork::Backward(const SequenceTile& tile, const float* output_gradie
     const LinearLayer& linear = gru_[i].input;
     const std::int64_t in = RowStride(linear.place().in);
     ForEachLayerRows(rows, [&](std::int64_t first, std::int64_t count) {
-      const float* const gates = activations.gru[i].gates.data() + first * stride;
+      const float* const all_gates = activations.gru[i].gates.data();
+      const float* const all_states = activations.gru[i].states.data();
+      const float* const gates = all_gates + first * stride;
+      FetchRows(GruInputOf(i, activations), first, count, in, activations);
+      for (int k = shape.hidden_layers - 1; i == 0 && k >= 0; --k) {
+        FetchRows(InputOf(k, activations), first, count, RowStride(hidden_[k].place().in),
+                  activations);
+      }
+      if (first + count < rows) {
+        FetchRows(all_gates, first + count, count, stride, activations);
+        FetchRows(all_states, first + count, count, state, activations);
+      }
+      gru_[i].hidden.BackwardToWeight(count, all_states + first * state, state,
+                                      gates + PaddedWidth(shape.gru_size), stride, folded_gradient,
+                                      &activations.products);
       linear.BackwardToWeight(count, GruInputOf(i, activations) + first * in, in, gates, stride,
                               folded_gradient, &activations.products);
       if (i > 0) {

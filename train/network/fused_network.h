@@ -33,7 +33,6 @@ class FusedNetwork : public RecurrentNetwork {
   struct Gru {
     LinearLayer input, hidden;
     AlignedVector<float> gate_bias;  ///< of n, r, z: the hidden layer's added for r and z
-    AlignedVector<float> new_bias;   ///< of the new gate's hidden product
   };
 
   const float* folded(std::int64_t offset) const { return folded_.data() + offset; }
@@ -48,6 +47,10 @@ class FusedNetwork : public RecurrentNetwork {
     std::int64_t sequence, count, kept;
   };
 
+  /// The products of `count` rows from `row` on fetch where their activations will be kept, and
+  /// what the rows behind them begin with.
+  void FetchForward(const SequenceTile& tile, std::int64_t row, std::int64_t count,
+                    FusedActivations& activations) const;
   /// Keeps the activations of all rows if there is more than one step, or `keeps_all`; else those
   /// of a few rows follow each other in the same memory, which stays in the cache.
   void Forward(const SequenceTile& tile, NetworkWorkspace& workspace, bool keeps_all) const;
@@ -72,8 +75,8 @@ class FusedNetwork : public RecurrentNetwork {
   /// one with respect to its input unless that is null.
   void HiddenBackward(int index, float* input_gradient, std::int64_t first, std::int64_t count,
                       FusedActivations& activations, float* gradient, float* folded_gradient) const;
-  /// Back through time: `state_gradient`, with respect to the states of the layer, is used up;
-  /// gates become their gradients. Adds all gradients of the layer but that of the input weight.
+  /// Back through time: `state_gradient`, with respect to the states after each step, is used up;
+  /// gates become their gradients. Adds the gradients of the biases.
   void GruBackward(int layer, const SequenceTile& tile, FusedActivations& activations,
                    float* state_gradient, float* folded_gradient) const;
 

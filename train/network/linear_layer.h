@@ -21,9 +21,10 @@ class LinearLayer {
 
   void SetParameters(const float* folded);
 
-  /// out = W in, plus `bias` unless that is null, plus what was in `out` if `accumulate`.
+  /// out = W in, plus what was in `out` in its first `accumulated` columns, and `bias` in the
+  /// others.
   void Forward(std::int64_t rows, const float* in, std::int64_t in_stride, const float* bias,
-               bool accumulate, float* out, std::int64_t out_stride,
+               std::int64_t accumulated, float* out, std::int64_t out_stride,
                simd::ProductWorkspace* workspace) const;
 
   /// input_gradient = W^T output_gradient, plus what was in it if `accumulate`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/network/network_kernels.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simd/dispatch.h"
@@ -12,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include "simd/math-inl.h"
+#include "simd/transpose-inl.h"
 #include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -45,8 +47,81 @@ HWY_INLINE V WithinColumns(int columns, int j, V v) {
   return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(left > 0 ? left : 0)), v);
 }
 
+/// Calls visit(j) for columns [j, j + kLanes) until all `columns`, kLanes at least, are visited;
+/// the last ones overlap those before.
+template <typename Visit>
+HWY_INLINE void ForEachVector(int columns, const Visit& visit) {
+  int j = 0;
+  for (; j + kLanes <= columns; j += kLanes) visit(j);
+  if (j < columns) visit(columns - kLanes);
+}
+
+/// The sum over the columns, in their order, of term(x), x a column of `rows` rows, at most kLanes.
+template <typename Term>
+HWY_INLINE V SumOfColumns(int rows, int columns, const float* in, const Term& term) {
+  const FloatTag d;
+  V sum = hn::Zero(d);
+  int summed = 0;
+  ForEachVector(columns, [&](int j) HWY_ATTR {
+    V square[kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      square[i] = hn::LoadU(d, in + std::min(i, rows - 1) * columns + j);
+    }
+    Transpose(d, square);
+    for (int k = summed - j; k < kLanes; ++k) sum = hn::Add(sum, term(square[k]));
+    summed = j + kLanes;
+  });
+  return sum;
+}
+
+/// Rows side by side, in lanes: each row's sums run along it.
+void NormaliseRowsTogether(int rows, int columns, const float* in, float* out) {
+  const FloatTag d;
+  const std::int64_t stride = RowStride(columns);
+  const V count = hn::Set(d, static_cast<float>(columns));
+  const V means = hn::Div(SumOfColumns(rows, columns, in, [](V x) HWY_ATTR { return x; }), count);
+  const V squares = SumOfColumns(rows, columns, in, [means](V x) HWY_ATTR {
+    const V deviation = hn::Sub(x, means);
+    return hn::Mul(deviation, deviation);
+  });
+  const V variances = hn::Add(hn::Div(squares, count), hn::Set(d, kLayerNormEpsilon));
+  HWY_ALIGN float mean[kLanes], inverse_std[kLanes];
+  hn::Store(means, d, mean);
+  hn::Store(hn::Div(hn::Set(d, 1.0f), hn::Sqrt(variances)), d, inverse_std);
+  for (int i = 0; i < rows; ++i) {
+    const V row_mean = hn::Set(d, mean[i]), row_inverse_std = hn::Set(d, inverse_std[i]);
+    ForEachVector(columns, [&](int j) HWY_ATTR {
+      const V deviation = hn::Sub(hn::LoadU(d, in + i * columns + j), row_mean);
+      hn::StoreU(hn::Mul(deviation, row_inverse_std), d, out + i * stride + j);
+    });
+  }
+}
+
+void NormaliseRow(int columns, const float* in, float* out) {
+  float sum = 0, squares = 0;
+  for (int j = 0; j < columns; ++j) sum += in[j];
+  const float mean = sum / static_cast<float>(columns);
+  for (int j = 0; j < columns; ++j) squares += (in[j] - mean) * (in[j] - mean);
+  const float variance = squares / static_cast<float>(columns);
+  const float inverse_std = 1.0f / std::sqrt(variance + kLayerNormEpsilon);
+  for (int j = 0; j < columns; ++j) out[j] = (in[j] - mean) * inverse_std;
+}
+
+void NormaliseRowsKernel(std::int64_t rows, int columns, const float* in, float* out) {
+  const std::int64_t stride = RowStride(columns);
+  if (columns < kLanes) {
+    for (std::int64_t i = 0; i < rows; ++i)
+      NormaliseRow(columns, in + i * columns, out + i * stride);
+    return;
+  }
+  for (std::int64_t i = 0; i < rows; i += kLanes) {
+    NormaliseRowsTogether(static_cast<int>(std::min<std::int64_t>(kLanes, rows - i)), columns,
+                          in + i * columns, out + i * stride);
+  }
+}
+
 /// Rows that are normalised together: their sums, chains of dependent additions, run side by side.
-constexpr int kRowsTogether = 4;
+constexpr int kRowsTogether = 8, kRowsBackTogether = 4;
 
 /// Normalises the kRows rows from `first` on, with kRelu their rectified values. A row's sums run
 /// in one order, however many rows there are.
@@ -176,9 +251,9 @@ void NormaliseBackwardAll(std::int64_t rows, int columns, const float* normalise
                           const float* inverse_std, const float* zero_level, float* gradient,
                           float* bias_gradient) {
   std::int64_t i = 0;
-  for (; i + kRowsTogether <= rows; i += kRowsTogether) {
-    NormaliseBackwardTogether<kRowsTogether, kRelu, kPadded>(i, columns, normalised, inverse_std,
-                                                             zero_level, gradient, bias_gradient);
+  for (; i + kRowsBackTogether <= rows; i += kRowsBackTogether) {
+    NormaliseBackwardTogether<kRowsBackTogether, kRelu, kPadded>(
+        i, columns, normalised, inverse_std, zero_level, gradient, bias_gradient);
   }
   for (; i < rows; ++i) {
     NormaliseBackwardTogether<1, kRelu, kPadded>(i, columns, normalised, inverse_std, zero_level,
@@ -201,28 +276,15 @@ void NormaliseBackwardKernel(std::int64_t rows, int columns, const float* normal
   kernel(rows, columns, normalised, inverse_std, nullptr, gradient, nullptr);
 }
 
-void ScaleRowsKernel(std::int64_t rows, int columns, const float* not_done, const float* in,
-                     float* out) {
+void MaskRowsKernel(std::int64_t rows, int columns, const float* not_done, float* values) {
   const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
   const std::int64_t stride = RowStride(columns);
   for (std::int64_t i = 0; i < rows; ++i) {
+    if (not_done[i] == 1) continue;
     const V factor = hn::Set(d, not_done[i]);
     for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
-      hn::StoreU(hn::Mul(factor, hn::LoadU(d, in + j)), d, out + j);
-    }
-  }
-}
-
-void AddScaledRowsKernel(std::int64_t rows, int columns, const float* not_done, const float* in,
-                         float* out) {
-  const FloatTag d;
-  const int lanes = static_cast<int>(hn::Lanes(d)), width = PaddedWidth(columns);
-  const std::int64_t stride = RowStride(columns);
-  for (std::int64_t i = 0; i < rows; ++i) {
-    const V factor = hn::Set(d, not_done[i]);
-    for (std::int64_t j = i * stride; j < i * stride + width; j += lanes) {
-      hn::StoreU(hn::MulAdd(factor, hn::LoadU(d, in + j), hn::LoadU(d, out + j)), d, out + j);
+      hn::StoreU(hn::Mul(factor, hn::LoadU(d, values + j)), d, values + j);
     }
   }
 }
@@ -257,8 +319,10 @@ HWY_INLINE void AddTo(V value, float* sum) {
   hn::StoreU(hn::Add(hn::LoadU(d, sum), value), d, sum);
 }
 
-void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, float* gates,
-                           std::int64_t stride, float* state_gradient, float* gate_sums) {
+template <bool kLater>
+void GruStepBackwardAll(std::int64_t rows, int size, const float* previous, float* gates,
+                        std::int64_t stride, const LaterStep& later, float* state_gradient,
+                        float* gate_sums) {
   const FloatTag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const V one = hn::Set(d, 1.0f);
@@ -271,7 +335,11 @@ void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, f
     for (int j = 0; j < size; j += lanes) {
       const V n = hn::LoadU(d, gate_n + j), r = hn::LoadU(d, gate_r + j);
       const V z = hn::LoadU(d, gate_z + j), q = hn::LoadU(d, gate_q + j);
-      const V g = hn::LoadU(d, state_gradient + i * row_stride + j);
+      V g = hn::LoadU(d, state_gradient + i * row_stride + j);
+      if constexpr (kLater) {
+        g = hn::MulAdd(hn::Set(d, later.not_done[i]),
+                       hn::LoadU(d, later.gradient + i * row_stride + j), g);
+      }
       const V h = hn::LoadU(d, previous + i * row_stride + j);
       const V g_new = hn::Mul(g, hn::Sub(one, z));
       const V g_old = hn::Mul(g, z);
@@ -292,6 +360,14 @@ void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, f
   }
 }
 
+void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, float* gates,
+                           std::int64_t stride, const LaterStep& later, float* state_gradient,
+                           float* gate_sums) {
+  const auto kernel =
+      later.gradient == nullptr ? GruStepBackwardAll<false> : GruStepBackwardAll<true>;
+  kernel(rows, size, previous, gates, stride, later, state_gradient, gate_sums);
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace skein
@@ -300,27 +376,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace skein {
 
+HWY_EXPORT(NormaliseRowsKernel);
 HWY_EXPORT(ReluNormaliseKernel);
 HWY_EXPORT(ReluNormaliseBackwardKernel);
 HWY_EXPORT(NormaliseWithStdKernel);
 HWY_EXPORT(NormaliseBackwardKernel);
-HWY_EXPORT(ScaleRowsKernel);
-HWY_EXPORT(AddScaledRowsKernel);
+HWY_EXPORT(MaskRowsKernel);
 HWY_EXPORT(GruStepKernel);
 HWY_EXPORT(GruStepBackwardKernel);
 
 void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out) {
-  const std::int64_t stride = RowStride(columns);
-  for (std::int64_t i = 0; i < rows; ++i) {
-    const float* const row = in + i * columns;
-    float sum = 0, squares = 0;
-    for (int j = 0; j < columns; ++j) sum += row[j];
-    const float mean = sum / static_cast<float>(columns);
-    for (int j = 0; j < columns; ++j) squares += (row[j] - mean) * (row[j] - mean);
-    const float inverse_std =
-        1.0f / std::sqrt(squares / static_cast<float>(columns) + kLayerNormEpsilon);
-    for (int j = 0; j < columns; ++j) out[i * stride + j] = (row[j] - mean) * inverse_std;
-  }
+  SKEIN_DISPATCH(NormaliseRowsKernel)(rows, columns, in, out);
 }
 
 void ReluNormalise(std::int64_t rows, int columns, float* values, float* inverse_std,
@@ -345,13 +411,8 @@ void NormaliseBackward(std::int64_t rows, int columns, const float* normalised,
   SKEIN_DISPATCH(NormaliseBackwardKernel)(rows, columns, normalised, inverse_std, gradient);
 }
 
-void ScaleRows(std::int64_t rows, int columns, const float* not_done, const float* in, float* out) {
-  SKEIN_DISPATCH(ScaleRowsKernel)(rows, columns, not_done, in, out);
-}
-
-void AddScaledRows(std::int64_t rows, int columns, const float* not_done, const float* in,
-                   float* out) {
-  SKEIN_DISPATCH(AddScaledRowsKernel)(rows, columns, not_done, in, out);
+void MaskRows(std::int64_t rows, int columns, const float* not_done, float* values) {
+  SKEIN_DISPATCH(MaskRowsKernel)(rows, columns, not_done, values);
 }
 
 void GruStep(std::int64_t rows, int size, const float* previous, float* gates, std::int64_t stride,
@@ -360,9 +421,10 @@ void GruStep(std::int64_t rows, int size, const float* previous, float* gates, s
 }
 
 void GruStepBackward(std::int64_t rows, int size, const float* previous, float* gates,
-                     std::int64_t stride, float* state_gradient, float* gate_sums) {
+                     std::int64_t stride, const LaterStep& later, float* state_gradient,
+                     float* gate_sums) {
   SKEIN_DISPATCH(GruStepBackwardKernel)
-  (rows, size, previous, gates, stride, state_gradient, gate_sums);
+  (rows, size, previous, gates, stride, later, state_gradient, gate_sums);
 }
 
 void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,

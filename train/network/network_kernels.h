@@ -48,12 +48,8 @@ void NormaliseWithStd(std::int64_t rows, int columns, const float* in, float* ou
 void NormaliseBackward(std::int64_t rows, int columns, const float* normalised,
                        const float* inverse_std, float* gradient);
 
-/// out[row] = not_done[row] * in[row].
-void ScaleRows(std::int64_t rows, int columns, const float* not_done, const float* in, float* out);
-
-/// out[row] += not_done[row] * in[row].
-void AddScaledRows(std::int64_t rows, int columns, const float* not_done, const float* in,
-                   float* out);
+/// values[row] *= not_done[row]. Rows with a factor of one are not touched.
+void MaskRows(std::int64_t rows, int columns, const float* not_done, float* values);
 
 /// One step of a GRU (Cho et al. 2014, in the form of cuDNN and LibTorch: the reset gate acts on
 /// the hidden product of the new gate). `size` is a padded width: a unit without weights, bias and
@@ -63,11 +59,20 @@ void AddScaledRows(std::int64_t rows, int columns, const float* not_done, const 
 void GruStep(std::int64_t rows, int size, const float* previous, float* gates, std::int64_t stride,
              float* next);
 
+/// What comes back to a GRU's states from the step behind: not_done[row] * gradient[row], with
+/// `gradient` with respect to that step's previous states. Nothing if null.
+struct LaterStep {
+  const float* gradient = nullptr;
+  const float* not_done = nullptr;
+};
+
 /// Back through GruStep: `gates` become the gradients with respect to [n | r | z | q] before
-/// activation, whose column sums are added to `gate_sums`; `state_gradient`, with respect to next,
-/// becomes the direct part of the one with respect to previous, z times it.
+/// activation, whose column sums are added to `gate_sums`; `state_gradient`, which with what comes
+/// from the step behind is the one with respect to next, becomes the direct part of the one with
+/// respect to previous, z times it.
 void GruStepBackward(std::int64_t rows, int size, const float* previous, float* gates,
-                     std::int64_t stride, float* state_gradient, float* gate_sums);
+                     std::int64_t stride, const LaterStep& later, float* state_gradient,
+                     float* gate_sums);
 
 /// sums[j] += sum over rows of in[row][j]. Any number of columns, rows `stride` floats apart.
 void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,

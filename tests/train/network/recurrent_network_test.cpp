@@ -163,8 +163,7 @@ TEST_P(RecurrentNetworkTest, PaddingStaysExactlyZero) {
     for (int row = 0; row < linear.out; ++row) {
       for (int j = 0; j < linear.in; ++j) {
         const bool is_padding = linear.FlatRow(row) < 0 || j >= linear.flat_in;
-        const float value =
-            accumulator[linear.weight + static_cast<std::int64_t>(row) * linear.in + j];
+        const float value = accumulator[linear.WeightGradient(row, j)];
         (is_padding ? padding : others) += value != 0;
       }
       if (linear.FlatRow(row) < 0) padding += accumulator[linear.bias + row] != 0;
