@@ -37,6 +37,10 @@ TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
   EXPECT_GT(TrainedSuccess("control", "6e7"), 0.9);
 }
 
+TEST(Learning, PointsAreHitAfterHalfOfTrackingsBudget) {
+  EXPECT_GT(TrainedSuccess("tracking", "1e8"), 0.9);
+}
+
 TEST(Learning, AHighLevelReachesHalfOfItsPointsAfterASixthOfItsBudget) {
   EXPECT_GT(TrainedSuccess(
                 "tracking", "1e8",
