@@ -23,10 +23,10 @@ inline std::vector<std::string> TinyTrainingOf(const std::string& task, const st
   for (const std::string& assignment :
        {std::string("run.total_steps=") + std::to_string(64 * 16 * 5 * kIterations),
         std::string("ppo.num_aircraft=64"), std::string("ppo.rollout_steps=16"),
-        std::string("ppo.minibatches=2"), std::string("network.hidden_size=16"),
-        std::string("network.gru_size=16"), std::string("env.time_limit_steps=100"),
-        std::string("evaluation.interval_iterations=3"), std::string("evaluation.episodes=32"),
-        std::string("evaluation.final_episodes=32"),
+        std::string("ppo.chunk_length=8"), std::string("ppo.minibatches=2"),
+        std::string("network.hidden_size=16"), std::string("network.gru_size=16"),
+        std::string("env.time_limit_steps=100"), std::string("evaluation.interval_iterations=3"),
+        std::string("evaluation.episodes=32"), std::string("evaluation.final_episodes=32"),
         std::string("checkpoint.interval_iterations=1")}) {
     arguments.push_back("--set");
     arguments.push_back(assignment);
