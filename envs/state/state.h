@@ -92,7 +92,7 @@ struct Tile {
   int count = 0;
   bool windy = false;
   bool rotational_gusts = false;
-
+  /// By windy and rotational_gusts.
   int num_columns() const {
     if (rotational_gusts) return kNumRotationalGustColumns;
     return windy ? kNumWindyColumns : kNumColumns;
