@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 #include "base/choice_error.h"
 #include "base/error.h"
@@ -120,6 +121,9 @@ AircraftDocument ReadAircraftDocument(const std::string& name, std::string_view 
 AircraftDocument ReadAircraftDocumentFile(const std::string& path) {
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
+  if (failure == std::errc::permission_denied) {
+    throw FileError(path + ": cannot be read: " + failure.message());
+  }
   if (!std::filesystem::exists(status)) {
     throw ChoiceError(path + ": there is no such aircraft file");
   }

@@ -85,16 +85,21 @@ void AddFlyCommand(CLI::App* fdm) {
       "policy or by an autopilot");
   AddFlightCondition(command, &options->condition);
   AddWind(command, &options->wind);
+  CLI::Option* turbulence =
+      command
+          ->add_option("--turbulence-fps", options->flight.gusts.standard_deviation_ft_s,
+                       "standard deviation of Dryden gusts, ft/s (MIL-F-8785C at 20,000 ft: light "
+                       "3.7, moderate 7.3, severe 21)")
+          ->transform(NumberIn(0, 200))
+          ->capture_default_str();
   command
-      ->add_option("--turbulence-fps", options->flight.gusts.standard_deviation_ft_s,
-                   "standard deviation of Dryden gusts, ft/s (MIL-F-8785C at 20,000 ft: light 3.7, "
-                   "moderate 7.3, severe 21)")
-      ->transform(NumberIn(0, 200))
-      ->capture_default_str();
-  command->add_flag("--turbulence-by-altitude", options->by_altitude,
-                    "that is the deviation at 20,000 ft, elsewhere it is MIL-F-8785C's");
-  command->add_flag("--rotational-gusts", options->flight.gusts.rotational,
-                    "gusts also turn, as MIL-F-8785C has it for the aircraft's span");
+      ->add_flag("--turbulence-by-altitude", options->by_altitude,
+                 "that is the deviation at 20,000 ft, elsewhere it is MIL-F-8785C's")
+      ->needs(turbulence);
+  command
+      ->add_flag("--rotational-gusts", options->flight.gusts.rotational,
+                 "gusts also turn, as MIL-F-8785C has it for the aircraft's span")
+      ->needs(turbulence);
   command
       ->add_option("--seed", options->flight.gusts.seed,
                    "of the gusts, and of all that agents meet")

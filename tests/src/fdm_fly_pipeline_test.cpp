@@ -236,6 +236,15 @@ TEST_F(FdmFly, AgentsFlyToTheTargetsThatAreGiven) {
   EXPECT_NEAR(control.Find("pitch_deg")->back(), 10, 5);
 }
 
+TEST_F(FdmFly, HowGustsAreNeedsGusts) {
+  for (const std::string flag : {"--rotational-gusts", "--turbulence-by-altitude"}) {
+    const ProgramResult result = CallSkein({"fdm", "fly", "--altitude-ft", "20000", "--speed-fps",
+                                            "1000", flag, "-o", folder_ + "/x.csv"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.error, HasSubstr(flag + " needs --turbulence-fps"));
+  }
+}
+
 TEST_F(FdmFly, WhatAgentsCannotFlySaysSo) {
   const Words start = {"fdm",  "fly", "--altitude-ft",   "20000", "--speed-fps",
                        "1000", "-o",  folder_ + "/x.csv"};

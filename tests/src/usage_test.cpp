@@ -287,6 +287,7 @@ TEST(Usage, FilesThatCannotBeReadAreNamed) {
             "skein: error: " + loop_error);
   EXPECT_THAT(error_of({"train", "heading", "--config", loop}),
               HasSubstr(loop + ": cannot be opened: Too many levels of symbolic links"));
+  EXPECT_EQ(CallSkein({"train", "heading", "--config", loop}).exit_code, 2);
   EXPECT_THAT(error_of({"train", "heading", "--config", large}),
               HasSubstr(large + ": cannot be read: it has more than 64 MiB"));
 }

@@ -43,7 +43,8 @@ FileDescriptor::FileDescriptor(const std::string& path, OpenMode mode, const std
     : name_(name.empty() ? path : name),
       value_(open(path.c_str(), FlagsOf(mode) | O_CLOEXEC, 0666)) {
   if (value_ >= 0) return;
-  const bool leads_nowhere = errno == ENOENT || errno == ENOTDIR;
+  const bool leads_nowhere =
+      errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENAMETOOLONG;
   if (mode == OpenMode::kRead && leads_nowhere) {
     throw ChoiceError(name_ + ": cannot be opened: " + SystemReason());
   }

@@ -58,9 +58,8 @@ inline constexpr std::size_t kSummedByParts = std::size_t{1} << 16;
 
 /// The sums of `count` numbers over all ranks, to the bits of SumOverRanks, and that of `more`,
 /// which has +=, in the same messages. Of many numbers every rank sums its part alone and then gets
-/// the others' (Rabenseifner 2004, "Optimization of Collective Reduction Operations"): it sends 2
-/// (1
-/// - 1 / R) times as many instead of log2 R times, in twice as many messages.
+/// the others' (Rabenseifner 2004, "Optimization of Collective Reduction Operations"): that sends
+/// fewer than twice as many instead of log2 R times as many, in twice as many messages.
 template <typename More>
 void SumManyOverRanks(Ranks& ranks, std::size_t count, float* values, More& more) {
   static_assert(std::is_trivially_copyable_v<More>);
