@@ -20,17 +20,22 @@ namespace {
 
 using simd::Target;
 
-const std::map<Target, std::string> kExpected = {{Target::kAvx512, "47c5a4ea4c9ca3cd"},
-                                                 {Target::kAvx2, "5ef0dffe0b1ff283"},
-                                                 {Target::kSse4, "89ca6626ab4cdf2a"},
-                                                 {Target::kNeon, "5ef0dffe0b1ff283"},
-                                                 {Target::kScalar, "89ca6626ab4cdf2a"}};
+/// Without and with rotational gusts.
+struct Flights {
+  std::string linear, rotational;
+};
+const std::map<Target, Flights> kExpected = {
+    {Target::kAvx512, {"47c5a4ea4c9ca3cd", "b9a939dfa39b431e"}},
+    {Target::kAvx2, {"5ef0dffe0b1ff283", "0e96ee23043c1503"}},
+    {Target::kSse4, {"89ca6626ab4cdf2a", "0e27e92945b24dc5"}},
+    {Target::kNeon, {"5ef0dffe0b1ff283", "0e96ee23043c1503"}},
+    {Target::kScalar, {"89ca6626ab4cdf2a", "0e27e92945b24dc5"}}};
 
 /// Aircraft of one tile, and policy steps of each.
 constexpr int kAircraft = 40, kSteps = 30;
 
 /// Wind, turbulence, noise and drawn plants; episodes end.
-EnvConfig Config(const std::string& task) {
+EnvConfig Config(const std::string& task, bool rotational_gusts) {
   EnvConfig config;
   config.task = task;
   config.action_repeat = 5;
@@ -38,14 +43,15 @@ EnvConfig Config(const std::string& task) {
   config.time_limit_steps = config.heading.earliest_success_step = 100;
   config.wind.speed_fps = {0, 120};
   config.wind.turbulence_fps = {0, 20};
+  config.wind.rotational_gusts = rotational_gusts;
   config.observation_noise_max = 0.1;
   config.plant.mass = config.plant.thrust = {0.7, 1.3};
   return config;
 }
 
 /// Adds all that the environment says and holds.
-void AddFlights(const std::string& task, FnvHash* hash) {
-  VecEnv env(Config(task), kAircraft, 1);
+void AddFlights(const EnvConfig& config, FnvHash* hash) {
+  VecEnv env(config, kAircraft, 1);
   StepBuffers buffers(kAircraft);
   simd::RandomStream random({9, 0, 0, 0, simd::RandomPurpose::kActionNoise});
   for (int step = 0; step < kSteps; ++step) {
@@ -59,6 +65,15 @@ void AddFlights(const std::string& task, FnvHash* hash) {
   hash->Add(state.data(), state.size() * sizeof state[0]);
 }
 
+/// Of every task, on the active target.
+std::string BitsOfFlights(bool rotational_gusts) {
+  FnvHash hash;
+  for (const char* const task : {"control", "heading", "tracking"}) {
+    AddFlights(Config(task, rotational_gusts), &hash);
+  }
+  return hash.Hex();
+}
+
 TEST(FlightBits, AreThoseOfTheTarget) {
 #if !defined(__GLIBC__) || __GLIBC__ != 2 || __GLIBC_MINOR__ != 36
   GTEST_SKIP() << "the numbers are of glibc 2.36";
@@ -66,9 +81,9 @@ TEST(FlightBits, AreThoseOfTheTarget) {
   const Target before = simd::ActiveTarget();
   for (const Target target : simd::SupportedTargets()) {
     simd::ForceTarget(target);
-    FnvHash hash;
-    for (const char* const task : {"control", "heading", "tracking"}) AddFlights(task, &hash);
-    EXPECT_EQ(hash.Hex(), kExpected.at(target)) << simd::Name(target);
+    const Flights& expected = kExpected.at(target);
+    EXPECT_EQ(BitsOfFlights(false), expected.linear) << simd::Name(target);
+    EXPECT_EQ(BitsOfFlights(true), expected.rotational) << simd::Name(target);
   }
   simd::ForceTarget(before);
 }
