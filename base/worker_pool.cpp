@@ -32,9 +32,18 @@ extern "C" {
 namespace skein {
 namespace {
 
+// oneTBB's own synchronisation is invisible to the thread sanitizer, so this file is compiled
+// without its checks (see CMakeLists.txt) and tells it what is ordered: what comes before a Release
+// of an address is before what comes after an Acquire of it.
+void Acquire(void* address) {
+  if (__tsan_acquire != nullptr) __tsan_acquire(address);
+}
+void Release(void* address) {
+  if (__tsan_release != nullptr) __tsan_release(address);
+}
+
 /// Tells the thread sanitizer what ForEach orders: the caller's work before every call, every call
-/// before the caller's further work, but no call before another. oneTBB's own synchronisation is
-/// invisible to it, so this file is compiled without its checks (see CMakeLists.txt).
+/// before the caller's further work, but no call before another.
 class ForEachOrder {
  public:
   ForEachOrder() { Release(&begin_); }
@@ -55,13 +64,6 @@ class ForEachOrder {
   };
 
  private:
-  static void Acquire(char* address) {
-    if (__tsan_acquire != nullptr) __tsan_acquire(address);
-  }
-  static void Release(char* address) {
-    if (__tsan_release != nullptr) __tsan_release(address);
-  }
-
   char begin_ = 0, end_ = 0;
 };
 
@@ -74,10 +76,14 @@ int ThreadCount(int threads) {
 }
 
 /// What keeps workers awake between one ForEach and the next: tasks that wait for it. They may
-/// outlive the pool.
+/// outlive the pool, and the last of them then destroys it, after the pool's use: the counts of
+/// std::shared_ptr order that.
 class Watch : public std::enable_shared_from_this<Watch> {
  public:
-  explicit Watch(int workers) : workers_(workers) {}
+  explicit Watch(int workers) : workers_(workers) { Release(this); }
+  ~Watch() { Acquire(this); }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
 
   void BeginForEach() { calls_.fetch_add(1, std::memory_order_relaxed); }
 
