@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/plot/legend.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vectorised autopilot against its own laws in float64, and what it owes its callers.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
