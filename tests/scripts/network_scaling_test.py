@@ -1,25 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What scripts/network_scaling makes of measurements, without a network."""
-import importlib.machinery
-import importlib.util
 import pathlib
 import sys
 import unittest
 
 sys.dont_write_bytecode = True
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "network_scaling"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+from script_module import load_script  # noqa: E402
 
-def load():
-    loader = importlib.machinery.SourceFileLoader("network_scaling", str(SCRIPT))
-    loader_spec = importlib.util.spec_from_loader("network_scaling", loader)
-    module = importlib.util.module_from_spec(loader_spec)
-    loader.exec_module(module)
-    return module
-
-
-scaling = load()
+scaling = load_script("network_scaling")
 MODEL = {"share": 1.15, "latencies": 2.0, "latency_us": 30, "gradient_mb": 1.2}
 
 

@@ -1,24 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What scripts/soak calls flat, and what it finds in samples of a training that leaks or slows down."""
-import importlib.machinery
-import importlib.util
 import pathlib
 import sys
 import unittest
 
 sys.dont_write_bytecode = True
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/soak"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+from script_module import load_script  # noqa: E402
 
-def load(path):
-    loader = importlib.machinery.SourceFileLoader("soak", str(path))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("soak", loader))
-    loader.exec_module(module)
-    return module
-
-
-soak = load(SCRIPT)
+soak = load_script("soak")
 
 
 def samples(**changes):
