@@ -340,12 +340,17 @@ TEST_P(TrainerPrecisionTest, TheFirstUpdateMovesALittleFromTheRolloutsPolicy) {
   EXPECT_EQ(report.clip_fraction, 0);
 }
 
-TEST_P(TrainerPrecisionTest, ConfigurationSaysWhatRunsAndLibTorchRunsInFloat32) {
+TEST_P(TrainerPrecisionTest, ConfigurationSaysWhatRuns) {
+  WorkerPool pool(1);
+  const Trainer trainer(Config(), pool);
+  EXPECT_EQ(trainer.config().learner.precision, GetParam());
+  EXPECT_EQ(trainer.backend().precision, GetParam());
+}
+
+TEST_P(TrainerPrecisionTest, LibTorchRunsInFloat32) {
   SKEIN_SKIP_WITHOUT_LIBTORCH();
   WorkerPool pool(1);
   TrainConfig config = Config();
-  EXPECT_EQ(Trainer(config, pool).config().learner.precision, GetParam());
-  EXPECT_EQ(Trainer(config, pool).backend().precision, GetParam());
   config.learner.backend = Backend::kLibTorch;
   EXPECT_EQ(Trainer(config, pool).config().learner.precision, LearnerPrecision::kFloat32);
 }
@@ -476,27 +481,26 @@ TEST_F(TrainerTest, BothBackendsTrainTheSamePolicy) {
   EXPECT_NEAR(fused.value_loss, libtorch.value_loss, kBackends * libtorch.value_loss);
 }
 
-TEST_F(TrainerTest, EveryShapeTrainsAndResumesBitExactly) {
-  SKEIN_SKIP_WITHOUT_LIBTORCH();
-  WorkerPool pool(2);
+class TrainerBackendTest : public TrainerTest, public testing::WithParamInterface<Backend> {};
+
+TEST_P(TrainerBackendTest, EveryShapeTrainsAndResumesBitExactly) {
+  const bool is_fused = GetParam() == Backend::kFused;
+  if (!is_fused) {
+    SKEIN_SKIP_WITHOUT_LIBTORCH();
+  }
   TrainConfig config = SmallConfig();
   config.network.hidden_size = 20;
   config.network.gru_layers = 2;
   config.network.gru_size = 11;
-  for (const Activation activation : {Activation::kRelu, Activation::kTanh}) {
-    config.network.activation = activation;
-    Trainer whole(config, pool);
-    EXPECT_EQ(whole.backend().backend,
-              activation == Activation::kRelu ? Backend::kFused : Backend::kLibTorch);
-    whole.Iterate();
-    whole.Save(path_);
-    Trainer resumed(config, pool);
-    resumed.Restore(path_);
-    whole.Iterate();
-    resumed.Iterate();
-    EXPECT_EQ(resumed.Signature(), whole.Signature());
-  }
+  config.network.activation = is_fused ? Activation::kRelu : Activation::kTanh;
+  WorkerPool pool(1);
+  EXPECT_EQ(Trainer(config, pool).backend().backend, GetParam());
+  ExpectToResumeBitExactly(config);
 }
+
+INSTANTIATE_TEST_SUITE_P(Backends, TrainerBackendTest,
+                         testing::Values(Backend::kFused, Backend::kLibTorch),
+                         [](const auto& backend) { return Name(backend.param); });
 
 /// What tells two trainings apart after one iteration.
 double ExplainedVarianceOfFirstIteration(const TrainConfig& config) {
