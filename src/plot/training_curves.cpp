@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -22,6 +23,8 @@ constexpr double kLeft = 40, kAside = 40, kLeastPanelWidth = 100;
 constexpr double kHeightPerWidth = 0.7, kMostHeight = 170;
 constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr std::size_t kMostDots = 40;  // that still show where a curve has points
+constexpr double kCurveWidth = 1.4;
+constexpr std::array<Dash, 3> kDashes = {Dash::kNone, Dash::kDashed, Dash::kShort};
 
 const std::map<std::string, std::string>& TaskTitles() {
   static const std::map<std::string, std::string> titles = {
@@ -49,10 +52,40 @@ std::string TaskTitle(const std::string& task) {
   return known != TaskTitles().end() ? known->second : task;
 }
 
+/// How the curves of a setting look.
+struct Style {
+  Colour colour = kInk;
+  Dash dash = Dash::kNone;
+};
+
+/// By number: all colours whole, then dashed, then dotted, then whole again.
+Style StyleOf(std::size_t number) {
+  return {ColourOf(number), kDashes[number / kAgentColours.size() % kDashes.size()]};
+}
+
+/// Of each setting the number of its style: another one for all of a task, the same one for the
+/// same name in several tasks.
+std::vector<std::size_t> StyleNumbers(const std::vector<CurveSetting>& settings) {
+  std::vector<std::size_t> numbers;
+  std::set<std::pair<std::string, std::size_t>> taken;  // task, number
+  std::size_t next = 0;
+  for (const CurveSetting& setting : settings) {
+    std::size_t number = next;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const bool is_free = taken.count({setting.task, numbers[k]}) == 0;
+      if (settings[k].name == setting.name && is_free) number = std::min(number, numbers[k]);
+    }
+    taken.insert({setting.task, number});
+    numbers.push_back(number);
+    next = std::max(next, number + 1);
+  }
+  return numbers;
+}
+
 class CurveDrawing {
  public:
   CurveDrawing(const std::vector<CurveSetting>& settings, const CurveOptions& options)
-      : settings_(settings), options_(options) {
+      : settings_(settings), options_(options), styles_(StyleNumbers(settings)) {
     for (const CurveSetting& setting : settings) {
       if (std::find(tasks_.begin(), tasks_.end(), setting.task) == tasks_.end()) {
         tasks_.push_back(setting.task);
@@ -95,10 +128,11 @@ class CurveDrawing {
   }
 
   bool HasSeveralSettings() const { return settings_.size() > tasks_.size(); }
-  /// One colour for all if the panels' titles tell them apart.
-  Colour ColourFor(std::size_t setting) const {
-    return ColourOf(HasSeveralSettings() ? setting : 0);
+  /// One for all if the panels' titles tell them apart.
+  std::size_t StyleNumberFor(std::size_t setting) const {
+    return HasSeveralSettings() ? styles_[setting] : 0;
   }
+  Style StyleFor(std::size_t setting) const { return StyleOf(StyleNumberFor(setting)); }
 
   double DrawTaskTitles(const std::vector<std::string>& tasks, double top) {
     double lowest = top;
@@ -178,18 +212,18 @@ class CurveDrawing {
                                kTextSize,
                                Anchor::kMiddle});
     for (const std::size_t k : own) {
-      panel.DrawBand(curves[k].low, curves[k].high, ColourFor(k), kBandOpacity, &shapes_);
+      panel.DrawBand(curves[k].low, curves[k].high, StyleFor(k).colour, kBandOpacity, &shapes_);
     }
-    for (const std::size_t k : own) DrawMean(panel, curves[k].mean, ColourFor(k));
+    for (const std::size_t k : own) DrawMean(panel, curves[k].mean, StyleFor(k));
     if (IsShare(column)) DrawAutopilot(panel, task, curves, own);
     if (column == options_.columns.front()) DrawMinutes(panel, own);
   }
 
-  void DrawMean(const Panel& panel, const std::vector<PagePoint>& mean, Colour colour) {
-    panel.DrawCurve(mean, colour, 1.4, Dash::kNone, &shapes_);
+  void DrawMean(const Panel& panel, const std::vector<PagePoint>& mean, const Style& style) {
+    panel.DrawCurve(mean, style.colour, kCurveWidth, style.dash, &shapes_);
     if (mean.size() > kMostDots) return;
     for (const PagePoint& point : mean) {
-      shapes_.emplace_back(Disc{panel.Place(point.x, point.y), 1.7, colour, std::nullopt});
+      shapes_.emplace_back(Disc{panel.Place(point.x, point.y), 1.7, style.colour, std::nullopt});
     }
   }
 
@@ -261,7 +295,7 @@ class CurveDrawing {
   std::vector<LegendEntry> LegendEntries() const {
     std::vector<LegendEntry> entries;
     bool has_band = false;
-    std::set<std::string> known;
+    std::set<std::pair<std::size_t, std::string>> known;
     for (std::size_t k = 0; k < settings_.size(); ++k) {
       const CurveSetting& setting = settings_[k];
       has_band |= setting.runs.size() > 1;
@@ -269,18 +303,21 @@ class CurveDrawing {
                                     ? fmt::format("mean of {} seeds", setting.runs.size())
                                     : "one seed";
       const std::string words = HasSeveralSettings() ? setting.name + ", " + seeds : seeds;
-      if (!known.insert(words).second) continue;
-      entries.push_back({LineSample(ColourFor(k), 1.4), words});
+      if (!known.insert({StyleNumberFor(k), words}).second) continue;
+      const Style style = StyleFor(k);
+      entries.push_back({LineSample(style.colour, kCurveWidth, style.dash), words});
     }
     if (has_band) {
-      entries.push_back({BandSample(HasSeveralSettings() ? kGrey : ColourFor(0), kBandOpacity),
-                         "lowest to highest seed"});
+      entries.push_back(
+          {BandSample(HasSeveralSettings() ? kGrey : StyleFor(0).colour, kBandOpacity),
+           "lowest to highest seed"});
     }
     return entries;
   }
 
   const std::vector<CurveSetting>& settings_;
   const CurveOptions& options_;
+  std::vector<std::size_t> styles_;  ///< numbers, by setting
   std::vector<std::string> tasks_;
   std::size_t across_ = 1;  ///< tasks side by side
   double panel_width_ = 0;

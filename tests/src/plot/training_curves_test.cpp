@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "tests/error_message.h"
 
@@ -103,6 +106,58 @@ TEST(TrainingCurvesTest, EachTaskHasAPanel) {
         "one seed"}) {
     EXPECT_THAT(words, Contains(wanted));
   }
+}
+
+using Style = std::tuple<Colour, Dash, double>;
+
+/// How the line before the words looks, of each entry of the legend.
+std::map<std::string, Style> LegendOf(const Picture& picture) {
+  std::map<std::string, Style> legend;
+  for (std::size_t k = 1; k < picture.shapes.size(); ++k) {
+    const auto* const words = std::get_if<Words>(&picture.shapes[k]);
+    const auto* const line = std::get_if<Path>(&picture.shapes[k - 1]);
+    if (words == nullptr || line == nullptr || !line->stroke) continue;
+    if (words->text.find("one seed") == std::string::npos) continue;
+    legend[words->text] = {*line->stroke, line->dash, line->width};
+  }
+  return legend;
+}
+
+std::size_t CountCurves(const Picture& picture, const Style& style) {
+  std::size_t count = 0;
+  for (const Shape& shape : picture.shapes) {
+    const auto* const path = std::get_if<Path>(&shape);
+    count +=
+        path != nullptr && path->stroke && Style{*path->stroke, path->dash, path->width} == style;
+  }
+  return count - 1;  // that of the legend
+}
+
+TEST(TrainingCurvesTest, EighteenSettingsLookDifferentAndAsTheLegendSays) {
+  std::vector<CurveSetting> settings;
+  for (int k = 0; k < 18; ++k) {
+    const std::string name = "run " + std::to_string(k);
+    settings.push_back({"heading", name, {RunOf(name, {0.1, 0.02 * k})}});
+  }
+  const Picture picture = TrainingCurves(settings, {});
+  std::set<Style> different;
+  for (const auto& [words, style] : LegendOf(picture)) {
+    EXPECT_TRUE(different.insert(style).second) << words;
+    EXPECT_EQ(CountCurves(picture, style), 1u) << words;
+  }
+  EXPECT_EQ(different.size(), 18u);
+}
+
+TEST(TrainingCurvesTest, ANameLooksTheSameInEveryTask) {
+  const auto run = [](const char* task) { return std::vector{RunOf("a", {0.1, 0.5}, task)}; };
+  const Picture picture = TrainingCurves({{"heading", "calm", run("heading")},
+                                          {"heading", "windy", run("heading")},
+                                          {"control", "windy", run("control")},
+                                          {"control", "calm", run("control")}},
+                                         {});
+  const std::map<std::string, Style> legend = LegendOf(picture);
+  ASSERT_EQ(legend.size(), 2u);
+  for (const auto& [words, style] : legend) EXPECT_EQ(CountCurves(picture, style), 2u) << words;
 }
 
 TEST(TrainingCurvesTest, WhatIsNotThereIsSaid) {
