@@ -20,7 +20,7 @@ DEBOOTSTRAP = """#!/usr/bin/env bash
 mkdir -p "$3"/{proc,dev,etc}
 cp -r "$SKEIN_TEST_ROOT/." "$3"
 """
-SETUP = "#!/usr/bin/env bash\n"
+NOTHING = "#!/usr/bin/env bash\n"
 
 
 def can_contain():
@@ -51,7 +51,8 @@ class TryDebian(unittest.TestCase):
         for name in PROGRAMS:
             copy_program(name, root)
         write_program(tools / "debootstrap", DEBOOTSTRAP)
-        write_program(tree / "scripts/setup", SETUP)
+        write_program(root / "usr/bin/dpkg", NOTHING)
+        write_program(tree / "scripts/setup", NOTHING)
         self.script = shutil.copy(SCRIPT, tree / "scripts")
         subprocess.run(["git", "init", "--quiet", tree], check=True)
         self.environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}", "SKEIN_TEST_ROOT": str(root),
