@@ -88,6 +88,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   }
   reader.RefuseOthers();
   if (study.levels.empty()) study.levels.push_back({"default", {}});
+  study.all_levels = study.levels;
   return study;
 }
 
@@ -202,7 +203,7 @@ Study ReadStudy(const std::string& path, const StudyChoice& choice) {
   RefuseEmptyAndTwice(study.seeds, path, "seeds");
   if (!study.agents.empty()) RefuseEmptyAndTwice(study.agents, path, "agents");
   std::vector<std::string> files;
-  for (const StudyLevel& level : study.levels) files.push_back(FileNamePart(level.name));
+  for (const StudyLevel& level : study.all_levels) files.push_back(FileNamePart(level.name));
   RefuseEmptyAndTwice(files, path, "level");
   RefuseWithoutEffect(study, path);
   return study;

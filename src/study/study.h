@@ -24,9 +24,10 @@ struct StudyLevel {
 /// What `skein study` trains and evaluates: every task under every level with every seed.
 struct Study {
   std::vector<std::string> tasks;
-  std::vector<std::uint64_t> seeds;  ///< of trainings
-  std::vector<StudyLevel> levels;
-  std::vector<std::string> agents;  ///< flown beside the trained policies
+  std::vector<std::uint64_t> seeds;    ///< of trainings
+  std::vector<StudyLevel> levels;      ///< that are carried out
+  std::vector<StudyLevel> all_levels;  ///< of the file
+  std::vector<std::string> agents;     ///< flown beside the trained policies
   std::string preset = "default";
   std::string aircraft;   ///< what flies, a name or a file; empty: as the presets say
   std::string low_level;  ///< for tasks of a high-level policy (ChooseLowLevelPolicy)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -64,8 +65,19 @@ std::string Spread(const Quantity& quantity, const std::vector<double>& values) 
 
 }  // namespace
 
-std::string StudyCsv(const Json& results, std::size_t trained,
-                     const std::vector<Quantity>& quantities) {
+std::vector<std::uint64_t> SeedsOf(const Json& comparison) {
+  std::vector<std::uint64_t> seeds;
+  for (const Json& agent : comparison.at("agents")) {
+    const auto name = agent.at("name").get<std::string>();
+    if (name.rfind(kSeedPrefix, 0) != 0) break;
+    std::uint64_t seed = 0;
+    std::from_chars(name.data() + kSeedPrefix.size(), name.data() + name.size(), seed);
+    seeds.push_back(seed);
+  }
+  return seeds;
+}
+
+std::string StudyCsv(const Json& results, const std::vector<Quantity>& quantities) {
   std::string text = "task,level,agent,episodes,seeds";
   for (const Quantity& quantity : quantities) {
     text += fmt::format(",{0},{0}_low,{0}_high", quantity.key);
@@ -73,6 +85,7 @@ std::string StudyCsv(const Json& results, std::size_t trained,
   text += "\n";
   for (const Json& result : results) {
     const Json& comparison = result["comparison"];
+    const std::size_t trained = SeedsOf(comparison).size();
     const auto begin = [&](const std::string& agent, const std::string& seeds) {
       text += fmt::format("{},{},{},{},{}", result["task"].get<std::string>(),
                           CsvText(result["level"].get<std::string>()), CsvText(agent),
@@ -94,9 +107,11 @@ std::string StudyCsv(const Json& results, std::size_t trained,
   return text;
 }
 
-std::string StudyText(const Json& results, std::size_t trained,
-                      const std::vector<Quantity>& quantities) {
+std::string StudyText(const Json& results, const std::vector<Quantity>& quantities) {
   constexpr std::size_t kLabelWidth = 30, kCellWidth = 24;
+  const Json none = {{"agents", Json::array()}};
+  const Json& first = results.empty() ? none : results[0]["comparison"];
+  const std::size_t trained = SeedsOf(first).size();
   std::string text;
   TextTable table(kLabelWidth, kCellWidth, &text);
   for (std::size_t k = 0; k < quantities.size(); ++k) {
@@ -104,10 +119,8 @@ std::string StudyText(const Json& results, std::size_t trained,
     if (!quantity.is_headline || k == kReturnQuantity) continue;
     table.Begin(quantity.label);
     table.Cell(fmt::format("trained ({})", Counted(static_cast<int>(trained), "seed")));
-    const Json none = Json::array();
-    const Json& agents = results.empty() ? none : results[0]["comparison"]["agents"];
-    for (std::size_t i = trained; i < agents.size(); ++i) {
-      table.Cell(agents[i]["name"].get<std::string>());
+    for (std::size_t i = trained; i < first["agents"].size(); ++i) {
+      table.Cell(first["agents"][i]["name"].get<std::string>());
     }
     table.End();
     for (const Json& result : results) {

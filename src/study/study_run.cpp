@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -11,19 +10,16 @@
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "envs/task_registry.h"
-#include "simd/target.h"
 #include "src/agents/agent_names.h"
 #include "src/bench/machine.h"
 #include "src/config/configuration.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
-#include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 #include "src/report/report_data.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
-#include "src/study/study_report.h"
 #include "train/policy/policy_environment.h"
 #include "train/ranks/collectives.h"
 
@@ -32,37 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-struct AgentInStudy {
-  std::string shown;
-  std::string name;  ///< as of FindAgent
-};
-
-/// What a comparison depends on.
-Json Identity(const std::vector<AgentInStudy>& agents, const Study& study,
-              const ProgramConfig& config) {
-  Json names = Json::array(), quantities = Json::array();
-  for (const AgentInStudy& agent : agents) {
-    names.push_back({{"name", agent.shown}, {"policy", FingerprintOfAgent(agent.name)}});
-  }
-  for (const Quantity& quantity : QuantitiesOf(config.train.env)) {
-    quantities.push_back(quantity.key);
-  }
-  return {{"agents", names},
-          {"episodes", study.evaluation.episodes},
-          {"seed", study.evaluation.seed},
-          {"environment", EnvironmentJson(config)},
-          {"simd", Name(simd::ActiveTarget())},
-          {"quantities", quantities}};
-}
-
-/// The comparison in the file `path` if it is there, whole, and of this identity; else null.
-Json KnownComparison(const std::string& path, const Json& identity) {
-  if (!fs::exists(path)) return nullptr;
-  Json document = Json::parse(ReadFile(path), nullptr, false);
-  if (!document.is_object() || document.value("identity", Json()) != identity) return nullptr;
-  return document;
-}
 
 /// Throws Error if a policy of `who` that is trained in `trained` cannot fly in `flown`.
 void CheckFlies(const EnvConfig& trained, EnvConfig flown, const std::string& who) {
@@ -146,7 +111,7 @@ StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool&
       pool_(pool),
       ranks_(ranks),
       trainings_(study, directory, pool, ranks),
-      results_(Json::array()) {
+      results_(study, directory) {
   DoTogether(ranks, [&] { Check(study); });
   if (ranks.count() > 1) {
     RequireSameOnRanks(ranks, "what they study", DescribeProgram() + ", study " + HashOf(study));
@@ -159,12 +124,18 @@ StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool&
 }
 
 bool StudyRun::Run() {
+  DoOnRankZero(ranks_, [this] {
+    for (const std::string& cell : results_.ReadFinished()) {
+      fmt::print("{}: left out of the results: the study would train or fly it otherwise now\n",
+                 cell);
+    }
+  });
   // So that no rank waits for the last training of a level.
   if (ranks_.count() > 1 && !trainings_.Train(trainings_.Paths())) return false;
   for (const std::string& task : study_.tasks) {
     for (const StudyLevel& level : study_.levels) {
       if (!trainings_.Train(RunPaths(task, level)) || !Evaluate(task, level)) return false;
-      DoOnRankZero(ranks_, [this] { WriteResults(); });
+      DoOnRankZero(ranks_, [this] { results_.Write(); });
     }
   }
   return true;
@@ -180,70 +151,37 @@ std::vector<std::string> StudyRun::RunPaths(const std::string& task,
 }
 
 bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
-  const std::string path = fmt::format("{}/comparisons/{}-{}.json", directory_, FileNamePart(task),
-                                       FileNamePart(level.name));
   const ProgramConfig config = LevelConfig(study_, task, level);
-  std::vector<AgentInStudy> agents;
-  for (const std::uint64_t seed : study_.seeds) {
-    agents.push_back(
-        {fmt::format("seed {}", seed), "policy:" + RunPath(study_, directory_, task, level, seed)});
-  }
-  for (const std::string& agent : study_.agents) agents.push_back({agent, agent});
-  Json identity, document;  // rank 0's
+  const std::vector<AgentInStudy> agents =
+      AgentsUnder(study_, directory_, task, level, study_.seeds);
+  Json identity;  // rank 0's
+  bool is_known = false;
   DoOnRankZero(ranks_, [&] {
-    identity = Identity(agents, study_, config);
-    document = KnownComparison(path, identity);
+    identity = IdentityOf(agents, study_, config);
+    is_known = results_.ReadIfOf(identity, task, level);
   });
-  if (UnionOverRanks(ranks_, document.is_null() ? 0 : 1) == 0) {
-    fmt::print("{}, {}: flying {} over {}\n", task, level.name,
-               Counted(static_cast<int>(agents.size()), "agent"),
-               Counted(study_.evaluation.episodes, "episode"));
-    const auto comparison = FlyAll(agents, config, study_.evaluation, pool_, ranks_);
-    if (!comparison) return false;
-    DoOnRankZero(ranks_, [&] {
-      document = ToJson(*comparison, config);
-      document["identity"] = identity;
-      WriteJson(path, document);
-    });
-  }
-  results_.push_back({{"task", task}, {"level", level.name}, {"comparison", document}});
+  if (UnionOverRanks(ranks_, is_known) != 0) return true;
+  fmt::print("{}, {}: flying {} over {}\n", task, level.name,
+             Counted(static_cast<int>(agents.size()), "agent"),
+             Counted(study_.evaluation.episodes, "episode"));
+  const auto comparison = FlyAll(agents, config, study_.evaluation, pool_, ranks_);
+  if (!comparison) return false;
+  DoOnRankZero(ranks_, [&] {
+    Json document = ToJson(*comparison, config);
+    document["identity"] = identity;
+    results_.Add(task, level, std::move(document));
+  });
   return true;
-}
-
-std::vector<Quantity> StudyRun::Measured() const {
-  std::vector<Quantity> all;
-  for (const std::string& task : study_.tasks) {
-    for (const StudyLevel& level : study_.levels) {
-      for (Quantity& quantity : QuantitiesOf(LevelConfig(study_, task, level).train.env)) {
-        const bool is_known = std::any_of(all.begin(), all.end(), [&](const Quantity& other) {
-          return other.key == quantity.key;
-        });
-        if (!is_known) all.push_back(std::move(quantity));
-      }
-    }
-  }
-  return all;
-}
-
-void StudyRun::WriteResults() const {
-  WriteFile(directory_ + "/results.csv", StudyCsv(results_, study_.seeds.size(), Measured()));
-  WriteJson(directory_ + "/results.json", results_);
 }
 
 std::vector<Json> StudyRun::ShownComparisons() const {
   std::vector<Json> shown;
-  auto result = results_.begin();
-  for (const std::string& task : study_.tasks) {
-    for (const StudyLevel& level : study_.levels) {
-      shown.push_back(ShownComparison((*result++)["comparison"], LevelConfig(study_, task, level)));
-      shown.back()["level"] = level.name;
-    }
+  for (const StudyResults::Cell& cell : results_.Finished()) {
+    const ProgramConfig config = LevelConfig(study_, cell.task, *cell.level);
+    shown.push_back(ShownComparison(cell.comparison, config));
+    shown.back()["level"] = cell.level->name;
   }
   return shown;
-}
-
-std::string StudyRun::ToText() const {
-  return StudyText(results_, study_.seeds.size(), Measured());
 }
 
 }  // namespace skein

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/worker_pool.h"
-#include "src/evaluation/quantities.h"
 #include "src/study/study.h"
+#include "src/study/study_results.h"
 #include "src/study/study_trainings.h"
 #include "train/files/file_descriptor.h"
 #include "train/ranks/ranks.h"
@@ -18,7 +18,7 @@ namespace skein {
 /// Carries a study out in a directory of its own, whose parts that are there already it keeps:
 ///   runs/TASK-LEVEL-seedN         the trainings (TASK-seedN if one serves all levels)
 ///   comparisons/TASK-LEVEL.json   the policies and agents under one level (Comparison)
-///   results.csv, results.json     all of them so far
+///   results.csv, results.json     all of them so far, of levels carried out earlier, too
 class StudyRun {
  public:
   /// On all ranks together: rank 0 makes the directory and holds it exclusively. Throws Error on a
@@ -33,12 +33,12 @@ class StudyRun {
   /// directory was trained with another configuration.
   bool Run();
 
-  /// The table of all levels for people, on rank 0; without a newline at the end.
-  std::string ToText() const;
+  /// The table of the levels carried out, for people, on rank 0; without a newline at the end.
+  std::string ToText() const { return results_.ToText(); }
 
-  /// The directories of all trainings, in their order.
-  std::vector<std::string> RunPaths() const { return trainings_.Paths(); }
-  /// Of each level the comparison as a page shows it (ShownComparison), with `level`, its name; on
+  /// The directories of all trainings whose results there are, on rank 0.
+  std::vector<std::string> RunPaths() const { return results_.RunPaths(); }
+  /// Of each result the comparison as a page shows it (ShownComparison), with `level`, its name; on
   /// rank 0.
   std::vector<nlohmann::ordered_json> ShownComparisons() const;
 
@@ -46,9 +46,6 @@ class StudyRun {
   /// Of the trainings that serve a level.
   std::vector<std::string> RunPaths(const std::string& task, const StudyLevel& level) const;
   bool Evaluate(const std::string& task, const StudyLevel& level);
-  /// Of all tasks and levels, each once.
-  std::vector<Quantity> Measured() const;
-  void WriteResults() const;
 
   const Study& study_;
   std::string directory_;
@@ -56,7 +53,7 @@ class StudyRun {
   Ranks& ranks_;
   StudyTrainings trainings_;
   std::optional<FileDescriptor> lock_;  ///< rank 0's
-  nlohmann::ordered_json results_;      ///< array of task, level, comparison (of rank 0 alone)
+  StudyResults results_;                ///< of rank 0 alone
 };
 
 }  // namespace skein

@@ -53,6 +53,12 @@ class StudyPipeline : public ::testing::Test {
     return {"study", file_, "--out", out, "--threads", "1"};
   }
 
+  std::vector<std::string> CommandForLevel(const std::string& out, const char* level) const {
+    std::vector<std::string> words = Command(out);
+    words.insert(words.end(), {"--level", level});
+    return words;
+  }
+
   void ExpectError(const std::string& text, const std::string& message) {
     WriteFile(file_, text);
     const ProgramResult result = CallSkein(Command(scratch_ / "wrong"));
@@ -305,6 +311,39 @@ TEST_F(StudyPipeline, LevelsAndSeedsAreAddedByOption) {
     EXPECT_EQ(wrong.exit_code, 2) << value;
     EXPECT_THAT(wrong.error, HasSubstr(message));
   }
+}
+
+TEST_F(StudyPipeline, LevelsCarriedOutOneByOneGiveTheResultsOfAllAtOnce) {
+  const std::string whole = scratch_ / "whole", parts = scratch_ / "parts";
+  ASSERT_EQ(CallSkein(Command(whole)).exit_code, 0);
+  for (const char* level : {"loud, 0.1", "quiet"}) {
+    const ProgramResult result = CallSkein(CommandForLevel(parts, level));
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.output, ::testing::Not(HasSubstr("left out")));
+  }
+  EXPECT_EQ(ReadFile(parts + "/results.csv"), ReadFile(whole + "/results.csv"));
+  EXPECT_EQ(ReadFile(parts + "/results.json"), ReadFile(whole + "/results.json"));
+  // Each level keeps its own seeds.
+  std::vector<std::string> fewer = CommandForLevel(parts, "quiet");
+  fewer.insert(fewer.end(), {"--seeds", "3"});
+  ASSERT_EQ(CallSkein(fewer).exit_code, 0);
+  const std::string csv = ReadFile(parts + "/results.csv");
+  EXPECT_THAT(csv, HasSubstr("\nheading,quiet,trained,20,1,"));
+  EXPECT_THAT(csv, HasSubstr("\nheading,\"loud, 0.1\",trained,20,2,"));
+}
+
+TEST_F(StudyPipeline, ResultsThatTheStudyWouldFlyOtherwiseNowAreLeftOut) {
+  const std::string out = scratch_ / "out";
+  ASSERT_EQ(CallSkein(Command(out)).exit_code, 0);
+  std::string longer = kStudy;
+  longer.replace(longer.find("episodes = 20\n"), 13, "episodes = 30");
+  WriteFile(file_, longer);
+  const ProgramResult result = CallSkein(CommandForLevel(out, "quiet"));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("heading, loud, 0.1: left out of the results"));
+  const auto results = nlohmann::json::parse(ReadFile(out + "/results.json"));
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0]["level"], "quiet");
 }
 
 TEST_F(StudyPipeline, WhatWouldNotBeFollowedIsRefused) {
