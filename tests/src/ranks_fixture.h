@@ -32,6 +32,13 @@ inline std::vector<pid_t> ProcessesOf(const std::string& word) {
   return found;
 }
 
+/// The sanitizer's options of ranks whose caller has these (null: none), as an assignment. OpenMPI
+/// unloads modules that leak: no suppression can name them.
+inline std::string AsanOptionsOfRanks(const char* callers) {
+  return std::string("ASAN_OPTIONS=") + (callers ? std::string(callers) + ":" : "") +
+         "detect_leaks=0";
+}
+
 /// Jobs of several processes, with mpirun; skipped where there is none.
 class RanksFixture : public ::testing::Test {
  protected:
@@ -40,8 +47,6 @@ class RanksFixture : public ::testing::Test {
         !std::filesystem::exists(SKEIN_MPI_MODULE)) {
       GTEST_SKIP() << "no mpirun, or built without MPI";
     }
-    // OpenMPI unloads modules that leak: no suppression can name them.
-    setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
   }
 
   /// The words that start `count` ranks; `environment` is set for the last of them alone.
@@ -49,7 +54,8 @@ class RanksFixture : public ::testing::Test {
                                          const std::string& environment = "") {
     std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
     const auto ranks = [&](int several) {
-      words.insert(words.end(), {"-np", std::to_string(several), SKEIN_PROGRAM});
+      words.insert(words.end(), {"-np", std::to_string(several), "-x",
+                                 AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS")), SKEIN_PROGRAM});
       words.insert(words.end(), arguments.begin(), arguments.end());
     };
     if (environment.empty()) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 
 #include "src/files/output_file.h"
@@ -44,6 +45,24 @@ TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcess) {
     EXPECT_EQ(result.output.find("training heading"), result.output.rfind("training heading"))
         << "rank 0 alone speaks";
   }
+}
+
+TEST(RanksFixture, LeavesTheSanitizerTheCallersOptions) {
+  EXPECT_EQ(AsanOptionsOfRanks(nullptr), "ASAN_OPTIONS=detect_leaks=0");
+  EXPECT_EQ(AsanOptionsOfRanks("log_path=a:verbosity=1"),
+            "ASAN_OPTIONS=log_path=a:verbosity=1:detect_leaks=0");
+}
+
+TEST_F(RanksPipeline, EveryRankHasTheSanitizersOptions) {
+  RunningProgram training(ProgramWords{Mpirun(2, TinyTraining(run_, kShards))});
+  ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+  const std::vector<pid_t> ranks = ProcessesOf(run_);
+  ASSERT_EQ(ranks.size(), 2u);
+  const std::string options = AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS"));
+  for (const pid_t rank : ranks) {
+    EXPECT_THAT(ReadFile("/proc/" + std::to_string(rank) + "/environ"), HasSubstr(options));
+  }
+  EXPECT_EQ(training.Wait().exit_code, 0);
 }
 
 TEST_F(RanksPipeline, ASignalToOneRankStopsAllAndTheRunGoesOnWithAnyNumber) {
