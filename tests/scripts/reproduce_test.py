@@ -4,6 +4,7 @@
 import argparse
 import pathlib
 import sys
+import tempfile
 import unittest
 from unittest import mock
 
@@ -15,9 +16,25 @@ from script_module import load_script  # noqa: E402
 reproduce = load_script("reproduce")
 
 
-def search_by_two_ranks(error):
-    """What a search learns of ranks where two of them end with `error`, and its numbers of ranks from then on."""
-    search = reproduce.Search(argparse.Namespace(program="skein", seed=1), "", pathlib.Path("nowhere"))
+BUILT = ("build/src/skein", "build/train/mpi/libskein_mpi.so")
+INSTALLED = (("usr/bin/skein", "usr/lib/x86_64-linux-gnu/skein/libskein_mpi.so"),
+             ("opt/skein/bin/skein", "opt/skein/lib64/skein/libskein_mpi.so"))
+UNAVAILABLE = "exit code 1: skein: started as one of 2 processes, but trainings on several are not available"
+
+
+def search_by_two_ranks(error, files=BUILT):
+    """What a search learns of ranks where two of them end with `error`, and its numbers of ranks from then on. The
+    program is the first of `files`, which are all there is."""
+    with tempfile.TemporaryDirectory() as folder:
+        for file in files:
+            path = pathlib.Path(folder, file)
+            path.parent.mkdir(parents=True)
+            path.touch()
+        return ranks_of(pathlib.Path(folder, files[0]), error)
+
+
+def ranks_of(program, error):
+    search = reproduce.Search(argparse.Namespace(program=program, seed=1), "", pathlib.Path("nowhere"))
     with mock.patch.object(search, "start"), mock.patch.object(reproduce.shutil, "rmtree"), \
             mock.patch.object(reproduce.shutil, "which", return_value="mpirun"), \
             mock.patch.object(search, "finish", side_effect=reproduce.Differs(error) if error else None):
@@ -28,9 +45,18 @@ class Ranks(unittest.TestCase):
     def test_are_tried_where_two_end_well(self):
         self.assertEqual(search_by_two_ranks(""), ("", [1, 2, 4, 8]))
 
-    def test_of_a_program_without_mpi_are_left_out(self):
-        error = "exit code 1: skein: started as one of 2 processes, but trainings on several are not available (no module)"
-        self.assertEqual(search_by_two_ranks(error), ("built without MPI", [1]))
+    def test_are_tried_by_an_installed_program(self):
+        for files in INSTALLED:
+            self.assertEqual(search_by_two_ranks("", files), ("", [1, 2, 4, 8]))
+
+    def test_of_a_program_without_the_mpi_module_are_left_out(self):
+        for files in (BUILT, *INSTALLED):
+            self.assertEqual(search_by_two_ranks(UNAVAILABLE, files[:1]), ("built without MPI", [1]))
+
+    def test_whose_module_does_not_load_are_a_failure(self):
+        for reason in ("undefined symbol: MPI_Init", "libskein_mpi.so is of another build than 0.2.0"):
+            with self.assertRaisesRegex(reproduce.Differs, f"by two ranks: .*{reason}"):
+                search_by_two_ranks(f"{UNAVAILABLE} ({reason})")
 
     def test_that_fail_are_no_reason_to_do_without_them(self):
         with self.assertRaisesRegex(reproduce.Differs, "by two ranks: exit code 139"):
