@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string>
+#include <system_error>
 #include <vector>
 
+#include "base/error.h"
 #include "src/evaluation/flight_summary.h"
 #include "src/files/text_table.h"
 
@@ -63,6 +66,18 @@ std::string Spread(const Quantity& quantity, const std::vector<double>& values) 
                             quantity.decimals, *high * quantity.shown_per_unit, quantity.decimals);
 }
 
+/// That of an agent called `name`.
+std::uint64_t SeedIn(const std::string& name) {
+  const char* const end = name.data() + name.size();
+  std::uint64_t seed = 0;
+  const auto [stop, failure] = std::from_chars(name.data() + kSeedPrefix.size(), end, seed);
+  if (failure != std::errc() || stop != end) {
+    throw Error(fmt::format("a comparison names an agent '{}', which is no seed (want '{}1')", name,
+                            kSeedPrefix));
+  }
+  return seed;
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> SeedsOf(const Json& comparison) {
@@ -70,9 +85,7 @@ std::vector<std::uint64_t> SeedsOf(const Json& comparison) {
   for (const Json& agent : comparison.at("agents")) {
     const auto name = agent.at("name").get<std::string>();
     if (name.rfind(kSeedPrefix, 0) != 0) break;
-    std::uint64_t seed = 0;
-    std::from_chars(name.data() + kSeedPrefix.size(), name.data() + name.size(), seed);
-    seeds.push_back(seed);
+    seeds.push_back(SeedIn(name));
   }
   return seeds;
 }

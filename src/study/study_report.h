@@ -17,7 +17,8 @@ namespace skein {
 
 inline constexpr std::string_view kSeedPrefix = "seed ";
 
-/// Those of its first agents. Throws nlohmann::json::exception on what is no comparison.
+/// Those of its first agents. Throws nlohmann::json::exception on what is no comparison, and Error
+/// where a number does not follow the prefix, or not alone.
 std::vector<std::uint64_t> SeedsOf(const nlohmann::ordered_json& comparison);
 
 /// A row for every agent of every level, and one called "trained" of the mean over the seeds with
