@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Builds PAGE, the page of skein report, from the FILES of SOURCE in the folder WORK with NPM. What fails is said, and
-# no error: the program then says that it has no page.
+# Builds PAGE, the page of skein report, from the FILES of SOURCE in the folder WORK with NPM. Packages that cannot be
+# had are said, and no error: the program then says that it has no page. What fails leaves no page of earlier sources.
+file(REMOVE ${PAGE})
 foreach(file IN LISTS FILES)
   configure_file(${SOURCE}/${file} ${WORK}/${file} COPYONLY)
 endforeach()
@@ -12,17 +13,31 @@ function(run_npm)
   set(npm_output "${output}" PARENT_SCOPE)
 endfunction()
 
+# The lock file whose packages were installed, or could not be, by its hash; nothing if there was none.
+function(read_lock name)
+  set(lock "")
+  if(EXISTS ${WORK}/${name})
+    file(READ ${WORK}/${name} lock)
+  endif()
+  set(${name} "${lock}" PARENT_SCOPE)
+endfunction()
+
 # Packages are fetched when the lock file is another one: by npm install, which takes the versions of the lock file, too, but
-# which registries that lack some other platform's packages can serve.
+# which registries that lack some other platform's packages can serve. A registry is asked once, not in every build.
 file(SHA256 ${WORK}/package-lock.json lock)
-set(installed "")
-if(EXISTS ${WORK}/installed)
-  file(READ ${WORK}/installed installed)
-endif()
+read_lock(installed)
+read_lock(unreachable)
 if(NOT installed STREQUAL lock)
-  run_npm(install --prefer-offline --no-audit --no-fund --fetch-retries=1 --fetch-timeout=20000)
+  set(retry "scripts/setup --viewer lets the next build ask again")
+  if(unreachable STREQUAL lock)
+    message(STATUS "The page of skein report is not built: its packages could not be had; ${retry}")
+    return()
+  endif()
+  file(REMOVE ${WORK}/installed)
+  run_npm(install --prefer-offline --no-audit --no-fund --fetch-retries=0 --fetch-timeout=20000)
   if(npm_failed)
-    message(STATUS "The page of skein report is not built: npm install failed (no network?)\n${npm_output}")
+    file(WRITE ${WORK}/unreachable ${lock})
+    message(STATUS "The page of skein report is not built: npm install failed (no network?); ${retry}\n${npm_output}")
     return()
   endif()
   file(WRITE ${WORK}/installed ${lock})

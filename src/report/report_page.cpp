@@ -33,8 +33,8 @@ std::optional<std::string> FindReportTemplate() {
 std::string ReportTemplate() {
   if (const auto page = FindReportTemplate()) return *page;
   throw Error(
-      "this build has no page for reports: it was made without Node, or without a network to get "
-      "the page's packages (scripts/setup --viewer, then scripts/build)");
+      "this build has no page for reports: it was made without Node 18 or later, or without a "
+      "network to get the page's packages (scripts/setup --viewer, then scripts/build)");
 }
 
 void WriteReport(const std::string& path, const std::string& deflated) {
