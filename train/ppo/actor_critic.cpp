@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "envs/actions.h"
 #include "train/policy/policy_environment.h"
 #include "train/policy/policy_parameters.h"
 
@@ -25,11 +26,22 @@ TrainedNetwork FreshNetwork(const TrainConfig& config, const NetworkShape& shape
     rate_factor = {layout.log_std(), layout.log_std() + shape.output_size,
                    config.ppo.log_std_rate_factor};
   }
-  return {MakeNetwork(backend, layout, precision),
-          AdamOptimiser(parameters, config.ppo.adam_epsilon, rate_factor)};
+  TrainedNetwork fresh{MakeNetwork(backend, layout, precision),
+                       AdamOptimiser(parameters, config.ppo.adam_epsilon, rate_factor),
+                       std::nullopt};
+  if (shape.gaussian && shape.output_size == kActionSize && !config.ppo.pedals) {
+    fresh.idle_pedals.emplace(layout);
+    fresh.idle_pedals->Apply(fresh.optimiser.parameters());
+  }
+  return fresh;
 }
 
 }  // namespace
+
+void TrainedNetwork::StartFrom(const std::vector<float>& parameters) {
+  optimiser.SetParameters(parameters);
+  if (idle_pedals) idle_pedals->Apply(optimiser.parameters());
+}
 
 ActorCritic::ActorCritic(const TrainConfig& config, int observation_size, int privileged_size,
                          int action_size)

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "train/network/recurrent_network.h"
 #include "train/policy/recurrent_policy.h"
 #include "train/ppo/adam.h"
+#include "train/ppo/idle_pedals.h"
 #include "train/ppo/train_config.h"
 
 namespace skein {
@@ -16,9 +18,12 @@ struct TrainedNetwork {
   const NetworkLayout& layout() const { return network->layout(); }
   /// From now on the network computes with the optimiser's parameters.
   void TakeParameters() { network->SetParameters(optimiser.parameters()); }
+  /// Goes on from `parameters`, layout().size() floats.
+  void StartFrom(const std::vector<float>& parameters);
 
   std::unique_ptr<RecurrentNetwork> network;
   AdamOptimiser optimiser;
+  std::optional<IdlePedals> idle_pedals;  ///< of an actor that has none to move
 };
 
 /// Both networks of PPO.

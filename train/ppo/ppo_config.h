@@ -52,6 +52,8 @@ struct PpoConfig {
   double held_noise_share = 0;
   int held_noise_steps = 10;
   int held_noise_actions = 1;  ///< of the first so many: the throttle's alone
+  /// false: of four actions the last, yaw, is never taken (IdlePedals).
+  bool pedals = true;
   double value_coefficient = 1;
   bool clip_value_loss = false;
   /// The critic also sees what no policy observes (VecEnv::ObservePrivileged).

@@ -214,6 +214,7 @@ void PpoUpdate::Step(Side& side, double learning_rate) {
   const DenormalsFlushed flushed;
   AdamOptimiser& optimiser = side.trained.optimiser;
   side.trained.network->FinishGradient(side.accumulators[0].data(), optimiser.gradient());
+  if (side.trained.idle_pedals) side.trained.idle_pedals->DropGradient(optimiser.gradient());
   side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, optimiser);
   side.trained.TakeParameters();
 }

@@ -305,7 +305,8 @@ struct Trainer::Impl {
     report.action_change = done.losses.action_change;
     report.actor_gradient_norm = done.actor_gradient_norm;
     report.critic_gradient_norm = done.critic_gradient_norm;
-    const std::vector<float> log_std = networks.LogStd();
+    std::vector<float> log_std = networks.LogStd();
+    if (networks.actor.idle_pedals) log_std.pop_back();
     for (const float value : log_std) report.log_std_mean += value / log_std.size();
     report.update_seconds = SecondsSince(start);
   }
@@ -400,7 +401,7 @@ IterationReport Trainer::Iterate() {
 bool Trainer::StartFrom(const std::string& path) {
   const StartingNetworks networks = LoadNetworks(
       path, impl_->config, impl_->networks.actor.layout(), impl_->networks.critic.layout());
-  impl_->networks.actor.optimiser.SetParameters(networks.actor);
+  impl_->networks.actor.StartFrom(networks.actor);
   impl_->BeginAverage();
   if (networks.critic.empty()) return false;
   impl_->networks.critic.optimiser.SetParameters(networks.critic);
