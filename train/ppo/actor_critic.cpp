@@ -29,18 +29,22 @@ TrainedNetwork FreshNetwork(const TrainConfig& config, const NetworkShape& shape
   TrainedNetwork fresh{MakeNetwork(backend, layout, precision),
                        AdamOptimiser(parameters, config.ppo.adam_epsilon, rate_factor),
                        std::nullopt};
-  if (shape.gaussian && shape.output_size == kActionSize && !config.ppo.pedals) {
+  if (shape.gaussian && !config.ppo.pedals) {
     fresh.idle_pedals.emplace(layout);
-    fresh.idle_pedals->Apply(fresh.optimiser.parameters());
+    fresh.idle_pedals->Idle(fresh.optimiser.parameters());
   }
   return fresh;
 }
 
 }  // namespace
 
-void TrainedNetwork::StartFrom(const std::vector<float>& parameters) {
-  optimiser.SetParameters(parameters);
-  if (idle_pedals) idle_pedals->Apply(optimiser.parameters());
+void SetPedals(const TrainConfig& config, const NetworkLayout& layout, float* parameters) {
+  if (layout.shape().output_size != kActionSize) return;
+  const IdlePedals pedals(layout);
+  if (!config.ppo.pedals) pedals.Idle(parameters);
+  if (config.ppo.pedals && pedals.AreIdle(parameters)) {
+    pedals.Free(static_cast<float>(config.network.initial_log_std), parameters);
+  }
 }
 
 ActorCritic::ActorCritic(const TrainConfig& config, int observation_size, int privileged_size,

@@ -18,13 +18,14 @@ struct TrainedNetwork {
   const NetworkLayout& layout() const { return network->layout(); }
   /// From now on the network computes with the optimiser's parameters.
   void TakeParameters() { network->SetParameters(optimiser.parameters()); }
-  /// Goes on from `parameters`, layout().size() floats.
-  void StartFrom(const std::vector<float>& parameters);
 
   std::unique_ptr<RecurrentNetwork> network;
   AdamOptimiser optimiser;
-  std::optional<IdlePedals> idle_pedals;  ///< of an actor that has none to move
+  std::optional<IdlePedals> idle_pedals;  ///< of an actor, if ppo.pedals is false
 };
+
+/// Idles the pedals of an actor's `parameters`, or frees idle ones, as ppo.pedals has it.
+void SetPedals(const TrainConfig& config, const NetworkLayout& layout, float* parameters);
 
 /// Both networks of PPO.
 struct ActorCritic {

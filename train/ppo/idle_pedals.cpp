@@ -4,32 +4,47 @@
 #include <algorithm>
 
 #include "envs/actions.h"
+#include "train/network/ppo_loss.h"
 
 namespace skein {
 namespace {
 
-constexpr int kYaw = kActionSize - 1;
-/// Of a standard deviation that moves no rudder, 5e-5 of full pedal, and whose reciprocal's square
-/// is far from float32's largest.
+constexpr int kYawAction = kActionSize - 1;
+/// 5e-5 of full pedal, which moves no rudder; one over its square is far from float32's largest.
 constexpr float kIdleLogStd = -10;
+/// Deviations that a training explores with are far wider, idle ones within rounding of that.
+constexpr float kIdleBelow = -9;
 
 }  // namespace
 
 IdlePedals::IdlePedals(const NetworkLayout& layout) {
   const NormalisedLinear& head = layout.layer(layout.head());
-  const std::int64_t weights = head.weight + std::int64_t{kYaw} * head.in;
-  const std::int64_t bias = head.bias + kYaw, log_std = layout.log_std() + kYaw;
-  idle_ = {
-      {{weights, weights + head.in, 0}, {bias, bias + 1, 0}, {log_std, log_std + 1, kIdleLogStd}}};
+  const std::int64_t weights = head.weight + std::int64_t{kYawAction} * head.in;
+  const std::int64_t bias = head.bias + kYawAction;
+  log_std_ = layout.log_std() + kYawAction;
+  idle_ = {{{weights, weights + head.in, 0},
+            {bias, bias + 1, 0},
+            {log_std_, log_std_ + 1, kIdleLogStd}}};
 }
 
-void IdlePedals::Apply(float* parameters) const {
-  for (const Parameters& of : idle_)
-    std::fill(parameters + of.begin, parameters + of.end, of.value);
+void IdlePedals::Idle(float* parameters) const {
+  for (const Parameters& idle : idle_) {
+    std::fill(parameters + idle.begin, parameters + idle.end, idle.value);
+  }
 }
+
+bool IdlePedals::AreIdle(const float* parameters) const {
+  return parameters[log_std_] < kIdleBelow;
+}
+
+void IdlePedals::Free(float log_std, float* parameters) const { parameters[log_std_] = log_std; }
 
 void IdlePedals::DropGradient(float* gradient) const {
-  for (const Parameters& of : idle_) std::fill(gradient + of.begin, gradient + of.end, 0.0f);
+  for (const Parameters& idle : idle_) {
+    std::fill(gradient + idle.begin, gradient + idle.end, 0.0f);
+  }
 }
+
+double IdlePedals::Entropy() { return GaussianEntropy(1, &kIdleLogStd); }
 
 }  // namespace skein

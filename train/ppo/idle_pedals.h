@@ -8,18 +8,24 @@
 
 namespace skein {
 
-/// What keeps an actor's feet on the floor: its yaw action, the last of kActionSize, is 0 whatever
-/// it observes, and as good as never explored. The parameters that only this action has, a row of
-/// the head, its bias and the standard deviation, are set to that and do not learn.
+/// The parameters that an actor's yaw action alone has, a row of the head, its bias and its
+/// standard deviation, where ppo.pedals is false: the mean action is 0, and its exploration moves
+/// no rudder. Offsets are into a flat vector of layout.size() floats.
 class IdlePedals {
  public:
   /// `layout` is of an actor of kActionSize outputs.
   explicit IdlePedals(const NetworkLayout& layout);
 
-  /// Idles the pedals of `parameters`, layout.size() floats.
-  void Apply(float* parameters) const;
-  /// Leaves nothing of `gradient`, layout.size() floats, that would move them.
+  /// Sets `parameters` to that.
+  void Idle(float* parameters) const;
+  /// Whether `parameters`, or a mean of such, have been set to that.
+  bool AreIdle(const float* parameters) const;
+  /// Lets the yaw action of such `parameters` be explored, with a deviation of exp(`log_std`).
+  void Free(float log_std, float* parameters) const;
+  /// Leaves nothing of `gradient` that would move them.
   void DropGradient(float* gradient) const;
+  /// What the idle action adds to the entropy of the others.
+  static double Entropy();
 
  private:
   struct Parameters {
@@ -27,6 +33,7 @@ class IdlePedals {
     float value = 0;
   };
   std::array<Parameters, 3> idle_;
+  std::int64_t log_std_ = 0;
 };
 
 }  // namespace skein

@@ -81,9 +81,10 @@ void ListFields(PpoConfig& config, FieldList& list) {
   list.Add("held_noise_actions", &config.held_noise_actions, {1, 1000},
            "of the first so many actions: the throttle is the first")
       .OffUnless(config.held_noise_share > 0);
-  list.Add("pedals", &config.pedals,
-           "false: the policy keeps its feet on the floor, its yaw action is 0, and flight control "
-           "coordinates its turns; not of a high-level policy")
+  list.Add(
+          "pedals", &config.pedals,
+          "false: the yaw action is 0, and flight control coordinates turns; of policies that give "
+          "stick commands")
       .OffUnless(!config.pedals);
   list.Add("value_coefficient", &config.value_coefficient, Bounds::Positive(),
            "weight of the value loss");

@@ -52,7 +52,7 @@ struct PpoConfig {
   double held_noise_share = 0;
   int held_noise_steps = 10;
   int held_noise_actions = 1;  ///< of the first so many: the throttle's alone
-  /// false: of four actions the last, yaw, is never taken (IdlePedals).
+  /// false: the yaw action is 0 (IdlePedals).
   bool pedals = true;
   double value_coefficient = 1;
   bool clip_value_loss = false;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/train_config.h"
 
+#include "base/error.h"
 #include "base/field_list.h"
+#include "envs/task_registry.h"
 #include "train/ppo/shards.h"
 
 namespace skein {
@@ -25,6 +27,9 @@ void ListFields(TrainConfig& config, FieldList& list) {
 
 void ValidateLearning(const TrainConfig& config) {
   Validate(config.ppo);
+  if (!config.ppo.pedals && NeedsLowLevel(config.env)) {
+    throw Error("ppo.pedals = false: a high-level policy has no pedals; leave it out");
+  }
   ValidateShards(config.learner.shards, config.ppo.num_aircraft,
                  config.ppo.rollout_steps / config.ppo.chunk_length, config.ppo.minibatches);
 }

@@ -306,7 +306,10 @@ struct Trainer::Impl {
     report.actor_gradient_norm = done.actor_gradient_norm;
     report.critic_gradient_norm = done.critic_gradient_norm;
     std::vector<float> log_std = networks.LogStd();
-    if (networks.actor.idle_pedals) log_std.pop_back();
+    if (networks.actor.idle_pedals) {  // what is not explored
+      log_std.pop_back();
+      report.entropy -= IdlePedals::Entropy();
+    }
     for (const float value : log_std) report.log_std_mean += value / log_std.size();
     report.update_seconds = SecondsSince(start);
   }
@@ -399,9 +402,10 @@ IterationReport Trainer::Iterate() {
 }
 
 bool Trainer::StartFrom(const std::string& path) {
-  const StartingNetworks networks = LoadNetworks(
-      path, impl_->config, impl_->networks.actor.layout(), impl_->networks.critic.layout());
-  impl_->networks.actor.StartFrom(networks.actor);
+  StartingNetworks networks = LoadNetworks(path, impl_->config, impl_->networks.actor.layout(),
+                                           impl_->networks.critic.layout());
+  SetPedals(impl_->config, impl_->networks.actor.layout(), networks.actor.data());
+  impl_->networks.actor.optimiser.SetParameters(networks.actor);
   impl_->BeginAverage();
   if (networks.critic.empty()) return false;
   impl_->networks.critic.optimiser.SetParameters(networks.critic);

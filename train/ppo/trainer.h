@@ -80,10 +80,11 @@ class Trainer {
   /// one alone ends all processes.
   IterationReport Iterate();
 
-  /// Takes over the networks of a policy file or checkpoint: the actor, and the critic with its
-  /// value statistics if the file has them (returned). Optimiser, environment and counters stay as
-  /// they are: for a training that has not begun. Throws Error if the file is damaged, or its
-  /// policy is of other sizes, another task or environment; nothing has changed then.
+  /// Takes over the networks of a policy file or checkpoint: the actor, its pedals idle or freed as
+  /// ppo.pedals has it, and the critic with its value statistics if the file has them (returned).
+  /// Optimiser, environment and counters stay as they are: for a training that has not begun.
+  /// Throws Error if the file is damaged, or its policy is of other sizes, another task or
+  /// environment; nothing has changed then.
   bool StartFrom(const std::string& path);
 
   /// The actor as it is now.

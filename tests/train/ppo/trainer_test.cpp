@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "base/error.h"
-#include "envs/actions.h"
 #include "simd/target.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
@@ -186,41 +185,6 @@ TEST_F(TrainerTest, APrivilegedCriticTrainsAndResumesBitExactly) {
   EXPECT_FALSE(without.StartFrom(path_));
   EXPECT_EQ(without.policy().parameters()->values, from.policy().parameters()->values);
   without.Iterate();
-}
-
-TEST_F(TrainerTest, WithoutPedalsTheYawActionIsNothingWhateverItBeganAs) {
-  WorkerPool pool(1);
-  Trainer with_pedals(SmallConfig(), pool);
-  with_pedals.Iterate();
-  with_pedals.Save(path_);
-  TrainConfig config = SmallConfig();
-  config.ppo.pedals = false;
-  Trainer fresh(config, pool), from(config, pool);
-  from.StartFrom(path_);
-  for (Trainer* const trainer : {&fresh, &from}) {
-    const RecurrentPolicy before = trainer->policy();
-    trainer->Iterate();
-    const RecurrentPolicy after = trainer->policy();
-    const std::vector<float> observation(after.observation_size(), 0.3f);
-    std::vector<float> state(after.state_size()), old_state = state, log_std(kActionSize);
-    std::vector<float> action(kActionSize), old_action = action;
-    before.ActionMean(1, observation.data(), old_state.data(), old_action.data());
-    after.ActionMean(1, observation.data(), state.data(), action.data(), log_std.data());
-    EXPECT_EQ(old_action[3], 0);
-    EXPECT_EQ(action[3], 0);
-    EXPECT_LT(std::exp(log_std[3]), 1e-4f) << "exploration leaves them alone, too";
-    for (const int k : {0, 1, 2}) {
-      EXPECT_NE(action[k], old_action[k]) << "the others learn";
-      EXPECT_GT(std::exp(log_std[k]), 0.5f);
-    }
-  }
-}
-
-TEST_F(TrainerTest, WithoutPedalsItResumesBitExactly) {
-  TrainConfig config = SmallConfig();
-  config.ppo.pedals = false;
-  config.ppo.average_iterations = 2;
-  ExpectToResumeBitExactly(config);
 }
 
 TEST_F(TrainerTest, NetworksThatDoNotFitChangeNothing) {
