@@ -53,8 +53,8 @@ std::string InWords(const std::string& column) {
 }
 
 std::vector<double> Ticks(const Range& range, double count) {
-  const double span = range.max - range.min;
-  const double rough = span > 0 ? span / std::max(count, 1.0) : 1;
+  const double share = (range.max - range.min) / std::max(count, 1.0);
+  const double rough = share > std::numeric_limits<double>::min() ? share : 1;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10 * power;
   for (const double multiple : {5.0, 2.0, 1.0}) {
@@ -63,7 +63,11 @@ std::vector<double> Ticks(const Range& range, double count) {
   std::vector<double> ticks;
   const double first = std::ceil(range.min / step - kRoundingGuard);
   const double last = std::floor(range.max / step + kRoundingGuard);
-  for (double i = first; i <= last; ++i) ticks.push_back(i == 0 ? 0 : i * step);
+  // Counted from 0, as a number beyond 2^53 is the same after 1 was added.
+  for (double k = 0; k <= last - first; ++k) {
+    const double multiple = first + k;
+    ticks.push_back(multiple == 0 ? 0 : multiple * step);
+  }
   return ticks;
 }
 

@@ -14,6 +14,14 @@ namespace {
 constexpr double kSameTime_s = 1e-6;
 constexpr double kLeastLastGap = 0.4;  // of the interval, between the last two aircraft
 constexpr double kSpacing = 1.2;       // of aircraft on the paper, in their lengths
+constexpr double kFarthest_ft = 1e9;   // beyond, numbers along a map's sides would be the same
+
+void RequireNear(const SpacePoint& point, const DrawnFlight& flight) {
+  const double distance_ft = point.cwiseAbs().maxCoeff();
+  if (distance_ft <= kFarthest_ft) return;
+  throw Error(fmt::format("{}: episode {} or its target is {:g} ft away; up to {:g} can be drawn",
+                          flight.source, flight.episode, distance_ft, kFarthest_ft));
+}
 
 }  // namespace
 
@@ -75,6 +83,8 @@ Track TrackOf(const DrawnEpisode::Entry& entry, bool is_first) {
   if (track.points.empty()) {
     throw Error(fmt::format("{}: episode {} has no position", flight.source, flight.episode));
   }
+  for (const SpacePoint& point : track.points) RequireNear(point, flight);
+  RequireNear(track.TargetPoint(), flight);
   return track;
 }
 

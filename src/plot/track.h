@@ -29,7 +29,7 @@ struct Track {
   std::optional<BodyAxes> TargetAxes() const;
 };
 
-/// Throws Error if the flight has no positions or attitudes.
+/// Throws Error if the flight has no positions or attitudes, or is too far away to be drawn.
 Track TrackOf(const DrawnEpisode::Entry& entry, bool is_first);
 
 /// Of all agents' episodes, episode by episode.

@@ -2,6 +2,7 @@
 #include "src/report/csv_columns.h"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -21,7 +22,8 @@ std::vector<std::string_view> CellsOf(std::string_view line) {
 double NumberIn(std::string_view cell) {
   double value = 0;
   const auto [stop, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  const bool is_number = failure == std::errc() && stop == cell.data() + cell.size();
+  const bool is_number = failure == std::errc() && stop == cell.data() + cell.size() &&
+                         std::abs(value) <= std::numeric_limits<float>::max();
   return is_number ? value : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -9,9 +9,10 @@ namespace skein {
 /// A table of numbers, a column at a time.
 struct CsvColumns {
   std::vector<std::string> names;
-  std::vector<std::vector<double>> values;  ///< [column][row]; NaN where a cell holds no number
-  std::vector<std::string> words;           ///< [row] of the column that was asked for as text
-  int rows_left_out = 0;  ///< torn ones: not as many cells as the header, or no end
+  /// [column][row]; NaN where a cell holds no number, or none that float32 holds.
+  std::vector<std::vector<double>> values;
+  std::vector<std::string> words;  ///< [row] of the column that was asked for as text
+  int rows_left_out = 0;           ///< torn ones: not as many cells as the header, or no end
 
   std::size_t rows() const { return values.empty() ? 0 : values.front().size(); }
   /// Null if there is no such column.

@@ -126,8 +126,7 @@ StudyRun::StudyRun(const Study& study, const std::string& directory, WorkerPool&
 bool StudyRun::Run() {
   DoOnRankZero(ranks_, [this] {
     for (const std::string& cell : results_.ReadFinished()) {
-      fmt::print("{}: left out of the results: the study would train or fly it otherwise now\n",
-                 cell);
+      fmt::print("{}: left out of the results: the study would fly it otherwise now\n", cell);
     }
   });
   // So that no rank waits for the last training of a level.

@@ -59,7 +59,9 @@ class TryDebian(unittest.TestCase):
                                          "SKEIN_CHROOTS": str(self.folder / "chroots")}
 
     def start(self, *command):
-        return subprocess.Popen([self.script, "bookworm", *command], env=self.environment, stdout=subprocess.PIPE,
+        # A shell cannot trap what was ignored before it began, as it is below nohup.
+        defaults = ["env", "--default-signal=HUP,INT,TERM"]
+        return subprocess.Popen([*defaults, self.script, "bookworm", *command], env=self.environment, stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, text=True)
 
     def run_there(self, *command):

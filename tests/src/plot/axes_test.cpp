@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace skein {
 namespace {
@@ -33,6 +34,16 @@ TEST(Ticks, OfNothingAreStillFinite) {
   for (const double tick : Ticks({5, 5}, 4)) EXPECT_TRUE(std::isfinite(tick));
   EXPECT_TRUE(std::isfinite(Padded({}).max));
   EXPECT_LT(Padded({7, 7}).min, 7);
+}
+
+TEST(Ticks, OfNumbersThatBarelyDifferAreFew) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  constexpr double kMost = std::numeric_limits<double>::max();
+  for (const Range& range : {Range{1e20, 1e20}, {1e17, 1e17 + 16}, {0, kLeast}, {-kMost, kMost}}) {
+    const std::vector<double> ticks = Ticks(range, 5);
+    EXPECT_LE(ticks.size(), 7u) << range.min;
+    for (const double tick : ticks) EXPECT_TRUE(std::isfinite(tick)) << range.min;
+  }
 }
 
 TEST(AxisWords, HaveUnits) {

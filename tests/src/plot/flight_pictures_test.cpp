@@ -240,5 +240,19 @@ TEST_F(FlightPictures, WhatCannotBeDrawnIsSaid) {
       HasSubstr("bare.csv: no column north_ft"));
 }
 
+TEST_F(FlightPictures, WhatIsTooFarAwayIsRefused) {
+  const std::string file = scratch_ / "far.csv";
+  for (const char* place : {"1e20,0,20000,0", "0,-1e20,20000,0", "0,0,1e20,0", "0,0,0,1e20"}) {
+    WriteFile(file, fmt::format("episode,time_s,roll_deg,pitch_deg,yaw_deg,north_ft,east_ft,"
+                                "altitude_ft,target_altitude_ft,termination\n0,0,0,0,0,{},\n",
+                                place));
+    const auto is_refused = HasSubstr("far.csv: episode 0 or its target is 1e+20 ft away");
+    EXPECT_THAT(MessageOf([&] { SpacePicture(ReadRecordings({file}), SpaceOptions()); }),
+                is_refused);
+    EXPECT_THAT(MessageOf([&] { TracksPicture(ReadRecordings({file}), TracksOptions()); }),
+                is_refused);
+  }
+}
+
 }  // namespace
 }  // namespace skein

@@ -31,6 +31,13 @@ TEST(CsvColumnsTest, ReadsWholeRowsAndCountsTornOnes) {
   EXPECT_EQ(table.Find("c"), nullptr);
 }
 
+TEST(CsvColumnsTest, TakesNoNumberThatFloat32DoesNotHold) {
+  const CsvColumns table = ParseCsv("a,b,c\n3e38,1e39,-inf\n");
+  EXPECT_THAT(*table.Find("a"), ElementsAre(3e38));
+  EXPECT_TRUE(std::isnan((*table.Find("b"))[0]));
+  EXPECT_TRUE(std::isnan((*table.Find("c"))[0]));
+}
+
 TEST(CsvColumnsTest, HasNothingOfAnEmptyOrHeadlessFile) {
   EXPECT_EQ(ParseCsv("").rows(), 0u);
   EXPECT_EQ(ParseCsv("iteration,env_st").rows_left_out, 1);
