@@ -178,7 +178,8 @@ TEST(Settings, EvaluationsTakeTolerancesWhole) {
 void TurnOnWhatIsOff(TrainConfig* config) {
   for (const Field& field : FieldsOf(*config)) {
     if (!field.is_off) continue;
-    if (std::holds_alternative<bool*>(field.place)) field.SetText("true");
+    if (const auto* flag = std::get_if<bool*>(&field.place))
+      field.SetText(**flag ? "false" : "true");
     if (field.IsNumber()) field.SetText(field.bounds.Contains(2) ? "2" : "1");
     if (std::holds_alternative<std::string*>(field.place)) field.SetText("some");
     if (const auto* choice = std::get_if<NamedChoice>(&field.place)) {
