@@ -11,6 +11,7 @@
 #include "envs/actions.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
+#include "tests/train/libtorch.h"
 #include "tests/train/network/gradient_comparison.h"
 #include "tests/train/small_config.h"
 #include "train/ppo/trainer.h"
@@ -100,26 +101,25 @@ TrainConfig Without(TrainConfig config) {
 
 class PedalsInTraining : public testing::Test {
  protected:
+  /// Holds the pedals of such a training idle, begun anew or from a policy that has them.
+  void ExpectIdleWhateverTheyBeganAs(const TrainConfig& config) const {
+    WorkerPool pool(2);
+    Trainer with_pedals(config, pool);
+    with_pedals.Iterate();
+    with_pedals.Save(path_);
+    Trainer fresh(Without(config), pool), from(Without(config), pool);
+    from.StartFrom(path_);
+    for (Trainer* const trainer : {&fresh, &from}) ExpectToLearnAllButPedals(*trainer);
+  }
+
   const ScratchDirectory scratch_;
   const std::string path_ = scratch_ / "checkpoint.skein";
-};
 
-class PedalsByPrecision : public PedalsInTraining,
-                          public testing::WithParamInterface<LearnerPrecision> {};
-
-TEST_P(PedalsByPrecision, AreIdleWhateverTheyBeganAs) {
-  WorkerPool pool(2);
-  TrainConfig config = SmallConfig();
-  config.learner.precision = GetParam();
-  Trainer with_pedals(config, pool);
-  with_pedals.Iterate();
-  with_pedals.Save(path_);
-  Trainer fresh(Without(config), pool), from(Without(config), pool);
-  from.StartFrom(path_);
-  for (Trainer* const trainer : {&fresh, &from}) {
-    const Answer before = AnswerOf(trainer->policy());
-    trainer->Iterate();
-    trainer->Save(path_);
+ private:
+  void ExpectToLearnAllButPedals(Trainer& trainer) const {
+    const Answer before = AnswerOf(trainer.policy());
+    trainer.Iterate();
+    trainer.Save(path_);
     const Answer after = AnswerOf(RecurrentPolicy::Load(path_));
     EXPECT_EQ(before.action[kYaw], 0);
     EXPECT_EQ(after.action[kYaw], 0);
@@ -129,6 +129,22 @@ TEST_P(PedalsByPrecision, AreIdleWhateverTheyBeganAs) {
       EXPECT_GT(std::exp(after.log_std[k]), 0.5f);
     }
   }
+};
+
+class PedalsByPrecision : public PedalsInTraining,
+                          public testing::WithParamInterface<LearnerPrecision> {};
+
+TEST_P(PedalsByPrecision, AreIdleWhateverTheyBeganAs) {
+  TrainConfig config = SmallConfig();
+  config.learner.precision = GetParam();
+  ExpectIdleWhateverTheyBeganAs(config);
+}
+
+TEST_F(PedalsInTraining, AreIdleByLibTorchToo) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
+  TrainConfig config = SmallConfig();
+  config.learner.backend = Backend::kLibTorch;
+  ExpectIdleWhateverTheyBeganAs(config);
 }
 
 TEST_F(PedalsInTraining, AreLearnedAgainWhereTheyWereIdle) {

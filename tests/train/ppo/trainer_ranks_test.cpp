@@ -122,6 +122,13 @@ TEST_F(TrainerRanksTest, SoDoWindsPlantsAndACriticThatSeesMore) {
   ExpectSameForAnyRanks(config, {2, 8});
 }
 
+TEST_F(TrainerRanksTest, SoDoPoliciesThatLeaveThePedalsAlone) {
+  TrainConfig config = Sharded(SmallConfig());
+  config.ppo.pedals = false;
+  config.ppo.average_iterations = 2;
+  ExpectSameForAnyRanks(config, {2, 8});
+}
+
 /// A rank with more threads than tasks of a network: all compute both networks at once.
 TEST_F(TrainerRanksTest, ItIsTheSameWhereNetworksAreNotComputedOneByOne) {
   const TrainConfig config = Sharded(SmallConfig());
