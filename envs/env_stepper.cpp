@@ -301,21 +301,29 @@ const float* EnvStepper::StickActions(const EnvBlock& block, const float* action
   return scratch.low_level.action;
 }
 
-/// The commands that reach the aircraft in this control step, which remembers what was given.
-PilotColumns EnvStepper::Commands(const EnvBlock& block, Scratch& scratch) const {
+/// The commands that reach the aircraft in this control step of the policy step, which remembers
+/// what was given.
+PilotColumns EnvStepper::Commands(const EnvBlock& block, int step, Scratch& scratch) const {
   const auto columns = [](const float(*command)[kAircraftPerBlock]) {
     return PilotColumns{command[0], command[1], command[2], command[3]};
   };
-  if (block.delay_line.delays.observation > 0) RememberState(block.delay_line, block.flight);
-  if (block.delay_line.delays.action == 0) return columns(scratch.command);
+  // An action that has been held for the longest delay is all that is remembered.
+  const bool has_arrived = low_level_ == nullptr && step >= block.delay_line.delays.action;
+  if (block.delay_line.delays.action == 0 || has_arrived) return columns(scratch.command);
   DelayCommands(block.delay_line, block.plants, block.count, scratch.command[0], kAircraftPerBlock,
                 scratch.delayed_command[0]);
   return columns(scratch.delayed_command);
 }
 
+/// Whether a sensor of the block may freeze within the policy step that begins.
+bool EnvStepper::MayFreeze(const EnvBlock& block) const {
+  return config_.plant.sensor_freeze_chance > 0 &&
+         AnySensorFreezes(block.plants, block.count, block.step, config_.action_repeat);
+}
+
 /// Lets the sensors keep what they show now whose time has come.
 void EnvStepper::FreezeSensors(const EnvBlock& block) const {
-  if (!AnySensorFreezes(block.plants, block.count, block.step)) return;
+  if (!AnySensorFreezes(block.plants, block.count, block.step, 0)) return;
   const ObservationLayout& layout = task_->observation_layout();
   if (!layout.flight) return;
   float observation[kAircraftPerBlock * kMostObservations];
@@ -470,9 +478,15 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
   const bool keeps_final = output.observes_every_end || (config_.episode().truncate_at_time_limit &&
                                                          output.final_observation != nullptr);
   const float dt = static_cast<float>(config_.control_interval_s);
+  const bool may_freeze = MayFreeze(block);
+  // What is observed late, at the policy step's end, are states of its last control steps.
+  const bool observes_between = keeps_final || low_level_ != nullptr || may_freeze;
+  const int longest_delay = block.delay_line.delays.observation;
+  const int first_seen_late = observes_between ? 0 : config_.action_repeat - longest_delay;
   for (int step = 0; step < config_.action_repeat; ++step) {
     const float* const stick_action = StickActions(block, action, step, scratch);
-    const PilotColumns commands = Commands(block, scratch);
+    if (longest_delay > 0 && step >= first_seen_late) RememberState(block.delay_line, block.flight);
+    const PilotColumns commands = Commands(block, step, scratch);
     if (wind_.enabled()) wind_.Advance(block.flight, dt, GustKeysOf(block));
     ControlTile(*kernel_aircraft_, flight_control_, block.flight, commands, block.plants);
     // What lies ahead is needed after the last control step.
@@ -484,7 +498,7 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
     }
     ComputeReward(block, stick_action, step == 0 ? action : nullptr, output.observer, scratch);
     if (progress_.mission_steps > 0) DrawTargets(block, scratch);
-    if (config_.plant.sensor_freeze_chance > 0) FreezeSensors(block);
+    if (may_freeze) FreezeSensors(block);
     if (keeps_final) ObserveEnds(block, scratch, output);
   }
   std::copy_n(scratch.policy_step_reward, block.count, output.reward);

@@ -87,8 +87,9 @@ class EnvStepper {
   PlantDraw PlantOf(simd::RandomStream* random) const;
   Tile Sensed(const EnvBlock& block, SensedState& state) const;
   void ObserveSample(const EnvBlock& block, float* observation) const;
+  bool MayFreeze(const EnvBlock& block) const;
   void FreezeSensors(const EnvBlock& block) const;
-  PilotColumns Commands(const EnvBlock& block, Scratch& scratch) const;
+  PilotColumns Commands(const EnvBlock& block, int step, Scratch& scratch) const;
   const float* StickActions(const EnvBlock& block, const float* action, int step, Scratch& scratch);
   void ComputeReward(const EnvBlock& block, const float* action, const float* policy_action,
                      ControlStepObserver* observer, Scratch& scratch) const;

@@ -15,14 +15,16 @@ namespace skein {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Whether an aircraft's step has come to its freeze step. Of padding both are sound numbers, too.
-bool AnyHasCome(const float* freeze_step, const std::int32_t* step, int count) {
+/// Whether an aircraft's step comes to its freeze step within `ahead` steps. Of padding both are
+/// sound numbers, too.
+bool AnyComes(const float* freeze_step, const std::int32_t* step, int ahead, int count) {
   const FloatTag d;
   const IntTag di;
+  const V later = hn::Set(d, static_cast<float>(ahead));
   auto any = hn::MaskFromVec(hn::Zero(d));
   for (int first = 0; first < count; first += kLanes) {
-    const V now = hn::ConvertTo(d, hn::LoadU(di, step + first));
-    any = hn::Or(any, hn::Ge(now, hn::LoadU(d, freeze_step + first)));
+    const V last = hn::Add(hn::ConvertTo(d, hn::LoadU(di, step + first)), later);
+    any = hn::Or(any, hn::Ge(last, hn::LoadU(d, freeze_step + first)));
   }
   return !hn::AllFalse(d, any);
 }
@@ -35,7 +37,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace skein {
 
-HWY_EXPORT(AnyHasCome);
+HWY_EXPORT(AnyComes);
 
 namespace {
 
@@ -49,8 +51,8 @@ const FreezingSensor& SensorOf(const PlantTile& plants, int i) {
 
 }  // namespace
 
-bool AnySensorFreezes(const PlantTile& plants, int count, const std::int32_t* step) {
-  return SKEIN_DISPATCH(AnyHasCome)(plants[kPlantFreezeStep], step, count);
+bool AnySensorFreezes(const PlantTile& plants, int count, const std::int32_t* step, int ahead) {
+  return SKEIN_DISPATCH(AnyComes)(plants[kPlantFreezeStep], step, ahead, count);
 }
 
 void FreezeSensors(const PlantTile& plants, int count, const std::int32_t* step,

@@ -9,8 +9,9 @@ namespace skein {
 
 // Sensors that keep their last value. Observations are row-major, [count][observation_size].
 
-/// Whether a sensor of the tile freezes now: `step` are the control steps flown.
-bool AnySensorFreezes(const PlantTile& plants, int count, const std::int32_t* step);
+/// Whether a sensor of the tile freezes within the next `ahead` control steps, or now: `step` are
+/// those flown.
+bool AnySensorFreezes(const PlantTile& plants, int count, const std::int32_t* step, int ahead);
 
 /// Freezes those sensors: from now on each shows what `observation` has.
 /// `observation` points at where number 0 of the first row would be (envs/tasks/observation.h).

@@ -480,6 +480,35 @@ TEST(DrawnFlight, AFrozenSensorShowsWhatItLastShowed) {
 }
 
 // All at once, against the float64 aircraft whose data are others.
+TEST(DrawnFlight, AHeldActionIsTheSameActionInEveryControlStep) {
+  constexpr int kCount = 64, kPolicySteps = 12;
+  EnvConfig config = OneDrawnFlight();
+  config.observation_noise = 0.01;
+  config.plant.sensor_bias = 0.02;
+  config.plant.sensor_freeze_chance = 0.5;
+  config.plant.sensor_freeze_s = {5 * kInterval, 40 * kInterval};
+  for (const int longest : {1, 2, 7}) {
+    config.plant.action_delay_steps = config.plant.observation_delay_steps = {0, longest};
+    EnvConfig held = config;
+    held.action_repeat = 5;
+    VecEnv once(held, kCount, 1), again(config, kCount, 1);
+    StepBuffers buffers(kCount), others(kCount);
+    for (int step = 0; step < kPolicySteps; ++step) {
+      once.Observe(0, buffers.observation.data());
+      again.Observe(0, others.observation.data());
+      ASSERT_EQ(buffers.observation, others.observation) << longest << ", " << step;
+      const Action action = Lively(step);
+      for (std::size_t i = 0; i < kCount; ++i) {
+        std::copy(action.begin(), action.end(), buffers.action.begin() + 4 * i);
+      }
+      once.Step(0, buffers.action.data(), buffers.output());
+      for (int k = 0; k < held.action_repeat; ++k) {
+        again.Step(0, buffers.action.data(), others.output());
+      }
+    }
+  }
+}
+
 TEST(DrawnFlight, FliesLikeTheClosedLoopInDoublePrecision) {
   constexpr Tolerance kVelocity{0.05, "float32 over two seconds, amplified by the pitch loop"};
   constexpr Tolerance kRate{5e-4, "float32 over two seconds, amplified by the pitch loop"};
