@@ -130,18 +130,10 @@ ProgramConfig ConfigOf(const Preset& preset) {
   });
 }
 
-/// Where the settings of a task file begin: at what Heading's default preset says of the learner
-/// and the simulator, without what is Heading's own.
 ProgramConfig TaskFileDefaults() {
-  constexpr double kTotalSteps = 3e7;
-  ProgramConfig config = ConfigOf(FindPreset("heading", "default"));
-  const ProgramConfig defaults;
-  EnvConfig& env = config.train.env;
-  env.heading = defaults.train.env.heading;
-  env.reward = defaults.train.env.reward;
-  env.hold_s = defaults.train.env.hold_s;
-  config.train.total_steps = static_cast<std::uint64_t>(kTotalSteps);
-  return config;
+  return WithAircraft(ProgramConfig(), [](ProgramConfig* config) {
+    ApplyText(std::string(TaskFileSettings()), "settings of task files", Reading::kStrict, config);
+  });
 }
 
 /// The tables that configuration keys are in: "env", "ppo" and so on.

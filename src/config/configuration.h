@@ -58,8 +58,8 @@ struct ConfigSources {
 std::string TaskNameOf(const std::string& task);
 
 /// Defaults, then preset, then file, then conditions, then assignments. The preset of a task file
-/// is its own tables of settings, on top of what Heading's default preset says that is not
-/// Heading's. Throws Error if one of them names another task.
+/// is its own tables of settings, on top of TaskFileSettings. Throws Error if one of them names
+/// another task.
 ProgramConfig ResolveConfig(const ConfigSources& sources);
 
 /// Every key of the configuration's task with its value, as TOML that ApplyToml reads back exactly,

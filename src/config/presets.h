@@ -19,6 +19,9 @@ const std::vector<Preset>& Presets();
 /// Throws Error that lists what there is if the task or the preset is unknown.
 const Preset& FindPreset(const std::string& task, const std::string& name);
 
+/// Where the settings of a task file begin: configs/task_file.toml, embedded in the program.
+std::string_view TaskFileSettings();
+
 /// The tasks that have presets.
 std::vector<std::string> PresetTasks();
 
