@@ -61,6 +61,10 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
            "if larger, every episode draws its standard deviation between the two (--condition "
            "noisy sets both)")
       .OffUnless(config.observation_noise_max > 0);
+  list.Add("training_noise_max", &config.training_noise_max, Bounds::NotNegative(),
+           "the same in training only: evaluations have the noise that is asked for above")
+      .TrainingOnly()
+      .OffUnless(config.training_noise_max > 0);
   list.Add("draw_power", &config.draw_power, {1, 8},
            "initial altitudes and airspeeds, winds, turbulence and noise are drawn at u^x of the "
            "way "
@@ -207,9 +211,14 @@ void Validate(const EnvConfig& config) {
   Require(termination.min_mach < termination.max_mach, "env.termination.min_mach",
           termination.min_mach,
           "below env.termination.max_mach, " + ShortestText(termination.max_mach));
-  Require(config.initial.altitude_ft.min > termination.min_altitude_ft,
-          "env.initial.altitude_min_ft", config.initial.altitude_ft.min,
-          "above env.termination.min_altitude_ft, " + ShortestText(termination.min_altitude_ft));
+  const InitialConfig& initial = config.initial;
+  const std::string above =
+      "above env.termination.min_altitude_ft, " + ShortestText(termination.min_altitude_ft);
+  Require(initial.altitude_ft.min > termination.min_altitude_ft, "env.initial.altitude_min_ft",
+          initial.altitude_ft.min, above);
+  Require(initial.drawn_altitude_ft().min > termination.min_altitude_ft,
+          "env.initial.training_altitude_min_ft", initial.training_altitude_min_ft,
+          "0, or " + above);
 }
 
 }  // namespace skein

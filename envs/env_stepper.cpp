@@ -139,7 +139,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       reset_(config_, aircraft_),
       wind_(config_.wind, config_.draw_power, aircraft_.airframe.span_ft),
       drawn_plant_(config_.plant),
-      most_noise_(config_.observation_noise_max),
+      most_noise_(config_.most_noise()),
       privileged_(*task_, progress_, wind_.enabled(), config_.plant.enabled()) {
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
   static_assert(kObservedActions == kActionSize);
@@ -169,7 +169,7 @@ void EnvStepper::SetConditionShare(double share) {
   reset_.SetShare(share);
   wind_.SetShare(share);
   drawn_plant_ = config_.plant.Narrowed(share);
-  const double least = config_.observation_noise, most = config_.observation_noise_max;
+  const double least = config_.observation_noise, most = config_.most_noise();
   most_noise_ = most > least ? Lowest({least, most}, share).max : most;
 }
 

@@ -28,8 +28,9 @@ RigidBodyState LevelState(double altitude_ft, double true_airspeed_ft_s, double 
 
 std::optional<TrimTable> SolveTrims(const InitialConfig& initial, const Plant& plant) {
   if (!initial.trimmed) return std::nullopt;
-  return TrimTable(plant, initial.altitude_ft.min, initial.altitude_ft.max,
-                   initial.true_airspeed_fps.min, initial.true_airspeed_fps.max);
+  const Range altitude_ft = initial.drawn_altitude_ft();
+  return TrimTable(plant, altitude_ft.min, altitude_ft.max, initial.true_airspeed_fps.min,
+                   initial.true_airspeed_fps.max);
 }
 
 /// Throws Error if the slowest or the fastest start ends at once, by the Mach number there.
@@ -62,7 +63,7 @@ void CheckMach(const EnvConfig& config) {
 
 FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
     : initial_(config.initial),
-      altitude_ft_(initial_.altitude_ft),
+      altitude_ft_(initial_.drawn_altitude_ft()),
       true_airspeed_fps_(initial_.true_airspeed_fps),
       plant_(aircraft, config.atmosphere, 1, config.gravity),
       flight_control_(aircraft, config.flight_control, config.control_interval_s),

@@ -29,7 +29,7 @@ class FlightReset {
   /// From now on flights begin in the lowest and slowest `share`, in [0, 1], of the altitudes and
   /// airspeeds.
   void SetShare(double share) {
-    altitude_ft_ = Lowest(initial_.altitude_ft, share);
+    altitude_ft_ = Lowest(initial_.drawn_altitude_ft(), share);
     true_airspeed_fps_ = Lowest(initial_.true_airspeed_fps, share);
   }
 

@@ -14,6 +14,15 @@ struct InitialConfig {
   /// Trimmed at reset (table of float64 trims, bilinear in altitude and speed). false: the paper's
   /// start, level, alpha 0, surfaces centred, Aircraft::untrimmed_thrust_lbf (F-16: 2000 lbf).
   bool trimmed = true;
+  /// In training the least altitude, if it is lower; 0: no other.
+  double training_altitude_min_ft = 0;
+
+  /// What initial altitudes are drawn from.
+  Range drawn_altitude_ft() const {
+    const bool is_lower =
+        training_altitude_min_ft > 0 && training_altitude_min_ft < altitude_ft.min;
+    return {is_lower ? training_altitude_min_ft : altitude_ft.min, altitude_ft.max};
+  }
 };
 
 /// Its settings (base/field_list.h).

@@ -293,8 +293,7 @@ void BindEnvironment(nb::module_& module) {
                    [](const BatchEnv& env) { return env.config().control_interval_s; })
       .def_prop_ro("observation_noise",
                    [](const BatchEnv& env) {
-                     return std::max(env.config().observation_noise,
-                                     env.config().observation_noise_max);
+                     return std::max(env.config().observation_noise, env.config().most_noise());
                    })
       .def_prop_ro("draws_plants", [](const BatchEnv& env) { return env.config().plant.enabled(); })
       .def_prop_ro("threads", &BatchEnv::threads);

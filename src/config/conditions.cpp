@@ -70,6 +70,7 @@ Assignments HighAltitude(const LevelRequest& request, const std::string& level) 
   Append("initial.altitude", "_ft", altitude, &assignments);
   assignments.push_back(
       fmt::format("env.target_altitude_min_ft={}", request.is_held ? altitude.min : 0));
+  assignments.emplace_back("env.initial.training_altitude_min_ft=0");
   // The published models' air is up to 9 % too dense above their tropopause.
   assignments.emplace_back("env.atmosphere=standard_1976");
   return assignments;
@@ -78,7 +79,8 @@ Assignments HighAltitude(const LevelRequest& request, const std::string& level) 
 Assignments Noisy(const LevelRequest& request, const std::string& level) {
   const Range range = ParseRange(level, kPlain, request);
   return {fmt::format("env.observation_noise={}", range.min),
-          fmt::format("env.observation_noise_max={}", range.max > range.min ? range.max : 0)};
+          fmt::format("env.observation_noise_max={}", range.max > range.min ? range.max : 0),
+          "env.training_noise_max=0"};
 }
 
 Assignments Windy(const LevelRequest& request, const std::string& level) {

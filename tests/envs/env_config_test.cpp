@@ -42,6 +42,9 @@ const Fault kFaults[] = {
     {"env.time_limit_steps = ", [](EnvConfig* c) { c->time_limit_steps = 0; }},
     {"env.observation_noise = ", [](EnvConfig* c) { c->observation_noise = -0.01; }},
     {"env.observation_noise_max = ", [](EnvConfig* c) { c->observation_noise_max = 0.005; }},
+    {"env.training_noise_max = ", [](EnvConfig* c) { c->training_noise_max = -0.01; }},
+    {"env.initial.training_altitude_min_ft = ",
+     [](EnvConfig* c) { c->initial.training_altitude_min_ft = 2000; }},
     {"env.wind.speed_min_fps = ",
      [](EnvConfig* c) {
        c->wind.speed_fps = {60, 30};

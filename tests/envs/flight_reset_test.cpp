@@ -81,6 +81,25 @@ TEST(FlightResetTest, DrawsAltitudeAndSpeedUniformly) {
   EXPECT_NEAR(product_sum / kDraws, 0, kStandardErrors * std::sqrt(1.0 / 9 / kDraws));
 }
 
+TEST(FlightResetTest, TrainingBeginsLowerAndEvaluationsDoNot) {
+  EnvConfig config;
+  config.initial.training_altitude_min_ft = 5000;
+  const FlightReset training(config, F16()), evaluation(EvaluationConfig(config), F16()),
+      plain(EnvConfig{}, F16());
+  int low = 0;
+  for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
+    const double altitude = DrawOf(training, episode).start.altitude_ft;
+    EXPECT_GE(altitude, 5000);
+    EXPECT_LE(altitude, 20000);
+    low += altitude < 12500;
+    EXPECT_EQ(DrawOf(evaluation, episode).columns, DrawOf(plain, episode).columns);
+  }
+  EXPECT_NEAR(low, kDraws / 2.0, 4 * std::sqrt(kDraws / 4.0));  // four standard deviations
+
+  config.initial.training_altitude_min_ft = 19500;  // raises nothing
+  EXPECT_EQ(DrawOf(FlightReset(config, F16()), 3).columns, DrawOf(plain, 3).columns);
+}
+
 TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
   EnvConfig config;
   config.termination.max_mach = 1.1;  // 1200 ft/s at 20,000 ft is Mach 1.16

@@ -38,14 +38,18 @@ TEST(Conditions, AreConfigurationAssignments) {
   EXPECT_THAT(ConditionAssignments({}), ElementsAre());
   EXPECT_THAT(ConditionAssignments({"high_altitude=30..35kft"}),
               ElementsAre("env.initial.altitude_min_ft=30000", "env.initial.altitude_max_ft=35000",
-                          "env.target_altitude_min_ft=0", "env.atmosphere=standard_1976"));
+                          "env.target_altitude_min_ft=0", "env.initial.training_altitude_min_ft=0",
+                          "env.atmosphere=standard_1976"));
   EXPECT_THAT(ConditionAssignments({"high_altitude=32500ft"}),
               ElementsAre("env.initial.altitude_min_ft=32500", "env.initial.altitude_max_ft=32500",
-                          "env.target_altitude_min_ft=0", "env.atmosphere=standard_1976"));
+                          "env.target_altitude_min_ft=0", "env.initial.training_altitude_min_ft=0",
+                          "env.atmosphere=standard_1976"));
   EXPECT_THAT(ConditionAssignments({"noisy=0.03"}),
-              ElementsAre("env.observation_noise=0.03", "env.observation_noise_max=0"));
+              ElementsAre("env.observation_noise=0.03", "env.observation_noise_max=0",
+                          "env.training_noise_max=0"));
   EXPECT_THAT(ConditionAssignments({"noisy=0.01..0.05"}),
-              ElementsAre("env.observation_noise=0.01", "env.observation_noise_max=0.05"));
+              ElementsAre("env.observation_noise=0.01", "env.observation_noise_max=0.05",
+                          "env.training_noise_max=0"));
 }
 
 TEST(Conditions, AMachNumberIsASpeedInUnitsOfThatOfSoundAt20000Feet) {
