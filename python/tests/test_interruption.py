@@ -71,6 +71,7 @@ def sigint_as_python_has_it():
 def test_an_interrupted_training_is_resumed_to_the_same_bits(tmp_path, sigint_as_python_has_it):
     tiny = {
         "network.hidden_size": 16, "network.gru_size": 16, "ppo.num_aircraft": 64, "ppo.rollout_steps": 16,
+        "ppo.chunk_length": 8,
         "ppo.minibatches": 2, "run.total_steps": 6 * 64 * 16 * 5, "evaluation.final_episodes": 8,
         "evaluation.interval_iterations": 0,
     }

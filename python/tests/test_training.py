@@ -10,6 +10,7 @@ TINY = {
     "network.gru_size": 16,
     "ppo.num_aircraft": 64,
     "ppo.rollout_steps": 16,
+    "ppo.chunk_length": 8,
     "ppo.minibatches": 2,
     "run.total_steps": 3 * 64 * 16 * 5,
     "evaluation.final_episodes": 8,

@@ -17,6 +17,7 @@ using ::testing::HasSubstr;
 const std::vector<std::string> kSmall = {"--iterations", "2",
                                          "--set",        "ppo.num_aircraft=64",
                                          "--set",        "ppo.rollout_steps=16",
+                                         "--set",        "ppo.chunk_length=8",
                                          "--set",        "ppo.minibatches=2"};
 
 class BenchRanks : public RanksFixture {

@@ -32,7 +32,7 @@ set = ["env.time_limit_steps=100", "env.heading.earliest_success_step=100"]
 
 [training]
 steps = 40960
-set = ["ppo.num_aircraft=64", "ppo.rollout_steps=16", "ppo.minibatches=2",
+set = ["ppo.num_aircraft=64", "ppo.rollout_steps=16", "ppo.chunk_length=8", "ppo.minibatches=2",
        "network.hidden_size=16", "network.gru_size=16", "evaluation.interval_iterations=2",
        "evaluation.episodes=8", "evaluation.final_episodes=8", "checkpoint.interval_iterations=1"]
 

@@ -447,9 +447,11 @@ TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
   EXPECT_GT(held["plant"]["aircraft_steps_per_s"], 0);
   EXPECT_EQ(held["action_repeat"], 2);
   EXPECT_GT(held["environment_unheld"]["step_ms"], 0);
-  const std::vector<std::string> small = {
-      "--set", "ppo.num_aircraft=64", "--set",        "ppo.rollout_steps=16",
-      "--set", "ppo.minibatches=2",   "--iterations", "1"};
+  const std::vector<std::string> small = {"--set",        "ppo.num_aircraft=64",
+                                          "--set",        "ppo.rollout_steps=16",
+                                          "--set",        "ppo.chunk_length=8",
+                                          "--set",        "ppo.minibatches=2",
+                                          "--iterations", "1"};
   std::vector<std::string> rollout = {"rollout"}, update = {"update"};
   rollout.insert(rollout.end(), small.begin(), small.end());
   update.insert(update.end(), small.begin(), small.end());
@@ -466,10 +468,13 @@ TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
 TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {
   const ScratchDirectory scratch;
   const std::string path = scratch / "result.json";
-  const std::vector<std::string> small = {
-      "bench", "iteration",           "--iterations", "1",
-      "--set", "ppo.num_aircraft=64", "--set",        "ppo.rollout_steps=16",
-      "--set", "ppo.minibatches=2",   "--json",       path};
+  const std::vector<std::string> small = {"bench",        "iteration",
+                                          "--iterations", "1",
+                                          "--set",        "ppo.num_aircraft=64",
+                                          "--set",        "ppo.rollout_steps=16",
+                                          "--set",        "ppo.chunk_length=8",
+                                          "--set",        "ppo.minibatches=2",
+                                          "--json",       path};
   const std::vector<std::string> high_level = {"--task",  "tracking",    "--preset",
                                                "planner", "--low-level", "autopilot"};
   for (const auto& task : {std::vector<std::string>{}, high_level}) {
