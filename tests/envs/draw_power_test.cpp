@@ -91,6 +91,15 @@ TEST_P(DrawPower, NarrowsPlantsAroundTheNominalOne) {
 
 INSTANTIATE_TEST_SUITE_P(Powers, DrawPower, testing::Values(1, 2, 3));
 
+TEST(NoiseOfTraining, IsThatOfTheSameRangeAndNoneOfEvaluations) {
+  const EnvConfig plain = StillFlight(1);
+  EnvConfig noisy = plain, noisier_in_training = plain;
+  noisy.observation_noise_max = noisier_in_training.training_noise_max = 0.1;
+  EXPECT_EQ(SquareOfRollRate(noisier_in_training), SquareOfRollRate(noisy));
+  EXPECT_EQ(SquareOfRollRate(EvaluationConfig(noisier_in_training)), SquareOfRollRate(plain));
+  EXPECT_GT(SquareOfRollRate(noisy), SquareOfRollRate(plain));
+}
+
 TEST(DrawPowerOfTraining, IsNoneOfEvaluations) {
   EXPECT_EQ(EvaluationConfig(StillFlight(3)).draw_power, 1);
 }

@@ -131,20 +131,6 @@ TEST(VecEnv, NeitherDoWindAndNoiseByEpisode) {
   EXPECT_EQ(Fly(&other, 40, 20), Fly(&small, 40, 20));
 }
 
-TEST(VecEnv, TrainingMayBeNoisierThanEvaluations) {
-  EnvConfig noisy = BusyConfig(), noisier_in_training = BusyConfig();
-  noisy.observation_noise = noisier_in_training.observation_noise = 0.01;
-  EnvConfig plain = noisy;
-  noisy.observation_noise_max = noisier_in_training.training_noise_max = 0.1;
-  const auto seen = [](const EnvConfig& config) {
-    VecEnv env(config, 70, 1);
-    return Fly(&env, 0, 40);
-  };
-  EXPECT_EQ(seen(noisier_in_training), seen(noisy));
-  EXPECT_EQ(seen(EvaluationConfig(noisier_in_training)), seen(EvaluationConfig(plain)));
-  EXPECT_NE(seen(noisy), seen(plain));
-}
-
 /// Everything of the plant drawn, with delays and faulty sensors.
 PlantConfig BusyPlant() {
   PlantConfig plant;
