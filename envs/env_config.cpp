@@ -62,7 +62,9 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
            "noisy sets both)")
       .OffUnless(config.observation_noise_max > 0);
   list.Add("training_noise_max", &config.training_noise_max, Bounds::NotNegative(),
-           "the same in training only: evaluations have the noise that is asked for above")
+           "the same in training only, where there is noise at all: evaluations have what is asked "
+           "for "
+           "above")
       .TrainingOnly()
       .OffUnless(config.training_noise_max > 0);
   list.Add("draw_power", &config.draw_power, {1, 8},

@@ -50,7 +50,8 @@ struct EnvConfig {
   double observation_noise = 0.01;
   /// If larger, every episode draws its standard deviation between the two.
   double observation_noise_max = 0;
-  /// The same in training only: what filters strong noise flies calmly in weak noise.
+  /// The same in training only, where there is noise at all: what filters strong noise flies calmly
+  /// in weak noise.
   double training_noise_max = 0;
   /// Episodes draw initial altitudes and airspeeds, winds, turbulence and noise at u^draw_power, u
   /// uniform in [0, 1), of the way through their ranges, and plants from u^(draw_power - 1) of
@@ -76,7 +77,8 @@ struct EnvConfig {
 
   /// The upper end of what episodes draw their noise from; no more than observation_noise: none do.
   double most_noise() const {
-    return training_noise_max > observation_noise_max ? training_noise_max : observation_noise_max;
+    const bool is_in_training = observation_noise > 0 && training_noise_max > observation_noise_max;
+    return is_in_training ? training_noise_max : observation_noise_max;
   }
 
   /// Flies the task of a task file from now on.

@@ -482,10 +482,11 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
   // What is observed late, at the policy step's end, are states of its last control steps.
   const bool observes_between = keeps_final || low_level_ != nullptr || may_freeze;
   const int longest_delay = block.delay_line.delays.observation;
-  const int first_seen_late = observes_between ? 0 : config_.action_repeat - longest_delay;
+  const int first_remembered = observes_between ? 0 : config_.action_repeat - longest_delay;
   for (int step = 0; step < config_.action_repeat; ++step) {
     const float* const stick_action = StickActions(block, action, step, scratch);
-    if (longest_delay > 0 && step >= first_seen_late) RememberState(block.delay_line, block.flight);
+    if (longest_delay > 0 && step >= first_remembered)
+      RememberState(block.delay_line, block.flight);
     const PilotColumns commands = Commands(block, step, scratch);
     if (wind_.enabled()) wind_.Advance(block.flight, dt, GustKeysOf(block));
     ControlTile(*kernel_aircraft_, flight_control_, block.flight, commands, block.plants);

@@ -52,10 +52,11 @@ void CheckMach(const EnvConfig& config) {
     refuse("env.initial.true_airspeed_max_fps", initial.true_airspeed_fps.max,
            initial.altitude_ft.max, fastest, "env.termination.max_mach");
   }
-  const double slowest = mach_at(initial.true_airspeed_fps.min, initial.altitude_ft.min);
+  const double lowest_ft = initial.drawn_altitude_ft().min;
+  const double slowest = mach_at(initial.true_airspeed_fps.min, lowest_ft);
   if (slowest < config.termination.min_mach) {
-    refuse("env.initial.true_airspeed_min_fps", initial.true_airspeed_fps.min,
-           initial.altitude_ft.min, slowest, "env.termination.min_mach");
+    refuse("env.initial.true_airspeed_min_fps", initial.true_airspeed_fps.min, lowest_ft, slowest,
+           "env.termination.min_mach");
   }
 }
 

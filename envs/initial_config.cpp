@@ -9,7 +9,9 @@ void ListFields(InitialConfig& config, FieldList& list) {
   list.AddRange("altitude", "ft", &config.altitude_ft, {0, 60000}, "lowest initial altitude",
                 "highest initial altitude");
   list.Add("training_altitude_min_ft", &config.training_altitude_min_ft, {0, 60000},
-           "in training the lowest initial altitude, if it is lower; 0: no other")
+           "in training the lowest initial altitude, from which ppo.condition_ramp and draw_power "
+           "count, "
+           "if it is lower; 0: no other")
       .TrainingOnly()
       .OffUnless(config.training_altitude_min_ft > 0);
   list.AddRange("true_airspeed", "fps", &config.true_airspeed_fps, {10, 3000},

@@ -39,7 +39,8 @@ struct DelayLine {
   std::size_t stride = 0;
   NewestSlots* newest = nullptr;
 
-  /// A column of the slot written `age` control steps ago, from 1 on.
+  /// A column of the slot that was written as the `age`-th last, from 1 on: at the end of a policy
+  /// step that of so many control steps ago.
   float* Command(int age, int column) const;
   float* State(int age, int column) const;
   /// The `index`-th of all delays.columns(), the newest first in each ring.

@@ -102,7 +102,8 @@ void BindConfiguration(nb::module_& module) {
             evaluated.train.env = EvaluationConfig(config.train.env);
             return evaluated;
           },
-          "The same without what only serves training: staggered clocks, training tolerances.")
+          "The same without what only serves training: staggered clocks, training tolerances, "
+          "stronger noise.")
       .def("with_settings", &WithSettings, nb::arg("conditions"), nb::arg("assignments"))
       .def("__repr__", [](const ProgramConfig& config) {
         return "<skein.Config of " + config.train.env.task + ": " +

@@ -39,6 +39,7 @@ std::vector<Beside> Others(const EnvConfig& config, const BenchOptions& options)
     beside.action_repeat = config.action_repeat;
     beside.observation_noise = config.observation_noise;
     beside.observation_noise_max = config.observation_noise_max;
+    beside.training_noise_max = config.training_noise_max;
     return {{"beside", "of " + options.beside, beside}};
   }
   std::vector<Beside> others;

@@ -218,10 +218,19 @@ std::string DescribeConditions(const EnvConfig& env) {
     air += fmt::format("; targets from {:.6g} ft on", env.target_altitude_min_ft);
   }
   const double most_noise = std::max(env.observation_noise, env.observation_noise_max);
+  std::string training;
+  if (env.most_noise() > most_noise) {
+    training += fmt::format("; in training noise up to {:.6g}", env.most_noise());
+  }
+  const Range drawn = env.initial.drawn_altitude_ft();
+  if (drawn.min < env.initial.altitude_ft.min) {
+    training += fmt::format("; in training from {:.6g} ft", drawn.min);
+  }
   return fmt::format(
-      "{} from {} and {}{}; {}", env.aircraft, range(env.initial.altitude_ft, " ft"),
+      "{} from {} and {}{}; {}{}", env.aircraft, range(env.initial.altitude_ft, " ft"),
       range(env.initial.true_airspeed_fps, " ft/s"), air,
-      most_noise > 0 ? "noise " + range({env.observation_noise, most_noise}, "") : "no noise");
+      most_noise > 0 ? "noise " + range({env.observation_noise, most_noise}, "") : "no noise",
+      training);
 }
 
 std::vector<ConditionForm> ConditionForms() {

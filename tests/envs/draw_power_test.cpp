@@ -92,7 +92,10 @@ TEST_P(DrawPower, NarrowsPlantsAroundTheNominalOne) {
 INSTANTIATE_TEST_SUITE_P(Powers, DrawPower, testing::Values(1, 2, 3));
 
 TEST(NoiseOfTraining, IsThatOfTheSameRangeAndNoneOfEvaluations) {
-  const EnvConfig plain = StillFlight(1);
+  EnvConfig plain = StillFlight(1), silent = plain;
+  silent.training_noise_max = 0.1;
+  EXPECT_EQ(SquareOfRollRate(silent), 0) << "0 is no noise";
+  plain.observation_noise = 0.01;
   EnvConfig noisy = plain, noisier_in_training = plain;
   noisy.observation_noise_max = noisier_in_training.training_noise_max = 0.1;
   EXPECT_EQ(SquareOfRollRate(noisier_in_training), SquareOfRollRate(noisy));

@@ -286,11 +286,15 @@ TEST(EnvConfigTest, AcceptsTheEdgesOfWhatItAllows) {
 TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   EnvConfig config;
   config.stagger_clocks = true;
+  config.training_noise_max = 0.1;
+  config.initial.training_altitude_min_ft = 5000;
   config.heading.training_tolerance_min = 0.1;
   config.tracking.training_tolerance_max = 8;
   config.heading.altitude_tolerance_ft = 70;
   const EnvConfig evaluated = EvaluationConfig(config);
   EXPECT_FALSE(evaluated.stagger_clocks);
+  EXPECT_EQ(evaluated.training_noise_max, 0);
+  EXPECT_EQ(evaluated.initial.training_altitude_min_ft, 0);
   EXPECT_EQ(evaluated.heading.training_tolerance_min, 1);
   EXPECT_EQ(evaluated.tracking.training_tolerance_max, 1);
   EXPECT_EQ(evaluated.heading.altitude_tolerance_ft, 70) << "belongs to the task";

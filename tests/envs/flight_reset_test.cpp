@@ -107,6 +107,9 @@ TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
   config.termination.max_mach = 1.2;
   config.termination.min_mach = 0.95;  // 1000 ft/s at 19,000 ft is Mach 0.96
   EXPECT_NO_THROW(FlightReset(config, F16()));
+  config.initial.training_altitude_min_ft = 10000;  // Mach 0.93
+  EXPECT_THROW(FlightReset(config, F16()), Error);
+  config.initial.training_altitude_min_ft = 0;
   config.termination.min_mach = 0.97;
   EXPECT_THROW(FlightReset(config, F16()), Error);
 }

@@ -176,8 +176,8 @@ tasks = ["heading"]
 seeds = [1]
 [training]
 steps = 20480
-set = ["ppo.num_aircraft=64", "ppo.rollout_steps=16", "ppo.chunk_length=8", "ppo.minibatches=2", "env.action_repeat=5",
-       "network.hidden_size=16", "network.gru_size=16", "evaluation.interval_iterations=0",
+set = ["ppo.num_aircraft=64", "ppo.rollout_steps=16", "ppo.chunk_length=8", "ppo.minibatches=2",
+       "env.action_repeat=5", "network.hidden_size=16", "network.gru_size=16", "evaluation.interval_iterations=0",
        "evaluation.final_episodes=8"]
 [evaluation]
 episodes = 8

@@ -479,10 +479,8 @@ TEST(DrawnFlight, AFrozenSensorShowsWhatItLastShowed) {
   for (const std::size_t k : {0u, 1u, 2u, 4u, 5u, 6u, 7u}) EXPECT_EQ(frozen[k], 0) << k;
 }
 
-// All at once, against the float64 aircraft whose data are others.
-TEST(DrawnFlight, AHeldActionIsTheSameActionInEveryControlStep) {
+void ExpectHeldActionsAreTheSameInEveryControlStep(EnvConfig config) {
   constexpr int kCount = 64, kPolicySteps = 12;
-  EnvConfig config = OneDrawnFlight();
   config.observation_noise = 0.01;
   config.plant.sensor_bias = 0.02;
   config.plant.sensor_freeze_chance = 0.5;
@@ -509,6 +507,15 @@ TEST(DrawnFlight, AHeldActionIsTheSameActionInEveryControlStep) {
   }
 }
 
+TEST(DrawnFlight, AHeldActionIsTheSameActionInEveryControlStep) {
+  EnvConfig config = OneDrawnFlight();
+  ExpectHeldActionsAreTheSameInEveryControlStep(config);
+  config.task = "tracking";  // whose delayed states are those of a point and, now, of wind
+  config.wind.turbulence_fps = {10, 10};
+  ExpectHeldActionsAreTheSameInEveryControlStep(config);
+}
+
+// All at once, against the float64 aircraft whose data are others.
 TEST(DrawnFlight, FliesLikeTheClosedLoopInDoublePrecision) {
   constexpr Tolerance kVelocity{0.05, "float32 over two seconds, amplified by the pitch loop"};
   constexpr Tolerance kRate{5e-4, "float32 over two seconds, amplified by the pitch loop"};
