@@ -115,8 +115,9 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
   if (ranks.rank() != 0) return;
   fmt::print("{} on {}, {}, seed {}\n{}\n  {}\n  {}\n  {}\n{}\n", path, env.task,
              Counted(flight.episodes, "episode"), flight.seed,
-             InLines("  ", DescribeConditions(env)), Rates(policy, env), Describe(policy.backend()),
-             DescribeWorkers(pool), ToText(report, options.deterministic));
+             InLines("  ", DescribeConditions(EvaluationConfig(env))), Rates(policy, env),
+             Describe(policy.backend()), DescribeWorkers(pool),
+             ToText(report, options.deterministic));
   if (!flight.json.empty()) {
     WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));
   }

@@ -185,8 +185,9 @@ AcmiRecording AcmiOf(const FlightOptions& options, const std::vector<AgentFlight
   const EnvConfig& env = agents.front().env;
   std::vector<std::string> names;
   for (const AgentFlights& flown : agents) names.push_back(flown.agent);
-  return RecordAcmi(agents, fmt::format("{}: {}", env.task, fmt::join(names, ", ")),
-                    fmt::format("{}; seed {}", DescribeConditions(env), options.seed));
+  return RecordAcmi(
+      agents, fmt::format("{}: {}", env.task, fmt::join(names, ", ")),
+      fmt::format("{}; seed {}", DescribeConditions(EvaluationConfig(env)), options.seed));
 }
 
 void WriteFlightsAcmi(const FlightOptions& options, const std::string& path,
