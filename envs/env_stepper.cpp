@@ -340,8 +340,8 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
     SubtractHandlingCosts(costs_, block.flight, scratch.errors, kAircraftPerBlock,
                           scratch.step_reward);
   }
-  if (costs_.within_tolerances > 0) {
-    AddWithinTolerances(costs_, block.count, scratch.reached, scratch.step_reward);
+  if (costs_.of_tolerances()) {
+    RewardTolerances(costs_, block.count, scratch.reached, scratch.step_reward);
   }
   // Also while its weight is 0 for now: what is remembered is what was flown last.
   if (remembers_actions_ && policy_action != nullptr) {

@@ -73,7 +73,7 @@ HandlingCosts HandlingCosts::Times(double factor) const {
   for (double* const weight :
        {&scaled.near_roll_rate, &scaled.near_pitch_rate, &scaled.near_yaw_rate,
         &scaled.near_load_factor, &scaled.near_bank, &scaled.roll_rate, &scaled.sideslip,
-        &scaled.within_tolerances, &scaled.action_change}) {
+        &scaled.within_tolerances, &scaled.outside_tolerances, &scaled.action_change}) {
     *weight *= factor;
   }
   return scaled;
@@ -106,6 +106,8 @@ void ListFields(HandlingCosts& config, FieldList& list) {
       .OffUnless(config.of_control_steps());
   add("within_tolerances", &config.within_tolerances,
       "reward gained per control step within the episode's tolerances");
+  add("outside_tolerances", &config.outside_tolerances,
+      "reward lost per control step outside them: a price on time");
   add("action_change", &config.action_change,
       "reward lost per policy step and squared change of each action but the throttle");
 }
@@ -115,10 +117,11 @@ void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float*
   SKEIN_DISPATCH(SubtractHandlingCostsKernel)(costs, flight, errors, error_stride, reward);
 }
 
-void AddWithinTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
-                         float* reward) {
+void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
+                      float* reward) {
   const auto gain = static_cast<float>(costs.within_tolerances);
-  for (int i = 0; i < count; ++i) reward[i] += gain * static_cast<float>(within[i]);
+  const auto loss = static_cast<float>(costs.outside_tolerances);
+  for (int i = 0; i < count; ++i) reward[i] += within[i] != 0 ? gain : -loss;
 }
 
 void SubtractActionChange(const HandlingCosts& costs, const float* action, int action_size,

@@ -25,6 +25,9 @@ struct HandlingCosts {
   double near_sharpness = 20;
   /// Of a control step within the episode's tolerances: gained, not lost.
   double within_tolerances = 0;
+  /// Of a control step outside them: a price on time. What is gained within them is none, as a
+  /// flight ends a given time after it reached its target, however late.
+  double outside_tolerances = 0;
   /// Of a policy step, per squared change of each of its actions but the throttle, which are
   /// clipped to [-1, 1].
   double action_change = 0;
@@ -33,8 +36,10 @@ struct HandlingCosts {
   HandlingCosts Times(double factor) const;
   /// Whether any cost of a control step has a weight.
   bool of_control_steps() const;
+  /// Whether it matters to the reward what the tolerances are.
+  bool of_tolerances() const { return within_tolerances > 0 || outside_tolerances > 0; }
   /// Whether any weight is not zero.
-  bool enabled() const { return of_control_steps() || within_tolerances > 0 || action_change > 0; }
+  bool enabled() const { return of_control_steps() || of_tolerances() || action_change > 0; }
 };
 
 /// Its settings (base/field_list.h).
@@ -45,9 +50,10 @@ void ListFields(HandlingCosts& config, FieldList& list);
 void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float* errors,
                            std::size_t error_stride, float* reward);
 
-/// Adds what `count` aircraft gain where they are `within` their tolerances.
-void AddWithinTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
-                         float* reward);
+/// Adds what `count` aircraft gain where they are `within` their tolerances, and subtracts what
+/// they lose elsewhere.
+void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
+                      float* reward);
 
 /// Subtracts the cost of changing from `last` to `action` from `reward`, and keeps the new ones.
 /// `action` is row-major [last.count][action_size], not clipped; `last` has a column of each. The

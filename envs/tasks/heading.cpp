@@ -60,14 +60,16 @@ void HeadingReward(Tile flight, Tile task, const HeadingConfig& config, const Re
   const V speed_tolerance = Constant(config.speed_tolerance_fps);
   const V speed_weight = Constant(config.speed_error_weight);
   const V altitude_weight = Constant(config.altitude_error_weight);
+  const V yaw_weight = Constant(config.yaw_error_weight);
   for (int first = 0; first < flight.count; first += kLanes) {
     const HeadingError error = ErrorOf(flight, task, first);
     const HeadingError scaled = Normalised(error, units);
     const V squares =
         hn::MulAdd(scaled.altitude, scaled.altitude,
                    hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));
-    const V cost = hn::MulAdd(altitude_weight, hn::Abs(scaled.altitude),
-                              hn::MulAdd(speed_weight, hn::Abs(scaled.speed), hn::Sqrt(squares)));
+    const V far = hn::MulAdd(altitude_weight, hn::Abs(scaled.altitude),
+                             hn::MulAdd(speed_weight, hn::Abs(scaled.speed), hn::Sqrt(squares)));
+    const V cost = hn::MulAdd(yaw_weight, hn::Abs(scaled.yaw), far);
     hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
 
     const V share = Column(task, kTargetTolerance, first);

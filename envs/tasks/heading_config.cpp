@@ -33,6 +33,9 @@ void ListFields(HeadingConfig& config, FieldList& list) {
   list.Add("altitude_error_weight", &config.altitude_error_weight, Bounds::NotNegative(),
            "reward lost per step and unit of altitude error (F-16: 1 km), beside the errors' norm")
       .OffUnless(config.altitude_error_weight > 0);
+  list.Add("yaw_error_weight", &config.yaw_error_weight, Bounds::NotNegative(),
+           "reward lost per step and rad of yaw error, beside the errors' norm")
+      .OffUnless(config.yaw_error_weight > 0);
 }
 
 }  // namespace skein

@@ -27,6 +27,9 @@ struct HeadingConfig {
   /// The same of the altitude error (F-16: 1 km): under noise and with sensors that are off, what
   /// the norm has for the last hundred feet is too little.
   double altitude_error_weight = 0;
+  /// The same of the yaw error, rad: beside a speed error that thrust takes long to mend, the norm
+  /// has next to nothing for the last ten degrees.
+  double yaw_error_weight = 0;
 };
 
 /// Its settings (base/field_list.h).

@@ -107,13 +107,20 @@ TEST_P(HandlingCostsTest, SideslipCostsItsSineToEitherSide) {
 INSTANTIATE_TEST_SUITE_P(Targets, HandlingCostsTest, testing::ValuesIn(simd::SupportedTargets()),
                          [](const auto& test) { return std::string(Name(test.param)); });
 
-TEST(WithinTolerances, GainWhatTheyAreWorth) {
+TEST(Tolerances, GiveWithinThemAndTakeOutside) {
   HandlingCosts costs;
-  costs.within_tolerances = 0.25;
+  EXPECT_FALSE(costs.enabled());
   const std::vector<std::int32_t> within = {1, 0, 1};
+  costs.within_tolerances = 0.25;
   std::vector<float> reward = {-1, -1, 0.5f};
-  AddWithinTolerances(costs, 3, within.data(), reward.data());
+  RewardTolerances(costs, 3, within.data(), reward.data());
   EXPECT_EQ(reward, (std::vector<float>{-0.75f, -1, 0.75f}));
+
+  costs = {};
+  costs.outside_tolerances = 0.5;
+  EXPECT_TRUE(costs.enabled());
+  RewardTolerances(costs.Times(0.5), 3, within.data(), reward.data());
+  EXPECT_EQ(reward, (std::vector<float>{-0.75f, -1.25f, 0.75f}));
 }
 
 TEST(ActionChange, CostsTheSquaresOfClippedChangesBesideTheFirst) {

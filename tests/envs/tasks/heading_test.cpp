@@ -129,6 +129,18 @@ TEST_P(HeadingTest, AltitudeErrorsCostTheirWeightBesideTheNorm) {
   EXPECT_NEAR(reward_[1], reward_[0], 2 * kFloat32);
 }
 
+TEST_P(HeadingTest, YawErrorsCostTheirWeightBesideTheNorm) {
+  config_.heading.yaw_error_weight = 2;
+  task_ = MakeTask(config_);
+  for (const int side : {0, 1}) {
+    SetLevel(side, 0);
+    SetTarget(side, 20000 - 0.2 * kFtPerKm, side == 0 ? 0.3 : -0.3, 1000 + 0.6 * 340 / 0.3048);
+  }
+  ComputeReward();
+  EXPECT_NEAR(reward_[0], -(0.7 + 2 * 0.3), 2 * kFloat32);
+  EXPECT_NEAR(reward_[1], reward_[0], 2 * kFloat32);
+}
+
 TEST_P(HeadingTest, MirroredErrorsGetTheSameReward) {
   for (const int side : {0, 1}) {
     const double sign = side == 0 ? 1 : -1;
