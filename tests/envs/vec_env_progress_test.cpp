@@ -205,6 +205,24 @@ TEST(VecEnvProgress, PricesLowerTheRewardAndChangeNothingElse) {
   }
 }
 
+TEST(VecEnvProgress, APriceOnTimeIsPaidUntilTheTargetIsReached) {
+  constexpr int kAircraft = 4, kSteps = 50, kEarliest = 30;
+  EnvConfig free = NearTargets("heading"), priced;
+  free.action_repeat = 1;
+  free.heading.earliest_success_step = kEarliest;
+  free.hold_s = 1;
+  priced = free;
+  priced.reward.outside_tolerances = 0.5;
+  VecEnv one(free, kAircraft, 1), other(priced, kAircraft, 1);
+  const Log cheap = Fly(&one, kSteps), dear = Fly(&other, kSteps);
+  ASSERT_TRUE(cheap.steps.empty());
+  std::vector<float> paid(kAircraft);
+  for (std::size_t i = 0; i < cheap.values.size(); i += 4) {
+    paid[i / 4 % kAircraft] += cheap.values[i] - dear.values[i];
+  }
+  for (const float sum : paid) EXPECT_NEAR(sum, 0.5f * (kEarliest - 1), 1e-3f);
+}
+
 TEST(VecEnvProgress, ActionsFlownWhileNothingIsPricedAreRemembered) {
   EnvConfig free = NearTargets("heading"), priced;
   free.heading.earliest_success_step = 300;
