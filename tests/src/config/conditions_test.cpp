@@ -152,7 +152,7 @@ TEST(Conditions, WindReplacesAllOfAnotherWind) {
 TEST(Conditions, AreDescribedInWords) {
   EXPECT_EQ(DescribeConditions(Under({"windy=60fps", "noisy=0.01..0.05", "high_altitude=30kft"})),
             "f16 from 30000 ft and 1000 to 1200 ft/s; wind of 60 ft/s; noise 0.01 to 0.05");
-  EXPECT_THAT(DescribeConditions(Under({})), HasSubstr("noise 0.01; in training noise up to 0.03"));
+  EXPECT_THAT(DescribeConditions(Under({})), HasSubstr("noise 0.01; in training noise up to 0.04"));
   EXPECT_EQ(DescribeConditions(EvaluationConfig(Under({}))),
             "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; noise 0.01");
   EXPECT_EQ(DescribeConditions(Under({"noisy=0"})),
