@@ -384,8 +384,7 @@ TEST_F(StudyPipeline, WrongStudiesAreErrorsOfOneLineBeforeAnyTraining) {
       "level names a-b twice");
   ExpectError("tasks = [\"heading\"]\nseeds = [1]\nset = [\"env.nose=1\"]", "unknown key env.nose");
   ExpectError(
-      "tasks = [\"heading\"]\nseeds = [1]\n[training]\nset = [\"env.flight_control=direct\", "
-      "\"ppo.pedals=true\"]",
+      "tasks = [\"heading\"]\nseeds = [1]\n[training]\nset = [\"env.flight_control=direct\"]",
       "env.flight_control = direct, but is to fly with env.flight_control = full");
   ExpectError(
       "tasks = [\"heading\"]\nseeds = [1]\n[training]\ncondition = [\"noisy=0.1\"]\n"

@@ -30,12 +30,6 @@ void ValidateLearning(const TrainConfig& config) {
   if (!config.ppo.pedals && NeedsLowLevel(config.env)) {
     throw Error("ppo.pedals = false: a high-level policy has no pedals; leave it out");
   }
-  if (!config.ppo.pedals && config.env.flight_control == FlightControlMode::kDirect) {
-    throw Error(
-        "ppo.pedals = false: with env.flight_control = \"direct\" nothing else moves the rudder; "
-        "set "
-        "ppo.pedals=true");
-  }
   ValidateShards(config.learner.shards, config.ppo.num_aircraft,
                  config.ppo.rollout_steps / config.ppo.chunk_length, config.ppo.minibatches);
 }

@@ -143,11 +143,11 @@ TEST(Configuration, NumbersMayHaveSuffixes) {
 }
 
 TEST(Configuration, LaterSourcesWin) {
-  const ProgramConfig config = ResolveConfig(
-      {"heading",
-       "default",
-       "",
-       {"ppo.gamma=0.5", "ppo.gamma = 0.6", "env.flight_control=direct", "ppo.pedals=true"}});
+  const ProgramConfig config =
+      ResolveConfig({"heading",
+                     "default",
+                     "",
+                     {"ppo.gamma=0.5", "ppo.gamma = 0.6", "env.flight_control=direct"}});
   EXPECT_EQ(config.train.ppo.gamma, 0.6);
   EXPECT_EQ(config.train.env.flight_control, FlightControlMode::kDirect);
   EXPECT_EQ(config.train.env.action_repeat, 5) << "from the preset";

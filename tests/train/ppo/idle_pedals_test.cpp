@@ -184,12 +184,5 @@ TEST(IdlePedals, AreNoneOfAHighLevelPolicy) {
   ValidateLearning(config);
 }
 
-TEST(IdlePedals, NeedAFlightControlSystemThatMovesTheRudder) {
-  TrainConfig config = SmallConfig();
-  config.env.flight_control = FlightControlMode::kDirect;
-  ValidateLearning(config);
-  EXPECT_THROW(ValidateLearning(Without(config)), Error);
-}
-
 }  // namespace
 }  // namespace skein
