@@ -341,7 +341,8 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
                           scratch.step_reward);
   }
   if (costs_.of_tolerances()) {
-    RewardTolerances(costs_, block.count, scratch.reached, scratch.step_reward);
+    RewardTolerances(costs_, block.count, scratch.reached, block.progress.reached_step,
+                     scratch.step_reward);
   }
   // Also while its weight is 0 for now: what is remembered is what was flown last.
   if (remembers_actions_ && policy_action != nullptr) {
@@ -387,12 +388,12 @@ void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
 void EnvStepper::AdvanceTargets(const EnvBlock& block, Scratch& scratch) const {
   AdvanceProgress(progress_, block.count, block.step, scratch.termination, block.progress,
                   scratch.reached, scratch.deadline, scratch.target_end);
+  const float miss = config_.truncate_at_time_limit ? 0 : limits_.failure_reward;
   for (int i = 0; i < block.count; ++i) {
     const TargetEnd end = scratch.target_end[i];
-    double bonus = 0;
-    if (end == TargetEnd::kReached) bonus = config_.termination.success_reward;
-    if (end == TargetEnd::kMissed) bonus = config_.termination.failure_reward;
-    scratch.bonus[i] = static_cast<float>(bonus);
+    scratch.bonus[i] = 0;
+    if (end == TargetEnd::kReached) scratch.bonus[i] = limits_.success_reward;
+    if (end == TargetEnd::kMissed) scratch.bonus[i] = miss;
   }
 }
 

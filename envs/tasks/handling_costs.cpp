@@ -73,7 +73,8 @@ HandlingCosts HandlingCosts::Times(double factor) const {
   for (double* const weight :
        {&scaled.near_roll_rate, &scaled.near_pitch_rate, &scaled.near_yaw_rate,
         &scaled.near_load_factor, &scaled.near_bank, &scaled.roll_rate, &scaled.sideslip,
-        &scaled.within_tolerances, &scaled.outside_tolerances, &scaled.action_change}) {
+        &scaled.within_tolerances, &scaled.outside_tolerances, &scaled.before_reached,
+        &scaled.action_change}) {
     *weight *= factor;
   }
   return scaled;
@@ -108,6 +109,8 @@ void ListFields(HandlingCosts& config, FieldList& list) {
       "reward gained per control step within the episode's tolerances");
   add("outside_tolerances", &config.outside_tolerances,
       "reward lost per control step outside them: a price on time");
+  add("before_reached", &config.before_reached,
+      "the same until the target counts as reached, and not while it is held");
   add("action_change", &config.action_change,
       "reward lost per policy step and squared change of each action but the throttle");
 }
@@ -118,10 +121,14 @@ void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float*
 }
 
 void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
-                      float* reward) {
+                      const std::int32_t* reached_step, float* reward) {
   const auto gain = static_cast<float>(costs.within_tolerances);
   const auto loss = static_cast<float>(costs.outside_tolerances);
-  for (int i = 0; i < count; ++i) reward[i] += within[i] != 0 ? gain : -loss;
+  const auto price = static_cast<float>(costs.before_reached);
+  for (int i = 0; i < count; ++i) {
+    reward[i] += within[i] != 0 ? gain : -loss;
+    if (reached_step == nullptr || reached_step[i] == 0) reward[i] -= price;
+  }
 }
 
 void SubtractActionChange(const HandlingCosts& costs, const float* action, int action_size,

@@ -28,6 +28,8 @@ struct HandlingCosts {
   /// Of a control step outside them: a price on time. What is gained within them is none, as a
   /// flight ends a given time after it reached its target, however late.
   double outside_tolerances = 0;
+  /// Of a control step until the target counts as reached: a price on time that leaves the hold alone.
+  double before_reached = 0;
   /// Of a policy step, per squared change of each of its actions but the throttle, which are
   /// clipped to [-1, 1].
   double action_change = 0;
@@ -36,8 +38,10 @@ struct HandlingCosts {
   HandlingCosts Times(double factor) const;
   /// Whether any cost of a control step has a weight.
   bool of_control_steps() const;
-  /// Whether it matters to the reward what the tolerances are.
-  bool of_tolerances() const { return within_tolerances > 0 || outside_tolerances > 0; }
+  /// Whether it matters to the reward what the tolerances are, and how far the target is reached.
+  bool of_tolerances() const {
+    return within_tolerances > 0 || outside_tolerances > 0 || before_reached > 0;
+  }
   /// Whether any weight is not zero.
   bool enabled() const { return of_control_steps() || of_tolerances() || action_change > 0; }
 };
@@ -51,9 +55,10 @@ void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float*
                            std::size_t error_stride, float* reward);
 
 /// Adds what `count` aircraft gain where they are `within` their tolerances, and subtracts what
-/// they lose elsewhere.
+/// they lose elsewhere, and until their targets count: `reached_step` is EpisodeProgress's before
+/// the control step, or null.
 void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
-                      float* reward);
+                      const std::int32_t* reached_step, float* reward);
 
 /// Subtracts the cost of changing from `last` to `action` from `reward`, and keeps the new ones.
 /// `action` is row-major [last.count][action_size], not clipped; `last` has a column of each. The

@@ -205,22 +205,43 @@ TEST(VecEnvProgress, PricesLowerTheRewardAndChangeNothingElse) {
   }
 }
 
-TEST(VecEnvProgress, APriceOnTimeIsPaidUntilTheTargetIsReached) {
-  constexpr int kAircraft = 4, kSteps = 50, kEarliest = 30;
-  EnvConfig free = NearTargets("heading"), priced;
-  free.action_repeat = 1;
-  free.heading.earliest_success_step = kEarliest;
-  free.hold_s = 1;
-  priced = free;
-  priced.reward.outside_tolerances = 0.5;
+/// What each of four aircraft pays in 50 control steps with one setting that costs and one that
+/// does not.
+std::vector<float> Paid(const EnvConfig& free, const EnvConfig& priced) {
+  constexpr int kAircraft = 4, kSteps = 50;
   VecEnv one(free, kAircraft, 1), other(priced, kAircraft, 1);
   const Log cheap = Fly(&one, kSteps), dear = Fly(&other, kSteps);
-  ASSERT_TRUE(cheap.steps.empty());
+  EXPECT_TRUE(cheap.steps.empty());
   std::vector<float> paid(kAircraft);
   for (std::size_t i = 0; i < cheap.values.size(); i += 4) {
     paid[i / 4 % kAircraft] += cheap.values[i] - dear.values[i];
   }
-  for (const float sum : paid) EXPECT_NEAR(sum, 0.5f * (kEarliest - 1), 1e-3f);
+  return paid;
+}
+
+TEST(VecEnvProgress, APriceOnTimeIsPaidUntilTheTargetIsReached) {
+  constexpr int kEarliest = 30, kDwell = 5;
+  EnvConfig free = NearTargets("heading");
+  free.action_repeat = 1;
+  free.heading.earliest_success_step = kEarliest;
+  free.heading.dwell_s = kDwell * free.control_interval_s;
+  free.hold_s = 1;
+  EnvConfig outside = free, before = free;
+  outside.reward.outside_tolerances = 0.5;
+  before.reward.before_reached = 0.5;
+  for (const float sum : Paid(free, outside)) EXPECT_NEAR(sum, 0.5f * (kEarliest - 1), 1e-3f);
+  for (const float sum : Paid(free, before)) {
+    EXPECT_NEAR(sum, 0.5f * (kEarliest - 1 + kDwell), 1e-3f);
+  }
+}
+
+TEST(VecEnvProgress, AMissedTargetCostsWhatTheTimeLimitDoes) {
+  EnvConfig truncated = Mission("heading");
+  truncated.heading.speed_change_fps = 300;  // not within two seconds
+  truncated.truncate_at_time_limit = true;
+  EnvConfig failed = truncated;
+  failed.truncate_at_time_limit = false;
+  for (const float sum : Paid(truncated, failed)) EXPECT_NEAR(sum, 200, 1e-3f);
 }
 
 TEST(VecEnvProgress, ActionsFlownWhileNothingIsPricedAreRemembered) {

@@ -113,14 +113,26 @@ TEST(Tolerances, GiveWithinThemAndTakeOutside) {
   const std::vector<std::int32_t> within = {1, 0, 1};
   costs.within_tolerances = 0.25;
   std::vector<float> reward = {-1, -1, 0.5f};
-  RewardTolerances(costs, 3, within.data(), reward.data());
+  RewardTolerances(costs, 3, within.data(), nullptr, reward.data());
   EXPECT_EQ(reward, (std::vector<float>{-0.75f, -1, 0.75f}));
 
   costs = {};
   costs.outside_tolerances = 0.5;
   EXPECT_TRUE(costs.enabled());
-  RewardTolerances(costs.Times(0.5), 3, within.data(), reward.data());
+  RewardTolerances(costs.Times(0.5), 3, within.data(), nullptr, reward.data());
   EXPECT_EQ(reward, (std::vector<float>{-0.75f, -1.25f, 0.75f}));
+}
+
+TEST(Tolerances, TakeBeforeTheTargetIsReachedWithinThemOrNot) {
+  HandlingCosts costs;
+  costs.before_reached = 0.5;
+  EXPECT_TRUE(costs.enabled());
+  const std::vector<std::int32_t> within = {1, 0, 1, 0}, reached_step = {0, 0, 70, 70};
+  std::vector<float> reward(4, 1);
+  RewardTolerances(costs.Times(0.5), 4, within.data(), reached_step.data(), reward.data());
+  EXPECT_EQ(reward, (std::vector<float>{0.75f, 0.75f, 1, 1}));
+  RewardTolerances(costs, 4, within.data(), nullptr, reward.data());
+  EXPECT_EQ(reward, (std::vector<float>{0.25f, 0.25f, 0.5f, 0.5f}));
 }
 
 TEST(ActionChange, CostsTheSquaresOfClippedChangesBesideTheFirst) {
