@@ -28,7 +28,8 @@ struct HandlingCosts {
   /// Of a control step outside them: a price on time. What is gained within them is none, as a
   /// flight ends a given time after it reached its target, however late.
   double outside_tolerances = 0;
-  /// Of a control step until the target counts as reached: a price on time that leaves the hold alone.
+  /// Of a control step until the target counts as reached: a price on time that leaves the hold
+  /// alone.
   double before_reached = 0;
   /// Of a policy step, per squared change of each of its actions but the throttle, which are
   /// clipped to [-1, 1].

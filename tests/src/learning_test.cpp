@@ -34,7 +34,7 @@ TEST(Learning, HeadingIsReachedAndHeldAfterAQuarterOfThatByTheQuickPreset) {
 }
 
 TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
-  EXPECT_GT(TrainedSuccess("control", "6e7"), 0.9);
+  EXPECT_GT(TrainedSuccess("control", "1.375e8"), 0.9);
 }
 
 TEST(Learning, PointsAreHitAfterHalfOfTrackingsBudget) {
