@@ -52,19 +52,28 @@ void TrackingErrors(Tile flight, Tile task, TrackingAxes axes, double unit_ft, f
   }
 }
 
-void TrackingReward(Tile flight, Tile task, double unit_ft, const StepResult& step_result) {
+HWY_INLINE V DistanceOf(const PointError& error, double unit_ft) {
+  const V square = hn::MulAdd(error.north, error.north,
+                              hn::MulAdd(error.east, error.east, hn::Mul(error.up, error.up)));
+  return InUnits(hn::Sqrt(square), unit_ft);
+}
+
+void TrackingReward(Tile flight, Tile task, const TrackingConfig& config, double unit_ft,
+                    const StepResult& step_result) {
   const FloatTag d;
   const IntTag di;
+  const V distance_weight = Constant(config.distance_weight);
+  const V approach_weight = Constant(config.approach_weight);
   for (int first = 0; first < flight.count; first += kLanes) {
     const PointError begin = LastErrorOf(task, first);
     const PointError end = ErrorOf(flight, task, first);
-    const V square =
-        hn::MulAdd(end.north, end.north, hn::MulAdd(end.east, end.east, hn::Mul(end.up, end.up)));
-    const V cost = InUnits(hn::Sqrt(square), unit_ft);
-    hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
+    const V distance = DistanceOf(end, unit_ft);
+    const V approach = hn::Sub(DistanceOf(begin, unit_ft), distance);
+    hn::StoreU(hn::MulSub(approach_weight, approach, hn::Mul(distance_weight, distance)), d,
+               step_result.reward + first);
 
     const V tolerance = Column(task, kTrackingTolerance, first);
-    const Mask reached = TouchesBox(begin, end, tolerance, cost);
+    const Mask reached = TouchesBox(begin, end, tolerance, distance);
     hn::StoreU(hn::And(hn::VecFromMask(di, hn::RebindMask(di, reached)), hn::Set(di, 1)), di,
                step_result.reached + first);
 
@@ -129,7 +138,7 @@ class TrackingTask : public Task {
 
   void ComputeReward(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
                      const StepResult& step_result) const override {
-    SKEIN_DISPATCH(TrackingReward)(flight, task, unit_ft_, step_result);
+    SKEIN_DISPATCH(TrackingReward)(flight, task, config_, unit_ft_, step_result);
   }
 
  private:

@@ -25,8 +25,9 @@ enum TrackingColumn : int {
 
 /// Fly to a point (NeuralPlane paper, Tracking). Errors are the target's position relative to the
 /// aircraft / units.altitude_error_ft, with its ReferenceUnits (F-16: 1 km), in the axes of
-/// `TrackingConfig::error_axes`. The reward of a step is minus their L2 norm, which in all axes is
-/// the distance. The target is reached when the straight path of a control step touches the box
+/// `TrackingConfig::error_axes`. Their L2 norm is the distance in all axes. The reward of a step is
+/// minus TrackingConfig::distance_weight times it, and `approach_weight` times what it became less
+/// by. The target is reached when the straight path of a control step touches the box
 /// whose sides lie the episode's tolerance north, east, south, west, above and below of it:
 /// `position_tolerance_ft` in evaluations, in training up to `training_tolerance_max` times as
 /// much.

@@ -26,6 +26,12 @@ void ListFields(TrackingConfig& config, FieldList& list) {
            "what the errors are: ahead, right and up of the heading; along, right of and above the "
            "path over ground; or north, east and up")
       .ChosenByPolicies();
+  list.Add("distance_weight", &config.distance_weight, Bounds::NotNegative(),
+           "reward lost per control step and unit of distance (F-16: 1 km) to the target")
+      .OffUnless(config.distance_weight != 1);  // as it is in files from before it was a setting
+  list.Add("approach_weight", &config.approach_weight, Bounds::NotNegative(),
+           "reward gained per unit of distance by which a control step comes nearer")
+      .OffUnless(config.approach_weight > 0);
   list.Add("acts_directly", &config.acts_directly,
            "true: the policy gives stick commands itself; false: it is a high-level policy over a "
            "low-level policy")

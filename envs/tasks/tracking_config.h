@@ -34,6 +34,10 @@ struct TrackingConfig {
   /// policy reaches some targets before it reaches all; evaluations take it as it is.
   double training_tolerance_max = 1;
   TrackingAxes error_axes = TrackingAxes::kHeading;
+  double distance_weight = 1;  ///< of the distance in the reward of a control step
+  /// Of the distance by which a control step has come nearer. Over a flight to one target that is
+  /// what it began with, however long the flight; so the next target is no loss.
+  double approach_weight = 0;
   /// true: the policy gives stick commands; false: it commands a low-level policy, as in the paper.
   bool acts_directly = false;
 };

@@ -200,6 +200,28 @@ TEST_P(TrackingTest, RewardIsMinusTheDistanceInKilometres) {
   for (std::size_t i = 0; i < away.size(); ++i) EXPECT_NEAR(reward_[i], -distance[i], kFloat32);
 }
 
+TEST_P(TrackingTest, RewardOfTheApproachIsWhatTheDistanceBecameLessBy) {
+  EnvConfig config = Config();
+  config.tracking.distance_weight = 0;
+  config.tracking.approach_weight = 3;
+  const std::unique_ptr<Task> task = MakeTask(config);
+  Pass(0, {-700, 0, 0}, {-200, 0, 0});
+  Pass(1, {-200, 0, 0}, {-700, 0, 0});
+  Pass(2, {300, 400, 0}, {0, -300, -400});
+  Pass(3, {-2000, -3000, 6000}, {0, 3000, 4000});
+  // Moving the aircraft by rounded positions of 15,000 ft leaves some 1e-6 km.
+  ComputeReward(*task);
+  const double nearer_ft[] = {500, -500, 0, 2000};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(reward_[i], 3 * nearer_ft[i] / kUnit, kFloat32) << i;
+  }
+  // Beside the distance, both count.
+  config.tracking.distance_weight = 2;
+  Pass(3, {-2000, -3000, 6000}, {0, 3000, 4000});
+  ComputeReward(*MakeTask(config));
+  EXPECT_NEAR(reward_[3], (3 * 2000 - 2 * 5000) / kUnit, kFloat32);
+}
+
 TEST_P(TrackingTest, IsReachedWhereThePathTouchesTheBox) {
   struct Case {
     const char* what;
