@@ -196,13 +196,16 @@ void Validate(const EnvConfig& config) {
   RequireSteps(config, "env.hold_s", config.hold_s);
   RequireSteps(config, "env.mission.length_s", config.mission.length_s);
   RequireSteps(config, "env.mission.dwell_s", config.mission.dwell_s);
+  RequireSteps(config, "env.mission.training_length_s", config.mission.training_length_s);
+  RequireSteps(config, "env.mission.training_time_limit_s", config.mission.training_time_limit_s);
   const bool is_point =
       config.term_task != nullptr ? config.term_task->has_point() : config.task == "tracking";
   Require(config.hold_s == 0 || !is_point, "env.hold_s", config.hold_s,
           "0 for " + config.task + ": a point is passed, not held");
   if (config.term_task != nullptr) ValidateTerms(config);
   Require(config.hold_s == 0 || !config.mission.enabled(), "env.hold_s", config.hold_s,
-          "0 in a mission (env.mission.length_s), whose targets come one after another");
+          "0 in a mission (env.mission.length_s, training_length_s), whose targets come one after "
+          "another");
   Validate(config.plant);
   const TerminationConfig& termination = config.termination;
   // The limits are compared by the sides of two directions, which an arc beyond 180 deg does not

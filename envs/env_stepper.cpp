@@ -84,8 +84,11 @@ ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
   ProgressRules rules;
   rules.dwell_steps = steps(is_mission_of_states ? config.mission.dwell_s : task.dwell_s());
   rules.hold_steps = steps(config.hold_s);
-  rules.mission_steps = steps(config.mission.length_s);
-  rules.time_limit_steps = config.time_limit_steps;
+  rules.mission_steps = steps(config.mission.flown_length_s());
+  const bool is_limited =
+      config.mission.is_of_training() && config.mission.training_time_limit_s > 0;
+  rules.time_limit_steps =
+      is_limited ? steps(config.mission.training_time_limit_s) : config.time_limit_steps;
   return rules;
 }
 

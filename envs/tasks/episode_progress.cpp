@@ -37,6 +37,15 @@ void ListFields(MissionConfig& config, FieldList& list) {
   list.Add("dwell_s", &config.dwell_s, Bounds::NotNegative(),
            "time for which a target of a mission must be held before the next comes")
       .OffUnless(config.enabled());
+  list.Add("training_length_s", &config.training_length_s, Bounds::NotNegative(),
+           "the length of flights in training, if it is not 0: evaluations fly what is asked for "
+           "above")
+      .TrainingOnly()
+      .OffUnless(config.is_of_training());
+  list.Add("training_time_limit_s", &config.training_time_limit_s, Bounds::NotNegative(),
+           "time after which such a flight misses a target; 0: env.time_limit_steps")
+      .TrainingOnly()
+      .OffUnless(config.is_of_training() && config.training_time_limit_s > 0);
 }
 
 void EpisodeProgress::Reset(int i) const {

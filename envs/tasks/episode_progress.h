@@ -10,8 +10,16 @@ namespace skein {
 struct MissionConfig {
   double length_s = 0;  ///< 0: an episode has one target
   double dwell_s = 5;   ///< for which a target must be held; one of a point is met at once
+  /// Of flights in training, whatever evaluations fly: what comes after a target is learned then,
+  /// too. 0: as above.
+  double training_length_s = 0;
+  /// Time after which they miss a target. It brings new ones to a policy that cannot turn back to
+  /// one that it has passed. 0: as evaluations do.
+  double training_time_limit_s = 0;
 
-  bool enabled() const { return length_s > 0; }  ///< whether flights are missions
+  bool is_of_training() const { return training_length_s > 0; }
+  double flown_length_s() const { return is_of_training() ? training_length_s : length_s; }
+  bool enabled() const { return flown_length_s() > 0; }  ///< whether flights are missions
 };
 
 class FieldList;

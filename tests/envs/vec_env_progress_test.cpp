@@ -244,6 +244,23 @@ TEST(VecEnvProgress, AMissedTargetCostsWhatTheTimeLimitDoes) {
   for (const float sum : Paid(truncated, failed)) EXPECT_NEAR(sum, 200, 1e-3f);
 }
 
+TEST(VecEnvProgress, MissionsInTrainingFlyAsMissionsDoAndEvaluationsNoneOfThem) {
+  for (const std::string& task : TaskNames()) {
+    EnvConfig asked = Mission(task), trained = asked;
+    asked.mission.length_s = 4;
+    trained.mission.training_length_s = 4;
+    // As long as the time limit is, and shorter than it.
+    for (const double limit_s : {0.0, 1.0}) {
+      trained.mission.training_time_limit_s = limit_s;
+      if (limit_s > 0) asked.time_limit_steps = 50;
+      VecEnv one(asked, 8, 1), other(trained, 8, 1);
+      EXPECT_EQ(Fly(&one, 100), Fly(&other, 100)) << task << ", " << limit_s;
+    }
+    VecEnv evaluated(EvaluationConfig(trained), 8, 1), usual(Mission(task), 8, 1);
+    EXPECT_EQ(Fly(&evaluated, 100), Fly(&usual, 100)) << task;
+  }
+}
+
 TEST(VecEnvProgress, ActionsFlownWhileNothingIsPricedAreRemembered) {
   EnvConfig free = NearTargets("heading"), priced;
   free.heading.earliest_success_step = 300;
@@ -271,7 +288,9 @@ TEST(VecEnvProgress, ActionsFlownWhileNothingIsPricedAreRemembered) {
 TEST(VecEnvProgress, TimesOfNoControlStepOrMoreThanCanBeCountedAreRefused) {
   EnvConfig config;
   for (double* const time : {&config.hold_s, &config.heading.dwell_s, &config.control.dwell_s,
-                             &config.mission.length_s, &config.mission.dwell_s}) {
+                             &config.mission.length_s, &config.mission.dwell_s,
+                             &config.mission.training_length_s,
+                             &config.mission.training_time_limit_s}) {
     const double usual = *time;
     for (const double seconds : {0.009, 1e8, 1e300}) {
       *time = seconds;
