@@ -76,19 +76,28 @@ TerminationConfig EndsOf(const EnvConfig& config) {
   return ends;
 }
 
+int ControlSteps(const EnvConfig& config, double seconds) {
+  return static_cast<int>(std::lround(seconds / config.control_interval_s));
+}
+
+/// When a target is missed, `share` of the way from the first limit in training to the full one.
+int TimeLimitSteps(const EnvConfig& config, double share) {
+  const MissionConfig& mission = config.mission;
+  if (!mission.is_of_training() || mission.training_time_limit_s == 0) {
+    return config.time_limit_steps;
+  }
+  const int first = ControlSteps(config, mission.training_time_limit_s);
+  return first + static_cast<int>(std::lround(share * (config.time_limit_steps - first)));
+}
+
 ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
-  const auto steps = [&config](double seconds) {
-    return static_cast<int>(std::lround(seconds / config.control_interval_s));
-  };
+  const auto steps = [&config](double seconds) { return ControlSteps(config, seconds); };
   const bool is_mission_of_states = config.mission.enabled() && !task.is_point();
   ProgressRules rules;
   rules.dwell_steps = steps(is_mission_of_states ? config.mission.dwell_s : task.dwell_s());
   rules.hold_steps = steps(config.hold_s);
   rules.mission_steps = steps(config.mission.flown_length_s());
-  const bool is_limited =
-      config.mission.is_of_training() && config.mission.training_time_limit_s > 0;
-  rules.time_limit_steps =
-      is_limited ? steps(config.mission.training_time_limit_s) : config.time_limit_steps;
+  rules.time_limit_steps = TimeLimitSteps(config, 0);
   return rules;
 }
 
@@ -174,6 +183,10 @@ void EnvStepper::SetConditionShare(double share) {
   drawn_plant_ = config_.plant.Narrowed(share);
   const double least = config_.observation_noise, most = config_.most_noise();
   most_noise_ = most > least ? Lowest({least, most}, share).max : most;
+}
+
+void EnvStepper::SetTimeLimitShare(double share) {
+  progress_.time_limit_steps = TimeLimitSteps(config_, share);
 }
 
 void EnvStepper::ResetMetrics(std::size_t num_blocks) {

@@ -48,6 +48,8 @@ class EnvStepper {
 
   /// VecEnv::SetConditionShare.
   void SetConditionShare(double share);
+  /// VecEnv::SetTimeLimitShare.
+  void SetTimeLimitShare(double share);
 
   /// Begins the given episode of the block's `i`-th aircraft.
   void BeginEpisode(const EnvBlock& block, int i, std::int32_t episode);

@@ -135,6 +135,7 @@ void VecEnv::Restart(int tile, const bool* begins) {
 
 void VecEnv::SetHandlingWeight(double weight) { impl_->stepper.SetHandlingWeight(weight); }
 void VecEnv::SetConditionShare(double share) { impl_->stepper.SetConditionShare(share); }
+void VecEnv::SetTimeLimitShare(double share) { impl_->stepper.SetTimeLimitShare(share); }
 void VecEnv::Restart() { impl_->Restart(); }
 
 std::vector<std::uint32_t> VecEnv::Snapshot() const {

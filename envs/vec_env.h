@@ -73,6 +73,10 @@ class VecEnv {
   /// and a mission's next target change in episodes under way, too.
   void SetConditionShare(double share);
 
+  /// From now on targets of missions in training are missed `share`, in [0, 1], of the way from
+  /// MissionConfig::training_time_limit_s to the time limit. 0 at first, and no part of the state.
+  void SetTimeLimitShare(double share);
+
   /// Every aircraft begins its first episode, as when constructed.
   void Restart();
 

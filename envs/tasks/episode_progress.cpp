@@ -43,7 +43,8 @@ void ListFields(MissionConfig& config, FieldList& list) {
       .TrainingOnly()
       .OffUnless(config.is_of_training());
   list.Add("training_time_limit_s", &config.training_time_limit_s, Bounds::NotNegative(),
-           "time after which such a flight misses a target; 0: env.time_limit_steps")
+           "time after which such a flight misses a target (ppo.time_limit_ramp lets it "
+           "grow); 0: env.time_limit_steps")
       .TrainingOnly()
       .OffUnless(config.is_of_training() && config.training_time_limit_s > 0);
 }

@@ -13,8 +13,9 @@ struct MissionConfig {
   /// Of flights in training, whatever evaluations fly: what comes after a target is learned then,
   /// too. 0: as above.
   double training_length_s = 0;
-  /// Time after which they miss a target. It brings new ones to a policy that cannot turn back to
-  /// one that it has passed. 0: as evaluations do.
+  /// Time after which they miss a target (VecEnv::SetTimeLimitShare lets it grow). A short one
+  /// brings new targets to a policy that cannot turn back to one that it has passed. 0: as
+  /// evaluations do.
   double training_time_limit_s = 0;
 
   bool is_of_training() const { return training_length_s > 0; }

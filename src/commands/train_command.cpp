@@ -238,7 +238,8 @@ void AddTrainCommand(CLI::App* app) {
               "named configuration: default (tuned for a small machine), paper (the "
               "NeuralPlane paper's settings at 50 Hz), aerosonde (another aircraft), robust "
               "(under all conditions), quick (Heading in minutes), easy (Heading with small "
-              "changes) or planner (Tracking by a high-level policy); skein list presets says "
+              "changes), missions (Tracking from point to point) or planner (Tracking by a "
+              "high-level policy); skein list presets says "
               "which task has which")
           ->type_name("PRESET")
           ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -249,15 +250,26 @@ TEST(VecEnvProgress, MissionsInTrainingFlyAsMissionsDoAndEvaluationsNoneOfThem) 
     EnvConfig asked = Mission(task), trained = asked;
     asked.mission.length_s = 4;
     trained.mission.training_length_s = 4;
-    // As long as the time limit is, and shorter than it.
-    for (const double limit_s : {0.0, 1.0}) {
-      trained.mission.training_time_limit_s = limit_s;
-      if (limit_s > 0) asked.time_limit_steps = 50;
-      VecEnv one(asked, 8, 1), other(trained, 8, 1);
-      EXPECT_EQ(Fly(&one, 100), Fly(&other, 100)) << task << ", " << limit_s;
-    }
+    VecEnv one(asked, 8, 1), other(trained, 8, 1);
+    EXPECT_EQ(Fly(&one, 100), Fly(&other, 100)) << task;
     VecEnv evaluated(EvaluationConfig(trained), 8, 1), usual(Mission(task), 8, 1);
     EXPECT_EQ(Fly(&evaluated, 100), Fly(&usual, 100)) << task;
+  }
+}
+
+TEST(VecEnvProgress, TargetsOfMissionsInTrainingAreMissedLaterWhileTheLimitGrows) {
+  EnvConfig config = Mission("heading");
+  config.heading.speed_change_fps = 300;  // not within two seconds
+  config.time_limit_steps = 100;
+  config.mission.training_length_s = 6;
+  config.mission.training_time_limit_s = 0.4;
+  for (const auto& [share, steps] : {std::pair{0.0, 20}, {0.5, 60}, {1.0, 100}}) {
+    EnvConfig limited = config;
+    limited.mission.training_time_limit_s = 0;
+    limited.time_limit_steps = steps;
+    VecEnv grown(config, 8, 1), same(limited, 8, 1);
+    grown.SetTimeLimitShare(share);
+    EXPECT_EQ(Fly(&grown, 100), Fly(&same, 100)) << share;
   }
 }
 
@@ -287,10 +299,10 @@ TEST(VecEnvProgress, ActionsFlownWhileNothingIsPricedAreRemembered) {
 
 TEST(VecEnvProgress, TimesOfNoControlStepOrMoreThanCanBeCountedAreRefused) {
   EnvConfig config;
-  for (double* const time : {&config.hold_s, &config.heading.dwell_s, &config.control.dwell_s,
-                             &config.mission.length_s, &config.mission.dwell_s,
-                             &config.mission.training_length_s,
-                             &config.mission.training_time_limit_s}) {
+  for (double* const time :
+       {&config.hold_s, &config.heading.dwell_s, &config.control.dwell_s, &config.mission.length_s,
+        &config.mission.dwell_s, &config.mission.training_length_s,
+        &config.mission.training_time_limit_s}) {
     const double usual = *time;
     for (const double seconds : {0.009, 1e8, 1e300}) {
       *time = seconds;

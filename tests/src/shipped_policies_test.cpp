@@ -72,6 +72,13 @@ const ShippedPolicy kPolicies[] = {
      HoldLimits{0.84, 8, 0.35, 0.3},
      SmoothnessLimits{0.3, 3, 0.01}},
     {"tracking", "tracking", {}, 0.97, std::nullopt, SmoothnessLimits{0.4, 2, 0.01}},
+    // To be flown to the end of a mission, from point to point.
+    {"tracking-missions",
+     "tracking",
+     {"--mission", "3", "--condition", "windy=middle", "--condition", "noisy=middle"},
+     0.97,
+     std::nullopt,
+     SmoothnessLimits{0.7, 4, 0.01}},
     {"tracking-robust",
      "tracking",
      {"--condition", "plant=middle", "--condition", "noisy=middle"},

@@ -70,6 +70,10 @@ void ListFields(PpoConfig& config, FieldList& list) {
            "noise widen from the least of their ranges, plants from the nominal one; 0: from the "
            "start")
       .OffUnless(config.condition_ramp > 0);
+  list.Add("time_limit_ramp", &config.time_limit_ramp, Bounds::Fraction(),
+           "share of the budget over which the time limit of targets grows from "
+           "env.mission.training_time_limit_s to env.time_limit_steps; 0: it stays")
+      .OffUnless(config.time_limit_ramp > 0);
   list.Add("held_noise_share", &config.held_noise_share, Bounds::Fraction(),
            "share of the exploration's variance that stays the same for ppo.held_noise_steps: what "
            "acts slowly, as a throttle does, shows little of noise that is drawn every step; 0: "

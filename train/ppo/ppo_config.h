@@ -48,6 +48,9 @@ struct PpoConfig {
   /// mildest to all of its ranges: a policy learns to fly before it learns to fly in everything.
   /// 0: all from the start.
   double condition_ramp = 0;
+  /// Share of the budget over which VecEnv::SetTimeLimitShare goes from 0 to 1: a policy learns to
+  /// hit what lies ahead before it learns to turn back to what it has passed. 0: it stays 0.
+  double time_limit_ramp = 0;
   /// Share of the exploration's variance that is held for some policy steps (HeldNoise).
   double held_noise_share = 0;
   int held_noise_steps = 10;

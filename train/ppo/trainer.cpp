@@ -128,6 +128,9 @@ struct Trainer::Impl {
   }
   /// What handling costs, as a share of its full weight.
   double HandlingWeight() const { return Grown(config.ppo.handling_ramp); }
+  double TimeLimitShare() const {
+    return config.ppo.time_limit_ramp > 0 ? Grown(config.ppo.time_limit_ramp) : 0;
+  }
 
   /// Its aircraft are those of this rank.
   TrainingState State() const {
@@ -223,6 +226,7 @@ struct Trainer::Impl {
     networks.critic.TakeParameters();
     env.SetHandlingWeight(HandlingWeight());
     env.SetConditionShare(Grown(config.ppo.condition_ramp));
+    env.SetTimeLimitShare(TimeLimitShare());
     RolloutSettings settings;
     settings.seed = config.seed;
     settings.first_policy_step = policy_steps;

@@ -546,6 +546,9 @@ TEST_F(TrainerTest, WhatWidensAndWhatGrowsResumesBitExactly) {
   config.env.reward.near_roll_rate = config.env.reward.action_change = 0.1;
   config.ppo.action_smoothness_coefficient = 0.1;
   config.ppo.handling_ramp = 0.9;
+  config.env.mission.training_length_s = 4;
+  config.env.mission.training_time_limit_s = 0.4;
+  config.ppo.time_limit_ramp = 0.9;
   Trainer whole(config, pool);
   whole.Iterate();
   whole.Save(path_);
