@@ -18,7 +18,8 @@ struct MissionConfig {
   /// evaluations do.
   double training_time_limit_s = 0;
 
-  bool is_of_training() const { return training_length_s > 0; }
+  bool is_of_training() const { return training_length_s > 0; }  ///< whether training has its own
+  /// What is flown of the two lengths, s; 0: an episode has one target.
   double flown_length_s() const { return is_of_training() ? training_length_s : length_s; }
   bool enabled() const { return flown_length_s() > 0; }  ///< whether flights are missions
 };
