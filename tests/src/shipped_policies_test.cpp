@@ -39,6 +39,8 @@ struct ShippedPolicy {
   double least_success;
   std::optional<HoldLimits> hold;
   std::optional<SmoothnessLimits> smoothness;
+  /// Of a mission, whose end an aircraft may reach that hits nothing.
+  std::optional<double> least_targets_per_minute = std::nullopt;
 };
 
 void PrintTo(const ShippedPolicy& policy, std::ostream* out) { *out << policy.name; }
@@ -78,7 +80,8 @@ const ShippedPolicy kPolicies[] = {
      {"--mission", "3", "--condition", "windy=middle", "--condition", "noisy=middle"},
      0.97,
      std::nullopt,
-     SmoothnessLimits{0.7, 4, 0.01}},
+     SmoothnessLimits{0.7, 4, 0.01},
+     1.7},
     {"tracking-robust",
      "tracking",
      {"--condition", "plant=middle", "--condition", "noisy=middle"},
@@ -132,6 +135,9 @@ TEST_P(ShippedPolicies, ReachAndHoldTheirTargetsSmoothly) {
     EXPECT_LE(value("hold_rms_p_deg_s"), hold->most_rms_p_deg_s);
     EXPECT_LE(value("hold_load_factor_deviation_g"), hold->most_load_factor_deviation_g);
     EXPECT_LE(value("hold_net_rolls_per_min"), hold->most_net_rolls_per_min);
+  }
+  if (const auto& targets = GetParam().least_targets_per_minute) {
+    EXPECT_GE(value("targets_per_minute"), *targets);
   }
   if (const auto& smoothness = GetParam().smoothness) {
     for (const std::string stick : {"throttle", "pitch", "roll", "yaw"}) {

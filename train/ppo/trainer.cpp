@@ -128,6 +128,7 @@ struct Trainer::Impl {
   }
   /// What handling costs, as a share of its full weight.
   double HandlingWeight() const { return Grown(config.ppo.handling_ramp); }
+  /// How far the time limit of targets has grown; without a ramp it never does.
   double TimeLimitShare() const {
     return config.ppo.time_limit_ramp > 0 ? Grown(config.ppo.time_limit_ramp) : 0;
   }
