@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -54,10 +55,10 @@ class Contender {
 
 /// The roofs of one core, GFLOP/s; bfloat16 has that of float32 where it has no instruction.
 double Peak(Precision precision) {
-  static const double float32 = simd::MeasurePeak(1).gflops_per_core;
-  static const double bfloat16 =
-      simd::MeasureBfloat16Peak(1).value_or(simd::PeakRate{float32, float32}).gflops_per_core;
-  return precision == Precision::kFloat32 ? float32 : bfloat16;
+  static std::map<Precision, double> measured;
+  double& peak = measured[precision];
+  if (peak == 0) peak = simd::MeasureProductPeak(precision, 1).gflops_per_core;
+  return peak;
 }
 
 /// Times `own(precision)` and `libtorch()`, products of `multiply_adds`.

@@ -12,12 +12,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <vector>
 
 #include "base/denormals.h"
 #include "base/error.h"
 #include "bench/tile_parts.h"
 #include "simd/peak.h"
+#include "simd/target.h"
 #include "train/network/fused_network.h"
 
 namespace skein::bench {
@@ -35,17 +37,16 @@ double LowerQuartile(std::vector<double> values) {
 
 /// The best of the roofs of one core so far, FLOP/s.
 struct Roofs {
-  double float32 = 0, bfloat16 = 0;
+  std::map<Precision, double> best;
 
   void Measure() {
-    const double single = 1e9 * simd::MeasurePeak(1).gflops_per_core;
-    const auto pairs = simd::MeasureBfloat16Peak(1);
-    float32 = std::max(float32, single);
-    bfloat16 = std::max(bfloat16, pairs ? 1e9 * pairs->gflops_per_core : single);
+    for (const Precision precision :
+         {Precision::kFloat32, Precision::kBfloat16, Precision::kTiles, Precision::kSplitTiles}) {
+      double& peak = best[precision];
+      peak = std::max(peak, 1e9 * simd::MeasureProductPeak(precision, 1).gflops_per_core);
+    }
   }
-  double Of(Precision precision) const {
-    return precision == Precision::kFloat32 ? float32 : bfloat16;
-  }
+  double Of(Precision precision) const { return best.at(precision); }
 };
 
 bool IsForward(TilePart part) {
@@ -128,21 +129,30 @@ class Tiles {
 void Run(int rounds) {
   const DenormalsFlushed flushed;
   constexpr NetworkPrecision kFloat32, kMixed{Precision::kFloat32, Precision::kBfloat16},
-      kBfloat16{Precision::kBfloat16, Precision::kBfloat16};
+      kBfloat16{Precision::kBfloat16, Precision::kBfloat16},
+      kTiles{Precision::kTiles, Precision::kTiles},
+      kSplit{Precision::kSplitTiles, Precision::kTiles};
   std::vector<Tiles> tiles;
-  tiles.reserve(5);
+  tiles.reserve(9);
   tiles.emplace_back("fp32", kFloat32, 8, 48, true);
   tiles.emplace_back("mixed", kMixed, 8, 48, true);
   tiles.emplace_back("bf16", kBfloat16, 8, 48, true);
   tiles.emplace_back("fp32", kFloat32, 1, 256, false);
   tiles.emplace_back("bf16", kBfloat16, 1, 256, false);
+  if (simd::NativeTiles()) {
+    tiles.emplace_back("amx, critic", kTiles, 8, 48, true);
+    tiles.emplace_back("amx, actor", kSplit, 8, 48, true);
+    tiles.emplace_back("amx, critic", kTiles, 1, 256, false);
+    tiles.emplace_back("amx, actor", kSplit, 1, 256, false);
+  }
   Roofs roofs;
   for (int round = 0; round < rounds; ++round) {
     if (round % 50 == 0) roofs.Measure();
     for (Tiles& each : tiles) each.Turn();
   }
-  std::printf("peak of a core: %.1f GFLOP/s in float32, %.1f in bfloat16\n", roofs.float32 / 1e9,
-              roofs.bfloat16 / 1e9);
+  std::printf("peak of a core: %.1f GFLOP/s in float32, %.1f in bfloat16, %.1f in tiles\n",
+              roofs.Of(Precision::kFloat32) / 1e9, roofs.Of(Precision::kBfloat16) / 1e9,
+              roofs.Of(Precision::kTiles) / 1e9);
   for (const Tiles& each : tiles) each.Print(roofs);
 }
 

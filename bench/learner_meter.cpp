@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <random>
 
 #include "simd/peak.h"
@@ -18,10 +19,10 @@ AlignedVector<float> Normal(std::int64_t count, float scale) {
 }
 
 double Peak(simd::Precision precision) {
-  static const double float32 = 1e9 * simd::MeasurePeak(1).gflops_per_core;
-  if (precision == simd::Precision::kFloat32) return float32;
-  static const auto bfloat16 = simd::MeasureBfloat16Peak(1);
-  return bfloat16 ? 1e9 * bfloat16->gflops_per_core : float32;
+  static std::map<simd::Precision, double> measured;
+  double& peak = measured[precision];
+  if (peak == 0) peak = 1e9 * simd::MeasureProductPeak(precision, 1).gflops_per_core;
+  return peak;
 }
 
 double LearnerMeter::Median() {

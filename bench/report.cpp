@@ -55,10 +55,12 @@ void DescribeRoofs() {
   benchmark::AddCustomContext("simd_target", simd::Name(simd::ActiveTarget()));
   benchmark::AddCustomContext("core_clock", Rounded(roofs.clock / 1e9, "GHz"));
   benchmark::AddCustomContext("core_fma_peak", Rounded(roofs.peak.gflops_per_core, "GFLOP/s"));
-  if (const auto bfloat16 = simd::MeasureBfloat16Peak(1)) {
-    benchmark::AddCustomContext("core_bfloat16_peak",
-                                Rounded(bfloat16->gflops_per_core, "GFLOP/s"));
-  }
+  const auto add_peak = [](const char* name, simd::Precision precision) {
+    const double peak = simd::MeasureProductPeak(precision, 1).gflops_per_core;
+    benchmark::AddCustomContext(name, Rounded(peak, "GFLOP/s"));
+  };
+  if (simd::NativeBfloat16()) add_peak("core_bfloat16_peak", simd::Precision::kBfloat16);
+  if (simd::NativeTiles()) add_peak("core_tile_peak", simd::Precision::kTiles);
 }
 
 }  // namespace skein::bench

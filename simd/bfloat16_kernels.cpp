@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for AVX512_BF16 and run only where NativeBfloat16(): everything is in an anonymous
-// namespace and nothing of the standard library is called, so that no function built for that
-// processor can end up in place of one that others run, too.
+// Compiled for AVX512_BF16 and run only where NativeBfloat16(): see simd/bfloat16_vectors.h.
 
 #include <immintrin.h>
 
 #include <cstdint>
 
+#include "simd/bfloat16_vectors.h"
 #include "simd/product_kernels.h"
 
 namespace skein::simd {
 namespace {
 
-constexpr int kLanes = 16;
-constexpr __mmask16 kAllLanes = 0xffff;
 constexpr int kSums = 24, kPanelVectors = 4;
-
-using Word = std::int32_t;  // a pair of bfloat16, the even element in the lower half
-
-__mmask16 FirstLanes(std::int64_t count) {
-  return count >= kLanes ? kAllLanes : static_cast<__mmask16>((1u << count) - 1);
-}
 
 /// out = init + A B for kRows rows and kVectors vectors of columns, of which `last` says which
 /// lanes of the last one are not padding; with kFetch, lines from `fetch` on are fetched.
@@ -140,16 +131,6 @@ void RoundRows(const RowBlock& block, std::int64_t words_stride, void* words) {
   }
 }
 
-/// Pairs of an even and an odd row's lanes.
-__m512i Paired(__m512 even, __m512 odd) {
-  // Lane by lane, the even row's half of the vector and the odd row's.
-  alignas(64) static constexpr std::int16_t kLanesInTurns[2 * kLanes] = {
-      0, 16, 1, 17, 2,  18, 3,  19, 4,  20, 5,  21, 6,  22, 7,  23,
-      8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31};
-  const __m512i halves = (__m512i)_mm512_cvtne2ps_pbh(odd, even);
-  return _mm512_maskz_permutexvar_epi16(~__mmask32{0}, _mm512_load_si512(kLanesInTurns), halves);
-}
-
 void PackRows(const RowBlock& block, std::int64_t words_stride, void* words) {
   for (std::int64_t i = 0; i < block.rows; i += 2) {
     const float* const even = block.data + i * block.stride;
@@ -170,7 +151,7 @@ void PackRows(const RowBlock& block, std::int64_t words_stride, void* words) {
 }  // namespace
 
 ProductKernels NativeBfloat16Kernels() {
-  return {kLanes, kPanelVectors, 2, &MultiplyPanel, &RoundRows, &PackRows};
+  return {kLanes, kPanelVectors, {2, 1}, &MultiplyPanel, &RoundRows, &PackRows};
 }
 
 }  // namespace skein::simd

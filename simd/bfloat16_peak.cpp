@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for AVX512_BF16: see bfloat16_kernels.cpp.
+// Compiled for AVX512_BF16: see simd/bfloat16_vectors.h.
 
 #include "simd/bfloat16_peak.h"
 

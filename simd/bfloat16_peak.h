@@ -10,4 +10,7 @@ namespace skein::simd {
 /// the work cannot be left out. Only where NativeBfloat16() (simd/target.h).
 double MultiplyAddBfloat16(std::int64_t rounds, float* sink);
 
+/// The same of tiles of bfloat16 by the instruction tdpbf16ps. Only where NativeTiles().
+double MultiplyAddTiles(std::int64_t rounds, float* sink);
+
 }  // namespace skein::simd

@@ -39,19 +39,47 @@ class FlushIf {
 
 ProductKernels KernelsFor(Precision precision) {
   if (precision == Precision::kFloat32) return Float32Kernels();
+  if (precision == Precision::kBfloat16) {
 #ifdef SKEIN_NATIVE_BFLOAT16
-  if (NativeBfloat16()) return NativeBfloat16Kernels();
+    if (NativeBfloat16()) return NativeBfloat16Kernels();
 #endif
-  return EmulatedBfloat16Kernels();
+    return EmulatedBfloat16Kernels();
+  }
+  const bool split = precision == Precision::kSplitTiles;
+#ifdef SKEIN_NATIVE_TILES
+  if (NativeTiles()) return NativeTileKernels(split);
+#endif
+  return EmulatedTileKernels(split);
 }
+
+/// Between them a thread multiplies panels.
+class Multiplying {
+ public:
+  explicit Multiplying(const ProductKernels& kernels) : end_(kernels.end) {
+    if (kernels.begin != nullptr) kernels.begin();
+  }
+  ~Multiplying() {
+    if (end_ != nullptr) end_();
+  }
+  Multiplying(const Multiplying&) = delete;
+  Multiplying& operator=(const Multiplying&) = delete;
+
+ private:
+  void (*end_)();
+};
 
 std::int64_t RoundUp(std::int64_t n, std::int64_t multiple) {
   return (n + multiple - 1) / multiple * multiple;
 }
 
-/// Words of `depth` elements; pairs are whole ones.
-std::int64_t Words(std::int64_t depth, Precision precision, const ProductKernels& kernels) {
-  return precision == Precision::kFloat32 ? depth : RoundUp(depth, 2) / kernels.elements_per_word;
+/// Words of `depth` elements; blocks are whole ones.
+std::int64_t Words(std::int64_t depth, const DepthBlock& block) {
+  return RoundUp(depth, block.elements) / block.elements * block.words;
+}
+
+/// Elements of whole blocks that make `words` words, or one block.
+std::int64_t Elements(std::int64_t words, const DepthBlock& block) {
+  return std::max<std::int64_t>(words / block.words, 1) * block.elements;
 }
 
 /// The panels of a block of B, one behind the other: [panel][depth][columns].
@@ -166,12 +194,11 @@ void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* d
   columns_ = columns;
   precision_ = precision;
   target_ = ActiveTarget();
-  const std::int64_t words = Words(depth, precision, kernels);
-  words_.resize(words * panels.padded_columns());
+  words_.resize(Words(depth, kernels.block) * panels.padded_columns());
 
   AlignedVector<float> strip;  // of a panel, where its rows are not contiguous
   float* out = words_.data();
-  const std::int64_t block_rows = kDepthBlock * kernels.elements_per_word;
+  const std::int64_t block_rows = Elements(kDepthBlock, kernels.block);
   for (std::int64_t block = 0; block < depth; block += block_rows) {
     const std::int64_t end = std::min(depth, block + block_rows);
     for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
@@ -187,7 +214,7 @@ void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* d
           rows.stride = stride;
         }
         kernels.pack_rows(rows, stride, out);
-        out += Words(rows.rows, precision, kernels) * stride;
+        out += Words(rows.rows, kernels.block) * stride;
       }
     }
   }
@@ -201,8 +228,9 @@ void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const Pa
   }
   const ProductKernels kernels = KernelsFor(b.precision());
   const PanelRow panels(kernels, b.columns());
-  const std::int64_t words = Words(b.depth(), b.precision(), kernels);
-  const FlushIf flush(b.precision() == Precision::kBfloat16);
+  const std::int64_t words = Words(b.depth(), kernels.block);
+  const FlushIf flush(b.precision() != Precision::kFloat32);
+  const Multiplying multiplying(kernels);
   for (std::int64_t row = 0; row < rows; row += kRowBlock) {
     PanelProduct product;
     product.rows = std::min(kRowBlock, rows - row);
@@ -211,7 +239,7 @@ void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const Pa
     Start start{bias, accumulated};
     for (std::int64_t word = 0; word < words; word += kDepthBlock) {
       product.depth = std::min(kDepthBlock, words - word);
-      const std::int64_t first = word * kernels.elements_per_word;
+      const std::int64_t first = word / kernels.block.words * kernels.block.elements;
       const float* const block = a + row * a_stride + first;
       if (kernels.round_rows == nullptr) {
         product.a = block;
@@ -220,7 +248,7 @@ void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const Pa
         product.a_stride = kRoundedStride;
         float* const rounded = workspace->Left(kRowBlock * kRoundedStride);
         const std::int64_t elements =
-            std::min(product.depth * kernels.elements_per_word, b.depth() - first);
+            std::min(Elements(product.depth, kernels.block), b.depth() - first);
         kernels.round_rows({product.rows, elements, block, a_stride}, kRoundedStride, rounded);
         product.a = rounded;
       }
@@ -237,31 +265,38 @@ void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t lef
                           std::int64_t out_stride, ProductWorkspace* workspace) {
   const ProductKernels kernels = KernelsFor(precision);
   const PanelRow panels(kernels, right_columns);
-  const FlushIf flush(precision == Precision::kBfloat16);
-  const bool rounds = precision == Precision::kBfloat16;
+  const bool rounds = precision != Precision::kFloat32;
+  const FlushIf flush(rounds);
+  const Multiplying multiplying(kernels);
   // Whole vectors can be read where they are.
   const bool packs = rounds || right_columns % kernels.lanes != 0;
-  const std::int64_t block_rows = kTransposedBlock * kernels.elements_per_word;
+  const std::int64_t block_rows = Elements(kTransposedBlock, kernels.block);
+  const std::int64_t block_words = Words(block_rows, kernels.block);
   PanelProduct product;
   product.rows = left_columns;
-  product.a_transposed = true;
+  product.a_transposed = kernels.round_columns == nullptr;
   product.out = out;
   product.out_stride = out_stride;
   for (std::int64_t row = 0; row < rows; row += block_rows) {
     const std::int64_t count = std::min(block_rows, rows - row);
-    product.depth = Words(count, precision, kernels);
-    product.a = left + row * left_stride;
+    product.depth = Words(count, kernels.block);
+    const RowBlock block{count, left_columns, left + row * left_stride, left_stride};
+    product.a = block.data;
     product.a_stride = left_stride;
-    if (rounds) {
+    if (kernels.round_columns != nullptr) {
+      product.a_stride = block_words + kLineWords;
+      float* const a = workspace->Left(RoundUp(left_columns, kernels.lanes) * product.a_stride);
+      kernels.round_columns(block, product.a_stride, a);
+      product.a = a;
+    } else if (rounds) {
       product.a_stride = RoundUp(left_columns, kernels.lanes) + kLineWords;
-      float* const a = workspace->Left(kTransposedBlock * product.a_stride);
-      kernels.pack_rows({count, left_columns, left + row * left_stride, left_stride},
-                        product.a_stride, a);
+      float* const a = workspace->Left(block_words * product.a_stride);
+      kernels.pack_rows(block, product.a_stride, a);
       product.a = a;
     }
     RightBlock b{right + row * right_stride, right_stride};
     if (packs) {
-      float* const words = workspace->Right(kTransposedBlock * panels.padded_columns());
+      float* const words = workspace->Right(block_words * panels.padded_columns());
       for (std::int64_t panel = 0; panel < panels.count(); ++panel) {
         const std::int64_t column = panels.first_column(panel);
         kernels.pack_rows({count, panels.columns(panel), b.data + column, right_stride},

@@ -10,7 +10,7 @@
 
 namespace skein::simd {
 
-/// Of the operands of a product; sums are float32 in either.
+/// Of the operands of a product, and of the order of its sums; sums are float32 in each.
 enum class Precision {
   kFloat32,
   /// Operands are rounded to bfloat16, to nearest even, denormals to zero. Each pair of elements
@@ -18,7 +18,19 @@ enum class Precision {
   /// first, denormal results flushed. Targets with fused multiply-adds agree bit-exactly, with the
   /// instruction (NativeBfloat16) or without.
   kBfloat16,
+  /// Operands as for kBfloat16. Sums run over blocks of 32 elements as the instruction tdpbf16ps
+  /// (Intel AMX) forms them: even and odd elements apart by fused multiply-adds from zero on, then
+  /// the two together onto what there was. Targets agree as they do for kBfloat16, with the
+  /// instruction (NativeTiles) or without.
+  kTiles,
+  /// Sums as for kTiles, of operands that are sums of two bfloat16 each: x rounded, and what it
+  /// lacks rounded, together 16 bits of x. The products of two lower parts are left out; of a
+  /// block, that of both higher parts comes first, then those with B's and with A's lower part.
+  kSplitTiles,
 };
+constexpr bool IsOfTiles(Precision precision) {
+  return precision == Precision::kTiles || precision == Precision::kSplitTiles;
+}
 
 /// Scratch memory of one thread's products; grows to what they need.
 class ProductWorkspace {
@@ -86,8 +98,8 @@ void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const Pa
 /// out += left^T right, the gradient by a weight: out[i][j] += sum over r of left[r][i] right[r][j]
 /// for `rows` rows r. Strides are floats between rows; `out` is [left_columns][right_columns]. An
 /// element is one sum in the order of the rows, starting from what was there: dividing rows among
-/// successive calls changes no bit, for bfloat16 if all calls but the last have an even number of
-/// rows. `out` must not overlap the others.
+/// successive calls changes no bit, if all calls but the last have an even number of rows for
+/// kBfloat16, and a multiple of 32 for the tiles. `out` must not overlap the others.
 void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t left_stride,
                           std::int64_t left_columns, const float* right, std::int64_t right_stride,
                           std::int64_t right_columns, Precision precision, float* out,

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -182,15 +181,22 @@ PeakRate MeasurePeak(int threads) {
   return InGflops(MeasureRoof(SKEIN_DISPATCH(MultiplyAdd), kRounds, threads));
 }
 
-std::optional<PeakRate> MeasureBfloat16Peak(int threads) {
+PeakRate MeasureProductPeak(Precision precision, int threads) {
 #ifdef SKEIN_NATIVE_BFLOAT16
-  if (NativeBfloat16()) {
+  if (precision == Precision::kBfloat16 && NativeBfloat16()) {
     constexpr std::int64_t kRounds = 100000;
     return InGflops(MeasureRoof(&MultiplyAddBfloat16, kRounds, threads));
   }
 #endif
-  if (threads < 1) ThrowNoThreads(threads);
-  return std::nullopt;
+#ifdef SKEIN_NATIVE_TILES
+  if (IsOfTiles(precision) && NativeTiles()) {
+    constexpr std::int64_t kRounds = 50000;
+    const double products = precision == Precision::kSplitTiles ? 3 : 1;
+    const Roof roof = MeasureRoof(&MultiplyAddTiles, kRounds, threads);
+    return InGflops({roof.one / products, roof.all / products, roof.median / products});
+  }
+#endif
+  return MeasurePeak(threads);
 }
 
 double MeasureClock() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include "simd/matrix_product.h"
 
 // Roofs that the rates of kernels are compared with, measured on this machine for the active
 // target. A figure takes some 0.1 s, and is the best of many short runs unless it says otherwise;
@@ -21,9 +21,10 @@ struct PeakRate {
 /// Measures what the multiply-add units give with operands in registers.
 PeakRate MeasurePeak(int threads);
 
-/// The same of products of bfloat16 with float32 sums (simd/matrix_product.h) where the processor
-/// has an instruction for them (NativeBfloat16); elsewhere nothing: MeasurePeak is their roof.
-std::optional<PeakRate> MeasureBfloat16Peak(int threads);
+/// The same of the instruction that products of this precision take (simd/matrix_product.h):
+/// MeasurePeak where the processor has none but multiply-adds. Of kSplitTiles' three products one
+/// counts.
+PeakRate MeasureProductPeak(Precision precision, int threads);
 
 /// The clock of one core at work on vectors, cycles/s: a chain of dependent 64-bit multiplications,
 /// of three cycles each on x86 processors since 2008 (Intel) and 2017 (AMD), beside multiply-adds.

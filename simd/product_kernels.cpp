@@ -13,6 +13,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "simd/bfloat16-inl.h"
 #include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -136,22 +137,6 @@ void MultiplyPanelOf(const PanelProduct& p) {
 
 void MultiplyPanel(const PanelProduct& p) { MultiplyPanelOf<kPanelVectors>(p); }
 
-/// simd::RoundToBfloat16 as a float32.
-HWY_INLINE V Rounded(V x) {
-  const FloatTag d;
-  const IntTag di;  // magnitudes: compared as signed integers
-  const auto bits = hn::BitCast(di, x);
-  const auto magnitude = hn::And(bits, hn::Set(di, 0x7fffffff));
-  const auto odd = hn::And(hn::ShiftRight<16>(bits), hn::Set(di, 1));
-  const auto nearest = hn::Add(bits, hn::Add(odd, hn::Set(di, 0x7fff)));
-  const auto quiet = hn::Or(bits, hn::Set(di, 0x00400000));
-  const auto zero = hn::AndNot(hn::Set(di, 0x7fffffff), bits);
-  const auto is_nan = hn::Gt(magnitude, hn::Set(di, 0x7f800000));
-  const auto is_denormal = hn::Gt(hn::Set(di, 0x00800000), magnitude);
-  const auto rounded = hn::IfThenElse(is_denormal, zero, hn::IfThenElse(is_nan, quiet, nearest));
-  return hn::BitCast(d, hn::AndNot(hn::Set(di, 0xffff), rounded));
-}
-
 /// Copies `columns` floats, as they are or rounded, and zeros up to the next multiple of kLanes.
 template <bool kRound>
 HWY_INLINE void PackRow(std::int64_t columns, const float* in, float* out) {
@@ -208,8 +193,10 @@ void RoundRows(const RowBlock& block, std::int64_t words_stride, void* words) {
 }
 
 simd::ProductKernels Kernels(bool rounded) {
-  if (rounded) return {kLanes, kPanelVectors, 1, &MultiplyPanel, &RoundRows, &PackRowsRounded};
-  return {kLanes, kPanelVectors, 1, &MultiplyPanel, nullptr, &PackRowsAsTheyAre};
+  if (rounded) {
+    return {kLanes, kPanelVectors, {2, 2}, &MultiplyPanel, &RoundRows, &PackRowsRounded};
+  }
+  return {kLanes, kPanelVectors, {1, 1}, &MultiplyPanel, nullptr, &PackRowsAsTheyAre};
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 
 // What Multiply and AddTransposedProduct (simd/matrix_product.h) are made of, once per target and
 // precision. Elements along the depth (the index that is summed over) come in words of 32 bits: a
-// float32, or a pair of bfloat16 for processors that multiply those. A panel is a strip of B as
-// wide as the accumulators of one row: `panel_vectors` vectors, or fewer at the right edge.
+// float32, or a pair of bfloat16 for processors that multiply those. Some kernels take elements in
+// blocks only, a pair or 32, and pad the last one with zeros; a block of elements that are split in
+// two has all higher parts before the lower ones. A panel is a strip of B as wide as the
+// accumulators of one row: `panel_vectors` vectors, or fewer at the right edge.
 
 namespace skein::simd {
 
@@ -44,20 +46,34 @@ struct RowBlock {
   std::int64_t stride = 0;
 };
 
+/// A block of the depth, of which every matrix has whole ones.
+struct DepthBlock {
+  int elements = 1;
+  int words = 1;  ///< that they are
+};
+
 struct ProductKernels {
-  int lanes = 0;              ///< words of a vector
-  int panel_vectors = 0;      ///< vectors of a whole panel
-  int elements_per_word = 0;  ///< 1 or 2
+  int lanes = 0;          ///< words of a vector
+  int panel_vectors = 0;  ///< vectors of a whole panel
+  DepthBlock block;
 
-  void (*multiply_panel)(const PanelProduct& product);
+  void (*multiply_panel)(const PanelProduct& product) = nullptr;
 
-  /// Words along the columns of the block, [rows][columns rounded up to pairs / elements_per_word]:
-  /// A of a product, rounded. Null if A needs no rounding.
-  void (*round_rows)(const RowBlock& block, std::int64_t words_stride, void* words);
+  /// Words along the columns of `rows`, [rows][words of the columns]: A of a product, rounded. Null
+  /// if A needs no rounding.
+  void (*round_rows)(const RowBlock& rows, std::int64_t words_stride, void* words) = nullptr;
 
-  /// Words along the rows of the block: [rows rounded up to pairs / elements_per_word][stride],
-  /// zero from `columns` to the next multiple of `lanes`: B of a product, or A transposed.
-  void (*pack_rows)(const RowBlock& block, std::int64_t words_stride, void* words);
+  /// Words along the rows of `rows`: [words of the rows][stride], zero from `columns` to the next
+  /// multiple of `lanes`: B of a product, or A transposed.
+  void (*pack_rows)(const RowBlock& rows, std::int64_t words_stride, void* words) = nullptr;
+
+  /// Words along the rows of `rows`, [columns][words of the rows]: A transposed for kernels that
+  /// cannot read it as pack_rows leaves it; null for others.
+  void (*round_columns)(const RowBlock& rows, std::int64_t words_stride, void* words) = nullptr;
+
+  /// What a thread does before it multiplies panels, and behind the last one; null if nothing.
+  void (*begin)() = nullptr;
+  void (*end)() = nullptr;
 };
 
 /// Kernels of the active target with float32 operands.
@@ -70,5 +86,12 @@ ProductKernels EmulatedBfloat16Kernels();
 
 /// Kernels with the instruction vdpbf16ps; only where NativeBfloat16() (simd/target.h).
 ProductKernels NativeBfloat16Kernels();
+
+/// As EmulatedBfloat16Kernels, with sums in the order of the instruction tdpbf16ps; if `split`,
+/// operands are kSplitTiles'.
+ProductKernels EmulatedTileKernels(bool split);
+
+/// Kernels with the instruction tdpbf16ps; only where NativeTiles() (simd/target.h).
+ProductKernels NativeTileKernels(bool split);
 
 }  // namespace skein::simd

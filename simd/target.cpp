@@ -3,6 +3,12 @@
 
 #include <hwy/targets.h>
 
+#ifdef SKEIN_NATIVE_TILES
+#include <cpuid.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
@@ -99,6 +105,24 @@ bool CpuHasBfloat16() { return __builtin_cpu_supports("avx512bf16") != 0; }
 bool CpuHasBfloat16() { return false; }
 #endif
 
+#ifdef SKEIN_NATIVE_TILES
+/// Linux keeps tiles, 8 kB of a thread's state, from processes that have not asked for them.
+bool AskForTiles() {
+  constexpr long kRequestPermission = 0x1023, kTileData = 18;  // ARCH_REQ_XCOMP_PERM, XTILEDATA
+  return syscall(SYS_arch_prctl, kRequestPermission, kTileData) == 0;
+}
+bool MayUseTiles() {
+  // Not every compiler's __builtin_cpu_supports knows their names.
+  constexpr unsigned kFeatures = 7, kAmxBf16 = 1u << 22, kAmxTile = 1u << 24;  // in edx
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  if (__get_cpuid_count(kFeatures, 0, &eax, &ebx, &ecx, &edx) == 0) return false;
+  const bool has_tiles = (edx & kAmxBf16) != 0 && (edx & kAmxTile) != 0;
+  return CpuHasBfloat16() && has_tiles && AskForTiles();
+}
+#else
+bool MayUseTiles() { return false; }
+#endif
+
 }  // namespace
 
 const char* Name(Target target) { return FactsOf(target).name; }
@@ -118,6 +142,20 @@ Target ActiveTarget() { return Current().load(std::memory_order_relaxed); }
 bool NativeBfloat16() {
   static const bool cpu_has_it = CpuHasBfloat16();
   return cpu_has_it && ActiveTarget() == Target::kAvx512;
+}
+
+bool FastBfloat16() {
+#ifdef SKEIN_NATIVE_BFLOAT16
+  static const bool is_intel = __builtin_cpu_is("intel") != 0;
+  return NativeBfloat16() && !is_intel;
+#else
+  return false;
+#endif
+}
+
+bool NativeTiles() {
+  static const bool may_use_them = MayUseTiles();
+  return may_use_them && ActiveTarget() == Target::kAvx512;
 }
 
 void ForceTarget(Target target) {

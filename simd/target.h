@@ -29,6 +29,15 @@ Target ActiveTarget();
 /// active target is avx512, the CPU has AVX512_BF16, and the compiler of this build knew it.
 bool NativeBfloat16();
 
+/// Whether that instruction is faster than multiply-adds of float32: AMD's (since Zen 4) does twice
+/// as many in a cycle, Intel's half as many.
+bool FastBfloat16();
+
+/// Whether products of tiles of bfloat16 take the instruction made for them: the active target is
+/// avx512, the CPU has AMX_BF16 and AVX512_BF16, Linux lets this process use it, and the compiler
+/// of this build knew it.
+bool NativeTiles();
+
 /// Makes every kernel use `target` from now on (tests and benchmarks). Throws Error if it is not
 /// supported. Not to be called while kernels run on other threads.
 void ForceTarget(Target target);

@@ -48,6 +48,7 @@ nlohmann::ordered_json DescribeMachine() {
       {"simd", Name(simd::ActiveTarget())},
       {"simd_supported", supported},
       {"native_bf16", simd::NativeBfloat16()},
+      {"native_amx", simd::NativeTiles()},
       {"precision", Name(DefaultPrecision())},
       {"libtorch", libtorch.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(libtorch)}};
 }

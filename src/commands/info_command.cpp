@@ -22,17 +22,18 @@ void PrintInfo(const std::string& json_path) {
                                    ? "not installed: networks by the fused kernels alone"
                                    : info["libtorch"].get<std::string>();
   const auto text = [&info](const char* key) { return info[key].get<std::string>(); };
+  const auto yes_or_no = [&info](const char* key) { return info[key].get<bool>() ? "yes" : "no"; };
   fmt::print(
       "skein     {} (commit {}, {}, {})\n"
       "cpu       {}\n"
       "threads   {}\n"
       "simd      {} (supported: {}; force one with SKEIN_SIMD)\n"
-      "learner   precision {} (native bf16: {}; choose one with learner.precision)\n"
+      "learner   precision {} (native bf16: {}, amx: {}; choose one with learner.precision)\n"
       "libtorch  {}\n",
       text("version"), text("commit"), text("compiler"), text("build_type"), text("cpu"),
       info["threads"].get<int>(), text("simd"),
       fmt::join(info["simd_supported"].get<std::vector<std::string>>(), ", "), text("precision"),
-      info["native_bf16"].get<bool>() ? "yes" : "no", libtorch);
+      yes_or_no("native_bf16"), yes_or_no("native_amx"), libtorch);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "simd/matrix_product.h"
 #include "simd/target.h"
 #include "src/agents/low_level_option.h"
 #include "src/bench/machine.h"
@@ -10,6 +11,7 @@
 #include "src/files/output_file.h"
 #include "src/run/progress.h"
 #include "train/network/backend_module.h"
+#include "train/network/precision.h"
 #include "train/ppo/learner_rates.h"
 #include "train/ppo/rank_shards.h"
 #include "train/ppo/trainer.h"
@@ -59,9 +61,10 @@ std::vector<TrainConfig> LearnersOf(const TrainConfig& config) {
   constexpr int kLibTorchTileSamples = 4096, kLibTorchRolloutTile = 512;
   std::vector<TrainConfig> learners{config};
   std::vector<LearnerPrecision> precisions{LearnerPrecision::kFloat32};
+  if (simd::NativeTiles()) precisions.push_back(LearnerPrecision::kAmx);
   if (simd::NativeBfloat16()) {
-    precisions = {LearnerPrecision::kFloat32, LearnerPrecision::kMixed, LearnerPrecision::kBfloat16,
-                  LearnerPrecision::kFast};
+    precisions.insert(precisions.end(), {LearnerPrecision::kMixed, LearnerPrecision::kBfloat16,
+                                         LearnerPrecision::kFast});
   }
   LearnerPrecision own = config.learner.precision;
   if (own == LearnerPrecision::kAuto) own = DefaultPrecision();
@@ -84,6 +87,12 @@ std::string ShortName(const BackendChoice& backend) {
   return std::string("fused, ") + Name(backend.precision);
 }
 
+/// What the instruction multiplies that products of `precision` take here.
+const char* NameOfOperands(simd::Precision precision) {
+  if (precision == simd::Precision::kBfloat16 && simd::NativeBfloat16()) return "bfloat16";
+  return simd::IsOfTiles(precision) && simd::NativeTiles() ? "tiles of bfloat16" : "float32";
+}
+
 /// One rate of several learners, the last of them LibTorch's if it is there.
 struct Comparison {
   const char* unit;  ///< what is counted, for people
@@ -102,12 +111,11 @@ Json Compare(const std::vector<LearnerRates>& learners, const Comparison& compar
     const double rate = rates.*comparison.rate;
     const double gflops = rate * (rates.*comparison.flops) / 1e9;
     // The other precisions have products in float32, too.
-    const bool is_bfloat16 =
-        rates.backend.precision == LearnerPrecision::kBfloat16 && simd::NativeBfloat16();
+    const simd::Precision roof = RoofPrecision(rates.backend.precision);
     fmt::print("  {:<14} {:>6} {}/s  {}({})\n", ShortName(rates.backend), FormatCount(rate),
                comparison.unit,
                has_reference ? fmt::format("{:5.2f} x LibTorch  ", rate / reference) : "",
-               ShareOfPeak(gflops, rates.peak_gflops, is_bfloat16 ? "bfloat16" : "float32"));
+               ShareOfPeak(gflops, rates.peak_gflops, NameOfOperands(roof)));
     all.push_back(
         WithShareOfPeak({{"backend", Name(rates.backend.backend)},
                          {"precision", Name(rates.backend.precision)},

@@ -185,7 +185,8 @@ Estimate PerHour(const std::vector<double>& values, const std::vector<Episode>& 
 
 }  // namespace
 
-std::vector<Quantity> QuantitiesOf(const EnvConfig& env) {
+std::vector<Quantity> QuantitiesOf(const EnvConfig& config) {
+  const EnvConfig env = EvaluationConfig(config);
   const bool is_mission = env.mission.enabled();
   const auto task = MakeTask(env);
   std::vector<Quantity> list = Outcomes(is_mission);

@@ -72,9 +72,8 @@ void AddTransposedProduct(const Matrix& left, const Matrix& right, Precision pre
                              out->data.data(), out->stride, &workspace);
 }
 
-double Operand(float x, Precision precision) {
-  return precision == Precision::kFloat32 ? x : Bfloat16Value(RoundToBfloat16(x));
-}
+constexpr Precision kPrecisions[] = {Precision::kFloat32, Precision::kBfloat16, Precision::kTiles,
+                                     Precision::kSplitTiles};
 
 /// A sum in double precision, and the same of magnitudes.
 struct Sum {
@@ -86,6 +85,21 @@ struct Sum {
 };
 
 constexpr Tolerance kUnitRoundoff{0x1p-24, "float32 rounding of one operation"};
+
+/// Adds the product of two elements, and returns how many products of operands that is.
+int AddProduct(float a, float b, Precision precision, Sum* sum) {
+  const auto rounded = [](float x) -> double { return Bfloat16Value(RoundToBfloat16(x)); };
+  if (precision == Precision::kFloat32) {
+    sum->Add(static_cast<double>(a) * b);
+    return 1;
+  }
+  sum->Add(rounded(a) * rounded(b));
+  if (precision != Precision::kSplitTiles) return 1;
+  const auto lacking = [&](float x) { return rounded(static_cast<float>(x - rounded(x))); };
+  sum->Add(rounded(a) * lacking(b));
+  sum->Add(lacking(a) * rounded(b));
+  return 3;
+}
 
 /// A float32 sum of `terms` terms, in any order, is off by no more than this (Higham, Accuracy and
 /// Stability of Numerical Algorithms, section 3.1), with a rounding for each product, too.
@@ -148,11 +162,11 @@ TEST_P(MatrixProductTest, MultiplyIsTheSumInDoublePrecision) {
             } else if (biased) {
               sum.Add(bias.At(0, j));
             }
+            std::int64_t terms = 2;
             for (std::int64_t k = 0; k < shape.depth; ++k) {
-              sum.Add(Operand(a.At(i, k), precision()) * Operand(b.At(k, j), precision()));
+              terms += AddProduct(a.At(i, k), b.At(k, j), precision(), &sum);
             }
-            ASSERT_NEAR(out.At(i, j), sum.value, Bound(sum, shape.depth + 2))
-                << "at " << i << ", " << j;
+            ASSERT_NEAR(out.At(i, j), sum.value, Bound(sum, terms)) << "at " << i << ", " << j;
           }
         }
       }
@@ -174,10 +188,11 @@ TEST_P(MatrixProductTest, AddTransposedProductIsTheSumInDoublePrecision) {
       for (std::int64_t j = 0; j < shape.columns; ++j) {
         Sum sum;
         sum.Add(before.At(i, j));
+        std::int64_t terms = 1;
         for (std::int64_t r = 0; r < shape.rows; ++r) {
-          sum.Add(Operand(left.At(r, i), precision()) * Operand(right.At(r, j), precision()));
+          terms += AddProduct(left.At(r, i), right.At(r, j), precision(), &sum);
         }
-        ASSERT_NEAR(out.At(i, j), sum.value, Bound(sum, shape.rows + 1)) << "at " << i << ", " << j;
+        ASSERT_NEAR(out.At(i, j), sum.value, Bound(sum, terms)) << "at " << i << ", " << j;
       }
     }
   }
@@ -234,7 +249,10 @@ TEST_P(MatrixProductTest, DividingRowsOfATransposedProductChangesNoBit) {
   const Matrix before = Random(depth, columns, 3);
   Matrix whole = before;
   AddTransposedProduct(left, right, precision(), &whole);
-  for (const std::int64_t part : {2, 14, 80, 162, 332}) {
+  const std::vector<std::int64_t> parts = IsOfTiles(precision())
+                                              ? std::vector<std::int64_t>{32, 96, 160, 320}
+                                              : std::vector<std::int64_t>{2, 14, 80, 162, 332};
+  for (const std::int64_t part : parts) {
     Matrix out = before;
     ProductWorkspace workspace;
     for (std::int64_t row = 0; row < rows; row += part) {
@@ -337,16 +355,17 @@ TEST(ProductWorkspaceTest, FetchesInTheOrderAskedForAndForgetsTheOldest) {
   EXPECT_EQ(workspace.NextFetch()->next, workspace.NextFetch()->end);
 }
 
-class Bfloat16ProductTest : public testing::TestWithParam<Target> {
+class RoundedProductTest : public testing::TestWithParam<std::tuple<Target, Precision>> {
  protected:
-  void SetUp() override { ForceTarget(GetParam()); }
+  void SetUp() override { ForceTarget(std::get<0>(GetParam())); }
+  Precision precision() const { return std::get<1>(GetParam()); }
   void TearDown() override { ForceTarget(before_); }
 
  private:
   const Target before_ = ActiveTarget();
 };
 
-TEST_P(Bfloat16ProductTest, OperandsAreRoundedAsStated) {
+TEST_P(RoundedProductTest, OperandsAreRoundedAsStated) {
   // Every exponent, ties among them; the products by one show what each operand became.
   std::vector<float> values = {
       0.0f,          -0.0f,           1.0f,      0x1.01p0f,        0x1.03p0f,
@@ -372,36 +391,50 @@ TEST_P(Bfloat16ProductTest, OperandsAreRoundedAsStated) {
   one.At(0, 0) = 1;
   column.data = row.data = values;
   Matrix out(count, 1, 0);
-  Multiply(column, Packed(one, Precision::kBfloat16), nullptr, 0, &out);
+  Multiply(column, Packed(one, precision()), nullptr, 0, &out);
   for (std::int64_t i = 0; i < count; ++i) expect_rounded(out.At(i, 0), values[i]);
   Matrix across(1, count, 0);
-  Multiply(one, Packed(row, Precision::kBfloat16), nullptr, 0, &across);
+  Multiply(one, Packed(row, precision()), nullptr, 0, &across);
   for (std::int64_t i = 0; i < count; ++i) expect_rounded(across.At(0, i), values[i]);
   std::fill(across.data.begin(), across.data.end(), 0.0f);
-  AddTransposedProduct(one, row, Precision::kBfloat16, &across);
+  AddTransposedProduct(one, row, precision(), &across);
   for (std::int64_t i = 0; i < count; ++i) expect_rounded(across.At(0, i), values[i]);
 }
 
-TEST_P(Bfloat16ProductTest, PairsOfBfloat16AreAddedOddElementFirst) {
-  // 2^24 + 1 is 2^24 in float32, so that only the order odd, even loses the one.
+TEST_P(RoundedProductTest, SumsRunInTheOrderStated) {
+  // 2^24 + 1 is 2^24 in float32: added odd element first, the one is lost, and is not where even
+  // and odd elements are added apart.
   const float large = 0x1p24f;
+  const float expected = IsOfTiles(precision()) ? 1 : 0;
   Matrix a(1, 2), b(2, 1), bias(1, 1), out(1, 1);
   a.At(0, 0) = -large;
   a.At(0, 1) = b.At(0, 0) = b.At(1, 0) = 1;
   bias.At(0, 0) = large;
-  Multiply(a, Packed(b, Precision::kBfloat16), bias.data.data(), 0, &out);
-  EXPECT_EQ(out.At(0, 0), 0);
+  Multiply(a, Packed(b, precision()), bias.data.data(), 0, &out);
+  EXPECT_EQ(out.At(0, 0), expected);
   Matrix left(2, 1);
   left.At(0, 0) = -large;
   left.At(1, 0) = 1;
   out.At(0, 0) = large;
-  AddTransposedProduct(left, b, Precision::kBfloat16, &out);
-  EXPECT_EQ(out.At(0, 0), 0);
+  AddTransposedProduct(left, b, precision(), &out);
+  EXPECT_EQ(out.At(0, 0), expected);
+}
+
+TEST_P(RoundedProductTest, SumsOfTilesRunBlockByBlock) {
+  if (!IsOfTiles(precision())) GTEST_SKIP() << "sums of pairs have no blocks";
+  // 33 elements of one, the last of them in a block of its own, and 2^24 in the first block.
+  Matrix a(1, 33), b(33, 1), out(1, 1);
+  for (std::int64_t k = 0; k < 33; ++k) a.At(0, k) = b.At(k, 0) = 1;
+  a.At(0, 0) = 0x1p24f;
+  Multiply(a, Packed(b, precision()), nullptr, 0, &out);
+  // Of the even elements each one is lost, of the odd ones there are 16, and the last is lost.
+  EXPECT_EQ(out.At(0, 0), 0x1p24f + 16);
 }
 
 std::string ParameterName(const testing::TestParamInfo<std::tuple<Target, Precision>>& test) {
-  const bool is_float32 = std::get<1>(test.param) == Precision::kFloat32;
-  return Name(std::get<0>(test.param)) + std::string(is_float32 ? "_float32" : "_bfloat16");
+  const char* const names[] = {"_float32", "_bfloat16", "_tiles", "_split_tiles"};
+  return Name(std::get<0>(test.param)) +
+         std::string(names[static_cast<int>(std::get<1>(test.param))]);
 }
 
 /// Of whole numbers, as the normal distribution's are not the same in every standard library.
@@ -422,24 +455,35 @@ TEST_P(MatrixProductTest, BitsDependOnWhetherMultiplyAddsRoundOnceAlone) {
   for (const Matrix* matrix : {&product, &gradient}) {
     hash.Add(matrix->data.data(), matrix->data.size() * sizeof(float));
   }
-  if (precision() == Precision::kBfloat16) {
-    EXPECT_EQ(hash.Hex(), "b09b4b0e95bec95e");
-  } else {
-    EXPECT_EQ(hash.Hex(),
-              FusesMultiplyAdd(ActiveTarget()) ? "d97fa330c2870d95" : "85c61b094f729a1d");
+  switch (precision()) {
+    case Precision::kFloat32:
+      EXPECT_EQ(hash.Hex(),
+                FusesMultiplyAdd(ActiveTarget()) ? "d97fa330c2870d95" : "85c61b094f729a1d");
+      break;
+    case Precision::kBfloat16:
+      EXPECT_EQ(hash.Hex(), "b09b4b0e95bec95e");
+      break;
+    case Precision::kTiles:
+      EXPECT_EQ(hash.Hex(), "837a088df5fde8d9");
+      break;
+    case Precision::kSplitTiles:
+      EXPECT_EQ(hash.Hex(), "43ff37e2ea453524");
+      break;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryTarget, MatrixProductTest,
                          testing::Combine(testing::ValuesIn(SupportedTargets()),
-                                          testing::Values(Precision::kFloat32,
-                                                          Precision::kBfloat16)),
+                                          testing::ValuesIn(kPrecisions)),
                          ParameterName);
 
-INSTANTIATE_TEST_SUITE_P(EveryTarget, Bfloat16ProductTest, testing::ValuesIn(SupportedTargets()),
-                         [](const auto& test) { return Name(test.param); });
+INSTANTIATE_TEST_SUITE_P(EveryTarget, RoundedProductTest,
+                         testing::Combine(testing::ValuesIn(SupportedTargets()),
+                                          testing::Values(Precision::kBfloat16, Precision::kTiles)),
+                         ParameterName);
 
-/// On processors with the instruction for bfloat16 this compares it with what stands in for it.
+/// On processors with the instructions for bfloat16 this compares them with what stands in for
+/// them.
 TEST(MatrixProduct, TargetsWithFusedMultiplyAddsAgreeBitForBit) {
   const Target before = ActiveTarget();
   const auto supported = SupportedTargets();
@@ -448,7 +492,7 @@ TEST(MatrixProduct, TargetsWithFusedMultiplyAddsAgreeBitForBit) {
       GTEST_SKIP() << "one of the targets is not supported";
     }
   }
-  for (const Precision precision : {Precision::kFloat32, Precision::kBfloat16}) {
+  for (const Precision precision : kPrecisions) {
     for (const Shape& shape : kShapes) {
       const Matrix a = Random(shape.rows, shape.depth, 1);
       const Matrix b = Random(shape.depth, shape.columns, 2);

@@ -58,17 +58,26 @@ TEST(Peak, MoreThreadsDoNoLess) {
   EXPECT_GT(rate.gflops, kLeastShare * rate.gflops_per_core);
 }
 
-TEST(Peak, Bfloat16IsFasterWhereItHasAnInstruction) {
-  const auto rate = simd::MeasureBfloat16Peak(1);
-  ASSERT_EQ(rate.has_value(), simd::NativeBfloat16());
-  if (rate) {
-    EXPECT_GT(rate->gflops_per_core, simd::MeasurePeak(1).gflops_per_core);
-  }
+double ProductPeak(simd::Precision precision) {
+  return simd::MeasureProductPeak(precision, 1).gflops_per_core;
+}
+
+TEST(Peak, Bfloat16IsFasterThanFloat32WhereItIsSaidToBe) {
+  if (!simd::NativeBfloat16()) GTEST_SKIP() << "this processor has no instruction for it";
+  EXPECT_EQ(ProductPeak(simd::Precision::kBfloat16) > ProductPeak(simd::Precision::kFloat32),
+            simd::FastBfloat16());
+}
+
+TEST(Peak, TilesAreFasterThanFloat32WhereTheyHaveAnInstruction) {
+  if (!simd::NativeTiles()) GTEST_SKIP() << "this processor has no instruction for them";
+  EXPECT_GT(ProductPeak(simd::Precision::kSplitTiles), ProductPeak(simd::Precision::kFloat32));
+  EXPECT_GT(ProductPeak(simd::Precision::kTiles), ProductPeak(simd::Precision::kSplitTiles));
 }
 
 TEST(Peak, NoThreadsIsAnError) {
   EXPECT_THROW(simd::MeasurePeak(0), Error);
-  EXPECT_THROW(simd::MeasureBfloat16Peak(0), Error);
+  EXPECT_THROW(simd::MeasureProductPeak(simd::Precision::kBfloat16, 0), Error);
+  EXPECT_THROW(simd::MeasureProductPeak(simd::Precision::kTiles, 0), Error);
 }
 
 }  // namespace

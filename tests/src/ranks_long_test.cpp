@@ -78,7 +78,7 @@ TEST_F(ManyRanks, ThirtyKillsAtAnyMomentLoseNothing) {
 }
 
 TEST_F(ManyRanks, SixteenAreOneInEveryPrecision) {
-  for (const char* precision : {"fp32", "mixed", "bf16", "fast"}) {
+  for (const char* precision : {"fp32", "mixed", "bf16", "fast", "amx"}) {
     SCOPED_TRACE(precision);
     std::vector<std::string> more = kShards;
     more.insert(more.end(), {"--set", std::string("learner.precision=") + precision});

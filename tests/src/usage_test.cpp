@@ -17,6 +17,7 @@
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/tolerance.h"
+#include "train/network/backend.h"
 
 namespace skein {
 namespace {
@@ -383,7 +384,7 @@ TEST(Usage, InfoNamesWhatItRunsOn) {
   EXPECT_NE(info["libtorch"], "");
   EXPECT_EQ(info["native_bf16"], false) << "the scalar target has none";
   EXPECT_EQ(info["precision"], "fp32");
-  EXPECT_THAT(result.output, HasSubstr("learner   precision fp32 (native bf16: no;"));
+  EXPECT_THAT(result.output, HasSubstr("learner   precision fp32 (native bf16: no, amx: no;"));
 }
 
 TEST(Usage, InfoNamesThePrecisionOfThisProcessor) {
@@ -392,10 +393,11 @@ TEST(Usage, InfoNamesThePrecisionOfThisProcessor) {
   const ProgramResult result = CallSkein({"info", "--json", path});
   const auto info = nlohmann::json::parse(ReadFile(path));
   EXPECT_EQ(info["native_bf16"], simd::NativeBfloat16());
-  EXPECT_EQ(info["precision"], simd::NativeBfloat16() ? "fast" : "fp32");
-  EXPECT_THAT(result.output,
-              HasSubstr(simd::NativeBfloat16() ? "precision fast (native bf16: yes;"
-                                               : "precision fp32 (native bf16: no;"));
+  EXPECT_EQ(info["native_amx"], simd::NativeTiles());
+  EXPECT_EQ(info["precision"], Name(DefaultPrecision()));
+  EXPECT_THAT(result.output, HasSubstr(std::string("precision ") + Name(DefaultPrecision()) +
+                                       " (native bf16: " + (simd::NativeBfloat16() ? "yes" : "no") +
+                                       ", amx: " + (simd::NativeTiles() ? "yes;" : "no;")));
 }
 
 TEST(Usage, AnUnknownSimdTargetIsAnError) {

@@ -13,6 +13,10 @@ namespace {
 
 std::string DescribePrecision(LearnerPrecision precision) {
   if (precision == LearnerPrecision::kFloat32) return "in fp32";
+  if (precision == LearnerPrecision::kAmx) {
+    return std::string("in tiles of bf16, forward through the actor with two for each number") +
+           (simd::NativeTiles() ? "" : ", emulated, slowly: this processor has no AMX");
+  }
   std::string text = precision == LearnerPrecision::kFast
                          ? "the actor in mixed precision and the critic in bf16"
                          : std::string("in ") + Name(precision);
@@ -42,7 +46,8 @@ BackendChoice ChooseBackend(Backend asked, const NetworkShape& shape, LearnerPre
 }
 
 LearnerPrecision DefaultPrecision() {
-  return simd::NativeBfloat16() ? LearnerPrecision::kFast : LearnerPrecision::kFloat32;
+  if (simd::NativeTiles()) return LearnerPrecision::kAmx;
+  return simd::FastBfloat16() ? LearnerPrecision::kFast : LearnerPrecision::kFloat32;
 }
 
 std::string Describe(const BackendChoice& choice) {

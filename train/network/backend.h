@@ -22,20 +22,24 @@ const char* Name(Backend backend);
 
 /// Of the operands of a network's products; sums and all the rest are float32.
 enum class LearnerPrecision {
-  kAuto,  ///< kFast where the processor multiplies bfloat16 itself, else kFloat32
+  /// kAmx where the processor multiplies tiles, else kFast where it multiplies bfloat16 faster than
+  /// float32, else kFloat32.
+  kAuto,
   kFloat32,
   kMixed,     ///< forward float32, backward bfloat16
   kBfloat16,  ///< both bfloat16
   kFast,      ///< actor kMixed, critic kBfloat16
+  kAmx,       ///< tiles of bfloat16, the actor's forward pass with operands of two each
 };
 
 /// Names in configurations and files.
-inline constexpr std::array<std::pair<LearnerPrecision, const char*>, 5> kPrecisionNames{
+inline constexpr std::array<std::pair<LearnerPrecision, const char*>, 6> kPrecisionNames{
     {{LearnerPrecision::kAuto, "auto"},
      {LearnerPrecision::kFloat32, "fp32"},
      {LearnerPrecision::kMixed, "mixed"},
      {LearnerPrecision::kBfloat16, "bf16"},
-     {LearnerPrecision::kFast, "fast"}}};
+     {LearnerPrecision::kFast, "fast"},
+     {LearnerPrecision::kAmx, "amx"}}};
 const char* Name(LearnerPrecision precision);
 
 /// What computes a network, and why, if it is not what was asked for.

@@ -13,6 +13,8 @@ namespace {
 // Rows that go through all layers together: their values stay in the first two levels of the cache,
 // while the layers' weights are read once for all of them.
 constexpr std::int64_t kForwardRows = 48;
+// Fewer rows of a step are few for a product: rows of several steps go through a layer together.
+constexpr std::int64_t kFewRows = 12;
 // Rows that go back through a layer together: the weight's gradient is read and written once for
 // all of them, too.
 constexpr std::int64_t kLayerRows = 96;
@@ -199,26 +201,38 @@ void FusedNetwork::GruForward(int layer, const SequenceTile& tile, const TileRow
   }
 }
 
-void FusedNetwork::RowsForward(const SequenceTile& tile, const TileRows& tile_rows,
-                               NetworkWorkspace& workspace) const {
-  const NetworkShape& shape = layout_.shape();
+void FusedNetwork::RowsToGru(const SequenceTile& tile, std::int64_t row, std::int64_t count,
+                             std::int64_t kept, NetworkWorkspace& workspace) const {
   FusedActivations& activations = workspace.fused_;
-  const std::int64_t row = tile_rows.step * tile.batch + tile_rows.sequence;
-  const std::int64_t count = tile_rows.count, kept = tile_rows.kept;
-  const int observations = shape.observation_size;
+  const int observations = layout_.shape().observation_size;
   NormaliseRows(count, observations, tile.observation + row * observations,
                 activations.observation.data() + kept * RowStride(observations));
-  for (int i = 0; i < shape.hidden_layers; ++i) HiddenForward(i, kept, count, activations);
+  for (int i = 0; i < layout_.shape().hidden_layers; ++i) {
+    HiddenForward(i, kept, count, activations);
+  }
+  GatesForward(0, kept, count, activations);
+}
+
+void FusedNetwork::RowsThroughGru(const SequenceTile& tile, const TileRows& tile_rows,
+                                  NetworkWorkspace& workspace) const {
+  const NetworkShape& shape = layout_.shape();
+  FusedActivations& activations = workspace.fused_;
   for (int i = 0; i < shape.gru_layers; ++i) {
-    GatesForward(i, kept, count, activations);
+    if (i > 0) GatesForward(i, tile_rows.kept, tile_rows.count, activations);
     GruForward(i, tile, tile_rows, workspace);
   }
-  const std::int64_t state = kept * RowStride(shape.gru_size);
-  NormaliseWithStd(count, shape.gru_size,
+  const std::int64_t state = tile_rows.kept * RowStride(shape.gru_size);
+  NormaliseWithStd(tile_rows.count, shape.gru_size,
                    activations.gru[shape.gru_layers - 1].states.data() +
                        tile.batch * RowStride(shape.gru_size) + state,
                    activations.normalised_state.data() + state,
-                   activations.state_inverse_std.data() + kept);
+                   activations.state_inverse_std.data() + tile_rows.kept);
+}
+
+void FusedNetwork::RowsFromGru(std::int64_t row, std::int64_t count, std::int64_t kept,
+                               NetworkWorkspace& workspace) const {
+  const NetworkShape& shape = layout_.shape();
+  FusedActivations& activations = workspace.fused_;
   for (int i = shape.hidden_layers; i < 2 * shape.hidden_layers; ++i) {
     HiddenForward(i, kept, count, activations);
   }
@@ -228,43 +242,89 @@ void FusedNetwork::RowsForward(const SequenceTile& tile, const TileRows& tile_ro
                 shape.output_size, &activations.products);
 }
 
-void FusedNetwork::FetchForward(const SequenceTile& tile, std::int64_t row, std::int64_t count,
+void FusedNetwork::FetchToGru(std::int64_t row, std::int64_t count,
+                              FusedActivations& activations) const {
+  const NetworkShape& shape = layout_.shape();
+  const std::int64_t width = RowStride(shape.hidden_size);
+  for (int i = 1; i < shape.hidden_layers; ++i) {
+    FetchRows(activations.hidden[i].normalised.data(), row, count, width, activations);
+  }
+  FetchRows(activations.gru[0].gates.data(), row, count, GateStride(PaddedWidth(shape.gru_size)),
+            activations);
+}
+
+void FusedNetwork::FetchFromGru(const SequenceTile& tile, std::int64_t row, std::int64_t count,
                                 FusedActivations& activations) const {
   const NetworkShape& shape = layout_.shape();
   const std::int64_t width = RowStride(shape.hidden_size), state = RowStride(shape.gru_size);
-  const auto hidden = [&](int index) {
-    FetchRows(activations.hidden[index].normalised.data(), row, count, width, activations);
-  };
-  for (int i = 1; i < shape.hidden_layers; ++i) hidden(i);
   for (int i = 0; i < shape.gru_layers; ++i) {
-    FetchRows(activations.gru[i].gates.data(), row, count, GateStride(PaddedWidth(shape.gru_size)),
-              activations);
+    if (i > 0) {
+      FetchRows(activations.gru[i].gates.data(), row, count,
+                GateStride(PaddedWidth(shape.gru_size)), activations);
+    }
     FetchRows(activations.gru[i].states.data(), row + tile.batch, count, state, activations);
   }
   FetchRows(activations.normalised_state.data(), row, count, state, activations);
-  for (int i = shape.hidden_layers; i < 2 * shape.hidden_layers; ++i) hidden(i);
-  row += count;
+  for (int i = shape.hidden_layers; i < 2 * shape.hidden_layers; ++i) {
+    FetchRows(activations.hidden[i].normalised.data(), row, count, width, activations);
+  }
+}
+
+void FusedNetwork::FetchNext(const SequenceTile& tile, std::int64_t row, std::int64_t count,
+                             FusedActivations& activations) const {
   if (row >= tile.rows()) return;
+  const NetworkShape& shape = layout_.shape();
   const int observations = shape.observation_size;
   FetchRows(tile.observation, row, count, observations, activations);
   FetchRows(activations.observation.data(), row, count, RowStride(observations), activations);
-  if (shape.hidden_layers > 0) hidden(0);
+  if (shape.hidden_layers > 0) {
+    FetchRows(activations.hidden[0].normalised.data(), row, count, RowStride(shape.hidden_size),
+              activations);
+  }
 }
 
 void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace,
                            bool keeps_all) const {
   const NetworkShape& shape = layout_.shape();
-  const bool keeps = keeps_all || tile.steps > 1;
-  workspace.fused_.Reserve(shape, tile.steps, tile.batch);
+  FusedActivations& activations = workspace.fused_;
+  activations.Reserve(shape, tile.steps, tile.batch);
   Grow(workspace.output_, tile.rows() * shape.output_size);
   Grow(workspace.final_state_, static_cast<std::int64_t>(tile.batch) * shape.state_size());
+  if (tile.steps > 1 && tile.batch < kFewRows) {
+    ForwardByLayers(tile, workspace);
+    return;
+  }
+  const bool keeps = keeps_all || tile.steps > 1;
   for (int step = 0; step < tile.steps; ++step) {
     ForEachRows(tile.batch, kForwardRows, [&](std::int64_t first, std::int64_t count) {
       const std::int64_t row = step * std::int64_t{tile.batch} + first;
-      if (keeps) FetchForward(tile, row, count, workspace.fused_);
-      RowsForward(tile, {step, first, count, keeps ? row : 0}, workspace);
+      if (keeps) {
+        FetchToGru(row, count, activations);
+        FetchFromGru(tile, row, count, activations);
+        FetchNext(tile, row + count, count, activations);
+      }
+      const std::int64_t kept = keeps ? row : 0;
+      RowsToGru(tile, row, count, kept, workspace);
+      RowsThroughGru(tile, {step, first, count, kept}, workspace);
+      RowsFromGru(row, count, kept, workspace);
     });
   }
+}
+
+void FusedNetwork::ForwardByLayers(const SequenceTile& tile, NetworkWorkspace& workspace) const {
+  FusedActivations& activations = workspace.fused_;
+  ForEachRows(tile.rows(), kForwardRows, [&](std::int64_t row, std::int64_t count) {
+    FetchToGru(row, count, activations);
+    FetchNext(tile, row + count, count, activations);
+    RowsToGru(tile, row, count, row, workspace);
+  });
+  for (int step = 0; step < tile.steps; ++step) {
+    RowsThroughGru(tile, {step, 0, tile.batch, step * std::int64_t{tile.batch}}, workspace);
+  }
+  ForEachRows(tile.rows(), kForwardRows, [&](std::int64_t row, std::int64_t count) {
+    FetchFromGru(tile, row, count, activations);
+    RowsFromGru(row, count, row, workspace);
+  });
 }
 
 void FusedNetwork::Forward(const SequenceTile& tile, NetworkWorkspace& workspace) const {

@@ -47,16 +47,30 @@ class FusedNetwork : public RecurrentNetwork {
     std::int64_t sequence, count, kept;
   };
 
-  /// The products of `count` rows from `row` on fetch where their activations will be kept, and
-  /// what the rows behind them begin with.
-  void FetchForward(const SequenceTile& tile, std::int64_t row, std::int64_t count,
-                    FusedActivations& activations) const;
   /// Keeps the activations of all rows if there is more than one step, or `keeps_all`; else those
   /// of a few rows follow each other in the same memory, which stays in the cache.
   void Forward(const SequenceTile& tile, NetworkWorkspace& workspace, bool keeps_all) const;
-  /// The whole network. What is `kept` of the step before must lie `tile.batch` rows before it.
-  void RowsForward(const SequenceTile& tile, const TileRows& tile_rows,
+  /// The same for a tile whose steps have few rows: those of several steps go together but in the
+  /// GRU.
+  void ForwardByLayers(const SequenceTile& tile, NetworkWorkspace& workspace) const;
+
+  /// What lies before the GRU and its input products, and what lies behind it, for `count` rows
+  /// from `row` on, whose activations are kept from the row `kept` on.
+  void RowsToGru(const SequenceTile& tile, std::int64_t row, std::int64_t count, std::int64_t kept,
+                 NetworkWorkspace& workspace) const;
+  void RowsFromGru(std::int64_t row, std::int64_t count, std::int64_t kept,
                    NetworkWorkspace& workspace) const;
+  /// The GRU and the LayerNorm of its states, which the next step masks. What is `kept` of the step
+  /// before must lie `tile.batch` rows before it.
+  void RowsThroughGru(const SequenceTile& tile, const TileRows& tile_rows,
+                      NetworkWorkspace& workspace) const;
+  /// The next products fetch where these keep the activations of `count` rows from `row` on; or
+  /// what those rows begin with, if there are any.
+  void FetchToGru(std::int64_t row, std::int64_t count, FusedActivations& activations) const;
+  void FetchFromGru(const SequenceTile& tile, std::int64_t row, std::int64_t count,
+                    FusedActivations& activations) const;
+  void FetchNext(const SequenceTile& tile, std::int64_t row, std::int64_t count,
+                 FusedActivations& activations) const;
   /// normalise(relu(linear(in))) of the rows [first, first + count).
   void HiddenForward(int index, std::int64_t first, std::int64_t count,
                      FusedActivations& activations) const;

@@ -18,6 +18,8 @@ NetworkPrecision ProductsOf(LearnerPrecision precision) {
       return {kFloat32, kBfloat16};
     case LearnerPrecision::kBfloat16:
       return {kBfloat16, kBfloat16};
+    case LearnerPrecision::kAmx:
+      return {simd::Precision::kTiles, simd::Precision::kTiles};
     default:
       throw Error(std::string("precision \"") + Name(precision) + "\" is not one network's");
   }
@@ -26,11 +28,19 @@ NetworkPrecision ProductsOf(LearnerPrecision precision) {
 }  // namespace
 
 NetworkPrecision ActorPrecision(LearnerPrecision precision) {
-  return ProductsOf(precision == LearnerPrecision::kFast ? LearnerPrecision::kMixed : precision);
+  if (precision == LearnerPrecision::kFast) return ProductsOf(LearnerPrecision::kMixed);
+  NetworkPrecision products = ProductsOf(precision);
+  if (precision == LearnerPrecision::kAmx) products.forward = simd::Precision::kSplitTiles;
+  return products;
 }
 
 NetworkPrecision CriticPrecision(LearnerPrecision precision) {
   return ProductsOf(precision == LearnerPrecision::kFast ? LearnerPrecision::kBfloat16 : precision);
+}
+
+simd::Precision RoofPrecision(LearnerPrecision precision) {
+  if (precision == LearnerPrecision::kBfloat16) return simd::Precision::kBfloat16;
+  return precision == LearnerPrecision::kAmx ? simd::Precision::kTiles : simd::Precision::kFloat32;
 }
 
 }  // namespace skein

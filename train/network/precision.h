@@ -16,4 +16,8 @@ struct NetworkPrecision {
 NetworkPrecision ActorPrecision(LearnerPrecision precision);
 NetworkPrecision CriticPrecision(LearnerPrecision precision);
 
+/// Of products whose peak a learner's rate is compared with: the fastest that all of its are at
+/// most as exact as.
+simd::Precision RoofPrecision(LearnerPrecision precision);
+
 }  // namespace skein

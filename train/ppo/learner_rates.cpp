@@ -8,6 +8,7 @@
 #include "envs/vec_env.h"
 #include "simd/peak.h"
 #include "train/network/network.h"
+#include "train/network/precision.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/trainer.h"
 #include "train/ranks/collectives.h"
@@ -67,10 +68,8 @@ struct Runner {
   }
 
   double MedianPeak() const {
-    if (trainer->backend().precision == LearnerPrecision::kBfloat16) {
-      if (const auto bfloat16 = simd::MeasureBfloat16Peak(threads)) return bfloat16->median_gflops;
-    }
-    return simd::MeasurePeak(threads).median_gflops;
+    const simd::Precision roof = RoofPrecision(trainer->backend().precision);
+    return simd::MeasureProductPeak(roof, threads).median_gflops;
   }
 
   LearnerRates Rates() {

@@ -22,7 +22,7 @@ struct LearnerRates {
   double update_flops_per_sample = 0;  ///< of the products, forward and backward, both networks
   double iteration_s = 0;              ///< rollout, update and all between
   /// What the multiply-add units gave between iterations, with the operands of this learner's
-  /// products: of bfloat16 for LearnerPrecision::kBfloat16 where the processor multiplies those.
+  /// products (RoofPrecision).
   double peak_gflops = 0;
   /// Of an iteration, the share that rollout and gradients alone would take.
   double efficiency = 0;

@@ -249,8 +249,9 @@ struct Trainer::Impl {
     report.terminations = episodes.terminations;
     report.non_finite = episodes.non_finite;
     report.return_mean = episodes.return_sum / count;  // 0 / 0 says that there are none
-    report.success_rate =
-        episodes.terminations[static_cast<int>(Termination::kTargetReached)] / count;
+    const Termination success =
+        config.env.mission.enabled() ? Termination::kTimeLimit : Termination::kTargetReached;
+    report.success_rate = episodes.terminations[static_cast<int>(success)] / count;
     value_means = ValueMeans(rollout, ranks);
     report.explained_variance = ExplainedVariance(value_means);
     report.rollout_seconds = SecondsSince(start);

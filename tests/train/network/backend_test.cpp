@@ -51,19 +51,26 @@ std::string EmulationNote() {
   return simd::NativeBfloat16() ? "" : ", emulated: this processor has no bf16 products";
 }
 
-TEST(ChooseBackendTest, AutomaticPrecisionIsFastWhereTheProcessorHasBfloat16) {
-  const LearnerPrecision expected =
-      simd::NativeBfloat16() ? LearnerPrecision::kFast : LearnerPrecision::kFloat32;
+/// The fastest that this processor has.
+LearnerPrecision ExpectedDefault() {
+  if (simd::NativeTiles()) return LearnerPrecision::kAmx;
+  return simd::FastBfloat16() ? LearnerPrecision::kFast : LearnerPrecision::kFloat32;
+}
+
+TEST(ChooseBackendTest, AutomaticPrecisionIsTheFastestOfTheProcessor) {
+  const LearnerPrecision expected = ExpectedDefault();
   EXPECT_EQ(DefaultPrecision(), expected);
   const NetworkShape shape = ShapeWith(Activation::kRelu);
   EXPECT_EQ(ChooseBackend(Backend::kFused, shape, LearnerPrecision::kAuto).precision, expected);
 }
 
-TEST(ChooseBackendTest, OnlyAvx512HasBfloat16) {
+TEST(ChooseBackendTest, OnlyAvx512HasBfloat16AndTiles) {
   for (const simd::Target target : simd::SupportedTargets()) {
     simd::ForceTarget(target);
     if (target != simd::Target::kAvx512) {
       EXPECT_FALSE(simd::NativeBfloat16());
+      EXPECT_FALSE(simd::FastBfloat16());
+      EXPECT_FALSE(simd::NativeTiles());
       EXPECT_EQ(DefaultPrecision(), LearnerPrecision::kFloat32);
     }
   }
@@ -83,6 +90,9 @@ TEST(ChooseBackendTest, PrecisionIsWhatWasAskedForAndIsDescribed) {
   EXPECT_EQ(choose(LearnerPrecision::kBfloat16), fused + "in bf16" + EmulationNote());
   EXPECT_EQ(choose(LearnerPrecision::kFast),
             fused + "the actor in mixed precision and the critic in bf16" + EmulationNote());
+  EXPECT_EQ(choose(LearnerPrecision::kAmx),
+            fused + "in tiles of bf16, forward through the actor with two for each number" +
+                (simd::NativeTiles() ? "" : ", emulated, slowly: this processor has no AMX"));
 }
 
 TEST(ChooseBackendTest, LibTorchComputesInFloat32Alone) {
@@ -120,6 +130,12 @@ TEST(ChooseBackendTest, PrecisionsAreThoseOfForwardAndBackwardProducts) {
   }
   expect(ActorPrecision(LearnerPrecision::kFast), kFloat32, kBfloat16);
   expect(CriticPrecision(LearnerPrecision::kFast), kBfloat16, kBfloat16);
+  constexpr simd::Precision kTiles = simd::Precision::kTiles;
+  expect(ActorPrecision(LearnerPrecision::kAmx), simd::Precision::kSplitTiles, kTiles);
+  expect(CriticPrecision(LearnerPrecision::kAmx), kTiles, kTiles);
+  EXPECT_EQ(RoofPrecision(LearnerPrecision::kAmx), kTiles);
+  EXPECT_EQ(RoofPrecision(LearnerPrecision::kBfloat16), kBfloat16);
+  EXPECT_EQ(RoofPrecision(LearnerPrecision::kFast), kFloat32);
 }
 
 }  // namespace

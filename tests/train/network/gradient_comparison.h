@@ -12,9 +12,9 @@
 namespace skein {
 
 /// Precisions that a learner can run in.
-inline constexpr std::array<LearnerPrecision, 4> kRunnablePrecisions{
+inline constexpr std::array<LearnerPrecision, 5> kRunnablePrecisions{
     LearnerPrecision::kFloat32, LearnerPrecision::kMixed, LearnerPrecision::kBfloat16,
-    LearnerPrecision::kFast};
+    LearnerPrecision::kFast, LearnerPrecision::kAmx};
 
 inline NetworkPrecision PrecisionOf(const NetworkShape& shape, LearnerPrecision precision) {
   return shape.gaussian ? ActorPrecision(precision) : CriticPrecision(precision);

@@ -41,18 +41,22 @@ constexpr Expected kExpected[] = {
     {Target::kAvx512, LearnerPrecision::kMixed, 0xb76331ac9428da07u},
     {Target::kAvx512, LearnerPrecision::kFast, 0xac3b898e3cc2c2a0u},
     {Target::kAvx512, LearnerPrecision::kBfloat16, 0x4fc88d90f802ad18u},
+    {Target::kAvx512, LearnerPrecision::kAmx, 0x66b8f69904ff6b1cu},
     {Target::kAvx2, LearnerPrecision::kFloat32, 0xf529b791c1e795b7u},
     {Target::kAvx2, LearnerPrecision::kMixed, 0x23aea04c4d32be6au},
     {Target::kAvx2, LearnerPrecision::kFast, 0x2ea56d6060fc1674u},
     {Target::kAvx2, LearnerPrecision::kBfloat16, 0xbae907509110eedeu},
+    {Target::kAvx2, LearnerPrecision::kAmx, 0xf17539565a05d35bu},
     {Target::kSse4, LearnerPrecision::kFloat32, 0xa5c8659b25b90b6bu},
     {Target::kSse4, LearnerPrecision::kMixed, 0xf77c24b3767551f4u},
     {Target::kSse4, LearnerPrecision::kFast, 0xf3a9103d491a8d6bu},
     {Target::kSse4, LearnerPrecision::kBfloat16, 0x5750a500bc55ab5bu},
+    {Target::kSse4, LearnerPrecision::kAmx, 0x2cd9abbef105e42au},
     {Target::kScalar, LearnerPrecision::kFloat32, 0xdf74a984cad5347cu},
     {Target::kScalar, LearnerPrecision::kMixed, 0x3814dace5ea5acb5u},
     {Target::kScalar, LearnerPrecision::kFast, 0xbb06e40e32a44800u},
     {Target::kScalar, LearnerPrecision::kBfloat16, 0x95335454a87f2991u},
+    {Target::kScalar, LearnerPrecision::kAmx, 0x83de3b1a5742bbbau},
 };
 #endif
 

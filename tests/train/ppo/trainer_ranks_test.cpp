@@ -104,7 +104,8 @@ TEST_P(TrainerRanksPrecisionTest, EveryBitIsTheSameForAnyNumberOfRanks) {
 
 INSTANTIATE_TEST_SUITE_P(Precisions, TrainerRanksPrecisionTest,
                          testing::Values(LearnerPrecision::kFloat32, LearnerPrecision::kMixed,
-                                         LearnerPrecision::kBfloat16, LearnerPrecision::kFast),
+                                         LearnerPrecision::kBfloat16, LearnerPrecision::kFast,
+                                         LearnerPrecision::kAmx),
                          [](const testing::TestParamInfo<LearnerPrecision>& param) {
                            return Name(param.param);
                          });

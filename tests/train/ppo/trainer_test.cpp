@@ -561,6 +561,17 @@ TEST_F(TrainerTest, WhatWidensAndWhatGrowsResumesBitExactly) {
   }
 }
 
+TEST_F(TrainerTest, AMissionThatIsFlownToItsEndIsASuccess) {
+  WorkerPool pool(2);
+  TrainConfig config = SmallConfig();
+  config.env.mission.training_length_s = 0.4;
+  Trainer trainer(config, pool);
+  const IterationReport report = trainer.Iterate();
+  ASSERT_GT(report.episodes, 0);
+  EXPECT_EQ(report.terminations[static_cast<int>(Termination::kTimeLimit)], report.episodes);
+  EXPECT_EQ(report.success_rate, 1);
+}
+
 TEST_F(TrainerTest, RefusesMoreMinibatchesThanChunks) {
   TrainConfig config = SmallConfig();
   config.ppo.minibatches = 1000;
