@@ -21,22 +21,27 @@ constexpr int kStripRows = 2 * kTileRows, kPanelColumns = kPanelVectors * kLanes
 
 constexpr int BlockWords(bool split) { return split ? 2 * kTileWords : kTileWords; }
 
-/// The operand of ldtilecfg.
+/// The operand of ldtilecfg: shapes of tiles, of which 0 to 3 are sums, 4 and 5 A's, 6 and 7 B's.
 struct alignas(64) TileConfig {
   std::uint8_t palette = 1, start_row = 0, reserved[14] = {};
   std::uint16_t row_bytes[16] = {64, 64, 64, 64, 64, 64, 64, 64};
   std::uint8_t rows[16] = {16, 16, 16, 16, 16, 16, 16, 16};
 };
 
-void Begin() {
-  static constexpr TileConfig kAllWhole;
-  _tile_loadconfig(&kAllWhole);
+/// g++ 12 does not know that loads and stores of tiles touch memory.
+inline void MemoryIsTouched() { asm volatile("" ::: "memory"); }
+
+/// A product of fewer rows than a tile has takes tiles of as many, of more whole ones.
+void Begin(std::int64_t rows) {
+  TileConfig config;
+  if (rows < kTileRows) {
+    config.rows[0] = config.rows[1] = config.rows[4] = static_cast<std::uint8_t>(rows);
+  }
+  MemoryIsTouched();
+  _tile_loadconfig(&config);
 }
 
 void End() { _tile_release(); }
-
-/// g++ 12 does not know that loads and stores of tiles touch memory.
-inline void MemoryIsTouched() { asm volatile("" ::: "memory"); }
 
 /// Rows of a matrix, `stride` bytes apart.
 struct Rows {
@@ -56,7 +61,6 @@ template <int kDown, int kAcross, bool kSplit>
 inline __attribute__((always_inline)) void Tiles(const PanelProduct& p, const Word* a, Rows init,
                                                  float* out, std::int64_t out_stride) {
   constexpr bool kTwoDown = kDown == 2, kTwoAcross = kAcross == 2;
-  // Tiles 0 to 3 are sums, 4 and 5 A's, 6 and 7 B's: an instruction names its tiles.
   const std::int64_t a_stride = p.a_stride * sizeof(Word);
   constexpr std::int64_t kRowWords = kAcross * kLanes, kRowBytes = kRowWords * sizeof(Word);
   const auto load_left = [&](const Word* left) {
@@ -129,7 +133,8 @@ void Strip(const PanelProduct& p, std::int64_t row, std::int64_t rows) {
   const Word* const a = static_cast<const Word*>(p.a) + row * p.a_stride;
   const float* const init = p.init + row * p.init_stride;
   float* const out = p.out + row * p.out_stride;
-  if (rows == kDown * kTileRows && p.columns == kAcross * kLanes) {
+  const bool whole_rows = rows == kDown * kTileRows || p.rows < kTileRows;
+  if (whole_rows && p.columns == kAcross * kLanes) {
     const auto init_bytes = static_cast<std::int64_t>(p.init_stride * sizeof(float));
     Tiles<kDown, kAcross, kSplit>(p, a, {init, init_bytes}, out, p.out_stride);
     return;

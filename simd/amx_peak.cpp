@@ -10,7 +10,7 @@ namespace skein::simd {
 
 double MultiplyAddTiles(std::int64_t rounds, float* sink) {
   const ProductKernels kernels = NativeTileKernels(false);
-  kernels.begin();
+  kernels.begin(16);
   // Four independent sums of two tiles and two, as products have.
   _tile_zero(0);
   _tile_zero(1);

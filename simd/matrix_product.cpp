@@ -52,20 +52,25 @@ ProductKernels KernelsFor(Precision precision) {
   return EmulatedTileKernels(split);
 }
 
-/// Between them a thread multiplies panels.
+/// What a thread does before it multiplies panels and behind them.
 class Multiplying {
  public:
-  explicit Multiplying(const ProductKernels& kernels) : end_(kernels.end) {
-    if (kernels.begin != nullptr) kernels.begin();
-  }
+  explicit Multiplying(const ProductKernels& kernels) : kernels_(kernels) {}
   ~Multiplying() {
-    if (end_ != nullptr) end_();
+    if (rows_ > 0) kernels_.end();
   }
   Multiplying(const Multiplying&) = delete;
   Multiplying& operator=(const Multiplying&) = delete;
 
+  void Begin(std::int64_t rows) {
+    if (kernels_.begin == nullptr || rows == rows_) return;
+    kernels_.begin(rows);
+    rows_ = rows;
+  }
+
  private:
-  void (*end_)();
+  const ProductKernels& kernels_;
+  std::int64_t rows_ = 0;  // that it has begun with
 };
 
 std::int64_t RoundUp(std::int64_t n, std::int64_t multiple) {
@@ -230,10 +235,11 @@ void Multiply(std::int64_t rows, const float* a, std::int64_t a_stride, const Pa
   const PanelRow panels(kernels, b.columns());
   const std::int64_t words = Words(b.depth(), kernels.block);
   const FlushIf flush(b.precision() != Precision::kFloat32);
-  const Multiplying multiplying(kernels);
+  Multiplying multiplying(kernels);
   for (std::int64_t row = 0; row < rows; row += kRowBlock) {
     PanelProduct product;
     product.rows = std::min(kRowBlock, rows - row);
+    multiplying.Begin(product.rows);
     product.out = out + row * out_stride;
     product.out_stride = out_stride;
     Start start{bias, accumulated};
@@ -267,7 +273,8 @@ void AddTransposedProduct(std::int64_t rows, const float* left, std::int64_t lef
   const PanelRow panels(kernels, right_columns);
   const bool rounds = precision != Precision::kFloat32;
   const FlushIf flush(rounds);
-  const Multiplying multiplying(kernels);
+  Multiplying multiplying(kernels);
+  if (rows > 0) multiplying.Begin(left_columns);
   // Whole vectors can be read where they are.
   const bool packs = rounds || right_columns % kernels.lanes != 0;
   const std::int64_t block_rows = Elements(kTransposedBlock, kernels.block);

@@ -71,8 +71,9 @@ struct ProductKernels {
   /// cannot read it as pack_rows leaves it; null for others.
   void (*round_columns)(const RowBlock& rows, std::int64_t words_stride, void* words) = nullptr;
 
-  /// What a thread does before it multiplies panels, and behind the last one; null if nothing.
-  void (*begin)() = nullptr;
+  /// What a thread does before it multiplies panels of as many rows, and behind the last one; null
+  /// if nothing.
+  void (*begin)(std::int64_t rows) = nullptr;
   void (*end)() = nullptr;
 };
 
