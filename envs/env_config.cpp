@@ -224,6 +224,10 @@ void Validate(const EnvConfig& config) {
   Require(initial.drawn_altitude_ft().min > termination.min_altitude_ft,
           "env.initial.training_altitude_min_ft", initial.training_altitude_min_ft,
           "0, or " + above);
+  Require(initial.drawn_altitude_ft().min > termination.Flown().min_altitude_ft,
+          "env.termination.training_min_altitude_ft", termination.training_min_altitude_ft,
+          "0, or below the lowest initial altitude in training, " +
+              ShortestText(initial.drawn_altitude_ft().min));
 }
 
 }  // namespace skein

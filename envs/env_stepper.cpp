@@ -61,7 +61,7 @@ constexpr double kMissionDiveSpeed = 1.3;
 
 /// Limits the targets of a mission's flight that began at `start` and is at `altitude_ft`.
 void LimitDescent(const EnvConfig& config, double altitude_ft, FlightStart* start) {
-  const double floor_ft = config.termination.min_altitude_ft;
+  const double floor_ft = config.termination.Flown().min_altitude_ft;
   start->lowest_altitude_ft = floor_ft + kMissionClearance * (start->altitude_ft - floor_ft);
   const double flown_ft = kMissionDiveSpeed * start->true_airspeed_ft_s * config.time_limit_steps *
                           config.control_interval_s;
@@ -71,7 +71,7 @@ void LimitDescent(const EnvConfig& config, double altitude_ft, FlightStart* star
 
 /// Of a target that is held its reward comes when it is reached, not at the end of the hold.
 TerminationConfig EndsOf(const EnvConfig& config) {
-  TerminationConfig ends = config.termination;
+  TerminationConfig ends = config.termination.Flown();
   if (config.hold_s > 0) ends.success_reward = 0;
   return ends;
 }

@@ -54,9 +54,11 @@ void CheckMach(const EnvConfig& config) {
   }
   const double lowest_ft = initial.drawn_altitude_ft().min;
   const double slowest = mach_at(initial.true_airspeed_fps.min, lowest_ft);
-  if (slowest < config.termination.min_mach) {
+  const TerminationConfig& limits = config.termination;
+  if (slowest < limits.Flown().min_mach) {
     refuse("env.initial.true_airspeed_min_fps", initial.true_airspeed_fps.min, lowest_ft, slowest,
-           "env.termination.min_mach");
+           slowest < limits.min_mach ? "env.termination.min_mach"
+                                     : "env.termination.training_min_mach");
   }
 }
 

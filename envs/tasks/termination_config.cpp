@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/tasks/termination_config.h"
 
+#include <algorithm>
+
 #include "base/field_list.h"
 
 namespace skein {
@@ -21,6 +23,23 @@ void ListFields(TerminationConfig& config, FieldList& list) {
   list.Add("failure_reward", &config.failure_reward, Bounds::Any(), "reward for ending at a limit");
   list.Add("success_reward", &config.success_reward, Bounds::Any(),
            "reward for reaching the target");
+  list.Add("training_min_mach", &config.training_min_mach, Bounds::NotNegative(),
+           "in training low_speed below this Mach number, if it is higher; 0: no other")
+      .TrainingOnly()
+      .OffUnless(config.training_min_mach > 0);
+  list.Add("training_min_altitude_ft", &config.training_min_altitude_ft, {0, 60000},
+           "in training low_altitude below this altitude, if it is higher; 0: no other")
+      .TrainingOnly()
+      .OffUnless(config.training_min_altitude_ft > 0);
+}
+
+TerminationConfig TerminationConfig::Flown() const {
+  TerminationConfig flown = *this;
+  flown.min_mach = std::max(min_mach, training_min_mach);
+  if (training_min_altitude_ft > 0) {
+    flown.min_altitude_ft = std::max(min_altitude_ft, training_min_altitude_ft);
+  }
+  return flown;
 }
 
 }  // namespace skein

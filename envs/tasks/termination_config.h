@@ -17,6 +17,12 @@ struct TerminationConfig {
   double max_load_factor = 10;  ///< g, of nz; there is no limit to negative ones
   double failure_reward = -200;
   double success_reward = 200;
+  /// Limits of flights in training, where they are narrower: what is kept clear of there is kept
+  /// clear of by more elsewhere. 0: as above.
+  double training_min_mach = 0, training_min_altitude_ft = 0;
+
+  /// With the limits that are flown with.
+  TerminationConfig Flown() const;
 };
 
 /// What of an episode's end and rewards the environment says, not TerminationConfig.

@@ -14,13 +14,15 @@ class Wind {
  public:
   /// Speeds and turbulence are drawn with BentInto's `power`. `span_ft` is the aircraft's.
   Wind(const WindConfig& config, int draw_power, double span_ft)
-      : config_(config), drawn_(config), draw_power_(draw_power), span_ft_(span_ft) {}
+      : config_(config), drawn_(config), draw_power_(draw_power), span_ft_(span_ft) {
+    SetShare(1);
+  }
 
   /// From now on winds and turbulence are drawn from the weakest `share`, in [0, 1], of their
   /// ranges.
   void SetShare(double share) {
-    drawn_.speed_fps = Lowest(config_.speed_fps, share);
-    drawn_.turbulence_fps = Lowest(config_.turbulence_fps, share);
+    drawn_.speed_fps = Lowest(config_.drawn_speed_fps(), share);
+    drawn_.turbulence_fps = Lowest(config_.drawn_turbulence_fps(), share);
   }
 
   /// Whether tiles must be windy; rotational gusts are there if WindConfig has them.
@@ -33,7 +35,7 @@ class Wind {
 
   /// The wind of the next control step, `dt` seconds long.
   void Advance(Tile tile, float dt, const GustKeys& keys) const {
-    if (config_.turbulence_fps.max > 0) AdvanceGusts(tile, dt, keys, law());
+    if (config_.drawn_turbulence_fps().max > 0) AdvanceGusts(tile, dt, keys, law());
   }
 
  private:

@@ -28,6 +28,14 @@ void ListFields(WindConfig& config, FieldList& list) {
   list.Add(
       "step_at_reset", &config.step_at_reset,
       "true: trimmed in still air, the steady wind then is a step; false: trimmed in the wind");
+  list.Add("training_speed_max_fps", &config.training_speed_max_fps, speed,
+           "in training the highest speed of the steady wind, if it is higher; 0: no other")
+      .TrainingOnly()
+      .OffUnless(config.training_speed_max_fps > 0);
+  list.Add("training_turbulence_max_fps", &config.training_turbulence_max_fps, speed,
+           "in training the highest standard deviation of turbulence, if it is higher; 0: no other")
+      .TrainingOnly()
+      .OffUnless(config.training_turbulence_max_fps > 0);
 }
 
 }  // namespace skein

@@ -21,11 +21,22 @@ struct WindConfig {
   /// The aircraft is trimmed in still air, keeps its velocity over ground and meets the steady wind
   /// as a step at the start of the episode. false: it is trimmed in the moving air.
   bool step_at_reset = true;
+  /// In training the highest of what is drawn, where it is higher. 0: as above.
+  double training_speed_max_fps = 0, training_turbulence_max_fps = 0;
 
+  Range drawn_speed_fps() const { return Widened(speed_fps, training_speed_max_fps); }
+  Range drawn_turbulence_fps() const {
+    return Widened(turbulence_fps, training_turbulence_max_fps);
+  }
   /// Whether any episode has wind.
-  bool enabled() const { return speed_fps.max > 0 || turbulence_fps.max > 0; }
+  bool enabled() const { return drawn_speed_fps().max > 0 || drawn_turbulence_fps().max > 0; }
   /// Whether any episode's gusts turn.
-  bool has_rotational_gusts() const { return rotational_gusts && turbulence_fps.max > 0; }
+  bool has_rotational_gusts() const { return rotational_gusts && drawn_turbulence_fps().max > 0; }
+
+ private:
+  static Range Widened(const Range& range, double max) {
+    return {range.min, max > range.max ? max : range.max};
+  }
 };
 
 /// Its settings (base/field_list.h).

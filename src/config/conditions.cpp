@@ -115,6 +115,8 @@ Assignments Windy(const LevelRequest& request, const std::string& level) {
   if (given.count("wind.turbulence") == 0) {
     append("", "wind.turbulence", "_fps", still.turbulence_fps);
   }
+  assignments.emplace_back("env.wind.training_speed_max_fps=0");
+  assignments.emplace_back("env.wind.training_turbulence_max_fps=0");
   return assignments;
 }
 

@@ -53,5 +53,29 @@ TEST(ConditionShare, IsThatOfNarrowerRanges) {
   EXPECT_NE(SecondOfFlight(config, 1), SecondOfFlight(half, 1));
 }
 
+TEST(ConditionShare, WindsAndLimitsOfTrainingAreThoseThatAreAskedFor) {
+  EnvConfig plain;
+  plain.initial.trimmed = false;  // it slows down from Mach 0.9605
+  plain.initial.altitude_ft = {19000, 19000};
+  plain.initial.true_airspeed_fps = {1000, 1000};
+  EnvConfig asked = plain;
+  asked.wind.speed_fps = {0, 120};
+  asked.wind.turbulence_fps = {0, 10};
+  asked.termination.min_mach = 0.96;
+  asked.termination.min_altitude_ft = 18000;
+  EnvConfig trained = plain;
+  trained.wind.training_speed_max_fps = 120;
+  trained.wind.training_turbulence_max_fps = 10;
+  trained.termination.training_min_mach = 0.96;
+  trained.termination.training_min_altitude_ft = 18000;
+  EnvConfig unlimited = asked;
+  unlimited.termination = plain.termination;
+  EXPECT_NE(SecondOfFlight(asked, 1), SecondOfFlight(unlimited, 1));
+  for (const double share : {0.25, 1.0}) {
+    EXPECT_EQ(SecondOfFlight(trained, share), SecondOfFlight(asked, share));
+  }
+  EXPECT_EQ(SecondOfFlight(EvaluationConfig(trained), 1), SecondOfFlight(plain, 1));
+}
+
 }  // namespace
 }  // namespace skein

@@ -45,6 +45,10 @@ const Fault kFaults[] = {
     {"env.training_noise_max = ", [](EnvConfig* c) { c->training_noise_max = -0.01; }},
     {"env.initial.training_altitude_min_ft = ",
      [](EnvConfig* c) { c->initial.training_altitude_min_ft = 2000; }},
+    {"env.termination.training_min_altitude_ft = ",
+     [](EnvConfig* c) { c->termination.training_min_altitude_ft = 19500; }},
+    {"env.wind.training_speed_max_fps = ",
+     [](EnvConfig* c) { c->wind.training_speed_max_fps = -1; }},
     {"env.wind.speed_min_fps = ",
      [](EnvConfig* c) {
        c->wind.speed_fps = {60, 30};
@@ -297,6 +301,9 @@ TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   config.stagger_clocks = true;
   config.training_noise_max = 0.1;
   config.initial.training_altitude_min_ft = 5000;
+  config.wind.training_speed_max_fps = config.wind.training_turbulence_max_fps = 10;
+  config.termination.training_min_mach = 0.3;
+  config.termination.training_min_altitude_ft = 3000;
   config.heading.training_tolerance_min = 0.1;
   config.tracking.training_tolerance_max = 8;
   config.heading.altitude_tolerance_ft = 70;
@@ -304,9 +311,37 @@ TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   EXPECT_FALSE(evaluated.stagger_clocks);
   EXPECT_EQ(evaluated.training_noise_max, 0);
   EXPECT_EQ(evaluated.initial.training_altitude_min_ft, 0);
+  EXPECT_FALSE(evaluated.wind.enabled());
+  EXPECT_EQ(evaluated.termination.Flown().min_mach, config.termination.min_mach);
+  EXPECT_EQ(evaluated.termination.Flown().min_altitude_ft, config.termination.min_altitude_ft);
   EXPECT_EQ(evaluated.heading.training_tolerance_min, 1);
   EXPECT_EQ(evaluated.tracking.training_tolerance_max, 1);
   EXPECT_EQ(evaluated.heading.altitude_tolerance_ft, 70) << "belongs to the task";
+}
+
+TEST(EnvConfigTest, LimitsAndWindsOfTrainingCountWhereTheyAreBeyondTheOthers) {
+  EnvConfig config;
+  TerminationConfig& limits = config.termination;
+  limits.min_altitude_ft = -100;
+  EXPECT_EQ(limits.Flown().min_altitude_ft, -100) << "0 is no limit of training";
+  limits.training_min_altitude_ft = 3000;
+  limits.training_min_mach = 0.3;
+  EXPECT_EQ(limits.Flown().min_altitude_ft, 3000);
+  EXPECT_EQ(limits.Flown().min_mach, 0.3);
+  limits.min_altitude_ft = 4000;
+  limits.min_mach = 0.4;
+  EXPECT_EQ(limits.Flown().min_altitude_ft, 4000);
+  EXPECT_EQ(limits.Flown().min_mach, 0.4);
+  config.wind.speed_fps = {20, 50};
+  config.wind.training_speed_max_fps = 40;
+  EXPECT_EQ(config.wind.drawn_speed_fps().max, 50);
+  config.wind.training_speed_max_fps = 60;
+  EXPECT_EQ(config.wind.drawn_speed_fps().min, 20);
+  EXPECT_EQ(config.wind.drawn_speed_fps().max, 60);
+  config.wind.rotational_gusts = true;
+  EXPECT_FALSE(config.wind.has_rotational_gusts());
+  config.wind.training_turbulence_max_fps = 5;
+  EXPECT_TRUE(config.wind.has_rotational_gusts());
 }
 
 }  // namespace

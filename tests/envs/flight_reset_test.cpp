@@ -112,6 +112,9 @@ TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
   config.initial.training_altitude_min_ft = 0;
   config.termination.min_mach = 0.97;
   EXPECT_THROW(FlightReset(config, F16()), Error);
+  config.termination.min_mach = 0.95;
+  config.termination.training_min_mach = 0.97;
+  EXPECT_THROW(FlightReset(config, F16()), Error);
 }
 
 TEST(FlightResetTest, DependsOnTheStreamAlone) {

@@ -16,6 +16,7 @@
 namespace skein {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -50,6 +51,12 @@ TEST(Conditions, AreConfigurationAssignments) {
   EXPECT_THAT(ConditionAssignments({"noisy=0.01..0.05"}),
               ElementsAre("env.observation_noise=0.01", "env.observation_noise_max=0.05",
                           "env.training_noise_max=0"));
+}
+
+TEST(Conditions, WindIsThatOfTrainingToo) {
+  const std::vector<std::string> assignments = ConditionAssignments({"windy=60fps"});
+  EXPECT_THAT(assignments, Contains("env.wind.training_speed_max_fps=0"));
+  EXPECT_THAT(assignments, Contains("env.wind.training_turbulence_max_fps=0"));
 }
 
 TEST(Conditions, AMachNumberIsASpeedInUnitsOfThatOfSoundAt20000Feet) {
