@@ -38,7 +38,7 @@ TEST(Learning, ControlIsReachedAfterHalfOfItsBudget) {
 }
 
 TEST(Learning, PointsAreHitAfterHalfOfTrackingsBudget) {
-  EXPECT_GT(TrainedSuccess("tracking", "1e8"), 0.9);
+  EXPECT_GT(TrainedSuccess("tracking", "2e8"), 0.9);
 }
 
 TEST(Learning, AHighLevelReachesHalfOfItsPointsAfterASixthOfItsBudget) {
