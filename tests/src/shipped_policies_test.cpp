@@ -73,15 +73,15 @@ const ShippedPolicy kPolicies[] = {
      0.97,
      HoldLimits{0.84, 8, 0.35, 0.3},
      SmoothnessLimits{0.3, 3, 0.01}},
-    {"tracking", "tracking", {}, 0.97, std::nullopt, SmoothnessLimits{0.4, 2, 0.01}},
+    {"tracking", "tracking", {}, 0.98, std::nullopt, SmoothnessLimits{0.4, 2, 0.01}},
     // To be flown to the end of a mission, from point to point.
-    {"tracking-missions",
+    {"tracking",
      "tracking",
      {"--mission", "3", "--condition", "windy=middle", "--condition", "noisy=middle"},
-     0.97,
+     0.98,
      std::nullopt,
      SmoothnessLimits{0.7, 4, 0.01},
-     1.7},
+     1.9},
     {"tracking-robust",
      "tracking",
      {"--condition", "plant=middle", "--condition", "noisy=middle"},
@@ -163,7 +163,8 @@ INSTANTIATE_TEST_SUITE_P(Tasks, ShippedPolicies, ::testing::ValuesIn(kPolicies),
                          [](const auto& test) {
                            std::string name = test.param.name;
                            std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
+                           const bool is_mission = test.param.least_targets_per_minute.has_value();
+                           return name + (is_mission ? "_mission" : "");
                          });
 
 }  // namespace
