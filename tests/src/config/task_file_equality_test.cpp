@@ -22,6 +22,7 @@ namespace {
 struct Pair {
   const char* name;
   std::vector<std::string> settings = {};  ///< of both
+  std::vector<std::string> built_in = {};  ///< what makes the built-in task's preset the file's
 };
 
 std::ostream& operator<<(std::ostream& out, const Pair& pair) { return out << pair.name; }
@@ -46,7 +47,9 @@ TEST_P(TaskFileEqualityTest, FliesAsTheBuiltInTask) {
   constexpr int kAircraft = 150, kSteps = 1200;
   const std::string file = std::string(SKEIN_SOURCE "/examples/tasks/") + pair.name + ".toml";
   VecEnv ours(ConfigOf(file, pair.settings), kAircraft, 11, kAircraft);
-  VecEnv built_in(ConfigOf(pair.name, pair.settings), kAircraft, 11, kAircraft);
+  std::vector<std::string> settings = pair.settings;
+  settings.insert(settings.end(), pair.built_in.begin(), pair.built_in.end());
+  VecEnv built_in(ConfigOf(pair.name, settings), kAircraft, 11, kAircraft);
   ASSERT_EQ(ours.observation_size(), built_in.observation_size());
   const int count = ours.tile_count(0);
   StepBuffers a(count), b(count);
@@ -75,9 +78,26 @@ const std::vector<std::string> kConditions = {
     "env.wind.speed_min_fps=10", "env.wind.speed_max_fps=60", "env.wind.turbulence_max_fps=5",
     "env.observation_noise=0.03", "env.initial.altitude_min_ft=10000"};
 
+/// Tracking's preset flies on from point to point, and rewards the approach.
+const std::vector<std::string> kSinglePoints = {"env.tracking.distance_weight=1",
+                                                "env.tracking.approach_weight=0",
+                                                "env.tracking.training_tolerance_max=5",
+                                                "env.mission.training_length_s=0",
+                                                "env.truncate_at_time_limit=false",
+                                                "env.training_noise_max=0",
+                                                "env.initial.training_altitude_min_ft=0",
+                                                "env.wind.training_speed_max_fps=0",
+                                                "env.wind.training_turbulence_max_fps=0",
+                                                "env.termination.training_min_mach=0",
+                                                "env.termination.failure_reward=-200",
+                                                "env.termination.success_reward=200"};
+
 std::vector<Pair> Pairs() {
-  return {
-      {"heading"}, {"control"}, {"tracking"}, {"heading", kConditions}, {"tracking", kConditions}};
+  return {{"heading"},
+          {"control"},
+          {"tracking", {}, kSinglePoints},
+          {"heading", kConditions},
+          {"tracking", kConditions, kSinglePoints}};
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, TaskFileEqualityTest,
