@@ -24,7 +24,9 @@ struct WindConfig {
   /// In training the highest of what is drawn, where it is higher. 0: as above.
   double training_speed_max_fps = 0, training_turbulence_max_fps = 0;
 
+  /// What episodes draw from, in training with its own upper ends.
   Range drawn_speed_fps() const { return Widened(speed_fps, training_speed_max_fps); }
+  /// The same of turbulence.
   Range drawn_turbulence_fps() const {
     return Widened(turbulence_fps, training_turbulence_max_fps);
   }

@@ -79,18 +79,13 @@ const std::vector<std::string> kConditions = {
     "env.observation_noise=0.03", "env.initial.altitude_min_ft=10000"};
 
 /// Tracking's preset flies on from point to point, and rewards the approach.
-const std::vector<std::string> kSinglePoints = {"env.tracking.distance_weight=1",
-                                                "env.tracking.approach_weight=0",
-                                                "env.tracking.training_tolerance_max=5",
-                                                "env.mission.training_length_s=0",
-                                                "env.truncate_at_time_limit=false",
-                                                "env.training_noise_max=0",
-                                                "env.initial.training_altitude_min_ft=0",
-                                                "env.wind.training_speed_max_fps=0",
-                                                "env.wind.training_turbulence_max_fps=0",
-                                                "env.termination.training_min_mach=0",
-                                                "env.termination.failure_reward=-200",
-                                                "env.termination.success_reward=200"};
+const std::vector<std::string> kSinglePoints = {
+    "env.tracking.distance_weight=1",         "env.tracking.approach_weight=0",
+    "env.tracking.training_tolerance_max=5",  "env.mission.training_length_s=0",
+    "env.truncate_at_time_limit=false",       "env.training_noise_max=0",
+    "env.initial.training_altitude_min_ft=0", "env.wind.training_speed_max_fps=0",
+    "env.wind.training_turbulence_max_fps=0", "env.termination.training_min_mach=0",
+    "env.termination.failure_reward=-200",    "env.termination.success_reward=200"};
 
 std::vector<Pair> Pairs() {
   return {{"heading"},
