@@ -2,7 +2,12 @@
 // Compiled for AMX_BF16 and AVX512_BF16, and run only where NativeTiles(): see
 // simd/bfloat16_vectors.h.
 
+// GCC 12 takes the undefined operand of its own intrinsics for a fault (its bug 105593).
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <immintrin.h>
+#pragma GCC diagnostic pop
 
 #include <cstdint>
 
