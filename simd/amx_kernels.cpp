@@ -2,12 +2,16 @@
 // Compiled for AMX_BF16 and AVX512_BF16, and run only where NativeTiles(): see
 // simd/bfloat16_vectors.h.
 
-// GCC 12 takes the undefined operand of its own intrinsics for a fault (its bug 105593).
+// GCC 12 takes what its own intrinsics leave undefined for a fault (its bug 105593).
+#if !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <immintrin.h>
+#if !defined(__clang__)
 #pragma GCC diagnostic pop
+#endif
 
 #include <cstdint>
 
