@@ -14,6 +14,11 @@ void ListFields(InitialConfig& config, FieldList& list) {
            "if it is lower; 0: no other")
       .TrainingOnly()
       .OffUnless(config.training_altitude_min_ft > 0);
+  list.Add("training_bank_max_deg", &config.training_bank_max_deg, {0, 180},
+           "in training flights begin banked by up to this to either side: a turn that a policy "
+           "does not begin by itself it learns from its middle")
+      .TrainingOnly()
+      .OffUnless(config.training_bank_max_deg > 0);
   list.AddRange("true_airspeed", "fps", &config.true_airspeed_fps, {10, 3000},
                 "lowest initial true airspeed", "highest initial true airspeed");
   list.Add("trimmed", &config.trimmed,

@@ -16,6 +16,8 @@ struct InitialConfig {
   bool trimmed = true;
   /// In training the least altitude, if it is lower; 0: no other.
   double training_altitude_min_ft = 0;
+  /// In training flights begin banked by up to this, to either side, and otherwise as they would.
+  double training_bank_max_deg = 0;
 
   /// What initial altitudes are drawn from.
   Range drawn_altitude_ft() const {

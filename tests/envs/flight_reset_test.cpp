@@ -100,6 +100,33 @@ TEST(FlightResetTest, TrainingBeginsLowerAndEvaluationsDoNot) {
   EXPECT_EQ(DrawOf(FlightReset(config, F16()), 3).columns, DrawOf(plain, 3).columns);
 }
 
+TEST(FlightResetTest, TrainingBeginsBankedAndEvaluationsDoNot) {
+  EnvConfig config;
+  config.initial.training_bank_max_deg = 90;
+  const FlightReset training(config, F16()), evaluation(EvaluationConfig(config), F16()),
+      plain(EnvConfig{}, F16());
+  double sum = 0, squares = 0;
+  for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
+    const FreshFlight banked = DrawOf(training, episode), level = DrawOf(plain, episode);
+    const EulerAngles attitude = EulerFromQuaternion(BodyOf(banked).segment<4>(kQ0));
+    const EulerAngles before = EulerFromQuaternion(BodyOf(level).segment<4>(kQ0));
+    const double share = (attitude.roll - before.roll) / (M_PI / 2);
+    EXPECT_LE(std::abs(share), 1 + kFloat32);
+    EXPECT_NEAR(attitude.pitch, before.pitch, kFloat32);
+    EXPECT_NEAR(attitude.yaw, before.yaw, kFloat32);
+    for (int column = 0; column < kNumColumns; ++column) {
+      if (column >= kQ0 && column <= kQz) continue;
+      EXPECT_EQ(At(banked, column), At(level, column)) << column;
+    }
+    sum += share;
+    squares += share * share;
+    EXPECT_EQ(DrawOf(evaluation, episode).columns, level.columns);
+  }
+  // Moments of a uniform variable on [-1, 1].
+  EXPECT_NEAR(sum / kDraws, 0, kStandardErrors * std::sqrt(1.0 / 3 / kDraws));
+  EXPECT_NEAR(squares / kDraws, 1.0 / 3, kStandardErrors * std::sqrt(4.0 / 45 / kDraws));
+}
+
 TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
   EnvConfig config;
   config.termination.max_mach = 1.1;  // 1200 ft/s at 20,000 ft is Mach 1.16
