@@ -85,11 +85,6 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
   list.Add("hold_s", &config.hold_s, Bounds::NotNegative(),
            "time for which a flight goes on after its target was reached; not of tracking")
       .OffUnless(config.hold_s > 0);
-  list.Add("training_target_change_s", &config.training_target_change_s, Bounds::NotNegative(),
-           "in training another target comes at random in so much of a flight's beginning, once on "
-           "average, so that flights to it begin in any attitude; 0: none")
-      .TrainingOnly()
-      .OffUnless(config.training_target_change_s > 0);
 }
 
 void ListAircraftFields(EnvConfig& config, FieldList& list) {
@@ -207,10 +202,6 @@ void Validate(const EnvConfig& config) {
       config.term_task != nullptr ? config.term_task->has_point() : config.task == "tracking";
   Require(config.hold_s == 0 || !is_point, "env.hold_s", config.hold_s,
           "0 for " + config.task + ": a point is passed, not held");
-  RequireSteps(config, "env.training_target_change_s", config.training_target_change_s);
-  Require(config.training_target_change_s == 0 || !config.mission.enabled(),
-          "env.training_target_change_s", config.training_target_change_s,
-          "0 in a mission (env.mission.length_s, training_length_s), whose targets change anyway");
   if (config.term_task != nullptr) ValidateTerms(config);
   Require(config.hold_s == 0 || !config.mission.enabled(), "env.hold_s", config.hold_s,
           "0 in a mission (env.mission.length_s, training_length_s), whose targets come one after "

@@ -64,9 +64,6 @@ struct EnvConfig {
   /// Time for which a flight goes on after its target was reached, before it ends as
   /// target_reached; not of Tracking, whose target is a point.
   double hold_s = 0;
-  /// In training another target comes at random in so much of each flight's beginning, once on
-  /// average: flights to it begin where those to others led. 0: none.
-  double training_target_change_s = 0;
   MissionConfig mission;
   HandlingCosts reward;
   InitialConfig initial;

@@ -371,45 +371,21 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
 /// Gives aircraft on missions their next targets.
 void EnvStepper::DrawTargets(const EnvBlock& block, const Scratch& scratch) const {
   for (int i = 0; i < block.count; ++i) {
-    if (scratch.target_end[i] == TargetEnd::kNone ||
-        !Is(scratch.termination[i], Termination::kNone)) {
-      continue;
-    }
-    const EpisodeProgress& progress = block.progress;
-    DrawTarget(
-        block, i,
-        static_cast<std::uint32_t>(progress.targets_reached[i] + progress.targets_missed[i]));
+    if (scratch.target_end[i] != TargetEnd::kNone && Is(scratch.termination[i], Termination::kNone))
+      DrawTarget(block, i);
   }
 }
 
-/// Gives aircraft that have begun a flight in training another target, at random.
-void EnvStepper::ChangeTargets(const EnvBlock& block, const Scratch& scratch) const {
-  const int last = ControlSteps(config_, config_.training_target_change_s);
-  const double chance = std::min(1.0, static_cast<double>(config_.action_repeat) / last);
-  for (int i = 0; i < block.count; ++i) {
-    if (block.step[i] > last || !Is(scratch.termination[i], Termination::kNone)) continue;
-    const auto step = static_cast<std::uint32_t>(block.step[i]);
-    simd::RandomStream change({seed_, KeyOf(block, i), static_cast<std::uint32_t>(block.episode[i]),
-                               step, simd::RandomPurpose::kTargetChange});
-    if (change.Uniform() >= chance) continue;
-    DrawTarget(block, i, step);
-    block.progress.Reset(i);
-  }
-}
-
-/// The target of a number, 0 the first: around where the episode began, of points around where the
-/// aircraft is.
-void EnvStepper::DrawTarget(const EnvBlock& block, int i, std::uint32_t number) const {
+/// Around where the episode began, and of points around where the aircraft is.
+void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
   const auto episode = static_cast<std::uint32_t>(block.episode[i]);
   const std::uint32_t aircraft = KeyOf(block, i);
   simd::RandomStream initial({seed_, aircraft, episode, 0, simd::RandomPurpose::kInitialState});
   FlightStart start = reset_.Draw(&initial).start;
   const double altitude_ft = -block.flight[kDown][i];
-  if (config_.mission.enabled()) {
-    LimitDescent(config_, altitude_ft, &start);
-    start.pitch_rad = std::clamp(kPitchPerFootLost * (start.altitude_ft - altitude_ft),
-                                 -kLargestPitchBack, kLargestPitchBack);
-  }
+  LimitDescent(config_, altitude_ft, &start);
+  start.pitch_rad = std::clamp(kPitchPerFootLost * (start.altitude_ft - altitude_ft),
+                               -kLargestPitchBack, kLargestPitchBack);
   if (task_->is_point()) {
     Eigen::Vector4d attitude;
     for (int k = 0; k < 4; ++k) attitude[k] = block.flight[kQ0 + k][i];
@@ -418,7 +394,9 @@ void EnvStepper::DrawTarget(const EnvBlock& block, int i, std::uint32_t number) 
     start.north_ft = block.flight[kNorth][i];
     start.east_ft = block.flight[kEast][i];
   }
-  simd::RandomStream target({seed_, aircraft, episode, number, simd::RandomPurpose::kTarget});
+  const auto given = static_cast<std::uint32_t>(block.progress.targets_reached[i] +
+                                                block.progress.targets_missed[i]);
+  simd::RandomStream target({seed_, aircraft, episode, given, simd::RandomPurpose::kTarget});
   task_->Reset(start, &target, block.task, i);
 }
 
@@ -541,7 +519,6 @@ void EnvStepper::Step(const EnvBlock& block, const float* action, const StepOutp
     if (may_freeze) FreezeSensors(block);
     if (keeps_final) ObserveEnds(block, scratch, output);
   }
-  if (config_.training_target_change_s > 0) ChangeTargets(block, scratch);
   std::copy_n(scratch.policy_step_reward, block.count, output.reward);
   std::copy_n(scratch.termination, block.count, output.termination);
   if (scratch.HasEnds(block.count)) RestartEnded(block, scratch, output);

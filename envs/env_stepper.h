@@ -98,8 +98,7 @@ class EnvStepper {
   void SubtractCosts(const EnvBlock& block, const float* policy_action, Scratch& scratch) const;
   void AdvanceTargets(const EnvBlock& block, Scratch& scratch) const;
   void DrawTargets(const EnvBlock& block, const Scratch& scratch) const;
-  void ChangeTargets(const EnvBlock& block, const Scratch& scratch) const;
-  void DrawTarget(const EnvBlock& block, int i, std::uint32_t number) const;
+  void DrawTarget(const EnvBlock& block, int i) const;
   void ObserveEnds(const EnvBlock& block, Scratch& scratch, const StepOutput& output) const;
   void RestartEnded(const EnvBlock& block, const Scratch& scratch, const StepOutput& output);
 

@@ -21,7 +21,6 @@ enum class RandomPurpose : std::uint32_t {
   kNoiseLevel = 11,
   kPlant = 12,
   kHeldActionNoise = 13,
-  kTargetChange = 14,
 };
 
 /// Constants of Philox4x32-10 (Salmon et al., SC 2011, section 3.3).

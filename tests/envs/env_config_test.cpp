@@ -300,7 +300,6 @@ TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   EnvConfig config;
   config.stagger_clocks = true;
   config.training_noise_max = 0.1;
-  config.training_target_change_s = 4;
   config.initial.training_altitude_min_ft = 5000;
   config.initial.training_bank_max_deg = 90;
   config.wind.training_speed_max_fps = config.wind.training_turbulence_max_fps = 10;
@@ -312,7 +311,6 @@ TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   const EnvConfig evaluated = EvaluationConfig(config);
   EXPECT_FALSE(evaluated.stagger_clocks);
   EXPECT_EQ(evaluated.training_noise_max, 0);
-  EXPECT_EQ(evaluated.training_target_change_s, 0);
   EXPECT_EQ(evaluated.initial.training_altitude_min_ft, 0);
   EXPECT_EQ(evaluated.initial.training_bank_max_deg, 0);
   EXPECT_FALSE(evaluated.wind.enabled());

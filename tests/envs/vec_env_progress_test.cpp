@@ -12,7 +12,6 @@
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "tests/envs/step_buffers.h"
-#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -105,40 +104,6 @@ TEST(VecEnvProgress, AMissionGivesTargetAfterTargetAndEndsWithItsLength) {
     for (const int termination : rest.terminations) {
       EXPECT_TRUE(termination == 0 || termination == static_cast<int>(Termination::kTimeLimit));
     }
-  }
-}
-
-std::vector<std::vector<float>> TargetsOf(const VecEnv& env) {
-  std::vector<std::vector<float>> targets;
-  for (int i = 0; i < env.num_aircraft(); ++i) targets.push_back(env.TargetOf(i));
-  return targets;
-}
-
-TEST(VecEnvProgress, TargetsOfTrainingChangeOnceOnAverageWhileFlightsBeginAndNotAfter) {
-  constexpr int kAircraft = 600, kPolicySteps = 20;  // two seconds
-  for (const std::string& task : TaskNames()) {
-    EnvConfig config;
-    config.task = task;
-    config.action_repeat = 5;
-    config.training_target_change_s = 2;
-    VecEnv env(config, kAircraft, 1, 64), other(config, kAircraft, 1, 4096);
-    std::vector<std::vector<float>> targets = TargetsOf(env);
-    int changes = 0;
-    for (int step = 0; step < kPolicySteps; ++step) {
-      Fly(&env, 1);
-      Fly(&other, 1);
-      const std::vector<std::vector<float>> now = TargetsOf(env);
-      for (std::size_t i = 0; i < now.size(); ++i) changes += now[i] != targets[i];
-      targets = now;
-    }
-    EXPECT_NEAR(changes, kAircraft, kStandardErrors * std::sqrt(kAircraft)) << task;
-    EXPECT_EQ(env.Snapshot(), other.Snapshot()) << task;
-    Fly(&env, kPolicySteps);
-    EXPECT_EQ(TargetsOf(env), targets) << task << ": changed after the beginning";
-    VecEnv evaluation(EvaluationConfig(config), kAircraft, 1);
-    const std::vector<std::vector<float>> first = TargetsOf(evaluation);
-    Fly(&evaluation, kPolicySteps);
-    EXPECT_EQ(TargetsOf(evaluation), first) << task << ": an evaluation's";
   }
 }
 
