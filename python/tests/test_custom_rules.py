@@ -76,7 +76,8 @@ def test_the_airspeed_is_what_the_error_is_made_of():
 
 
 def test_a_function_ends_episodes():
-    envs = skein.make_vec("heading", 40, env=SHORT, terminated=lambda at: np.abs(at["roll_rad"]) > 0.5)
+    level = {**SHORT, "initial": {"training_bank_max_deg": 0}}
+    envs = skein.make_vec("heading", 40, env=level, terminated=lambda at: np.abs(at["roll_rad"]) > 0.5)
     envs.reset(seed=3)
     lengths, ended = np.zeros(40, int), 0
     for actions in actions_of(envs, 40):
