@@ -93,8 +93,8 @@ FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
   const double speed_ft_s = BentInto(true_airspeed_fps_, random->Uniform(), draw_power_);
   const TrimmedStart start =
       trims_ ? trims_->At(altitude_ft, speed_ft_s) : UntrimmedAt(altitude_ft, speed_ft_s);
-  const double bank_rad = initial_.training_bank_max_deg / kDegPerRad;
-  const double banked_rad = bank_rad > 0 ? random->Uniform(-bank_rad, bank_rad) : 0;
+  const double most_rad = initial_.training_bank_max_deg / kDegPerRad;
+  const double banked_rad = most_rad > 0 ? random->Uniform(-most_rad, most_rad) : 0;
   const RigidBodyState state = LevelState(altitude_ft, speed_ft_s, start.alpha_rad,
                                           start.bank_rad + banked_rad, start.pitch_rad);
 

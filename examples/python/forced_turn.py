@@ -59,6 +59,11 @@ def fly(policy, flights, seed, turn_s):
     return to_lose, times
 
 
+def mean_text(times):
+    reached = times[~np.isnan(times)]
+    return f"{reached.mean():>10.2f} s" if reached.size else f"{'-':>10}  "
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("policy", nargs="?", default=os.path.join(ROOT, "policies", "heading.skein"),
@@ -72,11 +77,13 @@ def main():
     options = parse_arguments()
     try:
         policy = skein.load_policy(options.policy)
+        if policy.task != "heading":
+            sys.exit(f"{sys.argv[0]}: {options.policy} is a policy for {policy.task}, not for heading")
         print("to lose, ft/s    " + "".join(f"{low:>6} to {high}" for low, high in TO_LOSE_FPS))
         for turn_s in TURNS_S:
             to_lose, times = fly(policy, options.flights, options.seed, turn_s)
-            means = [np.nanmean(times[(low < to_lose) & (to_lose < high)]) for low, high in TO_LOSE_FPS]
-            print(f"{turn_s:>4} s of a turn  " + "".join(f"{mean:>10.2f} s" for mean in means), flush=True)
+            groups = [times[(low < to_lose) & (to_lose < high)] for low, high in TO_LOSE_FPS]
+            print(f"{turn_s:>4} s of a turn  " + "".join(map(mean_text, groups)), flush=True)
     except skein.Error as error:
         sys.exit(f"{sys.argv[0]}: {error}")
 
