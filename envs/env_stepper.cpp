@@ -195,7 +195,7 @@ void EnvStepper::ResetMetrics(std::size_t num_blocks) {
 
 void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode) {
   block.episode[i] = episode;
-  block.step[i] = 0;
+  block.step[i] = FirstClock(block, i);
   block.episode_return[i] = 0;
   block.progress.Reset(i);
   if (remembers_actions_) {
@@ -216,10 +216,12 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
   simd::RandomStream target = stream(simd::RandomPurpose::kTarget);
   if (config_.mission.enabled()) LimitDescent(config_, flight.start.altitude_ft, &flight.start);
   task_->Reset(flight.start, &target, block.task, i);
-  if (config_.stagger_clocks && episode == 0) {
-    simd::RandomStream clock = stream(simd::RandomPurpose::kClockStagger);
-    block.step[i] = static_cast<std::int32_t>(clock.Uniform(0, config_.time_limit_steps));
-  }
+}
+
+std::int32_t EnvStepper::FirstClock(const EnvBlock& block, int i) const {
+  if (!config_.stagger_clocks || block.episode[i] != 0) return 0;
+  simd::RandomStream clock({seed_, KeyOf(block, i), 0, 0, simd::RandomPurpose::kClockStagger});
+  return static_cast<std::int32_t>(clock.Uniform(0, config_.time_limit_steps));
 }
 
 /// Draws the plant of an aircraft whose episode and flight are set: it is the nominal one's trim.
@@ -477,6 +479,7 @@ void EnvStepper::RestartEnded(const EnvBlock& block, const Scratch& scratch,
     if (Is(scratch.termination[i], Termination::kNone)) continue;
     output.episode_return[i] = block.episode_return[i];
     output.episode_steps[i] = block.step[i];
+    if (output.first_clock != nullptr) output.first_clock[i] = FirstClock(block, i);
     if (output.flight_metrics != nullptr) {
       float* const row = output.flight_metrics + i * kNumFlightMetrics;
       metrics.Report(i, block.step[i], config_.control_interval_s, row);

@@ -86,6 +86,8 @@ class EnvStepper {
   ObservationNoise NoiseOf(const EnvBlock& block) const;
   GustKeys GustKeysOf(const EnvBlock& block) const;
   void BeginPlant(const EnvBlock& block, int i) const;
+  /// What the clock of the `i`-th aircraft's episode begins with.
+  std::int32_t FirstClock(const EnvBlock& block, int i) const;
   PlantDraw PlantOf(simd::RandomStream* random) const;
   Tile Sensed(const EnvBlock& block, SensedState& state) const;
   void ObserveSample(const EnvBlock& block, float* observation) const;

@@ -17,6 +17,9 @@ struct StepOutput {
   float* episode_return = nullptr;
   /// Clock of the episode that ended, control steps (else unchanged).
   std::int32_t* episode_steps = nullptr;
+  /// What that clock stood at when the episode began: 0 but in first ones with
+  /// EnvConfig::stagger_clocks (else unchanged). May be null.
+  std::int32_t* first_clock = nullptr;
   /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
   /// observation. May be null if the time limit is terminal.
   float* final_observation = nullptr;

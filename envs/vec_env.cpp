@@ -108,6 +108,7 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
     part.termination += begin;
     part.episode_return += begin;
     part.episode_steps += begin;
+    if (part.first_clock != nullptr) part.first_clock += begin;
     if (part.final_observation != nullptr) {
       part.final_observation += row * static_cast<std::size_t>(observation_size());
     }

@@ -160,6 +160,20 @@ class Autopilot : public Policy {
     own.tracking.error_axes = kAutopilotErrorAxes;
     return own;
   }
+  void CheckMadeFor(const EnvConfig& env, const std::string& who) const override {
+    const auto quoted = [](const std::string& text) { return '"' + text + '"'; };
+    if (env.task != law_.task) {
+      throw Error(who + ": it flies env.task = " + quoted(law_.task) + ", not " + quoted(env.task));
+    }
+    if (env.control_interval_s != timing_.dt) {
+      throw Error(who + ": it flies at another env.control_interval_s");
+    }
+    try {
+      CheckFlies(env);
+    } catch (const Error& error) {
+      throw Error(who + ": " + error.what());
+    }
+  }
 
   void Act(int count, const float* observation, float* state, float* action) const override {
     const DenormalsFlushed flushed;

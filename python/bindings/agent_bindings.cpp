@@ -24,24 +24,25 @@ namespace nb = nanobind;
 namespace skein {
 namespace {
 
-FlyingAgent LoadAgent(const std::string& path, bool sampled) {
-  const RecurrentPolicy policy = RecurrentPolicy::Load(PolicyFileOf(path));
-  return {path,
-          sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy),
+FlyingAgent FlyingPolicy(const std::string& name, Agent agent, const RecurrentPolicy& policy) {
+  return {name,
+          std::move(agent),
           policy.observation_size(),
           policy.action_size(),
           policy.action_repeat(),
           policy};
 }
 
+FlyingAgent LoadAgent(const std::string& path, bool sampled) {
+  const RecurrentPolicy policy = RecurrentPolicy::Load(PolicyFileOf(path));
+  return FlyingPolicy(path, sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), policy);
+}
+
 /// An agent as the command line calls it, for the environment of `config`.
 FlyingAgent NamedAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   Agent agent = FindAgent(name, config, seed);
   if (const std::string file = PolicyFileOfAgent(name); !file.empty()) {
-    FlyingAgent trained = LoadAgent(file, false);
-    trained.name = name;
-    trained.agent = std::move(agent);
-    return trained;
+    return FlyingPolicy(name, std::move(agent), LoadPolicy(file, config, seed));
   }
   const int action_repeat = agent.EnvironmentFor(config.train.env).action_repeat;
   const int observations = MakeTask(config.train.env)->observation_layout().size();

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,11 +42,12 @@ int TileSize(int num_envs, int threads) {
 }
 
 /// An environment's aircraft all at once: a VecEnv and the threads that step its tiles. Rows of
-/// arrays are aircraft, in the order of their numbers.
+/// arrays are aircraft, in the order of their numbers. Throws Error if an `agent` is given that was
+/// made for something else.
 class BatchEnv {
  public:
   BatchEnv(const ProgramConfig& config, int num_envs, std::uint64_t seed, int threads,
-           std::shared_ptr<const Policy> low_level)
+           std::shared_ptr<const Policy> low_level, const std::optional<FlyingAgent>& agent)
       : config_(config.train.env),
         low_level_(std::move(low_level)),
         pool_(ThreadsFor(num_envs, threads)),
@@ -53,7 +55,9 @@ class BatchEnv {
         ended_(static_cast<std::size_t>(env_->num_tiles())),
         episode_return_(static_cast<std::size_t>(num_envs)),
         episode_steps_(static_cast<std::size_t>(num_envs)),
+        first_clock_(static_cast<std::size_t>(num_envs)),
         final_observation_(static_cast<std::size_t>(num_envs * env_->observation_size())) {
+    if (agent) agent->agent.CheckFits(*env_);
     pool_.StayAwake();  // what Python does between two steps is often short
   }
 
@@ -101,6 +105,7 @@ class BatchEnv {
       output.termination = termination.data() + first;
       output.episode_return = episode_return_.data() + first;
       output.episode_steps = episode_steps_.data() + first;
+      output.first_clock = first_clock_.data() + first;
       output.final_observation = final_observation_.data() + first * observation_size();
       output.observes_every_end = true;
       output.observer = last_states_.get();
@@ -129,7 +134,7 @@ class BatchEnv {
       const float* const last = final_observation_.data() + row * observation_size();
       observation.insert(observation.end(), last, last + observation_size());
       episode_return[row] = episode_return_[row];
-      steps[row] = episode_steps_[row];
+      steps[row] = episode_steps_[row] - first_clock_[row];
     }
     return nb::make_tuple(ToNumpy(std::move(index), {count}),
                           ToNumpy(std::move(observation), {count, observation_size()}),
@@ -235,7 +240,8 @@ class BatchEnv {
   std::unique_ptr<LastStates> last_states_;       ///< null: not kept
   std::vector<std::vector<std::int64_t>> ended_;  ///< in the latest step, by tile
   std::vector<float> episode_return_;
-  std::vector<std::int32_t> episode_steps_;
+  std::vector<std::int32_t> episode_steps_;  ///< clocks of episodes that ended
+  std::vector<std::int32_t> first_clock_;    ///< what they stood at first
   std::vector<float> final_observation_;
 };
 
@@ -264,7 +270,7 @@ void BindEnvironment(nb::module_& module) {
             ProgramConfig flown = config;
             if (agent) flown.train.env = agent->agent.EnvironmentFor(config.train.env);
             auto below = LowLevelFor(flown.train.env, low_level, agent);
-            new (place) BatchEnv(flown, num_envs, seed, threads, std::move(below));
+            new (place) BatchEnv(flown, num_envs, seed, threads, std::move(below), agent);
           },
           nb::arg("config"), nb::arg("num_envs"), nb::arg("seed"), nb::arg("threads"),
           nb::arg("low_level"), nb::arg("agent").none())

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nanobind/stl/string.h>
 
-#include <cstddef>
+#include <cmath>
+#include <cstdint>
+#include <exception>
 #include <string>
 #include <utility>
 
 #include "base/worker_pool.h"
-#include "envs/tasks/termination.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/interruption.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/config/configuration.h"
 #include "src/config/program_config.h"
+#include "src/run/metrics.h"
 #include "src/run/run_directory.h"
 #include "src/run/training_run.h"
 
@@ -21,29 +23,19 @@ namespace nb = nanobind;
 namespace skein {
 namespace {
 
+/// A row of metrics.csv; None where its cell is empty.
 nb::dict ToDict(const IterationReport& report) {
   nb::dict row;
-  row["iteration"] = report.iteration;
-  row["env_steps"] = report.env_steps;
-  row["episodes"] = report.episodes;
-  row["return_mean"] = report.return_mean;
-  row["success_rate"] = report.success_rate;
-  nb::dict terminations;
-  for (std::size_t k = 1; k < kTerminationNames.size(); ++k) {
-    terminations[kTerminationNames[k]] = report.terminations[k];
+  for (const MetricsCell& cell : MetricsCells(report)) {
+    const char* const name = cell.name.c_str();
+    if (cell.is_count) {
+      row[name] = static_cast<std::uint64_t>(cell.value);
+    } else if (std::isfinite(cell.value)) {
+      row[name] = cell.value;
+    } else {
+      row[name] = nb::none();
+    }
   }
-  row["terminations"] = terminations;
-  row["policy_loss"] = report.policy_loss;
-  row["value_loss"] = report.value_loss;
-  row["entropy"] = report.entropy;
-  row["approximate_kl"] = report.approximate_kl;
-  row["clip_fraction"] = report.clip_fraction;
-  row["explained_variance"] = report.explained_variance;
-  row["learning_rate"] = report.learning_rate;
-  row["log_std_mean"] = report.log_std_mean;
-  row["evaluation_success_rate"] =
-      report.evaluation_success_rate < 0 ? nb::none() : nb::cast(report.evaluation_success_rate);
-  row["is_best"] = report.best;
   return row;
 }
 
@@ -77,7 +69,7 @@ void Train(const ProgramConfig& config, const std::string& out, const std::strin
   ProgramConfig trained = config;
   RunOrigin origin;
   if (!from.empty()) origin.from = NetworksFileOf(from);
-  const ChosenLowLevelPolicy below = ChooseLowLevelPolicy(config.train.env, low_level);
+  const ChosenLowLevelPolicy below = ChooseLowLevelPolicy(config.train.env, low_level, origin.from);
   trained.train.low_level = below.policy;
   origin.low_level = below.description;
   WorkerPool pool(threads);

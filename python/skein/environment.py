@@ -34,13 +34,16 @@ Info = dict[str, Any]
 
 # The largest normal deviate of the noise: the smallest uniform number that it is made of is 2^-32.
 _LARGEST_DEVIATE = 7.0
+_ROUNDING = 1e-6  # sines and cosines of float32 kernels
 _TERMINATIONS = np.array((*TERMINATION_NAMES, "custom"), dtype=object)
 assert len(_TERMINATIONS) == CUSTOM_TERMINATION + 1
 
 
 def _bound(name: str) -> float:
-    """The most that an observation without noise can be, up or down; infinite where physics sets no limit."""
-    return 1.0 if name.startswith(("sin_", "cos_")) or name.endswith("_fraction") else np.inf
+    """The most that an observation without noise can be, up or down; infinite where physics, or a task file that
+    scales it, sets no limit."""
+    is_bounded = name.startswith(("sin_", "cos_")) or name.endswith("_fraction")
+    return 1.0 + _ROUNDING if is_bounded and not name.endswith("_scaled") else np.inf
 
 
 def _observation_space(core: _skein.BatchEnv) -> spaces.Space[FloatArray]:
@@ -307,6 +310,13 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
             "episode_control_steps": int(steps[0]),
         }
         return final[0], reward, bool(self._flags[0][0]), bool(self._flags[1][0]), info
+
+    def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
+        """Goes on from a snapshot of an environment with the same configuration and seed, in the middle of its episode;
+        returns what is observed there, (22,)."""
+        observation = super().restore(snapshot)[0]
+        self._flying = True
+        return observation
 
     def close(self) -> None:
         self._is_closed = True

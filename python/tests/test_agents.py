@@ -79,6 +79,19 @@ def test_autopilots_fly_by_name():
     assert_same_columns(flown, skein.evaluate("autopilot:traditional", "heading", episodes=EPISODES))
 
 
+def test_autopilots_fly_their_own_task_alone():
+    with pytest.raises(skein.Error, match="control"):
+        skein.evaluate(skein.Agent("autopilot", "control"), "heading", episodes=4)
+    with pytest.raises(skein.Error, match="cessna172"):
+        skein.evaluate(skein.Agent("autopilot", "heading"), "heading", preset="cessna172", episodes=4)
+
+
+def test_untrained_networks_are_an_agent():
+    untrained = skein.Agent("policy:untrained", "heading")
+    assert untrained.name == "policy:untrained"
+    assert skein.evaluate(untrained, "heading", episodes=4).summary["success_rate"] == 0
+
+
 def test_flights_are_tables(heading_policy):
     pytest.importorskip("pandas")
     flights = skein.record(heading_policy, count=2, observations=True)

@@ -2,6 +2,7 @@
 import gymnasium
 import numpy as np
 import pytest
+from conftest import ROOT
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
@@ -161,6 +162,65 @@ def test_a_snapshot_is_gone_on_from():
     observation, *_ = envs.step(actions)
     envs.restore(snapshot)
     np.testing.assert_array_equal(envs.step(actions)[0], observation)
+
+
+def test_a_snapshot_of_one_aircraft_is_gone_on_from_in_the_middle_of_its_episode():
+    env = skein.make("heading", **{"env.time_limit_steps": 20})
+    env.reset(seed=6)
+    snapshot = env.snapshot()
+    action = env.action_space.sample()
+    expected, *_ = env.step(action)
+    while not any(env.step(action)[2:4]):
+        pass
+    assert env.restore(snapshot).shape == expected.shape
+    np.testing.assert_array_equal(env.step(action)[0], expected)
+    other = skein.make("heading", **{"env.time_limit_steps": 20})
+    other.restore(snapshot)
+    np.testing.assert_array_equal(other.step(action)[0], expected)
+
+
+def test_lengths_of_first_episodes_are_what_was_flown():
+    envs = skein.make_vec("heading", 64, **{"env.time_limit_steps": 100, "env.action_repeat": 5})
+    assert envs.config["env.stagger_clocks"]
+    envs.reset(seed=2)
+    steps, first_ends = np.zeros(64, int), np.zeros(64, bool)
+    for actions in random_actions(envs, 25):
+        _, _, terminated, truncated, info = envs.step(actions)
+        steps += 5
+        ended = (terminated | truncated) & ~first_ends
+        if ended.any():
+            flown = info["final_info"]["episode_control_steps"][ended]
+            assert ((steps[ended] - 5 < flown) & (flown <= steps[ended])).all()
+        first_ends |= ended
+    assert first_ends.all() and len(set(steps)) == 1
+
+
+@pytest.mark.parametrize("aircraft", ["f16", "cessna172"])
+def test_observations_without_noise_lie_in_their_space(aircraft):
+    noiseless = {"env.observation_noise": 0, "env.training_noise_max": 0, "env.aircraft": aircraft}
+    envs = skein.make_vec("heading", 64, preset="default" if aircraft == "f16" else aircraft, **noiseless)
+    observation, _ = envs.reset(seed=3)
+    for actions in random_actions(envs, 200):
+        assert envs.observation_space.contains(observation)
+        observation, *_ = envs.step(actions)
+
+
+def test_what_a_task_file_scales_has_no_bound(tmp_path):
+    text = (ROOT / "examples" / "tasks" / "level_turn.toml").read_text()
+    file = tmp_path / "scaled.toml"
+    file.write_text(text.replace("numbers = [", 'numbers = [\n  {quantity = "cos_beta", unit = 0.01},'))
+    env = skein.make(str(file))
+    assert "cos_beta_scaled" in env.observation_names
+    assert env.observation_space.contains(env.reset(seed=1)[0])
+
+
+def test_an_agent_that_does_not_fit_is_refused():
+    control = skein.load_policy(ROOT / "policies" / "control.skein")
+    heading = skein.load_policy(ROOT / "policies" / "heading.skein")
+    with pytest.raises(skein.Error, match="control"):
+        skein.make_vec("heading", 4, agent=control)
+    with pytest.raises(skein.Error, match="aircraft"):
+        skein.make("heading", preset="cessna172", agent=heading)
 
 
 def test_arrays_are_written_once_and_actions_are_only_read():

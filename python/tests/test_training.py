@@ -23,6 +23,7 @@ def test_a_training_leaves_a_run_and_shows_every_iteration(tmp_path):
     seen = []
     run = skein.train("heading", tmp_path / "run", callback=seen.append, **TINY)
     assert [row["iteration"] for row in seen] == run.metrics["iteration"].tolist() == [1, 2, 3]
+    assert [list(row) for row in seen] == [run.metrics.columns.tolist()] * 3
     np.testing.assert_allclose([row["value_loss"] for row in seen], run.metrics["value_loss"])
     assert run.config["network.gru_size"] == 16
     assert run.evaluation["episodes"] == 8

@@ -74,10 +74,13 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
   return {policy, description};
 }
 
-ChosenLowLevelPolicy LowLevelPolicyIn(const std::string& path) {
-  std::shared_ptr<const StoredPolicy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
-  if (low_level == nullptr) return {};
-  return {std::move(low_level), "low-level policy of " + path};
+ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option,
+                                          const std::string& from) {
+  if (option.empty() && !from.empty() && NeedsLowLevel(env)) {
+    auto own = LoadLowLevelPolicy(TensorFile::Read(from), from);
+    if (own != nullptr) return {std::move(own), "low-level policy of " + from};
+  }
+  return ChooseLowLevelPolicy(env, option);
 }
 
 std::shared_ptr<const StoredPolicy> LowLevelPolicyOfRun(const RunDirectory& directory,

@@ -22,9 +22,10 @@ struct ChosenLowLevelPolicy {
 /// what is named cannot be one.
 ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option);
 
-/// The low-level policy of the high-level policy in a policy file or checkpoint; none if the policy
-/// there has none.
-ChosenLowLevelPolicy LowLevelPolicyIn(const std::string& path);
+/// The same; if the task needs one and none is named, that of the high-level policy in `from`, a
+/// policy file or checkpoint, unless that is empty or has none.
+ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option,
+                                          const std::string& from);
 
 /// The low-level policy that the run in `directory` began with; null if `env` needs none.
 /// Throws Error if it cannot be read.

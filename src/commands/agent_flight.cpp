@@ -153,11 +153,7 @@ void AddAgentsOfFly(CLI::App* command, FlownAgents* flown) {
 }
 
 void RequireNoAgentOptions(const CLI::App& command) {
-  for (const char* option :
-       {"--task", "--preset", "--config", "--condition", "--set", "--target"}) {
-    if (command.get_option(option)->count() == 0) continue;
-    throw UsageError(fmt::format("{} is for --policy and --agents", option));
-  }
+  RequireNotGiven(command, {"--task", "--preset", "--config", "--condition", "--set", "--target"});
 }
 
 void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents flown) {

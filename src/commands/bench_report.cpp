@@ -36,7 +36,10 @@ void Report(const BenchOptions& options, const BenchResults& results) {
                           {"preset", options.preset},       {"aircraft", options.aircraft},
                           {"low_level", options.low_level}, {"conditions", options.conditions},
                           {"set", options.assignments}};
-  if (results.benchmark == "sim") document["settings"]["num_aircraft"] = options.num_aircraft;
+  if (results.benchmark == "sim") {
+    document["settings"]["num_aircraft"] = options.num_aircraft;
+    document["settings"]["action_repeat"] = options.action_repeat;
+  }
   document["threads"] = results.threads;
   document["machine"] = DescribeMachine();
   WriteJson(options.json, document);

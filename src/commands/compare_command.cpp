@@ -173,6 +173,7 @@ void AddCompareCommand(CLI::App* app) {
       "         skein compare --task heading --condition windy=60fps,moderate --agents "
       "policy:runs/a,zero");
   command->callback([options] {
+    options->flight.flights_on_page = !options->no_html;
     OnLaunchedRanks(options->flight.rank_timeout_s,
                     [&](Ranks& ranks) { CompareAgents(*options, ranks); });
   });

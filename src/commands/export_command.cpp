@@ -34,11 +34,11 @@ ExportForm FormCalled(const std::string& name) {
 std::vector<std::string> Export(ExportOptions options) {
   // What a policy was trained on is found by its hash among the files that are kept.
   if (IsAircraftPath(options.aircraft)) options.aircraft = KeepAircraftFile(options.aircraft);
+  if (!options.policy.empty() && options.aircraft_option->count() > 0 &&
+      !IsKeptFile(options.aircraft)) {
+    throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
+  }
   if (!options.flight_control.empty()) {
-    if (!options.policy.empty() && options.aircraft_option->count() > 0 &&
-        !IsKeptFile(options.aircraft)) {
-      throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
-    }
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }
   if (options.policy.empty()) throw UsageError("a policy file or the directory of a run is needed");

@@ -111,7 +111,8 @@ ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
 
 void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
   const CLI::Option* const count = options.flights_count_option;
-  if (count != nullptr && count->count() > 0 && !RecordsFlights(options)) {
+  const bool counts = RecordsFlights(options) || options.flights_on_page;
+  if (count != nullptr && count->count() > 0 && !counts) {
     throw UsageError("--flights-count is for --flights and --acmi");
   }
   for (const std::string& assignment : options.assignments) {

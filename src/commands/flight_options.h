@@ -35,6 +35,7 @@ struct FlightOptions {
   int flights_count = 8;
   CLI::Option* flights_count_option = nullptr;
   bool flights_observations = false;
+  bool flights_on_page = false;  ///< of a report, beside those files
   /// What options of the command alone set, before --set: the option, for errors, and KEY=VALUE.
   std::vector<std::pair<std::string, std::string>> own_assignments;
   std::vector<std::optional<float>> target;  ///< EvaluationOptions::target of recorded flights

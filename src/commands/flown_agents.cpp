@@ -146,6 +146,13 @@ void AddFlownAgents(CLI::App* command, FlownAgents* flown) {
   AddEpisodeOptions(command, TextsOfFlownAgents(), &flown->flight);
 }
 
+void RequireNotGiven(const CLI::App& command, std::initializer_list<const char*> options) {
+  for (const char* option : options) {
+    if (command.get_option(option)->count() == 0) continue;
+    throw UsageError(fmt::format("{} is for --policy and --agents", option));
+  }
+}
+
 std::vector<std::string> NamesOf(const FlownAgents& flown) {
   std::vector<std::string> names;
   if (!flown.policy.empty()) names.push_back("policy:" + flown.policy);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ FlightOptionTexts TextsOfFlownAgents();
 /// Adds --policy, --agents and what AddEpisodeOptions adds; `flown` must live as long as the
 /// command.
 void AddFlownAgents(CLI::App* command, FlownAgents* flown);
+
+/// Throws UsageError if one of the command's `options`, which are of agents, was given where none
+/// flies.
+void RequireNotGiven(const CLI::App& command, std::initializer_list<const char*> options);
 
 /// The policy's name and the agents'. Throws UsageError if nobody flies.
 std::vector<std::string> NamesOf(const FlownAgents& flown);

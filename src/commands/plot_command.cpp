@@ -117,11 +117,15 @@ std::map<std::string, double> TolerancesIn(const std::vector<std::string>& texts
   return tolerances;
 }
 
-Recordings RecordingsFor(const FlightPlotOptions& options) {
+Recordings RecordingsFor(const FlightPlotOptions& options, const CLI::App& command) {
   const bool flies = !options.flown.policy.empty() || !options.flown.agents.empty();
   if (options.files.empty() != flies) {
     throw UsageError(flies ? "give files of flights, or --policy and --agents, not both"
                            : "give files of flights, or --policy or --agents: who flies?");
+  }
+  if (!flies) {
+    RequireNotGiven(command, {"--task", "--preset", "--config", "--aircraft", "--condition",
+                              "--set", "--hold", "--mission", "--episodes", "--seed"});
   }
   RecordingChoice choice = options.choice;
   choice.tolerances = TolerancesIn(options.tolerances);
@@ -159,9 +163,9 @@ void AddFlightsPlot(CLI::App* plot) {
       "Example: skein plot flights --policy runs/short --agents autopilot -o flights.pdf\n"
       "         skein plot flights flights.csv --show 2 --width 3.5 --columns "
       "altitude_ft,alpha_deg,load_factor_g");
-  command->callback([options] {
+  command->callback([options, command] {
     WriteTo(options->paper, [&](std::vector<std::string>* notes) {
-      Recordings recordings = RecordingsFor(*options);
+      Recordings recordings = RecordingsFor(*options, *command);
       *notes = recordings.notes;
       const int room = MostHistories(options->paper.width());
       if (options->choice.episodes.empty()) KeepFirstEpisodes(room, &recordings);
@@ -183,9 +187,9 @@ CLI::App* AddPlaces(CLI::App* plot, const char* kind, const char* help,
       ->type_name("SECONDS")
       ->transform(NumberAboveZero());
   AddPaperOptions(command, kind, &options->flights.paper);
-  command->callback([options, draw] {
+  command->callback([options, draw, command] {
     WriteTo(options->flights.paper, [&](std::vector<std::string>* notes) {
-      const Recordings recordings = RecordingsFor(options->flights);
+      const Recordings recordings = RecordingsFor(options->flights, *command);
       *notes = recordings.notes;
       return draw(recordings);
     });

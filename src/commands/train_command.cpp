@@ -132,15 +132,6 @@ void Resume(const TrainOptions& options, Ranks& ranks) {
   }
 }
 
-/// What --low-level names, or else what the policy in `from` (unless empty) was trained over.
-ChosenLowLevelPolicy FindLowLevelPolicy(const TrainOptions& options, const EnvConfig& env,
-                                        const std::string& from) {
-  if (options.low_level.empty() && !from.empty() && NeedsLowLevel(env)) {
-    if (ChosenLowLevelPolicy own = LowLevelPolicyIn(from); own.policy != nullptr) return own;
-  }
-  return ChooseLowLevelPolicy(env, options.low_level);
-}
-
 /// Begins a new run.
 void Begin(const TrainOptions& options, Ranks& ranks) {
   if (options.task.empty()) {
@@ -153,7 +144,7 @@ void Begin(const TrainOptions& options, Ranks& ranks) {
     AsUsage([&] { return ShardsOfRank(config.train, ranks); });
     origin.from = options.from.empty() ? "" : NetworksFileOf(options.from);
     const ChosenLowLevelPolicy low_level =
-        FindLowLevelPolicy(options, config.train.env, origin.from);
+        ChooseLowLevelPolicy(config.train.env, options.low_level, origin.from);
     config.train.low_level = low_level.policy;
     origin.low_level = low_level.description;
   });

@@ -2,6 +2,7 @@
 #include "src/run/metrics.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,26 +63,38 @@ std::size_t MissingColumns(const std::string& path, const std::string& line,
 
 }  // namespace
 
-std::string MetricsHeader() {
-  std::string header = "iteration,env_steps,episodes";
-  for (const auto& [name, value] : Values({})) header += "," + name;
-  for (int kind = 1; kind < kNumTerminations; ++kind) {
-    header += fmt::format(",ended_{}", kTerminationNames[static_cast<std::size_t>(kind)]);
+std::vector<MetricsCell> MetricsCells(const IterationReport& report) {
+  std::vector<MetricsCell> cells;
+  const auto add_count = [&](const std::string& name, auto count) {
+    cells.push_back({name, static_cast<double>(count), true});
+  };
+  const auto add_values = [&](const std::vector<std::pair<std::string, double>>& values) {
+    for (const auto& [name, value] : values) cells.push_back({name, value, false});
+  };
+  add_count("iteration", report.iteration);
+  add_count("env_steps", report.env_steps);
+  add_count("episodes", report.episodes);
+  add_values(Values(report));
+  for (std::size_t kind = 1; kind < kTerminationNames.size(); ++kind) {
+    add_count(fmt::format("ended_{}", kTerminationNames[kind]), report.terminations[kind]);
   }
-  header += ",best";
-  for (const auto& [name, value] : LaterValues({})) header += "," + name;
-  return header + "\n";
+  add_count("best", report.best ? 1 : 0);
+  add_values(LaterValues(report));
+  return cells;
+}
+
+std::string MetricsHeader() {
+  std::vector<std::string> names;
+  for (const MetricsCell& cell : MetricsCells({})) names.push_back(cell.name);
+  return fmt::format("{}\n", fmt::join(names, ","));
 }
 
 std::string MetricsRow(const IterationReport& report) {
-  std::string row = fmt::format("{},{},{}", report.iteration, report.env_steps, report.episodes);
-  for (const auto& [name, value] : Values(report)) row += "," + Cell(value);
-  for (int kind = 1; kind < kNumTerminations; ++kind) {
-    row += fmt::format(",{}", report.terminations[static_cast<std::size_t>(kind)]);
+  std::vector<std::string> texts;
+  for (const MetricsCell& cell : MetricsCells(report)) {
+    texts.push_back(cell.is_count ? fmt::format("{:.0f}", cell.value) : Cell(cell.value));
   }
-  row += report.best ? ",1" : ",0";
-  for (const auto& [name, value] : LaterValues(report)) row += "," + Cell(value);
-  return row + "\n";
+  return fmt::format("{}\n", fmt::join(texts, ","));
 }
 
 std::string TimingHeader() {

@@ -10,6 +10,15 @@
 
 namespace skein {
 
+/// A cell of metrics.csv.
+struct MetricsCell {
+  std::string name;       ///< of its column
+  double value;           ///< not finite where it is empty
+  bool is_count = false;  ///< a whole number that is not negative
+};
+
+/// The cells of a row, in the order of the columns.
+std::vector<MetricsCell> MetricsCells(const IterationReport& report);
 /// The header of metrics.csv, newline included.
 std::string MetricsHeader();
 /// One row of metrics.csv: only what is a function of the configuration, so that runs can be

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "src/files/output_file.h"
+#include "src/report/report_page.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/tolerance.h"
@@ -178,6 +179,16 @@ TEST_F(ComparisonPipeline, TheTableFitsATerminalAndTheCsvHasARowForEachAgent) {
     EXPECT_EQ(std::count(row.begin(), row.end(), ','), columns) << row;
   }
   EXPECT_EQ(agents, 4);
+}
+
+TEST_F(ComparisonPipeline, APageMayShowFewerFlights) {
+  if (!FindReportTemplate()) GTEST_SKIP() << "the page of reports was not built";
+  const std::string page = scratch_ / "page.html";
+  const ProgramResult result =
+      CallSkein({"compare", "--task", "heading", "--agents", "zero", "--episodes", "4", "--html",
+                 page, "--flights-count", "2"});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_TRUE(std::filesystem::exists(page));
 }
 
 TEST_F(ComparisonPipeline, RecordsEveryAgentsFlights) {

@@ -88,6 +88,9 @@ TEST_F(PlotPipeline, WhatIsAskedWronglyIsRefusedInOneLine) {
   expect({"plot", "flights", "--task", "heading", "-o", out}, 2, "who flies?");
   expect({"plot", "flights", "a.csv", "--agents", "zero", "-o", out}, 2, "not both");
   expect({"plot", "flights", scratch_ / "nowhere.csv", "-o", out}, 2, "nowhere.csv");
+  expect({"plot", "flights", "a.csv", "--set", "env.hold_s=3", "-o", out}, 2,
+         "--set is for --policy and --agents");
+  expect({"plot", "tracks", "a.csv", "--task", "heading", "-o", out}, 2, "--task is for --policy");
   expect({"plot", "flights", "a.csv", "-o", "out.png"}, 2, "out.png: let the name end in");
   expect({"plot", "flights", "a.csv", "-o", scratch_ / "no/out.svg"}, 2, "cannot be written");
   expect({"plot", "space", "--agents", "zero", "--task", "heading", "--episodes", "0", "-o", out},

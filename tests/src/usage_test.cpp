@@ -182,6 +182,10 @@ TEST(Usage, AskingForWhatCannotBeExitsWithTwo) {
            {"eval", "--policy", "untrained", "--task", "heading", "--set", "ppo.epochs=3"},
            {"compare", "--task", "heading", "--agents", "ace"},
            {"compare", "--task", "heading", "--agents", "zero,zero"},
+           {"compare", "--task", "heading", "--agents", "zero", "--no-html", "--flights-count",
+            "2"},
+           {"export", SKEIN_SOURCE "/policies/heading.skein", "--format", "c", "--aircraft",
+            "cessna172", "-o", "/dev/null"},
            {"bench", "sim", "--set", "nonsense"},
            {"help", "fly"}}) {
     const ProgramResult result = CallSkein(arguments);
@@ -448,6 +452,7 @@ TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
       measure({"sim", "--num-aircraft", "2000", "--steps", "3", "--action-repeat", "2"});
   EXPECT_GT(held["plant"]["aircraft_steps_per_s"], 0);
   EXPECT_EQ(held["action_repeat"], 2);
+  EXPECT_EQ(held["settings"]["action_repeat"], 2);
   EXPECT_GT(held["environment_unheld"]["step_ms"], 0);
   const std::vector<std::string> small = {"--set",        "ppo.num_aircraft=64",
                                           "--set",        "ppo.rollout_steps=16",

@@ -12,6 +12,7 @@
 #include "envs/state/state.h"
 #include "envs/tasks/control.h"
 #include "envs/tasks/heading.h"
+#include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/envs/autopilot/flock.h"
 #include "tests/tolerance.h"
@@ -53,6 +54,26 @@ TEST(Autopilot, RefusesWhatItCannotFly) {
   EnvConfig blind = Task("tracking");
   blind.tracking.error_axes = TrackingAxes::kEarth;
   EXPECT_THROW(MakeAutopilot(blind, AutopilotVariant::kTraditional), Error);
+}
+
+TEST(Autopilot, SaysWhatItWasNotMadeFor) {
+  const auto autopilot = MakeAutopilot(Task("heading"), AutopilotVariant::kTraditional);
+  const auto refused = [&](const EnvConfig& env) {
+    try {
+      autopilot->CheckMadeFor(env, "somebody");
+      return std::string();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refused(Task("heading")), "");
+  EXPECT_THAT(refused(Task("control")), testing::HasSubstr("somebody: it flies env.task"));
+  EnvConfig slower = Task("heading");
+  slower.control_interval_s = 0.04;
+  EXPECT_THAT(refused(slower), testing::HasSubstr("env.control_interval_s"));
+  EnvConfig other = Task("heading");
+  other.aircraft = "cessna172";
+  EXPECT_THAT(refused(other), testing::HasSubstr("env.aircraft"));
 }
 
 TEST(Autopilot, OuterLoopsKeepTheirRateAtOtherControlIntervals) {

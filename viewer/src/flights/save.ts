@@ -21,7 +21,7 @@ export function csvOf(records: FlightRecord[], agents: string[]): string {
     const columns = names.map((name) => (record.has(name) ? record.column(name) : null));
     for (let row = 0; row < record.rows; row += 1) {
       const cells = columns.map((column) => (column ? Number(column[row].toPrecision(6)) : ''));
-      lines.push([quoted, record.episode + 1, Number((row * record.interval).toFixed(6)), ...cells]
+      lines.push([quoted, record.episode, Number((row * record.interval).toFixed(6)), ...cells]
         .join(','));
     }
   }

@@ -59,7 +59,7 @@ class FlightsView {
     this.strips = new Strips(stripsOf(set, this.records), set.agents, (t) => this.seek(t));
     const episodes = [...new Set(this.records.map((record) => record.episode))];
     this.episodes = this.select('episode',
-      [...episodes.map((e): [string, string] => [String(e), String(e + 1)]), ['-1', 'all']], '0',
+      [...episodes.map((e): [string, string] => [String(e), String(e)]), ['-1', 'all']], '0',
       (value) => this.chooseEpisode(Number(value)));
     this.trailColour = this.select('trails by', this.scales.map((s, i) => [String(i), s.name]),
       String(this.colouring), (value) => this.chooseColouring(Number(value)));
