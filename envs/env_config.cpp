@@ -128,7 +128,7 @@ void ValidateTerms(const EnvConfig& config) {
               ": else no episode could succeed");
   if (config.plant.observation_delay_steps.max == 0) return;
   for (const TermNumber& number : terms.observed) {
-    if (IsRemembered(number.value)) continue;
+    if (IsRemembered(terms.ValueReadBy(number))) continue;
     throw Error("configuration: the task file observes " + number.name +
                 ", which is not known of control steps before: "
                 "env.plant.observation_delay_max_steps must be 0");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -77,8 +78,8 @@ struct EnvConfig {
 
   /// The upper end of what episodes draw their noise from; no more than observation_noise: none do.
   double most_noise() const {
-    const bool is_in_training = observation_noise > 0 && training_noise_max > observation_noise_max;
-    return is_in_training ? training_noise_max : observation_noise_max;
+    const bool is_noisy = observation_noise > 0 || observation_noise_max > 0;
+    return is_noisy ? std::max(training_noise_max, observation_noise_max) : 0;
   }
 
   /// Flies the task of a task file from now on.

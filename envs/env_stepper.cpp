@@ -69,7 +69,8 @@ void LimitDescent(const EnvConfig& config, double altitude_ft, FlightStart* star
   start->lowest_pitch_rad = -std::asin(std::clamp(descent, -1.0, 1.0));
 }
 
-/// Of a target that is held its reward comes when it is reached, not at the end of the hold.
+/// Of a target that is held its reward comes when it is reached (AdvanceTargets), not at the end of
+/// the hold.
 TerminationConfig EndsOf(const EnvConfig& config) {
   TerminationConfig ends = config.termination.Flown();
   if (config.hold_s > 0) ends.success_reward = 0;
@@ -172,7 +173,7 @@ EnvColumns EnvStepper::columns() const {
         config_.plant.has_sensor_errors() ? kNumPlantColumnsWithSensors : kNumPlantColumns;
     columns.delays = {config_.plant.action_delay_steps.max,
                       config_.plant.observation_delay_steps.max, columns.windy,
-                      task_->sees_position()};
+                      task_->observes_over_ground()};
   }
   return columns;
 }
@@ -406,11 +407,12 @@ void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
 void EnvStepper::AdvanceTargets(const EnvBlock& block, Scratch& scratch) const {
   AdvanceProgress(progress_, block.count, block.step, scratch.termination, block.progress,
                   scratch.reached, scratch.deadline, scratch.target_end);
+  const auto success = static_cast<float>(config_.termination.success_reward);
   const float miss = config_.truncate_at_time_limit ? 0 : limits_.failure_reward;
   for (int i = 0; i < block.count; ++i) {
     const TargetEnd end = scratch.target_end[i];
     scratch.bonus[i] = 0;
-    if (end == TargetEnd::kReached) scratch.bonus[i] = limits_.success_reward;
+    if (end == TargetEnd::kReached) scratch.bonus[i] = success;
     if (end == TargetEnd::kMissed) scratch.bonus[i] = miss;
   }
 }

@@ -17,9 +17,6 @@ struct StepOutput {
   float* episode_return = nullptr;
   /// Clock of the episode that ended, control steps (else unchanged).
   std::int32_t* episode_steps = nullptr;
-  /// What that clock stood at when the episode began: 0 but in first ones with
-  /// EnvConfig::stagger_clocks (else unchanged). May be null.
-  std::int32_t* first_clock = nullptr;
   /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
   /// observation. May be null if the time limit is terminal.
   float* final_observation = nullptr;
@@ -34,6 +31,9 @@ struct StepOutput {
   /// final_observation, which must not be null then, and final_privileged get the rows of every
   /// episode that ended, whatever ended it.
   bool observes_every_end = false;
+  /// What the clock of the episode that ended stood at when it began: 0 but in first ones with
+  /// EnvConfig::stagger_clocks (else unchanged). May be null.
+  std::int32_t* first_clock = nullptr;
 };
 
 }  // namespace skein

@@ -106,12 +106,13 @@ HWY_EXPORT(Remember);
 
 namespace {
 
-// What observations read of every flight beside the velocity, what errors of points read beside,
-// and what of these only in wind is no velocity relative to the air.
+// What observations read of every flight beside the velocity, what those of positions and
+// velocities over the ground read beside, and what of these only in wind is no velocity relative to
+// the air.
 constexpr int kObserved[] = {
     kP, kQ, kR, kDown, kQ0, kQx, kQy, kQz, kPower, kElevator, kAileron, kRudder, kLeadingEdgeFlap};
-constexpr int kOfPoints[] = {kNorth, kEast};
-constexpr int kOverGround[] = {kU, kV, kW};
+constexpr int kPosition[] = {kNorth, kEast};
+constexpr int kGroundVelocity[] = {kU, kV, kW};
 
 /// The flight's columns that are remembered, in the order of a slot.
 struct StateColumns {
@@ -119,10 +120,10 @@ struct StateColumns {
     const int air = delays.windy ? kAirU : kU;
     for (int k = 0; k < 3; ++k) Add(air + k);
     for (const int column : kObserved) Add(column);
-    if (!delays.is_point) return;
-    for (const int column : kOfPoints) Add(column);
+    if (!delays.over_ground) return;
+    for (const int column : kPosition) Add(column);
     if (!delays.windy) return;
-    for (const int column : kOverGround) Add(column);
+    for (const int column : kGroundVelocity) Add(column);
   }
   void Add(int column) { columns[count++] = column; }
 
@@ -135,15 +136,15 @@ int Slot(int newest, int slots, int age) { return (newest + slots - (age - 1)) %
 
 /// The columns of `delays`, made once.
 const StateColumns& StatesOf(const Delays& delays) {
-  const auto make = [](bool windy, bool is_point) {
+  const auto make = [](bool windy, bool over_ground) {
     Delays of;
     of.windy = windy;
-    of.is_point = is_point;
+    of.over_ground = over_ground;
     return StateColumns(of);
   };
   static const StateColumns all[] = {make(false, false), make(false, true), make(true, false),
                                      make(true, true)};
-  return all[2 * delays.windy + delays.is_point];
+  return all[2 * delays.windy + delays.over_ground];
 }
 
 template <class SlotOfAge>

@@ -16,8 +16,8 @@ inline constexpr int kNumDelayedCommands = 4;
 /// The longest delays, control steps, and with them what is remembered.
 struct Delays {
   int action = 0, observation = 0;
-  bool windy = false;     ///< the velocity relative to the air is a state of its own
-  bool is_point = false;  ///< the task's errors are those of a position (Task::is_point)
+  bool windy = false;        ///< the velocity relative to the air is a state of its own
+  bool over_ground = false;  ///< position and velocity over the ground are observed
 
   /// Columns of the flight that sensors and errors read; 0 where nothing is observed late.
   int state_columns() const;

@@ -72,8 +72,9 @@ class Task {
   virtual double dwell_s() const { return 0; }
   /// Whether targets are points, which are passed, and not states, which can be held.
   virtual bool is_point() const { return false; }
-  /// Whether what leads the row of observations depends on the position over the ground.
-  virtual bool sees_position() const { return is_point(); }
+  /// Whether what leads the row of observations depends on the position or the velocity over the
+  /// ground.
+  virtual bool observes_over_ground() const { return is_point(); }
   /// Whether the task ends episodes itself (StepResult::ends).
   virtual bool has_ends() const { return false; }
 

@@ -314,7 +314,7 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
     def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
         """Goes on from a snapshot of an environment with the same configuration and seed, in the middle of its episode;
         returns what is observed there, (22,)."""
-        observation = super().restore(snapshot)[0]
+        observation: FloatArray = super().restore(snapshot)[0]
         self._flying = True
         return observation
 

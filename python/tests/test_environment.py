@@ -165,7 +165,7 @@ def test_a_snapshot_is_gone_on_from():
 
 
 def test_a_snapshot_of_one_aircraft_is_gone_on_from_in_the_middle_of_its_episode():
-    env = skein.make("heading", **{"env.time_limit_steps": 20})
+    env = skein.make("heading", env=SHORT)
     env.reset(seed=6)
     snapshot = env.snapshot()
     action = env.action_space.sample()
@@ -174,13 +174,13 @@ def test_a_snapshot_of_one_aircraft_is_gone_on_from_in_the_middle_of_its_episode
         pass
     assert env.restore(snapshot).shape == expected.shape
     np.testing.assert_array_equal(env.step(action)[0], expected)
-    other = skein.make("heading", **{"env.time_limit_steps": 20})
+    other = skein.make("heading", env=SHORT)
     other.restore(snapshot)
     np.testing.assert_array_equal(other.step(action)[0], expected)
 
 
 def test_lengths_of_first_episodes_are_what_was_flown():
-    envs = skein.make_vec("heading", 64, **{"env.time_limit_steps": 100, "env.action_repeat": 5})
+    envs = skein.make_vec("heading", 64, env={**SHORT, "stagger_clocks": True, "time_limit_steps": 100})
     assert envs.config["env.stagger_clocks"]
     envs.reset(seed=2)
     steps, first_ends = np.zeros(64, int), np.zeros(64, bool)

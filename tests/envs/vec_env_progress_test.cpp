@@ -189,6 +189,23 @@ TEST(VecEnvProgress, ADwellDelaysSuccessByItsLengthAndAHoldByIts) {
   EXPECT_EQ(steps_of(0.5, 1), 75);
 }
 
+TEST(VecEnvProgress, AHeldTargetIsWorthItsRewardOnceWhenItCounts) {
+  EnvConfig nothing = NearTargets("heading");
+  nothing.action_repeat = 1;
+  nothing.heading.dwell_s = 0.1;
+  nothing.hold_s = 0.5;
+  nothing.termination.success_reward = 0;
+  EnvConfig rewarded = nothing;
+  rewarded.termination.success_reward = 700;
+  VecEnv one(nothing, 1, 1), other(rewarded, 1, 1);
+  const Log without = Fly(&one, 30), with = Fly(&other, 30);
+  ASSERT_EQ(with.steps, std::vector<int>(1, 30));
+  for (std::size_t step = 1; step <= 30; ++step) {
+    const std::size_t i = 4 * (step - 1);  // a reward, and three numbers of the target
+    EXPECT_NEAR(with.values[i] - without.values[i], step == 5 ? 700 : 0, 1e-3) << step;
+  }
+}
+
 TEST(VecEnvProgress, PricesLowerTheRewardAndChangeNothingElse) {
   EnvConfig free = NearTargets("heading"), priced = free;
   free.heading.earliest_success_step = priced.heading.earliest_success_step = 300;

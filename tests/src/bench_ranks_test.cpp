@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/src/ranks_fixture.h"
@@ -50,8 +51,10 @@ TEST_F(BenchRanks, IterationsOfSeveralRanksSayHowLongTheyExchange) {
 }
 
 TEST_F(BenchRanks, ScalingMeasuresEveryWayToUseTheProcessors) {
-  const ProgramResult result = RunSkein(Bench(
-      "scaling", {"--threads", "2", "--launcher", "mpirun --allow-run-as-root --oversubscribe"}));
+  const std::string launcher = "mpirun --allow-run-as-root --oversubscribe -x " +
+                               AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS"));
+  const ProgramResult result =
+      RunSkein(Bench("scaling", {"--threads", "2", "--launcher", launcher}));
   ASSERT_EQ(result.exit_code, 0) << result.error;
   const auto json = Results();
   ASSERT_EQ(json["points"].size(), 3u);

@@ -14,6 +14,7 @@
 
 #include "simd/target.h"
 #include "src/files/output_file.h"
+#include "tests/sanitizers.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/tolerance.h"
@@ -92,6 +93,7 @@ double ProcessorTimeOf(const char* argument) {
 }
 
 TEST(Usage, HelpAndVersionComeAtOnce) {
+  if (kIsSanitized) GTEST_SKIP() << "sanitizers take their time";
   constexpr double kAtOnce_s = 0.03;
   EXPECT_LT(ProcessorTimeOf("--help"), kAtOnce_s);
   EXPECT_LT(ProcessorTimeOf("--version"), kAtOnce_s);

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "base/choice_error.h"
@@ -118,10 +119,25 @@ void FileDescriptor::Fail(const char* what) const {
   throw FileError(name_ + ": " + what + ": " + SystemReason());
 }
 
+namespace {
+
+void SyncNames(const FileDescriptor& directory, const std::string& path) {
+  // Some file systems have nothing to sync in a directory, and say so by EINVAL.
+  if (fsync(directory.value()) != 0 && errno != EINVAL) {
+    throw Error(path + ": cannot be synced: " + SystemReason());
+  }
+}
+
+}  // namespace
+
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write) {
   const std::string temporary = path + ".tmp";
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  const std::string folder = parent.empty() ? "." : parent;
+  std::optional<FileDescriptor> directory;
   try {
     FileDescriptor file(temporary, OpenMode::kReplace, path);
+    directory.emplace(folder, OpenMode::kDirectory);
     write(file);
     file.Sync();
     file.Close();
@@ -132,16 +148,11 @@ void ReplaceFile(const std::string& path, const std::function<void(FileDescripto
     unlink(temporary.c_str());
     throw;
   }
-  const std::string directory = std::filesystem::path(path).parent_path().string();
-  SyncDirectory(directory.empty() ? "." : directory);
+  SyncNames(*directory, folder);
 }
 
 void SyncDirectory(const std::string& path) {
-  const FileDescriptor directory(path, OpenMode::kDirectory);
-  // Some file systems have nothing to sync in a directory, and say so by EINVAL.
-  if (fsync(directory.value()) != 0 && errno != EINVAL) {
-    throw Error(path + ": cannot be synced: " + SystemReason());
-  }
+  SyncNames(FileDescriptor(path, OpenMode::kDirectory), path);
 }
 
 }  // namespace skein

@@ -50,7 +50,8 @@ class FileDescriptor {
 };
 
 /// Replaces the file `path` by what `write` writes: temporary file `path`.tmp, fsync, rename, fsync
-/// of the directory. Throws Error, as `write` may; an existing file is then untouched.
+/// of the directory. Throws Error, as `write` may; an existing file is then untouched, unless it
+/// was the directory that could not be synced.
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write);
 
 /// Makes the names in a directory survive a power cut.

@@ -15,8 +15,8 @@ class RankModule {
   virtual ~RankModule() = default;
   /// Joins the other processes of the launcher, for the rest of the process's life or until the
   /// result is destroyed, which waits for the others to do the same. Throws Error if the launcher
-  /// is not one of this MPI, or the number of ranks is no power of two. A partner that does not
-  /// answer for `timeout_s` ends all.
+  /// is not one of this MPI. Ranks exchange in pairs: there must be a power of two of them, as the
+  /// caller sees to. A partner that does not answer for `timeout_s` ends all.
   virtual std::unique_ptr<Ranks> Join(double timeout_s) const = 0;
 };
 

@@ -91,9 +91,10 @@ class TermTask : public Task {
 
   double dwell_s() const override { return config_->dwell_s; }
   bool is_point() const override { return config_->has_point(); }
-  bool sees_position() const override {
-    return std::any_of(config_->observed.begin(), config_->observed.end(),
-                       [this](const TermNumber& number) { return IsSeenByPosition(number); });
+  bool observes_over_ground() const override {
+    return std::any_of(
+        config_->observed.begin(), config_->observed.end(),
+        [this](const TermNumber& number) { return IsOverGround(config_->ValueReadBy(number)); });
   }
   bool has_ends() const override { return !config_->ends.empty(); }
   const ObservationLayout& observation_layout() const override { return layout_; }
@@ -177,11 +178,6 @@ class TermTask : public Task {
     const TermTarget& target = config_->targets[static_cast<std::size_t>(number.target)];
     if (number.name != "error_" + target.name) return number.name;
     return number.name + UnitOf(target.quantity.value);
-  }
-
-  bool IsSeenByPosition(const TermNumber& number) const {
-    if (number.value != TermValue::kTargetError) return IsOfPosition(number.value);
-    return IsOfPosition(config_->targets[static_cast<std::size_t>(number.target)].quantity.value);
   }
 
   void Run(const TermProgram& program, Tile flight, Tile task, float* columns,

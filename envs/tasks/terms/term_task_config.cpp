@@ -12,6 +12,11 @@ bool TermTaskConfig::has_point() const {
   });
 }
 
+TermValue TermTaskConfig::ValueReadBy(const TermNumber& number) const {
+  if (number.value != TermValue::kTargetError) return number.value;
+  return targets[static_cast<std::size_t>(number.target)].quantity.value;
+}
+
 double TermTaskConfig::TerrainAt(double north_ft, double east_ft) const {
   double height = terrain_base_ft;
   for (const TerrainWave& wave : terrain) {

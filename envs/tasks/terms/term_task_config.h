@@ -117,6 +117,8 @@ struct TermTaskConfig {
   std::vector<TerrainWave> terrain;
   /// Whether its targets are a point, which is passed, and not a state, which can be held.
   bool has_point() const;
+  /// What the number reads of the flight: of a target's error what the target is compared with.
+  TermValue ValueReadBy(const TermNumber& number) const;
   bool has_terrain() const { return !terrain.empty() || terrain_base_ft != 0; }  ///< not flat at 0
   /// Height of the terrain, ft.
   double TerrainAt(double north_ft, double east_ft) const;

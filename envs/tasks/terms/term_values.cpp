@@ -89,10 +89,14 @@ bool IsRemembered(TermValue value) {
   }
 }
 
-bool IsOfPosition(TermValue value) {
+bool IsOverGround(TermValue value) {
   switch (value) {
     case TermValue::kNorth:
     case TermValue::kEast:
+    case TermValue::kU:
+    case TermValue::kV:
+    case TermValue::kW:
+    case TermValue::kClimbRate:
     case TermValue::kTerrain:
     case TermValue::kHeightAboveTerrain:
       return true;

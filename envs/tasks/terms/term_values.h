@@ -88,7 +88,7 @@ bool IsWrapped(TermValue value);
 
 /// Whether delayed sensors show the value: what load factors and winds were is not remembered.
 bool IsRemembered(TermValue value);
-/// Whether it is of the position over the ground.
-bool IsOfPosition(TermValue value);
+/// Whether it is of the position or the velocity over the ground.
+bool IsOverGround(TermValue value);
 
 }  // namespace skein

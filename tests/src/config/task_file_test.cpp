@@ -11,9 +11,11 @@
 
 #include "base/error.h"
 #include "envs/task_registry.h"
+#include "envs/vec_env.h"
 #include "simd/random.h"
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
+#include "tests/envs/step_buffers.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 
@@ -151,6 +153,55 @@ TEST(TaskFileTest, EveryExampleIsATask) {
     ++count;
   }
   EXPECT_GE(count, 6);
+}
+
+/// What is observed before each control step of a flight in turbulence, by a task that observes
+/// these numbers, `delay` control steps late.
+std::vector<std::vector<float>> ObservedInWind(const std::string& numbers, int delay) {
+  EnvConfig env;
+  env.SetTermTask(Read(Minimal("\"error_altitude\"", numbers)));
+  env.observation_noise = 0;
+  env.wind.turbulence_fps = {10, 10};
+  env.plant.observation_delay_steps = {delay, delay};
+  env.plant.mass = {1.1, 1.1};
+  VecEnv flight(env, 1, 1);
+  std::vector<std::vector<float>> rows;
+  StepBuffers buffers(1);
+  for (int step = 0; step < 30; ++step) {
+    rows.emplace_back(static_cast<std::size_t>(flight.observation_size()));
+    flight.Observe(0, rows.back().data());
+    buffers.action = {0.5f, step % 8 < 4 ? 0.3f : -0.3f, 0.1f, 0};
+    StepOutput output = buffers.output();
+    std::vector<float> final(rows.back().size());
+    output.final_observation = final.data();
+    flight.Step(0, buffers.action.data(), output);
+  }
+  return rows;
+}
+
+TEST(TaskFileTest, LateNumbersInWindAreThoseOfStepsBefore) {
+  const std::string numbers =
+      "\"climb_rate_fps\", \"u_fps\", \"v_fps\", \"w_fps\", \"true_airspeed_fps\"";
+  const auto prompt = ObservedInWind(numbers, 0), late = ObservedInWind(numbers, 2);
+  for (std::size_t step = 0; step < prompt.size(); ++step) {
+    EXPECT_EQ(late[step], prompt[step < 2 ? 0 : step - 2]) << step;
+  }
+}
+
+TEST(TaskFileTest, LateErrorsOfWhatIsNotRememberedAreRefused) {
+  EnvConfig env;
+  std::string text = Minimal("around_start = 500\n", "between = [1, 2]\n");
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"altitude_ft", "load_factor_g"},
+        {"error_altitude", "error_load_factor"}}) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from)) {
+      text.replace(at, from.size(), to);
+    }
+  }
+  env.SetTermTask(Read(text));
+  env.plant.observation_delay_steps = {0, 1};
+  EXPECT_NE(MessageOf([&] { VecEnv(env, 1, 1); }).find("not known of control steps before"),
+            std::string::npos);
 }
 
 /// Every mutation of a file is a task that can be made, or an Error of one line: never anything

@@ -50,14 +50,6 @@ FaultedRun RunFaulted(const std::vector<std::string>& arguments, const std::stri
   return run;
 }
 
-bool CanFault() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return false;
-#else
-  return true;
-#endif
-}
-
 bool TriesAll() {
   const char* const choice = std::getenv("SKEIN_FAULTS");
   return choice != nullptr && choice == std::string("all");

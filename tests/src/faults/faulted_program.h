@@ -36,9 +36,6 @@ struct FaultedRun {
 FaultedRun RunFaulted(const std::vector<std::string>& arguments, const std::string& below,
                       Fault fault, std::size_t at);
 
-/// Whether calls can be made to fail in this build: sanitizers have calls of their own in the way.
-bool CanFault();
-
 /// Whether every fault is to be tried: SKEIN_FAULTS=all.
 bool TriesAll();
 

@@ -18,6 +18,7 @@
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
 #include "tests/error_message.h"
+#include "tests/sanitizers.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/faults/faulted_commands.h"
 #include "tests/src/faults/faulted_program.h"
@@ -107,7 +108,7 @@ void ExpectSameFiles(const Files& expected, const Files& files) {
 class Faults : public ::testing::TestWithParam<FaultedCommand> {
  protected:
   void SetUp() override {
-    if (!CanFault()) GTEST_SKIP() << "sanitizers have calls of their own in the way";
+    if (kIsSanitized) GTEST_SKIP() << "sanitizers have calls of their own in the way";
     if (GetParam().sample == 0 && !TriesAll()) GTEST_SKIP() << "slow: with the long tests alone";
     fs::create_directory(before_);
     GetParam().prepare(before_);
