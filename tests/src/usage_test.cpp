@@ -169,6 +169,7 @@ TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
 }
 
 TEST(Usage, AskingForWhatCannotBeExitsWithTwo) {
+  const std::string shipped = SKEIN_SOURCE "/policies/heading.skein";
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"train", "heding"},
            {"train", "heading", "--preset", "fast"},
@@ -186,8 +187,7 @@ TEST(Usage, AskingForWhatCannotBeExitsWithTwo) {
            {"compare", "--task", "heading", "--agents", "zero,zero"},
            {"compare", "--task", "heading", "--agents", "zero", "--no-html", "--flights-count",
             "2"},
-           {"export", SKEIN_SOURCE "/policies/heading.skein", "--format", "c", "--aircraft",
-            "cessna172", "-o", "/dev/null"},
+           {"export", shipped, "--format", "c", "--aircraft", "cessna172", "-o", "/dev/null"},
            {"bench", "sim", "--set", "nonsense"},
            {"help", "fly"}}) {
     const ProgramResult result = CallSkein(arguments);
