@@ -16,7 +16,6 @@ namespace {
 
 constexpr Tolerance kRounding{1e-9, "float64 rounding, relative"};
 constexpr Tolerance kBisection{1e-6, "bisection of the propeller's speed, relative"};
-constexpr double kPi = 3.141592653589793238;
 
 /// 120 kW at 2700 rpm, 1.9 m.
 PistonEngine FixedPitch() {
