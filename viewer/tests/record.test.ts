@@ -59,7 +59,7 @@ it('a table has every row of every flight, and quotes names', () => {
   const lines = text.trimEnd().split('\r\n');
   expect(lines[0]).toBe('agent,episode,time_s,north_ft,east_ft,altitude_ft,roll_deg,pitch_deg,yaw_deg,mach');
   expect(lines.length).toBe(9);
-  expect(lines[2]).toBe('"a ""b"", c",1,1,100,0,5,0,0,-170,');
+  expect(lines[2]).toBe('"a ""b"", c",0,1,100,0,5,0,0,-170,');
   expect(lines[8].endsWith(',1')).toBe(true);
 });
 
