@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "base/error.h"
-#include "envs/task_registry.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/commands/aircraft_option.h"
