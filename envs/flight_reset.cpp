@@ -88,15 +88,42 @@ TrimmedStart FlightReset::UntrimmedAt(double altitude_ft, double true_airspeed_f
   return start;
 }
 
+void FlightReset::Pull(double pulled_g, RigidBodyState* state, TrimmedStart* start) const {
+  Controls controls;
+  controls.elevator_deg = start->elevator_deg;
+  controls.aileron_deg = start->aileron_deg;
+  controls.rudder_deg = start->rudder_deg;
+  controls.leading_edge_flap_deg = start->leading_edge_flap_deg;
+  const double speed_ft_s = std::hypot((*state)[kU], (*state)[kW]);
+  const auto at_alpha = [&](double alpha_rad) {
+    RigidBodyState turned = *state;
+    turned[kU] = speed_ft_s * std::cos(alpha_rad);
+    turned[kW] = speed_ft_s * std::sin(alpha_rad);
+    return turned;
+  };
+  constexpr double kStepRad = 1 / kDegPerRad;
+  const double slope = (plant_.Evaluate(at_alpha(start->alpha_rad + kStepRad), controls).nz -
+                        plant_.Evaluate(*state, controls).nz) /
+                       kStepRad;
+  start->alpha_rad += pulled_g / slope;
+  start->nz += pulled_g;
+  *state = at_alpha(start->alpha_rad);
+  // What gravity does not turn by itself, as in a steady turn.
+  (*state)[kQ] = pulled_g * plant_.gravity().At(-(*state)[kDown]) / speed_ft_s;
+}
+
 FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
   const double altitude_ft = BentInto(altitude_ft_, random->Uniform(), draw_power_);
   const double speed_ft_s = BentInto(true_airspeed_fps_, random->Uniform(), draw_power_);
-  const TrimmedStart start =
+  TrimmedStart start =
       trims_ ? trims_->At(altitude_ft, speed_ft_s) : UntrimmedAt(altitude_ft, speed_ft_s);
   const double most_rad = initial_.training_bank_max_deg / kDegPerRad;
   const double banked_rad = most_rad > 0 ? random->Uniform(-most_rad, most_rad) : 0;
-  const RigidBodyState state = LevelState(altitude_ft, speed_ft_s, start.alpha_rad,
-                                          start.bank_rad + banked_rad, start.pitch_rad);
+  const double most_g = initial_.training_load_factor_max;
+  const double pulled_g = most_g > 1 ? random->Uniform(0, most_g - 1) : 0;
+  RigidBodyState state = LevelState(altitude_ft, speed_ft_s, start.alpha_rad,
+                                    start.bank_rad + banked_rad, start.pitch_rad);
+  if (pulled_g > 0) Pull(pulled_g, &state, &start);
 
   const Air air = AirAt(plant_.atmosphere(), altitude_ft);
   FlightSensors sensors;

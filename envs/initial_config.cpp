@@ -19,6 +19,10 @@ void ListFields(InitialConfig& config, FieldList& list) {
            "does not begin by itself it learns from its middle")
       .TrainingOnly()
       .OffUnless(config.training_bank_max_deg > 0);
+  list.Add("training_load_factor_max", &config.training_load_factor_max, {1, 9},
+           "in training flights begin in a pull of up to so many g; 1: in none")
+      .TrainingOnly()
+      .OffUnless(config.training_load_factor_max > 1);
   list.AddRange("true_airspeed", "fps", &config.true_airspeed_fps, {10, 3000},
                 "lowest initial true airspeed", "highest initial true airspeed");
   list.Add("trimmed", &config.trimmed,

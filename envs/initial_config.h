@@ -18,6 +18,8 @@ struct InitialConfig {
   double training_altitude_min_ft = 0;
   /// In training flights begin banked by up to this, to either side, and otherwise as they would.
   double training_bank_max_deg = 0;
+  /// In training flights begin in a pull of up to this, g, about the pitch axis; 1: in none.
+  double training_load_factor_max = 1;
 
   /// What initial altitudes are drawn from.
   Range drawn_altitude_ft() const {

@@ -302,6 +302,7 @@ TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   config.training_noise_max = 0.1;
   config.initial.training_altitude_min_ft = 5000;
   config.initial.training_bank_max_deg = 90;
+  config.initial.training_load_factor_max = 7;
   config.wind.training_speed_max_fps = config.wind.training_turbulence_max_fps = 10;
   config.termination.training_min_mach = 0.3;
   config.termination.training_min_altitude_ft = 3000;
@@ -313,6 +314,7 @@ TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   EXPECT_EQ(evaluated.training_noise_max, 0);
   EXPECT_EQ(evaluated.initial.training_altitude_min_ft, 0);
   EXPECT_EQ(evaluated.initial.training_bank_max_deg, 0);
+  EXPECT_EQ(evaluated.initial.training_load_factor_max, 1);
   EXPECT_FALSE(evaluated.wind.enabled());
   EXPECT_EQ(evaluated.termination.Flown().min_mach, config.termination.min_mach);
   EXPECT_EQ(evaluated.termination.Flown().min_altitude_ft, config.termination.min_altitude_ft);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "envs/air/gravity.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
 #include "envs/state/attitude.h"
@@ -52,6 +53,7 @@ PlantOutput EvaluateFresh(const Plant& plant, const FreshFlight& flight) {
 constexpr int kDraws = 400;
 
 constexpr Tolerance kFloat32{1e-6, "float32 rounding"};
+constexpr Tolerance kPullError{0.1, "lift of the pitch rate, and its curve over alpha"};
 constexpr Tolerance kStartRounding{1e-3, "float32 rounding of 2e4 ft and 1000 ft/s"};
 
 TEST(FlightResetTest, DrawsAltitudeAndSpeedUniformly) {
@@ -117,6 +119,35 @@ TEST(FlightResetTest, TrainingBeginsBankedAndEvaluationsDoNot) {
     for (int column = 0; column < kNumColumns; ++column) {
       if (column >= kQ0 && column <= kQz) continue;
       EXPECT_EQ(At(banked, column), At(level, column)) << column;
+    }
+    sum += share;
+    squares += share * share;
+    EXPECT_EQ(DrawOf(evaluation, episode).columns, level.columns);
+  }
+  // Moments of a uniform variable on [-1, 1].
+  EXPECT_NEAR(sum / kDraws, 0, kStandardErrors * std::sqrt(1.0 / 3 / kDraws));
+  EXPECT_NEAR(squares / kDraws, 1.0 / 3, kStandardErrors * std::sqrt(4.0 / 45 / kDraws));
+}
+
+TEST(FlightResetTest, TrainingBeginsInAPullAndEvaluationsDoNot) {
+  EnvConfig config;
+  config.initial.training_load_factor_max = 7;
+  const FlightReset training(config, F16()), evaluation(EvaluationConfig(config), F16()),
+      plain(EnvConfig{}, F16());
+  const Plant plant(F16(), config.atmosphere);
+  double sum = 0, squares = 0;
+  for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
+    const FreshFlight pulled = DrawOf(training, episode), level = DrawOf(plain, episode);
+    const double more_g = At(pulled, kNz) - At(level, kNz), share = more_g / 3 - 1;
+    EXPECT_LE(std::abs(share), 1 + kFloat32);
+    const double flown_g = EvaluateFresh(plant, pulled).nz - EvaluateFresh(plant, level).nz;
+    EXPECT_NEAR(flown_g, more_g, kPullError * more_g + kFloat32);
+    const RigidBodyState state = BodyOf(pulled), before = BodyOf(level);
+    EXPECT_NEAR(state.segment<3>(kU).norm(), before.segment<3>(kU).norm(), kStartRounding);
+    EXPECT_NEAR(state[kQ], more_g * kGravityFtS2 / before.segment<3>(kU).norm(), kFloat32);
+    EXPECT_EQ(state.segment<4>(kQ0), before.segment<4>(kQ0));
+    for (const int column : {kElevator, kAileron, kRudder, kLeadingEdgeFlap, kPower, kNy}) {
+      EXPECT_EQ(At(pulled, column), At(level, column)) << column;
     }
     sum += share;
     squares += share * share;

@@ -226,8 +226,8 @@ TEST(Settings, WhatIsOffSetsNoCheckpointApart) {
        {"env.wind.speed_max_fps", "env.wind.step_at_reset", "env.drag_rise",
         "env.thrust_growth_above_mach_1", "env.observation_noise_max", "env.training_noise_max",
         "env.initial.training_altitude_min_ft", "env.initial.training_bank_max_deg",
-        "env.wind.training_speed_max_fps", "env.termination.training_min_mach",
-        "env.termination.training_min_altitude_ft"}) {
+        "env.initial.training_load_factor_max", "env.wind.training_speed_max_fps",
+        "env.termination.training_min_mach", "env.termination.training_min_altitude_ft"}) {
     EXPECT_EQ(described.count(key), 0u) << key;
   }
 }
