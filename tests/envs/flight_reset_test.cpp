@@ -56,6 +56,19 @@ constexpr Tolerance kFloat32{1e-6, "float32 rounding"};
 constexpr Tolerance kPullError{0.1, "lift of the pitch rate, and its curve over alpha"};
 constexpr Tolerance kStartRounding{1e-3, "float32 rounding of 2e4 ft and 1000 ft/s"};
 
+/// Holds that they lie in [-1, 1], with the moments of a uniform variable there.
+void ExpectUniform(const std::vector<double>& shares) {
+  double sum = 0, squares = 0;
+  for (const double share : shares) {
+    EXPECT_LE(std::abs(share), 1 + kFloat32);
+    sum += share;
+    squares += share * share;
+  }
+  const auto count = static_cast<double>(shares.size());
+  EXPECT_NEAR(sum / count, 0, kStandardErrors * std::sqrt(1.0 / 3 / count));
+  EXPECT_NEAR(squares / count, 1.0 / 3, kStandardErrors * std::sqrt(4.0 / 45 / count));
+}
+
 TEST(FlightResetTest, DrawsAltitudeAndSpeedUniformly) {
   EnvConfig config;
   config.initial.altitude_ft = {15000, 25000};
@@ -107,26 +120,21 @@ TEST(FlightResetTest, TrainingBeginsBankedAndEvaluationsDoNot) {
   config.initial.training_bank_max_deg = 90;
   const FlightReset training(config, F16()), evaluation(EvaluationConfig(config), F16()),
       plain(EnvConfig{}, F16());
-  double sum = 0, squares = 0;
+  std::vector<double> shares;
   for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
     const FreshFlight banked = DrawOf(training, episode), level = DrawOf(plain, episode);
     const EulerAngles attitude = EulerFromQuaternion(BodyOf(banked).segment<4>(kQ0));
     const EulerAngles before = EulerFromQuaternion(BodyOf(level).segment<4>(kQ0));
-    const double share = (attitude.roll - before.roll) / (M_PI / 2);
-    EXPECT_LE(std::abs(share), 1 + kFloat32);
+    shares.push_back((attitude.roll - before.roll) / (M_PI / 2));
     EXPECT_NEAR(attitude.pitch, before.pitch, kFloat32);
     EXPECT_NEAR(attitude.yaw, before.yaw, kFloat32);
     for (int column = 0; column < kNumColumns; ++column) {
       if (column >= kQ0 && column <= kQz) continue;
       EXPECT_EQ(At(banked, column), At(level, column)) << column;
     }
-    sum += share;
-    squares += share * share;
     EXPECT_EQ(DrawOf(evaluation, episode).columns, level.columns);
   }
-  // Moments of a uniform variable on [-1, 1].
-  EXPECT_NEAR(sum / kDraws, 0, kStandardErrors * std::sqrt(1.0 / 3 / kDraws));
-  EXPECT_NEAR(squares / kDraws, 1.0 / 3, kStandardErrors * std::sqrt(4.0 / 45 / kDraws));
+  ExpectUniform(shares);
 }
 
 TEST(FlightResetTest, TrainingBeginsInAPullAndEvaluationsDoNot) {
@@ -135,11 +143,11 @@ TEST(FlightResetTest, TrainingBeginsInAPullAndEvaluationsDoNot) {
   const FlightReset training(config, F16()), evaluation(EvaluationConfig(config), F16()),
       plain(EnvConfig{}, F16());
   const Plant plant(F16(), config.atmosphere);
-  double sum = 0, squares = 0;
+  std::vector<double> shares;
   for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
     const FreshFlight pulled = DrawOf(training, episode), level = DrawOf(plain, episode);
-    const double more_g = At(pulled, kNz) - At(level, kNz), share = more_g / 3 - 1;
-    EXPECT_LE(std::abs(share), 1 + kFloat32);
+    const double more_g = At(pulled, kNz) - At(level, kNz);
+    shares.push_back(more_g / 3 - 1);
     const double flown_g = EvaluateFresh(plant, pulled).nz - EvaluateFresh(plant, level).nz;
     EXPECT_NEAR(flown_g, more_g, kPullError * more_g + kFloat32);
     const RigidBodyState state = BodyOf(pulled), before = BodyOf(level);
@@ -149,13 +157,9 @@ TEST(FlightResetTest, TrainingBeginsInAPullAndEvaluationsDoNot) {
     for (const int column : {kElevator, kAileron, kRudder, kLeadingEdgeFlap, kPower, kNy}) {
       EXPECT_EQ(At(pulled, column), At(level, column)) << column;
     }
-    sum += share;
-    squares += share * share;
     EXPECT_EQ(DrawOf(evaluation, episode).columns, level.columns);
   }
-  // Moments of a uniform variable on [-1, 1].
-  EXPECT_NEAR(sum / kDraws, 0, kStandardErrors * std::sqrt(1.0 / 3 / kDraws));
-  EXPECT_NEAR(squares / kDraws, 1.0 / 3, kStandardErrors * std::sqrt(4.0 / 45 / kDraws));
+  ExpectUniform(shares);
 }
 
 TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
