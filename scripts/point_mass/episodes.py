@@ -61,29 +61,35 @@ def read_flights(path, task, dwell_s):
     return episodes, times
 
 
+def recorded(program, task, agent, episodes, seed, dwell_s, hold_s, folder):
+    """The file of the flights of one agent, in `folder`, and what the program reports of them. A file of a thousand
+    flights has 300 MB to 1 GB: remove it before the next."""
+    report = os.path.join(folder, "report.json")
+    command = [program, "compare", "--task", task, "--agents", agent, "--episodes", str(episodes), "--seed",
+               str(seed), "--set", f"env.{task}.dwell_s={dwell_s}", "--set", f"env.hold_s={hold_s}", "--threads", "1",
+               "--no-html", "--json", report, "--flights", os.path.join(folder, "flights.csv"),
+               "--flights-count", str(episodes)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        raise EpisodeError(f"skein compare failed: {done.stdout.strip()}")
+    (path,) = glob.glob(os.path.join(folder, "flights*.csv"))
+    with open(report, encoding="utf-8") as file:
+        return path, json.load(file)["agents"][0]
+
+
 def fly(program, task, agents, episodes, seed, dwell_s):
     """Flies the agents over the same episodes: the episodes, and an Agent for each."""
     with tempfile.TemporaryDirectory() as folder:
         found = None
         results = []
-        # One agent at a time: a file of a thousand flights has 300 to 500 MB.
         for agent in agents:
-            report = os.path.join(folder, "report.json")
-            command = [program, "compare", "--task", task, "--agents", agent, "--episodes", str(episodes), "--seed",
-                       str(seed), "--set", f"env.{task}.dwell_s={dwell_s}", "--set", "env.hold_s=0", "--threads", "1",
-                       "--no-html", "--json", report, "--flights", os.path.join(folder, "flights.csv"),
-                       "--flights-count", str(episodes)]
-            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-            if done.returncode != 0:
-                raise EpisodeError(f"skein compare failed: {done.stdout.strip()}")
-            (path,) = glob.glob(os.path.join(folder, "flights*.csv"))
+            path, report = recorded(program, task, agent, episodes, seed, dwell_s, 0, folder)
             begun, times = read_flights(path, task, dwell_s)
             os.remove(path)
             if found is not None and begun != found:
                 raise EpisodeError(f"{agent} flew other episodes than {agents[0]}")
             found = begun
-            with open(report, encoding="utf-8") as file:
-                check_mean(agent, times, json.load(file)["agents"][0]["time_to_target_mean"])
+            check_mean(agent, times, report["time_to_target_mean"])
             results.append(Agent(agent, times))
         return found, results
 

@@ -114,6 +114,16 @@ class PointMass:
         flap = gains["flap_alpha_gain"] * alpha_deg - gains["flap_pressure_gain_deg"] * 0.7 * mach**2
         return min(max(flap + gains["flap_bias_deg"], FLAPS_DEG[0]), FLAPS_DEG[1])
 
+    def trimmed(self, alpha_deg, row, mach):
+        """Cx and Cz without drag rise, by the elevator that balances the pitching moment; `row` is of that alpha."""
+        share = self.flap_deg(alpha_deg, mach) / FLAPS_DEG[1]
+        entries = [[up[k][0] + share * (down[k][0] - up[k][0]) for k in range(3)] for up, down in row]
+        for before, after in zip(entries, entries[1:]):
+            if before[2] >= 0 >= after[2]:
+                part = before[2] / (before[2] - after[2]) if before[2] != after[2] else 0
+                return [before[k] + part * (after[k] - before[k]) for k in (0, 1)]
+        return entries[len(entries) // 2][:2]
+
     def forces(self, speed, altitude_ft):
         """Of every elevator node, a list over alpha of (nz, x, z, alpha): nz in g, aerodynamic forces along the body's
         x and z axes over the weight, alpha in rad."""

@@ -11,7 +11,7 @@ import casadi as ca
 
 from .bound import (ALTITUDE_TOLERANCE_FT, CONTROL_EARLIEST_S, HEADING_EARLIEST_S, PITCH_TOLERANCE_DEG,
                     SPEED_TOLERANCE_FPS, YAW_TOLERANCE_DEG)
-from .forces import ALTITUDES_FT, FLAPS_DEG, GRAVITY_FT_S2, LEAST_LOAD_FACTOR, linear
+from .forces import ALTITUDES_FT, GRAVITY_FT_S2, LEAST_LOAD_FACTOR, linear
 
 # By `skein fdm fly` at 20,000 ft and 1100 ft/s: full aft stick brings 61 % of its load factor within a second, full
 # roll stick 212 deg/s within 0.4 s, full throttle 98 % of its power within 0.6 s.
@@ -24,17 +24,6 @@ MACHS = [0.4 + 0.1 * k for k in range(15)]
 LONGEST_S = 60
 
 
-def trimmed(model, alpha_deg, row, mach):
-    """Cx and Cz without drag rise, by the elevator that balances the pitching moment."""
-    share = model.flap_deg(alpha_deg, mach) / FLAPS_DEG[1]
-    entries = [[up[k][0] + share * (down[k][0] - up[k][0]) for k in range(3)] for up, down in row]
-    for before, after in zip(entries, entries[1:]):
-        if before[2] >= 0 >= after[2]:
-            part = before[2] / (before[2] - after[2]) if before[2] != after[2] else 0
-            return [before[k] + part * (after[k] - before[k]) for k in (0, 1)]
-    return entries[len(entries) // 2][:2]
-
-
 def table(name, axes, values):
     """A cubic spline through values, the first axis fastest."""
     return ca.interpolant(name, "bspline", axes, values)
@@ -45,7 +34,7 @@ class Plane:
 
     def __init__(self, model):
         alphas = [alpha for alpha in model.alphas_deg if alpha <= HIGHEST_ALPHA_DEG + 2]
-        pairs = [[trimmed(model, alpha, row, mach) for alpha, row in zip(alphas, model.coefficients)] for mach in MACHS]
+        pairs = [[model.trimmed(alpha, row, mach) for alpha, row in zip(alphas, model.coefficients)] for mach in MACHS]
         cx, cz = (table(f"c{k}", [alphas, MACHS], [pair[k] for column in pairs for pair in column]) for k in (0, 1))
         rise = table("rise", [MACHS], [linear(mach, model.rise["mach"], model.rise["CD"]) for mach in MACHS])
         heights = list(ALTITUDES_FT[::5])

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How long a target of Control can be held in steady flight: wings level, the lift that of a straight path, the thrust
+between idle and maximum without lag. The nose may be anywhere within the pitch tolerance, and the airspeed within its
+own; below LOWEST_ALTITUDE_FT a flight is lost.
+
+It is what flight without manoeuvres gives. Weaving within the tolerances costs drag, so that some dives can be held for
+longer, if not calmly."""
+import math
+
+from .bound import PITCH_TOLERANCE_DEG, SPEED_TOLERANCE_FPS
+from .forces import GRAVITY_FT_S2, PointMass, linear
+
+LOWEST_ALTITUDE_FT = 2500  # env.termination.min_altitude_ft
+STEP_S = 0.25
+MACH_STEP = 0.02  # of the trimmed coefficients, which change with the flap alone
+PITCH_OFFSETS_DEG = [sign * PITCH_TOLERANCE_DEG * k / 5 for k in range(6) for sign in (1, -1)]
+# A nose beside the target is worth so much less distance of the airspeed from its target a second later.
+WORTH_FPS = 0.3
+
+
+class SteadyFlight:
+    def __init__(self, model: PointMass):
+        self.model = model
+        self._trimmed = {}
+
+    def _coefficients(self, mach):
+        """(Cx, Cz) of every alpha."""
+        key = round(mach / MACH_STEP)
+        if key not in self._trimmed:
+            self._trimmed[key] = [self.model.trimmed(alpha, row, key * MACH_STEP)
+                                  for alpha, row in zip(self.model.alphas_deg, self.model.coefficients)]
+        return self._trimmed[key]
+
+    def straight(self, speed, altitude_ft, pitch_deg):
+        """Flight path, rad, and the least and the greatest force along it, over the weight; None if no alpha gives the
+        lift."""
+        model = self.model
+        density, sound_speed = model.air(altitude_ft)
+        mach = speed / sound_speed
+        q_s = density * speed**2 / 2 * model.area / model.weight
+        before = None
+        for alpha_deg, (cx, cz) in zip(model.alphas_deg, self._coefficients(mach)):
+            here = (-q_s * cz - math.cos(math.radians(pitch_deg - alpha_deg)), alpha_deg, cx, cz)
+            if before is not None and before[0] < 0 <= here[0]:
+                share = before[0] / (before[0] - here[0])
+                alpha_deg, cx, cz = (a + share * (b - a) for a, b in zip(before[1:], here[1:]))
+                break
+            before = here
+        else:
+            return None
+        alpha = math.radians(alpha_deg)
+        cx -= linear(mach, model.rise["mach"], model.rise["CD"])
+        thrusts = [model.thrust(level, altitude_ft, mach) / model.weight for level in ("idle", "maximum")]
+        return (math.radians(pitch_deg - alpha_deg),
+                *(math.cos(alpha) * (thrust + q_s * cx) + math.sin(alpha) * q_s * cz for thrust in thrusts))
+
+    def next_state(self, speed, altitude_ft, target_pitch_deg, target_speed):
+        """Airspeed and altitude a step later, with the nose where the airspeed stays nearest to its target; None where
+        no such flight is steady."""
+        best = None
+        for offset in PITCH_OFFSETS_DEG:
+            flight = self.straight(speed, altitude_ft, target_pitch_deg + offset)
+            if flight is None:
+                continue
+            path, least, greatest = flight
+            wanted = math.sin(path) + (target_speed - speed) / (2 * GRAVITY_FT_S2)
+            gain = (min(max(wanted, least), greatest) - math.sin(path)) * GRAVITY_FT_S2
+            beside = abs(speed + gain - target_speed)
+            if best is None or beside < best[0] - WORTH_FPS:
+                best = (beside, gain, path)
+        if best is None:
+            return None
+        _, gain, path = best
+        speed += gain * STEP_S
+        return speed, altitude_ft + speed * math.sin(path) * STEP_S
+
+    def seconds_held(self, speed, altitude_ft, target_pitch_deg, target_speed, longest_s):
+        """From an airspeed within the tolerance on."""
+        for k in range(math.ceil(longest_s / STEP_S)):
+            state = self.next_state(speed, altitude_ft, target_pitch_deg, target_speed)
+            if state is None:
+                return k * STEP_S
+            speed, altitude_ft = state
+            if abs(speed - target_speed) > SPEED_TOLERANCE_FPS or altitude_ft < LOWEST_ALTITUDE_FT:
+                return k * STEP_S
+        return longest_s
