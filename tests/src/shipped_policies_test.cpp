@@ -78,8 +78,8 @@ const ShippedPolicy kPolicies[] = {
     {"control",
      "control",
      {"--set", "env.control.dwell_s=3", "--hold", "30"},
-     0.97,
-     HoldLimits{0.84, 8, 0.35, 0.3},
+     0.98,
+     HoldLimits{0.87, 6, 0.35, 0.3},
      SmoothnessLimits{0.3, 3, 0.01}},
     {"tracking", "tracking", {}, 0.98, std::nullopt, SmoothnessLimits{0.4, 2, 0.01}},
     // To be flown to the end of a mission, from point to point.
