@@ -103,7 +103,7 @@ void BindConfiguration(nb::module_& module) {
             return evaluated;
           },
           "The same without what only serves training: staggered clocks, training tolerances, "
-          "stronger noise.")
+          "stronger noise, starts in a bank or a pull.")
       .def("with_settings", &WithSettings, nb::arg("conditions"), nb::arg("assignments"))
       .def("__repr__", [](const ProgramConfig& config) {
         return "<skein.Config of " + config.train.env.task + ": " +

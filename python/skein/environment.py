@@ -349,7 +349,8 @@ def make_vec(
             it, a policy file or run of task control, or "autopilot".
         agent: who is to fly: its own choices, such as the rate at which it acts, then hold, and a high-level policy
             brings its low-level policy.
-        evaluation: leave out what only serves training: staggered clocks, training tolerances, stronger noise.
+        evaluation: leave out what only serves training: staggered clocks, training tolerances, stronger noise,
+            starts in a bank or a pull.
         reward: a function that is given columns by name (skein.FlightColumns) after every policy step, and returns the
             rewards in the place of the task's, (num_envs,).
         terminated: one that returns where episodes end, bool (num_envs,), beside where the task ends them. Their

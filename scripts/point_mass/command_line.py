@@ -5,6 +5,8 @@ import os
 import subprocess
 import sys
 
+from jsbsim_flight.intervals import mean_and_interval
+
 from .forces import ROOT
 
 
@@ -37,3 +39,12 @@ def program_of(options):
     if subprocess.run([os.path.join(ROOT, "scripts/build"), "release", "skein"]).returncode != 0:
         sys.exit(1)
     return os.path.join(ROOT, "build/release/src/skein")
+
+
+def mean_text(values, digits=2):
+    """The mean with its 95 % interval; - of nothing."""
+    if not values:
+        return "-"
+    estimate = mean_and_interval(values)
+    half = estimate["half_width"]
+    return f"{estimate['mean']:.{digits}f}" + ("" if half is None else f" +- {half:.{digits}f}")

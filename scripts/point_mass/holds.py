@@ -46,7 +46,7 @@ class Flight:
         self.load_factors.append(load_factor)
 
     def hold(self):
-        """None if the target was not reached."""
+        """None if the target was not reached, or the flight ended as it was."""
         if self.beginning is None or not self.roll_rates:
             return None
         return Hold(*self.beginning, self.within / self.hold_steps,

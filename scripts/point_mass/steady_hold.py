@@ -13,9 +13,11 @@ from .forces import GRAVITY_FT_S2, PointMass, linear
 LOWEST_ALTITUDE_FT = 2500  # env.termination.min_altitude_ft
 STEP_S = 0.25
 MACH_STEP = 0.02  # of the trimmed coefficients, which change with the flap alone
-PITCH_OFFSETS_DEG = [sign * PITCH_TOLERANCE_DEG * k / 5 for k in range(6) for sign in (1, -1)]
-# A nose beside the target is worth so much less distance of the airspeed from its target a second later.
+# The nearest first; the last within the tolerance, as 5 deg are not.
+PITCH_OFFSETS_DEG = [0] + [sign * 0.99 * PITCH_TOLERANCE_DEG * k / 5 for k in range(1, 6) for sign in (1, -1)]
+# A pitch further from the target's is taken only if it brings the airspeed nearer by more than this within a second.
 WORTH_FPS = 0.3
+RECOVERY_S = 2  # in which the airspeed is to come back to its target's
 
 
 class SteadyFlight:
@@ -63,7 +65,7 @@ class SteadyFlight:
             if flight is None:
                 continue
             path, least, greatest = flight
-            wanted = math.sin(path) + (target_speed - speed) / (2 * GRAVITY_FT_S2)
+            wanted = math.sin(path) + (target_speed - speed) / (RECOVERY_S * GRAVITY_FT_S2)
             gain = (min(max(wanted, least), greatest) - math.sin(path)) * GRAVITY_FT_S2
             beside = abs(speed + gain - target_speed)
             if best is None or beside < best[0] - WORTH_FPS:
@@ -75,7 +77,7 @@ class SteadyFlight:
         return speed, altitude_ft + speed * math.sin(path) * STEP_S
 
     def seconds_held(self, speed, altitude_ft, target_pitch_deg, target_speed, longest_s):
-        """From an airspeed within the tolerance on."""
+        """Seconds, `longest_s` at most, until the airspeed is out of its tolerance, the flight too low, or not steady."""
         for k in range(math.ceil(longest_s / STEP_S)):
             state = self.next_state(speed, altitude_ft, target_pitch_deg, target_speed)
             if state is None:

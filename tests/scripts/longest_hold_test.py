@@ -8,18 +8,21 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts"))
 
+from point_mass.bound import SPEED_TOLERANCE_FPS  # noqa: E402
 from point_mass.episodes import EpisodeError  # noqa: E402
-from point_mass.forces import PointMass  # noqa: E402
-from point_mass.holds import read_holds  # noqa: E402
+from point_mass.forces import GRAVITY_FT_S2, PointMass  # noqa: E402
+from point_mass.holds import fly_holds, read_holds  # noqa: E402
 from point_mass.steady_hold import SteadyFlight  # noqa: E402
 
 PROGRAM = os.environ["SKEIN_PROGRAM"]
 INTERPOLATED_G = 5e-3  # alpha in steps of a degree, densities every 500 ft, the flap's schedule in steps of Mach 0.02
 INTERPOLATED_RAD = 1e-3
+CLIMBED_SHARE = 0.25  # of seconds held: a climb of 1700 ft takes so much of the thrust
 COLUMNS = ("episode,altitude_ft,true_airspeed_fps,p_deg_s,load_factor_g,target_pitch_deg,target_true_airspeed_fps,"
            "error_pitch_deg,error_yaw_deg,error_true_airspeed_fps")
 
@@ -47,15 +50,26 @@ class SteadyFlights(unittest.TestCase):
             self.assertAlmostEqual(path, math.radians(path_deg), delta=INTERPOLATED_RAD)
             self.assertAlmostEqual(greatest - math.sin(path), skein["excess_power_fps"] / speed, delta=INTERPOLATED_G)
 
+    def test_what_idle_gives_needs_no_throttle(self):
+        # A path on which idle holds the airspeed is one that Skein trims without throttle.
+        for altitude, speed in ((15000, 800), (20000, 900)):
+            low, high = -20.0, 0.0
+            while high - low > 1e-3:
+                pitch = (low + high) / 2
+                path, least, _ = self.flight.straight(speed, altitude, pitch)
+                low, high = (low, pitch) if least < math.sin(path) else (pitch, high)
+            self.assertAlmostEqual(trim(altitude, speed, math.degrees(path))["throttle"], 0, delta=0.02)
+
     def test_level_flight_is_held_to_the_end(self):
         self.assertEqual(self.flight.seconds_held(1000, 20000, 1, 1000, 30), 30)
 
     def test_a_climb_ends_where_thrust_is_short(self):
-        # At full throttle a path 20 deg up, the nose at 21.3, takes the airspeed that is lost in a climb's excess.
-        excess = trim(40000, 1100, 20)["excess_power_fps"]
-        seconds = 20 / (-excess / 1100 * 32.17)
+        # At full throttle the airspeed falls by excess power over speed, and then leaves its tolerance. The nose is at
+        # the tolerance's lower end, on a path 20 deg up, and climbs meanwhile.
+        lost_g = -trim(40000, 1100, 20)["excess_power_fps"] / 1100
+        seconds = SPEED_TOLERANCE_FPS / (lost_g * GRAVITY_FT_S2)
         high, low = (self.flight.seconds_held(1100, altitude, 26.3, 1100, 30) for altitude in (40000, 15000))
-        self.assertAlmostEqual(high, seconds, delta=seconds / 4)  # it climbs meanwhile
+        self.assertAlmostEqual(high, seconds, delta=CLIMBED_SHARE * seconds)
         self.assertGreater(low, 2 * high)
 
     def test_a_dive_ends_above_the_ground(self):
@@ -65,9 +79,9 @@ class SteadyFlights(unittest.TestCase):
         self.assertLess(held, 1500 / 200)
 
     def test_the_tolerance_of_pitch_counts(self):
-        # A steep climb is held for longer than one at the same path that has no pitch to spare.
-        self.assertGreater(self.flight.seconds_held(1100, 20000, 25, 1100, 30),
-                           self.flight.seconds_held(1100, 20000, 30, 1100, 30))
+        lowered = self.flight.seconds_held(1100, 20000, 25, 1100, 30)
+        with mock.patch("point_mass.steady_hold.PITCH_OFFSETS_DEG", [0]):
+            self.assertGreater(lowered, self.flight.seconds_held(1100, 20000, 25, 1100, 30) + 1)
 
 
 class Holds(unittest.TestCase):
@@ -78,8 +92,9 @@ class Holds(unittest.TestCase):
                 file.write("\n".join([columns, *rows]) + "\n")
             return read_holds(path, 0.04, 0.08)  # a dwell of two control steps, a hold of four
 
-    def row(self, episode, pitch_error, roll_rate=0.0, load_factor=1.0, altitude=20000):
-        return f"{episode},{altitude},1000,{roll_rate},{load_factor},5,1010,{pitch_error},0,0"
+    def row(self, episode, pitch_error, roll_rate=0.0, load_factor=1.0, altitude=20000, yaw_error=0, speed_error=0):
+        return (f"{episode},{altitude},1000,{roll_rate},{load_factor},5,1010,{pitch_error},{yaw_error},"
+                f"{speed_error}")
 
     def test_a_hold_begins_where_the_dwell_ends(self):
         errors = (9, 1, 6, 1, 1, 1, 9, 1, 1)
@@ -91,6 +106,11 @@ class Holds(unittest.TestCase):
         self.assertEqual(hold.within, 0.75)
         self.assertAlmostEqual(hold.roll_rate_deg_s, 3)
         self.assertAlmostEqual(hold.load_factor_deviation_g, 0.1)
+
+    def test_every_error_counts(self):
+        for beside in ({"yaw_error": -6}, {"speed_error": 21}):
+            (hold,) = self.read([self.row(0, 1)] * 3 + [self.row(0, 1, **beside)] + [self.row(0, 1)] * 2)
+            self.assertEqual(hold.within, 0.75)
 
     def test_what_is_not_flown_is_not_within(self):
         (hold,) = self.read([self.row(0, 1)] * 4)
@@ -104,6 +124,13 @@ class Holds(unittest.TestCase):
     def test_a_file_without_a_column_is_refused(self):
         with self.assertRaisesRegex(EpisodeError, "no column p_deg_s"):
             self.read([], COLUMNS.replace("p_deg_s,", ""))
+
+    def test_they_are_what_the_program_reports(self):
+        with tempfile.TemporaryDirectory() as folder:
+            holds = fly_holds(PROGRAM, "autopilot", 8, 1, 1, 5, folder)
+            self.assertEqual(os.listdir(folder), ["report.json"])
+        self.assertEqual(len(holds), 8)
+        self.assertTrue(any(hold and 0 < hold.within <= 1 for hold in holds))
 
 
 if __name__ == "__main__":
