@@ -37,7 +37,7 @@ TEST(Learning, ControlIsReachedAfterAFifthOfItsBudget) {
   EXPECT_GT(TrainedSuccess("control", "1.4e8"), 0.9);
 }
 
-TEST(Learning, PointsAreHitAfterTrackingsBudget) {
+TEST(Learning, PointsAreHitAfterHalfOfTrackingsBudget) {
   EXPECT_GT(TrainedSuccess("tracking", "4e8"), 0.95);
 }
 
