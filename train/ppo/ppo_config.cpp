@@ -74,10 +74,6 @@ void ListFields(PpoConfig& config, FieldList& list) {
            "share of the budget over which the time limit of targets grows from "
            "env.mission.training_time_limit_s to env.time_limit_steps; 0: it stays")
       .OffUnless(config.time_limit_ramp > 0);
-  list.Add("critic_lead", &config.critic_lead, Bounds::Fraction(),
-           "share of the budget at whose start the critic alone learns, and the actor flies as "
-           "--from brought it; 0: both learn from the start")
-      .OffUnless(config.critic_lead > 0);
   list.Add("held_noise_share", &config.held_noise_share, Bounds::Fraction(),
            "share of the exploration's variance that stays the same for ppo.held_noise_steps: what "
            "acts slowly, as a throttle does, shows little of noise that is drawn every step; 0: "

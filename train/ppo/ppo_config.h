@@ -51,10 +51,6 @@ struct PpoConfig {
   /// Share of the budget over which VecEnv::SetTimeLimitShare goes from 0 to 1: a policy learns to
   /// hit what lies ahead before it learns to turn back to what it has passed. 0: it stays 0.
   double time_limit_ramp = 0;
-  /// Share of the budget at whose start the critic alone learns: advantages by a critic that knows
-  /// nothing yet would spoil an actor that knows how to fly. 0: both learn from the start; 1: the
-  /// actor never does.
-  double critic_lead = 0;
   /// Share of the exploration's variance that is held for some policy steps (HeldNoise).
   double held_noise_share = 0;
   int held_noise_steps = 10;

@@ -17,11 +17,6 @@
 
 namespace skein {
 
-/// Of the two optimisers. At 0 a network stays as it is, and its optimiser's moments do not.
-struct LearningRates {
-  double actor = 0, critic = 0;
-};
-
 /// What an update did: means over all minibatches.
 struct UpdateReport {
   bool stopped = false;  ///< some rank's pool was asked to stop: it is unfinished
@@ -47,7 +42,7 @@ class PpoUpdate {
   /// kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may then have moved. So they
   /// may if a pool is stopping: the update then ends within a tile of its rank, unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
-                   const LearningRates& rates, double handling_weight = 1);
+                   double learning_rate, double handling_weight = 1);
 
   /// Whether Run has thrown because training exploded.
   bool exploded() const { return exploded_; }
@@ -103,11 +98,11 @@ class PpoUpdate {
   /// do then.
   bool IsOneByOne(const Rollout& rollout);
   /// One step of both optimisers; adds their losses and norms. False if a pool is stopping.
-  bool StepTogether(const Source& source, const Minibatch& minibatch, const LearningRates& rates,
+  bool StepTogether(const Source& source, const Minibatch& minibatch, double learning_rate,
                     UpdateReport& report);
   /// Computes a minibatch's gradients while the step that was begun before them is taken, and
   /// begins the next. False if a pool is stopping.
-  bool StepOneByOne(const Source& source, const Minibatch& minibatch, const LearningRates& rates,
+  bool StepOneByOne(const Source& source, const Minibatch& minibatch, double learning_rate,
                     Stepping& stepping, UpdateReport& report);
   /// Waits for a step that was begun, if there is one, and adds its losses and norm. False if a
   /// pool is stopping.
@@ -123,7 +118,7 @@ class PpoUpdate {
   /// Adds what the other ranks have of a gradient and beside it.
   void AddOtherRanks(Side& side);
   /// Clips and takes a network's step, unless a pool is stopping.
-  void Step(Side& side, const LearningRates& rates);
+  void Step(Side& side, double learning_rate);
   void RequireSane(const Side& side);
   /// The first shard whose losses are not finite, for people; empty if there is none.
   std::string FirstBrokenShard(const Side& side);

@@ -128,8 +128,6 @@ struct Trainer::Impl {
   }
   /// What handling costs, as a share of its full weight.
   double HandlingWeight() const { return Grown(config.ppo.handling_ramp); }
-  /// Whether the critic alone learns.
-  bool CriticLeads() const { return Grown(config.ppo.critic_lead) < 1; }
   /// How far the time limit of targets has grown; without a ramp it never does.
   double TimeLimitShare() const {
     return config.ppo.time_limit_ramp > 0 ? Grown(config.ppo.time_limit_ramp) : 0;
@@ -292,9 +290,8 @@ struct Trainer::Impl {
       UpdatePopArt({value_means[kTarget], value_means[kTargetSquared]}, config.ppo.popart_rate,
                    networks.critic.layout(), networks.critic.optimiser.parameters(), popart);
     }
-    const LearningRates rates{CriticLeads() ? 0 : report.learning_rate, report.learning_rate};
     const UpdateReport done =
-        update.Run(rollout, popart.scale(), iteration, rates, HandlingWeight());
+        update.Run(rollout, popart.scale(), iteration, report.learning_rate, HandlingWeight());
     stopped = done.stopped;
     report.gradient_seconds = done.gradient_seconds;
     report.wait_seconds = done.wait_seconds;
