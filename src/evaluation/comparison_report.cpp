@@ -39,8 +39,9 @@ class AgentColumns {
   }
 
   void Flights(std::string* text) const {
-    Row(
-        "", [](const ComparedAgent& agent) { return agent.name; }, text);
+    std::vector<std::string> names;
+    for (std::size_t i = begin_; i < end_; ++i) names.push_back(comparison_.agents[i].name);
+    TextTable(kLabelWidth, kCellWidth, text).Headings(names);
     QuantitySection section = QuantitySection::kOutcome;
     for (std::size_t k = 0; k < comparison_.quantities.size(); ++k) {
       const Quantity& quantity = comparison_.quantities[k];

@@ -16,6 +16,20 @@ std::string EndOf(const std::string& text, std::size_t width) {
   return text.size() <= room ? text : ".." + text.substr(text.size() - room + 2);
 }
 
+/// `name` in lines of at most `width` columns, the gap among them.
+std::vector<std::string> LinesOf(std::string name, std::size_t width) {
+  const std::size_t room = width - kGap;
+  std::vector<std::string> lines;
+  while (name.size() > room) {
+    const std::size_t slash = name.rfind('/', room - 1);
+    const std::size_t length = slash == std::string::npos ? room : slash + 1;
+    lines.push_back(name.substr(0, length));
+    name.erase(0, length);
+  }
+  lines.push_back(name);
+  return lines;
+}
+
 }  // namespace
 
 std::string Counted(int count, const std::string& noun) {
@@ -65,6 +79,23 @@ std::string InColumns(const std::vector<std::vector<std::string>>& rows) {
     text += "\n";
   }
   return text;
+}
+
+void TextTable::Headings(const std::vector<std::string>& names) {
+  std::vector<std::vector<std::string>> columns;
+  std::size_t most = 0;
+  for (const std::string& name : names) {
+    columns.push_back(LinesOf(name, cell_width_));
+    most = std::max(most, columns.back().size());
+  }
+  for (std::size_t line = 0; line < most; ++line) {
+    Begin("");
+    for (const std::vector<std::string>& column : columns) {
+      const std::size_t blank = most - column.size();
+      Cell(line < blank ? "" : column[line - blank]);
+    }
+    End();
+  }
 }
 
 void TextTable::Begin(const std::string& label) {

@@ -28,6 +28,9 @@ class TextTable {
   TextTable(std::size_t label_width, std::size_t cell_width, std::string* text)
       : label_width_(label_width), cell_width_(cell_width), text_(text) {}
 
+  /// A row of names, none shortened: in as many lines as the longest needs, broken behind its "/"
+  /// where that fits.
+  void Headings(const std::vector<std::string>& names);
   void Begin(const std::string& label);
   void Cell(const std::string& cell);
   void End();

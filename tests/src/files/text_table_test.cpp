@@ -59,5 +59,16 @@ TEST(TextTableTest, ColumnsAreAsWideAsTheirWidestCell) {
             "a    bb  c\naaa  b\na sentence of its own\n");
 }
 
+TEST(TextTableTest, HeadingsShowNamesWhole) {
+  std::string text;
+  TextTable table(4, 20, &text);
+  table.Headings({"autopilot", "policy:runs/seed-1/checkpoints/policy-best.skein",
+                  "policy:a-name-without-any-place-to-break"});
+  EXPECT_EQ(LinesOf(text), (std::vector<std::string>{
+                               "                     policy:runs/seed-1/",
+                               "                             checkpoints/  policy:a-name-with",
+                               "               autopilot   policy-best.skein"}));
+}
+
 }  // namespace
 }  // namespace skein
