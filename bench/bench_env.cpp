@@ -151,7 +151,7 @@ void BM_Reset(benchmark::State& state) {
     meter.Time([&] {
       for (std::uint32_t i = 0; i < kTileSize; ++i) {
         simd::RandomStream initial({1, i, episode, 0, simd::RandomPurpose::kInitialState});
-        const FreshFlight flight = reset.Draw(&initial);
+        FreshFlight flight = reset.Draw(&initial);
         simd::RandomStream target({1, i, episode, 0, simd::RandomPurpose::kTarget});
         task->Reset(flight.start, &target, targets, 0);
         benchmark::DoNotOptimize(flight.columns);

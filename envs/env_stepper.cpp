@@ -357,7 +357,7 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
   if (costs_.of_control_steps()) {
     task_->Errors(block.flight, block.task, scratch.errors, kAircraftPerBlock);
     SubtractHandlingCosts(costs_, block.flight, scratch.errors, kAircraftPerBlock,
-                          block.progress.reached_step, scratch.step_reward);
+                          scratch.step_reward);
   }
   if (costs_.of_tolerances()) {
     RewardTolerances(costs_, block.count, scratch.reached, block.progress.reached_step,

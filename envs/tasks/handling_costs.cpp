@@ -37,18 +37,8 @@ HWY_INLINE V NearCost(const HandlingCosts& costs, const Tile& flight, int first)
   return cost;
 }
 
-/// What `near` is at least: near_after_reached where the target has been reached.
-HWY_INLINE V LeastNear(const HandlingCosts& costs, const std::int32_t* reached_step, int first) {
-  const FloatTag d;
-  if (reached_step == nullptr) return hn::Zero(d);
-  const hn::RebindToSigned<FloatTag> di;
-  const auto is_reached = hn::Gt(hn::LoadU(di, reached_step + first), hn::Zero(di));
-  return hn::IfThenElseZero(hn::RebindMask(d, is_reached), Constant(costs.near_after_reached));
-}
-
 void SubtractHandlingCostsKernel(const HandlingCosts& costs, Tile flight, const float* errors,
-                                 std::size_t error_stride, const std::int32_t* reached_step,
-                                 float* reward) {
+                                 std::size_t error_stride, float* reward) {
   const FloatTag d;
   for (int first = 0; first < flight.count; first += kLanes) {
     V square = hn::Zero(d);
@@ -56,9 +46,8 @@ void SubtractHandlingCostsKernel(const HandlingCosts& costs, Tile flight, const 
       const V error = hn::LoadU(d, errors + k * error_stride + first);
       square = hn::MulAdd(error, error, square);
     }
-    const V near = hn::Max(
-        LeastNear(costs, reached_step, first),
-        hn::Div(Constant(1), hn::MulAdd(Constant(costs.near_sharpness), square, Constant(1))));
+    const V near =
+        hn::Div(Constant(1), hn::MulAdd(Constant(costs.near_sharpness), square, Constant(1)));
     const VelocityVectors velocity = Velocity(flight, first);
     const V sin_beta = hn::Mul(velocity.air.v, velocity.per_speed);
     const V anywhere =
@@ -116,10 +105,6 @@ void ListFields(HandlingCosts& config, FieldList& list) {
   list.Add("near_sharpness", &config.near_sharpness, Bounds::NotNegative(),
            "the near terms are multiplied by 1 / (1 + this |normalised error|^2)")
       .OffUnless(config.of_control_steps());
-  list.Add("near_after_reached", &config.near_after_reached, Bounds::Fraction(),
-           "the least that they are multiplied by once the target has been reached: what cannot "
-           "be held is flown calmly, too")
-      .OffUnless(config.near_after_reached > 0);
   add("within_tolerances", &config.within_tolerances,
       "reward gained per control step within the episode's tolerances");
   add("outside_tolerances", &config.outside_tolerances,
@@ -131,10 +116,8 @@ void ListFields(HandlingCosts& config, FieldList& list) {
 }
 
 void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float* errors,
-                           std::size_t error_stride, const std::int32_t* reached_step,
-                           float* reward) {
-  SKEIN_DISPATCH(SubtractHandlingCostsKernel)
-  (costs, flight, errors, error_stride, reached_step, reward);
+                           std::size_t error_stride, float* reward) {
+  SKEIN_DISPATCH(SubtractHandlingCostsKernel)(costs, flight, errors, error_stride, reward);
 }
 
 void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,

@@ -23,9 +23,6 @@ struct HandlingCosts {
   double roll_rate = 0;  ///< per rad/s, near or not
   double sideslip = 0;   ///< per unit of sin(beta), near or not
   double near_sharpness = 20;
-  /// At least what the near terms are multiplied by once the target has been reached, wherever it
-  /// cannot be held: what flies on there flies calmly.
-  double near_after_reached = 0;
   /// Of a control step within the episode's tolerances: gained, not lost.
   double within_tolerances = 0;
   /// Of a control step outside them: a price on time. What is gained within them is none, as a
@@ -54,11 +51,9 @@ struct HandlingCosts {
 void ListFields(HandlingCosts& config, FieldList& list);
 
 /// Subtracts the costs of a control step from `reward`, one element per aircraft. `errors` are the
-/// task's normalised ones, kNumTaskErrors columns `error_stride` apart; `reached_step` is
-/// EpisodeProgress's, or null.
+/// task's normalised ones, kNumTaskErrors columns `error_stride` apart.
 void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float* errors,
-                           std::size_t error_stride, const std::int32_t* reached_step,
-                           float* reward);
+                           std::size_t error_stride, float* reward);
 
 /// Adds what `count` aircraft gain where they are `within` their tolerances, and subtracts what
 /// they lose elsewhere, and until their targets count: `reached_step` is EpisodeProgress's before

@@ -28,8 +28,12 @@ void SayTimes(const std::string& run) {
 }  // namespace
 
 void WriteReportAtEnd(const std::string& path, const std::function<std::string()>& data) {
+  if (!FindReportTemplate()) {
+    // In a line of a terminal: what a training prints at its end is to fit a screen.
+    fmt::print("report          none: built without it (scripts/setup --viewer, scripts/build)\n");
+    return;
+  }
   try {
-    ReportTemplate();
     CheckWritable(path);
     WriteReport(path, data());
     fmt::print("report          {}\n", path);

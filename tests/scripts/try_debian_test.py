@@ -17,7 +17,7 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/try_debian"
 PROGRAMS = ["bash", "env", "sleep"]
 WAIT_S = 300
 DEBOOTSTRAP = """#!/usr/bin/env bash
-mkdir -p "$3"/{proc,dev,etc}
+mkdir -p "$3"/{proc,dev,sys,etc}
 cp -r "$SKEIN_TEST_ROOT/." "$3"
 """
 NOTHING = "#!/usr/bin/env bash\n"

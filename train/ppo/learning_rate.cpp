@@ -22,6 +22,12 @@ double AdaptedLearningRate(const PpoConfig& config, double learning_rate, double
   return std::clamp(adapted, kLeastLearningRateShare * config.learning_rate, config.learning_rate);
 }
 
+LearningRates LearningRatesBeside(double actor, const PpoConfig& config, double done) {
+  if (config.critic_learning_rate == 0) return {actor, actor};
+  const double share = LargestLearningRate(config, done) / config.learning_rate;
+  return {actor, config.critic_learning_rate * share};
+}
+
 void MoveAverage(const float* parameters, std::uint64_t iteration, int iterations,
                  std::vector<float>* mean) {
   const auto known = std::min(iteration, static_cast<std::uint64_t>(iterations));

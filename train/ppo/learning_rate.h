@@ -22,6 +22,15 @@ double LargestLearningRate(const PpoConfig& config, double done);
 /// below half of the target, within kLeastLearningRateShare to 1 times ppo.learning_rate.
 double AdaptedLearningRate(const PpoConfig& config, double learning_rate, double approximate_kl);
 
+/// What the optimisers step by in an update.
+struct LearningRates {
+  double actor = 0, critic = 0;
+};
+
+/// Both, when `done` of the budget is used up and the actor's is `actor`: of the critic
+/// ppo.critic_learning_rate, which falls as LargestLearningRate does, or without one the actor's.
+LearningRates LearningRatesBeside(double actor, const PpoConfig& config, double done);
+
 /// Moves the mean of parameters to what it is after iteration `iteration`, from 1 on, which left
 /// `parameters`: their plain mean until there are `iterations` of them, then by 1 / `iterations` of
 /// the difference. (Polyak and Juditsky 1992, "Acceleration of stochastic approximation by

@@ -32,6 +32,11 @@ void ListAdamFields(PpoConfig& config, FieldList& list) {
            "an iteration's KL divergence above twice this lowers the next one's learning rate, "
            "below half of it raises it again, up to what the decay allows; 0: as the decay has it")
       .OffUnless(config.target_kl > 0);
+  list.Add("critic_learning_rate", &config.critic_learning_rate, Bounds::Fraction(),
+           "Adam's learning rate of the critic at the start, which falls as the other does, "
+           "whatever the KL divergence; 0: the actor's. A critic that begins beside a trained "
+           "policy (skein train --from) has all to learn")
+      .OffUnless(config.critic_learning_rate > 0);
   list.Add("adam_epsilon", &config.adam_epsilon, Bounds::PositiveFraction(), "Adam's epsilon");
   list.Add("log_std_rate_factor", &config.log_std_rate_factor, Bounds::Positive(),
            "the actions' standard deviations learn at so many times the learning rate")

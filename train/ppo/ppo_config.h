@@ -30,6 +30,7 @@ struct PpoConfig {
   double adam_epsilon = 1e-5;
   /// The standard deviations learn at so many times the learning rate. At the rate of the weights
   /// they are hardly narrower when it has fallen.
+  double critic_learning_rate = 0;  ///< at the start; 0: the actor's
   double log_std_rate_factor = 1;
   /// The policy that is evaluated and kept is the mean of the actor after about so many of the last
   /// iterations (MoveAverage); 0: the actor itself.

@@ -209,12 +209,13 @@ void PpoUpdate::AddOtherRanks(Side& side) {
   SumManyOverRanks(ranks_, side.accumulators[0].size(), side.accumulators[0].data(), side.beside);
 }
 
-void PpoUpdate::Step(Side& side, double learning_rate) {
+void PpoUpdate::Step(Side& side, const LearningRates& learning_rates) {
   if (side.beside.stopping > 0) return;
   const DenormalsFlushed flushed;
   AdamOptimiser& optimiser = side.trained.optimiser;
   side.trained.network->FinishGradient(side.accumulators[0].data(), optimiser.gradient());
   if (side.trained.idle_pedals) side.trained.idle_pedals->DropGradient(optimiser.gradient());
+  const double learning_rate = is_actor(side) ? learning_rates.actor : learning_rates.critic;
   side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, optimiser);
   side.trained.TakeParameters();
 }
@@ -246,24 +247,25 @@ bool PpoUpdate::AddTo(UpdateReport& report, const Side& side) {
   return true;
 }
 
-bool PpoUpdate::StepTogether(const Source& source, const Minibatch& minibatch, double learning_rate,
-                             UpdateReport& report) {
+bool PpoUpdate::StepTogether(const Source& source, const Minibatch& minibatch,
+                             const LearningRates& learning_rates, UpdateReport& report) {
   auto& [actor, critic] = sides_;
   ComputeGradients(source, minibatch, {&actor, &critic});
   for (Side& side : sides_) AddOtherRanks(side);
-  pool_.ForEach(2, [&](int i, int) { Step(sides_[i], learning_rate); });
+  pool_.ForEach(2, [&](int i, int) { Step(sides_[i], learning_rates); });
   return AddTo(report, critic) && AddTo(report, actor);
 }
 
-bool PpoUpdate::StepOneByOne(const Source& source, const Minibatch& minibatch, double learning_rate,
-                             Stepping& stepping, UpdateReport& report) {
+bool PpoUpdate::StepOneByOne(const Source& source, const Minibatch& minibatch,
+                             const LearningRates& learning_rates, Stepping& stepping,
+                             UpdateReport& report) {
   auto& [actor, critic] = sides_;
   for (Side* const side : {&critic, &actor}) {
     ComputeGradients(source, minibatch, {side});
     if (!Await(stepping, report)) return false;
-    stepping = {side, std::async(std::launch::async, [this, side, learning_rate] {
+    stepping = {side, std::async(std::launch::async, [this, side, &learning_rates] {
                   AddOtherRanks(*side);
-                  Step(*side, learning_rate);
+                  Step(*side, learning_rates);
                 })};
   }
   return true;
@@ -286,7 +288,8 @@ bool PpoUpdate::IsOneByOne(const Rollout& rollout) {
 }
 
 UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
-                            std::uint64_t iteration, double learning_rate, double handling_weight) {
+                            std::uint64_t iteration, const LearningRates& learning_rates,
+                            double handling_weight) {
   handling_weight_ = handling_weight;
   shards_ = rollout.shards;
   exploded_ = false;
@@ -300,8 +303,8 @@ UpdateReport PpoUpdate::Run(const Rollout& rollout, const ValueScale& scale,
     const Minibatches minibatches(rollout, config_.minibatches, seed_, iteration, epoch);
     for (int minibatch = 0; minibatch < config_.minibatches; ++minibatch) {
       const Minibatch cut = Cut(minibatches.At(minibatch), rollout);
-      report.stopped = one_by_one ? !StepOneByOne(source, cut, learning_rate, stepping, report)
-                                  : !StepTogether(source, cut, learning_rate, report);
+      report.stopped = one_by_one ? !StepOneByOne(source, cut, learning_rates, stepping, report)
+                                  : !StepTogether(source, cut, learning_rates, report);
       if (report.stopped) return report;
     }
   }

@@ -10,6 +10,7 @@
 
 #include "base/worker_pool.h"
 #include "train/ppo/actor_critic.h"
+#include "train/ppo/learning_rate.h"
 #include "train/ppo/minibatches.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/train_config.h"
@@ -42,7 +43,7 @@ class PpoUpdate {
   /// kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may then have moved. So they
   /// may if a pool is stopping: the update then ends within a tile of its rank, unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
-                   double learning_rate, double handling_weight = 1);
+                   const LearningRates& learning_rates, double handling_weight = 1);
 
   /// Whether Run has thrown because training exploded.
   bool exploded() const { return exploded_; }
@@ -98,12 +99,12 @@ class PpoUpdate {
   /// do then.
   bool IsOneByOne(const Rollout& rollout);
   /// One step of both optimisers; adds their losses and norms. False if a pool is stopping.
-  bool StepTogether(const Source& source, const Minibatch& minibatch, double learning_rate,
-                    UpdateReport& report);
+  bool StepTogether(const Source& source, const Minibatch& minibatch,
+                    const LearningRates& learning_rates, UpdateReport& report);
   /// Computes a minibatch's gradients while the step that was begun before them is taken, and
   /// begins the next. False if a pool is stopping.
-  bool StepOneByOne(const Source& source, const Minibatch& minibatch, double learning_rate,
-                    Stepping& stepping, UpdateReport& report);
+  bool StepOneByOne(const Source& source, const Minibatch& minibatch,
+                    const LearningRates& learning_rates, Stepping& stepping, UpdateReport& report);
   /// Waits for a step that was begun, if there is one, and adds its losses and norm. False if a
   /// pool is stopping.
   bool Await(Stepping& stepping, UpdateReport& report);
@@ -118,7 +119,7 @@ class PpoUpdate {
   /// Adds what the other ranks have of a gradient and beside it.
   void AddOtherRanks(Side& side);
   /// Clips and takes a network's step, unless a pool is stopping.
-  void Step(Side& side, double learning_rate);
+  void Step(Side& side, const LearningRates& learning_rates);
   void RequireSane(const Side& side);
   /// The first shard whose losses are not finite, for people; empty if there is none.
   std::string FirstBrokenShard(const Side& side);

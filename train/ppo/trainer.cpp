@@ -112,13 +112,15 @@ struct Trainer::Impl {
     return policy_steps * config.ppo.num_aircraft * config.env.action_repeat;
   }
 
-  double LearningRate() const {
+  LearningRates CurrentLearningRates() const {
     const double done = config.total_steps == 0
                             ? 0
                             : std::min(1.0, static_cast<double>(env_steps()) /
                                                 static_cast<double>(config.total_steps));
     const double largest = LargestLearningRate(config.ppo, done);
-    return config.ppo.target_kl > 0 ? std::min(adapted_learning_rate, largest) : largest;
+    const double actor =
+        config.ppo.target_kl > 0 ? std::min(adapted_learning_rate, largest) : largest;
+    return LearningRatesBeside(actor, config.ppo, done);
   }
 
   /// What has grown from 0 to 1 over `ramp` of the budget; 1 without a ramp.
@@ -285,13 +287,14 @@ struct Trainer::Impl {
   void Learn(IterationReport& report) {
     RequireFiniteTargets();
     const auto start = std::chrono::steady_clock::now();
-    report.learning_rate = LearningRate();
+    const LearningRates learning_rates = CurrentLearningRates();
+    report.learning_rate = learning_rates.actor;
     if (config.ppo.popart) {
       UpdatePopArt({value_means[kTarget], value_means[kTargetSquared]}, config.ppo.popart_rate,
                    networks.critic.layout(), networks.critic.optimiser.parameters(), popart);
     }
     const UpdateReport done =
-        update.Run(rollout, popart.scale(), iteration, report.learning_rate, HandlingWeight());
+        update.Run(rollout, popart.scale(), iteration, learning_rates, HandlingWeight());
     stopped = done.stopped;
     report.gradient_seconds = done.gradient_seconds;
     report.wait_seconds = done.wait_seconds;

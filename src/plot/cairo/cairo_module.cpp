@@ -90,6 +90,8 @@ class CairoModule : public PdfModule {
   bool Write(const Picture& picture, std::string* file) const override {
     cairo_surface_t* const surface =
         cairo_pdf_surface_create_for_stream(Append, file, picture.width, picture.height);
+    // Later versions of the format keep objects in compressed streams, which not all programs read.
+    cairo_pdf_surface_restrict_to_version(surface, CAIRO_PDF_VERSION_1_4);
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, picture.title.c_str());
     // Without the time of day the same picture is the same file.
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");

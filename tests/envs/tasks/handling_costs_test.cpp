@@ -37,8 +37,7 @@ class HandlingCostsTest : public testing::TestWithParam<simd::Target> {
   /// What a control step of the last aircraft costs.
   double Cost() {
     std::vector<float> reward(flight_.stride(), 0.5f);
-    SubtractHandlingCosts(costs_, flight_.tile(), errors_.data(), flight_.stride(),
-                          reached_step_.empty() ? nullptr : reached_step_.data(), reward.data());
+    SubtractHandlingCosts(costs_, flight_.tile(), errors_.data(), flight_.stride(), reward.data());
     return 0.5 - reward[kCount - 1];
   }
 
@@ -47,7 +46,6 @@ class HandlingCostsTest : public testing::TestWithParam<simd::Target> {
   HandlingCosts costs_;
   TestTile flight_{kCount};
   std::vector<float> errors_ = std::vector<float>(kNumTaskErrors * flight_.stride());
-  std::vector<std::int32_t> reached_step_;
 };
 
 TEST_P(HandlingCostsTest, EveryRateCostsItsWeightWhateverItsSign) {
@@ -72,21 +70,6 @@ TEST_P(HandlingCostsTest, NearTermsFadeWithTheErrorAndOthersDoNot) {
   EXPECT_NEAR(Cost(), 0.1 / (1 + 20 * 3 * 0.01) + 0.01, kRounding);
   SetError(1000);
   EXPECT_NEAR(Cost(), 0.01, kRounding);
-}
-
-TEST_P(HandlingCostsTest, WhatHasBeenReachedKeepsAShareOfItsNearTermsHoweverFarItIsLost) {
-  costs_.near_roll_rate = 0.1;
-  costs_.near_sharpness = 20;
-  costs_.near_after_reached = 0.3;
-  flight_.Fill(kP, 1);
-  SetError(1000);
-  EXPECT_NEAR(Cost(), 0, kRounding) << "nothing is remembered";
-  reached_step_.assign(flight_.stride(), 0);
-  EXPECT_NEAR(Cost(), 0, kRounding) << "not reached yet";
-  reached_step_[kCount - 1] = 70;
-  EXPECT_NEAR(Cost(), 0.03, kRounding);
-  SetError(0.1);
-  EXPECT_NEAR(Cost(), 0.1 / (1 + 20 * 3 * 0.01), kRounding) << "nearer than that";
 }
 
 TEST_P(HandlingCostsTest, UnacceleratedFlightCostsNothingInAnyAttitude) {

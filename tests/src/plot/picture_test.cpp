@@ -102,7 +102,7 @@ bool HasCairo() {
 TEST(Pdf, HasOnePageOfThePicturesSizeAndNoDate) {
   if (!HasCairo()) GTEST_SKIP() << "built without cairo";
   const std::string pdf = Written("a.pdf");
-  EXPECT_EQ(pdf.rfind("%PDF-1.", 0), 0u);
+  EXPECT_EQ(pdf.rfind("%PDF-1.4", 0), 0u);
   EXPECT_THAT(pdf, HasSubstr("/Count 1"));
   EXPECT_THAT(pdf, HasSubstr("/MediaBox [ 0 0 200 100 ]"));
   EXPECT_THAT(pdf, Not(HasSubstr("CreationDate")));

@@ -58,6 +58,17 @@ TEST(LargestLearningRateTest, FallsBySharesThatAreAlwaysTheSame) {
   EXPECT_NEAR(LargestLearningRate(config, 1), 4e-5, kRounding);
 }
 
+TEST(LearningRatesTest, TheCriticsIsTheActorsUnlessItHasItsOwnWhichFallsByTheSameShare) {
+  PpoConfig config;
+  config.learning_rate = 1e-4;
+  config.final_learning_rate_fraction = 0.5;
+  EXPECT_EQ(LearningRatesBeside(3e-6, config, 1).critic, 3e-6);
+  config.critic_learning_rate = 1e-3;
+  EXPECT_EQ(LearningRatesBeside(3e-6, config, 1).actor, 3e-6);
+  EXPECT_NEAR(LearningRatesBeside(3e-6, config, 0).critic, 1e-3, kRounding);
+  EXPECT_NEAR(LearningRatesBeside(3e-6, config, 1).critic, 5e-4, kRounding);
+}
+
 TEST(MoveAverageTest, IsThePlainMeanUntilThereAreEnough) {
   std::vector<float> mean{7, 7};
   const float parameters[][2] = {{1, 2}, {3, 4}, {8, 0}};

@@ -197,7 +197,7 @@ TEST_P(ALossThatIsNotFinite, StopsAllRanksAndNamesTheShard) {
     std::fill(rollout.not_done.begin(), rollout.not_done.end(), 1.0f);
     if (ranks.rank() == 2) (rollout.*column)[13] = std::numeric_limits<float>::quiet_NaN();
     PpoUpdate update(config, networks, pool, ranks);
-    const std::string message = MessageOf([&] { update.Run(rollout, {}, 0, 1e-3); });
+    const std::string message = MessageOf([&] { update.Run(rollout, {}, 0, {1e-3, 1e-3}); });
     EXPECT_THAT(message, HasSubstr(std::string(network) + "'s training exploded"));
     EXPECT_THAT(message, HasSubstr("shard 5 on rank 2"));
     EXPECT_TRUE(update.exploded());

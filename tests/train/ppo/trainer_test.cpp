@@ -426,6 +426,15 @@ TEST_F(TrainerTest, AnAdaptedLearningRateResumesBitExactly) {
   EXPECT_NE(RefusalOf(SmallConfig(), path_).find("ppo.target_kl"), std::string::npos);
 }
 
+TEST_F(TrainerTest, TheCriticsOwnLearningRateLeavesTheActorsFirstUpdateAlone) {
+  WorkerPool pool(1);
+  TrainConfig quick = SmallConfig();
+  quick.ppo.critic_learning_rate = 10 * quick.ppo.learning_rate;
+  Trainer plain(SmallConfig(), pool), other(quick, pool);
+  EXPECT_LT(other.Iterate().value_loss, plain.Iterate().value_loss);
+  EXPECT_EQ(other.policy().parameters()->values, plain.policy().parameters()->values);
+}
+
 TEST_F(TrainerTest, KeepsTheMeanOfItsActorsAndTrainsAsWithoutIt) {
   WorkerPool pool(1);
   TrainConfig config = SmallConfig();
