@@ -21,6 +21,7 @@
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
 #include "src/files/output_file.h"
+#include "src/files/text_table.h"
 
 namespace skein {
 namespace {
@@ -69,6 +70,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   if (const toml::table* training = reader.Table("training")) {
     TableReader part(*training, source);
     study.training.steps = part.WholeNumber("steps", 1, kMaxSeed);
+    study.training.from = part.Texts("from");
     study.training.settings = ReadSettings(part);
     study.training.per_level = part.Flag("per_level", true);
     part.RefuseOthers();
@@ -118,8 +120,13 @@ void Choose(const StudyChoice& choice, const std::string& source, Study* study) 
   if (!choice.aircraft.empty()) study->aircraft = choice.aircraft;
 }
 
-/// Throws Error on an assignment that the study would not follow.
+/// Throws Error on what the study would not follow.
 void RefuseWithoutEffect(const Study& study, const std::string& source) {
+  const std::size_t origins = study.training.from.size();
+  if (origins != 0 && origins != study.tasks.size()) {
+    throw Error(fmt::format("{}: from names {} for {}: one for each task, or none", source, origins,
+                            Counted(static_cast<int>(study.tasks.size()), "task")));
+  }
   std::vector<std::string> assignments = study.assignments;
   const auto append = [&assignments](const StudySettings& settings) {
     assignments.insert(assignments.end(), settings.assignments.begin(), settings.assignments.end());

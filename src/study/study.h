@@ -34,8 +34,10 @@ struct Study {
   std::vector<std::string> assignments;  ///< for trainings and evaluations
   struct Training {
     std::optional<double> steps;  ///< control steps; else the preset's
-    StudySettings settings;       ///< for trainings alone
-    bool per_level = true;        ///< a training for every level, under it; else one for all
+    /// What they start from, a run or a policy for each of the tasks; empty: fresh networks.
+    std::vector<std::string> from;
+    StudySettings settings;  ///< for trainings alone
+    bool per_level = true;   ///< a training for every level, under it; else one for all
   } training;
   struct Evaluation {
     int episodes = 1000;

@@ -21,6 +21,7 @@
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
 #include "train/policy/policy_environment.h"
+#include "train/policy/recurrent_policy.h"
 #include "train/ranks/collectives.h"
 
 namespace skein {
@@ -43,6 +44,9 @@ void Check(const Study& study) {
     for (const StudyLevel& level : study.levels) {
       try {
         const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
+        if (const std::string from = NetworksToStartFrom(study, task); !from.empty()) {
+          RecurrentPolicy::Load(from).CheckMadeFor(trained.train.env, "from, " + from);
+        }
         has_high_level = has_high_level || NeedsLowLevel(trained.train.env);
         const ProgramConfig config = LevelConfig(study, task, level);
         AsUsage([&] { CheckFlies(trained.train.env, config.train.env, "what is trained"); });
@@ -70,6 +74,9 @@ std::string HashOf(const Study& study) {
       for (const std::uint64_t seed : study.seeds) {
         text += DumpToml(TrainingConfig(study, task, level, seed));
       }
+    }
+    if (const std::string from = NetworksToStartFrom(study, task); !from.empty()) {
+      text += HexHash(ReadFile(from, kLargestRecord));
     }
   }
   return HexHash(text);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "envs/task_registry.h"
 #include "src/agents/low_level_option.h"
+#include "src/agents/policy_file.h"
 #include "src/config/configuration.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
@@ -68,6 +69,12 @@ ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const S
   }
   config.train.low_level = ChooseLowLevelPolicy(config.train.env, study.low_level).policy;
   return config;
+}
+
+std::string NetworksToStartFrom(const Study& study, const std::string& task) {
+  if (study.training.from.empty()) return "";
+  const auto at = std::find(study.tasks.begin(), study.tasks.end(), task) - study.tasks.begin();
+  return NetworksFileOf(study.training.from[static_cast<std::size_t>(at)]);
 }
 
 std::string RunPath(const Study& study, const std::string& directory, const std::string& task,
@@ -148,6 +155,7 @@ void StudyTrainings::TrainOne(const Training& training, const GoesOn& goes_on) {
   if (!IsRunDirectory(training.path)) {
     RemoveStub(training.path);
     RunOrigin origin;
+    origin.from = NetworksToStartFrom(study_, training.task);
     origin.goes_on = goes_on;
     TrainingRun::Begin(config, training.path, pool_, origin);
     return;

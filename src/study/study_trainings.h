@@ -17,6 +17,10 @@ namespace skein {
 ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const StudyLevel& level,
                             std::uint64_t seed);
 
+/// The file whose networks the trainings of `task` start from; empty: fresh ones. Throws Error if
+/// there is no such file.
+std::string NetworksToStartFrom(const Study& study, const std::string& task);
+
 /// The directory of a training of the study in `directory`: the same for all levels if one serves
 /// them all.
 std::string RunPath(const Study& study, const std::string& directory, const std::string& task,

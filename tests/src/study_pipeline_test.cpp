@@ -282,6 +282,22 @@ TEST_F(StudyPipeline, OneTrainingCanServeAllLevels) {
   EXPECT_EQ(nlohmann::json::parse(ReadFile(out + "/results.json")).size(), 2u);
 }
 
+TEST_F(StudyPipeline, TrainingsStartFromWhatTheirTaskHas) {
+  const std::string fresh = scratch_ / "fresh", on = scratch_ / "on";
+  ASSERT_EQ(CallSkein(CommandForLevel(fresh, "quiet")).exit_code, 0);
+  std::string text = kStudy;
+  const std::string steps = "steps = 20480";
+  text.replace(text.find(steps), steps.size(),
+               steps + "\nfrom = [\"" + fresh + "/runs/heading-quiet-seed3\"]");
+  WriteFile(file_, text);
+  ASSERT_EQ(CallSkein(CommandForLevel(on, "quiet")).exit_code, 0);
+  for (const char* seed : {"3", "4"}) {
+    const std::string run = std::string("/runs/heading-quiet-seed") + seed;
+    EXPECT_THAT(ReadFile(on + run + "/config.toml"), HasSubstr("# started from " + fresh));
+    EXPECT_NE(ReadFile(on + run + "/metrics.csv"), ReadFile(fresh + run + "/metrics.csv"));
+  }
+}
+
 TEST_F(StudyPipeline, LevelsAndSeedsAreAddedByOption) {
   const std::string out = scratch_ / "out";
   std::vector<std::string> part = Command(out);
@@ -353,6 +369,7 @@ TEST_F(StudyPipeline, WhatWouldNotBeFollowedIsRefused) {
               "training.steps says it already");
   ExpectError(begin + "[[training]]\nsteps = 100\n[[training]]\nper_level = false",
               "training must be one table");
+  ExpectError(begin + "[training]\nfrom = [\"a\", \"b\"]", "from names 2 for 1 task");
   const std::string one_for_all =
       begin + "[training]\nper_level = false\n[[level]]\nname = \"a\"\n";
   ExpectError(one_for_all + "set = [\"ppo.epochs=3\"]", "set ppo.epochs=3 of level a");
