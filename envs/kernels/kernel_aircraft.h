@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/aircraft.h"
 
@@ -31,7 +32,7 @@ enum PatchTerm : int { kCorner, kAlongAlpha, kAlongBeta, kAlongBoth, kNumPatchTe
 /// Functions of alpha and beta come in sets of four, and what makes them up in lines of their
 /// patches: slot = term * kPatchesPerLine + place in the set.
 inline constexpr int kPatchesPerLine = 4;
-struct alignas(64) PatchLine {
+struct PatchLine {
   static constexpr int kNumSlots = kNumPatchTerms * kPatchesPerLine;
   float slot[kNumSlots] = {};
 };
@@ -160,10 +161,10 @@ struct KernelAircraft {
   KernelAxis alpha, beta, elevator;
   /// Sideslip is limited as a tangent, before the arctangent.
   float tan_beta_low = 0, tan_beta_high = 0;
-  /// Lines of patches by cell, beta by beta; a cell has those of SurfaceLine, then those of
-  /// ElevatorLine for each elevator interval. In slots: from cell to cell, and from beta to beta.
-  float slots_per_cell = 0, slots_per_beta = 0;
-  std::vector<PatchLine> lines;
+  /// The slots of lines of patches by cell, beta by beta; a cell has the lines of SurfaceLine, then
+  /// those of ElevatorLine for each elevator interval.
+  AlignedVector<float> slots;
+  float slots_per_cell = 0, slots_per_beta = 0;  ///< from cell to cell, and from beta to beta
   CellTable alpha_functions[kNumAlphaFunctions];
   CellTable flap_dampings[kNumDampings];  ///< increments by how far the flap is up
   CellTable elevator_effect;              ///< factor of Cm by elevator

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -276,18 +277,21 @@ void FillAerodynamics(const AerodynamicTables& tables, KernelAircraft* kernel) {
   }
   kernel->slots_per_cell = static_cast<float>(lines_per_cell * PatchLine::kNumSlots);
   kernel->slots_per_beta = kernel->slots_per_cell * static_cast<float>(alpha_cells);
-  kernel->lines.reserve(static_cast<std::size_t>(lines_per_cell) * alpha_cells * beta_cells);
+  kernel->slots.reserve(static_cast<std::size_t>(slots));
+  const auto append = [kernel](const PatchLine& line) {
+    kernel->slots.insert(kernel->slots.end(), std::begin(line.slot), std::end(line.slot));
+  };
   for (int j = 0; j < beta_cells; ++j) {
     for (int i = 0; i < alpha_cells; ++i) {
       for (int line = 0; line < kNumSurfaceLines; ++line) {
-        kernel->lines.push_back(MakePatchLine(
+        append(MakePatchLine(
             [&](int alpha, int beta) {
               return SurfaceIncrements(tables, nodes, line, alpha, beta);
             },
             i, j));
       }
       for (int line = 0; line < kNumElevatorLines * elevator_cells; ++line) {
-        kernel->lines.push_back(MakePatchLine(
+        append(MakePatchLine(
             [&](int alpha, int beta) {
               return ElevatorFunctions(tables, nodes, line % kNumElevatorLines, alpha, beta,
                                        line / kNumElevatorLines);

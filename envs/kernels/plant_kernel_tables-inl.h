@@ -62,7 +62,7 @@ HWY_INLINE void LocateSurfaces(const KernelAircraft& aircraft, const BlockContro
 template <PatchSet kSet>
 HWY_INLINE V AddUpSlots(const KernelAircraft& aircraft, const KernelBlock& block, int i, int slot) {
   const FloatTag d;
-  const float* surfaces = aircraft.lines.data()->slot + block.cell_slot[i] + slot;
+  const float* surfaces = aircraft.slots.data() + block.cell_slot[i] + slot;
   const float* elevator = surfaces + block.elevator_slot[i];
   const auto line = [&](const float* lines, int which)
                         HWY_ATTR { return hn::Load(d, lines + which * PatchLine::kNumSlots); };

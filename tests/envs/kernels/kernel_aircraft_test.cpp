@@ -92,12 +92,14 @@ TEST(KernelAircraft, IncrementsBeyondTheFlapTablesAreThoseAtTheirEnd) {
   for (int j = 0; j < beta_cells; ++j) {
     for (int i = last_flap; i < alpha_cells; ++i) {
       for (const int which : {kLateralFlap, kLateralAileronFlap, kLongitudinalFlap}) {
-        const PatchLine& end =
-            kernel->lines[(j * alpha_cells + last_flap) * lines_per_cell + which];
-        const PatchLine& line = kernel->lines[(j * alpha_cells + i) * lines_per_cell + which];
+        const auto line_of = [&](int alpha_cell) {
+          const int at = (j * alpha_cells + alpha_cell) * lines_per_cell + which;
+          return kernel->slots.data() + at * PatchLine::kNumSlots;
+        };
+        const float *const end = line_of(last_flap), *const line = line_of(i);
         for (int n = 0; n < kPatchesPerLine; ++n) {
-          const auto term = [&](const PatchLine& patches, PatchTerm of) {
-            return patches.slot[of * kPatchesPerLine + n];
+          const auto term = [&](const float* patches, PatchTerm of) {
+            return patches[of * kPatchesPerLine + n];
           };
           EXPECT_EQ(term(line, kCorner), term(end, kCorner));
           EXPECT_EQ(term(line, kAlongBeta), term(end, kAlongBeta));
