@@ -25,6 +25,9 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<D>> TruncateToInt(D /*d*/, V x) {
   return {_mm256_cvttps_epi32(x.raw)};
 #elif HWY_TARGET == HWY_SSE4
   return {_mm_cvttps_epi32(x.raw)};
+#elif HWY_TARGET == HWY_SCALAR
+  // C++ leaves it open what a NaN becomes, and may do anything with it.
+  return hn::ConvertTo(hn::RebindToSigned<D>(), hn::IfThenElseZero(hn::Eq(x, x), x));
 #else
   return hn::ConvertTo(hn::RebindToSigned<D>(), x);
 #endif

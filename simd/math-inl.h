@@ -16,6 +16,7 @@
 
 #include <cstdint>
 
+#include "simd/lookup-inl.h"
 #include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -140,7 +141,7 @@ HWY_INLINE void SinCos(D d, V x, V& sine, V& cosine) {
   r = hn::NegMulAdd(quarter_turns, hn::Set(d, 7.54978995e-8f), r);
   V s, c;
   SinCosInQuadrant(d, r, s, c);
-  const auto quadrant = hn::ConvertTo(di, quarter_turns);
+  const auto quadrant = TruncateToInt(d, quarter_turns);
   const auto one = hn::Set(di, 1);
   const auto is_odd = hn::RebindMask(d, hn::Eq(hn::And(quadrant, one), one));
   const auto sine_sign = hn::ShiftLeft<30>(hn::AndNot(one, quadrant));
@@ -162,8 +163,7 @@ HWY_INLINE V Exp(D d, V x) {
   const V p = hn::MulAdd(
       hn::Mul(r, r),
       Polynomial(d, r, {0.5f, 0.166665196f, 0.041666206f, 0.00836888235f, 0.00139505777f}), r);
-  const V scale =
-      hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, n), hn::Set(di, 127))));
+  const V scale = hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(TruncateToInt(d, n), hn::Set(di, 127))));
   return hn::MulAdd(p, scale, scale);
 }
 

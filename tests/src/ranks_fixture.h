@@ -49,22 +49,23 @@ class RanksFixture : public ::testing::Test {
     }
   }
 
-  /// The words that start `count` ranks; `environment` is set for the last of them alone.
+  /// The words that start `count` ranks over shared memory, as they are all here; `environment` is
+  /// set for the last of them alone, by a shell: Open MPI 5.0.7's mpirun crashes where it starts
+  /// more than one program.
   static std::vector<std::string> Mpirun(int count, const std::vector<std::string>& arguments,
                                          const std::string& environment = "") {
     std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
-    const auto ranks = [&](int several) {
-      words.insert(words.end(), {"-np", std::to_string(several), "-x",
-                                 AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS")), SKEIN_PROGRAM});
-      words.insert(words.end(), arguments.begin(), arguments.end());
-    };
-    if (environment.empty()) {
-      ranks(count);
-      return words;
+    words.insert(words.end(), {"--mca", "btl", "^tcp", "-np", std::to_string(count), "-x",
+                               AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS"))});
+    if (!environment.empty()) {
+      const std::string last = std::to_string(count - 1);
+      words.insert(words.end(), {"sh", "-c",
+                                 "[ $OMPI_COMM_WORLD_RANK != " + last + " ] || export " +
+                                     environment + "; exec \"$@\"",
+                                 "sh"});
     }
-    ranks(count - 1);
-    words.insert(words.end(), {":", "-x", environment});
-    ranks(1);
+    words.push_back(SKEIN_PROGRAM);
+    words.insert(words.end(), arguments.begin(), arguments.end());
     return words;
   }
 

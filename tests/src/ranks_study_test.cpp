@@ -15,6 +15,7 @@ namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 const std::vector<std::string> kShort = {"--task",     "heading",
@@ -144,7 +145,8 @@ TEST_F(RanksStudy, ATrainingThatFailsEndsTheJobInOneLine) {
   fs::create_directories(together_ + "/runs");
   WriteFile(together_ + "/runs/heading-quiet-seed4", "in the way");
   const ProgramResult result = RunWords(Mpirun(2, Study(together_)));
-  EXPECT_EQ(result.exit_code, 1);
+  // 2, as of one process, if it is a training of rank 0's, which says it; else 1.
+  EXPECT_THAT(result.exit_code, AnyOf(1, 2));
   const std::size_t said = result.error.find("skein: error: ");
   ASSERT_NE(said, std::string::npos) << result.error;
   EXPECT_EQ(result.error.rfind("skein: error: "), said) << "said once";

@@ -64,10 +64,12 @@ TEST(TextTableTest, HeadingsShowNamesWhole) {
   TextTable table(4, 20, &text);
   table.Headings({"autopilot", "policy:runs/seed-1/checkpoints/policy-best.skein",
                   "policy:a-name-without-any-place-to-break"});
-  EXPECT_EQ(LinesOf(text), (std::vector<std::string>{
-                               "                     policy:runs/seed-1/",
-                               "                             checkpoints/  policy:a-name-with",
-                               "               autopilot   policy-best.skein"}));
+  EXPECT_EQ(LinesOf(text),
+            (std::vector<std::string>{
+                "                                policy:runs/",
+                "                                     seed-1/  policy:a-name-with",
+                "                                checkpoints/  out-any-place-to-b",
+                "               autopilot   policy-best.skein                reak"}));
 }
 
 }  // namespace
