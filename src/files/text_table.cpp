@@ -16,13 +16,15 @@ std::string EndOf(const std::string& text, std::size_t width) {
   return text.size() <= room ? text : ".." + text.substr(text.size() - room + 2);
 }
 
-/// `name` in lines of at most `width` columns, the gap among them.
-std::vector<std::string> LinesOf(std::string name, std::size_t width) {
+/// `name` in lines of at most `width` bytes, the gap among them, none of which ends within a
+/// character.
+std::vector<std::string> HeadingLines(std::string name, std::size_t width) {
   const std::size_t room = width - kGap;
   std::vector<std::string> lines;
   while (name.size() > room) {
     const std::size_t slash = name.rfind('/', room - 1);
-    const std::size_t length = slash == std::string::npos ? room : slash + 1;
+    std::size_t length = slash == std::string::npos ? room : slash + 1;
+    while (length > 1 && (name[length] & 0xC0) == 0x80) --length;  // UTF-8
     lines.push_back(name.substr(0, length));
     name.erase(0, length);
   }
@@ -85,7 +87,7 @@ void TextTable::Headings(const std::vector<std::string>& names) {
   std::vector<std::vector<std::string>> columns;
   std::size_t most = 0;
   for (const std::string& name : names) {
-    columns.push_back(LinesOf(name, cell_width_));
+    columns.push_back(HeadingLines(name, cell_width_));
     most = std::max(most, columns.back().size());
   }
   for (std::size_t line = 0; line < most; ++line) {

@@ -127,6 +127,9 @@ void RefuseWithoutEffect(const Study& study, const std::string& source) {
     throw Error(fmt::format("{}: from names {} for {}: one for each task, or none", source, origins,
                             Counted(static_cast<int>(study.tasks.size()), "task")));
   }
+  for (const std::string& origin : study.training.from) {
+    if (origin.empty()) throw Error(source + ": from names a run or a policy, not \"\"");
+  }
   std::vector<std::string> assignments = study.assignments;
   const auto append = [&assignments](const StudySettings& settings) {
     assignments.insert(assignments.end(), settings.assignments.begin(), settings.assignments.end());

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "envs/task_registry.h"
@@ -45,7 +46,7 @@ void Check(const Study& study) {
       try {
         const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
         if (const std::string from = NetworksToStartFrom(study, task); !from.empty()) {
-          RecurrentPolicy::Load(from).CheckMadeFor(trained.train.env, "from, " + from);
+          RecurrentPolicy::Load(from).CheckMadeFor(trained.train.env, "training.from " + from);
         }
         has_high_level = has_high_level || NeedsLowLevel(trained.train.env);
         const ProgramConfig config = LevelConfig(study, task, level);
@@ -55,6 +56,8 @@ void Check(const Study& study) {
         }
       } catch (const UsageError& error) {
         throw UsageError(fmt::format("{}, level {}: {}", task, level.name, error.what()));
+      } catch (const ChoiceError& error) {
+        throw ChoiceError(fmt::format("{}, level {}: {}", task, level.name, error.what()));
       } catch (const Error& error) {
         throw Error(fmt::format("{}, level {}: {}", task, level.name, error.what()));
       }

@@ -28,9 +28,10 @@ namespace fs = std::filesystem;
 
 /// Removes what a process killed while it made a run's directory has left: no run is in it yet.
 void RemoveStub(const std::string& run) {
-  for (const char* name :
-       {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp", "/task.toml",
-        "/task.toml.tmp", "/aircraft.json", "/aircraft.json.tmp", "/lock", "/checkpoints"}) {
+  for (const char* name : {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp",
+                           "/task.toml", "/task.toml.tmp", "/aircraft.json", "/aircraft.json.tmp",
+                           "/lock", "/checkpoints/checkpoint-000000.skein",
+                           "/checkpoints/checkpoint-000000.skein.tmp", "/checkpoints"}) {
     std::error_code ignored;  // RunDirectory::Create says what is in the way
     fs::remove(run + name, ignored);
   }

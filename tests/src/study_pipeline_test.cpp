@@ -283,19 +283,37 @@ TEST_F(StudyPipeline, OneTrainingCanServeAllLevels) {
 }
 
 TEST_F(StudyPipeline, TrainingsStartFromWhatTheirTaskHas) {
-  const std::string fresh = scratch_ / "fresh", on = scratch_ / "on";
+  const auto with = [](const std::string& begin, const std::string& from) {
+    std::string text = kStudy;
+    const std::string tasks = "tasks = [\"heading\"]", steps = "steps = 20480";
+    text.replace(text.find(tasks), tasks.size(), begin);
+    return text.replace(text.find(steps), steps.size(), steps + "\n" + from);
+  };
+  const std::string both = "tasks = [\"heading\", \"control\"]", fresh = scratch_ / "fresh";
+  WriteFile(file_, with(both, ""));
   ASSERT_EQ(CallSkein(CommandForLevel(fresh, "quiet")).exit_code, 0);
-  std::string text = kStudy;
-  const std::string steps = "steps = 20480";
-  text.replace(text.find(steps), steps.size(),
-               steps + "\nfrom = [\"" + fresh + "/runs/heading-quiet-seed3\"]");
-  WriteFile(file_, text);
-  ASSERT_EQ(CallSkein(CommandForLevel(on, "quiet")).exit_code, 0);
-  for (const char* seed : {"3", "4"}) {
-    const std::string run = std::string("/runs/heading-quiet-seed") + seed;
-    EXPECT_THAT(ReadFile(on + run + "/config.toml"), HasSubstr("# started from " + fresh));
-    EXPECT_NE(ReadFile(on + run + "/metrics.csv"), ReadFile(fresh + run + "/metrics.csv"));
-  }
+  const std::string heading = fresh + "/runs/heading-quiet-seed3";
+  const std::string control = fresh + "/runs/control-quiet-seed4/checkpoints/policy-final.skein";
+
+  const std::string on = scratch_ / "on";
+  WriteFile(file_, with(both, "from = [\"" + heading + "\", \"" + control + "\"]"));
+  // What a process that was killed as it began such a run leaves.
+  fs::create_directories(on + "/comparisons");
+  fs::create_directories(on + "/runs/heading-quiet-seed3/checkpoints");
+  WriteFile(on + "/runs/heading-quiet-seed3/checkpoints/checkpoint-000000.skein", "begun");
+  const ProgramResult result = CallSkein(CommandForLevel(on, "quiet"));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const auto started_from = [&on](const std::string& run) {
+    const std::string config = ReadFile(on + "/runs/" + run + "/config.toml");
+    return config.substr(0, config.find(" ("));
+  };
+  EXPECT_THAT(started_from("heading-quiet-seed4"), HasSubstr("# started from " + heading + "/"));
+  EXPECT_EQ(started_from("control-quiet-seed3"), "# started from " + control);
+  EXPECT_NE(ReadFile(on + "/runs/heading-quiet-seed3/metrics.csv"),
+            ReadFile(heading + "/metrics.csv"));
+
+  ExpectError(with(both, "from = [\"" + control + "\", \"" + heading + "\"]"),
+              "training.from " + control);
 }
 
 TEST_F(StudyPipeline, LevelsAndSeedsAreAddedByOption) {
@@ -370,6 +388,7 @@ TEST_F(StudyPipeline, WhatWouldNotBeFollowedIsRefused) {
   ExpectError(begin + "[[training]]\nsteps = 100\n[[training]]\nper_level = false",
               "training must be one table");
   ExpectError(begin + "[training]\nfrom = [\"a\", \"b\"]", "from names 2 for 1 task");
+  ExpectError(begin + "[training]\nfrom = [\"\"]", "from names a run or a policy");
   const std::string one_for_all =
       begin + "[training]\nper_level = false\n[[level]]\nname = \"a\"\n";
   ExpectError(one_for_all + "set = [\"ppo.epochs=3\"]", "set ppo.epochs=3 of level a");

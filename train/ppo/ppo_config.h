@@ -27,10 +27,10 @@ struct PpoConfig {
   /// Of an iteration's approximate_kl, by which the learning rate is adapted below that line; 0: it
   /// is not.
   double target_kl = 0;
+  double critic_learning_rate = 0;  ///< at the start, and not adapted; 0: the actor's
   double adam_epsilon = 1e-5;
   /// The standard deviations learn at so many times the learning rate. At the rate of the weights
   /// they are hardly narrower when it has fallen.
-  double critic_learning_rate = 0;  ///< at the start; 0: the actor's
   double log_std_rate_factor = 1;
   /// The policy that is evaluated and kept is the mean of the actor after about so many of the last
   /// iterations (MoveAverage); 0: the actor itself.

@@ -234,9 +234,11 @@ void PpoUpdate::RequireSane(const Side& side) {
   const double loss = side.beside.losses.*side.loss;
   if (std::isfinite(loss) && side.norm <= kExplodedGradientNorm) return;
   exploded_ = true;
+  const bool own_rate = !is_actor(side) && config_.critic_learning_rate > 0;
+  const std::string rate = own_rate ? "ppo.critic_learning_rate" : "ppo.learning_rate";
   throw Error("the " + std::string(side.name) + "'s training exploded (loss " +
               std::to_string(loss) + ", gradient norm " + std::to_string(side.norm) +
-              FirstBrokenShard(side) + "); lower ppo.learning_rate, or ppo.max_gradient_norm");
+              FirstBrokenShard(side) + "); lower " + rate + ", or ppo.max_gradient_norm");
 }
 
 bool PpoUpdate::AddTo(UpdateReport& report, const Side& side) {

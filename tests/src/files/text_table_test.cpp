@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/files/text_table.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -57,6 +58,13 @@ TEST(TextTableTest, EveryConditionTogetherIsDescribedInAHundredColumns) {
 TEST(TextTableTest, ColumnsAreAsWideAsTheirWidestCell) {
   EXPECT_EQ(InColumns({{"a", "bb", "c"}, {"aaa", "b"}, {"a sentence of its own"}}),
             "a    bb  c\naaa  b\na sentence of its own\n");
+}
+
+TEST(TextTableTest, HeadingsKeepCharactersWhole) {
+  std::string text;
+  TextTable(4, 20, &text).Headings({"abcdefghijklmnopq\u00e4\u00f6"});
+  EXPECT_THAT(LinesOf(text)[0], testing::EndsWith("opq"));
+  EXPECT_THAT(LinesOf(text)[1], testing::EndsWith(" \u00e4\u00f6"));
 }
 
 TEST(TextTableTest, HeadingsShowNamesWhole) {
