@@ -137,13 +137,16 @@ ProgramConfig TaskFileDefaults() {
 }
 
 /// The tables that configuration keys are in: "env", "ppo" and so on.
-std::vector<std::string> SettingsTables() {
-  ProgramConfig any;
-  std::vector<std::string> tables;
-  for (const Field& field : FieldsOf(any)) {
-    std::string table = field.key.substr(0, field.key.find('.'));
-    if (tables.empty() || tables.back() != table) tables.push_back(std::move(table));
-  }
+const std::vector<std::string>& SettingsTables() {
+  static const std::vector<std::string> tables = [] {
+    ProgramConfig any;
+    std::vector<std::string> names;
+    for (const Field& field : FieldsOf(any)) {
+      std::string name = field.key.substr(0, field.key.find('.'));
+      if (names.empty() || names.back() != name) names.push_back(std::move(name));
+    }
+    return names;
+  }();
   return tables;
 }
 

@@ -89,14 +89,14 @@ struct Assigner {
 
 const Field& FindField(const std::vector<Field>& fields, const std::string& key,
                        const std::string& where) {
-  std::vector<std::string> keys;
   for (const Field& field : fields) {
     if (field.key == key) return field;
     if (field.former_key == key) {
       throw Error(fmt::format("{}: {} is called {} now", where, key, field.key));
     }
-    keys.push_back(field.key);
   }
+  std::vector<std::string> keys;
+  for (const Field& field : fields) keys.push_back(field.key);
   const std::string suggestion = DidYouMean(key, keys);
   throw Error(
       fmt::format("{}: unknown key {}{}", where, key,

@@ -50,10 +50,9 @@ struct KeptTraining {
   const std::uint64_t signature = trainer.Signature();
 };
 
-/// Restores from `file`. Throws std::logic_error if it is refused, and yet has changed the
-/// training.
-void RestoreOrLeave(Trainer& trainer, const std::string& file) {
-  const std::uint64_t before = trainer.Signature();
+/// Restores a training of signature `before` from `file`. Throws std::logic_error if that is
+/// refused, and yet has changed the training.
+void RestoreOrLeave(Trainer& trainer, std::uint64_t before, const std::string& file) {
   try {
     trainer.Restore(InFile(file, ".skein"));
   } catch (const Error&) {
@@ -106,7 +105,7 @@ std::vector<std::string> CheckpointSeeds() {
 
 void ReadCheckpoint(const std::string& file) {
   static KeptTraining kept;
-  RestoreOrLeave(kept.trainer, file);
+  RestoreOrLeave(kept.trainer, kept.signature, file);
   kept.trainer.Restore(kept.beginning);
   if (kept.trainer.Signature() != kept.signature) {
     throw std::logic_error("a checkpoint that was taken is not undone by another one");
@@ -115,7 +114,7 @@ void ReadCheckpoint(const std::string& file) {
 
 void ResumeTraining(const std::string& file) {
   Trainer trainer(FuzzedTraining(), OneWorker());
-  RestoreOrLeave(trainer, file);
+  RestoreOrLeave(trainer, trainer.Signature(), file);
   if (!trainer.finished()) trainer.Iterate();
 }
 

@@ -65,6 +65,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
 /// for one in eight, with lengths and checksums set right.
 std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
                                     unsigned seed) {
+  const skein::FuzzTarget& target = skein::Chosen();
+  most = std::min(most, target.max_bytes);
+  size = std::min(size, most);
   std::string file;
   if (seed % 2 == 0) {
     size = LLVMFuzzerMutate(data, size, most);
@@ -72,7 +75,7 @@ std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::s
   } else {
     file = skein::Damage(seed).Of({reinterpret_cast<const char*>(data), size});
   }
-  if (seed / 2 % 8 != 0) file = skein::Chosen().repaired(std::move(file));
+  if (seed / 2 % 8 != 0) file = target.repaired(std::move(file));
   file.resize(std::min(file.size(), most));
   std::memcpy(data, file.data(), file.size());
   return file.size();

@@ -76,7 +76,7 @@ void ReadFdm(const std::string& file) {
 std::vector<std::string> MetricsSeeds() {
   std::string rows = MetricsHeader();
   IterationReport report;
-  for (report.iteration = 1; report.iteration <= 8; ++report.iteration) rows += MetricsRow(report);
+  for (report.iteration = 4; report.iteration <= 6; ++report.iteration) rows += MetricsRow(report);
   return {rows, "iteration,env_steps\n1,5120\n2,10240\n"};
 }
 
@@ -90,21 +90,24 @@ void ReadMetrics(const std::string& file) {
   ParseCsv(ReadFile(path));
 }
 
+constexpr std::size_t kContainerBytes = 50000, kTextBytes = 8000, kAircraftBytes = 200000,
+                      kRecordBytes = 4000;
+
 }  // namespace
 
 const std::vector<FuzzTarget>& FuzzTargets() {
   static const std::vector<FuzzTarget> targets = {
-      {"policy", PolicySeeds, RepairedContainer, ReadPolicy},
-      {"checkpoint", CheckpointSeeds, RepairedContainer, ReadCheckpoint},
-      {"resume", CheckpointSeeds, RepairedContainer, ResumeTraining},
-      {"configuration", ConfigurationSeeds, AsItIs, ReadConfiguration},
-      {"study", StudySeeds, AsItIs, CheckStudy},
-      {"task", TaskSeeds, AsItIs, ReadTask},
-      {"aircraft", AircraftSeeds, AsItIs, ReadAircraft},
-      {"fdm", FdmSeeds, AsItIs, ReadFdm},
-      {"metrics", MetricsSeeds, AsItIs, ReadMetrics},
-      {"plant", PlantSeeds, WholePlantRecords, ComparePlants},
-      {"network", NetworkSeeds, WholeNetworkRecords, CompareNetworks},
+      {"policy", PolicySeeds, RepairedContainer, ReadPolicy, kContainerBytes},
+      {"checkpoint", CheckpointSeeds, RepairedContainer, ReadCheckpoint, kContainerBytes},
+      {"resume", CheckpointSeeds, RepairedContainer, ResumeTraining, kContainerBytes},
+      {"configuration", ConfigurationSeeds, AsItIs, ReadConfiguration, kTextBytes},
+      {"study", StudySeeds, AsItIs, CheckStudy, kTextBytes},
+      {"task", TaskSeeds, AsItIs, ReadTask, kTextBytes},
+      {"aircraft", AircraftSeeds, AsItIs, ReadAircraft, kAircraftBytes},
+      {"fdm", FdmSeeds, AsItIs, ReadFdm, kTextBytes},
+      {"metrics", MetricsSeeds, AsItIs, ReadMetrics, kTextBytes},
+      {"plant", PlantSeeds, WholePlantRecords, ComparePlants, kRecordBytes},
+      {"network", NetworkSeeds, WholeNetworkRecords, CompareNetworks, kRecordBytes},
   };
   return targets;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ struct FuzzTarget {
   std::string (*repaired)(std::string file);
   /// Reads the file, and uses what it holds. Throws Error on one that it refuses.
   void (*read)(const std::string& file);
+  /// The longest file that libFuzzer tries: what is longer than the seeds takes time and shows
+  /// nothing new.
+  std::size_t max_bytes;
 };
 
 /// How a test calls it.

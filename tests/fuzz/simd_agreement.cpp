@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <memory>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "base/error.h"
 #include "envs/aircraft/registry.h"
@@ -36,10 +38,11 @@ float Value(Word word, const Bounds& bounds) {
   return static_cast<float>(bounds.low + share * (bounds.high - bounds.low));
 }
 
-/// The rows of a file, or so many of them that a tile is full.
+/// The rows of a file, or the first kMost of them.
 class Records {
  public:
-  static constexpr std::size_t kMost = 64;
+  /// A full vector of every target, and some more.
+  static constexpr std::size_t kMost = 20;
 
   Records(const std::string& file, std::size_t words) : words_(words) {
     const std::size_t bytes = words * sizeof(Word);
@@ -251,13 +254,22 @@ constexpr int kObservations = 22, kActions = 4, kUnits = 20;
 constexpr std::size_t kNetworkWords = kObservations + kUnits;
 constexpr Bounds kObservationBounds{-10, 10}, kStateBounds{-1, 1};
 
-/// Of means and state, [record][kActions + kUnits].
-Rows Act(Target target, const Records& records) {
-  const ScopedTarget scoped(target);
+/// Made once for each target: that takes far longer than to act.
+const RecurrentPolicy& PolicyOf(Target target) {
+  static std::map<Target, RecurrentPolicy> policies;
+  const auto found = policies.find(target);
+  if (found != policies.end()) return found->second;
   NetworkConfig config;
   config.hidden_size = config.gru_size = kUnits;
   config.actor_head_scale = 1;
-  const auto policy = RecurrentPolicy::Untrained(config, kObservations, kActions, 1);
+  auto policy = RecurrentPolicy::Untrained(config, kObservations, kActions, 1);
+  return policies.emplace(target, std::move(policy)).first->second;
+}
+
+/// Of means and state, [record][kActions + kUnits].
+Rows Act(Target target, const Records& records) {
+  const ScopedTarget scoped(target);
+  const RecurrentPolicy& policy = PolicyOf(target);
   const auto count = static_cast<std::size_t>(records.count());
   std::vector<float> observation, state, mean(count * kActions);
   for (int i = 0; i < records.count(); ++i) {
