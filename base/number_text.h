@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace skein {
 
@@ -10,5 +12,8 @@ std::string ShortestText(double value);
 
 /// The same in at most `digits` significant digits.
 std::string RoundedText(double value, int digits);
+
+/// The number that `text` is, all of it and in any locale; nothing if it is none.
+std::optional<double> NumberOf(std::string_view text);
 
 }  // namespace skein

@@ -46,7 +46,7 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
            "time between control steps")
       .FixedForPolicies();
   list.Add("substeps", &config.substeps, {1, 1000}, "RK4 steps per control step");
-  list.Add("action_repeat", &config.action_repeat, {1, 1000},
+  list.Add("action_repeat", &config.action_repeat, {1, kMaxActionRepeat},
            "control steps for which the policy's action is held; 5 is 10 Hz");
   list.Add("time_limit_steps", &config.time_limit_steps, Bounds::Count(),
            "longest episode in control steps");

@@ -24,6 +24,9 @@ namespace skein {
 
 class FieldList;
 
+/// Control steps for which an action is held, at most.
+inline constexpr int kMaxActionRepeat = 1000;
+
 /// A task, its aircraft and its conditions: everything that an episode depends on but the seed.
 struct EnvConfig {
   std::string task = "heading";

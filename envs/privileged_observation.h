@@ -13,8 +13,8 @@ namespace skein {
 /// What an environment knows of its aircraft and no policy observes: free of noise, and for
 /// training alone, as the further input of a critic. Numbers of about unit size:
 ///   task_error_0..2      the task's errors, without noise
-///   clock                share of the time limit that the episode has taken; a mission takes more
-///                        than one
+///   clock                control steps of the episode over the time limit of `rules`, which does
+///                        not change as training goes on; a mission takes more than one
 ///   tolerance            the episode's tolerances as a share of those of evaluations
 ///   dwell                share of the dwell that the aircraft is within tolerances, up to 1 (if
 ///                        targets must be held)

@@ -82,7 +82,7 @@ HWY_INLINE V AtanDegrees(D d, V t) {
 
 /// atan2(y, x) in degrees, (-180, 180], for magnitudes below 2^125; arguments are taken as zero
 /// where both are below 2^-100: absolute error 3e-5 degrees, relative error 5 ULP where |y| <= x.
-/// The sign is that of y (also of a zero y); x = -0 counts as +0.
+/// The sign is that of y (also of a zero y); x = -0 counts as +0. NaN may give any angle.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Atan2Degrees(D d, V y, V x) {
   const V abs_x = hn::Abs(x);
@@ -167,7 +167,7 @@ HWY_INLINE V Exp(D d, V x) {
   return hn::MulAdd(p, scale, scale);
 }
 
-/// Natural logarithm of a positive normal x: 2 ULP.
+/// Natural logarithm of a positive normal x: 2 ULP. NaN gives an unspecified finite value.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log(D d, V x) {
   const hn::RebindToSigned<D> di;

@@ -67,10 +67,7 @@ std::string HashOf(const json& content) {
   model.erase(kNameKey);
   model.erase(kSettingsKey);
   model.erase(kPresetsKey);
-  const std::string text = model.dump();
-  FnvHash hash;
-  hash.Add(text.data(), text.size());
-  return hash.Hex();
+  return HexHash(model.dump());
 }
 
 /// The values below `object` as assignments to configuration keys below `key`.

@@ -162,7 +162,8 @@ void Section::ReadBetween(double low, double high, const char* key, double* valu
 
 void Section::Read(const char* key, FirstOrder* law) {
   ReadList(key, "b1, b0, a0 of (b1 s + b0) / (s + a0)", {&law->b1, &law->b0, &law->a0});
-  if (law->a0 < 0) Refuse(key, law->a0, "zero or more in a0: the filter is unstable");
+  // With zero it integrates: no state of it is steady.
+  if (!(law->a0 > 0)) Refuse(key, law->a0, "above 0 in a0: the filter never comes to rest");
 }
 
 void Section::Read(const char* key, Ramp* ramp) {

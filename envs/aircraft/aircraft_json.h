@@ -50,7 +50,7 @@ class Section {
   void ReadPositive(const char* key, double* value) {
     ReadBetween(0, std::numeric_limits<double>::infinity(), key, value);
   }
-  /// [b1, b0, a0], of which a0 may not be negative.
+  /// [b1, b0, a0], of which a0 must be above 0.
   void Read(const char* key, FirstOrder* law);
   /// [x_low, y_low, x_high, y_high], of which x_high must be above x_low.
   void Read(const char* key, Ramp* ramp);

@@ -29,10 +29,7 @@ void ReadFlightControl(Section section, FlightControlGains* gains) {
 
 void ReadFlightControlWithFlap(Section section, FlightControlGains* gains) {
   ReadChannels(section, gains);
-  section.Read("flap_filter", &gains->flap_filter);
-  section.Read("flap_alpha_gain", &gains->flap_alpha_gain);
-  section.Read("flap_pressure_gain_deg", &gains->flap_pressure_gain_deg);
-  section.Read("flap_bias_deg", &gains->flap_bias_deg);
+  VisitFlapGains(*gains, [&](const char* key, auto* value) { section.Read(key, value); });
   section.Finish();
 }
 

@@ -75,6 +75,15 @@ void VisitFlightControlGains(Gains& gains, const Visit& visit) {
   VisitYawGains(gains, visit);
 }
 
+/// The same of the leading-edge flap's gains.
+template <class Gains, class Visit>
+void VisitFlapGains(Gains& gains, const Visit& visit) {
+  visit("flap_filter", &gains.flap_filter);
+  visit("flap_alpha_gain", &gains.flap_alpha_gain);
+  visit("flap_pressure_gain_deg", &gains.flap_pressure_gain_deg);
+  visit("flap_bias_deg", &gains.flap_bias_deg);
+}
+
 /// Reads the section `flight_control`. Throws Error as Section does.
 void ReadFlightControl(Section section, FlightControlGains* gains);
 /// The same, with the leading-edge flap's gains.

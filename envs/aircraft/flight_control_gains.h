@@ -3,7 +3,7 @@
 
 namespace skein {
 
-/// The continuous transfer function (b1 s + b0) / (s + a0).
+/// The continuous transfer function (b1 s + b0) / (s + a0), with a0 above 0.
 struct FirstOrder {
   double b1 = 0, b0 = 0, a0 = 0;
 };

@@ -32,11 +32,13 @@ double PropellerThrust(const Propeller& propeller, double motor_throttle, double
           propeller.CT_1 * turns_per_s * D * V + propeller.CT_2 * V * V);
 }
 
-EngineTables TabulatePropeller(const Propeller& propeller, const PropellerLevels& levels) {
+EngineTables TabulatePropeller(const Propeller& propeller, const PropellerLevels& levels,
+                               const PropellerCells& cells) {
   EngineTables tables;
-  constexpr int kAltitudes = 4, kMachs = 11;
-  for (int i = 0; i < kAltitudes; ++i) tables.altitude_ft.push_back(-2000 + 5000 * i);
-  for (int j = 0; j < kMachs; ++j) tables.mach.push_back(0.014 * j);
+  for (int i = 0; i <= PropellerCells::kAltitudes; ++i) {
+    tables.altitude_ft.push_back(PropellerCells::kLowestAltitude_ft + cells.altitude_ft * i);
+  }
+  for (int j = 0; j <= PropellerCells::kMachs; ++j) tables.mach.push_back(cells.mach * j);
   for (const double altitude_ft : tables.altitude_ft) {
     const Air air = AirAt(AtmosphereModel::kStandard1976, altitude_ft);
     const double density = air.density_slug_ft3 * kKgM3PerSlugFt3;

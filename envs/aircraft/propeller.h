@@ -28,8 +28,19 @@ struct PropellerLevels {
   double idle = 0, military = 0, maximum = 1;
 };
 
-/// Thrust by altitude and Mach number in the U.S. Standard Atmosphere 1976: -2000 to 13,000 ft, up
-/// to Mach 0.14. Exact at its nodes; linear between them in altitude, Mach number and power.
-EngineTables TabulatePropeller(const Propeller& propeller, const PropellerLevels& levels);
+/// The widths of the cells of a table of thrust, three by ten, which begins at -2000 ft and Mach 0.
+/// By default it ends at 13,000 ft and Mach 0.14.
+struct PropellerCells {
+  static constexpr int kAltitudes = 3, kMachs = 10;
+  static constexpr double kLowestAltitude_ft = -2000;
+
+  double altitude_ft = 5000;
+  double mach = 0.014;
+};
+
+/// Thrust by altitude and Mach number in the U.S. Standard Atmosphere 1976. Exact at its nodes;
+/// linear between them in altitude, Mach number and power.
+EngineTables TabulatePropeller(const Propeller& propeller, const PropellerLevels& levels,
+                               const PropellerCells& cells);
 
 }  // namespace skein

@@ -5,7 +5,7 @@ namespace skein {
 
 EngineTables TabulateThrust(const Propulsion& propulsion) {
   if (const auto* electric = std::get_if<ElectricPropulsion>(&propulsion)) {
-    return TabulatePropeller(electric->propeller, electric->levels);
+    return TabulatePropeller(electric->propeller, electric->levels, electric->cells);
   }
   if (const auto* piston = std::get_if<PistonPropulsion>(&propulsion)) {
     return TabulatePiston(piston->engine, piston->levels, piston->range);

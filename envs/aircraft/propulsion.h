@@ -11,6 +11,7 @@ namespace skein {
 struct ElectricPropulsion {
   Propeller propeller;
   PropellerLevels levels;
+  PropellerCells cells;
 };
 
 struct PistonPropulsion {

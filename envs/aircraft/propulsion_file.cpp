@@ -70,6 +70,32 @@ bool IsFinite(const EngineTables& tables) {
   return true;
 }
 
+/// The keys `max_altitude_m` and `max_mach`, at which tables of thrust end.
+double ReadMaxAltitudeFt(Section* section) {
+  constexpr double kHighest_m = 30000;
+  double altitude_m = 0;
+  section->ReadBetween(0, kHighest_m, "max_altitude_m", &altitude_m);
+  return altitude_m * kFeetPerMetre;
+}
+
+double ReadMaxMach(Section* section) {
+  constexpr double kFastest = 1;
+  double mach = 0;
+  section->ReadBetween(0, kFastest, "max_mach", &mach);
+  return mach;
+}
+
+/// Either key may be left out.
+PropellerCells ReadCells(Section* section) {
+  PropellerCells cells;
+  if (section->Has("max_altitude_m")) {
+    cells.altitude_ft = (ReadMaxAltitudeFt(section) - PropellerCells::kLowestAltitude_ft) /
+                        PropellerCells::kAltitudes;
+  }
+  if (section->Has("max_mach")) cells.mach = ReadMaxMach(section) / PropellerCells::kMachs;
+  return cells;
+}
+
 ElectricPropulsion ReadElectric(Section* section) {
   ElectricPropulsion electric;
   Propeller& propeller = electric.propeller;
@@ -85,6 +111,7 @@ ElectricPropulsion ReadElectric(Section* section) {
   section->Read("no_load_current_A", &propeller.no_load_current_A);
   section->ReadPositive("max_voltage_V", &propeller.max_voltage_V);
   electric.levels = ReadLevels<PropellerLevels>(section->Below("motor_throttle"));
+  electric.cells = ReadCells(section);
   // The motor's speed is the root of a quadratic, which there must be.
   if (!IsFinite(TabulateThrust(electric))) {
     section->Refuse("CQ_2", propeller.CQ_2,
@@ -145,11 +172,7 @@ PistonPropulsion ReadPiston(Section* section) {
   ReadEngine(section->Below("engine"), &piston.engine);
   ReadPropeller(section->Below("propeller"), &piston.engine);
   piston.levels = ReadLevels<ThrottleLevels>(section->Below("engine_throttle"));
-  double altitude_m = 0;
-  constexpr double kHighest_m = 30000, kFastest = 1;
-  section->ReadBetween(0, kHighest_m, "max_altitude_m", &altitude_m);
-  section->ReadBetween(0, kFastest, "max_mach", &piston.range.mach);
-  piston.range.altitude_ft = altitude_m * kFeetPerMetre;
+  piston.range = {ReadMaxAltitudeFt(section), ReadMaxMach(section)};
   if (!IsFinite(TabulateThrust(piston))) {
     throw Error(section->path() + " gives thrust that is not finite");
   }

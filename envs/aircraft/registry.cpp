@@ -4,10 +4,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <string_view>
 #include <utility>
 
 #include "base/choice_error.h"
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "envs/aircraft/aircraft_document.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
@@ -92,11 +92,7 @@ std::vector<std::string> AircraftNames() {
 }
 
 bool IsAircraftPath(const std::string& aircraft) {
-  constexpr std::string_view kExtension = ".json";
-  return aircraft.find('/') != std::string::npos ||
-         (aircraft.size() > kExtension.size() &&
-          aircraft.compare(aircraft.size() - kExtension.size(), kExtension.size(), kExtension) ==
-              0);
+  return aircraft.find('/') != std::string::npos || EndsWith(aircraft, ".json");
 }
 
 Aircraft LoadAircraft(const std::string& aircraft) { return Find(aircraft)->aircraft; }

@@ -38,8 +38,6 @@ struct Lanes {
   friend HWY_INLINE Lanes operator-(Lanes a) { return Lanes(hn::Neg(a.v)); }
 };
 
-/// A truth of each of consecutive aircraft.
-
 HWY_INLINE Mask operator<(Lanes a, Lanes b) { return hn::Lt(a.v, b.v); }
 HWY_INLINE Mask operator>(Lanes a, Lanes b) { return hn::Gt(a.v, b.v); }
 HWY_INLINE Mask And(Mask a, Mask b) { return hn::And(a, b); }

@@ -55,6 +55,12 @@ Plant::Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_facto
       density_factor_(density_factor),
       gravity_(gravity) {}
 
+Plant Plant::WithFlightControl(const FlightControlGains& gains) const {
+  Plant plant = *this;
+  plant.aircraft_.flight_control = gains;
+  return plant;
+}
+
 PlantOutput Plant::Evaluate(const RigidBodyState& state, const Controls& controls,
                             const Eigen::Vector3d& wind, const Eigen::Vector3d& air_rates) const {
   const Airframe& airframe = aircraft_.airframe;

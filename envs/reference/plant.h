@@ -53,6 +53,9 @@ class Plant {
   Plant(Aircraft aircraft, AtmosphereModel atmosphere, double density_factor = 1,
         const Gravity& gravity = {});
 
+  /// The same plant, whose aircraft has other gains of flight control.
+  Plant WithFlightControl(const FlightControlGains& gains) const;
+
   const Aircraft& aircraft() const { return aircraft_; }      ///< as given
   AtmosphereModel atmosphere() const { return atmosphere_; }  ///< as given
   const Gravity& gravity() const { return gravity_; }         ///< as given

@@ -64,24 +64,6 @@ struct Axis {
 // Outputs of closed_loop_outputs.h.
 constexpr int kPitchRateOutput = 3, kRollRateOutput = 2;
 
-/// Of what a trial flight recorded after a step; where it started is the trim's value.
-StepResponse MeasureStep(const std::vector<double>& values, double start, double size) {
-  StepResponse response;
-  response.size = size;
-  response.reached = values.back() - start;
-  const auto first = [&](double share) {
-    const auto found = std::find_if(values.begin(), values.end(), [&](double value) {
-      return (value - start) / response.reached >= share;
-    });
-    return kTrialInterval * static_cast<double>(found - values.begin() + 1);
-  };
-  response.rise_s = response.reached == 0 ? std::nan("") : first(0.9) - first(0.1);
-  double most = 0;
-  for (const double value : values) most = std::max(most, (value - start) / response.reached);
-  response.overshoot = most - 1;
-  return response;
-}
-
 /// Seconds until the bank has changed by `bank_deg`, with full roll stick.
 double TimeToBank(const Plant& plant, const TrimPoint& trim, double bank_deg) {
   constexpr double kSeconds = 8;
@@ -221,6 +203,27 @@ void AssessLateral(const Plant& plant, const TrimPoint& trim, const LevelLimits&
 }
 
 }  // namespace
+
+StepResponse MeasureStep(const std::vector<double>& values, double start, double size) {
+  StepResponse response;
+  response.size = size;
+  response.reached = values.back() - start;
+  if (!std::isfinite(response.reached) || response.reached == 0) {
+    response.rise_s = response.overshoot = std::nan("");
+    return response;
+  }
+  const auto first = [&](double share) {
+    const auto found = std::find_if(values.begin(), values.end(), [&](double value) {
+      return (value - start) / response.reached >= share;
+    });
+    return kTrialInterval * static_cast<double>(found - values.begin() + 1);
+  };
+  response.rise_s = first(0.9) - first(0.1);
+  double most = 0;
+  for (const double value : values) most = std::max(most, (value - start) / response.reached);
+  response.overshoot = most - 1;
+  return response;
+}
 
 FlyingQualities AssessFlyingQualities(const Plant& plant, const TrimPoint& trim,
                                       const LevelLimits& limits) {

@@ -17,9 +17,14 @@ namespace skein {
 struct StepResponse {
   double size = 0;     ///< of the step, share of the full stick
   double reached = 0;  ///< at the end, g or deg/s, without what it was before
-  double rise_s = 0;   ///< from a tenth to nine tenths of that; not a number where it is not risen
-  double overshoot = 0;  ///< beyond that, as a share of it
+  /// From a tenth to nine tenths of that, and beyond it, as a share of it; neither is a number if
+  /// what is reached is 0 or not finite.
+  double rise_s = 0, overshoot = 0;
 };
+
+/// Of `values`, one or more at every kTrialInterval (envs/tuning/trial_flight.h) after a step of
+/// `size`, which were `start` before it.
+StepResponse MeasureStep(const std::vector<double>& values, double start, double size);
 
 /// A requirement of MIL-F-8785C and how it is met.
 struct Requirement {

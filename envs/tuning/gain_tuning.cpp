@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/error.h"
 #include "envs/aircraft/flight_control_file.h"
@@ -25,13 +24,6 @@ struct Condition {
 };
 
 enum Input { kElevatorInput = 1, kAileronInput, kRudderInput };
-
-/// The aircraft flown with other gains.
-Plant WithGains(const Plant& plant, const FlightControlGains& gains) {
-  Aircraft aircraft = plant.aircraft();
-  aircraft.flight_control = gains;
-  return Plant(std::move(aircraft), plant.atmosphere());
-}
 
 /// The frequency that the short period has, or if that is slower the one at which MIL-F-8785C's
 /// control anticipation parameter, frequency squared over load factor per alpha, is in the middle
@@ -85,7 +77,7 @@ double CostOfMargins(const Plant& plant, const Condition& condition, LoopAxis ax
   };
   FlightControlGains gains = plant.aircraft().flight_control;
   doubled(&gains);
-  return CostOfModes(model(WithGains(plant, gains), false), slowest, kStable) +
+  return CostOfModes(model(plant.WithFlightControl(gains), false), slowest, kStable) +
          CostOfModes(model(plant, true), slowest, kDelayedDamping);
 }
 
@@ -291,7 +283,7 @@ void SearchPitch(const Plant& plant, const FirstGains& first,
   set(SearchPattern(
       [&](const std::vector<double>& x) {
         set(x);
-        return CostOfPitch(WithGains(plant, *gains), conditions);
+        return CostOfPitch(plant.WithFlightControl(*gains), conditions);
       },
       {first.pitch_proportional, first.pitch_integral, first.pitch_rate}));
 }
@@ -310,7 +302,7 @@ void SearchLateral(const Plant& plant, const FirstGains& first,
   set(SearchPattern(
       [&](const std::vector<double>& x) {
         set(x);
-        return CostOfLateral(WithGains(plant, *gains), conditions);
+        return CostOfLateral(plant.WithFlightControl(*gains), conditions);
       },
       {first.roll_rate, first.yaw_rate, first.side_acceleration, first.interconnect,
        gains->roll_gain_pressure_psf}));
@@ -343,7 +335,7 @@ void KeepWithinLimits(const Plant& plant, const TuningLimits& limits, double sta
   constexpr int kMostRounds = 12;
   constexpr double kAlphaMarginDeg = 1, kLess = 0.92;
   for (int round = 0; round < kMostRounds; ++round) {
-    const Abuse abuse = FlyFullSticks(WithGains(plant, *gains), conditions);
+    const Abuse abuse = FlyFullSticks(plant.WithFlightControl(*gains), conditions);
     const bool stalls = !(abuse.max_alpha_deg <= stall_alpha_deg - kAlphaMarginDeg);
     const bool pulls = !(abuse.max_nz <= limits.max_load_factor_g);
     const bool pushes = !(abuse.min_nz >= limits.min_load_factor_g);

@@ -6,8 +6,11 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
+#include "base/ends_with.h"
 #include "base/fnv_hash.h"
 #include "envs/autopilot/autopilot.h"
 #include "src/agents/policy_file.h"
@@ -35,17 +38,29 @@ std::string ArgumentOf(const std::string& name) {
 
 std::string KindOf(const std::string& name) { return name.substr(0, name.find(':')); }
 
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() &&
-         text.compare(text.size() - end.size(), std::string::npos, end) == 0;
-}
-
 /// What follows "policy:", apart.
 struct PolicyArgument {
   std::string file;
   bool is_sampled = false;
   bool is_of_other_aircraft = false;
 };
+
+/// Whether a policy is there at `path`, or untrained ones are meant.
+bool IsThere(const std::string& path) {
+  std::error_code failure;
+  return path == kUntrained || std::filesystem::exists(PolicyFileOf(path), failure);
+}
+
+/// Throws UsageError if `file` is not there, but would be without what follows its last '@'.
+void RequireKnownSuffix(const std::string& file, const std::string& name) {
+  const std::size_t at = file.rfind('@');
+  if (at == std::string::npos || at == 0 || file.find('/', at) != std::string::npos) return;
+  if (IsThere(file) || !IsThere(file.substr(0, at))) return;
+  const std::string suffix = file.substr(at);
+  const std::vector<std::string> known = {kSampledSuffix, kOtherAircraftSuffix};
+  throw UsageError(fmt::format("agent {}: unknown suffix {}{}; known: {}", name, suffix,
+                               DidYouMean(suffix, known), fmt::join(known, ", ")));
+}
 
 PolicyArgument PolicyArgumentOf(const std::string& name) {
   PolicyArgument argument{ArgumentOf(name)};
@@ -54,8 +69,11 @@ PolicyArgument PolicyArgumentOf(const std::string& name) {
     argument.file.resize(argument.file.size() - suffix.size());
     return true;
   };
+  // In either order.
   argument.is_of_other_aircraft = takes(kOtherAircraftSuffix);
   argument.is_sampled = takes(kSampledSuffix);
+  argument.is_of_other_aircraft = takes(kOtherAircraftSuffix) || argument.is_of_other_aircraft;
+  RequireKnownSuffix(argument.file, name);
   return argument;
 }
 
@@ -120,6 +138,15 @@ std::string PolicyFileOfAgent(const std::string& name) {
   const std::string file = PolicyArgumentOf(name).file;
   if (file.empty()) throw UsageError(fmt::format("agent {}: policy: needs a file or a run", name));
   return PolicyFileOf(file);
+}
+
+std::vector<std::string> PolicyFilesOfAgents(const std::vector<std::string>& names) {
+  std::vector<std::string> files;
+  for (const std::string& name : names) {
+    const std::string file = PolicyFileOfAgent(name);
+    if (!file.empty() && file != kUntrained) files.push_back(file);
+  }
+  return files;
 }
 
 std::string FingerprintOfAgent(const std::string& name) {

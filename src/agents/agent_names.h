@@ -16,7 +16,11 @@ bool IsAutopilot(const std::string& name);
 std::string AutopilotVariantOf(const std::string& name);
 
 /// The file of a policy that is called "policy:FILE_OR_RUN[@sampled]"; empty for other agents.
+/// Throws UsageError on an unknown suffix of a file that is there.
 std::string PolicyFileOfAgent(const std::string& name);
+
+/// The files of the policies among the agents of these names.
+std::vector<std::string> PolicyFilesOfAgents(const std::vector<std::string>& names);
 
 /// The FNV hash of that file's content; nothing for other agents, as their names say all.
 std::string FingerprintOfAgent(const std::string& name);

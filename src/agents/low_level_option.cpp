@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 #include "envs/actions.h"
 #include "envs/task_registry.h"
@@ -21,13 +22,13 @@ namespace {
 RecurrentPolicy LoadControlPolicy(const EnvConfig& env, const std::string& path) {
   RecurrentPolicy policy = RecurrentPolicy::Load(path);
   if (!policy.task().empty() && policy.task() != kLowLevelTask) {
-    throw Error(
+    throw ChoiceError(
         fmt::format("--low-level {}: a policy of task {}, but a high-level policy needs one of "
                     "task {} below it",
                     path, policy.task(), kLowLevelTask));
   }
   if (policy.observation_size() != kObservationSize || policy.action_size() != kActionSize) {
-    throw Error(
+    throw ChoiceError(
         fmt::format("--low-level {}: it takes {} observations and gives {} actions, but "
                     "a policy of task {} has {} and {}",
                     path, policy.observation_size(), policy.action_size(), kLowLevelTask,

@@ -18,8 +18,8 @@ struct ChosenLowLevelPolicy {
 
 /// The low-level policy for the environment's task: the policy that `option` names (a run of task
 /// control, or a policy file of it), an autopilot ("autopilot", or "autopilot:VARIANT"), or none if
-/// it is empty. Throws UsageError if the task needs one and none is named, or the reverse; Error if
-/// what is named cannot be one.
+/// it is empty. Throws UsageError if the task needs one and none is named, or the reverse;
+/// ChoiceError if what is named cannot be one, and Error if it cannot be read.
 ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option);
 
 /// The same; if the task needs one and none is named, that of the high-level policy in `from`, a

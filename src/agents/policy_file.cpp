@@ -40,6 +40,11 @@ std::string PolicyFileOf(const std::string& path) {
   return newest;
 }
 
+std::vector<std::string> FilesOfPolicy(const std::string& path) {
+  if (path.empty() || path == kUntrained) return {};
+  return IsRunDirectory(path) ? FilesOfRuns({path}) : std::vector<std::string>{PolicyFileOf(path)};
+}
+
 std::string NetworksFileOf(const std::string& path) {
   if (!IsRunDirectory(path)) return PolicyFileOf(path);
   const std::vector<Checkpoint> checkpoints = CheckpointsIn(path + "/checkpoints");

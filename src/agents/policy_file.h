@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "src/config/program_config.h"
 #include "train/policy/recurrent_policy.h"
@@ -21,6 +22,10 @@ inline constexpr const char* kPoliciesRoot = "policies/";
 /// that name that was installed with the program; otherwise `path` itself. Throws Error on a
 /// directory that holds no run, or a run that has not saved a policy yet.
 std::string PolicyFileOf(const std::string& path);
+
+/// The files that are read of the policy that `path` stands for: those of the run, or the file of
+/// PolicyFileOf. None of no path, and of kUntrained. Throws as PolicyFileOf of what is no run.
+std::vector<std::string> FilesOfPolicy(const std::string& path);
 
 /// The file whose networks training starts from if it is to start from `path`: of the directory of
 /// a run its newest checkpoint, which has the critic, else what PolicyFileOf finds.

@@ -18,6 +18,7 @@
 #include "envs/kernels/plant_kernel.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
+#include "src/bench/figure.h"
 
 namespace skein {
 namespace {
@@ -36,10 +37,8 @@ double Time(const std::function<void()>& step) {
 }
 
 SimulatorRate MedianRate(std::vector<double> seconds, int aircraft) {
-  std::vector<double> sorted = seconds;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return {*middle, aircraft / *middle, std::move(seconds)};
+  const double median = MedianOf(seconds);
+  return {median, aircraft / median, std::move(seconds)};
 }
 
 SimulatorRate Measure(int aircraft, int steps, const std::function<void()>& step) {

@@ -163,11 +163,11 @@ void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents f
   for (const std::string& name : names) {
     paths.push_back(names.size() == 1 ? flight.out : PathOfAgent(flight.out, name));
   }
-  CheckWritable(paths);
   FlightOptions& options = flown.flight;
   if (command.get_option("--aircraft")->count() > 0) {
     options.aircraft = flight.condition.model.aircraft;
   }
+  CheckWritable(paths, FilesRead(flown));
   options.own_assignments = AssignmentsOf(command, flight);
   for (auto& own : TargetsAtStart(TaskOf(flown))) options.own_assignments.push_back(std::move(own));
   options.episodes = 1;

@@ -71,9 +71,8 @@ void Tune(const std::string& in, const std::string& out) {
   if (PrintFindings(checked.findings) > 0) {
     throw Error(in + ": flight control cannot be derived before these are put right");
   }
-  Aircraft aircraft = checked.plant.aircraft();
-  aircraft.flight_control = TuneFlightControl(checked.plant, checked.limits);
-  const Plant tuned(aircraft, checked.plant.atmosphere());
+  const Plant tuned =
+      checked.plant.WithFlightControl(TuneFlightControl(checked.plant, checked.limits));
   std::vector<Finding> findings;
   fmt::print("{}\n", DescribeHandling(tuned, checked.limits, ReportEnvelope(tuned, checked.limits),
                                       &findings));
@@ -85,7 +84,7 @@ void Tune(const std::string& in, const std::string& out) {
     fmt::print("nothing is written; -o FILE writes {} with these gains\n", in);
     return;
   }
-  WriteTuned(out, document.text, aircraft.flight_control);
+  WriteTuned(out, document.text, tuned.aircraft().flight_control);
   fmt::print("wrote {}\n", out);
 }
 

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "envs/aircraft/registry.h"
 
 namespace skein {
@@ -19,6 +22,18 @@ CLI::Option* AddAircraftOption(CLI::App* command, std::string* aircraft) {
                    "then says where it flies, unless other settings do; same as --set "
                    "env.aircraft=...")
       ->type_name("NAME_OR_FILE");
+}
+
+std::vector<std::string> AircraftFilesIn(const std::string& aircraft,
+                                         const std::vector<std::string>& assignments) {
+  const std::string key = "env.aircraft=";
+  std::vector<std::string> named = {aircraft};
+  for (const std::string& assignment : assignments) {
+    if (assignment.rfind(key, 0) == 0) named.push_back(assignment.substr(key.size()));
+  }
+  std::vector<std::string> files;
+  std::copy_if(named.begin(), named.end(), std::back_inserter(files), IsAircraftPath);
+  return files;
 }
 
 CLI::Validator CompletesAircraft() {

@@ -20,7 +20,7 @@ CLI::App* AddAny(CLI::App* bench, const std::string& name, const std::string& de
   command->add_option("--json", options->json, "also write the figures here")->type_name("FILE");
   command->callback([options, run] {
     // Of several processes one alone writes: the benchmark sees to it.
-    if (LaunchedProcesses() == 1) CheckWritable(options->json);
+    if (LaunchedProcesses() == 1) CheckWritable({options->json}, FilesRead(*options));
     run(*options);
   });
   return command;
@@ -63,7 +63,7 @@ CLI::App* AddLearner(CLI::App* bench, const std::string& name, const std::string
   command->add_option("--iterations", options->iterations, "iterations timed; the median counts")
       ->transform(WholeNumber(1, 1000))
       ->capture_default_str();
-  command->add_option("--task", options->task, "what is flown")
+  command->add_option("--task", options->task, "what is flown, or a task file, FILE.toml")
       ->type_name("TASK")
       ->capture_default_str();
   command

@@ -1,18 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <utility>
 
+#include "src/agents/agent_names.h"
+#include "src/agents/policy_file.h"
 #include "src/bench/machine.h"
+#include "src/commands/aircraft_option.h"
 #include "src/commands/benchmarks.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/configuration.h"
+#include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
 
 namespace skein {
 
 using Json = nlohmann::ordered_json;
+
+std::vector<std::string> FilesRead(const BenchOptions& options) {
+  std::vector<std::string> files = AircraftFilesIn(options.aircraft, options.assignments);
+  for (const std::string& task : {options.task, options.beside}) {
+    if (IsTaskFile(task)) files.push_back(task);
+  }
+  const std::string low_level = IsAutopilot(options.low_level) ? "" : options.low_level;
+  for (const auto& more : {FilesOfPolicy(low_level), CLI::detail::split(options.before, ','),
+                           CLI::detail::split(options.after, ',')}) {
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  return files;
+}
 
 TrainConfig BenchConfig(const BenchOptions& options) {
   return AsUsage([&] {

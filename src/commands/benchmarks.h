@@ -41,6 +41,9 @@ void BenchSignature(const BenchOptions& options);
 void BenchScaling(const BenchOptions& options);
 void CompareBenchmarkFiles(const BenchOptions& options);
 
+/// The files that a benchmark reads: what is flown, and what is compared.
+std::vector<std::string> FilesRead(const BenchOptions& options);
+
 /// The configuration of the task's preset with the conditions and assignments.
 TrainConfig BenchConfig(const BenchOptions& options);
 

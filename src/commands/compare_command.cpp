@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -34,14 +34,25 @@ struct CompareOptions {
   FlightOptions flight;
 };
 
-ProgramConfig Configure(const FlightOptions& flight) {
+ProgramConfig Configure(const CompareOptions& options) {
+  const FlightOptions& flight = options.flight;
+  ConfigSources sources = SourcesFor(
+      flight, "", flight.task.empty() ? FirstPolicyWithTask(options.agents) : std::nullopt);
+  sources.file = flight.config;
   return AsUsage([&] {
-    ProgramConfig config = ResolveConfig({flight.task, flight.preset, flight.config, {}});
+    ProgramConfig config = ResolveConfig(sources);
     const EnvConfig asked = config.train.env;
     ApplyOverrides(flight, &config);
     CheckEachAgentsOwn(config.train.env, asked);
     return config;
   });
+}
+
+std::vector<std::string> Inputs(const CompareOptions& options) {
+  std::vector<std::string> files = FilesRead(options.flight);
+  const std::vector<std::string> policies = PolicyFilesOfAgents(options.agents);
+  files.insert(files.end(), policies.begin(), policies.end());
+  return files;
 }
 
 std::vector<std::string> Outputs(const CompareOptions& options) {
@@ -77,6 +88,24 @@ std::string PageData(const CompareOptions& options, const Comparison& comparison
                                 named.agent.EnvironmentFor(config.train.env), pool));
   }
   return ComparisonData(comparison, config, flown);
+}
+
+/// Whether the first episodes are flown for a page.
+bool WantsPage(const CompareOptions& options) {
+  return !options.no_html && (!options.html.empty() || FindReportTemplate());
+}
+
+/// Throws UsageError if more is to be recorded than has room.
+void RequireRoom(const CompareOptions& options, const EnvConfig& env) {
+  const FlightOptions& flight = options.flight;
+  const bool has_page = WantsPage(options);
+  if (!has_page && !RecordsFlights(flight)) return;
+  // Files of single agents are written one after the other.
+  const bool keeps_all = has_page || !flight.acmi.empty();
+  RequireRoomFor(std::min(flight.flights_count, flight.episodes),
+                 keeps_all ? options.agents.size() : 1, LongestFlight(env), env,
+                 "--flights-count or " + LengthOption(env) +
+                     (has_page && options.html.empty() ? ", or give --no-html" : ""));
 }
 
 /// A page that was asked for is written, or the command fails; without being asked one is written
@@ -120,8 +149,9 @@ void CompareAgents(const CompareOptions& options, Ranks& ranks) {
   std::vector<NamedAgent> agents;
   std::string identity;
   DoTogether(ranks, [&] {
-    config = Configure(flight);
-    if (ranks.rank() == 0) CheckWritable(Outputs(options));
+    config = Configure(options);
+    RequireRoom(options, config.train.env);
+    if (ranks.rank() == 0) CheckWritable(Outputs(options), Inputs(options));
     if (!options.html.empty()) ReportTemplate();  // without one there is nothing to fly for
     agents = FindAgents(options.agents, config, flight.seed);
     if (ranks.count() > 1) identity = Identity(options, config);
@@ -140,20 +170,14 @@ void AddCompareCommand(CLI::App* app) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
       app->add_subcommand("compare", "Fly several agents over the same fresh episodes");
-  command
-      ->add_option("--agents", options->agents,
-                   fmt::format("who flies, separated by commas: {}", AgentNames()))
-      ->type_name("AGENT,...")
-      ->delimiter(',')
-      ->required();
+  AddAgentList(command, "who flies, separated by commas", &options->agents)->required();
   FlightOptionTexts texts;
-  texts.task = fmt::format("what to fly: {}", fmt::join(PresetTasks(), ", "));
+  texts.task = TaskHelp() + " (default: the task of a policy)";
   texts.preset = "environment settings to begin with (default: default)";
   texts.json = "write all results here";
   texts.flights =
       "write every agent's first episodes, FILE.csv for agent A to FILE.A.csv, for skein plot";
   AddFlightOptions(command, texts, &options->flight);
-  command->get_option("--task")->required();
   command->add_option("--csv", options->csv, "write a row for every agent here")->type_name("FILE");
   CLI::Option* html =
       command

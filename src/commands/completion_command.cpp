@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,8 +16,12 @@
 namespace skein {
 namespace {
 
-/// The long name of an option, which is what is completed.
-const std::string& NameOf(const OptionForm& option) { return option.names.back(); }
+/// The first long name of an option, which is what is completed.
+const std::string& NameOf(const OptionForm& option) {
+  const auto is_long = [](const std::string& name) { return name.rfind("--", 0) == 0; };
+  const auto found = std::find_if(option.names.begin(), option.names.end(), is_long);
+  return found == option.names.end() ? option.names.back() : *found;
+}
 
 /// What may follow a command: commands, choices of its arguments, options.
 std::vector<std::string> WordsAfter(const CommandForm& command) {
@@ -39,13 +44,16 @@ std::string QuotedPaths(const std::vector<CommandForm>& commands, const char* se
   return fmt::format("{}", fmt::join(paths, separator));
 }
 
-/// Calls visit(command and option as typed, option) for every option that takes a value.
+/// Calls visit(command and option as typed, option) for every name of every option that takes a
+/// value.
 template <typename Visit>
 void VisitValues(const std::vector<CommandForm>& commands, const Visit& visit) {
   for (const CommandForm& command : commands) {
     for (const OptionForm& option : command.options) {
       if (option.is_argument || option.value.empty()) continue;
-      visit(SingleQuoted(command.path + " " + NameOf(option)), option);
+      for (const std::string& name : option.names) {
+        visit(SingleQuoted(command.path + " " + name), option);
+      }
     }
   }
 }

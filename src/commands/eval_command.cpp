@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "base/fnv_hash.h"
+#include "src/agents/agent_names.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/bench/machine.h"
@@ -87,6 +87,15 @@ Subject FindSubject(const EvalOptions& options) {
   return {path, config, policy};
 }
 
+std::vector<std::string> Inputs(const EvalOptions& options) {
+  std::vector<std::string> files = FilesRead(options.flight);
+  const std::string low_level = IsAutopilot(options.low_level) ? "" : options.low_level;
+  for (const auto& policies : {FilesOfPolicy(options.policy), FilesOfPolicy(low_level)}) {
+    files.insert(files.end(), policies.begin(), policies.end());
+  }
+  return files;
+}
+
 /// What is flown, in short.
 std::string Identity(const Subject& subject, const FlightOptions& flight) {
   TensorFile policy;
@@ -103,7 +112,14 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
   std::string identity;
   DoTogether(ranks, [&] {
     subject.emplace(FindSubject(options));
-    if (ranks.rank() == 0) CheckWritable({flight.json, flight.flights, flight.acmi});
+    if (RecordsFlights(flight)) {
+      const EnvConfig& env = subject->config.train.env;
+      RequireRoomFor(std::min(flight.flights_count, flight.episodes), 1, LongestFlight(env), env,
+                     "--flights-count or " + LengthOption(env));
+    }
+    if (ranks.rank() == 0) {
+      CheckWritable({flight.json, flight.flights, flight.acmi}, Inputs(options));
+    }
     if (ranks.count() > 1) identity = Identity(*subject, flight);
   });
   RequireSameOnRanks(ranks, "what they fly", identity);
@@ -115,9 +131,8 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
   if (ranks.rank() != 0) return;
   fmt::print("{} on {}, {}, seed {}\n{}\n  {}\n  {}\n  {}\n{}\n", path, env.task,
              Counted(flight.episodes, "episode"), flight.seed,
-             InLines("  ", DescribeConditions(EvaluationConfig(env))), Rates(policy, env),
-             Describe(policy.backend()), DescribeWorkers(pool),
-             ToText(report, options.deterministic));
+             InLines("  ", DescribeEvaluation(env)), Rates(policy, env), Describe(policy.backend()),
+             DescribeWorkers(pool), ToText(report, options.deterministic));
   if (!flight.json.empty()) {
     WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));
   }
@@ -136,8 +151,7 @@ void AddEvalCommand(CLI::App* app) {
       ->type_name("FILE_OR_RUN")
       ->required();
   FlightOptionTexts texts;
-  texts.task = fmt::format("what to fly: {} (default: the task of the run or of the policy file)",
-                           fmt::join(PresetTasks(), ", "));
+  texts.task = TaskHelp() + " (default: the task of the run or of the policy file)";
   texts.preset =
       "environment settings to begin with (default: the run's own; for a policy file, default)";
   texts.json = "write the results here";

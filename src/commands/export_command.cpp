@@ -3,13 +3,17 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
+#include <utility>
 
+#include "base/ends_with.h"
 #include "envs/aircraft/registry.h"
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/config/one_of.h"
 #include "src/config/usage_error.h"
 #include "src/export/policy_export.h"
+#include "src/files/output_file.h"
 
 namespace skein {
 namespace {
@@ -24,27 +28,50 @@ struct ExportOptions {
   CLI::Option* aircraft_option = nullptr;
 };
 
-ExportForm FormCalled(const std::string& name) {
-  for (const auto& [form, known] : kExportForms) {
-    if (name == known) return form;
+/// The form that the name of a file tells by its ending; nothing if it tells none.
+std::optional<ExportForm> FormOfFile(const std::string& path) {
+  constexpr std::pair<const char*, ExportForm> kEndings[] = {
+      {".onnx", ExportForm::kOnnx},
+      {".safetensors", ExportForm::kSafetensors},
+      {".h", ExportForm::kC}};
+  for (const auto& [ending, form] : kEndings) {
+    if (EndsWith(path, ending)) return form;
   }
-  throw UsageError("unknown format " + name);
+  return std::nullopt;
+}
+
+/// The one that was asked for, or the one that the name of the file tells.
+ExportForm ChooseForm(const ExportOptions& options) {
+  const std::optional<ExportForm> told = FormOfFile(options.out);
+  if (options.format.empty()) {
+    if (told) return *told;
+    throw UsageError(fmt::format(
+        "--format is needed: onnx, torchscript, safetensors or c; -o {} does not tell it",
+        options.out));
+  }
+  for (const auto& [form, name] : kExportForms) {
+    if (options.format != name) continue;
+    if (told.value_or(form) == form) return form;
+    throw UsageError(fmt::format("--format {} of -o {}: the ending is of another format",
+                                 options.format, options.out));
+  }
+  throw UsageError("unknown format " + options.format);
 }
 
 std::vector<std::string> Export(ExportOptions options) {
   // What a policy was trained on is found by its hash among the files that are kept.
-  if (IsAircraftPath(options.aircraft)) options.aircraft = KeepAircraftFile(options.aircraft);
+  const std::string file = IsAircraftPath(options.aircraft) ? options.aircraft : "";
+  if (!file.empty()) options.aircraft = KeepAircraftFile(file);
   if (!options.policy.empty() && options.aircraft_option->count() > 0 &&
       !IsKeptFile(options.aircraft)) {
     throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
   }
   if (!options.flight_control.empty()) {
+    CheckWritable({options.out}, {file});
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }
   if (options.policy.empty()) throw UsageError("a policy file or the directory of a run is needed");
-  if (options.format.empty())
-    throw UsageError("--format is needed: onnx, torchscript, safetensors or c");
-  return ExportPolicy({options.policy, FormCalled(options.format), options.out, options.check});
+  return ExportPolicy({options.policy, ChooseForm(options), options.out, options.check, file});
 }
 
 std::vector<std::string> FormNames() {
@@ -67,7 +94,8 @@ void AddExportCommand(CLI::App* app) {
       command
           ->add_option("--format", options->format,
                        "of the policy: an ONNX model, a TorchScript module, safetensors by "
-                       "PyTorch's names, or one C99 header")
+                       "PyTorch's names, or one C99 header (default: by the name of the file, "
+                       ".onnx, .safetensors or .h)")
           ->check(OneOf(FormNames()));
   command
       ->add_option("--flight-control", options->flight_control,

@@ -98,8 +98,14 @@ void WriteDocument(const FileOptions& options, Json document) {
   WriteJson(options.out, document);
 }
 
+void CheckOutput(const FileOptions& options) {
+  std::vector<std::string> read = options.model.FilesRead();
+  read.push_back(options.in);
+  CheckWritable({options.out}, read);
+}
+
 void Evaluate(const FileOptions& options) {
-  CheckWritable(options.out);
+  CheckOutput(options);
   FdmFile file = ReadFdmFile(options.in);
   Json document = std::move(file.document);
   WritePoints(options, "points", file.points, &document);
@@ -112,7 +118,7 @@ void Evaluate(const FileOptions& options) {
 }
 
 void Simulate(const FileOptions& options) {
-  CheckWritable(options.out);
+  CheckOutput(options);
   FdmFile file = ReadFdmFile(options.in);
   if (!file.document.contains("trajectories")) {
     throw Error(options.in + ": trajectories is missing; `skein fdm simulate` flies nothing else");

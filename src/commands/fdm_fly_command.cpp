@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "envs/aircraft/engine.h"
 #include "src/commands/agent_flight.h"
@@ -36,7 +37,9 @@ struct FlyOptions {
 };
 
 void FlySticks(const FlyOptions& options) {
-  CheckWritable(options.out);
+  std::vector<std::string> read = options.condition.model.FilesRead();
+  read.push_back(options.commands);
+  CheckWritable({options.out}, read);
   CommandedFlight flight = options.flight;
   flight.mode = kModes.at(options.mode);
   if (options.by_altitude) flight.gusts.law = TurbulenceLaw::kByAltitude;

@@ -30,7 +30,7 @@ struct LineariseOptions {
 
 void FindLinearModels(const LineariseOptions& options) {
   if (!options.picture.empty()) CheckPictureFile(options.picture);
-  CheckWritable({options.json, options.picture});
+  CheckWritable({options.json, options.picture}, options.condition.model.FilesRead());
   const Plant plant = options.condition.MakePlant();
   const auto flights = AtEveryPoint<LinearisedFlight>(
       options.condition.grid, [&](const SteadyFlightRequest& request) {

@@ -112,7 +112,8 @@ void FindTrim(TrimOptions options) {
   for (const std::string& picture : {options.picture, options.polar}) {
     if (!picture.empty()) CheckPictureFile(picture);
   }
-  CheckWritable({options.json, options.csv, options.picture, options.polar});
+  CheckWritable({options.json, options.csv, options.picture, options.polar},
+                options.condition.model.FilesRead());
   if (!options.wind.empty()) options.condition.grid.manoeuvre.wind_ft_s = ReadWind(options.wind);
   const Plant plant = options.condition.MakePlant();
   (options.condition.grid.IsOnePoint() ? TrimOnePoint : TrimGrid)(options, plant);

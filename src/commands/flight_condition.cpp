@@ -59,6 +59,8 @@ void AddPlantSetting(CLI::App* command, PlantSetting* setting) {
 
 }  // namespace
 
+std::vector<std::string> ModelOptions::FilesRead() const { return AircraftFilesIn(aircraft); }
+
 void AddModel(CLI::App* command, ModelOptions* options) {
   command->add_option("--aircraft", options->aircraft, AircraftHelp("whose equations of motion"))
       ->check(CompletesAircraft())

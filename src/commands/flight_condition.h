@@ -21,6 +21,9 @@ struct ModelOptions {
   std::string aircraft = "f16";
   std::string atmosphere = "stevens_lewis";
   Gravity gravity;
+
+  /// The file of an own aircraft.
+  std::vector<std::string> FilesRead() const;
 };
 
 /// --aircraft, --atmosphere, --gravity-ft-s2, --gravity-falls-with-altitude.

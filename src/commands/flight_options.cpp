@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 
+#include "base/number_text.h"
 #include "src/agents/agent_names.h"
 #include "src/commands/aircraft_option.h"
 #include "src/config/aircraft_choice.h"
@@ -91,12 +93,31 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
       ->needs(flights);
 }
 
-ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
-                        const std::optional<RecurrentPolicy>& trained) {
-  const bool is_of_run = options.preset_option->count() == 0 && !IsTaskFile(options.task);
-  if (IsRunDirectory(policy) && is_of_run) {
-    return ReadRecord(policy + "/config.toml");
+CLI::Option* AddAgentList(CLI::App* command, const std::string& description,
+                          std::vector<std::string>* agents) {
+  return command->add_option("--agents", *agents, fmt::format("{}: {}", description, AgentNames()))
+      ->type_name("AGENT,...")
+      ->delimiter(',')
+      ->transform([](const std::string& name) { return CLI::detail::trim_copy(name); });
+}
+
+std::vector<std::string> FilesRead(const FlightOptions& options) {
+  std::vector<std::string> files = AircraftFilesIn(options.aircraft, options.assignments);
+  files.push_back(options.config);
+  if (IsTaskFile(options.task)) files.push_back(options.task);
+  return files;
+}
+
+std::optional<RecurrentPolicy> FirstPolicyWithTask(const std::vector<std::string>& agents) {
+  for (const std::string& file : PolicyFilesOfAgents(agents)) {
+    RecurrentPolicy policy = RecurrentPolicy::Load(file);
+    if (!policy.task().empty()) return policy;
   }
+  return std::nullopt;
+}
+
+ConfigSources SourcesFor(const FlightOptions& options, const std::string& policy,
+                         const std::optional<RecurrentPolicy>& trained) {
   const std::string policys_task = trained ? trained->task() : "";
   const std::string& task = options.task.empty() ? policys_task : options.task;
   if (task.empty()) {
@@ -106,6 +127,16 @@ ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
   }
   ConfigSources sources{task, options.preset, "", {}};
   if (options.task.empty() && trained) sources.task_text = trained->parameters()->task_file;
+  return sources;
+}
+
+ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
+                        const std::optional<RecurrentPolicy>& trained) {
+  const bool is_of_run = options.preset_option->count() == 0 && !IsTaskFile(options.task);
+  if (IsRunDirectory(policy) && is_of_run) {
+    return ReadRecord(policy + "/config.toml");
+  }
+  const ConfigSources sources = SourcesFor(options, policy, trained);
   return AsUsage([&] { return ResolveConfig(sources); });
 }
 
@@ -164,6 +195,28 @@ bool RecordsFlights(const FlightOptions& options) {
   return !options.flights.empty() || !options.acmi.empty();
 }
 
+double LongestFlight(const EnvConfig& env) {
+  const EnvConfig flown = EvaluationConfig(env);
+  if (flown.mission.enabled()) return flown.mission.flown_length_s();
+  return flown.time_limit_steps * flown.control_interval_s + flown.hold_s;
+}
+
+std::string LengthOption(const EnvConfig& env) {
+  if (EvaluationConfig(env).mission.enabled()) return "--mission";
+  return env.hold_s > 0 ? "--hold" : "env.time_limit_steps";
+}
+
+void RequireRoomFor(int flights, std::size_t agents, double longest_s, const EnvConfig& env,
+                    const std::string& lower) {
+  const double steps =
+      std::round(longest_s / env.control_interval_s) * flights * static_cast<double>(agents);
+  if (steps <= kMostRecordedSteps) return;
+  throw UsageError(fmt::format(
+      "to record {} of up to {} s by {} takes {:.0f} control steps, and {} are the most: lower {}",
+      Counted(flights, "flight"), ShortestText(longest_s),
+      Counted(static_cast<int>(agents), "agent"), steps, kMostRecordedSteps, lower));
+}
+
 AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, const Agent& agent,
                          const EnvConfig& env, WorkerPool& pool) {
   EvaluationOptions evaluation;
@@ -186,9 +239,8 @@ AcmiRecording AcmiOf(const FlightOptions& options, const std::vector<AgentFlight
   const EnvConfig& env = agents.front().env;
   std::vector<std::string> names;
   for (const AgentFlights& flown : agents) names.push_back(flown.agent);
-  return RecordAcmi(
-      agents, fmt::format("{}: {}", env.task, fmt::join(names, ", ")),
-      fmt::format("{}; seed {}", DescribeConditions(EvaluationConfig(env)), options.seed));
+  return RecordAcmi(agents, fmt::format("{}: {}", env.task, fmt::join(names, ", ")),
+                    fmt::format("{}; seed {}", DescribeEvaluation(env), options.seed));
 }
 
 void WriteFlightsAcmi(const FlightOptions& options, const std::string& path,

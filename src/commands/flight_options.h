@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/commands/launched_ranks.h"
+#include "src/config/configuration.h"
 #include "src/config/program_config.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/flight_table.h"
@@ -56,6 +57,23 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
 /// Adds those, and those of the files that results and flights go to.
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options);
 
+/// Adds --agents, a list of names, with blanks around them left out; `description` ends with what
+/// they may be.
+CLI::Option* AddAgentList(CLI::App* command, const std::string& description,
+                          std::vector<std::string>* agents);
+
+/// The files that the options name and that are read: of a configuration, a task, an aircraft.
+std::vector<std::string> FilesRead(const FlightOptions& options);
+
+/// The first of these agents that is a policy and says its own task; nothing if none does. Throws
+/// Error on a policy that cannot be read.
+std::optional<RecurrentPolicy> FirstPolicyWithTask(const std::vector<std::string>& agents);
+
+/// Where the configuration of the task begins that is asked for, else of that of `trained`: at the
+/// preset. Throws UsageError, which names `policy` unless that is empty, if nothing says a task.
+ConfigSources SourcesFor(const FlightOptions& options, const std::string& policy,
+                         const std::optional<RecurrentPolicy>& trained);
+
 /// What a policy was made for: the run's own configuration if `policy` is a run and no preset was
 /// asked for, else the preset's, of the task of `trained` if no other is asked for.
 ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
@@ -73,6 +91,21 @@ std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
 
 /// Whether flights are to be recorded.
 bool RecordsFlights(const FlightOptions& options);
+
+/// Control steps of all agents together that are recorded at once; each takes up to 1300 bytes
+/// until it is written.
+inline constexpr int kMostRecordedSteps = 5000000;
+
+/// The longest that an evaluation's flight in `env` can be, s.
+double LongestFlight(const EnvConfig& env);
+
+/// The option or key that this follows from, for errors.
+std::string LengthOption(const EnvConfig& env);
+
+/// Throws UsageError, which names the options to `lower`, if so many flights of up to `longest_s`
+/// by each of the agents could have more control steps than kMostRecordedSteps.
+void RequireRoomFor(int flights, std::size_t agents, double longest_s, const EnvConfig& env,
+                    const std::string& lower);
 
 /// The first episodes, as many as --flights-count says.
 AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, const Agent& agent,

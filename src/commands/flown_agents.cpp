@@ -18,34 +18,12 @@
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/evaluation/comparison.h"
-#include "src/files/text_table.h"
-#include "train/policy/recurrent_policy.h"
 
 namespace skein {
 namespace {
 
-/// The first agent that is a policy and says its own task.
-std::optional<RecurrentPolicy> PolicyOf(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    const std::string file = PolicyFileOfAgent(name);
-    if (file.empty() || file == kUntrained) continue;
-    RecurrentPolicy policy = RecurrentPolicy::Load(file);
-    if (!policy.task().empty()) return policy;
-  }
-  return std::nullopt;
-}
-
 long StepsOf(double seconds, const EnvConfig& env) {
   return std::lround(seconds / env.control_interval_s);
-}
-
-void RequireRoomFor(double seconds, std::size_t agents, const EnvConfig& env) {
-  const double steps = seconds / env.control_interval_s * static_cast<double>(agents);
-  if (steps <= kMostRecordedSteps) return;
-  throw UsageError(
-      fmt::format("{} s in steps of {} s, by {}, are more than the {} steps that are kept",
-                  ShortestText(seconds), ShortestText(env.control_interval_s),
-                  Counted(static_cast<int>(agents), "agent"), kMostRecordedSteps));
 }
 
 /// Neither the time limit nor a reached target ends an episode before.
@@ -105,14 +83,15 @@ std::vector<std::optional<float>> TargetOf(const std::vector<std::string>& texts
 }
 
 ProgramConfig Configure(const FlownAgents& flown, const std::vector<std::string>& names) {
-  ProgramConfig config = ConfigFor(flown.flight, flown.policy, PolicyOf(names));
+  ProgramConfig config = ConfigFor(flown.flight, flown.policy, FirstPolicyWithTask(names));
   const EnvConfig asked = config.train.env;
   ApplyOverrides(flown.flight, &config);
   AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });
-  if (flown.seconds) {
-    RequireRoomFor(*flown.seconds, names.size(), config.train.env);
-    GoOnFor(*flown.seconds, &config.train.env);
-  }
+  EnvConfig& env = config.train.env;
+  RequireRoomFor(flown.flight.episodes, names.size(),
+                 flown.seconds ? *flown.seconds : LongestFlight(env), env,
+                 flown.seconds ? "--seconds" : "--episodes or " + LengthOption(env));
+  if (flown.seconds) GoOnFor(*flown.seconds, &env);
   return config;
 }
 
@@ -123,18 +102,12 @@ void AddAgents(CLI::App* command, FlownAgents* flown) {
       ->add_option("--policy", flown->policy,
                    "policy file, checkpoint or directory of a run, whose environment is flown in")
       ->type_name("FILE_OR_RUN");
-  command
-      ->add_option(
-          "--agents", flown->agents,
-          fmt::format("who flies the same episodes, beside it or instead: {}", AgentNames()))
-      ->type_name("AGENT,...")
-      ->delimiter(',');
+  AddAgentList(command, "who flies the same episodes, beside it or instead", &flown->agents);
 }
 
 FlightOptionTexts TextsOfFlownAgents() {
   FlightOptionTexts texts;
-  texts.task = fmt::format("what to fly: {} (default: the task of the run or of a policy)",
-                           fmt::join(PresetTasks(), ", "));
+  texts.task = TaskHelp() + " (default: the task of the run or of a policy)";
   texts.preset =
       "environment settings to begin with (default: the run's own; without one, default)";
   texts.most_episodes = kMostRecordedEpisodes;
@@ -161,8 +134,16 @@ std::vector<std::string> NamesOf(const FlownAgents& flown) {
   return names;
 }
 
+std::vector<std::string> FilesRead(const FlownAgents& flown) {
+  std::vector<std::string> files = FilesRead(flown.flight);
+  for (const auto& policies : {FilesOfPolicy(flown.policy), PolicyFilesOfAgents(NamesOf(flown))}) {
+    files.insert(files.end(), policies.begin(), policies.end());
+  }
+  return files;
+}
+
 std::string TaskOf(const FlownAgents& flown) {
-  return ConfigFor(flown.flight, flown.policy, PolicyOf(NamesOf(flown))).train.env.task;
+  return ConfigFor(flown.flight, flown.policy, FirstPolicyWithTask(NamesOf(flown))).train.env.task;
 }
 
 ProgramConfig ConfigurationOf(const FlownAgents& flown) { return Configure(flown, NamesOf(flown)); }

@@ -20,8 +20,6 @@ struct FlownAgents {
 };
 
 inline constexpr int kMostRecordedEpisodes = 1000;
-/// Of all agents in FlownAgents::seconds; each takes 1300 bytes until it is written.
-inline constexpr long kMostRecordedSteps = 500000;
 
 /// Adds --policy and --agents; `flown` must live as long as the command.
 void AddAgents(CLI::App* command, FlownAgents* flown);
@@ -38,6 +36,9 @@ void RequireNotGiven(const CLI::App& command, std::initializer_list<const char*>
 /// The policy's name and the agents'. Throws UsageError if nobody flies.
 std::vector<std::string> NamesOf(const FlownAgents& flown);
 
+/// The files that FlyEpisodes reads. Throws UsageError if nobody flies.
+std::vector<std::string> FilesRead(const FlownAgents& flown);
+
 /// The task that FlyEpisodes flies. Throws UsageError if nothing says one.
 std::string TaskOf(const FlownAgents& flown);
 
@@ -45,7 +46,8 @@ std::string TaskOf(const FlownAgents& flown);
 ProgramConfig ConfigurationOf(const FlownAgents& flown);
 
 /// The same episodes, flown by everybody in the environment of the policy's run, else of the preset
-/// of the task, with the changes that were asked for. Throws UsageError on what cannot be.
+/// of the task, with the changes that were asked for. Throws UsageError on what cannot be, and on
+/// more than kMostRecordedSteps.
 std::vector<AgentFlights> FlyEpisodes(const FlownAgents& flown);
 
 }  // namespace skein

@@ -9,6 +9,7 @@
 #include <exception>
 #include <memory>
 
+#include "base/error.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "train/files/file_descriptor.h"
@@ -54,9 +55,13 @@ void OnLaunchedRanks(double timeout_s, const std::function<void(Ranks& ranks)>& 
     RequirePowerOfTwo(joined->count());
     if (joined->rank() != 0) CloseStandardOutput();
     work(*joined);
-  } catch (const std::exception&) {
+  } catch (const Error&) {
     // Every rank has been told: rank 0 says it.
     if (joined->rank() == 0) throw;
+  } catch (const std::exception& failure) {
+    // No memory, no thread: it befell this rank alone, and the others wait for it.
+    if (joined->rank() == 0) throw;
+    joined->Abort(failure.what());
   }
 }
 

@@ -212,7 +212,7 @@ void MeasureIteration(const BenchOptions& options, Ranks& ranks) {
   DoTogether(ranks, [&] {
     config = LearnerBenchConfig(options);
     AsUsage([&] { return ShardsOfRank(config, ranks); });
-    if (ranks.rank() == 0) CheckWritable(options.json);
+    if (ranks.rank() == 0) CheckWritable({options.json}, FilesRead(options));
   });
   RequireSameOnRanks(ranks, "what they measure", DescribeProgram());
   WorkerPool pool(options.threads);

@@ -110,6 +110,10 @@ std::string ManualPage(const std::vector<CommandForm>& commands) {
          ".SH ENVIRONMENT\n"
          ".TP\n\\fBSKEIN_SIMD\\fR\n"
          "forces a SIMD target: avx512, avx2, sse4, neon or scalar\n"
+         ".TP\n\\fBCC\\fR\n"
+         "the C compiler of skein export \\-\\-check (default: cc)\n"
+         ".TP\n\\fBSKEIN_PYTHON\\fR\n"
+         "the Python of skein export \\-\\-check (default: python3)\n"
          ".TP\n\\fBNO_COLOR\\fR\n"
          "if set, progress is shown without colour\n";
 }

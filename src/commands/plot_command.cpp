@@ -24,6 +24,7 @@
 #include "src/plot/time_histories.h"
 #include "src/plot/tracks_picture.h"
 #include "src/plot/training_curves.h"
+#include "src/run/run_directory.h"
 
 namespace skein {
 namespace {
@@ -117,8 +118,13 @@ std::map<std::string, double> TolerancesIn(const std::vector<std::string>& texts
   return tolerances;
 }
 
+/// Whether the flights are to be flown, and not read.
+bool AreFlown(const FlightPlotOptions& options) {
+  return !options.flown.policy.empty() || !options.flown.agents.empty();
+}
+
 Recordings RecordingsFor(const FlightPlotOptions& options, const CLI::App& command) {
-  const bool flies = !options.flown.policy.empty() || !options.flown.agents.empty();
+  const bool flies = AreFlown(options);
   if (options.files.empty() != flies) {
     throw UsageError(flies ? "give files of flights, or --policy and --agents, not both"
                            : "give files of flights, or --policy or --agents: who flies?");
@@ -135,12 +141,17 @@ Recordings RecordingsFor(const FlightPlotOptions& options, const CLI::App& comma
   return recordings;
 }
 
-/// Draws what `draw` returns, after it is known that the file can be written, and says so, and what
-/// `draw` has noted.
-void WriteTo(const PaperOptions& paper,
+/// The files that the flights come from.
+std::vector<std::string> FilesRead(const FlightPlotOptions& options) {
+  return AreFlown(options) ? FilesRead(options.flown) : options.files;
+}
+
+/// Draws what `draw` returns, after it is known that the file can be written and is none of those
+/// that are `read`, and says so, and what `draw` has noted.
+void WriteTo(const PaperOptions& paper, const std::vector<std::string>& read,
              const std::function<Picture(std::vector<std::string>* notes)>& draw) {
   CheckPictureFile(paper.out);
-  CheckWritable(paper.out);
+  CheckWritable({paper.out}, read);
   std::vector<std::string> notes;
   WritePicture(paper.out, draw(&notes));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
@@ -164,7 +175,7 @@ void AddFlightsPlot(CLI::App* plot) {
       "         skein plot flights flights.csv --show 2 --width 3.5 --columns "
       "altitude_ft,alpha_deg,load_factor_g");
   command->callback([options, command] {
-    WriteTo(options->paper, [&](std::vector<std::string>* notes) {
+    WriteTo(options->paper, FilesRead(*options), [&](std::vector<std::string>* notes) {
       Recordings recordings = RecordingsFor(*options, *command);
       *notes = recordings.notes;
       const int room = MostHistories(options->paper.width());
@@ -188,8 +199,9 @@ CLI::App* AddPlaces(CLI::App* plot, const char* kind, const char* help,
       ->transform(NumberAboveZero());
   AddPaperOptions(command, kind, &options->flights.paper);
   command->callback([options, draw, command] {
-    WriteTo(options->flights.paper, [&](std::vector<std::string>* notes) {
-      const Recordings recordings = RecordingsFor(options->flights, *command);
+    const FlightPlotOptions& flights = options->flights;
+    WriteTo(flights.paper, FilesRead(flights), [&](std::vector<std::string>* notes) {
+      const Recordings recordings = RecordingsFor(flights, *command);
       *notes = recordings.notes;
       return draw(recordings);
     });
@@ -264,7 +276,9 @@ void DrawCurves(const CurvePlotOptions& options) {
   curves.width = options.paper.width();
   curves.title = options.paper.title;
   for (const std::string& path : options.comparisons) ReadComparison(path, &curves);
-  WriteTo(options.paper, [&](std::vector<std::string>* notes) {
+  std::vector<std::string> read = FilesOfRuns(options.runs);
+  read.insert(read.end(), options.comparisons.begin(), options.comparisons.end());
+  WriteTo(options.paper, read, [&](std::vector<std::string>* notes) {
     std::vector<RunRecord> runs;
     for (const std::string& path : options.runs) {
       runs.push_back(ReadRunRecord(path));

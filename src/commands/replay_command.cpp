@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/ends_with.h"
 #include "src/commands/commands.h"
 #include "src/commands/flown_agents.h"
 #include "src/config/one_of.h"
@@ -70,11 +71,6 @@ std::vector<std::string> FormatNames() {
   return names;
 }
 
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() &&
-         text.compare(text.size() - end.size(), std::string::npos, end) == 0;
-}
-
 /// The one that was asked for, or the one that the name of the file tells.
 const ReplayFormat& ChooseFormat(const ReplayOptions& options) {
   for (const ReplayFormat& format : kFormats) {
@@ -98,7 +94,7 @@ void CheckOutputs(const ReplayOptions& options, const std::vector<std::string>& 
     paths.clear();
     for (const std::string& name : names) paths.push_back(PathOfAgent(options.out, name));
   }
-  CheckWritable(paths);
+  CheckWritable(paths, FilesRead(options.flown));
 }
 
 void Stream(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {

@@ -17,6 +17,7 @@
 #include "src/report/report_server.h"
 #include "src/report/run_record.h"
 #include "src/report/training_times.h"
+#include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
 
 namespace skein {
@@ -92,7 +93,7 @@ void Report(const ReportOptions& options) {
                                  ? options.request.runs.front() + "/report.html"
                                  : "report.html";
   CheckSomethingToShow(options.request.runs);
-  CheckWritable({output, options.json});
+  CheckWritable({output, options.json}, FilesOfRuns(options.request.runs));
   SayTimes(options);
   ReportTemplate();
   WriteReport(output, ReportData(options.request, pool));
@@ -111,7 +112,7 @@ void AddReportCommand(CLI::App* app) {
       ->required();
   CLI::Option* output =
       command
-          ->add_option("-o,--output", options->output,
+          ->add_option("-o,--output,--out", options->output,
                        "the page, one file that needs no network (default: RUN/report.html; of "
                        "several runs report.html)")
           ->type_name("FILE");

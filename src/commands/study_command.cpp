@@ -53,8 +53,8 @@ void CarryOut(const StudyOptions& options, Ranks& ranks) {
              [&] { study = AsUsage([&] { return ReadStudy(options.file, options.choice); }); });
   StudyRun run(study, directory, pool, ranks);
   if (!run.Run()) {
-    fmt::print("stopped; resume with: skein study {} --out {}{}\n", options.file, directory,
-               ChoiceText(options.choice));
+    fmt::print("stopped; resume with: {} study {} --out {}{}\n", ProgramWord(),
+               ShellWord(options.file), ShellWord(directory), ChoiceText(options.choice));
     return;
   }
   if (ranks.rank() != 0) return;

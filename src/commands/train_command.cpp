@@ -133,12 +133,12 @@ void Resume(const TrainOptions& options, Ranks& ranks) {
 
 /// Begins a new run.
 void Begin(const TrainOptions& options, Ranks& ranks) {
-  if (options.task.empty()) {
-    throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
-  }
   ProgramConfig config;
   RunOrigin origin;
   DoTogether(ranks, [&] {
+    if (options.task.empty()) {
+      throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
+    }
     config = Configure(options, options.task);
     AsUsage([&] { return ShardsOfRank(config.train, ranks); });
     origin.from = options.from.empty() ? "" : NetworksFileOf(options.from);
@@ -170,6 +170,10 @@ void Train(TrainOptions options) {
     return;
   }
   if (!options.help_keys.empty()) {
+    if (options.help_keys != "true") {
+      throw UsageError(fmt::format("--help-keys={}: give --help-keys or --help-keys=markdown",
+                                   options.help_keys));
+    }
     const std::string task = options.task.empty() ? EnvConfig{}.task : options.task;
     fmt::print("{}", DescribeKeys(Configure(options, task)));
     return;
@@ -216,21 +220,13 @@ void AddWorkerOptions(CLI::App* command, TrainOptions* options) {
 void AddTrainCommand(CLI::App* app) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app->add_subcommand("train", "Train a policy, then evaluate it");
-  command
-      ->add_option(
-          "task", options->task,
-          fmt::format("what to fly: {}, or a task file, FILE.toml", fmt::join(PresetTasks(), ", ")))
-      ->type_name("TASK");
+  command->add_option("task", options->task, TaskHelp())->type_name("TASK");
   CLI::Option* preset =
       command
-          ->add_option(
-              "--preset", options->preset,
-              "named configuration: default (tuned for a small machine), paper (the "
-              "NeuralPlane paper's settings at 50 Hz), aerosonde (another aircraft), robust "
-              "(under all conditions), quick (Heading in minutes), easy (Heading with small "
-              "changes), missions (Tracking from point to point) or planner (Tracking by a "
-              "high-level policy); skein list presets says "
-              "which task has which")
+          ->add_option("--preset", options->preset,
+                       fmt::format("named configuration: {}; skein list presets says which task "
+                                   "has which",
+                                   PresetHelp()))
           ->type_name("PRESET")
           ->capture_default_str();
   CLI::Option* file = command

@@ -5,8 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <sstream>
+#include <system_error>
 
+#include "base/ends_with.h"
 #include "src/commands/command_tree.h"
 #include "src/config/nearest_name.h"
 
@@ -100,18 +104,31 @@ std::string WrongOptions(const CLI::App& command, const CLI::ParseError& error) 
   return text;  // a ValidationError, whose words are the program's own
 }
 
-/// Names that are not known come first: CLI11 says that what is required is missing where it was
-/// misspelt.
+/// An argument of a command that takes no more; of a policy with the option that takes it.
+std::string Unexpected(const CLI::App& command, const std::string& argument) {
+  const std::vector<std::string> options = OptionNames(command);
+  std::error_code failure;
+  const bool is_policy =
+      std::count(options.begin(), options.end(), "--policy") > 0 &&
+      (EndsWith(argument, ".skein") || std::filesystem::is_directory(argument, failure));
+  return fmt::format("unexpected argument {}{}", argument,
+                     is_policy ? fmt::format("; did you mean --policy {}?", argument) : "");
+}
+
+/// Names that are not known come first, in their order: CLI11 says that what is required is missing
+/// where it was misspelt. Of a command that is not known, the options cannot be.
 std::string WhatIsWrong(const CLI::App& command, const CLI::ParseError& error) {
   const std::vector<std::string> unknown = command.remaining();
+  const bool has_commands = !CommandsOf(command).empty();
+  if (has_commands && !unknown.empty() && unknown.front().rfind('-', 0) != 0) {
+    return UnknownCommand(command, unknown.front());
+  }
   for (const std::string& argument : unknown) {
     if (argument.rfind('-', 0) != 0) continue;
     if (argument.rfind("--controller", 0) == 0) return "--controller is now called --low-level";
     return "unknown option " + argument + DidYouMean(argument, OptionNames(command));
   }
-  if (unknown.empty()) return WrongOptions(command, error);
-  if (CommandsOf(command).empty()) return "unexpected argument " + unknown.front();
-  return UnknownCommand(command, unknown.front());
+  return unknown.empty() ? WrongOptions(command, error) : Unexpected(command, unknown.front());
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "envs/env_config.h"
+#include "envs/tasks/terms/term_task_config.h"
 #include "envs/wind/dryden.h"
 #include "src/config/condition_level.h"
 #include "src/config/nearest_name.h"
@@ -176,6 +177,32 @@ const Condition& FindCondition(const std::string& name) {
                           DidYouMean(name, names), fmt::join(names, ", ")));
 }
 
+double DwellOf(const EnvConfig& env) {
+  if (env.term_task != nullptr) return env.term_task->dwell_s;
+  return env.task == "heading"   ? env.heading.dwell_s
+         : env.task == "control" ? env.control.dwell_s
+                                 : 0;
+}
+
+/// "; drag rise; a target counts after 1 s and is held for 8 s".
+std::string DescribeRules(const EnvConfig& env) {
+  std::string rules;
+  if (env.atmosphere == AtmosphereModel::kStandard1976) rules += "; 1976 atmosphere";
+  if (env.drag_rises) rules += "; drag rise";
+  if (env.thrust_grows) rules += env.drag_rises ? " and thrust growth" : "; thrust growth";
+  const MissionConfig& mission = env.mission;
+  if (mission.enabled()) {
+    return rules + fmt::format("; missions of {:.6g} min", mission.flown_length_s() / 60);
+  }
+  const double dwell = DwellOf(env);
+  if (dwell > 0) rules += fmt::format("; a target counts after {:.6g} s", dwell);
+  if (env.hold_s > 0) {
+    rules +=
+        fmt::format("{} for {:.6g} s", dwell > 0 ? " and is held" : "; targets held", env.hold_s);
+  }
+  return rules;
+}
+
 }  // namespace
 
 std::vector<std::string> ConditionAssignments(const std::vector<std::string>& conditions) {
@@ -233,6 +260,11 @@ std::string DescribeConditions(const EnvConfig& env) {
       range(env.initial.true_airspeed_fps, " ft/s"), air,
       most_noise > 0 ? "noise " + range({env.observation_noise, most_noise}, "") : "no noise",
       training);
+}
+
+std::string DescribeEvaluation(const EnvConfig& env) {
+  const EnvConfig flown = EvaluationConfig(env);
+  return DescribeConditions(flown) + DescribeRules(flown);
 }
 
 std::vector<ConditionForm> ConditionForms() {

@@ -18,6 +18,10 @@ std::vector<std::string> ConditionAssignments(const std::vector<std::string>& co
 /// 1200 ft/s; still air; noise 0.01".
 std::string DescribeConditions(const EnvConfig& env);
 
+/// The same of its evaluations, and what counts there: "...; drag rise and thrust growth; a target
+/// counts after 1 s and is held for 8 s".
+std::string DescribeEvaluation(const EnvConfig& env);
+
 /// A condition and what its levels stand for, for people.
 struct ConditionForm {
   const char* name;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numeric>
 
+#include "base/ends_with.h"
+
 namespace skein {
 namespace {
 
@@ -24,8 +26,7 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
 }
 
 bool IsLastPartOf(const std::string& name, const std::string& key) {
-  return key.size() > name.size() + 1 &&
-         key.compare(key.size() - name.size() - 1, std::string::npos, "." + name) == 0;
+  return EndsWith(key, "." + name);
 }
 
 }  // namespace

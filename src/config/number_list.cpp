@@ -56,7 +56,12 @@ CLI::Option* AddNumberList(CLI::App* command, const std::string& name, std::vect
   };
   return command
       ->add_option_function<std::string>(
-          name, [numbers](const std::string& text) { *numbers = *ReadNumberList(text); },
+          name,
+          [numbers](const std::string& text) {
+            *numbers = *ReadNumberList(text);
+            std::sort(numbers->begin(), numbers->end());
+            numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
+          },
           description)
       ->check(CLI::Validator(is_list, ""))
       ->type_name("NUMBERS");

@@ -14,6 +14,7 @@ namespace skein {
 std::optional<std::vector<double>> ReadNumberList(const std::string& text);
 
 /// Adds an option of such numbers, each above `min`; `kind` says so in words ("number above 0").
+/// `numbers` ascend, each once, in whatever order they are given: the axis of a grid.
 CLI::Option* AddNumberList(CLI::App* command, const std::string& name, std::vector<double>* numbers,
                            double min, const std::string& kind, const std::string& description);
 

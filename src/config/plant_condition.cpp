@@ -91,7 +91,9 @@ class PlantValues {
     PlantConfig nominal;
     const std::vector<Field> fields = FieldsOf(nominal);
     quantities_ = KeysByQuantity(fields);
-    for (const Field& field : fields) values_[field.key] = std::stod(field.ValueText(ShortestText));
+    for (const Field& field : fields) {
+      values_[field.key] = NumberOf(field.ValueText(ShortestText)).value();
+    }
   }
 
   /// The part QUANTITY:VALUE or QUANTITY:MIN..MAX of a level.

@@ -5,11 +5,29 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/error.h"
 #include "src/config/nearest_name.h"
 
 namespace skein {
+namespace {
+
+/// What presets of these names are for.
+const std::map<std::string, const char*>& PresetMeanings() {
+  static const std::map<std::string, const char*> meanings = {
+      {"aerosonde", "another aircraft"},
+      {"cessna172", "another aircraft"},
+      {"default", "tuned for a small machine"},
+      {"easy", "Heading with small changes"},
+      {"paper", "the NeuralPlane paper's settings at 50 Hz"},
+      {"planner", "Tracking by a high-level policy"},
+      {"quick", "Heading in minutes"},
+      {"robust", "under all conditions"}};
+  return meanings;
+}
+
+}  // namespace
 
 std::vector<std::string> PresetTasks() {
   std::vector<std::string> tasks;
@@ -19,6 +37,22 @@ std::vector<std::string> PresetTasks() {
     }
   }
   return tasks;
+}
+
+std::string TaskHelp() {
+  return fmt::format("what to fly: {}, or a task file, FILE.toml", fmt::join(PresetTasks(), ", "));
+}
+
+std::string PresetHelp() {
+  std::vector<std::string> names;
+  for (const Preset& preset : Presets()) {
+    const auto meaning = PresetMeanings().find(preset.name);
+    const std::string name = meaning == PresetMeanings().end()
+                                 ? std::string(preset.name)
+                                 : fmt::format("{} ({})", preset.name, meaning->second);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 const Preset& FindPreset(const std::string& task, const std::string& name) {

@@ -25,4 +25,10 @@ std::string_view TaskFileSettings();
 /// The tasks that have presets.
 std::vector<std::string> PresetTasks();
 
+/// What an option takes that names a task, for help: those, or a task file.
+std::string TaskHelp();
+
+/// The names of the presets, each once, with what they are for, for help: "default (...), ...".
+std::string PresetHelp();
+
 }  // namespace skein

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "src/config/nearest_name.h"
+#include "src/config/table_reader.h"
 
 namespace skein {
 namespace {
@@ -79,7 +80,13 @@ struct Assigner {
     *place = static_cast<std::uint64_t>(WholeNumber());
   }
   void operator()(double* place) const { *place = Number(); }
-  void operator()(std::string* place) const { *place = Exactly<std::string>(); }
+  void operator()(std::string* place) const {
+    const std::string& text = Exactly<std::string>();
+    if (!IsOneLine(text)) {
+      throw Error(fmt::format("{}: {} must be of one line, not {}", where, field.key, Quote(text)));
+    }
+    *place = text;
+  }
   void operator()(const NamedChoice& choice) const {
     if (!choice.Set(Exactly<std::string>())) RefuseType();
   }
@@ -99,7 +106,7 @@ const Field& FindField(const std::vector<Field>& fields, const std::string& key,
   for (const Field& field : fields) keys.push_back(field.key);
   const std::string suggestion = DidYouMean(key, keys);
   throw Error(
-      fmt::format("{}: unknown key {}{}", where, key,
+      fmt::format("{}: unknown key {}{}", where, OneLine(key),
                   suggestion.empty() ? "; `skein train --help-keys` lists all keys" : suggestion));
 }
 

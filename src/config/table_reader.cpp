@@ -12,10 +12,18 @@
 
 namespace skein {
 
+namespace {
+
+bool IsControl(char c) { return static_cast<unsigned char>(c) < ' '; }
+
+}  // namespace
+
+bool IsOneLine(const std::string& text) {
+  return std::none_of(text.begin(), text.end(), IsControl);
+}
+
 std::string OneLine(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
+  std::replace_if(text.begin(), text.end(), IsControl, ' ');
   return text;
 }
 
@@ -33,11 +41,24 @@ const toml::node* TableReader::Find(const std::string& key) {
   return table_.get(key);
 }
 
+std::string TableReader::TextIn(const toml::node& node, const std::string& key,
+                                const char* form) const {
+  const auto* const text = node.as_string();
+  if (text == nullptr) throw Error(fmt::format("{} must be a {} in quotes", At(node, key), form));
+  if (!IsOneLine(text->get())) throw Error(At(node, key) + " must be of one line");
+  return text->get();
+}
+
 std::string TableReader::Text(const std::string& key, const std::string& otherwise) {
   const toml::node* const node = Find(key);
-  if (node == nullptr) return otherwise;
-  if (const auto* text = node->as_string()) return text->get();
-  throw Error(At(*node, key) + " must be a text in quotes");
+  return node == nullptr ? otherwise : TextIn(*node, key, "text");
+}
+
+void TableReader::Description(const std::string& key) {
+  const toml::node* const node = Find(key);
+  if (node != nullptr && !node->is_string()) {
+    throw Error(At(*node, key) + " must be a text in quotes");
+  }
 }
 
 bool TableReader::Flag(const std::string& key, bool otherwise) {
@@ -85,9 +106,7 @@ std::optional<Range> TableReader::NumberRange(const std::string& key, const Boun
 std::vector<std::string> TableReader::Texts(const std::string& key) {
   std::vector<std::string> texts;
   for (const toml::node* element : Elements(key)) {
-    const auto* text = element->as_string();
-    if (text == nullptr) throw Error(At(*element, key) + " must be a list of texts in quotes");
-    texts.push_back(text->get());
+    texts.push_back(TextIn(*element, key, "list of texts"));
   }
   return texts;
 }
@@ -133,7 +152,7 @@ void TableReader::RefuseOthers() const {
     const std::string key(name.str());
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     throw Error(fmt::format("{}:{}: unknown key {}{}; known keys: {}", source_,
-                            node.source().begin.line, key, DidYouMean(key, known_),
+                            node.source().begin.line, OneLine(key), DidYouMean(key, known_),
                             fmt::join(known_, ", ")));
   }
 }

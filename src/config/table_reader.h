@@ -13,6 +13,9 @@
 
 namespace skein {
 
+/// Whether there is no control character in it, which would break a line.
+bool IsOneLine(const std::string& text);
+
 /// With blanks in place of control characters: what a file says may be anything.
 std::string OneLine(std::string text);
 
@@ -29,7 +32,10 @@ class TableReader {
   const toml::node* Find(const std::string& key);
   bool Has(const std::string& key) { return Find(key) != nullptr; }
 
+  /// A text of one line, as names are.
   std::string Text(const std::string& key, const std::string& otherwise);
+  /// A text for people, which is not read. Throws Error if it is none.
+  void Description(const std::string& key);
   bool Flag(const std::string& key, bool otherwise);
   std::optional<double> WholeNumber(const std::string& key, double min, double max);
   std::optional<double> PositiveNumber(const std::string& key);
@@ -37,7 +43,7 @@ class TableReader {
   std::optional<double> Number(const std::string& key, const Bounds& bounds);
   /// [a, b] with a <= b, or a number x that stands for [-x, x].
   std::optional<Range> NumberRange(const std::string& key, const Bounds& bounds);
-  std::vector<std::string> Texts(const std::string& key);
+  std::vector<std::string> Texts(const std::string& key);  ///< of one line each
   std::vector<std::uint64_t> WholeNumbers(const std::string& key, double max);
 
   /// The table of [key]; null if there is none.
@@ -59,6 +65,7 @@ class TableReader {
   const std::string& source() const { return source_; }
 
  private:
+  std::string TextIn(const toml::node& node, const std::string& key, const char* form) const;
   std::vector<const toml::node*> ElementsOf(const toml::node& node, const std::string& key) const;
   double WholeNumberIn(const toml::node& node, const std::string& key, double min,
                        double max) const;

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "envs/task_registry.h"
@@ -25,7 +26,7 @@ namespace {
 constexpr std::size_t kMostBytes = 1 << 16;
 
 void ReadName(TableReader& reader, const std::string& source, TermTaskConfig* task) {
-  reader.Text("description", "");
+  reader.Description("description");
   task->name = reader.Text("name", "");
   if (task->name.empty()) {
     throw Error(source + ": a task file needs a name, such as name = \"hold_bank\"");
@@ -84,12 +85,6 @@ TermTaskConfig ReadTerms(const toml::table& table, const std::string& source) {
   return task;
 }
 
-std::string HashOf(const std::string& text) {
-  FnvHash hash;
-  hash.Add(text.data(), text.size());
-  return hash.Hex();
-}
-
 /// All that gives a row of observations its meaning.
 std::string InterfaceOf(const TermTaskConfig& task) {
   const auto unit = [](const TermUnit& of) {
@@ -103,7 +98,7 @@ std::string InterfaceOf(const TermTaskConfig& task) {
         is_error ? task.targets[static_cast<std::size_t>(number.target)].quantity.name : "";
     text += fmt::format(" {} {} {}", number.name, of, unit(number.unit));
   }
-  return HashOf(text);
+  return HexHash(text);
 }
 
 const std::vector<std::string>& TaskKeys() {
@@ -118,10 +113,7 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-bool IsTaskFile(const std::string& task) {
-  const std::string end = ".toml";
-  return task.size() > end.size() && task.compare(task.size() - end.size(), end.size(), end) == 0;
-}
+bool IsTaskFile(const std::string& task) { return EndsWith(task, ".toml"); }
 
 std::string ReadTaskFileText(const std::string& path) {
   std::string text = ReadFile(path);
@@ -153,7 +145,7 @@ TaskFile ReadTables(const std::string& text, const std::string& source,
   }
   file.terms = ReadTerms(table, source);
   file.terms.text = text;
-  file.terms.hash = HashOf(text);
+  file.terms.hash = HexHash(text);
   file.terms.interface = InterfaceOf(file.terms);
   return file;
 }

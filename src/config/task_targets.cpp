@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "envs/aircraft/aircraft.h"
 #include "src/config/table_reader.h"
@@ -39,12 +40,9 @@ bool IsPartOfPoint(const TermTarget& other, const TermTarget& target) {
 /// Of lengths and speeds the aircraft's own, of angles a radian, of rates a radian per second.
 TermUnit UsualUnit(const TermTarget& target) {
   const std::string& name = target.quantity.name;
-  const auto ends_in = [&name](const std::string& end) {
-    return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-  };
-  if (name == "point" || ends_in("_ft")) return {ReferenceUnit::kAltitudeError, 1};
-  if (ends_in("_fps")) return {ReferenceUnit::kSpeed, 1};
-  if (ends_in("_deg_s")) return {ReferenceUnit::kNone, kDegPerRad};
+  if (name == "point" || EndsWith(name, "_ft")) return {ReferenceUnit::kAltitudeError, 1};
+  if (EndsWith(name, "_fps")) return {ReferenceUnit::kSpeed, 1};
+  if (EndsWith(name, "_deg_s")) return {ReferenceUnit::kNone, kDegPerRad};
   return {};
 }
 

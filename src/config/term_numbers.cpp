@@ -8,6 +8,7 @@
 #include <array>
 #include <utility>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "src/config/nearest_name.h"
 
@@ -31,10 +32,7 @@ std::vector<const TermName*> NamesOf(TermValue value) {
 /// "deg_s" of "p_deg_s"; empty of what has no unit.
 std::string UnitOf(const std::string& name) {
   for (const char* unit : {"deg_s", "rad_s", "deg", "rad", "fps", "ft", "g"}) {
-    const std::string end = std::string("_") + unit;
-    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
-      return unit;
-    }
+    if (EndsWith(name, std::string("_") + unit)) return unit;
   }
   return "";
 }

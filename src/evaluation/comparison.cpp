@@ -80,7 +80,7 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
   comparison.episodes = episodes;
   comparison.seed = seed;
   comparison.control_interval_s = episodes_env.control_interval_s;
-  comparison.conditions = DescribeConditions(EvaluationConfig(episodes_env));
+  comparison.conditions = DescribeEvaluation(episodes_env);
   comparison.quantities = QuantitiesOf(episodes_env);
   EvaluationOptions options;
   options.episodes = episodes;

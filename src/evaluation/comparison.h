@@ -41,7 +41,7 @@ struct Comparison {
   int episodes = 0;
   std::uint64_t seed = 0;
   double control_interval_s = 0;
-  std::string conditions;    ///< DescribeConditions
+  std::string conditions;    ///< DescribeEvaluation
   std::uint64_t starts = 0;  ///< FlownEpisodes::starts, the same for all
   std::vector<Quantity> quantities;
   std::vector<ComparedAgent> agents;

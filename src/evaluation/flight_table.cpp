@@ -13,14 +13,13 @@
 #include "envs/aircraft/aircraft.h"
 #include "envs/interface_names.h"
 #include "envs/reference/plant.h"
-#include "envs/state/attitude.h"
 #include "envs/task_registry.h"
+#include "src/evaluation/state_readings.h"
 
 namespace skein {
 namespace {
 
 using State = std::array<float, kNumRecordedColumns>;
-using Quantity = std::pair<const char*, double>;
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
@@ -28,39 +27,19 @@ constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, kHighLevelActionSize> kCommands = {"pitch_deg", "yaw_deg",
                                                                      "true_airspeed_fps"};
 
-/// What a state is called and worth in the units of people, in the order of the table's columns.
-std::vector<Quantity> Readings(const EnvConfig& env, const State& state) {
+/// Of a state, in the order of the table's columns.
+std::vector<Reading> Readings(const EnvConfig& env, const State& state) {
   RigidBodyState body;
   for (int i = 0; i < kNumRigidBody; ++i) body[i] = state[static_cast<std::size_t>(i)];
-  const EulerAngles attitude = EulerFromQuaternion(body.segment<4>(kQ0));
   const Eigen::Vector3d wind(state[kWindNorth], state[kWindEast], state[kWindDown]);
-  const AirData air = MeasureAir(env.atmosphere, body, wind);
-  std::vector<Quantity> readings = {{"north_ft", body[kNorth]},
-                                    {"east_ft", body[kEast]},
-                                    {"altitude_ft", -body[kDown]},
-                                    {"u_fps", body[kU]},
-                                    {"v_fps", body[kV]},
-                                    {"w_fps", body[kW]},
-                                    {"roll_deg", attitude.roll * kDegPerRad},
-                                    {"pitch_deg", attitude.pitch * kDegPerRad},
-                                    {"yaw_deg", attitude.yaw * kDegPerRad},
-                                    {"p_deg_s", body[kP] * kDegPerRad},
-                                    {"q_deg_s", body[kQ] * kDegPerRad},
-                                    {"r_deg_s", body[kR] * kDegPerRad},
-                                    {"alpha_deg", air.alpha_rad * kDegPerRad},
-                                    {"beta_deg", air.beta_rad * kDegPerRad},
-                                    {"true_airspeed_fps", air.true_airspeed_ft_s},
-                                    {"mach", air.mach},
-                                    {"wind_north_fps", wind.x()},
-                                    {"wind_east_fps", wind.y()},
-                                    {"wind_down_fps", wind.z()},
-                                    {"load_factor_g", state[kNz]},
-                                    {"lateral_load_factor_g", state[kNy]},
-                                    {"power", state[kPower]},
-                                    {"elevator_deg", state[kElevator]},
-                                    {"aileron_deg", state[kAileron]},
-                                    {"rudder_deg", state[kRudder]},
-                                    {"leading_edge_flap_deg", state[kLeadingEdgeFlap]}};
+  std::vector<Reading> readings =
+      StateReadings({body,
+                     wind,
+                     MeasureAir(env.atmosphere, body, wind),
+                     state[kNz],
+                     state[kNy],
+                     state[kPower],
+                     {state[kElevator], state[kAileron], state[kRudder], state[kLeadingEdgeFlap]}});
   if (env.term_task == nullptr || !env.term_task->has_terrain()) return readings;
   const double terrain = env.term_task->TerrainAt(body[kNorth], body[kEast]);
   readings.emplace_back("terrain_ft", terrain);
@@ -68,9 +47,9 @@ std::vector<Quantity> Readings(const EnvConfig& env, const State& state) {
   return readings;
 }
 
-double ValueOf(const std::vector<Quantity>& readings, const std::string& name) {
+double ValueOf(const std::vector<Reading>& readings, const std::string& name) {
   const auto found = std::find_if(readings.begin(), readings.end(),
-                                  [&](const Quantity& reading) { return reading.first == name; });
+                                  [&](const Reading& reading) { return reading.first == name; });
   if (found == readings.end()) {
     throw Error(fmt::format("the task's target {} is no column of flight files", name));
   }
@@ -125,7 +104,7 @@ class TableBuilder {
     column_ = 0;
     const RecordedStep* const step = row == 0 ? nullptr : &flight_.steps[row - 1];
     Add(static_cast<double>(row) * env_.control_interval_s);
-    const std::vector<Quantity> readings = Readings(env_, StateAt(row));
+    const std::vector<Reading> readings = Readings(env_, StateAt(row));
     for (const auto& [name, value] : readings) Add(value);
     for (std::size_t k = 0; k < kActionSize; ++k) Add(step == nullptr ? kNoNumber : step->stick[k]);
     if (is_hierarchical_) AddHighLevelAction(row, step);
@@ -154,7 +133,7 @@ class TableBuilder {
     }
     // LowLevelFlight::SetTargets: changes of what is flown where the policy step begins.
     const auto repeat = static_cast<std::size_t>(env_.action_repeat);
-    const std::vector<Quantity> at_start = Readings(env_, StateAt((row - 1) / repeat * repeat));
+    const std::vector<Reading> at_start = Readings(env_, StateAt((row - 1) / repeat * repeat));
     const HighLevelConfig& full = env_.high_level;
     const auto command = [&](std::size_t k, double change) {
       return ValueOf(at_start, kCommands[k]) + change * step->action[k];

@@ -93,7 +93,9 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
   std::vector<std::string> paths = {options.out};
   if (low_level != nullptr) paths.insert(paths.end(), {low_level_out, combined_out});
   if (policy.low_level() != nullptr) paths.push_back(manifest_out);
-  CheckWritable(paths);
+  std::vector<std::string> read = FilesOfPolicy(options.policy);
+  read.push_back(options.aircraft_file);
+  CheckWritable(paths, read);
 
   std::vector<Exported> parts = {ExportOne(options, policy, options.policy, path, options.out)};
   if (low_level != nullptr) {
@@ -131,7 +133,7 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
 
 std::vector<std::string> ExportFlightControl(const std::string& policy, const std::string& aircraft,
                                              const std::string& out, bool check) {
-  CheckWritable(out);
+  CheckWritable({out}, FilesOfPolicy(policy));
   KeepAircraftOfRun(policy);
   EnvConfig env;
   env.aircraft = aircraft;

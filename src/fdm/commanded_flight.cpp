@@ -12,6 +12,7 @@
 #include "envs/aircraft/engine.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
+#include "src/evaluation/state_readings.h"
 #include "src/files/output_file.h"
 #include "src/report/csv_columns.h"
 
@@ -29,13 +30,6 @@ constexpr std::array<StickColumn, 4> kStickColumns = {{{"throttle", &PilotComman
                                                        {"pitch", &PilotCommands::pitch, -1},
                                                        {"roll", &PilotCommands::roll, -1},
                                                        {"yaw", &PilotCommands::yaw, -1}}};
-
-constexpr const char* kHeader =
-    "episode,time_s,north_ft,east_ft,altitude_ft,u_fps,v_fps,w_fps,roll_deg,pitch_deg,yaw_deg,"
-    "p_deg_s,q_deg_s,r_deg_s,alpha_deg,beta_deg,true_airspeed_fps,mach,wind_north_fps,"
-    "wind_east_fps,wind_down_fps,load_factor_g,lateral_load_factor_g,power,elevator_deg,"
-    "aileron_deg,rudder_deg,leading_edge_flap_deg,action_throttle,action_pitch,action_roll,"
-    "action_yaw,termination\n";
 
 void CheckColumns(const CsvColumns& table, const std::string& path) {
   if (table.rows() == 0 || table.rows_left_out > 0) {
@@ -58,42 +52,21 @@ Eigen::Vector3d VelocityThrough(const ClosedLoop& loop, const Eigen::Vector3d& w
   return state.segment<3>(kU) - BodyFromNed(state.segment<4>(kQ0)) * wind;
 }
 
-std::string Row(const ClosedLoop& loop, const Eigen::Vector3d& wind, double time,
-                const PilotCommands* sticks) {
-  const RigidBodyState& state = loop.state();
-  const EulerAngles attitude = EulerFromQuaternion(state.segment<4>(kQ0));
-  const AirData air = loop.air();
-  const SurfaceAngles& surfaces = loop.surfaces();
-  std::string row = "0";
-  for (const double value : {time,
-                             state[kNorth],
-                             state[kEast],
-                             -state[kDown],
-                             state[kU],
-                             state[kV],
-                             state[kW],
-                             attitude.roll * kDegPerRad,
-                             attitude.pitch * kDegPerRad,
-                             attitude.yaw * kDegPerRad,
-                             state[kP] * kDegPerRad,
-                             state[kQ] * kDegPerRad,
-                             state[kR] * kDegPerRad,
-                             air.alpha_rad * kDegPerRad,
-                             air.beta_rad * kDegPerRad,
-                             air.true_airspeed_ft_s,
-                             air.mach,
-                             wind.x(),
-                             wind.y(),
-                             wind.z(),
-                             loop.nz(),
-                             loop.ny(),
-                             loop.power(),
-                             surfaces.elevator_deg,
-                             surfaces.aileron_deg,
-                             surfaces.rudder_deg,
-                             surfaces.leading_edge_flap_deg}) {
-    row += "," + RoundedText(value, kDigits);
-  }
+std::vector<Reading> Readings(const ClosedLoop& loop, const Eigen::Vector3d& wind) {
+  return StateReadings(
+      {loop.state(), wind, loop.air(), loop.nz(), loop.ny(), loop.power(), loop.surfaces()});
+}
+
+std::string Header(const std::vector<Reading>& readings) {
+  std::string header = "episode,time_s";
+  for (const Reading& reading : readings) header += std::string(",") + reading.first;
+  for (const StickColumn& column : kStickColumns) header += std::string(",action_") + column.name;
+  return header + ",termination\n";
+}
+
+std::string Row(double time, const std::vector<Reading>& readings, const PilotCommands* sticks) {
+  std::string row = "0," + RoundedText(time, kDigits);
+  for (const Reading& reading : readings) row += "," + RoundedText(reading.second, kDigits);
   for (const StickColumn& column : kStickColumns) {
     row += "," + (sticks == nullptr ? "" : RoundedText(sticks->*column.stick, kDigits));
   }
@@ -143,7 +116,8 @@ std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const Command
   meet(gusts.Start(loop.state()));
   PilotCommands sticks;
   sticks.throttle = ThrottleForPower(plant.aircraft().throttle_gearing, trim.power);
-  std::string text = kHeader + Row(loop, wind, 0, nullptr);
+  const std::vector<Reading> at_start = Readings(loop, wind);
+  std::string text = Header(at_start) + Row(0, at_start, nullptr);
   std::size_t next = 0;
   const long steps = std::lround(flight.seconds / flight.step_s);
   for (long i = 0; i < steps; ++i) {
@@ -161,7 +135,7 @@ std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const Command
                       RoundedText(end, kDigits), flight.step_s));
     }
     meet(gusts.Advance(loop.state(), VelocityThrough(loop, wind), flight.step_s));
-    text += Row(loop, wind, end, &sticks);
+    text += Row(end, Readings(loop, wind), &sticks);
   }
   return text;
 }

@@ -22,7 +22,7 @@ namespace skein {
 namespace {
 
 Plant PlantWith(Aircraft aircraft, const FdmModel& model, const FdmParameters& parameters) {
-  aircraft.airframe.cg = parameters.cg;
+  if (parameters.cg) aircraft.airframe.cg = *parameters.cg;
   aircraft.airframe.engine_angular_momentum = parameters.engine_angular_momentum;
   return {std::move(aircraft), model.atmosphere, 1, model.gravity};
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -14,7 +15,7 @@ using FdmControls = std::array<double, 5>;  ///< thrust [lbf]; elevator, aileron
 
 /// The parameters that a point or a trajectory may set.
 struct FdmParameters {
-  double cg = 0.30;                    ///< `xcg`, fraction of the mean chord
+  std::optional<double> cg;  ///< `xcg`, fraction of the mean chord; without it the aircraft's own
   double engine_angular_momentum = 0;  ///< `heng`, slug ft^2/s
 
   bool operator<(const FdmParameters& other) const {

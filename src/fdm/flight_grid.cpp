@@ -13,6 +13,7 @@
 #include "envs/aircraft/units.h"
 #include "envs/state/state.h"
 #include "src/config/usage_error.h"
+#include "src/evaluation/flight_summary.h"
 #include "src/fdm/fdm_plant.h"
 
 namespace skein {
@@ -82,12 +83,6 @@ std::vector<std::pair<const char*, double>> Figures(const SteadyFlight& flight) 
 
 std::string Reason(const GridPoint& point) {
   return fmt::format("{}", fmt::join(WordsOf(point.limits), ", and "));
-}
-
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
 }
 
 }  // namespace
@@ -176,7 +171,7 @@ std::string FlownGrid::Csv() const {
     text += fmt::format("{},{},{},{},{}", ShortestText(point.request.altitude_ft),
                         ShortestText(point.request.true_airspeed_ft_s), point.IsFlown() ? 1 : 0,
                         point.IsFlown() ? "" : WordsOf(FirstLimit(point)),
-                        point.IsFlown() ? "" : Quoted(Reason(point)));
+                        point.IsFlown() ? "" : CsvText(Reason(point)));
     if (point.flight) {
       for (const auto& [name, number] : Figures(*point.flight)) text += "," + ShortestText(number);
     } else {

@@ -12,8 +12,8 @@ namespace skein {
 
 /// The same manoeuvre at every altitude and speed.
 struct FlightGrid {
-  SteadyFlightRequest manoeuvre;  ///< but for altitude and speed
-  std::vector<double> altitude_ft, speed_fps;
+  SteadyFlightRequest manoeuvre;               ///< but for altitude and speed
+  std::vector<double> altitude_ft, speed_fps;  ///< ascending, for what is described or drawn
 
   bool IsOnePoint() const { return altitude_ft.size() * speed_fps.size() == 1; }
   SteadyFlightRequest At(std::size_t altitude, std::size_t speed) const;
@@ -46,7 +46,7 @@ class FlownGrid {
   }
 
   /// A map of letters, and of every altitude the slowest and the fastest speed and the greatest
-  /// excess power.
+  /// excess power. Of altitudes and speeds that ascend.
   std::string Describe() const;
   /// A line for every point, behind one of names.
   std::string Csv() const;

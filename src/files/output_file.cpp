@@ -34,6 +34,12 @@ int StandardStream(const struct stat& file) {
   return -1;
 }
 
+bool IsSameFile(const std::string& path, const struct stat& file) {
+  struct stat other {};
+  return stat(path.c_str(), &other) == 0 && other.st_dev == file.st_dev &&
+         other.st_ino == file.st_ino;
+}
+
 /// The file that is written in place of `path`: what a symbolic link leads to, else itself.
 std::string ReplacedFile(const std::string& path) {
   std::error_code failure;
@@ -74,7 +80,7 @@ void CheckWritable(const std::string& path) {
     if (!S_ISREG(status.st_mode) || StandardStream(status) >= 0) return;
   }
   // It is written beside its place first (ReplaceFile).
-  if (!CanBeMade(ReplacedFile(path) + ".tmp")) {
+  if (!CanBeMade(ReplacedFile(path) + kTemporaryExtension)) {
     const std::string message = path + ": cannot be written: " + SystemReason();
     const auto folder = std::filesystem::absolute(path).parent_path();
     std::error_code failure;
@@ -83,7 +89,7 @@ void CheckWritable(const std::string& path) {
   }
 }
 
-void CheckWritable(const std::vector<std::string>& paths) {
+void CheckWritable(const std::vector<std::string>& paths, const std::vector<std::string>& read) {
   std::set<std::string> files;
   for (const std::string& path : paths) {
     CheckWritable(path);
@@ -93,7 +99,11 @@ void CheckWritable(const std::vector<std::string>& paths) {
       continue;
     }
     if (!files.insert(std::filesystem::weakly_canonical(path).string()).second) {
-      throw Error(path + ": two results would go there");
+      throw ChoiceError(path + ": two results would go there");
+    }
+    const auto replaces = [&](const std::string& input) { return IsSameFile(input, status); };
+    if (exists && std::any_of(read.begin(), read.end(), replaces)) {
+      throw ChoiceError(path + ": is read, too; choose another output");
     }
   }
 }
@@ -119,6 +129,16 @@ void WriteFile(const std::string& path, const std::string& text) {
 void WriteJson(const std::string& path, const nlohmann::ordered_json& document) {
   using Handler = nlohmann::ordered_json::error_handler_t;
   WriteFile(path, document.dump(1, ' ', false, Handler::replace) + "\n");
+}
+
+std::string PlainLine(const std::string& text) {
+  using Json = nlohmann::json;
+  auto line = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+                  .get<std::string>();
+  std::replace_if(
+      line.begin(), line.end(),
+      [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; }, ' ');
+  return line;
 }
 
 std::string ReadFile(const std::string& path, std::uint64_t largest) {

@@ -21,8 +21,15 @@ void WriteJson(const std::string& path, const nlohmann::ordered_json& document);
 /// is to hold. An empty path stands for no file.
 void CheckWritable(const std::string& path);
 
-/// The same of every path, and if two of them would replace the same file.
-void CheckWritable(const std::vector<std::string>& paths);
+/// The same of every path. Throws ChoiceError if two of them would replace the same file, or one of
+/// them a file of `read`, by whatever name: what is read is not to be lost. Empty paths, and files
+/// that are not there, stand for none.
+void CheckWritable(const std::vector<std::string>& paths,
+                   const std::vector<std::string>& read = {});
+
+/// `text` as valid UTF-8 in one line: U+FFFD in place of what is not UTF-8, which names of files
+/// may hold, and blanks in place of control characters.
+std::string PlainLine(const std::string& text);
 
 /// `name` with what file names had better not hold replaced by '-'.
 std::string FileNamePart(const std::string& name);

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/choice_error.h"
 #include "base/error.h"
 #include "src/files/text_table.h"
 
@@ -22,9 +23,10 @@ constexpr double kMillion = 1e6, kSecondsPerMinute = 60;
 std::vector<PagePoint> ValuesOf(const RunRecord& run, const std::string& column) {
   const std::vector<double>* const steps = run.metrics.Find("env_steps");
   const std::vector<double>* const values = run.metrics.Find(column);
-  if (steps == nullptr || values == nullptr) {
-    throw Error(fmt::format("{}: metrics.csv has no column {}; there are {}", run.path, column,
-                            fmt::join(run.metrics.names, ", ")));
+  if (steps == nullptr) throw Error(run.path + ": metrics.csv has no column env_steps");
+  if (values == nullptr) {
+    throw ChoiceError(fmt::format("{}: metrics.csv has no column {}; there are {}", run.path,
+                                  column, fmt::join(run.metrics.names, ", ")));
   }
   std::vector<PagePoint> points;
   const double scale = IsShare(column) ? 100 : 1;

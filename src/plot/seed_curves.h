@@ -23,7 +23,8 @@ struct SeedCurve {
 };
 
 /// Takes the runs out of `settings` that have no value of one of the columns yet, and settings
-/// without a run left; a note says which. Throws Error if that is all of them.
+/// without a run left; a note says which. Throws Error if that is all of them, and ChoiceError on a
+/// column that is not there.
 void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
                                std::vector<CurveSetting>* settings,
                                std::vector<std::string>* notes);

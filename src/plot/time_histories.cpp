@@ -2,10 +2,11 @@
 #include "src/plot/time_histories.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/choice_error.h"
 #include "src/files/text_table.h"
 #include "src/plot/axes.h"
 #include "src/plot/legend.h"
@@ -39,6 +40,20 @@ std::vector<std::string> RowsOf(const Recordings& recordings) {
     }
   }
   return rows;
+}
+
+/// Throws ChoiceError on a column that is not there. An action may be of some agents alone.
+void RequireColumns(const Recordings& recordings, const std::vector<std::string>& columns) {
+  const std::vector<Recording>& agents = recordings.agents;
+  for (const std::string& column : columns) {
+    const auto has = [&](const Recording& agent) { return agent.flights.front().Has(column); };
+    if (IsAction(column) && std::any_of(agents.begin(), agents.end(), has)) continue;
+    const auto without = std::find_if_not(agents.begin(), agents.end(), has);
+    if (without == agents.end()) continue;
+    const DrawnFlight& flight = without->flights.front();
+    throw ChoiceError(fmt::format("{}: no column {}; there are {}", flight.source, column,
+                                  fmt::join(flight.table.names, ", ")));
+  }
 }
 
 class HistoryDrawing {
@@ -195,9 +210,10 @@ int MostHistories(double width) {
 }
 
 Picture TimeHistories(const Recordings& recordings, const HistoryOptions& options) {
+  RequireColumns(recordings, options.columns);
   const auto count = static_cast<int>(EpisodesOf(recordings).size());
   if (count > MostHistories(options.width)) {
-    throw Error(
+    throw ChoiceError(
         fmt::format("{} do not fit side by side: at most {} do in a picture of {:.3g} in "
                     "(--width); choose with --show",
                     Counted(count, "episode"), MostHistories(options.width), options.width / 72));

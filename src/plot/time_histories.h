@@ -15,8 +15,8 @@ struct HistoryOptions {
   std::string title;
 };
 
-/// Episodes side by side, and below each other what was flown and asked for over time. Throws Error
-/// if there are more episodes than the width has room for.
+/// Episodes side by side, and below each other what was flown and asked for over time. Throws
+/// ChoiceError on columns that are not there and on more episodes than the width has room for.
 Picture TimeHistories(const Recordings& recordings, const HistoryOptions& options);
 
 /// How many episodes fit side by side.

@@ -37,7 +37,8 @@ const std::map<std::string, std::string>& TaskTitles() {
 const std::map<std::string, std::string>& ColumnTitles() {
   static const std::map<std::string, std::string> titles = {
       {"evaluation_success_rate", "episodes that reach their target, flown by the mean action, %"},
-      {"success_rate", "training episodes that reach their target, sampled actions, %"},
+      {"success_rate",
+       "training episodes that reach their target and the end of its hold, sampled actions, %"},
       {"return_mean", "mean return of the training episodes"}};
   return titles;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ends_with.h"
 #include "envs/aircraft/aircraft.h"
 #include "envs/aircraft/units.h"
 #include "src/replay/flat_earth.h"
@@ -25,11 +26,8 @@ constexpr Unit kUnits[] = {
     {"_ft", "m", kMetresPerFoot}, {"_fps", "m/s", kMetresPerFoot}, {"_deg", "deg", 1}, {"", "", 1}};
 
 Unit UnitOf(const std::string& column) {
-  return *std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& unit) {
-    const std::string ending = unit.ending;
-    return column.size() >= ending.size() &&
-           column.compare(column.size() - ending.size(), std::string::npos, ending) == 0;
-  });
+  return *std::find_if(std::begin(kUnits), std::end(kUnits),
+                       [&](const Unit& unit) { return EndsWith(column, unit.ending); });
 }
 
 /// "true_airspeed_fps" is "true airspeed".

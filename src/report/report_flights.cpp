@@ -125,7 +125,7 @@ Json FlightsJson(const std::vector<AgentFlights>& agents, std::uint64_t seed, st
   }
   const AgentFlights& first = agents.front();
   return {{"task", first.env.task},
-          {"conditions", DescribeConditions(EvaluationConfig(first.env))},
+          {"conditions", DescribeEvaluation(first.env)},
           {"seed", seed},
           {"agents", names},
           {"targets", TargetsJson(first.targets)},

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <exception>
 #include <sstream>
 #include <utility>
 
@@ -131,7 +132,7 @@ std::string ReportServer::Answer(const std::string& head) const {
   if (path != "/data") return Refusal("404 Not Found");
   try {
     return Response("200 OK", "application/octet-stream", data_());
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     return Response("503 Service Unavailable", "text/plain; charset=utf-8", error.what());
   }
 }

@@ -6,7 +6,8 @@
 
 namespace skein {
 
-/// Serves a report on 127.0.0.1 alone, read-only: GET / is the page, GET /data what `data` returns.
+/// Serves a report on 127.0.0.1 alone, read-only: GET / is the page, GET /data what `data` returns,
+/// or the message of what it throws (status 503).
 /// Every other path is not found, every other method not allowed, and a request for another host
 /// (of a page elsewhere whose name resolves to 127.0.0.1) is refused.
 class ReportServer {

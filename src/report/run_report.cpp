@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include <exception>
+
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
@@ -20,7 +21,7 @@ void SayTimes(const std::string& run) {
     if (!times) return;
     fmt::print("{}\n", ToText(*times));
     WriteJson(run + "/summary.json", ToJson(*times));
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     fmt::print("summary         none: {}\n", error.what());
   }
 }
@@ -37,7 +38,7 @@ void WriteReportAtEnd(const std::string& path, const std::function<std::string()
     CheckWritable(path);
     WriteReport(path, data());
     fmt::print("report          {}\n", path);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     fmt::print("report          none: {}\n", error.what());
   }
 }

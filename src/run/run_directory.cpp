@@ -182,9 +182,28 @@ void RunDirectory::Prune(int keep) const {
 void RunDirectory::RemoveTemporaries() const {
   for (const std::string& folder : {path_, checkpoints()}) {
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.is_regular_file() && entry.path().extension() == ".tmp") fs::remove(entry.path());
+      if (entry.is_regular_file() && entry.path().extension() == kTemporaryExtension) {
+        fs::remove(entry.path());
+      }
     }
   }
+}
+
+std::vector<std::string> FilesOfRuns(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    for (const char* name :
+         {"config.toml", kTaskFileOfRun, "aircraft.json", "low_level.skein", "controller.skein",
+          "log.txt", "metrics.csv", "timing.csv", "evaluation.json",
+          "checkpoints/policy-best.skein", "checkpoints/policy-final.skein"}) {
+      files.push_back(path + "/" + name);
+    }
+    if (!IsRunDirectory(path)) continue;
+    for (const Checkpoint& checkpoint : CheckpointsIn(path + "/checkpoints")) {
+      files.push_back(checkpoint.path);
+    }
+  }
+  return files;
 }
 
 std::optional<std::string> LatestRun(const std::string& root, const std::string& task) {

@@ -87,6 +87,10 @@ const std::string& MakeDirectories(const std::string& path);
 /// Whether `path` is the directory of a run.
 bool IsRunDirectory(const std::string& path);
 
+/// The files in the directories of runs that commands read: record, checkpoints and policies. Not
+/// all of them need to be there. Throws Error if a folder of checkpoints cannot be read.
+std::vector<std::string> FilesOfRuns(const std::vector<std::string>& paths);
+
 /// The run under `root` that was written to last, of `task` unless that is empty. Throws Error if
 /// there is none but one whose configuration cannot be read.
 std::optional<std::string> LatestRun(const std::string& root, const std::string& task);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -38,12 +37,6 @@ double SecondsSince(Clock::time_point start) {
 
 double UnixTime() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
-/// What starts the program again, for hints that can be copied: as it was started, if this is it.
-std::string CommandName() {
-  const std::filesystem::path name = program_invocation_name;
-  return name.has_parent_path() && name.filename() == "skein" ? name.string() : "skein";
 }
 
 /// By all aircraft together.
@@ -130,7 +123,7 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
     trainer->Save(directory.checkpoint(0));
   }
   // Last: it makes the directory one of a run.
-  const std::string comment = started_from.empty() ? "" : "# " + started_from + "\n";
+  const std::string comment = started_from.empty() ? "" : "# " + PlainLine(started_from) + "\n";
   WriteFile(directory.config(), comment + DumpToml(resolved));
   TrainingRun run(resolved, std::move(directory), *trainer, pool, leader, description, start);
   run.goes_on_ = origin.goes_on;
@@ -220,10 +213,10 @@ void TrainingRun::SayBanner() {
   const TrainConfig& train = config_.train;
   const std::uint64_t first_step = trainer_.env_steps();
   const bool is_rounded = LastStep(train) != train.total_steps;
-  const std::string asked = is_rounded
-                                ? fmt::format(" ({} in whole iterations)",
-                                              FormatCount(static_cast<double>(train.total_steps)))
-                                : "";
+  const std::string asked =
+      is_rounded
+          ? fmt::format(" ({} asked for)", FormatCount(static_cast<double>(train.total_steps)))
+          : "";
   log_.Say(
       fmt::format("{} {} in {}\n"
                   "  {} of {} control steps{}, {} aircraft, seed {}\n"
@@ -283,7 +276,7 @@ void TrainingRun::SayStopped(const std::string& dropped) {
                        signal != 0 ? fmt::format("SIG{}", sigabbrev_np(signal)) : "its caller",
                        FormatCount(static_cast<double>(trainer_.env_steps())),
                        FormatCount(static_cast<double>(LastStep(config_.train))), dropped,
-                       ShellWord(CommandName()), ShellWord(directory_.path())));
+                       ProgramWord(), ShellWord(directory_.path())));
 }
 
 IterationReport TrainingRun::Iterate() {
@@ -379,7 +372,7 @@ void TrainingRun::Finish() {
 
 void TrainingRun::SayResult(const EvaluationReport& report, const std::string& policy,
                             const std::string& same_episodes) {
-  const std::string skein = ShellWord(CommandName()), run = ShellWord(directory_.path());
+  const std::string skein = ProgramWord(), run = ShellWord(directory_.path());
   const std::string again =
       fmt::format("again           {} eval --policy {} --task {} --deterministic {}", skein, run,
                   config_.train.env.task, same_episodes);

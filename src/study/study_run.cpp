@@ -101,13 +101,16 @@ std::optional<Comparison> FlyAll(const std::vector<AgentInStudy>& agents,
   return comparison;
 }
 
-/// Makes it with the folder by which a study is known, or throws Error if there is something in it
+/// Makes it with the folder by which a study is known, or throws ChoiceError if there is something
 /// that is not a study.
 const std::string& MakeStudyDirectory(const std::string& path) {
   std::error_code failure;
-  const bool is_new = !fs::exists(path, failure) || fs::is_empty(path, failure);
+  const bool is_new = !fs::exists(path, failure) ||
+                      (fs::is_directory(path, failure) && fs::is_empty(path, failure));
   if (!is_new && !fs::is_directory(path + "/comparisons", failure)) {
-    throw Error(path + ": is not empty and holds no study; choose another --out");
+    throw ChoiceError(path +
+                      ": exists and is neither a study nor an empty directory; choose another "
+                      "--out");
   }
   MakeDirectories(path + "/comparisons");
   return path;

@@ -17,6 +17,7 @@
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
+#include "train/files/file_descriptor.h"
 #include "train/policy/low_level_file.h"
 #include "train/ranks/collectives.h"
 #include "train/ranks/task_share.h"
@@ -28,13 +29,14 @@ namespace fs = std::filesystem;
 
 /// Removes what a process killed while it made a run's directory has left: no run is in it yet.
 void RemoveStub(const std::string& run) {
-  for (const char* name : {"/config.toml.tmp", "/low_level.skein", "/low_level.skein.tmp",
-                           "/task.toml", "/task.toml.tmp", "/aircraft.json", "/aircraft.json.tmp",
-                           "/lock", "/checkpoints/checkpoint-000000.skein",
-                           "/checkpoints/checkpoint-000000.skein.tmp", "/checkpoints"}) {
-    std::error_code ignored;  // RunDirectory::Create says what is in the way
+  std::error_code ignored;  // RunDirectory::Create says what is in the way
+  fs::remove(run + "/config.toml" + kTemporaryExtension, ignored);
+  for (const char* name : {"/low_level.skein", "/task.toml", "/aircraft.json",
+                           "/checkpoints/checkpoint-000000.skein"}) {
     fs::remove(run + name, ignored);
+    fs::remove(run + name + kTemporaryExtension, ignored);
   }
+  for (const char* name : {"/lock", "/checkpoints"}) fs::remove(run + name, ignored);
 }
 
 /// The configuration of the run in `directory`, which must be the one asked for.

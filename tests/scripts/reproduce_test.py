@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""When scripts/reproduce does without ranks, and when it does not let a failure of theirs pass."""
+"""When scripts/reproduce does without ranks, when it does not let a failure of theirs pass, and what it ends."""
 import argparse
 import pathlib
+import signal
 import sys
 import tempfile
 import unittest
@@ -61,6 +62,23 @@ class Ranks(unittest.TestCase):
     def test_that_fail_are_no_reason_to_do_without_them(self):
         with self.assertRaisesRegex(reproduce.Differs, "by two ranks: exit code 139"):
             search_by_two_ranks("exit code 139: ")
+
+
+class Interruption(unittest.TestCase):
+    def test_ends_the_training_under_way(self):
+        trainings = []
+
+        def interrupt(_, process):
+            trainings.append(process)
+            raise KeyboardInterrupt
+
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder, "skein")
+            program.write_text("#!/bin/sh\nexec sleep 1000\n")
+            program.chmod(0o755)
+            with mock.patch.object(reproduce.Search, "finish", interrupt), self.assertRaises(KeyboardInterrupt):
+                reproduce.search(argparse.Namespace(program=program, seed=1), "", pathlib.Path(folder, "runs"))
+        self.assertEqual([training.returncode for training in trainings], [-signal.SIGKILL])
 
 
 if __name__ == "__main__":

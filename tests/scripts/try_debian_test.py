@@ -99,6 +99,32 @@ class TryDebian(unittest.TestCase):
         self.assertEqual((output, code), ("here\n", 7))
         self.expect_nothing_left()
 
+    def test_leaves_a_folder_of_others_alone(self):
+        chroot = self.folder / "chroots/bookworm"
+        chroot.mkdir(parents=True)
+        (chroot / "precious").touch()
+        output, error, code = self.run_there("bash", "-c", "echo here")
+        self.assertEqual((output, code), ("", 2))
+        self.assertRegex(error, r"^scripts/try_debian: \S+/bookworm is not of this script: [^\n]+\n$")
+        self.assertEqual([path.name for path in chroot.iterdir()], ["precious"])
+
+    def test_begins_again_what_it_had_not_finished(self):
+        chroot = self.folder / "chroots/bookworm"
+        self.run_there("bash", "-c", ":")
+        (chroot / "ready").unlink()
+        (chroot / "half").touch()
+        output, error, code = self.run_there("bash", "-c", "echo here")
+        self.assertEqual((output, code), ("here\n", 0))
+        self.assertRegex(error, r"^Making a chroot [^\n]+\n$")
+        self.assertFalse((chroot / "half").exists())
+
+    def test_keeps_a_chroot_that_is_ready(self):
+        chroot = self.folder / "chroots/bookworm"
+        self.run_there("bash", "-c", ":")
+        (chroot / "begun").unlink()  # as of versions that did not mark it
+        output, error, code = self.run_there("bash", "-c", "echo here")
+        self.assertEqual((output, error, code), ("here\n", "", 0))
+
     def test_works_in_a_chroot_once_at_a_time(self):
         self.start_long()
         output, error, code = self.run_there("bash", "-c", "echo here")

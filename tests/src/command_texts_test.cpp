@@ -96,6 +96,13 @@ TEST(CommandTexts, TheManualDescribesEveryFlag) {
   }
 }
 
+TEST(CommandTexts, TheManualDescribesTheEnvironment) {
+  const std::string section = Between(CallSkein({"man"}).output, ".SH ENVIRONMENT\n", "\n.SH");
+  for (const std::string variable : {"SKEIN_SIMD", "CC", "SKEIN_PYTHON", "NO_COLOR"}) {
+    EXPECT_THAT(section, HasSubstr("\n\\fB" + variable + "\\fR\n"));
+  }
+}
+
 TEST(CommandTexts, BashCompletesEveryFlag) {
   const std::string script = CallSkein({"completion", "bash"}).output;
   for (const HelpedCommand& command : HelpedCommands()) {

@@ -124,6 +124,18 @@ TEST_F(EvaluationPipeline, FlightsThatCannotBeWrittenAreAnError) {
   EXPECT_EQ(alone.exit_code, 2) << "a number of flights without a file for them";
 }
 
+TEST_F(EvaluationPipeline, MoreFlightsThanCanBeRecordedAreRefusedBeforeAnythingFlies) {
+  const ProgramResult result = CallSkein(Evaluation(
+      folder_ + "/result.json",
+      {"--flights", folder_ + "/flights.csv", "--flights-count", "1000", "--mission", "30"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.error,
+              HasSubstr("to record 64 flights of up to 1800 s by 1 agent takes 5760000 control "
+                        "steps, and 5000000 are the most: lower --flights-count or --mission\n"));
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  EXPECT_EQ(result.output, "");
+}
+
 TEST_F(EvaluationPipeline, FilesThatCannotBeWrittenAreAnErrorBeforeAnythingFlies) {
   constexpr std::size_t kLongestName = 255;
   // /proc gives root every right and makes no files.

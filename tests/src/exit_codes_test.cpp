@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "envs/aircraft/registry.h"
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
@@ -108,6 +109,112 @@ TEST(ExitCodes, AnOutputWhoseFolderIsNotThereIsWrongUsageInEveryCommand) {
   }
 }
 
+/// Commands that read one of these files and would write over it.
+std::vector<std::pair<std::vector<std::string>, std::string>> ReplacersOf(
+    const ScratchDirectory& scratch) {
+  const std::string policy = scratch / "policy.skein", task = scratch / "task.toml",
+                    config = scratch / "config.toml", aircraft = scratch / "aircraft.json",
+                    sticks = scratch / "sticks.csv", points = scratch / "points.json",
+                    link = scratch / "link", drawing = scratch / "link.svg";
+  fs::copy_file(SKEIN_SOURCE "/policies/heading.skein", policy);
+  fs::copy_file(SKEIN_SOURCE "/examples/tasks/heading.toml", task);
+  WriteFile(config, "[env]\nobservation_noise = 0.02\n");
+  WriteFile(aircraft, AircraftText("f16"));
+  WriteFile(sticks, "time_s,pitch\n0,0.1\n");
+  WriteFile(points, "{}");
+  fs::create_symlink(policy, link);
+  fs::create_symlink(sticks, drawing);
+  const std::string agent = "policy:" + policy;
+  std::vector<std::pair<std::vector<std::string>, std::string>> replacers = {
+      {{"export", policy, "--format", "c", "-o", policy}, policy},
+      {{"export", policy, "--format", "c", "-o", link}, policy},
+      {{"export", "--flight-control", "c", "--aircraft", aircraft, "-o", aircraft}, aircraft},
+      {{"eval", "--policy", policy, "--json", policy}, policy},
+      {{"eval", "--policy", link, "--acmi", policy}, policy},
+      {{"eval", "--policy", policy, "--task", task, "--json", task}, task},
+      {{"eval", "--policy", policy, "--config", config, "--flights", config}, config},
+      {{"eval", "--policy", policy, "--aircraft", aircraft, "--json", aircraft}, aircraft},
+      {{"eval", "--policy", policy, "--set", "env.aircraft=" + aircraft, "--json", aircraft},
+       aircraft},
+      {{"compare", "--task", "heading", "--no-html", "--agents", agent, "--csv", policy}, policy},
+      {{"compare", "--agents", agent, "--config", config, "--html", config}, config},
+      {{"replay", "--policy", policy, "--format", "csv", "-o", policy}, policy},
+      {{"replay", "--agents", agent, "--config", config, "--format", "acmi", "-o", config}, config},
+      {{"fdm", "eval", "--in", points, "--out", points}, points},
+      {{"fdm", "simulate", "--in", points, "--out", points}, points},
+      {{"plot", "flights", sticks, "-o", drawing}, sticks},
+      {{"bench", "compare", points, points, "--json", points}, points},
+      {{"bench", "rollout", "--task", task, "--json", task}, task}};
+  for (std::vector<std::string> words : std::vector<std::vector<std::string>>{
+           {"fdm", "trim", "--aircraft", aircraft, "--json", aircraft},
+           {"fdm", "linearise", "--aircraft", aircraft, "--json", aircraft},
+           {"fdm", "sweep", "--aircraft", aircraft, "--json", aircraft},
+           {"fdm", "fly", "--commands", sticks, "-o", sticks},
+           {"fdm", "fly", "--policy", policy, "-o", policy}}) {
+    const std::string replaced = words.back();
+    words.insert(words.end(), {"--altitude-ft", "15000", "--speed-fps", "500"});
+    replacers.emplace_back(words, replaced);
+  }
+  return replacers;
+}
+
+TEST(ExitCodes, AnOutputThatIsReadIsWrongUsageInEveryCommandAndStays) {
+  const ScratchDirectory scratch;
+  for (const auto& [arguments, file] : ReplacersOf(scratch)) {
+    const std::string before = ReadFile(file);
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments[0] << " " << arguments[1] << result.error;
+    EXPECT_THAT(result.error, HasSubstr(": is read, too; choose another output"));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+    EXPECT_EQ(ReadFile(file), before) << arguments[0];
+  }
+}
+
+// The manifest of a high-level policy is called after its output.
+TEST(ExitCodes, NoFileThatACommandNamesItselfIsOneThatIsRead) {
+  const ScratchDirectory scratch;
+  const std::string aircraft = scratch / "planner.json";
+  WriteFile(aircraft, AircraftText("f16"));
+  const ProgramResult result = CallSkein({"export", SKEIN_SOURCE "/policies/tracking-planner.skein",
+                                          "--aircraft", aircraft, "-o", scratch / "planner.h"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.error, HasSubstr(aircraft + ": is read, too"));
+  EXPECT_EQ(ReadFile(aircraft), AircraftText("f16"));
+}
+
+TEST(ExitCodes, WhatIsAskedOfFilesThatDoNotFitIsWrongUsage) {
+  const ScratchDirectory scratch;
+  const std::string heading = SKEIN_SOURCE "/policies/heading.skein", file = scratch / "file",
+                    flights = scratch / "flights.csv", study = scratch / "study.toml";
+  WriteFile(file, "");
+  WriteFile(flights, "episode,time_s,action_roll,termination\n0,0,0,\n0,1,0,crash\n");
+  WriteFile(study,
+            "tasks = [\"heading\"]\nseeds = [1]\n[training]\nsteps = 64\n"
+            "set = [\"ppo.num_aircraft=64\"]\n");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"train", "tracking", "--preset", "planner", "--low-level", heading, "--out",
+        scratch / "run"},
+       "a policy of task heading"},
+      {{"compare", "--task", "heading", "--agents", "zero", "--csv", file, "--json", file},
+       "two results would go there"},
+      {{"plot", "flights", flights, "--columns", "nope", "-o", scratch / "out.svg"},
+       "no column nope; there are episode"},
+      {{"plot", "flights", flights, "--columns", "action_nope", "-o", scratch / "out.svg"},
+       "no column action_nope"},
+      {{"study", study, "--out", file}, "is neither a study nor an empty directory"},
+      {{"eval", "--policy", heading, "--set", "env.control_interval_s=0.01"},
+       "env.control_interval_s = 0.02, but is to fly with"},
+      {{"eval", "--policy", heading, "--aircraft", "cessna172", "--preset", "cessna172"},
+       "env.aircraft = f16, but is to fly with env.aircraft = cessna172"}};
+  for (const auto& [arguments, message] : wrong) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << message;
+    EXPECT_THAT(result.error, HasSubstr(message));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+  EXPECT_FALSE(fs::exists(scratch / "run"));
+}
+
 TEST(ExitCodes, AFileThatIsDamagedIsAFailure) {
   const ScratchDirectory scratch;
   const std::string damaged = scratch / "damaged";
@@ -162,6 +269,11 @@ TEST(ExitCodes, WhatIsTypedWronglyIsSaidInTheProgramsOwnWords) {
       {{"plot", "curves"}, "RUN... is required"},
       {{"eval", "--policy"}, "--policy needs a value"},
       {{"train", "heading", "control"}, "unexpected argument control"},
+      {{"train", "heading", "--help-keys=foo"},
+       "--help-keys=foo: give --help-keys or --help-keys=markdown"},
+      {{"eval", "policies/heading.skein"},
+       "unexpected argument policies/heading.skein; did you mean --policy policies/heading.skein?"},
+      {{"eval", "heading"}, "unexpected argument heading (see skein eval --help)"},
       {{"list", "pilots"}, "what: unknown pilots; known: tasks, presets"},
       {{"bench", "sim", "--set", "env.action_repeat=5"},
        "--set env.action_repeat=5: here that is --action-repeat"},

@@ -264,7 +264,7 @@ TEST_F(FdmFly, WhatAgentsCannotFlySaysSo) {
        "--target yaw_deg: it is there twice"},
       {autopilot + Words{"--xcg", "5"}, "--xcg: env.cg_chord_fraction = 5 is out of range"},
       {autopilot + Words{"--step-s", "5"}, "--step-s: env.control_interval_s = 5 is out of range"},
-      {autopilot + Words{"--seconds", "1e5"}, "more than the 500000 steps that are kept"},
+      {autopilot + Words{"--seconds", "1.5e5"}, "5000000 are the most: lower --seconds"},
       {autopilot + Words{"--pull-up-g", "3"}, "begins in level flight"},
       {autopilot + Words{"--wind-fps", "0,0,3"}, "down must be 0"},
       {{"--agents", "pilot", "--task", "heading"}, "pilot"},

@@ -143,6 +143,29 @@ TEST_F(FdmPipeline, ParametersOfAPointAreHonoured) {
   EXPECT_NE(out["points"][0]["xdot"], out["points"][1]["xdot"]);
 }
 
+// The centre of gravity of this aircraft is 5 % of the chord behind that of the F-16 shipped.
+TEST_F(FdmPipeline, APointWithoutParametersHasTheAircraftsOwnCentreOfGravity) {
+  const std::string aircraft = SKEIN_SOURCE "/examples/aircraft/stevens_lewis_f16.json";
+  json point = Trimmed("0", "502", {"--aircraft", aircraft});
+  point.erase("params");
+  json forward = point;
+  forward["params"] = {{"xcg", 0.30}};
+  const std::string in = folder_ + "/in.json", out = folder_ + "/out.json";
+  WriteFile(in, json{{"points", json::array({point, forward})}}.dump());
+  const auto pitch_acceleration = [&](const char* precision, std::size_t i) {
+    EXPECT_EQ(CallSkein({"fdm", "eval", "--aircraft", aircraft, "--in", in, "--out", out,
+                         "--precision", precision})
+                  .exit_code,
+              0);
+    return json::parse(ReadFile(out))["points"][i]["xdot"][4].get<double>();
+  };
+  constexpr Tolerance kInFloat32{1e-4, "residual of the trim in float32, rad/s2"};
+  for (const char* precision : {"float64", "float32"}) {
+    EXPECT_NEAR(pitch_acceleration(precision, 0), 0, kInFloat32) << precision;
+    EXPECT_GT(std::abs(pitch_acceleration(precision, 1)), 100 * kInFloat32) << precision;
+  }
+}
+
 TEST_F(FdmPipeline, MalformedInputIsNamedInOneLine) {
   const json point = golden_["points"][0];
   const auto with = [&point](const char* key, const json& value) {
@@ -328,6 +351,9 @@ TEST_F(FdmPipeline, AGridSaysOfEveryPointWhyItIsNotFlown) {
   EXPECT_THAT(ReadFile(folder_ + "/grid.svg"), HasSubstr("below stall speed"));
   const std::string table = ReadFile(csv);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 10);
+  // In quotes where there is a comma.
+  EXPECT_THAT(table, HasSubstr(",below stall speed,is below stall speed: at 0 ft the wing"));
+  EXPECT_THAT(table, HasSubstr(",\"is faster than the engine's tables, which end at Mach 1\","));
   for (const json& point : grid["points"]) {
     const std::vector<std::string> one = {"fdm",           "trim",
                                           "--altitude-ft", point["altitude_ft"].dump(),
@@ -341,6 +367,21 @@ TEST_F(FdmPipeline, AGridSaysOfEveryPointWhyItIsNotFlown) {
     EXPECT_EQ(point.contains("reason"), !is_flown) << point;
   }
   EXPECT_EQ(grid["points"][0]["limit"], "below stall speed");
+}
+
+TEST_F(FdmPipeline, AGridIsTheSameInWhateverOrderItsAxesAreGiven) {
+  const auto flown = [&](const std::string& altitudes_ft, const std::string& speeds_fps) {
+    const std::string numbers = folder_ + "/grid.json", picture = folder_ + "/grid.svg";
+    const ProgramResult result =
+        CallSkein({"fdm", "trim", "--altitude-ft", altitudes_ft, "--speed-fps", speeds_fps,
+                   "--json", numbers, "--picture", picture});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return std::vector<std::string>{result.output, ReadFile(numbers), ReadFile(picture)};
+  };
+  const std::vector<std::string> ascending = flown("0,20000", "500,700,900");
+  EXPECT_THAT(ascending[0], HasSubstr("500 to 900"));
+  EXPECT_EQ(flown("20000,0", "900,700,500"), ascending);
+  EXPECT_EQ(flown("20000,0,20000", "700,900,500,700"), ascending) << "each once";
 }
 
 TEST_F(FdmPipeline, WrongGridsAreWrongUsage) {

@@ -18,6 +18,7 @@
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
 #include "tests/src/training_fixture.h"
+#include "train/files/file_descriptor.h"
 
 namespace skein {
 namespace {
@@ -50,7 +51,7 @@ TEST_F(InterruptedTraining, KilledAnywhereAndResumedEqualsUninterrupted) {
   ASSERT_EQ(result.exit_code, 0) << result.error;
   ExpectSameRun(reference_, run_);
   for (const auto& entry : fs::recursive_directory_iterator(run_)) {
-    EXPECT_NE(entry.path().extension(), ".tmp") << "left behind by a kill";
+    EXPECT_NE(entry.path().extension(), kTemporaryExtension) << "left behind by a kill";
   }
 }
 

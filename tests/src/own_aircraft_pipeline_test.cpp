@@ -90,9 +90,9 @@ TEST_F(OwnAircraft, APolicyFliesNoOtherAircraftUnlessAsked) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   };
-  Refused(alone, 1, "env.aircraft = mine, but is to fly with env.aircraft = f16");
+  Refused(alone, 2, "env.aircraft = mine, but is to fly with env.aircraft = f16");
   WriteFile(scratch_ / "mine2.json", MyAircraft(12).dump());
-  Refused(with(alone, {"--aircraft", scratch_ / "mine2.json"}), 1, "fly with env.aircraft = mine2");
+  Refused(with(alone, {"--aircraft", scratch_ / "mine2.json"}), 2, "fly with env.aircraft = mine2");
   // The same content is the same aircraft, whatever the file is called.
   WriteFile(scratch_ / "same.json", MyAircraft(11.5).dump());
   const ProgramResult same = CallSkein(with(alone, {"--aircraft", scratch_ / "same.json"}));
@@ -104,7 +104,7 @@ TEST_F(OwnAircraft, APolicyFliesNoOtherAircraftUnlessAsked) {
                                             scratch_ / "mine2.json", "--episodes", "16", "--agents",
                                             "zero,policy:" + policy + "@sampled@other-aircraft"});
   EXPECT_EQ(compared.exit_code, 0) << compared.error;
-  Refused({"compare", "--task", "heading", "--agents", "zero,policy:" + policy}, 1,
+  Refused({"compare", "--task", "heading", "--agents", "zero,policy:" + policy}, 2,
           "env.aircraft = mine, but is to fly with env.aircraft = f16");
 }
 

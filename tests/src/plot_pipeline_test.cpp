@@ -74,7 +74,9 @@ TEST_F(PlotPipeline, DrawsATrainingAndWhatACrashHasLeftOfIt) {
   const ProgramResult torn = plot("return_mean");
   EXPECT_EQ(torn.exit_code, 0) << torn.error;
   EXPECT_THAT(torn.error, HasSubstr("1 row cut short and left out"));
-  ExpectOneLine(plot("altitude").error, "metrics.csv has no column altitude");
+  const ProgramResult unknown = plot("altitude");
+  EXPECT_EQ(unknown.exit_code, 2);
+  ExpectOneLine(unknown.error, "metrics.csv has no column altitude");
 }
 
 TEST_F(PlotPipeline, WhatIsAskedWronglyIsRefusedInOneLine) {

@@ -133,7 +133,7 @@ TEST_F(RanksStudy, AStopOfOneRankSavesAllAndOneProcessGoesOn) {
   kill(ranks.back(), SIGTERM);
   const ProgramResult stopped = study.Wait();
   EXPECT_EQ(stopped.exit_code, 0) << stopped.error;
-  EXPECT_THAT(stopped.output, HasSubstr("stopped; resume with: skein study"));
+  EXPECT_THAT(stopped.output, HasSubstr("stopped; resume with: " SKEIN_PROGRAM " study " + file_));
   EXPECT_FALSE(fs::exists(together_ + "/results.json"));
   EXPECT_TRUE(ProcessesOf(together_).empty());
   ASSERT_EQ(RunSkein(Study(together_)).exit_code, 0);

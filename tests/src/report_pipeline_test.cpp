@@ -161,6 +161,20 @@ TEST_F(ReportPipeline, TheTimeToATrainedPolicyIsThatOfItsEvaluation) {
   EXPECT_FALSE(TimesOf(run)) << "a row of an older version";
 }
 
+TEST_F(ReportPipeline, WhatARunHoldsIsNotWrittenOver) {
+  const std::string run = Copy();
+  for (const std::string& file : {run + "/metrics.csv", run + "/checkpoints/policy-final.skein"}) {
+    const std::string before = ReadFile(file);
+    for (const std::vector<std::string>& option :
+         std::vector<std::vector<std::string>>{{"--json", file}, {"-o", file}}) {
+      const ProgramResult result = CallSkein({"report", run, option[0], option[1]});
+      EXPECT_EQ(result.exit_code, 2);
+      ExpectOneLine(result.error, file + ": is read, too");
+      EXPECT_EQ(ReadFile(file), before);
+    }
+  }
+}
+
 TEST_F(ReportPipeline, WhatIsNoRunIsOneLine) {
   const ProgramResult missing = CallSkein({"report", scratch_ / "nothing"});
   EXPECT_EQ(missing.exit_code, 2);

@@ -163,7 +163,7 @@ TEST_P(ShippedPolicies, SayWhatTheyWereMadeFor) {
   EXPECT_NE(flown.output.find(" on " + task() + ", 4 episodes"), std::string::npos) << flown.output;
   const ProgramResult other =
       CallSkein({"eval", "--policy", policy(), "--set", "env.flight_control=direct"});
-  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.error.find("env.flight_control = full"), std::string::npos) << other.error;
 }
 

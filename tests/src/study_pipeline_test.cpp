@@ -214,7 +214,7 @@ TEST_F(StudyPipeline, HighLevelsAreTrainedOverTheLowLevelPolicy) {
 }
 
 TEST_F(StudyPipeline, KilledAgainAndAgainItEndsAsInOneGo) {
-  const std::string whole = scratch_ / "whole", torn = scratch_ / "torn";
+  const std::string whole = scratch_ / "whole", torn = scratch_ / "torn apart";
   ASSERT_EQ(CallSkein(Command(whole)).exit_code, 0);
   // Ends it at moments of every kind, by signals of both kinds.
   const std::vector<std::pair<const char*, int>> moments = {
@@ -231,6 +231,10 @@ TEST_F(StudyPipeline, KilledAgainAndAgainItEndsAsInOneGo) {
     program.Signal(signal);
     const ProgramResult result = program.Wait();
     EXPECT_TRUE(result.exit_code == 0 || result.signal == signal) << path << result.error;
+    if (result.exit_code == 0 && !fs::exists(torn + "/results.json")) {
+      EXPECT_THAT(result.output, HasSubstr("; resume with: " SKEIN_PROGRAM " study " + file_ +
+                                           " --out '" + torn + "'\n"));
+    }
     kills += result.signal == SIGKILL;
   }
   EXPECT_GE(kills, 1);
@@ -400,8 +404,8 @@ TEST_F(StudyPipeline, KeepsOutOfDirectoriesOfOthers) {
   fs::create_directory(out);
   WriteFile(out + "/results.csv", "mine");
   const ProgramResult result = CallSkein(Command(out));
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.error, HasSubstr("holds no study"));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.error, HasSubstr("is neither a study nor an empty directory"));
   EXPECT_EQ(ReadFile(out + "/results.csv"), "mine");
 }
 

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "src/config/configuration.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
 #include "tests/src/run_program.h"
@@ -84,12 +85,12 @@ TEST_F(TrainingPipeline, ControlTrainsAndFlies) {
   ExpectOneLine(compared.error, "agent policy:" + policy);
   const ProgramResult aircraft =
       CallSkein({"eval", "--policy", policy, "--task", "control", "--preset", "aerosonde"});
-  EXPECT_EQ(aircraft.exit_code, 1);
+  EXPECT_EQ(aircraft.exit_code, 2);
   ExpectOneLine(aircraft.error, "env.aircraft = f16, but is to fly with env.aircraft = aerosonde");
   const ProgramResult above =
       CallSkein({"train", "tracking", "--out", root_ + "/above", "--preset", "planner",
                  "--low-level", policy, "--set", "env.control_interval_s=0.01"});
-  EXPECT_EQ(above.exit_code, 1);
+  EXPECT_EQ(above.exit_code, 2);
   ExpectOneLine(above.error, "--low-level " + policy + " was made with env.control_interval_s");
   const ProgramResult further = CallSkein({"train", "--resume", run_});
   EXPECT_EQ(further.exit_code, 0) << further.error;
@@ -204,6 +205,15 @@ TEST_F(TrainingPipeline, ANewRunCanStartFromTheNetworksOfAnother) {
   EXPECT_THAT(actor.output, HasSubstr("started from " + policy + " (actor; a fresh critic)"));
 }
 
+TEST_F(TrainingPipeline, ARunCanStartFromAFileOfAnyName) {
+  FlyReference({"--steps", "5120"});
+  const std::string policy = root_ + "/caf\xe9\n[broken\x7f.skein";
+  fs::copy_file(reference_ + "/checkpoints/policy-final.skein", policy);
+  const ProgramResult result = CallSkein(TinyTraining(run_, {"--steps", "5120", "--from", policy}));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_EQ(ReadRecord(run_ + "/config.toml").train.total_steps, 5120u);
+}
+
 TEST_F(TrainingPipeline, NetworksThatDoNotFitAreRefusedInOneLine) {
   FlyReference({"--steps", "5120"});
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message,
@@ -218,7 +228,7 @@ TEST_F(TrainingPipeline, NetworksThatDoNotFitAreRefusedInOneLine) {
   };
   refused({"--set", "network.gru_size=32"}, "other sizes than the configuration's");
   refused({}, "env.task = heading", 2, "control");
-  refused({"--preset", "aerosonde"}, "env.aircraft");
+  refused({"--preset", "aerosonde"}, "env.aircraft", 2);
   EXPECT_EQ(CallSkein({"train", "--resume", reference_, "--from", reference_}).exit_code, 2);
 }
 

@@ -11,8 +11,11 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "simd/target.h"
+#include "src/config/presets.h"
 #include "src/files/output_file.h"
 #include "tests/sanitizers.h"
 #include "tests/scratch_directory.h"
@@ -141,6 +144,43 @@ TEST(Usage, HelpSaysWhatAutopilotAloneMeans) {
   }
 }
 
+TEST(Usage, HelpNamesEveryPresetAndNoOther) {
+  std::string help = CallSkein({"train", "--help"}).output;
+  const std::string begin = "named configuration: ";
+  const std::size_t at = help.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  help = help.substr(at + begin.size(), help.find("; skein list", at) - at - begin.size());
+  std::set<std::string> named, known;
+  std::istringstream parts(help);
+  for (std::string part; std::getline(parts, part, ',');) {
+    std::istringstream words(part);
+    std::string name, meaning;
+    words >> name >> meaning;
+    named.insert(name);
+    EXPECT_EQ(meaning.substr(0, 1), "(") << name << " has no meaning";
+  }
+  for (const Preset& preset : Presets()) known.insert(preset.name);
+  EXPECT_EQ(named, known);
+}
+
+TEST(Usage, HelpSaysWhereATaskFileCanBeFlown) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"train"}, {"eval"}, {"compare"}, {"replay"}, {"plot", "space"}, {"fdm", "fly"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.push_back("--help");
+    EXPECT_THAT(CallSkein(arguments).output,
+                HasSubstr("what to fly: control, heading, tracking, or a task file, FILE.toml"));
+  }
+}
+
+TEST(Usage, WhereTheReportGoesHasTheNameThatItHasElsewhere) {
+  for (const char* option : {"-o", "--output", "--out"}) {
+    const ProgramResult result = CallSkein({"report", "absent", option, "page.html"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.error, HasSubstr("absent: not the directory of a run")) << option;
+  }
+}
+
 TEST(Usage, WrongUsageExitsWithTwoAndOneLine) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {},
@@ -219,6 +259,9 @@ TEST(Usage, BashCompletesCommandsOptionsAndValues) {
   EXPECT_EQ(Completed(scratch, {"skein", "list", "pol"}), "policies\n");
   EXPECT_EQ(Completed(scratch, {"skein", "help", "tr"}), "train\n");
   EXPECT_EQ(Completed(scratch, {"skein", "train", "--config", "x"}), "\n") << "a file's name";
+  for (const char* name : {"-o", "--output", "--out"}) {
+    EXPECT_EQ(Completed(scratch, {"skein", "report", name, "-"}), "\n") << "a file's name";
+  }
 }
 
 TEST(Usage, EveryShellHasACompletionScriptOfEveryOption) {
@@ -340,6 +383,17 @@ TEST(Usage, UnknownCommandsSuggestTheNearest) {
   EXPECT_THAT(CallSkein({"fdm", "float"}).error,
               HasSubstr("unknown command float; known commands: trim, linearise, sweep, fly, eval, "
                         "simulate (see skein fdm"));
+}
+
+TEST(Usage, OptionsOfAnUnknownCommandAreNotBlamed) {
+  EXPECT_THAT(CallSkein({"trian", "heading", "--steps", "1"}).error,
+              HasSubstr("unknown command trian; did you mean train?"));
+  EXPECT_THAT(CallSkein({"fdm", "trimm", "--altitude-ft", "1"}).error,
+              HasSubstr("unknown command trimm; did you mean trim?"));
+  EXPECT_THAT(CallSkein({"plot", "spaces", "--policy", "x"}).error,
+              HasSubstr("unknown command spaces; did you mean space?"));
+  EXPECT_THAT(CallSkein({"fdm", "--altitude-ft", "1"}).error,
+              HasSubstr("unknown option --altitude-ft"));
 }
 
 TEST(Usage, UnknownOptionsSuggestTheNearest) {

@@ -8,7 +8,8 @@
 
 namespace skein {
 
-/// The name of the laws' functions: "f16_flight_control".
+/// The name of the laws' functions: "f16_flight_control"; of an aircraft "747",
+/// "aircraft_747_flight_control".
 std::string FlightControlName(const EnvConfig& env);
 
 /// The flight control laws (envs/reference/flight_control.h) of the aircraft of `env`, stepped with

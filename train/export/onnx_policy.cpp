@@ -7,11 +7,11 @@
 #include "envs/tasks/observation.h"
 #include "envs/tasks/task_errors.h"
 #include "train/export/onnx_model.h"
+#include "train/network/network_kernels.h"
 
 namespace skein {
 namespace {
 
-constexpr float kNormEpsilon = 1e-5f;
 constexpr const char* kBatch = "batch";
 constexpr const char* kLowestAction = "lowest_action";
 constexpr const char* kHighestAction = "highest_action";
@@ -79,7 +79,7 @@ class Network {
                  Constant(name + ".norm.bias", {layer.in}, layer.norm_bias)},
                 name + ".norm",
                 {OnnxModel::Attribute("axis", std::int64_t{-1}),
-                 OnnxModel::Attribute("epsilon", kNormEpsilon)});
+                 OnnxModel::Attribute("epsilon", kLayerNormEpsilon)});
   }
 
   std::string Linear(const NormalisedLinear& layer, const std::string& name, const std::string& x) {

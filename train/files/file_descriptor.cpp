@@ -25,7 +25,7 @@ int FlagsOf(OpenMode mode) {
     case OpenMode::kRead:
       return O_RDONLY;
     case OpenMode::kReplace:
-      return O_WRONLY | O_CREAT | O_TRUNC;
+      return O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW;
     case OpenMode::kWrite:
       return O_WRONLY;
     case OpenMode::kAppend:
@@ -128,15 +128,25 @@ void SyncNames(const FileDescriptor& directory, const std::string& path) {
   }
 }
 
+/// Gives a file the permissions of the one that it replaces, if there is one, on file systems that
+/// have them.
+void TakePermissions(const FileDescriptor& file, const std::string& replaced) {
+  struct stat old {
+  }, own{};
+  if (stat(replaced.c_str(), &old) != 0 || fstat(file.value(), &own) != 0) return;
+  if (old.st_mode != own.st_mode) static_cast<void>(fchmod(file.value(), old.st_mode & 07777));
+}
+
 }  // namespace
 
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write) {
-  const std::string temporary = path + ".tmp";
+  const std::string temporary = path + kTemporaryExtension;
   const std::string parent = std::filesystem::path(path).parent_path().string();
   const std::string folder = parent.empty() ? "." : parent;
   std::optional<FileDescriptor> directory;
+  FileDescriptor file(temporary, OpenMode::kReplace, path);
   try {
-    FileDescriptor file(temporary, OpenMode::kReplace, path);
+    TakePermissions(file, path);
     directory.emplace(folder, OpenMode::kDirectory);
     write(file);
     file.Sync();

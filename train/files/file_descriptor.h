@@ -49,9 +49,13 @@ class FileDescriptor {
   int value_ = -1;
 };
 
-/// Replaces the file `path` by what `write` writes: temporary file `path`.tmp, fsync, rename, fsync
-/// of the directory. Throws Error, as `write` may; an existing file is then untouched, unless it
-/// was the directory that could not be synced.
+/// What ReplaceFile appends to a file's name for its temporary file. It overwrites one that is
+/// there, so it is nothing that a user would choose.
+inline constexpr char kTemporaryExtension[] = ".skein-tmp";
+
+/// Replaces the file `path` by what `write` writes: temporary file beside it, fsync, rename, fsync
+/// of the directory. It has the permissions of the file that it replaces. Throws Error, as `write`
+/// may; an existing file is then untouched, unless it was the directory that could not be synced.
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write);
 
 /// Makes the names in a directory survive a power cut.

@@ -3,16 +3,16 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "train/files/tensor_file.h"
 
 namespace skein {
@@ -29,21 +29,16 @@ constexpr NamedTensor::Type TensorTypeOf() {
 }
 
 /// A number for a file's metadata: seventeen digits, so that the double comes back as it was.
-inline std::string ExactText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
+inline std::string ExactText(double value) { return RoundedText(value, 17); }
 
 /// `text`, what metadata `key` holds, as a finite number; throws Error, naming `path`, if it is
 /// none.
 inline double ToNumber(const std::string& text, const std::string& path, const std::string& key) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
+  const std::optional<double> value = NumberOf(text);
+  if (!value || !std::isfinite(*value)) {
     throw Error(path + ": \"" + key + "\" is \"" + text + "\", which is no number");
   }
-  return value;
+  return *value;
 }
 
 /// Puts all of `from` into `to`, with `prefix` before the names.

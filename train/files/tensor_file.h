@@ -18,7 +18,8 @@ struct NamedTensor {
 
 /// Skein's container for checkpoints and policies, by the safetensors rules: 8-byte header length,
 /// JSON header (at most 16 MiB) with string metadata and [begin, end) offsets that neither overlap
-/// nor leave holes, then the bytes; a checksum of the data in the metadata. No code, no pickles.
+/// nor leave holes, then the bytes; in the metadata a checksum of header and bytes. No code, no
+/// pickles.
 struct TensorFile {
   std::map<std::string, std::string> metadata;
   std::map<std::string, NamedTensor> tensors;

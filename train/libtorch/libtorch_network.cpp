@@ -9,11 +9,11 @@
 
 #include "base/error.h"
 #include "train/libtorch/libtorch_threads.h"
+#include "train/network/network_kernels.h"
 
 namespace skein {
 namespace {
 
-constexpr double kNormEpsilon = 1e-5;
 constexpr double kHalfLogTwoPi = 0.91893853320467274;
 
 torch::Tensor View(const torch::Tensor& flat, std::int64_t offset, at::IntArrayRef shape) {
@@ -31,7 +31,7 @@ torch::Tensor Linear(const torch::Tensor& flat, const NormalisedLinear& layer,
                      const torch::Tensor& in) {
   const torch::Tensor normalised =
       at::layer_norm(in, {layer.in}, View(flat, layer.norm_weight, {layer.in}),
-                     View(flat, layer.norm_bias, {layer.in}), kNormEpsilon);
+                     View(flat, layer.norm_bias, {layer.in}), kLayerNormEpsilon);
   return at::linear(normalised, View(flat, layer.weight, {layer.out, layer.in}),
                     View(flat, layer.bias, {layer.out}));
 }

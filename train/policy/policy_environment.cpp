@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/error.h"
+#include "base/choice_error.h"
 #include "base/field_list.h"
 #include "base/number_text.h"
 
@@ -22,9 +22,10 @@ void CheckAircraft(const EnvConfig& env, const std::map<std::string, std::string
   if (made.name.empty()) return;
   const AircraftIdentity flown = IdentifyAircraft(env.aircraft);
   if (made.hash == flown.hash) return;
-  throw Error(who + " was made with env.aircraft = " + Shown(made, flown) +
-              ", but is to fly with env.aircraft = " + Shown(flown, made) +
-              " (skein eval --other-aircraft and the agent policy:FILE@other-aircraft allow it)");
+  throw ChoiceError(
+      who + " was made with env.aircraft = " + Shown(made, flown) +
+      ", but is to fly with env.aircraft = " + Shown(flown, made) +
+      " (skein eval --other-aircraft and the agent policy:FILE@other-aircraft allow it)");
 }
 
 }  // namespace
@@ -69,8 +70,8 @@ void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string
     if (key == kAircraftKey || key == kAircraftHashKey) continue;
     const auto found = made_with.find(key);
     if (found == made_with.end() || found->second == value) continue;
-    throw Error(who + " was made with env." + key + " = " + found->second +
-                ", but is to fly with env." + key + " = " + value);
+    throw ChoiceError(who + " was made with env." + key + " = " + found->second +
+                      ", but is to fly with env." + key + " = " + value);
   }
 }
 

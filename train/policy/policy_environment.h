@@ -29,9 +29,9 @@ AircraftIdentity AircraftMadeWith(const std::map<std::string, std::string>& made
 /// Tracking's target, and whether a high-level policy observes means.
 void AdoptView(const std::map<std::string, std::string>& made_with, EnvConfig* env);
 
-/// Throws Error that begins with `who` and names the first difference if a policy that was made
-/// with `made_with` (PolicyEnvironment) cannot fly in `env`. What that does not say is not checked:
-/// untrained policies and older files say nothing.
+/// Throws ChoiceError that begins with `who` and names the first difference if a policy that was
+/// made with `made_with` (PolicyEnvironment) cannot fly in `env`. What that does not say is not
+/// checked: untrained policies and older files say nothing.
 void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string>& made_with,
                    const std::string& who);
 

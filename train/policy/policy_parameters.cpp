@@ -6,8 +6,10 @@
 
 #include "base/error.h"
 #include "base/field_list.h"
+#include "envs/env_config.h"
 #include "train/files/legacy_names.h"
 #include "train/files/tensor_access.h"
+#include "train/network/network_config.h"
 #include "train/policy/low_level_file.h"
 
 namespace skein {
@@ -23,7 +25,6 @@ constexpr const char* kActivationKey = "policy.activation";
 constexpr const char* kTaskKey = "policy.task";
 constexpr const char* kTaskFileKey = "policy.task_file";
 constexpr const char* kEnvironmentPrefix = "policy.env.";
-constexpr int kMaxSize = 1 << 14;  ///< of any layer: a file cannot ask for more memory than this
 
 std::string Metadata(const TensorFile& file, const std::string& path, const std::string& key) {
   const auto found = file.metadata.find(key);
@@ -46,7 +47,7 @@ int WholeNumberIn(const TensorFile& file, const std::string& path, const std::st
 }
 
 int SizeIn(const TensorFile& file, const std::string& path, const std::string& key) {
-  return WholeNumberIn(file, path, key, 1, kMaxSize);
+  return WholeNumberIn(file, path, key, 1, kMaxWidth);
 }
 
 bool Has(const TensorFile& file, const char* key) { return file.metadata.count(key) > 0; }
@@ -137,7 +138,8 @@ std::shared_ptr<const RecurrentPolicy::Parameters> LoadPolicy(TensorFile file,
   parameters->config = NetworkConfigIn(file, path);
   parameters->shape = ActorShape(parameters->config, SizeIn(file, path, "policy.observation_size"),
                                  SizeIn(file, path, "policy.action_size"));
-  parameters->action_repeat = SizeIn(file, path, "policy.action_repeat");
+  parameters->action_repeat =
+      WholeNumberIn(file, path, "policy.action_repeat", 1, kMaxActionRepeat);
   if (Has(file, kTaskKey)) parameters->task = Metadata(file, path, kTaskKey);
   if (Has(file, kTaskFileKey)) parameters->task_file = Metadata(file, path, kTaskFileKey);
   parameters->environment = ExtractPrefix(file.metadata, kEnvironmentPrefix);

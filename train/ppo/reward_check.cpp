@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "base/field_list.h"
 #include "base/number_text.h"
@@ -17,26 +18,32 @@ constexpr float kLargestReward = 1e15F;
 
 bool IsUsable(float reward) { return std::abs(reward) <= kLargestReward; }
 
+/// Of terms of the reward, and of what ends of episodes bring.
 bool IsRewardWeight(const std::string& key) {
-  constexpr char kSuffix[] = "_weight";
-  const std::size_t suffix = key.rfind(kSuffix);
-  return key.rfind("env.reward", 0) == 0 ||
-         (suffix != std::string::npos && suffix + sizeof kSuffix - 1 == key.size());
+  return key.rfind("env.reward", 0) == 0 || EndsWith(key, "_weight") || EndsWith(key, "_reward");
 }
 
-/// "KEY = VALUE" of the largest weight that this task reads.
+/// "KEY = VALUE" of the weight that is largest in magnitude, of those that this task reads.
 std::string LargestWeight(TrainConfig config) {
-  std::string key;
-  double largest = -1;
+  std::string name;
+  double largest = 0;
+  const auto consider = [&](const std::string& of, double weight) {
+    if (!name.empty() && std::abs(weight) <= std::abs(largest)) return;
+    name = of;
+    largest = weight;
+  };
   for (const Field& field : FieldsOf(config)) {
     double* const* weight = std::get_if<double*>(&field.place);
     if (weight == nullptr || !IsRewardWeight(field.key) || !field.IsOf(config.env.task)) continue;
-    if (**weight > largest) {
-      largest = **weight;
-      key = field.key;
+    consider(field.key, **weight);
+  }
+  if (const auto& task = config.env.term_task; task != nullptr) {
+    for (std::size_t i = 0; i < task->rewards.size(); ++i) {
+      consider("the task file's [[reward]] number " + std::to_string(i + 1) + ": weight",
+               task->rewards[i].weight);
     }
   }
-  return key + " = " + ShortestText(largest);
+  return name + " = " + ShortestText(largest);
 }
 
 }  // namespace

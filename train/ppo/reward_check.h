@@ -7,8 +7,9 @@
 
 namespace skein {
 
-/// Throws Error, which names the largest weight of the reward, if one of `rewards` is not finite or
-/// too large for float32 to sum and square: no learning rate would help.
+/// Throws Error, which names the weight of the reward or the reward of an end that is largest in
+/// magnitude, if one of `rewards` is not finite or too large for float32 to sum and square: no
+/// learning rate would help.
 void RequireUsableRewards(const TrainConfig& config, const std::vector<float>& rewards);
 
 }  // namespace skein

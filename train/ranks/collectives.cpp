@@ -45,7 +45,7 @@ void DoTogether(Ranks& ranks, const std::function<void()>& work) {
     reason = std::string("x") + error.what();
   }
   const std::vector<std::string> reasons = TextsOfRanks(ranks, reason);
-  if (failure != nullptr) std::rethrow_exception(failure);
+  if (failure != nullptr && ranks.rank() == 0) std::rethrow_exception(failure);
   for (const std::string& theirs : reasons) {
     if (theirs.empty()) continue;
     const auto failed = [](const std::string& text) { return !text.empty(); };

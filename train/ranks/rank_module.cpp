@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ranks/rank_module.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
 #include <string>
 
 #include "base/error.h"
+#include "base/shared_module.h"
 
 namespace skein {
 namespace {
@@ -20,21 +19,14 @@ int NumberIn(const char* variable) {
 }
 
 const RankModule& LoadRankModule() {
-  const auto refuse = [](const std::string& reason) {
+  try {
+    return LoadModule<RankModuleEntry>(kMpiModule, kRankModuleEntry, SKEIN_BUILD_ID);
+  } catch (const Error& error) {
     throw Error("started as one of " + std::to_string(LaunchedProcesses()) +
-                " processes, but trainings on several are not available (" + reason +
+                " processes, but trainings on several are not available (" + error.what() +
                 "): install MPI (Debian: libopenmpi-dev) and build Skein with SKEIN_BUILD_MPI=ON, "
                 "or start one process");
-  };
-  // Never closed: MPI cannot be started a second time in a process.
-  void* const library = dlopen(kMpiModule, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) refuse(dlerror());
-  const auto entry = reinterpret_cast<RankModuleEntry*>(dlsym(library, kRankModuleEntry));
-  if (entry == nullptr) refuse(std::string(kMpiModule) + " is no module of Skein");
-  const RankModule* const module = entry(SKEIN_BUILD_ID);
-  if (module == nullptr)
-    refuse(std::string(kMpiModule) + " is of another build than " SKEIN_BUILD_ID);
-  return *module;
+  }
 }
 
 }  // namespace

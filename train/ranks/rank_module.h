@@ -20,8 +20,7 @@ class RankModule {
   virtual std::unique_ptr<Ranks> Join(double timeout_s) const = 0;
 };
 
-/// The function that the module exports under kRankModuleEntry. `build` is the caller's
-/// SKEIN_BUILD_ID; null if the module's own is another.
+/// The function that the module exports under kRankModuleEntry; `build` as for LoadModule.
 using RankModuleEntry = const RankModule*(const char* build);
 inline constexpr const char* kRankModuleEntry = "skein_rank_module";
 inline constexpr const char* kMpiModule = "libskein_mpi.so";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
+import { readingsOf } from '../src/flights/pane';
 import { FlightRecord, Pose } from '../src/flights/record';
 import { csvOf } from '../src/flights/save';
 import { stripsOf } from '../src/flights/strip_list';
@@ -52,6 +53,26 @@ describe('a record', () => {
     expect([0, 1, 2].map((target) => flown.isReached(target, 3))).toEqual([true, false, false]);
     expect(flown.isReached(0, 0.5)).toBe(false);
   });
+  it('says when its target was reached, and how it ended', () => {
+    expect(record(STRAIGHT).outcome()).toBe('time limit at 3.0 s');
+    const reached = { end: 'target_reached', reached_s: [3] };
+    expect(record(STRAIGHT, reached).outcome()).toBe('target reached at 3.0 s');
+    expect(record(STRAIGHT, { ...reached, reached_s: [2] }).outcome())
+      .toBe('target reached at 2.0 s, flown for 3.0 s');
+    expect(record(STRAIGHT, { end: 'low_altitude', reached_s: [2] }).outcome())
+      .toBe('target reached at 2.0 s, low altitude at 3.0 s');
+    expect(record(STRAIGHT, { new_target_s: [1], reached_s: [1] }).outcome())
+      .toBe('time limit at 3.0 s');
+  });
+});
+
+it('readings know neither -0 nor a heading of 360', () => {
+  const zero = [0, 0, 0, 0];
+  const flown = record({ ...STRAIGHT, yaw_deg: [-0.2, -170, 90, 0], pitch_deg: [-0.2, 0, 0, 0],
+    true_airspeed_fps: zero, mach: zero, load_factor_g: zero, alpha_deg: zero, beta_deg: zero });
+  expect(readingsOf(flown, 0)).toContain('hdg 0°');
+  expect(readingsOf(flown, 0)).toContain('pitch 0°');
+  expect(readingsOf(flown, 1)).toContain('hdg 190°');
 });
 
 it('a table has every row of every flight, and quotes names', () => {

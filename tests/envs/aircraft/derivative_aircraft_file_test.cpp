@@ -153,6 +153,41 @@ std::string Piston(const std::string& propeller) {
       propeller + "}");
 }
 
+/// The thrust of the aerosonde's motor with `keys` beside its own.
+EngineTables ElectricTables(const std::string& keys) {
+  return MakeAircraft(
+             ReadDerivativeAircraft("glider", Changed("\"diameter_m\"", keys + "\"diameter_m\"")))
+      .engine;
+}
+
+TEST(DerivativeAircraftFile, ThrustOfElectricMotorsEndsWhereTheFileSays) {
+  constexpr Tolerance kRounding{1e-9, "float64 rounding of 20,000 ft"};
+  const EngineTables shipped = ElectricTables("");
+  EXPECT_EQ(shipped.altitude_ft, (std::vector<double>{-2000, 3000, 8000, 13000}));
+  ASSERT_EQ(shipped.mach.size(), 11u);
+  for (std::size_t j = 0; j < shipped.mach.size(); ++j) {
+    EXPECT_EQ(shipped.mach[j], 0.014 * static_cast<double>(j)) << "not a bit may differ";
+  }
+  const EngineTables fast = ElectricTables(R"("max_mach": 0.3, )");
+  EXPECT_EQ(fast.altitude_ft, shipped.altitude_ft);
+  EXPECT_NEAR(fast.mach.back(), 0.3, kRounding);
+  EXPECT_EQ(fast.mach.size(), shipped.mach.size());
+  EXPECT_EQ(Thrust(shipped, 100, 0, 0.3), Thrust(shipped, 100, 0, 0.14)) << "held beyond its end";
+  EXPECT_LT(Thrust(fast, 100, 0, 0.3), Thrust(shipped, 100, 0, 0.14)) << "less in faster air";
+  const EngineTables high = ElectricTables(R"("max_altitude_m": 6096, )");
+  EXPECT_EQ(high.mach, shipped.mach);
+  EXPECT_EQ(high.altitude_ft.front(), -2000);
+  EXPECT_NEAR(high.altitude_ft.back(), 20000, 20000 * kRounding);
+  for (const char* key : {"max_mach", "max_altitude_m"}) {
+    for (const char* value : {"0", "-1", "1e6"}) {
+      const std::string text = "\"" + std::string(key) + "\": " + value + ", \"diameter_m\"";
+      EXPECT_THAT(ErrorOf(Changed("\"diameter_m\"", text)),
+                  HasSubstr(std::string("aircraft glider.propulsion.") + key + " is "))
+          << value;
+    }
+  }
+}
+
 TEST(DerivativeAircraftFile, PistonEnginesComeWithAnyPropeller) {
   const std::string fixed =
       R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 1], "CT": [0.1, 0], "CP": [0.06, 0])";

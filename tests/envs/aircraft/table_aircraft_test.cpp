@@ -55,10 +55,12 @@ TEST(TableAircraft, ErrorsNameTheField) {
             "1e+12 in magnitude");
   EXPECT_EQ(at("/airframe/mass_slug", 0),
             "aircraft mine.airframe.mass_slug is 0, but must be above 0");
-  EXPECT_EQ(
-      at("/flight_control/yaw_lead", {1, 2, -3}),
-      "aircraft mine.flight_control.yaw_lead is -3, but must be zero or more in a0: the filter "
-      "is unstable");
+  EXPECT_EQ(at("/flight_control/yaw_lead", {1, 2, -3}),
+            "aircraft mine.flight_control.yaw_lead is -3, but must be above 0 in a0: the filter "
+            "never comes to rest");
+  EXPECT_EQ(at("/flight_control/pitch_rate_washout", {1, 0, 0}),
+            "aircraft mine.flight_control.pitch_rate_washout is 0, but must be above 0 in a0: the "
+            "filter never comes to rest");
   EXPECT_EQ(ErrorAfter([](json* file) { file->at("aerodynamics").at("tables").erase("Cmq"); }),
             "aircraft mine.aerodynamics.tables lacks Cmq");
   EXPECT_EQ(ErrorAfter([](json* file) {

@@ -226,6 +226,23 @@ TEST(Plant, IntegratesToFourthOrderBetweenTheTablesKinks) {
   EXPECT_LT(coarse / fine, 24);
 }
 
+TEST(Plant, OtherGainsChangeNeitherAirNorGravity) {
+  Gravity gravity;
+  gravity.at_sea_level_ft_s2 = 5.3;
+  const Plant plant(F16(), AtmosphereModel::kStandard1976, 0.7, gravity);
+  FlightControlGains gains = plant.aircraft().flight_control;
+  gains.max_load_factor_command += 1;
+  const Plant other = plant.WithFlightControl(gains);
+  EXPECT_EQ(other.aircraft().flight_control.max_load_factor_command, gains.max_load_factor_command);
+  RigidBodyState state = RigidBodyState::Zero();
+  state.segment<3>(kU) << 600, 20, 40;
+  state[kDown] = -15000;
+  state[kQ0] = 1;
+  const PlantOutput before = plant.Evaluate(state, {}), after = other.Evaluate(state, {});
+  EXPECT_EQ(after.state_rate, before.state_rate);
+  EXPECT_EQ(after.air.dynamic_pressure_psf, before.air.dynamic_pressure_psf);
+}
+
 TEST(Plant, DragRisesWithTheMachNumberIfAskedTo) {
   Aircraft aircraft = F16();
   const Plant level(aircraft, AtmosphereModel::kStevensLewis);

@@ -102,6 +102,24 @@ TEST(EquivalentSystem, FindsTheSystemThatItIsGiven) {
   EXPECT_NEAR(FitRoll(roll).time_constant_s, 0.4, 0.4 * kFit);
 }
 
+TEST(StepResponse, IsMeasuredOfWhatIsReached) {
+  constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+  // From 3 to 13, in tenths, with a peak of 15 on the way.
+  const StepResponse response = MeasureStep({4, 8, 12, 15, 13, 13}, 3, 0.2);
+  EXPECT_EQ(response.size, 0.2);
+  EXPECT_EQ(response.reached, 10);
+  EXPECT_NEAR(response.rise_s, 2 * kTrialInterval, kRounding);
+  EXPECT_NEAR(response.overshoot, 0.2, kRounding);
+}
+
+TEST(StepResponse, HasNoRiseAndNoOvershootWhereNothingIsReached) {
+  for (const double last : {std::nan(""), HUGE_VAL, -HUGE_VAL, 3.0}) {
+    const StepResponse response = MeasureStep({4, 8, last}, 3, 0.1);
+    EXPECT_TRUE(std::isnan(response.rise_s)) << last;
+    EXPECT_TRUE(std::isnan(response.overshoot)) << last;
+  }
+}
+
 TEST(FlyingQualities, LevelsEndWhereTheStandardEndsThem) {
   const LevelLimits limits = LimitsOf(AirplaneClass::kIV, FlightPhaseCategory::kA);
   EXPECT_EQ(ShortPeriodDampingLevel(limits, 0.35), 1);

@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 std::string Complaint(const std::vector<std::string>& conditions) {
@@ -164,6 +165,20 @@ TEST(Conditions, AreDescribedInWords) {
             "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; noise 0.01");
   EXPECT_EQ(DescribeConditions(Under({"noisy=0"})),
             "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; no noise");
+}
+
+TEST(Conditions, EvaluationsAreDescribedWithWhatCounts) {
+  EnvConfig env = Under({});
+  EXPECT_EQ(DescribeEvaluation(env),
+            "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; noise 0.01; drag rise "
+            "and thrust growth; a target counts after 1 s and is held for 8 s");
+  env.drag_rises = false;
+  env.heading.dwell_s = 0;
+  EXPECT_THAT(DescribeEvaluation(env), EndsWith("0.01; thrust growth; targets held for 8 s"));
+  env.hold_s = 0;
+  env.mission.length_s = 600;
+  EXPECT_THAT(DescribeEvaluation(env), EndsWith("0.01; thrust growth; missions of 10 min"));
+  EXPECT_THAT(DescribeEvaluation(Under({"high_altitude=30kft"})), HasSubstr("; 1976 atmosphere;"));
 }
 
 TEST(Conditions, EveryLevelOfEachOnEveryTaskCanBeFlown) {

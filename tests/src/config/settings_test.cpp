@@ -123,6 +123,15 @@ TEST(Settings, UnknownKeysSuggestTheNearest) {
             "--set: unknown key zzzzzzzz; `skein train --help-keys` lists all keys");
 }
 
+TEST(Settings, TextsOfSeveralLinesAreRefusedInOne) {
+  ProgramConfig config;
+  EXPECT_EQ(MessageOf([&] {
+              Assign("env.aircraft", SettingValue(std::string("a\nb")), "--set", &config);
+            }),
+            "--set: env.aircraft must be of one line, not \"a\\u000ab\"");
+  EXPECT_THAT(MessageOf([] { Find("a\nb"); }), HasSubstr("unknown key a b"));
+}
+
 TEST(Settings, WrongTypesAndValuesOutOfRangeAreNamed) {
   EXPECT_EQ(MessageOf([] {
               ProgramConfig config;

@@ -23,6 +23,7 @@
 #include "tests/src/faults/faulted_commands.h"
 #include "tests/src/faults/faulted_program.h"
 #include "tests/src/tiny_training.h"
+#include "train/files/file_descriptor.h"
 #include "train/files/tensor_file.h"
 
 namespace skein {
@@ -44,7 +45,7 @@ bool HasEnding(const std::string& text, const std::string& ending) {
 bool TellsTime(const std::string& name) {
   const std::string file = fs::path(name).filename().string();
   return file == "log.txt" || file == "timing.csv" || file == "summary.json" || file == "lock" ||
-         file.rfind("events.out.", 0) == 0 || HasEnding(file, ".tmp");
+         file.rfind("events.out.", 0) == 0 || HasEnding(file, kTemporaryExtension);
 }
 
 Files FilesIn(const std::string& folder) {
@@ -199,7 +200,7 @@ class Faults : public ::testing::TestWithParam<FaultedCommand> {
     ASSERT_EQ(result.exit_code, 0) << result.error;
     ExpectSameFiles(after_, FilesIn(work_));
     for (const auto& entry : fs::recursive_directory_iterator(work_)) {
-      EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+      EXPECT_NE(entry.path().extension(), kTemporaryExtension) << entry.path();
     }
   }
 

@@ -4,7 +4,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <limits>
+#include <new>
+#include <system_error>
 
 #include "base/error.h"
 #include "src/report/csv_columns.h"
@@ -122,6 +126,20 @@ TEST_F(ReportServerTest, SaysWhyThereAreNoData) {
       "GET /data HTTP/1.1\r\nHost: " + address.substr(7, address.size() - 8) + "\r\n\r\n");
   EXPECT_THAT(answer, StartsWith("HTTP/1.1 503"));
   EXPECT_THAT(answer, HasSubstr("runs/a: gone"));
+}
+
+TEST_F(ReportServerTest, OutlivesWhatTheSystemThrows) {
+  const auto answer = [](const std::function<std::string()>& data) {
+    const ReportServer server("", data);
+    const std::string address = server.address();
+    return server.Answer("GET /data HTTP/1.1\r\nHost: " + address.substr(7, address.size() - 8) +
+                         "\r\n\r\n");
+  };
+  EXPECT_THAT(answer([]() -> std::string { throw std::bad_alloc(); }), StartsWith("HTTP/1.1 503"));
+  EXPECT_THAT(answer([]() -> std::string {
+                throw std::filesystem::filesystem_error("gone", std::error_code());
+              }),
+              StartsWith("HTTP/1.1 503"));
 }
 
 }  // namespace

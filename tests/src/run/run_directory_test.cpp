@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
+#include "train/files/file_descriptor.h"
 
 namespace skein {
 namespace {
@@ -65,7 +66,8 @@ TEST_F(RunDirectoryTest, PruneKeepsTheNewestByNumber) {
     WriteFile(run.checkpoint(iteration), "x");
   }
   WriteFile(run.best_policy(), "x");
-  WriteFile(run.checkpoints() + "/checkpoint-12.skein.tmp", "x");
+  const std::string temporary = run.checkpoints() + "/checkpoint-12.skein" + kTemporaryExtension;
+  WriteFile(temporary, "x");
   run.Prune(2);
   const auto left = run.Checkpoints();
   ASSERT_EQ(left.size(), 2u);
@@ -73,7 +75,7 @@ TEST_F(RunDirectoryTest, PruneKeepsTheNewestByNumber) {
   EXPECT_EQ(left[1].iteration, 1000000u);
   EXPECT_TRUE(fs::exists(run.best_policy()));
   run.RemoveTemporaries();
-  EXPECT_FALSE(fs::exists(run.checkpoints() + "/checkpoint-12.skein.tmp"));
+  EXPECT_FALSE(fs::exists(temporary));
 }
 
 TEST_F(RunDirectoryTest, CheckpointsThatCannotBeReadAreNotTakenForNone) {
@@ -109,6 +111,12 @@ TEST_F(RunDirectoryTest, RunsOfTheSameSecondHaveDirectoriesOfTheirOwn) {
 TEST_F(RunDirectoryTest, DocumentsMayHoldNamesThatAreNotUtf8) {
   WriteJson(root_ + "/document", {{"path", "caf\xe9"}});
   EXPECT_EQ(ReadFile(root_ + "/document"), "{\n \"path\": \"caf\xef\xbf\xbd\"\n}\n");
+}
+
+TEST_F(RunDirectoryTest, NamesBecomeOneLineOfUtf8) {
+  EXPECT_EQ(PlainLine("caf\xc3\xa9 [x] \"y\""), "caf\xc3\xa9 [x] \"y\"");
+  EXPECT_EQ(PlainLine("caf\xe9"), "caf\xef\xbf\xbd");
+  EXPECT_EQ(PlainLine(std::string("a\nb\tc\0d\x7f", 8)), "a b c d ");
 }
 
 TEST_F(RunDirectoryTest, SymbolicLinksLeadToTheFileThatIsReplaced) {

@@ -75,5 +75,21 @@ TEST_F(FileDescriptorTest, AReplacementThatFailsLeavesTheOldFileAndNothingElse) 
   EXPECT_EQ(Content(), "new");
 }
 
+TEST_F(FileDescriptorTest, AReplacementKeepsPermissionsAndOtherFiles) {
+  namespace fs = std::filesystem;
+  const auto write = [](FileDescriptor& file) { file.Write("new"); };
+  FileDescriptor(path_ + ".tmp", OpenMode::kReplace).Write("a user's");
+  FileDescriptor(path_, OpenMode::kReplace).Write("old");
+  fs::permissions(path_, fs::perms::owner_read | fs::perms::owner_write);
+  ReplaceFile(path_, write);
+  EXPECT_EQ(Content(), "new");
+  EXPECT_EQ(fs::status(path_).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(FileDescriptor(path_ + ".tmp", OpenMode::kRead).ReadToEnd(100), "a user's");
+
+  fs::create_symlink(path_ + ".tmp", path_ + kTemporaryExtension);
+  EXPECT_THROW(ReplaceFile(path_, write), Error);
+  EXPECT_EQ(FileDescriptor(path_ + ".tmp", OpenMode::kRead).ReadToEnd(100), "a user's");
+}
+
 }  // namespace
 }  // namespace skein

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "tests/scratch_directory.h"
+#include "train/files/file_descriptor.h"
 
 namespace skein {
 namespace {
@@ -69,7 +70,7 @@ TEST_F(TensorFileTest, ComesBackAsItWas) {
     EXPECT_EQ(back.tensors.at(name).shape, tensor.shape);
     EXPECT_EQ(back.tensors.at(name).bytes, tensor.bytes);
   }
-  EXPECT_FALSE(std::filesystem::exists(path_ + ".tmp"));
+  EXPECT_FALSE(std::filesystem::exists(path_ + kTemporaryExtension));
 }
 
 TEST_F(TensorFileTest, RefusesEveryTruncationAndExtension) {

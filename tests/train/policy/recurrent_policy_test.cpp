@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/policy/recurrent_policy.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <thread>
 
 #include "base/error.h"
+#include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
 #include "tests/train/libtorch.h"
@@ -17,6 +19,8 @@
 
 namespace skein {
 namespace {
+
+using ::testing::StartsWith;
 
 std::vector<float> ActionsOf(const RecurrentPolicy& policy, int count) {
   std::vector<float> observation(static_cast<std::size_t>(count) * policy.observation_size());
@@ -147,12 +151,14 @@ TEST_F(PolicyTest, RefusesFilesThatAreNoPolicy) {
       file.metadata[key] = value;
     }
     file.Write(path_);
-    EXPECT_THROW(RecurrentPolicy::Load(path_), Error) << key;
+    EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }), StartsWith(path_ + ": "))
+        << key << " " << (value == nullptr ? "" : value);
   };
   refused("policy.format", "skein-policy-99");
   refused("policy.format", nullptr);
   refused("policy.hidden_size", "64");
   refused("policy.hidden_size", "33");
+  refused("policy.hidden_size", "1025");
   refused("policy.hidden_size", "1e9");
   refused("policy.gru_size", "-16");
   refused("policy.gru_size", "nan");
@@ -162,6 +168,7 @@ TEST_F(PolicyTest, RefusesFilesThatAreNoPolicy) {
   refused("policy.activation", "RELU");
   refused("policy.action_size", "");
   refused("policy.action_repeat", "0");
+  refused("policy.action_repeat", "1001");
   RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, 3).Save(path_);
   TensorFile file = TensorFile::Read(path_);
   file.tensors["actor/head.bias"].bytes.assign(16, 0xff);  // not-a-number

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <new>
 #include <numeric>
 #include <random>
 
+#include "base/error.h"
 #include "tests/error_message.h"
 #include "tests/train/ranks/thread_ranks.h"
 #include "train/ppo/shards.h"
@@ -140,6 +142,20 @@ TEST_P(CollectivesTest, WhatFailsOnOneRankFailsOnAllAndIsNamed) {
     EXPECT_THAT(message, HasSubstr("no such file"));
     if (ranks.rank() != last) {
       EXPECT_THAT(message, HasSubstr("rank " + std::to_string(last)));
+    }
+  });
+}
+
+TEST_P(CollectivesTest, WhatAllHaveBeenToldOfIsAnError) {
+  const int last = GetParam() - 1;
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    const auto fail = [&] {
+      if (ranks.rank() == last) throw std::bad_alloc();
+    };
+    if (last == 0) {
+      EXPECT_THROW(DoTogether(ranks, fail), std::bad_alloc) << "rank 0 throws its own exception";
+    } else {
+      EXPECT_THROW(DoTogether(ranks, fail), Error);
     }
   });
 }

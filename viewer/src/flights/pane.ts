@@ -15,9 +15,12 @@ const READINGS: [name: string, column: string, unit: string, decimals: number][]
 
 export function readingsOf(record: FlightRecord, time: number): string {
   return READINGS.map(([name, column, unit, decimals]) => {
-    let value = record.value(column, time);
-    if (column === 'yaw_deg') value = (value + 360) % 360;
-    return `${name} ${value.toFixed(decimals)}${unit && unit !== '°' ? ` ${unit}` : unit}`;
+    const isHeading = column === 'yaw_deg';
+    const value = record.value(column, time);
+    let text = (isHeading ? (value + 360) % 360 : value).toFixed(decimals);
+    // Neither -0 nor a heading of 360.
+    if (Number(text) % (isHeading ? 360 : Infinity) === 0) text = (0).toFixed(decimals);
+    return `${name} ${text}${unit && unit !== '°' ? ` ${unit}` : unit}`;
   }).join('   ');
 }
 

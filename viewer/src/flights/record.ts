@@ -67,6 +67,16 @@ export class FlightRecord {
     this.turns = this.attitudes();
   }
 
+  /** "target reached at 20.6 s, flown for 29.5 s": what came of a flight of one target may be known
+   * before its end. */
+  outcome(): string {
+    const [reached] = this.reached;
+    const isEarlier = this.newTargets.length === 0 && reached < this.duration - 1e-6;
+    if (!isEarlier) return `${this.end} at ${this.duration.toFixed(1)} s`;
+    const end = this.end === 'target reached' ? 'flown for' : `${this.end} at`;
+    return `target reached at ${reached.toFixed(1)} s, ${end} ${this.duration.toFixed(1)} s`;
+  }
+
   private attitudes(): Float32Array {
     const [roll, pitch, yaw] = ['roll_deg', 'pitch_deg', 'yaw_deg'].map((name) => this.column(name));
     const turns = new Float32Array(4 * this.rows);

@@ -176,7 +176,7 @@ class FlightsView {
     const rows = this.set.agents.map((name, agent) => {
       const own = this.records.filter((record) => record.agent === agent
         && (this.episode < 0 || record.episode === this.episode));
-      const end = own.length === 1 ? `: ${own[0].end} at ${own[0].duration.toFixed(1)} s` : '';
+      const end = own.length === 1 ? `: ${own[0].outcome()}` : '';
       const box = tick(name + end, !this.hidden.has(agent), (isOn) => {
         if (isOn) this.hidden.delete(agent);
         else if (this.hidden.size + 1 < this.set.agents.length) this.hidden.add(agent);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "train/ppo/reward_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "tests/error_message.h"
+
+namespace skein {
+namespace {
+
+using ::testing::EndsWith;
+
+/// What is said of a reward of 1e20 where `change` has set the weights.
+std::string Blamed(const std::function<void(EnvConfig*)>& change) {
+  TrainConfig config;
+  change(&config.env);
+  return MessageOf([&] { RequireUsableRewards(config, {1, 1e20F}); });
+}
+
+TEST(RewardCheck, RewardsThatSumAndSquareAreUsable) {
+  EXPECT_EQ(MessageOf([] { RequireUsableRewards({}, {0, -1e15F, 1e15F}); }), "");
+  const float infinite = std::numeric_limits<float>::infinity();
+  for (const float bad : {-1.1e15F, infinite, std::numeric_limits<float>::quiet_NaN()}) {
+    EXPECT_NE(MessageOf([&] { RequireUsableRewards({}, {0, bad}); }), "") << bad;
+  }
+}
+
+TEST(RewardCheck, NamesTheWeightThatIsLargestInMagnitude) {
+  EXPECT_THAT(Blamed([](EnvConfig* env) { env->reward.roll_rate = 1e30; }),
+              EndsWith("is env.reward.roll_rate = 1e+30"));
+  EXPECT_THAT(Blamed([](EnvConfig* env) { env->termination.failure_reward = -1e20; }),
+              EndsWith("is env.termination.failure_reward = -1e+20"));
+  EXPECT_THAT(Blamed([](EnvConfig* env) {
+                env->termination.failure_reward = -1e20;
+                env->termination.success_reward = 1e21;
+              }),
+              EndsWith("is env.termination.success_reward = 1e+21"));
+}
+
+TEST(RewardCheck, NamesTheTermOfATaskFile) {
+  EXPECT_THAT(Blamed([](EnvConfig* env) {
+                auto task = std::make_shared<TermTaskConfig>();
+                task->rewards.resize(3);
+                task->rewards[1].weight = -1e25;
+                env->term_task = task;
+              }),
+              EndsWith("is the task file's [[reward]] number 2: weight = -1e+25"));
+}
+
+}  // namespace
+}  // namespace skein
