@@ -13,26 +13,47 @@ namespace {
 
 constexpr double kMostNumbers = 10000;
 
-std::optional<std::vector<double>> ReadSpaced(const std::string& text, std::size_t dots) {
-  const std::size_t colon = text.find(':', dots);
-  if (colon == std::string::npos) return std::nullopt;
+/// FROM..TO:STEP.
+struct Spacing {
+  double from = 0, to = 0, step = 0;
+
+  double Count() const {
+    // A step of 0.1 is not one: what the last number misses by rounding is not missed.
+    return std::floor((to - from) / step * (1 + 1e-12) + 1e-9) + 1;
+  }
+  /// What is wrong with it; empty if nothing is.
+  std::string Fault() const {
+    if (!(step > 0)) return "STEP must be above 0";
+    if (!(to >= from)) return "TO must not be below FROM";
+    if (!(Count() <= kMostNumbers)) return fmt::format("more than {:.0f} numbers", kMostNumbers);
+    return "";
+  }
+};
+
+std::optional<Spacing> ReadSpacing(const std::string& text) {
+  const std::size_t dots = text.find(".."), colon = text.find(':', dots);
+  if (dots == std::string::npos || colon == std::string::npos) return std::nullopt;
   const auto from = ReadNumber(text.substr(0, dots));
   const auto to = ReadNumber(text.substr(dots + 2, colon - dots - 2));
   const auto step = ReadNumber(text.substr(colon + 1));
-  if (!from || !to || !step || !(*step > 0) || !(*to >= *from)) return std::nullopt;
-  // A step of 0.1 is not one: what the last number misses by rounding is not missed.
-  const double count = std::floor((*to - *from) / *step * (1 + 1e-12) + 1e-9) + 1;
-  if (!(count <= kMostNumbers)) return std::nullopt;
+  if (!from || !to || !step) return std::nullopt;
+  return Spacing{*from, *to, *step};
+}
+
+std::optional<std::vector<double>> ReadSpaced(const std::string& text) {
+  const std::optional<Spacing> spacing = ReadSpacing(text);
+  if (!spacing || !spacing->Fault().empty()) return std::nullopt;
   std::vector<double> numbers;
-  for (int i = 0; i < static_cast<int>(count); ++i) numbers.push_back(*from + i * *step);
+  for (int i = 0; i < static_cast<int>(spacing->Count()); ++i) {
+    numbers.push_back(spacing->from + i * spacing->step);
+  }
   return numbers;
 }
 
 }  // namespace
 
 std::optional<std::vector<double>> ReadNumberList(const std::string& text) {
-  const std::size_t dots = text.find("..");
-  if (dots != std::string::npos) return ReadSpaced(text, dots);
+  if (text.find("..") != std::string::npos) return ReadSpaced(text);
   std::vector<double> numbers;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
@@ -51,6 +72,10 @@ CLI::Option* AddNumberList(CLI::App* command, const std::string& name, std::vect
     const auto list = ReadNumberList(text);
     if (list && std::all_of(list->begin(), list->end(), [min](double x) { return x > min; })) {
       return "";
+    }
+    const std::optional<Spacing> spacing = ReadSpacing(text);
+    if (spacing && !spacing->Fault().empty()) {
+      return fmt::format("'{}': {}", text, spacing->Fault());
     }
     return fmt::format("'{}' is not a {}, several of them (A,B,C) or FROM..TO:STEP", text, kind);
   };
