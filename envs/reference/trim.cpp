@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "envs/aircraft/aircraft.h"
 #include "envs/aircraft/engine.h"
 #include "envs/reference/flight_control.h"
 #include "envs/state/attitude.h"
@@ -35,12 +36,13 @@ constexpr int kMaxIterations = 60;
 std::string Describe(const TrimRequest& request) {
   std::array<char, 160> text;
   std::snprintf(text.data(), text.size(),
-                "altitude %g ft, speed %g ft/s, flight-path angle %g rad, turn rate %g rad/s",
-                request.altitude_ft, request.true_airspeed_ft_s, request.flight_path_angle_rad,
-                request.turn_rate_rad_s);
+                "altitude %g ft, speed %g ft/s, flight-path angle %g deg, turn rate %g deg/s",
+                request.altitude_ft, request.true_airspeed_ft_s,
+                kDegPerRad * request.flight_path_angle_rad, kDegPerRad * request.turn_rate_rad_s);
   std::string where = text.data();
   if (request.pull_up_rate_rad_s != 0) {
-    std::snprintf(text.data(), text.size(), ", pull-up %g rad/s", request.pull_up_rate_rad_s);
+    std::snprintf(text.data(), text.size(), ", pull-up %g deg/s",
+                  kDegPerRad * request.pull_up_rate_rad_s);
     where += text.data();
   }
   return where;

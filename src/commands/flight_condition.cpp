@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "src/commands/aircraft_option.h"
+#include "src/config/number_in.h"
 #include "src/config/number_list.h"
 #include "src/config/one_of.h"
 #include "src/config/whole_number.h"
@@ -27,7 +28,7 @@ void AddManoeuvre(CLI::App* command, FlightCondition* options) {
   command
       ->add_option("--flight-path-deg", manoeuvre->flight_path_deg,
                    "flight-path angle, deg, positive in a climb")
-      ->transform(FiniteNumber())
+      ->transform(NumberIn(-90, 90))
       ->capture_default_str();
   CLI::Option* turn =
       command

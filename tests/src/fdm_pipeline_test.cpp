@@ -390,6 +390,7 @@ TEST_F(FdmPipeline, WrongGridsAreWrongUsage) {
       {{"--altitude-ft", "10..0:5", "--speed-fps", "500"}, "TO must not be below FROM"},
       {{"--altitude-ft", "0..1e9:1", "--speed-fps", "500"}, "more than 10000 numbers"},
       {{"--altitude-ft", "0", "--speed-fps", "0,500"}, "is not a number above 0"},
+      {{"--altitude-ft", "0", "--speed-fps", "500", "--flight-path-deg", "120"}, "90"},
       {{"--altitude-ft", "0..9999:1", "--speed-fps", "1..9999:1"}, "more than 100000"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--csv", folder_ + "/x.csv"}, "--csv"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--wind-fps", "1,2"}, "NORTH,EAST,DOWN"},
