@@ -8,7 +8,7 @@ file(WRITE ${SCRATCH}/CMakeLists.txt [[
 cmake_minimum_required(VERSION 3.25)
 project(page NONE)
 set(CMAKE_INSTALL_DATADIR share)
-set(SKEIN_VIEWER_BUILD ${PROJECT_BINARY_DIR}/work)
+set(SKEIN_VIEWER_BUILD ${PROJECT_BINARY_DIR}/page_build)
 add_subdirectory(viewer)
 ]])
 set(page ${SCRATCH}/build/viewer/report.html)
@@ -60,7 +60,7 @@ expect("" 2 22.1.0 "The page of skein report is not built: npm install failed")
 expect("" 2 22.1.0 "its packages could not be had; scripts/setup --viewer")
 write_npm(0)
 expect("" 2 22.1.0 "")
-file(REMOVE ${SCRATCH}/build/work/unreachable)
+file(REMOVE ${SCRATCH}/build/page_build/unreachable)
 expect(second 3 22.1.0 "")
 
 # Neither is a page left for which Node has become too old.
