@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "src/config/nearest_name.h"
-#include "src/config/table_reader.h"
+#include "src/files/plain_line.h"
 
 namespace skein {
 namespace {
@@ -106,7 +106,7 @@ const Field& FindField(const std::vector<Field>& fields, const std::string& key,
   for (const Field& field : fields) keys.push_back(field.key);
   const std::string suggestion = DidYouMean(key, keys);
   throw Error(
-      fmt::format("{}: unknown key {}{}", where, OneLine(key),
+      fmt::format("{}: unknown key {}{}", where, PlainLine(key),
                   suggestion.empty() ? "; `skein train --help-keys` lists all keys" : suggestion));
 }
 

@@ -9,30 +9,16 @@
 
 #include "base/error.h"
 #include "src/config/nearest_name.h"
+#include "src/files/plain_line.h"
 
 namespace skein {
-
-namespace {
-
-bool IsControl(char c) { return static_cast<unsigned char>(c) < ' '; }
-
-}  // namespace
-
-bool IsOneLine(const std::string& text) {
-  return std::none_of(text.begin(), text.end(), IsControl);
-}
-
-std::string OneLine(std::string text) {
-  std::replace_if(text.begin(), text.end(), IsControl, ' ');
-  return text;
-}
 
 toml::table ParseToml(const std::string& text, const std::string& source) {
   try {
     return toml::parse(text, source);
   } catch (const toml::parse_error& error) {
     throw Error(fmt::format("{}:{}: not valid TOML: {}", source, error.source().begin.line,
-                            OneLine(std::string(error.description()))));
+                            PlainLine(std::string(error.description()))));
   }
 }
 
@@ -152,7 +138,7 @@ void TableReader::RefuseOthers() const {
     const std::string key(name.str());
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     throw Error(fmt::format("{}:{}: unknown key {}{}; known keys: {}", source_,
-                            node.source().begin.line, OneLine(key), DidYouMean(key, known_),
+                            node.source().begin.line, PlainLine(key), DidYouMean(key, known_),
                             fmt::join(known_, ", ")));
   }
 }

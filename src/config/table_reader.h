@@ -13,12 +13,6 @@
 
 namespace skein {
 
-/// Whether there is no control character in it, which would break a line.
-bool IsOneLine(const std::string& text);
-
-/// With blanks in place of control characters: what a file says may be anything.
-std::string OneLine(std::string text);
-
 /// The document `text`. Throws Error with `source` and the line if it is not valid TOML.
 toml::table ParseToml(const std::string& text, const std::string& source);
 

@@ -19,6 +19,7 @@
 #include "src/config/task_sections.h"
 #include "src/config/term_numbers.h"
 #include "src/files/output_file.h"
+#include "src/files/plain_line.h"
 
 namespace skein {
 namespace {
@@ -157,7 +158,7 @@ TaskFile ReadTaskFile(const std::string& text, const std::string& source,
   try {
     return ReadTables(text, source, settings_tables);
   } catch (const Error& error) {
-    throw Error(OneLine(error.what()));
+    throw Error(PlainLine(error.what()));
   }
 }
 

@@ -131,16 +131,6 @@ void WriteJson(const std::string& path, const nlohmann::ordered_json& document) 
   WriteFile(path, document.dump(1, ' ', false, Handler::replace) + "\n");
 }
 
-std::string PlainLine(const std::string& text) {
-  using Json = nlohmann::json;
-  auto line = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-                  .get<std::string>();
-  std::replace_if(
-      line.begin(), line.end(),
-      [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; }, ' ');
-  return line;
-}
-
 std::string ReadFile(const std::string& path, std::uint64_t largest) {
   return FileDescriptor(path, OpenMode::kRead).ReadToEnd(largest);
 }

@@ -27,10 +27,6 @@ void CheckWritable(const std::string& path);
 void CheckWritable(const std::vector<std::string>& paths,
                    const std::vector<std::string>& read = {});
 
-/// `text` as valid UTF-8 in one line: U+FFFD in place of what is not UTF-8, which names of files
-/// may hold, and blanks in place of control characters.
-std::string PlainLine(const std::string& text);
-
 /// `name` with what file names had better not hold replaced by '-'.
 std::string FileNamePart(const std::string& name);
 

@@ -6,6 +6,7 @@
 #include "base/ends_with.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
+#include "src/files/plain_line.h"
 #include "src/plot/pdf_module.h"
 #include "src/plot/svg_writer.h"
 

@@ -16,6 +16,7 @@
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
+#include "src/files/plain_line.h"
 #include "src/files/shell_text.h"
 #include "src/files/text_table.h"
 #include "src/run/hyperparameters.h"

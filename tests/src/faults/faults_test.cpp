@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "base/ends_with.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
 #include "tests/error_message.h"
@@ -36,16 +37,11 @@ using Files = std::map<std::string, std::string>;
 
 constexpr const char* kOlder = "what an earlier command wrote\n";
 
-bool HasEnding(const std::string& text, const std::string& ending) {
-  return text.size() >= ending.size() &&
-         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 /// Whether a file says when things happened, so that no two are equal.
 bool TellsTime(const std::string& name) {
   const std::string file = fs::path(name).filename().string();
   return file == "log.txt" || file == "timing.csv" || file == "summary.json" || file == "lock" ||
-         file.rfind("events.out.", 0) == 0 || HasEnding(file, kTemporaryExtension);
+         file.rfind("events.out.", 0) == 0 || EndsWith(file, kTemporaryExtension);
 }
 
 Files FilesIn(const std::string& folder) {
@@ -59,7 +55,7 @@ Files FilesIn(const std::string& folder) {
   return files;
 }
 
-bool IsPage(const std::string& name) { return HasEnding(name, ".html"); }
+bool IsPage(const std::string& name) { return EndsWith(name, ".html"); }
 
 /// `name` of which times and process numbers are part without them.
 std::string Untimed(std::string name) {
@@ -89,7 +85,7 @@ bool IsSame(const std::string& name, const std::string& a, const std::string& b)
   constexpr std::size_t kEnd = 64;
   if (!IsPage(name)) return a == b;
   return a.size() > kEnd && a.substr(0, kEnd) == b.substr(0, kEnd) &&
-         HasEnding(b, a.substr(a.size() - kEnd));
+         EndsWith(b, a.substr(a.size() - kEnd));
 }
 
 void ExpectSameFiles(const Files& expected, const Files& files) {
@@ -148,9 +144,9 @@ class Faults : public ::testing::TestWithParam<FaultedCommand> {
       const auto older = before_files_.find(name), newer = after_.find(name);
       if (older != before_files_.end() && older->second == bytes) continue;
       if (newer != after_.end() && IsSame(name, newer->second, bytes)) continue;
-      if (HasEnding(name, "metrics.csv")) {
+      if (EndsWith(name, "metrics.csv")) {
         EXPECT_EQ(after_.at(name).rfind(bytes, 0), 0u) << "rows are appended";
-      } else if (HasEnding(name, ".skein")) {
+      } else if (EndsWith(name, ".skein")) {
         EXPECT_EQ(MessageOf([&] { TensorFile::Read(work_ + "/" + name); }), "");
       } else {
         ADD_FAILURE() << "is neither the older nor the newer file";

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "src/files/output_file.h"
+#include "src/files/plain_line.h"
 #include "tests/scratch_directory.h"
 #include "train/files/file_descriptor.h"
 
