@@ -4,6 +4,7 @@
 import argparse
 import pathlib
 import signal
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -64,7 +65,43 @@ class Ranks(unittest.TestCase):
             search_by_two_ranks("exit code 139: ")
 
 
+def end_after_sigterm(ranks, *scripts):
+    """What a search says of a training of `ranks` ranks that got SIGTERM. Each of the scripts is a process of it, the
+    first one the one it started."""
+    with tempfile.TemporaryDirectory() as folder:
+        search = reproduce.Search(argparse.Namespace(program="skein", seed=1), "", pathlib.Path(folder))
+        processes = [subprocess.Popen(["sh", "-c", script, str(search.run)], stdout=subprocess.PIPE,
+                                      stderr=subprocess.PIPE, start_new_session=True) for script in scripts]
+        search.process = processes[0]
+        for process in processes:
+            process.stdout.readline()  # its handler is there
+        try:
+            with mock.patch.object(reproduce, "MOST_WAIT_S", 0.2):
+                search.process.terminate()
+                return search.wait_for_end(ranks, signal.SIGTERM)
+        finally:
+            for process in processes:
+                process.kill()
+                process.communicate()
+
+
+ENDS = "trap 'exit 0' TERM; echo; while :; do sleep 0.01; done"
+STAYS = "trap '' TERM; echo; while :; do sleep 0.01; done"
+
+
 class Interruption(unittest.TestCase):
+    def test_by_a_signal_ends_a_training(self):
+        self.assertEqual(end_after_sigterm(1, ENDS), "")
+        self.assertEqual(end_after_sigterm(8, ENDS), "")
+
+    def test_that_ends_all_ranks_but_mpirun_is_said(self):
+        self.assertIn("mpirun hung", end_after_sigterm(8, STAYS))
+
+    def test_that_does_not_end_a_training_is_found(self):
+        for ranks, *scripts in (1, STAYS), (8, STAYS, STAYS):
+            with self.assertRaisesRegex(reproduce.Differs, "SIGTERM|a rank is left"):
+                end_after_sigterm(ranks, *scripts)
+
     def test_ends_the_training_under_way(self):
         trainings = []
 

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "src/files/output_file.h"
 #include "tests/src/ranks_fixture.h"
@@ -123,6 +125,34 @@ TEST_F(RanksPipeline, AHungRankIsNamedAndEndsTheJob) {
   EXPECT_NE(result.exit_code, 0);
   EXPECT_THAT(result.error, HasSubstr("has not answered for 2 s"));
   EXPECT_TRUE(ProcessesOf(run_).empty());
+}
+
+TEST_F(RanksPipeline, ARankThatHangsWhileRanksStartEndsTheJob) {
+  std::vector<std::string> arguments = TinyTraining(run_, kShards);
+  arguments.insert(arguments.end(), {"--rank-timeout", "2"});
+  RunningProgram training(ProgramWords{Mpirun(4, arguments)});
+  ASSERT_TRUE(training.WaitUntil([&] { return !ProcessesOf(run_).empty(); }));
+  kill(ProcessesOf(run_).front(), SIGSTOP);
+  const ProgramResult result = training.Wait();
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("2 s (--rank-timeout) while ranks start"));
+  EXPECT_TRUE(ProcessesOf(run_).empty());
+}
+
+TEST_F(RanksPipeline, ALauncherThatIsKilledWhileRanksStartLeavesNone) {
+  for (const int delay_ms : {0, 10, 20, 40, 80, 160}) {
+    RunningProgram training(ProgramWords{Mpirun(4, TinyTraining(run_, kShards))});
+    ASSERT_TRUE(training.WaitUntil([&] { return !ProcessesOf(run_).empty(); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+    training.Signal(SIGKILL);
+    training.Wait();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!ProcessesOf(run_).empty() && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_TRUE(ProcessesOf(run_).empty()) << "after " << delay_ms << " ms";
+    fs::remove_all(run_);
+  }
 }
 
 TEST_F(RanksPipeline, RanksThatComputeDifferentlyAreRefusedAndNamed) {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <thread>
 
 #include "base/error.h"
+#include "train/mpi/mpi_watch.h"
 
 namespace skein {
 namespace {
@@ -19,10 +21,12 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 constexpr std::chrono::microseconds kEager{200}, kPause{20};
 /// The first of the ranks that wait says who hangs; the others only if it does not.
 constexpr std::chrono::seconds kGrace{5};
+constexpr std::chrono::duration<double> kForever{std::numeric_limits<double>::infinity()};
 
 }  // namespace
 
 MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
+  const MpiWatch watch("start", timeout_);
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
   if (provided < MPI_THREAD_SERIALIZED) {
@@ -45,6 +49,7 @@ MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
 }
 
 MpiRanks::~MpiRanks() {
+  const MpiWatch watch("end", kForever);  // what rank 0 writes alone may take its time
   for (Sent& sent : sent_) MPI_Wait(&sent.request, MPI_STATUS_IGNORE);
   MPI_Finalize();
 }
