@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "gtest/gtest.h"
 #include "simd/target.h"
+#include "tests/sanitizers.h"
 
 namespace skein {
 namespace {
@@ -63,12 +64,14 @@ double ProductPeak(simd::Precision precision) {
 }
 
 TEST(Peak, Bfloat16IsFasterThanFloat32WhereItIsSaidToBe) {
+  if (kIsSanitized) GTEST_SKIP() << "a sanitizer counts, not the processor";
   if (!simd::NativeBfloat16()) GTEST_SKIP() << "this processor has no instruction for it";
   EXPECT_EQ(ProductPeak(simd::Precision::kBfloat16) > ProductPeak(simd::Precision::kFloat32),
             simd::FastBfloat16());
 }
 
 TEST(Peak, TilesAreFasterThanFloat32WhereTheyHaveAnInstruction) {
+  if (kIsSanitized) GTEST_SKIP() << "a sanitizer counts, not the processor";
   if (!simd::NativeTiles()) GTEST_SKIP() << "this processor has no instruction for them";
   EXPECT_GT(ProductPeak(simd::Precision::kSplitTiles), ProductPeak(simd::Precision::kFloat32));
   EXPECT_GT(ProductPeak(simd::Precision::kTiles), ProductPeak(simd::Precision::kSplitTiles));
