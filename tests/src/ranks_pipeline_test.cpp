@@ -115,7 +115,7 @@ TEST_F(RanksPipeline, AKilledRankEndsTheJobAndOneProcessGoesOn) {
 
 TEST_F(RanksPipeline, AHungRankIsNamedAndEndsTheJob) {
   std::vector<std::string> arguments = TinyTraining(run_, kShards);
-  arguments.insert(arguments.end(), {"--rank-timeout", "2"});
+  arguments.insert(arguments.end(), {"--rank-timeout", "6"});
   RunningProgram training(ProgramWords{Mpirun(4, arguments)});
   ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
   const std::vector<pid_t> ranks = ProcessesOf(run_);
@@ -123,7 +123,7 @@ TEST_F(RanksPipeline, AHungRankIsNamedAndEndsTheJob) {
   kill(ranks[2], SIGSTOP);
   const ProgramResult result = training.Wait();
   EXPECT_NE(result.exit_code, 0);
-  EXPECT_THAT(result.error, HasSubstr("has not answered for 2 s"));
+  EXPECT_THAT(result.error, HasSubstr("has not answered for 6 s"));
   EXPECT_TRUE(ProcessesOf(run_).empty());
 }
 
