@@ -13,6 +13,10 @@
 namespace skein {
 namespace {
 
+/// OpenMPI asks before it sends more than 64 kB over TCP, and waits for the answer: a message takes
+/// three latencies. Up to so many bytes it does not.
+constexpr const char* kEagerLimit = "OMPI_MCA_btl_tcp_eager_limit";
+constexpr const char* kEagerBytes = "1048576";
 constexpr int kDataTag = 1, kWaitingTag = 2, kNoticeTag = 3;
 /// MPI counts in ints.
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
@@ -27,6 +31,7 @@ constexpr std::chrono::duration<double> kForever{std::numeric_limits<double>::in
 
 MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
   const MpiWatch watch("start", timeout_);
+  setenv(kEagerLimit, kEagerBytes, /*overwrite=*/0);
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
   if (provided < MPI_THREAD_SERIALIZED) {
