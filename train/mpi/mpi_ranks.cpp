@@ -30,8 +30,8 @@ constexpr std::chrono::duration<double> kForever{std::numeric_limits<double>::in
 }  // namespace
 
 MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
+  setenv(kEagerLimit, kEagerBytes, /*overwrite=*/0);  // ahead of the watch's thread
   const MpiWatch watch("start", timeout_);
-  setenv(kEagerLimit, kEagerBytes, /*overwrite=*/0);
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
   if (provided < MPI_THREAD_SERIALIZED) {
