@@ -67,10 +67,10 @@ class Ranks(unittest.TestCase):
 
 def end_after_sigterm(ranks, *scripts):
     """What a search says of a training of `ranks` ranks that got SIGTERM. Each of the scripts is a process of it, the
-    first one the one it started."""
+    first one the one it started. None of them forks: until its exec, a child would count as one more process."""
     with tempfile.TemporaryDirectory() as folder:
         search = reproduce.Search(argparse.Namespace(program="skein", seed=1), "", pathlib.Path(folder))
-        processes = [subprocess.Popen(["sh", "-c", script, str(search.run)], stdout=subprocess.PIPE,
+        processes = [subprocess.Popen([sys.executable, "-c", script, str(search.run)], stdout=subprocess.PIPE,
                                       stderr=subprocess.PIPE, start_new_session=True) for script in scripts]
         search.process = processes[0]
         for process in processes:
@@ -85,8 +85,8 @@ def end_after_sigterm(ranks, *scripts):
                 process.communicate()
 
 
-ENDS = "trap 'exit 0' TERM; echo; while :; do sleep 0.01; done"
-STAYS = "trap '' TERM; echo; while :; do sleep 0.01; done"
+ENDS = "import signal; print(flush=True); signal.pause()"
+STAYS = f"import signal; signal.signal(signal.SIGTERM, signal.SIG_IGN); {ENDS}"
 
 
 class Interruption(unittest.TestCase):
