@@ -14,7 +14,8 @@ endif()
 
 # skein_lighten_kernels(SOURCE ...): those that Highway compiles once per SIMD target do without one check of the address
 # sanitizer, of variables after their scope: it makes g++ 12 take eight times as long over functions
-# of hundreds of vectors.
+# of hundreds of vectors. Nor are their comparisons traced for libFuzzer, which is for readers: it would be half of the
+# time of what runs them.
 function(skein_lighten_kernels)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=[^ ]*address")
     return()
@@ -24,7 +25,8 @@ function(skein_lighten_kernels)
     if(EXISTS ${file})
       file(STRINGS ${file} inclusion REGEX "^#include .hwy/foreach_target.h." LIMIT_COUNT 1)
       if(inclusion)
-        set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize-address-use-after-scope)
+        set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize-address-use-after-scope
+                                                                     $<$<BOOL:${SKEIN_FUZZ}>:-fno-sanitize-coverage=trace-cmp>)
       endif()
     endif()
   endforeach()

@@ -56,7 +56,9 @@ bool IsSupported(Target target) {
   if ((HWY_TARGETS & bit) == 0) return false;
   // What the whole program is compiled for needs no question to the CPU. That has the scalar build,
   // which libhwy may have been built to report as EMU128.
-  return (HWY_BASELINE_TARGETS & bit) != 0 || (hwy::SupportedTargets() & bit) != 0;
+  if ((HWY_BASELINE_TARGETS & bit) != 0) return true;
+  static const std::int64_t of_cpu = hwy::SupportedTargets();
+  return (of_cpu & bit) != 0;
 }
 
 std::string SupportedNames() {

@@ -44,6 +44,14 @@ WorkerPool& OneWorker() {
 struct KeptTraining {
   KeptTraining() { trainer.Save(beginning, ""); }
 
+  /// Throws std::logic_error if what came before has left a trace.
+  void BeginAgain() {
+    trainer.Restore(beginning);
+    if (trainer.Signature() != signature) {
+      throw std::logic_error("a checkpoint that was taken is not undone by another one");
+    }
+  }
+
   const ScratchDirectory scratch;
   const std::string beginning = scratch / "beginning.skein";
   Trainer trainer{FuzzedTraining(), OneWorker()};
@@ -106,16 +114,13 @@ std::vector<std::string> CheckpointSeeds() {
 void ReadCheckpoint(const std::string& file) {
   static KeptTraining kept;
   RestoreOrLeave(kept.trainer, kept.signature, file);
-  kept.trainer.Restore(kept.beginning);
-  if (kept.trainer.Signature() != kept.signature) {
-    throw std::logic_error("a checkpoint that was taken is not undone by another one");
+  try {
+    if (!kept.trainer.finished()) kept.trainer.Iterate();
+  } catch (const Error&) {
+    kept.BeginAgain();
+    throw;
   }
-}
-
-void ResumeTraining(const std::string& file) {
-  Trainer trainer(FuzzedTraining(), OneWorker());
-  RestoreOrLeave(trainer, trainer.Signature(), file);
-  if (!trainer.finished()) trainer.Iterate();
+  kept.BeginAgain();
 }
 
 }  // namespace skein

@@ -14,10 +14,9 @@ std::vector<std::string> PolicySeeds();
 void ReadPolicy(const std::string& file);
 
 std::vector<std::string> CheckpointSeeds();
-/// A checkpoint that is refused leaves the training as it was, and one that is taken is undone by
-/// another one. Throws std::logic_error where that is not so.
+/// A checkpoint that is refused leaves the training as it was; from one that is taken the training
+/// goes on, whatever its numbers are, and another one undoes it. Throws std::logic_error where that
+/// is not so.
 void ReadCheckpoint(const std::string& file);
-/// The same in a training of its own, which goes on with what is taken, whatever its numbers are.
-void ResumeTraining(const std::string& file);
 
 }  // namespace skein

@@ -130,7 +130,6 @@ const std::vector<FuzzTarget>& FuzzTargets() {
   static const std::vector<FuzzTarget> targets = {
       {"policy", PolicySeeds, RepairedContainer, ReadPolicy, kContainerBytes},
       {"checkpoint", CheckpointSeeds, RepairedContainer, ReadCheckpoint, kContainerBytes},
-      {"resume", CheckpointSeeds, RepairedContainer, ResumeTraining, kContainerBytes},
       {"configuration", ConfigurationSeeds, AsItIs, ReadConfiguration, kTextBytes},
       {"study", StudySeeds, AsItIs, CheckStudy, kTextBytes},
       {"task", TaskSeeds, AsItIs, ReadTask, kTextBytes},
