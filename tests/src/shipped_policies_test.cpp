@@ -96,6 +96,13 @@ const ShippedPolicy kPolicies[] = {
      0.9,
      std::nullopt,
      SmoothnessLimits{0.8, 4, 0.01}},
+    {"tracking-robust",
+     "tracking",
+     {"--mission", "3", "--condition", "windy=middle", "--condition", "noisy=middle"},
+     0.98,
+     std::nullopt,
+     SmoothnessLimits{0.7, 4, 0.01},
+     2.0},
     {"tracking-planner", "tracking", {}, 0.92, std::nullopt, std::nullopt},
 };
 
