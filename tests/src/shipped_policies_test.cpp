@@ -45,6 +45,10 @@ struct ShippedPolicy {
 
 void PrintTo(const ShippedPolicy& policy, std::ostream* out) { *out << policy.name; }
 
+/// To be flown to its end, from target to target.
+const std::vector<std::string> kMission = {"--mission",    "3",           "--condition",
+                                           "windy=middle", "--condition", "noisy=middle"};
+
 const ShippedPolicy kPolicies[] = {
     {"heading",
      "heading",
@@ -52,14 +56,7 @@ const ShippedPolicy kPolicies[] = {
      0.99,
      HoldLimits{0.99, 4, 0.15, 0.3},
      SmoothnessLimits{0.2, 1.5, 0.01}},
-    // To be flown to the end of a mission, from target to target.
-    {"heading",
-     "heading",
-     {"--mission", "3", "--condition", "windy=middle", "--condition", "noisy=middle"},
-     0.98,
-     std::nullopt,
-     SmoothnessLimits{0.8, 4, 0.01},
-     2.0},
+    {"heading", "heading", kMission, 0.98, std::nullopt, SmoothnessLimits{0.8, 4, 0.01}, 2.0},
     {"heading-robust",
      "heading",
      {"--set", "env.heading.dwell_s=3", "--hold", "30", "--condition", "plant=middle",
@@ -82,26 +79,14 @@ const ShippedPolicy kPolicies[] = {
      HoldLimits{0.87, 6, 0.35, 0.3},
      SmoothnessLimits{0.3, 3, 0.01}},
     {"tracking", "tracking", {}, 0.98, std::nullopt, SmoothnessLimits{0.4, 2, 0.01}},
-    // To be flown to the end of a mission, from point to point.
-    {"tracking",
-     "tracking",
-     {"--mission", "3", "--condition", "windy=middle", "--condition", "noisy=middle"},
-     0.98,
-     std::nullopt,
-     SmoothnessLimits{0.7, 4, 0.01},
-     1.9},
+    {"tracking", "tracking", kMission, 0.98, std::nullopt, SmoothnessLimits{0.7, 4, 0.01}, 1.9},
     {"tracking-robust",
      "tracking",
      {"--condition", "plant=middle", "--condition", "noisy=middle"},
      0.9,
      std::nullopt,
      SmoothnessLimits{0.8, 4, 0.01}},
-    {"tracking-robust",
-     "tracking",
-     {"--mission", "3", "--condition", "windy=middle", "--condition", "noisy=middle"},
-     0.98,
-     std::nullopt,
-     SmoothnessLimits{0.7, 4, 0.01},
+    {"tracking-robust", "tracking", kMission, 0.98, std::nullopt, SmoothnessLimits{0.7, 4, 0.01},
      2.0},
     {"tracking-planner", "tracking", {}, 0.92, std::nullopt, std::nullopt},
 };
