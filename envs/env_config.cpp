@@ -198,6 +198,9 @@ void Validate(const EnvConfig& config) {
   RequireSteps(config, "env.mission.dwell_s", config.mission.dwell_s);
   RequireSteps(config, "env.mission.training_length_s", config.mission.training_length_s);
   RequireSteps(config, "env.mission.training_time_limit_s", config.mission.training_time_limit_s);
+  Require(config.mission.training_time_limit_s == 0 || config.mission.is_of_training(),
+          "env.mission.training_time_limit_s", config.mission.training_time_limit_s,
+          "0 without env.mission.training_length_s, whose flights it is for");
   const bool is_point =
       config.term_task != nullptr ? config.term_task->has_point() : config.task == "tracking";
   Require(config.hold_s == 0 || !is_point, "env.hold_s", config.hold_s,

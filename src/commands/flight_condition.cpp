@@ -48,7 +48,8 @@ void AddPlantSetting(CLI::App* command, PlantSetting* setting) {
   command
       ->add_option("--xcg", setting->cg,
                    "centre of gravity, fraction of the mean chord (default: the aircraft's own)")
-      ->transform(FiniteNumber());
+      ->transform(
+          NumberThat([](double cg) { return cg > 0 && cg <= 1; }, "number above 0, at most 1"));
   command
       ->add_option("--heng", setting->engine_angular_momentum,
                    "angular momentum of the engine, slug ft2/s")

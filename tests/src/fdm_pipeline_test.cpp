@@ -393,6 +393,7 @@ TEST_F(FdmPipeline, WrongGridsAreWrongUsage) {
       {{"--altitude-ft", "0", "--speed-fps", "500", "--flight-path-deg", "120"}, "90"},
       {{"--altitude-ft", "0..9999:1", "--speed-fps", "1..9999:1"}, "more than 100000"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--csv", folder_ + "/x.csv"}, "--csv"},
+      {{"--altitude-ft", "0", "--speed-fps", "500", "--xcg", "50"}, "above 0, at most 1"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--wind-fps", "1,2"}, "NORTH,EAST,DOWN"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--pull-up-g", "2", "--turn-rate-deg-s", "3"},
        "--turn-rate-deg-s and --pull-up-g exclude each other"},

@@ -30,6 +30,11 @@ void ValidateLearning(const TrainConfig& config) {
   if (!config.ppo.pedals && NeedsLowLevel(config.env)) {
     throw Error("ppo.pedals = false: a high-level policy has no pedals; leave it out");
   }
+  if (config.ppo.time_limit_ramp > 0 && config.env.mission.training_time_limit_s == 0) {
+    throw Error(
+        "configuration: ppo.time_limit_ramp needs env.mission.training_time_limit_s, from which "
+        "the time limit grows");
+  }
   ValidateShards(config.learner.shards, config.ppo.num_aircraft,
                  config.ppo.rollout_steps / config.ppo.chunk_length, config.ppo.minibatches);
 }

@@ -234,6 +234,10 @@ TEST(Configuration, ValuesThatCannotGoTogetherAreRefused) {
   EXPECT_THAT(refused({"ppo.num_aircraft=1", "ppo.minibatches=9"}), HasSubstr("minibatches"));
   EXPECT_NE(refused({"env.initial.altitude_min_ft=21000"}), "");
   EXPECT_NE(refused({"checkpoint.interval_s=0"}), "");
+  EXPECT_THAT(refused({"env.mission.training_time_limit_s=40"}),
+              HasSubstr("0 without env.mission.training_length_s"));
+  EXPECT_THAT(refused({"ppo.time_limit_ramp=0.5"}),
+              HasSubstr("needs env.mission.training_time_limit_s"));
 }
 
 TEST(Configuration, AnEnvironmentThatCannotBeFlownIsNamedByItsKey) {

@@ -82,6 +82,7 @@ const std::vector<std::string> kConditions = {
 const std::vector<std::string> kSinglePoints = {
     "env.tracking.distance_weight=1",         "env.tracking.approach_weight=0",
     "env.tracking.training_tolerance_max=5",  "env.mission.training_length_s=0",
+    "env.mission.training_time_limit_s=0",    "ppo.time_limit_ramp=0",
     "env.truncate_at_time_limit=false",       "env.training_noise_max=0",
     "env.initial.training_altitude_min_ft=0", "env.wind.training_speed_max_fps=0",
     "env.wind.training_turbulence_max_fps=0", "env.termination.training_min_mach=0",
