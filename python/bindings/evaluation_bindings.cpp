@@ -17,6 +17,7 @@
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/flight_file.h"
 #include "src/evaluation/flight_summary.h"
+#include "src/evaluation/recording_limit.h"
 #include "train/policy/evaluate.h"
 #include "train/policy/record_flights.h"
 
@@ -90,6 +91,7 @@ std::string RecordAgent(const FlyingAgent& flying, const ProgramConfig& config, 
                         std::uint64_t seed, int threads, bool with_observations) {
   WorkerPool pool(threads);
   const EnvConfig env = flying.agent.EnvironmentFor(config.train.env);
+  RequireRoomFor(count, 1, LongestFlight(env), env, "count");
   const std::vector<RecordedFlight> flights = Unlocked(
       pool, [&] { return RecordFlights(flying.agent, env, Options(count, seed), count, pool); });
   return FlightsCsv(

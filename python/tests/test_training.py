@@ -68,3 +68,5 @@ def test_a_policy_of_a_task_file_brings_its_task(tmp_path):
     assert len(skein.record(run.policy, count=1)) == said.columns["control_steps"][0] + 1
     with pytest.raises(skein.ConfigurationError, match="record: task is needed"):
         skein.record("zero")
+    with pytest.raises(ValueError, match="5000000 are the most: lower count"):
+        skein.record(run.policy, count=100000)

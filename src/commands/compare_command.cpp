@@ -18,6 +18,7 @@
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
+#include "src/evaluation/recording_limit.h"
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"

@@ -18,6 +18,7 @@
 #include "src/config/presets.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/evaluation_report.h"
+#include "src/evaluation/recording_limit.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 #include "train/files/tensor_file.h"

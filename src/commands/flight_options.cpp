@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -195,26 +194,9 @@ bool RecordsFlights(const FlightOptions& options) {
   return !options.flights.empty() || !options.acmi.empty();
 }
 
-double LongestFlight(const EnvConfig& env) {
-  const EnvConfig flown = EvaluationConfig(env);
-  if (flown.mission.enabled()) return flown.mission.flown_length_s();
-  return flown.time_limit_steps * flown.control_interval_s + flown.hold_s;
-}
-
 std::string LengthOption(const EnvConfig& env) {
   if (EvaluationConfig(env).mission.enabled()) return "--mission";
   return env.hold_s > 0 ? "--hold" : "env.time_limit_steps";
-}
-
-void RequireRoomFor(int flights, std::size_t agents, double longest_s, const EnvConfig& env,
-                    const std::string& lower) {
-  const double steps =
-      std::round(longest_s / env.control_interval_s) * flights * static_cast<double>(agents);
-  if (steps <= kMostRecordedSteps) return;
-  throw UsageError(fmt::format(
-      "to record {} of up to {} s by {} takes {:.0f} control steps, and {} are the most: lower {}",
-      Counted(flights, "flight"), ShortestText(longest_s),
-      Counted(static_cast<int>(agents), "agent"), steps, kMostRecordedSteps, lower));
 }
 
 AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, const Agent& agent,

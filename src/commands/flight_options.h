@@ -92,20 +92,8 @@ std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,
 /// Whether flights are to be recorded.
 bool RecordsFlights(const FlightOptions& options);
 
-/// Control steps of all agents together that are recorded at once; each takes up to 1300 bytes
-/// until it is written.
-inline constexpr int kMostRecordedSteps = 5000000;
-
-/// The longest that an evaluation's flight in `env` can be, s.
-double LongestFlight(const EnvConfig& env);
-
 /// The option or key that this follows from, for errors.
 std::string LengthOption(const EnvConfig& env);
-
-/// Throws UsageError, which names the options to `lower`, if so many flights of up to `longest_s`
-/// by each of the agents could have more control steps than kMostRecordedSteps.
-void RequireRoomFor(int flights, std::size_t agents, double longest_s, const EnvConfig& env,
-                    const std::string& lower);
 
 /// The first episodes, as many as --flights-count says.
 AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, const Agent& agent,

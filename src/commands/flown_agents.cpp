@@ -18,6 +18,7 @@
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/evaluation/comparison.h"
+#include "src/evaluation/recording_limit.h"
 
 namespace skein {
 namespace {

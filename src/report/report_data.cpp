@@ -14,6 +14,7 @@
 #include "src/bench/version.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
+#include "src/evaluation/recording_limit.h"
 #include "src/report/report_flights.h"
 #include "src/report/run_record.h"
 
@@ -182,6 +183,10 @@ std::string ReportData(const ReportRequest& request, WorkerPool& pool) {
   const bool flies = request.episodes > 0 || request.flights > 0;
   const std::vector<FlownGroup> groups =
       flies ? GroupByEnvironment(&runs) : std::vector<FlownGroup>();
+  for (const FlownGroup& group : groups) {
+    const EnvConfig& env = group.config.train.env;
+    RequireRoomFor(request.flights, group.agents.size(), LongestFlight(env), env, "--flights");
+  }
   for (const FlownGroup& group : groups) {
     if (request.episodes > 0) {
       parts.comparisons.push_back(ComparisonJson(

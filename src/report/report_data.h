@@ -26,7 +26,8 @@ struct ReportRequest {
 /// Reads the runs, flies their policies beside the autopilots on the same episodes, and returns the
 /// deflated pack (src/report/data_pack.h) whose document viewer/src/report.ts describes. A run
 /// without a policy has curves alone. If the pool is stopping, the flights say nothing. Throws
-/// Error on what is no run, or of a version that this one does not know.
+/// Error on what is no run, or of a version that this one does not know, and UsageError on flights
+/// of more control steps than kMostRecordedSteps.
 std::string ReportData(const ReportRequest& request, WorkerPool& pool);
 
 /// A comparison's document (ToJson) as a page needs it, with what its columns are called.

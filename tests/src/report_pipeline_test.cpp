@@ -12,6 +12,7 @@
 #include "src/report/report_page.h"
 #include "src/report/run_record.h"
 #include "src/report/training_times.h"
+#include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
@@ -185,6 +186,15 @@ TEST_F(ReportPipeline, WhatIsNoRunIsOneLine) {
   EXPECT_EQ(unknown.exit_code, 1);
   ExpectOneLine(unknown.error, "later");
   EXPECT_EQ(CallSkein({"report"}).exit_code, 2);
+}
+
+TEST_F(ReportPipeline, MoreFlightsThanMemoryHoldsAreRefused) {
+  WorkerPool pool(1);
+  ReportRequest request;
+  request.runs = {*folder_ / "run"};
+  request.flights = 1000000;
+  EXPECT_THAT(MessageOf([&] { ReportData(request, pool); }),
+              HasSubstr(" are the most: lower --flights"));
 }
 
 TEST_F(ReportPipeline, AnUnwritablePathIsSaidFirst) {

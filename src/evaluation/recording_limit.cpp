@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/evaluation/recording_limit.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/number_text.h"
+#include "src/config/usage_error.h"
+#include "src/files/text_table.h"
+
+namespace skein {
+
+double LongestFlight(const EnvConfig& env) {
+  const EnvConfig flown = EvaluationConfig(env);
+  if (flown.mission.enabled()) return flown.mission.flown_length_s();
+  return flown.time_limit_steps * flown.control_interval_s + flown.hold_s;
+}
+
+void RequireRoomFor(int flights, std::size_t agents, double longest_s, const EnvConfig& env,
+                    const std::string& lower) {
+  const double steps =
+      std::round(longest_s / env.control_interval_s) * flights * static_cast<double>(agents);
+  if (steps <= kMostRecordedSteps) return;
+  throw UsageError(fmt::format(
+      "to record {} of up to {} s by {} takes {:.0f} control steps, and {} are the most: lower {}",
+      Counted(flights, "flight"), ShortestText(longest_s),
+      Counted(static_cast<int>(agents), "agent"), steps, kMostRecordedSteps, lower));
+}
+
+}  // namespace skein
