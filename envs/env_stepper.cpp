@@ -99,6 +99,10 @@ ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
   rules.hold_steps = steps(config.hold_s);
   rules.mission_steps = steps(config.mission.flown_length_s());
   rules.time_limit_steps = TimeLimitSteps(config, 0);
+  rules.reached_reward = static_cast<float>(config.termination.success_reward);
+  if (!config.truncate_at_time_limit) {
+    rules.missed_reward = static_cast<float>(config.termination.failure_reward);
+  }
   return rules;
 }
 
@@ -355,7 +359,6 @@ void EnvStepper::FreezeSensors(const EnvBlock& block) const {
 void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action,
                                Scratch& scratch) const {
   if (costs_.of_control_steps()) {
-    task_->Errors(block.flight, block.task, scratch.errors, kAircraftPerBlock);
     SubtractHandlingCosts(costs_, block.flight, scratch.errors, kAircraftPerBlock,
                           scratch.step_reward);
   }
@@ -406,15 +409,7 @@ void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
 /// Finds out how far each aircraft has come, and rewards targets after which flights go on.
 void EnvStepper::AdvanceTargets(const EnvBlock& block, Scratch& scratch) const {
   AdvanceProgress(progress_, block.count, block.step, scratch.termination, block.progress,
-                  scratch.reached, scratch.deadline, scratch.target_end);
-  const auto success = static_cast<float>(config_.termination.success_reward);
-  const float miss = config_.truncate_at_time_limit ? 0 : limits_.failure_reward;
-  for (int i = 0; i < block.count; ++i) {
-    const TargetEnd end = scratch.target_end[i];
-    scratch.bonus[i] = 0;
-    if (end == TargetEnd::kReached) scratch.bonus[i] = success;
-    if (end == TargetEnd::kMissed) scratch.bonus[i] = miss;
-  }
+                  {scratch.reached, scratch.deadline, scratch.target_end, scratch.bonus});
 }
 
 /// Rewards a control step and ends episodes, and shows it to the observer, if there is one.
@@ -424,6 +419,10 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
                                Scratch& scratch) const {
   StepResult step_result{scratch.step_reward, scratch.reached};
   if (task_->has_ends()) step_result.ends = scratch.ends;
+  if (costs_.of_control_steps() || observer != nullptr) {
+    step_result.errors = scratch.errors;
+    step_result.error_stride = kAircraftPerBlock;
+  }
   EpisodeColumns episodes{block.step, scratch.termination, scratch.policy_step_reward,
                           block.episode_return};
   task_->ComputeReward(block.flight, block.task, block.step, step_result);
@@ -441,7 +440,6 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
   episodes.policy_step_reward = reward;
   ComputeRewardAndTermination(*kernel_aircraft_, limits_, block.flight, step_result, episodes);
   for (int i = 0; i < block.count; ++i) scratch.policy_step_reward[i] += reward[i];
-  task_->Errors(block.flight, block.task, scratch.errors, kAircraftPerBlock);
   observer->See({block.first_aircraft, block.flight, action, reward, episodes.termination,
                  scratch.errors, kAircraftPerBlock, block.progress, block.task});
 }

@@ -38,14 +38,18 @@ HWY_INLINE V NormalisedSpeed(V speed, const ReferenceUnits& units) {
   return hn::Mul(speed, Constant(1 / units.speed_ft_s));
 }
 
+HWY_INLINE void StoreNormalised(const ControlError& error, const ReferenceUnits& units,
+                                float* errors, std::size_t error_stride, int first) {
+  const FloatTag d;
+  hn::StoreU(error.pitch, d, errors + first);
+  hn::StoreU(error.yaw, d, errors + error_stride + first);
+  hn::StoreU(NormalisedSpeed(error.speed, units), d, errors + 2 * error_stride + first);
+}
+
 void ControlErrors(Tile flight, Tile task, const ReferenceUnits& units, float* errors,
                    std::size_t error_stride) {
-  const FloatTag d;
   for (int first = 0; first < flight.count; first += kLanes) {
-    const ControlError error = ErrorOf(flight, task, first);
-    hn::StoreU(error.pitch, d, errors + first);
-    hn::StoreU(error.yaw, d, errors + error_stride + first);
-    hn::StoreU(NormalisedSpeed(error.speed, units), d, errors + 2 * error_stride + first);
+    StoreNormalised(ErrorOf(flight, task, first), units, errors, error_stride, first);
   }
 }
 
@@ -60,6 +64,9 @@ void ControlReward(Tile flight, Tile task, const ControlConfig& config, const Re
   const V speed_weight = Constant(config.speed_error_weight);
   for (int first = 0; first < flight.count; first += kLanes) {
     const ControlError error = ErrorOf(flight, task, first);
+    if (step_result.errors != nullptr) {
+      StoreNormalised(error, units, step_result.errors, step_result.error_stride, first);
+    }
     const V speed_error = hn::Abs(error.speed);
     const V share = Column(task, kControlTolerance, first);
     const RelativeAttitude relative = RelativeTo(flight, task, kControlQ0, first);

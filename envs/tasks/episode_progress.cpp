@@ -6,29 +6,141 @@
 
 #include "base/field_list.h"
 #include "envs/tasks/termination.h"
+#include "simd/dispatch.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "envs/tasks/episode_progress.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/vocabulary-inl.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace skein {
+namespace HWY_NAMESPACE {
 namespace {
 
-constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::max();
+using IntMask = hn::Mask<IntTag>;
 
-/// One aircraft's flight on a mission, whose targets come one after another.
-TargetEnd AdvanceMission(const ProgressRules& rules, std::int32_t now, bool is_held,
-                         const EpisodeProgress& progress, int i) {
-  if (is_held) {
-    ++progress.targets_reached[i];
-  } else if (progress.steps_within[i] == 0 &&
-             now - progress.target_step[i] >= rules.time_limit_steps) {
-    ++progress.targets_missed[i];
-  } else {
-    return TargetEnd::kNone;
+HWY_INLINE VI Whole(std::int32_t value) { return hn::Set(IntTag(), value); }
+
+HWY_INLINE VI Whole(TargetEnd end) { return Whole(static_cast<std::int32_t>(end)); }
+
+HWY_INLINE IntMask IsAtLeast(VI value, VI limit) { return hn::Not(hn::Gt(limit, value)); }
+
+HWY_INLINE void StoreWhere(IntMask where, VI value, VI old, std::int32_t* column) {
+  hn::StoreU(hn::IfThenElse(where, value, old), IntTag(), column);
+}
+
+/// Aircraft in a control step that are not at their episode's end.
+struct Flying {
+  IntMask is_flying;
+  VI now;           ///< control steps of the episode, with this one
+  VI steps_within;  ///< the same of those within tolerances without a break
+  IntMask is_held;  ///< for the dwell
+};
+
+HWY_INLINE void WriteEnd(const ProgressRules& rules, VI end, const ProgressStep& step, int first) {
+  const FloatTag d;
+  hn::StoreU(end, IntTag(), reinterpret_cast<std::int32_t*>(step.target_end) + first);
+  const auto is = [&](TargetEnd which) { return hn::RebindMask(d, hn::Eq(end, Whole(which))); };
+  const V missed = hn::IfThenElseZero(is(TargetEnd::kMissed), Constant(rules.missed_reward));
+  hn::StoreU(hn::IfThenElse(is(TargetEnd::kReached), Constant(rules.reached_reward), missed), d,
+             step.bonus + first);
+}
+
+/// An episode of one target.
+HWY_INLINE void AdvanceTarget(const ProgressRules& rules, const Flying& flight,
+                              const EpisodeProgress& progress, const ProgressStep& step,
+                              int first) {
+  const IntTag d;
+  const VI zero = hn::Zero(d);
+  const VI reached_before = hn::LoadU(d, progress.reached_step + first);
+  const IntMask is_new = hn::And(flight.is_held, hn::Eq(reached_before, zero));
+  const VI reached_step = hn::IfThenElse(is_new, flight.now, reached_before);
+  StoreWhere(flight.is_flying, flight.steps_within, hn::LoadU(d, progress.steps_within + first),
+             progress.steps_within + first);
+  StoreWhere(flight.is_flying, reached_step, reached_before, progress.reached_step + first);
+
+  const IntMask is_reached = hn::Gt(reached_step, zero);
+  const VI since = hn::Sub(flight.now, reached_step);
+  const IntMask is_over = hn::And(is_reached, IsAtLeast(since, Whole(rules.hold_steps)));
+  StoreWhere(flight.is_flying, hn::IfThenElseZero(is_over, Whole(1)),
+             hn::LoadU(d, step.reached + first), step.reached + first);
+
+  // What is within tolerances, or holds what it has reached, is not late.
+  const IntMask is_in_time = hn::Or(is_reached, hn::Gt(flight.steps_within, zero));
+  const VI never = Whole(std::numeric_limits<std::int32_t>::max());
+  StoreWhere(hn::And(flight.is_flying, is_in_time), never, Whole(rules.time_limit_steps),
+             step.deadline + first);
+
+  const VI end = Whole(rules.hold_steps > 0 ? TargetEnd::kReached : TargetEnd::kNone);
+  WriteEnd(rules, hn::IfThenElseZero(hn::And(flight.is_flying, is_new), end), step, first);
+}
+
+/// A flight on a mission, whose targets come one after another.
+HWY_INLINE void AdvanceMission(const ProgressRules& rules, const Flying& flight,
+                               const EpisodeProgress& progress, const ProgressStep& step,
+                               int first) {
+  const IntTag d;
+  const VI zero = hn::Zero(d), one = Whole(1);
+  const VI target_step = hn::LoadU(d, progress.target_step + first);
+  const IntMask is_late =
+      IsAtLeast(hn::Sub(flight.now, target_step), Whole(rules.time_limit_steps));
+  const IntMask is_outside = hn::Eq(flight.steps_within, zero);
+  const IntMask is_reached = hn::And(flight.is_flying, flight.is_held);
+  const IntMask is_missed =
+      hn::And(flight.is_flying, hn::AndNot(flight.is_held, hn::And(is_outside, is_late)));
+  const IntMask is_over = hn::Or(is_reached, is_missed);
+
+  StoreWhere(flight.is_flying, hn::IfThenZeroElse(is_over, flight.steps_within),
+             hn::LoadU(d, progress.steps_within + first), progress.steps_within + first);
+  StoreWhere(is_over, flight.now, target_step, progress.target_step + first);
+  const auto count = [&](IntMask where, std::int32_t* column) {
+    const VI before = hn::LoadU(d, column + first);
+    StoreWhere(where, hn::Add(before, one), before, column + first);
+  };
+  count(is_reached, progress.targets_reached);
+  count(is_missed, progress.targets_missed);
+
+  StoreWhere(flight.is_flying, zero, hn::LoadU(d, step.reached + first), step.reached + first);
+  StoreWhere(flight.is_flying, Whole(rules.mission_steps), Whole(rules.time_limit_steps),
+             step.deadline + first);
+  const VI missed = hn::IfThenElseZero(is_missed, Whole(TargetEnd::kMissed));
+  WriteEnd(rules, hn::IfThenElse(is_reached, Whole(TargetEnd::kReached), missed), step, first);
+}
+
+void AdvanceProgressKernel(const ProgressRules& rules, int count, const std::int32_t* steps_before,
+                           const std::int32_t* termination, const EpisodeProgress& progress,
+                           const ProgressStep& step) {
+  const IntTag d;
+  const VI none = Whole(static_cast<std::int32_t>(Termination::kNone));
+  const VI dwell = Whole(std::max(1, rules.dwell_steps));
+  for (int first = 0; first < count; first += kLanes) {
+    Flying flight;
+    flight.is_flying = hn::Eq(hn::LoadU(d, termination + first), none);
+    flight.now = hn::Add(hn::LoadU(d, steps_before + first), Whole(1));
+    const IntMask is_within = hn::Ne(hn::LoadU(d, step.reached + first), hn::Zero(d));
+    const VI within_before = hn::LoadU(d, progress.steps_within + first);
+    flight.steps_within = hn::IfThenElseZero(is_within, hn::Add(within_before, Whole(1)));
+    flight.is_held = IsAtLeast(flight.steps_within, dwell);
+    if (rules.mission_steps > 0) {
+      AdvanceMission(rules, flight, progress, step, first);
+    } else {
+      AdvanceTarget(rules, flight, progress, step, first);
+    }
   }
-  progress.steps_within[i] = 0;
-  progress.target_step[i] = now;
-  return is_held ? TargetEnd::kReached : TargetEnd::kMissed;
 }
 
 }  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace skein
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace skein {
+
+HWY_EXPORT(AdvanceProgressKernel);
 
 void ListFields(MissionConfig& config, FieldList& list) {
   list.Add("length_s", &config.length_s, Bounds::NotNegative(),
@@ -59,30 +171,10 @@ void EpisodeProgress::Reset(int i) const {
 
 void AdvanceProgress(const ProgressRules& rules, int count, const std::int32_t* steps_before,
                      const std::int32_t* termination, const EpisodeProgress& progress,
-                     std::int32_t* reached, std::int32_t* deadline, TargetEnd* target_end) {
-  const std::int32_t dwell = std::max(1, rules.dwell_steps);
-  for (int i = 0; i < count; ++i) {
-    target_end[i] = TargetEnd::kNone;
-    deadline[i] = rules.time_limit_steps;
-    if (termination[i] != static_cast<std::int32_t>(Termination::kNone)) continue;
-    const std::int32_t now = steps_before[i] + 1;
-    progress.steps_within[i] = reached[i] != 0 ? progress.steps_within[i] + 1 : 0;
-    const bool is_held = progress.steps_within[i] >= dwell;
-    if (rules.mission_steps > 0) {
-      target_end[i] = AdvanceMission(rules, now, is_held, progress, i);
-      reached[i] = 0;
-      deadline[i] = rules.mission_steps;
-      continue;
-    }
-    std::int32_t& reached_step = progress.reached_step[i];
-    if (is_held && reached_step == 0) {
-      reached_step = now;
-      if (rules.hold_steps > 0) target_end[i] = TargetEnd::kReached;
-    }
-    // What is within tolerances, or holds what it has reached, is not late.
-    if (reached_step > 0 || progress.steps_within[i] > 0) deadline[i] = kNever;
-    reached[i] = reached_step > 0 && now - reached_step >= rules.hold_steps;
-  }
+                     const ProgressStep& step) {
+  SKEIN_DISPATCH(AdvanceProgressKernel)
+  (rules, count, steps_before, termination, progress, step);
 }
 
 }  // namespace skein
+#endif

@@ -35,6 +35,8 @@ struct ProgressRules {
   int hold_steps = 0;     ///< for which the flight goes on after that
   int mission_steps = 0;  ///< length of a flight of many targets; 0: one target
   int time_limit_steps = 0;
+  float reached_reward = 0;  ///< where the flight goes on after it
+  float missed_reward = 0;
 
   /// Whether an aircraft's progress must be remembered: else episodes end at first touch.
   bool enabled() const { return dwell_steps > 0 || hold_steps > 0 || mission_steps > 0; }
@@ -56,14 +58,21 @@ struct EpisodeProgress {
 };
 
 /// What became of a target, while the flight goes on, in a control step.
-enum class TargetEnd : std::uint8_t { kNone, kReached, kMissed };
+enum class TargetEnd : std::int32_t { kNone, kReached, kMissed };
 
-/// One control step of `count` aircraft, but those that have a `termination`. `steps_before` are
-/// the control steps of their episodes before it. `reached` says where the state is within
-/// tolerances, and is changed into where the episode ends for that; `deadline` gets the control
-/// step at which time ends it, `target_end` what became of a target where the flight goes on.
+/// What a control step comes to, one element per aircraft, padded as Tile says.
+struct ProgressStep {
+  /// Where the state is within tolerances; changed into where the episode ends for that.
+  std::int32_t* reached = nullptr;
+  std::int32_t* deadline = nullptr;  ///< the control step of the episode at which time ends it
+  TargetEnd* target_end = nullptr;
+  float* bonus = nullptr;  ///< reward for a target after which the flight goes on
+};
+
+/// One control step of `count` aircraft, but those that have a `termination`: columns, padded as
+/// Tile says. `steps_before` are the control steps of their episodes before it.
 void AdvanceProgress(const ProgressRules& rules, int count, const std::int32_t* steps_before,
                      const std::int32_t* termination, const EpisodeProgress& progress,
-                     std::int32_t* reached, std::int32_t* deadline, TargetEnd* target_end);
+                     const ProgressStep& step);
 
 }  // namespace skein

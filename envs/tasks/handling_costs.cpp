@@ -58,6 +58,24 @@ void SubtractHandlingCostsKernel(const HandlingCosts& costs, Tile flight, const 
   }
 }
 
+void RewardTolerancesKernel(const HandlingCosts& costs, int count, const std::int32_t* within,
+                            const std::int32_t* reached_step, float* reward) {
+  const FloatTag d;
+  const IntTag di;
+  const auto zero = hn::Zero(di);
+  const V gain = Constant(costs.within_tolerances), loss = Constant(-costs.outside_tolerances);
+  const V price = Constant(costs.before_reached);
+  for (int first = 0; first < count; first += kLanes) {
+    const auto is_outside = hn::RebindMask(d, hn::Eq(hn::LoadU(di, within + first), zero));
+    const V step_reward =
+        hn::Add(hn::LoadU(d, reward + first), hn::IfThenElse(is_outside, loss, gain));
+    const auto reached = reached_step == nullptr ? zero : hn::LoadU(di, reached_step + first);
+    const auto is_open = hn::RebindMask(d, hn::Eq(reached, zero));
+    hn::StoreU(hn::IfThenElse(is_open, hn::Sub(step_reward, price), step_reward), d,
+               reward + first);
+  }
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace skein
@@ -67,6 +85,7 @@ HWY_AFTER_NAMESPACE();
 namespace skein {
 
 HWY_EXPORT(SubtractHandlingCostsKernel);
+HWY_EXPORT(RewardTolerancesKernel);
 
 HandlingCosts HandlingCosts::Times(double factor) const {
   HandlingCosts scaled = *this;
@@ -122,13 +141,7 @@ void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float*
 
 void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
                       const std::int32_t* reached_step, float* reward) {
-  const auto gain = static_cast<float>(costs.within_tolerances);
-  const auto loss = static_cast<float>(costs.outside_tolerances);
-  const auto price = static_cast<float>(costs.before_reached);
-  for (int i = 0; i < count; ++i) {
-    reward[i] += within[i] != 0 ? gain : -loss;
-    if (reached_step == nullptr || reached_step[i] == 0) reward[i] -= price;
-  }
+  SKEIN_DISPATCH(RewardTolerancesKernel)(costs, count, within, reached_step, reward);
 }
 
 void SubtractActionChange(const HandlingCosts& costs, const float* action, int action_size,

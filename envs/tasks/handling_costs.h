@@ -57,7 +57,7 @@ void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float*
 
 /// Adds what `count` aircraft gain where they are `within` their tolerances, and subtracts what
 /// they lose elsewhere, and until their targets count: `reached_step` is EpisodeProgress's before
-/// the control step, or null.
+/// the control step, or null. Columns are padded as Tile says.
 void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
                       const std::int32_t* reached_step, float* reward);
 

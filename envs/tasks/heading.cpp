@@ -38,14 +38,18 @@ HWY_INLINE HeadingError Normalised(const HeadingError& error, const ReferenceUni
           hn::Mul(error.speed, Constant(1 / units.speed_ft_s))};
 }
 
+HWY_INLINE void Store(const HeadingError& error, float* errors, std::size_t error_stride,
+                      int first) {
+  const FloatTag d;
+  hn::StoreU(error.altitude, d, errors + first);
+  hn::StoreU(error.yaw, d, errors + error_stride + first);
+  hn::StoreU(error.speed, d, errors + 2 * error_stride + first);
+}
+
 void HeadingErrors(Tile flight, Tile task, const ReferenceUnits& units, float* errors,
                    std::size_t error_stride) {
-  const FloatTag d;
   for (int first = 0; first < flight.count; first += kLanes) {
-    const HeadingError error = Normalised(ErrorOf(flight, task, first), units);
-    hn::StoreU(error.altitude, d, errors + first);
-    hn::StoreU(error.yaw, d, errors + error_stride + first);
-    hn::StoreU(error.speed, d, errors + 2 * error_stride + first);
+    Store(Normalised(ErrorOf(flight, task, first), units), errors, error_stride, first);
   }
 }
 
@@ -64,6 +68,9 @@ void HeadingReward(Tile flight, Tile task, const HeadingConfig& config, const Re
   for (int first = 0; first < flight.count; first += kLanes) {
     const HeadingError error = ErrorOf(flight, task, first);
     const HeadingError scaled = Normalised(error, units);
+    if (step_result.errors != nullptr) {
+      Store(scaled, step_result.errors, step_result.error_stride, first);
+    }
     const V squares =
         hn::MulAdd(scaled.altitude, scaled.altitude,
                    hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));

@@ -36,6 +36,8 @@ struct StepResult {
   const float* bonus = nullptr;  ///< reward beside, which reward_scale leaves alone; null: none
   /// A Termination, a failure, where the task itself ends the episode, else 0; null: nowhere.
   std::int32_t* ends = nullptr;
+  float* errors = nullptr;       ///< what Task::Errors says of the same state; null: not asked for
+  std::size_t error_stride = 0;  ///< between its columns
 };
 
 /// What a target is compared with: a column of recorded flights (docs/reference/file-formats.md).
@@ -106,8 +108,9 @@ class Task {
     Errors(flight, task, numbers, stride);
   }
 
-  /// Rewards the state after a control step, and says where it reaches the target. `steps_before`
-  /// is each aircraft's control steps in this episode before it.
+  /// Rewards the state after a control step, and says where it reaches the target, and its errors
+  /// if they are asked for. `steps_before` is each aircraft's control steps in this episode before
+  /// it.
   virtual void ComputeReward(Tile flight, Tile task, const std::int32_t* steps_before,
                              const StepResult& step_result) const = 0;
 };

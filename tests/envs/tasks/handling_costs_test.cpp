@@ -107,33 +107,51 @@ TEST_P(HandlingCostsTest, SideslipCostsItsSineToEitherSide) {
 INSTANTIATE_TEST_SUITE_P(Targets, HandlingCostsTest, testing::ValuesIn(simd::SupportedTargets()),
                          [](const auto& test) { return std::string(Name(test.param)); });
 
-TEST(Tolerances, GiveWithinThemAndTakeOutside) {
+class TolerancesTest : public testing::TestWithParam<simd::Target> {
+ protected:
+  /// `reward` after a control step of as many aircraft; without `reached_step` none is remembered.
+  static std::vector<float> Rewarded(const HandlingCosts& costs, std::vector<float> reward,
+                                     std::vector<std::int32_t> within,
+                                     std::vector<std::int32_t> reached_step = {}) {
+    const std::size_t count = reward.size(), padded = TileStride(static_cast<int>(count));
+    const bool is_remembered = !reached_step.empty();
+    reward.resize(padded);
+    within.resize(padded);
+    reached_step.resize(padded);
+    RewardTolerances(costs, static_cast<int>(count), within.data(),
+                     is_remembered ? reached_step.data() : nullptr, reward.data());
+    reward.resize(count);
+    return reward;
+  }
+
+  const ScopedTarget target_{GetParam()};
+};
+
+TEST_P(TolerancesTest, GiveWithinThemAndTakeOutside) {
   HandlingCosts costs;
   EXPECT_FALSE(costs.enabled());
-  const std::vector<std::int32_t> within = {1, 0, 1};
   costs.within_tolerances = 0.25;
-  std::vector<float> reward = {-1, -1, 0.5f};
-  RewardTolerances(costs, 3, within.data(), nullptr, reward.data());
-  EXPECT_EQ(reward, (std::vector<float>{-0.75f, -1, 0.75f}));
+  EXPECT_EQ(Rewarded(costs, {-1, -1, 0.5f}, {1, 0, 1}), (std::vector<float>{-0.75f, -1, 0.75f}));
 
   costs = {};
   costs.outside_tolerances = 0.5;
   EXPECT_TRUE(costs.enabled());
-  RewardTolerances(costs.Times(0.5), 3, within.data(), nullptr, reward.data());
-  EXPECT_EQ(reward, (std::vector<float>{-0.75f, -1.25f, 0.75f}));
+  EXPECT_EQ(Rewarded(costs.Times(0.5), {-0.75f, -1, 0.75f}, {1, 0, 1}),
+            (std::vector<float>{-0.75f, -1.25f, 0.75f}));
 }
 
-TEST(Tolerances, TakeBeforeTheTargetIsReachedWithinThemOrNot) {
+TEST_P(TolerancesTest, TakeBeforeTheTargetIsReachedWithinThemOrNot) {
   HandlingCosts costs;
   costs.before_reached = 0.5;
   EXPECT_TRUE(costs.enabled());
-  const std::vector<std::int32_t> within = {1, 0, 1, 0}, reached_step = {0, 0, 70, 70};
-  std::vector<float> reward(4, 1);
-  RewardTolerances(costs.Times(0.5), 4, within.data(), reached_step.data(), reward.data());
-  EXPECT_EQ(reward, (std::vector<float>{0.75f, 0.75f, 1, 1}));
-  RewardTolerances(costs, 4, within.data(), nullptr, reward.data());
-  EXPECT_EQ(reward, (std::vector<float>{0.25f, 0.25f, 0.5f, 0.5f}));
+  EXPECT_EQ(Rewarded(costs.Times(0.5), {1, 1, 1, 1}, {1, 0, 1, 0}, {0, 0, 70, 70}),
+            (std::vector<float>{0.75f, 0.75f, 1, 1}));
+  EXPECT_EQ(Rewarded(costs, {0.75f, 0.75f, 1, 1}, {1, 0, 1, 0}),
+            (std::vector<float>{0.25f, 0.25f, 0.5f, 0.5f}));
 }
+
+INSTANTIATE_TEST_SUITE_P(Targets, TolerancesTest, testing::ValuesIn(simd::SupportedTargets()),
+                         [](const auto& test) { return std::string(Name(test.param)); });
 
 TEST(ActionChange, CostsTheSquaresOfClippedChangesBesideTheFirst) {
   HandlingCosts costs;
