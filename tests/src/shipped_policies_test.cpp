@@ -87,7 +87,7 @@ const ShippedPolicy kPolicies[] = {
      std::nullopt,
      SmoothnessLimits{0.8, 4, 0.01}},
     {"tracking-robust", "tracking", kMission, 0.98, std::nullopt, SmoothnessLimits{0.7, 4, 0.01},
-     2.0},
+     1.9},
     {"tracking-planner", "tracking", {}, 0.92, std::nullopt, std::nullopt},
 };
 
