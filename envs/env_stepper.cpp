@@ -91,7 +91,7 @@ int TimeLimitSteps(const EnvConfig& config, double share) {
   return first + static_cast<int>(std::lround(share * (config.time_limit_steps - first)));
 }
 
-ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
+ProgressRules RulesOf(const EnvConfig& config, const Task& task, const TerminationLimits& limits) {
   const auto steps = [&config](double seconds) { return ControlSteps(config, seconds); };
   const bool is_mission_of_states = config.mission.enabled() && !task.is_point();
   ProgressRules rules;
@@ -100,9 +100,7 @@ ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
   rules.mission_steps = steps(config.mission.flown_length_s());
   rules.time_limit_steps = TimeLimitSteps(config, 0);
   rules.reached_reward = static_cast<float>(config.termination.success_reward);
-  if (!config.truncate_at_time_limit) {
-    rules.missed_reward = static_cast<float>(config.termination.failure_reward);
-  }
+  rules.missed_reward = config.truncate_at_time_limit ? 0 : limits.failure_reward;
   return rules;
 }
 
@@ -120,7 +118,7 @@ struct alignas(kCacheLine) EnvStepper::Scratch {
   bool final_observed[kAircraftPerBlock] = {};
   float errors[kNumTaskErrors * kAircraftPerBlock];
   std::int32_t deadline[kAircraftPerBlock] = {};
-  TargetEnd target_end[kAircraftPerBlock];
+  std::int32_t target_end[kAircraftPerBlock];
   float bonus[kAircraftPerBlock] = {};
   LowLevelFlight::Scratch low_level;
 
@@ -151,7 +149,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       limits_(EndsOf(config_), config_.episode()),
       remembers_actions_(config_.reward.action_change > 0 ||
                          task_->observation_layout().actions > 0),
-      progress_(RulesOf(config_, *task_)),
+      progress_(RulesOf(config_, *task_, limits_)),
       costs_(config_.reward),
       reset_(config_, aircraft_),
       wind_(config_.wind, config_.draw_power, aircraft_.airframe.span_ft),
@@ -355,7 +353,8 @@ void EnvStepper::FreezeSensors(const EnvBlock& block) const {
                        observation + layout.lead - kNumTaskErrors, layout.size());
 }
 
-/// Takes the costs of handling off the control step's reward.
+/// Takes the costs of handling off the control step's reward. The scratch's errors are those of its
+/// state, if there are costs of control steps.
 void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action,
                                Scratch& scratch) const {
   if (costs_.of_control_steps()) {
@@ -377,8 +376,8 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
 /// Gives aircraft on missions their next targets.
 void EnvStepper::DrawTargets(const EnvBlock& block, const Scratch& scratch) const {
   for (int i = 0; i < block.count; ++i) {
-    if (scratch.target_end[i] != TargetEnd::kNone && Is(scratch.termination[i], Termination::kNone))
-      DrawTarget(block, i);
+    const bool has_ended = static_cast<TargetEnd>(scratch.target_end[i]) != TargetEnd::kNone;
+    if (has_ended && Is(scratch.termination[i], Termination::kNone)) DrawTarget(block, i);
   }
 }
 
@@ -419,13 +418,17 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
                                Scratch& scratch) const {
   StepResult step_result{scratch.step_reward, scratch.reached};
   if (task_->has_ends()) step_result.ends = scratch.ends;
-  if (costs_.of_control_steps() || observer != nullptr) {
+  const bool needs_errors = costs_.of_control_steps() || observer != nullptr;
+  if (needs_errors && task_->rewards_by_errors()) {
     step_result.errors = scratch.errors;
     step_result.error_stride = kAircraftPerBlock;
   }
   EpisodeColumns episodes{block.step, scratch.termination, scratch.policy_step_reward,
                           block.episode_return};
   task_->ComputeReward(block.flight, block.task, block.step, step_result);
+  if (needs_errors && !task_->rewards_by_errors()) {
+    task_->Errors(block.flight, block.task, scratch.errors, kAircraftPerBlock);
+  }
   if (config_.reward.enabled() || remembers_actions_) SubtractCosts(block, policy_action, scratch);
   if (progress_.enabled()) {
     AdvanceTargets(block, scratch);

@@ -32,79 +32,82 @@ HWY_INLINE void StoreWhere(IntMask where, VI value, VI old, std::int32_t* column
   hn::StoreU(hn::IfThenElse(where, value, old), IntTag(), column);
 }
 
-/// Aircraft in a control step that are not at their episode's end.
-struct Flying {
+HWY_INLINE void CountWhere(IntMask where, std::int32_t* column) {
+  const VI before = hn::LoadU(IntTag(), column);
+  StoreWhere(where, hn::Add(before, Whole(1)), before, column);
+}
+
+/// Aircraft in a control step; where an episode has ended (not `is_flying`) nothing else has a
+/// meaning.
+struct ProgressLanes {
   IntMask is_flying;
-  VI now;           ///< control steps of the episode, with this one
-  VI steps_within;  ///< the same of those within tolerances without a break
-  IntMask is_held;  ///< for the dwell
+  VI now;            ///< control steps of the episode, with this one
+  VI within_before;  ///< consecutive ones within tolerances, without this one
+  VI steps_within;   ///< the same with it
+  IntMask is_held;   ///< for the dwell
 };
 
 HWY_INLINE void WriteEnd(const ProgressRules& rules, VI end, const ProgressStep& step, int first) {
   const FloatTag d;
-  hn::StoreU(end, IntTag(), reinterpret_cast<std::int32_t*>(step.target_end) + first);
-  const auto is = [&](TargetEnd which) { return hn::RebindMask(d, hn::Eq(end, Whole(which))); };
-  const V missed = hn::IfThenElseZero(is(TargetEnd::kMissed), Constant(rules.missed_reward));
-  hn::StoreU(hn::IfThenElse(is(TargetEnd::kReached), Constant(rules.reached_reward), missed), d,
+  hn::StoreU(end, IntTag(), step.target_end + first);
+  const Mask is_reached = hn::RebindMask(d, hn::Eq(end, Whole(TargetEnd::kReached)));
+  const Mask is_missed = hn::RebindMask(d, hn::Eq(end, Whole(TargetEnd::kMissed)));
+  const V missed = hn::IfThenElseZero(is_missed, Constant(rules.missed_reward));
+  hn::StoreU(hn::IfThenElse(is_reached, Constant(rules.reached_reward), missed), d,
              step.bonus + first);
 }
 
 /// An episode of one target.
-HWY_INLINE void AdvanceTarget(const ProgressRules& rules, const Flying& flight,
+HWY_INLINE void AdvanceTarget(const ProgressRules& rules, const ProgressLanes& lanes,
                               const EpisodeProgress& progress, const ProgressStep& step,
                               int first) {
   const IntTag d;
   const VI zero = hn::Zero(d);
   const VI reached_before = hn::LoadU(d, progress.reached_step + first);
-  const IntMask is_new = hn::And(flight.is_held, hn::Eq(reached_before, zero));
-  const VI reached_step = hn::IfThenElse(is_new, flight.now, reached_before);
-  StoreWhere(flight.is_flying, flight.steps_within, hn::LoadU(d, progress.steps_within + first),
+  const IntMask is_new = hn::And(lanes.is_held, hn::Eq(reached_before, zero));
+  const VI reached_step = hn::IfThenElse(is_new, lanes.now, reached_before);
+  StoreWhere(lanes.is_flying, lanes.steps_within, lanes.within_before,
              progress.steps_within + first);
-  StoreWhere(flight.is_flying, reached_step, reached_before, progress.reached_step + first);
+  StoreWhere(lanes.is_flying, reached_step, reached_before, progress.reached_step + first);
 
   const IntMask is_reached = hn::Gt(reached_step, zero);
-  const VI since = hn::Sub(flight.now, reached_step);
+  const VI since = hn::Sub(lanes.now, reached_step);
   const IntMask is_over = hn::And(is_reached, IsAtLeast(since, Whole(rules.hold_steps)));
-  StoreWhere(flight.is_flying, hn::IfThenElseZero(is_over, Whole(1)),
+  StoreWhere(lanes.is_flying, hn::IfThenElseZero(is_over, Whole(1)),
              hn::LoadU(d, step.reached + first), step.reached + first);
 
   // What is within tolerances, or holds what it has reached, is not late.
-  const IntMask is_in_time = hn::Or(is_reached, hn::Gt(flight.steps_within, zero));
+  const IntMask is_in_time = hn::Or(is_reached, hn::Gt(lanes.steps_within, zero));
   const VI never = Whole(std::numeric_limits<std::int32_t>::max());
-  StoreWhere(hn::And(flight.is_flying, is_in_time), never, Whole(rules.time_limit_steps),
+  StoreWhere(hn::And(lanes.is_flying, is_in_time), never, Whole(rules.time_limit_steps),
              step.deadline + first);
 
   const VI end = Whole(rules.hold_steps > 0 ? TargetEnd::kReached : TargetEnd::kNone);
-  WriteEnd(rules, hn::IfThenElseZero(hn::And(flight.is_flying, is_new), end), step, first);
+  WriteEnd(rules, hn::IfThenElseZero(hn::And(lanes.is_flying, is_new), end), step, first);
 }
 
 /// A flight on a mission, whose targets come one after another.
-HWY_INLINE void AdvanceMission(const ProgressRules& rules, const Flying& flight,
+HWY_INLINE void AdvanceMission(const ProgressRules& rules, const ProgressLanes& lanes,
                                const EpisodeProgress& progress, const ProgressStep& step,
                                int first) {
   const IntTag d;
-  const VI zero = hn::Zero(d), one = Whole(1);
+  const VI zero = hn::Zero(d);
   const VI target_step = hn::LoadU(d, progress.target_step + first);
-  const IntMask is_late =
-      IsAtLeast(hn::Sub(flight.now, target_step), Whole(rules.time_limit_steps));
-  const IntMask is_outside = hn::Eq(flight.steps_within, zero);
-  const IntMask is_reached = hn::And(flight.is_flying, flight.is_held);
+  const IntMask is_late = IsAtLeast(hn::Sub(lanes.now, target_step), Whole(rules.time_limit_steps));
+  const IntMask is_outside = hn::Eq(lanes.steps_within, zero);
+  const IntMask is_reached = hn::And(lanes.is_flying, lanes.is_held);
   const IntMask is_missed =
-      hn::And(flight.is_flying, hn::AndNot(flight.is_held, hn::And(is_outside, is_late)));
+      hn::And(lanes.is_flying, hn::AndNot(lanes.is_held, hn::And(is_outside, is_late)));
   const IntMask is_over = hn::Or(is_reached, is_missed);
 
-  StoreWhere(flight.is_flying, hn::IfThenZeroElse(is_over, flight.steps_within),
-             hn::LoadU(d, progress.steps_within + first), progress.steps_within + first);
-  StoreWhere(is_over, flight.now, target_step, progress.target_step + first);
-  const auto count = [&](IntMask where, std::int32_t* column) {
-    const VI before = hn::LoadU(d, column + first);
-    StoreWhere(where, hn::Add(before, one), before, column + first);
-  };
-  count(is_reached, progress.targets_reached);
-  count(is_missed, progress.targets_missed);
+  StoreWhere(lanes.is_flying, hn::IfThenZeroElse(is_over, lanes.steps_within), lanes.within_before,
+             progress.steps_within + first);
+  StoreWhere(is_over, lanes.now, target_step, progress.target_step + first);
+  CountWhere(is_reached, progress.targets_reached + first);
+  CountWhere(is_missed, progress.targets_missed + first);
 
-  StoreWhere(flight.is_flying, zero, hn::LoadU(d, step.reached + first), step.reached + first);
-  StoreWhere(flight.is_flying, Whole(rules.mission_steps), Whole(rules.time_limit_steps),
+  StoreWhere(lanes.is_flying, zero, hn::LoadU(d, step.reached + first), step.reached + first);
+  StoreWhere(lanes.is_flying, Whole(rules.mission_steps), Whole(rules.time_limit_steps),
              step.deadline + first);
   const VI missed = hn::IfThenElseZero(is_missed, Whole(TargetEnd::kMissed));
   WriteEnd(rules, hn::IfThenElse(is_reached, Whole(TargetEnd::kReached), missed), step, first);
@@ -117,17 +120,17 @@ void AdvanceProgressKernel(const ProgressRules& rules, int count, const std::int
   const VI none = Whole(static_cast<std::int32_t>(Termination::kNone));
   const VI dwell = Whole(std::max(1, rules.dwell_steps));
   for (int first = 0; first < count; first += kLanes) {
-    Flying flight;
-    flight.is_flying = hn::Eq(hn::LoadU(d, termination + first), none);
-    flight.now = hn::Add(hn::LoadU(d, steps_before + first), Whole(1));
+    ProgressLanes lanes;
+    lanes.is_flying = hn::Eq(hn::LoadU(d, termination + first), none);
+    lanes.now = hn::Add(hn::LoadU(d, steps_before + first), Whole(1));
     const IntMask is_within = hn::Ne(hn::LoadU(d, step.reached + first), hn::Zero(d));
-    const VI within_before = hn::LoadU(d, progress.steps_within + first);
-    flight.steps_within = hn::IfThenElseZero(is_within, hn::Add(within_before, Whole(1)));
-    flight.is_held = IsAtLeast(flight.steps_within, dwell);
+    lanes.within_before = hn::LoadU(d, progress.steps_within + first);
+    lanes.steps_within = hn::IfThenElseZero(is_within, hn::Add(lanes.within_before, Whole(1)));
+    lanes.is_held = IsAtLeast(lanes.steps_within, dwell);
     if (rules.mission_steps > 0) {
-      AdvanceMission(rules, flight, progress, step, first);
+      AdvanceMission(rules, lanes, progress, step, first);
     } else {
-      AdvanceTarget(rules, flight, progress, step, first);
+      AdvanceTarget(rules, lanes, progress, step, first);
     }
   }
 }

@@ -35,8 +35,9 @@ struct ProgressRules {
   int hold_steps = 0;     ///< for which the flight goes on after that
   int mission_steps = 0;  ///< length of a flight of many targets; 0: one target
   int time_limit_steps = 0;
-  float reached_reward = 0;  ///< where the flight goes on after it
-  float missed_reward = 0;
+  /// For a target that is reached where the flight goes on; reward_scale leaves both alone.
+  float reached_reward = 0;
+  float missed_reward = 0;  ///< for one of a mission that is missed
 
   /// Whether an aircraft's progress must be remembered: else episodes end at first touch.
   bool enabled() const { return dwell_steps > 0 || hold_steps > 0 || mission_steps > 0; }
@@ -58,15 +59,15 @@ struct EpisodeProgress {
 };
 
 /// What became of a target, while the flight goes on, in a control step.
-enum class TargetEnd : std::int32_t { kNone, kReached, kMissed };
+enum class TargetEnd : std::uint8_t { kNone, kReached, kMissed };
 
 /// What a control step comes to, one element per aircraft, padded as Tile says.
 struct ProgressStep {
   /// Where the state is within tolerances; changed into where the episode ends for that.
   std::int32_t* reached = nullptr;
-  std::int32_t* deadline = nullptr;  ///< the control step of the episode at which time ends it
-  TargetEnd* target_end = nullptr;
-  float* bonus = nullptr;  ///< reward for a target after which the flight goes on
+  std::int32_t* deadline = nullptr;    ///< the control step of the episode at which time ends it
+  std::int32_t* target_end = nullptr;  ///< a TargetEnd
+  float* bonus = nullptr;              ///< reward for a target after which the flight goes on
 };
 
 /// One control step of `count` aircraft, but those that have a `termination`: columns, padded as

@@ -117,6 +117,7 @@ class HeadingTask : public Task {
   }
 
   double dwell_s() const override { return config_.dwell_s; }
+  bool rewards_by_errors() const override { return true; }
 
   void Reset(const FlightStart& start, simd::RandomStream* random, Tile task,
              int index) const override {

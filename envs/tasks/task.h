@@ -36,7 +36,9 @@ struct StepResult {
   const float* bonus = nullptr;  ///< reward beside, which reward_scale leaves alone; null: none
   /// A Termination, a failure, where the task itself ends the episode, else 0; null: nowhere.
   std::int32_t* ends = nullptr;
-  float* errors = nullptr;       ///< what Task::Errors says of the same state; null: not asked for
+  /// What Task::Errors says of the same state, of tasks whose reward is made of that
+  /// (Task::rewards_by_errors); null: not asked for.
+  float* errors = nullptr;
   std::size_t error_stride = 0;  ///< between its columns
 };
 
@@ -80,6 +82,9 @@ class Task {
   /// Whether the task ends episodes itself (StepResult::ends).
   virtual bool has_ends() const { return false; }
 
+  /// Whether ComputeReward has the errors at hand, and says them if they are asked for.
+  virtual bool rewards_by_errors() const { return false; }
+
   /// How the row of observations is made up.
   virtual const ObservationLayout& observation_layout() const { return kStandardObservation; }
   /// What the numbers that lead it are; none if they are the errors.
@@ -108,9 +113,8 @@ class Task {
     Errors(flight, task, numbers, stride);
   }
 
-  /// Rewards the state after a control step, and says where it reaches the target, and its errors
-  /// if they are asked for. `steps_before` is each aircraft's control steps in this episode before
-  /// it.
+  /// Rewards the state after a control step, and says where it reaches the target. `steps_before`
+  /// is each aircraft's control steps in this episode before it.
   virtual void ComputeReward(Tile flight, Tile task, const std::int32_t* steps_before,
                              const StepResult& step_result) const = 0;
 };

@@ -139,9 +139,6 @@ class TrackingTask : public Task {
   void ComputeReward(Tile flight, Tile task, const std::int32_t* /*steps_before*/,
                      const StepResult& step_result) const override {
     SKEIN_DISPATCH(TrackingReward)(flight, task, config_, unit_ft_, step_result);
-    if (step_result.errors != nullptr) {
-      Errors(flight, task, step_result.errors, step_result.error_stride);
-    }
   }
 
  private:

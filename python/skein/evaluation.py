@@ -156,7 +156,8 @@ def record(
     **config: Any,
 ) -> pandas.DataFrame:
     """Flights as a table, a row for every control step: the first `count` episodes of evaluate, the columns of
-    docs/reference/file-formats.md (recorded flights), with what was observed if asked for."""
+    docs/reference/file-formats.md (recorded flights), with what was observed if asked for. Flights that could have more
+    than 5,000,000 control steps together are a ConfigurationError."""
     import pandas
 
     _check_counts(count, seed, threads)

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/field_list.h"
 #include "base/number_text.h"
 #include "src/commands/aircraft_option.h"
 #include "src/config/number_in.h"
@@ -48,8 +49,8 @@ void AddPlantSetting(CLI::App* command, PlantSetting* setting) {
   command
       ->add_option("--xcg", setting->cg,
                    "centre of gravity, fraction of the mean chord (default: the aircraft's own)")
-      ->transform(
-          NumberThat([](double cg) { return cg > 0 && cg <= 1; }, "number above 0, at most 1"));
+      ->transform(NumberThat([](double cg) { return Bounds::PositiveFraction().Contains(cg); },
+                             "number above 0, at most 1"));
   command
       ->add_option("--heng", setting->engine_angular_momentum,
                    "angular momentum of the engine, slug ft2/s")

@@ -105,6 +105,7 @@ void Report(const ReportOptions& options) {
 
 void AddReportCommand(CLI::App* app) {
   auto options = std::make_shared<ReportOptions>();
+  options->request.flights_option = "--flights";
   CLI::App* command = app->add_subcommand(
       "report", "Write a page that shows runs: curves, metrics, flights in 3-D");
   command->add_option("runs", options->request.runs, "directories of runs")

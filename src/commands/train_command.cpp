@@ -201,7 +201,7 @@ constexpr const char* kFooter =
     "  skein train heading --set ppo.learning_rate=5e-4 --set env.observation_noise=0.03\n"
     "  skein train heading --condition windy=0..120fps,calm..moderate --condition "
     "noisy=0.01..0.05\n"
-    "  skein train heading --from runs/short --steps 1e8\n"
+    "  skein train heading --from runs/short --steps 1e8 --set ppo.learning_rate=3e-5\n"
     "  skein train my_task.toml\n"
     "  skein train heading --aircraft my.json\n"
     "  skein train --resume runs/short";

@@ -15,6 +15,10 @@ inline constexpr int kMostRecordedSteps = 5000000;
 /// The longest that an evaluation's flight in `env` can be, s.
 double LongestFlight(const EnvConfig& env);
 
+/// How many flights of up to `longest_s` by each of the agents have no more control steps than
+/// kMostRecordedSteps.
+int MostFlights(std::size_t agents, double longest_s, const EnvConfig& env);
+
 /// Throws UsageError, which names what to `lower`, if so many flights of up to `longest_s` by each
 /// of the agents could have more control steps than kMostRecordedSteps.
 void RequireRoomFor(int flights, std::size_t agents, double longest_s, const EnvConfig& env,

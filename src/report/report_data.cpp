@@ -4,6 +4,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <map>
 #include <optional>
@@ -136,6 +137,17 @@ Json ComparisonJson(const Comparison& comparison, const ProgramConfig& config) {
   return ShownComparison(ToJson(comparison, config), config);
 }
 
+/// How many are shown of a group.
+int FlightsOf(const ReportRequest& request, const FlownGroup& group) {
+  const EnvConfig& env = group.config.train.env;
+  const double longest_s = LongestFlight(env);
+  if (request.flights_option.empty()) {
+    return std::min(request.flights, MostFlights(group.agents.size(), longest_s, env));
+  }
+  RequireRoomFor(request.flights, group.agents.size(), longest_s, env, request.flights_option);
+  return request.flights;
+}
+
 std::vector<AgentFlights> Fly(const FlownGroup& group, int count, WorkerPool& pool) {
   EvaluationOptions options;
   options.episodes = count;
@@ -183,17 +195,16 @@ std::string ReportData(const ReportRequest& request, WorkerPool& pool) {
   const bool flies = request.episodes > 0 || request.flights > 0;
   const std::vector<FlownGroup> groups =
       flies ? GroupByEnvironment(&runs) : std::vector<FlownGroup>();
-  for (const FlownGroup& group : groups) {
-    const EnvConfig& env = group.config.train.env;
-    RequireRoomFor(request.flights, group.agents.size(), LongestFlight(env), env, "--flights");
-  }
-  for (const FlownGroup& group : groups) {
+  std::vector<int> flights;
+  for (const FlownGroup& group : groups) flights.push_back(FlightsOf(request, group));
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const FlownGroup& group = groups[i];
     if (request.episodes > 0) {
       parts.comparisons.push_back(ComparisonJson(
           Compare(group.agents, group.config, request.episodes, group.seed, pool), group.config));
     }
-    if (request.flights > 0) {
-      parts.flights.push_back(FlightsJson(Fly(group, request.flights, pool), group.seed,
+    if (flights[i] > 0) {
+      parts.flights.push_back(FlightsJson(Fly(group, flights[i], pool), group.seed,
                                           kMostRowsOfPage / groups.size(), &pack));
     }
   }

@@ -18,6 +18,8 @@ struct ReportRequest {
   std::vector<std::string> runs;  ///< their directories
   int episodes = 1000;            ///< flown for the table of metrics; 0: no table
   int flights = 4;                ///< episodes that are shown in space; 0: none
+  /// The option by which so many are asked for; without one as many are shown as memory holds.
+  std::string flights_option = {};
   /// Comparisons that are there already (ShownComparison), which the page shows, too.
   std::vector<nlohmann::ordered_json> comparisons = {};
   std::string made = {};  ///< date and time that the page says; empty: now
@@ -27,7 +29,7 @@ struct ReportRequest {
 /// deflated pack (src/report/data_pack.h) whose document viewer/src/report.ts describes. A run
 /// without a policy has curves alone. If the pool is stopping, the flights say nothing. Throws
 /// Error on what is no run, or of a version that this one does not know, and UsageError on flights
-/// of more control steps than kMostRecordedSteps.
+/// that are asked for and have more control steps than kMostRecordedSteps.
 std::string ReportData(const ReportRequest& request, WorkerPool& pool);
 
 /// A comparison's document (ToJson) as a page needs it, with what its columns are called.

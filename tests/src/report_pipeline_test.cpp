@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "src/evaluation/recording_limit.h"
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
@@ -188,13 +189,20 @@ TEST_F(ReportPipeline, WhatIsNoRunIsOneLine) {
   EXPECT_EQ(CallSkein({"report"}).exit_code, 2);
 }
 
-TEST_F(ReportPipeline, MoreFlightsThanMemoryHoldsAreRefused) {
+TEST_F(ReportPipeline, MoreFlightsThanMemoryHoldsAreRefusedIfAskedForElseFewer) {
   WorkerPool pool(1);
   ReportRequest request;
   request.runs = {*folder_ / "run"};
   request.flights = 1000000;
+  request.flights_option = "--flights";
   EXPECT_THAT(MessageOf([&] { ReportData(request, pool); }),
               HasSubstr(" are the most: lower --flights"));
+
+  EnvConfig env;
+  env.mission.length_s = 3600;
+  EXPECT_EQ(MostFlights(3, LongestFlight(env), env), 9) << "of 180,000 control steps";
+  env.mission.length_s = 1e6;
+  EXPECT_EQ(MostFlights(3, LongestFlight(env), env), 0);
 }
 
 TEST_F(ReportPipeline, AnUnwritablePathIsSaidFirst) {

@@ -169,9 +169,6 @@ class TermTask : public Task {
                      const StepResult& step_result) const override {
     RunTermReward(programs_.reward, *kernel_aircraft_, flight, task, steps_before,
                   config_->earliest_step, step_result);
-    if (step_result.errors != nullptr) {
-      Errors(flight, task, step_result.errors, step_result.error_stride);
-    }
   }
 
  private:
