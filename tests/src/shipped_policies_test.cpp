@@ -68,9 +68,10 @@ const ShippedPolicy kPolicies[] = {
      "control",
      {"--set", "env.control.dwell_s=3", "--hold", "30", "--condition", "plant=middle",
       "--condition", "noisy=middle"},
-     0.88,
-     HoldLimits{0.7, 5, 0.2, 0.3},
+     0.93,
+     HoldLimits{0.7, 7.5, 0.4, 0.3},
      SmoothnessLimits{0.6, 4.5, 0.01}},
+    {"control-robust", "control", kMission, 0.9, std::nullopt, SmoothnessLimits{0.8, 5, 0.01}, 1.8},
     // Steep dives and climbs cannot be held: thrust.
     {"control",
      "control",
