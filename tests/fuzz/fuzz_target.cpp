@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "envs/aircraft/aircraft_document.h"
 #include "envs/kernels/plant_kernel.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/configuration.h"
 #include "src/fdm/fdm_evaluation.h"
 #include "src/files/output_file.h"
@@ -39,8 +40,16 @@ std::string AsItIs(std::string file) { return file; }
 
 std::vector<std::string> ConfigurationSeeds() { return Shipped("configs/heading", ".toml"); }
 
+/// As ResolveConfig does, but for the preset, which is read once: it takes as long as a file.
 void ReadConfiguration(const std::string& file) {
-  CheckConsistent(ResolveConfig({"heading", "default", InFile(file, ".toml"), {}}));
+  static const ProgramConfig preset = ResolveConfig({"heading", "default", "", {}});
+  const std::string path = InFile(file, ".toml");
+  const ProgramConfig config = WithAircraft(preset, [&path](ProgramConfig* changed) {
+    ApplyTomlFile(path, changed);
+    RequireTask(*changed, "heading");
+  });
+  RequireOwnScale(preset, config);
+  CheckConsistent(config);
 }
 
 std::vector<std::string> StudySeeds() { return Shipped("configs/studies", ".toml"); }
