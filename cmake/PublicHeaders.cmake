@@ -20,6 +20,7 @@ set(SKEIN_PUBLIC_HEADERS
     envs/tasks/episode_progress.h
     envs/tasks/handling_costs.h
     envs/tasks/heading_config.h
+    envs/tasks/mission_config.h
     envs/tasks/task_errors.h
     envs/tasks/termination.h
     envs/tasks/termination_config.h

@@ -22,6 +22,9 @@ struct ControlStep {
   std::size_t error_stride = 0;
   EpisodeProgress progress;  ///< after it; null columns where none is kept
   Tile task;                 ///< the task's columns, targets first, of the step
+  /// Pitch, rad, yaw, rad, and true airspeed, ft/s, that a high-level policy asks of the low-level
+  /// one; null without a hierarchy.
+  Tile command;
 };
 
 /// Is shown the control steps of policy steps as they are flown: those of an aircraft in their

@@ -36,7 +36,7 @@ constexpr double kStrongestGravity = 1000;  // ft/s^2, beyond any planet's
 std::vector<std::string> HierarchicalTasks() {
   std::vector<std::string> names;
   for (const std::string& name : TaskNames()) {
-    if (IsHierarchical(name)) names.push_back(name);
+    if (CanBeHierarchical(name)) names.push_back(name);
   }
   return names;
 }
@@ -49,7 +49,7 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
   list.Add("action_repeat", &config.action_repeat, {1, kMaxActionRepeat},
            "control steps for which the policy's action is held; 5 is 10 Hz");
   list.Add("time_limit_steps", &config.time_limit_steps, Bounds::Count(),
-           "longest episode in control steps");
+           "control steps after which a target that is not reached, nor being held, is missed");
   list.Add("truncate_at_time_limit", &config.truncate_at_time_limit,
            "true: the value is bootstrapped at the limit; false: the limit is a failure");
   list.Add("stagger_clocks", &config.stagger_clocks,

@@ -12,9 +12,9 @@
 #include "envs/plant/plant_config.h"
 #include "envs/reference/flight_control.h"
 #include "envs/tasks/control_config.h"
-#include "envs/tasks/episode_progress.h"
 #include "envs/tasks/handling_costs.h"
 #include "envs/tasks/heading_config.h"
+#include "envs/tasks/mission_config.h"
 #include "envs/tasks/termination_config.h"
 #include "envs/tasks/terms/term_task_config.h"
 #include "envs/tasks/tracking_config.h"
@@ -97,8 +97,8 @@ struct EnvConfig {
 /// Its settings (base/field_list.h).
 void ListFields(EnvConfig& config, FieldList& list);
 
-/// The environment in which what was trained in `config` is evaluated: without what only serves
-/// training, stagger_clocks and training tolerances.
+/// The environment in which what was trained in `config` is evaluated: what only serves training
+/// (Field::is_training_only) is at its default.
 EnvConfig EvaluationConfig(const EnvConfig& config);
 
 /// Throws Error naming the configuration key of the first value that cannot be flown, or under

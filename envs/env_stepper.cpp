@@ -12,6 +12,7 @@
 #include "envs/actions.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
+#include "envs/mission_rules.h"
 #include "envs/plant/sensor_freeze.h"
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
@@ -49,59 +50,12 @@ bool Is(std::int32_t termination, Termination which) {
   return termination == static_cast<std::int32_t>(which);
 }
 
-/// Altitude that a mission has lost or won is given back by the pitch of what comes next, rad per
-/// ft, and at most: targets drawn anywhere would lead into the ground in the end.
-constexpr double kPitchPerFootLost = 5e-5;
-constexpr double kLargestPitchBack = 0.25;
-/// No target of a mission leads lower than this share of the height at which the flight began, even
-/// if it is dived for until its time is up, at this many times the airspeed of the flight's start.
-/// Heights are above the altitude at which flights end.
-constexpr double kMissionClearance = 0.1;
-constexpr double kMissionDiveSpeed = 1.3;
-
-/// Limits the targets of a mission's flight that began at `start` and is at `altitude_ft`.
-void LimitDescent(const EnvConfig& config, double altitude_ft, FlightStart* start) {
-  const double floor_ft = config.termination.Flown().min_altitude_ft;
-  start->lowest_altitude_ft = floor_ft + kMissionClearance * (start->altitude_ft - floor_ft);
-  const double flown_ft = kMissionDiveSpeed * start->true_airspeed_ft_s * config.time_limit_steps *
-                          config.control_interval_s;
-  const double descent = (altitude_ft - start->lowest_altitude_ft) / flown_ft;
-  start->lowest_pitch_rad = -std::asin(std::clamp(descent, -1.0, 1.0));
-}
-
 /// Of a target that is held its reward comes when it is reached (AdvanceTargets), not at the end of
 /// the hold.
 TerminationConfig EndsOf(const EnvConfig& config) {
   TerminationConfig ends = config.termination.Flown();
   if (config.hold_s > 0) ends.success_reward = 0;
   return ends;
-}
-
-int ControlSteps(const EnvConfig& config, double seconds) {
-  return static_cast<int>(std::lround(seconds / config.control_interval_s));
-}
-
-/// When a target is missed, `share` of the way from the first limit in training to the full one.
-int TimeLimitSteps(const EnvConfig& config, double share) {
-  const MissionConfig& mission = config.mission;
-  if (!mission.is_of_training() || mission.training_time_limit_s == 0) {
-    return config.time_limit_steps;
-  }
-  const int first = ControlSteps(config, mission.training_time_limit_s);
-  return first + static_cast<int>(std::lround(share * (config.time_limit_steps - first)));
-}
-
-ProgressRules RulesOf(const EnvConfig& config, const Task& task, const TerminationLimits& limits) {
-  const auto steps = [&config](double seconds) { return ControlSteps(config, seconds); };
-  const bool is_mission_of_states = config.mission.enabled() && !task.is_point();
-  ProgressRules rules;
-  rules.dwell_steps = steps(is_mission_of_states ? config.mission.dwell_s : task.dwell_s());
-  rules.hold_steps = steps(config.hold_s);
-  rules.mission_steps = steps(config.mission.flown_length_s());
-  rules.time_limit_steps = TimeLimitSteps(config, 0);
-  rules.reached_reward = static_cast<float>(config.termination.success_reward);
-  rules.missed_reward = config.truncate_at_time_limit ? 0 : limits.failure_reward;
-  return rules;
 }
 
 }  // namespace
@@ -149,7 +103,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       limits_(EndsOf(config_), config_.episode()),
       remembers_actions_(config_.reward.action_change > 0 ||
                          task_->observation_layout().actions > 0),
-      progress_(RulesOf(config_, *task_, limits_)),
+      progress_(RulesOf(config_, *task_, limits_.failure_reward)),
       costs_(config_.reward),
       reset_(config_, aircraft_),
       wind_(config_.wind, config_.draw_power, aircraft_.airframe.span_ft),
@@ -389,8 +343,7 @@ void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
   FlightStart start = reset_.Draw(&initial).start;
   const double altitude_ft = -block.flight[kDown][i];
   LimitDescent(config_, altitude_ft, &start);
-  start.pitch_rad = std::clamp(kPitchPerFootLost * (start.altitude_ft - altitude_ft),
-                               -kLargestPitchBack, kLargestPitchBack);
+  LeadBack(altitude_ft, &start);
   if (task_->is_point()) {
     Eigen::Vector4d attitude;
     for (int k = 0; k < 4; ++k) attitude[k] = block.flight[kQ0 + k][i];
@@ -443,8 +396,9 @@ void EnvStepper::ComputeReward(const EnvBlock& block, const float* action,
   episodes.policy_step_reward = reward;
   ComputeRewardAndTermination(*kernel_aircraft_, limits_, block.flight, step_result, episodes);
   for (int i = 0; i < block.count; ++i) scratch.policy_step_reward[i] += reward[i];
+  const Tile command = low_level_ == nullptr ? Tile{} : scratch.low_level.targets(block.count);
   observer->See({block.first_aircraft, block.flight, action, reward, episodes.termination,
-                 scratch.errors, kAircraftPerBlock, block.progress, block.task});
+                 scratch.errors, kAircraftPerBlock, block.progress, block.task, command});
 }
 
 /// Copies the rows of aircraft whose episodes ended in this control step, by time or, if asked for,

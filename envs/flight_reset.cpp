@@ -121,8 +121,9 @@ FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
   const double banked_rad = most_rad > 0 ? random->Uniform(-most_rad, most_rad) : 0;
   const double most_g = initial_.training_load_factor_max;
   const double pulled_g = most_g > 1 ? random->Uniform(0, most_g - 1) : 0;
-  RigidBodyState state = LevelState(altitude_ft, speed_ft_s, start.alpha_rad,
-                                    start.bank_rad + banked_rad, start.pitch_rad);
+  const double roll_rad = start.bank_rad + banked_rad;
+  RigidBodyState state =
+      LevelState(altitude_ft, speed_ft_s, start.alpha_rad, roll_rad, start.pitch_rad);
   if (pulled_g > 0) Pull(pulled_g, &state, &start);
 
   const Air air = AirAt(plant_.atmosphere(), altitude_ft);
@@ -152,7 +153,7 @@ FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
   for (int i = 0; i < kNumFlightControlStates; ++i) {
     set(kAlphaFilter + i, filters[static_cast<std::size_t>(i)]);
   }
-  flight.start = {altitude_ft, speed_ft_s, start.pitch_rad, 0};
+  flight.start = {altitude_ft, speed_ft_s, start.pitch_rad, 0, roll_rad};
   return flight;
 }
 

@@ -153,14 +153,13 @@ void LowLevelFlight::AverageObservations(int first, int count, float* observatio
 void LowLevelFlight::SetTargets(const float* action, Tile flight, Tile sensed,
                                 Scratch& scratch) const {
   SKEIN_DISPATCH(SetTargetsKernel)
-  (high_level_, action, flight, sensed, {scratch.target[0], kMaxCount, flight.count});
+  (high_level_, action, flight, sensed, scratch.targets(flight.count));
 }
 
 void LowLevelFlight::Act(int first, const KernelAircraft& aircraft, Tile flight,
                          const ObservationNoise& noise, const PlantTile& plants, Scratch& scratch) {
   // Of the Control task's columns, those that its errors are made of.
-  const Tile target{scratch.target[0], kMaxCount, flight.count};
-  control_->Errors(flight, target, scratch.error[0], kMaxCount);
+  control_->Errors(flight, scratch.targets(flight.count), scratch.error[0], kMaxCount);
   ObserveTile(aircraft, flight, {scratch.error[0], kMaxCount}, noise, scratch.observation, plants);
   low_level_->Act(flight.count, scratch.observation, state_.data() + StateBegin(first),
                   scratch.action);

@@ -29,6 +29,9 @@ class LowLevelFlight {
   /// What a block of aircraft needs during a high-level policy's policy step. It lies with the
   /// caller.
   struct alignas(64) Scratch {
+    /// What the low-level policy is to reach: columns of pitch, rad, yaw, rad, and speed, ft/s.
+    Tile targets(int count) { return {target[0], kMaxCount, count}; }
+
     float target[kHighLevelActionSize][kMaxCount];
     float error[kNumTaskErrors][kMaxCount];
     float observation[kMaxCount * kObservationSize];

@@ -43,14 +43,14 @@ std::vector<std::string> TaskNames() {
   return names;
 }
 
-bool IsHierarchical(const std::string& name) {
+bool CanBeHierarchical(const std::string& name) {
   return std::any_of(kTasks.begin(), kTasks.end(), [&name](const Registration& task) {
     return name == task.name && task.is_hierarchical;
   });
 }
 
 bool NeedsLowLevel(const EnvConfig& config) {
-  return IsHierarchical(config.task) && !config.tracking.acts_directly;
+  return CanBeHierarchical(config.task) && !config.tracking.acts_directly;
 }
 
 std::unique_ptr<Task> MakeTask(const EnvConfig& config) {

@@ -14,7 +14,7 @@ namespace skein {
 std::vector<std::string> TaskNames();
 
 /// Whether a high-level policy over a low-level policy can fly the task.
-bool IsHierarchical(const std::string& task);
+bool CanBeHierarchical(const std::string& task);
 
 /// Whether such a policy is to fly `config`'s task, and not one that gives stick commands itself
 /// (TrackingConfig::acts_directly).

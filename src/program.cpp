@@ -17,6 +17,7 @@
 
 #include "base/choice_error.h"
 #include "src/bench/version.h"
+#include "src/commands/command_tree.h"
 #include "src/commands/commands.h"
 #include "src/commands/plot_command.h"
 #include "src/commands/wrong_usage.h"
@@ -97,6 +98,7 @@ void AddCommands(CLI::App* app) {
   AddHelpCommand(app);
   AddCompletionCommand(app);
   AddManualCommand(app);
+  NameNumbers(app);
   // After the commands, which would inherit it.
   app->footer(
       "Examples:\n"

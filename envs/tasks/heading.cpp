@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -2,7 +2,6 @@
 #include "envs/tasks/observation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "envs/kernels/kernel_aircraft.h"
-#include "envs/state/attitude.h"
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -14,12 +14,13 @@
 
 namespace skein {
 
-/// Where a flight begins, or is when a mission's next target is drawn: what targets are relative
-/// to.
+/// What targets are relative to: where a flight begins. A mission's next target, too, but for
+/// points, which are relative to where the aircraft is then, and for the pitch, which leads back to
+/// the altitude at which the flight began.
 struct FlightStart {
   double altitude_ft = 0;
   double true_airspeed_ft_s = 0;
-  double pitch_rad = 0, yaw_rad = 0;
+  double pitch_rad = 0, yaw_rad = 0, roll_rad = 0;
   double north_ft = 0, east_ft = 0;
   /// The lowest altitude and pitch that targets may ask for: those drawn below are raised to them.
   double lowest_altitude_ft = -std::numeric_limits<double>::infinity();

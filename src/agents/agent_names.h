@@ -12,7 +12,7 @@ namespace skein {
 
 /// Whether `name` is "autopilot" or "autopilot:VARIANT".
 bool IsAutopilot(const std::string& name);
-/// The variant that such a name means; "autopilot" alone is the strongest, aggressive.
+/// The variant that such a name means; "autopilot" alone is the quickest, aggressive.
 std::string AutopilotVariantOf(const std::string& name);
 
 /// The file of a policy that is called "policy:FILE_OR_RUN[@sampled]"; empty for other agents.

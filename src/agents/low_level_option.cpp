@@ -58,9 +58,9 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
         task, kLowLevelTask));
   }
   if (!NeedsLowLevel(env)) {
-    throw UsageError(fmt::format("--low-level is for tasks of a high-level policy, not for {}{}",
-                                 task,
-                                 IsHierarchical(task) ? " flown directly: --preset planner" : ""));
+    throw UsageError(
+        fmt::format("--low-level is for tasks of a high-level policy, not for {}{}", task,
+                    CanBeHierarchical(task) ? " flown directly: --preset planner" : ""));
   }
   if (IsAutopilot(option)) {
     return ChooseAutopilot(env, option);

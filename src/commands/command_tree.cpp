@@ -22,6 +22,17 @@ std::vector<std::string> OptionNames(const CLI::App& app) {
   return names;
 }
 
+void NameNumbers(CLI::App* app) {
+  for (CLI::Option* option : app->get_options()) {
+    const std::string type = option->get_type_name();
+    const std::string name = type.substr(0, type.find(':'));
+    if (name == "FLOAT" || name == "INT" || name == "UINT") option->type_name("NUMBER");
+  }
+  for (CLI::App* command : app->get_subcommands([](const CLI::App*) { return true; })) {
+    NameNumbers(command);
+  }
+}
+
 const CLI::App* FindCommand(const CLI::App& app, const std::string& name) {
   for (const CLI::App* command : CommandsOf(app)) {
     if (command->get_name() == name) return command;

@@ -13,6 +13,10 @@ std::vector<const CLI::App*> CommandsOf(const CLI::App& app);
 /// The options of a command by their long names, "--threads"; positional arguments are left out.
 std::vector<std::string> OptionNames(const CLI::App& app);
 
+/// Calls values of `app` and the commands below it NUMBER that the library calls FLOAT, INT or
+/// UINT.
+void NameNumbers(CLI::App* app);
+
 /// The command of `app` called `name`; null if there is none.
 const CLI::App* FindCommand(const CLI::App& app, const std::string& name);
 

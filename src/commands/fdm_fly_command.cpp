@@ -69,6 +69,9 @@ void Fly(const CLI::App& command, FlyOptions options) {
   if (!options.wind.empty()) flight.wind_ft_s = ReadWind(options.wind);
   if (options.flown.policy.empty() && options.flown.agents.empty()) {
     RequireNoAgentOptions(command);
+    if (flight.gusts.standard_deviation_ft_s == 0 && command.get_option("--seed")->count() > 0) {
+      throw UsageError("--seed: nothing is drawn without --turbulence-fps, --policy or --agents");
+    }
     return FlySticks(options);
   }
   options.flown.flight.seed = flight.gusts.seed;
@@ -86,7 +89,7 @@ void AddFlyCommand(CLI::App* fdm) {
       "fly",
       "Fly from steady flight with flight control, actuators and engine: by a file of sticks, by a "
       "policy or by an autopilot");
-  AddFlightCondition(command, &options->condition);
+  AddFlightCondition(command, &options->condition, {true, true});
   AddWind(command, &options->wind);
   CLI::Option* turbulence =
       command

@@ -24,13 +24,15 @@ std::string Span(const std::vector<double>& values) {
                             : ShortestText(values.front()) + " to " + ShortestText(values.back());
 }
 
-void AddManoeuvre(CLI::App* command, FlightCondition* options) {
-  SteadyFlightRequest* manoeuvre = &options->grid.manoeuvre;
+void AddFlightPath(CLI::App* command, SteadyFlightRequest* manoeuvre) {
   command
       ->add_option("--flight-path-deg", manoeuvre->flight_path_deg,
                    "flight-path angle, deg, positive in a climb")
       ->transform(NumberIn(-90, 90))
       ->capture_default_str();
+}
+
+void AddTurnAndPullUp(CLI::App* command, SteadyFlightRequest* manoeuvre) {
   CLI::Option* turn =
       command
           ->add_option("--turn-rate-deg-s", manoeuvre->turn_rate_deg_s,
@@ -106,14 +108,16 @@ void AddPicture(CLI::App* command, const std::string& what, std::string* picture
       ->type_name("FILE");
 }
 
-void AddFlightCondition(CLI::App* command, FlightCondition* options) {
-  AddNumberList(command, "--altitude-ft", &options->grid.altitude_ft, kAny, "finite number",
-                "altitude, ft: one, several (A,B,C) or FROM..TO:STEP")
+void AddFlightCondition(CLI::App* command, FlightCondition* options, const ConditionForm& form) {
+  AddNumberList(
+      command, "--altitude-ft", &options->grid.altitude_ft, kAny, "finite number",
+      form.is_one_point ? "altitude, ft" : "altitude, ft: one, several (A,B,C) or FROM..TO:STEP")
       ->required();
   AddNumberList(command, "--speed-fps", &options->grid.speed_fps, 0, "number above 0",
-                "true airspeed, ft/s: the same")
+                form.is_one_point ? "true airspeed, ft/s" : "true airspeed, ft/s: the same")
       ->required();
-  AddManoeuvre(command, options);
+  AddFlightPath(command, &options->grid.manoeuvre);
+  if (form.may_turn) AddTurnAndPullUp(command, &options->grid.manoeuvre);
   AddPlantSetting(command, &options->setting);
   AddModel(command, &options->model);
 }
@@ -128,8 +132,9 @@ std::string FlightCondition::Describe(const Plant& plant) const {
   std::string text =
       fmt::format("{} at {} ft and {} ft/s, flight path {} deg, ", model.aircraft,
                   Span(grid.altitude_ft), Span(grid.speed_fps), manoeuvre.flight_path_deg);
-  text += manoeuvre.load_factor ? fmt::format("pull-up of {} g", *manoeuvre.load_factor)
-                                : fmt::format("turn {} deg/s", manoeuvre.turn_rate_deg_s);
+  text += manoeuvre.load_factor
+              ? fmt::format("pull-up at {} times the weight", *manoeuvre.load_factor)
+              : fmt::format("turn {} deg/s", manoeuvre.turn_rate_deg_s);
   return text + fmt::format(", cg {}", plant.aircraft().airframe.cg);
 }
 

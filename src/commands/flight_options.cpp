@@ -172,7 +172,7 @@ void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
       RequireTask(*changed, task);
     });
     RequireOwnScale(base, flown);
-    CheckConsistent(flown);
+    CheckFlyable(flown.train.env);
     return flown;
   });
 }

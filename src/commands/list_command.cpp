@@ -16,10 +16,12 @@
 #include "src/agents/policy_file.h"
 #include "src/commands/commands.h"
 #include "src/config/conditions.h"
+#include "src/config/configuration.h"
 #include "src/config/one_of.h"
 #include "src/config/presets.h"
 #include "src/files/installed_file.h"
 #include "src/files/text_table.h"
+#include "src/run/progress.h"
 #include "src/run/run_summary.h"
 #include "train/policy/policy_parameters.h"
 
@@ -28,14 +30,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 using Rows = std::vector<Row>;
-
-std::string PresetNames(const std::string& task) {
-  std::vector<std::string> names;
-  for (const Preset& preset : Presets()) {
-    if (preset.task == task) names.emplace_back(preset.name);
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
-}
 
 Rows Tasks() {
   Rows rows = {{"task", "target", "flown by"}};
@@ -47,7 +41,7 @@ Rows Tasks() {
       targets.emplace_back(target.column);
     }
     rows.push_back({name, fmt::format("{}", fmt::join(targets, ", ")),
-                    IsHierarchical(name)
+                    CanBeHierarchical(name)
                         ? "one policy, or a high-level policy over a low-level policy"
                         : "one policy"});
   }
@@ -55,8 +49,13 @@ Rows Tasks() {
 }
 
 Rows PresetRows() {
-  Rows rows = {{"task", "presets (--preset)"}};
-  for (const std::string& task : PresetTasks()) rows.push_back({task, PresetNames(task)});
+  Rows rows = {{"task", "--preset", "control steps", "is"}};
+  for (const Preset& preset : Presets()) {
+    const ProgramConfig config = ResolveConfig({preset.task, preset.name, "", {}});
+    rows.push_back({preset.task, preset.name,
+                    FormatCount(static_cast<double>(config.train.total_steps)),
+                    PresetMeaning(preset.name)});
+  }
   return rows;
 }
 

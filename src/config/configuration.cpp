@@ -285,6 +285,11 @@ void CheckConsistent(const ProgramConfig& config) {
   }
 }
 
+void CheckFlyable(const EnvConfig& env) {
+  Validate(EvaluationConfig(env));
+  LoadAircraft(env.aircraft);  // throws on an unknown name
+}
+
 std::string TaskNameOf(const std::string& task) {
   if (!IsTaskFile(task)) return task;
   return ReadTaskFile(ReadTaskFileText(task), task, SettingsTables()).terms.name;

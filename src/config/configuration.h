@@ -43,6 +43,9 @@ void RequireTask(const ProgramConfig& config, const std::string& task);
 /// Throws Error on values that are each allowed but cannot go together.
 void CheckConsistent(const ProgramConfig& config);
 
+/// The same of what evaluations fly, which heed nothing that only serves training.
+void CheckFlyable(const EnvConfig& env);
+
 /// Where a configuration comes from, before it is resolved.
 struct ConfigSources {
   std::string task;    ///< the preset's folder, and env.task; or the path of a task file

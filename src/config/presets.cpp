@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "src/config/nearest_name.h"
@@ -13,21 +13,24 @@
 namespace skein {
 namespace {
 
-/// What presets of these names are for.
-const std::map<std::string, const char*>& PresetMeanings() {
-  static const std::map<std::string, const char*> meanings = {
-      {"aerosonde", "another aircraft"},
-      {"cessna172", "another aircraft"},
-      {"default", "tuned for a small machine"},
-      {"easy", "Heading with small changes"},
-      {"paper", "the NeuralPlane paper's settings at 50 Hz"},
-      {"planner", "Tracking by a high-level policy"},
-      {"quick", "Heading in minutes"},
-      {"robust", "under all conditions"}};
-  return meanings;
-}
+constexpr std::pair<const char*, const char*> kMeanings[] = {
+    {"aerosonde", "another aircraft"},
+    {"cessna172", "another aircraft"},
+    {"default", "tuned for a small machine"},
+    {"easy", "Heading with small changes"},
+    {"paper", "the NeuralPlane paper's settings at 50 Hz"},
+    {"planner", "Tracking by a high-level policy"},
+    {"quick", "Heading in minutes"},
+    {"robust", "under all conditions"}};
 
 }  // namespace
+
+std::string PresetMeaning(const std::string& name) {
+  for (const auto& [preset, meaning] : kMeanings) {
+    if (name == preset) return meaning;
+  }
+  throw Error("nothing is said of presets called " + name);
+}
 
 std::vector<std::string> PresetTasks() {
   std::vector<std::string> tasks;
@@ -46,10 +49,7 @@ std::string TaskHelp() {
 std::string PresetHelp() {
   std::vector<std::string> names;
   for (const Preset& preset : Presets()) {
-    const auto meaning = PresetMeanings().find(preset.name);
-    const std::string name = meaning == PresetMeanings().end()
-                                 ? std::string(preset.name)
-                                 : fmt::format("{} ({})", preset.name, meaning->second);
+    const std::string name = fmt::format("{} ({})", preset.name, PresetMeaning(preset.name));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return fmt::format("{}", fmt::join(names, ", "));

@@ -28,6 +28,9 @@ std::vector<std::string> PresetTasks();
 /// What an option takes that names a task, for help: those, or a task file.
 std::string TaskHelp();
 
+/// What presets of this name are for: "under all conditions".
+std::string PresetMeaning(const std::string& name);
+
 /// The names of the presets, each once, with what they are for, for help: "default (...), ...".
 std::string PresetHelp();
 

@@ -143,6 +143,17 @@ void TableReader::RefuseOthers() const {
   }
 }
 
+void TableReader::RefuseLack(const std::vector<std::string>& missing,
+                             const std::string& rule) const {
+  for (const auto& [name, node] : table_) {
+    const std::string key(name.str()), meant = DidYouMean(key, missing);
+    if (meant.empty() || std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    throw Error(fmt::format("{}:{}: unknown key {}{}", source_, node.source().begin.line,
+                            PlainLine(key), meant));
+  }
+  throw Error(Here() + ": " + rule);
+}
+
 std::string TableReader::At(const toml::node& node, const std::string& key) const {
   return fmt::format("{}:{}: {}", source_, node.source().begin.line, key);
 }

@@ -51,6 +51,10 @@ class TableReader {
   void RefuseOld(const std::string& old, const std::string& name) const;
   /// Throws Error on the first key that was not read.
   void RefuseOthers() const;
+  /// Throws Error: none of `missing` is there, of which `rule` says that there must be one; or, if
+  /// a key that was not read is nearly one of them, that it is unknown.
+  [[noreturn]] void RefuseLack(const std::vector<std::string>& missing,
+                               const std::string& rule) const;
 
   /// Where the node is and what it is called, for errors.
   std::string At(const toml::node& node, const std::string& key) const;

@@ -39,9 +39,11 @@ std::string OneOf(TableReader& reader, const std::vector<std::string>& choices) 
     if (reader.Has(choice)) given.push_back(choice);
   }
   if (given.size() == 1) return given.front();
-  throw Error(fmt::format("{}: {} one of {}", reader.Here(),
-                          given.empty() ? "it needs" : "it must have just",
-                          fmt::join(choices, ", ")));
+  if (given.empty()) {
+    reader.RefuseLack(choices, fmt::format("it needs one of {}", fmt::join(choices, ", ")));
+  }
+  throw Error(
+      fmt::format("{}: it must have just one of {}", reader.Here(), fmt::join(choices, ", ")));
 }
 
 }  // namespace skein

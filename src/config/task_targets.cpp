@@ -53,7 +53,7 @@ void ReadPoint(TableReader& own, const TermTaskConfig& task, TermTarget* target)
   target->quantity.value = TermValue::kPointNorth;
   target->distance_ft = own.NumberRange("distance_ft", {0, 1e6}).value_or(Range{0, 0});
   if (target->distance_ft.max <= 0 || target->distance_ft.min < 0) {
-    throw Error(own.Here() + ": a point needs distance_ft = [from, to]");
+    own.RefuseLack({"distance_ft"}, "a point needs distance_ft = [from, to]");
   }
   target->azimuth_deg = own.Number("azimuth_deg", {0, 180}).value_or(0);
   target->elevation_deg = own.Number("elevation_deg", {0, 90}).value_or(0);
@@ -101,7 +101,7 @@ void ReadTarget(const toml::table& table, const std::string& source, TermTaskCon
   TableReader own(table, source);
   TermTarget target;
   const std::string quantity = own.Text("quantity", "");
-  if (quantity.empty()) throw Error(own.Here() + ": a target needs a quantity");
+  if (quantity.empty()) own.RefuseLack({"quantity"}, "a target needs a quantity");
   if (quantity == "point") {
     ReadPoint(own, *task, &target);
   } else {

@@ -90,7 +90,7 @@ void ReadReward(const toml::table& table, const std::string& source, TermTaskCon
   const TermNumbers numbers(*task);
   TermReward reward;
   const toml::node* const of = own.Find("quantity");
-  if (of == nullptr) throw Error(own.Here() + ": a reward needs a quantity");
+  if (of == nullptr) own.RefuseLack({"quantity"}, "a reward needs a quantity");
   if (of->is_array()) {
     for (const toml::node* node : own.Elements("quantity")) {
       reward.numbers.push_back(numbers.Read(*node, "quantity", own));
@@ -101,7 +101,7 @@ void ReadReward(const toml::table& table, const std::string& source, TermTaskCon
   RequireAtMost(reward.numbers.size(), TermTaskConfig::kMaxOfNorm, own.Here(), "quantities");
   if (reward.numbers.empty()) throw Error(own.At(*of, "quantity") + " must name at least one");
   const std::optional<double> weight = own.Number("weight", kAnyNumber);
-  if (!weight) throw Error(own.Here() + ": a reward needs a weight; a cost has one below 0");
+  if (!weight) own.RefuseLack({"weight"}, "a reward needs a weight; a cost has one below 0");
   reward.weight = *weight;
   reward.unit = ReadUnit(own, "unit", {});
   reward.shape = ReadShape(own);
@@ -121,7 +121,7 @@ void ReadReached(const toml::table& table, const std::string& source, TermTaskCo
     reader.RefuseOthers();
   }
   RequireAtMost(task->reached.size(), TermTaskConfig::kMaxConditions, own.Here(), "conditions");
-  if (task->reached.empty()) throw Error(own.Here() + ": [reached] needs conditions");
+  if (task->reached.empty()) own.RefuseLack({"conditions"}, "[reached] needs conditions");
   task->dwell_s = own.Number("dwell_s", {0, 1e6}).value_or(0);
   task->earliest_step = static_cast<int>(own.WholeNumber("earliest_step", 0, 1e9).value_or(0));
   task->training_tolerance_min =

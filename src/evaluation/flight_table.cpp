@@ -62,7 +62,7 @@ class TableBuilder {
   TableBuilder(const EnvConfig& env, const RecordedFlight& flight, FlightColumns columns)
       : env_(env),
         flight_(flight),
-        is_hierarchical_(IsHierarchical(flight)),
+        is_hierarchical_(!flight.steps.empty() && !flight.steps.front().command.empty()),
         with_observations_(columns == FlightColumns::kStatesAndObservations),
         targets_(MakeTask(env)->target_quantities()),
         observation_names_(ObservationNames(*MakeTask(env))) {}
@@ -107,7 +107,7 @@ class TableBuilder {
     const std::vector<Reading> readings = Readings(env_, StateAt(row));
     for (const auto& [name, value] : readings) Add(value);
     for (std::size_t k = 0; k < kActionSize; ++k) Add(step == nullptr ? kNoNumber : step->stick[k]);
-    if (is_hierarchical_) AddHighLevelAction(row, step);
+    if (is_hierarchical_) AddHighLevelAction(step);
     const std::vector<float>& target = step == nullptr ? flight_.target : step->target;
     for (std::size_t k = 0; k < targets_.size(); ++k) Add(InPeoplesUnit(k, target[k]));
     for (std::size_t k = 0; k < targets_.size(); ++k) {
@@ -123,24 +123,14 @@ class TableBuilder {
     return row == 0 ? flight_.initial_state : flight_.steps[row - 1].state;
   }
 
-  void AddHighLevelAction(std::size_t row, const RecordedStep* step) {
+  void AddHighLevelAction(const RecordedStep* step) {
     for (std::size_t k = 0; k < kHighLevelActionSize; ++k) {
       Add(step == nullptr ? kNoNumber : step->action[k]);
     }
-    if (step == nullptr) {
-      for (int k = 0; k < kHighLevelActionSize; ++k) Add(kNoNumber);
-      return;
+    constexpr std::array<double, kHighLevelActionSize> kUnits = {kDegPerRad, kDegPerRad, 1};
+    for (std::size_t k = 0; k < kHighLevelActionSize; ++k) {
+      Add(step == nullptr ? kNoNumber : step->command[k] * kUnits[k]);
     }
-    // LowLevelFlight::SetTargets: changes of what is flown where the policy step begins.
-    const auto repeat = static_cast<std::size_t>(env_.action_repeat);
-    const std::vector<Reading> at_start = Readings(env_, StateAt((row - 1) / repeat * repeat));
-    const HighLevelConfig& full = env_.high_level;
-    const auto command = [&](std::size_t k, double change) {
-      return ValueOf(at_start, kCommands[k]) + change * step->action[k];
-    };
-    Add(std::clamp(command(0, full.pitch_change_rad * kDegPerRad), -90.0, 90.0));
-    Add(std::remainder(command(1, full.yaw_change_rad * kDegPerRad), 360.0));
-    Add(command(2, full.speed_change_fps));
   }
 
   /// What the policy saw in the policy step of the row's control step.
@@ -176,10 +166,6 @@ const std::vector<double>& FlightTable::Column(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) throw Error(fmt::format("flights have no column {}", name));
   return columns[static_cast<std::size_t>(found - names.begin())];
-}
-
-bool IsHierarchical(const RecordedFlight& flight) {
-  return !flight.steps.empty() && flight.steps.front().action.size() == kHighLevelActionSize;
 }
 
 FlightTable TableOf(const EnvConfig& env, const RecordedFlight& flight, FlightColumns columns) {

@@ -31,9 +31,6 @@ struct FlightTable {
 FlightTable TableOf(const EnvConfig& env, const RecordedFlight& flight,
                     FlightColumns columns = FlightColumns::kStates);
 
-/// Whether it was flown by a high-level policy over a low-level policy.
-bool IsHierarchical(const RecordedFlight& flight);
-
 /// How one agent flew the first episodes.
 struct AgentFlights {
   std::string agent;                    ///< its name

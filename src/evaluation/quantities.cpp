@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "envs/interface_names.h"
 #include "envs/task_registry.h"
 
 namespace skein {
@@ -87,7 +88,6 @@ struct SmoothnessName {
   float CommandSmoothness::*value;
 };
 
-constexpr std::array<const char*, kActionSize> kStickNames = {"throttle", "pitch", "roll", "yaw"};
 constexpr std::array<SmoothnessName, 4> kSmoothnessNames = {{
     {"variation_per_s", "variation, 1/s", 1, 3, &CommandSmoothness::variation_per_s},
     {"reversals_per_s", "reversals, 1/s", 1, 3, &CommandSmoothness::reversals_per_s},
@@ -98,8 +98,8 @@ constexpr std::array<SmoothnessName, 4> kSmoothnessNames = {{
 void AddSmoothness(ActionSmoothness FlightMeasures::*actions, QuantitySection section,
                    const char* prefix, std::vector<Quantity>* list) {
   for (const SmoothnessName& name : kSmoothnessNames) {
-    for (std::size_t k = 0; k < kStickNames.size(); ++k) {
-      list->push_back({fmt::format("{}{}_{}", prefix, kStickNames[k], name.key), kStickNames[k],
+    for (std::size_t k = 0; k < kActionNames.size(); ++k) {
+      list->push_back({fmt::format("{}{}_{}", prefix, kActionNames[k], name.key), kActionNames[k],
                        name.label, name.shown_per_unit, name.decimals,
                        [=](const Episode& episode, double) {
                          return (episode.measures.*actions)[k].*name.value;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "envs/task_registry.h"
 #include "src/config/usage_error.h"
 #include "src/files/text_table.h"
 
@@ -24,7 +25,9 @@ double StepsOfAFlight(std::size_t agents, double longest_s, const EnvConfig& env
 double LongestFlight(const EnvConfig& env) {
   const EnvConfig flown = EvaluationConfig(env);
   if (flown.mission.enabled()) return flown.mission.flown_length_s();
-  return flown.time_limit_steps * flown.control_interval_s + flown.hold_s;
+  // A target that is being held when its time is up may be held to the end.
+  return flown.time_limit_steps * flown.control_interval_s + MakeTask(flown)->dwell_s() +
+         flown.hold_s;
 }
 
 int MostFlights(std::size_t agents, double longest_s, const EnvConfig& env) {

@@ -147,7 +147,8 @@ std::string FlownGrid::DescribeRow(std::size_t altitude) const {
     return k < count ? WordsOf(FirstLimit(At(altitude, k))) : "end of the grid";
   };
   if (slowest == count) {
-    return fmt::format("{}   not flown: {} to {}\n", label, beyond(0), beyond(count - 1));
+    return fmt::format("{}{:>10}{:>10}{:>13}   {}; {}\n", label, "none", "none", "", beyond(0),
+                       beyond(count - 1));
   }
   return fmt::format("{}{:>10}{:>10}{:>13.0f}   {}; {}\n", label,
                      ShortestText(grid_.speed_fps[slowest]), ShortestText(grid_.speed_fps[fastest]),

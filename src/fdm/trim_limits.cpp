@@ -93,17 +93,18 @@ std::vector<ExceededLimit> BelowStall(const Plant& plant, const TrimRequest& req
   const double gravity = plant.gravity().At(request.altitude_ft);
   const double lateral_g = climb * speed * request.turn_rate_rad_s / gravity;
   const double upward_g = climb + speed * request.pull_up_rate_rad_s / gravity;
-  const double weight_lbf = airframe.mass_slug * gravity * std::hypot(upward_g, lateral_g);
+  const double load = std::hypot(upward_g, lateral_g);
+  const double carried_lbf = load * airframe.mass_slug * gravity;
   const GreatestLift lift = FindGreatestLift(plant, request.altitude_ft, speed, kAlphaStepDeg);
   const double density = AirAt(plant.atmosphere(), request.altitude_ft).density_slug_ft3;
   const double stall_speed = std::sqrt(
-      2 * weight_lbf / (density * airframe.wing_area_ft2 * std::max(lift.coefficient, 1e-9)));
+      2 * carried_lbf / (density * airframe.wing_area_ft2 * std::max(lift.coefficient, 1e-9)));
   if (speed >= stall_speed) return {};
-  return {
-      {FlightLimit::kStall,
-       fmt::format("is below stall speed: at {} ft the wing carries the weight from {:.0f} ft/s "
-                   "on (lift coefficient {:.2f} at alpha {:.0f} deg)",
-                   request.altitude_ft, stall_speed, lift.coefficient, lift.alpha_deg)}};
+  const std::string times = std::abs(load - 1) < 0.005 ? "" : fmt::format("{:.3g} times ", load);
+  return {{FlightLimit::kStall,
+           fmt::format("is below stall speed: at {} ft the wing carries {}the weight from {:.0f} "
+                       "ft/s on (lift coefficient {:.2f} at alpha {:.1f} deg)",
+                       request.altitude_ft, times, stall_speed, lift.coefficient, lift.alpha_deg)}};
 }
 
 std::vector<ExceededLimit> LimitsOnTheWay(const Plant& plant, const TrimRequest& request) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/seconds_since.h"
 #include "envs/aircraft/registry.h"
 #include "simd/target.h"
 #include "src/bench/machine.h"
@@ -31,10 +32,6 @@ using Clock = std::chrono::steady_clock;
 
 // Far from the seeds that people choose for training, so that the final episodes are fresh.
 constexpr std::uint64_t kFreshSeedOffset = 1000000007;
-
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double UnixTime() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -283,9 +280,7 @@ void TrainingRun::SayStopped(const std::string& dropped) {
 IterationReport TrainingRun::Iterate() {
   leader_.Say(RankCommand::kIterate, signals_);
   try {
-    IterationReport report = trainer_.Iterate();
-    report.iteration = trainer_.iteration();
-    return report;
+    return trainer_.Iterate();
   } catch (const Error& error) {
     // Not named like a checkpoint: a run that resumed it would fail again.
     const std::string path = fmt::format("{}/before-failure-{:06}.skein", directory_.checkpoints(),

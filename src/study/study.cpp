@@ -15,7 +15,6 @@
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/nearest_name.h"
-#include "src/config/presets.h"
 #include "src/config/settings.h"
 #include "src/config/table_reader.h"
 #include "src/config/usage_error.h"
@@ -148,9 +147,20 @@ void RefuseWithoutEffect(const Study& study, const std::string& source) {
     }
   }
   if (study.training.per_level) return;
+  std::vector<std::string> said_by_evaluation;
+  for (const std::string& assignment :
+       FlightLengthAssignments(study.evaluation.hold_s, study.evaluation.mission_min)) {
+    said_by_evaluation.push_back(KeyOf(assignment));
+  }
   for (const StudyLevel& level : study.levels) {
     for (const std::string& assignment : level.settings.assignments) {
-      if (KeyOf(assignment).rfind("env.", 0) == 0) continue;
+      const std::string key = KeyOf(assignment);
+      if (std::count(said_by_evaluation.begin(), said_by_evaluation.end(), key) != 0) {
+        throw Error(fmt::format("{}: set {} of level {}: evaluation.{} says it already", source,
+                                assignment, level.name,
+                                study.evaluation.mission_min ? "mission" : "hold"));
+      }
+      if (key.rfind("env.", 0) == 0) continue;
       throw Error(
           fmt::format("{}: set {} of level {}: nothing is trained for it (per_level is "
                       "false), and its evaluation has keys of env alone",
@@ -198,7 +208,6 @@ ProgramConfig Configure(const Study& study, const std::string& task,
     });
     RequireTask(config, base.train.env.task);
     RequireOwnScale(base, config);
-    CheckConsistent(config);
     return config;
   });
 }
@@ -224,6 +233,7 @@ ProgramConfig TrainingConfig(const Study& study, const std::string& task, const 
   std::vector<StudySettings> parts = {study.training.settings};
   if (study.training.per_level) parts.push_back(level.settings);
   ProgramConfig config = Configure(study, task, parts);
+  AsUsage([&] { CheckConsistent(config); });
   if (study.training.steps) {
     Assign("run.total_steps", *study.training.steps, "steps", &config);
   }
@@ -238,6 +248,7 @@ ProgramConfig LevelConfig(const Study& study, const std::string& task, const Stu
       FlightLengthAssignments(can_hold ? study.evaluation.hold_s : std::nullopt,
                               study.evaluation.mission_min)};
   ProgramConfig config = Configure(study, task, {level.settings, flights});
+  AsUsage([&] { CheckFlyable(config.train.env); });
   if (!study.training.per_level) {
     const EnvConfig without_level = Configure(study, task, {}).train.env;
     AsUsage([&] { CheckEachAgentsOwn(config.train.env, without_level); });

@@ -68,9 +68,15 @@ void Check(const Study& study) {
   }
 }
 
-/// Of all configurations.
+/// Of all that trainings and comparisons depend on.
 std::string HashOf(const Study& study) {
-  std::string text;
+  std::string text =
+      fmt::format("{} episodes of seed {}\n", study.evaluation.episodes, study.evaluation.seed);
+  for (const std::string& agent : study.agents) text += agent + FingerprintOfAgent(agent) + "\n";
+  if (!study.low_level.empty()) {
+    const std::string& low_level = study.low_level;
+    text += FingerprintOfAgent(IsAutopilot(low_level) ? low_level : "policy:" + low_level);
+  }
   for (const std::string& task : study.tasks) {
     for (const StudyLevel& level : study.levels) {
       text += DumpToml(LevelConfig(study, task, level));

@@ -10,6 +10,7 @@
 #include <random>
 #include <thread>
 
+#include "base/seconds_since.h"
 #include "tests/src/ranks_fixture.h"
 #include "tests/src/run_program.h"
 #include "tests/src/training_fixture.h"
@@ -20,10 +21,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 const std::vector<std::string> kShards = {"--set", "learner.shards=16", "--threads", "1"};
-
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class ManyRanks : public RanksFixture {
  protected:

@@ -85,7 +85,7 @@ TEST_F(ReplayPipeline, WrongUsageIsAnErrorOfOneLineThatLeavesNothingBehind) {
        "to record 900 flights of up to 60 s by 2 agents takes 5400000 control steps, and 5000000 "
        "are the most: lower --episodes or --mission"},
       {{"--agents", "zero", "-o", out, "--episodes", "1000", "--hold", "100"},
-       "1000 flights of up to 101.2 s by 1 agent"},
+       "1000 flights of up to 102.2 s by 1 agent"},
       {{"--agents", "zero", "-o", out, "--live", "0"}, "--out and --live exclude each other"},
       {{"--agents", "zero", "-o", out, "--password", "x"}, "--password needs --live"},
       {{"--agents", "zero", "--live", "0", "--password", "\xFF"}, "not UTF-8"},

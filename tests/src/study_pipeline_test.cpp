@@ -397,6 +397,8 @@ TEST_F(StudyPipeline, WhatWouldNotBeFollowedIsRefused) {
       begin + "[training]\nper_level = false\n[[level]]\nname = \"a\"\n";
   ExpectError(one_for_all + "set = [\"ppo.epochs=3\"]", "set ppo.epochs=3 of level a");
   ExpectError(one_for_all + "set = [\"env.action_repeat=3\"]", "level a: env.action_repeat");
+  ExpectError(one_for_all + "set = [\"env.hold_s=5\"]\n[evaluation]\nhold = 30",
+              "set env.hold_s=5 of level a: evaluation.hold says it already");
 }
 
 TEST_F(StudyPipeline, KeepsOutOfDirectoriesOfOthers) {

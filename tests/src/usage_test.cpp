@@ -27,6 +27,7 @@ namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -117,7 +118,7 @@ TEST(Usage, ListNamesWhatThereIs) {
     return result.output;
   };
   EXPECT_THAT(list("tasks"), HasSubstr("heading   altitude_ft, yaw_deg, true_airspeed_fps"));
-  EXPECT_THAT(list("presets"), HasSubstr("heading   aerosonde, cessna172, default, easy, paper"));
+  EXPECT_THAT(list("presets"), ContainsRegex("heading  +quick +25.0 M +Heading in minutes"));
   EXPECT_THAT(list("conditions"), HasSubstr("60fps,light"));
   EXPECT_THAT(list("aircraft"), HasSubstr("aerosonde"));
   EXPECT_THAT(list("agents"), HasSubstr("zero "));

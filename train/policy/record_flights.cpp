@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "envs/control_step.h"
+#include "envs/low_level_flight.h"
 #include "envs/vec_env.h"
 #include "train/policy/tile_agent.h"
 
@@ -30,8 +31,10 @@ bool ReachesTarget(const ControlStep& seen, int i, Termination termination, int*
   if (seen.progress.steps_within == nullptr) return termination == Termination::kTargetReached;
   const int reached = seen.progress.targets_reached[i] + (seen.progress.reached_step[i] > 0);
   const bool is_new = reached > std::exchange(*targets_reached, reached);
+  // The time limit is a mission's end.
   return is_new &&
-         (termination == Termination::kNone || termination == Termination::kTargetReached);
+         (termination == Termination::kNone || termination == Termination::kTargetReached ||
+          termination == Termination::kTimeLimit);
 }
 
 /// Flies the first episodes of a tile's first `flights.size()` aircraft.
@@ -94,6 +97,9 @@ class TileRecorder : private ControlStepObserver {
       }
       for (int k = 0; k < kActionSize; ++k) {
         step.stick[k] = Clipped(seen.action[i * kActionSize + k]);
+      }
+      if (seen.command.base != nullptr) {
+        for (int k = 0; k < kHighLevelActionSize; ++k) step.command.push_back(seen.command[k][i]);
       }
       step.reward = seen.reward[i];
     }

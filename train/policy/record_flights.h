@@ -21,6 +21,9 @@ struct RecordedStep {
   /// Stick commands, what enters the flight control system, clipped to [-1, 1]: the action, or the
   /// low-level policy's.
   std::array<float, kActionSize> stick{};
+  /// Of a hierarchy: the pitch, rad, yaw, rad, and true airspeed, ft/s, that the low-level policy
+  /// is to reach (LowLevelFlight::SetTargets).
+  std::vector<float> command;
   std::vector<float> target;    ///< Task::target_quantities: the one that was flown to
   float reward = 0;             ///< of the step, terminal reward included
   bool reaches_target = false;  ///< the target counts as reached from this step on

@@ -13,7 +13,7 @@ namespace skein {
 struct HeldNoise {
   double share = 0;  ///< of the variance; 0: none
   int steps = 10;    ///< for which it is held
-  int actions = 1;   ///< of the first so many, or of all; the throttle is the first
+  int actions = 1;   ///< of the first so many, or of all (envs/interface_names.h)
 };
 
 /// What the deviates of one policy step of an environment's aircraft are drawn with.

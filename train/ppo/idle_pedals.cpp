@@ -12,7 +12,7 @@ namespace {
 constexpr int kYawAction = kActionSize - 1;
 /// 5e-5 of full pedal, which moves no rudder; one over its square is far from float32's largest.
 constexpr float kIdleLogStd = -10;
-/// Deviations that a training explores with are far wider, idle ones within rounding of that.
+/// Idle deviations are within rounding of that, by formats of fewer bits, too.
 constexpr float kIdleBelow = -9;
 
 }  // namespace
@@ -34,7 +34,12 @@ void IdlePedals::Idle(float* parameters) const {
 }
 
 bool IdlePedals::AreIdle(const float* parameters) const {
-  return parameters[log_std_] < kIdleBelow;
+  return parameters[log_std_] < kIdleBelow &&
+         std::all_of(idle_.begin(), idle_.end(), [&](const Parameters& idle) {
+           return idle.begin == log_std_ ||
+                  std::all_of(parameters + idle.begin, parameters + idle.end,
+                              [&idle](float value) { return value == idle.value; });
+         });
 }
 
 void IdlePedals::Free(float log_std, float* parameters) const { parameters[log_std_] = log_std; }

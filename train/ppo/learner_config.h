@@ -7,7 +7,7 @@ namespace skein {
 
 class FieldList;
 
-/// How the learner computes; no part of what it learns, but for rounding.
+/// How the learner computes: but for shards no part of what it learns, apart from rounding.
 struct LearnerConfig {
   /// As asked for; ChooseBackend (train/network/backend.h) says what runs.
   Backend backend = Backend::kFused;

@@ -88,7 +88,9 @@ void ListFields(PpoConfig& config, FieldList& list) {
            "policy steps for which that share is held")
       .OffUnless(config.held_noise_share > 0);
   list.Add("held_noise_actions", &config.held_noise_actions, {1, 1000},
-           "of the first so many actions: the throttle is the first")
+           "of the first so many actions: the throttle is the first of the stick commands, pitch "
+           "of a "
+           "high-level policy's")
       .OffUnless(config.held_noise_share > 0);
   list.Add(
           "pedals", &config.pedals,

@@ -9,6 +9,7 @@
 
 #include "base/denormals.h"
 #include "base/error.h"
+#include "base/seconds_since.h"
 #include "train/ppo/broken_shard.h"
 #include "train/ppo/minibatch_step.h"
 #include "train/ranks/collectives.h"
@@ -20,10 +21,6 @@ namespace {
 /// enough to keep the gradients in memory.
 constexpr int kMaxAccumulators = 32;
 constexpr double kAdvantageEpsilon = 1e-8;
-
-double SecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/reward_check.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "base/ends_with.h"
@@ -20,7 +20,8 @@ bool IsUsable(float reward) { return std::abs(reward) <= kLargestReward; }
 
 /// Of terms of the reward, and of what ends of episodes bring.
 bool IsRewardWeight(const std::string& key) {
-  return key.rfind("env.reward", 0) == 0 || EndsWith(key, "_weight") || EndsWith(key, "_reward");
+  const bool is_of_handling = key.rfind("env.reward.", 0) == 0 && !EndsWith(key, "_sharpness");
+  return is_of_handling || EndsWith(key, "_weight") || EndsWith(key, "_reward");
 }
 
 /// "KEY = VALUE" of the weight that is largest in magnitude, of those that this task reads.
@@ -48,12 +49,14 @@ std::string LargestWeight(TrainConfig config) {
 
 }  // namespace
 
-void RequireUsableRewards(const TrainConfig& config, const std::vector<float>& rewards) {
-  const auto bad = std::find_if_not(rewards.begin(), rewards.end(), IsUsable);
-  if (bad == rewards.end()) return;
-  throw Error("a step's reward is " + std::to_string(*bad) +
-              ": too large to learn from; the largest weight of the reward is " +
-              LargestWeight(config));
+void RequireUsableRewards(const TrainConfig& config, const std::vector<float>& rewards,
+                          const std::vector<float>& values) {
+  for (std::size_t i = 0; i < rewards.size(); ++i) {
+    if (IsUsable(rewards[i]) || !IsUsable(values[i])) continue;
+    throw Error("a step's reward is " + std::to_string(rewards[i]) +
+                ": too large to learn from; the largest weight of the reward is " +
+                LargestWeight(config));
+  }
 }
 
 }  // namespace skein

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/worker_pool.h"
+#include "envs/tasks/termination.h"
 #include "envs/vec_env.h"
 #include "train/network/recurrent_network.h"
 #include "train/ppo/action_noise.h"

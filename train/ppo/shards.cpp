@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/shards.h"
 
-#include <algorithm>
+#include <string>
 
 #include "base/error.h"
 

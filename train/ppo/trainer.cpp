@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/fnv_hash.h"
+#include "base/seconds_since.h"
 #include "envs/vec_env.h"
 #include "train/policy/policy_environment.h"
 #include "train/ppo/actor_critic.h"
@@ -25,10 +26,6 @@
 
 namespace skein {
 namespace {
-
-double SecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Sums over the samples of a rollout: of the value targets and what the critic missed of them.
 enum ValueSum { kTarget, kTargetSquared, kError, kErrorSquared, kNumValueSums };
@@ -263,7 +260,7 @@ struct Trainer::Impl {
 
   void CheckRewards() {
     fails_alike = true;
-    DoTogether(ranks, [&] { RequireUsableRewards(config, rollout.reward); });
+    DoTogether(ranks, [&] { RequireUsableRewards(config, rollout.reward, rollout.value); });
     fails_alike = false;
   }
 
@@ -388,10 +385,12 @@ IterationReport Trainer::Iterate() {
   Impl& impl = *impl_;
   const TrainingState before = impl.State();
   impl.fails_alike = false;
+  bool learns = false;
   try {
     IterationReport report;
     const std::uint64_t flown = impl.CollectExperience(report);
-    if (!impl.stopped) impl.Learn(report);
+    learns = !impl.stopped;
+    if (learns) impl.Learn(report);
     report.iteration = ++impl.iteration;
     report.env_steps = impl.env_steps();
     if (!impl.stopped) impl.EvaluateIfDue(report);
@@ -403,7 +402,8 @@ IterationReport Trainer::Iterate() {
     dropped.dropped_steps = flown;
     return dropped;
   } catch (const std::exception& error) {
-    const bool alike = impl.fails_alike || impl.update.exploded() || impl.ranks.count() == 1;
+    const bool exploded = learns && impl.update.exploded();
+    const bool alike = impl.fails_alike || exploded || impl.ranks.count() == 1;
     if (!alike) impl.ranks.Abort(error.what());
     impl.SetState(before);
     throw;

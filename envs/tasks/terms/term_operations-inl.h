@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operations of term programs (envs/tasks/terms/term_program.h), each over all lanes of a part
-// of a tile (see simd/dispatch.h). What the built-in tasks compute is computed as they do, by the
-// same functions: a task of the same terms has the same bits.
+// of a tile (see simd/dispatch.h). What the built-in tasks compute is computed as they do: a task
+// of the same terms has the same bits.
 
 #include "envs/tasks/terms/term_program.h"
 

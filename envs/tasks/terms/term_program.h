@@ -96,8 +96,7 @@ void RunTermProgram(const TermProgram& program, const KernelAircraft& aircraft, 
 enum TermRewardResult : int {
   kTermReward,
   kTermReached,  ///< all bits of a lane or none
-  kTermEnd,      ///< a Termination as a number
-  kNumTermRewardResults
+  kTermEnd       ///< a Termination as a number
 };
 
 /// Runs a program whose results are those of TermRewardResult. Nothing is reached before the

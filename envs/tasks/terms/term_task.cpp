@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
 #include "envs/tasks/point_target.h"
@@ -28,12 +27,14 @@ double StartOf(const FlightStart& start, TermValue value) {
       return start.pitch_rad;
     case TermValue::kYaw:
       return start.yaw_rad;
+    case TermValue::kRoll:
+      return start.roll_rad;
     case TermValue::kNorth:
       return start.north_ft;
     case TermValue::kEast:
       return start.east_ft;
     default:
-      return 0;  // level flight without sideslip, along the heading
+      return 0;  // nothing else is drawn around the start
   }
 }
 

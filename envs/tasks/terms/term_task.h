@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "envs/air/atmosphere.h"
 #include "envs/aircraft/aircraft.h"
 #include "envs/tasks/target_limits.h"
 #include "envs/tasks/task.h"

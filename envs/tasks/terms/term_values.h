@@ -67,8 +67,7 @@ enum class TermValue : std::uint8_t {
   // Of the attitude that target pitch and yaw make.
   kNoseAngle,
   kAttitudeAngle,
-  kTargetError,  ///< a target less what it is
-  kNumTermValues
+  kTargetError  ///< a target less what it is
 };
 
 /// How the name of a number is made.

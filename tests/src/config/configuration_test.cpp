@@ -240,6 +240,18 @@ TEST(Configuration, ValuesThatCannotGoTogetherAreRefused) {
               HasSubstr("needs env.mission.training_time_limit_s"));
 }
 
+TEST(Configuration, WhatOnlyServesTrainingRefusesNoEvaluation) {
+  // Lower than that flights begin in training alone.
+  const ProgramConfig higher =
+      ResolveConfig({"tracking", "default", "", {"env.termination.min_altitude_ft=6000"}});
+  EXPECT_THAT(MessageOf([&] { CheckConsistent(higher); }), HasSubstr("training_altitude_min_ft"));
+  EXPECT_EQ(MessageOf([&] { CheckFlyable(higher.train.env); }), "");
+  const ProgramConfig below =
+      ResolveConfig({"tracking", "default", "", {"env.termination.min_altitude_ft=60000"}});
+  EXPECT_THAT(MessageOf([&] { CheckFlyable(below.train.env); }),
+              HasSubstr("env.initial.altitude_min_ft"));
+}
+
 TEST(Configuration, AnEnvironmentThatCannotBeFlownIsNamedByItsKey) {
   ProgramConfig any;
   const std::size_t count = FieldsOf(any).size();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
@@ -18,6 +19,7 @@
 #include "tests/envs/step_buffers.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -93,6 +95,9 @@ TEST(TaskFileTest, RefusesInOneLineThatNamesTheField) {
       {"around_start = 500", "around_start = 5\nspread = 5", "unknown key spread"},
       {"weight = -1", "weight = inf", "weight must be a finite number"},
       {"weight = -1", "", "a reward needs a weight"},
+      {"weight = -1", "weigth = -1", "my.toml:9: unknown key weigth; did you mean weight?"},
+      {"within = 50", "witin = 50", "unknown key witin; did you mean within?"},
+      {"around_start = 500", "betwen = [1, 2]", "unknown key betwen; did you mean between?"},
       {"weight = -1", "weight = -1\nshape = \"gausian\"", "did you mean gaussian?"},
       {"weight = -1", "weight = -1\nshape = \"gaussian\"", "needs a width"},
       {"weight = -1", "weight = -1\nwidth = 3", "unknown key width"},
@@ -153,6 +158,23 @@ TEST(TaskFileTest, EveryExampleIsATask) {
     ++count;
   }
   EXPECT_GE(count, 6);
+}
+
+TEST(TaskFileTest, RollsAroundTheStartAreOfTheBankThatFlightsBeginWith) {
+  EnvConfig env;
+  env.SetTermTask(Read(
+      Minimal("[[reward]]", "[[target]]\nquantity = \"roll_deg\"\naround_start = 0\n[[reward]]")));
+  env.initial.training_bank_max_deg = 90;
+  constexpr Tolerance kRounding{1e-5, "rad, of float32 quaternions"};
+  const VecEnv flights(env, 20, 1);
+  double most = 0;
+  for (int i = 0; i < 20; ++i) {
+    Eigen::Vector4d attitude;
+    for (int k = 0; k < 4; ++k) attitude[k] = flights.StateOf(i, kQ0 + k);
+    EXPECT_NEAR(flights.TargetOf(i)[1], EulerFromQuaternion(attitude).roll, kRounding) << i;
+    most = std::max<double>(most, std::abs(flights.TargetOf(i)[1]));
+  }
+  EXPECT_GT(most, 0.5);
 }
 
 /// What is observed before each control step of a flight in turbulence, by a task that observes

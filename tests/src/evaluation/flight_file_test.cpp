@@ -179,6 +179,7 @@ TEST_F(FlightFileTest, FlightsOfHighLevelPoliciesShowBothActions) {
   flight_.target = {1000, 2000, 18000};
   for (RecordedStep& step : flight_.steps) {
     step.action = {0.125f, -0.5f, 1};
+    step.command = {0.25f, -2.5f, 830};
     step.target = flight_.target;
   }
   const std::vector<Row> rows = Parse(FlightsCsv(config, {flight_}));
@@ -191,32 +192,14 @@ TEST_F(FlightFileTest, FlightsOfHighLevelPoliciesShowBothActions) {
   EXPECT_EQ(rows[1].at("action_target_pitch"), "0.125");
   EXPECT_EQ(rows[1].at("action_target_yaw"), "-0.5");
   EXPECT_EQ(rows[1].at("action_target_speed"), "1");
+  EXPECT_EQ(rows[0].at("command_pitch_deg"), "");
+  EXPECT_NEAR(std::stod(rows[1].at("command_pitch_deg")), 0.25 * kDegPerRad, kAngle);
+  EXPECT_NEAR(std::stod(rows[1].at("command_yaw_deg")), -2.5 * kDegPerRad, kAngle);
+  EXPECT_EQ(rows[1].at("command_true_airspeed_fps"), "830");
   EXPECT_EQ(rows[1].at("target_east_ft"), "2000");
   EXPECT_NEAR(std::stod(rows[1].at("error_north_ft")), 900, kPosition);
   EXPECT_NEAR(std::stod(rows[1].at("error_east_ft")), 2200, kPosition);
   EXPECT_NEAR(std::stod(rows[1].at("error_altitude_ft")), -2000, kPosition);
-}
-
-TEST_F(FlightFileTest, CommandsAreChangesOfWhatIsFlownWhereThePolicyStepBegins) {
-  EnvConfig config;
-  config.task = "tracking";
-  config.action_repeat = 2;  // both steps belong to the policy step that begins at time 0
-  config.high_level.pitch_change_rad = config.high_level.yaw_change_rad = 40 / kDegPerRad;
-  config.high_level.speed_change_fps = 30;
-  for (RecordedStep& step : flight_.steps) {
-    step.action = {0.5f, 1, -1};
-    step.target = {0, 0, 0};
-  }
-  const std::vector<Row> rows = Parse(FlightsCsv(config, {flight_}));
-  EXPECT_EQ(rows[0].at("command_pitch_deg"), "");
-  for (const std::size_t row : {1u, 2u}) {
-    EXPECT_NEAR(std::stod(rows[row].at("command_pitch_deg")), -10 + 20, kAngle);
-    EXPECT_NEAR(std::stod(rows[row].at("command_yaw_deg")), 170 + 40 - 360, kAngle);
-    EXPECT_NEAR(std::stod(rows[row].at("command_true_airspeed_fps")), 800 - 30, kVelocity);
-  }
-  config.action_repeat = 1;
-  EXPECT_NEAR(std::stod(Parse(FlightsCsv(config, {flight_}))[2].at("command_yaw_deg")),
-              171 + 40 - 360, kAngle);
 }
 
 TEST_F(FlightFileTest, TargetsAreThoseOfTheStep) {

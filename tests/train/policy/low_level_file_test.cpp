@@ -256,5 +256,41 @@ TEST_F(HighLevelTrainingTest, RecordsActionsOfBothLevels) {
   EXPECT_NEAR(return_sum / options.episodes, evaluated.return_mean, kSumOrder);
 }
 
+/// Speed through still air.
+double SpeedIn(const std::array<float, kNumRecordedColumns>& state) {
+  return std::hypot(state[kU], state[kV], state[kW]);
+}
+
+TEST_F(HighLevelTrainingTest, RecordsWhatIsAskedOfTheLowLevelPolicyByLateSensorsToo) {
+  WorkerPool pool(2);
+  TrainConfig config = SmallHighLevelConfig();
+  constexpr int kDelay = 3;
+  config.env.plant.observation_delay_steps = {kDelay, kDelay};
+  const Agent high_level = Agent::SamplingFrom(HighLevel(SmallLowLevelPolicy()));
+  EvaluationOptions options;
+  options.episodes = 20;
+  constexpr Tolerance kSpeed{1e-2, "float32, of some 800 ft/s"};
+  int commands = 0;
+  for (const RecordedFlight& flight :
+       RecordFlights(high_level, config.env, options, options.episodes, pool)) {
+    const auto state_at = [&flight](std::size_t steps) {
+      return steps == 0 ? flight.initial_state : flight.steps[steps - 1].state;
+    };
+    for (std::size_t i = 0; i < flight.steps.size(); ++i) {
+      const RecordedStep& step = flight.steps[i];
+      ASSERT_EQ(step.command.size(), 3u);
+      if (i % 10 != 0) {
+        EXPECT_EQ(step.command, flight.steps[i - 1].command) << i;
+        continue;
+      }
+      const double seen = SpeedIn(state_at(i < kDelay ? 0 : i - kDelay));
+      EXPECT_NEAR(step.command[2], seen + config.env.high_level.speed_change_fps * step.action[2],
+                  kSpeed);
+      ++commands;
+    }
+  }
+  EXPECT_GT(commands, 20);
+}
+
 }  // namespace
 }  // namespace skein

@@ -20,15 +20,21 @@ using ::testing::EndsWith;
 std::string Blamed(const std::function<void(EnvConfig*)>& change) {
   TrainConfig config;
   change(&config.env);
-  return MessageOf([&] { RequireUsableRewards(config, {1, 1e20F}); });
+  return MessageOf([&] { RequireUsableRewards(config, {1, 1e20F}, {0, 0}); });
 }
 
 TEST(RewardCheck, RewardsThatSumAndSquareAreUsable) {
-  EXPECT_EQ(MessageOf([] { RequireUsableRewards({}, {0, -1e15F, 1e15F}); }), "");
+  EXPECT_EQ(MessageOf([] { RequireUsableRewards({}, {0, -1e15F, 1e15F}, {0, 0, 0}); }), "");
   const float infinite = std::numeric_limits<float>::infinity();
   for (const float bad : {-1.1e15F, infinite, std::numeric_limits<float>::quiet_NaN()}) {
-    EXPECT_NE(MessageOf([&] { RequireUsableRewards({}, {0, bad}); }), "") << bad;
+    EXPECT_NE(MessageOf([&] { RequireUsableRewards({}, {0, bad}, {0, 0}); }), "") << bad;
   }
+}
+
+TEST(RewardCheck, BlamesNoRewardForTheValueOfACriticThatExploded) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(MessageOf([&] { RequireUsableRewards({}, {0, none}, {0, none}); }), "");
+  EXPECT_NE(MessageOf([&] { RequireUsableRewards({}, {none, none}, {0, none}); }), "");
 }
 
 TEST(RewardCheck, NamesTheWeightThatIsLargestInMagnitude) {
@@ -41,6 +47,12 @@ TEST(RewardCheck, NamesTheWeightThatIsLargestInMagnitude) {
                 env->termination.success_reward = 1e21;
               }),
               EndsWith("is env.termination.success_reward = 1e+21"));
+  EXPECT_THAT(Blamed([](EnvConfig* env) {
+                env->reward.near_sharpness = 1e6;  // no weight
+                env->termination.failure_reward = -1e4;
+                env->termination.success_reward = 0;
+              }),
+              EndsWith("is env.termination.failure_reward = -10000"));
 }
 
 TEST(RewardCheck, NamesTheTermOfATaskFile) {
