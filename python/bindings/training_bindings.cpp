@@ -15,6 +15,7 @@
 #include "src/config/configuration.h"
 #include "src/config/program_config.h"
 #include "src/run/metrics.h"
+#include "src/run/recorded_run.h"
 #include "src/run/run_directory.h"
 #include "src/run/training_run.h"
 
@@ -82,8 +83,7 @@ void Train(const ProgramConfig& config, const std::string& out, const std::strin
 /// Trains on in a run directory, to the end of its budget.
 void Resume(const std::string& path, int threads, const nb::object& callback) {
   RunDirectory directory = RunDirectory::Open(path);
-  ProgramConfig config = ReadRecord(directory.config());
-  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env);
+  const ProgramConfig config = RecordedConfig(directory);
   WorkerPool pool(threads);
   TrainUnlocked(callback, pool, [&](GoesOn goes_on) {
     return TrainingRun::Resume(config, std::move(directory), pool, std::move(goes_on));

@@ -84,13 +84,4 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
   return ChooseLowLevelPolicy(env, option);
 }
 
-std::shared_ptr<const StoredPolicy> LowLevelPolicyOfRun(const RunDirectory& directory,
-                                                        const EnvConfig& env) {
-  if (!NeedsLowLevel(env)) return nullptr;
-  const std::string path = directory.low_level();
-  std::shared_ptr<const StoredPolicy> low_level = LoadLowLevelPolicy(TensorFile::Read(path), path);
-  if (low_level == nullptr) throw Error(fmt::format("{}: it holds no low-level policy", path));
-  return low_level;
-}
-
 }  // namespace skein

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "envs/env_config.h"
-#include "src/run/run_directory.h"
 #include "train/policy/stored_policy.h"
 
 namespace skein {
@@ -26,10 +25,5 @@ ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::strin
 /// policy file or checkpoint, unless that is empty or has none.
 ChosenLowLevelPolicy ChooseLowLevelPolicy(const EnvConfig& env, const std::string& option,
                                           const std::string& from);
-
-/// The low-level policy that the run in `directory` began with; null if `env` needs none.
-/// Throws Error if it cannot be read.
-std::shared_ptr<const StoredPolicy> LowLevelPolicyOfRun(const RunDirectory& directory,
-                                                        const EnvConfig& env);
 
 }  // namespace skein

@@ -22,6 +22,7 @@
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/report/run_report.h"
+#include "src/run/recorded_run.h"
 #include "src/run/run_directory.h"
 #include "src/run/training_run.h"
 #include "train/policy/low_level_file.h"
@@ -75,28 +76,24 @@ std::string RunToResume(const TrainOptions& options) {
 
 /// The configuration of the run to resume, unless something else is asked for.
 ProgramConfig ConfigureResumed(const TrainOptions& options, const RunDirectory& directory) {
-  ProgramConfig config = ReadRecord(directory.config());
+  const ProgramConfig config = RecordedConfig(directory);
   CheckConsistent(config);
   if (!options.task.empty() && TaskNameOf(options.task) != config.train.env.task) {
     throw UsageError(fmt::format("{}: is a run of task {}, not {}", directory.path(),
                                  config.train.env.task, options.task));
   }
-  ProgramConfig asked = AsUsage([&] {
+  const ProgramConfig asked = AsUsage([&] {
     ProgramConfig changed = config;
     ApplyConditionsAndAssignments(options.conditions, options.assignments, &changed);
     ApplyFlags(options, &changed);
     return changed;
   });
-  // Which precision suits the processor was decided when the run began.
-  LearnerPrecision& precision = asked.train.learner.precision;
-  if (precision == LearnerPrecision::kAuto) precision = config.train.learner.precision;
-  if (const auto differences = Differences(config, asked); !differences.empty()) {
+  if (const auto differences = DifferencesFromRecord(config, asked); !differences.empty()) {
     throw UsageError(fmt::format(
         "{}: a resumed run keeps its configuration, but this was asked for: {}; begin a new run "
         "instead",
         directory.path(), fmt::join(differences, ", ")));
   }
-  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env);
   if (!options.low_level.empty()) {
     const ChosenLowLevelPolicy asked_low_level =
         ChooseLowLevelPolicy(config.train.env, options.low_level);

@@ -15,6 +15,7 @@
 #include "src/config/configuration.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
+#include "src/run/recorded_run.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
 #include "train/files/file_descriptor.h"
@@ -40,14 +41,9 @@ void RemoveStub(const std::string& run) {
 }
 
 /// The configuration of the run in `directory`, which must be the one asked for.
-ProgramConfig ConfigOfRun(const RunDirectory& directory, ProgramConfig asked) {
-  ProgramConfig config = ReadRecord(directory.config());
-  config.train.low_level = LowLevelPolicyOfRun(directory, config.train.env);
-  // What "auto" was on the machine that began it.
-  if (asked.train.learner.precision == LearnerPrecision::kAuto) {
-    asked.train.learner.precision = config.train.learner.precision;
-  }
-  std::vector<std::string> differences = Differences(config, asked);
+ProgramConfig ConfigOfRun(const RunDirectory& directory, const ProgramConfig& asked) {
+  ProgramConfig config = RecordedConfig(directory);
+  std::vector<std::string> differences = DifferencesFromRecord(config, asked);
   if (!IsSamePolicy(config.train.low_level.get(), asked.train.low_level.get())) {
     differences.push_back("another low-level policy");
   }
