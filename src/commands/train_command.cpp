@@ -76,7 +76,7 @@ std::string RunToResume(const TrainOptions& options) {
 
 /// The configuration of the run to resume, unless something else is asked for.
 ProgramConfig ConfigureResumed(const TrainOptions& options, const RunDirectory& directory) {
-  const ProgramConfig config = RecordedConfig(directory);
+  ProgramConfig config = RecordedConfig(directory);
   CheckConsistent(config);
   if (!options.task.empty() && TaskNameOf(options.task) != config.train.env.task) {
     throw UsageError(fmt::format("{}: is a run of task {}, not {}", directory.path(),
