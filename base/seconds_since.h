@@ -5,7 +5,7 @@
 
 namespace skein {
 
-/// By the clock on the wall.
+/// Seconds by the steady clock since `start`.
 inline double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

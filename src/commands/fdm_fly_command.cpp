@@ -89,7 +89,9 @@ void AddFlyCommand(CLI::App* fdm) {
       "fly",
       "Fly from steady flight with flight control, actuators and engine: by a file of sticks, by a "
       "policy or by an autopilot");
-  AddFlightCondition(command, &options->condition, {true, true});
+  FlightConditionForm form;
+  form.is_one_point = true;
+  AddFlightCondition(command, &options->condition, form);
   AddWind(command, &options->wind);
   CLI::Option* turbulence =
       command

@@ -57,7 +57,9 @@ void AddSweepCommand(CLI::App* fdm) {
   CLI::App* command = fdm->add_subcommand(
       "sweep",
       "Flying qualities with flight control: steps, levels of MIL-F-8785C, margins of the loops");
-  AddFlightCondition(command, &options->condition, {false, false});
+  FlightConditionForm form;
+  form.may_turn = false;
+  AddFlightCondition(command, &options->condition, form);
   command
       ->add_option("--class", options->airplane_class,
                    "of aeroplanes, by MIL-F-8785C: I small and light, II medium weight, III large "

@@ -108,7 +108,8 @@ void AddPicture(CLI::App* command, const std::string& what, std::string* picture
       ->type_name("FILE");
 }
 
-void AddFlightCondition(CLI::App* command, FlightCondition* options, const ConditionForm& form) {
+void AddFlightCondition(CLI::App* command, FlightCondition* options,
+                        const FlightConditionForm& form) {
   AddNumberList(
       command, "--altitude-ft", &options->grid.altitude_ft, kAny, "finite number",
       form.is_one_point ? "altitude, ft" : "altitude, ft: one, several (A,B,C) or FROM..TO:STEP")

@@ -75,14 +75,14 @@ void AddPicture(CLI::App* command, const std::string& what, std::string* picture
 void AddWind(CLI::App* command, std::string* wind);
 Eigen::Vector3d ReadWind(const std::string& wind);
 
-/// Which conditions a command has.
-struct ConditionForm {
+/// Which flight conditions a command takes.
+struct FlightConditionForm {
   bool is_one_point = false;  ///< no grid of altitudes and speeds
   bool may_turn = true;       ///< turns and pull-ups, too
 };
 
 /// The options of a condition; `options` are to outlive `command`.
 void AddFlightCondition(CLI::App* command, FlightCondition* options,
-                        const ConditionForm& form = {});
+                        const FlightConditionForm& form = {});
 
 }  // namespace skein
