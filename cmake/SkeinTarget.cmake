@@ -27,6 +27,8 @@ function(skein_lighten_kernels)
       if(inclusion)
         set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize-address-use-after-scope
                                                                      $<$<BOOL:${SKEIN_FUZZ}>:-fno-sanitize-coverage=trace-cmp>)
+      elseif(SKEIN_FUZZ)
+        set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -fno-sanitize-coverage=trace-cmp)
       endif()
     endif()
   endforeach()

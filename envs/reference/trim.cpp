@@ -32,6 +32,8 @@ const Vector6 kLargestStep = (Vector6() << 0.05, 0.05, 4, 4, 4, 5000).finished()
 constexpr double kAcceptedResidual = 1e-6;
 constexpr double kSoughtResidual = 1e-11;
 constexpr int kMaxIterations = 60;
+/// Beyond it weight has too little of a component across the flight for a bank to turn sideways.
+constexpr double kSteepestPathRad = 85 / kDegPerRad;
 
 std::string Describe(const TrimRequest& request) {
   std::array<char, 160> text;
@@ -135,6 +137,10 @@ TrimPoint Solve(const Plant& plant, const TrimRequest& request, Vector6 unknowns
   TrimPoint point = FlightAt(plant, request, unknowns);
   point.residual = f.cwiseAbs().maxCoeff();
   if (!(point.residual < kAcceptedResidual)) {
+    if (std::abs(request.flight_path_angle_rad) > kSteepestPathRad) {
+      throw Error("no steady flight found at " + Describe(request) +
+                  ": so near to the vertical no bank balances the side force without sideslip");
+    }
     throw Error("no steady flight found at " + Describe(request) + ": accelerations of " +
                 std::to_string(point.residual) + " ft/s^2 or rad/s^2 remain");
   }
