@@ -17,6 +17,7 @@ namespace skein {
 namespace {
 
 constexpr Tolerance kAdvantage{1e-4, "a few float32 roundings of values of some tens"};
+constexpr Tolerance kTruncated{2e-4, "float32 rewards of some hundreds, values of other tiles"};
 constexpr Tolerance kLogProb{1e-4, "float32 products of other tiles, summed in another order"};
 
 /// The definition, term by term: A_t = sum over l of (gamma lambda)^l delta_{t+l} to the episode's
@@ -212,6 +213,68 @@ TEST(RolloutTest, TheEndOfAMissionIsNoFailureWhateverThatOfTheTimeLimitIs) {
   EXPECT_EQ(one.rollout.reward, other.rollout.reward);
 }
 
+/// What the critic would have been shown at the end of every policy step that ended an episode,
+/// [step][aircraft][critic_observation_size]: the first rollout's actions flown once more.
+std::vector<float> LastObservations(const Flight& flight) {
+  const Rollout& rollout = flight.rollout;
+  VecEnv env(flight.config.env, flight.config.ppo.num_aircraft, flight.config.seed,
+             flight.config.learner.rollout_tile);
+  const int own = rollout.observation_size, privileged = rollout.privileged_size;
+  const std::int64_t size = rollout.critic_observation_size();
+  std::vector<float> last(rollout.steps * rollout.aircraft * size);
+  for (int step = 0; step < rollout.steps; ++step) {
+    for (int tile = 0; tile < env.num_tiles(); ++tile) {
+      const int count = env.tile_count(tile);
+      const std::int64_t row = rollout.row(step, env.tile_begin(tile));
+      std::vector<float> reward(count), episode_return(count), seen(count * own),
+          hidden(count * privileged);
+      std::vector<std::uint8_t> termination(count);
+      std::vector<std::int32_t> episode_steps(count);
+      StepOutput output;
+      output.reward = reward.data();
+      output.termination = termination.data();
+      output.episode_return = episode_return.data();
+      output.episode_steps = episode_steps.data();
+      output.final_observation = seen.data();
+      if (privileged > 0) output.final_privileged = hidden.data();
+      env.Step(tile, rollout.action.data() + row * rollout.action_size, output);
+      for (int i = 0; i < count; ++i) {
+        float* const place = last.data() + (row + i) * size;
+        std::copy_n(seen.begin() + i * own, own, place);
+        std::copy_n(hidden.begin() + i * privileged, privileged, place + own);
+      }
+    }
+  }
+  return last;
+}
+
+/// The critic's values of `last` after each policy step, [step][aircraft]: of the episode that the
+/// rollout's rows before it are of, as if it had gone on.
+std::vector<float> ValuesAfter(const Flight& flight, const std::vector<float>& last) {
+  const Rollout& rollout = flight.rollout;
+  const std::int64_t size = rollout.critic_observation_size(), aircraft = rollout.aircraft;
+  NetworkWorkspace workspace;
+  std::vector<float> values;
+  for (int step = 0; step < rollout.steps; ++step) {
+    const int chunk = step / rollout.chunk_length, steps = step % rollout.chunk_length + 1;
+    const std::int64_t first = rollout.row(chunk * rollout.chunk_length, 0);
+    const auto begin = rollout.critic_observation().begin() + first * size;
+    std::vector<float> observation(begin, begin + steps * aircraft * size);
+    observation.insert(observation.end(), last.begin() + step * aircraft * size,
+                       last.begin() + (step + 1) * aircraft * size);
+    const auto resets = rollout.not_done.begin() + first;
+    std::vector<float> not_done(resets, resets + steps * aircraft);
+    not_done.resize((steps + 1) * aircraft, 1.0f);
+    flight.critic.Forward(
+        {steps + 1, rollout.aircraft, observation.data(),
+         rollout.critic_state.data() + rollout.row(chunk, 0) * rollout.state_size, not_done.data()},
+        workspace);
+    values.insert(values.end(), workspace.output() + steps * aircraft,
+                  workspace.output() + (steps + 1) * aircraft);
+  }
+  return values;
+}
+
 class TruncationTest : public testing::TestWithParam<bool> {};
 
 TEST_P(TruncationTest, AddsTheValueOfWhatWasSeenLast) {
@@ -222,20 +285,20 @@ TEST_P(TruncationTest, AddsTheValueOfWhatWasSeenLast) {
   Flight one(terminal), other(truncated);
   one.Fly();
   other.Fly();
+  const std::vector<float> values = ValuesAfter(other, LastObservations(other));
+  const double failure = terminal.env.termination.failure_reward;
   int cut = 0, alike = 0;
-  for (int step = 0; step < one.rollout.steps; ++step) {
-    for (int i = 0; i < one.rollout.aircraft; ++i) {
-      const std::int64_t row = one.rollout.row(step, i);
-      if (!one.rollout.done[row]) {
-        EXPECT_EQ(one.rollout.reward[row], other.rollout.reward[row]);
-        ++alike;
-        continue;
-      }
-      // The failure's -200 is replaced by a fresh critic's value, which is of order one.
-      EXPECT_TRUE(other.rollout.done[row]);
-      EXPECT_GT(other.rollout.reward[row] - one.rollout.reward[row], 150);
-      ++cut;
+  for (std::int64_t row = 0; row < one.rollout.steps * one.rollout.aircraft; ++row) {
+    const float reward = one.rollout.reward[row];
+    if (!one.rollout.done[row]) {
+      EXPECT_EQ(reward, other.rollout.reward[row]);
+      ++alike;
+      continue;
     }
+    EXPECT_TRUE(other.rollout.done[row]);
+    EXPECT_NEAR(other.rollout.reward[row], reward - failure + RolloutSettings().gamma * values[row],
+                kTruncated);
+    ++cut;
   }
   EXPECT_GT(cut, 0);
   EXPECT_GT(alike, 0);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -228,19 +229,28 @@ TEST(ShardsTest, NoBitDependsOnThreadsOrOnTheTilesOfRollouts) {
 
 TEST(ShardsTest, TheirGradientIsThatOfTheWholeMinibatch) {
   WorkerPool pool(2);
-  const auto first_step = [&](int shards) {
+  const auto first_step = [&](int shards, bool normalised) {
     TrainConfig config = ShardedConfig(shards);
     config.ppo.minibatches = config.ppo.epochs = 1;
+    config.ppo.normalise_advantages = normalised;
     config.evaluation.interval_iterations = 0;
     return Trainer(config, pool).Iterate();
   };
-  const IterationReport expected = first_step(1);
-  for (const int shards : {2, 8, 32}) {
-    const IterationReport report = first_step(shards);
-    EXPECT_NEAR(report.policy_loss, expected.policy_loss, kSumOrder);
-    EXPECT_NEAR(report.value_loss / expected.value_loss, 1, kSumOrder);
-    EXPECT_NEAR(report.actor_gradient_norm / expected.actor_gradient_norm, 1, kSumOrder);
-    EXPECT_NEAR(report.critic_gradient_norm / expected.critic_gradient_norm, 1, kSumOrder);
+  for (const bool normalised : {true, false}) {
+    const IterationReport expected = first_step(1, normalised);
+    for (const int shards : {2, 8, 32}) {
+      const IterationReport report = first_step(shards, normalised);
+      EXPECT_NEAR(report.value_loss / expected.value_loss, 1, kSumOrder);
+      EXPECT_NEAR(report.actor_gradient_norm / expected.actor_gradient_norm, 1, kSumOrder);
+      EXPECT_NEAR(report.critic_gradient_norm / expected.critic_gradient_norm, 1, kSumOrder);
+      // At a ratio of one the loss is minus the mean advantage, of which normalising leaves none.
+      if (normalised) {
+        EXPECT_NEAR(report.policy_loss, 0, kSumOrder);
+      } else {
+        EXPECT_NEAR(report.policy_loss / expected.policy_loss, 1, kSumOrder);
+      }
+    }
+    EXPECT_EQ(std::abs(expected.policy_loss) > 1, !normalised);
   }
 }
 
