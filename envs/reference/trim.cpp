@@ -32,8 +32,8 @@ const Vector6 kLargestStep = (Vector6() << 0.05, 0.05, 4, 4, 4, 5000).finished()
 constexpr double kAcceptedResidual = 1e-6;
 constexpr double kSoughtResidual = 1e-11;
 constexpr int kMaxIterations = 60;
-/// Beyond it weight has too little of a component across the flight for a bank to turn sideways.
-constexpr double kSteepestPathRad = 85 / kDegPerRad;
+/// Beyond it little of the weight lies across the flight, for a bank to turn sideways.
+constexpr double kSteepPathRad = 85 / kDegPerRad;
 
 std::string Describe(const TrimRequest& request) {
   std::array<char, 160> text;
@@ -56,8 +56,9 @@ double PitchFor(double alpha, double bank, double flight_path_angle) {
   const double a = std::cos(alpha);
   const double b = std::cos(bank) * std::sin(alpha);
   const double climb = std::sin(flight_path_angle);
-  return std::atan2(a * b + climb * std::sqrt(a * a - climb * climb + b * b),
-                    a * a - climb * climb);
+  // Nearly vertical flight has no pitch for some of what an iteration tries: the nearest is taken.
+  const double rest = std::max(0.0, a * a - climb * climb + b * b);
+  return std::atan2(a * b + climb * std::sqrt(rest), a * a - climb * climb);
 }
 
 /// The steady flight that the unknowns describe, balanced or not.
@@ -137,9 +138,10 @@ TrimPoint Solve(const Plant& plant, const TrimRequest& request, Vector6 unknowns
   TrimPoint point = FlightAt(plant, request, unknowns);
   point.residual = f.cwiseAbs().maxCoeff();
   if (!(point.residual < kAcceptedResidual)) {
-    if (std::abs(request.flight_path_angle_rad) > kSteepestPathRad) {
+    if (std::abs(request.flight_path_angle_rad) > kSteepPathRad) {
       throw Error("no steady flight found at " + Describe(request) +
-                  ": so near to the vertical no bank balances the side force without sideslip");
+                  ": this near to the vertical bank hardly moves the weight sideways, and flight "
+                  "without sideslip is often not found");
     }
     throw Error("no steady flight found at " + Describe(request) + ": accelerations of " +
                 std::to_string(point.residual) + " ft/s^2 or rad/s^2 remain");

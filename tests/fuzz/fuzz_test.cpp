@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A few thousand damaged files for every reader, without libFuzzer: scripts/fuzz tries millions.
+// A thousand damaged files for every reader, without libFuzzer: scripts/fuzz tries millions.
 #include <gtest/gtest.h>
 
 #include <filesystem>
