@@ -2,6 +2,7 @@
 #include "train/files/file_descriptor.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -24,8 +25,8 @@ int FlagsOf(OpenMode mode) {
   switch (mode) {
     case OpenMode::kRead:
       return O_RDONLY;
-    case OpenMode::kReplace:
-      return O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW;
+    case OpenMode::kMake:
+      return O_WRONLY | O_CREAT | O_NOFOLLOW;
     case OpenMode::kWrite:
       return O_WRONLY;
     case OpenMode::kAppend:
@@ -107,6 +108,21 @@ std::string FileDescriptor::ReadToEnd(std::uint64_t largest) {
   }
 }
 
+void FileDescriptor::Empty() {
+  if (ftruncate(value_, 0) != 0) Fail("cannot be written");
+}
+
+void FileDescriptor::Lock() {
+  while (flock(value_, LOCK_EX) != 0 && errno == EINTR) {
+  }
+}
+
+FileDescriptor FileDescriptor::Copy() const {
+  FileDescriptor copy(name_, fcntl(value_, F_DUPFD_CLOEXEC, 0));
+  if (copy.value_ < 0) Fail("cannot be opened");
+  return copy;
+}
+
 void FileDescriptor::Sync() {
   if (fsync(value_) != 0) Fail("cannot be synced");
 }
@@ -137,15 +153,34 @@ void TakePermissions(const FileDescriptor& file, const std::string& replaced) {
   if (old.st_mode != own.st_mode) static_cast<void>(fchmod(file.value(), old.st_mode & 07777));
 }
 
+bool IsAt(const FileDescriptor& file, const std::string& path) {
+  struct stat own {
+  }, there{};
+  return fstat(file.value(), &own) == 0 && stat(path.c_str(), &there) == 0 &&
+         own.st_dev == there.st_dev && own.st_ino == there.st_ino;
+}
+
+/// The empty file `temporary`, locked. Who had the lock before has renamed or removed that file.
+FileDescriptor OwnTemporary(const std::string& temporary, const std::string& name) {
+  for (;;) {
+    FileDescriptor file(temporary, OpenMode::kMake, name);
+    file.Lock();
+    if (!IsAt(file, temporary)) continue;
+    file.Empty();
+    return file;
+  }
+}
+
 }  // namespace
 
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write) {
   const std::string temporary = path + kTemporaryExtension;
   const std::string parent = std::filesystem::path(path).parent_path().string();
   const std::string folder = parent.empty() ? "." : parent;
-  std::optional<FileDescriptor> directory;
-  FileDescriptor file(temporary, OpenMode::kReplace, path);
+  std::optional<FileDescriptor> directory, lock;
+  FileDescriptor file = OwnTemporary(temporary, path);
   try {
+    lock.emplace(file.Copy());  // until the file is in its place, for which it is closed
     TakePermissions(file, path);
     directory.emplace(folder, OpenMode::kDirectory);
     write(file);

@@ -6,12 +6,13 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace skein {
 
 enum class OpenMode {
   kRead,       ///< must exist
-  kReplace,    ///< made if absent, emptied if not
+  kMake,       ///< made if absent, as it is if not; no symbolic link
   kWrite,      ///< must exist; as it is, for devices and pipes
   kAppend,     ///< made if absent; every write goes to the end
   kDirectory,  ///< to sync it
@@ -36,12 +37,20 @@ class FileDescriptor {
   void ReadExactly(char* bytes, std::size_t size);
   /// Everything up to the end; more than `largest` bytes are an Error.
   std::string ReadToEnd(std::uint64_t largest);
+  /// Drops all bytes.
+  void Empty();
+  /// Waits until nobody else has the lock of the file, which is given back when it and all its
+  /// copies are closed. Does nothing on file systems without locks.
+  void Lock();
+  /// Another descriptor of the open file, with its lock.
+  FileDescriptor Copy() const;
   /// Waits until what was written survives a power cut.
   void Sync();
   /// Some file systems report a failed write only here.
   void Close();
 
  private:
+  FileDescriptor(std::string name, int value) : name_(std::move(name)), value_(value) {}
   std::size_t ReadSome(char* bytes, std::size_t size);
   [[noreturn]] void Fail(const char* what) const;
 
@@ -54,8 +63,8 @@ class FileDescriptor {
 inline constexpr char kTemporaryExtension[] = ".skein-tmp";
 
 /// Replaces the file `path` by what `write` writes: temporary file beside it, fsync, rename, fsync
-/// of the directory. It has the permissions of the file that it replaces. Throws Error, as `write`
-/// may; an existing file is then untouched, unless it was the directory that could not be synced.
+/// of the directory. It has the permissions of the file that it replaces. Of two that replace a
+/// file at once, processes or threads, one waits for the other. Throws Error, as `write` may; an existing file is then untouched, unless it was the directory that could not be synced.
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write);
 
 /// Makes the names in a directory survive a power cut.

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <thread>
 
 #include "base/error.h"
 #include "tests/scratch_directory.h"
@@ -30,7 +32,7 @@ TEST_F(FileDescriptorTest, AppendsGoToTheEnd) {
 }
 
 TEST_F(FileDescriptorTest, AFileThatEndsTooEarlyIsAnError) {
-  FileDescriptor(path_, OpenMode::kReplace).Write("abc");
+  FileDescriptor(path_, OpenMode::kMake).Write("abc");
   FileDescriptor file(path_, OpenMode::kRead);
   std::array<char, 4> bytes;
   EXPECT_THROW(file.ReadExactly(bytes.data(), bytes.size()), Error);
@@ -75,11 +77,27 @@ TEST_F(FileDescriptorTest, AReplacementThatFailsLeavesTheOldFileAndNothingElse) 
   EXPECT_EQ(Content(), "new");
 }
 
+TEST_F(FileDescriptorTest, OfReplacementsAtOnceEachIsWhole) {
+  constexpr int kTimes = 40, kBytes = 100;
+  const auto replace = [this](char letter) {
+    for (int i = 0; i < kTimes; ++i) {
+      ReplaceFile(path_, [letter](FileDescriptor& file) {
+        for (int k = 0; k < kBytes; ++k) file.Write({&letter, 1});
+      });
+      const std::string content = Content();
+      EXPECT_EQ(content, std::string(kBytes, content.empty() ? letter : content[0]));
+    }
+  };
+  std::thread other(replace, 'b');
+  replace('a');
+  other.join();
+}
+
 TEST_F(FileDescriptorTest, AReplacementKeepsPermissionsAndOtherFiles) {
   namespace fs = std::filesystem;
   const auto write = [](FileDescriptor& file) { file.Write("new"); };
-  FileDescriptor(path_ + ".tmp", OpenMode::kReplace).Write("a user's");
-  FileDescriptor(path_, OpenMode::kReplace).Write("old");
+  FileDescriptor(path_ + ".tmp", OpenMode::kMake).Write("a user's");
+  FileDescriptor(path_, OpenMode::kMake).Write("old");
   fs::permissions(path_, fs::perms::owner_read | fs::perms::owner_write);
   ReplaceFile(path_, write);
   EXPECT_EQ(Content(), "new");
