@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 
+from command_line import existing_program
 from jsbsim_flight.intervals import mean_and_interval
 
 from .forces import ROOT
@@ -28,13 +29,12 @@ def whole(lowest, highest):
 def add_episodes(parser):
     parser.add_argument("--episodes", type=whole(1, 1000), default=1000, help="number of episodes (default: 1000)")
     parser.add_argument("--seed", type=whole(0, 2**53 - 1), default=1000, help="of the episodes (default: 1000)")
-    parser.add_argument("--skein", metavar="FILE", help="the program (default: a release build, made first)")
+    parser.add_argument("--skein", type=existing_program, metavar="FILE",
+                        help="the program (default: a release build, made first)")
 
 
 def program_of(options):
     if options.skein:
-        if not os.access(options.skein, os.X_OK):
-            fail(f"{options.skein}: no such program")
         return options.skein
     if subprocess.run([os.path.join(ROOT, "scripts/build"), "release", "skein"]).returncode != 0:
         sys.exit(1)

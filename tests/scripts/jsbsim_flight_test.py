@@ -68,8 +68,8 @@ class RecordedFlights(unittest.TestCase):
     def record(cls, name):
         with tempfile.TemporaryDirectory() as folder:
             command = [os.environ["SKEIN_PROGRAM"], "compare", "--task", name, "--agents", RANDOM_AGENT,
-                       "--episodes", "4", "--flights", os.path.join(folder, "flights.csv"), "--flights-observations",
-                       "--set", "env.observation_noise=0"]
+                       "--episodes", "4", "--no-html", "--flights", os.path.join(folder, "flights.csv"),
+                       "--flights-observations", "--set", "env.observation_noise=0"]
             subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
             (path,) = glob.glob(os.path.join(folder, "flights*.csv"))
             with open(path, newline="", encoding="utf-8") as file:

@@ -2,7 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """When scripts/reproduce does without ranks, when it does not let a failure of theirs pass, and what it ends."""
 import argparse
+import contextlib
+import io
+import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -13,7 +17,8 @@ from unittest import mock
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from script_module import load_script  # noqa: E402
+from ctrl_c import Interrupted  # noqa: E402
+from script_module import SCRIPTS, load_script  # noqa: E402
 
 reproduce = load_script("reproduce")
 
@@ -116,6 +121,36 @@ class Interruption(unittest.TestCase):
             with mock.patch.object(reproduce.Search, "finish", interrupt), self.assertRaises(KeyboardInterrupt):
                 reproduce.search(argparse.Namespace(program=program, seed=1), "", pathlib.Path(folder, "runs"))
         self.assertEqual([training.returncode for training in trainings], [-signal.SIGKILL])
+
+    def test_leaves_nothing(self):
+        ended = Interrupted("reproduce", "--load=1")
+        self.assertEqual((ended.code, ended.error), (130, "scripts/reproduce: interrupted\n"))
+        self.assertEqual((ended.left, ended.running), ([], []))
+
+    def test_keeps_runs_that_differ(self):
+        def differ(arguments, target, folder):
+            (folder / "run-1").mkdir(parents=True)
+            raise KeyboardInterrupt
+
+        said = io.StringIO()
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(reproduce, "search", differ), \
+                mock.patch.object(tempfile, "tempdir", folder), contextlib.redirect_stderr(said), \
+                mock.patch.object(sys, "argv", ["reproduce", f"--program={sys.executable}", "--load=0"]):
+            with self.assertRaises(SystemExit) as ended:
+                reproduce.main()
+            self.assertEqual(ended.exception.code, 130)
+            kept, = pathlib.Path(folder).iterdir()
+            self.assertEqual(said.getvalue(), f"scripts/reproduce: interrupted; what differs is in {kept}\n")
+
+
+class FirstRun(unittest.TestCase):
+    def test_that_fails_is_kept_and_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            command = [sys.executable, SCRIPTS / "reproduce", "--load=0", f"--program={shutil.which('false')}"]
+            done = subprocess.run(command, env=os.environ | {"TMPDIR": folder}, capture_output=True, text=True)
+            kept, = pathlib.Path(folder).iterdir()
+        self.assertEqual((done.returncode, done.stderr), (1, "scripts/reproduce: a first run failed: exit code 1: "
+                                                             f"it said nothing; it is in {kept}\n"))
 
 
 if __name__ == "__main__":

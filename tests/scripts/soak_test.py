@@ -8,6 +8,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+from ctrl_c import Interrupted  # noqa: E402
 from script_module import load_script  # noqa: E402
 
 soak = load_script("soak")
@@ -50,6 +51,11 @@ class Soak(unittest.TestCase):
         findings = list(soak.grown(samples(iterations=lambda share: int(90 * share))))
         self.assertEqual(len(findings), 1)
         self.assertIn("give more minutes", findings[0])
+
+    def test_interrupted_leaves_nothing(self):
+        ended = Interrupted("soak", "--minutes=60")
+        self.assertEqual((ended.code, ended.error), (130, "scripts/soak: interrupted\n"))
+        self.assertEqual((ended.left, ended.running), ([], []))
 
 
 if __name__ == "__main__":
