@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "base/error.h"
 
@@ -30,16 +31,18 @@ void PadToAlignment(char filler, std::string* bytes) {
   bytes->append((kAlignment - bytes->size() % kAlignment) % kAlignment, filler);
 }
 
-/// The same values, what is not finite replaced by the one before, or the first that is.
-std::vector<double> FiniteValues(std::vector<double> values) {
-  const auto first =
-      std::find_if(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-  double before = first == values.end() ? 0 : *first;
-  for (double& value : values) {
-    if (!std::isfinite(value)) value = before;
-    before = value;
-  }
-  return values;
+/// Of the values that are finite; zeros if none is.
+struct Range {
+  double low = 0, high = 0;
+};
+
+Range FiniteRange(const std::vector<double>& values) {
+  std::vector<double> finite;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
+               [](double value) { return std::isfinite(value); });
+  if (finite.empty()) return {};
+  const auto [low, high] = std::minmax_element(finite.begin(), finite.end());
+  return {*low, *high};
 }
 
 }  // namespace
@@ -52,14 +55,14 @@ Json DataPack::AddFloats(const std::vector<double>& values) {
 }
 
 Json DataPack::AddQuantised(const std::vector<double>& values, int levels) {
-  const std::vector<double> finite = FiniteValues(values);
-  const auto [low, high] = std::minmax_element(finite.begin(), finite.end());
-  const double first = finite.empty() ? 0 : *low;
-  const double unit = finite.empty() || *high == *low ? 1 : (*high - *low) / levels;
-  Json reference = {{"i16", {arrays_.size(), values.size()}}, {"first", first}, {"unit", unit}};
+  const Range range = FiniteRange(values);
+  const double unit = range.high == range.low ? 1 : (range.high - range.low) / levels;
+  Json reference = {{"i16", {arrays_.size(), values.size()}}, {"first", range.low}, {"unit", unit}};
   std::uint16_t before = 0;
-  for (const double value : finite) {
-    const auto level = static_cast<std::uint16_t>(std::lround((value - first) / unit));
+  for (const double value : values) {
+    const std::uint16_t level =
+        std::isfinite(value) ? static_cast<std::uint16_t>(std::lround((value - range.low) / unit))
+                             : kNoLevel;
     AppendLittleEndian(static_cast<std::uint16_t>(level - before), &arrays_);
     before = level;
   }

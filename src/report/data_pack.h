@@ -14,15 +14,17 @@ namespace skein {
 /// spaces to a multiple of 8 bytes from the start; the arrays. In the document an array is
 ///   {"f32": [offset, count]}                         floats
 ///   {"i16": [offset, count], "first": a, "unit": u}  a + u * the running sum of the integers
-/// with offsets in bytes from the first array.
+/// with offsets in bytes from the first array. The running sum is modulo 2^16; where it is kNoLevel
+/// there is no number.
 class DataPack {
  public:
   /// Keeps the values as floats; what is not finite stays so. Returns what refers to them.
   nlohmann::ordered_json AddFloats(const std::vector<double>& values);
   static constexpr int kMostLevels = 65000;
+  static constexpr std::uint16_t kNoLevel = 0xffff;
   /// Keeps the values to 1/`levels` of their range, as differences of neighbours modulo 2^16, which
-  /// compress well, the better the fewer levels. Values that are not finite become the one before;
-  /// the first ones the next that is (0 if none is).
+  /// compress well, the better the fewer levels. Values that are not finite are not there
+  /// (kNoLevel).
   nlohmann::ordered_json AddQuantised(const std::vector<double>& values, int levels = kMostLevels);
 
   /// The bytes, deflated (zlib, RFC 1950). Text in the document that is not UTF-8 is replaced by

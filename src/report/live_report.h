@@ -7,7 +7,8 @@
 
 namespace skein {
 
-/// The data of a report on runs that go on: made again when they have been written to.
+/// The data of a report on runs that go on: made again when they have been written to, and flown
+/// again when what flies is another policy, configuration or evaluation's seed.
 class LiveReport {
  public:
   LiveReport(ReportRequest request, WorkerPool& pool);
@@ -18,7 +19,9 @@ class LiveReport {
  private:
   ReportRequest request_;
   WorkerPool& pool_;
-  std::string written_, data_;
+  std::string flown_, written_;  ///< the states of the files that were flown, and read
+  ReportFlights flights_;
+  std::string data_;
 };
 
 }  // namespace skein

@@ -17,25 +17,15 @@
 #include "src/evaluation/evaluation_report.h"
 #include "src/evaluation/recording_limit.h"
 #include "src/report/report_flights.h"
-#include "src/report/run_record.h"
 
 namespace skein {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 /// The strongest, and the one that keeps its wings upright: what a policy has to beat.
 constexpr const char* kAutopilots[] = {"autopilot:aggressive", "autopilot:traditional"};
-
-/// Gives runs of the same name their paths.
-void SetNamesApart(std::vector<RunRecord>* runs) {
-  std::map<std::string, int> count;
-  for (const RunRecord& run : *runs) ++count[run.name];
-  for (RunRecord& run : *runs) {
-    if (count[run.name] > 1) run.name = run.path;
-  }
-}
 
 Json TableJson(const CsvColumns& table, DataPack* pack) {
   Json columns = Json::object();
@@ -45,7 +35,11 @@ Json TableJson(const CsvColumns& table, DataPack* pack) {
   return columns;
 }
 
-Json RunJson(const RunRecord& run, std::size_t repetition, DataPack* pack) {
+/// `note` is one that the run's own do not hold; empty: there is none.
+Json RunJson(const RunRecord& run, const std::string& note, std::size_t repetition,
+             DataPack* pack) {
+  std::vector<std::string> notes = run.notes;
+  if (!note.empty()) notes.push_back(note);
   return {{"name", run.name},
           {"path", run.path},
           {"task", run.config.train.env.task},
@@ -53,7 +47,7 @@ Json RunJson(const RunRecord& run, std::size_t repetition, DataPack* pack) {
           {"preset", run.preset},
           {"total_steps", run.config.train.total_steps},
           {"repetition", repetition},
-          {"notes", run.notes},
+          {"notes", notes},
           {"configuration", ConfigurationJson(run)},
           {"metrics", TableJson(run.metrics, pack)},
           {"timing", TableJson(run.timing, pack)},
@@ -83,12 +77,12 @@ std::uint64_t EvaluationSeed(const RunRecord& run) {
   return run.config.train.seed;
 }
 
-/// The run's policy; none, with a note, if there is none that flies.
-std::optional<Agent> PolicyOf(RunRecord* run) {
+/// The run's policy; none, and why, if there is none that flies.
+std::optional<Agent> PolicyOf(const RunRecord& run, std::string* note) {
   try {
-    return FindAgent("policy:" + run->path, run->config, run->config.train.seed);
+    return FindAgent("policy:" + run.path, run.config, run.config.train.seed);
   } catch (const Error& error) {
-    run->notes.push_back(fmt::format("no flights: {}", error.what()));
+    *note = fmt::format("no flights: {}", error.what());
     return std::nullopt;
   }
 }
@@ -104,11 +98,14 @@ void AddAutopilots(FlownGroup* group) {
   }
 }
 
-std::vector<FlownGroup> GroupByEnvironment(std::vector<RunRecord>* runs) {
+/// `notes` has a place for each run.
+std::vector<FlownGroup> GroupByEnvironment(const std::vector<RunRecord>& runs,
+                                           std::vector<std::string>* notes) {
   std::map<std::string, std::size_t> known;
   std::vector<FlownGroup> groups;
-  for (RunRecord& run : *runs) {
-    const std::optional<Agent> policy = PolicyOf(&run);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const RunRecord& run = runs[i];
+    const std::optional<Agent> policy = PolicyOf(run, &(*notes)[i]);
     if (!policy) continue;
     const std::string environment = EnvironmentJson(run.config).dump();
     const auto [place, is_new] = known.emplace(environment, groups.size());
@@ -186,31 +183,53 @@ Json ShownComparison(Json comparison, const ProgramConfig& config) {
 }
 
 std::string ReportData(const ReportRequest& request, WorkerPool& pool) {
+  const std::vector<RunRecord> runs = ReadRuns(request);
+  return ReportData(runs, FlyRuns(runs, request, pool), request);
+}
+
+std::vector<RunRecord> ReadRuns(const ReportRequest& request) {
   std::vector<RunRecord> runs;
   for (const std::string& path : request.runs) runs.push_back(ReadRunRecord(path));
-  SetNamesApart(&runs);
-  DataPack pack;
-  Parts parts;
-  for (const Json& comparison : request.comparisons) parts.comparisons.push_back(comparison);
-  const bool flies = request.episodes > 0 || request.flights > 0;
-  const std::vector<FlownGroup> groups =
-      flies ? GroupByEnvironment(&runs) : std::vector<FlownGroup>();
+  std::map<std::string, int> count;
+  for (const RunRecord& run : runs) ++count[run.name];
+  for (RunRecord& run : runs) {
+    if (count[run.name] > 1) run.name = run.path;
+  }
+  return runs;
+}
+
+ReportFlights FlyRuns(const std::vector<RunRecord>& runs, const ReportRequest& request,
+                      WorkerPool& pool) {
+  ReportFlights flown = {Json::array(), Json::array(), {}, {}};
+  flown.notes.resize(runs.size());
+  if (request.episodes == 0 && request.flights == 0) return flown;
+  const std::vector<FlownGroup> groups = GroupByEnvironment(runs, &flown.notes);
   std::vector<int> flights;
   for (const FlownGroup& group : groups) flights.push_back(FlightsOf(request, group));
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const FlownGroup& group = groups[i];
     if (request.episodes > 0) {
-      parts.comparisons.push_back(ComparisonJson(
+      flown.comparisons.push_back(ComparisonJson(
           Compare(group.agents, group.config, request.episodes, group.seed, pool), group.config));
     }
     if (flights[i] > 0) {
-      parts.flights.push_back(FlightsJson(Fly(group, flights[i], pool), group.seed,
-                                          kMostRowsOfPage / groups.size(), &pack));
+      flown.flights.push_back(FlightsJson(Fly(group, flights[i], pool), group.seed,
+                                          kMostRowsOfPage / groups.size(), &flown.pack));
     }
   }
+  return flown;
+}
+
+std::string ReportData(const std::vector<RunRecord>& runs, const ReportFlights& flown,
+                       const ReportRequest& request) {
+  DataPack pack = flown.pack;
+  Parts parts;
+  parts.flights = flown.flights;
+  for (const Json& comparison : request.comparisons) parts.comparisons.push_back(comparison);
+  for (const Json& comparison : flown.comparisons) parts.comparisons.push_back(comparison);
   const std::vector<std::size_t> repetitions = Repetitions(runs);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    parts.runs.push_back(RunJson(runs[i], repetitions[i], &pack));
+    parts.runs.push_back(RunJson(runs[i], flown.notes[i], repetitions[i], &pack));
   }
   return Deflated(pack, parts, request.made);
 }

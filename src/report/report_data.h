@@ -10,6 +10,8 @@
 #include "src/config/program_config.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/flight_table.h"
+#include "src/report/data_pack.h"
+#include "src/report/run_record.h"
 
 namespace skein {
 
@@ -31,6 +33,26 @@ struct ReportRequest {
 /// Error on what is no run, or of a version that this one does not know, and UsageError on flights
 /// that are asked for and have more control steps than kMostRecordedSteps.
 std::string ReportData(const ReportRequest& request, WorkerPool& pool);
+
+/// The runs of a request; those of the same name are called by their paths. Throws as
+/// ReadRunRecord.
+std::vector<RunRecord> ReadRuns(const ReportRequest& request);
+
+/// What a report shows that has to be flown.
+struct ReportFlights {
+  nlohmann::ordered_json comparisons, flights;  ///< lists, as in the document
+  DataPack pack;                                ///< what `flights` refers into
+  std::vector<std::string> notes;  ///< [run] why its policy does not fly; empty if it does
+};
+
+/// Flies the policies of the runs beside the autopilots. It reads their config.toml, the files of
+/// their policies and the seed in evaluation.json. Throws UsageError as ReportData.
+ReportFlights FlyRuns(const std::vector<RunRecord>& runs, const ReportRequest& request,
+                      WorkerPool& pool);
+
+/// The same pack, of runs that were read and flown.
+std::string ReportData(const std::vector<RunRecord>& runs, const ReportFlights& flown,
+                       const ReportRequest& request);
 
 /// A comparison's document (ToJson) as a page needs it, with what its columns are called.
 nlohmann::ordered_json ShownComparison(nlohmann::ordered_json comparison,

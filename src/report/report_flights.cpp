@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "envs/aircraft/registry.h"
 #include "envs/env_config.h"
 #include "envs/task_registry.h"
 #include "src/config/conditions.h"
@@ -131,6 +132,7 @@ Json FlightsJson(const std::vector<AgentFlights>& agents, std::uint64_t seed, st
           {"targets", TargetsJson(first.targets)},
           {"is_point", MakeTask(first.env)->is_point()},
           {"hold_s", first.env.hold_s},
+          {"span_ft", LoadAircraft(first.env.aircraft).airframe.span_ft},
           {"flights", flights}};
 }
 

@@ -45,6 +45,11 @@ export function tick(
   return el('label', { class: 'tick' }, box, ` ${label}`);
 }
 
+/** Whether the browser itself does something with it where Space or Enter is pressed. */
+export function isPressable(element: Element): boolean {
+  return element.matches('button, a[href], summary, select, textarea, input:not([type="range"])');
+}
+
 /** A labelled slider over whole numbers. */
 export function slider(
   label: string, min: number, max: number, value: number, onInput: (value: number) => void,

@@ -4,6 +4,7 @@ import uplotLicence from '../node_modules/uplot/LICENSE?raw';
 import { showConfiguration } from './configuration';
 import { button, el } from './dom';
 import { showFlights } from './flights/view';
+import { fetched, keepFresh } from './live';
 import { showMetrics } from './metrics';
 import { bytesOfBase64, inflate, unpack } from './pack';
 import { isDark } from './palette';
@@ -11,7 +12,6 @@ import { KNOWN_FORMAT, type ReportDocument, type ReportPack } from './report';
 import { showTraining } from './training';
 import './style.css';
 
-const REFRESH_MS = 5000;
 const MOST_NAMES = 3;
 
 interface View {
@@ -28,11 +28,6 @@ const VIEWS: View[] = [
   { name: 'configuration', title: 'Configuration', show: showConfiguration,
     isThere: (d) => d.runs.length > 0 },
 ];
-
-/** Which view the address asks for, or the first. */
-function chosenView(views: View[]): View | undefined {
-  return views.find((view) => `#${view.name}` === location.hash) ?? views[0];
-}
 
 /** "a, b, c", "a, b and 10 others". */
 function titleOf(names: string[]): string {
@@ -57,8 +52,11 @@ function licences(): HTMLElement {
 
 /** The whole page of a pack; shows it again when the view or the theme changes. */
 class Page {
+  /** What is the matter with the data's freshness; empty while nothing is. */
+  readonly status = el('p', { class: 'status', role: 'status' });
   private readonly place = el('main');
   private readonly nav = el('nav');
+  private chosen: View | undefined;
   private stop = () => {};
 
   constructor(root: HTMLElement, private pack: ReportPack) {
@@ -74,35 +72,48 @@ class Page {
     root.replaceChildren(
       el('header', {}, el('h1', {}, title), this.nav, theme),
       ...[notesOf(report)].filter((notes) => notes !== null),
-      this.place,
+      this.status, this.place,
       el('footer', {}, el('p', {}, `skein ${report.skein}, ${report.made}`), licences()),
     );
-    addEventListener('hashchange', () => this.show());
+    addEventListener('hashchange', () => this.choose());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.show());
-    this.show();
+    this.choose();
   }
 
   renew(pack: ReportPack): void {
     this.pack = pack;
+    if (!this.chosen || !this.views().includes(this.chosen)) this.choose();
     // A flight that is being looked at goes on; what is fresh of it is shown when one comes back.
-    if (location.hash !== '#flights') this.show();
+    else if (this.chosen.name === 'flights') this.showNames();
+    else this.show();
+  }
+
+  private views(): View[] {
+    return VIEWS.filter((view) => view.isThere(this.pack.document));
+  }
+
+  /** The view that the address asks for, or the first. */
+  private choose(): void {
+    const views = this.views();
+    this.chosen = views.find((view) => `#${view.name}` === location.hash) ?? views[0];
+    this.show();
+  }
+
+  private showNames(): void {
+    this.nav.replaceChildren(...this.views().map((view) =>
+      el('a', { href: `#${view.name}`, 'aria-current': view === this.chosen ? 'page' : undefined },
+        view.title)));
   }
 
   private show(): void {
     const scroll = scrollY;
     this.stop();
-    const views = VIEWS.filter((view) => view.isThere(this.pack.document));
-    const chosen = chosenView(views);
-    if (!chosen) {
-      this.place.replaceChildren(el('p', {}, 'There is nothing in this report.'));
-      return;
-    }
-    this.nav.replaceChildren(...views.map((view) =>
-      el('a', { href: `#${view.name}`, 'aria-current': view === chosen ? 'page' : undefined },
-        view.title)));
+    this.stop = () => {};
+    this.showNames();
     this.place.replaceChildren();
-    this.place.className = chosen.name;
-    this.stop = chosen.show(this.place, this.pack);
+    this.place.className = this.chosen?.name ?? '';
+    if (this.chosen) this.stop = this.chosen.show(this.place, this.pack);
+    else this.place.append(el('p', {}, 'There is nothing in this report.'));
     scrollTo(0, scroll);
   }
 }
@@ -113,27 +124,6 @@ async function read(bytes: Uint8Array): Promise<ReportPack> {
   return pack;
 }
 
-async function fetched(): Promise<Uint8Array> {
-  const response = await fetch('data');
-  if (!response.ok) throw new Error(await response.text());
-  return new Uint8Array(await response.arrayBuffer());
-}
-
-function areEqual(a: Uint8Array, b: Uint8Array): boolean {
-  return a.length === b.length && a.every((byte, i) => byte === b[i]);
-}
-
-/** Asks for data now and then; a page whose data are the same stays as it is. */
-function keepFresh(page: Page, first: Uint8Array): void {
-  let shown = first;
-  setInterval(() => void (async () => {
-    const bytes = await fetched();
-    if (areEqual(bytes, shown)) return;
-    page.renew(await read(bytes));
-    shown = bytes;
-  })().catch(() => undefined), REFRESH_MS);
-}
-
 async function start(): Promise<void> {
   const root = document.getElementById('page') as HTMLElement;
   const text = document.getElementById('data')?.textContent?.trim() ?? '';
@@ -141,7 +131,9 @@ async function start(): Promise<void> {
     const isLive = text === '';
     const bytes = isLive ? await fetched() : bytesOfBase64(text);
     const page = new Page(root, await read(bytes));
-    if (isLive) keepFresh(page, bytes);
+    if (!isLive) return;
+    void keepFresh(bytes, async (fresh) => page.renew(await read(fresh)),
+      (text) => { page.status.textContent = text; });
   } catch (error) {
     root.replaceChildren(el('p', { class: 'error' }, `This report cannot be shown: ${String(error)}`));
   }

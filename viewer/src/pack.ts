@@ -6,9 +6,12 @@ export type ArrayReference =
   | { f32: [number, number] }
   | { i16: [number, number]; first: number; unit: number };
 
+/** The level of a number that is not there. */
+const NO_LEVEL = 0xffff;
+
 export interface Pack<Document> {
   document: Document;
-  /** The numbers that a reference of the document stands for. */
+  /** The numbers that a reference of the document stands for; NaN where there is none. */
   array(reference: ArrayReference): Float32Array;
 }
 
@@ -37,7 +40,7 @@ function dequantised(
   let level = 0;
   for (let i = 0; i < count; i += 1) {
     level = (level + view.getUint16(offset + 2 * i, true)) & 0xffff;
-    values[i] = first + unit * level;
+    values[i] = level === NO_LEVEL ? NaN : first + unit * level;
   }
   return values;
 }

@@ -2,7 +2,7 @@
 // The document of a report, as skein packs it (src/report/report_data.cpp).
 import type { ArrayReference, Pack } from './pack';
 
-export const KNOWN_FORMAT = 1;
+export const KNOWN_FORMAT = 2;
 
 export type Columns = Record<string, ArrayReference>;
 
@@ -93,6 +93,8 @@ export interface FlightSet {
   targets: Target[];
   is_point: boolean;
   hold_s: number;
+  /** Of the aircraft. */
+  span_ft: number;
   flights: Flight[];
 }
 

@@ -23,12 +23,13 @@ export class Packer {
   }
 
   quantised(values: number[]): ArrayReference {
-    const low = Math.min(...values);
-    const unit = (Math.max(...values) - low) / 65000 || 1;
+    const finite = values.filter(Number.isFinite);
+    const low = finite.length > 0 ? Math.min(...finite) : 0;
+    const unit = finite.length > 0 ? (Math.max(...finite) - low) / 65000 || 1 : 1;
     const bytes = Buffer.alloc(2 * values.length);
     let before = 0;
     values.forEach((value, i) => {
-      const level = Math.round((value - low) / unit);
+      const level = Number.isFinite(value) ? Math.round((value - low) / unit) : 0xffff;
       bytes.writeUInt16LE((level - before) & 0xffff, 2 * i);
       before = level;
     });
@@ -53,6 +54,8 @@ function flightColumns(
 ): Record<string, ArrayReference> {
   const rows = Array.from({ length: 600 }, (_, i) => i * 0.02);
   const of = (value: (t: number) => number) => packer.quantised(rows.map(value));
+  // What belongs to a step stands in the row at its end, so that the first has none.
+  const held = (value: (t: number) => number) => of((t) => (t === 0 ? NaN : value(t)));
   const rate = (turn * Math.PI) / 180;
   return {
     north_ft: of((t) => (1000 / rate) * Math.sin(rate * t)),
@@ -63,20 +66,21 @@ function flightColumns(
     load_factor_g: of((t) => 1 + t / 3), p_deg_s: of((t) => Math.cos(t)),
     elevator_deg: of((t) => -2 * Math.sin(t)), aileron_deg: of((t) => 5 * Math.sin(t)),
     rudder_deg: of(() => 1), leading_edge_flap_deg: of(() => 4),
-    action_pitch: of((t) => Math.sin(t)), action_roll: of((t) => Math.cos(t)),
-    action_throttle: of(() => 0.5), power: of(() => 50), wind_north_fps: of(() => 30),
+    action_pitch: held((t) => Math.sin(t)), action_roll: held((t) => Math.cos(t)),
+    action_throttle: held(() => 0.5), reward: held(() => -2), power: of(() => 50),
+    wind_north_fps: of(() => 30),
     target_altitude_ft: of(() => 19500), target_yaw_deg: of(() => 120 * Math.sign(turn)),
     target_true_airspeed_fps: of(() => 1000),
     error_altitude_ft: of((t) => 500 - 40 * t), error_yaw_deg: of((t) => 120 - turn * t),
     error_true_airspeed_fps: of(() => 3),
     ...(isHighLevel ? {
-      command_pitch_deg: of((t) => 5 * Math.floor(t)), command_yaw_deg: of((t) => turn * t + 20),
-      command_true_airspeed_fps: of(() => 1050),
+      command_pitch_deg: held((t) => 5 * Math.floor(t)),
+      command_yaw_deg: held((t) => turn * t + 20), command_true_airspeed_fps: held(() => 1050),
     } : {}),
   };
 }
 
-/** Two seeds of one configuration, and `flights` episodes by two agents. */
+/** Two seeds of one configuration, and `flights` episodes by two agents, if any. */
 export function fixture(name: string, flights: number): Buffer {
   const packer = new Packer();
   const steps = Array.from({ length: 60 }, (_, i) => (i + 1) * 5e5);
@@ -103,7 +107,7 @@ export function fixture(name: string, flights: number): Buffer {
   });
   const agents = [name, 'autopilot:aggressive'];
   const document: ReportDocument = {
-    format: 1, skein: '0.0.0', made: '2026-01-01T00:00:00Z', runs: [run(1), run(2)],
+    format: 2, skein: '0.0.0', made: '2026-01-01T00:00:00Z', runs: [run(1), run(2)],
     comparisons: [{
       task: 'heading', conditions: 'still air', episodes: 100, seed: 1,
       quantities: [{ key: 'success_rate', symbol: '', label: 'success, %', section: '',
@@ -116,6 +120,7 @@ export function fixture(name: string, flights: number): Buffer {
     }],
     flights: [{
       task: 'heading', conditions: 'still air', seed: 1, agents, is_point: false, hold_s: 10,
+      span_ft: 30,
       targets: [
         { column: 'altitude_ft', is_angle: false, tolerance: 100 },
         { column: 'yaw_deg', is_angle: true, tolerance: 5 },
@@ -127,7 +132,7 @@ export function fixture(name: string, flights: number): Buffer {
         interval_s: 0.02,
         columns: flightColumns(packer, (i % 2 ? 6 : 9) + Math.floor(i / 2) * 0.1, i % 2 === 0),
       })),
-    }],
+    }].filter((set) => set.flights.length > 0),
   };
   return packer.deflated(document);
 }

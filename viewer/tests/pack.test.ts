@@ -27,6 +27,15 @@ describe('the pack', () => {
       expect(Math.abs(value - values[i])).toBeLessThan(600 / 65000));
   });
 
+  it('knows where a quantised value is not there', async () => {
+    const packer = new Packer();
+    const references = { some: packer.quantised([NaN, 0, NaN, NaN, 65000, NaN]),
+      none: packer.quantised([NaN, NaN]) };
+    const pack = await through(packer, references);
+    expect(Array.from(pack.array(pack.document.some))).toEqual([NaN, 0, NaN, NaN, 65000, NaN]);
+    expect(Array.from(pack.array(pack.document.none))).toEqual([NaN, NaN]);
+  });
+
   it('keeps text that is not ASCII', async () => {
     const pack = await through(new Packer(), { name: 'Flügel 翼' });
     expect(pack.document.name).toBe('Flügel 翼');

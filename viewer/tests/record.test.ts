@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import { readingsOf } from '../src/flights/pane';
 import { FlightRecord, Pose } from '../src/flights/record';
 import { csvOf } from '../src/flights/save';
-import { stripsOf } from '../src/flights/strip_list';
+import { dataOf, stripsOf } from '../src/flights/strip_list';
 import type { ArrayReference } from '../src/pack';
 import type { FlightSet, ReportPack } from '../src/report';
 
@@ -45,6 +45,17 @@ describe('a record', () => {
       .toEqual([10, 10, 10, 90, 90, 90]);
     expect(flown.value('action_roll', 1.5)).toBe(-1);
   });
+  it('has gaps, which drawings in space fill', () => {
+    const flown = record({ ...STRAIGHT, east_ft: [NaN, 10, NaN, 30], reward: [NaN, 1, 2, NaN],
+      action_roll: [NaN, 1, -1, 0], none: [NaN, NaN, NaN, NaN] });
+    expect([0, 0.5, 1, 1.5, 2, 2.5, 3].map((t) => flown.value('reward', t)))
+      .toEqual([NaN, NaN, 1, 1.5, 2, NaN, NaN]);
+    expect([0, 0.01, 1].map((t) => flown.value('action_roll', t))).toEqual([NaN, 1, 1]);
+    expect([0, 0.01, 2].map((t) => flown.drawn('action_roll', t))).toEqual([1, 1, -1]);
+    expect([0, 1.5, 2, 3].map((t) => flown.place(t, new Vector3()).x)).toEqual([10, 10, 10, 30]);
+    expect([flown.has('reward'), flown.has('none'), flown.has('mach')])
+      .toEqual([true, false, false]);
+  });
   it('knows the targets of its mission', () => {
     const flown = record(STRAIGHT, { new_target_s: [1, 2], reached_s: [1] });
     expect([0, 1, 1.1, 2.5].map((t) => flown.targetAt(t))).toEqual([0, 0, 1, 2]);
@@ -82,6 +93,19 @@ it('a table has every row of every flight, and quotes names', () => {
   expect(lines.length).toBe(9);
   expect(lines[2]).toBe('"a ""b"", c",0,1,100,0,5,0,0,-170,');
   expect(lines[8].endsWith(',1')).toBe(true);
+});
+
+it('where there is no number a cell is blank, a chart has a gap, and a reading a dash', () => {
+  const reward = [NaN, 1, NaN, 2];
+  const flown = record({ ...STRAIGHT, reward, mach: reward });
+  const rows = csvOf([flown], ['a']).trimEnd().split('\r\n').slice(1);
+  expect(rows.map((row) => row.split(',').at(-1))).toEqual(['', '1', '', '2']);
+  const other = record({ ...STRAIGHT, reward: [NaN, NaN, NaN, NaN] });
+  const strip = { title: '', columns: ['reward'], isOn: true };
+  expect(dataOf([flown, other], strip))
+    .toEqual([[0, 1, 2, 3], [null, 1, null, 2], [null, null, null, null]]);
+  expect(readingsOf(flown, 0)).toContain('M –');
+  expect(readingsOf(flown, 1)).toContain('M 1.00');
 });
 
 it('commands of one agent are charted beside what is flown', () => {

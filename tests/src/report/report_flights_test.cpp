@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "envs/aircraft/registry.h"
 #include "envs/task_registry.h"
 
 namespace skein {
@@ -65,6 +66,17 @@ TEST(ReportFlightsTest, AMissionSaysWhenTargetsCameAndWhichWereReached) {
   const auto flight = First(flown, 1000);
   EXPECT_THAT(flight["new_target_s"], ElementsAre(50 * kStep_s));
   EXPECT_THAT(flight["reached_s"], ElementsAre(50 * kStep_s));
+}
+
+TEST(ReportFlightsTest, SaysHowWideTheAircraftIs) {
+  AgentFlights flown = Flown(1, 9);
+  for (const std::string& aircraft : AircraftNames()) {
+    flown.env.aircraft = aircraft;
+    DataPack pack;
+    EXPECT_EQ(FlightsJson({flown}, 0, 100, &pack)["span_ft"],
+              LoadAircraft(aircraft).airframe.span_ft)
+        << aircraft;
+  }
 }
 
 TEST(ReportFlightsTest, LeavesOutWhatNoPageShows) {

@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "base/error.h"
+#include "base/worker_pool.h"
+#include "src/config/configuration.h"
+#include "src/files/output_file.h"
 #include "src/report/csv_columns.h"
 #include "src/report/data_pack.h"
+#include "src/report/live_report.h"
 #include "src/report/report_page.h"
 #include "src/report/report_server.h"
+#include "tests/scratch_directory.h"
 
 namespace skein {
 namespace {
@@ -68,13 +77,43 @@ TEST(DataPackTest, ReferencesSayWhereArraysLie) {
   EXPECT_EQ(pack.AddQuantised({}).dump(), R"({"i16":[24,0],"first":0.0,"unit":1.0})");
 }
 
-TEST(DataPackTest, FewerLevelsAreALargerUnitAndTheFirstNumberStandsForWhatIsBefore) {
+TEST(DataPackTest, FewerLevelsAreALargerUnit) {
   DataPack pack;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(pack.AddQuantised({0, 100}, 1000)["unit"], 0.1);
   const auto late = pack.AddQuantised({nan, nan, 300, 365});
   EXPECT_EQ(late["first"], 300.0);
   EXPECT_EQ(late["unit"], 0.001);
+}
+
+/// The levels of the values, the first that a pack is given.
+std::vector<int> LevelsOf(const std::vector<double>& values) {
+  DataPack pack;
+  pack.AddQuantised(values);
+  const std::string deflated = pack.Deflated({});
+  std::string bytes(1024, '\0');
+  uLongf size = bytes.size();
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+                       reinterpret_cast<const Bytef*>(deflated.data()), deflated.size()),
+            Z_OK);
+  const auto at = [&bytes](std::size_t i) { return static_cast<unsigned char>(bytes.at(i)); };
+  const std::size_t begin = 4u + at(0);  // a document that is shorter than 256 bytes
+  std::vector<int> levels;
+  int level = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    level = (level + at(begin + 2 * i) + 256 * at(begin + 2 * i + 1)) % 65536;
+    levels.push_back(level);
+  }
+  return levels;
+}
+
+TEST(DataPackTest, WhatIsNoNumberHasALevelOfItsOwn) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr int kMost = DataPack::kMostLevels, kNone = DataPack::kNoLevel;
+  EXPECT_THAT(LevelsOf({kNan, 1, kInfinity, 3, 2}), ElementsAre(kNone, 0, kNone, kMost, kMost / 2));
+  EXPECT_THAT(LevelsOf({kNan, kNan}), ElementsAre(kNone, kNone));
+  EXPECT_THAT(LevelsOf({7, 7}), ElementsAre(0, 0));
 }
 
 TEST(DataPackTest, TextThatIsNotUtf8DoesNotStopAReport) {
@@ -88,6 +127,48 @@ TEST(ReportPageTest, DataBringNothingIntoThePageButBase64) {
   EXPECT_THAT(page, Not(HasSubstr("alert")));
   EXPECT_THROW(ReportPage("a page of another version", ""), Error);
   EXPECT_THROW(ReportPage("SKEIN-REPORT-DATA SKEIN-REPORT-DATA", ""), Error);
+}
+
+/// A run of a shipped policy whose training goes on, reported on by one flight.
+class LiveReportTest : public ::testing::Test {
+ protected:
+  LiveReportTest() {
+    std::filesystem::create_directories(run_ + "/checkpoints");
+    WriteFile(run_ + "/config.toml", DumpToml(ResolveConfig({"heading", "default", "", {}})));
+    WriteFile(run_ + "/metrics.csv", metrics_);
+    std::filesystem::copy_file(std::string(SKEIN_SOURCE) + "/policies/heading.skein", policy_);
+    request_.runs = {run_};
+    request_.episodes = 0;
+    request_.flights = 1;
+    request_.made = "once";
+  }
+
+  /// Whether the data are about as long as `whole`: flights are most of them.
+  static bool HasFlights(const std::string& data, const std::string& whole) {
+    return data.size() > whole.size() / 2;
+  }
+
+  const ScratchDirectory scratch_;
+  const std::string run_ = scratch_ / "run", policy_ = run_ + "/checkpoints/policy-best.skein";
+  const std::string metrics_ = "iteration,env_steps\n1,100\n";
+  ReportRequest request_;
+  WorkerPool pool_{1};
+};
+
+TEST_F(LiveReportTest, FliesAgainWhenThePolicyIsAnotherAndNotWhenTheMetricsHaveGrown) {
+  LiveReport report(request_, pool_);
+  const std::string first = report.Data();
+  // Who would fly it again would find no policy.
+  const auto written = std::filesystem::last_write_time(policy_);
+  WriteFile(policy_, std::string(std::filesystem::file_size(policy_), 'x'));
+  std::filesystem::last_write_time(policy_, written);
+  EXPECT_EQ(report.Data(), first);
+  WriteFile(run_ + "/metrics.csv", metrics_ + "2,200\n");
+  const std::string second = report.Data();
+  EXPECT_NE(second, first);
+  EXPECT_TRUE(HasFlights(second, first));
+  std::filesystem::last_write_time(policy_, written + std::chrono::seconds(1));
+  EXPECT_FALSE(HasFlights(report.Data(), first));
 }
 
 class ReportServerTest : public ::testing::Test {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A low-poly fighter of about the F-16's size (49 ft long, 31 ft wide), in parts, so that its
-// surfaces move. Body axes as in frames.ts, feet, the origin near the centre of gravity.
+// A low-poly fighter of about the F-16's size (49 ft long), in parts, so that its surfaces move.
+// Body axes as in frames.ts, feet, the origin near the centre of gravity.
 import { BufferGeometry, Float32BufferAttribute, Vector3 } from 'three';
 import type { Surfaces } from './record';
+
+/** Of the model, without the rails at its tips. */
+export const SPAN_FT = 30;
 
 type Point = [x: number, y: number, z: number];
 

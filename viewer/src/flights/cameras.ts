@@ -6,13 +6,17 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 export const CAMERA_NAMES = ['overview', 'follow', 'chase', 'cockpit'] as const;
 export type CameraName = (typeof CAMERA_NAMES)[number];
 
+/** Places about an aircraft that is as large as its model, feet. */
 const CHASE = new Vector3(0, 22, 95);
 /** Of an overview, from behind, rad. */
 const FROM_THE_SIDE = 1.15;
 const COCKPIT = new Vector3(0, 3.6, -14);
+const BESIDE = new Vector3(110, 55, 150);
+/** What is nearer is not drawn. */
+const NEAR_FT = 4;
 
 export class Cameras {
-  readonly camera = new PerspectiveCamera(50, 1, 4, 600000);
+  readonly camera: PerspectiveCamera;
   /** Is told when someone turns the view by hand. */
   onTurned = () => {};
   private readonly orbit: OrbitControls;
@@ -24,11 +28,15 @@ export class Cameras {
   private readonly offset = new Vector3();
   private readonly smooth = new Quaternion();
 
-  /** `way` is all that an overview has to show, from the first place flown to the last. */
-  constructor(element: HTMLElement, private readonly way: Vector3[]) {
+  /** `way` is all that an overview has to show, from the first place flown to the last; the
+   * aircraft is `size` times as large as its model. */
+  constructor(
+    element: HTMLElement, private readonly way: Vector3[], private readonly size: number,
+  ) {
+    this.camera = new PerspectiveCamera(50, 1, NEAR_FT * Math.min(size, 1), 600000);
     this.orbit = new OrbitControls(this.camera, element);
     this.orbit.enableDamping = false;
-    this.orbit.minDistance = 20;
+    this.orbit.minDistance = 20 * size;
     this.orbit.maxDistance = 400000;
     this.orbit.addEventListener('change', () => {
       if (this.isFollowing) return;
@@ -59,7 +67,7 @@ export class Cameras {
       this.standBack();
     } else {
       this.orbit.target.copy(at);
-      this.camera.position.copy(at).add(new Vector3(110, 55, 150));
+      this.camera.position.copy(at).addScaledVector(BESIDE, this.size);
     }
     this.before.copy(at);
     this.isFollowing = true;
@@ -120,10 +128,12 @@ export class Cameras {
       const isChase = this.name === 'chase';
       const share = isChase ? 1 - Math.exp(-4 * seconds) : 1;
       this.smooth.slerp(attitude, share);
-      this.camera.position.copy(isChase ? CHASE : COCKPIT).applyQuaternion(this.smooth).add(at);
+      this.camera.position.copy(isChase ? CHASE : COCKPIT).multiplyScalar(this.size)
+        .applyQuaternion(this.smooth).add(at);
       this.camera.up.set(0, 1, 0).applyQuaternion(this.smooth);
       // Of a chase the aircraft is in the lower half of the view.
-      this.target.set(0, isChase ? 12 : 3.6, isChase ? 0 : -400).applyQuaternion(this.smooth).add(at);
+      this.target.set(0, isChase ? 12 : COCKPIT.y, isChase ? 0 : -400).multiplyScalar(this.size)
+        .applyQuaternion(this.smooth).add(at);
       this.camera.lookAt(this.target);
     }
     this.before.copy(at);

@@ -78,7 +78,7 @@ export class Fleet {
     this.farCount = 0;
   }
 
-  /** Shows an aircraft, `scale` times as large as it is; from afar by its outline alone. */
+  /** Shows an aircraft, `scale` times as large as its model; from afar by its outline alone. */
   add(aircraft: number, pose: Pose, scale: number, isFar: boolean): void {
     this.whole.compose(pose.place, pose.attitude, this.size.setScalar(scale));
     if (isFar) {

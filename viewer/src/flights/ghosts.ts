@@ -4,11 +4,11 @@
 import {
   BufferAttribute, BufferGeometry, Color, Group, LineBasicMaterial, LineSegments, Vector3,
 } from 'three';
+import { SPAN_FT } from './aircraft';
 import { Fleet } from './fleet';
 import { attitude, direction } from './frames';
 import { type FlightRecord, Pose } from './record';
 
-const SPAN_FT = 31;
 /** Ahead of its aircraft where the speed is as commanded, in spans. */
 const AHEAD = 3;
 
@@ -39,7 +39,8 @@ export class Ghosts {
     this.group.visible = this.records.length > 0;
   }
 
-  /** As they are at a time; `scaleOf` is how much larger an aircraft at a place is drawn. */
+  /** As they are at a time; `scaleOf` is how much larger than its model an aircraft at a place is
+   * drawn. */
   show(time: number, scaleOf: (place: Vector3) => number): void {
     if (!this.group.visible) return;
     const { pose } = this;
@@ -47,10 +48,10 @@ export class Ghosts {
     this.fleet.begin();
     this.records.forEach((record, i) => {
       record.place(time, this.at);
-      const pitch = record.value('command_pitch_deg', time);
-      const yaw = record.value('command_yaw_deg', time);
-      const flown = Math.max(record.value('true_airspeed_fps', time), 1);
-      const share = record.value('command_true_airspeed_fps', time) / flown;
+      const pitch = record.drawn('command_pitch_deg', time);
+      const yaw = record.drawn('command_yaw_deg', time);
+      const flown = Math.max(record.drawn('true_airspeed_fps', time), 1);
+      const share = record.drawn('command_true_airspeed_fps', time) / flown;
       const scale = scaleOf(this.at);
       direction(yaw, pitch, pose.place).multiplyScalar(AHEAD * SPAN_FT * scale * share).add(this.at);
       attitude(0, pitch, yaw, pose.attitude);

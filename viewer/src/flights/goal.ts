@@ -124,8 +124,9 @@ export class Goal {
   }
 
   private targetPoint(time: number, out = new Vector3()): Vector3 {
-    return place(this.record.value('target_north_ft', time),
-      this.record.value('target_east_ft', time), this.record.value('target_altitude_ft', time), out);
+    return place(this.record.drawn('target_north_ft', time),
+      this.record.drawn('target_east_ft', time), this.record.drawn('target_altitude_ft', time),
+      out);
   }
 
   /** All points of a mission, of an episode its only one. */
@@ -165,9 +166,9 @@ export class Goal {
       return;
     }
     record.place(time, this.at);
-    this.wedge?.show(this.at, this.isLevel ? record.value('target_altitude_ft', time) : this.at.y,
-      record.value('target_yaw_deg', time),
-      this.isLevel ? 0 : record.value('target_pitch_deg', time), this.half, length);
+    this.wedge?.show(this.at, this.isLevel ? record.drawn('target_altitude_ft', time) : this.at.y,
+      record.drawn('target_yaw_deg', time),
+      this.isLevel ? 0 : record.drawn('target_pitch_deg', time), this.half, length);
   }
 
   /** Places that belong to it, which should be in view. */
@@ -175,6 +176,6 @@ export class Goal {
     if (this.isPoint) return this.allPoints();
     if (!this.isLevel) return [];
     const at = this.record.place(0, new Vector3());
-    return [at.setY(this.record.value('target_altitude_ft', 0))];
+    return [at.setY(this.record.drawn('target_altitude_ft', 0))];
   }
 }

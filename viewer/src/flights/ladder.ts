@@ -62,7 +62,7 @@ export class Ladder {
   /** About the eye at `eye`, of an aircraft's flight at a time. */
   show(record: FlightRecord, time: number, eye: Vector3): void {
     this.group.position.copy(eye);
-    attitude(0, 0, record.value('yaw_deg', time), this.rungs.quaternion);
+    attitude(0, 0, record.drawn('yaw_deg', time), this.rungs.quaternion);
     const ahead = Math.min(time + 0.2, record.duration);
     const before = Math.max(ahead - 0.4, 0);
     // Over the ground: what the wind does is in it.

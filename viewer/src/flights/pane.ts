@@ -17,6 +17,7 @@ export function readingsOf(record: FlightRecord, time: number): string {
   return READINGS.map(([name, column, unit, decimals]) => {
     const isHeading = column === 'yaw_deg';
     const value = record.value(column, time);
+    if (!Number.isFinite(value)) return `${name} –`;
     let text = (isHeading ? (value + 360) % 360 : value).toFixed(decimals);
     // Neither -0 nor a heading of 360.
     if (Number(text) % (isHeading ? 360 : Infinity) === 0) text = (0).toFixed(decimals);

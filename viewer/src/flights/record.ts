@@ -23,6 +23,18 @@ export class Pose {
   readonly surfaces: Surfaces = { elevator: 0, aileron: 0, rudder: 0, leadingEdgeFlap: 0 };
 }
 
+/** Rows that are reached but for a rounding error are reached. */
+const ROUNDING = 1e-6;
+
+/** The same values; for one that is not there the one before, for the first ones the next. */
+function filled(values: Float32Array): Float32Array {
+  let before = values.find(Number.isFinite) ?? 0;
+  return values.map((value) => {
+    if (Number.isFinite(value)) before = value;
+    return before;
+  });
+}
+
 /** Between two rows of a column. */
 function mixed(values: Float32Array, left: number, right: number, share: number): number {
   return values[left] + (values[right] - values[left]) * share;
@@ -41,6 +53,8 @@ export class FlightRecord {
   readonly newTargets: number[];
   readonly reached: number[];
   private readonly columns = new Map<string, Float32Array>();
+  /** Of those that have been drawn, without gaps. */
+  private readonly drawnColumns = new Map<string, Float32Array>();
   /** What is read for every frame: the column names of a pose. */
   private readonly path: Float32Array[];
   private readonly moving: Float32Array[];
@@ -61,9 +75,9 @@ export class FlightRecord {
     }
     this.rows = this.column('north_ft').length;
     this.duration = flight.duration_s;
-    this.path = ['north_ft', 'east_ft', 'altitude_ft'].map((name) => this.column(name));
+    this.path = ['north_ft', 'east_ft', 'altitude_ft'].map((name) => this.drawnColumn(name));
     this.moving = ['elevator_deg', 'aileron_deg', 'rudder_deg', 'leading_edge_flap_deg']
-      .map((name) => this.column(name));
+      .map((name) => this.drawnColumn(name));
     this.turns = this.attitudes();
   }
 
@@ -78,7 +92,8 @@ export class FlightRecord {
   }
 
   private attitudes(): Float32Array {
-    const [roll, pitch, yaw] = ['roll_deg', 'pitch_deg', 'yaw_deg'].map((name) => this.column(name));
+    const [roll, pitch, yaw] = ['roll_deg', 'pitch_deg', 'yaw_deg']
+      .map((name) => this.drawnColumn(name));
     const turns = new Float32Array(4 * this.rows);
     for (let row = 0; row < this.rows; row += 1) {
       attitude(roll[row], pitch[row], yaw[row], this.other).toArray(turns, 4 * row);
@@ -86,32 +101,49 @@ export class FlightRecord {
     return turns;
   }
 
+  /** Whether there is such a column, with a number in it. */
   has(name: string): boolean {
-    return this.columns.has(name);
+    return this.columns.get(name)?.some(Number.isFinite) ?? false;
   }
 
   get names(): string[] {
     return [...this.columns.keys()];
   }
 
-  /** Of a column that is not there, zeros. */
+  /** NaN where there is no number; of a column that is not there, zeros. */
   column(name: string): Float32Array {
     return this.columns.get(name) ?? new Float32Array(this.rows);
   }
 
-  /** The row of a time, with its fraction; the first or the last outside. */
-  private rowAt(time: number): number {
-    return Math.min(Math.max(time / this.interval, 0), this.rows - 1);
+  private drawnColumn(name: string): Float32Array {
+    const values = this.drawnColumns.get(name) ?? filled(this.column(name));
+    this.drawnColumns.set(name, values);
+    return values;
   }
 
-  /** A column at a time, s: linear between rows, but for what is held during a step. */
+  /** The row of a time, with its fraction; the first or the last outside. */
+  private rowAt(time: number): number {
+    const row = Math.min(Math.max(time / this.interval, 0), this.rows - 1);
+    return Math.abs(row - Math.round(row)) < ROUNDING ? Math.round(row) : row;
+  }
+
+  /** A column at a time, s: linear between rows, but for what is held during a step. NaN in a gap;
+   * of a column that is not there, 0. */
   value(name: string, time: number): number {
-    const values = this.columns.get(name);
+    return this.read(this.columns.get(name), name, time);
+  }
+
+  /** The same for what is drawn in space, without gaps: there the number before, or the first. */
+  drawn(name: string, time: number): number {
+    return this.read(this.drawnColumn(name), name, time);
+  }
+
+  private read(values: Float32Array | undefined, name: string, time: number): number {
     if (!values || values.length === 0) return 0;
     const row = this.rowAt(time);
-    // A row that is reached but for a rounding error is the one.
-    if (HELD.test(name)) return values[Math.ceil(row - 1e-6)];
+    if (HELD.test(name)) return values[Math.ceil(row)];
     const left = Math.floor(row);
+    if (row === left) return values[left];
     const right = Math.min(left + 1, values.length - 1);
     if (ANGLES.has(name)) return mixedAngle(values[left], values[right], row - left);
     return mixed(values, left, right, row - left);

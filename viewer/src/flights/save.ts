@@ -11,6 +11,11 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
+/** A cell; blank where there is no number. */
+function cellOf(value: number): number | string {
+  return Number.isFinite(value) ? Number(value.toPrecision(6)) : '';
+}
+
 /** Every row of some flights as CSV: agent, episode, time_s, then the columns of any of them. Cells
  * with commas or quotes are quoted (RFC 4180). */
 export function csvOf(records: FlightRecord[], agents: string[]): string {
@@ -20,7 +25,7 @@ export function csvOf(records: FlightRecord[], agents: string[]): string {
     const quoted = `"${agents[record.agent].replace(/"/g, '""')}"`;
     const columns = names.map((name) => (record.has(name) ? record.column(name) : null));
     for (let row = 0; row < record.rows; row += 1) {
-      const cells = columns.map((column) => (column ? Number(column[row].toPrecision(6)) : ''));
+      const cells = columns.map((column) => (column ? cellOf(column[row]) : ''));
       lines.push([quoted, record.episode, Number((row * record.interval).toFixed(6)), ...cells]
         .join(','));
     }

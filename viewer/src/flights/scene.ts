@@ -6,6 +6,7 @@ import {
 } from 'three';
 import { colourOf, styleColour } from '../palette';
 import type { FlightSet } from '../report';
+import { SPAN_FT } from './aircraft';
 import { Cameras, type CameraName } from './cameras';
 import { Fleet } from './fleet';
 import { Ghosts } from './ghosts';
@@ -21,7 +22,6 @@ const LEAST_SIZE_OF_MANY = 0.012;
 export const MANY = 60;
 /** Of many, those are outlines that are no larger than that share of their distance. */
 const FAR_SIZE = 0.02;
-const SPAN_FT = 31;
 /** Of more agents' own targets none is shown. */
 const MOST_GOALS = 40;
 
@@ -37,12 +37,14 @@ export class FlightScene {
   private readonly stems: LineSegments;
   private readonly pose = new Pose();
   private readonly leastSize: number;
+  private readonly spanFt: number;
 
   /** `followed` is the index of the record that cameras go with. */
   constructor(
     readonly records: FlightRecord[], set: FlightSet, element: HTMLElement, public followed: number,
   ) {
     const colours = records.map((record) => colourOf(record.agent));
+    this.spanFt = set.span_ft;
     this.leastSize = records.length > MANY ? LEAST_SIZE_OF_MANY : LEAST_SIZE;
     const way = this.way();
     const box = new Box3().setFromPoints(way);
@@ -60,11 +62,17 @@ export class FlightScene {
     sun.position.set(0.5, 1, 0.3);
     this.scene.add(sun);
     const first = records[0];
-    const wind = new Vector3(first.value('wind_east_fps', 0), -first.value('wind_down_fps', 0),
-      -first.value('wind_north_fps', 0));
+    const wind = new Vector3(first.drawn('wind_east_fps', 0), -first.drawn('wind_down_fps', 0),
+      -first.drawn('wind_north_fps', 0));
     const arrow = windArrow(wind, this.ground, box, styleColour('--target'));
     if (arrow) this.scene.add(arrow);
-    this.cameras = new Cameras(element, [way[0], ...this.goals.flatMap((g) => g.places()), ...way]);
+    this.cameras = new Cameras(element, [way[0], ...this.goals.flatMap((g) => g.places()), ...way],
+      this.size);
+  }
+
+  /** How much larger than its model the aircraft is. */
+  private get size(): number {
+    return this.spanFt / SPAN_FT;
   }
 
   /** Of points one an episode, as all agents fly to it, but for missions; of directions everyone's. */
@@ -121,9 +129,9 @@ export class FlightScene {
       record.attitude(time, this.pose.attitude));
   }
 
-  /** How much larger than it is an aircraft is drawn so far from the camera. */
+  /** How much larger than its model an aircraft is drawn so far from the camera. */
   private readonly scaleAt = (at: Vector3): number =>
-    Math.max(1, (at.distanceTo(this.cameras.camera.position) * this.leastSize) / SPAN_FT);
+    Math.max(this.size, (at.distanceTo(this.cameras.camera.position) * this.leastSize) / SPAN_FT);
 
   /** Everything as it is at `time`. */
   update(time: number, trail: number, seconds: number): void {
@@ -138,7 +146,8 @@ export class FlightScene {
     if (isInside) this.ladder.show(record, time, cameras.camera.position);
     // From behind an aircraft one would look through its ribbon.
     const isBehind = cameras.chosen === 'chase' || isInside;
-    this.trails.show(time, trail, isBehind ? 2 : Math.max(10, reach * 0.006));
+    this.trails.show(time, trail,
+      isBehind ? 2 * this.size : Math.max(10 * this.size, reach * 0.006));
     for (const goal of this.goals) goal.show(time, Math.max(150, reach * 0.25));
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which strip charts a set of flights has: what an engineer reads.
 import type { FlightSet } from '../report';
+import type { Series } from '../series';
 import type { FlightRecord } from './record';
 
 export interface Strip {
@@ -27,6 +28,20 @@ export function titleOf(column: string): string {
 /** What is held from one policy step to the next, and drawn so. */
 export function isCommand(column: string): boolean {
   return /^(action|command|target)_/.test(column);
+}
+
+/** The columns over one time axis, that of the longest flight, which is the first of the arrays. */
+export function dataOf(records: FlightRecord[], strip: Strip): [xs: number[], ...lines: Series[]] {
+  const longest = records.reduce((a, b) => (a.duration > b.duration ? a : b));
+  const xs = Array.from({ length: longest.rows }, (_, i) => i * longest.interval);
+  const lines = records.flatMap((record) => strip.columns.map((column) => {
+    const isThere = record.has(column);
+    return xs.map((x) => {
+      const value = isThere && x <= record.duration ? record.value(column, x) : NaN;
+      return Number.isFinite(value) ? value : null;
+    });
+  }));
+  return [xs, ...lines];
 }
 
 /** The charts that a set of flights has, of any of its agents. */

@@ -5,7 +5,7 @@ import { axis, Chart, formatted } from '../chart';
 import { choice, el, tick } from '../dom';
 import { colourOf, faded, styleColour } from '../palette';
 import type { FlightRecord } from './record';
-import { isCommand, type Strip, titleOf } from './strip_list';
+import { dataOf, isCommand, type Strip, titleOf } from './strip_list';
 
 /** How much of the time the charts show, s. */
 const SPANS: [string, string][] = [['Infinity', 'whole'], ['20', '20 s'], ['5', '5 s'], ['2', '2 s']];
@@ -20,15 +20,6 @@ function seriesOf(records: FlightRecord[], strip: Strip, agents: string[]): uPlo
     scale: k > 0 && strip.secondAxis ? 'second' : 'y',
     value: (_: uPlot, v: number | null) => formatted(v),
   })));
-}
-
-/** The columns over one time axis, that of the longest flight. */
-function dataOf(records: FlightRecord[], strip: Strip): uPlot.AlignedData {
-  const longest = records.reduce((a, b) => (a.duration > b.duration ? a : b));
-  const xs = Array.from({ length: longest.rows }, (_, i) => i * longest.interval);
-  const lines = records.flatMap((record) => strip.columns.map((column) => xs.map((x) =>
-    (x > record.duration || !record.has(column) ? null : record.value(column, x)))));
-  return [xs, ...lines];
 }
 
 /** Shades what lies within the tolerance, under the curves. */

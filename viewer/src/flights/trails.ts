@@ -8,7 +8,7 @@ import {
 import { ramp } from '../palette';
 import type { FlightRecord } from './record';
 
-/** What colours a trail: its agent, or the share (0 to 1) of a ramp that a row has. */
+/** What colours a trail: the share (0 to 1) of a ramp that a row has, or, if null, its agent. */
 export type Colouring = (record: FlightRecord, row: number) => number | null;
 
 const VERTEX = /* glsl */ `

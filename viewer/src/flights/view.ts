@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view of flights: windows, player, charts.
-import { button, choice, el, tick } from '../dom';
+import { button, choice, el, isPressable, tick } from '../dom';
 import { colourOf } from '../palette';
 import type { FlightSet, ReportPack } from '../report';
 import { CAMERA_NAMES, type CameraName } from './cameras';
@@ -54,7 +54,7 @@ class FlightsView {
 
   constructor(place: HTMLElement, private readonly set: FlightSet, pack: ReportPack) {
     this.records = recordsOf(set, pack);
-    this.scales = colourScales(set);
+    this.scales = colourScales(set, this.records);
     this.hideSome();
     this.strips = new Strips(stripsOf(set, this.records), set.agents, (t) => this.seek(t));
     const episodes = [...new Set(this.records.map((record) => record.episode))];
@@ -264,6 +264,7 @@ class FlightsView {
   private readonly onKey = (event: KeyboardEvent): void => {
     const target = event.target as HTMLElement;
     if (event.ctrlKey || event.metaKey || event.altKey || target.tagName === 'SELECT') return;
+    if ((event.key === ' ' || event.key === 'Enter') && isPressable(target)) return;
     const number = CAMERA_NAMES[Number(event.key) - 1];
     const act = this.keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!number && !act) return;

@@ -28,6 +28,12 @@ export function reportFile(deflated: Buffer): string {
   return `file://${path}`;
 }
 
+/** The page as a server that gives its data sends it (src/report/report_page.h of Skein). */
+export function livePage(): string {
+  return readFileSync(TEMPLATE, 'utf8').replace('SKEIN-REPORT-DATA', '')
+    .replace("connect-src 'none'", "connect-src 'self'");
+}
+
 export interface Opened {
   page: Page;
   /** What the console said that is an error, and every request that left the page. */

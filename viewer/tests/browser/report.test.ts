@@ -95,6 +95,40 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     await page.close();
   });
 
+  it('leaves Space to the button, box or summary that has the focus', async () => {
+    const { page, errors } = await open(browser, plain);
+    const isPlaying = async () => (await page.textContent('button[aria-label^="play"]')) === '⏸';
+    const box = page.locator('label', { hasText: 'side by side' }).locator('input');
+    await box.focus();
+    await page.keyboard.press('Space');
+    expect(await box.isChecked()).toBe(true);
+    expect(await page.locator('.pane').count()).toBe(2);
+    for (const key of ['Space', 'Enter']) {
+      await page.locator('.keys summary').focus();
+      await page.keyboard.press(key);
+      expect(await page.locator('.keys').getAttribute('open')).toBe(key === 'Space' ? '' : null);
+      await page.keyboard.press('End');
+      await showsTime(page, (time) => time > 11);
+      await page.locator('button[aria-label^="to the beginning"]').focus();
+      await page.keyboard.press(key);
+      await showsTime(page, (time) => time === 0);
+    }
+    await page.locator('nav a[href="#flights"]').focus();
+    await page.keyboard.press('Space');
+    await page.waitForTimeout(300);
+    expect(await isPlaying()).toBe(false);
+    // Nothing else does anything of its own.
+    for (const element of ['.scrubber', '.pane canvas']) {
+      await page.locator(element).first().focus();
+      await page.keyboard.press('Space');
+      await expect.poll(isPlaying, PATIENCE).toBe(true);
+      await page.keyboard.press('Space');
+      await expect.poll(isPlaying, PATIENCE).toBe(false);
+    }
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
   it('goes from target to target of a mission', async () => {
     const { page, errors } = await open(browser, plain);
     const reads = (text: string) =>
@@ -151,6 +185,9 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     const lines = table.bytes.toString('utf8').split('\r\n');
     expect(lines[0].startsWith('agent,episode,time_s,north_ft')).toBe(true);
     expect(lines.length).toBe(2 * 600 + 2);
+    const rewards = lines.slice(1, 4).map((line) =>
+      line.split(',')[lines[0].split(',').indexOf('reward')]);
+    expect(rewards).toEqual(['', '-2', '-2']);
     const picture = await saved('save picture');
     expect(picture.name).toBe('flights.png');
     expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// A report whose data a server gives, as skein report --watch does.
+import { createServer, type Server } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { fixture } from '../fixture';
+import { launch, livePage, MISSING, open } from './page';
+
+/** A few refreshes, of a loaded machine. */
+const PATIENCE = { timeout: 30000 };
+
+/** Gives the page and `data`; counts how often it has given these. */
+class DataServer {
+  served = 0;
+  private server: Server | null = null;
+  private port = 0;
+  private failure = '';
+
+  constructor(private data: Buffer) {}
+
+  get address(): string {
+    return `http://127.0.0.1:${this.port}/`;
+  }
+
+  give(data: Buffer): void {
+    this.data = data;
+    this.served = 0;
+  }
+
+  /** Answers that there are no data. */
+  fail(reason: string): void {
+    this.failure = reason;
+  }
+
+  /** On the port that it had, if it had one. */
+  async start(): Promise<void> {
+    this.server = createServer((request, response) => {
+      response.setHeader('Connection', 'close');
+      if (request.url === '/') {
+        response.setHeader('Content-Type', 'text/html; charset=utf-8');
+        response.end(livePage());
+      } else if (this.failure) {
+        response.statusCode = 503;
+        response.end(this.failure);
+      } else {
+        response.end(this.data);
+        this.served += 1;
+      }
+    });
+    await new Promise<void>((resolve) => {
+      this.server?.listen(this.port, '127.0.0.1', () => resolve());
+    });
+    this.port = (this.server?.address() as AddressInfo).port;
+  }
+
+  async stop(): Promise<void> {
+    await new Promise((resolve) => { this.server?.close(resolve); });
+  }
+
+  /** Until the page has taken the data: it has asked for them again. */
+  async isTaken(): Promise<void> {
+    await expect.poll(() => this.served, PATIENCE).toBeGreaterThan(1);
+  }
+}
+
+describe.skipIf(MISSING !== '')('a report that is watched', () => {
+  let browser: Browser;
+  let server: DataServer;
+  beforeAll(async () => { browser = await launch(); });
+  afterAll(async () => browser?.close());
+  beforeEach(async () => {
+    server = new DataServer(fixture('first', 1));
+    await server.start();
+  });
+  afterEach(async () => server.stop());
+
+  const timeShown = async (page: Page) => parseFloat((await page.textContent('.time')) ?? '');
+
+  it('does not begin a flight again that is being looked at', async () => {
+    const { page, errors } = await open(browser, server.address);
+    await page.locator('.scrubber').fill('5');
+    await expect.poll(() => timeShown(page), PATIENCE).toBe(5);
+    server.give(fixture('second', 1));
+    await server.isTaken();
+    expect(await timeShown(page)).toBe(5);
+    expect(await page.textContent('main')).not.toContain('second');
+    // Who goes to another view and comes back sees what is fresh.
+    await page.click('nav a[href="#configuration"]');
+    await page.waitForSelector('main.configuration > *');
+    expect(await page.textContent('main')).toContain('second-1');
+    await page.click('nav a[href="#flights"]');
+    await page.waitForSelector('main.flights > *');
+    expect(await page.textContent('main')).toContain('second');
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('renews the other views', async () => {
+    const { page, errors } = await open(browser, `${server.address}#configuration`);
+    expect(await page.textContent('main')).toContain('first-1');
+    server.give(fixture('second', 1));
+    await expect.poll(() => page.textContent('main'), PATIENCE).toContain('second-1');
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('stays where it is when flights come that were not there', async () => {
+    server.give(fixture('first', 0));
+    const { page } = await open(browser, server.address);
+    expect(await page.locator('main.training').count()).toBe(1);
+    server.give(fixture('second', 1));
+    await server.isTaken();
+    expect(await page.locator('nav a[href="#flights"]').count()).toBe(1);
+    expect(await page.locator('main.training').count()).toBe(1);
+    await page.close();
+  });
+
+  it('says since when the server does not answer, and why, until it does', async () => {
+    const { page } = await open(browser, server.address);
+    const status = () => page.textContent('.status');
+    expect(await status()).toBe('');
+    await server.stop();
+    await expect.poll(status, PATIENCE).toMatch(/^no answer since [0-2]\d:[0-5]\d: .*fetch/);
+    expect(await page.locator('.status').isVisible()).toBe(true);
+    server.fail('runs/a: gone');
+    await server.start();
+    await expect.poll(status, PATIENCE).toMatch(/^no answer since [0-2]\d:[0-5]\d: runs\/a: gone$/);
+    server.fail('');
+    await expect.poll(status, PATIENCE).toBe('');
+    expect(await page.locator('.status').isVisible()).toBe(false);
+    await page.close();
+  });
+});
