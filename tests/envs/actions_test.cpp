@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 
 namespace skein {
 namespace {

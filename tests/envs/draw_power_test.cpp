@@ -9,11 +9,13 @@
 #include "envs/state/state.h"
 #include "envs/vec_env.h"
 #include "tests/envs/step_buffers.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
 constexpr int kAircraft = 4096;
+constexpr Tolerance kMedian{0.035, "of the range: 4.5 standard errors of a median, 1 / 128 each"};
 
 EnvConfig StillFlight(int draw_power) {
   EnvConfig config;
@@ -65,14 +67,14 @@ TEST_P(DrawPower, BendsStartsTowardsTheLeast) {
   EnvConfig config = StillFlight(power());
   config.initial.altitude_ft = {20000, 30000};
   config.initial.true_airspeed_fps = {800, 1200};
-  EXPECT_NEAR(-MedianOf(config, kDown), 20000 + 10000 * half(), 350);
-  EXPECT_NEAR(MedianOf(config, kU), 800 + 400 * half(), 14);
+  EXPECT_NEAR(-MedianOf(config, kDown), 20000 + 10000 * half(), 10000 * kMedian);
+  EXPECT_NEAR(MedianOf(config, kU), 800 + 400 * half(), 400 * kMedian);
 }
 
 TEST_P(DrawPower, BendsTurbulenceTowardsTheLeast) {
   EnvConfig config = StillFlight(power());
   config.wind.turbulence_fps = {4, 24};
-  EXPECT_NEAR(MedianOf(config, kTurbulenceStdDev), 4 + 20 * half(), 0.7);
+  EXPECT_NEAR(MedianOf(config, kTurbulenceStdDev), 4 + 20 * half(), 20 * kMedian);
 }
 
 TEST_P(DrawPower, BendsNoiseTowardsTheLeast) {

@@ -18,6 +18,7 @@
 #include "envs/state/attitude.h"
 #include "envs/vec_env.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

@@ -21,6 +21,7 @@
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_policy.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

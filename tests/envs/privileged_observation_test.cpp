@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kCount = 200;  // more than a block
 constexpr int kErrors = 3;
+constexpr Tolerance kEnd{0.05, "five or more of 200 draws are expected this near to an end"};
 
 std::vector<float> PrivilegedRows(const VecEnv& env) {
   std::vector<float> rows(static_cast<std::size_t>(env.num_aircraft() * env.privileged_size()));
@@ -91,8 +92,8 @@ TEST(PrivilegedObservation, ShowsClockToleranceAndProgress) {
     least = std::min(least, row[IndexOf(env, "tolerance")]);
     most = std::max(most, row[IndexOf(env, "tolerance")]);
   }
-  EXPECT_NEAR(least, 0.5, 0.05);
-  EXPECT_NEAR(most, 1, 0.05);
+  EXPECT_NEAR(least, 0.5, kEnd);
+  EXPECT_NEAR(most, 1, kEnd);
 }
 
 TEST(PrivilegedObservation, ShowsTheWindAlongTheBodyAxes) {
@@ -126,8 +127,8 @@ TEST(PrivilegedObservation, ShowsHowThePlantDiffers) {
     least = std::min(least, row[IndexOf(env, "plant_cg_shift")]);
     most = std::max(most, row[IndexOf(env, "plant_cg_shift")]);
   }
-  EXPECT_NEAR(least, -1, 0.05);
-  EXPECT_NEAR(most, 1, 0.05);
+  EXPECT_NEAR(least, -1, kEnd);
+  EXPECT_NEAR(most, 1, kEnd);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "envs/state/state.h"
-#include "simd/target.h"
 
 namespace skein {
 
@@ -38,20 +37,6 @@ class TestTile {
   int count_;
   int num_columns_;
   std::vector<float> values_;
-};
-
-/// Makes kernels use one target while it lives.
-class ScopedTarget {
- public:
-  explicit ScopedTarget(simd::Target target) : previous_(simd::ActiveTarget()) {
-    simd::ForceTarget(target);
-  }
-  ~ScopedTarget() { simd::ForceTarget(previous_); }
-  ScopedTarget(const ScopedTarget&) = delete;
-  ScopedTarget& operator=(const ScopedTarget&) = delete;
-
- private:
-  simd::Target previous_;
 };
 
 }  // namespace skein

@@ -19,7 +19,7 @@
 #include "envs/task_registry.h"
 #include "simd/random.h"
 #include "tests/envs/step_buffers.h"
-#include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

@@ -17,6 +17,7 @@
 #include "envs/aircraft/registry.h"
 #include "envs/kernels/plant_kernel.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "train/policy/recurrent_policy.h"
 
 namespace skein {

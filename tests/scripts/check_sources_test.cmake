@@ -33,4 +33,10 @@ expect(1 "src/a.cpp:3: A::A.int x. : x_{x}: 81 lines, and functions have 80 at m
 expect(0 "1 functions: half have 21 lines at most" src/a.cpp "${short}")
 string(REPEAT "\n" 600 lines)
 expect(1 "src/a.cpp: 602 lines, and files have 600 at most" src/a.cpp "${licence}${lines}")
+
+expect(1 "tests/a_test.cpp:3: a tolerance of 1e-3f without a name" tests/a_test.cpp
+       "${licence}\nEXPECT_NEAR(f(a, {1, 2}),\n            b[1], 1e-3f) << c")
+expect(1 "tests/a_test.cpp:2: a tolerance of 5 without a name" tests/a_test.cpp "${licence}ASSERT_NEAR(a, b, 5)")
+expect(0 "^$" tests/a_test.cpp
+       "${licence}EXPECT_NEAR(f(a, 1), g(2), kRounding) // EXPECT_NEAR(a, b, 1)\nEXPECT_NEAR(a, 1, 2 * kRounding)")
 # REUSE-IgnoreEnd

@@ -10,7 +10,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SHELL = [".ci/run", ".ci/nightly", "scripts/build", "scripts/docs", "scripts/format", "scripts/fuzz", "scripts/package",
+SHELL = [".ci/nightly", "scripts/build", "scripts/docs", "scripts/format", "scripts/fuzz", "scripts/package",
          "scripts/setup", "scripts/test", "scripts/try_debian"]
 NEED_THE_PACKAGE = ["compare_python", "python_reference"]
 # What scripts read their arguments with: one that goes on finds no program to do harm with.

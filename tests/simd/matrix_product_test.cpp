@@ -16,6 +16,7 @@
 #include "gtest/gtest.h"
 #include "simd/bfloat16.h"
 #include "simd/target.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein::simd {
@@ -133,12 +134,10 @@ const Shape kShapes[] = {{1, 1, 1},     {3, 2, 5},     {48, 22, 128},  {17, 128,
 
 class MatrixProductTest : public testing::TestWithParam<std::tuple<Target, Precision>> {
  protected:
-  void SetUp() override { ForceTarget(std::get<0>(GetParam())); }
-  void TearDown() override { ForceTarget(before_); }
   Precision precision() const { return std::get<1>(GetParam()); }
 
  private:
-  const Target before_ = ActiveTarget();
+  const ScopedTarget target_{std::get<0>(GetParam())};
 };
 
 TEST_P(MatrixProductTest, MultiplyIsTheSumInDoublePrecision) {
@@ -357,12 +356,10 @@ TEST(ProductWorkspaceTest, FetchesInTheOrderAskedForAndForgetsTheOldest) {
 
 class RoundedProductTest : public testing::TestWithParam<std::tuple<Target, Precision>> {
  protected:
-  void SetUp() override { ForceTarget(std::get<0>(GetParam())); }
   Precision precision() const { return std::get<1>(GetParam()); }
-  void TearDown() override { ForceTarget(before_); }
 
  private:
-  const Target before_ = ActiveTarget();
+  const ScopedTarget target_{std::get<0>(GetParam())};
 };
 
 TEST_P(RoundedProductTest, OperandsAreRoundedAsStated) {
@@ -485,7 +482,6 @@ INSTANTIATE_TEST_SUITE_P(EveryTarget, RoundedProductTest,
 /// On processors with the instructions for bfloat16 this compares them with what stands in for
 /// them.
 TEST(MatrixProduct, TargetsWithFusedMultiplyAddsAgreeBitForBit) {
-  const Target before = ActiveTarget();
   const auto supported = SupportedTargets();
   for (const Target target : {Target::kAvx512, Target::kAvx2}) {
     if (std::find(supported.begin(), supported.end(), target) == supported.end()) {
@@ -499,7 +495,7 @@ TEST(MatrixProduct, TargetsWithFusedMultiplyAddsAgreeBitForBit) {
       const Matrix right = Random(shape.rows, shape.columns, 3);
       std::vector<Matrix> products, gradients;
       for (const Target target : {Target::kAvx512, Target::kAvx2}) {
-        ForceTarget(target);
+        const ScopedTarget scoped(target);
         products.emplace_back(shape.rows, shape.columns);
         Multiply(a, Packed(b, precision), nullptr, 0, &products.back());
         gradients.push_back(b);
@@ -509,20 +505,20 @@ TEST(MatrixProduct, TargetsWithFusedMultiplyAddsAgreeBitForBit) {
       EXPECT_TRUE(SameBits(gradients[0], gradients[1]));
     }
   }
-  ForceTarget(before);
 }
 
 TEST(MatrixProduct, MatrixOfAnotherTargetIsAnError) {
-  const Target before = ActiveTarget();
-  ForceTarget(SupportedTargets().front());
-  const PackedMatrix packed = Packed(Random(4, 4, 1), Precision::kFloat32);
-  ForceTarget(SupportedTargets().back());
+  const auto packed_for = [](Target target) {
+    const ScopedTarget scoped(target);
+    return Packed(Random(4, 4, 1), Precision::kFloat32);
+  };
+  const PackedMatrix packed = packed_for(SupportedTargets().front());
   const Matrix a = Random(2, 4, 2);
   Matrix out(2, 4);
   if (SupportedTargets().size() > 1) {
+    const ScopedTarget scoped(SupportedTargets().back());
     EXPECT_THROW(Multiply(a, packed, nullptr, 0, &out), Error);
   }
-  ForceTarget(before);
   EXPECT_THROW(Multiply(a, PackedMatrix(), nullptr, 0, &out), Error);
 }
 

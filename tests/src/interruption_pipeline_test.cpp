@@ -7,12 +7,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <random>
+#include <system_error>
 #include <thread>
 
+#include "base/error.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
 #include "tests/src/run_program.h"
@@ -26,14 +32,33 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
+/// The seed of the moments at which signals come: SKEIN_TEST_SEED; without it, a new one.
+std::uint32_t SeedOfMoments() {
+  const char* const text = std::getenv("SKEIN_TEST_SEED");
+  if (text == nullptr) return std::random_device()();
+  const char* const end = text + std::strlen(text);
+  std::uint32_t seed = 0;
+  const std::from_chars_result parsed = std::from_chars(text, end, seed);
+  if (parsed.ec != std::errc() || parsed.ptr != end) {
+    throw Error("SKEIN_TEST_SEED is '" + std::string(text) +
+                "', and a whole number from 0 to 4294967295 is expected");
+  }
+  return seed;
+}
+
+std::string HowToRepeat(std::uint32_t seed) {
+  return "SKEIN_TEST_SEED=" + std::to_string(seed) + " repeats the moments of the signals";
+}
+
 class InterruptedTraining : public TrainingFixture {};
 
 TEST_F(InterruptedTraining, KilledAnywhereAndResumedEqualsUninterrupted) {
   FlyReference();
-  const auto seed = std::random_device()();
-  SCOPED_TRACE("seed of the moments: " + std::to_string(seed));
+  const std::uint32_t seed = SeedOfMoments();
+  SCOPED_TRACE(HowToRepeat(seed));
   std::mt19937 random(seed);
   bool finished = false;
+  int killed = 0;
   for (int kill = 0; kill < 4 && !finished; ++kill) {
     RunningProgram program(kill == 0 ? TinyTraining(run_)
                                      : std::vector<std::string>{"train", "--resume", run_});
@@ -45,8 +70,10 @@ TEST_F(InterruptedTraining, KilledAnywhereAndResumedEqualsUninterrupted) {
     }
     const ProgramResult result = program.Wait();
     finished = result.exit_code == 0;
+    killed += result.signal == SIGKILL;
     ASSERT_TRUE(finished || result.signal == SIGKILL) << result.error;
   }
+  EXPECT_GE(killed, 1) << "the test shows nothing";
   const ProgramResult result = RunSkein({"train", "--resume", run_});
   ASSERT_EQ(result.exit_code, 0) << result.error;
   ExpectSameRun(reference_, run_);
@@ -69,9 +96,14 @@ TEST_F(InterruptedTraining, KilledBeforeTheFirstCheckpointBeginsAgain) {
 }
 
 TEST_F(InterruptedTraining, SigtermSavesAndEndsCleanly) {
-  FlyReference();
+  // The signal has 70 iterations to come in, more than half a second.
+  const std::vector<std::string> steps = {"--steps", std::to_string(75 * kStepsPerIteration)};
+  const std::string last_checkpoint = "/checkpoints/checkpoint-000075.skein";
+  FlyReference(steps);
   {
-    RunningProgram program(TinyTraining(run_, {"--set", "checkpoint.interval_iterations=5"}));
+    std::vector<std::string> more = steps;
+    more.insert(more.end(), {"--set", "checkpoint.interval_iterations=5"});
+    RunningProgram program(TinyTraining(run_, more));
     ASSERT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, 5); }));
     program.Signal(SIGTERM);
     const ProgramResult result = program.Wait();
@@ -84,15 +116,16 @@ TEST_F(InterruptedTraining, SigtermSavesAndEndsCleanly) {
       << "everything flown is saved";
   const ProgramResult result = RunSkein({"train", "heading", "--resume", run_});
   ASSERT_EQ(result.exit_code, 0) << result.error;
-  ExpectSameFile(reference_ + kLastCheckpoint, run_ + kLastCheckpoint);
+  ExpectSameFile(reference_ + last_checkpoint, run_ + last_checkpoint);
   ExpectSameFile(reference_ + "/metrics.csv", run_ + "/metrics.csv");
 }
 
 TEST_F(InterruptedTraining, StoppedAnywhereAndResumedEqualsUninterrupted) {
   FlyReference();
-  const auto seed = std::random_device()();
-  SCOPED_TRACE("seed of the moments: " + std::to_string(seed));
+  const std::uint32_t seed = SeedOfMoments();
+  SCOPED_TRACE(HowToRepeat(seed));
   std::mt19937 random(seed);
+  int stopped = 0;
   for (int stop = 0; stop < 6; ++stop) {
     // One checkpoint of its own says that a run handles signals.
     const auto saved = CheckpointsIn(run_ + "/checkpoints");
@@ -106,9 +139,11 @@ TEST_F(InterruptedTraining, StoppedAnywhereAndResumedEqualsUninterrupted) {
       program.Signal(signal);
     }
     const ProgramResult result = program.Wait();
+    stopped += result.output.find("stopped by SIG") != std::string::npos;
     // A program that has finished its run no longer handles signals.
     ASSERT_TRUE(result.exit_code == 0 || result.signal == signal) << result.error;
   }
+  EXPECT_GE(stopped, 1) << "the test shows nothing";
   const ProgramResult result = RunSkein({"train", "--resume", run_});
   ASSERT_EQ(result.exit_code, 0) << result.error;
   ExpectSameRun(reference_, run_);

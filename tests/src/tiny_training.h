@@ -15,13 +15,14 @@
 namespace skein {
 
 inline constexpr int kIterations = 12;
+inline constexpr int kStepsPerIteration = 64 * 16 * 5;
 
 /// Arguments of a training that takes a moment, kIterations long, with a checkpoint each.
 inline std::vector<std::string> TinyTrainingOf(const std::string& task, const std::string& out,
                                                const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"train", task, "--out", out};
   for (const std::string& assignment :
-       {std::string("run.total_steps=") + std::to_string(64 * 16 * 5 * kIterations),
+       {std::string("run.total_steps=") + std::to_string(kStepsPerIteration * kIterations),
         std::string("ppo.num_aircraft=64"), std::string("ppo.rollout_steps=16"),
         std::string("ppo.chunk_length=8"), std::string("ppo.minibatches=2"),
         std::string("network.hidden_size=16"), std::string("network.gru_size=16"),

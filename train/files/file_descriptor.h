@@ -64,7 +64,8 @@ inline constexpr char kTemporaryExtension[] = ".skein-tmp";
 
 /// Replaces the file `path` by what `write` writes: temporary file beside it, fsync, rename, fsync
 /// of the directory. It has the permissions of the file that it replaces. Of two that replace a
-/// file at once, processes or threads, one waits for the other. Throws Error, as `write` may; an existing file is then untouched, unless it was the directory that could not be synced.
+/// file at once, processes or threads, one waits for the other. Throws Error, as `write` may; an
+/// existing file is then untouched, unless it was the directory that could not be synced.
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write);
 
 /// Makes the names in a directory survive a power cut.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/reference/aerodynamics.h"
+#include "tests/envs/aerosonde_model.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -20,7 +20,7 @@ constexpr Tolerance kDigits{1e-6, "six decimals known"};
 
 class DerivativeAircraftTest : public ::testing::Test {
  protected:
-  const DerivativeAircraft source_ = ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
+  const DerivativeAircraft source_ = AerosondeModel();
   const double aspect_ratio_ = source_.span_m * source_.span_m / source_.wing_area_m2;
   const Aircraft aircraft_ = MakeAircraft(source_);
 };

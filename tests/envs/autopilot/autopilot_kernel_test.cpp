@@ -15,7 +15,7 @@
 #include "envs/tasks/observation.h"
 #include "gtest/gtest.h"
 #include "simd/target.h"
-#include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

@@ -13,7 +13,7 @@
 #include "envs/kernels/plant_kernel.h"
 #include "gtest/gtest.h"
 #include "simd/dispatch.h"
-#include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/envs/kernels/atmosphere_test.cpp"

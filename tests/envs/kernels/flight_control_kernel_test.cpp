@@ -14,6 +14,7 @@
 #include "simd/random.h"
 #include "tests/envs/every_aircraft.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

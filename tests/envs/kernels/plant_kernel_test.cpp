@@ -25,6 +25,7 @@
 #include "tests/envs/golden.h"
 #include "tests/envs/plant/drawn_aircraft.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

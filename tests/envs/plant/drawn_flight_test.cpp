@@ -322,6 +322,7 @@ TEST(DrawnFlight, BandwidthIsTheActuatorsTimeConstant) {
 }
 
 TEST(DrawnFlight, RateIsTheActuatorsLimit) {
+  constexpr Tolerance kFloat32{1e-6, "float32 roundings of 0.8 degrees"};
   EnvConfig config = With(&PlantConfig::actuator_rate, 0.5);
   config.flight_control = FlightControlMode::kDirect;
   config.initial.trimmed = false;
@@ -332,7 +333,7 @@ TEST(DrawnFlight, RateIsTheActuatorsLimit) {
       },
       1);
   EXPECT_NEAR(states[kAileron], -0.5 * F16().actuators.aileron.rate_limit_deg_per_s * kInterval,
-              1e-5);
+              kFloat32);
 }
 
 TEST(DrawnFlight, AnActionDelayOfKStepsShiftsTheCommandsByK) {
@@ -397,6 +398,8 @@ TEST(DrawnFlight, AnObservationDelayOfKStepsShowsTheStateOfKStepsAgo) {
 }
 
 TEST(DrawnFlight, SensorErrorsAreConstantAndLeaveTheTasksErrors) {
+  constexpr Tolerance kScale{0.101, "the largest error, and float32 rounding of a change of 0.01"};
+  constexpr Tolerance kLine{1e-4, "float32 rounding of a change of 0.01, at changes of 1"};
   EnvConfig config = OneDrawnFlight();
   const auto exact = Observe(config, 20);
   config.plant.sensor_bias = 0.05;
@@ -416,9 +419,9 @@ TEST(DrawnFlight, SensorErrorsAreConstantAndLeaveTheTasksErrors) {
     if (k >= 3 && seen[0][k] != exact[0][k]) ++different;
     if (k < 3 || std::abs(change) < 0.01) continue;
     const double scale = (seen[15][k] - seen[3][k]) / change;
-    EXPECT_NEAR(scale, 1, 0.101) << k;
+    EXPECT_NEAR(scale, 1, kScale) << k;
     for (std::size_t step = 0; step < 20; ++step) {
-      EXPECT_NEAR(seen[step][k] - seen[3][k], scale * (exact[step][k] - exact[3][k]), 1e-4) << k;
+      EXPECT_NEAR(seen[step][k] - seen[3][k], scale * (exact[step][k] - exact[3][k]), kLine) << k;
     }
   }
   EXPECT_EQ(different, kObservationSize - 3);

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "envs/air/atmosphere.h"
-#include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/aircraft/registry.h"
 #include "envs/aircraft/units.h"
 #include "envs/reference/linearise.h"
 #include "envs/reference/plant.h"
 #include "envs/reference/trim.h"
+#include "tests/envs/aerosonde_model.h"
 #include "tests/envs/reference/test_flight.h"
 #include "tests/tolerance.h"
 
@@ -27,7 +27,7 @@ constexpr AtmosphereModel kAtmosphere = AtmosphereModel::kStandard1976;
 
 /// The aircraft of the authors' files: without the parasitic drag that Skein's has.
 Plant BookPlant() {
-  DerivativeAircraft aircraft = ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
+  DerivativeAircraft aircraft = AerosondeModel();
   aircraft.longitudinal.CD_parasitic = 0;
   return Plant(MakeAircraft(aircraft), kAtmosphere);
 }
@@ -77,7 +77,7 @@ TEST(Aerosonde, TrimsWhereTheBookDoes) {
   // Theirs holds the propeller's torque: 0.1 deg of aileron.
   EXPECT_NEAR(trim.controls.aileron_deg, 0, kSymmetry);
   EXPECT_NEAR(trim.controls.rudder_deg, 0, kSymmetry);
-  const DerivativeAircraft aircraft = ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
+  const DerivativeAircraft aircraft = AerosondeModel();
   const Propeller& propeller = std::get<ElectricPropulsion>(aircraft.propulsion).propeller;
   EXPECT_NEAR(trim.controls.thrust_lbf * kNewtonsPerLbf,
               PropellerThrust(propeller, 0.676752, 25, 1.2682), kBetweenNodesThrust);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/engine.h"
@@ -63,8 +64,9 @@ TEST_F(Cessna172, StillClimbsAtItsCeiling) {
 }
 
 TEST_F(Cessna172, FliesThroughItsFlightControl) {
-  const FlightEnvelope envelope = FindEnvelope(plant_, Limits(14000), 3, 4);
-  for (const TrimPoint& trim : envelope.AllTrims()) {
+  const std::vector<TrimPoint> trims = FindEnvelope(plant_, Limits(14000), 3, 4).AllTrims();
+  ASSERT_GE(trims.size(), 4u);
+  for (const TrimPoint& trim : trims) {
     SCOPED_TRACE(std::to_string(-trim.state[kDown]) + " ft, " +
                  std::to_string(trim.state.segment<3>(kU).norm()) + " ft/s");
     const Handling handling = AssessHandling(plant_, trim);

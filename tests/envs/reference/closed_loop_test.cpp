@@ -16,6 +16,7 @@
 #include "envs/aircraft/f16.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
+#include "tests/envs/f16_at.h"
 #include "tests/envs/reference/test_flight.h"
 #include "tests/tolerance.h"
 
@@ -62,12 +63,6 @@ double RiseTime(const Flight& flight, const std::vector<double>& response, doubl
     if (response[i] / largest >= 0.9) return flight.time[i] - begin;
   }
   return flight.time.back();
-}
-
-Plant F16At(double cg) {
-  Aircraft aircraft = F16();
-  aircraft.airframe.cg = cg;
-  return Plant(aircraft, AtmosphereModel::kStevensLewis);
 }
 
 /// The aircraft with its centre of gravity at 0.30 chord (stable) and at 0.35 (unstable).

@@ -9,6 +9,7 @@
 #include "envs/aircraft/f16.h"
 #include "envs/reference/trim.h"
 #include "envs/state/state.h"
+#include "tests/envs/f16_at.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -20,9 +21,7 @@ struct Condition {
 
 struct Modes {
   explicit Modes(const Condition& condition) {
-    Aircraft aircraft = F16();
-    aircraft.airframe.cg = condition.cg;
-    const Plant plant(aircraft, AtmosphereModel::kStevensLewis);
+    const Plant plant = F16At(condition.cg);
     TrimRequest request;
     request.altitude_ft = condition.altitude_ft;
     request.true_airspeed_ft_s = condition.speed_ft_s;

@@ -9,20 +9,14 @@
 
 #include "base/error.h"
 #include "envs/aircraft/engine.h"
-#include "envs/aircraft/f16.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
+#include "tests/envs/f16_at.h"
 #include "tests/error_message.h"
 #include "tests/tolerance.h"
 
 namespace skein {
 namespace {
-
-Plant F16At(double cg) {
-  Aircraft aircraft = F16();
-  aircraft.airframe.cg = cg;
-  return Plant(aircraft, AtmosphereModel::kStevensLewis);
-}
 
 TrimRequest Level(double altitude_ft, double speed_ft_s) {
   TrimRequest request;

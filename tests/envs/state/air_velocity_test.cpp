@@ -18,6 +18,7 @@
 #include "envs/tasks/reward_and_termination.h"
 #include "simd/random.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 
 namespace skein {
 namespace {

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 
 namespace skein {
 namespace {

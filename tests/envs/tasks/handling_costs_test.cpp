@@ -10,6 +10,7 @@
 #include "envs/state/attitude.h"
 #include "envs/tasks/task.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

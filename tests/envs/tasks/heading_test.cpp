@@ -12,6 +12,7 @@
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

@@ -14,6 +14,7 @@
 #include "envs/state/attitude.h"
 #include "simd/random.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {

@@ -15,6 +15,7 @@
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 
 namespace skein {
 namespace {

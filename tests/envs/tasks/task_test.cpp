@@ -10,6 +10,7 @@
 #include "envs/env_config.h"
 #include "envs/task_registry.h"
 #include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 
 namespace skein {
 namespace {

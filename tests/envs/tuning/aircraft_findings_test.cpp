@@ -6,9 +6,9 @@
 
 #include <functional>
 
-#include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/aircraft/f16.h"
 #include "envs/aircraft/units.h"
+#include "tests/envs/aerosonde_model.h"
 
 namespace skein {
 namespace {
@@ -16,10 +16,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr AtmosphereModel kAtmosphere = AtmosphereModel::kStandard1976;
-
-DerivativeAircraft AerosondeModel() {
-  return ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
-}
 
 std::string TextOf(const std::vector<Finding>& findings, Finding::Kind kind) {
   std::string text;

@@ -51,7 +51,7 @@ Section ModelAtmosphere() {
 
 /// Spectral densities of Skein's gusts over those of MIL-F-8785C.
 Section TurbulenceSpectra() {
-  constexpr double kFiveStandardErrors = 0.18, kScaleFt = 1750;
+  constexpr double kScaleFt = 1750;
   constexpr const char* kComponents[] = {"forward", "right", "down"};
   const MeasuredSpectra spectra;
   Section section{"turbulence-spectra", "MIL-F-8785C", {}};
@@ -62,8 +62,8 @@ Section TurbulenceSpectra() {
       char what[80];
       std::snprintf(what, sizeof what, "%s gust, density at L Ω = %.2f, ft/rad", kComponents[k],
                     kScaleFt * frequency);
-      section.figures.push_back(PublishedOnce(what, standard, spectra.Density(k, cycles),
-                                              kFiveStandardErrors * standard, 1));
+      section.figures.push_back(
+          PublishedOnce(what, standard, spectra.Density(k, cycles), kPeriodogram * standard, 1));
     }
   }
   return section;
@@ -71,7 +71,7 @@ Section TurbulenceSpectra() {
 
 /// Likewise of its rotational gusts, for the F-16's span.
 Section RotationalGustSpectra() {
-  constexpr double kFiveStandardErrors = 0.18, kScaleFt = 1750, kDt = 0.01;
+  constexpr double kScaleFt = 1750, kDt = 0.01;
   constexpr const char* kRates[] = {"roll", "pitch", "yaw"};
   const double span_ft = F16().airframe.span_ft;
   const MeasuredSpectra spectra(kDt, span_ft);
@@ -84,7 +84,7 @@ Section RotationalGustSpectra() {
       std::snprintf(what, sizeof what, "%s rate, density at b Ω = %.3f, 1/(ft rad)", kRates[k],
                     span_ft * frequency);
       section.figures.push_back(PublishedOnce(what, standard, spectra.Density(3 + k, cycles),
-                                              kFiveStandardErrors * standard, 6));
+                                              kPeriodogram * standard, 6));
     }
   }
   return section;

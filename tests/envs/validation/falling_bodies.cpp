@@ -3,11 +3,11 @@
 #include <cmath>
 #include <functional>
 
-#include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/aircraft/units.h"
 #include "envs/reference/plant.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
+#include "tests/envs/aerosonde_model.h"
 #include "tests/envs/validation/check_cases.h"
 #include "tests/envs/validation/rotating_earth.h"
 #include "tests/envs/validation/sections.h"
@@ -25,7 +25,7 @@ Gravity FallingGravity() { return {EquatorialGravity(0), true}; }
 
 /// A body without lift, drag and moments. The blend to a stalled wing lies beyond the tables.
 DerivativeAircraft Body(double mass_slug) {
-  DerivativeAircraft body = ReadDerivativeAircraft("aerosonde", *AircraftFiles()[0].text);
+  DerivativeAircraft body = AerosondeModel();
   body.mass_kg = mass_slug * kKgPerSlug;
   body.longitudinal = {};
   body.longitudinal.oswald_efficiency = 1;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "envs/state/attitude.h"
-#include "tests/envs/test_tile.h"
 #include "tests/envs/wind/gusts.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -104,7 +104,6 @@ TEST_P(DrydenTest, CorrelationFallsWithTheWayThroughTheAir) {
 }
 
 TEST_P(DrydenTest, SpectraAreDrydens) {
-  constexpr Tolerance kPeriodogram{0.18, "five standard errors, and what is folded back"};
   constexpr double kScale = 1750;
   const MeasuredSpectra spectra;
   for (const int cycles : {3, 5, 8, 13, 21, 34, 60}) {

@@ -8,6 +8,7 @@
 
 #include "envs/wind/dryden.h"
 #include "tests/envs/test_tile.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 
@@ -78,6 +79,11 @@ inline double RateSpectrum(int component, double scale_ft, double span_ft, doubl
   if (component == 3) return 0.8 * std::cbrt(scale_ft / length) / scale_ft * smoothing;
   return frequency * frequency * smoothing * Spectrum(component == 4 ? 2 : 1, scale_ft, frequency);
 }
+
+/// Of MeasuredSpectra, relative: a periodogram's standard error is its own size, that of the mean
+/// of 1024 a 32nd of it.
+inline constexpr Tolerance kPeriodogram{0.18,
+                                        "five standard errors, 16 %, and 2 % that are folded back"};
 
 /// Spectra of gusts met at 1000 ft/s, 20,000 ft high: periodograms under Hann's window, averaged
 /// over the aircraft. Their standard error is 3 %; up to an eighth of the sampling theorem's limit,

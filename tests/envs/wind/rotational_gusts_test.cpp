@@ -14,6 +14,7 @@
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_tile.h"
 #include "tests/envs/wind/gusts.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -96,7 +97,6 @@ TEST_P(RotationalGustsTest, VariancesAreTheSpectrasIntegralsFromTheStartOn) {
 }
 
 TEST_P(RotationalGustsTest, SpectraAreThoseOfTheStandard) {
-  constexpr Tolerance kPeriodogram{0.18, "five standard errors, and what is folded back"};
   constexpr double kScale = 1750;
   const MeasuredSpectra spectra(0.01, kSpan);
   for (const int cycles : {3, 8, 21, 60}) {

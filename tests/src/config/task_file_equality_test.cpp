@@ -13,7 +13,7 @@
 #include "simd/target.h"
 #include "src/config/configuration.h"
 #include "tests/envs/step_buffers.h"
-#include "tests/envs/test_tile.h"
+#include "tests/scoped_target.h"
 
 namespace skein {
 namespace {

@@ -14,6 +14,7 @@
 #include "src/plot/tracks_picture.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -146,6 +147,7 @@ TEST_F(FlightPictures, SpaceShowsEachEndAndItsScales) {
 }
 
 TEST_F(FlightPictures, MapsHaveEqualScales) {
+  constexpr Tolerance kRounding{1e-12, "float64 rounding of some hundred points on the page"};
   const Picture picture = TracksPicture(TwoAgents(1), {});
   const std::vector<std::string> words = WordsOf(picture);
   for (const char* wanted : {"N", "start", "north, 1000 ft", "east, 1000 ft", "altitude, 1000 ft",
@@ -161,7 +163,7 @@ TEST_F(FlightPictures, MapsHaveEqualScales) {
                         path->points.back().y - path->points.front().y};
     if (own.y > span.y) span = own;
   }
-  EXPECT_NEAR(span.x / span.y, 0.1, 1e-6);
+  EXPECT_NEAR(span.x / span.y, 0.1, kRounding);
 }
 
 TEST_F(FlightPictures, FitAColumnOfAPaper) {

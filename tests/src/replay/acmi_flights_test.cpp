@@ -22,6 +22,8 @@ constexpr Tolerance kHundredths{0.0051, "two decimals"};
 constexpr Tolerance kThousandths{0.00051, "three decimals"};
 constexpr Tolerance kTenths{0.051, "one decimal"};
 constexpr Tolerance kPosition{0.1, "seven decimals of degrees, and a sphere's curvature over a km"};
+constexpr Tolerance kTime{1e-9, "float64 rounding: times have four decimals, steps of 0.02 s two"};
+constexpr Tolerance kDistance{0.015, "m: both ends are rounded to centimetres"};
 constexpr Tolerance kSlope{0.02, "a marker's place is rounded to centimetres"};
 
 /// North and east of a point of the earth seen from another, m: by way of the earth-centred axes of
@@ -96,7 +98,7 @@ TEST_F(AcmiFlightsTest, AircraftAreWhereTheyFlewWithTheirOwnAttitude) {
       for (std::size_t row = 0; row < table.rows(); ++row) {
         const auto at = [&](const char* name) { return table.Column(name)[row]; };
         const auto& t = samples[row].transform;
-        EXPECT_NEAR(samples[row].time_s - samples[0].time_s, at("time_s"), 1e-9);
+        EXPECT_NEAR(samples[row].time_s - samples[0].time_s, at("time_s"), kTime);
         const auto [north, east] = NorthEast(t[0], t[1], reference[0], reference[1]);
         EXPECT_NEAR(north, at("north_ft") * kMetresPerFoot, kPosition) << row;
         EXPECT_NEAR(east, at("east_ft") * kMetresPerFoot, kPosition) << row;
@@ -214,7 +216,7 @@ TEST_F(AcmiFlightsTest, HeadingsAreMarkedAheadAtTheAltitudeAskedFor) {
     EXPECT_NEAR(t[2], table.Column("target_altitude_ft")[row] * kMetresPerFoot, kHundredths);
     const double bearing = std::atan2(t[6] - a[6], t[7] - a[7]) * kDegPerRad;
     EXPECT_NEAR(Wrapped(bearing - table.Column("target_yaw_deg")[row]), 0, kSlope);
-    EXPECT_NEAR(std::hypot(t[6] - a[6], t[7] - a[7]), 1852, 0.1);
+    EXPECT_NEAR(std::hypot(t[6] - a[6], t[7] - a[7]), 1852, kDistance);
   }
   EXPECT_NEAR(std::stod(target.property("Height")), 2 * 100 * kMetresPerFoot, kHundredths);
   EXPECT_THAT(target.property("Label"), HasSubstr("yaw "));

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/fnv_hash.h"
+#include "tests/file_bytes.h"
 #include "tests/scratch_directory.h"
 #include "train/files/file_descriptor.h"
 
@@ -27,10 +28,7 @@ class TensorFileTest : public testing::Test {
     return file;
   }
 
-  std::string Bytes() const {
-    std::ifstream stream(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string Bytes() const { return BytesOf(path_); }
   void Overwrite(const std::string& bytes) const {
     std::ofstream(path_, std::ios::binary) << bytes;
   }

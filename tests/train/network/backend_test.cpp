@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "simd/target.h"
+#include "tests/scoped_target.h"
 #include "tests/train/libtorch.h"
 #include "train/network/network.h"
 #include "train/network/precision.h"
@@ -66,7 +67,7 @@ TEST(ChooseBackendTest, AutomaticPrecisionIsTheFastestOfTheProcessor) {
 
 TEST(ChooseBackendTest, OnlyAvx512HasBfloat16AndTiles) {
   for (const simd::Target target : simd::SupportedTargets()) {
-    simd::ForceTarget(target);
+    const ScopedTarget scoped(target);
     if (target != simd::Target::kAvx512) {
       EXPECT_FALSE(simd::NativeBfloat16());
       EXPECT_FALSE(simd::FastBfloat16());
@@ -74,7 +75,6 @@ TEST(ChooseBackendTest, OnlyAvx512HasBfloat16AndTiles) {
       EXPECT_EQ(DefaultPrecision(), LearnerPrecision::kFloat32);
     }
   }
-  simd::ForceTarget(simd::SupportedTargets().front());
 }
 
 TEST(ChooseBackendTest, PrecisionIsWhatWasAskedForAndIsDescribed) {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "simd/target.h"
+#include "tests/scoped_target.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
 #include "tests/train/network/gradient_comparison.h"
@@ -125,8 +126,7 @@ void ExpectGradientsAgree(const NetworkLayout& layout, const std::vector<float>&
 
 class PrecisionTest : public testing::TestWithParam<simd::Target> {
  protected:
-  void SetUp() override { simd::ForceTarget(GetParam()); }
-  void TearDown() override { simd::ForceTarget(simd::SupportedTargets().front()); }
+  const ScopedTarget target_{GetParam()};
 };
 
 TEST_P(PrecisionTest, GradientsOfRandomTilesAgreeWithDoublePrecision) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "simd/target.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 #include "tests/train/network/gradient_comparison.h"
 #include "tests/train/network/sample_tile.h"
@@ -84,8 +85,7 @@ void ExpectForwardAgrees(Backend backend, const NetworkLayout& layout,
 
 class RecurrentNetworkTest : public testing::TestWithParam<simd::Target> {
  protected:
-  void SetUp() override { simd::ForceTarget(GetParam()); }
-  void TearDown() override { simd::ForceTarget(simd::SupportedTargets().front()); }
+  const ScopedTarget target_{GetParam()};
 };
 
 TEST_P(RecurrentNetworkTest, AgreesWithAutogradInDoublePrecision) {

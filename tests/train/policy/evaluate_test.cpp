@@ -31,7 +31,7 @@ TEST(EvaluateTest, CountsOneEpisodePerAircraftWhateverTheThreads) {
     EXPECT_EQ(a.terminations[0], 0);
     EXPECT_EQ(a.terminations, b.terminations);
     EXPECT_EQ(a.return_mean, b.return_mean);
-    // No episode reaches its target before step 300, and these episodes end at 100.
+    // No target counts before step 100, where these episodes end, and none is met there.
     EXPECT_EQ(a.success_rate, 0);
     EXPECT_TRUE(std::isnan(a.time_to_target_mean_s));
   }

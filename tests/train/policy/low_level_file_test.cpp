@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "base/error.h"
 #include "tests/envs/test_policy.h"
 #include "tests/error_message.h"
+#include "tests/file_bytes.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
 #include "tests/train/hierarchy_config.h"
@@ -41,11 +41,6 @@ std::vector<float> FlyTwice(const Policy& policy) {
 
 RecurrentPolicy HighLevel(std::shared_ptr<const StoredPolicy> low_level) {
   return RecurrentPolicy::Untrained(SmallConfig().network, 22, 3, 3, 10, std::move(low_level));
-}
-
-std::string BytesOf(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 class LowLevelPolicyFileTest : public testing::Test {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "simd/random.h"
 #include "simd/target.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -73,8 +74,7 @@ std::vector<float> ParametersOf(const AdamOptimiser& adam) {
 
 class AdamTest : public testing::TestWithParam<simd::Target> {
  protected:
-  AdamTest() { simd::ForceTarget(GetParam()); }
-  ~AdamTest() override { simd::ForceTarget(simd::SupportedTargets().front()); }
+  const ScopedTarget target_{GetParam()};
 };
 
 TEST_P(AdamTest, AgreesWithLibTorchOverAThousandSteps) {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <fstream>
 #include <limits>
 
 #include "tests/error_message.h"
+#include "tests/file_bytes.h"
 #include "tests/scratch_directory.h"
 #include "tests/train/hierarchy_config.h"
 #include "tests/train/ranks/thread_ranks.h"
@@ -23,11 +23,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr int kShards = 16;
-
-std::string BytesOf(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 TrainConfig Sharded(TrainConfig config) {
   config.learner.shards = kShards;

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <thread>
 
 #include "base/error.h"
 #include "simd/target.h"
 #include "tests/error_message.h"
+#include "tests/file_bytes.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
 #include "tests/train/libtorch.h"
@@ -29,10 +29,6 @@ using ::testing::HasSubstr;
 
 class TrainerTest : public testing::Test {
  protected:
-  static std::string BytesOf(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
   static std::string RefusalOf(const TrainConfig& config, const std::string& path) {
     WorkerPool pool(1);
     Trainer trainer(config, pool);
