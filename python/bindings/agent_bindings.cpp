@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "envs/actions.h"
 #include "envs/task_registry.h"
@@ -24,29 +25,38 @@ namespace nb = nanobind;
 namespace skein {
 namespace {
 
-FlyingAgent FlyingPolicy(const std::string& name, Agent agent, const RecurrentPolicy& policy) {
+FlyingAgent FlyingPolicy(const std::string& name, Agent agent, const RecurrentPolicy& policy,
+                         bool draws) {
   return {name,
           std::move(agent),
           policy.observation_size(),
           policy.action_size(),
           policy.action_repeat(),
-          policy};
+          policy,
+          draws};
 }
 
 FlyingAgent LoadAgent(const std::string& path, bool sampled) {
   const RecurrentPolicy policy = RecurrentPolicy::Load(PolicyFileOf(path));
-  return FlyingPolicy(path, sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), policy);
+  return FlyingPolicy(path, sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), policy,
+                      sampled);
+}
+
+/// Whether the agent of that name (AgentForms) draws its actions at random.
+bool DrawsActions(const std::string& name) {
+  return name.substr(0, name.find(':')) == "random" || EndsWith(name, "@sampled") ||
+         EndsWith(name, "@sampled@other-aircraft");
 }
 
 /// An agent as the command line calls it, for the environment of `config`.
 FlyingAgent NamedAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   Agent agent = FindAgent(name, config, seed);
   if (const std::string file = PolicyFileOfAgent(name); !file.empty()) {
-    return FlyingPolicy(name, std::move(agent), LoadPolicy(file, config, seed));
+    return FlyingPolicy(name, std::move(agent), LoadPolicy(file, config, seed), DrawsActions(name));
   }
   const int action_repeat = agent.EnvironmentFor(config.train.env).action_repeat;
   const int observations = MakeTask(config.train.env)->observation_layout().size();
-  return {name, std::move(agent), observations, kActionSize, action_repeat, {}};
+  return {name, std::move(agent), observations, kActionSize, action_repeat, {}, DrawsActions(name)};
 }
 
 FlyingAgent CallableAgent(nb::object callable, const std::string& name, const ProgramConfig& config,
@@ -58,7 +68,7 @@ FlyingAgent CallableAgent(nb::object callable, const std::string& name, const Pr
   const int observations = MakeTask(config.train.env)->observation_layout().size();
   auto policy =
       MakePythonPolicy(std::move(callable), {observations, action_size, action_repeat, state_size});
-  return {name, Agent::Of(std::move(policy)), observations, action_size, action_repeat, {}};
+  return {name, Agent::Of(std::move(policy)), observations, action_size, action_repeat, {}, false};
 }
 
 /// One policy step: actions, and the memory after it.
@@ -109,6 +119,7 @@ void BindAgents(nb::module_& module) {
       .def_ro("observation_size", &FlyingAgent::observation_size)
       .def_ro("action_size", &FlyingAgent::action_size)
       .def_ro("action_repeat", &FlyingAgent::action_repeat)
+      .def_ro("draws", &FlyingAgent::draws)
       .def_prop_ro("state_size",
                    [](const FlyingAgent& flying) { return flying.agent.state_size(); })
       .def_prop_ro("task",

@@ -2,17 +2,21 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "base/field_list.h"
+#include "envs/aircraft/registry.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/settings_text.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/config/presets.h"
 #include "src/config/settings.h"
+#include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 
 namespace nb = nanobind;
@@ -65,13 +69,40 @@ nb::dict SettingsOf(const ProgramConfig& config) {
   return settings;
 }
 
-nb::object SettingOf(const ProgramConfig& config, const std::string& key) {
+nb::object SettingOf(const ProgramConfig& config, const nb::handle& key) {
+  std::string name;
+  if (!nb::try_cast(key, name)) {
+    const std::string type = nb::type_name(key.type()).c_str();
+    throw nb::type_error(("a configuration's keys are texts, not " + type).c_str());
+  }
   ProgramConfig listed = config;
   const std::vector<Field> fields = FieldsOf(listed);
-  return ValueOf(AsUsage([&]() -> const Field& { return FindField(fields, key, "settings"); }));
+  return ValueOf(AsUsage([&]() -> const Field& { return FindField(fields, name, "settings"); }));
 }
 
-std::vector<std::string> PresetsOf(const std::string& task) {
+/// The files by which the directory of a run records a configuration, by their names; and whether
+/// it flies a task file without what of that only serves training, which they do not say.
+nb::tuple RecordOf(const ProgramConfig& config) {
+  const EnvConfig& env = config.train.env;
+  const TermTaskConfig* const terms = env.term_task.get();
+  nb::dict files;
+  files["config.toml"] = DumpToml(config);
+  if (terms != nullptr) files[kTaskFileOfRun] = terms->text;
+  if (IsKeptFile(env.aircraft)) files[kAircraftOfRun] = AircraftText(env.aircraft);
+  const bool is_final =
+      terms != nullptr && terms->training_tolerance_min == 1 && terms->training_tolerance_max == 1;
+  return nb::make_tuple(files, is_final);
+}
+
+/// The configuration of such files, of which `path` is config.toml.
+ProgramConfig ReadRecordOf(const std::string& path, bool is_final) {
+  ProgramConfig config = ReadRecord(path);
+  EnvConfig& env = config.train.env;
+  if (is_final && env.term_task != nullptr) env.SetTermTask(env.term_task->ForEvaluation());
+  return config;
+}
+
+std::vector<std::string> PresetsOfTask(const std::string& task) {
   std::vector<std::string> names;
   for (const Preset& preset : Presets()) {
     if (preset.task == task) names.emplace_back(preset.name);
@@ -92,7 +123,27 @@ void BindConfiguration(nb::module_& module) {
           "conditions",
           [](const ProgramConfig& config) { return DescribeConditions(config.train.env); },
           "What it is flown under, for people.")
-      .def("__getitem__", &SettingOf, nb::arg("key"))
+      .def("__getitem__", &SettingOf, nb::arg("key").none(),
+           "The value of a key, such as \"env.heading.dwell_s\". The configuration can be iterated "
+           "over, too: its keys, those of settings().")
+      .def(
+          "__contains__",
+          [](const ProgramConfig& config, const nb::handle& key) {
+            return SettingsOf(config).contains(key);
+          },
+          nb::arg("key").none())
+      .def("__iter__", [](const ProgramConfig& config) { return nb::iter(SettingsOf(config)); })
+      .def("__len__", [](const ProgramConfig& config) { return nb::len(SettingsOf(config)); })
+      .def(
+          "__eq__",
+          [](const ProgramConfig& config, const ProgramConfig& other) {
+            return SettingsText(config) == SettingsText(other);
+          },
+          nb::arg("other"), nb::is_operator())
+      .def("__hash__",
+           [](const ProgramConfig& config) {
+             return std::hash<std::string>()(SettingsText(config));
+           })
       .def("settings", &SettingsOf, "Every key of the task with its value.")
       .def("to_toml", &DumpToml, "The same as a TOML file, each key with its meaning.")
       .def(
@@ -111,9 +162,9 @@ void BindConfiguration(nb::module_& module) {
       });
   module.def("resolve", &Resolve, nb::arg("task"), nb::arg("preset"), nb::arg("file"),
              nb::arg("conditions"), nb::arg("assignments"));
-  module.def("read_record", &ReadRecord, nb::arg("path"),
-             "The configuration that a run has recorded in its config.toml.");
-  module.def("presets_of", &PresetsOf, nb::arg("task"));
+  module.def("record_of", &RecordOf, nb::arg("config"));
+  module.def("read_record", &ReadRecordOf, nb::arg("path"), nb::arg("is_final") = false);
+  module.def("presets_of", &PresetsOfTask, nb::arg("task"));
 }
 
 }  // namespace skein

@@ -12,13 +12,17 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/fnv_hash.h"
 #include "base/worker_pool.h"
 #include "envs/interface_names.h"
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
+#include "python/bindings/last_states.h"
+#include "python/bindings/settings_text.h"
 #include "python/bindings/shown_state.h"
+#include "python/bindings/snapshot_origin.h"
 #include "src/agents/low_level_option.h"
 #include "src/config/program_config.h"
 
@@ -41,6 +45,14 @@ int TileSize(int num_envs, int threads) {
   return std::min((share + kTileGrain - 1) / kTileGrain * kTileGrain, kMostPerTile);
 }
 
+/// Of every setting that says what is flown.
+std::uint64_t HashOfEnvironment(const ProgramConfig& config) {
+  const std::string text = SettingsText(config, "env.");
+  FnvHash hash;
+  hash.Add(text.data(), text.size());
+  return hash.value();
+}
+
 /// An environment's aircraft all at once: a VecEnv and the threads that step its tiles. Rows of
 /// arrays are aircraft, in the order of their numbers. Throws Error if an `agent` is given that was
 /// made for something else.
@@ -49,6 +61,7 @@ class BatchEnv {
   BatchEnv(const ProgramConfig& config, int num_envs, std::uint64_t seed, int threads,
            std::shared_ptr<const Policy> low_level, const std::optional<FlyingAgent>& agent)
       : config_(config.train.env),
+        origin_{seed, HashOfEnvironment(config)},
         low_level_(std::move(low_level)),
         pool_(ThreadsFor(num_envs, threads)),
         env_(Make(num_envs, seed)),
@@ -69,6 +82,7 @@ class BatchEnv {
   void Reset(std::uint64_t seed) {
     const nb::gil_scoped_release released;
     env_ = Make(env_->num_aircraft(), seed);
+    origin_.seed = seed;
   }
 
   void Restart(const Row<const bool>& begins) {
@@ -81,7 +95,6 @@ class BatchEnv {
   void Observe(const Rows<float>& observation) {
     CheckObservation(observation);
     const nb::gil_scoped_release released;
-    if (last_states_) last_states_->Begin();
     pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
       env_->Observe(tile, observation.data() + FirstOf(tile) * observation_size());
     });
@@ -152,11 +165,14 @@ class BatchEnv {
   }
 
   /// From now on steps remember the states that they end with.
-  void KeepLastStates() { last_states_ = std::make_unique<LastStates>(rows()); }
-  /// As of LastStates::columns().
+  void KeepLastStates() {
+    last_states_ = std::make_unique<LastStates>(
+        env_->num_aircraft(), MakeTask(config_)->num_targets(), config_.action_repeat);
+  }
+  /// As of LastStates::Columns().
   nb::object LastStatesSeen() const {
     Require(last_states_ != nullptr, "last_states: they are not kept");
-    return nb::cast(ToNumpy(last_states_->columns(), {LastStates::kNumRows, rows()}));
+    return nb::cast(ToNumpy(last_states_->Columns(), {last_states_->num_columns(), rows()}));
   }
 
   nb::list TargetNames() const {
@@ -181,11 +197,26 @@ class BatchEnv {
 
   nb::object Snapshot() const {
     std::vector<std::uint32_t> words = env_->Snapshot();
+    AddOrigin(origin_, &words);
     const std::size_t size = words.size();
     return nb::cast(ToNumpy(std::move(words), {size}));
   }
-  void Restore(const Row<const std::uint32_t>& words) {
-    env_->Restore(std::vector<std::uint32_t>(words.data(), words.data() + words.size()));
+  /// Goes on from a Snapshot, with its seed. Throws Error on one of another configuration or number
+  /// of aircraft, and changes nothing then.
+  void Restore(const Row<const std::uint32_t>& snapshot) {
+    std::vector<std::uint32_t> words(snapshot.data(), snapshot.data() + snapshot.size());
+    const SnapshotOrigin origin = TakeOrigin(&words);
+    if (origin.configuration != origin_.configuration) {
+      throw Error("restore: the snapshot is of another configuration, or of another Skein");
+    }
+    if (origin.seed == origin_.seed) {
+      env_->Restore(words);
+      return;
+    }
+    std::unique_ptr<VecEnv> env = Make(env_->num_aircraft(), origin.seed);
+    env->Restore(words);
+    env_ = std::move(env);
+    origin_ = origin;
   }
 
  private:
@@ -234,6 +265,7 @@ class BatchEnv {
   }
 
   EnvConfig config_;
+  SnapshotOrigin origin_;
   std::shared_ptr<const Policy> low_level_;
   WorkerPool pool_;
   std::unique_ptr<VecEnv> env_;
@@ -261,7 +293,7 @@ std::shared_ptr<const Policy> LowLevelFor(const EnvConfig& env, const std::strin
 void BindEnvironment(nb::module_& module) {
   nb::list names;
   for (const NamedColumn& shown : kShownColumns) names.append(shown.name);
-  module.attr("STATE_NAMES") = nb::tuple(names);
+  module.attr("SHOWN_STATE_NAMES") = nb::tuple(names);
   nb::class_<BatchEnv>(module, "BatchEnv")
       .def(
           "__init__",

@@ -19,6 +19,7 @@ struct FlyingAgent {
   int observation_size = 0, action_size = 0;
   int action_repeat = 1;                  ///< control steps for which its actions are to be held
   std::optional<RecurrentPolicy> policy;  ///< if it is a trained one
+  bool draws = false;                     ///< its actions at random
 };
 
 /// A callable of Python as an agent: it is given float32 observations [count][observation_size],

@@ -40,15 +40,17 @@ nb::dict ToDict(const IterationReport& report) {
   return row;
 }
 
-/// Does `work` without the interpreter's lock, given what shows the callback every iteration. What
+/// Does `work` without the interpreter's lock, given what shows the callback every iteration, and
+/// whether the run prints. What
 /// the callback throws ends the run as its false does, saved, and is thrown on; so is what Ctrl-C
 /// means in Python.
 template <typename Work>
-void TrainUnlocked(const nb::object& callback, WorkerPool& pool, const Work& work) {
+void TrainUnlocked(const nb::object& callback, bool progress, WorkerPool& pool, const Work& work) {
   std::exception_ptr failure;
-  GoesOn goes_on;
+  RunWatch watch;
+  watch.prints = progress;
   if (!callback.is_none()) {
-    goes_on = [&](const IterationReport& report) {
+    watch.goes_on = [&](const IterationReport& report) {
       const nb::gil_scoped_acquire acquired;
       try {
         return !callback(ToDict(report)).is(nb::bool_(false));
@@ -59,14 +61,14 @@ void TrainUnlocked(const nb::object& callback, WorkerPool& pool, const Work& wor
     };
   }
   // Its own signals are those of the run; what comes before it begins stops it, too.
-  const int stop_signal = Unlocked(pool, [&] { return work(std::move(goes_on)); });
+  const int stop_signal = Unlocked(pool, [&] { return work(std::move(watch)); });
   if (failure) std::rethrow_exception(failure);
   RaiseSignal(stop_signal);
 }
 
 /// Trains and evaluates in a new run directory.
 void Train(const ProgramConfig& config, const std::string& out, const std::string& from,
-           const std::string& low_level, int threads, const nb::object& callback) {
+           const std::string& low_level, int threads, bool progress, const nb::object& callback) {
   ProgramConfig trained = config;
   RunOrigin origin;
   if (!from.empty()) origin.from = NetworksFileOf(from);
@@ -74,19 +76,19 @@ void Train(const ProgramConfig& config, const std::string& out, const std::strin
   trained.train.low_level = below.policy;
   origin.low_level = below.description;
   WorkerPool pool(threads);
-  TrainUnlocked(callback, pool, [&](GoesOn goes_on) {
-    origin.goes_on = std::move(goes_on);
+  TrainUnlocked(callback, progress, pool, [&](RunWatch watch) {
+    origin.watch = std::move(watch);
     return TrainingRun::Begin(trained, out, pool, origin);
   });
 }
 
 /// Trains on in a run directory, to the end of its budget.
-void Resume(const std::string& path, int threads, const nb::object& callback) {
+void Resume(const std::string& path, int threads, bool progress, const nb::object& callback) {
   RunDirectory directory = RunDirectory::Open(path);
   const ProgramConfig config = RecordedConfig(directory);
   WorkerPool pool(threads);
-  TrainUnlocked(callback, pool, [&](GoesOn goes_on) {
-    return TrainingRun::Resume(config, std::move(directory), pool, std::move(goes_on));
+  TrainUnlocked(callback, progress, pool, [&](RunWatch watch) {
+    return TrainingRun::Resume(config, std::move(directory), pool, std::move(watch));
   });
 }
 
@@ -94,8 +96,10 @@ void Resume(const std::string& path, int threads, const nb::object& callback) {
 
 void BindTraining(nb::module_& module) {
   module.def("train", &Train, nb::arg("config"), nb::arg("out"), nb::arg("start_from"),
-             nb::arg("low_level"), nb::arg("threads"), nb::arg("callback").none());
-  module.def("resume", &Resume, nb::arg("path"), nb::arg("threads"), nb::arg("callback").none());
+             nb::arg("low_level"), nb::arg("threads"), nb::arg("progress"),
+             nb::arg("callback").none());
+  module.def("resume", &Resume, nb::arg("path"), nb::arg("threads"), nb::arg("progress"),
+             nb::arg("callback").none());
 }
 
 }  // namespace skein

@@ -23,12 +23,14 @@ from skein._skein import (
     __version__,
     simd_target,
 )
-from skein.agents import Agent, load_policy
+from skein.agents import Agent, AgentLike, load_policy
 from skein.configuration import configure, presets
 from skein.custom_rules import CUSTOM_TERMINATION, FlightColumns
 from skein.environment import FlightEnv, FlightVectorEnv, make, make_vec, register_environments
 from skein.evaluation import Comparison, Evaluation, compare, evaluate, record
 from skein.flight_dynamics import (
+    CONTROL_NAMES,
+    STATE_NAMES,
     LinearModel,
     Trajectory,
     Trim,
@@ -45,12 +47,15 @@ from skein.training import Run, train
 __all__ = [
     "ACTION_NAMES",
     "AIRCRAFT",
+    "CONTROL_NAMES",
     "CUSTOM_TERMINATION",
     "HIGH_LEVEL_ACTION_NAMES",
     "OBSERVATION_NAMES",
+    "STATE_NAMES",
     "TASKS",
     "TERMINATION_NAMES",
     "Agent",
+    "AgentLike",
     "Comparison",
     "Config",
     "ConfigurationError",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from functools import partial
 from typing import Any, Union
 
 import numpy as np
@@ -11,14 +12,15 @@ from numpy.typing import NDArray
 
 from skein import _skein
 from skein._skein import Config, ConfigurationError
-from skein.checks import MOST_ENVIRONMENTS, MOST_SEED, MOST_SIZE, is_vector, rows, text, whole_number
+from skein.checks import MOST_ENVIRONMENTS, MOST_POLICY_STEP, MOST_SEED, MOST_SIZE, is_vector, rows, text, whole_number
 from skein.configuration import configure
 
 FloatArray = NDArray[np.float32]
 
 
 class Agent:
-    """Who flies an aircraft. Immutable; its memory of each aircraft lies with the caller, as rows of `state`."""
+    """Who flies an aircraft. Immutable; its memory of each aircraft lies with the caller, as rows of `state`. A copy is
+    the agent itself; one that is pickled is made again from the same arguments, so that its file must be there."""
 
     def __init__(self, name: str, task: str | Config = "heading", *, seed: int = 0, **config: Any) -> None:
         """An agent by the name that `skein compare --agents` gives it: "autopilot" (alone: aggressive),
@@ -33,13 +35,15 @@ class Agent:
             Error: an unknown name, a file that is no policy, an autopilot without gains for the aircraft.
         """
         whole_number("seed", seed, 0, MOST_SEED)
-        self._core = _skein.named_agent(text("name", name), configure(task, **config), seed)
+        configured = configure(task, **config)
+        self._core = _skein.named_agent(text("name", name), configured, seed)
         self._seed = seed
+        self._make: Callable[[], Agent] = partial(Agent, name, configured, seed=seed)
 
     @classmethod
-    def _of(cls, core: _skein.FlyingAgent) -> Agent:
+    def _of(cls, core: _skein.FlyingAgent, seed: int, make: Callable[[], Agent]) -> Agent:
         agent = cls.__new__(cls)
-        agent._core, agent._seed = core, 0
+        agent._core, agent._seed, agent._make = core, seed, make
         return agent
 
     @property
@@ -77,12 +81,17 @@ class Agent:
         """Whether a low-level policy flies for it."""
         return self._core.is_high_level
 
+    @property
+    def draws(self) -> bool:
+        """Whether its actions are drawn at random, as those of "random" and of a policy that is sampled."""
+        return self._core.draws
+
     def initial_state(self, count: int) -> FloatArray:
         """Memory at the beginning of episodes: zeros, (count, state_size)."""
         return np.zeros((whole_number("count", count, 0, MOST_ENVIRONMENTS), self.state_size), np.float32)
 
     def act(
-        self, observation: Any, state: FloatArray | None = None, *, policy_step: int = 0
+        self, observation: Any, state: FloatArray | None = None, *, policy_step: int | None = None
     ) -> tuple[FloatArray, FloatArray]:
         """One policy step.
 
@@ -90,11 +99,15 @@ class Agent:
             observation: float32 (count, observation_size), or (observation_size,) for one aircraft.
             state: memory of each aircraft, (count, state_size), that the step before returned; None, or rows of
                 zeros, where an episode begins.
-            policy_step: what random actions depend on beside the seed and the row.
+            policy_step: of one that draws, which policy step it is: 0, 1, 2 and so on. What it draws depends on the
+                seed, this and the row alone, so that a step that is given again draws the same. Others do not need it.
 
         Returns:
             actions (count, action_size), or (action_size,), and the memory after the step. Actions of a policy that
             is sampled may lie beyond [-1, 1]; the environment clips them.
+
+        Raises:
+            ConfigurationError: arrays of another shape, or no policy_step for an agent that draws.
         """
         is_one = is_vector(observation)
         shape = (self.observation_size,) if is_one else (None, self.observation_size)
@@ -106,12 +119,25 @@ class Agent:
         else:
             size = (self.state_size,) if is_one and is_vector(state) else (len(seen), self.state_size)
             memory = rows("state", state, size).reshape(len(seen), self.state_size)
-        whole_number("policy_step", policy_step, 0, 2**32 - 1)
+        if policy_step is None:
+            if self.draws:
+                raise ConfigurationError(f"agent {self.name}: policy_step is needed: 0, 1, 2 ...; it draws by it")
+            policy_step = 0
+        whole_number("policy_step", policy_step, 0, MOST_POLICY_STEP)
         action, after = self._core.act(seen, memory, self._seed, policy_step)
         return (action[0], after) if is_one else (action, after)
 
     def __repr__(self) -> str:
         return f"<skein.Agent {self.name}>"
+
+    def __copy__(self) -> Agent:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Agent:
+        return self
+
+    def __reduce__(self) -> tuple[Callable[[], Agent], tuple[()]]:
+        return self._make, ()
 
 
 AgentLike = Union[Agent, str, Callable[..., Any]]
@@ -122,17 +148,20 @@ also given its memory of the aircraft, float32 (count, state_size), zeros where 
 actions and memory. It must not depend on which aircraft come together in a call."""
 
 
-def load_policy(path: str | os.PathLike[str], *, sampled: bool = False) -> Agent:
+def load_policy(path: str | os.PathLike[str], *, sampled: bool = False, seed: int = 0) -> Agent:
     """The trained policy in a policy file, checkpoint, or directory of a run (its best).
 
     Args:
         path: of it.
-        sampled: draw actions from its distribution instead of taking the mean.
+        sampled: draw actions from its distribution instead of taking the mean. Agent.act then needs policy_step.
+        seed: of what is drawn.
 
     Raises:
         Error: a file that is missing, damaged, or none of Skein's.
     """
-    return Agent._of(_skein.load_agent(text("path", path), bool(sampled)))
+    whole_number("seed", seed, 0, MOST_SEED)
+    core = _skein.load_agent(text("path", path), bool(sampled))
+    return Agent._of(core, seed, partial(load_policy, path, sampled=sampled, seed=seed))
 
 
 def agent_of(agent: AgentLike, config: Config, seed: int) -> Agent:
@@ -149,4 +178,5 @@ def agent_of(agent: AgentLike, config: Config, seed: int) -> Agent:
     repeat = whole_number("action_repeat", getattr(agent, "action_repeat", config["env.action_repeat"]), 1, MOST_SIZE)
     action_size = whole_number("action_size", getattr(agent, "action_size", len(_skein.ACTION_NAMES)), 1, MOST_SIZE)
     state_size = whole_number("state_size", getattr(agent, "state_size", 0), 0, MOST_SIZE)
-    return Agent._of(_skein.callable_agent(agent, name, config, action_size, repeat, state_size))
+    core = _skein.callable_agent(agent, name, config, action_size, repeat, state_size)
+    return Agent._of(core, seed, partial(agent_of, agent, config, seed))

@@ -17,6 +17,14 @@ MOST_THREADS = 1024
 MOST_SIZE = 2**16
 MOST_TEXT = 1024
 MOST_STEPS = 10**8
+MOST_POLICY_STEP = 2**32 - 1
+
+
+class UnknownName(ConfigurationError, KeyError):
+    """Something was asked for by a name that it does not have."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])  # and not in quotes, as of a KeyError
 
 
 def shown(value: Any) -> str:

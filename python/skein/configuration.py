@@ -2,8 +2,11 @@
 """What is flown: presets, conditions and settings."""
 from __future__ import annotations
 
+import copyreg
 import json
 import os
+import pathlib
+import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Union
 
@@ -83,3 +86,15 @@ def _toml(key: str, value: Any) -> str:
     if isinstance(value, str):
         return json.dumps(text(key, value))
     raise ConfigurationError(f"settings: {key} must be a number, a text, or true or false, not {type(value).__name__}")
+
+
+def _recalled(files: dict[str, str], is_final: bool) -> Config:
+    """The configuration that the files of a run's directory record."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            pathlib.Path(folder, name).write_text(content, encoding="utf-8")
+        return _skein.read_record(os.path.join(folder, "config.toml"), is_final)
+
+
+# Pickled, and copied, as a run records it: whole, with the task file and the aircraft of a user's.
+copyreg.pickle(Config, lambda config: (_recalled, _skein.record_of(config)))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from skein import _skein
 from skein._skein import OBSERVATION_NAMES, TERMINATION_NAMES, ConfigurationError, Error
+from skein.checks import UnknownName
 
 FloatArray = NDArray[np.float32]
 BoolArray = NDArray[np.bool_]
@@ -73,6 +74,8 @@ class FlightColumns(Mapping[str, NDArray[Any]]):
     The actions: action_throttle, action_pitch, action_roll, action_yaw in [-1, 1] (of a high-level policy
       action_target_pitch, action_target_yaw, action_target_speed).
     What the task says: reward, and termination (uint8, an index of TERMINATION_NAMES).
+
+    It is a Mapping: `in` and `get` serve, and a name that it does not have is a ConfigurationError and a KeyError.
     """
 
     def __init__(self, columns: dict[str, NDArray[Any]]) -> None:
@@ -81,9 +84,12 @@ class FlightColumns(Mapping[str, NDArray[Any]]):
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self._columns:
             if name not in _DERIVED:
-                raise Error(f'there is no column "{name}"; known: {", ".join(self)}')
+                raise UnknownName(f'there is no column "{name}"; known: {", ".join(self)}')
             self._columns[name] = _DERIVED[name](self)
         return self._columns[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns or name in _DERIVED
 
     def __iter__(self) -> Iterator[str]:
         return iter(dict.fromkeys((*self._columns, *_DERIVED)))
@@ -106,6 +112,7 @@ class CustomRules:
         core.keep_last_states()
         self._core, self._reward, self._terminated = core, reward, terminated
         self._action_names = [f"action_{name}" for name in _action_names(core)]
+        self._flight_names = (*_skein.SHOWN_STATE_NAMES, *_ERROR_NAMES, *core.target_names)
         self._returns = np.zeros(core.num_envs)
         self._steps = np.zeros(core.num_envs, np.int32)
 
@@ -125,11 +132,8 @@ class CustomRules:
     ) -> int:
         """BatchEnv.step, then the functions; returns how many episodes ended."""
         actions = np.ascontiguousarray(actions, np.float32)
-        columns: dict[str, NDArray[Any]] = dict(
-            zip(self._core.target_names, self._core.targets().T, strict=True)
-        )
         ended = self._core.step(actions, observation, reward, termination, terminated, truncated)
-        columns |= zip((*_skein.STATE_NAMES, *_ERROR_NAMES), self._core.last_states(), strict=True)
+        columns: dict[str, NDArray[Any]] = dict(zip(self._flight_names, self._core.last_states(), strict=True))
         columns |= zip(self._action_names, np.clip(actions, -1, 1).T, strict=True)
         shown = FlightColumns(columns | {"reward": reward.copy(), "termination": termination.copy()})
         ends = self._result("terminated", self._terminated, shown, bool)

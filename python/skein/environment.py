@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import pathlib
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, Union, cast
 
@@ -18,13 +20,14 @@ from skein._skein import (
     ACTION_NAMES,
     HIGH_LEVEL_ACTION_NAMES,
     OBSERVATION_NAMES,
+    TASKS,
     TERMINATION_NAMES,
     Config,
     ConfigurationError,
     Error,
 )
 from skein.agents import Agent
-from skein.checks import MOST_ENVIRONMENTS, MOST_SEED, MOST_THREADS, flags, rows, text, whole_number
+from skein.checks import MOST_ENVIRONMENTS, MOST_SEED, MOST_THREADS, flags, rows, shown, text, whole_number
 from skein.configuration import configure
 from skein.custom_rules import CUSTOM_TERMINATION, CustomRules, Rule
 
@@ -35,6 +38,7 @@ Info = dict[str, Any]
 # The largest normal deviate of the noise: the smallest uniform number that it is made of is 2^-32.
 _LARGEST_DEVIATE = 7.0
 _ROUNDING = 1e-6  # sines and cosines of float32 kernels
+_SAYS_STAGGER_CLOCKS = re.compile(r"^[^#\n]*\bstagger_clocks\b", re.MULTILINE)
 _TERMINATIONS = np.array((*TERMINATION_NAMES, "custom"), dtype=object)
 assert len(_TERMINATIONS) == CUSTOM_TERMINATION + 1
 
@@ -58,9 +62,21 @@ def _action_space(core: _skein.BatchEnv) -> spaces.Space[FloatArray]:
     return cast("spaces.Space[FloatArray]", spaces.Box(-1.0, 1.0, (core.action_size,), np.float32))
 
 
-def _says(settings: Mapping[str, Any], table: str, key: str) -> bool:
-    """Whether settings, flat or nested, name a key of a table."""
-    return f"{table}.{key}" in settings or key in settings.get(table, {})
+def _staggers_by_preset(task: str | Config, config: Mapping[str, Any]) -> bool:
+    """Whether env.stagger_clocks is what a preset says, and no Config, file or setting."""
+    if isinstance(task, Config) or "env.stagger_clocks" in config or "stagger_clocks" in config.get("env", {}):
+        return False
+    files = [config["file"]] if config.get("file") else []
+    if os.fspath(task) not in TASKS:  # a task file
+        files.append(task)
+    return not any(_SAYS_STAGGER_CLOCKS.search(pathlib.Path(file).read_text(errors="replace")) for file in files)
+
+
+def _require_no_rendering(render_mode: Any) -> None:
+    if render_mode is not None:
+        raise ConfigurationError(
+            f"render_mode must be None, not {shown(render_mode)}: look at flights with skein.record and `skein replay`"
+        )
 
 
 class _Flight:
@@ -119,6 +135,10 @@ class _Flight:
             self._rules.begin(np.ones(self._core.num_envs, bool) if begins is None else begins)
         self._begun = True
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        name = type(self).__name__
+        raise TypeError(f"a {name} can be neither pickled nor copied: make another, and restore a snapshot")
+
     def _observe(self) -> FloatArray:
         observation = np.empty((self._core.num_envs, self._core.observation_size), np.float32)
         self._core.observe(observation)
@@ -127,7 +147,7 @@ class _Flight:
     def state(self) -> dict[str, FloatArray]:
         """Columns of the true state by name, one number for each environment (feet, seconds, radians, degrees where
         the name says so): what no observation shows."""
-        return dict(zip(_skein.STATE_NAMES, self._core.state().T, strict=True))
+        return dict(zip(_skein.SHOWN_STATE_NAMES, self._core.state().T, strict=True))
 
     def targets(self) -> FloatArray:
         """What is flown to, [environment][quantity]: altitude ft, yaw rad and speed ft/s for Heading; pitch rad,
@@ -135,12 +155,17 @@ class _Flight:
         return self._core.targets()
 
     def snapshot(self) -> NDArray[np.uint32]:
-        """The whole mutable state, to go on from with `restore`."""
+        """The whole mutable state, to go on from with `restore`, and the seed and a hash of the configuration."""
         return self._core.snapshot()
 
     def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
-        """Goes on from a snapshot of an environment with the same configuration, number and seed; returns what is
-        observed there. Returns of a reward of one's own count from there."""
+        """Goes on from a snapshot of an environment with the same configuration, low-level policy and number, with its
+        seed; returns what is observed there. Returns of a reward of one's own count from there.
+
+        Raises:
+            Error: a snapshot of another configuration or number, or none.
+        """
+        self._require_open("restore")
         self._core.restore(rows("snapshot", snapshot, (None,), np.uint32))
         if self._rules is not None:
             self._rules.begin(np.ones(self._core.num_envs, bool))
@@ -154,7 +179,7 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
     Observations are float32 (num_envs, 22), actions float32 (num_envs, 4) in [-1, 1], clipped: throttle, pitch, roll,
     yaw; of a high-level policy three. An array that `step` returns is written by the simulator, and never again:
     nothing is copied. Actions may be any array that speaks DLPack, such as a tensor of torch; float32 rows on the CPU
-    are read in place. Threads of Python run on during a step.
+    are read in place. Threads of Python run on during a step. Nothing is drawn: `render_mode` is None.
 
     Episodes that end begin anew in the same step (AutoresetMode.SAME_STEP). Then `info` has, by Gymnasium's rules,
     "final_obs" (an object array: an observation where an episode ended, else None) and "final_info" with
@@ -176,8 +201,10 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
         evaluation: bool = False,
         reward: Rule | None = None,
         terminated: Rule | None = None,
+        render_mode: None = None,
         **config: Any,
     ) -> None:
+        _require_no_rendering(render_mode)
         configured = configure(task, **config)
         flown = configured.evaluation() if evaluation else configured
         self._begin_flight(flown, num_envs, threads, low_level, agent, reward, terminated)
@@ -248,7 +275,7 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
 
 
 class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
-    """One aircraft. `skein.make` makes it; spaces as of FlightVectorEnv.
+    """One aircraft. `skein.make` makes it; spaces as of FlightVectorEnv. Nothing is drawn: `render_mode` is None.
 
     When an episode ends, `info` has "termination" (the reason's name), "episode_return" and "episode_control_steps".
     """
@@ -264,10 +291,12 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         evaluation: bool = False,
         reward: Rule | None = None,
         terminated: Rule | None = None,
+        render_mode: None = None,
         **config: Any,
     ) -> None:
+        _require_no_rendering(render_mode)
         configured = configure(task, **config)
-        if not _says(config, "env", "stagger_clocks"):  # which serves batches: here it would only cut the first episode
+        if _staggers_by_preset(task, config):  # which serves batches: here it would only cut the first episode
             configured = configure(configured, env={"stagger_clocks": False})
         flown = configured.evaluation() if evaluation else configured
         self._begin_flight(flown, 1, 1, low_level, agent, reward, terminated)
@@ -312,13 +341,18 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         return final[0], reward, bool(self._flags[0][0]), bool(self._flags[1][0]), info
 
     def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
-        """Goes on from a snapshot of an environment with the same configuration and seed, in the middle of its episode;
-        returns what is observed there, (22,)."""
+        """Goes on from a snapshot of an environment with the same configuration, in the middle of its episode, with its
+        seed; returns what is observed there, (22,).
+
+        Raises:
+            Error: as of FlightVectorEnv.restore.
+        """
         observation: FloatArray = super().restore(snapshot)[0]
         self._flying = True
         return observation
 
     def close(self) -> None:
+        """Ends its use: a step or reset after it is an Error."""
         self._is_closed = True
 
 
@@ -387,7 +421,11 @@ def make(
     **settings: Any,
 ) -> FlightEnv:
     """One aircraft that flies `task`, as a Gymnasium Env: arguments as of make_vec. The same is registered as
-    gymnasium.make("skein/Heading-v0"), "skein/Control-v0" and "skein/Tracking-v0"."""
+    gymnasium.make("skein/Heading-v0"), "skein/Control-v0" and "skein/Tracking-v0".
+
+    env.stagger_clocks, by which presets begin the first episodes of many aircraft at different times, is off here
+    unless a Config, a file or a setting says otherwise: the first episode would only be cut.
+    """
     return FlightEnv(
         task,
         low_level=low_level,
@@ -406,7 +444,7 @@ def _given(preset: str, file: Union[str, os.PathLike[str]], conditions: Any) -> 
 
 def register_environments() -> None:
     """Makes the tasks known to gymnasium.make and gymnasium.make_vec."""
-    for task in _skein.TASKS:
+    for task in TASKS:
         name = f"skein/{task.capitalize()}-v0"
         if name in gymnasium.registry:
             continue

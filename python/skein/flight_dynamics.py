@@ -5,28 +5,42 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from skein import _skein
 from skein._skein import ConfigurationError
-from skein.checks import MOST_STEPS, is_vector, number, rows, shown, text, whole_number
+from skein.checks import MOST_STEPS, UnknownName, is_vector, number, rows, shown, text, whole_number
 
 DoubleArray = NDArray[np.float64]
 
-STATE_NAMES = _skein.STATE_NAMES[:13]
+STATE_NAMES = _skein.SHOWN_STATE_NAMES[:13]
 """u, v, w (body axes, ft/s), p, q, r (rad/s), north, east, down (ft), the attitude's quaternion q0, qx, qy, qz."""
 CONTROL_NAMES = ("thrust_lbf", "elevator_deg", "aileron_deg", "rudder_deg", "leading_edge_flap_deg")
 """Elevator + is trailing edge down, aileron + rolls left, rudder + yaws left."""
 GRAVITY_FT_S2 = 32.17
 """Of the published F-16 models."""
 
+_Request = tuple[float, float, float, float, Union[float, None]]  # of _skein.FlightRequest
 
-@dataclass(frozen=True)
+
+class _Plant:
+    """An aircraft in its world; one that is pickled is made again from the same arguments."""
+
+    def __init__(self, *arguments: Any) -> None:
+        self._arguments = arguments
+        self.core = _skein.make_plant(*arguments)
+
+    def __reduce__(self) -> tuple[type[_Plant], tuple[Any, ...]]:
+        return _Plant, self._arguments
+
+
+@dataclass(frozen=True, eq=False)
 class Trim:
-    """Steady flight, and the controls that keep it."""
+    """Steady flight, and the controls that keep it. One that is pickled makes its aircraft again, whose file must be
+    there."""
 
     state: DoubleArray
     """(13,), STATE_NAMES; at north = east = 0, heading north."""
@@ -54,11 +68,11 @@ class Trim:
     """The largest acceleration that is left, ft/s^2 or rad/s^2."""
     exceeded_limits: tuple[str, ...]
     """Limits of the aircraft and its model that this flight exceeds, in words; empty if there are none."""
-    _plant: _skein.Plant = field(repr=False, compare=False)
-    _request: _skein.FlightRequest = field(repr=False, compare=False)
+    _plant: _Plant = field(repr=False)
+    _request: _Request = field(repr=False)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TrimGrid:
     """The same manoeuvre at every altitude and speed; `grid["excess_power_fps"]` is a figure of every point."""
 
@@ -84,11 +98,11 @@ class TrimGrid:
         found = [[point.get(name, np.nan) for point in row] for row in self.points]
         known = {key for row in self.points for point in row for key, value in point.items() if _is_number(value)}
         if name not in known:
-            raise KeyError(f"{name}: no figure; there are {', '.join(sorted(known))}")
+            raise UnknownName(f"{shown(name)}: no figure; there are {', '.join(sorted(known))}")
         return np.array(found, np.float64)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LinearModel:
     """d(state_rate) = A d(state) + B d(controls)."""
 
@@ -102,7 +116,7 @@ class LinearModel:
         return np.linalg.eigvals(self.A).astype(np.complex128)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Trajectory:
     """A flight with given controls."""
 
@@ -114,7 +128,7 @@ class Trajectory:
     def __getitem__(self, name: str) -> DoubleArray:
         """A column of the states by its name."""
         if name not in STATE_NAMES:
-            raise KeyError(f"{name}: no state; there are {', '.join(STATE_NAMES)}")
+            raise UnknownName(f"{shown(name)}: no state; there are {', '.join(STATE_NAMES)}")
         column: DoubleArray = self.states[:, STATE_NAMES.index(name)]
         return column
 
@@ -153,7 +167,7 @@ def trim(
     Raises:
         Error: there is no such flight; the message says which limit is in the way.
     """
-    plant = _plant(
+    plant = _made_plant(
         aircraft,
         atmosphere,
         gravity_ft_s2,
@@ -164,7 +178,7 @@ def trim(
         thrust_growth,
     )
     request = _request(altitude_ft, true_airspeed_fps, flight_path_deg, turn_rate_deg_s, pull_up_g)
-    return Trim(**plant.trim(request), _plant=plant, _request=request)
+    return Trim(**plant.core.trim(_skein.FlightRequest(*request)), _plant=plant, _request=request)
 
 
 def trim_grid(
@@ -187,7 +201,7 @@ def trim_grid(
 
     Args: as of skein.trim.
     """
-    plant = _plant(
+    plant = _made_plant(
         aircraft,
         atmosphere,
         gravity_ft_s2,
@@ -199,8 +213,8 @@ def trim_grid(
     )
     altitudes = _grid_axis("altitude_ft", altitude_ft, -np.inf)
     speeds = _grid_axis("true_airspeed_fps", true_airspeed_fps, 0)
-    manoeuvre = _request(0, 1, flight_path_deg, turn_rate_deg_s, pull_up_g)
-    points = json.loads(plant.trim_grid(altitudes, speeds, manoeuvre))
+    manoeuvre = _skein.FlightRequest(*_request(0, 1, flight_path_deg, turn_rate_deg_s, pull_up_g))
+    points = json.loads(plant.core.trim_grid(altitudes, speeds, manoeuvre))
     by_altitude = [points[begin : begin + len(speeds)] for begin in range(0, len(points), len(speeds))]
     return TrimGrid(altitudes, speeds, by_altitude)
 
@@ -208,7 +222,7 @@ def trim_grid(
 def linearise(point: Trim) -> LinearModel:
     """The linear model about a steady flight, of the aircraft that was trimmed, by central differences."""
     _require_trim("linearise", point)
-    return LinearModel(*point._plant.linearise(point.state, point.controls))
+    return LinearModel(*point._plant.core.linearise(point.state, point.controls))
 
 
 def linear_models(point: Trim, *, flap: str = "fixed") -> dict[str, Any]:
@@ -222,7 +236,8 @@ def linear_models(point: Trim, *, flap: str = "fixed") -> dict[str, Any]:
     _require_trim("linear_models", point)
     if flap not in ("fixed", "scheduled"):
         raise ConfigurationError(f'flap must be "fixed" or "scheduled", not {shown(flap)}')
-    models: dict[str, Any] = json.loads(point._plant.linear_models(point._request, flap == "scheduled"))
+    request = _skein.FlightRequest(*point._request)
+    models: dict[str, Any] = json.loads(point._plant.core.linear_models(request, flap == "scheduled"))
     for model in (models["bare_airframe"], *models["with_flight_control"].values()):
         for name in "ABCD":
             model[name] = np.array(model[name], np.float64)
@@ -244,8 +259,8 @@ def flying_qualities(point: Trim, *, airplane_class: str = "IV", category: str =
     """
     _require_trim("flying_qualities", point)
     found: dict[str, Any] = json.loads(
-        point._plant.flying_qualities(
-            point._request, text("airplane_class", airplane_class), text("category", category)
+        point._plant.core.flying_qualities(
+            _skein.FlightRequest(*point._request), text("airplane_class", airplane_class), text("category", category)
         )
     )
     return found
@@ -282,11 +297,11 @@ def simulate(
     elif duration_s is not None:
         raise ConfigurationError("simulate: duration_s is for controls that are held; rows have their own number")
     begin = rows("state", start.state if state is None else state, (len(STATE_NAMES),), np.float64)
-    states = start._plant.simulate(begin, flown, dt)
+    states = start._plant.core.simulate(begin, flown, dt)
     return Trajectory(dt * np.arange(len(states), dtype=np.float64), states)
 
 
-def _plant(
+def _made_plant(
     aircraft: Any,
     atmosphere: Any,
     gravity_ft_s2: Any,
@@ -295,11 +310,11 @@ def _plant(
     engine_angular_momentum: Any,
     drag_rise: Any,
     thrust_growth: Any,
-) -> _skein.Plant:
+) -> _Plant:
     gravity = number("gravity_ft_s2", gravity_ft_s2)
     if gravity <= 0:
         raise ConfigurationError(f"gravity_ft_s2 must be above 0, not {gravity}")
-    return _skein.make_plant(
+    return _Plant(
         text("aircraft", aircraft),
         text("atmosphere", atmosphere),
         gravity,
@@ -311,8 +326,8 @@ def _plant(
     )
 
 
-def _request(altitude_ft: Any, speed: Any, flight_path_deg: Any, turn_rate: Any, pull_up_g: Any) -> _skein.FlightRequest:
-    return _skein.FlightRequest(
+def _request(altitude_ft: Any, speed: Any, flight_path_deg: Any, turn_rate: Any, pull_up_g: Any) -> _Request:
+    return (
         number("altitude_ft", altitude_ft),
         number("true_airspeed_fps", speed),
         number("flight_path_deg", flight_path_deg),

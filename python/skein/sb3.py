@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from stable_baselines3.common import vec_env
+from stable_baselines3.common.monitor import Monitor
 
 from skein.environment import FlightVectorEnv
 
@@ -71,7 +72,8 @@ class VecEnv(vec_env.VecEnv):
         raise AttributeError(f"{method_name}: the aircraft of a skein.FlightVectorEnv have no methods of their own")
 
     def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> list[bool]:
-        return [False] * len(self._chosen(indices))
+        # Its infos have what Monitor would add: evaluate_policy then takes the returns of whole episodes from there.
+        return [wrapper_class is Monitor] * len(self._chosen(indices))
 
     def _chosen(self, indices: int | Iterable[int] | None) -> Sequence[int]:
         return list(self._get_indices(indices))

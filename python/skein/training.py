@@ -37,12 +37,12 @@ class Run:
 
     @property
     def metrics(self) -> pandas.DataFrame:
-        """metrics.csv: a row for every iteration."""
+        """metrics.csv: a row for every iteration. An Error before the training begins."""
         return self._table("metrics.csv")
 
     @property
     def timing(self) -> pandas.DataFrame:
-        """timing.csv: the seconds of each iteration."""
+        """timing.csv: the seconds of each iteration. An Error before the training begins."""
         return self._table("timing.csv")
 
     @property
@@ -60,22 +60,30 @@ class Run:
         return load_policy(self.path)
 
     def resume(
-        self, *, callback: Callable[[dict[str, Any]], bool | None] | None = None, threads: int = 0
+        self,
+        *,
+        callback: Callable[[dict[str, Any]], bool | None] | None = None,
+        threads: int = 0,
+        progress: bool = True,
     ) -> Run:
         """Trains on from the newest checkpoint to the end of the budget, to the same bits as without the stop;
-        arguments as of skein.train.
+        arguments as of skein.train. A run that has been trained to its end is evaluated again, to the same figures.
 
         Raises:
-            Error: the run has been trained to its end, or its newest checkpoint is damaged.
+            Error: the newest checkpoint is damaged, or the run has been trained to its end and has none any more.
+            KeyboardInterrupt: as of skein.train.
         """
-        whole_number("threads", threads, 0, MOST_THREADS)
-        _skein.resume(str(self.path), threads, callback)
+        _check(callback, threads)
+        _skein.resume(str(self.path), threads, bool(progress), callback)
         return self
 
     def _table(self, name: str) -> pandas.DataFrame:
         import pandas
 
-        return pandas.read_csv(self.path / name)
+        try:
+            return pandas.read_csv(self.path / name)
+        except (FileNotFoundError, pandas.errors.EmptyDataError) as error:
+            raise Error(f"{self.path}: there is no {name} in it yet: no iteration has been recorded") from error
 
     def __repr__(self) -> str:
         return f"<skein.Run {self.path}>"
@@ -89,9 +97,11 @@ def train(
     start_from: str | os.PathLike[str] = "",
     low_level: str | os.PathLike[str] = "",
     threads: int = 0,
+    progress: bool = True,
     **config: Any,
 ) -> Run:
-    """Trains a policy, then evaluates it, as `skein train` does: the same bits for the same configuration.
+    """Trains a policy, then evaluates it, as `skein train` does: the same bits for the same configuration. The page
+    and what the training took (report.html, summary.json) are left to `skein report`.
 
         run = skein.train("heading", "runs/short", **{"run.total_steps": 5_000_000})
         run.metrics.plot("env_steps", "success_rate")
@@ -104,16 +114,28 @@ def train(
         start_from: a run or policy whose networks it starts from.
         low_level: as of skein.make_vec.
         threads: 0: one per CPU. Results do not depend on it.
+        progress: print it, and the result, on the process's standard output, as the program does, past sys.stdout;
+            False: nothing. The run's log.txt has all of it.
 
     Raises:
         Error: the configuration cannot be trained, or the directory cannot be made.
         KeyboardInterrupt: Ctrl-C. The iteration under way is dropped; those before it are saved.
     """
     configured = configure(task, **config)
+    _check(callback, threads)
+    _skein.train(
+        configured,
+        text("out", out),
+        text("start_from", start_from),
+        text("low_level", low_level),
+        threads,
+        bool(progress),
+        callback,
+    )
+    return Run(out)
+
+
+def _check(callback: Any, threads: int) -> None:
     whole_number("threads", threads, 0, MOST_THREADS)
     if not (callback is None or callable(callback)):
         raise ConfigurationError(f"callback must be a function, not {type(callback).__name__}")
-    _skein.train(
-        configured, text("out", out), text("start_from", start_from), text("low_level", low_level), threads, callback
-    )
-    return Run(out)

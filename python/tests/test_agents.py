@@ -1,4 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
+import copy
+import pickle
+
 import numpy as np
 import pytest
 from conftest import ROOT
@@ -57,6 +60,44 @@ def test_one_aircraft_is_flown_as_many_are(heading_policy):
     np.testing.assert_array_equal(one_state[0], state[1])
     again, _ = heading_policy.act(observation, state)
     assert not np.array_equal(again, actions)  # it remembers
+
+
+def sampled_policy(seed=0):
+    return skein.load_policy(ROOT / "policies" / "heading.skein", sampled=True, seed=seed)
+
+
+@pytest.mark.parametrize("make", [sampled_policy, lambda seed=0: skein.Agent("random", "heading", seed=seed)])
+def test_an_agent_that_draws_is_told_the_policy_step(make):
+    agent, observation = make(), np.zeros((3, 22), np.float32)
+    assert agent.draws
+    with pytest.raises(skein.ConfigurationError, match="policy_step is needed"):
+        agent.act(observation)
+    first, second, again, other = (
+        acting.act(observation, policy_step=step)[0]
+        for acting, step in ((agent, 0), (agent, 1), (make(), 0), (make(seed=1), 0))
+    )
+    np.testing.assert_array_equal(first, again)
+    assert (first != second).all() and (first != other).all()
+    assert len(np.unique(first[:, 0])) == 3  # each row draws its own
+
+
+def test_the_mean_of_a_policy_does_not_depend_on_the_policy_step(heading_policy):
+    observation = np.zeros(22, np.float32)
+    assert not heading_policy.draws
+    np.testing.assert_array_equal(heading_policy.act(observation)[0], heading_policy.act(observation, policy_step=7)[0])
+    assert not skein.Agent("zero").draws and not skein.Agent("autopilot").draws
+    file = ROOT / "policies" / "heading.skein"
+    assert skein.Agent(f"policy:{file}@sampled@other-aircraft").draws and not skein.Agent(f"policy:{file}").draws
+
+
+def test_agents_are_pickled_and_copied(heading_policy):
+    observation = np.random.default_rng(0).normal(size=(5, 22)).astype(np.float32)
+    for agent in (heading_policy, sampled_policy(seed=3), skein.Agent("random:0.5", seed=3), skein.Agent("autopilot")):
+        assert copy.copy(agent) is agent and copy.deepcopy(agent) is agent
+        again = pickle.loads(pickle.dumps(agent))
+        assert (again.name, again.action_repeat, again.draws) == (agent.name, agent.action_repeat, agent.draws)
+        for a, b in zip(agent.act(observation, policy_step=4), again.act(observation, policy_step=4), strict=True):
+            np.testing.assert_array_equal(a, b)
 
 
 def test_agents_are_compared_on_the_same_episodes(heading_policy):

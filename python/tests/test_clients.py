@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import warnings
 
 import numpy as np
 import pytest
@@ -46,6 +47,36 @@ def test_the_adapter_says_what_the_environment_does():
             ends += 1
     assert ends >= 20
     assert adapter.get_attr("num_envs", [0, 3]) == [20, 20]
+
+
+def test_stable_baselines_evaluates_by_the_returns_of_the_environment():
+    pytest.importorskip("stable_baselines3")
+    from stable_baselines3.common.evaluation import evaluate_policy
+    from stable_baselines3.common.vec_env import VecNormalize
+
+    import skein.sb3
+
+    class Idle:
+        def predict(self, observation, state=None, episode_start=None, deterministic=False):
+            return np.zeros((len(observation), 4), np.float32), None
+
+    settings = {"env.time_limit_steps": 100, "env.action_repeat": 5, "env.stagger_clocks": False}
+    envs = skein.make_vec("heading", 4, preset="easy", **settings)
+    envs.reset(seed=4)
+    expected, over = np.zeros(4), np.zeros(4, bool)
+    while not over.all():
+        *_, terminated, truncated, info = envs.step(np.zeros((4, 4), np.float32))
+        for i in np.flatnonzero((terminated | truncated) & ~over):
+            expected[i] = info["final_info"]["episode_return"][i]
+        over |= terminated | truncated
+    adapter = skein.sb3.VecEnv(skein.make_vec("heading", 4, preset="easy", **settings))
+    normalised = VecNormalize(adapter)
+    normalised.seed(4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # of an environment without Monitor
+        returns, _ = evaluate_policy(Idle(), normalised, n_eval_episodes=4, return_episode_rewards=True)
+    np.testing.assert_allclose(np.sort(returns), np.sort(expected), rtol=1e-6)
+    assert adapter.env_is_wrapped(VecNormalize, [0, 3]) == [False, False]
 
 
 def learnt(tmp_path, example, *arguments):

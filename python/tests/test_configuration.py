@@ -1,4 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
+import copy
+import pickle
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from conftest import ROOT
@@ -24,6 +29,56 @@ def test_every_setting_can_be_read_and_given_again():
     config = skein.configure("control", **{"run.seed": 7})
     again = skein.configure("control", **config.settings())
     assert again.to_toml() == config.to_toml()
+
+
+def test_a_configuration_is_read_as_a_mapping():
+    config = skein.configure("heading")
+    settings = config.settings()
+    assert list(config) == list(settings) and len(config) == len(settings)
+    assert "env.hold_s" in config
+    assert "env.hold" not in config and "env.control.dwell_s" not in config and 3 not in config
+    for key in (3, None, b"env.hold_s"):
+        with pytest.raises(TypeError, match="keys are texts, not") as raised:
+            config[key]
+        assert "\n" not in str(raised.value)
+
+
+def test_configurations_are_equal_that_say_the_same():
+    config, same = skein.configure("heading"), skein.configure("heading")
+    assert config == same and hash(config) == hash(same) and config is not same
+    assert config != skein.configure("heading", env={"hold_s": 0}) and config != skein.configure("control")
+    assert config != config.to_toml() and config != None  # noqa: E711
+    file = ROOT / "examples" / "tasks" / "level_turn.toml"
+    assert skein.configure(file) == skein.configure(file) != skein.configure(file).evaluation()
+
+
+def own_files(folder):
+    """A task file with training tolerances, and an aircraft."""
+    task, aircraft = folder / "mine.toml", folder / "mine.json"
+    text = (ROOT / "examples" / "tasks" / "level_turn.toml").read_text()
+    task.write_text(text)
+    aircraft.write_text((ROOT / "data" / "f16" / "aircraft.json").read_text())
+    return task, aircraft
+
+
+def test_configurations_are_pickled_whole(tmp_path):
+    task, aircraft = own_files(tmp_path)
+    own = skein.configure(task, aircraft=aircraft, **{"run.seed": 3, "env.observation_noise": 0.1})
+    configs = [skein.configure("control", preset="paper"), own, own.evaluation()]
+    pickled = pickle.dumps(configs)
+    task.unlink()
+    aircraft.unlink()
+    for config, again in zip(configs, pickle.loads(pickled), strict=True):
+        assert again == config == copy.copy(config) == copy.deepcopy(config)
+        assert again.to_toml() == config.to_toml()
+    flies = (
+        "import pickle, sys, skein\n"
+        "for config in pickle.load(sys.stdin.buffer):\n"
+        "    print(skein.evaluate('zero', config, episodes=4).return_mean)\n"
+    )
+    there = subprocess.run([sys.executable, "-c", flies], input=pickled, capture_output=True, check=True).stdout
+    here = [skein.evaluate("zero", config, episodes=4).return_mean for config in configs]
+    assert [float(line) for line in there.split()] == here
 
 
 def test_an_aircraft_is_named_beside_the_settings():

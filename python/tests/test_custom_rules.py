@@ -63,6 +63,37 @@ def test_columns_are_those_of_the_step_also_where_it_ended_an_episode():
     assert ends >= 50
 
 
+def test_targets_are_those_in_force_when_the_step_began():
+    seen = []
+    env = {**SHORT, "time_limit_steps": 150, "mission": {"length_s": 20}}
+    envs = skein.make_vec("heading", 300, env=env, reward=lambda at: seen.append(dict(at)) or at["reward"])
+    envs.reset(seed=4)
+    changed = 0
+    for actions in actions_of(envs, 60):
+        targets = envs.targets()
+        *_, terminated, truncated, _ = envs.step(actions)
+        names = [name for name in seen[-1] if name.startswith("target_")]
+        assert names == ["target_altitude_ft", "target_yaw_rad", "target_true_airspeed_fps"]
+        np.testing.assert_array_equal(targets, np.stack([seen[-1][name] for name in names], axis=1))
+        changed += ((envs.targets() != targets).any(axis=1) & ~(terminated | truncated)).sum()
+    assert changed > 0  # also within flights
+
+
+def test_columns_are_a_mapping():
+    def reward(at):
+        assert "altitude_ft" in at and "altitude_m" not in at and at.get("altitude_m") is None
+        assert set(at) == set(at.keys()) and len(at) == len(list(at))
+        with pytest.raises(KeyError) as raised:
+            at["altitude_m"]
+        assert isinstance(raised.value, skein.ConfigurationError)
+        assert str(raised.value).startswith('there is no column "altitude_m"; known: ')
+        return at["reward"]
+
+    envs = skein.make_vec("heading", 2, reward=reward)
+    envs.reset(seed=0)
+    envs.step(np.zeros((2, 4)))
+
+
 def test_the_airspeed_is_what_the_error_is_made_of():
     seen = {}
     envs = skein.make_vec("heading", 64, conditions={"windy": "60fps"}, env=SHORT, reward=lambda at: seen.update(at) or at["reward"])

@@ -1,4 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
+import copy
+import pickle
+
 import gymnasium
 import numpy as np
 import pytest
@@ -175,10 +178,89 @@ def test_a_snapshot_of_one_aircraft_is_gone_on_from_in_the_middle_of_its_episode
     assert env.restore(snapshot).shape == expected.shape
     np.testing.assert_array_equal(env.step(action)[0], expected)
     other = skein.make("heading", env=SHORT)
-    other.reset(seed=6)  # the noise is the seed's
-    other.reset()
+    other.reset(seed=7)
     other.restore(snapshot)
     np.testing.assert_array_equal(other.step(action)[0], expected)
+
+
+def test_a_snapshot_brings_its_seed_to_an_environment_that_has_not_begun():
+    envs, fresh = (skein.make_vec("heading", 40, **{"env.observation_noise": 0.1}) for _ in range(2))
+    envs.reset(seed=6)
+    snapshot = envs.snapshot()
+    actions = random_actions(envs, 400)
+    np.testing.assert_array_equal(fresh.restore(snapshot), envs.restore(snapshot))
+    for row in actions:  # over the ends of episodes, too
+        expected, shown = envs.step(row), fresh.step(row)
+        assert_same(expected[:4], shown[:4])
+    assert_same(envs.reset(), fresh.reset())
+
+
+def test_a_snapshot_of_something_else_is_refused_and_changes_nothing():
+    envs, same = (skein.make_vec("heading", 40) for _ in range(2))
+    envs.reset(seed=6), same.reset(seed=6)
+    others = [
+        (skein.make_vec("heading", 40, **{"env.observation_noise": 0.1}), "another configuration"),
+        (skein.make_vec("heading", 40, evaluation=True), "another configuration"),
+        (skein.make_vec("control", 40), "another configuration"),
+        (skein.make_vec("heading", 41), "does not fit 40 aircraft"),
+    ]
+    for other, says in others:
+        other.reset(seed=7)
+        with pytest.raises(skein.Error, match=says) as raised:
+            envs.restore(other.snapshot())
+        assert "\n" not in str(raised.value)
+    with pytest.raises(skein.Error, match="no snapshot"):
+        envs.restore(np.zeros(3, np.uint32))
+    actions = random_actions(envs, 1)[0]
+    assert_same(envs.step(actions)[:4], same.step(actions)[:4])
+    envs.close()
+    with pytest.raises(skein.Error, match="closed"):
+        envs.restore(same.snapshot())
+
+
+def test_settings_of_the_training_alone_do_not_matter_to_a_snapshot():
+    envs, other = skein.make_vec("heading", 4), skein.make_vec("heading", 4, **{"ppo.learning_rate": 1e-5})
+    envs.reset(seed=0)
+    other.restore(envs.snapshot())
+
+
+def test_one_aircraft_staggers_no_clock_that_only_its_preset_staggers(tmp_path):
+    says, is_silent = tmp_path / "says.toml", tmp_path / "silent.toml"
+    says.write_text("env.stagger_clocks = true\n")
+    is_silent.write_text("env.hold_s = 1 # and not stagger_clocks\n")
+    task = ROOT / "examples" / "tasks" / "level_turn.toml"
+    config = skein.configure("heading")
+    assert config["env.stagger_clocks"] and skein.configure(task)["env.stagger_clocks"]
+    staggers = {
+        False: [{"task": "heading"}, {"task": "heading", "preset": "easy"}, {"task": str(task)}, {"task": task},
+                {"task": "heading", "file": is_silent}, {"task": config, "env": {"stagger_clocks": False}}],
+        True: [{"task": config}, {"task": "heading", "file": says}, {"task": "heading", "env.stagger_clocks": True},
+               {"task": "heading", "env": {"stagger_clocks": True}}],
+    }
+    for expected, cases in staggers.items():
+        for case in cases:
+            assert skein.make(**case).config["env.stagger_clocks"] == expected, case
+
+
+def make_vec(name, **settings):
+    return gymnasium.make_vec(name, vectorization_mode="vector_entry_point", **settings)
+
+
+@pytest.mark.parametrize("make", [gymnasium.make, make_vec])
+@pytest.mark.filterwarnings("ignore:.*render_mode")
+def test_nothing_is_drawn(make):
+    make("skein/Heading-v0", render_mode=None).close()
+    says = "render_mode must be None, not 'rgb_array'.*skein.record"
+    with pytest.raises(skein.ConfigurationError, match=says) as raised:
+        make("skein/Heading-v0", render_mode="rgb_array")
+    assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize("make", [lambda: skein.make("heading"), lambda: skein.make_vec("heading", 2)])
+@pytest.mark.parametrize("copied", [pickle.dumps, copy.copy, copy.deepcopy])
+def test_environments_are_not_copied(make, copied):
+    with pytest.raises(TypeError, match="neither pickled nor copied"):
+        copied(make())
 
 
 def test_lengths_of_first_episodes_are_what_was_flown():

@@ -1,4 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
+import copy
+import pickle
+
 import numpy as np
 import pytest
 from conftest import ROOT
@@ -15,6 +18,23 @@ def test_a_trim_is_steady():
     assert len(flight.time_s) == len(flight.states) == 51
     np.testing.assert_allclose(flight["down_ft"], -15000, atol=1e-3)
     np.testing.assert_allclose(flight["north_ft"][-1], 500, rtol=1e-6)
+
+
+def test_names_of_states_and_controls_are_the_packages():
+    assert skein.STATE_NAMES == STATE_NAMES and skein.CONTROL_NAMES == CONTROL_NAMES
+    trim = skein.trim(15000, 500)
+    assert trim.state.shape == (len(STATE_NAMES),) and trim.controls.shape == (len(CONTROL_NAMES),)
+
+
+def test_a_trim_is_pickled_and_compared():
+    trim = skein.trim(3000, 180, aircraft="cessna172", turn_rate_deg_s=3)
+    for again in (pickle.loads(pickle.dumps(trim)), copy.copy(trim), copy.deepcopy(trim)):
+        np.testing.assert_array_equal(again.state, trim.state)
+        assert again.exceeded_limits == trim.exceeded_limits and repr(again) == repr(trim)
+        np.testing.assert_array_equal(skein.linearise(again).A, skein.linearise(trim).A)
+        models = skein.linear_models(again)
+        np.testing.assert_array_equal(models["bare_airframe"]["A"], skein.linear_models(trim)["bare_airframe"]["A"])
+        assert again != trim and trim == trim and len({again, trim}) == 2  # arrays are not compared
 
 
 def test_a_coordinated_turn_turns():
@@ -103,8 +123,10 @@ def test_a_grid_has_the_points_trimmed_alone():
     for name in ("alpha_deg", "excess_power_fps", "lift_coefficient", "throttle"):
         assert grid[name][1, 2] == getattr(alone, name)
         assert np.isnan(grid[name][0, 0])
-    with pytest.raises(KeyError, match="no figure"):
-        grid["speed"]
+    for named, says in ((grid, "no figure"), (skein.simulate(alone, alone.controls, duration_s=0.1), "no state")):
+        with pytest.raises(KeyError, match=f"^'speed': {says}; there are ") as raised:
+            named["speed"]
+        assert isinstance(raised.value, skein.ConfigurationError)
     with pytest.raises(skein.ConfigurationError, match="finite numbers"):
         skein.trim_grid([np.nan], [500])
     with pytest.raises(skein.ConfigurationError, match="altitude_ft"):

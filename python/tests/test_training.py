@@ -31,6 +31,31 @@ def test_a_training_leaves_a_run_and_shows_every_iteration(tmp_path):
     assert len(run.timing) == 3
 
 
+def test_a_training_that_is_told_to_prints_nothing_and_its_callback_may(tmp_path, capfd):
+    def stop(row):
+        print("iteration", row["iteration"], flush=True)
+        return False
+
+    run = skein.train("heading", tmp_path / "run", callback=stop, progress=False, **TINY)
+    assert capfd.readouterr().out == "iteration 1\n"
+    run.resume(progress=False)
+    assert capfd.readouterr().out == ""
+    assert "trained for" in (tmp_path / "run" / "log.txt").read_text()
+    run.resume()  # trained to its end: evaluated again
+    assert "success" in capfd.readouterr().out
+
+
+def test_a_run_without_iterations_says_so(tmp_path):
+    pytest.importorskip("pandas")
+    (tmp_path / "config.toml").write_text(skein.configure("heading").to_toml())
+    with pytest.raises(skein.Error, match=r"no metrics.csv in it yet") as raised:
+        skein.Run(tmp_path).metrics
+    assert "\n" not in str(raised.value)
+    (tmp_path / "timing.csv").write_text("")
+    with pytest.raises(skein.Error, match=r"no timing.csv in it yet"):
+        skein.Run(tmp_path).timing
+
+
 def test_a_callback_does_not_change_what_is_learnt_and_may_end_it(tmp_path):
     skein.train("heading", tmp_path / "whole", **TINY)
     skein.train("heading", tmp_path / "cut", callback=lambda row: row["iteration"] < 2, **TINY)

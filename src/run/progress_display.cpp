@@ -64,10 +64,11 @@ std::size_t ColumnsOf(const std::string& line) {
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay()
-    : terminal_(isatty(STDOUT_FILENO) == 1 && Environment("TERM") != "dumb"),
+ProgressDisplay::ProgressDisplay(bool prints)
+    : terminal_(prints && isatty(STDOUT_FILENO) == 1 && Environment("TERM") != "dumb"),
       colour_(terminal_ && Environment("NO_COLOR").empty()),
-      unicode_(SpeaksUtf8()) {
+      unicode_(SpeaksUtf8()),
+      silent_(!prints) {
   if (!terminal_) return;
   struct sigaction action {};
   action.sa_handler = OnContinue;

@@ -18,7 +18,8 @@ namespace skein {
 /// silent when the output breaks (its reader has gone, its disk is full). One at a time.
 class ProgressDisplay {
  public:
-  ProgressDisplay();
+  /// One that does not print is silent from the start.
+  explicit ProgressDisplay(bool prints);
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;

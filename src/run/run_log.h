@@ -12,7 +12,8 @@ namespace skein {
 /// is noted) without ending the run. Throws Error if the file cannot be written.
 class RunLog {
  public:
-  explicit RunLog(const std::string& path) : file_(path, OpenMode::kAppend) {}
+  /// One that does not print writes to the file alone.
+  RunLog(const std::string& path, bool prints) : file_(path, OpenMode::kAppend), display_(prints) {}
 
   /// To both; `text` may have several lines.
   void Say(const std::string& text);

@@ -123,8 +123,8 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
   // Last: it makes the directory one of a run.
   const std::string comment = started_from.empty() ? "" : "# " + PlainLine(started_from) + "\n";
   WriteFile(directory.config(), comment + DumpToml(resolved));
-  TrainingRun run(resolved, std::move(directory), *trainer, pool, leader, description, start);
-  run.goes_on_ = origin.goes_on;
+  TrainingRun run(resolved, std::move(directory), *trainer, pool, leader, description, start,
+                  origin.watch);
   run.SayBanner();
   for (const std::string& line :
        {origin.preset.empty() ? "" : "preset " + origin.preset, started_from, origin.low_level}) {
@@ -134,7 +134,7 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
 }
 
 int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool,
-                        GoesOn goes_on, Ranks& ranks) {
+                        RunWatch watch, Ranks& ranks) {
   const Clock::time_point start = Clock::now();
   CheckpointOrigin origin;
   const std::unique_ptr<Trainer> made = MakeTrainer(config.train, pool, ranks, [&](Trainer& begun) {
@@ -152,8 +152,8 @@ int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wor
   const bool is_whole = origin.records.empty() || BeginsAs(directory.metrics(), origin.records);
   const std::uint64_t rows = TrimRows(directory.metrics(), trainer.iteration(), MetricsHeader());
   TrimRows(directory.timing(), trainer.iteration(), TimingHeader());
-  TrainingRun run(config, std::move(directory), trainer, pool, leader, description, start);
-  run.goes_on_ = std::move(goes_on);
+  TrainingRun run(config, std::move(directory), trainer, pool, leader, description, start,
+                  std::move(watch));
   run.SayBanner();
   if (!is_whole) {
     run.log_.Say(
@@ -175,7 +175,7 @@ int TrainingRun::Resume(const ProgramConfig& config, RunDirectory directory, Wor
 
 TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
                          WorkerPool& pool, RankLeader& leader, std::string ranks,
-                         Clock::time_point begun)
+                         Clock::time_point begun, RunWatch watch)
     : config_(config),
       directory_(std::move(directory)),
       trainer_(trainer),
@@ -183,10 +183,11 @@ TrainingRun::TrainingRun(const ProgramConfig& config, RunDirectory directory, Tr
       leader_(leader),
       ranks_(std::move(ranks)),
       signals_(pool),
-      log_(directory_.log()),
+      log_(directory_.log(), watch.prints),
       metrics_(directory_.metrics(), MetricsHeader()),
       timing_(directory_.timing(), TimingHeader()),
       events_(directory_.path(), UnixTime(), static_cast<std::int64_t>(trainer.env_steps()) + 1),
+      goes_on_(std::move(watch.goes_on)),
       last_save_(Clock::now()),
       turn_begin_(begun),
       saved_iteration_(trainer.iteration()) {
@@ -369,9 +370,8 @@ void TrainingRun::Finish() {
 void TrainingRun::SayResult(const EvaluationReport& report, const std::string& policy,
                             const std::string& same_episodes) {
   const std::string skein = ProgramWord(), run = ShellWord(directory_.path());
-  const std::string again =
-      fmt::format("again           {} eval --policy {} --task {} --deterministic {}", skein, run,
-                  config_.train.env.task, same_episodes);
+  const std::string again = fmt::format("again           {} eval --policy {} --task {} {}", skein,
+                                        run, config_.train.env.task, same_episodes);
   const std::string all = fmt::format(
       "{}\n"
       "policy          {}\n"

@@ -24,12 +24,18 @@ namespace skein {
 /// Is shown every iteration after its records are written; false ends the run as SIGTERM would.
 using GoesOn = std::function<bool(const IterationReport&)>;
 
+/// Who follows a run.
+struct RunWatch {
+  GoesOn goes_on = {};
+  bool prints = true;  ///< on the standard output; log.txt has it either way
+};
+
 /// Where a new run comes from, beside its configuration.
 struct RunOrigin {
   std::string preset;     ///< name of the preset; empty if not known
   std::string low_level;  ///< what the low-level policy is, for people; empty without one
   std::string from;       ///< policy file or checkpoint whose networks it starts from; or empty
-  GoesOn goes_on = {};
+  RunWatch watch = {};
   std::string* directory = nullptr;  ///< is told where the run is, unless null
 };
 
@@ -44,16 +50,16 @@ class TrainingRun {
   static int Begin(const ProgramConfig& config, const std::string& path, WorkerPool& pool,
                    const RunOrigin& origin = {}, Ranks& ranks = OneRank());
   /// Resumes the directory's newest checkpoint, or the start if it has none, over the low-level
-  /// policy that the run began with; `goes_on` and what is returned are those of a new run. Throws
+  /// policy that the run began with; `watch` and what is returned are those of a new run. Throws
   /// Error if the checkpoint is damaged or made with another configuration.
   static int Resume(const ProgramConfig& config, RunDirectory directory, WorkerPool& pool,
-                    GoesOn goes_on = {}, Ranks& ranks = OneRank());
+                    RunWatch watch = {}, Ranks& ranks = OneRank());
 
  private:
   /// `begun`: when the program's part in the run began.
   TrainingRun(const ProgramConfig& config, RunDirectory directory, Trainer& trainer,
               WorkerPool& pool, RankLeader& leader, std::string ranks,
-              std::chrono::steady_clock::time_point begun);
+              std::chrono::steady_clock::time_point begun, RunWatch watch);
 
   /// To the end, or until it is stopped; says in the log what ended it. Returns the signal that
   /// did, or 0.

@@ -155,13 +155,13 @@ void StudyTrainings::TrainOne(const Training& training, const GoesOn& goes_on) {
     RemoveStub(training.path);
     RunOrigin origin;
     origin.from = NetworksToStartFrom(study_, training.task);
-    origin.goes_on = goes_on;
+    origin.watch.goes_on = goes_on;
     TrainingRun::Begin(config, training.path, pool_, origin);
     return;
   }
   RunDirectory directory = RunDirectory::Open(training.path);
   const ProgramConfig begun = ConfigOfRun(directory, config);
-  TrainingRun::Resume(begun, std::move(directory), pool_, goes_on);
+  TrainingRun::Resume(begun, std::move(directory), pool_, {goes_on});
 }
 
 }  // namespace skein
