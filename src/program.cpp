@@ -103,7 +103,7 @@ void AddCommands(CLI::App* app) {
   app->footer(
       "Examples:\n"
       "  skein train heading                       train, evaluate, and say where everything lies\n"
-      "  skein eval --policy runs/RUN --task heading --deterministic\n"
+      "  skein eval --policy runs/RUN --task heading\n"
       "  skein compare --task heading --agents policy:runs/RUN,random\n"
       "  skein fdm trim --altitude-ft 15000 --speed-fps 500\n"
       "Every command has --help. Exit codes: 0 success, 1 failure, 2 wrong usage.");

@@ -32,7 +32,7 @@ namespace {
 struct EvalOptions {
   std::string policy;
   std::string low_level;
-  bool deterministic = false;
+  bool sampled = false;
   bool other_aircraft = false;
   FlightOptions flight;
 };
@@ -49,12 +49,12 @@ std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {
 void WriteRecords(const EvalOptions& options, const std::string& path,
                   const RecurrentPolicy& policy, const EnvConfig& env, WorkerPool& pool) {
   const FlightOptions& flight = options.flight;
-  const AgentFlights flown = RecordFirst(
-      flight, "policy:" + path,
-      options.deterministic ? Agent::MeanOf(policy) : Agent::SamplingFrom(policy), env, pool);
+  const AgentFlights flown =
+      RecordFirst(flight, "policy:" + path,
+                  options.sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), env, pool);
   if (!flight.flights.empty()) {
     WriteFlightsCsv(flight, flight.flights,
-                    options.deterministic ? "with the mean action" : "with sampled actions", flown);
+                    options.sampled ? "with sampled actions" : "with the mean action", flown);
   }
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, {flown});
 }
@@ -133,9 +133,9 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
   fmt::print("{} on {}, {}, seed {}\n{}\n  {}\n  {}\n  {}\n{}\n", path, env.task,
              Counted(flight.episodes, "episode"), flight.seed,
              InLines("  ", DescribeEvaluation(env)), Rates(policy, env), Describe(policy.backend()),
-             DescribeWorkers(pool), ToText(report, options.deterministic));
+             DescribeWorkers(pool), ToText(report, !options.sampled));
   if (!flight.json.empty()) {
-    WriteJson(flight.json, ToJson(report, path, config, flight.seed, options.deterministic));
+    WriteJson(flight.json, ToJson(report, path, config, flight.seed, !options.sampled));
   }
   if (RecordsFlights(flight)) WriteRecords(options, path, policy, env, pool);
 }
@@ -158,7 +158,7 @@ void AddEvalCommand(CLI::App* app) {
   texts.json = "write the results here";
   texts.flights =
       "write the first episodes here, a CSV row for every control step, for skein plot "
-      "(mean or sampled actions, as --deterministic says)";
+      "(by mean actions, or with --sampled by those)";
   AddFlightOptions(command, texts, &options->flight);
   command
       ->add_option("--low-level", options->low_level,
@@ -168,15 +168,18 @@ void AddEvalCommand(CLI::App* app) {
       ->type_name("RUN_OR_POLICY");
   command->add_flag("--other-aircraft", options->other_aircraft,
                     "fly the policy even if it was trained on another aircraft");
-  command->add_flag("--deterministic", options->deterministic,
-                    "report the mean action first (default: sampled actions; both are flown)");
+  CLI::Option* const sampled =
+      command->add_flag("--sampled", options->sampled,
+                        "report sampled actions first (default: mean actions; both are flown)");
+  command->add_flag("--deterministic", "report mean actions first, as is the default")
+      ->excludes(sampled);
   command->footer(
       "A policy file knows for how many control steps it holds an action; --set "
       "env.action_repeat=N\n"
       "flies it at another rate. Success counts episodes that reach the target.\n"
-      "Example: skein eval --policy runs/short --task heading --episodes 1000 --deterministic "
+      "Example: skein eval --policy runs/short --task heading --episodes 1000 "
       "--json result.json\n"
-      "         skein eval --policy runs/short --deterministic --flights flights.csv\n"
+      "         skein eval --policy runs/short --flights flights.csv\n"
       "         skein eval --policy runs/short --condition windy=60fps,moderate --condition "
       "noisy=0.03");
   command->callback([options] {

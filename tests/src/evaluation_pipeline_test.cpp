@@ -39,7 +39,7 @@ class EvaluationPipeline : public ::testing::Test {
 };
 
 TEST_F(EvaluationPipeline, ReportsTheModeAskedForAndBoth) {
-  const auto sampled = Fly("sampled"), mean = Fly("mean", {"--deterministic"});
+  const auto sampled = Fly("sampled", {"--sampled"}), mean = Fly("mean");
   for (const char* key :
        {"episodes", "success_rate", "return_mean", "time_to_target_mean", "terminations"}) {
     EXPECT_TRUE(sampled.contains(key)) << key;
@@ -84,9 +84,9 @@ TEST_F(EvaluationPipeline, RecordsFlightsAndChangesNothingByIt) {
     }
   }
   EXPECT_EQ(ends, 3u);
-  const std::string mean = folder_ + "/mean.csv";
-  Fly("mean", {"--flights", mean, "--flights-count", "3", "--deterministic"});
-  EXPECT_NE(text, ReadFile(mean));
+  const std::string sampled = folder_ + "/sampled.csv";
+  Fly("sampled", {"--flights", sampled, "--flights-count", "3", "--sampled"});
+  EXPECT_NE(text, ReadFile(sampled));
 }
 
 TEST_F(EvaluationPipeline, FlightsCanHaveWhatThePolicyObserved) {
