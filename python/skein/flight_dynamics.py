@@ -155,7 +155,7 @@ def trim(
         altitude_ft, true_airspeed_fps: of the flight.
         flight_path_deg: positive in a climb.
         turn_rate_deg_s: positive to the right; the turn is coordinated.
-        pull_up_g: load factor of a pull-up with level wings, force across the flight path over weight; no turn then.
+        pull_up_g: of a pull-up with level wings: force across the flight path over weight, 1 in level flight; no turn then.
         aircraft: one of skein.AIRCRAFT, or the path of a file.
         atmosphere: "stevens_lewis" or "standard_1976".
         gravity_ft_s2: at sea level; load_factor_g stays a multiple of 32.17.

@@ -15,7 +15,9 @@
 #include "src/config/one_of.h"
 #include "src/config/whole_number.h"
 #include "src/fdm/commanded_flight.h"
+#include "src/fdm/left_tables.h"
 #include "src/files/output_file.h"
+#include "src/report/csv_columns.h"
 
 namespace skein {
 namespace {
@@ -50,12 +52,14 @@ void FlySticks(const FlyOptions& options) {
     trimmed.throttle = start.throttle;
     flight.commands = ReadStickCommands(options.commands, trimmed);
   }
-  WriteFile(options.out, FlyCommands(plant, start.trim, flight));
+  const std::string flown = FlyCommands(plant, start.trim, flight);
+  WriteFile(options.out, flown);
   for (const ExceededLimit& limit : start.exceeded_limits) {
     fmt::print("the flight at its start {}\n", limit.words);
   }
   fmt::print("flew {} for {} s: {}\n", options.condition.Describe(plant), flight.seconds,
              options.out);
+  for (const std::string& left : LeftTables(plant, ParseCsv(flown))) fmt::print("  {}\n", left);
 }
 
 void Fly(const CLI::App& command, FlyOptions options) {

@@ -43,7 +43,7 @@ std::string DescribeTrim(const SteadyFlight& flight) {
       "  aileron          {:14.6f} deg\n"
       "  rudder           {:14.6f} deg\n"
       "  leading-edge flap{:14.6f} deg\n"
-      "  load factor      {:14.6f} g\n"
+      "  load factor nz   {:14.6f} g\n"
       "  lift coefficient {:14.6f}\n"
       "  drag coefficient {:14.6f}\n"
       "  Mach             {:14.6f}\n"

@@ -41,8 +41,8 @@ void AddTurnAndPullUp(CLI::App* command, SteadyFlightRequest* manoeuvre) {
           ->capture_default_str();
   command
       ->add_option("--pull-up-g", manoeuvre->load_factor,
-                   "load factor of a pull-up with level wings: force across the flight path over "
-                   "weight, 1 in level flight; less is a push-over")
+                   "pull-up with level wings: force across the flight path over weight, 1 in level "
+                   "flight; less is a push-over")
       ->transform(FiniteNumber())
       ->excludes(turn);
 }

@@ -66,7 +66,14 @@ Assignments HighSpeed(const LevelRequest& request, const std::string& level) {
 }
 
 Assignments HighAltitude(const LevelRequest& request, const std::string& level) {
+  constexpr double kHighestFt = 60000;
   const Range altitude = ParseRange(level, kAltitudeUnits, request);
+  if (altitude.max > kHighestFt) {
+    throw Error(
+        fmt::format("--condition {}={}: that is up to {:.0f} ft, and {:.0f} are the most; "
+                    "numbers without a unit are thousands of feet (35kft, 35000ft)",
+                    request.name, request.level, altitude.max, kHighestFt));
+  }
   Assignments assignments;
   Append("initial.altitude", "_ft", altitude, &assignments);
   assignments.push_back(
@@ -239,7 +246,8 @@ std::string DescribeConditions(const EnvConfig& env) {
   if (wind.turbulence_fps.max > 0) {
     air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
   }
-  if (env.plant.enabled()) air += "; drawn plants";
+  const std::string plant = DescribePlant(env.plant);
+  if (!plant.empty()) air += "; " + plant;
   if (env.target_mach_min > 0) {
     air += fmt::format("; targets from Mach {:.6g} on", env.target_mach_min);
   }

@@ -2,6 +2,7 @@
 #include "src/config/plant_condition.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,12 +85,11 @@ Range ParseRangeOf(const std::string& quantity, const std::string& text,
                           request.name, request.level, quantity, text, high, low));
 }
 
-/// The values of env.plant's keys, at first nominal.
+/// The values of env.plant's keys, at first those of a configuration or nominal.
 class PlantValues {
  public:
-  PlantValues() {
-    PlantConfig nominal;
-    const std::vector<Field> fields = FieldsOf(nominal);
+  explicit PlantValues(PlantConfig plant = {}) {
+    const std::vector<Field> fields = FieldsOf(plant);
     quantities_ = KeysByQuantity(fields);
     for (const Field& field : fields) {
       values_[field.key] = NumberOf(field.ValueText(ShortestText)).value();
@@ -134,6 +134,23 @@ class PlantValues {
     }
   }
 
+  /// Of each quantity that is not as `nominal` has it, its name and value or range.
+  std::vector<std::string> DifferencesFrom(const PlantValues& nominal) const {
+    std::vector<std::string> differences;
+    for (const auto& [quantity, keys] : quantities_) {
+      const double min = values_.at(keys.min), max = values_.at(keys.max);
+      if (min == nominal.values_.at(keys.min) && max == nominal.values_.at(keys.max)) continue;
+      differences.push_back(min == max ? fmt::format("{} {:.6g}", quantity, min)
+                                       : fmt::format("{} {:.6g} to {:.6g}", quantity, min, max));
+    }
+    return differences;
+  }
+
+  /// The share of the middle level that the masses are at.
+  double ShareOfMass() const {
+    return (1 - values_.at(quantities_.at("mass").min)) / (1 - kMiddleLevels[0].min);
+  }
+
   std::vector<std::string> Assignments() const {
     std::vector<std::string> assignments;
     for (const auto& [key, value] : values_) {
@@ -171,6 +188,22 @@ std::vector<std::string> PlantAssignments(const LevelRequest& request, const std
     values.CheckFreeze(request);
   }
   return values.Assignments();
+}
+
+std::string DescribePlant(const PlantConfig& plant) {
+  constexpr std::size_t kMostNamed = 3;
+  const PlantValues values(plant);
+  const std::vector<std::string> differences = values.DifferencesFrom(PlantValues());
+  if (differences.empty()) return "";
+  if (differences.size() <= kMostNamed) {
+    return fmt::format("plant: {}", fmt::join(differences, ", "));
+  }
+  PlantValues level;
+  level.SetShare(values.ShareOfMass());
+  if (level.Assignments() == values.Assignments()) {
+    return fmt::format("plant at {:.6g} of the middle level", values.ShareOfMass());
+  }
+  return fmt::format("drawn plants ({} quantities)", differences.size());
 }
 
 }  // namespace skein

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "envs/plant/plant_config.h"
 #include "src/config/condition_level.h"
 
 namespace skein {
@@ -17,5 +18,9 @@ inline constexpr const char* kPlantForm =
 /// The assignments of every key of env.plant: what the level does not name is nominal, whatever the
 /// configuration has. Throws Error on what cannot be read.
 std::vector<std::string> PlantAssignments(const LevelRequest& request, const std::string& level);
+
+/// In short what is not nominal: "plant: mass 1.05, cg_shift -0.05 to 0.05" of three quantities at
+/// most, "plant at 0.5 of the middle level", or how many quantities; empty if there are none.
+std::string DescribePlant(const PlantConfig& plant);
 
 }  // namespace skein

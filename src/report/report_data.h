@@ -39,7 +39,7 @@ std::string ReportData(const ReportRequest& request, WorkerPool& pool);
 std::vector<RunRecord> ReadRuns(const ReportRequest& request);
 
 /// What a report shows that has to be flown.
-struct ReportFlights {
+struct ReportFlights {  // NOLINT(bugprone-exception-escape): of the JSON library's move alone
   nlohmann::ordered_json comparisons, flights;  ///< lists, as in the document
   DataPack pack;                                ///< what `flights` refers into
   std::vector<std::string> notes;  ///< [run] why its policy does not fly; empty if it does

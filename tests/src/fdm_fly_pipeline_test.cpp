@@ -63,6 +63,18 @@ TEST_F(FdmFly, HandsOffTheFlightGoesOnInAnyWind) {
   EXPECT_NEAR(windy.Find("east_ft")->back(), calm.Find("east_ft")->back() + 5 * 30, kAltitude);
 }
 
+TEST_F(FdmFly, LeavingTheTablesOfTheModelIsSaid) {
+  WriteFile(folder_ + "/dive.csv", "time_s,pitch\n0,-0.5\n");
+  const auto said = [&](const Words& words) {
+    return CallSkein(Words{"fdm", "fly", "-o", folder_ + "/fly.csv"} + words).output;
+  };
+  const std::string dive = said({"--altitude-ft", "3000", "--speed-fps", "500", "--commands",
+                                 folder_ + "/dive.csv", "--seconds", "30"});
+  EXPECT_THAT(dive, HasSubstr("s the altitude is outside the engine's tables (0 to 50000 ft)"));
+  EXPECT_THAT(said({"--altitude-ft", "15000", "--speed-fps", "500"}),
+              ::testing::Not(HasSubstr("outside")));
+}
+
 TEST_F(FdmFly, GustsHaveTheirDeviationAndSeed) {
   const auto fly = [&](const std::string& seed) {
     const std::string path = folder_ + "/gusts.csv";

@@ -91,7 +91,7 @@ TEST_F(TaskFilePipelineTest, RefusesWhatIsNotItsOwn) {
   WriteFile(file_, Replaced(text_, "unit = 100", "unit = 50"));
   const ProgramResult other = eval(file_);
   EXPECT_NE(other.exit_code, 0);
-  ExpectOneLine(other.error, "task_interface");
+  ExpectOneLine(other.error, "other units");
 
   WriteFile(run_ + "/task.toml", text_ + "# changed\n");
   const ProgramResult changed = CallSkein({"train", "--resume", run_});

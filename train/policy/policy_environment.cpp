@@ -70,6 +70,11 @@ void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string
     if (key == kAircraftKey || key == kAircraftHashKey) continue;
     const auto found = made_with.find(key);
     if (found == made_with.end() || found->second == value) continue;
+    if (key == "task_interface") {
+      throw ChoiceError(who +
+                        " was made for a task file whose numbers, observed or flown to, are "
+                        "others, or have another order or other units");
+    }
     throw ChoiceError(who + " was made with env." + key + " = " + found->second +
                       ", but is to fly with env." + key + " = " + value);
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/training_state.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <utility>
 
 #include "base/error.h"
@@ -42,6 +44,20 @@ void VisitFloats(State& state, const Visit& visit) {
 std::array<std::uint64_t, 5> Counters(const TrainingState& state) {
   return {state.iteration, state.policy_steps, static_cast<std::uint64_t>(state.actor_adam.step),
           static_cast<std::uint64_t>(state.critic_adam.step), state.popart.started ? 1u : 0u};
+}
+
+/// Throws Error on counters beyond those of the longest training (run.total_steps): what is
+/// computed of them would overflow.
+void CheckCounters(const TrainingState& state, const TrainConfig& config, const std::string& path) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 53;
+  const std::uint64_t flown_at_once =
+      static_cast<std::uint64_t>(config.ppo.num_aircraft) * config.env.action_repeat;
+  const std::uint64_t most_policy_steps = kMost / flown_at_once + config.ppo.rollout_steps;
+  const auto counters = Counters(state);
+  if (state.policy_steps > most_policy_steps ||
+      *std::max_element(counters.begin(), counters.end()) > kMost) {
+    throw Error(path + ": damaged: it counts more steps than any training has");
+  }
 }
 
 std::array<double, 4> Scalars(const TrainingState& state) {
@@ -162,6 +178,7 @@ TrainingState LoadCheckpoint(TensorFile file, const std::string& path, const Tra
   state.actor_adam.step = static_cast<std::int64_t>(counters[2]);
   state.critic_adam.step = static_cast<std::int64_t>(counters[3]);
   state.popart.started = counters[4] != 0;
+  CheckCounters(state, config, path);
   const std::vector<double> scalars =
       LoadTensor<double>(file, path, "scalars", {std::tuple_size_v<decltype(Scalars(state))>});
   state.popart.mean = scalars[0];

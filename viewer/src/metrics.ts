@@ -4,7 +4,8 @@ import { el, tick } from './dom';
 import type { Comparison, Estimate, Quantity, ReportPack } from './report';
 
 function number(quantity: Quantity, value: number): string {
-  return (value * quantity.shown_per_unit).toFixed(quantity.decimals);
+  const text = (value * quantity.shown_per_unit).toFixed(quantity.decimals);
+  return Number(text) === 0 ? text.replace('-', '') : text;
 }
 
 /** "15.83 ± 0.31"; where the interval lies to one side "100.0 (99.6, 100.0)". */
@@ -20,11 +21,14 @@ export function formatEstimate(quantity: Quantity, estimate: Estimate | undefine
   return `${value} (${number(quantity, estimate.low)}, ${number(quantity, estimate.high)})`;
 }
 
-/** Whether the intervals of an agent and of the first lie apart. */
-export function liesApart(first: Estimate | undefined, other: Estimate | undefined): boolean {
+/** Whether the intervals of an agent and of the first lie apart, and the cells show it. */
+export function liesApart(
+  quantity: Quantity, first: Estimate | undefined, other: Estimate | undefined,
+): boolean {
   if (first?.low == null || first.high == null || other?.low == null || other.high == null) {
     return false;
   }
+  if (formatEstimate(quantity, first) === formatEstimate(quantity, other)) return false;
   return other.low > first.high || other.high < first.low;
 }
 
@@ -32,7 +36,7 @@ function rowOf(comparison: Comparison, quantity: Quantity): HTMLTableRowElement 
   const first = comparison.agents[0].estimates[quantity.key];
   const cells = comparison.agents.map((agent, i) => {
     const estimate = agent.estimates[quantity.key];
-    const apart = i > 0 && liesApart(first, estimate);
+    const apart = i > 0 && liesApart(quantity, first, estimate);
     return el('td', { class: apart ? 'apart' : '' }, formatEstimate(quantity, estimate));
   });
   return el('tr', {}, el('th', { scope: 'row' }, nameOf(quantity)), ...cells);

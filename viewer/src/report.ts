@@ -98,6 +98,13 @@ export interface FlightSet {
   flights: Flight[];
 }
 
+/** Whether targets come one after another. Of missions that never came to a second target only the
+ * conditions say it (DescribeEvaluation in src/config/conditions.cpp). */
+export function isOfMissions(set: FlightSet): boolean {
+  return /; missions of /.test(set.conditions)
+    || set.flights.some((flight) => flight.new_target_s.length > 0);
+}
+
 export interface ReportDocument {
   format: number;
   skein: string;

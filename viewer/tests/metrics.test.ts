@@ -19,9 +19,17 @@ describe('a cell of the table', () => {
     expect(formatEstimate(SHARE, undefined)).toBe('–');
   });
   it('is marked where intervals lie apart', () => {
-    expect(liesApart(estimate(1, 0.9, 1.1), estimate(2, 1.2, 2.8))).toBe(true);
-    expect(liesApart(estimate(1, 0.9, 1.3), estimate(2, 1.2, 2.8))).toBe(false);
-    expect(liesApart(estimate(1, null, null), estimate(2, 1.2, 2.8))).toBe(false);
+    expect(liesApart(SHARE, estimate(1, 0.9, 1.1), estimate(2, 1.2, 2.8))).toBe(true);
+    expect(liesApart(SHARE, estimate(1, 0.9, 1.3), estimate(2, 1.2, 2.8))).toBe(false);
+    expect(liesApart(SHARE, estimate(1, null, null), estimate(2, 1.2, 2.8))).toBe(false);
+  });
+  it('is not marked beside one that prints the same', () => {
+    const [low, high, below] = [1e-5, 3e-5, -2e-5].map((x) => estimate(x, x - 1e-6, x + 1e-6));
+    expect([low, high, below].map((shown) => formatEstimate(SHARE, shown)))
+      .toEqual(['0.0 ± 0.0', '0.0 ± 0.0', '0.0 ± 0.0']);
+    expect(liesApart(SHARE, low, high)).toBe(false);
+    expect(liesApart(SHARE, low, below)).toBe(false);
+    expect(liesApart({ ...SHARE, decimals: 3 }, low, high)).toBe(true);
   });
 });
 

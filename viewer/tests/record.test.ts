@@ -2,14 +2,16 @@
 import { Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { readingsOf } from '../src/flights/pane';
-import { FlightRecord, Pose } from '../src/flights/record';
+import { type FlightRecord, Pose, recordsOf } from '../src/flights/record';
 import { csvOf } from '../src/flights/save';
 import { dataOf, stripsOf } from '../src/flights/strip_list';
 import type { ArrayReference } from '../src/pack';
 import type { FlightSet, ReportPack } from '../src/report';
 
 /** A flight by its columns, rows of a second. */
-function record(columns: Record<string, number[]>, more: object = {}): FlightRecord {
+function record(
+  columns: Record<string, number[]>, more: object = {}, conditions = 'still air',
+): FlightRecord {
   const names = Object.keys(columns);
   const references = Object.fromEntries(names.map((name, i) =>
     [name, { f32: [i, columns[name].length] } as ArrayReference]));
@@ -17,10 +19,11 @@ function record(columns: Record<string, number[]>, more: object = {}): FlightRec
     array: (reference: { f32: [number, number] }) =>
       Float32Array.from(columns[names[reference.f32[0]]]),
   } as unknown as ReportPack;
-  return new FlightRecord({
+  const flight = {
     agent: 0, episode: 0, end: 'time_limit', return: 0, duration_s: columns.north_ft.length - 1,
     new_target_s: [], reached_s: [], interval_s: 1, columns: references, ...more,
-  }, pack);
+  };
+  return recordsOf({ conditions, flights: [flight] } as unknown as FlightSet, pack)[0];
 }
 
 const STRAIGHT = { north_ft: [0, 100, 200, 300], east_ft: [0, 0, 0, 0], altitude_ft: [5, 5, 7, 7],
@@ -72,8 +75,15 @@ describe('a record', () => {
       .toBe('target reached at 2.0 s, flown for 3.0 s');
     expect(record(STRAIGHT, { end: 'low_altitude', reached_s: [2] }).outcome())
       .toBe('target reached at 2.0 s, low altitude at 3.0 s');
+  });
+  it('of a mission flown to its end misses nothing', () => {
     expect(record(STRAIGHT, { new_target_s: [1], reached_s: [1] }).outcome())
-      .toBe('time limit at 3.0 s');
+      .toBe('mission flown, 3.0 s');
+    const missions = 'f16 in still air; missions of 0.05 min';
+    expect(record(STRAIGHT, {}, missions).outcome()).toBe('mission flown, 3.0 s');
+    expect(record(STRAIGHT, {}, missions).end).toBe('mission flown');
+    expect(record(STRAIGHT, { end: 'low_altitude', reached_s: [2] }, missions).outcome())
+      .toBe('low altitude at 3.0 s');
   });
 });
 

@@ -167,6 +167,19 @@ TEST(Conditions, AreDescribedInWords) {
             "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; no noise");
 }
 
+TEST(Conditions, PlantsAreToldApart) {
+  const auto described = [](const std::string& level) {
+    return DescribeConditions(Under({"plant=" + level}));
+  };
+  EXPECT_THAT(described("mild"), HasSubstr("; plant at 0.5 of the middle level;"));
+  EXPECT_THAT(described("1.5"), HasSubstr("; plant at 1.5 of the middle level;"));
+  EXPECT_THAT(described("mass:1.05,cg_shift:-0.05..0.05"),
+              HasSubstr("; plant: cg_shift -0.05 to 0.05, mass 1.05;"));
+  EXPECT_THAT(described("mass:1.05,thrust:0.9,density:1.02,inertia:0.9"),
+              HasSubstr("; drawn plants (4 quantities);"));
+  EXPECT_EQ(described("0").find("plant"), std::string::npos);
+}
+
 TEST(Conditions, EvaluationsAreDescribedWithWhatCounts) {
   EnvConfig env = Under({});
   EXPECT_EQ(DescribeEvaluation(env),
@@ -217,6 +230,7 @@ TEST(Conditions, WhatCannotBeReadIsNamedWithWhatCould) {
   EXPECT_THAT(Complaint({"windy=severe..light"}), HasSubstr("cannot read \"severe..light\""));
   EXPECT_THAT(Complaint({"high_speed=1.4..1.2"}), HasSubstr("cannot read \"1.4..1.2\""));
   EXPECT_THAT(Complaint({"high_altitude="}), HasSubstr("cannot read \"\""));
+  EXPECT_THAT(Complaint({"high_altitude=32000"}), HasSubstr("are thousands of feet"));
   EXPECT_THAT(Complaint({"windy=,light"}), HasSubstr("cannot read \"\""));
 }
 

@@ -54,14 +54,12 @@ export function makeGround(box: Box3, lineColour: string, textColour: string): G
 }
 
 /** Where the wind blows to, feet a second in three.js's axes, in a corner of the ground. */
-export function windArrow(wind: Vector3, ground: Ground, box: Box3, colour: string): Group | null {
-  const speed = wind.length();
-  if (speed < 1) return null;
+export function windArrow(wind: Vector3, ground: Ground, box: Box3, colour: string): Group {
   const length = ground.spacingFt * 2;
   const group = new Group();
   const arrow = new ArrowHelper(wind.clone().normalize(), new Vector3(), length, new Color(colour),
     length * 0.3, length * 0.16);
-  const text = label(`wind ${speed.toFixed(0)} ft/s`, colour, ground.spacingFt * 0.5);
+  const text = label(`wind ${wind.length().toFixed(0)} ft/s`, colour, ground.spacingFt * 0.5);
   text.position.set(0, ground.spacingFt * 0.5, 0);
   group.add(arrow, text);
   group.position.set(box.min.x - ground.spacingFt, ground.altitudeFt + ground.spacingFt * 0.3,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A flight that was recorded, read at any time.
-import type { Flight, FlightSet, ReportPack } from '../report';
+import { type Flight, type FlightSet, isOfMissions, type ReportPack } from '../report';
 import { attitude, mixedAngle, place } from './frames';
 import { Quaternion, Vector3 } from 'three';
 
@@ -22,6 +22,8 @@ export class Pose {
   readonly attitude = new Quaternion();
   readonly surfaces: Surfaces = { elevator: 0, aileron: 0, rudder: 0, leadingEdgeFlap: 0 };
 }
+
+const MISSION_FLOWN = 'mission flown';
 
 /** Rows that are reached but for a rounding error are reached. */
 const ROUNDING = 1e-6;
@@ -62,10 +64,12 @@ export class FlightRecord {
   private readonly turns: Float32Array;
   private readonly other = new Quaternion();
 
-  constructor(flight: Flight, pack: ReportPack) {
+  constructor(flight: Flight, pack: ReportPack, private readonly isMission: boolean) {
     this.agent = flight.agent;
     this.episode = flight.episode;
-    this.end = flight.end.replace(/_/g, ' ');
+    // What ends a mission by its time is its length: no target is missed by it.
+    this.end = isMission && flight.end === 'time_limit' ? MISSION_FLOWN
+      : flight.end.replace(/_/g, ' ');
     this.result = flight.return;
     this.interval = flight.interval_s;
     this.newTargets = flight.new_target_s;
@@ -85,10 +89,12 @@ export class FlightRecord {
    * before its end. */
   outcome(): string {
     const [reached] = this.reached;
-    const isEarlier = this.newTargets.length === 0 && reached < this.duration - 1e-6;
-    if (!isEarlier) return `${this.end} at ${this.duration.toFixed(1)} s`;
+    const flown = `${this.duration.toFixed(1)} s`;
+    if (this.end === MISSION_FLOWN) return `${this.end}, ${flown}`;
+    const isEarlier = !this.isMission && reached < this.duration - 1e-6;
+    if (!isEarlier) return `${this.end} at ${flown}`;
     const end = this.end === 'target reached' ? 'flown for' : `${this.end} at`;
-    return `target reached at ${reached.toFixed(1)} s, ${end} ${this.duration.toFixed(1)} s`;
+    return `target reached at ${reached.toFixed(1)} s, ${end} ${flown}`;
   }
 
   private attitudes(): Float32Array {
@@ -200,5 +206,6 @@ export class FlightRecord {
 
 /** The flights of a set by their agent and episode. */
 export function recordsOf(set: FlightSet, pack: ReportPack): FlightRecord[] {
-  return set.flights.map((flight) => new FlightRecord(flight, pack));
+  const isMission = isOfMissions(set);
+  return set.flights.map((flight) => new FlightRecord(flight, pack, isMission));
 }

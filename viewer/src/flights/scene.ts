@@ -15,6 +15,7 @@ import { type Ground, makeGround, windArrow } from './ground';
 import { Ladder } from './ladder';
 import { type FlightRecord, Pose } from './record';
 import { type Colouring, Trails } from './trails';
+import { steadyWind } from './wind';
 
 /** An aircraft is drawn at least so large, as a share of its distance; of many smaller. */
 const LEAST_SIZE = 0.03;
@@ -61,11 +62,8 @@ export class FlightScene {
     const sun = new DirectionalLight('#ffffff', 2.2);
     sun.position.set(0.5, 1, 0.3);
     this.scene.add(sun);
-    const first = records[0];
-    const wind = new Vector3(first.drawn('wind_east_fps', 0), -first.drawn('wind_down_fps', 0),
-      -first.drawn('wind_north_fps', 0));
-    const arrow = windArrow(wind, this.ground, box, styleColour('--target'));
-    if (arrow) this.scene.add(arrow);
+    const wind = steadyWind(records[0]);
+    if (wind) this.scene.add(windArrow(wind, this.ground, box, styleColour('--target')));
     this.cameras = new Cameras(element, [way[0], ...this.goals.flatMap((g) => g.places()), ...way],
       this.size);
   }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "base/worker_pool.h"
+#include "tests/error_message.h"
+#include "tests/scratch_directory.h"
+#include "tests/train/small_config.h"
+#include "train/files/tensor_access.h"
+#include "train/ppo/trainer.h"
+
+namespace skein {
+namespace {
+
+TEST(DamagedCounters, BeyondThoseOfAnyTrainingAreRefused) {
+  constexpr std::size_t kSteps = 4;  // iterations, policy steps, the steps of both optimisers
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "checkpoint.skein";
+  WorkerPool pool(1);
+  Trainer trainer(SmallConfig(), pool);
+  trainer.Save(path);
+  const TensorFile whole = TensorFile::Read(path);
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    TensorFile damaged = whole;
+    auto counters = LoadTensor<std::uint64_t>(whole, path, "counters");
+    counters[i] = std::uint64_t{1} << 61;
+    StoreTensor(damaged, "counters", {static_cast<std::int64_t>(counters.size())}, counters.data(),
+                counters.size());
+    damaged.Write(path);
+    EXPECT_THAT(MessageOf([&] { trainer.Restore(path); }), testing::HasSubstr("more steps")) << i;
+  }
+  whole.Write(path);
+  trainer.Restore(path);
+}
+
+}  // namespace
+}  // namespace skein
