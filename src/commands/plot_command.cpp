@@ -11,12 +11,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "src/agents/agent_names.h"
 #include "src/commands/flown_agents.h"
 #include "src/config/number_in.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
+#include "src/evaluation/evaluation_report.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 #include "src/plot/picture_file.h"
@@ -28,6 +30,8 @@
 
 namespace skein {
 namespace {
+
+using Json = nlohmann::json;
 
 constexpr int kDefaultEpisodes = 4;
 constexpr double kPointsPerInch = 72;
@@ -243,22 +247,60 @@ void AddTracksPlot(CLI::App* plot) {
       ->footer("Example: skein plot tracks --policy runs/short --episodes 8 -o tracks.pdf");
 }
 
-/// Task, and name and success rate of the first autopilot in what skein compare --json wrote.
-void ReadComparison(const std::string& path, CurveOptions* curves) {
-  using Json = nlohmann::json;
+/// What the autopilot of a file of --comparison was flown in.
+struct FlownComparison {
+  std::string path, task, conditions;
+  Json environment;  ///< by key; null of a file that does not say
+};
+
+/// Adds the task, and the name and success rate of the first autopilot, in what skein compare
+/// --json wrote.
+FlownComparison ReadComparison(const std::string& path, CurveOptions* curves) {
   const Json report = Json::parse(ReadFile(path), nullptr, /*allow_exceptions=*/false);
   try {
     for (const Json& agent : report.at("agents")) {
       const auto name = agent.at("name").get<std::string>();
       if (!IsAutopilot(name)) continue;
-      curves->autopilots[report.at("task").get<std::string>()] = {
-          AutopilotVariantOf(name) + " autopilot", agent.at("success_rate").get<double>()};
-      return;
+      const auto task = report.at("task").get<std::string>();
+      curves->autopilots[task] = {AutopilotVariantOf(name) + " autopilot",
+                                  agent.at("success_rate").get<double>()};
+      return {path, task, report.value("conditions", ""), report.value("environment", Json())};
     }
   } catch (const Json::exception&) {
     throw Error(path + ": not what skein compare --json writes");
   }
   throw Error(path + ": compares no autopilot; name one in skein compare --agents");
+}
+
+/// Keys of the environment whose values in evaluations of a run are not those of `flown`. A key
+/// that only one version of Skein knows tells nothing.
+std::vector<std::string> KeysThatDiffer(const Json& flown, const RunRecord& run) {
+  std::vector<std::string> keys;
+  const Json own = EnvironmentJson(run.config);
+  for (const auto& [key, value] : own.items()) {
+    if (flown.contains(key) && flown.at(key) != value) keys.push_back(key);
+  }
+  return keys;
+}
+
+/// Says which runs of the task are evaluated in another environment than the autopilot was flown
+/// in.
+void NoteOtherConditions(const FlownComparison& flown, const std::vector<CurveSetting>& settings,
+                         std::vector<std::string>* notes) {
+  std::vector<std::string> paths;
+  std::set<std::string> keys;
+  for (const CurveSetting& setting : settings) {
+    for (const RunRecord& run : setting.runs) {
+      if (setting.task != flown.task) continue;
+      const std::vector<std::string> own = KeysThatDiffer(flown.environment, run);
+      if (!own.empty()) paths.push_back(run.path);
+      keys.insert(own.begin(), own.end());
+    }
+  }
+  if (paths.empty()) return;
+  notes->push_back(
+      fmt::format("{}: its autopilot was flown under other conditions than {} ({}): {}", flown.path,
+                  fmt::join(paths, ", "), fmt::join(keys, ", "), flown.conditions));
 }
 
 /// Which runs the names of --names stand for: the shell has perhaps put them in an order of its
@@ -275,7 +317,10 @@ void DrawCurves(const CurvePlotOptions& options) {
   CurveOptions curves = options.curves;
   curves.width = options.paper.width();
   curves.title = options.paper.title;
-  for (const std::string& path : options.comparisons) ReadComparison(path, &curves);
+  std::vector<FlownComparison> flown;
+  for (const std::string& path : options.comparisons) {
+    flown.push_back(ReadComparison(path, &curves));
+  }
   std::vector<std::string> read = FilesOfRuns(options.runs);
   read.insert(read.end(), options.comparisons.begin(), options.comparisons.end());
   WriteTo(options.paper, read, [&](std::vector<std::string>* notes) {
@@ -291,6 +336,9 @@ void DrawCurves(const CurvePlotOptions& options) {
         AsUsage([&] { return SettingsOf(std::move(runs), options.seeds, options.names); });
     if (!options.names.empty()) NoteNames(settings, notes);
     LeaveOutRunsWithoutValues(curves.columns, &settings, notes);
+    for (const FlownComparison& comparison : flown) {
+      NoteOtherConditions(comparison, settings, notes);
+    }
     return TrainingCurves(settings, curves);
   });
 }

@@ -15,6 +15,7 @@ namespace {
 constexpr double kPadding = 0.06;        // of a range
 constexpr double kLabelGap = 4;          // between an axis and its numbers, points
 constexpr double kRoundingGuard = 1e-9;  // of a step, so that ends that are multiples count
+constexpr double kCountWithTwo = 5;      // steps are at most half the range from here on
 
 constexpr std::array<std::pair<const char*, const char*>, 7> kUnits = {{{"_deg_s", "deg/s"},
                                                                         {"_fps", "ft/s"},
@@ -40,19 +41,8 @@ std::string WithCommas(const std::string& number) {
   return text;
 }
 
-}  // namespace
-
-std::string InWords(const std::string& column) {
-  for (const auto& [ending, unit] : kUnits) {
-    const std::string end(ending);
-    if (column.size() <= end.size() || column.substr(column.size() - end.size()) != end) continue;
-    const std::size_t kept = column.size() - (IsRate(unit) ? 0 : end.size());
-    return fmt::format("{}, {}", WithBlanks(column.substr(0, kept)), unit);
-  }
-  return WithBlanks(column);
-}
-
-std::vector<double> Ticks(const Range& range, double count) {
+/// Round numbers within the range, about `count` of them.
+std::vector<double> TicksNear(const Range& range, double count) {
   const double share = (range.max - range.min) / std::max(count, 1.0);
   const double rough = share > std::numeric_limits<double>::min() ? share : 1;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -67,6 +57,26 @@ std::vector<double> Ticks(const Range& range, double count) {
   for (double k = 0; k <= last - first; ++k) {
     const double multiple = first + k;
     ticks.push_back(multiple == 0 ? 0 : multiple * step);
+  }
+  return ticks;
+}
+
+}  // namespace
+
+std::string InWords(const std::string& column) {
+  for (const auto& [ending, unit] : kUnits) {
+    const std::string end(ending);
+    if (column.size() <= end.size() || column.substr(column.size() - end.size()) != end) continue;
+    const std::size_t kept = column.size() - (IsRate(unit) ? 0 : end.size());
+    return fmt::format("{}, {}", WithBlanks(column.substr(0, kept)), unit);
+  }
+  return WithBlanks(column);
+}
+
+std::vector<double> Ticks(const Range& range, double count) {
+  std::vector<double> ticks = TicksNear(range, count);
+  for (double more = std::max(count, 1.0); ticks.size() < 2 && more < kCountWithTwo;) {
+    ticks = TicksNear(range, more *= 2);
   }
   return ticks;
 }
@@ -148,9 +158,7 @@ void Panel::DrawCurve(const std::vector<PagePoint>& points, Colour colour, doubl
     shapes->emplace_back(Disc{Place(points[0].x, points[0].y), 1.5, colour, std::nullopt});
     return;
   }
-  Path curve = Line(Simplified(Placed(points)), colour, width);
-  curve.dash = dash;
-  shapes->emplace_back(std::move(curve));
+  shapes->emplace_back(Line(Simplified(Placed(points)), colour, width, dash));
 }
 
 void Panel::DrawBand(const std::vector<PagePoint>& low, const std::vector<PagePoint>& high,

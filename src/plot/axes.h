@@ -13,7 +13,8 @@ namespace skein {
 /// percent, "success rate, %".
 std::string InWords(const std::string& column);
 
-/// Round numbers (1, 2 or 5 times a power of ten apart) within the range, about `count` of them.
+/// Round numbers (1, 2 or 5 times a power of ten apart) within the range, about `count` of them;
+/// more where one number would be all, as that is no scale.
 std::vector<double> Ticks(const Range& range, double count);
 
 /// A tick in letters: "12,500", "-0.02".

@@ -78,16 +78,16 @@ Picture DrawDragPolars(const FlownGrid& flown, double width, const std::string& 
   std::vector<LegendEntry> entries;
   for (std::size_t i = 0; i < polars.size(); ++i) {
     const Polar& polar = polars[i];
-    const Colour colour = ColourOf(i);
-    panel.DrawCurve(polar.points, colour, 1.2, Dash::kNone, &shapes);
+    const CurveStyle style = StyleOf(i);
+    panel.DrawCurve(polar.points, style.colour, 1.2, style.dash, &shapes);
     std::string words = TickText(polar.altitude_ft) + " ft";
     if (polar.best) {
-      shapes.emplace_back(
-          Disc{panel.Place(polar.best->x, polar.best->y), kRadius, colour, std::nullopt});
+      shapes.push_back(MarkerAt(panel.Place(polar.best->x, polar.best->y), style.marker,
+                                {{}, kRadius, style.colour, std::nullopt}));
       words += fmt::format(": lift over drag at most {:.1f}, at {} ft/s",
                            polar.best->y / polar.best->x, ShortestText(polar.best_speed_ft_s));
     }
-    entries.push_back({LineSample(colour, 1.2), words});
+    entries.push_back({LineSample(style.colour, 1.2, style.dash), words});
   }
   shapes.emplace_back(Words{{panel.left() + panel.width() / 2, panel.bottom() + 22},
                             "drag coefficient; upwards lift coefficient",

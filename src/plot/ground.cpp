@@ -190,9 +190,12 @@ void Ground::DrawAltitudes(const View& view, std::vector<Shape>* shapes) const {
   const double top = height(ceiling_ft());
   shapes->emplace_back(Line({bottom, {bottom.x, top}}, kGrey, 0.8));
   const double room = (bottom.y - top) / (1.5 * kSmallSize);
+  double last = std::numeric_limits<double>::infinity();
   for (const double level : Ticks(altitude_, std::min(room, kMostLevels))) {
     const double y = height(level);
     shapes->emplace_back(Line({{bottom.x - 3, y}, {bottom.x, y}}, kGrey, 0.8));
+    if (last - y < kSmallSize + 1) continue;  // seen from above, the post is short
+    last = y;
     shapes->emplace_back(Words{{bottom.x - 5, y + 0.35 * kSmallSize},
                                TickText(level / kThousand),
                                kSmallSize,

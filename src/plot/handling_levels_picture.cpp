@@ -72,12 +72,12 @@ class LevelsDrawing {
       : flights_(flights), limits_(limits), width_(width) {
     std::vector<double> speeds;
     for (const AssessedFlight& flight : flights) {
-      altitudes_.emplace(flight.request.altitude_ft, 0);
+      altitudes_.emplace(flight.request.altitude_ft, CurveStyle());
       speeds.push_back(flight.request.true_airspeed_ft_s);
     }
     speeds_ = SpanOf(speeds);
     std::size_t index = 0;
-    for (auto& [altitude, colour] : altitudes_) colour = ColourOf(index++);
+    for (auto& [altitude, style] : altitudes_) style = StyleOf(index++);
   }
 
   Picture Draw(const std::string& title) {
@@ -104,18 +104,18 @@ class LevelsDrawing {
   Colour ColourAt(const AssessedFlight& flight) const {
     const double width = speeds_.max - speeds_.min;
     const double share = width > 0 ? (flight.request.true_airspeed_ft_s - speeds_.min) / width : 1;
-    return Mixed(altitudes_.at(flight.request.altitude_ft), kWhite, kPale * (1 - share));
+    return Mixed(altitudes_.at(flight.request.altitude_ft).colour, kWhite, kPale * (1 - share));
   }
 
   void DrawDot(const Panel& panel, double x, double y, const AssessedFlight& flight) {
     const bool is_shown = x >= panel.x_range().min && x <= panel.x_range().max &&
                           y >= panel.y_range().min && y <= panel.y_range().max;
     if (!is_shown) return;
-    if (HasEquivalentSystem(flight)) {
-      shapes_.emplace_back(Disc{panel.Place(x, y), kRadius, ColourAt(flight), kGrey, 0.3});
-    } else {
-      shapes_.emplace_back(Disc{panel.Place(x, y), kRadius, kWhite, ColourAt(flight), 0.8});
-    }
+    const Disc look = HasEquivalentSystem(flight)
+                          ? Disc{{}, kRadius, ColourAt(flight), kGrey, 0.3}
+                          : Disc{{}, kRadius, kWhite, ColourAt(flight), 0.8};
+    shapes_.push_back(
+        MarkerAt(panel.Place(x, y), altitudes_.at(flight.request.altitude_ft).marker, look));
   }
 
   /// frequency = sqrt(anticipation n/alpha), as far as the panel shows it; a line in logarithms.
@@ -245,22 +245,15 @@ class LevelsDrawing {
     return panel.bottom();
   }
 
-  static LegendEntry DotEntry(Colour colour, const std::string& words) {
-    return {[colour](PagePoint left, std::vector<Shape>* shapes) {
-              shapes->emplace_back(
-                  Disc{{left.x + kSampleWidth / 2, left.y}, kRadius, colour, std::nullopt});
-            },
-            words};
-  }
-
   std::vector<LegendEntry> Entries() const {
     std::vector<LegendEntry> entries;
     for (std::size_t level = 0; level < kLevelDashes.size(); ++level) {
       entries.push_back({LineSample(kInk, 0.8, kLevelDashes[level]),
                          fmt::format("boundary of level {}", level + 1)});
     }
-    for (const auto& [altitude, colour] : altitudes_) {
-      entries.push_back(DotEntry(colour, TickText(altitude) + " ft"));
+    for (const auto& [altitude, style] : altitudes_) {
+      entries.push_back({MarkerSample(style.marker, {{}, kRadius, style.colour, std::nullopt}),
+                         TickText(altitude) + " ft"});
     }
     std::array<bool, kLevelColours.size()> seen{};
     for (const AssessedFlight& flight : flights_) {
@@ -272,10 +265,7 @@ class LevelsDrawing {
                          level < 3 ? fmt::format("level {}", level + 1) : "below level 3"});
     }
     if (!std::all_of(flights_.begin(), flights_.end(), HasEquivalentSystem)) {
-      entries.push_back({[](PagePoint left, std::vector<Shape>* shapes) {
-                           shapes->emplace_back(Disc{
-                               {left.x + kSampleWidth / 2, left.y}, kRadius, kWhite, kGrey, 0.8});
-                         },
+      entries.push_back({MarkerSample(Marker::kDisc, {{}, kRadius, kWhite, kGrey, 0.8}),
                          fmt::format("no equivalent system: mismatch above {}", kMostMismatch)});
     }
     return entries;
@@ -285,7 +275,7 @@ class LevelsDrawing {
   const LevelLimits& limits_;
   double width_;
   Range speeds_;
-  std::map<double, Colour> altitudes_;
+  std::map<double, CurveStyle> altitudes_;
   std::vector<Shape> shapes_;
 };
 

@@ -14,9 +14,7 @@ constexpr double kAfterSample = 5, kAfterEntry = 14, kLineHeight = 13;
 
 Sample LineSample(Colour colour, double width, Dash dash) {
   return [=](PagePoint left, std::vector<Shape>* shapes) {
-    Path line = Line({left, {left.x + kSampleWidth, left.y}}, colour, width);
-    line.dash = dash;
-    shapes->emplace_back(std::move(line));
+    shapes->emplace_back(Line({left, {left.x + kSampleWidth, left.y}}, colour, width, dash));
   };
 }
 
@@ -25,6 +23,12 @@ Sample BandSample(Colour colour, double opacity) {
     const double right = left.x + kSampleWidth, top = left.y - 4, bottom = left.y + 4;
     shapes->emplace_back(
         Area({{left.x, top}, {right, top}, {right, bottom}, {left.x, bottom}}, colour, opacity));
+  };
+}
+
+Sample MarkerSample(Marker marker, const Disc& look) {
+  return [=](PagePoint left, std::vector<Shape>* shapes) {
+    shapes->push_back(MarkerAt({left.x + kSampleWidth / 2, left.y}, marker, look));
   };
 }
 

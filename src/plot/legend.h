@@ -20,6 +20,7 @@ struct LegendEntry {
 
 Sample LineSample(Colour colour, double width, Dash dash = Dash::kNone);
 Sample BandSample(Colour colour, double opacity);
+Sample MarkerSample(Marker marker, const Disc& look);
 
 /// Entries from left to right from `at` on, wrapped at `right`; returns the lowest base line.
 double DrawLegend(PagePoint at, double right, const std::vector<LegendEntry>& entries,

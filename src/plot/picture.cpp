@@ -2,6 +2,7 @@
 #include "src/plot/picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -9,6 +10,7 @@
 namespace skein {
 namespace {
 
+constexpr std::array<Dash, 3> kDashes = {Dash::kNone, Dash::kDashed, Dash::kShort};
 constexpr double kToleratedPoints = 0.15;
 constexpr double kWidthPerSize = 0.58;  // of a letter in font sizes, in the mean over wide fonts
 
@@ -48,11 +50,17 @@ Colour Mixed(Colour colour, Colour other, double share) {
   return mixed;
 }
 
-Path Line(std::vector<PagePoint> points, Colour colour, double width) {
+CurveStyle StyleOf(std::size_t number) {
+  const std::size_t round = number / kAgentColours.size();
+  return {ColourOf(number), kDashes[round % kDashes.size()], kMarkers[round % kMarkers.size()]};
+}
+
+Path Line(std::vector<PagePoint> points, Colour colour, double width, Dash dash) {
   Path path;
   path.points = std::move(points);
   path.stroke = colour;
   path.width = width;
+  path.dash = dash;
   return path;
 }
 
@@ -62,6 +70,30 @@ Path Area(std::vector<PagePoint> corners, Colour fill, double opacity) {
   path.fill = fill;
   path.is_closed = true;
   path.opacity = opacity;
+  return path;
+}
+
+Shape MarkerAt(PagePoint middle, Marker marker, const Disc& look) {
+  constexpr double kHalfSquare = 0.89, kTriangle = 1.55;  // of the radius, for the same area
+  Path path;
+  if (marker == Marker::kSquare) {
+    const double half = kHalfSquare * look.radius;
+    path.points = {{middle.x - half, middle.y - half},
+                   {middle.x + half, middle.y - half},
+                   {middle.x + half, middle.y + half},
+                   {middle.x - half, middle.y + half}};
+  } else if (marker == Marker::kTriangle) {
+    const double side = kTriangle * look.radius;
+    path.points = {{middle.x, middle.y - side},
+                   {middle.x + 0.866 * side, middle.y + side / 2},
+                   {middle.x - 0.866 * side, middle.y + side / 2}};
+  } else {
+    return Disc{middle, look.radius, look.fill, look.stroke, look.width};
+  }
+  path.fill = look.fill;
+  path.stroke = look.stroke;
+  path.width = look.width;
+  path.is_closed = true;
   return path;
 }
 

@@ -28,6 +28,20 @@ inline Colour ColourOf(std::size_t index) { return kAgentColours[index % kAgentC
 Colour Mixed(Colour colour, Colour other, double share);
 
 enum class Dash { kNone, kDashed, kShort };
+enum class Marker { kDisc, kSquare, kTriangle };
+inline constexpr std::array<Marker, 3> kMarkers = {Marker::kDisc, Marker::kSquare,
+                                                   Marker::kTriangle};
+
+/// How the curve or the dots of an agent or setting look.
+struct CurveStyle {
+  Colour colour = kInk;
+  Dash dash = Dash::kNone;        ///< of a line
+  Marker marker = Marker::kDisc;  ///< of dots
+};
+
+/// By number: all colours whole and as discs, then dashed and as squares, then dotted and as
+/// triangles, then as at first again.
+CurveStyle StyleOf(std::size_t number);
 
 /// A line through points, or the area that it encloses.
 struct Path {
@@ -70,8 +84,10 @@ struct Picture {
 
 inline constexpr double kTextSize = 8, kSmallSize = 7.2, kTitleSize = 10;
 
-Path Line(std::vector<PagePoint> points, Colour colour, double width = 1);
+Path Line(std::vector<PagePoint> points, Colour colour, double width = 1, Dash dash = Dash::kNone);
 Path Area(std::vector<PagePoint> corners, Colour fill, double opacity = 1);
+/// A dot of about the area of a disc of that radius, of what `look` says but its place.
+Shape MarkerAt(PagePoint middle, Marker marker, const Disc& look);
 
 /// As wide as letters are at most in the common sans-serif fonts, as nobody knows the reader's.
 double TextWidth(const std::string& text, double size = kTextSize);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "envs/env_config.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 
@@ -18,7 +19,6 @@ namespace skein {
 namespace {
 
 constexpr const char* kTargetPrefix = "target_";
-constexpr const char* kUnfinished = "unfinished";
 
 std::string WithBlanks(std::string text) {
   std::replace(text.begin(), text.end(), '_', ' ');
@@ -72,7 +72,7 @@ DrawnFlight FlightOf(const std::string& file, const CsvColumns& all, std::size_t
   DrawnFlight flight;
   flight.source = file;
   flight.episode = fmt::format("{:g}", all.Find("episode")->at(begin));
-  flight.end = all.words[end - 1].empty() ? kUnfinished : WithBlanks(all.words[end - 1]);
+  flight.end = WithBlanks(all.words[end - 1]);
   flight.table.names = all.names;
   for (const std::vector<double>& column : all.values) {
     flight.table.values.emplace_back(column.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -111,17 +111,21 @@ std::vector<DrawnFlight> ReadFlights(const std::string& file, std::vector<std::s
   return flights;
 }
 
+/// None of a flight under way, nor of a mission that was flown to its end.
+std::string EndWords(Termination end, bool is_mission) {
+  if (end == Termination::kNone || (is_mission && end == Termination::kTimeLimit)) return "";
+  return WithBlanks(kTerminationNames[static_cast<std::size_t>(end)]);
+}
+
 std::vector<DrawnFlight> FlightsOf(const AgentFlights& flown) {
   std::vector<DrawnFlight> flights;
+  const bool is_mission = EvaluationConfig(flown.env).mission.enabled();
   for (std::size_t k = 0; k < flown.flights.size(); ++k) {
     FlightTable table = TableOf(flown.env, flown.flights[k]);
-    const auto end = static_cast<std::size_t>(table.terminations.back());
     DrawnFlight flight;
     flight.source = flown.agent;
     flight.episode = std::to_string(k);
-    flight.end = table.terminations.back() == Termination::kNone
-                     ? kUnfinished
-                     : WithBlanks(kTerminationNames[end]);
+    flight.end = EndWords(table.terminations.back(), is_mission);
     flight.table.names = std::move(table.names);
     flight.table.values = std::move(table.columns);
     flights.push_back(std::move(flight));
@@ -183,7 +187,7 @@ Recordings ReadRecordings(const std::vector<std::string>& files) {
   Recordings recordings;
   for (const std::string& file : files) {
     recordings.agents.push_back(
-        {AgentOf(file), ColourOf(recordings.agents.size()), ReadFlights(file, &recordings.notes)});
+        {AgentOf(file), StyleOf(recordings.agents.size()), ReadFlights(file, &recordings.notes)});
     const std::vector<std::string> own = TargetsIn(recordings.agents.back().flights[0].table);
     if (file == files.front()) recordings.targets = own;
     if (own != recordings.targets) {
@@ -197,8 +201,7 @@ Recordings ReadRecordings(const std::vector<std::string>& files) {
 Recordings RecordingsOf(const std::vector<AgentFlights>& agents) {
   Recordings recordings;
   for (const AgentFlights& flown : agents) {
-    recordings.agents.push_back(
-        {flown.agent, ColourOf(recordings.agents.size()), FlightsOf(flown)});
+    recordings.agents.push_back({flown.agent, StyleOf(recordings.agents.size()), FlightsOf(flown)});
   }
   for (const TargetQuantity& target : agents.front().targets) {
     recordings.targets.emplace_back(target.column);
@@ -269,7 +272,8 @@ void KeepFirstEpisodes(int count, Recordings* recordings) {
 }
 
 std::string EndOf(const DrawnFlight& flight) {
-  return fmt::format("{}; {:.1f}\u00a0s flown", flight.end, flight.duration_s());
+  return fmt::format("{}{:.1f}\u00a0s flown", flight.end.empty() ? "" : flight.end + "; ",
+                     flight.duration_s());
 }
 
 }  // namespace skein

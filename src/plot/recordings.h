@@ -15,7 +15,7 @@ namespace skein {
 struct DrawnFlight {
   std::string source;   ///< the file or the agent, for errors
   std::string episode;  ///< its number
-  std::string end;      ///< "target reached"
+  std::string end;      ///< "target reached"; empty if it was flown as long as was asked for
   CsvColumns table;     ///< a row for every control step, columns as in files of flights
 
   /// Throws Error if there is no such column.
@@ -32,7 +32,7 @@ struct DrawnFlight {
 /// An agent's flights, and how they are drawn.
 struct Recording {
   std::string name;
-  Colour colour = 0;
+  CurveStyle style;
   std::vector<DrawnFlight> flights;
 };
 
@@ -75,7 +75,8 @@ struct DrawnEpisode {
 /// Flights that begin alike and have the same number are of the same episode.
 std::vector<DrawnEpisode> EpisodesOf(const Recordings& recordings);
 
-/// "target reached; 12.3 s flown", the time included for which a reached target was held.
+/// "target reached; 12.3 s flown", or "180.0 s flown" of a flight without an end; the time included
+/// for which a reached target was held.
 std::string EndOf(const DrawnFlight& flight);
 
 }  // namespace skein

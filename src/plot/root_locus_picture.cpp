@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/plot/root_locus_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,18 +19,25 @@ namespace {
 constexpr double kLeft = 40, kHeightPerWidth = 0.9;
 constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr double kRadius = 2, kPale = 0.75;
-constexpr double kSlow = 0.5;  // 1/s: what the second panel shows
+constexpr double kSlow = 0.5;                              // 1/s: what the second panel shows
+constexpr std::size_t kMostMarkers = 2 * kMarkers.size();  // full, then hollow
 
 class LocusDrawing {
  public:
   LocusDrawing(const std::vector<LinearisedFlight>& flights, double width)
       : flights_(flights), width_(width) {
+    std::vector<double> speeds;
     for (const LinearisedFlight& flight : flights) {
+      speeds.push_back(flight.request.true_airspeed_ft_s);
+      altitudes_.emplace(flight.request.altitude_ft, 0);
       for (const FlightMode& mode : flight.modes) {
         const std::string name = mode.name.substr(0, mode.name.find(','));
         colours_.emplace(name, ColourOf(colours_.size()));
       }
     }
+    speeds_ = SpanOf(speeds);
+    std::size_t index = 0;
+    for (auto& [altitude, number] : altitudes_) number = index++;
   }
 
   Picture Draw(const std::string& title) {
@@ -36,16 +45,8 @@ class LocusDrawing {
     const double panel_width = (width_ - 2 * kLeft - kMargin) / 2;
     DrawPanel({kLeft, top}, panel_width, INFINITY);
     DrawPanel({2 * kLeft + panel_width, top}, panel_width, kSlow);
-    std::vector<LegendEntry> entries;
-    for (const auto& [name, colour] : colours_) {
-      entries.push_back({[colour = colour](PagePoint left, std::vector<Shape>* shapes) {
-                           const PagePoint middle{left.x + kSampleWidth / 2, left.y};
-                           shapes->emplace_back(Disc{middle, kRadius, colour, std::nullopt});
-                         },
-                         name});
-    }
     const double bottom = DrawLegend({kLeft, top + kHeightPerWidth * panel_width + 40},
-                                     width_ - kMargin, entries, &shapes_);
+                                     width_ - kMargin, Entries(), &shapes_);
     return FinishedPicture(width_, bottom, title.empty() ? "Root locus" : title,
                            std::move(shapes_));
   }
@@ -72,23 +73,60 @@ class LocusDrawing {
                                "real part, 1/s; upwards imaginary part",
                                kTextSize,
                                Anchor::kMiddle});
-    for (std::size_t i = 0; i < flights_.size(); ++i) DrawModes(panel, i, fastest);
+    for (const LinearisedFlight& flight : flights_) DrawModes(panel, flight, fastest);
   }
 
-  void DrawModes(const Panel& panel, std::size_t flight, double fastest) {
-    const double share =
-        flights_.size() > 1 ? static_cast<double>(flight) / static_cast<double>(flights_.size() - 1)
-                            : 1;
-    for (const FlightMode& mode : flights_[flight].modes) {
+  void DrawModes(const Panel& panel, const LinearisedFlight& flight, double fastest) {
+    const double width = speeds_.max - speeds_.min;
+    const double share = width > 0 ? (flight.request.true_airspeed_ft_s - speeds_.min) / width : 1;
+    const std::size_t altitude = altitudes_.at(flight.request.altitude_ft);
+    for (const FlightMode& mode : flight.modes) {
       if (mode.frequency_rad_s() > fastest) continue;
       const Colour colour = colours_.at(mode.name.substr(0, mode.name.find(',')));
-      shapes_.emplace_back(Disc{panel.Place(mode.eigenvalue.real(), mode.eigenvalue.imag()),
-                                kRadius, Mixed(colour, kWhite, kPale * (1 - share)), std::nullopt});
+      shapes_.push_back(MarkerAt(panel.Place(mode.eigenvalue.real(), mode.eigenvalue.imag()),
+                                 MarkerOf(altitude),
+                                 LookOf(altitude, Mixed(colour, kWhite, kPale * (1 - share)))));
     }
+  }
+
+  /// Whether each altitude has a marker of its own.
+  bool HasMarkers() const { return altitudes_.size() > 1 && altitudes_.size() <= kMostMarkers; }
+  Marker MarkerOf(std::size_t altitude) const {
+    return HasMarkers() ? kMarkers[altitude % kMarkers.size()] : Marker::kDisc;
+  }
+  Disc LookOf(std::size_t altitude, Colour colour) const {
+    const bool is_hollow = HasMarkers() && altitude >= kMarkers.size();
+    return is_hollow ? Disc{{}, kRadius, kWhite, colour, 0.8}
+                     : Disc{{}, kRadius, colour, std::nullopt};
+  }
+
+  std::vector<LegendEntry> Entries() const {
+    std::vector<LegendEntry> entries;
+    for (const auto& [name, colour] : colours_) {
+      entries.push_back({MarkerSample(Marker::kDisc, LookOf(0, colour)), name});
+    }
+    if (speeds_.max > speeds_.min) {
+      entries.push_back(
+          {[](PagePoint left, std::vector<Shape>* shapes) {
+             const Colour pale = Mixed(kInk, kWhite, kPale);
+             shapes->emplace_back(Disc{{left.x + 5, left.y}, kRadius, pale, std::nullopt});
+             shapes->emplace_back(Disc{{left.x + 15, left.y}, kRadius, kInk, std::nullopt});
+           },
+           fmt::format("pale: {} ft/s, dark: {} ft/s", TickText(speeds_.min),
+                       TickText(speeds_.max))});
+    }
+    for (const auto& [altitude, number] : altitudes_) {
+      if (!HasMarkers()) break;
+      entries.push_back(
+          {MarkerSample(MarkerOf(number), LookOf(number, kInk)), TickText(altitude) + " ft"});
+    }
+    return entries;
   }
 
   const std::vector<LinearisedFlight>& flights_;
   double width_;
+  Range speeds_;
+  std::map<double, std::size_t> altitudes_;  ///< and their numbers, from below
   std::map<std::string, Colour> colours_;
   std::vector<Shape> shapes_;
 };

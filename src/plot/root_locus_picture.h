@@ -10,7 +10,8 @@
 namespace skein {
 
 /// The modes of the bare airframe in the complex plane, a dot for every flight, from pale for the
-/// first to full for the last: all at the left, the slow ones again at the right.
+/// slowest to full for the fastest, of another shape for each of up to six altitudes: all at the
+/// left, the slow ones again at the right.
 Picture DrawRootLocus(const std::vector<LinearisedFlight>& flights, double width,
                       const std::string& title);
 

@@ -38,6 +38,16 @@ std::vector<PagePoint> ValuesOf(const RunRecord& run, const std::string& column)
   return points;
 }
 
+[[noreturn]] void RefuseNoStepsInCommon(const CurveSetting& setting, const std::string& column) {
+  std::vector<std::string> paths;
+  for (const RunRecord& run : setting.runs) paths.push_back(run.path);
+  const std::string last = paths.back();
+  paths.pop_back();
+  throw ChoiceError(
+      fmt::format("{} and {} have no control steps in common for {}; leave out --seeds",
+                  fmt::join(paths, ", "), last, column));
+}
+
 }  // namespace
 
 void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
@@ -105,6 +115,7 @@ SeedCurve CurveOf(const CurveSetting& setting, const std::string& column) {
     last = std::min(last, curves.back().back().x);
     for (const PagePoint& point : curves.back()) steps.insert(point.x);
   }
+  if (first > last) RefuseNoStepsInCommon(setting, column);
   SeedCurve result;
   for (const double x : steps) {
     if (x < first || x > last) continue;

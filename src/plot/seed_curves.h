@@ -29,7 +29,8 @@ void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
                                std::vector<CurveSetting>* settings,
                                std::vector<std::string>* notes);
 
-/// Empty if a run has no value of the column yet. Shares are in percent.
+/// Empty if a run has no value of the column yet. Shares are in percent. Throws ChoiceError if
+/// the runs have values, but none over the same control steps.
 SeedCurve CurveOf(const CurveSetting& setting, const std::string& column);
 
 /// Whether a column holds shares, which are shown in percent.

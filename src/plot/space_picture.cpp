@@ -28,6 +28,7 @@ constexpr double kShadowOpacity = 0.5;
 constexpr Colour kShadow = 0x8C8C8C;
 constexpr std::size_t kRowsPerObstacle = 20;
 constexpr std::size_t kPathParts = 12;
+constexpr double kDashesRepeat = 52.5;  // points, after which both kinds of dashes begin anew
 
 /// What is drawn together: what is nearer to the viewer covers what is farther.
 struct Piece {
@@ -84,7 +85,7 @@ class SpaceDrawing {
     for (const SpacePoint& point : track.points) {
       points.push_back(view_.Place(ground_.Below(point)));
     }
-    Path shadow = Line(Simplified(points), track.is_first ? kShadow : track.colour, 0.8);
+    Path shadow = Line(Simplified(points), track.is_first ? kShadow : track.style.colour, 0.8);
     shadow.opacity = kShadowOpacity;
     shapes_.emplace_back(std::move(shadow));
   }
@@ -101,7 +102,7 @@ class SpaceDrawing {
     if (track.HasTargetInSpace()) {
       DrawPost(track.TargetPoint(), kInk);
     } else {
-      DrawPost(track.points.back(), track.colour);
+      DrawPost(track.points.back(), track.style.colour);
     }
     DrawTarget(view_, track, recordings_, arrow_ft(), &shapes_);
   }
@@ -115,7 +116,7 @@ class SpaceDrawing {
     };
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
       const bool from_above = track.attitudes[rows[k]].up.dot(view_.to_viewer()) > 0;
-      const Colour fill = Mixed(track.colour, kWhite, from_above ? 0.5 : 0.78);
+      const Colour fill = Mixed(track.style.colour, kWhite, from_above ? 0.5 : 0.78);
       const SpacePoint corners[] = {side(rows[k], -1), side(rows[k], 1), side(rows[k + 1], 1),
                                     side(rows[k + 1], -1)};
       std::vector<PagePoint> placed;
@@ -131,22 +132,29 @@ class SpaceDrawing {
   void AddAircraft(const Track& track, std::size_t row, double enlarged,
                    std::vector<Piece>* pieces) const {
     const double front = kFrontOfRibbon * kGlyphLength_ft * enlarged;
-    pieces->push_back(
-        {view_.Nearness(track.points[row]) + front,
-         AircraftGlyph(view_, track.points[row], track.attitudes[row], track.colour, enlarged)});
+    pieces->push_back({view_.Nearness(track.points[row]) + front,
+                       AircraftGlyph(view_, track.points[row], track.attitudes[row],
+                                     track.style.colour, enlarged)});
   }
 
   /// A plain line, cut so that what is nearer covers it.
   void AddPath(const Track& track, std::vector<Piece>* pieces) const {
     const std::size_t length = std::max<std::size_t>(1, track.points.size() / kPathParts);
-    for (std::size_t begin = 0; begin + 1 < track.points.size(); begin += length) {
-      const std::size_t end = std::min(begin + length, track.points.size() - 1);
-      std::vector<PagePoint> placed;
-      for (std::size_t row = begin; row <= end; ++row) {
-        placed.push_back(view_.Place(track.points[row]));
-      }
-      pieces->push_back({view_.Nearness(track.points[(begin + end) / 2]),
-                         {Line(Simplified(placed), track.colour, 1.3)}});
+    std::size_t begin = 0;
+    double drawn = 0;  // of the part, points
+    std::vector<PagePoint> placed = {view_.Place(track.points[0])};
+    for (std::size_t row = 1; row < track.points.size(); ++row) {
+      placed.push_back(view_.Place(track.points[row]));
+      const PagePoint &a = placed[placed.size() - 2], &b = placed.back();
+      drawn += std::hypot(b.x - a.x, b.y - a.y);
+      const bool is_long =
+          track.style.dash == Dash::kNone ? row - begin >= length : drawn >= kDashesRepeat;
+      if (!is_long && row + 1 < track.points.size()) continue;
+      pieces->push_back({view_.Nearness(track.points[(begin + row) / 2]),
+                         {Line(Simplified(placed), track.style.colour, 1.3, track.style.dash)}});
+      begin = row;
+      drawn = 0;
+      placed = {placed.back()};
     }
   }
 
@@ -208,8 +216,11 @@ class SpaceDrawing {
       if (const auto* const words = std::get_if<Words>(&shape)) places.Forbid(BoxOf(*words));
     }
     for (const Track& track : tracks_) {
-      Words words{
-          {}, TimeLabel(*track.flight), kTextSize, Anchor::kStart, Mixed(track.colour, 0, 0.15)};
+      Words words{{},
+                  TimeLabel(*track.flight),
+                  kTextSize,
+                  Anchor::kStart,
+                  Mixed(track.style.colour, 0, 0.15)};
       words.has_halo = true;
       const std::optional<Words> put = places.PutAround(words, view_.Place(track.points.back()));
       if (put) shapes_.emplace_back(*put);
@@ -220,11 +231,11 @@ class SpaceDrawing {
     std::vector<LegendEntry> entries;
     for (const Recording& agent : recordings_.agents) {
       if (&agent != &recordings_.agents.front()) {
-        entries.push_back({LineSample(agent.colour, 1.3), agent.name});
+        entries.push_back({LineSample(agent.style.colour, 1.3, agent.style.dash), agent.name});
         continue;
       }
       entries.push_back(
-          {[colour = agent.colour](PagePoint left, std::vector<Shape>* shapes) {
+          {[colour = agent.style.colour](PagePoint left, std::vector<Shape>* shapes) {
              View above(0, 90);
              above.PutOrigin({left.x + kSampleWidth / 2, left.y}, kSampleWidth / kGlyphLength_ft);
              for (Shape& shape :
@@ -236,8 +247,8 @@ class SpaceDrawing {
                        "below",
                        agent.name, interval_s_, TickText(std::round(enlarged_)))});
     }
-    if (!recordings_.targets.empty()) {
-      entries.push_back(TargetEntry(tracks_.front(), recordings_));
+    if (const auto target = TargetEntry(tracks_.front(), recordings_)) {
+      entries.push_back(*target);
     }
     entries.push_back({[](PagePoint left, std::vector<Shape>* shapes) {
                          shapes->emplace_back(

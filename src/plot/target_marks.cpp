@@ -95,15 +95,14 @@ void DrawTarget(const View& view, const Track& track, const Recordings& recordin
   }
 }
 
-LegendEntry TargetEntry(const Track& track, const Recordings& recordings) {
+std::optional<LegendEntry> TargetEntry(const Track& track, const Recordings& recordings) {
   const double altitude = ToleranceOf(recordings, "altitude_ft");
   if (track.HasTargetInSpace()) {
-    return {[](PagePoint left, std::vector<Shape>* shapes) {
-              shapes->emplace_back(Disc{
-                  {left.x + kSampleWidth / 2, left.y}, kRingRadius, std::nullopt, kInk, kEdge});
-            },
-            altitude > 0 ? fmt::format("target, box ±{:g}\u00a0ft", altitude) : "target"};
+    return LegendEntry{
+        MarkerSample(Marker::kDisc, {{}, kRingRadius, std::nullopt, kInk, kEdge}),
+        altitude > 0 ? fmt::format("target, box ±{:g}\u00a0ft", altitude) : "target"};
   }
+  if (!track.TargetAxes()) return std::nullopt;
   std::string words = track.Asked("pitch_deg") ? "target heading and pitch" : "target heading";
   std::vector<std::string> known;
   if (const double yaw = ToleranceOf(recordings, "yaw_deg"); yaw > 0) {
@@ -114,10 +113,10 @@ LegendEntry TargetEntry(const Track& track, const Recordings& recordings) {
     if (altitude > 0) known.push_back(fmt::format("±{:g}\u00a0ft", altitude));
   }
   if (!known.empty()) words += fmt::format(" ({})", fmt::join(known, ", "));
-  return {[](PagePoint left, std::vector<Shape>* shapes) {
-            DrawArrow(left, {left.x + kSampleWidth, left.y}, shapes);
-          },
-          words};
+  return LegendEntry{[](PagePoint left, std::vector<Shape>* shapes) {
+                       DrawArrow(left, {left.x + kSampleWidth, left.y}, shapes);
+                     },
+                     words};
 }
 
 }  // namespace skein

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ SpacePoint TargetTip(const Track& track, double arrow_ft);
 void DrawTarget(const View& view, const Track& track, const Recordings& recordings, double arrow_ft,
                 std::vector<Shape>* shapes);
 
-/// What the marks mean.
-LegendEntry TargetEntry(const Track& track, const Recordings& recordings);
+/// What the marks mean; nothing where DrawTarget draws none.
+std::optional<LegendEntry> TargetEntry(const Track& track, const Recordings& recordings);
 
 }  // namespace skein

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/choice_error.h"
 #include "src/files/text_table.h"
@@ -18,6 +19,8 @@ constexpr double kLeastPanelWidth = 88, kAside = 14, kBetween = 23;
 constexpr double kQuantityHeight = 66, kActionHeight = 32;
 constexpr double kPointsPerTick = 34;
 constexpr double kToleranceOpacity = 0.3;
+constexpr double kPaleOpacity = 0.12;  // of the tolerance around an agent's own target
+constexpr double kSameShare = 2e-3;    // of a panel's height, which nobody sees
 constexpr double kMostLabelWidth = 44;
 
 bool IsAction(const std::string& row) { return row.rfind("action_", 0) == 0; }
@@ -99,7 +102,7 @@ class HistoryDrawing {
       head.is_bold = true;
       shapes_.emplace_back(head);
       for (const auto& [agent, flight] : episodes_[k].flights) {
-        const Colour colour = recordings_.agents.size() == 1 ? kInk : agent->colour;
+        const Colour colour = recordings_.agents.size() == 1 ? kInk : agent->style.colour;
         for (const std::string& line : Wrapped(EndOf(*flight), panel_width_, kSmallSize)) {
           y += 1.25 * kSmallSize;
           shapes_.emplace_back(Words{{LeftOf(k), y}, line, kSmallSize, Anchor::kStart, colour});
@@ -112,15 +115,23 @@ class HistoryDrawing {
 
   Range RangeOf(const std::string& row) const {
     if (IsAction(row)) return {-1.1, 1.1};
+    const double tolerance = ToleranceOf(row);
     std::vector<double> values;
     for (const DrawnEpisode& episode : episodes_) {
       for (const DrawnEpisode::Entry& entry : episode.flights) {
-        for (const auto& points : {FlownIn(entry, row), entry.flight->Target(row)}) {
-          for (const PagePoint& point : points) values.push_back(point.y);
+        for (const PagePoint& point : FlownIn(entry, row)) values.push_back(point.y);
+        for (const PagePoint& point : entry.flight->Target(row)) {
+          values.insert(values.end(), {point.y - tolerance, point.y + tolerance});
         }
       }
     }
     return Padded(values);
+  }
+
+  /// 0 if it is not known.
+  double ToleranceOf(const std::string& row) const {
+    const auto found = recordings_.tolerances.find(row);
+    return found == recordings_.tolerances.end() ? 0 : found->second;
   }
 
   /// Empty of an agent without such a column, as the other agents' high-level actions are.
@@ -154,29 +165,58 @@ class HistoryDrawing {
                                           [](const auto& a, const auto& b) {
                                             return a.flight->duration_s() < b.flight->duration_s();
                                           });
-    DrawTarget(panel, longest->flight->Target(row), row);
+    const std::vector<PagePoint> target = longest->flight->Target(row);
+    const double tolerance = ToleranceOf(row);
+    if (AreAlike(panel, target, episode, row)) {
+      DrawTarget(panel, target, tolerance, {kInk, Dash::kDashed, Marker::kDisc});
+    } else {
+      has_own_targets_ = true;
+      for (auto entry = episode.flights.rbegin(); entry != episode.flights.rend(); ++entry) {
+        CurveStyle style = entry->agent->style;
+        style.dash = style.dash == Dash::kDashed ? Dash::kShort : Dash::kDashed;
+        DrawTarget(panel, entry->flight->Target(row), tolerance, style);
+      }
+    }
     for (auto entry = episode.flights.rbegin(); entry != episode.flights.rend(); ++entry) {
-      panel.DrawCurve(FlownIn(*entry, row), entry->agent->colour, IsAction(row) ? 0.7 : 1.2,
-                      Dash::kNone, &shapes_);
+      const CurveStyle& style = entry->agent->style;
+      panel.DrawCurve(FlownIn(*entry, row), style.colour, IsAction(row) ? 0.7 : 1.2, style.dash,
+                      &shapes_);
     }
   }
 
-  void DrawTarget(const Panel& panel, const std::vector<PagePoint>& target,
-                  const std::string& row) {
-    const auto tolerance = recordings_.tolerances.find(row);
-    if (tolerance != recordings_.tolerances.end()) {
-      std::vector<PagePoint> low = target, high = target;
-      for (PagePoint& point : low) point.y -= tolerance->second;
-      for (PagePoint& point : high) point.y += tolerance->second;
-      panel.DrawBand(low, high, kGrey, kToleranceOpacity, &shapes_);
+  /// Whether all flights of a cell have the longest one's target as long as they are flown; a
+  /// mission's depend on when the one before was reached.
+  static bool AreAlike(const Panel& panel, const std::vector<PagePoint>& longest,
+                       const DrawnEpisode& episode, const std::string& row) {
+    const double most = kSameShare * (panel.y_range().max - panel.y_range().min);
+    for (const DrawnEpisode::Entry& entry : episode.flights) {
+      const std::vector<PagePoint> own = entry.flight->Target(row);
+      const std::size_t rows = std::min(own.size(), longest.size());
+      for (std::size_t k = 0; k < rows; ++k) {
+        if (std::abs(own[k].y - longest[k].y) > most) return false;
+      }
     }
-    panel.DrawCurve(target, kInk, 0.9, Dash::kDashed, &shapes_);
+    return true;
+  }
+
+  /// In ink what all are to reach, in an agent's colour what it alone is to reach.
+  void DrawTarget(const Panel& panel, const std::vector<PagePoint>& target, double tolerance,
+                  const CurveStyle& style) {
+    if (tolerance > 0) {
+      std::vector<PagePoint> low = target, high = target;
+      for (PagePoint& point : low) point.y -= tolerance;
+      for (PagePoint& point : high) point.y += tolerance;
+      const bool is_of_all = style.colour == kInk;
+      panel.DrawBand(low, high, is_of_all ? kGrey : style.colour,
+                     is_of_all ? kToleranceOpacity : kPaleOpacity, &shapes_);
+    }
+    panel.DrawCurve(target, style.colour, 0.9, style.dash, &shapes_);
   }
 
   std::vector<LegendEntry> LegendEntries() const {
     std::vector<LegendEntry> entries;
     for (const Recording& agent : recordings_.agents) {
-      entries.push_back({LineSample(agent.colour, 1.2), agent.name});
+      entries.push_back({LineSample(agent.style.colour, 1.2, agent.style.dash), agent.name});
     }
     const auto has = [this](const auto& known) {
       return std::any_of(rows_.begin(), rows_.end(), known);
@@ -185,7 +225,9 @@ class HistoryDrawing {
     if (has([&](const std::string& row) {
           return std::find(targets.begin(), targets.end(), row) != targets.end();
         })) {
-      entries.push_back({LineSample(kInk, 0.9, Dash::kDashed), "target"});
+      entries.push_back(
+          {LineSample(kInk, 0.9, Dash::kDashed),
+           has_own_targets_ ? "target; in the agents' colours where theirs differ" : "target"});
     }
     if (has([&](const std::string& row) { return recordings_.tolerances.count(row) > 0; })) {
       entries.push_back({BandSample(kGrey, kToleranceOpacity), "tolerance"});
@@ -198,6 +240,7 @@ class HistoryDrawing {
   std::vector<DrawnEpisode> episodes_;
   std::vector<std::string> rows_;
   Range times_{0, 0};
+  bool has_own_targets_ = false;  ///< whether a cell was drawn with them
   double left_ = kMostLabelWidth, panel_width_ = 0;
   std::vector<Shape> shapes_;
 };

@@ -70,7 +70,7 @@ Track TrackOf(const DrawnEpisode::Entry& entry, bool is_first) {
   }
   Track track;
   track.flight = &flight;
-  track.colour = entry.agent->colour;
+  track.style = entry.agent->style;
   track.is_first = is_first;
   for (std::size_t row = 0; row < columns[0]->size(); ++row) {
     const auto at = [&](std::size_t column) { return (*columns[column])[row]; };
@@ -116,7 +116,7 @@ double RoundInterval(const View& view, const std::vector<Track>& tracks, double 
 }
 
 std::string TimeLabel(const DrawnFlight& flight) {
-  const bool is_plain = flight.end == "target reached";
+  const bool is_plain = flight.end.empty() || flight.end == "target reached";
   return fmt::format("{:.1f} s{}", flight.duration_s(),
                      is_plain ? "" : fmt::format(" ({})", flight.end));
 }

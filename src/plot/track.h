@@ -12,7 +12,7 @@ namespace skein {
 /// A flight in space.
 struct Track {
   const DrawnFlight* flight = nullptr;
-  Colour colour = 0;
+  CurveStyle style;
   bool is_first = false;  ///< of the first agent, which is drawn with aircraft
   std::vector<SpacePoint> points;
   std::vector<BodyAxes> attitudes;
@@ -39,7 +39,7 @@ std::vector<Track> TracksOf(const Recordings& recordings);
 /// number.
 double RoundInterval(const View& view, const std::vector<Track>& tracks, double glyph_length);
 
-/// "12.3 s", and how it ended if not at the target.
+/// "12.3 s", and how it ended if neither at the target nor as asked for.
 std::string TimeLabel(const DrawnFlight& flight);
 
 }  // namespace skein

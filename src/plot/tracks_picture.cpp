@@ -101,10 +101,7 @@ class TracksDrawing {
   }
 
   void DrawMap(const Panel& map) {
-    double step_count = map.width() / kPointsPerTick;
-    std::vector<double> across = Ticks(map.x_range(), step_count);
-    // In a narrow picture the first choice may have one number in view, which is no scale.
-    while (across.size() < 2) across = Ticks(map.x_range(), step_count *= 2);
+    const std::vector<double> across = Ticks(map.x_range(), map.width() / kPointsPerTick);
     const double step = across[1] - across[0];
     const std::vector<double> up =
         Ticks(map.y_range(), (map.y_range().max - map.y_range().min) / step);
@@ -132,12 +129,12 @@ class TracksDrawing {
   void DrawTrack(const Track& track) {
     std::vector<PagePoint> points;
     for (const SpacePoint& point : track.points) points.push_back(view_.Place(point));
-    shapes_.emplace_back(Line(Simplified(points), track.colour, 1.2));
+    shapes_.emplace_back(Line(Simplified(points), track.style.colour, 1.2, track.style.dash));
     const double enlarged = kGlyph / kGlyphLength_ft / view_.scale();
     const std::vector<std::size_t> rows = track.Instants(interval_s_);
     for (std::size_t k = rows.size() > 1 ? 1 : 0; k < rows.size(); ++k) {
       for (Shape& shape : AircraftGlyph(view_, track.points[rows[k]], track.attitudes[rows[k]],
-                                        track.colour, enlarged)) {
+                                        track.style.colour, enlarged)) {
         shapes_.push_back(std::move(shape));
       }
     }
@@ -167,7 +164,7 @@ class TracksDrawing {
                   track.flight->episode + ": " + TimeLabel(*track.flight),
                   kSmallSize,
                   Anchor::kStart,
-                  Mixed(track.colour, 0, 0.15)};
+                  Mixed(track.style.colour, 0, 0.15)};
       words.has_halo = true;
       Put(places.PutAround(words, view_.Place(track.points.back())));
     }
@@ -221,9 +218,9 @@ class TracksDrawing {
       panel.DrawCurve(InThousands(track->flight->Target("altitude_ft")), kInk, 0.8, Dash::kShort,
                       &shapes_);
       const std::vector<PagePoint> flown = InThousands(track->flight->Flown("altitude_ft"));
-      panel.DrawCurve(flown, track->colour, 1.2, Dash::kNone, &shapes_);
-      shapes_.emplace_back(
-          Disc{panel.Place(flown.back().x, flown.back().y), 1.8, track->colour, std::nullopt});
+      panel.DrawCurve(flown, track->style.colour, 1.2, track->style.dash, &shapes_);
+      shapes_.emplace_back(Disc{panel.Place(flown.back().x, flown.back().y), 1.8,
+                                track->style.colour, std::nullopt});
     }
   }
 
@@ -235,11 +232,11 @@ class TracksDrawing {
   std::vector<LegendEntry> LegendEntries() const {
     std::vector<LegendEntry> entries;
     for (const Recording& agent : recordings_.agents) {
-      entries.push_back({LineSample(agent.colour, 1.2), agent.name});
+      entries.push_back({LineSample(agent.style.colour, 1.2, agent.style.dash), agent.name});
     }
     entries.front().words += fmt::format(" (an aircraft every {:g}\u00a0s)", interval_s_);
-    if (!recordings_.targets.empty()) {
-      entries.push_back(TargetEntry(tracks_.front(), recordings_));
+    if (const auto target = TargetEntry(tracks_.front(), recordings_)) {
+      entries.push_back(*target);
     }
     if (tracks_.front().Asked("altitude_ft")) {
       entries.push_back({LineSample(kInk, 0.8, Dash::kShort), "target altitude"});

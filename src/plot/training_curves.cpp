@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -24,7 +23,6 @@ constexpr double kHeightPerWidth = 0.7, kMostHeight = 170;
 constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr std::size_t kMostDots = 40;  // that still show where a curve has points
 constexpr double kCurveWidth = 1.4;
-constexpr std::array<Dash, 3> kDashes = {Dash::kNone, Dash::kDashed, Dash::kShort};
 
 const std::map<std::string, std::string>& TaskTitles() {
   static const std::map<std::string, std::string> titles = {
@@ -51,17 +49,6 @@ std::string ColumnTitle(const std::string& column) {
 std::string TaskTitle(const std::string& task) {
   const auto known = TaskTitles().find(task);
   return known != TaskTitles().end() ? known->second : task;
-}
-
-/// How the curves of a setting look.
-struct Style {
-  Colour colour = kInk;
-  Dash dash = Dash::kNone;
-};
-
-/// By number: all colours whole, then dashed, then dotted, then whole again.
-Style StyleOf(std::size_t number) {
-  return {ColourOf(number), kDashes[number / kAgentColours.size() % kDashes.size()]};
 }
 
 /// Of each setting the number of its style: another one for all of a task, the same one for the
@@ -133,7 +120,7 @@ class CurveDrawing {
   std::size_t StyleNumberFor(std::size_t setting) const {
     return HasSeveralSettings() ? styles_[setting] : 0;
   }
-  Style StyleFor(std::size_t setting) const { return StyleOf(StyleNumberFor(setting)); }
+  CurveStyle StyleFor(std::size_t setting) const { return StyleOf(StyleNumberFor(setting)); }
 
   double DrawTaskTitles(const std::vector<std::string>& tasks, double top) {
     double lowest = top;
@@ -220,11 +207,12 @@ class CurveDrawing {
     if (column == options_.columns.front()) DrawMinutes(panel, own);
   }
 
-  void DrawMean(const Panel& panel, const std::vector<PagePoint>& mean, const Style& style) {
+  void DrawMean(const Panel& panel, const std::vector<PagePoint>& mean, const CurveStyle& style) {
     panel.DrawCurve(mean, style.colour, kCurveWidth, style.dash, &shapes_);
     if (mean.size() > kMostDots) return;
     for (const PagePoint& point : mean) {
-      shapes_.emplace_back(Disc{panel.Place(point.x, point.y), 1.7, style.colour, std::nullopt});
+      shapes_.push_back(MarkerAt(panel.Place(point.x, point.y), style.marker,
+                                 {{}, 1.7, style.colour, std::nullopt}));
     }
   }
 
@@ -305,7 +293,7 @@ class CurveDrawing {
                                     : "one seed";
       const std::string words = HasSeveralSettings() ? setting.name + ", " + seeds : seeds;
       if (!known.insert({StyleNumberFor(k), words}).second) continue;
-      const Style style = StyleFor(k);
+      const CurveStyle style = StyleFor(k);
       entries.push_back({LineSample(style.colour, kCurveWidth, style.dash), words});
     }
     if (has_band) {

@@ -115,6 +115,29 @@ TEST_F(PlotPipeline, ComparisonsGiveTheAutopilotsFigure) {
   };
   EXPECT_EQ(plot().exit_code, 0);
   EXPECT_THAT(ReadFile(out), HasSubstr("aggressive autopilot: 75.0 %"));
+  EXPECT_THAT(plot().error, Not(HasSubstr("conditions"))) << "a file that says none";
+  const auto compare = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"compare",
+                                          "--task",
+                                          "heading",
+                                          "--agents",
+                                          "autopilot",
+                                          "--config",
+                                          run + "/config.toml",
+                                          "--episodes",
+                                          "2",
+                                          "--no-html",
+                                          "--json",
+                                          comparison};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = CallSkein(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+  };
+  compare({});
+  EXPECT_THAT(plot().error, Not(HasSubstr("conditions")));
+  compare({"--condition", "windy=hard"});
+  EXPECT_THAT(plot().error, HasSubstr("its autopilot was flown under other conditions than " + run +
+                                      " (env.wind"));
   WriteFile(comparison, "[]");
   ExpectOneLine(plot().error, "not what skein compare --json writes");
 }

@@ -30,6 +30,16 @@ TEST(Ticks, AreRoundAndEvenAndWithinTheRange) {
   }
 }
 
+TEST(Ticks, AreAScaleHoweverFewHaveRoom) {
+  for (const Range& range : {Range{19.6, 24.4}, {0.7, 3.9}, {-0.4, 0.9}, {451, 549}, {0, 9.99}}) {
+    for (const double count : {0.3, 1.0, 2.0, 3.0, 4.0}) {
+      const std::vector<double> ticks = Ticks(range, count);
+      EXPECT_GE(ticks.size(), 2u) << range.min << " with " << count;
+      EXPECT_LE(ticks.size(), 12u) << range.min << " with " << count;
+    }
+  }
+}
+
 TEST(Ticks, OfNothingAreStillFinite) {
   for (const double tick : Ticks({5, 5}, 4)) EXPECT_TRUE(std::isfinite(tick));
   EXPECT_TRUE(std::isfinite(Padded({}).max));

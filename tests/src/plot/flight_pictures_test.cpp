@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "envs/task_registry.h"
 #include "src/files/output_file.h"
 #include "src/plot/label_places.h"
 #include "src/plot/recordings.h"
@@ -22,6 +24,10 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::Pair;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
 
 /// A climbing turn at 1000 ft/s across the heading of 180 degrees.
 std::string FlightRows(int episode, double target_yaw) {
@@ -208,8 +214,102 @@ TEST_F(FlightPictures, AFileThatIsCutShortIsDrawnAsFarAsItGoes) {
   WriteFile(file, text.substr(0, text.size() - 40));
   const Recordings recordings = ReadRecordings({file});
   EXPECT_THAT(recordings.notes, ElementsAre(HasSubstr("1 row cut short and left out")));
-  EXPECT_EQ(recordings.agents[0].flights[1].end, "unfinished");
+  EXPECT_THAT(EndOf(recordings.agents[0].flights[1]), StartsWith("9.9"));
   EXPECT_EQ(EpisodesOf(recordings).size(), 2u);
+}
+
+/// Dashed lines of a picture by colour, without the legend's sample.
+std::map<Colour, int> DashedLines(const Picture& picture) {
+  std::map<Colour, int> counts;
+  for (const Shape& shape : picture.shapes) {
+    const auto* const path = std::get_if<Path>(&shape);
+    if (path != nullptr && path->dash == Dash::kDashed) ++counts[*path->stroke];
+  }
+  --counts[kInk];
+  return counts;
+}
+
+TEST_F(FlightPictures, AgentsWithOtherTargetsHaveThemInTheirColours) {
+  const Picture same = TimeHistories(TwoAgents(1), {});
+  EXPECT_THAT(DashedLines(same), ElementsAre(Pair(kInk, 2)));
+  EXPECT_THAT(WordsOf(same), Contains("target"));
+  Recordings recordings = TwoAgents(1);
+  CsvColumns& table = recordings.agents[1].flights[0].table;
+  const auto column = std::find(table.names.begin(), table.names.end(), "target_altitude_ft");
+  std::vector<double>& targets =
+      table.values[static_cast<std::size_t>(column - table.names.begin())];
+  for (std::size_t row = 50; row < targets.size(); ++row) targets[row] = 21000;
+  const Picture other = TimeHistories(recordings, {});
+  EXPECT_THAT(DashedLines(other),
+              UnorderedElementsAre(Pair(ColourOf(0), 1), Pair(ColourOf(1), 1), Pair(kInk, 1)));
+  EXPECT_THAT(WordsOf(other), Contains(StartsWith("target; in the agents' colours")));
+}
+
+TEST_F(FlightPictures, TolerancesStayInTheirPanels) {
+  Recordings recordings = TwoAgents(1);
+  Choose({{}, {}, {{"altitude_ft", 3000}, {"yaw_deg", 90}}}, &recordings);
+  PageBox panel;
+  int bands = 0;
+  for (const Shape& shape : TimeHistories(recordings, {}).shapes) {
+    const auto* const path = std::get_if<Path>(&shape);
+    if (path == nullptr) continue;
+    const bool is_axes = !path->is_closed && path->points.size() == 3 && path->stroke == kGrey;
+    if (is_axes) panel = {0, path->points[0].y, 0, path->points[1].y};
+    const bool is_band = path->is_closed && path->points.front().x != path->points[1].x;
+    if (!is_band || bands == 2) continue;  // then the legend's
+    ++bands;
+    for (const PagePoint& point : path->points) {
+      EXPECT_GE(point.y, panel.top);
+      EXPECT_LE(point.y, panel.bottom);
+    }
+  }
+  EXPECT_EQ(bands, 2);
+}
+
+TEST_F(FlightPictures, WhatIsNotDrawnIsNotExplained) {
+  const std::string file = Write("f.csv", 1);
+  std::string text = ReadFile(file);
+  for (const std::string name : {"target_yaw_deg", "error_yaw_deg"}) {
+    text.replace(text.find(name), name.size(), "x" + name);  // no target any more
+  }
+  WriteFile(file, text);
+  const Recordings recordings = ReadRecordings({file});
+  for (const Picture& picture : {TracksPicture(recordings, {}), SpacePicture(recordings, {})}) {
+    EXPECT_THAT(WordsOf(picture), Not(Contains(StartsWith("target heading"))));
+  }
+}
+
+TEST_F(FlightPictures, TheSeventhAgentHasDashes) {
+  std::vector<std::string> files;
+  for (int agent = 0; agent < 7; ++agent) files.push_back(Write(fmt::format("f.{}.csv", agent), 1));
+  const Recordings recordings = ReadRecordings(files);
+  for (const Picture& picture : {TimeHistories(recordings, {}), TracksPicture(recordings, {}),
+                                 SpacePicture(recordings, {})}) {
+    int dashed = 0;
+    for (const Shape& shape : picture.shapes) {
+      const auto* const path = std::get_if<Path>(&shape);
+      dashed += path != nullptr && path->dash == Dash::kDashed && path->stroke == ColourOf(6);
+    }
+    EXPECT_GT(dashed, 1) << "a flight and its sample";
+  }
+}
+
+TEST_F(FlightPictures, FlightsThatWentAsAskedHaveNoEnd) {
+  AgentFlights flown;
+  flown.agent = "autopilot";
+  flown.targets = MakeTask(flown.env)->target_quantities();
+  RecordedStep step;
+  step.target.resize(flown.targets.size());
+  flown.flights.push_back({{}, step.target, std::vector<RecordedStep>(100, step), {}});
+  const auto end = [&](Termination termination, double mission_s) {
+    flown.flights[0].steps.back().termination = termination;
+    flown.env.mission.length_s = mission_s;
+    return EndOf(RecordingsOf({flown}).agents[0].flights[0]);
+  };
+  EXPECT_EQ(end(Termination::kNone, 0), "2.0\u00a0s flown");
+  EXPECT_EQ(end(Termination::kTimeLimit, 2), "2.0\u00a0s flown") << "a mission to its end";
+  EXPECT_EQ(end(Termination::kTimeLimit, 0), "time limit; 2.0\u00a0s flown");
+  EXPECT_EQ(end(Termination::kLowAltitude, 2), "low altitude; 2.0\u00a0s flown");
 }
 
 TEST_F(FlightPictures, WhatCannotBeDrawnIsSaid) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "src/fdm/flying_qualities_report.h"
 #include "src/plot/handling_levels_picture.h"
@@ -75,6 +77,25 @@ TEST(HandlingLevels, AFlightWithoutAnEquivalentSystemIsDoubted) {
     expects(DescribeLevels(flights), "1?");
     expects(AllWords(DrawHandlingLevels(flights, limits, kWidth, "")), "mismatch above 10");
   }
+}
+
+TEST(HandlingLevels, EveryAltitudeLooksDifferent) {
+  constexpr std::size_t kAltitudes = 7;  // one more than there are colours
+  std::vector<AssessedFlight> flights;
+  for (std::size_t k = 0; k < kAltitudes; ++k) {
+    flights.push_back(FlightWith(1));
+    flights.back().request.altitude_ft = 1000 * static_cast<double>(k + 1);
+  }
+  const Picture picture = DrawHandlingLevels(flights, LimitsNamed("IV", "A"), kWidth, "");
+  std::set<std::pair<Colour, bool>> looks;
+  for (std::size_t k = 1; k < picture.shapes.size(); ++k) {
+    const auto* const words = std::get_if<Words>(&picture.shapes[k]);
+    if (words == nullptr || words->text.find(",000 ft") == std::string::npos) continue;
+    const auto* const disc = std::get_if<Disc>(&picture.shapes[k - 1]);
+    looks.emplace(disc != nullptr ? *disc->fill : *std::get<Path>(picture.shapes[k - 1]).fill,
+                  disc != nullptr);
+  }
+  EXPECT_EQ(looks.size(), kAltitudes);
 }
 
 }  // namespace

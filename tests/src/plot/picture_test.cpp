@@ -7,6 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <set>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "src/files/output_file.h"
 #include "src/plot/label_places.h"
@@ -91,6 +96,40 @@ TEST(Svg, HoldsTextAsTextAndNothingElse) {
   EXPECT_THAT(svg, HasSubstr("width=\"200pt\" height=\"100pt\""));
   // Steps from rounded place to rounded place: 3.1 2.7, 10.1 7.8, 9 100.1.
   EXPECT_THAT(svg, HasSubstr("d=\"M3.1 2.7l7 5.1 -1.1 92.3\""));
+}
+
+TEST(Styles, AreThreeTimesAsManyAsColours) {
+  constexpr std::size_t kStyles = 3 * kAgentColours.size();
+  std::set<std::pair<Colour, Dash>> lines;
+  std::set<std::pair<Colour, Marker>> dots;
+  for (std::size_t k = 0; k < 2 * kStyles; ++k) {
+    const CurveStyle style = StyleOf(k);
+    lines.emplace(style.colour, style.dash);
+    dots.emplace(style.colour, style.marker);
+  }
+  EXPECT_EQ(lines.size(), kStyles);
+  EXPECT_EQ(dots.size(), kStyles);
+}
+
+/// Twice the area that a closed path encloses, by the shoelace formula.
+double TwiceTheArea(const std::vector<PagePoint>& corners) {
+  double sum = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const PagePoint &a = corners[k], &b = corners[(k + 1) % corners.size()];
+    sum += a.x * b.y - a.y * b.x;
+  }
+  return std::abs(sum);
+}
+
+TEST(Markers, AreAsLargeAsDiscs) {
+  constexpr double kPi = 3.141592653589793, kNear = 0.03;  // of the area, which the eye is to judge
+  for (const Marker marker : {Marker::kSquare, Marker::kTriangle}) {
+    const Shape shape = MarkerAt({30, 40}, marker, {{}, 2, kInk, std::nullopt});
+    const Path& path = std::get<Path>(shape);
+    EXPECT_NEAR(TwiceTheArea(path.points) / (2 * kPi * 4), 1, kNear);
+    EXPECT_EQ(path.fill, kInk);
+  }
+  EXPECT_EQ(std::get<Disc>(MarkerAt({30, 40}, Marker::kDisc, {{}, 2, kInk, {}})).middle.x, 30);
 }
 
 TEST(Svg, TheSamePictureIsTheSameFile) { EXPECT_EQ(Written("a.svg"), Written("b.svg")); }

@@ -93,6 +93,15 @@ TEST(TrainingCurvesTest, RunsWithoutAValueAreLeftOutAndNamed) {
               HasSubstr("a: column evaluation_success_rate has no values yet"));
 }
 
+TEST(TrainingCurvesTest, RunsWithoutCommonStepsAreNotPutTogether) {
+  const double none = std::nan("");
+  const CurveSetting setting{
+      "heading", "", {RunOf("a", {0.1, 0.2}), RunOf("b", {none, none, 0.4, 0.5})}};
+  EXPECT_THAT(MessageOf([&] { CurveOf(setting, "evaluation_success_rate"); }),
+              HasSubstr("a and b have no control steps in common for evaluation_success_rate; "
+                        "leave out --seeds"));
+}
+
 TEST(TrainingCurvesTest, EachTaskHasAPanel) {
   const std::vector<CurveSetting> settings =
       SettingsOf({RunOf("a", {0.1, 0.5}), RunOf("b", {0.2, 0.7}, "control")}, std::nullopt, {});
