@@ -6,9 +6,9 @@
 namespace skein {
 
 void ListFields(InitialConfig& config, FieldList& list) {
-  list.AddRange("altitude", "ft", &config.altitude_ft, {0, 60000}, "lowest initial altitude",
-                "highest initial altitude");
-  list.Add("training_altitude_min_ft", &config.training_altitude_min_ft, {0, 60000},
+  list.AddRange("altitude", "ft", &config.altitude_ft, {0, kHighestStartFt},
+                "lowest initial altitude", "highest initial altitude");
+  list.Add("training_altitude_min_ft", &config.training_altitude_min_ft, {0, kHighestStartFt},
            "in training the lowest initial altitude, from which ppo.condition_ramp and draw_power "
            "count, "
            "if it is lower; 0: no other")

@@ -7,6 +7,9 @@ namespace skein {
 
 class FieldList;
 
+/// The greatest altitude of a start that a configuration may ask for.
+inline constexpr double kHighestStartFt = 60000;
+
 /// Where episodes begin.
 struct InitialConfig {
   Range altitude_ft{19000, 20000};

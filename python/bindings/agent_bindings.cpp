@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/ends_with.h"
 #include "base/error.h"
 #include "envs/actions.h"
 #include "envs/task_registry.h"
@@ -40,12 +39,6 @@ FlyingAgent LoadAgent(const std::string& path, bool sampled) {
   const RecurrentPolicy policy = RecurrentPolicy::Load(PolicyFileOf(path));
   return FlyingPolicy(path, sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), policy,
                       sampled);
-}
-
-/// Whether the agent of that name (AgentForms) draws its actions at random.
-bool DrawsActions(const std::string& name) {
-  return name.substr(0, name.find(':')) == "random" || EndsWith(name, "@sampled") ||
-         EndsWith(name, "@sampled@other-aircraft");
 }
 
 /// An agent as the command line calls it, for the environment of `config`.

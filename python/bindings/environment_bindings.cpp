@@ -25,6 +25,8 @@
 #include "python/bindings/snapshot_origin.h"
 #include "src/agents/low_level_option.h"
 #include "src/config/program_config.h"
+#include "train/policy/low_level_file.h"
+#include "train/policy/stored_policy.h"
 
 namespace nb = nanobind;
 
@@ -45,11 +47,17 @@ int TileSize(int num_envs, int threads) {
   return std::min((share + kTileGrain - 1) / kTileGrain * kTileGrain, kMostPerTile);
 }
 
-/// Of every setting that says what is flown.
-std::uint64_t HashOfEnvironment(const ProgramConfig& config) {
+/// Of all that says what is flown: every setting, and the low-level policy, if it is a stored one.
+std::uint64_t HashOfEnvironment(const ProgramConfig& config, const Policy* low_level) {
   const std::string text = SettingsText(config, "env.");
   FnvHash hash;
   hash.Add(text.data(), text.size());
+  if (const auto* const stored = dynamic_cast<const StoredPolicy*>(low_level)) {
+    TensorFile file;
+    StoreLowLevelPolicy(*stored, file);
+    const std::string bytes = file.Bytes();
+    hash.Add(bytes.data(), bytes.size());
+  }
   return hash.value();
 }
 
@@ -61,7 +69,7 @@ class BatchEnv {
   BatchEnv(const ProgramConfig& config, int num_envs, std::uint64_t seed, int threads,
            std::shared_ptr<const Policy> low_level, const std::optional<FlyingAgent>& agent)
       : config_(config.train.env),
-        origin_{seed, HashOfEnvironment(config)},
+        origin_{seed, HashOfEnvironment(config, low_level.get())},
         low_level_(std::move(low_level)),
         pool_(ThreadsFor(num_envs, threads)),
         env_(Make(num_envs, seed)),

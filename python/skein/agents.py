@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float32]
 
 class Agent:
     """Who flies an aircraft. Immutable; its memory of each aircraft lies with the caller, as rows of `state`. A copy is
-    the agent itself; one that is pickled is made again from the same arguments, so that its file must be there."""
+    the agent itself; one that is pickled is made again from the same arguments, so that its file must be there, unchanged."""
 
     def __init__(self, name: str, task: str | Config = "heading", *, seed: int = 0, **config: Any) -> None:
         """An agent by the name that `skein compare --agents` gives it: "autopilot" (alone: aggressive),
@@ -29,7 +29,7 @@ class Agent:
         Args:
             name: of the agent.
             task, config: what it is to fly (skein.configure).
-            seed: of random actions.
+            seed: of what `act` draws; evaluate, compare and record draw by their own.
 
         Raises:
             Error: an unknown name, a file that is no policy, an autopilot without gains for the aircraft.
@@ -154,7 +154,7 @@ def load_policy(path: str | os.PathLike[str], *, sampled: bool = False, seed: in
     Args:
         path: of it.
         sampled: draw actions from its distribution instead of taking the mean. Agent.act then needs policy_step.
-        seed: of what is drawn.
+        seed: of what `act` draws; evaluate, compare and record draw by their own.
 
     Raises:
         Error: a file that is missing, damaged, or none of Skein's.

@@ -27,11 +27,17 @@ _Request = tuple[float, float, float, float, Union[float, None]]  # of _skein.Fl
 
 
 class _Plant:
-    """An aircraft in its world; one that is pickled is made again from the same arguments."""
+    """An aircraft in its world. A copy is it itself; one that is pickled is made again from the same arguments."""
 
     def __init__(self, *arguments: Any) -> None:
         self._arguments = arguments
         self.core = _skein.make_plant(*arguments)
+
+    def __copy__(self) -> _Plant:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> _Plant:
+        return self
 
     def __reduce__(self) -> tuple[type[_Plant], tuple[Any, ...]]:
         return _Plant, self._arguments
@@ -40,7 +46,7 @@ class _Plant:
 @dataclass(frozen=True, eq=False)
 class Trim:
     """Steady flight, and the controls that keep it. One that is pickled makes its aircraft again, whose file must be
-    there."""
+    there, unchanged."""
 
     state: DoubleArray
     """(13,), STATE_NAMES; at north = east = 0, heading north."""

@@ -23,7 +23,12 @@ def test_a_trim_is_steady():
 def test_names_of_states_and_controls_are_the_packages():
     assert skein.STATE_NAMES == STATE_NAMES and skein.CONTROL_NAMES == CONTROL_NAMES
     trim = skein.trim(15000, 500)
+    state, controls = dict(zip(skein.STATE_NAMES, trim.state)), dict(zip(skein.CONTROL_NAMES, trim.controls))
     assert trim.state.shape == (len(STATE_NAMES),) and trim.controls.shape == (len(CONTROL_NAMES),)
+    assert state["down_ft"] == -15000 and np.hypot(state["u_fps"], state["w_fps"]) == pytest.approx(500)
+    assert 0 < controls["thrust_lbf"] < trim.available_thrust_lbf
+    flight = skein.simulate(trim, trim.controls + np.eye(5)[skein.CONTROL_NAMES.index("elevator_deg")], duration_s=0.1)
+    assert flight["q_rad_s"][-1] < -1e-3  # trailing edge down: nose down
 
 
 def test_a_trim_is_pickled_and_compared():

@@ -25,6 +25,7 @@ namespace {
 
 constexpr const char* kPolicy = "policy";
 constexpr const char* kAutopilot = "autopilot";
+constexpr const char* kRandom = "random";
 constexpr const char* kSampledSuffix = "@sampled";
 constexpr const char* kOtherAircraftSuffix = "@other-aircraft";
 constexpr double kRandomHold_s = 1;
@@ -140,6 +141,11 @@ std::string PolicyFileOfAgent(const std::string& name) {
   return PolicyFileOf(file);
 }
 
+bool DrawsActions(const std::string& name) {
+  const std::string kind = KindOf(name);
+  return kind == kRandom || (kind == kPolicy && PolicyArgumentOf(name).is_sampled);
+}
+
 std::vector<std::string> PolicyFilesOfAgents(const std::vector<std::string>& names) {
   std::vector<std::string> files;
   for (const std::string& name : names) {
@@ -157,12 +163,12 @@ std::string FingerprintOfAgent(const std::string& name) {
 Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   const std::string kind = KindOf(name);
   if (kind == kPolicy) return PolicyAgent(name, config, seed);
-  if (kind == "random") return RandomAgent(name, config.train.env.control_interval_s);
+  if (kind == kRandom) return RandomAgent(name, config.train.env.control_interval_s);
   if (name == "zero") return Agent::Zero();
   if (IsAutopilot(name)) return AutopilotAgent(name, config.train.env);
   if (name == "idle") throw UsageError("agent idle is now called zero");
   throw UsageError(fmt::format("unknown agent {}{}; known agents: {}", name,
-                               DidYouMean(kind, {kAutopilot, kPolicy, "random", "zero"}),
+                               DidYouMean(kind, {kAutopilot, kPolicy, kRandom, "zero"}),
                                AgentNames()));
 }
 

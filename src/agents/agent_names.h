@@ -19,6 +19,9 @@ std::string AutopilotVariantOf(const std::string& name);
 /// Throws UsageError on an unknown suffix of a file that is there.
 std::string PolicyFileOfAgent(const std::string& name);
 
+/// Whether the agent of that name draws its actions at random. Throws as PolicyFileOfAgent.
+bool DrawsActions(const std::string& name);
+
 /// The files of the policies among the agents of these names.
 std::vector<std::string> PolicyFilesOfAgents(const std::vector<std::string>& names);
 

@@ -158,7 +158,7 @@ void AddEvalCommand(CLI::App* app) {
   texts.json = "write the results here";
   texts.flights =
       "write the first episodes here, a CSV row for every control step, for skein plot "
-      "(by mean actions, or with --sampled by those)";
+      "(by mean actions, with --sampled by sampled ones)";
   AddFlightOptions(command, texts, &options->flight);
   command
       ->add_option("--low-level", options->low_level,

@@ -320,6 +320,11 @@ void DrawCurves(const CurvePlotOptions& options) {
   std::vector<FlownComparison> flown;
   for (const std::string& path : options.comparisons) {
     flown.push_back(ReadComparison(path, &curves));
+    for (std::size_t i = 0; i + 1 < flown.size(); ++i) {
+      if (flown[i].task != flown.back().task) continue;
+      throw UsageError(fmt::format("{} and {} are both of task {}: one --comparison for each",
+                                   options.comparisons[i], path, flown.back().task));
+    }
   }
   std::vector<std::string> read = FilesOfRuns(options.runs);
   read.insert(read.end(), options.comparisons.begin(), options.comparisons.end());

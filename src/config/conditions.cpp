@@ -66,13 +66,12 @@ Assignments HighSpeed(const LevelRequest& request, const std::string& level) {
 }
 
 Assignments HighAltitude(const LevelRequest& request, const std::string& level) {
-  constexpr double kHighestFt = 60000;
   const Range altitude = ParseRange(level, kAltitudeUnits, request);
-  if (altitude.max > kHighestFt) {
+  if (altitude.max > kHighestStartFt) {
     throw Error(
         fmt::format("--condition {}={}: that is up to {:.0f} ft, and {:.0f} are the most; "
                     "numbers without a unit are thousands of feet (35kft, 35000ft)",
-                    request.name, request.level, altitude.max, kHighestFt));
+                    request.name, request.level, altitude.max, kHighestStartFt));
   }
   Assignments assignments;
   Append("initial.altitude", "_ft", altitude, &assignments);

@@ -19,7 +19,7 @@ inline constexpr const char* kPlantForm =
 /// configuration has. Throws Error on what cannot be read.
 std::vector<std::string> PlantAssignments(const LevelRequest& request, const std::string& level);
 
-/// In short what is not nominal: "plant: mass 1.05, cg_shift -0.05 to 0.05" of three quantities at
+/// In short what is not nominal: "plant: cg_shift -0.05 to 0.05, mass 1.05" of three quantities at
 /// most, "plant at 0.5 of the middle level", or how many quantities; empty if there are none.
 std::string DescribePlant(const PlantConfig& plant);
 

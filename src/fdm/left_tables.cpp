@@ -34,7 +34,7 @@ std::vector<std::string> LeftTables(const Plant& plant, const CsvColumns& flight
     const auto outside = std::find_if(flown.begin(), flown.end(), [low, high](double value) {
       return value < low || value > high;
     });
-    if (outside == flown.end()) continue;
+    if (outside == flown.begin() || outside == flown.end()) continue;
     left.push_back(fmt::format("after {} s the {} is outside the {} tables ({:.6g} to {:.6g}{})",
                                time[static_cast<std::size_t>(outside - flown.begin())],
                                axis.quantity, axis.tables, low, high, axis.unit));

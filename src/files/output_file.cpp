@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/files/output_file.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 
 #include "base/choice_error.h"
 #include "base/error.h"
+#include "base/file_error.h"
 #include "train/files/file_descriptor.h"
 
 namespace skein {
@@ -47,15 +47,6 @@ std::string ReplacedFile(const std::string& path) {
   return is_link ? std::filesystem::weakly_canonical(path).string() : path;
 }
 
-/// Whether `path` can be made: by making it, as rights alone do not say (a file system that is
-/// read-only or makes no files, a name that is too long). Leaves what is there as it is.
-bool CanBeMade(const std::string& path) {
-  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (descriptor < 0) return errno == EEXIST && access(path.c_str(), W_OK) == 0;
-  close(descriptor);
-  return unlink(path.c_str()) == 0;
-}
-
 }  // namespace
 
 std::string FileNamePart(const std::string& name) {
@@ -79,8 +70,9 @@ void CheckWritable(const std::string& path) {
     }
     if (!S_ISREG(status.st_mode) || StandardStream(status) >= 0) return;
   }
-  // It is written beside its place first (ReplaceFile).
-  if (!CanBeMade(ReplacedFile(path) + kTemporaryExtension)) {
+  try {
+    TryReplacing(ReplacedFile(path));
+  } catch (const FileError&) {
     const std::string message = path + ": cannot be written: " + SystemReason();
     const auto folder = std::filesystem::absolute(path).parent_path();
     std::error_code failure;

@@ -29,7 +29,7 @@ class Interrupted:
                                        stderr=subprocess.PIPE, text=True, start_new_session=True)
             try:
                 end = time.monotonic() + WAIT_S
-                while not (pathlib.Path(place, "started").exists() or time.monotonic() > end):
+                while not pathlib.Path(place, "started").exists() and process.poll() is None and time.monotonic() < end:
                     time.sleep(0.05)
                 time.sleep(0.5)  # the script notes what it has started
                 os.killpg(process.pid, signal.SIGINT)
@@ -39,3 +39,5 @@ class Interrupted:
             self.code = process.returncode
             self.left = [path.name for path in temporary.iterdir()]
             self.running = list(processes_of(place))
+            for left in self.running:
+                os.kill(left, signal.SIGKILL)

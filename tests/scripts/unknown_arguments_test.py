@@ -10,8 +10,8 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SHELL = [".ci/nightly", "scripts/build", "scripts/docs", "scripts/format", "scripts/fuzz", "scripts/package",
-         "scripts/setup", "scripts/test", "scripts/try_debian"]
+SHELL = [".ci/nightly", "scripts/build", "scripts/count_microcontroller", "scripts/docs", "scripts/format",
+         "scripts/fuzz", "scripts/package", "scripts/pictures", "scripts/setup", "scripts/test", "scripts/try_debian"]
 NEED_THE_PACKAGE = ["compare_python", "python_reference"]
 # What scripts read their arguments with: one that goes on finds no program to do harm with.
 TOOLS = ["dirname", "grep", "sed", "tr"]

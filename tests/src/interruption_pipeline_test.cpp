@@ -96,9 +96,9 @@ TEST_F(InterruptedTraining, KilledBeforeTheFirstCheckpointBeginsAgain) {
 }
 
 TEST_F(InterruptedTraining, SigtermSavesAndEndsCleanly) {
-  // The signal has 70 iterations to come in, more than half a second.
-  const std::vector<std::string> steps = {"--steps", std::to_string(75 * kStepsPerIteration)};
-  const std::string last_checkpoint = "/checkpoints/checkpoint-000075.skein";
+  // The signal has all but five of them to come in.
+  const std::vector<std::string> steps = {"--steps", std::to_string(200 * kStepsPerIteration)};
+  const std::string last_checkpoint = "/checkpoints/checkpoint-000200.skein";
   FlyReference(steps);
   {
     std::vector<std::string> more = steps;
@@ -132,7 +132,8 @@ TEST_F(InterruptedTraining, StoppedAnywhereAndResumedEqualsUninterrupted) {
     const std::uint64_t iteration = saved.empty() ? 1 : saved.back().iteration + 1;
     RunningProgram program(stop == 0 ? TinyTraining(run_)
                                      : std::vector<std::string>{"train", "--resume", run_});
-    const auto delay = std::chrono::milliseconds(random() % 60);
+    // The first has to come before the end of all.
+    const auto delay = std::chrono::milliseconds(random() % (stop == 0 ? 20 : 60));
     const int signal = stop % 2 == 0 ? SIGTERM : SIGINT;
     if (program.WaitUntil([&] { return HasCheckpoint(run_, iteration); })) {
       std::this_thread::sleep_for(delay);

@@ -113,9 +113,14 @@ void FileDescriptor::Empty() {
 }
 
 void FileDescriptor::Lock() {
-  while (flock(value_, LOCK_EX) != 0 && errno == EINTR) {
+  while (flock(value_, LOCK_EX) != 0) {
+    if (errno == EINTR) continue;
+    if (errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL || errno == ENOLCK) return;
+    Fail("cannot be locked");
   }
 }
+
+void FileDescriptor::Unlock() { static_cast<void>(flock(value_, LOCK_UN)); }
 
 FileDescriptor FileDescriptor::Copy() const {
   FileDescriptor copy(name_, fcntl(value_, F_DUPFD_CLOEXEC, 0));
@@ -193,7 +198,16 @@ void ReplaceFile(const std::string& path, const std::function<void(FileDescripto
     unlink(temporary.c_str());
     throw;
   }
+  lock->Unlock();
   SyncNames(*directory, folder);
+}
+
+void TryReplacing(const std::string& path) {
+  const std::string temporary = path + kTemporaryExtension;
+  const FileDescriptor locked = OwnTemporary(temporary, path);
+  if (unlink(temporary.c_str()) != 0) {
+    throw FileError(temporary + ": cannot be removed: " + SystemReason());
+  }
 }
 
 void SyncDirectory(const std::string& path) {

@@ -39,9 +39,11 @@ class FileDescriptor {
   std::string ReadToEnd(std::uint64_t largest);
   /// Drops all bytes.
   void Empty();
-  /// Waits until nobody else has the lock of the file, which is given back when it and all its
-  /// copies are closed. Does nothing on file systems without locks.
+  /// Waits until nobody else has the lock of the file. Does nothing on file systems without locks,
+  /// or without one left (EOPNOTSUPP, ENOSYS, EINVAL, ENOLCK).
   void Lock();
+  /// Gives the lock of the file and its copies back; so does closing them all, in all processes.
+  void Unlock();
   /// Another descriptor of the open file, with its lock.
   FileDescriptor Copy() const;
   /// Waits until what was written survives a power cut.
@@ -67,6 +69,11 @@ inline constexpr char kTemporaryExtension[] = ".skein-tmp";
 /// file at once, processes or threads, one waits for the other. Throws Error, as `write` may; an
 /// existing file is then untouched, unless it was the directory that could not be synced.
 void ReplaceFile(const std::string& path, const std::function<void(FileDescriptor&)>& write);
+
+/// Makes ReplaceFile's temporary file and removes it, as rights alone do not say whether that is
+/// possible (a file system that is read-only or makes no files, a name that is too long). Throws
+/// FileError, whose reason is that of errno, if it is not.
+void TryReplacing(const std::string& path);
 
 /// Makes the names in a directory survive a power cut.
 void SyncDirectory(const std::string& path);

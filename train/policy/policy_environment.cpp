@@ -70,7 +70,7 @@ void CheckMadeWith(const EnvConfig& env, const std::map<std::string, std::string
     if (key == kAircraftKey || key == kAircraftHashKey) continue;
     const auto found = made_with.find(key);
     if (found == made_with.end() || found->second == value) continue;
-    if (key == "task_interface") {
+    if (key == kTaskInterfaceKey) {
       throw ChoiceError(who +
                         " was made for a task file whose numbers, observed or flown to, are "
                         "others, or have another order or other units");

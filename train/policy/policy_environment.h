@@ -16,6 +16,8 @@ inline constexpr const char* kLowLevelTask = "control";
 /// By which PolicyEnvironment says the aircraft: its name, and the hash of its content.
 inline constexpr const char* kAircraftKey = "aircraft";
 inline constexpr const char* kAircraftHashKey = "aircraft_hash";
+/// And the numbers of a task file that policies observe and fly to (EnvConfig::task_interface).
+inline constexpr const char* kTaskInterfaceKey = "task_interface";
 
 /// What gives a policy's observations and actions their meaning (PolicyRole), by configuration key
 /// less "env.", as text: what it cannot fly without. The task is not among them, nor is what may

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <variant>
 
 #include "envs/task_registry.h"
 #include "src/files/output_file.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "src/fdm/flying_qualities_report.h"
 #include "src/plot/handling_levels_picture.h"

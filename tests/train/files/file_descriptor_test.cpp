@@ -81,6 +81,7 @@ TEST_F(FileDescriptorTest, OfReplacementsAtOnceEachIsWhole) {
   constexpr int kTimes = 40, kBytes = 100;
   const auto replace = [this](char letter) {
     for (int i = 0; i < kTimes; ++i) {
+      TryReplacing(path_);
       ReplaceFile(path_, [letter](FileDescriptor& file) {
         for (int k = 0; k < kBytes; ++k) file.Write({&letter, 1});
       });

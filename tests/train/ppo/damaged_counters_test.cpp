@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "base/worker_pool.h"
 #include "tests/error_message.h"
