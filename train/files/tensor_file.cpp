@@ -120,6 +120,14 @@ std::string_view TextOf(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// Names stand in errors, which are of one line.
+void RequireOneLine(const std::string& name, const std::string& path) {
+  const auto breaks = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  if (std::any_of(name.begin(), name.end(), breaks)) {
+    Refuse(path, "a name in its header has control characters");
+  }
+}
+
 /// The tensors that the header describes, in the order of their bytes.
 std::vector<Entry> ParseHeader(const std::string& text, std::uint64_t data_size,
                                const std::string& path,
@@ -128,12 +136,14 @@ std::vector<Entry> ParseHeader(const std::string& text, std::uint64_t data_size,
   if (!header.is_object() || text.front() != '{') Refuse(path, "its header is not a JSON object");
   std::vector<Entry> entries;
   for (const auto& [name, json] : header.items()) {
+    RequireOneLine(name, path);
     if (name != kMetadataKey) {
       entries.push_back(ParseEntry(name, json, path));
       continue;
     }
     if (!json.is_object()) Refuse(path, "its metadata is not an object");
     for (const auto& [key, value] : json.items()) {
+      RequireOneLine(key, path);
       if (!value.is_string()) Refuse(path, "its metadata holds something else than text");
       (*metadata)[key] = value.get<std::string>();
     }

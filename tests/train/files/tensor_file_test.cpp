@@ -143,6 +143,17 @@ TEST_F(TensorFileTest, RefusesHostileHeadersWithRightChecksums) {
   EXPECT_NE(Refusal(), "");
 }
 
+TEST_F(TensorFileTest, NamesThatBreakALineAreRefusedInOne) {
+  TensorFile tensor = Example(), text = Example();
+  tensor.tensors["a\nb"] = {NamedTensor::Type::kU8, {0}, {}};
+  text.metadata["a\x7f"] = "b";
+  for (const TensorFile& file : {tensor, text}) {
+    file.Write(path_);
+    EXPECT_NE(Refusal().find("control characters"), std::string::npos);
+    EXPECT_EQ(Refusal().find('\n'), std::string::npos);
+  }
+}
+
 TEST_F(TensorFileTest, HugeLengthsAllocateNothing) {
   Overwrite(std::string(8, '\xff') + "{}");
   EXPECT_NE(Refusal().find("header length"), std::string::npos);
