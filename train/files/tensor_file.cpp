@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/choice_error.h"
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "train/files/file_descriptor.h"
@@ -120,11 +121,14 @@ std::string_view TextOf(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Names stand in errors, which are of one line.
-void RequireOneLine(const std::string& name, const std::string& path) {
+/// Keys of texts that are whole files end so.
+constexpr const char* kWholeFile = "_file";
+
+/// Names and texts stand in errors, which are of one line.
+void RequireOneLine(const std::string& text, const std::string& path) {
   const auto breaks = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
-  if (std::any_of(name.begin(), name.end(), breaks)) {
-    Refuse(path, "a name in its header has control characters");
+  if (std::any_of(text.begin(), text.end(), breaks)) {
+    Refuse(path, "its header has a control character in a name or text");
   }
 }
 
@@ -146,6 +150,7 @@ std::vector<Entry> ParseHeader(const std::string& text, std::uint64_t data_size,
       RequireOneLine(key, path);
       if (!value.is_string()) Refuse(path, "its metadata holds something else than text");
       (*metadata)[key] = value.get<std::string>();
+      if (!EndsWith(key, kWholeFile)) RequireOneLine((*metadata)[key], path);
     }
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {

@@ -19,7 +19,7 @@ struct NamedTensor {
 /// Skein's container for checkpoints and policies, by the safetensors rules: 8-byte header length,
 /// JSON header (at most 16 MiB) with string metadata and [begin, end) offsets that neither overlap
 /// nor leave holes, then the bytes; in the metadata a checksum of header and bytes. No code, no
-/// pickles.
+/// pickles, no control characters in names and texts but in those texts whose keys end in "_file".
 struct TensorFile {
   std::map<std::string, std::string> metadata;
   std::map<std::string, NamedTensor> tensors;

@@ -143,15 +143,19 @@ TEST_F(TensorFileTest, RefusesHostileHeadersWithRightChecksums) {
   EXPECT_NE(Refusal(), "");
 }
 
-TEST_F(TensorFileTest, NamesThatBreakALineAreRefusedInOne) {
-  TensorFile tensor = Example(), text = Example();
-  tensor.tensors["a\nb"] = {NamedTensor::Type::kU8, {0}, {}};
-  text.metadata["a\x7f"] = "b";
-  for (const TensorFile& file : {tensor, text}) {
+TEST_F(TensorFileTest, WhatBreaksALineIsRefusedInOne) {
+  TensorFile name = Example(), key = Example(), text = Example(), whole_file = Example();
+  name.tensors["a\nb"] = {NamedTensor::Type::kU8, {0}, {}};
+  key.metadata["a\x7f"] = "b";
+  text.metadata["a"] = "b\nc";
+  for (const TensorFile& file : {name, key, text}) {
     file.Write(path_);
-    EXPECT_NE(Refusal().find("control characters"), std::string::npos);
+    EXPECT_NE(Refusal().find("control character"), std::string::npos);
     EXPECT_EQ(Refusal().find('\n'), std::string::npos);
   }
+  whole_file.metadata["task_file"] = "lines\nof a file\n";
+  whole_file.Write(path_);
+  EXPECT_EQ(Refusal(), "");
 }
 
 TEST_F(TensorFileTest, HugeLengthsAllocateNothing) {
