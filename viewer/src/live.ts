@@ -13,6 +13,10 @@ function areEqual(a: Uint8Array, b: Uint8Array): boolean {
   return a.length === b.length && a.every((byte, i) => byte === b[i]);
 }
 
+function messageOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
 /** "09:05". */
 function clockTime(date: Date): string {
   return [date.getHours(), date.getMinutes()]
@@ -30,15 +34,20 @@ export async function keepFresh(
   let answered = new Date();
   for (;;) {
     await new Promise((resolve) => { setTimeout(resolve, REFRESH_MS); });
+    let bytes: Uint8Array;
     try {
-      const bytes = await fetched();
+      bytes = await fetched();
+      answered = new Date();
+    } catch (error) {
+      say(`no answer since ${clockTime(answered)}: ${messageOf(error)}`);
+      continue;
+    }
+    try {
       if (!areEqual(bytes, shown)) await renew(bytes);
       shown = bytes;
-      answered = new Date();
       say('');
     } catch (error) {
-      const reason = error instanceof Error ? error.message : String(error);
-      say(`no answer since ${clockTime(answered)}: ${reason}`);
+      say(`cannot be shown: ${messageOf(error)}`);
     }
   }
 }

@@ -55,6 +55,8 @@ class Page {
   /** What is the matter with the data's freshness; empty while nothing is. */
   readonly status = el('p', { class: 'status', role: 'status' });
   private readonly place = el('main');
+  private readonly notes = el('div');
+  private readonly made = el('p');
   private readonly nav = el('nav');
   private chosen: View | undefined;
   private stop = () => {};
@@ -71,10 +73,10 @@ class Page {
     document.title = `${title} – Skein`;
     root.replaceChildren(
       el('header', {}, el('h1', {}, title), this.nav, theme),
-      ...[notesOf(report)].filter((notes) => notes !== null),
-      this.status, this.place,
-      el('footer', {}, el('p', {}, `skein ${report.skein}, ${report.made}`), licences()),
+      this.notes, this.status, this.place,
+      el('footer', {}, this.made, licences()),
     );
+    this.say();
     addEventListener('hashchange', () => this.choose());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.show());
     this.choose();
@@ -82,10 +84,18 @@ class Page {
 
   renew(pack: ReportPack): void {
     this.pack = pack;
+    this.say();
     if (!this.chosen || !this.views().includes(this.chosen)) this.choose();
     // A flight that is being looked at goes on; what is fresh of it is shown when one comes back.
     else if (this.chosen.name === 'flights') this.showNames();
     else this.show();
+  }
+
+  /** What is to be said of the data, whatever is shown of them. */
+  private say(): void {
+    const { document: report } = this.pack;
+    this.notes.replaceChildren(...[notesOf(report)].filter((notes) => notes !== null));
+    this.made.textContent = `skein ${report.skein}, ${report.made}`;
   }
 
   private views(): View[] {

@@ -85,6 +85,8 @@ describe.skipIf(MISSING !== '')('a report that is watched', () => {
     await server.isTaken();
     expect(await timeShown(page)).toBe(5);
     expect(await page.textContent('main')).not.toContain('second');
+    // What is said of the data is always of the last ones.
+    expect(await page.textContent('.notes')).toContain('second: a remark');
     // Who goes to another view and comes back sees what is fresh.
     await page.click('nav a[href="#configuration"]');
     await page.waitForSelector('main.configuration > *');
@@ -113,6 +115,16 @@ describe.skipIf(MISSING !== '')('a report that is watched', () => {
     await server.isTaken();
     expect(await page.locator('nav a[href="#flights"]').count()).toBe(1);
     expect(await page.locator('main.training').count()).toBe(1);
+    await page.close();
+  });
+
+  it('says what is the matter with data that cannot be shown', async () => {
+    const { page } = await open(browser, server.address);
+    server.give(Buffer.from('no data'));
+    const status = () => page.textContent('.status');
+    await expect.poll(status, PATIENCE).toMatch(/^cannot be shown: ./);
+    server.give(fixture('first', 1));
+    await expect.poll(status, PATIENCE).toBe('');
     await page.close();
   });
 
