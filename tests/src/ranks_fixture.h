@@ -51,12 +51,10 @@ class RanksFixture : public ::testing::Test {
 
   /// The words that start `count` ranks over shared memory, as they are all here; `environment` is
   /// set for the last of them alone, by a shell: Open MPI 5.0.7's mpirun crashes where it starts
-  /// more than one program. What killed jobs leave behind goes with the test.
-  std::vector<std::string> Mpirun(int count, const std::vector<std::string>& arguments,
-                                  const std::string& environment = "") const {
-    std::vector<std::string> words = {"env", "OMPI_MCA_orte_tmpdir_base=" + scratch_.path(),
-                                      "OMPI_MCA_btl_vader_backing_directory=" + scratch_.path()};
-    words.insert(words.end(), {"mpirun", "--allow-run-as-root", "--oversubscribe"});
+  /// more than one program.
+  static std::vector<std::string> Mpirun(int count, const std::vector<std::string>& arguments,
+                                         const std::string& environment = "") {
+    std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
     words.insert(words.end(), {"--mca", "btl", "^tcp", "-np", std::to_string(count), "-x",
                                AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS"))});
     if (!environment.empty()) {
