@@ -14,7 +14,7 @@ endif()
 
 # skein_lighten_kernels(SOURCE ...): those that Highway compiles once per SIMD target do without one check of the address
 # sanitizer, of variables after their scope: it makes g++ 12 take eight times as long over functions
-# of hundreds of vectors. For libFuzzer no source has its comparisons traced, which would be up to half of the time, and
+# of hundreds of vectors. For libFuzzer no library has its comparisons traced, which would be up to half of the time, and
 # the other ones are optimised more than kernels, whose functions would take minutes each.
 function(skein_lighten_kernels)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=[^ ]*address")
