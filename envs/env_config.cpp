@@ -53,7 +53,8 @@ void ListEpisodeFields(EnvConfig& config, FieldList& list) {
   list.Add("truncate_at_time_limit", &config.truncate_at_time_limit,
            "true: the value is bootstrapped at the limit; false: the limit is a failure");
   list.Add("stagger_clocks", &config.stagger_clocks,
-           "first episodes begin with their clocks spread over the time limit (training only)")
+           "first episodes begin with their clocks spread over the time limit, missions over their "
+           "length (training only)")
       .TrainingOnly();
   list.Add("observation_noise", &config.observation_noise, Bounds::NotNegative(),
            "standard deviation of the noise on every observation");

@@ -46,9 +46,9 @@ struct EnvConfig {
   int substeps = 1;                  ///< RK4 steps per control interval
   int action_repeat = 1;  ///< control steps for which an action is held; their rewards are summed
   int time_limit_steps = 2500;  ///< control steps
-  /// false: the time limit is a terminal failure, as in the paper.
+  /// false: the time limit is a terminal failure, as in the paper; not of missions.
   bool truncate_at_time_limit = false;
-  /// First episodes begin with their clocks spread over the time limit.
+  /// First episodes begin with their clocks spread over the time limit, missions over their length.
   bool stagger_clocks = false;
   /// Standard deviation of Gaussian noise on every observation; 0 draws none.
   double observation_noise = 0.01;

@@ -113,6 +113,11 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
   static_assert(kAircraftPerBlock == LowLevelFlight::kMaxCount);
   static_assert(kObservedActions == kActionSize);
   if (low_level != nullptr) {
+    if (!(task_->observation_layout() == kStandardObservation)) {
+      throw Error(
+          "a policy for a high-level policy's commands needs the standard observation: not " +
+          config_.task + "'s");
+    }
     low_level_ = std::make_unique<LowLevelFlight>(config_, num_aircraft, std::move(low_level));
   }
 }
@@ -154,7 +159,7 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
   block.episode[i] = episode;
   block.step[i] = FirstClock(block, i);
   block.episode_return[i] = 0;
-  block.progress.Reset(i);
+  block.progress.Reset(i, block.step[i]);
   if (remembers_actions_) {
     for (int k = 0; k < action_size(); ++k) block.last_action[k][i] = 0;
   }
@@ -178,7 +183,11 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
 std::int32_t EnvStepper::FirstClock(const EnvBlock& block, int i) const {
   if (!config_.stagger_clocks || block.episode[i] != 0) return 0;
   simd::RandomStream clock({seed_, KeyOf(block, i), 0, 0, simd::RandomPurpose::kClockStagger});
-  return static_cast<std::int32_t>(clock.Uniform(0, config_.time_limit_steps));
+  return static_cast<std::int32_t>(clock.Uniform(0, LongestFlightSteps()));
+}
+
+int EnvStepper::LongestFlightSteps() const {
+  return config_.mission.enabled() ? progress_.mission_steps : config_.time_limit_steps;
 }
 
 /// Draws the plant of an aircraft whose episode and flight are set: it is the nominal one's trim.

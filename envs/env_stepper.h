@@ -88,6 +88,7 @@ class EnvStepper {
   void BeginPlant(const EnvBlock& block, int i) const;
   /// What the clock of the `i`-th aircraft's episode begins with.
   std::int32_t FirstClock(const EnvBlock& block, int i) const;
+  int LongestFlightSteps() const;
   PlantDraw PlantOf(simd::RandomStream* random) const;
   Tile Sensed(const EnvBlock& block, SensedState& state) const;
   void ObserveSample(const EnvBlock& block, float* observation) const;

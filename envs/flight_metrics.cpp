@@ -58,14 +58,6 @@ HWY_INLINE V Margin(V value, double middle, double half_range) {
   return hn::NegMulAdd(distance, Constant(1 / half_range), Constant(1));
 }
 
-/// Feet per second over the ground, upwards.
-HWY_INLINE V ClimbRate(const Tile& tile, int first) {
-  const DownInBody down = Down(tile, first);
-  const V below =
-      hn::MulAdd(Column(tile, kV, first), down.y, hn::Mul(Column(tile, kW, first), down.z));
-  return hn::MulSub(Column(tile, kU, first), down.sin_pitch, below);
-}
-
 /// Everything but smoothness.
 HWY_INLINE void Measure(const KernelAircraft& aircraft, const Tile& tile, int first,
                         V (&values)[kNumFlightMetrics]) {

@@ -18,7 +18,7 @@ struct StepOutput {
   /// Clock of the episode that ended, control steps (else unchanged).
   std::int32_t* episode_steps = nullptr;
   /// Row-major [count][observation_size]; rows of episodes that ended by truncation get their last
-  /// observation. May be null if the time limit is terminal.
+  /// observation. May be null if none does (EnvConfig::episode), or nobody asks for it.
   float* final_observation = nullptr;
   ControlStepObserver* observer = nullptr;  ///< is shown every control step; may be null
   /// Row-major [count][kNumFlightMetrics] (envs/flight_metrics.h); rows of episodes that ended get

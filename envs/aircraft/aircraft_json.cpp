@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/aircraft/aircraft_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <locale>
@@ -216,14 +217,11 @@ std::string Section::ReadText(const char* key) {
 
 std::vector<std::string> Section::ReadTexts(const char* key) {
   const json& list = At(key);
-  std::vector<std::string> texts;
-  for (const json& text : list) {
-    if (!list.is_array() || !text.is_string()) {
-      throw Error(path_ + "." + key + " must be a list of texts");
-    }
-    texts.push_back(text.get<std::string>());
+  const auto is_text = [](const json& text) { return text.is_string(); };
+  if (!list.is_array() || !std::all_of(list.begin(), list.end(), is_text)) {
+    throw Error(path_ + "." + key + " must be a list of texts");
   }
-  return texts;
+  return list.get<std::vector<std::string>>();
 }
 
 std::vector<std::string> Section::ReadKeys() {

@@ -2,12 +2,14 @@
 #include "envs/aircraft/table_aircraft.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.h"
 #include "envs/aircraft/aircraft_json.h"
 #include "envs/aircraft/aircraft_sections.h"
+#include "envs/aircraft/engine.h"
 #include "envs/aircraft/flight_control_file.h"
 #include "envs/aircraft/table_lookup.h"
 
@@ -294,6 +296,18 @@ void ReadGearing(Section section, ThrottleGearing* gearing) {
   section.ReadPositive("dry_gain", &gearing->dry_gain);
   section.ReadPositive("afterburner_gain", &gearing->afterburner_gain);
   section.Read("afterburner_offset", &gearing->afterburner_offset);
+  constexpr double kRounding = 0.1;  // the F-16's stages meet within 0.0012, as published
+  const double dry = PowerCommand(*gearing, gearing->military_throttle);
+  const double lit =
+      gearing->afterburner_gain * gearing->military_throttle + gearing->afterburner_offset;
+  if (!(std::abs(lit - dry) <= kRounding)) {
+    section.Refuse("afterburner_offset", gearing->afterburner_offset,
+                   "such that both stages give the same power at military_throttle");
+  }
+  if (!(PowerCommand(*gearing, 1) <= kMaximumPower + kRounding)) {
+    section.Refuse("afterburner_gain", gearing->afterburner_gain,
+                   "such that full throttle gives a power of 100 at most");
+  }
   section.Finish();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/kernels/flight_control_constants.h"
 
-#include <cmath>
+#include "envs/reference/actuator.h"
 
 namespace skein {
 namespace {
@@ -19,7 +19,7 @@ FlightControlConstants::Schedule MakeSchedule(const Ramp& ramp) {
 }
 
 FlightControlConstants::Servo MakeServo(const Actuator& actuator, double dt) {
-  return {static_cast<float>(-std::expm1(-actuator.bandwidth_per_s * dt)),
+  return {static_cast<float>(ReachedShare(actuator.bandwidth_per_s, dt)),
           static_cast<float>(actuator.rate_limit_deg_per_s * dt),
           static_cast<float>(actuator.min_deg), static_cast<float>(actuator.max_deg)};
 }

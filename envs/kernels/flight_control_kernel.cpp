@@ -200,6 +200,13 @@ HWY_INLINE V LeadingEdgeFlap(const FlightControlConstants& k, const Sensors& sen
       hn::NegMulAdd(Constant(k.flap_pressure_gain_deg), pressure_ratio, Constant(k.flap_bias_deg)));
 }
 
+/// Where a stick in [-1, 1] moves its surface by itself, deg: the full stick to a limit.
+HWY_INLINE V Deflection(const FlightControlConstants::Servo& surface, V stick) {
+  const auto pulls = hn::Gt(stick, Constant(0));
+  return hn::Mul(stick,
+                 hn::IfThenElse(pulls, Constant(surface.min_deg), Constant(-surface.max_deg)));
+}
+
 HWY_INLINE V PowerCommand(const FlightControlConstants& k, V throttle) {
   const V dry = hn::Mul(Constant(k.dry_gain), throttle);
   const V wet = hn::MulAdd(Constant(k.afterburner_gain), throttle, Constant(k.afterburner_offset));
@@ -259,9 +266,9 @@ void ControlTileIn(const KernelAircraft& aircraft, const FlightControlConstants&
       rudder = YawChannel(k, group, sensors, sticks, alpha, p, aileron);
       flap = LeadingEdgeFlap(k, sensors, group.Filter(k.flap, kFlapFilter, sensors.alpha_deg));
     } else {
-      elevator = hn::Mul(sticks.pitch, Constant(-k.elevator.max_deg));
-      aileron = hn::Mul(sticks.roll, Constant(-k.aileron.max_deg));
-      rudder = hn::Mul(sticks.yaw, Constant(-k.rudder.max_deg));
+      elevator = Deflection(k.elevator, sticks.pitch);
+      aileron = Deflection(k.aileron, sticks.roll);
+      rudder = Deflection(k.rudder, sticks.yaw);
       flap = LeadingEdgeFlap(k, sensors, sensors.alpha_deg);
     }
     group.StepActuator(k.elevator, kElevator, kPlantElevatorReached, elevator);

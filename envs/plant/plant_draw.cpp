@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "envs/reference/actuator.h"
+
 namespace skein {
 namespace {
 
@@ -103,7 +105,7 @@ void SetPlant(const PlantDraw& draw, const Aircraft& aircraft, double dt, const 
   set(kPlantActuatorRate, draw.actuator_rate);
   const Actuators& actuators = aircraft.actuators;
   const auto reached = [&](const Actuator& actuator) {
-    return -std::expm1(-draw.actuator_bandwidth * actuator.bandwidth_per_s * dt);
+    return ReachedShare(draw.actuator_bandwidth * actuator.bandwidth_per_s, dt);
   };
   set(kPlantElevatorReached, reached(actuators.elevator));
   set(kPlantAileronReached, reached(actuators.aileron));

@@ -216,10 +216,13 @@ SurfaceAngles FlightControl::StepFull(const PilotCommands& pilot, const FlightSe
 
 SurfaceAngles FlightControl::StepDirect(const PilotCommands& pilot,
                                         const FlightSensors& sensors) const {
+  const auto deflection = [](const Actuator& surface, double stick) {
+    return stick > 0 ? stick * surface.min_deg : -stick * surface.max_deg;
+  };
   SurfaceAngles command;
-  command.elevator_deg = -actuators_.elevator.max_deg * pilot.pitch;
-  command.aileron_deg = -actuators_.aileron.max_deg * pilot.roll;
-  command.rudder_deg = -actuators_.rudder.max_deg * pilot.yaw;
+  command.elevator_deg = deflection(actuators_.elevator, pilot.pitch);
+  command.aileron_deg = deflection(actuators_.aileron, pilot.roll);
+  command.rudder_deg = deflection(actuators_.rudder, pilot.yaw);
   command.leading_edge_flap_deg =
       Clip(FlapSchedule(gains_, sensors.alpha_deg, sensors), actuators_.leading_edge_flap);
   return command;

@@ -11,7 +11,7 @@ namespace skein {
 
 enum class FlightControlMode {
   kFull,    ///< pilot commands through the flight control system
-  kDirect,  ///< pilot commands scaled to the surfaces' limits; leading-edge flap on its steady
+  kDirect,  ///< full stick is a surface at its limit of that side; leading-edge flap on its steady
             ///< schedule
 };
 inline constexpr std::array<std::pair<FlightControlMode, const char*>, 2> kFlightControlNames{

@@ -144,12 +144,12 @@ namespace skein {
 
 HWY_EXPORT(AdvanceProgressKernel);
 
-void EpisodeProgress::Reset(int i) const {
+void EpisodeProgress::Reset(int i, std::int32_t step) const {
   if (steps_within == nullptr) return;
-  for (std::int32_t* const column :
-       {steps_within, reached_step, target_step, targets_reached, targets_missed}) {
+  for (std::int32_t* const column : {steps_within, reached_step, targets_reached, targets_missed}) {
     column[i] = 0;
   }
+  target_step[i] = step;
 }
 
 void AdvanceProgress(const ProgressRules& rules, int count, const std::int32_t* steps_before,

@@ -30,8 +30,8 @@ struct EpisodeProgress {
   std::int32_t* targets_reached = nullptr;  ///< of a mission
   std::int32_t* targets_missed = nullptr;   ///< of a mission
 
-  /// The `i`-th aircraft begins an episode.
-  void Reset(int i) const;
+  /// The `i`-th aircraft begins an episode, whose clock shows `step`.
+  void Reset(int i, std::int32_t step) const;
 };
 
 /// What became of a target, while the flight goes on, in a control step.
@@ -47,7 +47,9 @@ struct ProgressStep {
 };
 
 /// One control step of `count` aircraft, but those that have a `termination`: columns, padded as
-/// Tile says. `steps_before` are the control steps of their episodes before it.
+/// Tile says. `steps_before` are the control steps of their episodes before it. What becomes of a
+/// target comes before what becomes of the flight: one that is lost in the same control step has
+/// reached it, or missed it.
 void AdvanceProgress(const ProgressRules& rules, int count, const std::int32_t* steps_before,
                      const std::int32_t* termination, const EpisodeProgress& progress,
                      const ProgressStep& step);

@@ -73,6 +73,14 @@ HWY_INLINE DownInBody Down(const Tile& tile, int first) {
   return down;
 }
 
+/// Over the ground, upwards, ft/s.
+HWY_INLINE V ClimbRate(const Tile& tile, int first) {
+  const DownInBody down = Down(tile, first);
+  const V below =
+      hn::MulAdd(Column(tile, kV, first), down.y, hn::Mul(Column(tile, kW, first), down.z));
+  return hn::MulSub(Column(tile, kU, first), down.sin_pitch, below);
+}
+
 /// Pitch, rad, in [-pi/2, pi/2], from the sine and cosine both: as exact nose up as level.
 HWY_INLINE V Pitch(const Tile& tile, int first) {
   const DownInBody down = Down(tile, first);

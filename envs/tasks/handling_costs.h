@@ -23,13 +23,14 @@ struct HandlingCosts {
   double roll_rate = 0;  ///< per rad/s, near or not
   double sideslip = 0;   ///< per unit of sin(beta), near or not
   double near_sharpness = 20;
-  /// Of a control step within the episode's tolerances: gained, not lost.
+  /// Of a control step in which the target counts as touched (within the episode's tolerances, and
+  /// for Heading not before its earliest success): gained, not lost.
   double within_tolerances = 0;
-  /// Of a control step outside them: a price on time. What is gained within them is none, as a
+  /// Of any other control step: a price on time. What is gained within them is none, as a
   /// flight ends a given time after it reached its target, however late.
   double outside_tolerances = 0;
   /// Of a control step until the target counts as reached: a price on time that leaves the hold
-  /// alone.
+  /// alone. In missions, of every control step.
   double before_reached = 0;
   /// Of a policy step, per squared change of each of its actions but the throttle, which are
   /// clipped to [-1, 1].

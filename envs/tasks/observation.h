@@ -20,7 +20,7 @@ struct KernelAircraft;  // envs/kernels/kernel_aircraft.h
 ///   9, 10 sin, cos of alpha       11, 12 sin, cos of beta
 ///   13-15 p, q, r, rad/s
 ///   16    engine power / 100
-///   17-20 elevator, aileron, rudder, leading-edge flap as fractions of their range
+///   17-20 elevator, aileron, rudder, leading-edge flap over their upper limits
 ///   21    true airspeed / equivalent airspeed
 inline constexpr int kObservationSize = kStandardObservation.size();
 

@@ -16,11 +16,16 @@ struct ObservationLayout {
   bool flight = true;
   int actions = 0;  ///< kObservedActions or 0
 
+  constexpr bool operator==(const ObservationLayout& other) const {
+    return lead == other.lead && flight == other.flight && actions == other.actions;
+  }
   constexpr int size() const { return lead + (flight ? kNumSensedNumbers : 0) + actions; }
 };
 
 inline constexpr ObservationLayout kStandardObservation{};
 
+/// No row has fewer numbers: they are written four at a time.
+inline constexpr int kFewestObservations = 4;
 /// No row has more numbers, or more that lead it.
 inline constexpr int kMostLeadingNumbers = 24;
 inline constexpr int kMostObservations = 48;

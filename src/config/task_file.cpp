@@ -18,7 +18,7 @@
 #include "src/config/task_checks.h"
 #include "src/config/task_sections.h"
 #include "src/config/term_numbers.h"
-#include "src/files/output_file.h"
+#include "src/files/input_text.h"
 #include "src/files/plain_line.h"
 
 namespace skein {
@@ -42,7 +42,6 @@ void ReadName(TableReader& reader, const std::string& source, TermTaskConfig* ta
 }
 
 void ReadObserved(const toml::table& table, const std::string& source, TermTaskConfig* task) {
-  constexpr int kFewestObservations = 4;
   TableReader own(table, source);
   const TermNumbers numbers(*task);
   std::set<std::string> known;
@@ -117,7 +116,7 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
 bool IsTaskFile(const std::string& task) { return EndsWith(task, ".toml"); }
 
 std::string ReadTaskFileText(const std::string& path) {
-  std::string text = ReadFile(path);
+  std::string text = ReadInputText(path);
   if (text.size() <= kMostBytes) return text;
   throw Error(
       fmt::format("{}: a task file has at most {} bytes, not {}", path, kMostBytes, text.size()));

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kAircraft = 8;
 
-/// All observations and rewards of a second of flight with the sticks left alone.
-std::vector<float> SecondOfFlight(const EnvConfig& config, double share) {
+/// All observations and rewards of ten control steps with the sticks left alone.
+std::vector<float> Seen(const EnvConfig& config, double share) {
   VecEnv env(config, kAircraft, 3);
   env.SetConditionShare(share);
   env.Restart();
@@ -49,8 +49,8 @@ TEST(ConditionShare, IsThatOfNarrowerRanges) {
   half.plant.mass = {0.875, 1.25};
   half.plant.sensor_bias = 0.125;
   half.plant.action_delay_steps = {0, 1};
-  EXPECT_EQ(SecondOfFlight(config, 0.5), SecondOfFlight(half, 1));
-  EXPECT_NE(SecondOfFlight(config, 1), SecondOfFlight(half, 1));
+  EXPECT_EQ(Seen(config, 0.5), Seen(half, 1));
+  EXPECT_NE(Seen(config, 1), Seen(half, 1));
 }
 
 TEST(ConditionShare, WindsAndLimitsOfTrainingAreThoseThatAreAskedFor) {
@@ -62,19 +62,24 @@ TEST(ConditionShare, WindsAndLimitsOfTrainingAreThoseThatAreAskedFor) {
   asked.wind.speed_fps = {0, 120};
   asked.wind.turbulence_fps = {0, 10};
   asked.termination.min_mach = 0.96;
-  asked.termination.min_altitude_ft = 18000;
+  asked.termination.min_altitude_ft = 18999.9;
   EnvConfig trained = plain;
   trained.wind.training_speed_max_fps = 120;
   trained.wind.training_turbulence_max_fps = 10;
   trained.termination.training_min_mach = 0.96;
-  trained.termination.training_min_altitude_ft = 18000;
-  EnvConfig unlimited = asked;
-  unlimited.termination = plain.termination;
-  EXPECT_NE(SecondOfFlight(asked, 1), SecondOfFlight(unlimited, 1));
-  for (const double share : {0.25, 1.0}) {
-    EXPECT_EQ(SecondOfFlight(trained, share), SecondOfFlight(asked, share));
+  trained.termination.training_min_altitude_ft = 18999.9;
+  for (const bool by_mach : {false, true}) {
+    EnvConfig freer = asked;
+    if (by_mach)
+      freer.termination.min_mach = plain.termination.min_mach;
+    else
+      freer.termination.min_altitude_ft = plain.termination.min_altitude_ft;
+    EXPECT_NE(Seen(asked, 1), Seen(freer, 1)) << by_mach;
   }
-  EXPECT_EQ(SecondOfFlight(EvaluationConfig(trained), 1), SecondOfFlight(plain, 1));
+  for (const double share : {0.25, 1.0}) {
+    EXPECT_EQ(Seen(trained, share), Seen(asked, share));
+  }
+  EXPECT_EQ(Seen(EvaluationConfig(trained), 1), Seen(plain, 1));
 }
 
 }  // namespace

@@ -110,6 +110,33 @@ TEST(VecEnvProgress, AMissionGivesTargetAfterTargetAndEndsWithItsLength) {
   }
 }
 
+TEST(VecEnvProgress, StaggeredMissionsEndAllAlongTheirLengthAndLeaveTheFirstTargetItsTime) {
+  constexpr int kAircraft = 60;
+  EnvConfig config = Mission("tracking");
+  config.tracking.distance_ft = {30000, 40000};  // too far for six seconds
+  config.stagger_clocks = true;
+  VecEnv env(config, kAircraft, 1);
+  std::vector<std::vector<float>> first;
+  for (int i = 0; i < kAircraft; ++i) first.push_back(env.TargetOf(i));
+  std::vector<bool> has_ended(kAircraft);
+  std::vector<int> ends_by_third(3), first_missed;
+  for (int step = 0; step < 100; ++step) {
+    StepBuffers buffers(kAircraft);
+    env.Step(0, buffers.action.data(), buffers.output());
+    for (int i = 0; i < kAircraft; ++i) {
+      if (has_ended[i]) continue;
+      has_ended[i] = buffers.termination[i] != 0;
+      if (has_ended[i]) ++ends_by_third[3 * step / 100];
+      if (has_ended[i] || first[i].empty() || env.TargetOf(i) == first[i]) continue;
+      first[i].clear();
+      first_missed.push_back(step);
+    }
+  }
+  for (const int ends : ends_by_third) EXPECT_GT(ends, kAircraft / 6);
+  ASSERT_FALSE(first_missed.empty());
+  for (const int step : first_missed) EXPECT_EQ(step, 33);  // the hundredth control step is in it
+}
+
 /// The altitude under which no target of a mission that began at 6000 ft may lead.
 constexpr double kFloorFt = 2500 + 0.1 * (6000 - 2500);
 

@@ -290,7 +290,8 @@ TEST_P(MathTest, NaNStaysInItsLane) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const ColumnFunction function :
        {SKEIN_DISPATCH(ReciprocalColumn), SKEIN_DISPATCH(ReciprocalSqrtColumn),
-        SKEIN_DISPATCH(AtanDegreesColumn), SKEIN_DISPATCH(ExpColumn)}) {
+        SKEIN_DISPATCH(AtanDegreesColumn), SKEIN_DISPATCH(ExpColumn), SKEIN_DISPATCH(SinColumn),
+        SKEIN_DISPATCH(CosColumn)}) {
     Column clean(16, 0.7f), spoilt(16, 0.7f), y(16), z(16);
     spoilt[5] = nan;
     function(clean, y);

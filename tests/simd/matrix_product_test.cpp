@@ -126,7 +126,7 @@ struct Shape {
 };
 
 // Heads and observations; every edge of tiles (up to 16 rows), of panels (up to 64 columns) and of
-// blocks (384 of depth, 96 rows, 80 rows of a transposed product).
+// blocks (384 of depth, 96 rows, 48 rows of a transposed product).
 const Shape kShapes[] = {{1, 1, 1},     {3, 2, 5},     {48, 22, 128},  {17, 128, 4},  {97, 128, 1},
                          {13, 4, 37},   {7, 127, 33},  {5, 385, 64},   {100, 9, 130}, {11, 770, 17},
                          {31, 128, 22}, {6, 81, 96},   {191, 16, 48},  {2, 160, 384}, {29, 33, 65},

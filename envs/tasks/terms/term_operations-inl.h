@@ -103,13 +103,6 @@ HWY_INLINE void SetAirData(const TermPart& part, int out, int speed) {
   });
 }
 
-HWY_INLINE V ClimbRateOf(const TermPart& part, int first) {
-  const DownInBody down = Down(part.flight, first);
-  const V u = Column(part.flight, kU, first), v = Column(part.flight, kV, first);
-  return hn::MulSub(down.sin_pitch, u,
-                    hn::MulAdd(down.y, v, hn::Mul(down.z, Column(part.flight, kW, first))));
-}
-
 HWY_INLINE V TerrainOf(const TermPart& part, V north, V east) {
   V height = Constant(part.program.terrain_base);
   for (const TermWave& wave : part.program.terrain) {
@@ -158,7 +151,7 @@ HWY_INLINE void ReadFlight(const TermInstruction& op, const TermPart& part) {
       return SetAirData(part, op.out, op.a);
     case TermOperation::kClimbRate:
       return SetLanes(part, op.out,
-                      [&](int, int first) HWY_ATTR { return ClimbRateOf(part, first); });
+                      [&](int, int first) HWY_ATTR { return ClimbRate(part.flight, first); });
     default:
       return;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/error.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
 #include "envs/tasks/point_target.h"
@@ -261,7 +262,12 @@ class TermTask : public Task {
 
 std::unique_ptr<Task> MakeTermTask(const std::shared_ptr<const TermTaskConfig>& config,
                                    const Aircraft& aircraft, const TargetLimits& limits) {
-  return std::make_unique<TermTask>(config, aircraft, limits);
+  auto task = std::make_unique<TermTask>(config, aircraft, limits);
+  if (const int observed = task->observation_layout().size(); observed < kFewestObservations) {
+    throw Error("task " + config->name + " observes " + std::to_string(observed) +
+                " numbers, but there must be at least " + std::to_string(kFewestObservations));
+  }
+  return task;
 }
 
 }  // namespace skein

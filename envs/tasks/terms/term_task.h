@@ -11,7 +11,7 @@
 namespace skein {
 
 /// A task that is made of terms. They are compiled once, into programs of vector operations
-/// (envs/tasks/terms/term_program.h). Throws Error if they are too many.
+/// (envs/tasks/terms/term_program.h). Throws Error if they are too many, or too little is observed.
 std::unique_ptr<Task> MakeTermTask(const std::shared_ptr<const TermTaskConfig>& config,
                                    const Aircraft& aircraft, const TargetLimits& limits);
 

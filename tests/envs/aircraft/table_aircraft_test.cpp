@@ -48,11 +48,26 @@ TEST(TableAircraft, ErrorsNameTheField) {
       "aircraft mine.aerodynamics.tables.eta_el.values must be a list of 5 numbers, not of 4");
   EXPECT_EQ(at("/aerodynamics/tables/Cyp/axes", {"beta_deg"}),
             "aircraft mine.aerodynamics.tables.Cyp.axes must be some of alpha_deg, in this order");
+  for (const json& other : {json(), json::object(), json("alpha_deg"), json{1}}) {
+    EXPECT_EQ(at("/aerodynamics/tables/Cyp/axes", other),
+              "aircraft mine.aerodynamics.tables.Cyp.axes must be a list of texts");
+  }
   EXPECT_EQ(at("/aerodynamics/tables/Clq", json::object()),
             "aircraft mine.aerodynamics.tables has the unknown key Clq");
   EXPECT_EQ(at("/engine/idle_lbf/0/0", 1e300),
             "aircraft mine.engine.idle_lbf[0][0] is 1e+300, but must be zero or between 1e-12 and "
             "1e+12 in magnitude");
+  EXPECT_EQ(
+      at("/engine/throttle_gearing/afterburner_offset", 500),
+      "aircraft mine.engine.throttle_gearing.afterburner_offset is 500, but must be such that both "
+      "stages give the same power at military_throttle");
+  EXPECT_EQ(ErrorAfter([](json* file) {
+              json& gearing = file->at("engine").at("throttle_gearing");
+              gearing["afterburner_gain"] = 300;
+              gearing["afterburner_offset"] = -181;
+            }),
+            "aircraft mine.engine.throttle_gearing.afterburner_gain is 300, but must be such that "
+            "full throttle gives a power of 100 at most");
   EXPECT_EQ(at("/airframe/mass_slug", 0),
             "aircraft mine.airframe.mass_slug is 0, but must be above 0");
   EXPECT_EQ(at("/flight_control/yaw_lead", {1, 2, -3}),

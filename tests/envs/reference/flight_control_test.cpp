@@ -176,6 +176,19 @@ TEST_F(FlightControlTest, DirectModeMovesSurfacesInProportionToTheSticks) {
   EXPECT_EQ(state, before);
 }
 
+TEST_F(FlightControlTest, FullStickIsTheLimitOfItsSideInDirectMode) {
+  aircraft_.actuators.elevator.min_deg = -28;
+  aircraft_.actuators.elevator.max_deg = 23;
+  const FlightControl direct(aircraft_, FlightControlMode::kDirect, kDt);
+  const auto elevator = [&](double stick) {
+    return direct.Step({0.5, stick, 0, 0}, Level(), &state_).elevator_deg;
+  };
+  EXPECT_EQ(elevator(1), -28);
+  EXPECT_EQ(elevator(0.5), -14);
+  EXPECT_EQ(elevator(0), 0);
+  EXPECT_EQ(elevator(-1), 23);
+}
+
 TEST_F(FlightControlTest, SteadyFlapStaysWithinItsLimits) {
   EXPECT_NEAR(SteadyLeadingEdgeFlap(aircraft_, 10, 100, 1000), 13.8 - 0.905 + 1.45, kRounding);
   EXPECT_EQ(SteadyLeadingEdgeFlap(aircraft_, 40, 100, 1000), 25);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
 #include "tests/envs/step_buffers.h"
+#include "tests/envs/test_policy.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
@@ -50,6 +52,20 @@ std::string Minimal(const std::string& from = "", const std::string& to = "") {
 
 TermTaskConfig Read(const std::string& text) {
   return ReadTaskFile(text, "my.toml", kTables).terms;
+}
+
+TEST(TaskFileTest, ATaskIsFlownByALowLevelPolicyIfItObservesWhatThatDoes) {
+  const auto message = [](const std::string& observed) {
+    EnvConfig config;
+    config.SetTermTask(Read(Minimal("[\"error_altitude\"]", observed)));
+    return MessageOf([&] { VecEnv(config, 4, 1, 32, std::make_shared<const TestPolicy>(1)); });
+  };
+  const std::string three = "[\"error_altitude\", \"sin_roll\", \"mach\"]";
+  EXPECT_EQ(message(three), "");
+  for (const std::string& other :
+       {std::string("[\"error_altitude\"]"), three + "\nlast_actions = true"}) {
+    EXPECT_NE(message(other).find("needs the standard observation: not hold's"), std::string::npos);
+  }
 }
 
 TEST(TaskFileTest, ReadsWhatItSays) {
