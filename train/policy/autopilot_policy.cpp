@@ -37,7 +37,11 @@ std::shared_ptr<const AutopilotPolicy> AutopilotPolicy::Load(const TensorFile& f
   if (!(env.control_interval_s > 0)) {
     throw Error(path + ": it does not say at which interval the autopilot flies");
   }
-  return std::make_shared<const AutopilotPolicy>(variant->second, env);
+  try {
+    return std::make_shared<const AutopilotPolicy>(variant->second, env);
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
 }
 
 void AutopilotPolicy::CheckMadeFor(const EnvConfig& env, const std::string& who) const {

@@ -135,7 +135,7 @@ std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& c
     for (int i = begin; i < end; ++i) recorded.push_back(&flights[i]);
     TileRecorder recorder(env, tile, std::move(recorded));
     TileAgent flying_agent = MakeEvaluationAgent(agent, env, tile, options);
-    while (!recorder.IsDone()) {
+    while (!recorder.IsDone() && !pool.stopping()) {
       // Whole tiles fly, the aircraft that are not recorded too: matrix products may round by
       // shape.
       const std::vector<float>& action = flying_agent.Act();

@@ -42,6 +42,7 @@ struct RecordedFlight {
 
 /// The first `count` episodes (all, if there are fewer) of Evaluate with the same arguments, flown
 /// again control step by control step: bit-identical to what was evaluated, whatever the threads.
+/// Incomplete if the pool is asked to stop.
 std::vector<RecordedFlight> RecordFlights(const Agent& agent, const EnvConfig& env,
                                           const EvaluationOptions& options, int count,
                                           WorkerPool& pool);

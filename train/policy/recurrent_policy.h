@@ -25,7 +25,8 @@ class RecurrentPolicy final : public StoredPolicy {
   /// docs/reference/file-formats.md). Throws Error on a file that is truncated, damaged or not one
   /// of Skein's.
   static RecurrentPolicy Load(const std::string& path);
-  /// A freshly initialised actor: the one that training with this seed begins with.
+  /// A freshly initialised actor: the one that training with this seed begins with, but for the
+  /// pedals where ppo.pedals = false leaves them idle.
   static RecurrentPolicy Untrained(const NetworkConfig& config, int observation_size,
                                    int action_size, std::uint64_t seed, int action_repeat = 1,
                                    std::shared_ptr<const StoredPolicy> low_level = nullptr);

@@ -16,7 +16,7 @@ struct TileScratch {
   std::vector<float> noise, mean, episode_return, final_observation, privileged, joined,
       truncation_value;
   std::vector<std::uint8_t> termination;
-  std::vector<std::int32_t> episode_steps;
+  std::vector<std::int32_t> episode_steps, first_clock;
   ActionNoiseScratch action_noise;
 
   void Resize(std::size_t count, const Rollout& rollout) {
@@ -29,6 +29,7 @@ struct TileScratch {
     episode_return.resize(count);
     termination.resize(count);
     episode_steps.resize(count);
+    first_clock.resize(count);
   }
 };
 
@@ -79,12 +80,6 @@ class TileRollout {
     const Clock::time_point start = Clock::now();
     part();
     statistics_.simulator_seconds += std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
-  /// By each aircraft since training began, at the end of the rollout's policy step `step`.
-  std::int64_t ControlStepsFlown(int step) const {
-    return (static_cast<std::int64_t>(settings_.first_policy_step) + step + 1) *
-           env_.config().action_repeat;
   }
 
   std::int64_t Row(int step) const { return rollout_.row(step, begin_); }
@@ -177,6 +172,7 @@ class TileRollout {
     output.episode_return = scratch_.episode_return.data();
     output.episode_steps = scratch_.episode_steps.data();
     const bool truncates = env_.config().episode().truncate_at_time_limit;
+    output.first_clock = scratch_.first_clock.data();
     if (truncates) output.final_observation = scratch_.final_observation.data();
     if (rollout_.privileged_size > 0) output.final_privileged = scratch_.privileged.data();
     Simulate(
@@ -190,8 +186,7 @@ class TileRollout {
       truncated |= truncates && termination == Termination::kTimeLimit;
       if (!done) continue;
       if (termination == Termination::kNonFinite) ++statistics_.non_finite;
-      // Older than training: its clock began somewhere.
-      if (scratch_.episode_steps[i] > ControlStepsFlown(step)) continue;
+      if (scratch_.first_clock[i] > 0) continue;
       ++statistics_.episodes;
       ++statistics_.terminations[scratch_.termination[i]];
       rollout_.episode_return[row + i] = scratch_.episode_return[i];

@@ -8,7 +8,7 @@
 namespace skein {
 
 bool AreShardsPossible(int shards, int num_aircraft, int chunks_per_aircraft, int minibatches) {
-  const bool is_power = (shards & (shards - 1)) == 0;
+  const bool is_power = shards > 0 && (shards & (shards - 1)) == 0;
   return is_power && num_aircraft % shards == 0 &&
          static_cast<long long>(num_aircraft / shards) * chunks_per_aircraft >= minibatches;
 }

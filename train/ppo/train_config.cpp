@@ -26,6 +26,12 @@ void ListFields(TrainConfig& config, FieldList& list) {
 }
 
 void ValidateLearning(const TrainConfig& config) {
+  TrainConfig listed = config;
+  FieldList list;
+  list.Group("network", listed.network);
+  list.Group("learner", listed.learner);
+  list.Group("evaluation", listed.evaluation);
+  list.Check();
   Validate(config.ppo);
   if (!config.ppo.pedals && NeedsLowLevel(config.env)) {
     throw Error("ppo.pedals = false: a high-level policy has no pedals; leave it out");

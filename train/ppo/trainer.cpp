@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <limits>
 
 #include "base/error.h"
 #include "base/fnv_hash.h"
@@ -21,36 +20,12 @@
 #include "train/ppo/reward_check.h"
 #include "train/ppo/rollout.h"
 #include "train/ppo/training_state.h"
+#include "train/ppo/value_means.h"
 #include "train/ranks/collectives.h"
 #include "train/ranks/shared_episodes.h"
 
 namespace skein {
 namespace {
-
-/// Sums over the samples of a rollout: of the value targets and what the critic missed of them.
-enum ValueSum { kTarget, kTargetSquared, kError, kErrorSquared, kNumValueSums };
-
-/// Their means over all ranks.
-Sums<kNumValueSums> ValueMeans(const Rollout& rollout, Ranks& ranks) {
-  Sums<kNumValueSums> means =
-      SumSamples<kNumValueSums>(rollout, [&](std::int64_t row, Sums<kNumValueSums>& sums) {
-        const double target = rollout.target[row], error = target - rollout.value[row];
-        sums[kTarget] += target;
-        sums[kTargetSquared] += target * target;
-        sums[kError] += error;
-        sums[kErrorSquared] += error * error;
-      });
-  SumOverRanks(ranks, means.size(), means.data());
-  for (double& mean : means) mean /= static_cast<double>(rollout.all_samples());
-  return means;
-}
-
-double ExplainedVariance(const Sums<kNumValueSums>& means) {
-  const double target_variance = means[kTargetSquared] - std::pow(means[kTarget], 2);
-  const double error_variance = means[kErrorSquared] - std::pow(means[kError], 2);
-  return target_variance > 0 ? 1 - error_variance / target_variance
-                             : std::numeric_limits<double>::quiet_NaN();
-}
 
 const TrainConfig& Validated(const TrainConfig& config) {
   ValidateLearning(config);

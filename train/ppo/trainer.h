@@ -27,15 +27,16 @@ struct IterationReport {
   std::uint64_t env_steps = 0;  ///< control steps flown since the start of training
   /// Episodes that ended in this iteration, but for first ones with a staggered clock.
   std::uint64_t episodes = 0;
-  double return_mean = 0;                            ///< of those; NaN if none
-  double success_rate = 0;                           ///< of those; NaN if none
+  double return_mean = 0;  ///< of those; NaN if none
+  double success_rate =
+      0;  ///< of those, of missions the share that was flown to its end; NaN if none
   std::array<int, kNumTerminations> terminations{};  ///< of those
   int non_finite = 0;  ///< episodes that ended as non_finite, first ones with a staggered clock too
   double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0, clip_fraction = 0;
   double action_change = 0;  ///< LossSums::action_change
   double actor_gradient_norm = 0, critic_gradient_norm = 0;
   double explained_variance = 0;
-  double learning_rate = 0;
+  double learning_rate = 0;  ///< the actor's
   double log_std_mean = 0;
   /// Deterministic success if this iteration evaluated, else -1.
   double evaluation_success_rate = -1;
@@ -55,9 +56,9 @@ struct CheckpointOrigin {
 };
 
 /// Recurrent PPO on a VecEnv. A run is a function of the configuration: same bits for any thread
-/// count, and any number of ranks, interrupted or not. With several ranks each flies its part of
-/// the shards, all take the same steps, and what is marked as joint is called on all of them
-/// together.
+/// count, and any number of ranks (by LibTorch but for rounding), interrupted or not. With several
+/// ranks each flies its part of the shards, all take the same steps, and what is marked as joint is
+/// called on all of them together.
 class Trainer {
  public:
   /// Throws Error on a configuration that cannot be trained, or not on so many ranks. The pool and
@@ -87,7 +88,8 @@ class Trainer {
   /// environment; nothing has changed then.
   bool StartFrom(const std::string& path);
 
-  /// The actor as it is now.
+  /// What is evaluated and kept: the actor as it is now, or with ppo.average_iterations the mean of
+  /// the last ones.
   RecurrentPolicy policy() const;
 
   /// Joint: everything needed to resume bit-exactly, written by rank 0 atomically (temporary file,

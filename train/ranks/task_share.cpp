@@ -22,9 +22,11 @@ TaskShare::TaskShare(Ranks& ranks, WorkerPool& pool, std::vector<int> tasks,
 
 bool TaskShare::Do(const std::function<void(int task)>& work) {
   std::exception_ptr failure;
-  while (const std::optional<int> task = Next()) {
+  for (bool is_over = false; !is_over;) {
     try {
-      if (GoesOn()) work(*task);
+      const std::optional<int> task = Next();
+      is_over = !task.has_value();
+      if (!is_over && GoesOn()) work(*task);
     } catch (const std::exception&) {
       failure = std::current_exception();
       pool_.RequestStop();
@@ -41,8 +43,9 @@ bool TaskShare::GoesOn() {
   if (pool_.stopping()) TellStop();
   while (!waiting_.empty() && has_next()) {
     const int rank = waiting_.back();
+    const int task = Take(rank);  // which may throw: then the rank still waits for the end
     waiting_.pop_back();
-    ranks_.Notify(rank, Take(rank));
+    ranks_.Notify(rank, task);
   }
   return !pool_.stopping();
 }

@@ -94,7 +94,8 @@ TEST_F(LowLevelPolicyFileTest, AnAutopilotIsHeldByItsName) {
   TensorFile file = TensorFile::Read(path_);
   file.metadata["low_level.autopilot"] = "drunken";
   file.Write(path_);
-  EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }), HasSubstr("drunken"));
+  EXPECT_THAT(MessageOf([&] { RecurrentPolicy::Load(path_); }),
+              AllOf(HasSubstr("its low-level policy"), HasSubstr("drunken")));
   file.metadata["low_level.autopilot"] = "parallel";
   for (const char* interval : {"0.02abc", "", "nan", "-0.02", "0"}) {
     file.metadata["low_level.control_interval_s"] = interval;

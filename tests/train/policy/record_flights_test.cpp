@@ -72,6 +72,11 @@ TEST_F(RecordFlightsTest, FliesWhatWasEvaluated) {
   }
 }
 
+TEST_F(RecordFlightsTest, FliesNoFurtherOnceThePoolIsAskedToStop) {
+  pool_.RequestStop();
+  for (const RecordedFlight& flight : Record(3, pool_)) EXPECT_TRUE(flight.steps.empty());
+}
+
 TEST_F(RecordFlightsTest, DependsNeitherOnThreadsNorOnHowManyAreRecorded) {
   agent_ = sampling_;
   WorkerPool one(1), three(3);

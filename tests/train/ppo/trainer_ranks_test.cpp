@@ -115,6 +115,8 @@ TEST_F(TrainerRanksTest, SoDoWindsPlantsAndACriticThatSeesMore) {
   config.env.wind.turbulence_fps = {0, 5};
   config.env.truncate_at_time_limit = config.ppo.privileged_critic = true;
   config.ppo.target_kl = 0.01;
+  config.ppo.held_noise_share = 0.5;
+  config.ppo.log_std_rate_factor = 2;
   ExpectSameForAnyRanks(config, {2, 8});
 }
 

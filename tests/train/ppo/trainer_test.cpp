@@ -507,40 +507,6 @@ INSTANTIATE_TEST_SUITE_P(Backends, TrainerBackendTest,
                          testing::Values(Backend::kFused, Backend::kLibTorch),
                          [](const auto& backend) { return Name(backend.param); });
 
-/// What tells two trainings apart after one iteration.
-double ExplainedVarianceOfFirstIteration(const TrainConfig& config) {
-  WorkerPool pool(1);
-  Trainer trainer(config, pool);
-  return trainer.Iterate().explained_variance;
-}
-
-TEST_F(TrainerTest, CostsOfHandlingGrowFromNothingOverTheirShareOfTheBudget) {
-  TrainConfig free = SmallConfig(), priced = free, ramped = free;
-  for (TrainConfig* const config : {&priced, &ramped}) {
-    config->env.reward.roll_rate = config->env.reward.action_change = 1;
-    config->ppo.action_smoothness_coefficient = 1;
-  }
-  ramped.ppo.handling_ramp = 1;
-  const double unpriced = ExplainedVarianceOfFirstIteration(free);
-  EXPECT_NE(ExplainedVarianceOfFirstIteration(priced), unpriced);
-  EXPECT_EQ(ExplainedVarianceOfFirstIteration(ramped), unpriced);
-}
-
-TEST_F(TrainerTest, ConditionsWidenFromTheMildestOverTheirShareOfTheBudget) {
-  TrainConfig mild = SmallConfig();
-  mild.env.initial.trimmed = false;  // trims are interpolated between the range's ends
-  TrainConfig wide = mild;
-  wide.env.initial.altitude_ft = {mild.env.initial.altitude_ft.min, 40000};
-  for (Range* const range : {&mild.env.initial.altitude_ft, &mild.env.initial.true_airspeed_fps}) {
-    range->max = range->min;
-  }
-  TrainConfig widening = wide;
-  widening.ppo.condition_ramp = 1;
-  const double mildest = ExplainedVarianceOfFirstIteration(mild);
-  EXPECT_NE(ExplainedVarianceOfFirstIteration(wide), mildest);
-  EXPECT_EQ(ExplainedVarianceOfFirstIteration(widening), mildest);
-}
-
 TEST_F(TrainerTest, WhatWidensAndWhatGrowsResumesBitExactly) {
   WorkerPool pool(2);
   TrainConfig config = SmallConfig();

@@ -116,6 +116,19 @@ TEST_P(TaskShareTest, AFailureEndsAllAndIsThrownOnAll) {
   EXPECT_LE(done_.size(), static_cast<std::size_t>(GetParam()));
 }
 
+TEST_P(TaskShareTest, AFailureToSayWhoTakesATaskEndsAllAndIsThrownOnAll) {
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    WorkerPool pool(1);
+    TaskShare share(ranks, pool, ranks.rank() == 0 ? AllTasks() : std::vector<int>{},
+                    [](int task, int) {
+                      if (task == 3) throw Error("the output broke");
+                    });
+    const std::string message = MessageOf([&] { share.Do([](int) {}); });
+    EXPECT_THAT(message, HasSubstr("the output broke")) << ranks.rank();
+    EXPECT_TRUE(pool.stopping());
+  });
+}
+
 TEST_P(TaskShareTest, AStopOfOneRankStopsAll) {
   const int last = GetParam() - 1;
   RunOnRanks(GetParam(), [&](Ranks& ranks) {
