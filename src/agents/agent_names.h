@@ -15,8 +15,8 @@ bool IsAutopilot(const std::string& name);
 /// The variant that such a name means; "autopilot" alone is the quickest, aggressive.
 std::string AutopilotVariantOf(const std::string& name);
 
-/// The file of a policy that is called "policy:FILE_OR_RUN[@sampled]"; empty for other agents.
-/// Throws UsageError on an unknown suffix of a file that is there.
+/// The file of a policy that is called "policy:FILE_OR_RUN[@sampled][@other-aircraft]"; empty for
+/// other agents. Throws UsageError on an unknown suffix of a file that is there.
 std::string PolicyFileOfAgent(const std::string& name);
 
 /// Whether the agent of that name draws its actions at random. Throws as PolicyFileOfAgent.

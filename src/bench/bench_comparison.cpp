@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "src/bench/figure.h"
 #include "src/config/usage_error.h"
+#include "src/files/json_number.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 
@@ -58,12 +59,14 @@ std::string TextAt(const Json& document, const std::vector<std::string>& keys) {
   return found.is_string() ? found.get<std::string>() : found.dump();
 }
 
+/// Throws UsageError if the keys do not lead to the same in both.
 void RequireSame(const Run& first, const Run& other, const std::vector<std::string>& keys,
                  const std::string& hint) {
   const std::string a = TextAt(first.document, keys), b = TextAt(other.document, keys);
   if (a == b) return;
-  throw Error(fmt::format("{} and {} cannot be compared: {} is {} in one and {} in the other{}",
-                          first.path, other.path, keys.back(), a, b, hint));
+  throw UsageError(
+      fmt::format("{} and {} cannot be compared: {} is {} in one and {} in the other{}", first.path,
+                  other.path, keys.back(), a, b, hint));
 }
 
 void RequireComparable(const Run& first, const Run& other, bool other_machine) {
@@ -183,8 +186,6 @@ std::string Verdict(const FigureChange& change) {
   return fmt::format("{} by {:.1f} %", is_better ? "better" : "worse",
                      100 * std::abs(change.ratio.value - 1));
 }
-
-Json NumberOrNull(double number) { return std::isnan(number) ? Json() : Json(number); }
 
 }  // namespace
 

@@ -31,8 +31,9 @@ struct BenchComparison {
 /// are compared (Welch's t of their logarithms, in at most ten parts, as what is measured in a row
 /// is alike); of several the medians, in pairs in the order of the files (Student's t of the
 /// logarithms of their ratios): that holds what differs from run to run, too. Throws UsageError if
-/// they are not as many, and Error if they are not of one benchmark with the same settings, or,
-/// unless `other_machine`, not of one processor, SIMD target and number of threads.
+/// they are not as many, not of one benchmark with the same settings, or, unless `other_machine`,
+/// not of one processor, SIMD target and number of threads; Error of a file that cannot be read, or
+/// is not of a benchmark that measures figures.
 BenchComparison CompareBenchmarks(const std::vector<std::string>& before,
                                   const std::vector<std::string>& after, bool other_machine);
 

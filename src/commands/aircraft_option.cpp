@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "envs/aircraft/registry.h"
+#include "src/config/configuration.h"
 
 namespace skein {
 
@@ -26,10 +27,9 @@ CLI::Option* AddAircraftOption(CLI::App* command, std::string* aircraft) {
 
 std::vector<std::string> AircraftFilesIn(const std::string& aircraft,
                                          const std::vector<std::string>& assignments) {
-  const std::string key = "env.aircraft=";
   std::vector<std::string> named = {aircraft};
   for (const std::string& assignment : assignments) {
-    if (assignment.rfind(key, 0) == 0) named.push_back(assignment.substr(key.size()));
+    named.push_back(NameAssigned(assignment, "env.aircraft"));
   }
   std::vector<std::string> files;
   std::copy_if(named.begin(), named.end(), std::back_inserter(files), IsAircraftPath);

@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <system_error>
 #include <utility>
 
+#include "base/choice_error.h"
 #include "base/fnv_hash.h"
 #include "src/agents/agent_names.h"
 #include "src/bench/machine.h"
@@ -27,6 +30,8 @@
 
 namespace skein {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct CompareOptions {
   std::vector<std::string> agents;
@@ -56,6 +61,13 @@ std::vector<std::string> Inputs(const CompareOptions& options) {
   return files;
 }
 
+/// Where the page goes that nobody has asked for.
+constexpr const char* kDefaultPage = "compare.html";
+
+bool WritesDefaultPage(const CompareOptions& options) {
+  return !options.no_html && options.html.empty() && FindReportTemplate();
+}
+
 std::vector<std::string> Outputs(const CompareOptions& options) {
   std::vector<std::string> paths = {options.csv, options.html, options.flight.json,
                                     options.flight.acmi};
@@ -64,6 +76,26 @@ std::vector<std::string> Outputs(const CompareOptions& options) {
     paths.push_back(PathOfAgent(options.flight.flights, agent));
   }
   return paths;
+}
+
+/// Throws Error where CheckWritable does, and on what the default page would replace. That it has
+/// no place is no failure.
+void CheckFiles(const CompareOptions& options) {
+  const std::vector<std::string> outputs = Outputs(options), inputs = Inputs(options);
+  CheckWritable(outputs, inputs);
+  if (!WritesDefaultPage(options)) return;
+  const auto place = [](const std::string& file) {
+    std::error_code failure;
+    return fs::weakly_canonical(fs::absolute(file, failure), failure);
+  };
+  const fs::path page = place(kDefaultPage);
+  for (const auto* const files : {&outputs, &inputs}) {
+    for (const std::string& file : *files) {
+      if (file.empty() || page.empty() || place(file) != page) continue;
+      throw ChoiceError(std::string(kDefaultPage) +
+                        ": the page goes there; give it another place, --html, or --no-html");
+    }
+  }
 }
 
 void WriteRecords(const FlightOptions& flight, const std::vector<NamedAgent>& agents,
@@ -91,15 +123,10 @@ std::string PageData(const CompareOptions& options, const Comparison& comparison
   return ComparisonData(comparison, config, flown);
 }
 
-/// Whether the first episodes are flown for a page.
-bool WantsPage(const CompareOptions& options) {
-  return !options.no_html && (!options.html.empty() || FindReportTemplate());
-}
-
 /// Throws UsageError if more is to be recorded than has room.
 void RequireRoom(const CompareOptions& options, const EnvConfig& env) {
   const FlightOptions& flight = options.flight;
-  const bool has_page = WantsPage(options);
+  const bool has_page = !options.html.empty() || WritesDefaultPage(options);
   if (!has_page && !RecordsFlights(flight)) return;
   // Files of single agents are written one after the other.
   const bool keeps_all = has_page || !flight.acmi.empty();
@@ -113,7 +140,7 @@ void RequireRoom(const CompareOptions& options, const EnvConfig& env) {
 /// where one can be.
 void WritePage(const CompareOptions& options, const std::function<std::string()>& data) {
   if (options.html.empty()) {
-    if (FindReportTemplate()) WriteReportAtEnd("compare.html", data);
+    if (WritesDefaultPage(options)) WriteReportAtEnd(kDefaultPage, data);
     return;
   }
   WriteReport(options.html, data());
@@ -152,7 +179,7 @@ void CompareAgents(const CompareOptions& options, Ranks& ranks) {
   DoTogether(ranks, [&] {
     config = Configure(options);
     RequireRoom(options, config.train.env);
-    if (ranks.rank() == 0) CheckWritable(Outputs(options), Inputs(options));
+    if (ranks.rank() == 0) CheckFiles(options);
     if (!options.html.empty()) ReportTemplate();  // without one there is nothing to fly for
     agents = FindAgents(options.agents, config, flight.seed);
     if (ranks.count() > 1) identity = Identity(options, config);

@@ -67,6 +67,10 @@ std::vector<std::string> Export(ExportOptions options) {
     throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
   }
   if (!options.flight_control.empty()) {
+    if (FormOfFile(options.out).value_or(ExportForm::kC) != ExportForm::kC) {
+      throw UsageError(
+          fmt::format("--flight-control c of -o {}: the ending is of another format", options.out));
+    }
     CheckWritable({options.out}, {file});
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }

@@ -38,6 +38,18 @@ struct FlyOptions {
   std::string out = "flight.csv";
 };
 
+/// Throws UsageError of a flight without a step, or of more steps than can be.
+void RequireSteps(const CommandedFlight& flight) {
+  if (flight.seconds / flight.step_s > kMostSteps) {
+    throw UsageError(fmt::format("{} s in steps of {} s are more than {:.0f} steps", flight.seconds,
+                                 flight.step_s, kMostSteps));
+  }
+  if (flight.Steps() < 1) {
+    throw UsageError(fmt::format("{} s are less than a step of {} s: raise --seconds",
+                                 flight.seconds, flight.step_s));
+  }
+}
+
 void FlySticks(const FlyOptions& options) {
   std::vector<std::string> read = options.condition.model.FilesRead();
   read.push_back(options.commands);
@@ -66,10 +78,7 @@ void Fly(const CLI::App& command, FlyOptions options) {
   CommandedFlight& flight = options.flight;
   if (!options.condition.grid.IsOnePoint())
     throw UsageError("one altitude and one speed are flown");
-  if (flight.seconds / flight.step_s > kMostSteps) {
-    throw UsageError(fmt::format("{} s in steps of {} s are more than {:.0f} steps", flight.seconds,
-                                 flight.step_s, kMostSteps));
-  }
+  RequireSteps(flight);
   if (!options.wind.empty()) flight.wind_ft_s = ReadWind(options.wind);
   if (options.flown.policy.empty() && options.flown.agents.empty()) {
     RequireNoAgentOptions(command);

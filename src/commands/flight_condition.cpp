@@ -136,10 +136,14 @@ std::string FlightCondition::Describe(const Plant& plant) const {
   text += manoeuvre.load_factor
               ? fmt::format("pull-up at {} times the weight", *manoeuvre.load_factor)
               : fmt::format("turn {} deg/s", manoeuvre.turn_rate_deg_s);
-  return text + fmt::format(", cg {}", plant.aircraft().airframe.cg);
+  text += fmt::format(", cg {}", plant.aircraft().airframe.cg);
+  if (!manoeuvre.HasWind()) return text;
+  const Eigen::Vector3d& wind = manoeuvre.wind_ft_s;
+  return text + fmt::format(", wind {} ft/s north, {} east, {} down", wind.x(), wind.y(), wind.z());
 }
 
 nlohmann::ordered_json FlightCondition::ToJson(const Plant& plant) const {
+  const Eigen::Vector3d& wind = grid.manoeuvre.wind_ft_s;
   nlohmann::ordered_json json = {
       {"aircraft", model.aircraft},
       {"atmosphere", model.atmosphere},
@@ -147,6 +151,7 @@ nlohmann::ordered_json FlightCondition::ToJson(const Plant& plant) const {
       {"gravity_falls_with_altitude", model.gravity.falls_with_altitude},
       {"flight_path_deg", grid.manoeuvre.flight_path_deg},
       {"turn_rate_deg_s", grid.manoeuvre.turn_rate_deg_s},
+      {"wind_fps", {wind.x(), wind.y(), wind.z()}},
       {"params",
        {{"xcg", plant.aircraft().airframe.cg}, {"heng", setting.engine_angular_momentum}}},
       {"drag_rise", setting.drag_rises},

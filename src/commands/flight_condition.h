@@ -37,17 +37,18 @@ struct FlightCondition {
 
   /// Throws UsageError and what LoadAircraft throws.
   Plant MakePlant() const;
-  /// "f16 at 15000 ft and 500 ft/s, ..., cg 0.3"
+  /// "f16 at 15000 ft and 500 ft/s, ..., cg 0.3"; with the wind, if there is one.
   std::string Describe(const Plant& plant) const;
   /// What a document of results begins with.
   nlohmann::ordered_json ToJson(const Plant& plant) const;
 };
 
 /// What `at` returns of the flights of a grid. A flight that there is not is named on the error
-/// stream; the Error of the only one, or of all, is thrown.
+/// stream; the Error of the only one, or of all, is thrown, and what CheckSize throws.
 template <typename Result>
 std::vector<Result> AtEveryPoint(const FlightGrid& grid,
                                  const std::function<Result(const SteadyFlightRequest&)>& at) {
+  grid.CheckSize();
   std::vector<Result> results;
   for (std::size_t i = 0; i < grid.altitude_ft.size(); ++i) {
     for (std::size_t k = 0; k < grid.speed_fps.size(); ++k) {

@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 
+#include "base/number_text.h"
 #include "src/agents/agent_names.h"
 #include "src/commands/flown_agents.h"
 #include "src/config/number_in.h"
@@ -114,10 +115,14 @@ std::map<std::string, double> TolerancesIn(const std::vector<std::string>& texts
     const std::size_t equals = text.find('=');
     const auto value =
         equals == std::string::npos ? std::optional<double>() : ReadNumber(text.substr(equals + 1));
-    if (!value || !(*value > 0)) {
-      throw UsageError(fmt::format("--tolerance {}: give COLUMN=NUMBER, above 0", text));
+    if (!value) throw UsageError(fmt::format("--tolerance {}: give COLUMN=NUMBER", text));
+    const std::string column = text.substr(0, equals);
+    const double largest = LargestTolerance(column);
+    if (!(*value > 0 && *value <= largest)) {
+      throw UsageError(fmt::format("--tolerance {}: give a number above 0, up to {}", text,
+                                   ShortestText(largest)));
     }
-    tolerances[text.substr(0, equals)] = *value;
+    tolerances[column] = *value;
   }
   return tolerances;
 }

@@ -82,6 +82,12 @@ ProgramConfig ConfigureResumed(const TrainOptions& options, const RunDirectory& 
     throw UsageError(fmt::format("{}: is a run of task {}, not {}", directory.path(),
                                  config.train.env.task, options.task));
   }
+  if (IsTaskFile(options.task) && TaskFileHash(options.task) != config.train.env.task_file_hash) {
+    throw UsageError(fmt::format(
+        "{}: a resumed run keeps its task file, but {} says something else now; begin a new run "
+        "instead",
+        directory.path(), options.task));
+  }
   const ProgramConfig asked = AsUsage([&] {
     ProgramConfig changed = config;
     ApplyConditionsAndAssignments(options.conditions, options.assignments, &changed);

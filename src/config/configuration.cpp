@@ -19,6 +19,7 @@
 #include "src/config/table_reader.h"
 #include "src/config/task_file.h"
 #include "src/config/whole_number.h"
+#include "src/files/input_text.h"
 #include "src/files/output_file.h"
 
 namespace skein {
@@ -188,17 +189,26 @@ void RecallTaskFile(const std::string& path, ProgramConfig* config) {
   env.term_task = std::make_shared<const TermTaskConfig>(terms);
 }
 
+/// The value if the text reads as one of TOML.
+std::optional<SettingValue> TomlValue(const std::string& text) {
+  try {
+    const toml::table table = toml::parse("value = " + text);
+    if (table.size() == 1) return ToValue(*table.get("value"));
+  } catch (const toml::parse_error&) {
+    // A suffix, or a name without quotes, which Assign judges.
+  }
+  return std::nullopt;
+}
+
+/// What an assignment says behind its equals sign, `equals`.
+std::string ValueTextOf(const std::string& assignment, std::size_t equals) {
+  return Trimmed(assignment.substr(equals + 1));
+}
+
 /// The value of an assignment: TOML if it reads as one value; for a number with a suffix (10M) that
 /// number; else the bare text as a name.
 SettingValue ParseValue(const std::string& text, const Field& field) {
-  try {
-    const toml::table table = toml::parse("value = " + text);
-    if (table.size() == 1) {
-      if (const auto value = ToValue(*table.get("value"))) return *value;
-    }
-  } catch (const toml::parse_error&) {
-    // Not TOML: a suffix, or a name without quotes, which Assign judges.
-  }
+  if (const auto value = TomlValue(text)) return *value;
   if (const auto number = ReadNumber(text); number && field.IsNumber()) return *number;
   return text;
 }
@@ -217,7 +227,7 @@ void ApplyAssignment(const std::string& assignment, const std::string& source,
   const std::string key = KeyOf(assignment);
   const Field& field = FindField(fields, key, source);
   RequireOfTask(field, config->train.env.task, source);
-  Assign(field, ParseValue(Trimmed(assignment.substr(equals + 1)), field), source);
+  Assign(field, ParseValue(ValueTextOf(assignment, equals), field), source);
 }
 
 }  // namespace
@@ -227,7 +237,7 @@ void ApplyToml(const std::string& text, const std::string& source, ProgramConfig
 }
 
 void ApplyTomlFile(const std::string& path, ProgramConfig* config) {
-  ApplyToml(ReadFile(path), path, config);
+  ApplyToml(ReadInputText(path), path, config);
   KeepAircraft(FolderOf(path), &config->train.env);
 }
 
@@ -254,6 +264,15 @@ std::vector<std::string> FlightLengthAssignments(std::optional<double> hold_s,
 
 std::string KeyOf(const std::string& assignment) {
   return Trimmed(assignment.substr(0, assignment.find('=')));
+}
+
+std::string NameAssigned(const std::string& assignment, const std::string& key) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos || KeyOf(assignment) != key) return "";
+  const std::string text = ValueTextOf(assignment, equals);
+  const std::optional<SettingValue> value = TomlValue(text);
+  const auto* const quoted = value ? std::get_if<std::string>(&*value) : nullptr;
+  return quoted != nullptr ? *quoted : text;
 }
 
 void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
@@ -293,6 +312,10 @@ void CheckFlyable(const EnvConfig& env) {
 std::string TaskNameOf(const std::string& task) {
   if (!IsTaskFile(task)) return task;
   return ReadTaskFile(ReadTaskFileText(task), task, SettingsTables()).terms.name;
+}
+
+std::string TaskFileHash(const std::string& path) {
+  return ReadTaskFile(ReadTaskFileText(path), path, SettingsTables()).terms.hash;
 }
 
 ProgramConfig ResolveConfig(const ConfigSources& sources) {

@@ -36,6 +36,8 @@ std::vector<std::string> FlightLengthAssignments(std::optional<double> hold_s,
 
 /// The key of an assignment `key=value`; of anything else, all of it.
 std::string KeyOf(const std::string& assignment);
+/// The name, with quotes or without, that an assignment gives `key`; empty if it gives none.
+std::string NameAssigned(const std::string& assignment, const std::string& key);
 
 /// Throws Error if the configuration has come to name another task than the one asked for.
 void RequireTask(const ProgramConfig& config, const std::string& task);
@@ -59,6 +61,9 @@ struct ConfigSources {
 
 /// The name of the task that was asked for: of a task file the one that it says.
 std::string TaskNameOf(const std::string& task);
+
+/// As env.task_file_hash.
+std::string TaskFileHash(const std::string& path);
 
 /// Defaults, then preset, then file, then conditions, then assignments. The preset of a task file
 /// is its own tables of settings, on top of TaskFileSettings. Throws Error if one of them names

@@ -26,7 +26,7 @@ void AppendRow(const FlightTable& table, std::size_t episode, std::size_t row, s
   for (std::size_t column = 0; column < table.columns.size(); ++column) {
     const double value = table.columns[column][row];
     *text += ",";
-    if (!std::isnan(value)) fmt::format_to(out, "{:.7g}", value);
+    if (std::isfinite(value)) fmt::format_to(out, "{:.7g}", value);
     if (table.names[column] != kBeforeTermination) continue;
     const Termination end = table.terminations[row];
     *text += ",";

@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "envs/actions.h"
+#include "src/files/json_number.h"
 #include "src/files/text_table.h"
 
 namespace skein {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// Where the section's quantities are.
 std::vector<std::size_t> IndicesOf(const FlightSummary& summary, QuantitySection section) {

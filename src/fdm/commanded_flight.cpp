@@ -101,6 +101,8 @@ std::vector<StickCommand> ReadStickCommands(const std::string& path, const Pilot
   return commands;
 }
 
+long CommandedFlight::Steps() const { return std::lround(seconds / step_s); }
+
 std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const CommandedFlight& flight) {
   constexpr double kBound = 1e9;      // of every state, ft, ft/s, rad/s
   constexpr double kRounding = 1e-9;  // s: a time that is a multiple of the step but for rounding
@@ -119,7 +121,7 @@ std::string FlyCommands(const Plant& plant, const TrimPoint& trim, const Command
   const std::vector<Reading> at_start = Readings(loop, wind);
   std::string text = Header(at_start) + Row(0, at_start, nullptr);
   std::size_t next = 0;
-  const long steps = std::lround(flight.seconds / flight.step_s);
+  const long steps = flight.Steps();
   for (long i = 0; i < steps; ++i) {
     const double time = static_cast<double>(i) * flight.step_s;
     for (; next < flight.commands.size() && flight.commands[next].time_s <= time + kRounding;

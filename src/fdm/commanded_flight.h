@@ -31,6 +31,9 @@ struct CommandedFlight {
   Eigen::Vector3d wind_ft_s = Eigen::Vector3d::Zero();
   GustSettings gusts;                  ///< which begin at once
   std::vector<StickCommand> commands;  ///< none: hands off
+
+  /// Control steps, to the nearest whole number.
+  long Steps() const;
 };
 
 /// The flight as CSV in columns of files of flights (docs/reference/file-formats.md): a row at time

@@ -71,6 +71,7 @@ std::vector<std::pair<const char*, double>> Figures(const SteadyFlight& flight) 
       {"thrust_lbf", controls.thrust_lbf},
       {"available_thrust_lbf", flight.available_thrust_lbf},
       {"excess_power_fps", flight.excess_power_ft_s},
+      {"ground_speed_fps", flight.ground_speed_ft_s()},
       {"throttle", flight.throttle},
       {"power", flight.trim.power},
       {"elevator_deg", controls.elevator_deg},
@@ -98,11 +99,13 @@ SteadyFlightRequest FlightGrid::At(std::size_t altitude, std::size_t speed) cons
   return request;
 }
 
+void FlightGrid::CheckSize() const {
+  if (CountPoints() <= kMostPoints) return;
+  throw UsageError(fmt::format("{} points are more than {}", CountPoints(), kMostPoints));
+}
+
 FlownGrid::FlownGrid(const Plant& plant, FlightGrid grid) : grid_(std::move(grid)) {
-  const std::size_t count = grid_.altitude_ft.size() * grid_.speed_fps.size();
-  if (count > kMostPoints) {
-    throw UsageError(fmt::format("{} points are more than {}", count, kMostPoints));
-  }
+  grid_.CheckSize();
   for (std::size_t i = 0; i < grid_.altitude_ft.size(); ++i) {
     for (std::size_t k = 0; k < grid_.speed_fps.size(); ++k) {
       points_.push_back(Fly(plant, grid_.At(i, k)));
@@ -131,6 +134,10 @@ std::string FlownGrid::Map() const {
   return text + "\n";
 }
 
+std::string FlownGrid::GroundCell(const std::string& text) const {
+  return grid_.manoeuvre.HasWind() ? fmt::format("{:>15}", text) : "";
+}
+
 std::string FlownGrid::DescribeRow(std::size_t altitude) const {
   const std::size_t count = grid_.speed_fps.size();
   std::size_t slowest = count, fastest = 0;
@@ -147,18 +154,22 @@ std::string FlownGrid::DescribeRow(std::size_t altitude) const {
     return k < count ? WordsOf(FirstLimit(At(altitude, k))) : "end of the grid";
   };
   if (slowest == count) {
-    return fmt::format("{}{:>10}{:>10}{:>13}   {}; {}\n", label, "none", "none", "", beyond(0),
-                       beyond(count - 1));
+    return fmt::format("{}{:>10}{:>10}{}{:>13}   {}; {}\n", label, "none", "none", GroundCell(""),
+                       "", beyond(0), beyond(count - 1));
   }
-  return fmt::format("{}{:>10}{:>10}{:>13.0f}   {}; {}\n", label,
+  const std::string over_ground =
+      fmt::format("{:.0f} to {:.0f}", At(altitude, slowest).flight->ground_speed_ft_s(),
+                  At(altitude, fastest).flight->ground_speed_ft_s());
+  return fmt::format("{}{:>10}{:>10}{}{:>13.0f}   {}; {}\n", label,
                      ShortestText(grid_.speed_fps[slowest]), ShortestText(grid_.speed_fps[fastest]),
-                     most_excess, beyond(slowest == 0 ? count : slowest - 1), beyond(fastest + 1));
+                     GroundCell(over_ground), most_excess,
+                     beyond(slowest == 0 ? count : slowest - 1), beyond(fastest + 1));
 }
 
 std::string FlownGrid::Describe() const {
   std::string text = grid_.speed_fps.size() <= kWidestMap ? Map() : "";
-  text += fmt::format("\n{:>12}{:>10}{:>10}{:>13}   {}\n", "altitude, ft", "slowest", "fastest",
-                      "excess ft/s", "what ends it below; above");
+  text += fmt::format("\n{:>12}{:>10}{:>10}{}{:>13}   {}\n", "altitude, ft", "slowest", "fastest",
+                      GroundCell("over ground"), "excess ft/s", "what ends it below; above");
   for (std::size_t i = grid_.altitude_ft.size(); i-- > 0;) text += DescribeRow(i);
   return text;
 }

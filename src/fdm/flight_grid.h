@@ -15,7 +15,10 @@ struct FlightGrid {
   SteadyFlightRequest manoeuvre;               ///< but for altitude and speed
   std::vector<double> altitude_ft, speed_fps;  ///< ascending, for what is described or drawn
 
-  bool IsOnePoint() const { return altitude_ft.size() * speed_fps.size() == 1; }
+  std::size_t CountPoints() const { return altitude_ft.size() * speed_fps.size(); }
+  bool IsOnePoint() const { return CountPoints() == 1; }
+  /// Throws UsageError of more than 100,000 points.
+  void CheckSize() const;
   SteadyFlightRequest At(std::size_t altitude, std::size_t speed) const;
 };
 
@@ -35,8 +38,7 @@ const char* WordsOf(std::optional<FlightLimit> limit);
 /// The points of a grid: altitude by altitude, at each speed by speed.
 class FlownGrid {
  public:
-  /// Trims every point. Throws UsageError of a grid that nobody can ask for (more than 100,000
-  /// points; a turn that is a pull-up).
+  /// Trims every point. Throws UsageError as CheckSize, and of a turn that is a pull-up.
   FlownGrid(const Plant& plant, FlightGrid grid);
 
   const FlightGrid& grid() const { return grid_; }
@@ -45,8 +47,8 @@ class FlownGrid {
     return points_[altitude * grid_.speed_fps.size() + speed];
   }
 
-  /// A map of letters, and of every altitude the slowest and the fastest speed and the greatest
-  /// excess power. Of altitudes and speeds that ascend.
+  /// A map of letters, and of every altitude the slowest and the fastest speed, in a wind those
+  /// over ground, too, and the greatest excess power. Of altitudes and speeds that ascend.
   std::string Describe() const;
   /// A line for every point, behind one of names.
   std::string Csv() const;
@@ -54,6 +56,8 @@ class FlownGrid {
  private:
   std::string Map() const;
   std::string DescribeRow(std::size_t altitude) const;
+  /// Of the column of speeds over ground, which is there in a wind alone.
+  std::string GroundCell(const std::string& text) const;
 
   FlightGrid grid_;
   std::vector<GridPoint> points_;

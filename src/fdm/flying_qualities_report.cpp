@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "src/config/usage_error.h"
+#include "src/files/json_number.h"
 #include "src/files/text_table.h"
 
 namespace skein {
@@ -75,32 +76,29 @@ std::string WorstLevel(const FlyingQualities& qualities, const std::string& pref
   return (worst > 3 ? ">3" : std::to_string(worst)) + (is_doubtful ? "?" : "");
 }
 
-/// Of what is not finite: null.
-Json NumberJson(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 Json ToJson(const StepResponse& step, const char* reached) {
   return {{"stick", step.size},
-          {reached, NumberJson(step.reached)},
-          {"rise_s", NumberJson(step.rise_s)},
-          {"overshoot", NumberJson(step.overshoot)}};
+          {reached, NumberOrNull(step.reached)},
+          {"rise_s", NumberOrNull(step.rise_s)},
+          {"overshoot", NumberOrNull(step.overshoot)}};
 }
 
 Json ToJson(const LoopAt& loop) {
   const LoopMargins& margins = loop.margins;
   return {{"broken_at", kLoopBreaks[static_cast<std::size_t>(loop.where)].second},
-          {"gain_up_db", NumberJson(margins.gain_up_db)},
-          {"gain_up_rad_s", NumberJson(margins.gain_up_rad_s)},
-          {"gain_down_db", NumberJson(margins.gain_down_db)},
-          {"phase_deg", NumberJson(margins.phase_deg)},
-          {"crossover_rad_s", NumberJson(margins.crossover_rad_s)},
-          {"delay_s", NumberJson(margins.delay_s)}};
+          {"gain_up_db", NumberOrNull(margins.gain_up_db)},
+          {"gain_up_rad_s", NumberOrNull(margins.gain_up_rad_s)},
+          {"gain_down_db", NumberOrNull(margins.gain_down_db)},
+          {"phase_deg", NumberOrNull(margins.phase_deg)},
+          {"crossover_rad_s", NumberOrNull(margins.crossover_rad_s)},
+          {"delay_s", NumberOrNull(margins.delay_s)}};
 }
 
 Json ToJson(const Requirement& requirement) {
   return {{"paragraph", requirement.paragraph},
           {"what", requirement.what},
           {"unit", requirement.unit},
-          {"value", NumberJson(requirement.value)},
+          {"value", NumberOrNull(requirement.value)},
           {"level", requirement.level},
           {"limits", requirement.limits},
           {"is_doubtful", requirement.is_doubtful}};
@@ -217,7 +215,7 @@ Json ToJson(const AssessedFlight& flight) {
                  {"frequency_rad_s", dutch_roll.frequency_rad_s()},
                  {"damping_ratio", dutch_roll.damping_ratio()}}},
                {"bank_deg", qualities.bank_deg},
-               {"bank_s", NumberJson(qualities.bank_s)}};
+               {"bank_s", NumberOrNull(qualities.bank_s)}};
   for (const Requirement& requirement : qualities.requirements) {
     json["requirements"].push_back(ToJson(requirement));
   }

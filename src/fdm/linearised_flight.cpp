@@ -12,6 +12,7 @@
 #include "base/number_text.h"
 #include "envs/tuning/trial_flight.h"
 #include "src/fdm/flight_grid.h"
+#include "src/files/json_number.h"
 #include "src/files/text_table.h"
 
 namespace skein {
@@ -142,17 +143,14 @@ Json ToJson(const Eigen::MatrixXd& matrix) {
   return json;
 }
 
-/// Of what never happens: null.
-Json TimeJson(double seconds) { return std::isfinite(seconds) ? Json(seconds) : Json(); }
-
 Json ToJson(const LinearMode& mode, const std::vector<ModelVariable>& states) {
   Json json = {{"eigenvalue_per_s", {mode.eigenvalue.real(), mode.eigenvalue.imag()}},
                {"swings", mode.swings()},
                {"frequency_rad_s", mode.frequency_rad_s()},
                {"damping_ratio", mode.damping_ratio()},
-               {"time_constant_s", TimeJson(mode.time_constant_s())},
-               {"time_to_half_s", TimeJson(mode.time_to_half_s())},
-               {"time_to_double_s", TimeJson(mode.time_to_double_s())}};
+               {"time_constant_s", NumberOrNull(mode.time_constant_s())},
+               {"time_to_half_s", NumberOrNull(mode.time_to_half_s())},
+               {"time_to_double_s", NumberOrNull(mode.time_to_double_s())}};
   for (std::size_t i = 0; i < mode.shares.size(); ++i)
     json["shares"][states[i].name] = mode.shares[i];
   return json;

@@ -20,6 +20,10 @@ double SteadyFlight::drag_coefficient() const {
          output.coefficients[2] * std::sin(trim.alpha_rad);
 }
 
+double SteadyFlight::ground_speed_ft_s() const {
+  return std::hypot(output.state_rate[kNorth], output.state_rate[kEast]);
+}
+
 std::array<std::pair<const char*, double>, 10> SteadyFlight::Numbers() const {
   return {{{"alpha_deg", trim.alpha_rad * kDegPerRad},
            {"beta_deg", output.air.beta_rad * kDegPerRad},

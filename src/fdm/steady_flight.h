@@ -24,6 +24,8 @@ struct SteadyFlightRequest {
   std::optional<double> load_factor = std::nullopt;
   /// The air's velocity, north, east, down, ft/s. The flight heads north.
   Eigen::Vector3d wind_ft_s = Eigen::Vector3d::Zero();
+
+  bool HasWind() const { return wind_ft_s != Eigen::Vector3d::Zero(); }
 };
 
 /// The steady flight that was found.
@@ -43,6 +45,8 @@ struct SteadyFlight {
   /// Of the aerodynamic force across and against the flight path, in the plane of symmetry.
   double lift_coefficient() const;
   double drag_coefficient() const;
+  /// The horizontal part of the velocity over ground.
+  double ground_speed_ft_s() const;
 };
 
 /// Throws UsageError on a turn that is a pull-up, too, and Error where there is no such flight; it

@@ -17,20 +17,12 @@ constexpr double kLabelGap = 4;          // between an axis and its numbers, poi
 constexpr double kRoundingGuard = 1e-9;  // of a step, so that ends that are multiples count
 constexpr double kCountWithTwo = 5;      // steps are at most half the range from here on
 
-constexpr std::array<std::pair<const char*, const char*>, 7> kUnits = {{{"_deg_s", "deg/s"},
+constexpr std::array<std::pair<const char*, const char*>, 6> kUnits = {{{"_deg_s", "deg/s"},
                                                                         {"_fps", "ft/s"},
                                                                         {"_deg", "deg"},
                                                                         {"_ft", "ft"},
-                                                                        {"_rate", "%"},
                                                                         {"_g", "g"},
                                                                         {"_s", "s"}}};
-
-std::string WithBlanks(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-bool IsRate(const std::string& unit) { return unit == "%"; }
 
 /// A thousands separator for every three digits of the whole part.
 std::string WithCommas(const std::string& number) {
@@ -63,14 +55,24 @@ std::vector<double> TicksNear(const Range& range, double count) {
 
 }  // namespace
 
+bool IsShare(const std::string& column) {
+  const std::string ending = "success_rate";
+  return column.size() >= ending.size() && column.substr(column.size() - ending.size()) == ending;
+}
+
 std::string InWords(const std::string& column) {
+  if (IsShare(column)) return WithBlanks(column) + ", %";
   for (const auto& [ending, unit] : kUnits) {
     const std::string end(ending);
     if (column.size() <= end.size() || column.substr(column.size() - end.size()) != end) continue;
-    const std::size_t kept = column.size() - (IsRate(unit) ? 0 : end.size());
-    return fmt::format("{}, {}", WithBlanks(column.substr(0, kept)), unit);
+    return fmt::format("{}, {}", WithBlanks(column.substr(0, column.size() - end.size())), unit);
   }
   return WithBlanks(column);
+}
+
+std::string WithBlanks(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 std::vector<double> Ticks(const Range& range, double count) {
@@ -100,12 +102,6 @@ Range Padded(const std::vector<double>& values) {
   const double pad = span.max > span.min ? kPadding * (span.max - span.min)
                                          : std::max(1.0, 1e-3 * std::abs(span.max));
   return {span.min - pad, span.max + pad};
-}
-
-double LabelWidth(const std::vector<double>& ticks) {
-  double width = 0;
-  for (const double tick : ticks) width = std::max(width, TextWidth(TickText(tick), kSmallSize));
-  return width + kLabelGap;
 }
 
 PagePoint Panel::Place(double x, double y) const {

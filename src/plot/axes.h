@@ -9,9 +9,15 @@
 
 namespace skein {
 
-/// "true airspeed, ft/s" of the column true_airspeed_fps; of success_rate, which is shown in
-/// percent, "success rate, %".
+/// Whether a column holds shares, which are shown in percent.
+bool IsShare(const std::string& column);
+
+/// "true airspeed, ft/s" of the column true_airspeed_fps; of success_rate, which holds shares,
+/// "success rate, %".
 std::string InWords(const std::string& column);
+
+/// "target reached" of the name target_reached.
+std::string WithBlanks(std::string name);
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) within the range, about `count` of them;
 /// more where one number would be all, as that is no scale.
@@ -48,7 +54,7 @@ class Panel {
                 std::vector<Shape>* shapes) const;
   void LabelLeft(const std::vector<double>& ticks, std::vector<Shape>* shapes) const;
   void LabelBottom(const std::vector<double>& ticks, std::vector<Shape>* shapes) const;
-  /// A curve through values, simplified; `dashed` for what is asked for.
+  /// A curve through values, simplified; of one alone a dot.
   void DrawCurve(const std::vector<PagePoint>& points, Colour colour, double width, Dash dash,
                  std::vector<Shape>* shapes) const;
   /// The area between two curves over the same x.
@@ -60,8 +66,5 @@ class Panel {
   double width_, height_;
   Range x_range_, y_range_;
 };
-
-/// The room that the numbers of LabelLeft take, points.
-double LabelWidth(const std::vector<double>& ticks);
 
 }  // namespace skein

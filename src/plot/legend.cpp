@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace skein {
@@ -30,6 +31,14 @@ Sample MarkerSample(Marker marker, const Disc& look) {
   return [=](PagePoint left, std::vector<Shape>* shapes) {
     shapes->push_back(MarkerAt({left.x + kSampleWidth / 2, left.y}, marker, look));
   };
+}
+
+std::vector<bool> AreTwice(const std::vector<std::string>& names) {
+  std::map<std::string, int> count;
+  for (const std::string& name : names) ++count[name];
+  std::vector<bool> are_twice;
+  for (const std::string& name : names) are_twice.push_back(count[name] > 1);
+  return are_twice;
 }
 
 double DrawLegend(PagePoint at, double right, const std::vector<LegendEntry>& entries,

@@ -22,6 +22,10 @@ Sample LineSample(Colour colour, double width, Dash dash = Dash::kNone);
 Sample BandSample(Colour colour, double opacity);
 Sample MarkerSample(Marker marker, const Disc& look);
 
+/// Of each name whether it is there more than once, so that a legend could not tell apart what has
+/// it.
+std::vector<bool> AreTwice(const std::vector<std::string>& names);
+
 /// Entries from left to right from `at` on, wrapped at `right`; returns the lowest base line.
 double DrawLegend(PagePoint at, double right, const std::vector<LegendEntry>& entries,
                   std::vector<Shape>* shapes);

@@ -14,16 +14,13 @@
 #include "envs/env_config.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
+#include "src/plot/axes.h"
+#include "src/plot/legend.h"
 
 namespace skein {
 namespace {
 
 constexpr const char* kTargetPrefix = "target_";
-
-std::string WithBlanks(std::string text) {
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
-}
 
 bool IsAngle(const std::string& column) {
   const std::string ending = "_deg";
@@ -64,6 +61,17 @@ std::string AgentOf(const std::string& file) {
   const std::string stem = std::filesystem::path(file).stem().string();
   const std::size_t dot = stem.find('.');
   return dot == std::string::npos || dot + 1 == stem.size() ? stem : stem.substr(dot + 1);
+}
+
+/// The agents' names; of those that have the same the files.
+std::vector<std::string> AgentsOf(const std::vector<std::string>& files) {
+  std::vector<std::string> agents;
+  for (const std::string& file : files) agents.push_back(AgentOf(file));
+  const std::vector<bool> are_twice = AreTwice(agents);
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    if (are_twice[k]) agents[k] = files[k];
+  }
+  return agents;
 }
 
 /// The rows [begin, end) of a file as one flight.
@@ -185,9 +193,10 @@ std::vector<PagePoint> DrawnFlight::Target(const std::string& column) const {
 
 Recordings ReadRecordings(const std::vector<std::string>& files) {
   Recordings recordings;
-  for (const std::string& file : files) {
-    recordings.agents.push_back(
-        {AgentOf(file), StyleOf(recordings.agents.size()), ReadFlights(file, &recordings.notes)});
+  const std::vector<std::string> agents = AgentsOf(files);
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const std::string& file = files[k];
+    recordings.agents.push_back({agents[k], StyleOf(k), ReadFlights(file, &recordings.notes)});
     const std::vector<std::string> own = TargetsIn(recordings.agents.back().flights[0].table);
     if (file == files.front()) recordings.targets = own;
     if (own != recordings.targets) {
@@ -208,6 +217,12 @@ Recordings RecordingsOf(const std::vector<AgentFlights>& agents) {
     if (target.tolerance > 0) recordings.tolerances[target.column] = target.tolerance;
   }
   return recordings;
+}
+
+double LargestTolerance(const std::string& column) {
+  constexpr double kHalfTurn_deg = 180;
+  constexpr double kLargest = 1e7;  // of --target, too: float32 still holds single feet there
+  return IsAngle(column) ? kHalfTurn_deg : kLargest;
 }
 
 void Choose(const RecordingChoice& choice, Recordings* recordings) {

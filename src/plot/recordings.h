@@ -44,11 +44,16 @@ struct Recordings {
   std::vector<std::string> notes;            ///< what is damaged, for people
 };
 
-/// Files that skein eval, compare or replay wrote, one for each agent. Throws Error on what is none
-/// and on files of several tasks.
+/// Files that skein eval, compare or replay wrote, one for each agent, which has the file's name,
+/// or its path where two have the same name. Throws Error on what is none and on files of several
+/// tasks.
 Recordings ReadRecordings(const std::vector<std::string>& files);
 /// Flights that have just been flown, with the tolerances of their task.
 Recordings RecordingsOf(const std::vector<AgentFlights>& agents);
+
+/// The largest tolerance of targets in `column` that can be drawn, in the column's unit: half a
+/// turn of an angle, 1e7 of all else.
+double LargestTolerance(const std::string& column);
 
 /// What is drawn beside what lies in the recordings.
 struct RecordingChoice {

@@ -13,6 +13,8 @@
 #include "base/choice_error.h"
 #include "base/error.h"
 #include "src/files/text_table.h"
+#include "src/plot/axes.h"
+#include "src/plot/legend.h"
 
 namespace skein {
 namespace {
@@ -48,6 +50,17 @@ std::vector<PagePoint> ValuesOf(const RunRecord& run, const std::string& column)
                   fmt::join(paths, ", "), last, column));
 }
 
+/// Settings of one task that have the same name are called by the paths of their first runs.
+void NameApart(std::vector<CurveSetting>* settings) {
+  std::vector<std::string> names;
+  for (const CurveSetting& setting : *settings) names.push_back(setting.task + '\n' + setting.name);
+  const std::vector<bool> are_twice = AreTwice(names);
+  for (std::size_t k = 0; k < settings->size(); ++k) {
+    CurveSetting& setting = (*settings)[k];
+    if (are_twice[k]) setting.name = setting.runs.front().path;
+  }
+}
+
 }  // namespace
 
 void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
@@ -71,11 +84,6 @@ void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
                   settings->end());
   if (settings->empty()) throw Error(without.front());
   for (const std::string& run : without) notes->push_back(run + "; left out");
-}
-
-bool IsShare(const std::string& column) {
-  const std::string ending = "success_rate";
-  return column.size() >= ending.size() && column.substr(column.size() - ending.size()) == ending;
 }
 
 double Interpolated(const std::vector<PagePoint>& curve, double x) {
@@ -153,6 +161,7 @@ std::vector<CurveSetting> SettingsOf(std::vector<RunRecord> runs, std::optional<
     }
     settings[index].runs.push_back(std::move(runs[k]));
   }
+  NameApart(&settings);
   if (!names.empty() && names.size() != settings.size()) {
     throw Error(fmt::format("--names: {} for {}", Counted(static_cast<int>(names.size()), "name"),
                             Counted(static_cast<int>(settings.size()), "setting")));

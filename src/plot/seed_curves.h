@@ -33,9 +33,6 @@ void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
 /// the runs have values, but none over the same control steps.
 SeedCurve CurveOf(const CurveSetting& setting, const std::string& column);
 
-/// Whether a column holds shares, which are shown in percent.
-bool IsShare(const std::string& column);
-
 /// The value at x of a curve, which lies between its first point and its last.
 double Interpolated(const std::vector<PagePoint>& curve, double x);
 
@@ -43,8 +40,9 @@ double Interpolated(const std::vector<PagePoint>& curve, double x);
 std::optional<double> MinutesPerMillion(const CurveSetting& setting);
 
 /// `runs` as settings, in their order: `seeds` in a row, or without it those of one configuration
-/// but for the seed. Throws Error on runs of several tasks in one setting, and if there are not as
-/// many names as settings.
+/// but for the seed. Without `names` a setting has the name of its first run, or that run's path
+/// where another setting of the task has the same name. Throws Error on runs of several tasks in
+/// one setting, and if there are not as many names as settings.
 std::vector<CurveSetting> SettingsOf(std::vector<RunRecord> runs, std::optional<int> seeds,
                                      const std::vector<std::string>& names);
 

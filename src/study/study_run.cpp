@@ -44,7 +44,7 @@ void Check(const Study& study) {
   for (const std::string& task : study.tasks) {
     for (const StudyLevel& level : study.levels) {
       try {
-        const ProgramConfig trained = ConfigToTrain(study, task, level, study.seeds.front());
+        const ProgramConfig trained = SetUpTraining(study, task, level, study.seeds.front()).config;
         if (const std::string from = NetworksToStartFrom(study, task); !from.empty()) {
           RecurrentPolicy::Load(from).CheckMadeFor(trained.train.env, "training.from " + from);
         }

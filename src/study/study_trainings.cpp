@@ -13,6 +13,7 @@
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/config/configuration.h"
+#include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
 #include "src/run/recorded_run.h"
@@ -58,16 +59,19 @@ ProgramConfig ConfigOfRun(const RunDirectory& directory, const ProgramConfig& as
 
 }  // namespace
 
-ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const StudyLevel& level,
+TrainingSetup SetUpTraining(const Study& study, const std::string& task, const StudyLevel& level,
                             std::uint64_t seed) {
-  ProgramConfig config = TrainingConfig(study, task, level, seed);
-  if (!NeedsLowLevel(config.train.env)) return config;
+  TrainingSetup setup{TrainingConfig(study, task, level, seed), ""};
+  TrainConfig& train = setup.config.train;
+  if (!NeedsLowLevel(train.env)) return setup;
   if (study.low_level.empty()) {
     throw UsageError(fmt::format(
         "task {} needs low_level = \"RUN_OR_POLICY\", of task control, or \"autopilot\"", task));
   }
-  config.train.low_level = ChooseLowLevelPolicy(config.train.env, study.low_level).policy;
-  return config;
+  const ChosenLowLevelPolicy chosen = ChooseLowLevelPolicy(train.env, study.low_level);
+  train.low_level = chosen.policy;
+  setup.low_level = chosen.description;
+  return setup;
 }
 
 std::string NetworksToStartFrom(const Study& study, const std::string& task) {
@@ -107,8 +111,8 @@ std::vector<std::string> StudyTrainings::Paths() const {
   return paths;
 }
 
-ProgramConfig StudyTrainings::ConfigOf(const Training& training) const {
-  return ConfigToTrain(study_, training.task, *training.level, training.seed);
+TrainingSetup StudyTrainings::SetUp(const Training& training) const {
+  return SetUpTraining(study_, training.task, *training.level, training.seed);
 }
 
 bool StudyTrainings::Train(const std::vector<std::string>& paths) {
@@ -133,7 +137,7 @@ bool StudyTrainings::Train(const std::vector<std::string>& paths) {
 bool StudyTrainings::IsLeft(const Training& training) const {
   if (!IsRunDirectory(training.path)) return true;
   const RunDirectory directory = RunDirectory::Visit(training.path);
-  ConfigOfRun(directory, ConfigOf(training));
+  ConfigOfRun(directory, SetUp(training).config);
   return !fs::exists(directory.evaluation());
 }
 
@@ -150,17 +154,19 @@ void StudyTrainings::Print() {
 }
 
 void StudyTrainings::TrainOne(const Training& training, const GoesOn& goes_on) {
-  const ProgramConfig config = ConfigOf(training);
+  const TrainingSetup setup = SetUp(training);
   if (!IsRunDirectory(training.path)) {
     RemoveStub(training.path);
     RunOrigin origin;
+    origin.preset = IsTaskFile(training.task) ? "of " + training.task : study_.preset;
+    origin.low_level = setup.low_level;
     origin.from = NetworksToStartFrom(study_, training.task);
     origin.watch.goes_on = goes_on;
-    TrainingRun::Begin(config, training.path, pool_, origin);
+    TrainingRun::Begin(setup.config, training.path, pool_, origin);
     return;
   }
   RunDirectory directory = RunDirectory::Open(training.path);
-  const ProgramConfig begun = ConfigOfRun(directory, config);
+  const ProgramConfig begun = ConfigOfRun(directory, setup.config);
   TrainingRun::Resume(begun, std::move(directory), pool_, {goes_on});
 }
 

@@ -12,9 +12,14 @@
 
 namespace skein {
 
-/// The configuration of one training. Throws Error if the task needs a low-level policy and the
-/// study has none.
-ProgramConfig ConfigToTrain(const Study& study, const std::string& task, const StudyLevel& level,
+/// What one training runs with.
+struct TrainingSetup {
+  ProgramConfig config;
+  std::string low_level;  ///< what the low-level policy is, for people; empty without one
+};
+
+/// Throws Error if the task needs a low-level policy and the study has none.
+TrainingSetup SetUpTraining(const Study& study, const std::string& task, const StudyLevel& level,
                             std::uint64_t seed);
 
 /// The file whose networks the trainings of `task` start from; empty: fresh ones. Throws Error if
@@ -51,7 +56,7 @@ class StudyTrainings {
   };
 
   std::vector<Training>::const_iterator Find(const std::string& path) const;
-  ProgramConfig ConfigOf(const Training& training) const;
+  TrainingSetup SetUp(const Training& training) const;
   bool IsLeft(const Training& training) const;
   /// Says which of the study's trainings is the next, on which rank; while this one trains, later,
   /// as its progress is drawn over and over.

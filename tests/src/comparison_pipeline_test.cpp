@@ -204,6 +204,17 @@ TEST_F(ComparisonPipeline, APageThatHasNoPlaceIsNoFailure) {
   EXPECT_THAT(result.output, HasSubstr("report          none: "));
 }
 
+TEST_F(ComparisonPipeline, ThePageThatNobodyAskedForReplacesNoResult) {
+  const ProgramResult result = RunSkein({"compare", "--task", "heading", "--agents", "zero",
+                                         "--episodes", "4", "--json", "./compare.html"},
+                                        [&] {
+                                          if (chdir(scratch_.path().c_str()) != 0) _exit(1);
+                                        });
+  if (result.exit_code == 0) GTEST_SKIP() << "built without a page";
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.error, HasSubstr("compare.html: the page goes there"));
+}
+
 TEST_F(ComparisonPipeline, RecordsEveryAgentsFlights) {
   Compare("zero,random:0.5", {"--flights", scratch_ / "flights.csv", "--flights-count", "2"});
   const std::string zero = ReadFile(scratch_ / "flights.zero.csv");

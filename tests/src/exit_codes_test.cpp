@@ -136,6 +136,9 @@ std::vector<std::pair<std::vector<std::string>, std::string>> ReplacersOf(
       {{"eval", "--policy", policy, "--aircraft", aircraft, "--json", aircraft}, aircraft},
       {{"eval", "--policy", policy, "--set", "env.aircraft=" + aircraft, "--json", aircraft},
        aircraft},
+      {{"compare", "--agents", agent, "--no-html", "--set", "env.aircraft = '" + aircraft + "'",
+        "--csv", aircraft},
+       aircraft},
       {{"compare", "--task", "heading", "--no-html", "--agents", agent, "--csv", policy}, policy},
       {{"compare", "--agents", agent, "--config", config, "--html", config}, config},
       {{"replay", "--policy", policy, "--format", "csv", "-o", policy}, policy},
@@ -185,13 +188,21 @@ TEST(ExitCodes, NoFileThatACommandNamesItselfIsOneThatIsRead) {
 TEST(ExitCodes, WhatIsAskedOfFilesThatDoNotFitIsWrongUsage) {
   const ScratchDirectory scratch;
   const std::string heading = SKEIN_SOURCE "/policies/heading.skein", file = scratch / "file",
-                    flights = scratch / "flights.csv", study = scratch / "study.toml";
+                    flights = scratch / "flights.csv", study = scratch / "study.toml",
+                    sim = scratch / "sim.json", update = scratch / "update.json",
+                    elsewhere = scratch / "elsewhere.json";
   WriteFile(file, "");
   WriteFile(flights, "episode,time_s,action_roll,termination\n0,0,0,\n0,1,0,crash\n");
   WriteFile(study,
             "tasks = [\"heading\"]\nseeds = [1]\n[training]\nsteps = 64\n"
             "set = [\"ppo.num_aircraft=64\"]\n");
+  WriteFile(sim, R"({"benchmark": "sim", "machine": {"cpu": "one"}, "figures": {}})");
+  WriteFile(update, R"({"benchmark": "update", "machine": {"cpu": "one"}, "figures": {}})");
+  WriteFile(elsewhere, R"({"benchmark": "sim", "machine": {"cpu": "other"}, "figures": {}})");
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"bench", "compare", sim, update},
+       "cannot be compared: benchmark is sim in one and update in the other"},
+      {{"bench", "compare", sim, elsewhere}, "--other-machine compares them all the same"},
       {{"train", "tracking", "--preset", "planner", "--low-level", heading, "--out",
         scratch / "run"},
        "a policy of task heading"},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 namespace skein {
 namespace {
 
+namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 constexpr const char* kHeadingPolicy = SKEIN_SOURCE "/policies/heading.skein";
@@ -250,6 +252,19 @@ TEST_F(FdmFly, AgentsFlyToTheTargetsThatAreGiven) {
   const CsvColumns control = Flown({"--altitude-ft", "20000", "--speed-fps", "1000", "--policy",
                                     kControlPolicy, "--target", "pitch_deg=10", "--seconds", "15"});
   EXPECT_NEAR(control.Find("pitch_deg")->back(), 10, kAngle);
+}
+
+TEST_F(FdmFly, AFlightHasAtLeastOneStep) {
+  const Words start = {"--altitude-ft", "20000", "--speed-fps", "1000"};
+  for (const Words& pilot : {Words{}, Words{"--agents", "autopilot", "--task", "heading"}}) {
+    EXPECT_EQ(Flown(start + pilot + Words{"--seconds", "0.02"}).rows(), 2u);
+    const ProgramResult result = CallSkein(
+        Words{"fdm", "fly", "-o", folder_ + "/none.csv", "--seconds", "0.001"} + start + pilot);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.error,
+              "skein: error: 0.001 s are less than a step of 0.02 s: raise --seconds\n");
+    EXPECT_FALSE(fs::exists(folder_ + "/none.csv"));
+  }
 }
 
 TEST_F(FdmFly, HowGustsAreNeedsGusts) {

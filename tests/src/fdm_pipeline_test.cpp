@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `skein fdm` on the golden points and trajectories of the double-precision reference.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -306,6 +307,35 @@ TEST_F(FdmPipeline, ASteadyWindCarriesTheFlightAndNoMore) {
   }
 }
 
+TEST_F(FdmPipeline, AGridInAWindShowsTheSpeedOverGround) {
+  constexpr Tolerance kRounding{1e-9, "rounding, relative"};
+  const std::string csv = folder_ + "/grid.csv", path = folder_ + "/grid.json";
+  std::vector<std::string> words = {"fdm",         "trim",    "--altitude-ft", "5000",
+                                    "--speed-fps", "500,700", "--csv",         csv,
+                                    "--json",      path};
+  const ProgramResult calm = CallSkein(words);
+  ASSERT_EQ(calm.exit_code, 0) << calm.error;
+  const json in_still_air = json::parse(ReadFile(path));
+  words.insert(words.end(), {"--wind-fps", "-30,20,5"});
+  const ProgramResult windy = CallSkein(words);
+  ASSERT_EQ(windy.exit_code, 0) << windy.error;
+  const CsvColumns table = ParseCsv(ReadFile(csv));
+  const std::vector<double>* const shown = table.Find("ground_speed_fps");
+  ASSERT_NE(shown, nullptr);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json& velocity = in_still_air["points"][i]["ground_velocity_fps"];
+    const double carried =
+        std::hypot(velocity[0].get<double>() - 30, velocity[1].get<double>() + 20);
+    EXPECT_NEAR(shown->at(i), carried, kRounding * carried);
+  }
+  EXPECT_THAT(windy.output, HasSubstr("over ground"));
+  EXPECT_THAT(windy.output, HasSubstr(fmt::format("{:.0f} to {:.0f}", shown->at(0), shown->at(1))));
+  EXPECT_THAT(windy.output, HasSubstr("wind -30 ft/s north, 20 east, 5 down"));
+  EXPECT_THAT(calm.output, ::testing::Not(HasSubstr("over ground")));
+  EXPECT_EQ(json::parse(ReadFile(path))["wind_fps"], json({-30, 20, 5}));
+  EXPECT_EQ(in_still_air["wind_fps"], json({0, 0, 0}));
+}
+
 // Half the weight needs half the lift: the aircraft flies as one of half the mass, but for inertia.
 TEST_F(FdmPipeline, GravityIsAskedFor) {
   const auto alpha = [&](const std::vector<std::string>& gravity) {
@@ -391,7 +421,6 @@ TEST_F(FdmPipeline, WrongGridsAreWrongUsage) {
       {{"--altitude-ft", "0..1e9:1", "--speed-fps", "500"}, "more than 10000 numbers"},
       {{"--altitude-ft", "0", "--speed-fps", "0,500"}, "is not a number above 0"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--flight-path-deg", "120"}, "90"},
-      {{"--altitude-ft", "0..9999:1", "--speed-fps", "1..9999:1"}, "more than 100000"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--csv", folder_ + "/x.csv"}, "--csv"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--xcg", "50"}, "above 0, at most 1"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--wind-fps", "1,2"}, "NORTH,EAST,DOWN"},
@@ -406,6 +435,15 @@ TEST_F(FdmPipeline, WrongGridsAreWrongUsage) {
     EXPECT_EQ(result.exit_code, 2) << expected;
     EXPECT_THAT(result.error, HasSubstr(expected));
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  }
+}
+
+TEST_F(FdmPipeline, AGridOfTooManyPointsIsWrongUsageInEveryCommand) {
+  for (const char* command : {"trim", "linearise", "sweep"}) {
+    const ProgramResult result =
+        CallSkein({"fdm", command, "--altitude-ft", "0..9999:1", "--speed-fps", "1..11:1"});
+    EXPECT_EQ(result.exit_code, 2) << command;
+    EXPECT_EQ(result.error, "skein: error: 110000 points are more than 100000\n") << command;
   }
 }
 

@@ -47,6 +47,14 @@ TEST_F(PlotPipeline, DrawsFlightsOfAgentsTwiceTheSame) {
   }
 }
 
+TEST_F(PlotPipeline, TolerancesAreDrawnUpToTheLargest) {
+  for (const std::string kind : {"space", "tracks", "flights"}) {
+    const ProgramResult result =
+        Plot(kind, "large.svg", {"--tolerance", "yaw_deg=180,altitude_ft=1e7"});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+  }
+}
+
 TEST_F(PlotPipeline, FilesAreDrawnAsTheirFlights) {
   const std::string flights = scratch_ / "flights.csv";
   const ProgramResult replay = CallSkein(
@@ -100,6 +108,12 @@ TEST_F(PlotPipeline, WhatIsAskedWronglyIsRefusedInOneLine) {
   expect({"plot", "curves", scratch_.path(), "-o", out}, 2, "not the directory of a run");
   expect({"plot", "space", "--agents", "zero", "--task", "heading", "--tolerance", "x", "-o", out},
          2, "COLUMN=NUMBER");
+  for (const char* tolerance : {"yaw_deg=inf", "yaw_deg=nan", "yaw_deg=180.1", "altitude_ft=1e300",
+                                "altitude_ft=0", "altitude_ft=-5"}) {
+    expect({"plot", "flights", "--agents", "zero", "--task", "heading", "--episodes", "1",
+            "--tolerance", tolerance, "-o", out},
+           2, std::string("--tolerance ") + tolerance + ": give a number above 0, up to ");
+  }
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

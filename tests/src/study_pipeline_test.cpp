@@ -11,6 +11,7 @@
 
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
+#include "src/report/run_record.h"
 #include "src/study/study.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
@@ -107,6 +108,33 @@ TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
   }
 }
 
+TEST_F(StudyPipeline, TrainingsRecordThePresetOrTaskFileThatTheyBeganWith) {
+  const std::string out = scratch_ / "out";
+  WriteFile(file_, std::string("preset = \"robust\"\n") + kStudy);
+  ASSERT_EQ(CallSkein(CommandForLevel(out, "quiet")).exit_code, 0);
+  const RunRecord run = ReadRunRecord(out + "/runs/heading-quiet-seed3");
+  EXPECT_EQ(run.preset, "robust");
+  const auto is_changed = [rows = ConfigurationJson(run)](const std::string& key) {
+    return std::any_of(rows.begin(), rows.end(), [&](const nlohmann::ordered_json& row) {
+      return row["key"] == key && row.contains("preset");
+    });
+  };
+  EXPECT_FALSE(is_changed("env.wind.speed_max_fps")) << "the preset's own";
+  EXPECT_TRUE(is_changed("env.time_limit_steps")) << "the study's";
+
+  const std::string task = SKEIN_SOURCE "/examples/tasks/heading.toml";
+  std::string of_file = kStudy;
+  of_file.replace(of_file.find("heading"), 7, task);
+  of_file.replace(of_file.find(", \"env.heading"), 41, "");
+  of_file.replace(of_file.find("steps=100"), 9, "steps=300");
+  WriteFile(file_, of_file);
+  const std::string of_task = scratch_ / "of_task";
+  const ProgramResult result = CallSkein(CommandForLevel(of_task, "quiet"));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const std::string path = of_task + "/runs/" + FileNamePart(task) + "-quiet-seed3";
+  EXPECT_EQ(ReadRunRecord(path).preset, "of " + task);
+}
+
 TEST_F(StudyPipeline, ALevelHasPrecedenceOverWhatAllConfigurationsBeginWith) {
   WriteFile(file_, R"(
 tasks = ["heading"]
@@ -201,6 +229,9 @@ TEST_F(StudyPipeline, HighLevelsAreTrainedOverTheLowLevelPolicy) {
   const ProgramResult result = CallSkein(Command(out));
   ASSERT_EQ(result.exit_code, 0) << result.error;
   EXPECT_TRUE(fs::exists(out + "/runs/tracking-quiet-seed3/low_level.skein"));
+  const std::string log = ReadFile(out + "/runs/tracking-quiet-seed3/log.txt");
+  EXPECT_THAT(log, HasSubstr("preset planner\n"));
+  EXPECT_THAT(log, HasSubstr("low-level policy: the autopilot, variant aggressive\n"));
   // High-level policies and agents that fly themselves flew the same episodes, and it is known what
   // it depended on.
   EXPECT_THAT(CallSkein(Command(out)).output, ::testing::Not(HasSubstr("flying")));

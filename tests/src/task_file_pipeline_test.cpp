@@ -88,6 +88,9 @@ TEST_F(TaskFilePipelineTest, RefusesWhatIsNotItsOwn) {
   // Dearer rewards are no other task to a policy; other numbers are.
   WriteFile(file_, Replaced(text_, "weight = -1", "weight = -2"));
   EXPECT_EQ(eval(file_).exit_code, 0);
+  const ProgramResult edited = CallSkein({"train", file_, "--resume", run_});
+  EXPECT_EQ(edited.exit_code, 2);
+  ExpectOneLine(edited.error, "says something else now; begin a new run instead");
   WriteFile(file_, Replaced(text_, "unit = 100", "unit = 50"));
   const ProgramResult other = eval(file_);
   EXPECT_NE(other.exit_code, 0);

@@ -61,6 +61,8 @@ TEST(AxisWords, HaveUnits) {
   EXPECT_EQ(InWords("p_deg_s"), "p, deg/s");
   EXPECT_EQ(InWords("load_factor_g"), "load factor, g");
   EXPECT_EQ(InWords("mach"), "mach");
+  EXPECT_EQ(InWords("evaluation_success_rate"), "evaluation success rate, %");
+  EXPECT_EQ(InWords("learning_rate"), "learning rate");
 }
 
 TEST(AxisWords, NumbersHaveSeparators) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <variant>
 
@@ -117,6 +118,19 @@ TEST_F(FlightPictures, AgentsOfTheSameEpisodesShareColumns) {
     EXPECT_THAT(words, Contains(wanted));
   }
   ExpectLegible(picture);
+}
+
+TEST_F(FlightPictures, AgentsOfTheSameNameAreCalledByTheirFiles) {
+  const auto names_of = [](const std::vector<std::string>& files) {
+    std::vector<std::string> names;
+    for (const Recording& agent : ReadRecordings(files).agents) names.push_back(agent.name);
+    return names;
+  };
+  for (const char* folder : {"a", "b"}) std::filesystem::create_directory(scratch_ / folder);
+  const std::string a = Write("a/flights.csv", 1), b = Write("b/flights.csv", 1);
+  const std::string zero = Write("a/flights.zero.csv", 1);
+  EXPECT_THAT(names_of({a, zero}), ElementsAre("flights", "zero"));
+  EXPECT_THAT(names_of({a, zero, b}), ElementsAre(a, "zero", b));
 }
 
 TEST_F(FlightPictures, ColumnsOfAPaperHoldArrowsAndWords) {

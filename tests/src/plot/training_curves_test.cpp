@@ -9,12 +9,16 @@
 #include <set>
 #include <tuple>
 
+#include "src/report/csv_columns.h"
+#include "src/run/metrics.h"
 #include "tests/error_message.h"
 
 namespace skein {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 constexpr double kRounding = 1e-12;
@@ -60,6 +64,22 @@ TEST(TrainingCurvesTest, MeanAndBandAreThoseOfTheSeeds) {
   EXPECT_NEAR(*MinutesPerMillion(setting), 1, kRounding) << "120 s for two million";
 }
 
+TEST(TrainingCurvesTest, WhatIsShownInPercentIsLabelledSo) {
+  for (const std::string& column : ParseCsv(MetricsHeader()).names) {
+    RunRecord run = RunOf("a", {0.1, 0.5});
+    if (column != "env_steps") run.metrics.names[1] = column;
+    const CurveSetting setting{"heading", "a", {run}};
+    const bool is_scaled =
+        CurveOf(setting, column).mean.front().y != run.metrics.Find(column)->front();
+    CurveOptions options;
+    options.columns = {column};
+    const std::vector<std::string> words = WordsOf(TrainingCurves({setting}, options));
+    const bool is_labelled = testing::Matches(Contains(EndsWith("%")))(words);
+    EXPECT_EQ(is_labelled, is_scaled) << column;
+    EXPECT_EQ(is_scaled, testing::Matches(EndsWith("success_rate"))(column)) << column;
+  }
+}
+
 TEST(TrainingCurvesTest, RunsOfOneConfigurationAreSeedsOfASetting) {
   const auto runs = [] {
     return std::vector<RunRecord>{RunOf("a", {0.1, 0.2}, "heading", 1),
@@ -76,6 +96,28 @@ TEST(TrainingCurvesTest, RunsOfOneConfigurationAreSeedsOfASetting) {
               HasSubstr("1 name for 2 settings"));
 }
 
+TEST(TrainingCurvesTest, SettingsOfATaskThatHaveTheSameNameAreCalledByTheirPaths) {
+  const auto run = [](const std::string& path, const std::string& name, const char* task) {
+    RunRecord record = RunOf(name, {0.1, 0.5}, task);
+    record.path = path;
+    return record;
+  };
+  const auto runs = [&] {
+    return std::vector<RunRecord>{
+        run("sa/seed-1", "seed-1", "heading"), run("sb/seed-1", "seed-1", "heading"),
+        run("sb/seed-2", "seed-2", "heading"), run("sc/seed-2", "seed-2", "control")};
+  };
+  const auto names_of = [](const std::vector<CurveSetting>& settings) {
+    std::vector<std::string> names;
+    for (const CurveSetting& setting : settings) names.push_back(setting.name);
+    return names;
+  };
+  EXPECT_THAT(names_of(SettingsOf(runs(), 1, {})),
+              ElementsAre("sa/seed-1", "sb/seed-1", "seed-2", "seed-2"));
+  EXPECT_THAT(names_of(SettingsOf(runs(), 1, {"a", "b", "c", "d"})),
+              ElementsAre("a", "b", "c", "d"));
+}
+
 TEST(TrainingCurvesTest, RunsWithoutAValueAreLeftOutAndNamed) {
   const std::vector<std::string> columns = {"evaluation_success_rate"};
   std::vector<CurveSetting> settings =
@@ -85,9 +127,8 @@ TEST(TrainingCurvesTest, RunsWithoutAValueAreLeftOutAndNamed) {
   LeaveOutRunsWithoutValues(columns, &settings, &notes);
   ASSERT_EQ(settings.size(), 1u);
   EXPECT_EQ(settings[0].name, "second");
-  EXPECT_THAT(
-      notes, testing::ElementsAre("a: column evaluation_success_rate has no values yet; left out",
-                                  "c: column evaluation_success_rate has no values yet; left out"));
+  EXPECT_THAT(notes, ElementsAre("a: column evaluation_success_rate has no values yet; left out",
+                                 "c: column evaluation_success_rate has no values yet; left out"));
   std::vector<CurveSetting> none = SettingsOf({RunOf("a", {})}, std::nullopt, {});
   EXPECT_THAT(MessageOf([&] { LeaveOutRunsWithoutValues(columns, &none, &notes); }),
               HasSubstr("a: column evaluation_success_rate has no values yet"));
