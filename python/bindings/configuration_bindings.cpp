@@ -2,6 +2,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -60,24 +61,44 @@ nb::object ValueOf(const Field& field) {
       field.place);
 }
 
-nb::dict SettingsOf(const ProgramConfig& config) {
-  ProgramConfig listed = config;
+/// Those that mean something to the task.
+std::vector<Field> FieldsOfTask(ProgramConfig* config) {
+  std::vector<Field> fields = FieldsOf(*config);
+  const auto means_nothing = [config](const Field& field) {
+    return !field.IsOf(config->train.env.task);
+  };
+  fields.erase(std::remove_if(fields.begin(), fields.end(), means_nothing), fields.end());
+  return fields;
+}
+
+nb::dict SettingsOf(ProgramConfig config) {
   nb::dict settings;
-  for (const Field& field : FieldsOf(listed)) {
-    if (field.IsOf(config.train.env.task)) settings[field.key.c_str()] = ValueOf(field);
-  }
+  for (const Field& field : FieldsOfTask(&config)) settings[field.key.c_str()] = ValueOf(field);
   return settings;
 }
 
-nb::object SettingOf(const ProgramConfig& config, const nb::handle& key) {
+/// Raises a ConfigurationError that is a KeyError, too.
+[[noreturn]] void RaiseUnknownName(const char* message) {
+  PyErr_SetString(nb::module_::import_("skein.checks").attr("UnknownName").ptr(), message);
+  throw nb::python_error();
+}
+
+nb::object SettingOf(ProgramConfig config, const nb::handle& key) {
   std::string name;
   if (!nb::try_cast(key, name)) {
     const std::string type = nb::type_name(key.type()).c_str();
     throw nb::type_error(("a configuration's keys are texts, not " + type).c_str());
   }
-  ProgramConfig listed = config;
-  const std::vector<Field> fields = FieldsOf(listed);
-  return ValueOf(AsUsage([&]() -> const Field& { return FindField(fields, name, "settings"); }));
+  try {
+    return ValueOf(FindField(FieldsOfTask(&config), name, "settings"));
+  } catch (const Error& error) {
+    RaiseUnknownName(error.what());
+  }
+}
+
+/// A view of settings(), as dict's method `method` gives it.
+nb::object ViewOf(const ProgramConfig& config, const char* method) {
+  return SettingsOf(config).attr(method)();
 }
 
 /// The files by which the directory of a run records a configuration, by their names; and whether
@@ -123,9 +144,11 @@ void BindConfiguration(nb::module_& module) {
           "conditions",
           [](const ProgramConfig& config) { return DescribeConditions(config.train.env); },
           "What it is flown under, for people.")
-      .def("__getitem__", &SettingOf, nb::arg("key").none(),
-           "The value of a key, such as \"env.heading.dwell_s\". The configuration can be iterated "
-           "over, too: its keys, those of settings().")
+      .def(
+          "__getitem__", &SettingOf, nb::arg("key").none(),
+          "The value of a key, such as \"env.heading.dwell_s\". A configuration is a Mapping of "
+          "the "
+          "keys of its task to their values; any other key is a ConfigurationError and a KeyError.")
       .def(
           "__contains__",
           [](const ProgramConfig& config, const nb::handle& key) {
@@ -134,6 +157,15 @@ void BindConfiguration(nb::module_& module) {
           nb::arg("key").none())
       .def("__iter__", [](const ProgramConfig& config) { return nb::iter(SettingsOf(config)); })
       .def("__len__", [](const ProgramConfig& config) { return nb::len(SettingsOf(config)); })
+      .def("keys", [](const ProgramConfig& config) { return ViewOf(config, "keys"); })
+      .def("values", [](const ProgramConfig& config) { return ViewOf(config, "values"); })
+      .def("items", [](const ProgramConfig& config) { return ViewOf(config, "items"); })
+      .def(
+          "get",
+          [](const ProgramConfig& config, const nb::handle& key, const nb::object& otherwise) {
+            return SettingsOf(config).attr("get")(key, otherwise);
+          },
+          nb::arg("key").none(), nb::arg("default") = nb::none())
       .def(
           "__eq__",
           [](const ProgramConfig& config, const ProgramConfig& other) {

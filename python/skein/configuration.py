@@ -96,5 +96,6 @@ def _recalled(files: dict[str, str], is_final: bool) -> Config:
         return _skein.read_record(os.path.join(folder, "config.toml"), is_final)
 
 
+Mapping.register(Config)
 # Pickled, and copied, as a run records it: whole, with the task file and the aircraft of a user's.
 copyreg.pickle(Config, lambda config: (_recalled, _skein.record_of(config)))

@@ -3,6 +3,7 @@ import copy
 import pickle
 import subprocess
 import sys
+from collections.abc import Mapping
 
 import numpy as np
 import pytest
@@ -37,6 +38,15 @@ def test_a_configuration_is_read_as_a_mapping():
     assert list(config) == list(settings) and len(config) == len(settings)
     assert "env.hold_s" in config
     assert "env.hold" not in config and "env.control.dwell_s" not in config and 3 not in config
+    assert isinstance(config, Mapping) and dict(config) == settings
+    assert list(config.keys()) == list(settings) and list(config.values()) == list(settings.values())
+    assert config.items() == settings.items()
+    assert config.get("env.hold_s") == config["env.hold_s"]
+    assert config.get("env.hold") is None and config.get("env.hold", 7) == 7
+    for key in ("env.hold", "env.control.dwell_s"):
+        with pytest.raises(KeyError, match=f"^settings: unknown key {key}; ") as raised:
+            config[key]
+        assert isinstance(raised.value, skein.ConfigurationError)
     for key in (3, None, b"env.hold_s"):
         with pytest.raises(TypeError, match="keys are texts, not") as raised:
             config[key]
