@@ -148,7 +148,9 @@ void Compare(Target target, const char* what, const Rows& rows, const Rows& scal
 Rows RowsOf(TestTile& tile, int columns) {
   Rows rows(static_cast<std::size_t>(tile.count()));
   for (int i = 0; i < tile.count(); ++i) {
-    for (int c = 0; c < columns; ++c) rows[static_cast<std::size_t>(i)].push_back(tile.at(c, i));
+    std::vector<float>& row = rows[static_cast<std::size_t>(i)];
+    row.reserve(static_cast<std::size_t>(columns));
+    for (int c = 0; c < columns; ++c) row.push_back(tile.at(c, i));
   }
   return rows;
 }
