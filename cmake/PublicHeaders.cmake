@@ -38,6 +38,7 @@ set(SKEIN_PUBLIC_HEADERS
     envs/aircraft/registry.h
     envs/autopilot/autopilot.h
     envs/autopilot/gains.h
+    envs/autopilot/level_throttle.h
     # One aircraft in float64.
     envs/reference/closed_loop.h
     envs/reference/flight_control.h

@@ -11,7 +11,7 @@
 #include "base/range.h"
 #include "envs/actions.h"
 #include "envs/aircraft/engine.h"
-#include "envs/aircraft/registry.h"
+#include "envs/configured_aircraft.h"
 #include "envs/mission_rules.h"
 #include "envs/plant/sensor_freeze.h"
 #include "envs/state/attitude.h"
@@ -24,22 +24,6 @@ namespace skein {
 namespace {
 
 constexpr std::size_t kCacheLine = 64;
-
-Aircraft ConfiguredAircraft(const EnvConfig& config) {
-  Aircraft aircraft = LoadAircraft(config.aircraft);
-  aircraft.airframe.cg = config.cg;
-  aircraft.airframe.engine_angular_momentum = config.engine_angular_momentum;
-  const auto require = [&](bool asked, const MachFunction& function, const char* key) {
-    if (!asked || !function.mach.empty()) return;
-    throw Error("configuration: " + std::string(key) + " = true, but the aircraft " +
-                config.aircraft + " has no data for it; it must be false");
-  };
-  require(config.thrust_grows, aircraft.engine.growth, "env.thrust_growth_above_mach_1");
-  require(config.drag_rises, aircraft.drag_rise, "env.drag_rise");
-  aircraft.engine.grows = config.thrust_grows;
-  aircraft.drag_rises = config.drag_rises;
-  return aircraft;
-}
 
 const EnvConfig& Validated(const EnvConfig& config) {
   Validate(config);

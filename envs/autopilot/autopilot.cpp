@@ -197,8 +197,15 @@ std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, const AutopilotGa
   return std::make_unique<Autopilot>(AutopilotFor(config.task), gains, timing);
 }
 
+AutopilotGains GainsFor(const EnvConfig& config, AutopilotVariant variant) {
+  CheckFlies(config);
+  AutopilotGains gains = GainsOf(variant);
+  gains.tecs.level_throttle = TrimmedLevelThrottle(config);
+  return gains;
+}
+
 std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant) {
-  return MakeAutopilot(config, GainsOf(variant));
+  return MakeAutopilot(config, GainsFor(config, variant));
 }
 
 }  // namespace skein

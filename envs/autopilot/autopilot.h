@@ -20,6 +20,10 @@ inline constexpr TrackingAxes kAutopilotErrorAxes = TrackingAxes::kHeading;
 /// ask for something else than load factor and roll rate, and Tracking in other axes.
 std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, AutopilotVariant variant);
 
+/// The gains that it flies with: the variant's, and the throttle of level flight that the
+/// environment's nominal aircraft is trimmed at. Throws Error as it does.
+AutopilotGains GainsFor(const EnvConfig& config, AutopilotVariant variant);
+
 /// The same with other gains.
 std::unique_ptr<Policy> MakeAutopilot(const EnvConfig& config, const AutopilotGains& gains);
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "envs/autopilot/level_throttle.h"
+
 namespace skein {
 
 // Feet, seconds and radians throughout; commands in [-1, 1] (throttle in [0, 1]).
@@ -40,7 +42,7 @@ struct TecsGains {
   double throttle_damping = 0.5;  ///< of the rate of the energy error, dimensionless
   double integrator_gain = 0.1;   ///< 1/s
   double integrator_limit = 0.3;  ///< of throttle
-  double level_throttle = 0.30;
+  LevelThrottle level_throttle = LevelThrottle::Everywhere(0.30);
   double max_energy_rate = 22000;       ///< ft^2/s^3 at full throttle
   double min_energy_rate = -9600;       ///< ft^2/s^3 at idle
   double bank_compensation = 400;       ///< ft^2/s^3 per unit of load factor squared beyond 1

@@ -51,6 +51,11 @@ HWY_INLINE Lanes Min(Lanes a, Lanes b) { return Lanes(hn::Min(a.v, b.v)); }
 HWY_INLINE Lanes Max(Lanes a, Lanes b) { return Lanes(hn::Max(a.v, b.v)); }
 HWY_INLINE Lanes Sqrt(Lanes x) { return Lanes(hn::Sqrt(x.v)); }
 HWY_INLINE Lanes Round(Lanes x) { return Lanes(hn::Round(x.v)); }
+HWY_INLINE Lanes Floor(Lanes x) { return Lanes(hn::Floor(x.v)); }
+/// table[index], of indices without a fraction.
+HWY_INLINE Lanes Element(const float* table, Lanes index) {
+  return Lanes(hn::GatherIndex(FloatTag(), table, hn::ConvertTo(IntTag(), index.v)));
+}
 HWY_INLINE Lanes ArcTangent(Lanes y, Lanes x) { return Lanes(Atan2(FloatTag(), y.v, x.v)); }
 HWY_INLINE void SinCos(Lanes angle, Lanes& sine, Lanes& cosine) {
   SinCos(FloatTag(), angle.v, sine.v, cosine.v);
@@ -65,6 +70,10 @@ HWY_INLINE double Min(double a, double b) { return a < b ? a : b; }
 HWY_INLINE double Max(double a, double b) { return a > b ? a : b; }
 HWY_INLINE double Sqrt(double x) { return std::sqrt(x); }
 HWY_INLINE double Round(double x) { return std::nearbyint(x); }
+HWY_INLINE double Floor(double x) { return std::floor(x); }
+HWY_INLINE double Element(const float* table, double index) {
+  return table[static_cast<int>(index)];
+}
 HWY_INLINE double ArcTangent(double y, double x) { return std::atan2(y, x); }
 HWY_INLINE void SinCos(double angle, double& sine, double& cosine) {
   sine = std::sin(angle);

@@ -51,6 +51,33 @@ HWY_INLINE T ClimbRateFor(const TecsGains& k, T height_error, T speed) {
   return Select(height_error < 0, -1, 1) * Min(rate, most);
 }
 
+/// Where a number lies on an axis of `count` nodes: the one below it, and the share of the way to
+/// the next. What is beyond the axis, and NaN, is at an end.
+template <class T>
+struct NodeBelow {
+  T node, share;
+
+  HWY_INLINE NodeBelow(T position, int count) {
+    const T within = Min(Select(position > 0, position, 0), count - 1);
+    node = Min(Floor(within), count - 2);
+    share = within - node;
+  }
+};
+
+template <class T>
+HWY_INLINE T LevelThrottleAt(const LevelThrottle& level, T speed, T altitude) {
+  using Grid = LevelThrottle;
+  const NodeBelow<T> column((speed - Grid::kLeastSpeed) / Grid::kSpeedStep, Grid::kSpeeds);
+  const NodeBelow<T> row(altitude / Grid::kAltitudeStep, Grid::kAltitudes);
+  const T first = row.node * Grid::kSpeeds + column.node;
+  const auto along = [&](T node) HWY_ATTR {
+    const T left = Element(level.at, node);
+    return left + column.share * (Element(level.at, node + 1) - left);
+  };
+  const T lower = along(first);
+  return lower + row.share * (along(first + Grid::kSpeeds) - lower);
+}
+
 /// An outer step, every `dt` seconds, of the aircraft whose outer loops run now: leaves the
 /// throttle in `memory`. In the order of AP_TECS::_update_throttle: what the demanded energy rate
 /// needs, more in a bank, a part of the energy error, damping by the rate's error, an integrator
@@ -73,7 +100,8 @@ HWY_INLINE void UpdateThrottle(const TecsGains& k, double dt, const FlightEstima
   const double per_throttle = 1 / (k.max_energy_rate - k.min_energy_rate);
   const T sufficient = Clip(rate, k.min_energy_rate, k.max_energy_rate) + bank +
                        error / k.time_constant_s + k.throttle_damping * rate_error;
-  const T wanted = k.level_throttle + per_throttle * sufficient + memory.integrator;
+  const T level_throttle = LevelThrottleAt(k.level_throttle, flight.speed, flight.altitude);
+  const T wanted = level_throttle + per_throttle * sufficient + memory.integrator;
 
   const auto pushes = Or(And(wanted > 1, error > 0), And(wanted < 0, error < 0));
   const T integrated =

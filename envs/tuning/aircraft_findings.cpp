@@ -196,7 +196,8 @@ std::string WhyNot(const Plant& plant, const TuningLimits& limits, double altitu
 }
 
 /// How fast a mode may grow, doubling in so many seconds, without trouble for a pilot or a policy
-/// (MIL-F-8785C: a spiral in 12 s or more is level 2, a phugoid in 55 s level 3).
+/// (MIL-F-8785C, level 3: a spiral in 4 s, an aperiodic divergence of airspeed in 6 s, an
+/// oscillatory phugoid in 55 s).
 double LeastTimeToDouble(ModeFamily family) {
   switch (family) {
     case ModeFamily::kPhugoid:
@@ -261,7 +262,7 @@ std::vector<Finding> CheckModes(const Plant& plant, const FlightEnvelope& envelo
          FindFlightModes(LineariseFlight(plant, trim, FlapMotion::kFixed))) {
       const double time = mode.time_to_double_s();
       findings.Warn(time < LeastTimeToDouble(mode.family),
-                    Say("%s the mode \"%s\" doubles in %.1f s without flight control",
+                    Say("%s the mode \"%s\" has a time to double of %.1f s without flight control",
                         Where(trim).c_str(), mode.name.c_str(), time));
     }
   }
@@ -280,9 +281,9 @@ std::vector<Finding> CheckHandling(const TuningLimits& limits, double stall_alph
                 where + Say("the closed loop is poorly damped: %.2f", damping));
   findings.Warn(damping >= 0 && handling.delayed_damping < 0,
                 where + "one control step of delay makes the closed loop unstable");
-  findings.Error(
-      handling.time_to_double_s < kFast_s,
-      where + Say("the closed loop diverges, doubling in %.1f s", handling.time_to_double_s));
+  findings.Error(handling.time_to_double_s < kFast_s,
+                 where + Say("the closed loop diverges, with a time to double of %.1f s",
+                             handling.time_to_double_s));
   findings.Error(handling.departs, where + "full sticks make it depart");
   findings.Warn(!handling.settles, where + "a push does not settle hands off within 7 s");
   findings.Warn(handling.max_alpha_deg > stall_alpha_deg,

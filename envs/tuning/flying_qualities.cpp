@@ -39,27 +39,40 @@ struct Axis {
     }
     return share;
   }
-  /// The mode that swings and is mostly of them; nullptr without any that swings.
-  const LinearMode* SwingingIn(const std::vector<int>& columns) const {
+  /// The oscillatory mode that is mostly of them; nullptr without an oscillatory one.
+  const LinearMode* OscillatoryIn(const std::vector<int>& columns) const {
     const LinearMode* most = nullptr;
     for (const LinearMode& mode : modes) {
-      if (!mode.swings()) continue;
+      if (!mode.is_oscillatory()) continue;
       if (most == nullptr || ShareOf(mode, columns) > ShareOf(*most, columns)) most = &mode;
     }
     return most;
   }
-  /// Of the slow modes, of path and attitude, the one that decays least or grows fastest; nullptr
-  /// without a slow one.
-  const LinearMode* LeastStable() const {
-    constexpr double kSlow = 0.3;  // rad/s
-    const LinearMode* least = nullptr;
-    for (const LinearMode& mode : modes) {
-      if (mode.frequency_rad_s() > kSlow) continue;
-      if (least == nullptr || mode.eigenvalue.real() > least->eigenvalue.real()) least = &mode;
-    }
-    return least;
-  }
 };
+
+/// Whether it is of path and attitude.
+bool IsSlow(const LinearMode& mode) {
+  constexpr double kSlow = 0.3;  // rad/s
+  return mode.frequency_rad_s() <= kSlow;
+}
+
+/// A divergence of airspeed may be fast; what is fast and decays is of filters and actuators.
+bool IsAperiodicAirspeed(const LinearMode& mode) {
+  return !mode.is_oscillatory() && (IsSlow(mode) || mode.eigenvalue.real() > 0);
+}
+
+bool IsPhugoid(const LinearMode& mode) { return mode.is_oscillatory() && IsSlow(mode); }
+
+/// Of the modes that count, the one that decays least or grows fastest; nullptr without one.
+const LinearMode* LeastStable(const std::vector<LinearMode>& modes,
+                              bool (*counts)(const LinearMode& mode)) {
+  const LinearMode* least = nullptr;
+  for (const LinearMode& mode : modes) {
+    if (!counts(mode)) continue;
+    if (least == nullptr || mode.eigenvalue.real() > least->eigenvalue.real()) least = &mode;
+  }
+  return least;
+}
 
 // Outputs of closed_loop_outputs.h.
 constexpr int kPitchRateOutput = 3, kRollRateOutput = 2;
@@ -101,6 +114,19 @@ std::string ToLevels(const LevelLimit& most) {
   return OfLevels([&](std::size_t level) { return "to " + Figure(most[level]); });
 }
 
+std::string AirspeedDivergenceText(const LevelLimits& limits) {
+  return OfLevels([&](std::size_t level) {
+    const double least = limits.airspeed_double_min_s[level];
+    return std::isinf(least) ? "no divergence" : "from " + Figure(least);
+  });
+}
+
+std::string PhugoidText(const LevelLimits& limits) {
+  return "from " + Figure(limits.phugoid_damping_min[0]) + "; from " +
+         Figure(limits.phugoid_damping_min[1]) + "; time to double from " +
+         Figure(limits.phugoid_double_min_s) + " s";
+}
+
 std::string AnticipationText(const LevelLimits& limits) {
   return OfLevels([&](std::size_t level) {
     const double frequency = limits.short_period_frequency_min[level],
@@ -131,8 +157,8 @@ void AssessShortPeriod(const Plant& plant, const TrimPoint& trim, const Axis& ax
   const double anticipation = frequency * frequency / load_factor;
   const bool is_doubtful = qualities->short_period.mismatch > kMostMismatch;
   auto& requirements = qualities->requirements;
-  requirements.push_back({"3.2.2.1.1", "control anticipation (frequency^2 over n/alpha)",
-                          "1/(g s2)", anticipation,
+  requirements.push_back({"3.2.2.1.1", "control anticipation parameter (CAP)", "1/(g s2)",
+                          anticipation,
                           AnticipationLevel(limits, anticipation, frequency, load_factor),
                           AnticipationText(limits), is_doubtful});
   requirements.push_back({"3.2.2.1.2", "short-period damping", "1", damping,
@@ -148,27 +174,13 @@ void AssessPitch(const Plant& plant, const TrimPoint& trim, const LevelLimits& l
                  FlyingQualities* qualities) {
   const Axis axis(plant, trim, LoopAxis::kLongitudinal);
   AssessShortPeriod(plant, trim, axis, limits, qualities);
-  const LinearMode* phugoid = axis.LeastStable();
-  if (phugoid == nullptr) return;
-  const double damping = phugoid->damping_ratio(), doubles = phugoid->time_to_double_s();
-  Requirement requirement{"3.2.1.2",
-                          "phugoid damping",
-                          "1",
-                          damping,
-                          PhugoidLevel(limits, damping, doubles),
-                          "from " + Figure(limits.phugoid_damping_min[0]) + "; from " +
-                              Figure(limits.phugoid_damping_min[1]) + "; doubles from " +
-                              Figure(limits.phugoid_double_min_s) + " s"};
-  if (!phugoid->swings()) {
-    requirement.what = "phugoid, which does not swing: time to double";
-    requirement.unit = "s";
-    requirement.value = doubles;
+  for (const Requirement& requirement : AssessAirspeed(axis.modes, limits)) {
+    qualities->requirements.push_back(requirement);
   }
-  qualities->requirements.push_back(requirement);
 }
 
 void AssessDutchRoll(const Axis& axis, const LevelLimits& limits, FlyingQualities* qualities) {
-  const LinearMode* const mode = axis.SwingingIn({kV, kR});
+  const LinearMode* const mode = axis.OscillatoryIn({kV, kR});
   if (mode == nullptr) return;
   qualities->dutch_roll = *mode;
   const double frequency = mode->frequency_rad_s(), damping = mode->damping_ratio();
@@ -189,10 +201,11 @@ void AssessLateral(const Plant& plant, const TrimPoint& trim, const LevelLimits&
   requirements.push_back({"3.3.1.2", "roll mode time constant", "s", time,
                           RollModeLevel(limits, time), ToLevels(limits.roll_time_max_s),
                           qualities->roll.mismatch > kMostMismatch});
-  if (const LinearMode* spiral = axis.LeastStable()) {
-    const double doubles = spiral->time_to_double_s();
-    requirements.push_back({"3.3.1.3", "spiral: time to double", "s", doubles,
-                            SpiralLevel(limits, doubles), FromLevels(limits.spiral_double_min_s)});
+  if (const LinearMode* spiral = LeastStable(axis.modes, IsSlow)) {
+    const double time_to_double = spiral->time_to_double_s();
+    requirements.push_back({"3.3.1.3", "spiral: time to double", "s", time_to_double,
+                            SpiralLevel(limits, time_to_double),
+                            FromLevels(limits.spiral_double_min_s)});
   }
   qualities->bank_deg = limits.bank_deg;
   qualities->bank_s = TimeToBank(plant, trim, limits.bank_deg);
@@ -223,6 +236,24 @@ StepResponse MeasureStep(const std::vector<double>& values, double start, double
   for (const double value : values) most = std::max(most, (value - start) / response.reached);
   response.overshoot = most - 1;
   return response;
+}
+
+std::vector<Requirement> AssessAirspeed(const std::vector<LinearMode>& modes,
+                                        const LevelLimits& limits) {
+  std::vector<Requirement> requirements;
+  if (const LinearMode* mode = LeastStable(modes, IsAperiodicAirspeed)) {
+    const double time_to_double = mode->time_to_double_s();
+    requirements.push_back({"3.2.1.1", "airspeed divergence: time to double", "s", time_to_double,
+                            AirspeedDivergenceLevel(limits, time_to_double),
+                            AirspeedDivergenceText(limits)});
+  }
+  if (const LinearMode* phugoid = LeastStable(modes, IsPhugoid)) {
+    const double damping = phugoid->damping_ratio();
+    requirements.push_back({"3.2.1.2", "phugoid damping", "1", damping,
+                            PhugoidLevel(limits, damping, phugoid->time_to_double_s()),
+                            PhugoidText(limits)});
+  }
+  return requirements;
 }
 
 FlyingQualities AssessFlyingQualities(const Plant& plant, const TrimPoint& trim,

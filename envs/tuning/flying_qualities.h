@@ -38,6 +38,12 @@ struct Requirement {
   bool is_doubtful = false;
 };
 
+/// What MIL-F-8785C asks of the airspeed in a longitudinal motion of these modes: 3.2.1.1 of an
+/// aperiodic one that is slow or grows, 3.2.1.2 of a slow oscillatory one, the phugoid. Of several
+/// the least stable counts; of none there is no requirement.
+std::vector<Requirement> AssessAirspeed(const std::vector<LinearMode>& modes,
+                                        const LevelLimits& limits);
+
 /// How a break of a loop stands.
 struct LoopAt {
   LoopBreak where;
@@ -48,7 +54,7 @@ struct LoopAt {
 struct FlyingQualities {
   EquivalentShortPeriod short_period;
   EquivalentRoll roll;
-  LinearMode dutch_roll;            ///< the lateral mode that sideslip swings in
+  LinearMode dutch_roll;            ///< the oscillatory mode of sideslip and yaw
   double load_factor_by_alpha = 0;  ///< of the airframe at constant speed, g/rad
   StepResponse pitch_step, roll_step;
   /// From full roll stick to a change of bank (LevelLimits::bank_deg); infinity: not within 8 s.

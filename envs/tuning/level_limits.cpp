@@ -80,6 +80,7 @@ LevelLimits LimitsOf(AirplaneClass airplane, FlightPhaseCategory category) {
   LevelLimits limits{};
   const bool is_nimble = IsNimble(airplane), is_gradual = category == FlightPhaseCategory::kB;
   SetShortPeriod(is_nimble, category, &limits);
+  limits.airspeed_double_min_s = {kNone, kNone, 6};
   limits.phugoid_damping_min = {0.04, 0};
   limits.phugoid_double_min_s = 55;
   SetDutchRoll(is_nimble, category, &limits);
@@ -109,6 +110,11 @@ int ShortPeriodDampingLevel(const LevelLimits& limits, double damping_ratio) {
     return damping_ratio >= limits.short_period_damping_min[level] &&
            damping_ratio <= limits.short_period_damping_max[level];
   });
+}
+
+int AirspeedDivergenceLevel(const LevelLimits& limits, double time_to_double_s) {
+  return FirstLevel(
+      [&](std::size_t level) { return time_to_double_s >= limits.airspeed_double_min_s[level]; });
 }
 
 int PhugoidLevel(const LevelLimits& limits, double damping_ratio, double time_to_double_s) {

@@ -24,6 +24,8 @@ struct LevelLimits {
   LevelLimit anticipation_min, anticipation_max, short_period_frequency_min,
       load_factor_by_alpha_min;
   LevelLimit short_period_damping_min, short_period_damping_max;  ///< 3.2.2.1.2, table IV
+  /// 3.2.1.1: least time to double of airspeed that diverges aperiodically, s; infinity: none may.
+  LevelLimit airspeed_double_min_s;
   /// 3.2.1.2: of levels 1 and 2; of level 3 the least time to double, s.
   std::array<double, 2> phugoid_damping_min;
   double phugoid_double_min_s;
@@ -46,6 +48,7 @@ LevelLimits LimitsOf(AirplaneClass airplane, FlightPhaseCategory category);
 int AnticipationLevel(const LevelLimits& limits, double anticipation, double frequency_rad_s,
                       double load_factor_by_alpha);
 int ShortPeriodDampingLevel(const LevelLimits& limits, double damping_ratio);
+int AirspeedDivergenceLevel(const LevelLimits& limits, double time_to_double_s);
 int PhugoidLevel(const LevelLimits& limits, double damping_ratio, double time_to_double_s);
 int DutchRollLevel(const LevelLimits& limits, double damping_ratio, double frequency_rad_s);
 int RollModeLevel(const LevelLimits& limits, double time_constant_s);

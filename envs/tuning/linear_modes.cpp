@@ -36,13 +36,13 @@ bool IsLongitudinal(const LinearMode& mode) {
 
 /// Names of modes that stand from the fastest to the slowest.
 std::vector<std::string> LongitudinalNames(const std::vector<FlightMode>& modes) {
-  const auto swings = [](const FlightMode& mode) { return mode.swings(); };
-  const auto pairs = std::count_if(modes.begin(), modes.end(), swings);
-  const auto first_pair = std::find_if(modes.begin(), modes.end(), swings);
+  const auto is_oscillatory = [](const FlightMode& mode) { return mode.is_oscillatory(); };
+  const auto pairs = std::count_if(modes.begin(), modes.end(), is_oscillatory);
+  const auto first_pair = std::find_if(modes.begin(), modes.end(), is_oscillatory);
   std::vector<std::string> names;
   for (auto mode = modes.begin(); mode != modes.end(); ++mode) {
     const bool is_first = mode == modes.begin(), is_last = mode + 1 == modes.end();
-    if (mode->swings()) {
+    if (mode->is_oscillatory()) {
       const bool is_between = pairs == 1 && !is_first && !is_last;
       names.emplace_back(is_between ? "third oscillatory" : is_first ? "short period" : "phugoid");
     } else {
@@ -57,12 +57,12 @@ std::vector<std::string> LongitudinalNames(const std::vector<FlightMode>& modes)
 std::vector<std::string> LateralNames(const std::vector<FlightMode>& modes) {
   std::vector<std::size_t> real;  // from the fastest to the slowest
   for (std::size_t i = 0; i < modes.size(); ++i) {
-    if (!modes[i].swings()) real.push_back(i);
+    if (!modes[i].is_oscillatory()) real.push_back(i);
   }
   std::vector<std::string> names;
   bool has_dutch_roll = false;
   for (std::size_t i = 0; i < modes.size(); ++i) {
-    if (modes[i].swings()) {
+    if (modes[i].is_oscillatory()) {
       names.emplace_back(has_dutch_roll ? "roll-spiral" : "Dutch roll");
       has_dutch_roll = true;
     } else if (i == real.back()) {
@@ -121,7 +121,7 @@ std::vector<FlightMode> FindFlightModes(const LinearFlight& model) {
     (IsLongitudinal(*mode) ? longitudinal : lateral).push_back({*mode, ""});
   }
   std::stable_partition(lateral.begin(), lateral.end(),
-                        [](const FlightMode& mode) { return mode.swings(); });
+                        [](const FlightMode& mode) { return mode.is_oscillatory(); });
   const std::vector<std::string> longitudinal_names = LongitudinalNames(longitudinal);
   const std::vector<std::string> lateral_names = LateralNames(lateral);
   for (std::size_t i = 0; i < longitudinal.size(); ++i)

@@ -13,7 +13,7 @@ namespace skein {
 /// Damping ratio of a mode: 1 for one that only decays, -1 for one that only grows.
 double DampingRatio(std::complex<double> mode);
 
-/// Seconds in which a mode doubles; infinity if it does not grow.
+/// Time to double of a mode, s; infinity if it does not grow.
 double TimeToDouble(std::complex<double> mode);
 
 /// A motion that a linear system can have by itself.
@@ -24,7 +24,7 @@ struct LinearMode {
   std::vector<double> shares;
 
   double frequency_rad_s() const { return std::abs(eigenvalue); }       ///< undamped
-  bool swings() const { return eigenvalue.imag() > 0; }                 ///< one of a conjugate pair
+  bool is_oscillatory() const { return eigenvalue.imag() > 0; }         ///< one of a conjugate pair
   double damping_ratio() const { return DampingRatio(eigenvalue); }     ///< as of DampingRatio
   double time_constant_s() const { return -1 / eigenvalue.real(); }     ///< below 0: it grows
   double time_to_half_s() const { return TimeToDouble(-eigenvalue); }   ///< or infinity
@@ -47,14 +47,14 @@ struct FlightMode : LinearMode {
 };
 
 /// The modes of speed, alpha, pitch, q, beta, bank, p and r, altitude and power held: those that
-/// are mostly of the first four from the fastest to the slowest, then the others, of which those
-/// that swing come first. They are
+/// are mostly of the first four from the fastest to the slowest, then the others, of which the
+/// oscillatory ones come first. They are
 ///   short period, phugoid, Dutch roll, roll, spiral
-/// by speed and by whether they swing: of the longitudinal pairs the faster is the short period, of
-/// the real lateral ones the fastest is roll and the slowest spiral. Names of what is rarer: "short
-/// period, real" and "phugoid, real" where a pair has become two real modes (an unstable airframe),
-/// "third oscillatory" (a phugoid by its family) for a pair between two real ones, "roll-spiral" (a
-/// spiral) for a second lateral pair, "Dutch roll, real".
+/// by speed and by whether they are oscillatory: of the longitudinal pairs the faster is the short
+/// period, of the real lateral ones the fastest is roll and the slowest spiral. Names of what is
+/// rarer: "short period, real" and "phugoid, real" where a pair has become two real modes (an
+/// unstable airframe), "third oscillatory" (a phugoid by its family) for a pair between two real
+/// ones, "roll-spiral" (a spiral) for a second lateral pair, "Dutch roll, real".
 std::vector<FlightMode> FindFlightModes(const LinearFlight& model);
 
 }  // namespace skein

@@ -15,7 +15,9 @@ constexpr const char* kIntervalKey = "control_interval_s";
 std::unique_ptr<const Policy> ControlAutopilot(const std::string& variant, const EnvConfig& env) {
   EnvConfig config = env;
   config.task = kLowLevelTask;
-  return MakeAutopilot(config, AutopilotOf(variant));
+  // A file does not say in which plant it flew: of any one, and bit for bit, it flies by one
+  // throttle.
+  return MakeAutopilot(config, GainsOf(AutopilotOf(variant)));
 }
 
 }  // namespace

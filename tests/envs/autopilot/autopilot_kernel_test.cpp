@@ -92,13 +92,13 @@ std::vector<double> FlyInDouble(AutopilotVariant variant, int steps) {
   WanderingObservations observed(kCount);
   std::vector<typename Law<double>::Memory> memory(kCount);
   std::vector<double> action(kCount * kActionSize);
+  const AutopilotGains gains = GainsFor(EnvConfig(), variant);
   for (int step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < kCount; ++i) {
       double row[kObservationSize];
       std::copy_n(observed.rows().begin() + static_cast<std::ptrdiff_t>(i) * kObservationSize,
                   kObservationSize, row);
-      Law<double>::Act(GainsOf(variant), AutopilotTiming(), row, memory[i],
-                       &action[i * kActionSize]);
+      Law<double>::Act(gains, AutopilotTiming(), row, memory[i], &action[i * kActionSize]);
     }
     observed.Advance();
   }

@@ -81,7 +81,9 @@ TEST(Autopilot, OuterLoopsKeepTheirRateAtOtherControlIntervals) {
   config.control_interval_s = 0.01;
   config.time_limit_steps = 5000;
   config.observation_noise = 0;
-  EXPECT_GE(FirstEpisodes(config, GainsOf(AutopilotVariant::kTraditional), 50, 1).success_rate, 1);
+  EXPECT_GE(
+      FirstEpisodes(config, GainsFor(config, AutopilotVariant::kTraditional), 50, 1).success_rate,
+      1);
 }
 
 // Floors of success: about three standard deviations of 300 episodes below what 1000 gave
@@ -92,8 +94,10 @@ struct Floor {
   double success_rate, mean_seconds;
 };
 
-void ExpectFloor(const Floor& floor) {
-  const FlockScore score = FirstEpisodes(Task(floor.task), GainsOf(floor.variant), 300, 2026);
+void ExpectFloor(const Floor& floor, bool drag_rises = false) {
+  EnvConfig config = Task(floor.task);
+  config.drag_rises = config.thrust_grows = drag_rises;
+  const FlockScore score = FirstEpisodes(config, GainsFor(config, floor.variant), 300, 2026);
   EXPECT_GE(score.success_rate, floor.success_rate) << floor.task;
   EXPECT_LE(score.mean_seconds, floor.mean_seconds) << floor.task;
 }
@@ -115,11 +119,21 @@ TEST(AutopilotFloor, Tracking) {
   ExpectFloor({"tracking", AutopilotVariant::kAggressive, 0.975, 20});
 }
 
+TEST(AutopilotFloor, WithDragRise) {
+  ExpectFloor({"heading", AutopilotVariant::kAggressive, 0.99, 18.5}, true);
+  ExpectFloor({"control", AutopilotVariant::kAggressive, 0.99, 15.5}, true);
+  ExpectFloor({"tracking", AutopilotVariant::kAggressive, 0.975, 20}, true);
+}
+
 TEST(AutopilotFloor, LimitsToStartFromDoNotSuffice) {
-  const AutopilotGains gains = GainsOf(AutopilotVariant::kPublic);
-  EXPECT_LT(FirstEpisodes(Task("heading"), gains, 300, 2026).success_rate, 0.65);
-  EXPECT_LT(FirstEpisodes(Task("control"), gains, 300, 2026).success_rate, 0.55);
-  EXPECT_LT(FirstEpisodes(Task("tracking"), gains, 300, 2026).success_rate, 0.65);
+  const auto success = [](const char* task) {
+    const EnvConfig config = Task(task);
+    return FirstEpisodes(config, GainsFor(config, AutopilotVariant::kPublic), 300, 2026)
+        .success_rate;
+  };
+  EXPECT_LT(success("heading"), 0.65);
+  EXPECT_LT(success("control"), 0.55);
+  EXPECT_LT(success("tracking"), 0.65);
 }
 
 // Step responses, without noise: targets drawn in one quantity only, that never count as reached.
@@ -159,7 +173,7 @@ class StepResponse : public testing::TestWithParam<AutopilotVariant> {
   };
   template <class ErrorOf>
   Response Fly(const EnvConfig& config, double seconds, const ErrorOf& error_of) const {
-    Flock flock(config, GainsOf(GetParam()), kCount, 5);
+    Flock flock(config, GainsFor(config, GetParam()), kCount, 5);
     std::vector<double> start;
     for (int i = 0; i < kCount; ++i) start.push_back(error_of(flock.env(), i));
     Response worst;
@@ -226,7 +240,7 @@ TEST_P(StepResponse, OfHeadingLeavesAltitudeAndSpeed) {
   constexpr Tolerance kSpeedFtS{120, "transient of a hard turn"};
   EnvConfig config = Quiet("heading");
   config.heading.yaw_change_rad = 1;
-  Flock flock(config, GainsOf(GetParam()), kCount, 5);
+  Flock flock(config, GainsFor(config, GetParam()), kCount, 5);
   for (int step = 0; step < 2000; ++step) {
     flock.Step();
     for (int i = 0; i < kCount; ++i) {
@@ -244,7 +258,7 @@ TEST_P(StepResponse, PathsToAPointAreStraight) {
   config.observation_noise = 0;
   config.tracking.azimuth_deg = config.tracking.elevation_deg = 15;
   config.tracking.distance_ft = {20000, 20000};
-  Flock flock(config, GainsOf(GetParam()), kCount, 5);
+  Flock flock(config, GainsFor(config, GetParam()), kCount, 5);
   std::vector<double> path(kCount);
   std::vector<bool> ended(kCount);
   for (int step = 0; step < config.time_limit_steps; ++step) {

@@ -110,7 +110,8 @@ TEST(AircraftFindings, NamesTheModeThatDiverges) {
   TuningLimits limits;
   limits.envelope.max_speed_ft_s = 1000;
   const FlightEnvelope envelope = FindEnvelope(plant, limits.envelope, 1, 3);
-  EXPECT_THAT(TextOf(CheckModes(plant, envelope), Finding::kWarning), HasSubstr("doubles in"));
+  EXPECT_THAT(TextOf(CheckModes(plant, envelope), Finding::kWarning),
+              HasSubstr("has a time to double of"));
 }
 
 TEST(AircraftFindings, GainsThatBreakTheLoopAreAnError) {

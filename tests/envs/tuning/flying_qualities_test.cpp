@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
 
 #include "envs/aircraft/registry.h"
 #include "envs/tuning/trial_flight.h"
@@ -131,6 +134,9 @@ TEST(FlyingQualities, LevelsEndWhereTheStandardEndsThem) {
   EXPECT_EQ(AnticipationLevel(limits, 5, 3, 1), 2);
   EXPECT_EQ(AnticipationLevel(limits, 11, 9, 1), 3);
   EXPECT_EQ(AnticipationLevel(limits, 0.1, 3, 1), 4);
+  EXPECT_EQ(AirspeedDivergenceLevel(limits, INFINITY), 1);
+  EXPECT_EQ(AirspeedDivergenceLevel(limits, 6), 3);
+  EXPECT_EQ(AirspeedDivergenceLevel(limits, 5.9), 4);
   EXPECT_EQ(PhugoidLevel(limits, 0.04, INFINITY), 1);
   EXPECT_EQ(PhugoidLevel(limits, 0, INFINITY), 2);
   EXPECT_EQ(PhugoidLevel(limits, -0.01, 60), 3);
@@ -147,6 +153,59 @@ TEST(FlyingQualities, LevelsEndWhereTheStandardEndsThem) {
   EXPECT_EQ(SpiralLevel(limits, 3), 4);
   EXPECT_EQ(RollPerformanceLevel(limits, 1.3), 1);
   EXPECT_EQ(RollPerformanceLevel(limits, INFINITY), 4);
+}
+
+/// What is asked of the airspeed where the longitudinal modes have these eigenvalues, 1/s.
+std::vector<Requirement> AirspeedOf(const std::vector<std::complex<double>>& eigenvalues) {
+  std::vector<LinearMode> modes;
+  for (const std::complex<double>& eigenvalue : eigenvalues) modes.push_back({eigenvalue, {}});
+  return AssessAirspeed(modes, LimitsOf(AirplaneClass::kIV, FlightPhaseCategory::kA));
+}
+
+/// The rate of growth, 1/s, of what doubles in so many seconds.
+double Growth(double time_to_double_s) { return std::log(2.0) / time_to_double_s; }
+
+TEST(FlyingQualities, AnAperiodicAirspeedDivergenceIsOfItsOwnParagraph) {
+  constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+  const struct {
+    double eigenvalue;
+    int level;
+  } cases[] = {{-0.01, 1}, {Growth(115), 3}, {Growth(10), 3}, {Growth(4), 4}, {Growth(1), 4}};
+  for (const auto& [eigenvalue, level] : cases) {
+    const std::vector<Requirement> asked = AirspeedOf({eigenvalue, {-2, 3}});
+    ASSERT_EQ(asked.size(), 1u) << eigenvalue;
+    EXPECT_STREQ(asked[0].paragraph, "3.2.1.1");
+    EXPECT_EQ(asked[0].level, level) << eigenvalue;
+    if (eigenvalue > 0) {
+      EXPECT_NEAR(asked[0].value * eigenvalue, std::log(2.0), kRounding);
+    } else {
+      EXPECT_EQ(asked[0].value, INFINITY);
+    }
+  }
+}
+
+TEST(FlyingQualities, AnOscillatoryPhugoidIsJudgedByItsDamping) {
+  constexpr double kFrequency = 0.1;  // rad/s
+  const struct {
+    double growth;
+    int level;
+  } cases[] = {{-0.01, 1}, {-0.001, 2}, {Growth(60), 3}, {Growth(50), 4}};
+  for (const auto& [growth, level] : cases) {
+    const std::vector<Requirement> asked = AirspeedOf({{growth, kFrequency}, {-2, 3}});
+    ASSERT_EQ(asked.size(), 1u) << growth;
+    EXPECT_STREQ(asked[0].paragraph, "3.2.1.2");
+    EXPECT_EQ(asked[0].level, level) << growth;
+  }
+}
+
+// Each is of the least stable of its kind; what is fast and decays is not of the airspeed.
+TEST(FlyingQualities, BothKindsOfAirspeedMotionAreJudged) {
+  const std::vector<Requirement> asked =
+      AirspeedOf({-0.02, Growth(10), {-0.01, 0.1}, {Growth(50), 0.1}, -5});
+  ASSERT_EQ(asked.size(), 2u);
+  EXPECT_EQ(asked[0].level, 3);
+  EXPECT_EQ(asked[1].level, 4);
+  EXPECT_TRUE(AirspeedOf({-5, {-2, 3}}).empty());
 }
 
 TEST(FlyingQualities, LevelsDependOnClassAndCategory) {
