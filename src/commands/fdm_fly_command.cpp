@@ -58,7 +58,7 @@ void FlySticks(const FlyOptions& options) {
   flight.mode = kModes.at(options.mode);
   if (options.by_altitude) flight.gusts.law = TurbulenceLaw::kByAltitude;
   const Plant plant = options.condition.MakePlant();
-  const SteadyFlight start = FindSteadyFlight(plant, options.condition.grid.At(0, 0));
+  const SteadyFlight start = FindSteadyFlight(plant, options.condition.grid.At(plant, 0, 0));
   if (!options.commands.empty()) {
     PilotCommands trimmed;
     trimmed.throttle = start.throttle;

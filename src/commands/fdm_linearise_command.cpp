@@ -33,15 +33,15 @@ void FindLinearModels(const LineariseOptions& options) {
   CheckWritable({options.json, options.picture}, options.condition.model.FilesRead());
   const Plant plant = options.condition.MakePlant();
   const auto flights = AtEveryPoint<LinearisedFlight>(
-      options.condition.grid, [&](const SteadyFlightRequest& request) {
+      plant, options.condition.grid, [&](const SteadyFlightRequest& request) {
         return LineariseSteadyFlight(plant, request, kFlaps.at(options.flap));
       });
   fmt::print("linear models of {}, flap {}\n", options.condition.Describe(plant), options.flap);
   for (const LinearisedFlight& linearised : flights) {
     for (const ExceededLimit& limit : linearised.flight.exceeded_limits) {
-      fmt::print("the flight at {} ft and {} ft/s {}\n",
+      fmt::print("the flight at {} ft and {:.6g} ft/s {}\n",
                  ShortestText(linearised.request.altitude_ft),
-                 ShortestText(linearised.request.true_airspeed_ft_s), limit.words);
+                 linearised.request.true_airspeed_ft_s, limit.words);
     }
   }
   fmt::print("{}", flights.size() == 1 ? Describe(flights.front()) : DescribeModes(flights));

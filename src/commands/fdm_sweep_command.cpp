@@ -31,8 +31,8 @@ void Sweep(const SweepOptions& options) {
   CheckWritable({options.json, options.picture}, options.condition.model.FilesRead());
   const Plant plant = options.condition.MakePlant();
   const LevelLimits limits = LimitsNamed(options.airplane_class, options.category);
-  const auto flights =
-      AtEveryPoint<AssessedFlight>(options.condition.grid, [&](const SteadyFlightRequest& request) {
+  const auto flights = AtEveryPoint<AssessedFlight>(
+      plant, options.condition.grid, [&](const SteadyFlightRequest& request) {
         return AssessSteadyFlight(plant, request, limits);
       });
   fmt::print("flying qualities of {}, with flight control; levels of {}\n\n{}",

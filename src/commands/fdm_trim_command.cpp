@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "envs/state/attitude.h"
@@ -26,54 +29,79 @@ struct TrimOptions {
   std::string wind, json, csv, picture, polar;
 };
 
-std::string DescribeTrim(const SteadyFlight& flight) {
-  const auto& trim = flight.trim;
-  const auto& output = flight.output;
-  std::string text;
+bool IsOfThrust(const ExceededLimit& limit) {
+  return limit.limit == FlightLimit::kThrust || limit.limit == FlightLimit::kIdle;
+}
+
+/// In six significant digits, on the right; what is rounding is 0.
+std::string Figure(double value) {
+  constexpr double kRounding = 1e-9;
+  return fmt::format("{:14.6g}", std::abs(value) < kRounding ? 0 : value);
+}
+
+/// Whether the engine gives the thrust that it would take.
+bool IsSustained(const SteadyFlight& flight) {
+  return std::none_of(flight.exceeded_limits.begin(), flight.exceeded_limits.end(), IsOfThrust);
+}
+
+/// The first lines: whether the flight lasts, and what else is beyond the model.
+std::string DescribeLimits(const SteadyFlight& flight, const std::string& condition) {
+  std::string text = (IsSustained(flight) ? "steady flight of " : "trim of ") + condition + "\n";
   for (const ExceededLimit& limit : flight.exceeded_limits) {
-    text += "  this flight " + limit.words + "\n";
+    if (IsOfThrust(limit)) {
+      text.insert(0, "this flight cannot be sustained: it " + limit.words + "\n");
+    } else {
+      text += "  this flight " + limit.words + "\n";
+    }
   }
-  text += fmt::format(
-      "  thrust           {:14.6f} lbf   (engine power {:.4f} %, throttle {:.4f})\n"
-      "  alpha            {:14.6f} deg\n"
-      "  beta             {:14.6f} deg\n"
-      "  bank             {:14.6f} deg\n"
-      "  pitch            {:14.6f} deg\n"
-      "  elevator         {:14.6f} deg\n"
-      "  aileron          {:14.6f} deg\n"
-      "  rudder           {:14.6f} deg\n"
-      "  leading-edge flap{:14.6f} deg\n"
-      "  load factor nz   {:14.6f} g\n"
-      "  lift coefficient {:14.6f}\n"
-      "  drag coefficient {:14.6f}\n"
-      "  Mach             {:14.6f}\n"
-      "  dynamic pressure {:14.6f} lbf/ft2\n"
-      "  excess power     {:14.6f} ft/s at full throttle ({:.1f} lbf)\n"
-      "  residual         {:14.3e} ft/s2 or rad/s2\n",
-      trim.controls.thrust_lbf, trim.power, flight.throttle, trim.alpha_rad * kDegPerRad,
-      output.air.beta_rad * kDegPerRad, trim.bank_rad * kDegPerRad, trim.pitch_rad * kDegPerRad,
-      trim.controls.elevator_deg, trim.controls.aileron_deg, trim.controls.rudder_deg,
-      trim.controls.leading_edge_flap_deg, output.nz, flight.lift_coefficient(),
-      flight.drag_coefficient(), output.air.mach, output.air.dynamic_pressure_psf,
-      flight.excess_power_ft_s, flight.available_thrust_lbf, trim.residual);
+  return text;
+}
+
+std::string DescribeTrim(const SteadyFlight& flight) {
+  const TrimPoint& trim = flight.trim;
+  const PlantOutput& output = flight.output;
+  const Controls& controls = trim.controls;
+  const std::vector<std::pair<const char*, std::string>> rows = {
+      {"thrust",
+       Figure(controls.thrust_lbf) + fmt::format(" lbf   (engine power {:.6g} %, throttle {:.6g})",
+                                                 trim.power, flight.throttle)},
+      {"alpha", Figure(trim.alpha_rad * kDegPerRad) + " deg"},
+      {"beta", Figure(output.air.beta_rad * kDegPerRad) + " deg"},
+      {"bank", Figure(trim.bank_rad * kDegPerRad) + " deg"},
+      {"pitch", Figure(trim.pitch_rad * kDegPerRad) + " deg"},
+      {"elevator", Figure(controls.elevator_deg) + " deg"},
+      {"aileron", Figure(controls.aileron_deg) + " deg"},
+      {"rudder", Figure(controls.rudder_deg) + " deg"},
+      {"leading-edge flap", Figure(controls.leading_edge_flap_deg) + " deg"},
+      {"load factor nz", Figure(output.nz) + " g"},
+      {"lift coefficient", Figure(flight.lift_coefficient())},
+      {"drag coefficient", Figure(flight.drag_coefficient())},
+      {"Mach", Figure(output.air.mach)},
+      {"dynamic pressure", Figure(output.air.dynamic_pressure_psf) + " lbf/ft2"},
+      {"excess power",
+       Figure(flight.excess_power_ft_s) +
+           fmt::format(" ft/s at full throttle ({:.6g} lbf)", flight.available_thrust_lbf)},
+      {"residual", fmt::format("{:14.3e} ft/s2 or rad/s2", trim.residual)}};
+  std::string text;
+  for (const auto& [name, figure] : rows) text += fmt::format("  {:17}{}\n", name, figure);
   return text;
 }
 
 std::string DescribeGroundVelocity(const SteadyFlight& flight) {
   const RigidBodyState& rate = flight.output.state_rate;
-  return fmt::format("  over ground      {:14.6f} ft/s north, {:.6f} east, {:.6f} down\n",
-                     rate[kNorth], rate[kEast], rate[kDown]);
+  return fmt::format("  over ground      {} ft/s north, {:.6g} east, {:.6g} down\n",
+                     Figure(rate[kNorth]), rate[kEast], rate[kDown]);
 }
 
 void TrimOnePoint(const TrimOptions& options, const Plant& plant) {
-  const FlightGrid& grid = options.condition.grid;
-  const SteadyFlight flight = FindSteadyFlight(plant, grid.At(0, 0));
-  fmt::print("steady flight of {}\n{}{}", options.condition.Describe(plant), DescribeTrim(flight),
-             options.wind.empty() ? "" : DescribeGroundVelocity(flight));
+  const SteadyFlightRequest request = options.condition.grid.At(plant, 0, 0);
+  const SteadyFlight flight = FindSteadyFlight(plant, request);
+  fmt::print("{}{}{}", DescribeLimits(flight, options.condition.Describe(plant)),
+             DescribeTrim(flight), options.wind.empty() ? "" : DescribeGroundVelocity(flight));
   if (options.json.empty()) return;
   Json json = options.condition.ToJson(plant);
-  json["altitude_ft"] = grid.altitude_ft.front();
-  json["speed_fps"] = grid.speed_fps.front();
+  json["altitude_ft"] = request.altitude_ft;
+  json["speed_fps"] = request.true_airspeed_ft_s;
   json.update(ToJson(flight));
   WriteJson(options.json, json);
 }
@@ -97,7 +125,10 @@ void TrimGrid(const TrimOptions& options, const Plant& plant) {
 /// Before the work: what cannot be written of this grid.
 void RequireGridFor(const TrimOptions& options) {
   const FlightGrid& grid = options.condition.grid;
-  const bool has_altitudes = grid.altitude_ft.size() > 1, has_speeds = grid.speed_fps.size() > 1;
+  const bool has_altitudes = grid.altitude_ft.size() > 1, has_speeds = grid.speeds().size() > 1;
+  if (!grid.mach.empty() && !(options.picture.empty() && options.polar.empty())) {
+    throw UsageError("--picture and --polar are drawn over --speed-fps, not over --mach");
+  }
   if (!options.csv.empty() && grid.IsOnePoint()) {
     throw UsageError("--csv is for several altitudes or speeds");
   }

@@ -24,6 +24,25 @@ std::string Span(const std::vector<double>& values) {
                             : ShortestText(values.front()) + " to " + ShortestText(values.back());
 }
 
+std::string SpeedText(const FlightGrid& grid, const Plant& plant) {
+  if (grid.mach.empty()) return Span(grid.speed_fps) + " ft/s";
+  if (!grid.IsOnePoint()) return "Mach " + Span(grid.mach);
+  return fmt::format("Mach {} ({:.6g} ft/s)", Span(grid.mach),
+                     grid.At(plant, 0, 0).true_airspeed_ft_s);
+}
+
+void AddSpeed(CLI::App* command, FlightGrid* grid, bool is_one_point) {
+  const auto add = [&](const char* name, std::vector<double>* numbers, const char* what) {
+    return AddNumberList(command, name, numbers, 0, "number above 0", what);
+  };
+  if (is_one_point) {
+    add("--speed-fps", &grid->speed_fps, "true airspeed, ft/s")->required();
+    return;
+  }
+  CLI::Option* speed = add("--speed-fps", &grid->speed_fps, "true airspeed, ft/s: the same");
+  add("--mach", &grid->mach, "Mach number in place of a speed: the same")->excludes(speed);
+}
+
 void AddFlightPath(CLI::App* command, SteadyFlightRequest* manoeuvre) {
   command
       ->add_option("--flight-path-deg", manoeuvre->flight_path_deg,
@@ -114,9 +133,7 @@ void AddFlightCondition(CLI::App* command, FlightCondition* options,
       command, "--altitude-ft", &options->grid.altitude_ft, kAny, "finite number",
       form.is_one_point ? "altitude, ft" : "altitude, ft: one, several (A,B,C) or FROM..TO:STEP")
       ->required();
-  AddNumberList(command, "--speed-fps", &options->grid.speed_fps, 0, "number above 0",
-                form.is_one_point ? "true airspeed, ft/s" : "true airspeed, ft/s: the same")
-      ->required();
+  AddSpeed(command, &options->grid, form.is_one_point);
   AddFlightPath(command, &options->grid.manoeuvre);
   if (form.may_turn) AddTurnAndPullUp(command, &options->grid.manoeuvre);
   AddPlantSetting(command, &options->setting);
@@ -124,6 +141,7 @@ void AddFlightCondition(CLI::App* command, FlightCondition* options,
 }
 
 Plant FlightCondition::MakePlant() const {
+  if (grid.speeds().empty()) throw UsageError("--speed-fps or --mach is required");
   return skein::MakePlant(model.aircraft, AtmosphereNamed(model.atmosphere), model.gravity,
                           setting);
 }
@@ -131,8 +149,8 @@ Plant FlightCondition::MakePlant() const {
 std::string FlightCondition::Describe(const Plant& plant) const {
   const SteadyFlightRequest& manoeuvre = grid.manoeuvre;
   std::string text =
-      fmt::format("{} at {} ft and {} ft/s, flight path {} deg, ", model.aircraft,
-                  Span(grid.altitude_ft), Span(grid.speed_fps), manoeuvre.flight_path_deg);
+      fmt::format("{} at {} ft and {}, flight path {} deg, ", model.aircraft,
+                  Span(grid.altitude_ft), SpeedText(grid, plant), manoeuvre.flight_path_deg);
   text += manoeuvre.load_factor
               ? fmt::format("pull-up at {} times the weight", *manoeuvre.load_factor)
               : fmt::format("turn {} deg/s", manoeuvre.turn_rate_deg_s);

@@ -35,7 +35,7 @@ struct FlightCondition {
   PlantSetting setting;
   FlightGrid grid;
 
-  /// Throws UsageError and what LoadAircraft throws.
+  /// Throws UsageError, also without a speed or Mach number, and what LoadAircraft throws.
   Plant MakePlant() const;
   /// "f16 at 15000 ft and 500 ft/s, ..., cg 0.3"; with the wind, if there is one.
   std::string Describe(const Plant& plant) const;
@@ -43,17 +43,17 @@ struct FlightCondition {
   nlohmann::ordered_json ToJson(const Plant& plant) const;
 };
 
-/// What `at` returns of the flights of a grid. A flight that there is not is named on the error
-/// stream; the Error of the only one, or of all, is thrown, and what CheckSize throws.
+/// What `at` returns of the flights of a grid of that plant. A flight that there is not is named on
+/// the error stream; the Error of the only one, or of all, is thrown, and what CheckSize throws.
 template <typename Result>
-std::vector<Result> AtEveryPoint(const FlightGrid& grid,
+std::vector<Result> AtEveryPoint(const Plant& plant, const FlightGrid& grid,
                                  const std::function<Result(const SteadyFlightRequest&)>& at) {
   grid.CheckSize();
   std::vector<Result> results;
   for (std::size_t i = 0; i < grid.altitude_ft.size(); ++i) {
-    for (std::size_t k = 0; k < grid.speed_fps.size(); ++k) {
+    for (std::size_t k = 0; k < grid.speeds().size(); ++k) {
       try {
-        results.push_back(at(grid.At(i, k)));
+        results.push_back(at(grid.At(plant, i, k)));
       } catch (const UsageError&) {
         throw;
       } catch (const Error& error) {
@@ -78,7 +78,7 @@ Eigen::Vector3d ReadWind(const std::string& wind);
 
 /// Which flight conditions a command takes.
 struct FlightConditionForm {
-  bool is_one_point = false;  ///< no grid of altitudes and speeds
+  bool is_one_point = false;  ///< no grid of altitudes and speeds, no Mach number
   bool may_turn = true;       ///< turns and pull-ups, too
 };
 

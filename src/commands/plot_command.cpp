@@ -236,6 +236,12 @@ void AddSpacePlot(CLI::App* plot) {
       ->type_name("DEG")
       ->transform(NumberIn(1, 89))
       ->capture_default_str();
+  command
+      ->add_option("--vertical-scale", view->vertical_scale,
+                   "altitudes are drawn so many times as high (default: 1, or a power of two up to "
+                   "32 where flights are flat)")
+      ->type_name("N")
+      ->transform(NumberIn(1, 100));
   command->footer(
       "Aircraft are those of the first agent; the others' flights are lines.\n"
       "Example: skein plot space --policy runs/short --agents autopilot -o space.pdf\n"

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "envs/air/atmosphere.h"
 #include "envs/aircraft/units.h"
 #include "envs/state/state.h"
 #include "src/config/usage_error.h"
@@ -92,10 +93,13 @@ char LetterOf(std::optional<FlightLimit> limit) { return limit ? Of(*limit).lett
 
 const char* WordsOf(std::optional<FlightLimit> limit) { return limit ? Of(*limit).words : "flown"; }
 
-SteadyFlightRequest FlightGrid::At(std::size_t altitude, std::size_t speed) const {
+SteadyFlightRequest FlightGrid::At(const Plant& plant, std::size_t altitude,
+                                   std::size_t speed) const {
   SteadyFlightRequest request = manoeuvre;
   request.altitude_ft = altitude_ft[altitude];
-  request.true_airspeed_ft_s = speed_fps[speed];
+  request.true_airspeed_ft_s =
+      mach.empty() ? speed_fps[speed]
+                   : mach[speed] * AirAt(plant.atmosphere(), request.altitude_ft).sound_speed_ft_s;
   return request;
 }
 
@@ -107,19 +111,20 @@ void FlightGrid::CheckSize() const {
 FlownGrid::FlownGrid(const Plant& plant, FlightGrid grid) : grid_(std::move(grid)) {
   grid_.CheckSize();
   for (std::size_t i = 0; i < grid_.altitude_ft.size(); ++i) {
-    for (std::size_t k = 0; k < grid_.speed_fps.size(); ++k) {
-      points_.push_back(Fly(plant, grid_.At(i, k)));
+    for (std::size_t k = 0; k < grid_.speeds().size(); ++k) {
+      points_.push_back(Fly(plant, grid_.At(plant, i, k)));
     }
   }
 }
 
 std::string FlownGrid::Map() const {
-  std::string text = fmt::format("\naltitude, ft   speed, ft/s: {} to {}\n",
-                                 grid_.speed_fps.front(), grid_.speed_fps.back());
+  std::string text = fmt::format("\naltitude, ft   {}: {:.6g} to {:.6g}\n",
+                                 grid_.mach.empty() ? "speed, ft/s" : "Mach",
+                                 grid_.speeds().front(), grid_.speeds().back());
   std::vector<bool> seen(kLimits.size());
   for (std::size_t i = grid_.altitude_ft.size(); i-- > 0;) {
     text += fmt::format("{:>12}   ", ShortestText(grid_.altitude_ft[i]));
-    for (std::size_t k = 0; k < grid_.speed_fps.size(); ++k) {
+    for (std::size_t k = 0; k < grid_.speeds().size(); ++k) {
       const auto limit = FirstLimit(At(i, k));
       if (limit) seen[static_cast<std::size_t>(*limit)] = true;
       text += LetterOf(limit);
@@ -139,7 +144,7 @@ std::string FlownGrid::GroundCell(const std::string& text) const {
 }
 
 std::string FlownGrid::DescribeRow(std::size_t altitude) const {
-  const std::size_t count = grid_.speed_fps.size();
+  const std::size_t count = grid_.speeds().size();
   std::size_t slowest = count, fastest = 0;
   double most_excess = 0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -160,14 +165,13 @@ std::string FlownGrid::DescribeRow(std::size_t altitude) const {
   const std::string over_ground =
       fmt::format("{:.0f} to {:.0f}", At(altitude, slowest).flight->ground_speed_ft_s(),
                   At(altitude, fastest).flight->ground_speed_ft_s());
-  return fmt::format("{}{:>10}{:>10}{}{:>13.0f}   {}; {}\n", label,
-                     ShortestText(grid_.speed_fps[slowest]), ShortestText(grid_.speed_fps[fastest]),
-                     GroundCell(over_ground), most_excess,
+  return fmt::format("{}{:>10.6g}{:>10.6g}{}{:>13.0f}   {}; {}\n", label, grid_.speeds()[slowest],
+                     grid_.speeds()[fastest], GroundCell(over_ground), most_excess,
                      beyond(slowest == 0 ? count : slowest - 1), beyond(fastest + 1));
 }
 
 std::string FlownGrid::Describe() const {
-  std::string text = grid_.speed_fps.size() <= kWidestMap ? Map() : "";
+  std::string text = grid_.speeds().size() <= kWidestMap ? Map() : "";
   text += fmt::format("\n{:>12}{:>10}{:>10}{}{:>13}   {}\n", "altitude, ft", "slowest", "fastest",
                       GroundCell("over ground"), "excess ft/s", "what ends it below; above");
   for (std::size_t i = grid_.altitude_ft.size(); i-- > 0;) text += DescribeRow(i);

@@ -10,16 +10,20 @@
 
 namespace skein {
 
-/// The same manoeuvre at every altitude and speed.
+/// The same manoeuvre at every altitude and speed, or every altitude and Mach number.
 struct FlightGrid {
   SteadyFlightRequest manoeuvre;               ///< but for altitude and speed
   std::vector<double> altitude_ft, speed_fps;  ///< ascending, for what is described or drawn
+  std::vector<double> mach = {};               ///< in place of speeds, ascending
 
-  std::size_t CountPoints() const { return altitude_ft.size() * speed_fps.size(); }
+  /// Speeds, ft/s, or Mach numbers: what the points at one altitude differ by.
+  const std::vector<double>& speeds() const { return mach.empty() ? speed_fps : mach; }
+  std::size_t CountPoints() const { return altitude_ft.size() * speeds().size(); }
   bool IsOnePoint() const { return CountPoints() == 1; }
   /// Throws UsageError of more than 100,000 points.
   void CheckSize() const;
-  SteadyFlightRequest At(std::size_t altitude, std::size_t speed) const;
+  /// A Mach number is that in the plant's atmosphere at the altitude.
+  SteadyFlightRequest At(const Plant& plant, std::size_t altitude, std::size_t speed) const;
 };
 
 /// Whether and how it is flown at one point.
@@ -44,11 +48,11 @@ class FlownGrid {
   const FlightGrid& grid() const { return grid_; }
   const std::vector<GridPoint>& points() const { return points_; }
   const GridPoint& At(std::size_t altitude, std::size_t speed) const {
-    return points_[altitude * grid_.speed_fps.size() + speed];
+    return points_[altitude * grid_.speeds().size() + speed];
   }
 
   /// A map of letters, and of every altitude the slowest and the fastest speed, in a wind those
-  /// over ground, too, and the greatest excess power. Of altitudes and speeds that ascend.
+  /// over ground, too, and the greatest excess power. Of axes that ascend.
   std::string Describe() const;
   /// A line for every point, behind one of names.
   std::string Csv() const;

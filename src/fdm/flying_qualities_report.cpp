@@ -49,15 +49,23 @@ std::string DescribeStep(const char* name, const StepResponse& step, const char*
                      Figure(100 * step.overshoot));
 }
 
+const char* NameOf(LoopBreak where) { return kLoopBreaks[static_cast<std::size_t>(where)].second; }
+
+/// "elevator"; "elevator, rudder" where gain and phase are least in different loops.
+std::string LimitingLoops(const LoopAt& least_gain, const LoopAt& least_phase) {
+  const std::string name = NameOf(least_gain.where);
+  return least_gain.where == least_phase.where ? name : name + ", " + NameOf(least_phase.where);
+}
+
 std::string DescribeLoops(const FlyingQualities& qualities) {
-  std::vector<std::vector<std::string>> rows = {
-      {"loop broken at", "gain up", "gain down", "phase", "at", "delay"}};
+  std::vector<std::vector<std::string>> rows = {{"loop broken at", "gain margin (increase)",
+                                                 "gain margin (decrease)", "phase margin",
+                                                 "crossover", "delay margin"}};
   for (const LoopAt& loop : qualities.loops) {
     const LoopMargins& margins = loop.margins;
-    rows.push_back({kLoopBreaks[static_cast<std::size_t>(loop.where)].second,
-                    Figure(margins.gain_up_db) + " dB", Figure(margins.gain_down_db) + " dB",
-                    Figure(margins.phase_deg) + " deg", Figure(margins.crossover_rad_s) + " rad/s",
-                    Figure(margins.delay_s) + " s"});
+    rows.push_back({NameOf(loop.where), Figure(margins.gain_up_db) + " dB",
+                    Figure(margins.gain_down_db) + " dB", Figure(margins.phase_deg) + " deg",
+                    Figure(margins.crossover_rad_s) + " rad/s", Figure(margins.delay_s) + " s"});
   }
   return InColumns(rows);
 }
@@ -85,7 +93,7 @@ Json ToJson(const StepResponse& step, const char* reached) {
 
 Json ToJson(const LoopAt& loop) {
   const LoopMargins& margins = loop.margins;
-  return {{"broken_at", kLoopBreaks[static_cast<std::size_t>(loop.where)].second},
+  return {{"broken_at", NameOf(loop.where)},
           {"gain_up_db", NumberOrNull(margins.gain_up_db)},
           {"gain_up_rad_s", NumberOrNull(margins.gain_up_rad_s)},
           {"gain_down_db", NumberOrNull(margins.gain_down_db)},
@@ -132,7 +140,7 @@ AssessedFlight AssessSteadyFlight(const Plant& plant, const SteadyFlightRequest&
   const SteadyFlight flight = FindSteadyFlight(plant, request);
   for (const ExceededLimit& limit : flight.exceeded_limits) {
     if (limit.limit == FlightLimit::kEngineTables) continue;
-    throw Error(fmt::format("flight at {} ft and {} ft/s {}", request.altitude_ft,
+    throw Error(fmt::format("flight at {} ft and {:.6g} ft/s {}", request.altitude_ft,
                             request.true_airspeed_ft_s, limit.words));
   }
   return {request, AssessFlyingQualities(plant, flight.trim, limits)};
@@ -162,9 +170,9 @@ std::string Describe(const FlyingQualities& qualities, const std::string& standa
 }
 
 std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
-  std::vector<std::vector<std::string>> rows = {{"altitude", "speed", "short period", "phugoid",
-                                                 "Dutch roll", "roll", "spiral", "bank", "gain, dB",
-                                                 "phase, deg", "least at"}};
+  std::vector<std::vector<std::string>> rows = {{"altitude", "speed", "short period", "airspeed",
+                                                 "phugoid", "Dutch roll", "roll", "spiral", "bank",
+                                                 "GM, dB", "PM, deg", "limiting loop"}};
   for (const AssessedFlight& flight : flights) {
     const FlyingQualities& qualities = flight.qualities;
     const auto gain = [](const LoopAt& loop) {
@@ -176,16 +184,14 @@ std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
     const auto least_phase = std::min_element(
         qualities.loops.begin(), qualities.loops.end(),
         [](const LoopAt& a, const LoopAt& b) { return a.margins.phase_deg < b.margins.phase_deg; });
-    const auto name = [](const auto& loop) {
-      return std::string(kLoopBreaks[static_cast<std::size_t>(loop->where)].second);
-    };
     rows.push_back({ShortestText(flight.request.altitude_ft),
-                    ShortestText(flight.request.true_airspeed_ft_s),
-                    WorstLevel(qualities, "3.2.2.1"), WorstLevel(qualities, "3.2.1.2"),
-                    WorstLevel(qualities, "3.3.1.1"), WorstLevel(qualities, "3.3.1.2"),
-                    WorstLevel(qualities, "3.3.1.3"), WorstLevel(qualities, "3.3.4"),
-                    Figure(gain(*least_gain)), Figure(least_phase->margins.phase_deg),
-                    name(least_gain) + ", " + name(least_phase)});
+                    fmt::format("{:.6g}", flight.request.true_airspeed_ft_s),
+                    WorstLevel(qualities, "3.2.2.1"), WorstLevel(qualities, "3.2.1.1"),
+                    WorstLevel(qualities, "3.2.1.2"), WorstLevel(qualities, "3.3.1.1"),
+                    WorstLevel(qualities, "3.3.1.2"), WorstLevel(qualities, "3.3.1.3"),
+                    WorstLevel(qualities, "3.3.4"), Figure(gain(*least_gain)),
+                    Figure(least_phase->margins.phase_deg),
+                    LimitingLoops(*least_gain, *least_phase)});
   }
   const bool has_doubt =
       std::any_of(flights.begin(), flights.end(),

@@ -53,33 +53,32 @@ std::string Figure(double value) {
 
 std::string EigenvalueText(const LinearMode& mode) {
   const double real = mode.eigenvalue.real(), imaginary = mode.eigenvalue.imag();
-  return mode.swings() ? fmt::format("{:.4f}+-{:.4f}i", real, imaginary)
-                       : fmt::format("{:.4f}", real);
+  return mode.is_oscillatory() ? fmt::format("{:.4f}+-{:.4f}i", real, imaginary)
+                               : fmt::format("{:.4f}", real);
 }
 
-/// "halves in 0.58 s"
+/// "half 0.58 s", below "time to".
 std::string DecayText(const LinearMode& mode) {
   if (std::isfinite(mode.time_to_double_s())) {
-    return fmt::format("doubles in {:.3g} s", mode.time_to_double_s());
+    return fmt::format("double {:.3g} s", mode.time_to_double_s());
   }
-  return std::isfinite(mode.time_to_half_s())
-             ? fmt::format("halves in {:.3g} s", mode.time_to_half_s())
-             : "neutral";
+  return std::isfinite(mode.time_to_half_s()) ? fmt::format("half {:.3g} s", mode.time_to_half_s())
+                                              : "neutral";
 }
 
 std::vector<std::string> ModeRow(const std::string& name, const LinearMode& mode,
                                  const std::vector<ModelVariable>& states) {
   return {name,
           EigenvalueText(mode),
-          mode.swings() ? fmt::format("{:.4g}", mode.frequency_rad_s()) : "-",
-          mode.swings() ? fmt::format("{:.3f}", mode.damping_ratio()) : "-",
-          mode.swings() ? "-" : Figure(mode.time_constant_s()),
+          mode.is_oscillatory() ? fmt::format("{:.4g}", mode.frequency_rad_s()) : "-",
+          mode.is_oscillatory() ? fmt::format("{:.3f}", mode.damping_ratio()) : "-",
+          mode.is_oscillatory() ? "-" : Figure(mode.time_constant_s()),
           DecayText(mode),
           MostlyOf(mode, states)};
 }
 
 std::vector<std::string> ModeHead() {
-  return {"", "eigenvalue 1/s", "rad/s", "damping", "const s", "", "mostly"};
+  return {"", "eigenvalue 1/s", "rad/s", "damping", "time constant, s", "time to", "mostly"};
 }
 
 /// Of a column: its name or a number, and a gap.
@@ -145,7 +144,7 @@ Json ToJson(const Eigen::MatrixXd& matrix) {
 
 Json ToJson(const LinearMode& mode, const std::vector<ModelVariable>& states) {
   Json json = {{"eigenvalue_per_s", {mode.eigenvalue.real(), mode.eigenvalue.imag()}},
-               {"swings", mode.swings()},
+               {"swings", mode.is_oscillatory()},
                {"frequency_rad_s", mode.frequency_rad_s()},
                {"damping_ratio", mode.damping_ratio()},
                {"time_constant_s", NumberOrNull(mode.time_constant_s())},
@@ -211,7 +210,7 @@ std::string DescribeModes(const std::vector<LinearisedFlight>& flights) {
       modes += fmt::format("{}{} {}", modes.empty() ? "" : "; ", mode.name, EigenvalueText(mode));
     }
     rows.push_back({ShortestText(linearised.request.altitude_ft),
-                    ShortestText(linearised.request.true_airspeed_ft_s), modes});
+                    fmt::format("{:.6g}", linearised.request.true_airspeed_ft_s), modes});
   }
   return InColumns(rows);
 }

@@ -66,13 +66,13 @@ std::vector<ExceededLimit> ExceededLimits(const Plant& plant, const TrimRequest&
     limits.push_back(
         needed > available
             ? ExceededLimit{FlightLimit::kThrust,
-                            fmt::format("needs more thrust than the engine has ({:.1f} of {:.1f} "
-                                        "lbf: short by {:.1f} lbf at full throttle)",
+                            fmt::format("needs more thrust than the engine has ({:.6g} of {:.6g} "
+                                        "lbf: short by {:.6g} lbf at full throttle)",
                                         needed, available, needed - available)}
             : ExceededLimit{FlightLimit::kIdle,
-                            fmt::format("needs less thrust than the engine gives when idle ({:.1f} "
-                                        "of {:.1f} lbf)",
-                                        needed, available)});
+                            fmt::format("needs less thrust than the engine gives when idle ({:.6g} "
+                                        "of {:.6g} lbf: {:.6g} lbf too much)",
+                                        needed, available, available - needed)});
   }
   const std::vector<double>& alpha_deg = plant.aircraft().aerodynamics.alpha_deg;
   const double alpha = trim.alpha_rad * kDegPerRad;

@@ -40,8 +40,9 @@ Outline BothHalves(const Outline& half) {
 
 }  // namespace
 
-std::vector<Shape> AircraftGlyph(const View& view, const SpacePoint& position, const BodyAxes& axes,
-                                 Colour colour, double enlarged) {
+std::vector<Shape> AircraftGlyph(const View& view, const SpacePoint& position,
+                                 const BodyAxes& attitude, Colour colour, double enlarged) {
+  const BodyAxes axes = view.Shown(attitude);
   const auto area = [&](const Outline& outline, const SpacePoint& sideways, Colour fill) {
     std::vector<PagePoint> points;
     for (const auto& [forward, side] : outline) {
@@ -55,7 +56,7 @@ std::vector<Shape> AircraftGlyph(const View& view, const SpacePoint& position, c
     path.width = 0.4;
     return path;
   };
-  const bool from_above = axes.up.dot(view.to_viewer()) > 0;
+  const bool from_above = view.Nearness(axes.up) > 0;
   const Colour fill = from_above ? colour : Mixed(colour, kWhite, 0.6);
   const Path hull = edged(area(BothHalves(Hull()), axes.right, fill));
   const Path fin = edged(area(Fin(), axes.up, Mixed(colour, 0, 0.25)));

@@ -11,9 +11,9 @@ namespace skein {
 /// Of the outline that is drawn, an F-16's, ft.
 inline constexpr double kGlyphLength_ft = 49, kGlyphHalfSpan_ft = 15.5;
 
-/// A little aircraft in its attitude, `enlarged` times its size: from above filled with the colour,
-/// from below with a pale one.
-std::vector<Shape> AircraftGlyph(const View& view, const SpacePoint& position, const BodyAxes& axes,
-                                 Colour colour, double enlarged);
+/// A little aircraft in its attitude, as View::Shown has it, `enlarged` times its size: from above
+/// filled with the colour, from below with a pale one.
+std::vector<Shape> AircraftGlyph(const View& view, const SpacePoint& position,
+                                 const BodyAxes& attitude, Colour colour, double enlarged);
 
 }  // namespace skein

@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kPadding = 0.06;        // of a range
 constexpr double kLabelGap = 4;          // between an axis and its numbers, points
+constexpr double kNameLeft = 36;         // between an axis and the base line of its name, points
+constexpr double kNameBottom = 22;       // as well, below
+constexpr double kHeadGap = 4;           // between a panel and the base line of its head, points
 constexpr double kRoundingGuard = 1e-9;  // of a step, so that ends that are multiples count
 constexpr double kCountWithTwo = 5;      // steps are at most half the range from here on
 
@@ -145,6 +148,23 @@ void Panel::LabelBottom(const std::vector<double>& ticks, std::vector<Shape>* sh
     const PagePoint at{Place(tick, 0).x, bottom() + kLabelGap + kSmallSize};
     shapes->emplace_back(Words{at, TickText(tick), kSmallSize, Anchor::kMiddle});
   }
+}
+
+void Panel::NameLeft(const std::string& words, std::vector<Shape>* shapes) const {
+  Words name{{left() - kNameLeft, (top() + bottom()) / 2}, words, kTextSize, Anchor::kMiddle};
+  name.runs_upwards = true;
+  shapes->emplace_back(std::move(name));
+}
+
+void Panel::NameBottom(const std::string& words, std::vector<Shape>* shapes) const {
+  const PagePoint at{(left() + right()) / 2, bottom() + kNameBottom};
+  shapes->emplace_back(Words{at, words, kTextSize, Anchor::kMiddle});
+}
+
+void Panel::DrawHead(const std::string& words, std::vector<Shape>* shapes) const {
+  Words head{{left(), top() - kHeadGap}, words};
+  head.is_bold = true;
+  shapes->emplace_back(std::move(head));
 }
 
 void Panel::DrawCurve(const std::vector<PagePoint>& points, Colour colour, double width, Dash dash,

@@ -31,6 +31,11 @@ Range Padded(const std::vector<double>& values);
 /// Of the numbers among `values`; 0 to 1 of none.
 Range SpanOf(const std::vector<double>& values);
 
+/// Between the paper's edge, or another panel, and a panel with NameLeft, points.
+inline constexpr double kLeftOfPanel = 48;
+/// Above a panel with DrawHead, points.
+inline constexpr double kAbovePanel = 16;
+
 /// A rectangle on which values of two ranges are drawn.
 class Panel {
  public:
@@ -54,6 +59,12 @@ class Panel {
                 std::vector<Shape>* shapes) const;
   void LabelLeft(const std::vector<double>& ticks, std::vector<Shape>* shapes) const;
   void LabelBottom(const std::vector<double>& ticks, std::vector<Shape>* shapes) const;
+  /// What the left axis shows: read from below, beside numbers of up to seven letters.
+  void NameLeft(const std::string& words, std::vector<Shape>* shapes) const;
+  /// What the lower axis shows, below its numbers.
+  void NameBottom(const std::string& words, std::vector<Shape>* shapes) const;
+  /// What the panel shows, above it.
+  void DrawHead(const std::string& words, std::vector<Shape>* shapes) const;
   /// A curve through values, simplified; of one alone a dot.
   void DrawCurve(const std::vector<PagePoint>& points, Colour colour, double width, Dash dash,
                  std::vector<Shape>* shapes) const;

@@ -15,7 +15,7 @@
 namespace skein {
 namespace {
 
-constexpr double kLeft = 44, kHeightPerWidth = 0.55;
+constexpr double kHeightPerWidth = 0.55;
 constexpr double kPointsPerTick = 46, kHeightPerTick = 24, kRadius = 2.4;
 
 struct Polar {
@@ -67,8 +67,9 @@ Picture DrawDragPolars(const FlownGrid& flown, double width, const std::string& 
     }
   }
   std::vector<Shape> shapes;
-  const double top = DrawTitle(title, width, &shapes) + 8, panel_width = width - kLeft - kMargin;
-  const Panel panel({kLeft, top}, panel_width, kHeightPerWidth * panel_width, FromZero(drag),
+  const double top = DrawTitle(title, width, &shapes) + 8;
+  const double panel_width = width - kLeftOfPanel - kMargin;
+  const Panel panel({kLeftOfPanel, top}, panel_width, kHeightPerWidth * panel_width, FromZero(drag),
                     FromZero(lift));
   const auto across = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
   const auto up = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
@@ -89,11 +90,10 @@ Picture DrawDragPolars(const FlownGrid& flown, double width, const std::string& 
     }
     entries.push_back({LineSample(style.colour, 1.2, style.dash), words});
   }
-  shapes.emplace_back(Words{{panel.left() + panel.width() / 2, panel.bottom() + 22},
-                            "drag coefficient; upwards lift coefficient",
-                            kTextSize,
-                            Anchor::kMiddle});
-  const double bottom = DrawLegend({kLeft, panel.bottom() + 40}, width - kMargin, entries, &shapes);
+  panel.NameLeft("lift coefficient", &shapes);
+  panel.NameBottom("drag coefficient", &shapes);
+  const double bottom =
+      DrawLegend({kLeftOfPanel, panel.bottom() + 40}, width - kMargin, entries, &shapes);
   return FinishedPicture(width, bottom, title.empty() ? "Drag polars" : title, std::move(shapes));
 }
 

@@ -14,7 +14,7 @@
 namespace skein {
 namespace {
 
-constexpr double kLeft = 52, kHeightPerWidth = 0.55;
+constexpr double kHeightPerWidth = 0.55;
 constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr Colour kFlown = 0x0072B2;
 constexpr int kShades = 4;
@@ -33,10 +33,10 @@ class GridDrawing {
 
   Picture Draw(const std::string& title) {
     const double top = DrawTitle(title, width_, &shapes_) + 8;
-    const double panel_width = width_ - kLeft - kMargin;
+    const double panel_width = width_ - kLeftOfPanel - kMargin;
     const std::vector<double>& speeds = flown_.grid().speed_fps;
     const std::vector<double>& altitudes = flown_.grid().altitude_ft;
-    const Panel panel({kLeft, top}, panel_width, kHeightPerWidth * panel_width,
+    const Panel panel({kLeftOfPanel, top}, panel_width, kHeightPerWidth * panel_width,
                       {Edge(speeds, 0), Edge(speeds, speeds.size())},
                       {Edge(altitudes, 0), Edge(altitudes, altitudes.size())});
     for (std::size_t i = 0; i < altitudes.size(); ++i) {
@@ -46,12 +46,10 @@ class GridDrawing {
     const auto up = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
     panel.LabelLeft(up, &shapes_);
     panel.LabelBottom(across, &shapes_);
-    shapes_.emplace_back(Words{{panel.left() + panel.width() / 2, panel.bottom() + 22},
-                               "true airspeed, ft/s; upwards altitude, ft",
-                               kTextSize,
-                               Anchor::kMiddle});
+    panel.NameLeft("altitude, ft", &shapes_);
+    panel.NameBottom("true airspeed, ft/s", &shapes_);
     const double bottom =
-        DrawLegend({kLeft, panel.bottom() + 40}, width_ - kMargin, Entries(), &shapes_);
+        DrawLegend({kLeftOfPanel, panel.bottom() + 40}, width_ - kMargin, Entries(), &shapes_);
     return FinishedPicture(width_, bottom, title.empty() ? "Flight envelope" : title,
                            std::move(shapes_));
   }

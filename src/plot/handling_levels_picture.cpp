@@ -16,7 +16,7 @@
 namespace skein {
 namespace {
 
-constexpr double kLeft = 40, kHeightPerWidth = 0.9, kBelowPanel = 40;
+constexpr double kHeightPerWidth = 0.9, kBelowPanel = 40;
 constexpr double kMapHeightPerWidth = 0.24, kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr double kRadius = 2.2, kPale = 0.7;
 constexpr double kLeastPadding = 0.1;  // decades beyond the outermost figures
@@ -81,26 +81,19 @@ class LevelsDrawing {
   }
 
   Picture Draw(const std::string& title) {
-    const double top = DrawTitle(title, width_, &shapes_) + 8;
-    const double panel_width = (width_ - 2 * kLeft - kMargin) / 2;
-    DrawFrequencies({kLeft, top}, panel_width);
-    DrawDamping({2 * kLeft + panel_width, top}, panel_width);
+    const double top = DrawTitle(title, width_, &shapes_) + kAbovePanel;
+    const double panel_width = (width_ - 2 * kLeftOfPanel - kMargin) / 2;
+    DrawFrequencies({kLeftOfPanel, top}, panel_width);
+    DrawDamping({2 * kLeftOfPanel + panel_width, top}, panel_width);
     const double middle = top + kHeightPerWidth * panel_width + kBelowPanel;
     const double map_bottom = DrawMap(middle);
     const double bottom =
-        DrawLegend({kLeft, map_bottom + kBelowPanel}, width_ - kMargin, Entries(), &shapes_);
+        DrawLegend({kLeftOfPanel, map_bottom + kBelowPanel}, width_ - kMargin, Entries(), &shapes_);
     return FinishedPicture(width_, bottom, title.empty() ? "Handling levels" : title,
                            std::move(shapes_));
   }
 
  private:
-  void Name(const Panel& panel, const std::string& words) {
-    shapes_.emplace_back(Words{{panel.left() + panel.width() / 2, panel.bottom() + 22},
-                               words,
-                               kTextSize,
-                               Anchor::kMiddle});
-  }
-
   Colour ColourAt(const AssessedFlight& flight) const {
     const double width = speeds_.max - speeds_.min;
     const double share = width > 0 ? (flight.request.true_airspeed_ft_s - speeds_.min) / width : 1;
@@ -186,7 +179,9 @@ class LevelsDrawing {
                         kLevelDashes[level]);
       }
     }
-    Name(panel, "n/alpha, g/rad; upwards frequency, rad/s");
+    panel.DrawHead("MIL-F-8785C, 3.2.2.1.1: frequency against n/alpha", &shapes_);
+    panel.NameLeft("short-period frequency, rad/s", &shapes_);
+    panel.NameBottom("n/alpha, g/rad", &shapes_);
     for (const AssessedFlight& flight : flights_) {
       DrawDot(panel, std::log10(LoadFactorByAlpha(flight)), std::log10(Frequency(flight)), flight);
     }
@@ -209,7 +204,9 @@ class LevelsDrawing {
       DrawLevelLine(panel, limits_.short_period_damping_min[level], kLevelDashes[level]);
       DrawLevelLine(panel, limits_.short_period_damping_max[level], kLevelDashes[level]);
     }
-    Name(panel, "true airspeed, ft/s; upwards damping ratio");
+    panel.DrawHead("MIL-F-8785C, 3.2.2.1.2: damping over speed", &shapes_);
+    panel.NameLeft("short-period damping ratio", &shapes_);
+    panel.NameBottom("true airspeed, ft/s", &shapes_);
     for (const AssessedFlight& flight : flights_) {
       DrawDot(panel, flight.request.true_airspeed_ft_s, Damping(flight), flight);
     }
@@ -223,14 +220,18 @@ class LevelsDrawing {
       across.push_back(flight.request.true_airspeed_ft_s);
       up.push_back(flight.request.altitude_ft);
     }
-    const double width = width_ - kLeft - kMargin;
-    const Panel panel({kLeft, top}, width, kMapHeightPerWidth * width, Padded(across), Padded(up));
+    const double width = width_ - kLeftOfPanel - kMargin;
+    const Panel panel({kLeftOfPanel, top}, width, kMapHeightPerWidth * width, Padded(across),
+                      Padded(up));
     const auto x_ticks = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
     const auto y_ticks = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
     panel.DrawGrid(x_ticks, y_ticks, &shapes_);
     panel.LabelLeft(y_ticks, &shapes_);
     panel.LabelBottom(x_ticks, &shapes_);
-    Name(panel, "true airspeed, ft/s; upwards altitude, ft: the level of both");
+    panel.DrawHead("MIL-F-8785C, 3.2.2.1: the worse of the levels of frequency and damping",
+                   &shapes_);
+    panel.NameLeft("altitude, ft", &shapes_);
+    panel.NameBottom("true airspeed, ft/s", &shapes_);
     for (const AssessedFlight& flight : flights_) {
       const Colour colour = kLevelColours[static_cast<std::size_t>(ShortPeriodLevel(flight)) - 1];
       const PagePoint at =

@@ -39,8 +39,10 @@ PageBox BoxOf(const Words& words) {
   const double before = words.anchor == Anchor::kStart    ? 0
                         : words.anchor == Anchor::kMiddle ? width / 2
                                                           : width;
-  const double left = words.at.x - before;
-  return {left, words.at.y - 0.85 * words.size, left + width, words.at.y + 0.25 * words.size};
+  const double over = 0.85 * words.size, under = 0.25 * words.size;
+  const auto& [x, y] = words.at;
+  if (words.runs_upwards) return {x - over, y + before - width, x + under, y + before};
+  return {x - before, y - over, x - before + width, y + under};
 }
 
 void LabelPlaces::Avoid(PagePoint middle, double reach, double weight) {

@@ -62,7 +62,7 @@ struct Disc {
 
 enum class Anchor { kStart, kMiddle, kEnd };
 
-/// One line of text at its base line.
+/// One line of text at its base line, along which its anchor lies.
 struct Words {
   PagePoint at;
   std::string text;
@@ -70,7 +70,8 @@ struct Words {
   Anchor anchor = Anchor::kStart;
   Colour colour = kInk;
   bool is_bold = false;
-  bool has_halo = false;  ///< white around the letters keeps them legible on lines
+  bool has_halo = false;      ///< white around the letters keeps them legible on lines
+  bool runs_upwards = false;  ///< turned by a quarter to the left about `at`, as beside an axis
 };
 
 using Shape = std::variant<Path, Disc, Words>;

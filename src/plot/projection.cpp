@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/plot/projection.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -11,12 +12,15 @@ constexpr double kRadians = 0.017453292519943295;  // of a degree
 
 }  // namespace
 
-View::View(double azimuth_deg, double elevation_deg) {
+View::View(double azimuth_deg, double elevation_deg, double vertical_scale)
+    : vertical_scale_(vertical_scale) {
   const double azimuth = kRadians * azimuth_deg, elevation = kRadians * elevation_deg;
   const SpacePoint ahead(std::cos(azimuth), std::sin(azimuth), 0);
   right_ = SpacePoint(-std::sin(azimuth), std::cos(azimuth), 0);
   up_ = std::cos(elevation) * kUpward + std::sin(elevation) * ahead;
   to_viewer_ = std::sin(elevation) * kUpward - std::cos(elevation) * ahead;
+  up_.z() *= vertical_scale;
+  to_viewer_.z() *= vertical_scale;
 }
 
 double View::Fit(const std::vector<SpacePoint>& corners, PagePoint left_top, double width) {
@@ -49,6 +53,18 @@ void View::PutOrigin(PagePoint origin, double scale) {
 
 PagePoint View::Place(const SpacePoint& point) const {
   return {origin_.x + scale_ * right_.dot(point), origin_.y - scale_ * up_.dot(point)};
+}
+
+BodyAxes View::Shown(const BodyAxes& axes) const {
+  if (vertical_scale_ == 1) return axes;
+  const SpacePoint stretch(1, 1, vertical_scale_);
+  // About the level line across the heading, which changes neither heading nor bank.
+  const auto pitched =
+      Eigen::Quaterniond::FromTwoVectors(axes.forward, axes.forward.cwiseProduct(stretch));
+  const auto shown = [&](const SpacePoint& axis) {
+    return SpacePoint((pitched * axis).cwiseQuotient(stretch));
+  };
+  return {shown(axes.forward), shown(axes.right), shown(axes.up)};
 }
 
 BodyAxes BodyAxesOf(double roll_deg, double pitch_deg, double yaw_deg) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -16,11 +15,17 @@
 namespace skein {
 namespace {
 
-constexpr double kLeft = 40, kHeightPerWidth = 0.9;
+constexpr double kHeightPerWidth = 0.9;
 constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr double kRadius = 2, kPale = 0.75;
-constexpr double kSlow = 0.5;                              // 1/s: what the second panel shows
 constexpr std::size_t kMostMarkers = 2 * kMarkers.size();  // full, then hollow
+
+bool IsAnyMode(const FlightMode&) { return true; }
+
+/// Of the modes that are far slower than the others.
+bool IsPhugoidOrSpiral(const FlightMode& mode) {
+  return mode.family == ModeFamily::kPhugoid || mode.family == ModeFamily::kSpiral;
+}
 
 class LocusDrawing {
  public:
@@ -41,22 +46,25 @@ class LocusDrawing {
   }
 
   Picture Draw(const std::string& title) {
-    const double top = DrawTitle(title, width_, &shapes_) + 8;
-    const double panel_width = (width_ - 2 * kLeft - kMargin) / 2;
-    DrawPanel({kLeft, top}, panel_width, INFINITY);
-    DrawPanel({2 * kLeft + panel_width, top}, panel_width, kSlow);
-    const double bottom = DrawLegend({kLeft, top + kHeightPerWidth * panel_width + 40},
+    const double top = DrawTitle(title, width_, &shapes_) + kAbovePanel;
+    const double panel_width = (width_ - 2 * kLeftOfPanel - kMargin) / 2;
+    DrawPanel("all modes", {kLeftOfPanel, top}, panel_width, IsAnyMode);
+    DrawPanel("phugoid and spiral, enlarged", {2 * kLeftOfPanel + panel_width, top}, panel_width,
+              IsPhugoidOrSpiral);
+    const double bottom = DrawLegend({kLeftOfPanel, top + kHeightPerWidth * panel_width + 40},
                                      width_ - kMargin, Entries(), &shapes_);
     return FinishedPicture(width_, bottom, title.empty() ? "Root locus" : title,
                            std::move(shapes_));
   }
 
  private:
-  void DrawPanel(PagePoint corner, double width, double fastest) {
+  using ModeFilter = bool (*)(const FlightMode&);
+
+  void DrawPanel(const std::string& head, PagePoint corner, double width, ModeFilter is_shown) {
     std::vector<double> real = {0}, imaginary = {0};
     for (const LinearisedFlight& flight : flights_) {
       for (const FlightMode& mode : flight.modes) {
-        if (mode.frequency_rad_s() > fastest) continue;
+        if (!is_shown(mode)) continue;
         real.push_back(mode.eigenvalue.real());
         imaginary.push_back(mode.eigenvalue.imag());
       }
@@ -69,19 +77,18 @@ class LocusDrawing {
     panel.LabelBottom(across, &shapes_);
     panel.DrawCurve({{0, panel.y_range().min}, {0, panel.y_range().max}}, kInk, 0.8, Dash::kNone,
                     &shapes_);
-    shapes_.emplace_back(Words{{panel.left() + panel.width() / 2, panel.bottom() + 22},
-                               "real part, 1/s; upwards imaginary part",
-                               kTextSize,
-                               Anchor::kMiddle});
-    for (const LinearisedFlight& flight : flights_) DrawModes(panel, flight, fastest);
+    panel.DrawHead(head, &shapes_);
+    panel.NameLeft("imaginary part, rad/s", &shapes_);
+    panel.NameBottom("real part, 1/s", &shapes_);
+    for (const LinearisedFlight& flight : flights_) DrawModes(panel, flight, is_shown);
   }
 
-  void DrawModes(const Panel& panel, const LinearisedFlight& flight, double fastest) {
+  void DrawModes(const Panel& panel, const LinearisedFlight& flight, ModeFilter is_shown) {
     const double width = speeds_.max - speeds_.min;
     const double share = width > 0 ? (flight.request.true_airspeed_ft_s - speeds_.min) / width : 1;
     const std::size_t altitude = altitudes_.at(flight.request.altitude_ft);
     for (const FlightMode& mode : flight.modes) {
-      if (mode.frequency_rad_s() > fastest) continue;
+      if (!is_shown(mode)) continue;
       const Colour colour = colours_.at(mode.name.substr(0, mode.name.find(',')));
       shapes_.push_back(MarkerAt(panel.Place(mode.eigenvalue.real(), mode.eigenvalue.imag()),
                                  MarkerOf(altitude),

@@ -30,6 +30,18 @@ constexpr std::size_t kRowsPerObstacle = 20;
 constexpr std::size_t kPathParts = 12;
 constexpr double kDashesRepeat = 52.5;  // points, after which both kinds of dashes begin anew
 
+constexpr double kFlat = 0.1, kLegible = 0.2;  // altitudes over the horizontal extent
+constexpr double kMostDefaultScale = 32;
+
+SpacePoint ExtentOf(const std::vector<SpacePoint>& points) {
+  SpacePoint low = points.front(), high = low;
+  for (const SpacePoint& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return high - low;
+}
+
 /// What is drawn together: what is nearer to the viewer covers what is farther.
 struct Piece {
   double nearness;
@@ -42,7 +54,8 @@ class SpaceDrawing {
       : recordings_(recordings),
         options_(options),
         tracks_(TracksOf(recordings)),
-        view_(options.azimuth_deg, options.elevation_deg),
+        vertical_scale_(VerticalScale(tracks_, options)),
+        view_(options.azimuth_deg, options.elevation_deg, vertical_scale_),
         ground_(PointsOf(tracks_)),
         glyph_(std::clamp(options.width * kGlyphPerWidth, kLeastGlyph, kMostGlyph)) {}
 
@@ -80,6 +93,12 @@ class SpaceDrawing {
     return points;
   }
 
+  static double VerticalScale(const std::vector<Track>& tracks, const SpaceOptions& options) {
+    const SpacePoint extent = ExtentOf(PointsOf(tracks));
+    return options.vertical_scale.value_or(
+        DefaultVerticalScale(extent.z(), std::max(extent.x(), extent.y())));
+  }
+
   void DrawShadow(const Track& track) {
     std::vector<PagePoint> points;
     for (const SpacePoint& point : track.points) {
@@ -112,10 +131,10 @@ class SpaceDrawing {
     const double half = kRibbonSpan * kGlyphHalfSpan_ft * enlarged_;
     const std::vector<std::size_t> rows = track.Instants(kRibbonInterval_s);
     const auto side = [&](std::size_t row, double sign) {
-      return SpacePoint(track.points[row] + sign * half * track.attitudes[row].right);
+      return SpacePoint(track.points[row] + sign * half * view_.Shown(track.attitudes[row]).right);
     };
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
-      const bool from_above = track.attitudes[rows[k]].up.dot(view_.to_viewer()) > 0;
+      const bool from_above = view_.Nearness(view_.Shown(track.attitudes[rows[k]]).up) > 0;
       const Colour fill = Mixed(track.style.colour, kWhite, from_above ? 0.5 : 0.78);
       const SpacePoint corners[] = {side(rows[k], -1), side(rows[k], 1), side(rows[k + 1], 1),
                                     side(rows[k + 1], -1)};
@@ -204,7 +223,7 @@ class SpaceDrawing {
         places.Avoid(view_.Place(track.points[row]), track.is_first ? glyph_ / 4 : 2.5, 1);
       }
       const PagePoint end = view_.Place(track.points.back());
-      const PagePoint tip = view_.Place(TargetTip(track, arrow_ft()));
+      const PagePoint tip = view_.Place(TargetTip(view_, track, arrow_ft()));
       const PagePoint target = view_.Place(track.TargetPoint());
       places.Avoid(end, glyph_ / 2, kHeavy);
       for (const double share : {0.3, 0.6, 1.0}) {
@@ -243,8 +262,8 @@ class SpaceDrawing {
                shapes->push_back(std::move(shape));
              }
            },
-           fmt::format("{}: an aircraft every {:g}\u00a0s, {} times its size, pale from "
-                       "below",
+           fmt::format("{}: an aircraft every {:g}\u00a0s, {} times its true size, underside "
+                       "drawn lighter",
                        agent.name, interval_s_, TickText(std::round(enlarged_)))});
     }
     if (const auto target = TargetEntry(tracks_.front(), recordings_)) {
@@ -257,15 +276,24 @@ class SpaceDrawing {
                                    kTextSize,
                                    Anchor::kEnd});
                        },
-                       "length of a flight, where there is room"});
-    entries.push_back({LineSample(kShadow, 0.8),
-                       fmt::format("shadow at {}\u00a0ft", TickText(ground_.floor_ft()))});
+                       "time flown, beside a flight's end where there is room"});
+    entries.push_back({LineSample(kShadow, 0.8), fmt::format("shadow on the grid at {}\u00a0ft",
+                                                             TickText(ground_.floor_ft()))});
+    if (vertical_scale_ != 1) {
+      entries.push_back(
+          {[](PagePoint left, std::vector<Shape>* shapes) {
+             const double x = left.x + kSampleWidth / 2;
+             shapes->emplace_back(Line({{x, left.y - 5}, {x, left.y + 5}}, kGrey, 0.8));
+           },
+           fmt::format("altitude enlarged {:g} times", vertical_scale_)});
+    }
     return entries;
   }
 
   const Recordings& recordings_;
   const SpaceOptions& options_;
   std::vector<Track> tracks_;
+  double vertical_scale_;
   View view_;
   Ground ground_;
   double glyph_, enlarged_ = 1, interval_s_ = 1, top_ = 0;
@@ -273,6 +301,18 @@ class SpaceDrawing {
 };
 
 }  // namespace
+
+double DefaultVerticalScale(double altitude_extent_ft, double horizontal_extent_ft) {
+  if (altitude_extent_ft >= kFlat * horizontal_extent_ft || altitude_extent_ft == 0) return 1;
+  const auto miss = [&](double scale) {
+    return std::abs(scale * altitude_extent_ft - kLegible * horizontal_extent_ft);
+  };
+  double best = 2;
+  for (double scale = 4; scale <= kMostDefaultScale; scale *= 2) {
+    if (miss(scale) < miss(best)) best = scale;
+  }
+  return best;
+}
 
 Picture SpacePicture(const Recordings& recordings, const SpaceOptions& options) {
   return SpaceDrawing(recordings, options).Draw();

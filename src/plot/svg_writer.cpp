@@ -95,6 +95,9 @@ struct ShapeWriter {
     if (words.anchor == Anchor::kMiddle) *text += " text-anchor=\"middle\"";
     if (words.anchor == Anchor::kEnd) *text += " text-anchor=\"end\"";
     if (words.is_bold) *text += " font-weight=\"bold\"";
+    if (words.runs_upwards) {
+      fmt::format_to(out, " transform=\"rotate(-90 {} {})\"", Place(words.at.x), Place(words.at.y));
+    }
     if (words.has_halo) {
       fmt::format_to(out, " stroke=\"#FFFFFF\" stroke-width=\"{:g}\" paint-order=\"stroke\"",
                      kHaloPerSize * words.size);

@@ -75,10 +75,10 @@ double TargetArrow(double picture_width) {
   return std::clamp(kArrowLength * picture_width / kPageWidth, kShortestArrow, kArrowLength);
 }
 
-SpacePoint TargetTip(const Track& track, double arrow_ft) {
+SpacePoint TargetTip(const View& view, const Track& track, double arrow_ft) {
   const auto axes = track.HasTargetInSpace() ? std::nullopt : track.TargetAxes();
   const SpacePoint target = track.TargetPoint();
-  return axes ? SpacePoint(target + arrow_ft * axes->forward) : target;
+  return axes ? SpacePoint(target + arrow_ft * view.Shown(*axes).forward) : target;
 }
 
 void DrawTarget(const View& view, const Track& track, const Recordings& recordings, double arrow_ft,
@@ -91,7 +91,7 @@ void DrawTarget(const View& view, const Track& track, const Recordings& recordin
              ToleranceOf(recordings, "altitude_ft")},
             shapes);
   } else if (const auto axes = track.TargetAxes()) {
-    DrawHeading(view, target, *axes, recordings, arrow_ft, shapes);
+    DrawHeading(view, target, view.Shown(*axes), recordings, arrow_ft, shapes);
   }
 }
 

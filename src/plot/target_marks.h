@@ -20,7 +20,7 @@ double TargetArrow(double picture_width);
 
 /// Where a track's target is marked last: the end of the arrow into its heading, which is so many
 /// feet long, or the target.
-SpacePoint TargetTip(const Track& track, double arrow_ft);
+SpacePoint TargetTip(const View& view, const Track& track, double arrow_ft);
 
 /// What a track was to reach: a ring at a target in space with the box of its tolerances, or else
 /// an arrow of so many feet into its heading at its altitude with the sector and the height that

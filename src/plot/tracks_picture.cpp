@@ -63,8 +63,8 @@ class TracksDrawing {
         high = high.cwiseMax(point);
       }
       for (const double arrow : {0.0, arrow_ft}) {
-        low = low.cwiseMin(TargetTip(track, arrow));
-        high = high.cwiseMax(TargetTip(track, arrow));
+        low = low.cwiseMin(TargetTip(view_, track, arrow));
+        high = high.cwiseMax(TargetTip(view_, track, arrow));
       }
     }
     const double margin = kMapMargin * std::max({(high - low).x(), (high - low).y(), 100.0});
@@ -108,10 +108,7 @@ class TracksDrawing {
     map.DrawGrid(across, up, &shapes_);
     map.LabelLeft(up, &shapes_);
     map.LabelBottom(across, &shapes_);
-    shapes_.emplace_back(Words{{(map.left() + map.right()) / 2, map.bottom() + 22},
-                               "east, 1000 ft",
-                               kTextSize,
-                               Anchor::kMiddle});
+    map.NameBottom("east, 1000 ft", &shapes_);
     shapes_.emplace_back(Words{{map.left(), map.top() - 4}, "north, 1000 ft", kTextSize});
     view_.PutOrigin(Onto(map, SpacePoint::Zero()),
                     map.width() / (map.x_range().max - map.x_range().min) / kThousand);
@@ -151,7 +148,7 @@ class TracksDrawing {
       }
       places.Avoid(view_.Place(track.points.back()), kGlyph / 2, 5);
       const PagePoint target = view_.Place(track.TargetPoint());
-      const PagePoint tip = view_.Place(TargetTip(track, arrow_ft()));
+      const PagePoint tip = view_.Place(TargetTip(view_, track, arrow_ft()));
       for (const double share : {0.3, 0.6, 1.0}) {
         flown.push_back(
             {target.x + share * (tip.x - target.x), target.y + share * (tip.y - target.y)});
@@ -210,10 +207,7 @@ class TracksDrawing {
     panel.LabelLeft(up, &shapes_);
     panel.LabelBottom(across, &shapes_);
     shapes_.emplace_back(Words{{panel.left(), panel.top() - 4}, "altitude, 1000 ft", kTextSize});
-    shapes_.emplace_back(Words{{(panel.left() + panel.right()) / 2, panel.bottom() + 22},
-                               "time, s",
-                               kTextSize,
-                               Anchor::kMiddle});
+    panel.NameBottom("time, s", &shapes_);
     for (auto track = tracks_.rbegin(); track != tracks_.rend(); ++track) {
       panel.DrawCurve(InThousands(track->flight->Target("altitude_ft")), kInk, 0.8, Dash::kShort,
                       &shapes_);
@@ -248,7 +242,7 @@ class TracksDrawing {
                                    kSmallSize,
                                    Anchor::kMiddle});
                        },
-                       "episode and length of a flight, where there is room"});
+                       "episode and time flown, where there is room"});
     return entries;
   }
 

@@ -195,10 +195,7 @@ class CurveDrawing {
     panel.DrawGrid(across, up, &shapes_);
     panel.LabelLeft(up, &shapes_);
     panel.LabelBottom(across, &shapes_);
-    shapes_.emplace_back(Words{{panel.left() + panel.width() / 2, panel.bottom() + 22},
-                               "control steps, million",
-                               kTextSize,
-                               Anchor::kMiddle});
+    panel.NameBottom("control steps, million", &shapes_);
     for (const std::size_t k : own) {
       panel.DrawBand(curves[k].low, curves[k].high, StyleFor(k).colour, kBandOpacity, &shapes_);
     }

@@ -246,14 +246,90 @@ TEST_F(FdmPipeline, ATrimBeyondTheEngineSaysSo) {
   const auto [easy_text, easy] = trim("500");
   EXPECT_TRUE(easy["within_model"]);
   EXPECT_THAT(easy_text, HasSubstr("engine power"));
+  EXPECT_EQ(easy_text.find("steady flight of f16"), 0u) << easy_text;
   EXPECT_EQ(easy_text.find("this flight"), std::string::npos);
   const auto [fast_text, fast] = trim("2600");
   EXPECT_FALSE(fast["within_model"]);
-  EXPECT_THAT(fast_text, HasSubstr("this flight needs more thrust than the engine has ("));
+  constexpr const char* kUnsustained =
+      "this flight cannot be sustained: it needs more thrust than the engine has (";
+  EXPECT_EQ(fast_text.find(kUnsustained), 0u) << "the reason comes first: " << fast_text;
   EXPECT_THAT(fast_text,
               HasSubstr("this flight is faster than the engine's tables, which end at Mach 1"));
   EXPECT_EQ(fast["exceeded_limits"].size(), 2u);
-  EXPECT_LT(fast_text.find("this flight"), fast_text.find("alpha")) << "the reason comes first";
+}
+
+TEST_F(FdmPipeline, ATurnThatIsNotSustainedSaysByHowMuchThrust) {
+  constexpr Tolerance kSixDigits{1e-5, "of the text, relative"};
+  const std::string path = folder_ + "/turn.json";
+  const ProgramResult result = CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps",
+                                          "600", "--turn-rate-deg-s", "30", "--json", path});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  const std::string first = result.output.substr(0, result.output.find('\n'));
+  EXPECT_THAT(first, HasSubstr("cannot be sustained"));
+  const std::string before = "short by ";
+  const std::size_t figure = first.find(before);
+  ASSERT_NE(figure, std::string::npos) << first;
+  const json trim = json::parse(ReadFile(path));
+  const double missing =
+      trim["controls"][0].get<double>() - trim["available_thrust_lbf"].get<double>();
+  EXPECT_NEAR(std::stod(first.substr(figure + before.size())), missing, kSixDigits * missing);
+}
+
+TEST_F(FdmPipeline, ATrimIsPrintedInSixDigits) {
+  const std::string path = folder_ + "/trim.json";
+  const ProgramResult result =
+      CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "500", "--json", path});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  const double alpha = json::parse(ReadFile(path))["alpha_deg"];
+  EXPECT_THAT(result.output, HasSubstr(fmt::format(" {:.6g} deg\n", alpha)));
+}
+
+// The speed of sound at sea level is that of the U.S. Standard Atmosphere 1976, table I.
+TEST_F(FdmPipeline, AMachNumberIsASpeedInTheAtmosphereChosen) {
+  constexpr Tolerance kRounding{1e-12, "rounding, relative"};
+  const std::string path = folder_ + "/mach.json";
+  constexpr double kSoundSpeedFtS = 1116.45;
+  constexpr Tolerance kDigits{1e-5, "of the tabulated speed of sound, relative"};
+  const ProgramResult result = CallSkein({"fdm", "trim", "--altitude-ft", "0", "--mach", "0.6",
+                                          "--atmosphere", "standard_1976", "--json", path});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  const json by_mach = json::parse(ReadFile(path));
+  const double speed = by_mach["speed_fps"];
+  EXPECT_NEAR(speed, 0.6 * kSoundSpeedFtS, kDigits * speed);
+  EXPECT_NEAR(by_mach["mach"].get<double>(), 0.6, kRounding);
+  EXPECT_THAT(result.output, HasSubstr(fmt::format("Mach 0.6 ({:.6g} ft/s)", speed)));
+  EXPECT_EQ(Trimmed("0", fmt::format("{}", speed), {"--atmosphere", "standard_1976"}), by_mach);
+}
+
+TEST_F(FdmPipeline, AGridOfMachNumbersHasThemAtEveryAltitude) {
+  constexpr Tolerance kRounding{1e-12, "rounding, relative"};
+  const std::string path = folder_ + "/grid.json";
+  const ProgramResult result = CallSkein(
+      {"fdm", "trim", "--altitude-ft", "0,30000", "--mach", "0.5..0.9:0.1", "--json", path});
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("at 0 to 30000 ft and Mach 0.5 to 0.9"));
+  const json points = json::parse(ReadFile(path))["points"];
+  ASSERT_EQ(points.size(), 10u);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double mach = 0.5 + 0.1 * static_cast<double>(i % 5);
+    EXPECT_NEAR(points[i]["mach"].get<double>(), mach, kRounding);
+  }
+  EXPECT_LT(points[5]["speed_fps"], points[0]["speed_fps"]) << "the air is colder";
+}
+
+TEST_F(FdmPipeline, LinearModelsAndFlyingQualitiesAreThoseOfTheMachNumber) {
+  const std::string path = folder_ + "/points.json";
+  for (const char* command : {"linearise", "sweep"}) {
+    const auto points_of = [&](const std::string& option, const std::string& value) {
+      const ProgramResult result =
+          CallSkein({"fdm", command, "--altitude-ft", "15000", option, value, "--json", path});
+      EXPECT_EQ(result.exit_code, 0) << result.error;
+      return json::parse(ReadFile(path))["points"];
+    };
+    const json by_mach = points_of("--mach", "0.5");
+    const std::string speed = fmt::format("{}", by_mach[0]["speed_fps"].get<double>());
+    EXPECT_EQ(points_of("--speed-fps", speed), by_mach) << command;
+  }
 }
 
 TEST_F(FdmPipeline, AnImpossibleTrimIsOneLine) {
@@ -426,6 +502,11 @@ TEST_F(FdmPipeline, WrongGridsAreWrongUsage) {
       {{"--altitude-ft", "0", "--speed-fps", "500", "--wind-fps", "1,2"}, "NORTH,EAST,DOWN"},
       {{"--altitude-ft", "0", "--speed-fps", "500", "--pull-up-g", "2", "--turn-rate-deg-s", "3"},
        "--turn-rate-deg-s and --pull-up-g exclude each other"},
+      {{"--altitude-ft", "0"}, "--speed-fps or --mach is required"},
+      {{"--altitude-ft", "0", "--mach", "0"}, "is not a number above 0"},
+      {{"--altitude-ft", "0", "--mach", "0.5", "--speed-fps", "500"}, "exclude each other"},
+      {{"--altitude-ft", "0,9", "--mach", "0.5,0.6", "--picture", folder_ + "/x.svg"},
+       "drawn over --speed-fps"},
       {{"--altitude-ft", "0", "--speed-fps", "80", "--aircraft", "aerosonde", "--drag-rise"},
        "no data of drag rise"}};
   for (const auto& [words, expected] : cases) {

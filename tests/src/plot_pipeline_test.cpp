@@ -47,6 +47,12 @@ TEST_F(PlotPipeline, DrawsFlightsOfAgentsTwiceTheSame) {
   }
 }
 
+TEST_F(PlotPipeline, AltitudesAreEnlargedAsAskedFor) {
+  const ProgramResult result = Plot("space", "high.svg", {"--vertical-scale", "4"});
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(ReadFile(scratch_ / "high.svg"), HasSubstr(">altitude enlarged 4 times<"));
+}
+
 TEST_F(PlotPipeline, TolerancesAreDrawnUpToTheLargest) {
   for (const std::string kind : {"space", "tracks", "flights"}) {
     const ProgramResult result =
@@ -108,6 +114,9 @@ TEST_F(PlotPipeline, WhatIsAskedWronglyIsRefusedInOneLine) {
   expect({"plot", "curves", scratch_.path(), "-o", out}, 2, "not the directory of a run");
   expect({"plot", "space", "--agents", "zero", "--task", "heading", "--tolerance", "x", "-o", out},
          2, "COLUMN=NUMBER");
+  for (const char* scale : {"0.5", "101", "nan"}) {
+    expect({"plot", "space", "a.csv", "--vertical-scale", scale, "-o", out}, 2, "--vertical-scale");
+  }
   for (const char* tolerance : {"yaw_deg=inf", "yaw_deg=nan", "yaw_deg=180.1", "altitude_ft=1e300",
                                 "altitude_ft=0", "altitude_ft=-5"}) {
     expect({"plot", "flights", "--agents", "zero", "--task", "heading", "--episodes", "1",

@@ -71,17 +71,20 @@ struct ShapePainter {
     const double before = words.anchor == Anchor::kStart    ? 0
                           : words.anchor == Anchor::kMiddle ? extents.x_advance / 2
                                                             : extents.x_advance;
-    const double x = words.at.x - before;
+    cairo_save(cairo);
+    cairo_translate(cairo, words.at.x, words.at.y);
+    if (words.runs_upwards) cairo_rotate(cairo, -kTurn / 4);
     if (words.has_halo) {
-      cairo_move_to(cairo, x, words.at.y);
+      cairo_move_to(cairo, -before, 0);
       cairo_text_path(cairo, words.text.c_str());
       SetDash(cairo, Dash::kNone);
       Paint(cairo, std::nullopt, kWhite, kHaloPerSize * words.size, 1);
     }
-    cairo_move_to(cairo, x, words.at.y);
+    cairo_move_to(cairo, -before, 0);
     SetColour(cairo, words.colour);
     cairo_show_text(cairo, words.text.c_str());
     cairo_new_path(cairo);
+    cairo_restore(cairo);
   }
 };
 

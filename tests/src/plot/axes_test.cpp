@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/plot/axes.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "envs/aircraft/registry.h"
+#include "src/fdm/flight_grid.h"
+#include "src/plot/drag_polar_picture.h"
+#include "src/plot/flight_grid_picture.h"
+#include "tests/src/plot/legible.h"
+
 namespace skein {
 namespace {
+
+using ::testing::ElementsAre;
 
 constexpr double kRounding = 1e-9;  // of a few operations in float64, relative
 
@@ -70,6 +79,42 @@ TEST(AxisWords, NumbersHaveSeparators) {
   EXPECT_EQ(TickText(-1250), "-1,250");
   EXPECT_EQ(TickText(-0.02), "-0.02");
   EXPECT_EQ(TickText(100), "100");
+}
+
+TEST(Panels, HaveNamesBesideTheirNumbersAndAHeadAbove) {
+  const Panel panel({kLeftOfPanel, kAbovePanel}, 200, 100, {0, 2}, {-10000, 30000});
+  Picture picture{kLeftOfPanel + 210, kAbovePanel + 130, "", {}};
+  panel.LabelLeft(Ticks(panel.y_range(), 4), &picture.shapes);
+  panel.LabelBottom(Ticks(panel.x_range(), 4), &picture.shapes);
+  panel.NameLeft("altitude, ft", &picture.shapes);
+  panel.NameBottom("time, s", &picture.shapes);
+  panel.DrawHead("climb", &picture.shapes);
+  ExpectLegible(picture);
+  ASSERT_THAT(NamesOfLeftAxes(picture), ElementsAre("altitude, ft"));
+  for (const Words& words : WordsIn(picture)) {
+    const PageBox box = BoxOf(words);
+    if (words.runs_upwards) {
+      EXPECT_LT(box.right, panel.left());
+      EXPECT_NEAR(box.top - panel.top(), panel.bottom() - box.bottom, 200 * kRounding);
+    }
+    if (words.text == "time, s") {
+      EXPECT_GT(box.top, panel.bottom());
+    }
+    if (words.text == "climb") {
+      EXPECT_LT(box.bottom, panel.top());
+    }
+  }
+}
+
+TEST(FlightGridPictures, NameBothAxes) {
+  constexpr double kWidth = 518;
+  const Plant plant(LoadAircraft("f16"), AtmosphereModel::kStevensLewis);
+  const FlownGrid flown(plant, {{}, {0, 20000}, {400, 600}});
+  const Picture grid = DrawFlightGrid(flown, kWidth, "");
+  const Picture polars = DrawDragPolars(flown, kWidth, "");
+  EXPECT_THAT(NamesOfLeftAxes(grid), ElementsAre("altitude, ft"));
+  EXPECT_THAT(NamesOfLeftAxes(polars), ElementsAre("lift coefficient"));
+  for (const Picture& picture : {grid, polars}) ExpectLegible(picture);
 }
 
 TEST(Panels, PlaceTheirCorners) {

@@ -18,6 +18,7 @@
 #include "src/plot/tracks_picture.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
+#include "tests/src/plot/legible.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -59,26 +60,8 @@ class FlightPictures : public ::testing::Test {
 
   static std::vector<std::string> WordsOf(const Picture& picture) {
     std::vector<std::string> all;
-    for (const Shape& shape : picture.shapes) {
-      if (const auto* const words = std::get_if<Words>(&shape)) all.push_back(words->text);
-    }
+    for (const Words& words : WordsIn(picture)) all.push_back(words.text);
     return all;
-  }
-
-  /// All words lie on the paper, and no two on each other.
-  static void ExpectLegible(const Picture& picture) {
-    std::vector<PageBox> boxes;
-    for (const Shape& shape : picture.shapes) {
-      const auto* const words = std::get_if<Words>(&shape);
-      if (words == nullptr) continue;
-      const PageBox box = BoxOf(*words);
-      EXPECT_GE(box.left, 0) << words->text;
-      EXPECT_LE(box.right, picture.width) << words->text;
-      EXPECT_GE(box.top, 0) << words->text;
-      EXPECT_LE(box.bottom, picture.height) << words->text;
-      for (const PageBox& other : boxes) EXPECT_FALSE(box.Overlaps(other)) << words->text;
-      boxes.push_back(box);
-    }
   }
 
   /// All lines and areas lie on the paper, too.
@@ -165,6 +148,69 @@ TEST_F(FlightPictures, SpaceShowsEachEndAndItsScales) {
     EXPECT_THAT(words, Contains(wanted));
   }
   ExpectLegible(picture);
+}
+
+/// On the paper.
+double LengthOf(const Path& path) {
+  const PagePoint &a = path.points[0], &b = path.points[1];
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+/// Lines in a picture of one flight of the first agent in space, points.
+struct SpaceLengths {
+  double ground = 0;     ///< a side of it
+  double post = 0;       ///< from the flight's end down to the ground
+  double tolerance = 0;  ///< of the target altitude, from its lower to its upper end
+};
+
+SpaceLengths LengthsIn(const Picture& picture) {
+  SpaceLengths lengths;
+  lengths.ground = LengthOf(std::get<Path>(picture.shapes.front()));
+  for (const Shape& shape : picture.shapes) {
+    const auto* const path = std::get_if<Path>(&shape);
+    if (path == nullptr || path->points.size() != 2) continue;
+    if (path->stroke == ColourOf(0) && path->opacity < 1) lengths.post = LengthOf(*path);
+    if (path->stroke == kInk && path->width == 2) lengths.tolerance = LengthOf(*path);
+  }
+  return lengths;
+}
+
+TEST_F(FlightPictures, AVerticalScaleEnlargesFlightsPostsAndTolerancesAlike) {
+  constexpr Tolerance kRounding{1e-9, "float64 rounding of points on the page"};
+  constexpr double kAltitude_ft = 22000, kFloor_ft = 19600, kTolerance_ft = 100;
+  const Recordings recordings = TwoAgents(1);
+  SpaceOptions options;
+  options.vertical_scale = 1;
+  const Picture equal = SpacePicture(recordings, options);
+  const SpaceLengths before = LengthsIn(equal);
+  EXPECT_THAT(WordsOf(equal), Contains("shadow on the grid at 19,600\u00a0ft"));
+  EXPECT_THAT(WordsOf(equal), Not(Contains(HasSubstr("enlarged"))));
+  for (const double scale : {2.0, 7.5}) {
+    options.vertical_scale = scale;
+    const Picture picture = SpacePicture(recordings, options);
+    const SpaceLengths lengths = LengthsIn(picture);
+    EXPECT_NEAR(lengths.post / lengths.ground, scale * before.post / before.ground, kRounding);
+    EXPECT_NEAR(lengths.tolerance / lengths.post, 2 * kTolerance_ft / (kAltitude_ft - kFloor_ft),
+                kRounding);
+    EXPECT_THAT(WordsOf(picture), Contains(fmt::format("altitude enlarged {:g} times", scale)));
+    ExpectLegible(picture);
+    ExpectOnThePaper(picture);
+  }
+}
+
+TEST(VerticalScale, IsThePowerOfTwoThatBringsFlatFlightsNearestToAFifth) {
+  constexpr double kHorizontal_ft = 120000;
+  for (const double steep : {0.0, 0.1, 0.15, 3.0}) {
+    EXPECT_EQ(DefaultVerticalScale(steep * kHorizontal_ft, kHorizontal_ft), 1) << steep;
+  }
+  EXPECT_EQ(DefaultVerticalScale(3000, kHorizontal_ft), 8);
+  for (const double flat : {1e-6, 0.004, 0.01, 0.03, 0.06, 0.0999}) {
+    const double chosen = DefaultVerticalScale(flat * kHorizontal_ft, kHorizontal_ft);
+    EXPECT_THAT((std::vector<double>{2, 4, 8, 16, 32}), Contains(chosen));
+    for (const double other : {2.0, 4.0, 8.0, 16.0, 32.0}) {
+      EXPECT_LE(std::abs(chosen * flat - 0.2), std::abs(other * flat - 0.2)) << flat;
+    }
+  }
 }
 
 TEST_F(FlightPictures, MapsHaveEqualScales) {

@@ -9,10 +9,12 @@
 
 #include "src/fdm/flying_qualities_report.h"
 #include "src/plot/handling_levels_picture.h"
+#include "tests/src/plot/legible.h"
 
 namespace skein {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -55,10 +57,23 @@ TEST(HandlingLevels, EveryLeastLoadFactorByAlphaIsDrawn) {
 
 std::string AllWords(const Picture& picture) {
   std::string text;
-  for (const Shape& shape : picture.shapes) {
-    if (const auto* const words = std::get_if<Words>(&shape)) text += words->text + "\n";
-  }
+  for (const Words& words : WordsIn(picture)) text += words.text + "\n";
   return text;
+}
+
+TEST(HandlingLevels, EveryPanelNamesItsParagraphAndItsAxes) {
+  const std::vector<AssessedFlight> flights = {FlightWith(1)};
+  const Picture picture = DrawHandlingLevels(flights, LimitsNamed("IV", "A"), kWidth, "");
+  std::vector<std::string> heads;
+  for (const Words& words : WordsIn(picture)) {
+    if (words.is_bold) heads.push_back(words.text);
+  }
+  EXPECT_THAT(heads, ElementsAre(HasSubstr("MIL-F-8785C, 3.2.2.1.1: frequency"),
+                                 HasSubstr("MIL-F-8785C, 3.2.2.1.2: damping"),
+                                 HasSubstr("MIL-F-8785C, 3.2.2.1: the worse")));
+  EXPECT_THAT(NamesOfLeftAxes(picture), ElementsAre("short-period frequency, rad/s",
+                                                    "short-period damping ratio", "altitude, ft"));
+  ExpectLegible(picture);
 }
 
 TEST(HandlingLevels, AFlightWithoutAnEquivalentSystemIsDoubted) {

@@ -69,6 +69,20 @@ TEST(Labels, NeverCoverEachOtherNorLeaveThePaper) {
   EXPECT_LT(boxes.size(), 40u) << "and then there is none";
 }
 
+TEST(Labels, ThatRunUpwardsTakeUpTheirBoxTurnedToTheLeft) {
+  constexpr double kRounding = 1e-12;  // of a few operations in float64 on numbers near 10
+  for (const Anchor anchor : {Anchor::kStart, Anchor::kMiddle, Anchor::kEnd}) {
+    Words words{{}, "altitude, ft", kTextSize, anchor};
+    const PageBox lying = BoxOf(words);
+    words.runs_upwards = true;
+    const PageBox upwards = BoxOf(words);
+    EXPECT_NEAR(upwards.left, lying.top, kRounding);
+    EXPECT_NEAR(upwards.right, lying.bottom, kRounding);
+    EXPECT_NEAR(upwards.top, -lying.right, kRounding);
+    EXPECT_NEAR(upwards.bottom, -lying.left, kRounding);
+  }
+}
+
 /// One of each shape, with words as they come from files of strangers.
 Picture Sample() {
   Picture picture;
@@ -96,6 +110,14 @@ TEST(Svg, HoldsTextAsTextAndNothingElse) {
   EXPECT_THAT(svg, HasSubstr("width=\"200pt\" height=\"100pt\""));
   // Steps from rounded place to rounded place: 3.1 2.7, 10.1 7.8, 9 100.1.
   EXPECT_THAT(svg, HasSubstr("d=\"M3.1 2.7l7 5.1 -1.1 92.3\""));
+}
+
+TEST(Svg, TurnsWordsThatRunUpwardsAboutTheirPlace) {
+  Picture picture = Sample();
+  EXPECT_THAT(SvgFile(picture), Not(HasSubstr("rotate")));
+  std::get<Words>(picture.shapes.back()).runs_upwards = true;
+  EXPECT_THAT(SvgFile(picture), HasSubstr("x=\"20\" y=\"20\""));
+  EXPECT_THAT(SvgFile(picture), HasSubstr(" transform=\"rotate(-90 20 20)\""));
 }
 
 TEST(Styles, AreThreeTimesAsManyAsColours) {
@@ -147,6 +169,15 @@ TEST(Pdf, HasOnePageOfThePicturesSizeAndNoDate) {
   EXPECT_THAT(pdf, Not(HasSubstr("CreationDate")));
   EXPECT_THAT(pdf, HasSubstr("%%EOF"));
   EXPECT_TRUE(pdf == Written("b.pdf")) << "not the same file";
+}
+
+TEST(Pdf, TurnsWordsThatRunUpwards) {
+  if (!HasCairo()) GTEST_SKIP() << "built without cairo";
+  Picture picture = Sample();
+  std::get<Words>(picture.shapes.back()).runs_upwards = true;
+  const ScratchDirectory scratch;
+  WritePicture(scratch / "upwards.pdf", picture);
+  EXPECT_FALSE(ReadFile(scratch / "upwards.pdf") == Written("lying.pdf"));
 }
 
 TEST(Pdf, WithoutTheLibraryOneLineSaysWhatToInstall) {

@@ -6,7 +6,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
+#include "src/plot/aircraft_glyph.h"
 #include "src/plot/ground.h"
 
 namespace skein {
@@ -37,11 +39,49 @@ TEST(BodyAxesTest, ARightBankLowersTheRightWingAndPitchRaisesTheNose) {
 }
 
 TEST(ViewTest, KeepsLengthsAcrossAndShowsNothingOfTheLineOfSight) {
-  const View view(30, 25);
-  const double azimuth = 30 * M_PI / 180;
-  EXPECT_NEAR(Length(view, {-std::sin(azimuth), std::cos(azimuth), 0}), 1, kRounding);
-  EXPECT_NEAR(Length(view, view.to_viewer()), 0, kRounding);
-  EXPECT_LT(view.Place({0, 0, 100}).y, view.Place({0, 0, 0}).y) << "up is up";
+  const double azimuth = 30 * M_PI / 180, elevation = 25 * M_PI / 180;
+  for (const double vertical_scale : {1.0, 8.0}) {
+    const View view(30, 25, vertical_scale);
+    const SpacePoint sight(std::cos(elevation) * std::cos(azimuth),
+                           std::cos(elevation) * std::sin(azimuth),
+                           -std::sin(elevation) / vertical_scale);
+    EXPECT_NEAR(Length(view, {-std::sin(azimuth), std::cos(azimuth), 0}), 1, kRounding);
+    EXPECT_NEAR(Length(view, sight), 0, kRounding);
+    EXPECT_NEAR(view.Nearness(sight), -1, kRounding);
+    EXPECT_LT(view.Place({0, 0, 100}).y, view.Place({0, 0, 0}).y) << "up is up";
+  }
+}
+
+TEST(ViewTest, AVerticalScaleEnlargesHeightsAlone) {
+  const View equal(30, 25), stretched(30, 25, 8);
+  EXPECT_NEAR(Length(stretched, kUpward), 8 * Length(equal, kUpward), 8 * kRounding);
+  for (const SpacePoint& level : {kNorthward, kEastward}) {
+    EXPECT_NEAR(Length(stretched, level), Length(equal, level), kRounding);
+  }
+}
+
+/// An aircraft keeps its shape, heading and bank, and its nose is raised as much as its path.
+TEST(AircraftGlyphTest, AVerticalScaleChangesThePitchAngleAlone) {
+  constexpr double kScale = 8, kDegree = M_PI / 180, kFar = 100 * kRounding;
+  const View equal(30, 25), stretched(30, 25, kScale);
+  for (const SpacePoint& angles :
+       {SpacePoint(0, 0, 0), SpacePoint(60, 20, -130), SpacePoint(-170, -5, 100)}) {
+    const double pitch = std::atan(kScale * std::tan(kDegree * angles.y())) / kDegree;
+    const auto drawn = AircraftGlyph(stretched, SpacePoint::Zero(),
+                                     BodyAxesOf(angles.x(), angles.y(), angles.z()), kInk, 1);
+    const auto wanted = AircraftGlyph(equal, SpacePoint::Zero(),
+                                      BodyAxesOf(angles.x(), pitch, angles.z()), kInk, 1);
+    ASSERT_EQ(drawn.size(), wanted.size());
+    for (std::size_t part = 0; part < drawn.size(); ++part) {
+      const Path &a = std::get<Path>(drawn[part]), &b = std::get<Path>(wanted[part]);
+      EXPECT_EQ(a.fill, b.fill);
+      ASSERT_EQ(a.points.size(), b.points.size());
+      for (std::size_t k = 0; k < a.points.size(); ++k) {
+        EXPECT_NEAR(a.points[k].x, b.points[k].x, kFar);
+        EXPECT_NEAR(a.points[k].y, b.points[k].y, kFar);
+      }
+    }
+  }
 }
 
 TEST(ViewTest, FromAboveIsAMap) {

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <complex>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "src/plot/root_locus_picture.h"
+#include "tests/src/plot/legible.h"
 
 namespace skein {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr double kWidth = 500;
 
-/// A flight with one mode, which swings at 1 rad/s.
+/// A flight with one mode, which oscillatory at 1 rad/s.
 LinearisedFlight FlightAt(double altitude_ft, double speed_ft_s) {
   LinearisedFlight flight;
   flight.request.altitude_ft = altitude_ft;
@@ -30,9 +33,7 @@ LinearisedFlight FlightAt(double altitude_ft, double speed_ft_s) {
 
 std::string AllWords(const Picture& picture) {
   std::string text;
-  for (const Shape& shape : picture.shapes) {
-    if (const auto* const words = std::get_if<Words>(&shape)) text += words->text + "\n";
-  }
+  for (const Words& words : WordsIn(picture)) text += words.text + "\n";
   return text;
 }
 
@@ -66,6 +67,52 @@ TEST(RootLocus, ShadesAreThoseOfSpeedsAndMarkersOfAltitudes) {
 
 TEST(RootLocus, OneFlightNeedsNoWordsOnShades) {
   EXPECT_THAT(AllWords(DrawRootLocus({FlightAt(5000, 400)}, kWidth, "")), Not(HasSubstr("pale")));
+}
+
+TEST(RootLocus, BothPanelsSayWhatTheyAndTheirAxesShow) {
+  const Picture picture = DrawRootLocus({FlightAt(5000, 400)}, kWidth, "");
+  EXPECT_THAT(NamesOfLeftAxes(picture),
+              ElementsAre("imaginary part, rad/s", "imaginary part, rad/s"));
+  std::vector<std::string> heads;
+  for (const Words& words : WordsIn(picture)) {
+    if (words.is_bold) heads.push_back(words.text);
+  }
+  EXPECT_THAT(heads, ElementsAre("all modes", "phugoid and spiral, enlarged"));
+  ExpectLegible(picture);
+}
+
+FlightMode ModeOf(const std::string& name, ModeFamily family, std::complex<double> eigenvalue) {
+  FlightMode mode;
+  mode.name = name;
+  mode.family = family;
+  mode.eigenvalue = eigenvalue;
+  return mode;
+}
+
+/// Dots in the second panel's half of the picture, the legend's left out.
+std::vector<PagePoint> EnlargedDots(const Picture& picture) {
+  std::vector<PagePoint> dots;
+  for (std::size_t k = 0; k + 1 < picture.shapes.size(); ++k) {
+    const auto* const disc = std::get_if<Disc>(&picture.shapes[k]);
+    const bool is_sample = std::holds_alternative<Words>(picture.shapes[k + 1]);
+    if (disc != nullptr && !is_sample && disc->middle.x > kWidth / 2) dots.push_back(disc->middle);
+  }
+  return dots;
+}
+
+TEST(RootLocus, OtherModesDoNotSetTheRangeOfTheEnlargedPanel) {
+  LinearisedFlight flight = FlightAt(5000, 400);
+  flight.modes = {ModeOf("phugoid", ModeFamily::kPhugoid, {-0.01, 0.1}),
+                  ModeOf("spiral", ModeFamily::kSpiral, -0.02)};
+  const std::vector<PagePoint> alone = EnlargedDots(DrawRootLocus({flight}, kWidth, ""));
+  flight.modes.push_back(ModeOf("short period, real", ModeFamily::kShortPeriod, 0.4));
+  const std::vector<PagePoint> beside = EnlargedDots(DrawRootLocus({flight}, kWidth, ""));
+  ASSERT_EQ(alone.size(), 2u);
+  ASSERT_EQ(beside.size(), 2u);
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    EXPECT_EQ(alone[k].x, beside[k].x);
+    EXPECT_EQ(alone[k].y, beside[k].y);
+  }
 }
 
 }  // namespace
