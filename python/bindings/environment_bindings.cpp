@@ -85,6 +85,8 @@ class BatchEnv {
   const VecEnv& env() const { return *env_; }
   const EnvConfig& config() const { return config_; }
   int threads() const { return pool_.threads(); }
+  /// Of the episodes that are flown: the latest of Reset and Restore.
+  std::uint64_t seed() const { return origin_.seed; }
 
   /// The episodes that a fresh environment with this seed begins with.
   void Reset(std::uint64_t seed) {
@@ -342,7 +344,8 @@ void BindEnvironment(nb::module_& module) {
                      return std::max(env.config().observation_noise, env.config().most_noise());
                    })
       .def_prop_ro("draws_plants", [](const BatchEnv& env) { return env.config().plant.enabled(); })
-      .def_prop_ro("threads", &BatchEnv::threads);
+      .def_prop_ro("threads", &BatchEnv::threads)
+      .def_prop_ro("seed", &BatchEnv::seed);
 }
 
 }  // namespace skein

@@ -29,9 +29,14 @@ nb::tuple NamesOf(const Names& names) {
 
 void BindErrors(nb::module_& module) {
   const nb::exception<Error> error(module, "Error", PyExc_RuntimeError);
+  error.doc() =
+      "What is wrong with an argument, a configuration or a file, in one line. A RuntimeError.";
   // What was asked for cannot be: also a ValueError, as Python's users expect it.
   const nb::tuple bases = nb::make_tuple(error, nb::handle(PyExc_ValueError));
-  nb::exception<UsageError>(module, "ConfigurationError", bases);
+  const nb::exception<UsageError> usage(module, "ConfigurationError", bases);
+  usage.doc() =
+      "An Error about what was asked for. Also a ValueError, and a KeyError of a name that columns "
+      "or figures do not have.";
 }
 
 void BindNames(nb::module_& module) {

@@ -7,8 +7,20 @@ training, and the flight dynamics model.
     observations, info = envs.reset(seed=1)
     observations, rewards, terminated, truncated, info = envs.step(envs.action_space.sample())
 
-Arrays are float32, [environment][quantity]; units are those of the configuration keys' and columns' names. What cannot
-be is a skein.Error; if it was asked for so, a skein.ConfigurationError, which is also a ValueError.
+Arrays of environments and agents are float32, [environment][quantity], those of the flight dynamics model float64.
+Units are those of the configuration keys' and columns' names. What cannot be is a skein.Error; if it was asked for so,
+a skein.ConfigurationError, which is also a ValueError.
+
+Tuples of names say the order of arrays:
+    OBSERVATION_NAMES: an observation's 22 numbers, but of a task file (FlightVectorEnv.observation_names).
+    ACTION_NAMES: an action's 4, in [-1, 1]: throttle, pitch, roll, yaw.
+    HIGH_LEVEL_ACTION_NAMES: the 3 of a high-level policy's.
+    TERMINATION_NAMES: why an episode ended; info["termination"] is an index of it, or CUSTOM_TERMINATION.
+    STATE_NAMES: the 13 of a state of trim, linearise and simulate: u, v, w (body axes, ft/s), p, q, r (rad/s), north,
+        east, down (ft), q0, qx, qy, qz.
+    CONTROL_NAMES: the 5 of their controls: thrust (lbf, not throttle), elevator, aileron, rudder, leading-edge flap
+        (deg).
+TASKS and AIRCRAFT are those that come with Skein.
 """
 from skein._skein import (
     ACTION_NAMES,

@@ -19,8 +19,9 @@ FloatArray = NDArray[np.float32]
 
 
 class Agent:
-    """Who flies an aircraft. Immutable; its memory of each aircraft lies with the caller, as rows of `state`. A copy is
-    the agent itself; one that is pickled is made again from the same arguments, so that its file must be there, unchanged."""
+    """Who flies an aircraft: what it observes and does is ordered and scaled as in skein.FlightVectorEnv. Immutable;
+    its memory of each aircraft lies with the caller, as rows of `state`. A copy is the agent itself; one that is
+    pickled is made again from the same arguments, so that its file must be there, unchanged."""
 
     def __init__(self, name: str, task: str | Config = "heading", *, seed: int = 0, **config: Any) -> None:
         """An agent by the name that `skein compare --agents` gives it: "autopilot" (alone: aggressive),
@@ -87,7 +88,7 @@ class Agent:
         return self._core.draws
 
     def initial_state(self, count: int) -> FloatArray:
-        """Memory at the beginning of episodes: zeros, (count, state_size)."""
+        """Memory at the beginning of episodes: zeros, float32 (count, state_size)."""
         return np.zeros((whole_number("count", count, 0, MOST_ENVIRONMENTS), self.state_size), np.float32)
 
     def act(
@@ -96,15 +97,17 @@ class Agent:
         """One policy step.
 
         Args:
-            observation: float32 (count, observation_size), or (observation_size,) for one aircraft.
-            state: memory of each aircraft, (count, state_size), that the step before returned; None, or rows of
-                zeros, where an episode begins.
+            observation: float32 (count, observation_size), or (observation_size,) for one aircraft, as environments
+                return them: not normalised, in the order of FlightVectorEnv.observation_names.
+            state: memory of each aircraft, float32 (count, state_size), that the step before returned; None, or rows
+                of zeros, where an episode begins.
             policy_step: of one that draws, which policy step it is: 0, 1, 2 and so on. What it draws depends on the
                 seed, this and the row alone, so that a step that is given again draws the same. Others do not need it.
 
         Returns:
-            actions (count, action_size), or (action_size,), and the memory after the step. Actions of a policy that
-            is sampled may lie beyond [-1, 1]; the environment clips them.
+            actions, float32 (count, action_size), or (action_size,), in the order of FlightVectorEnv.action_names; and
+            the memory after the step, float32 (count, state_size). Actions of a policy that is sampled may lie beyond
+            [-1, 1]; the environment clips them.
 
         Raises:
             ConfigurationError: arrays of another shape, or no policy_step for an agent that draws.
@@ -142,10 +145,11 @@ class Agent:
 
 AgentLike = Union[Agent, str, Callable[..., Any]]
 """An agent, its name (skein.Agent), or a function of Python: it is given float32 observations (count, 22), or as many
-as a task file shows, and returns actions (count, 4). Attributes of the function may say more: `action_repeat`, the
-control steps for which its actions are held (else the configuration's); `action_size`; and `state_size`: then it is
-also given its memory of the aircraft, float32 (count, state_size), zeros where an episode begins, and returns a pair,
-actions and memory. It must not depend on which aircraft come together in a call."""
+as a task file shows, and returns actions (count, 4) in [-1, 1], both ordered as in skein.FlightVectorEnv. Attributes of
+the function may say more: `action_repeat`, the control steps for which its actions are held (else the configuration's);
+`action_size`; and `state_size`: then it is also given its memory of the aircraft, float32 (count, state_size), zeros
+where an episode begins, and returns a pair, actions and memory. It must not depend on which aircraft come together in a
+call."""
 
 
 def load_policy(path: str | os.PathLike[str], *, sampled: bool = False, seed: int = 0) -> Agent:

@@ -60,7 +60,8 @@ _DERIVED: dict[str, Callable[[FlightColumns], Any]] = {
 
 
 class FlightColumns(Mapping[str, NDArray[Any]]):
-    """What a function that rewards or terminates is given: columns by name, one number for each aircraft, float32.
+    """What a function that rewards or terminates is given: columns by name, one number for each aircraft, float32
+    (num_envs,), in the unit of its name.
 
     The state at the end of the policy step, or at the end of the episode if that came before:
       those of FlightVectorEnv.state(): u_fps, v_fps, w_fps (body axes, over ground), p_rad_s, q_rad_s, r_rad_s,
@@ -70,10 +71,11 @@ class FlightColumns(Mapping[str, NDArray[Any]]):
     The targets in force when the step began: of Heading target_altitude_ft, target_yaw_rad, target_true_airspeed_fps;
       of Control target_pitch_rad, target_yaw_rad, target_true_airspeed_fps; of Tracking target_north_ft,
       target_east_ft, target_altitude_ft.
-    The task's errors without noise: error_0_scaled, error_1_scaled, error_2_scaled.
-    The actions: action_throttle, action_pitch, action_roll, action_yaw in [-1, 1] (of a high-level policy
+    The task's errors without noise, as they are observed: error_0_scaled, error_1_scaled, error_2_scaled (F-16: lengths
+      in km, angles in rad, speeds in 340 m/s).
+    The actions, clipped: action_throttle, action_pitch, action_roll, action_yaw in [-1, 1] (of a high-level policy
       action_target_pitch, action_target_yaw, action_target_speed).
-    What the task says: reward, and termination (uint8, an index of TERMINATION_NAMES).
+    What the task says: reward, of the policy step, and termination (uint8, an index of TERMINATION_NAMES).
 
     It is a Mapping: `in` and `get` serve, and a name that it does not have is a ConfigurationError and a KeyError.
     """
@@ -184,8 +186,8 @@ class CustomRules:
                 f"{name} must return {wanted} of shape ({self._core.num_envs},), "
                 f"but it returned {returned.dtype} of shape {returned.shape}"
             )
-        if not np.isfinite(returned).all():
-            raise Error(f"{name} must return finite numbers, but it did not for aircraft {np.isfinite(returned).argmin()}")
+        if not (is_finite := np.isfinite(returned)).all():
+            raise Error(f"{name} must return finite numbers, but it did not for aircraft {is_finite.argmin()}")
         return returned.astype(dtype)
 
 

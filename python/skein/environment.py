@@ -85,9 +85,10 @@ class _Flight:
     config: Config
     """Every setting of what is flown."""
     observation_names: tuple[str, ...] = OBSERVATION_NAMES
-    """Of the observation's 22 numbers (docs/reference/tasks.md has their meaning), or those of the task file."""
+    """Of the observation's 22 numbers, in their order (docs/reference/tasks.md has their meaning), or those of the task
+    file."""
     action_names: tuple[str, ...]
-    """Of the action's numbers."""
+    """Of the action's numbers, in their order."""
 
     def _begin_flight(
         self,
@@ -145,26 +146,24 @@ class _Flight:
         return observation
 
     def state(self) -> dict[str, FloatArray]:
-        """Columns of the true state by name, one number for each environment (feet, seconds, radians, degrees where
-        the name says so): what no observation shows."""
+        """Columns of the true state by name, each float32 (num_envs,), of a single environment (1,), in the unit of its
+        name: u_fps, v_fps, w_fps and all others that skein.FlightColumns lists as those of state(); q0, qx, qy, qz are
+        the attitude's quaternion. No noise is in them."""
         return dict(zip(_skein.SHOWN_STATE_NAMES, self._core.state().T, strict=True))
 
     def targets(self) -> FloatArray:
-        """What is flown to, [environment][quantity]: altitude ft, yaw rad and speed ft/s for Heading; pitch rad,
-        yaw rad and speed ft/s for Control; north, east and altitude, ft, for Tracking."""
+        """What is flown to, float32 (num_envs, 3), of a single environment (1, 3): altitude ft, yaw rad and true
+        airspeed ft/s for Heading; pitch rad, yaw rad and true airspeed ft/s for Control; north, east and altitude, ft,
+        for Tracking. Of a task file the targets that it has, in its order."""
         return self._core.targets()
 
     def snapshot(self) -> NDArray[np.uint32]:
-        """The whole mutable state, to go on from with `restore`, and the seed and a hash of the configuration."""
+        """The whole mutable state, to go on from with `restore`, and the seed and a hash of the configuration: uint32
+        (n,), whose order is its own."""
         return self._core.snapshot()
 
-    def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
-        """Goes on from a snapshot of an environment with the same configuration, low-level policy and number, with its
-        seed; returns what is observed there. Returns of a reward of one's own count from there.
-
-        Raises:
-            Error: a snapshot of another configuration or number, or none.
-        """
+    def _go_on_from(self, snapshot: NDArray[np.uint32]) -> FloatArray:
+        """Goes on from a snapshot; returns what is observed there, (num_envs, 22)."""
         self._require_open("restore")
         self._core.restore(rows("snapshot", snapshot, (None,), np.uint32))
         if self._rules is not None:
@@ -176,16 +175,27 @@ class _Flight:
 class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
     """Many aircraft that fly one task. `skein.make_vec` makes it.
 
-    Observations are float32 (num_envs, 22), actions float32 (num_envs, 4) in [-1, 1], clipped: throttle, pitch, roll,
-    yaw; of a high-level policy three. An array that `step` returns is written by the simulator, and never again:
-    nothing is copied. Actions may be any array that speaks DLPack, such as a tensor of torch; float32 rows on the CPU
-    are read in place. Threads of Python run on during a step. Nothing is drawn: `render_mode` is None.
+    Observations are float32 (num_envs, 22) in the order of `observation_names`: names say the unit ("p_rad_s"), or that
+    a number is "_scaled" by the aircraft's reference units (F-16: altitude 5 km, errors 1 km and 340 m/s; yaw and pitch
+    errors rad), or a fraction of its upper limit. docs/reference/tasks.md has the table. A task file shows its own.
+
+    Actions are float32 (num_envs, 4) in [-1, 1], clipped, in the order of `action_names`: throttle (-1 is idle, 1 is
+    maximum: 2 * t - 1 of a throttle t from 0 to 1), pitch (+ nose up), roll (+ right), yaw (+ nose right). Those of a
+    high-level policy are three: changes of the pitch, yaw and speed that the low-level policy is to reach, as shares of
+    env.high_level's largest.
+
+    An array that `step` returns is written by the simulator, and never again: nothing is copied. Actions may be any
+    array that speaks DLPack, such as a tensor of torch; float32 rows on the CPU are read in place. Threads of Python
+    run on during a step. Nothing is drawn: `render_mode` is None.
 
     Episodes that end begin anew in the same step (AutoresetMode.SAME_STEP). Then `info` has, by Gymnasium's rules,
     "final_obs" (an object array: an observation where an episode ended, else None) and "final_info" with
-    "termination" (the reason's name), "episode_return" (undiscounted) and "episode_control_steps" (of 0.02 s), each
-    beside a mask "_final_obs" and so on. `info["termination"]` is always there: uint8, an index of TERMINATION_NAMES,
-    0 while flying.
+    "termination" (the reason's name), "episode_return" (undiscounted) and "episode_control_steps" (of 0.02 s; both 0
+    where none ended), each beside a mask "_final_obs" and so on, all (num_envs,). `info["termination"]` is always
+    there: uint8 (num_envs,), an index of TERMINATION_NAMES, 0 while flying.
+
+    `np_random_seed` is the seed that `reset` was given, or that of the snapshot that `restore` went on from. A first
+    reset without a seed draws that of its episodes from `np_random`.
     """
 
     metadata = {"autoreset_mode": AutoresetMode.SAME_STEP, "render_modes": []}
@@ -215,11 +225,11 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
         self.action_space = batch_space(self.single_action_space, num_envs)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[FloatArray, Info]:
-        """Begins new episodes; returns observations (num_envs, 22) and an empty info.
+        """Begins new episodes; returns observations, float32 (num_envs, 22), and an empty info.
 
         Args:
             seed: episodes are then those of any other environment with this seed; without it those that follow.
-            options: {"reset_mask": a bool for each environment} resets a part of them.
+            options: {"reset_mask": bool (num_envs,)} resets a part of them.
         """
         super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
         unknown = set(options or ()) - {"reset_mask"}
@@ -233,10 +243,12 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
         """One policy step of every aircraft (`policy_step_s`).
 
         Args:
-            actions: (num_envs, 4), or (num_envs, 3) of a high-level policy.
+            actions: (num_envs, 4), or (num_envs, 3) of a high-level policy, in [-1, 1], clipped; in the order of
+                `action_names`.
 
         Returns:
-            observations (num_envs, 22), rewards, terminations, truncations and info (above).
+            observations, float32 (num_envs, 22); rewards, float32 (num_envs,), the sum over the policy step's control
+            steps; terminations and truncations, bool (num_envs,); and info (above).
         """
         n = self.num_envs
         self._require_open("step")
@@ -252,6 +264,18 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
         if ended:
             self._report_ends(termination, terminated | truncated, info)
         return observation, reward, terminated, truncated, info
+
+    def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
+        """Goes on from a snapshot of an environment with the same configuration, low-level policy and number, with its
+        seed, which np_random_seed then says. Returns what is observed there, float32 (num_envs, 22). Returns of a
+        reward of one's own count from there.
+
+        Raises:
+            Error: a snapshot of another configuration or number, or none. Nothing has changed then.
+        """
+        observation = self._go_on_from(snapshot)
+        super().reset(seed=self._core.seed)
+        return observation
 
     def close_extras(self, **kwargs: Any) -> None:
         self._is_closed = True
@@ -275,9 +299,14 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
 
 
 class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
-    """One aircraft. `skein.make` makes it; spaces as of FlightVectorEnv. Nothing is drawn: `render_mode` is None.
+    """One aircraft. `skein.make` makes it. Nothing is drawn: `render_mode` is None.
 
-    When an episode ends, `info` has "termination" (the reason's name), "episode_return" and "episode_control_steps".
+    An observation is float32 (22,), an action float32 (4,) in [-1, 1], or (3,) of a high-level policy: order, units and
+    signs as of FlightVectorEnv. When an episode ends, `info` has "termination" (the reason's name), "episode_return"
+    (undiscounted) and "episode_control_steps" (of 0.02 s).
+
+    `np_random_seed` is the seed that `reset` was given, or that of the snapshot that `restore` went on from. A first
+    reset without a seed draws that of its episodes from `np_random`.
     """
 
     metadata = {"render_modes": []}
@@ -307,7 +336,8 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         self._flying = False
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[FloatArray, Info]:
-        """Begins an episode: that of `seed`, or the next one. Returns an observation (22,) and an empty info."""
+        """Begins an episode: that of `seed`, or the next one. Returns an observation, float32 (22,), and an empty
+        info."""
         super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
         if options:
             raise ConfigurationError(f"reset: unknown option {next(iter(options))}; there are none")
@@ -317,10 +347,12 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         return self._observe()[0], {}
 
     def step(self, action: Any) -> tuple[FloatArray, float, bool, bool, Info]:
-        """One policy step (`policy_step_s`) with an action (4,), or (3,) of a high-level policy.
+        """One policy step (`policy_step_s`) with an action (4,), or (3,) of a high-level policy, in [-1, 1], clipped;
+        in the order of `action_names`.
 
         Returns:
-            observation (22,), reward, terminated, truncated, info.
+            observation, float32 (22,); reward, the sum over the policy step's control steps; terminated, truncated,
+            info.
         """
         self._require_open("step")
         if not self._flying:
@@ -342,12 +374,13 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
 
     def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
         """Goes on from a snapshot of an environment with the same configuration, in the middle of its episode, with its
-        seed; returns what is observed there, (22,).
+        seed, which np_random_seed then says. Returns what is observed there, float32 (22,).
 
         Raises:
             Error: as of FlightVectorEnv.restore.
         """
-        observation: FloatArray = super().restore(snapshot)[0]
+        observation: FloatArray = self._go_on_from(snapshot)[0]
+        super().reset(seed=self._core.seed)
         self._flying = True
         return observation
 
@@ -386,7 +419,7 @@ def make_vec(
         evaluation: leave out what only serves training: staggered clocks, training tolerances, stronger noise,
             starts in a bank or a pull.
         reward: a function that is given columns by name (skein.FlightColumns) after every policy step, and returns the
-            rewards in the place of the task's, (num_envs,).
+            rewards in the place of the task's, numbers (num_envs,).
         terminated: one that returns where episodes end, bool (num_envs,), beside where the task ends them. Their
             termination is "custom", and CUSTOM_TERMINATION in info["termination"].
 

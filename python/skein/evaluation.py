@@ -23,13 +23,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Evaluation:
-    """How an agent flew its episodes."""
+    """How an agent flew its episodes: skein.evaluate finds it.
+
+    `columns` are by name, each (episodes,), one number for each episode in their order: "episode_return",
+    "control_steps" (of 0.02 s), "termination" and more, units in their names. `summary` is a dict of what
+    `skein eval --json` writes.
+    """
 
     summary: dict[str, Any]
     """The keys of `skein eval --json`: episodes, success_rate, return_mean, time_to_target_mean (s), terminations, and
     estimates with 95 % intervals."""
     columns: dict[str, NDArray[Any]]
-    """One number for each episode, in their order: termination (an index of TERMINATION_NAMES), succeeded,
+    """One number for each episode, in their order, (episodes,): termination (an index of TERMINATION_NAMES), succeeded,
     episode_return, control_steps, reached_step and entered_step (control steps at which the target counted, and its
     tolerances were entered; 0: never), and the metrics of docs/reference/metrics.md, units in their names."""
     starts: int
@@ -63,7 +68,8 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Comparison:
-    """How agents flew the same episodes."""
+    """How agents flew the same episodes: skein.compare finds it. `text` is a table, which print shows; `summary` a dict
+    of what `skein compare --json` writes."""
 
     summary: dict[str, Any]
     """The document of `skein compare --json`: agents, each with estimates, and its paired differences against the
@@ -87,7 +93,8 @@ def evaluate(
     """Flies an agent over fresh episodes, as `skein eval` does: the same bits for the same arguments.
 
     Args:
-        agent: an Agent, its name, or a function of observations (skein.agents.AgentLike).
+        agent: an Agent, its name, or a function of observations, float32 (count, 22), that returns actions (count, 4)
+            in [-1, 1], both ordered as in skein.FlightVectorEnv (all that it may be: skein.AgentLike in the reference).
         task, config: what is flown (skein.configure); a policy's own task if it is left out.
         episodes: number of them.
         seed: of the episodes; the i-th depends on configuration, seed and i alone.
@@ -155,9 +162,15 @@ def record(
     observations: bool = False,
     **config: Any,
 ) -> pandas.DataFrame:
-    """Flights as a table, a row for every control step: the first `count` episodes of evaluate, the columns of
-    docs/reference/file-formats.md (recorded flights), with what was observed if asked for. Flights that could have more
-    than 5,000,000 control steps together are a ConfigurationError."""
+    """Flights as a table, a row for every control step of 0.02 s: the first `count` episodes of evaluate, the columns
+    of docs/reference/file-formats.md (Flights), units in their names. Flights that could have more than 5,000,000
+    control steps together are a ConfigurationError.
+
+    Args:
+        agent, task, config, seed, threads: as of evaluate.
+        count: of flights.
+        observations: also what was observed, noise included, a column for each number.
+    """
     import pandas
 
     _check_counts(count, seed, threads)

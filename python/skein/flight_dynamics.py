@@ -17,9 +17,12 @@ from skein.checks import MOST_STEPS, UnknownName, is_vector, number, rows, shown
 DoubleArray = NDArray[np.float64]
 
 STATE_NAMES = _skein.SHOWN_STATE_NAMES[:13]
-"""u, v, w (body axes, ft/s), p, q, r (rad/s), north, east, down (ft), the attitude's quaternion q0, qx, qy, qz."""
+"""u, v, w (body axes, ft/s), p, q, r (rad/s), north, east, down (ft), the attitude's quaternion q0, qx, qy, qz. The
+order of the state of trim, linearise and simulate; linear_models has nine others."""
 CONTROL_NAMES = ("thrust_lbf", "elevator_deg", "aileron_deg", "rudder_deg", "leading_edge_flap_deg")
-"""Elevator + is trailing edge down, aileron + rolls left, rudder + yaws left."""
+"""Thrust in lbf, which is neither throttle nor power; surfaces in deg: elevator + is trailing edge down, aileron +
+rolls left, rudder + yaws left. The order of the controls of trim, linearise and simulate; linear_models has power, %,
+first."""
 GRAVITY_FT_S2 = 32.17
 """Of the published F-16 models."""
 
@@ -45,21 +48,32 @@ class _Plant:
 
 @dataclass(frozen=True, eq=False)
 class Trim:
-    """Steady flight, and the controls that keep it. One that is pickled makes its aircraft again, whose file must be
-    there, unchanged."""
+    """Steady flight, and the controls that keep it: skein.trim finds it.
+
+    `state` is float64 (13,) in the order of skein.STATE_NAMES: u, v, w (body axes, ft/s), p, q, r (rad/s), north, east,
+    down (ft), and the attitude's quaternion q0, qx, qy, qz. `controls` is float64 (5,) in the order of
+    skein.CONTROL_NAMES: thrust (lbf), elevator, aileron, rudder and leading-edge flap (deg).
+
+    Thrust is what the bare airframe is flown with (skein.simulate, skein.linearise). What commands it is `throttle`, 0
+    to 1: an environment's action has 2 * throttle - 1. Between them lies the engine's `power`, 0 to 100 %, which is the
+    input of skein.linear_models.
+
+    The other figures have their units in their names; Mach number and coefficients have none. A trim that is pickled
+    makes its aircraft again, whose file must be there, unchanged.
+    """
 
     state: DoubleArray
     """(13,), STATE_NAMES; at north = east = 0, heading north."""
     controls: DoubleArray
-    """(5,), CONTROL_NAMES."""
+    """(5,), CONTROL_NAMES: first the thrust, lbf, which is not the throttle."""
     power: float
-    """Engine power, 0 to 100, that gives the thrust, clipped to what the engine has."""
+    """Engine power, 0 to 100 %, that gives the thrust, clipped to what the engine has."""
     throttle: float
-    """That commands the power, 0 to 1."""
+    """That commands the power, 0 to 1; 2 * throttle - 1 is the action of an environment."""
     available_thrust_lbf: float
     """At full throttle."""
     excess_power_fps: float
-    """What full throttle would climb at constant speed, ft/s."""
+    """What full throttle would climb at constant speed, ft/s; negative where it would sink."""
     alpha_deg: float
     beta_deg: float
     bank_deg: float
@@ -80,7 +94,11 @@ class Trim:
 
 @dataclass(frozen=True, eq=False)
 class TrimGrid:
-    """The same manoeuvre at every altitude and speed; `grid["excess_power_fps"]` is a figure of every point."""
+    """The same manoeuvre at every altitude and speed: skein.trim_grid finds it.
+
+    `altitude_ft` is float64 (n,) and `true_airspeed_fps` float64 (m,), as they were given. `flown` and
+    `grid["excess_power_fps"]`, a figure of every point by its name, are (n, m): rows are altitudes, columns speeds.
+    """
 
     altitude_ft: DoubleArray
     """(n,)"""
@@ -91,7 +109,7 @@ class TrimGrid:
 
     @property
     def flown(self) -> NDArray[np.bool_]:
-        """(n, m): whether flight is steady there, within the thrust, the surfaces' range and the tables."""
+        """bool (n, m): whether flight is steady there, within the thrust, the surfaces' range and the tables."""
         return np.array([[point["flown"] for point in row] for row in self.points], bool)
 
     @property
@@ -100,7 +118,8 @@ class TrimGrid:
         return [[point.get("limit", "") for point in row] for row in self.points]
 
     def __getitem__(self, name: str) -> DoubleArray:
-        """(n, m): a figure of every point, such as "excess_power_fps"; not a number where there is no trim."""
+        """float64 (n, m): a figure of every point, not a number where there is no trim: those of skein.Trim that are
+        single numbers, such as "excess_power_fps" and "throttle", with their units; "altitude_ft", "speed_fps"."""
         found = [[point.get(name, np.nan) for point in row] for row in self.points]
         known = {key for row in self.points for point in row for key, value in point.items() if _is_number(value)}
         if name not in known:
@@ -110,29 +129,41 @@ class TrimGrid:
 
 @dataclass(frozen=True, eq=False)
 class LinearModel:
-    """d(state_rate) = A d(state) + B d(controls)."""
+    """d(state_rate) = A d(state) + B d(controls), of the bare airframe: skein.linearise finds it.
+
+    `A` is float64 (13, 13): element [i, j] is the change of the rate of STATE_NAMES[i] by STATE_NAMES[j]: u, v, w (body
+    axes, ft/s), p, q, r (rad/s), north, east, down (ft), q0, qx, qy, qz. `B` is float64 (13, 5): by CONTROL_NAMES[j]:
+    thrust (per lbf, not per throttle or power), elevator, aileron, rudder, leading-edge flap (per deg). Rates are per
+    second.
+    """
 
     A: DoubleArray
-    """(13, 13), STATE_NAMES."""
+    """(13, 13), STATE_NAMES by STATE_NAMES."""
     B: DoubleArray
-    """(13, 5), CONTROL_NAMES."""
+    """(13, 5), STATE_NAMES by CONTROL_NAMES."""
 
     def modes(self) -> NDArray[np.complex128]:
-        """Eigenvalues of A, 1/s."""
+        """Eigenvalues of A, complex128 (13,), 1/s, in no order; skein.linear_models has them by name. In straight
+        flight five are near 0: those of position, heading and the quaternion's length, which are no modes of flight."""
         return np.linalg.eigvals(self.A).astype(np.complex128)
 
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """A flight with given controls."""
+    """A flight with given controls: skein.simulate flies it.
+
+    `time_s` is float64 (steps + 1,), from 0, and `states` float64 (steps + 1, 13) in the order of skein.STATE_NAMES:
+    u, v, w (body axes, ft/s), p, q, r (rad/s), north, east, down (ft), q0, qx, qy, qz. `flight["down_ft"]` is a column
+    by its name.
+    """
 
     time_s: DoubleArray
-    """(steps + 1,)"""
+    """(steps + 1,), from 0."""
     states: DoubleArray
-    """(steps + 1, 13), STATE_NAMES."""
+    """(steps + 1, 13), STATE_NAMES; the first is where the flight began."""
 
     def __getitem__(self, name: str) -> DoubleArray:
-        """A column of the states by its name."""
+        """(steps + 1,): a column of the states by its name of STATE_NAMES, which says its unit."""
         if name not in STATE_NAMES:
             raise UnknownName(f"{shown(name)}: no state; there are {', '.join(STATE_NAMES)}")
         column: DoubleArray = self.states[:, STATE_NAMES.index(name)]
@@ -155,13 +186,14 @@ def trim(
     drag_rise: bool = False,
     thrust_growth: bool = False,
 ) -> Trim:
-    """Steady flight at an altitude and speed.
+    """Steady flight at an altitude and speed, as a skein.Trim: its state (13,), controls (5,), throttle and figures.
 
     Args:
-        altitude_ft, true_airspeed_fps: of the flight.
+        altitude_ft, true_airspeed_fps: of the flight, above sea level and through the air.
         flight_path_deg: positive in a climb.
         turn_rate_deg_s: positive to the right; the turn is coordinated.
-        pull_up_g: of a pull-up with level wings: force across the flight path over weight, 1 in level flight; no turn then.
+        pull_up_g: of a pull-up with level wings: force across the flight path over weight, 1 in level flight; no turn
+            then.
         aircraft: one of skein.AIRCRAFT, or the path of a file.
         atmosphere: "stevens_lewis" or "standard_1976".
         gravity_ft_s2: at sea level; load_factor_g stays a multiple of 32.17.
@@ -203,9 +235,16 @@ def trim_grid(
     drag_rise: bool = False,
     thrust_growth: bool = False,
 ) -> TrimGrid:
-    """Steady flight at every altitude of (n,) and every speed of (m,), or why there is none: a flight envelope.
+    """Steady flight at every altitude and every speed, or why there is none: a flight envelope, as a skein.TrimGrid.
 
-    Args: as of skein.trim.
+    Args:
+        altitude_ft: (n,), above sea level.
+        true_airspeed_fps: (m,), above 0.
+        flight_path_deg and all others: as of skein.trim.
+
+    Raises:
+        ConfigurationError: arrays that are empty or not of finite numbers; a manoeuvre or aircraft that skein.trim
+            would refuse. A point that cannot be flown is none: it has a limit.
     """
     plant = _made_plant(
         aircraft,
@@ -226,7 +265,25 @@ def trim_grid(
 
 
 def linearise(point: Trim) -> LinearModel:
-    """The linear model about a steady flight, of the aircraft that was trimmed, by central differences."""
+    """The linear model of the bare airframe about a steady flight, by central differences:
+    d(state_rate) = A d(state) + B d(controls), the derivative of what skein.simulate flies.
+
+    Prefer skein.linear_models to look at modes or to design a controller: it has nine states (true airspeed, alpha,
+    pitch, q, beta, bank, p, r, altitude), engine power as an input, outputs such as the load factor, modes by name,
+    and the loops with flight control, and agrees with `skein fdm linearise`. This one is for the full state: for a
+    filter or an optimisation beside skein.simulate, with position and a quaternion, and thrust as an input.
+
+    Args:
+        point: what skein.trim gave.
+
+    Returns:
+        A, float64 (13, 13): rates of the states, per second, by the states, both in the order of skein.STATE_NAMES:
+            u, v, w (body axes, ft/s), p, q, r (rad/s), north, east, down (ft), and the quaternion q0, qx, qy, qz. The
+            quaternion's four numbers are not independent: in straight flight A has an eigenvalue of 0 for its length.
+        B, float64 (13, 5): the same rates by the controls, in the order of skein.CONTROL_NAMES: thrust (lbf),
+            elevator, aileron, rudder, leading-edge flap (deg). Its first column is per lbf of thrust, that of
+            linear_models per % of engine power.
+    """
     _require_trim("linearise", point)
     return LinearModel(*point._plant.core.linearise(point.state, point.controls))
 
@@ -235,9 +292,29 @@ def linear_models(point: Trim, *, flap: str = "fixed") -> dict[str, Any]:
     """The linear models of a steady flight in the variables of flight dynamics, with named modes: what an element of
     `points` of `skein fdm linearise --json` holds, A, B, C and D as arrays.
 
+        bare = skein.linear_models(skein.trim(15000, 500))["bare_airframe"]
+        [state["name"] for state in bare["states"]], bare["A"], bare["modes"][0]["damping_ratio"]
+
     Args:
         point: what skein.trim gave.
-        flap: "fixed" makes the leading-edge flap of the bare airframe an input, "scheduled" lets it follow its schedule.
+        flap: "fixed" makes the leading-edge flap of the bare airframe an input, "scheduled" lets it follow its
+            schedule.
+
+    Returns:
+        A dict of "altitude_ft", "speed_fps", "trim", and
+        "bare_airframe": x' = A x + B u, y = C x + D u of departures from the trim, in continuous time, s. "states",
+            "inputs" and "outputs" say the order of rows and columns, each a list of {"name", "unit"}:
+            states (9): true_airspeed_fps, alpha_rad, pitch_rad, q_rad_s, beta_rad, bank_rad, p_rad_s, r_rad_s,
+            altitude_ft; inputs (5): power (engine power, 0 to 100 %), elevator_deg, aileron_deg, rudder_deg, and if
+            the flap is fixed leading_edge_flap_deg; outputs (6): load_factor_g, lateral_load_factor_g, alpha_deg,
+            beta_deg, flight_path_deg, mach. "A", "B", "C", "D": float64 (9, 9), (9, 5), (6, 9), (6, 5).
+            "modes", altitude and power held: a list of dicts with "name" ("short period", "phugoid", "Dutch roll",
+            "roll", "spiral"), "eigenvalue_per_s" (real and imaginary part), "swings", "frequency_rad_s" (undamped),
+            "damping_ratio", "time_constant_s", "time_to_half_s", "time_to_double_s" (None: never), and "shares", the
+            participation of the states.
+        "with_flight_control": "longitudinal" and "lateral", each the same in control steps of "dt_s": x of the next
+            step is A x + B u, and y = C x is measured before it. Inputs are "pitch_stick", or "roll_stick" and
+            "yaw_pedals", in [-1, 1]; states are rigid body, actuators and filters; modes have no names. Power is held.
     """
     _require_trim("linear_models", point)
     if flap not in ("fixed", "scheduled"):
@@ -258,6 +335,12 @@ def flying_qualities(point: Trim, *, airplane_class: str = "IV", category: str =
         point: what skein.trim gave.
         airplane_class: of MIL-F-8785C, "I" to "IV".
         category: of flight phases, "A" to "C".
+
+    Returns:
+        A dict of numbers, with their units in their names: "pitch_step" and "roll_step" (of the "stick", in [-1, 1]),
+        "load_factor_by_alpha_g_per_rad", "equivalent_short_period", "equivalent_roll", "dutch_roll", "bank_s" (from
+        full stick to "bank_deg"); "requirements", a list of dicts with "paragraph", "what", "value", "unit" and
+        "level" (1 to 3; 4 is below level 3); and "loops", one for each actuator, with margins in dB, deg and s.
 
     Raises:
         ConfigurationError: it is a turn or a pull-up.
@@ -280,10 +363,15 @@ def simulate(
 
     Args:
         start: where the flight begins.
-        controls: (5,), CONTROL_NAMES, held for duration_s; or (steps, 5), row k held during step k.
-        state: (13,), STATE_NAMES: begin there and not in the trim's state.
+        controls: (5,), held for duration_s; or (steps, 5), row k held during step k. In the order of
+            skein.CONTROL_NAMES: thrust (lbf, not throttle), elevator, aileron, rudder, leading-edge flap (deg).
+        state: (13,): begin there and not in the trim's state. In the order of skein.STATE_NAMES: u, v, w (body axes,
+            ft/s), p, q, r (rad/s), north, east, down (ft), q0, qx, qy, qz.
         duration_s: of the flight, with controls that are held.
         dt: time step, s.
+
+    Returns:
+        A skein.Trajectory: time_s (steps + 1,) and states (steps + 1, 13), those of the start first.
 
     Raises:
         Error: a state is not finite.

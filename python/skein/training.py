@@ -37,7 +37,8 @@ class Run:
 
     @property
     def metrics(self) -> pandas.DataFrame:
-        """metrics.csv: a row for every iteration. An Error before the training begins."""
+        """metrics.csv: a row for every iteration (columns and units: docs/reference/file-formats.md). An Error before
+        the training begins."""
         return self._table("metrics.csv")
 
     @property

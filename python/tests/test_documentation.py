@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+import dataclasses
 import inspect
 import json
 import re
@@ -23,6 +24,38 @@ NAMES = [name for name in skein.__all__ if name != "AgentLike" and callable(geta
 @pytest.mark.parametrize("name", NAMES)
 def test_everything_is_documented(name):
     assert getattr(skein, name).__doc__ or issubclass(getattr(skein, name), skein.Error)
+
+
+@pytest.mark.parametrize("error,base", [(skein.Error, "RuntimeError"), (skein.ConfigurationError, "ValueError")])
+def test_errors_say_what_they_are(error, base):
+    assert base in (error.__doc__ or "")
+
+
+def test_help_says_what_arrays_hold():
+    """Docstrings behind fields are in the reference, but not in help()."""
+    for cls in (value for name in skein.__all__ if dataclasses.is_dataclass(value := getattr(skein, name))):
+        for field in dataclasses.fields(cls):
+            if "Array" in str(field.type):
+                assert f"`{field.name}`" in cls.__doc__, (cls, field.name)
+    for name, value in vars(skein).items():
+        if name.isupper() and name in skein.__all__:
+            assert name in skein.__doc__, name
+    for thing in (skein.Trim, skein.LinearModel, skein.linearise, skein.simulate):
+        for said in ("STATE_NAMES", "CONTROL_NAMES", "ft/s", "rad/s", "lbf", "deg"):
+            assert said in thing.__doc__, (thing, said)
+
+
+def test_help_names_what_linear_models_holds():
+    models = skein.linear_models(skein.trim(15000, 500))
+    bare, loops = models["bare_airframe"], models["with_flight_control"]
+    quantities = [*bare["states"], *bare["inputs"], *bare["outputs"], *(loop["inputs"][0] for loop in loops.values())]
+    said = skein.linear_models.__doc__
+    for name in (*models, *bare, *loops, *bare["modes"][0], *(quantity["name"] for quantity in quantities)):
+        assert name in said, name
+    for name in "ABCD":
+        assert str(bare[name].shape) in said, name
+    for mode in bare["modes"]:
+        assert f'"{mode["name"]}"' in said
 
 
 def test_the_reference_has_every_name_and_no_docstring_of_another_library():

@@ -195,6 +195,22 @@ def test_a_snapshot_brings_its_seed_to_an_environment_that_has_not_begun():
     assert_same(envs.reset(), fresh.reset())
 
 
+@pytest.mark.parametrize("make", [lambda: skein.make("heading"), lambda: skein.make_vec("heading", 2)])
+@pytest.mark.parametrize("seed", [6, 2**64 - 1])
+def test_the_environments_seed_is_that_of_the_snapshot_that_it_goes_on_from(make, seed):
+    env, other, fresh = make(), make(), make()
+    first, _ = env.reset(seed=seed)
+    other.reset(seed=7)
+    for goes_on in (other, fresh):
+        goes_on.restore(env.snapshot())
+        assert goes_on.np_random_seed == env.np_random_seed == seed
+        assert goes_on.np_random.bit_generator.state == env.np_random.bit_generator.state
+        with pytest.raises(skein.Error, match="no snapshot"):
+            goes_on.restore(np.zeros(3, np.uint32))
+        assert goes_on.np_random_seed == seed
+        np.testing.assert_array_equal(goes_on.reset(seed=goes_on.np_random_seed)[0], first)
+
+
 def test_a_snapshot_of_something_else_is_refused_and_changes_nothing():
     envs, same = (skein.make_vec("heading", 40) for _ in range(2))
     envs.reset(seed=6), same.reset(seed=6)

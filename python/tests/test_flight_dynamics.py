@@ -64,6 +64,49 @@ def test_the_linear_model_is_the_derivative():
     assert (model.modes().real > -10).all()
 
 
+def test_the_throttle_of_a_trim_keeps_it_in_an_environment():
+    altitude_ft, speed_fps = 15000, 500
+    trim = skein.trim(altitude_ft, speed_fps)
+    start = {"altitude_min_ft": altitude_ft, "altitude_max_ft": altitude_ft,
+             "true_airspeed_min_fps": speed_fps, "true_airspeed_max_fps": speed_fps}
+    env = skein.make("heading", evaluation=True, env={"initial": start})
+    env.reset(seed=1)
+    action = [2 * trim.throttle - 1, 0, 0, 0]
+    for _ in range(round(5 / env.policy_step_s)):
+        env.step(action)
+    state = {name: float(column[0]) for name, column in env.state().items()}
+    assert state["power_percent"] == pytest.approx(trim.power, rel=1e-5)
+    # A centred stick asks for 1 g, of which the trim's load factor falls short a little.
+    assert state["down_ft"] == pytest.approx(-altitude_ft, abs=5)
+    assert np.hypot(state["u_fps"], state["w_fps"]) == pytest.approx(speed_fps, abs=0.5)
+
+
+def test_both_linear_models_are_one_in_the_units_that_they_say():
+    trim = skein.trim(15000, 500)
+    full, bare = skein.linearise(trim), skein.linear_models(trim)["bare_airframe"]
+    names = [[quantity["name"] for quantity in bare[of]] for of in ("states", "inputs")]
+    for name in CONTROL_NAMES[1:]:
+        mine, theirs = full.B[:, CONTROL_NAMES.index(name)], bare["B"][:, names[1].index(name)]
+        for rate in ("p_rad_s", "q_rad_s", "r_rad_s"):
+            expected = theirs[names[0].index(rate)]
+            assert mine[STATE_NAMES.index(rate)] == pytest.approx(expected, rel=1e-5, abs=1e-9)
+    # Thrust, lbf, accelerates along u; power, %, does so by the thrust of a percent, here that between two trims.
+    power = bare["B"][names[0].index("true_airspeed_fps"), names[1].index("power")]
+    along_u = full.B[STATE_NAMES.index("u_fps"), CONTROL_NAMES.index("thrust_lbf")]
+    lower, higher = (skein.trim(15000, 500, flight_path_deg=angle) for angle in (-0.01, 0.01))
+    lbf_per_percent = (higher.controls[0] - lower.controls[0]) / (higher.power - lower.power)
+    assert power == pytest.approx(along_u * np.cos(np.radians(trim.alpha_deg)) * lbf_per_percent, rel=1e-5)
+
+
+@pytest.mark.parametrize("aircraft,speed_fps", [("f16", 500), ("cessna172", 180), ("aerosonde", 80)])
+def test_five_eigenvalues_of_straight_flight_are_no_modes(aircraft, speed_fps):
+    trim = skein.trim(5000, speed_fps, aircraft=aircraft)
+    sizes = np.sort(np.abs(skein.linearise(trim).modes()))
+    named = [np.hypot(*mode["eigenvalue_per_s"]) for mode in skein.linear_models(trim)["bare_airframe"]["modes"]]
+    assert (sizes[:5] < 1e-6).all() and sizes[5] > 1e-3
+    assert min(named) > 1e-3
+
+
 def test_the_aircraft_can_be_another_one():
     aerosonde = skein.trim(3000, 80, aircraft="aerosonde")
     assert 0 < aerosonde.controls[0] < 50
