@@ -260,12 +260,7 @@ TEST_F(FdmPipeline, LiftAndDragAreInBalanceWithWeightAndThrust) {
   constexpr Tolerance kBalance{1e-6, "of the trim, relative"};
   constexpr Tolerance kBank{2e-4, "the aerodynamic tables are not symmetrical: it banks a little"};
   constexpr double kWingAreaFt2 = 300, kWeightLbf = 636.94 * 32.17;
-  const std::string path = folder_ + "/trim.json";
-  ASSERT_EQ(
-      CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "500", "--json", path})
-          .exit_code,
-      0);
-  const json trim = json::parse(ReadFile(path));
+  const json trim = TrimmedIn(folder_, "15000", "500", {});
   const double force_lbf = trim["qbar_psf"].get<double>() * kWingAreaFt2;
   const double alpha = trim["alpha_deg"].get<double>() * M_PI / 180;
   const double thrust_lbf = trim["controls"][0];
@@ -305,12 +300,7 @@ TEST_F(FdmPipeline, PicturesShowPolarsAndHandlingLevels) {
 }
 
 TEST_F(FdmPipeline, TrimIsSteadyFlight) {
-  const std::string path = folder_ + "/trim.json";
-  ASSERT_EQ(
-      CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "500", "--json", path})
-          .exit_code,
-      0);
-  const json trim = json::parse(ReadFile(path));
+  const json trim = TrimmedIn(folder_, "15000", "500", {});
   constexpr Tolerance kResidual{1e-6, "residual of the trim"};
   constexpr Tolerance kDigits{1e-4, "five decimals known"};
   // The trim is a point like any other: flown through `fdm eval`, nothing accelerates.
