@@ -12,8 +12,8 @@ namespace skein {
 
 struct KernelAircraft;  // envs/kernels/kernel_aircraft.h
 
-/// Sums over the control steps of the episodes under way in one block of aircraft, from which
-/// their metrics are made when they end. Takes memory from the first Add on.
+/// Sums and peaks over the control steps of the episodes under way in one block of aircraft, from
+/// which their metrics are made when they end. Takes memory from the first Add on.
 class FlightMetricSums {
  public:
   /// Adds the states that a control step has led to, of the aircraft whose `termination` is still

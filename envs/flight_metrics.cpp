@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "envs/aircraft/aircraft.h"
 #include "envs/flight_metric_sums.h"
 #include "envs/kernels/kernel_aircraft.h"
 #include "envs/state/attitude.h"
@@ -33,15 +34,16 @@ constexpr double kBetaHalfRangeDeg = 30;
 // What smoothness divides by, ours: body rates by pi rad/s, the load factor by its limit.
 constexpr double kPi = 3.14159265358979324;
 
-// Rows of sums: how many steps, what they sum to, what rounding has lost of that, and the smoothed
-// quantities one and two steps ago.
+// Rows of sums: how many steps, what they sum to, what rounding has lost of that, the smoothed
+// quantities one and two steps ago, and the peaks.
 constexpr int kNumSmoothed = 4;
 constexpr int kSteps = 0;
 constexpr int kSum = kSteps + 1;
-constexpr int kLost = kSum + kNumFlightMetrics;
-constexpr int kBefore = kLost + kNumFlightMetrics;
+constexpr int kLost = kSum + kFirstPeak;
+constexpr int kBefore = kLost + kFirstPeak;
 constexpr int kTwoBefore = kBefore + kNumSmoothed;
-constexpr int kNumSumColumns = kTwoBefore + kNumSmoothed;
+constexpr int kPeak = kTwoBefore + kNumSmoothed;
+constexpr int kNumSumColumns = kPeak + kNumFlightMetrics - kFirstPeak;
 
 }  // namespace
 }  // namespace skein
@@ -84,6 +86,10 @@ HWY_INLINE void Measure(const KernelAircraft& aircraft, const Tile& tile, int fi
   values[kOverloadMargin] = Margin(load_factor, 0, kLargestLoadFactor);
   values[kAlphaMargin] = Margin(alpha, kMiddleAlphaDeg, kAlphaHalfRangeDeg);
   values[kBetaMargin] = Margin(beta, 0, kBetaHalfRangeDeg);
+  values[kPeakLoadFactor] = values[kLowestLoadFactor] = load_factor;
+  values[kPeakAlpha] = alpha;
+  values[kPeakAbsBeta] = values[kMeanAbsBeta];
+  values[kPeakAbsP] = values[kMeanAbsP];
 }
 
 /// The norm of the smoothed quantities' second difference, which moves on by a step where `flying`.
@@ -116,6 +122,20 @@ HWY_INLINE void AddWhere(Mask where, V value, float* sum_row, float* lost_row) {
   hn::StoreU(hn::IfThenElse(where, hn::Sub(hn::Sub(total, sum), corrected), lost), d, lost_row);
 }
 
+/// The peaks after one more state, where `flying`. The first state of an episode is all there is.
+HWY_INLINE void FollowPeaks(Mask flying, Mask is_first, const V (&values)[kNumFlightMetrics],
+                            const Tile& sums, int first) {
+  const FloatTag d;
+  for (int k = kFirstPeak; k < kNumFlightMetrics; ++k) {
+    float* const row = sums[kPeak + k - kFirstPeak] + first;
+    const V before = hn::LoadU(d, row);
+    const V farther =
+        k == kLowestLoadFactor ? hn::Min(before, values[k]) : hn::Max(before, values[k]);
+    const V peak = hn::IfThenElse(is_first, values[k], farther);
+    hn::StoreU(hn::IfThenElse(flying, peak, before), d, row);
+  }
+}
+
 void AddFlightMetrics(const KernelAircraft& aircraft, Tile tile, const std::int32_t* termination,
                       Tile sums) {
   const FloatTag d;
@@ -125,10 +145,11 @@ void AddFlightMetrics(const KernelAircraft& aircraft, Tile tile, const std::int3
     V values[kNumFlightMetrics];
     Measure(aircraft, tile, first, values);
     values[kSmoothness] = SecondDifference(tile, sums, flying, first);
-    for (int k = 0; k < kNumFlightMetrics; ++k) {
+    for (int k = 0; k < kFirstPeak; ++k) {
       AddWhere(flying, values[k], sums[kSum + k] + first, sums[kLost + k] + first);
     }
     const V steps = Column(sums, kSteps, first);
+    FollowPeaks(flying, hn::Eq(steps, hn::Zero(d)), values, sums, first);
     hn::StoreU(hn::Add(steps, hn::IfThenElseZero(flying, Constant(1))), d, sums[kSteps] + first);
   }
 }
@@ -160,6 +181,11 @@ const std::array<FlightMetricName, kNumFlightMetrics> kFlightMetricNames = {{
     {"alpha_margin", "AOASM", "alpha margin"},
     {"beta_margin", "AOSSM", "beta margin"},
     {"smoothness", "FSM", "smoothness"},
+    {"peak_load_factor_g", "", "peak nz, g"},
+    {"lowest_load_factor_g", "", "lowest nz, g"},
+    {"peak_alpha_deg", "", "peak alpha, deg"},
+    {"peak_abs_beta_deg", "", "peak sideslip, deg"},
+    {"peak_abs_p_deg_s", "", "peak roll rate, deg/s"},
 }};
 
 void FlightMetricSums::Add(const KernelAircraft& aircraft, Tile flight,
@@ -181,8 +207,12 @@ void FlightMetricSums::Report(int index, std::int32_t episode_steps, double cont
     std::fill_n(metrics, kNumFlightMetrics, std::numeric_limits<float>::quiet_NaN());
     return;
   }
-  for (int k = 0; k < kNumFlightMetrics; ++k) {
+  for (int k = 0; k < kFirstPeak; ++k) {
     metrics[k] = static_cast<float>(sum(kSum + k) / episode_steps);
+  }
+  for (int k = kFirstPeak; k < kNumFlightMetrics; ++k) {
+    const double unit = k == kPeakAbsP ? kDegPerRad : 1;
+    metrics[k] = static_cast<float>(unit * sum(kPeak + k - kFirstPeak));
   }
   // Between n states there are n - 2 second differences; fewer states were perfectly smooth.
   const int differences = std::max(1, episode_steps - 2);

@@ -5,10 +5,10 @@
 
 namespace skein {
 
-/// How an episode was flown: the paper's Table 6 but for the time to the target, which is an
-/// episode's length, and the Mach number. Each is the mean over the states after every control step
-/// of the episode (smoothness is of such a mean); formulas and what they assume:
-/// docs/reference/metrics.md.
+/// How an episode was flown, by the states after every control step of it: first the paper's Table
+/// 6 but for the time to the target, which is an episode's length, and the Mach number, each a mean
+/// over the states (smoothness is of such a mean), then peaks, each the extreme of the states.
+/// Formulas and what they assume: docs/reference/metrics.md.
 enum FlightMetric : int {
   kMeanLoadFactor,    ///< G: nz, g, signed
   kMeanTrueAirspeed,  ///< TAS: |velocity relative to the air|, ft/s
@@ -27,13 +27,20 @@ enum FlightMetric : int {
   kAlphaMargin,       ///< AOASM
   kBetaMargin,        ///< AOSSM
   kSmoothness,        ///< FSM, in (0, 1]
+  kPeakLoadFactor,    ///< highest nz, g
+  kLowestLoadFactor,  ///< lowest nz, g
+  kPeakAlpha,         ///< highest alpha, deg, signed
+  kPeakAbsBeta,       ///< deg
+  kPeakAbsP,          ///< deg/s
   kNumFlightMetrics
 };
+/// Where the means end and the peaks begin.
+inline constexpr int kFirstPeak = kPeakLoadFactor;
 
 /// What a metric is called.
 struct FlightMetricName {
   const char* key;      ///< in files, with its unit
-  const char* symbol;   ///< as in the paper's Table 6
+  const char* symbol;   ///< as in the paper's Table 6; of peaks empty
   const char* meaning;  ///< for people, with its unit
 };
 

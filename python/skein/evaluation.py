@@ -36,7 +36,7 @@ class Evaluation:
     columns: dict[str, NDArray[Any]]
     """One number for each episode, in their order, (episodes,): termination (an index of TERMINATION_NAMES), succeeded,
     episode_return, control_steps, reached_step and entered_step (control steps at which the target counted, and its
-    tolerances were entered; 0: never), and the metrics of docs/reference/metrics.md, units in their names."""
+    tolerances were entered; 0: never), and the metrics and peaks of docs/reference/metrics.md, units in their names."""
     starts: int
     """A hash of initial states and targets: equal for agents that flew the same episodes."""
 

@@ -142,6 +142,25 @@ def test_flights_are_tables(heading_policy):
     assert flown.to_pandas()["termination"].tolist() == flights.groupby("episode")["termination"].last().tolist()
 
 
+def test_peaks_are_those_of_the_recorded_flights(heading_policy):
+    pytest.importorskip("pandas")
+    flown = skein.evaluate(heading_policy, episodes=3, env={"hold_s": 2})
+    flights = skein.record(heading_policy, count=3, env={"hold_s": 2})
+    steps = flights[flights["time_s"] > 0].groupby("episode")  # the initial state does not count
+    for name, peaks in {
+        "peak_load_factor_g": steps["load_factor_g"].max(),
+        "lowest_load_factor_g": steps["load_factor_g"].min(),
+        "peak_alpha_deg": steps["alpha_deg"].max(),
+        "peak_abs_beta_deg": steps["beta_deg"].apply(lambda beta: beta.abs().max()),
+        "peak_abs_p_deg_s": steps["p_deg_s"].apply(lambda p: p.abs().max()),
+    }.items():
+        np.testing.assert_allclose(flown.columns[name], peaks, rtol=1e-5, atol=1e-4, err_msg=name)
+        estimates = flown.summary["estimates"]
+        assert estimates[name]["value"] == pytest.approx(peaks.mean(), rel=1e-4, abs=1e-4)
+        worst = peaks.min() if name == "lowest_load_factor_g" else peaks.max()
+        assert estimates[name + "_worst"]["value"] == pytest.approx(worst, rel=1e-4, abs=1e-4)
+
+
 def test_a_function_sees_what_a_task_file_shows():
     file = ROOT / "examples" / "tasks" / "level_turn.toml"
     shapes = set()

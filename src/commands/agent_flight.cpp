@@ -168,6 +168,7 @@ void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents f
     options.aircraft = flight.condition.model.aircraft;
   }
   CheckWritable(paths, FilesRead(flown));
+  RequireCsvEnding(flight.out);
   options.own_assignments = AssignmentsOf(command, flight);
   for (auto& own : TargetsAtStart(TaskOf(flown))) options.own_assignments.push_back(std::move(own));
   options.episodes = 1;
@@ -176,7 +177,7 @@ void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents f
   const std::vector<AgentFlights> agents = FlyEpisodes(flown);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     Report(agents[i], flight.seconds);
-    WriteFlightsCsv(options, paths[i], "by " + agents[i].agent, agents[i]);
+    WriteFlightsCsv(options, paths[i], "by " + agents[i].agent, agents[i], flight.out_is_default);
   }
 }
 

@@ -15,6 +15,7 @@ struct AgentFlight {
   const Eigen::Vector3d* wind_ft_s;  ///< null: as the environment has it
   double seconds;
   std::string out;
+  bool out_is_default;  ///< nobody asked for a file of that name
 };
 
 /// Adds who flies (AddAgents), in what environment (AddEnvironmentOptions), and --target; `flown`
@@ -27,7 +28,7 @@ void RequireNoAgentOptions(const CLI::App& command);
 /// Flies the environment's aircraft, from level flight at the condition, by each agent, writes the
 /// flights as CSV, and says where they led. What `command` was given of the condition, the wind and
 /// the steps is set in the environment; what it was not is as there. Throws UsageError of what an
-/// environment cannot begin in.
+/// environment cannot begin in, and of an output that is not called as CSV (RequireCsvEnding).
 void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents flown);
 
 }  // namespace skein

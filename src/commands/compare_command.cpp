@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -25,7 +26,6 @@
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
-#include "src/report/run_report.h"
 #include "train/ranks/collectives.h"
 
 namespace skein {
@@ -45,10 +45,11 @@ ProgramConfig Configure(const CompareOptions& options) {
   ConfigSources sources = SourcesFor(
       flight, "", flight.task.empty() ? FirstPolicyWithTask(options.agents) : std::nullopt);
   sources.file = flight.config;
+  const std::vector<std::string> policies = PoliciesAmong(options.agents);
   return AsUsage([&] {
     ProgramConfig config = ResolveConfig(sources);
     const EnvConfig asked = config.train.env;
-    ApplyOverrides(flight, &config);
+    ApplyOverrides(flight, policies, &config);
     CheckEachAgentsOwn(config.train.env, asked);
     return config;
   });
@@ -139,12 +140,18 @@ void RequireRoom(const CompareOptions& options, const EnvConfig& env) {
 /// A page that was asked for is written, or the command fails; without being asked one is written
 /// where one can be.
 void WritePage(const CompareOptions& options, const std::function<std::string()>& data) {
-  if (options.html.empty()) {
-    if (WritesDefaultPage(options)) WriteReportAtEnd(kDefaultPage, data);
-    return;
+  const bool is_default = options.html.empty();
+  if (is_default && !WritesDefaultPage(options)) return;
+  const std::string path = is_default ? kDefaultPage : options.html;
+  try {
+    CheckWritable(path);
+    const std::string page = data(), name = OutputName(path, is_default);
+    WriteReport(path, page);
+    fmt::print("report          {}\n", name);
+  } catch (const std::exception& error) {
+    if (!is_default) throw;
+    fmt::print("report          none: {}\n", error.what());
   }
-  WriteReport(options.html, data());
-  fmt::print("report          {}\n", options.html);
 }
 
 /// What the agents are and what they fly, in short.

@@ -77,7 +77,7 @@ Subject FindSubject(const EvalOptions& options) {
   if (path != kUntrained) trained = RecurrentPolicy::Load(path);
   ProgramConfig config = ConfigFor(flight, options.policy, trained);
   if (trained) config.train.env = trained->EnvironmentFor(config.train.env);
-  ApplyOverrides(flight, &config);
+  ApplyOverrides(flight, {path}, &config);
   std::shared_ptr<const StoredPolicy> low_level;
   if (!options.low_level.empty()) {
     config.train.env.tracking.acts_directly = false;  // whatever the preset trains

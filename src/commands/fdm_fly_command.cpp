@@ -36,6 +36,9 @@ struct FlyOptions {
   std::string mode = "full";
   std::string wind, commands;
   std::string out = "flight.csv";
+  CLI::Option* out_option = nullptr;
+
+  bool OutIsDefault() const { return out_option->count() == 0; }
 };
 
 /// Throws UsageError of a flight without a step, or of more steps than can be.
@@ -54,6 +57,7 @@ void FlySticks(const FlyOptions& options) {
   std::vector<std::string> read = options.condition.model.FilesRead();
   read.push_back(options.commands);
   CheckWritable({options.out}, read);
+  RequireCsvEnding(options.out);
   CommandedFlight flight = options.flight;
   flight.mode = kModes.at(options.mode);
   if (options.by_altitude) flight.gusts.law = TurbulenceLaw::kByAltitude;
@@ -65,12 +69,12 @@ void FlySticks(const FlyOptions& options) {
     flight.commands = ReadStickCommands(options.commands, trimmed);
   }
   const std::string flown = FlyCommands(plant, start.trim, flight);
+  const std::string out_name = OutputName(options.out, options.OutIsDefault());
   WriteFile(options.out, flown);
   for (const ExceededLimit& limit : start.exceeded_limits) {
     fmt::print("the flight at its start {}\n", limit.words);
   }
-  fmt::print("flew {} for {} s: {}\n", options.condition.Describe(plant), flight.seconds,
-             options.out);
+  fmt::print("flew {} for {} s: {}\n", options.condition.Describe(plant), flight.seconds, out_name);
   for (const std::string& left : LeftTables(plant, ParseCsv(flown))) fmt::print("  {}\n", left);
 }
 
@@ -90,7 +94,7 @@ void Fly(const CLI::App& command, FlyOptions options) {
   options.flown.flight.seed = flight.gusts.seed;
   FlyAgents(command,
             {options.condition, options.wind.empty() ? nullptr : &flight.wind_ft_s, flight.seconds,
-             options.out},
+             options.out, options.OutIsDefault()},
             std::move(options.flown));
 }
 
@@ -150,11 +154,12 @@ void AddFlyCommand(CLI::App* fdm) {
                    "full: sticks through the laws; direct: full stick is full deflection")
       ->check(OneOf(kModes))
       ->capture_default_str();
-  command
-      ->add_option("-o,--out", options->out,
-                   "columns of files of flights, which skein plot flights draws")
-      ->type_name("FILE.csv")
-      ->capture_default_str();
+  options->out_option = command
+                            ->add_option("-o,--out", options->out,
+                                         "columns of files of flights, which skein plot flights "
+                                         "draws")
+                            ->type_name("FILE.csv")
+                            ->capture_default_str();
   command->footer(
       "A file of sticks is flown in float64. Agents fly as in skein replay, in the environment of "
       "the policy's run or of the preset,\n"

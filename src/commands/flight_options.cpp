@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
+#include "base/field_list.h"
 #include "base/number_text.h"
 #include "src/agents/agent_names.h"
+#include "src/agents/policy_file.h"
 #include "src/commands/aircraft_option.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
@@ -25,6 +28,42 @@
 #include "train/policy/policy_parameters.h"
 
 namespace skein {
+namespace {
+
+bool IsIn(const std::string& table, const Field& field) {
+  return field.key.rfind(table + ".", 0) == 0;
+}
+
+/// Why flights by `policies` do not heed the field; empty if they do.
+std::string WhyUnheeded(const Field& field, const std::vector<std::string>& policies) {
+  if (field.key == "learner.backend") {
+    return policies.empty() ? "computes networks, and no policy flies" : "";
+  }
+  if (IsIn("network", field)) {
+    const bool has_untrained = std::count(policies.begin(), policies.end(), kUntrained) > 0;
+    return has_untrained ? "" : "is of untrained networks, and none fly: a policy brings its own";
+  }
+  if (IsIn("env", field) && !field.is_training_only) return "";
+  return "is for trainings and changes no flight";
+}
+
+/// Throws UsageError on a key of --set that flights by `policies` do not heed. Files say more than
+/// flights: what a run was trained with.
+void RequireHeeded(const std::vector<std::string>& assignments,
+                   const std::vector<std::string>& policies) {
+  ProgramConfig any;
+  const std::vector<Field> fields = FieldsOf(any);
+  for (const std::string& assignment : assignments) {
+    const std::string key = KeyOf(assignment);
+    for (const Field& field : fields) {
+      if (field.key != key) continue;
+      const std::string why = WhyUnheeded(field, policies);
+      if (!why.empty()) throw UsageError(fmt::format("--set {}: {}", assignment, why));
+    }
+  }
+}
+
+}  // namespace
 
 void AddEnvironmentOptions(CLI::App* command, const FlightOptionTexts& texts,
                            FlightOptions* options) {
@@ -139,18 +178,23 @@ ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
   return AsUsage([&] { return ResolveConfig(sources); });
 }
 
-void ApplyOverrides(const FlightOptions& options, ProgramConfig* config) {
+std::vector<std::string> PoliciesAmong(const std::vector<std::string>& agents) {
+  std::vector<std::string> policies;
+  for (const std::string& agent : agents) {
+    const std::string file = PolicyFileOfAgent(agent);
+    if (!file.empty()) policies.push_back(file);
+  }
+  return policies;
+}
+
+void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>& policies,
+                    ProgramConfig* config) {
   const CLI::Option* const count = options.flights_count_option;
   const bool counts = RecordsFlights(options) || options.flights_on_page;
   if (count != nullptr && count->count() > 0 && !counts) {
     throw UsageError("--flights-count is for --flights and --acmi");
   }
-  for (const std::string& assignment : options.assignments) {
-    for (const char* table : {"run.", "ppo.", "evaluation.", "checkpoint."}) {
-      if (KeyOf(assignment).rfind(table, 0) != 0) continue;
-      throw UsageError(fmt::format("--set {}: is for trainings and changes no flight", assignment));
-    }
-  }
+  RequireHeeded(options.assignments, policies);
   const ProgramConfig base = *config;
   const bool is_own = options.task.empty() || IsTaskFile(options.task);
   const std::string& task = is_own ? base.train.env.task : options.task;
@@ -208,12 +252,19 @@ AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, 
   return FlyAndRecord(name, agent, env, evaluation, options.flights_count, pool);
 }
 
+void RequireCsvEnding(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending.empty() || ending == ".csv") return;
+  throw UsageError(fmt::format("{}: flights are written as CSV: let the name end in .csv", path));
+}
+
 void WriteFlightsCsv(const FlightOptions& options, const std::string& path,
-                     const std::string& manner, const AgentFlights& flown) {
+                     const std::string& manner, const AgentFlights& flown, bool is_default) {
+  const std::string name = OutputName(path, is_default);
   WriteFile(path, FlightsCsv(flown.env, flown.flights,
                              options.flights_observations ? FlightColumns::kStatesAndObservations
                                                           : FlightColumns::kStates));
-  fmt::print("{}: {} {}\n", path, Counted(static_cast<int>(flown.flights.size()), "flight"),
+  fmt::print("{}: {} {}\n", name, Counted(static_cast<int>(flown.flights.size()), "flight"),
              manner);
 }
 

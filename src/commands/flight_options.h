@@ -79,10 +79,14 @@ ConfigSources SourcesFor(const FlightOptions& options, const std::string& policy
 ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
                         const std::optional<RecurrentPolicy>& trained);
 
+/// The files of those of these agents that are policies, kUntrained for untrained ones.
+std::vector<std::string> PoliciesAmong(const std::vector<std::string>& agents);
+
 /// The environment of `config` with --config, --condition, --set, --hold and --mission on top.
-/// Throws UsageError if they cannot be, or name another task than --task (without it: than
-/// `config`).
-void ApplyOverrides(const FlightOptions& options, ProgramConfig* config);
+/// `policies` are those that fly (PoliciesAmong). Throws UsageError if they cannot be, name another
+/// task than --task (without it: than `config`), or if --set gives a key that no flight heeds.
+void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>& policies,
+                    ProgramConfig* config);
 
 /// The agents of a list of --agents, for the environment of `config`. Throws UsageError on a name
 /// that is there twice.
@@ -99,9 +103,13 @@ std::string LengthOption(const EnvConfig& env);
 AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, const Agent& agent,
                          const EnvConfig& env, WorkerPool& pool);
 
-/// Writes them to `path` as CSV, and says so. `manner` is how they were flown.
+/// Throws UsageError if the name of a file of flights that is CSV ends as one of another format: in
+/// anything but .csv. A name without an ending, as of a pipe, serves.
+void RequireCsvEnding(const std::string& path);
+
+/// Writes them to `path` as CSV, and says so (OutputName). `manner` is how they were flown.
 void WriteFlightsCsv(const FlightOptions& options, const std::string& path,
-                     const std::string& manner, const AgentFlights& flown);
+                     const std::string& manner, const AgentFlights& flown, bool is_default = false);
 
 /// Writes the same episodes by all agents to `path` as an ACMI file, and says so.
 void WriteFlightsAcmi(const FlightOptions& options, const std::string& path,

@@ -86,7 +86,7 @@ std::vector<std::optional<float>> TargetOf(const std::vector<std::string>& texts
 ProgramConfig Configure(const FlownAgents& flown, const std::vector<std::string>& names) {
   ProgramConfig config = ConfigFor(flown.flight, flown.policy, FirstPolicyWithTask(names));
   const EnvConfig asked = config.train.env;
-  ApplyOverrides(flown.flight, &config);
+  ApplyOverrides(flown.flight, PoliciesAmong(names), &config);
   AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });
   EnvConfig& env = config.train.env;
   RequireRoomFor(flown.flight.episodes, names.size(),

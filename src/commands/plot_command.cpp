@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "base/number_text.h"
 #include "src/agents/agent_names.h"
@@ -40,6 +41,7 @@ constexpr double kPointsPerInch = 72;
 /// What all kinds of pictures have in common.
 struct PaperOptions {
   std::string out, title;
+  CLI::Option* out_option = nullptr;
   double width_in = 7.2;
 
   double width() const { return kPointsPerInch * width_in; }
@@ -68,11 +70,12 @@ struct CurvePlotOptions {
 
 void AddPaperOptions(CLI::App* command, const std::string& kind, PaperOptions* paper) {
   paper->out = kind + ".svg";
-  command
-      ->add_option("-o,--out", paper->out,
-                   "the picture: SVG or PDF by the ending of its name (PDF needs cairo)")
-      ->type_name("FILE")
-      ->capture_default_str();
+  paper->out_option =
+      command
+          ->add_option("-o,--out", paper->out,
+                       "the picture: SVG or PDF by the ending of its name (PDF needs cairo)")
+          ->type_name("FILE")
+          ->capture_default_str();
   command->add_option("--title", paper->title, "words above the picture")->type_name("TEXT");
   command
       ->add_option("--width", paper->width_in,
@@ -162,9 +165,11 @@ void WriteTo(const PaperOptions& paper, const std::vector<std::string>& read,
   CheckPictureFile(paper.out);
   CheckWritable({paper.out}, read);
   std::vector<std::string> notes;
-  WritePicture(paper.out, draw(&notes));
+  Picture picture = draw(&notes);
+  const std::string name = OutputName(paper.out, paper.out_option->count() == 0);
+  WritePicture(paper.out, std::move(picture));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
-  fmt::print("{}\n", paper.out);
+  fmt::print("{}\n", name);
 }
 
 void AddFlightsPlot(CLI::App* plot) {

@@ -88,16 +88,19 @@ void Report(const ReportOptions& options) {
     Watch(options, pool);
     return;
   }
+  const bool is_of_one = options.request.runs.size() == 1;
   const std::string output = !options.output.empty() ? options.output
-                             : options.request.runs.size() == 1
-                                 ? options.request.runs.front() + "/report.html"
-                                 : "report.html";
+                             : is_of_one             ? options.request.runs.front() + "/report.html"
+                                                     : "report.html";
   CheckSomethingToShow(options.request.runs);
   CheckWritable({output, options.json}, FilesOfRuns(options.request.runs));
   SayTimes(options);
   ReportTemplate();
-  WriteReport(output, ReportData(options.request, pool));
-  fmt::print("{}\n", output);
+  const std::string data = ReportData(options.request, pool);
+  // A run's own page is there to be renewed.
+  const std::string name = OutputName(output, options.output.empty() && !is_of_one);
+  WriteReport(output, data);
+  fmt::print("{}\n", name);
   if (options.opens) Open(output);
 }
 

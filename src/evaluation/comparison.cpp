@@ -2,6 +2,7 @@
 #include "src/evaluation/comparison.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "src/config/conditions.h"
@@ -45,6 +46,7 @@ PairedDifferences Differences(const std::vector<Quantity>& quantities,
         paired.estimates.push_back(DifferenceOfShares(a, b).difference);
         break;
       case Statistic::kLowest:
+      case Statistic::kHighest:
       case Statistic::kPerHour:
         paired.estimates.push_back(EstimateMean({}));
     }
@@ -86,24 +88,24 @@ Comparison Compare(const std::vector<NamedAgent>& agents, const ProgramConfig& c
   options.episodes = episodes;
   options.seed = seed;
   options.flight_metrics = true;
-  std::vector<Episode> first;
+  std::vector<std::vector<Episode>> flown_before;
   for (const NamedAgent& named : agents) {
     const EnvConfig env = named.agent.EnvironmentFor(episodes_env);
-    const FlownEpisodes flown = FlyEpisodesOnRanks(named.agent, env, options, pool, ranks);
+    FlownEpisodes flown = FlyEpisodesOnRanks(named.agent, env, options, pool, ranks);
     if (flown.stopped) return comparison;
     ComparedAgent compared{
         named.name, env.action_repeat, SummariseFlights(flown.episodes, env), {}};
     if (comparison.agents.empty()) {
       comparison.starts = flown.starts;
-      first = flown.episodes;
-    } else {
-      if (flown.starts != comparison.starts) {
-        throw Error(named.name + " was given other episodes than " + agents[0].name +
-                    ": they cannot be compared");
-      }
-      compared.against_first =
-          Differences(comparison.quantities, first, flown.episodes, env.control_interval_s);
+    } else if (flown.starts != comparison.starts) {
+      throw Error(named.name + " was given other episodes than " + agents[0].name +
+                  ": they cannot be compared");
     }
+    for (const std::vector<Episode>& before : flown_before) {
+      compared.against.push_back(
+          Differences(comparison.quantities, before, flown.episodes, env.control_interval_s));
+    }
+    flown_before.push_back(std::move(flown.episodes));
     comparison.agents.push_back(std::move(compared));
   }
   return comparison;

@@ -21,9 +21,9 @@ struct NamedAgent {
   Agent agent;
 };
 
-/// How an agent flew beside the first one, on the same episodes.
+/// How an agent flew beside another one, on the same episodes.
 struct PairedDifferences {
-  /// This agent's value less the first one's, by the comparison's quantities: over the episodes of
+  /// This agent's value less the other one's, by the comparison's quantities: over the episodes of
   /// which both have one. NaN of what is no mean or share.
   std::vector<Estimate> estimates;
   double success_p_value = 1;  ///< McNemar's (CompareShares)
@@ -33,7 +33,8 @@ struct ComparedAgent {
   std::string name;
   int action_repeat = 1;
   FlightSummary summary;
-  PairedDifferences against_first;  ///< of the first agent itself empty
+  /// [agent] beside each of those ahead of it in the comparison: of the first agent empty.
+  std::vector<PairedDifferences> against;
 };
 
 struct Comparison {
@@ -64,7 +65,7 @@ std::string ToCsv(const Comparison& comparison);
 
 /// Keys: task, conditions, episodes, seed, starts (hexadecimal), environment, agents: name,
 /// action_repeat, the keys of FlightSummary, and but for the first agent against_first (estimates
-/// by key, success_p_value).
+/// by key, success_p_value) and against (a list of the same beside every agent ahead of it).
 nlohmann::ordered_json ToJson(const Comparison& comparison, const ProgramConfig& config);
 
 }  // namespace skein

@@ -45,11 +45,10 @@ class AgentColumns {
     QuantitySection section = QuantitySection::kOutcome;
     for (std::size_t k = 0; k < comparison_.quantities.size(); ++k) {
       const Quantity& quantity = comparison_.quantities[k];
+      if (!HasOwnPlace(quantity)) continue;
       if (quantity.section != section) Title(quantity.section, text);
       section = quantity.section;
-      const auto cell = [&quantity, k](const ComparedAgent& agent) {
-        return FormatEstimate(quantity, agent.summary.estimates[k]);
-      };
+      const auto cell = [k](const ComparedAgent& agent) { return FormatFigure(agent.summary, k); };
       Row(Label(quantity), cell, text);
     }
     for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
@@ -67,7 +66,7 @@ class AgentColumns {
       const Quantity& quantity = comparison_.quantities[k];
       if (!quantity.is_headline || quantity.statistic == Statistic::kPerHour) continue;
       const auto cell = [&](const ComparedAgent& agent) {
-        return IsFirst(agent) ? "-" : FormatEstimate(quantity, agent.against_first.estimates[k]);
+        return IsFirst(agent) ? "-" : FormatEstimate(quantity, agent.against[0].estimates[k]);
       };
       Row("  " + quantity.label, cell, text);
       if (k == kSuccessQuantity) Row("    McNemar's test", McNemar, text);
@@ -76,15 +75,15 @@ class AgentColumns {
   }
 
  private:
-  static bool IsFirst(const ComparedAgent& agent) { return agent.against_first.estimates.empty(); }
+  static bool IsFirst(const ComparedAgent& agent) { return agent.against.empty(); }
 
   static std::string McNemar(const ComparedAgent& agent) {
-    return IsFirst(agent) ? "-" : PValue(agent.against_first.success_p_value);
+    return IsFirst(agent) ? "-" : PValue(agent.against[0].success_p_value);
   }
 
   static std::string BothReached(const ComparedAgent& agent) {
     return IsFirst(agent) ? "-"
-                          : fmt::format("{}", agent.against_first.estimates[kTimeQuantity].count);
+                          : fmt::format("{}", agent.against[0].estimates[kTimeQuantity].count);
   }
 
   static void Title(QuantitySection section, std::string* text) {
@@ -108,6 +107,14 @@ std::string CsvHeader(const std::vector<Quantity>& quantities) {
     header += fmt::format(",ended_{}", kTerminationNames[kind]);
   }
   return header + "\n";
+}
+
+Json DifferencesJson(const PairedDifferences& paired, const std::vector<Quantity>& quantities) {
+  Json estimates = Json::object();
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    estimates[quantities[k].key] = ToJson(paired.estimates[k]);
+  }
+  return {{"estimates", estimates}, {"success_p_value", paired.success_p_value}};
 }
 
 }  // namespace
@@ -141,11 +148,11 @@ std::string ToCsv(const Comparison& comparison) {
                         CsvText(agent.name), comparison.episodes, comparison.seed,
                         agent.action_repeat * comparison.control_interval_s);
     for (const Estimate& estimate : agent.summary.estimates) rows += CsvCells(estimate);
-    if (agent.against_first.estimates.empty()) {
+    if (agent.against.empty()) {
       rows += std::string(3 * comparison.quantities.size() + 1, ',');
     } else {
-      for (const Estimate& estimate : agent.against_first.estimates) rows += CsvCells(estimate);
-      rows += fmt::format(",{}", agent.against_first.success_p_value);
+      for (const Estimate& estimate : agent.against[0].estimates) rows += CsvCells(estimate);
+      rows += fmt::format(",{}", agent.against[0].success_p_value);
     }
     for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
       rows += fmt::format(",{}", agent.summary.result.terminations[kind]);
@@ -160,13 +167,13 @@ Json ToJson(const Comparison& comparison, const ProgramConfig& config) {
   for (const ComparedAgent& agent : comparison.agents) {
     Json json = {{"name", agent.name}, {"action_repeat", agent.action_repeat}};
     json.update(ToJson(agent.summary));
-    if (!agent.against_first.estimates.empty()) {
-      Json estimates = Json::object();
-      for (std::size_t k = 0; k < comparison.quantities.size(); ++k) {
-        estimates[comparison.quantities[k].key] = ToJson(agent.against_first.estimates[k]);
+    if (!agent.against.empty()) {
+      Json against = Json::array();
+      for (const PairedDifferences& paired : agent.against) {
+        against.push_back(DifferencesJson(paired, comparison.quantities));
       }
-      json["against_first"] = {{"estimates", estimates},
-                               {"success_p_value", agent.against_first.success_p_value}};
+      json["against_first"] = against[0];
+      json["against"] = against;
     }
     agents.push_back(std::move(json));
   }

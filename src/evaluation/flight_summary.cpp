@@ -14,11 +14,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Where the section's quantities are.
+/// Where the section's quantities are, but for those that stand behind others.
 std::vector<std::size_t> IndicesOf(const FlightSummary& summary, QuantitySection section) {
   std::vector<std::size_t> indices;
   for (std::size_t k = 0; k < summary.quantities.size(); ++k) {
-    if (summary.quantities[k].section == section) indices.push_back(k);
+    const Quantity& quantity = summary.quantities[k];
+    if (quantity.section == section && HasOwnPlace(quantity)) indices.push_back(k);
   }
   return indices;
 }
@@ -32,13 +33,15 @@ std::string TitleLine(QuantitySection section) {
 std::string InTwoColumns(const FlightSummary& summary, QuantitySection section) {
   const std::vector<std::size_t> indices = IndicesOf(summary, section);
   if (indices.empty()) return "";
+  constexpr std::size_t kWidth = 46;  // of each column, and longer than any label
   std::vector<std::string> cells;
   for (const std::size_t k : indices) {
     const Quantity& quantity = summary.quantities[k];
-    const std::string value = FormatEstimate(quantity, summary.estimates[k]);
-    cells.push_back(quantity.symbol.empty()
-                        ? fmt::format("{:28}{:>18}", quantity.label, value)
-                        : fmt::format("{:6}{:22}{:>18}", quantity.symbol, quantity.label, value));
+    const std::string label = quantity.symbol.empty()
+                                  ? quantity.label
+                                  : fmt::format("{:6}{}", quantity.symbol, quantity.label);
+    cells.push_back(
+        fmt::format("{} {:>{}}", label, FormatFigure(summary, k), kWidth - 1 - label.size()));
   }
   std::string text = TitleLine(section);
   const std::size_t rows = (cells.size() + 1) / 2;
@@ -123,6 +126,18 @@ std::string FormatEstimate(const Quantity& quantity, const Estimate& estimate) {
                      shown(estimate.high));
 }
 
+bool HasOwnPlace(const Quantity& quantity) {
+  return quantity.section != QuantitySection::kPeaks || quantity.statistic == Statistic::kMean;
+}
+
+std::string FormatFigure(const FlightSummary& summary, std::size_t k) {
+  std::string figure = FormatEstimate(summary.quantities[k], summary.estimates[k]);
+  const bool is_peak = summary.quantities[k].section == QuantitySection::kPeaks;
+  if (!is_peak || summary.estimates[k].count == 0) return figure;
+  return fmt::format("{} ({})", figure,
+                     FormatEstimate(summary.quantities[k + 1], summary.estimates[k + 1]));
+}
+
 std::string CsvCells(const Estimate& estimate) {
   std::string cells;
   for (const double value : {estimate.value, estimate.low, estimate.high}) {
@@ -156,6 +171,8 @@ const char* TitleOf(QuantitySection section) {
       return "holding";
     case QuantitySection::kHoldActions:
       return "actions while holding";
+    case QuantitySection::kPeaks:
+      return "peaks (worst flight)";
     case QuantitySection::kOutcome:
     case QuantitySection::kFlight:
       break;
@@ -168,6 +185,7 @@ std::string FormatFlightMetrics(const FlightSummary& summary) {
   text += InCommandColumns(summary, QuantitySection::kActions);
   text += InTwoColumns(summary, QuantitySection::kHold);
   text += InCommandColumns(summary, QuantitySection::kHoldActions);
+  text += InTwoColumns(summary, QuantitySection::kPeaks);
   text.pop_back();
   return text;
 }

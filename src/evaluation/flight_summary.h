@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ nlohmann::ordered_json ToJson(const Estimate& estimate);
 
 /// "15.83 +- 0.31"; where the interval lies to one side, "100.0 (99.6, 100.0)"; "-" for nothing.
 std::string FormatEstimate(const Quantity& quantity, const Estimate& estimate);
+/// The same of the summary's `k`-th quantity, of a peak with the worst flight's behind it: "4.12 +-
+/// 0.05 (6.80)".
+std::string FormatFigure(const FlightSummary& summary, std::size_t k);
+/// It has a place of its own in tables for people, and is not behind another as FormatFigure puts
+/// it.
+bool HasOwnPlace(const Quantity& quantity);
 /// The three numbers as cells of CSV, each with a comma ahead; empty where there is none.
 std::string CsvCells(const Estimate& estimate);
 /// A cell of CSV, in quotes where it must be.
@@ -40,8 +47,8 @@ std::string FormatTerminations(const EvaluationResult& result);
 /// What a table calls a section; empty for those that come first.
 const char* TitleOf(QuantitySection section);
 
-/// The figures of the paper's Table 6 and those of holding in two columns, of actions in one for
-/// each command, for people; without a newline at the end.
+/// The figures of the paper's Table 6, of holding and of peaks in two columns, of actions in one
+/// for each command, for people; without a newline at the end.
 std::string FormatFlightMetrics(const FlightSummary& summary);
 
 }  // namespace skein

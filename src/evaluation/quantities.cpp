@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "envs/interface_names.h"
@@ -29,31 +30,31 @@ bool IsLost(const Episode& episode) {
 std::vector<Quantity> Outcomes(bool is_mission) {
   return {{"success_rate", "", is_mission ? "flown to the end, %" : "success, %", 100, 1,
            [](const Episode& episode, double) { return episode.succeeded ? 1.0 : 0.0; },
-           QuantitySection::kOutcome, Statistic::kShare, true},
+           QuantitySection::kOutcome, Statistic::kShare, true, BetterSide::kHigher},
           {"return", "", "return", 1, 1,
            [](const Episode& episode, double) { return episode.episode_return; },
-           QuantitySection::kOutcome, Statistic::kMean, true},
+           QuantitySection::kOutcome, Statistic::kMean, true, BetterSide::kHigher},
           {"time_to_target_s", "", "time to target, s", 1, 2,
            [](const Episode& episode, double control_interval_s) {
              return NanUnless(episode.reached_step > 0, episode.entered_step * control_interval_s);
            },
-           QuantitySection::kOutcome, Statistic::kMean, !is_mission}};
+           QuantitySection::kOutcome, Statistic::kMean, !is_mission, BetterSide::kLower}};
 }
 
 void AddMission(std::vector<Quantity>* list) {
-  const auto add = [list](const char* key, const char* label, int decimals, Statistic statistic,
-                          const EpisodeValue& value) {
+  const auto add = [list](const char* key, const char* label, Statistic statistic,
+                          BetterSide better, const EpisodeValue& value) {
     list->push_back(
-        {key, "", label, 1, decimals, value, QuantitySection::kOutcome, statistic, true});
+        {key, "", label, 1, 2, value, QuantitySection::kOutcome, statistic, true, better});
   };
-  add("targets_per_minute", "targets per minute", 2, Statistic::kMean,
+  add("targets_per_minute", "targets per minute", Statistic::kMean, BetterSide::kHigher,
       [](const Episode& episode, double control_interval_s) {
         return episode.measures.targets_reached * kSecondsPerMinute /
                (episode.steps * control_interval_s);
       });
-  add("targets_missed", "targets missed a flight", 2, Statistic::kMean,
+  add("targets_missed", "targets missed a flight", Statistic::kMean, BetterSide::kLower,
       [](const Episode& episode, double) { return episode.measures.targets_missed; });
-  add("losses_per_hour", "losses per flight hour", 2, Statistic::kPerHour,
+  add("losses_per_hour", "losses per flight hour", Statistic::kPerHour, BetterSide::kLower,
       [](const Episode& episode, double) { return IsLost(episode) ? 1.0 : 0.0; });
 }
 
@@ -62,22 +63,55 @@ int DecimalsOf(int metric) {
     case kMeanTrueAirspeed:
     case kMeanClimbRate:
     case kMeanAbsClimbRate:
+    case kPeakAbsP:
       return 1;
     case kMeanLoadFactor:
     case kMeanAbsAlpha:
+    case kPeakLoadFactor:
+    case kLowestLoadFactor:
+    case kPeakAlpha:
+    case kPeakAbsBeta:
       return 2;
     default:
       return 3;
   }
 }
 
+BetterSide BetterSideOf(int metric) {
+  const bool is_margin = metric >= kAltitudeMargin && metric <= kBetaMargin;
+  return is_margin || metric == kSmoothness ? BetterSide::kHigher : BetterSide::kNeither;
+}
+
+Quantity FlightMetricQuantity(int metric, QuantitySection section) {
+  const auto index = static_cast<std::size_t>(metric);
+  const FlightMetricName& name = kFlightMetricNames[index];
+  return {name.key,
+          name.symbol,
+          name.meaning,
+          1,
+          DecimalsOf(metric),
+          [index](const Episode& episode, double) { return episode.metrics[index]; },
+          section,
+          Statistic::kMean,
+          false,
+          BetterSideOf(metric)};
+}
+
 void AddFlightMetrics(std::vector<Quantity>* list) {
-  for (int k = 0; k < kNumFlightMetrics; ++k) {
-    const auto index = static_cast<std::size_t>(k);
-    const FlightMetricName& name = kFlightMetricNames[index];
-    list->push_back({name.key, name.symbol, name.meaning, 1, DecimalsOf(k),
-                     [index](const Episode& episode, double) { return episode.metrics[index]; },
-                     QuantitySection::kFlight});
+  for (int k = 0; k < kFirstPeak; ++k) {
+    list->push_back(FlightMetricQuantity(k, QuantitySection::kFlight));
+  }
+}
+
+void AddPeaks(std::vector<Quantity>* list) {
+  for (int k = kFirstPeak; k < kNumFlightMetrics; ++k) {
+    const Quantity mean = FlightMetricQuantity(k, QuantitySection::kPeaks);
+    Quantity worst = mean;
+    worst.key += "_worst";
+    worst.label = "worst flight's " + mean.label;
+    worst.statistic = k == kLowestLoadFactor ? Statistic::kLowest : Statistic::kHighest;
+    list->push_back(mean);
+    list->push_back(worst);
   }
 }
 
@@ -104,7 +138,7 @@ void AddSmoothness(ActionSmoothness FlightMeasures::*actions, QuantitySection se
                        [=](const Episode& episode, double) {
                          return (episode.measures.*actions)[k].*name.value;
                        },
-                       section});
+                       section, Statistic::kMean, false, BetterSide::kLower});
     }
   }
 }
@@ -121,8 +155,10 @@ void AddHold(const EnvConfig& env, std::vector<Quantity>* list) {
   const auto add = [list](const std::string& key, const std::string& label, double shown_per_unit,
                           int decimals, const EpisodeValue& value, bool is_headline = false,
                           Statistic statistic = Statistic::kMean) {
+    const bool is_share = key.rfind("within", 0) == 0;
     list->push_back({"hold_" + key, "", label, shown_per_unit, decimals, value,
-                     QuantitySection::kHold, statistic, is_headline});
+                     QuantitySection::kHold, statistic, is_headline,
+                     is_share ? BetterSide::kHigher : BetterSide::kLower});
   };
   const auto of = [](float HoldMetrics::*metric) {
     return [=](const Episode& episode, double) { return episode.measures.hold.*metric; };
@@ -165,14 +201,16 @@ Estimate ShareOf(const std::vector<double>& values) {
   return EstimateShare(successes, trials);
 }
 
-Estimate LowestOf(const std::vector<double>& values) {
-  Estimate lowest{std::nan(""), std::nan(""), std::nan(""), 0};
+/// The one of `values` that comes before all others of them that are a number.
+template <typename IsBefore>
+Estimate FirstOf(const std::vector<double>& values, const IsBefore& is_before) {
+  Estimate first{std::nan(""), std::nan(""), std::nan(""), 0};
   for (const double value : values) {
     if (std::isnan(value)) continue;
-    lowest.value = lowest.count == 0 ? value : std::min(lowest.value, value);
-    ++lowest.count;
+    if (first.count == 0 || is_before(value, first.value)) first.value = value;
+    ++first.count;
   }
-  return lowest;
+  return first;
 }
 
 Estimate PerHour(const std::vector<double>& values, const std::vector<Episode>& episodes,
@@ -196,12 +234,13 @@ std::vector<Quantity> QuantitiesOf(const EnvConfig& config) {
                       return NanUnless(episode.reached_step > 0,
                                        episode.reached_step * control_interval_s);
                     },
-                    QuantitySection::kOutcome, Statistic::kMean, true});
+                    QuantitySection::kOutcome, Statistic::kMean, true, BetterSide::kLower});
   }
   if (is_mission) AddMission(&list);
   AddFlightMetrics(&list);
   AddSmoothness(&FlightMeasures::actions, QuantitySection::kActions, "", &list);
   if (env.hold_s > 0 || (is_mission && !task->is_point())) AddHold(env, &list);
+  AddPeaks(&list);
   return list;
 }
 
@@ -222,7 +261,9 @@ Estimate EstimateOf(const Quantity& quantity, const std::vector<Episode>& episod
     case Statistic::kShare:
       return ShareOf(values);
     case Statistic::kLowest:
-      return LowestOf(values);
+      return FirstOf(values, std::less<>());
+    case Statistic::kHighest:
+      return FirstOf(values, std::greater<>());
     case Statistic::kPerHour:
       return PerHour(values, episodes, control_interval_s);
     case Statistic::kMean:

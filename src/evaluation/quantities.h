@@ -18,6 +18,7 @@ enum class QuantitySection {
   kActions,      ///< how smoothly the stick actions were flown
   kHold,         ///< how the target was held
   kHoldActions,  ///< how smoothly the stick actions were flown meanwhile
+  kPeaks,        ///< peaks of whole flights: of each the mean, and then the worst flight's
 };
 
 /// What the figure of many episodes is made by from theirs.
@@ -25,7 +26,15 @@ enum class Statistic {
   kMean,
   kShare,    ///< of values that are 0 or 1
   kLowest,   ///< without an interval
+  kHighest,  ///< without an interval
   kPerHour,  ///< sum of values that are 0 or 1, by the hours of all flights
+};
+
+/// Which side of a quantity is the better one.
+enum class BetterSide {
+  kNeither,  ///< it only describes a flight, as its Mach number does
+  kHigher,
+  kLower,
 };
 
 /// Something that every episode has a value of.
@@ -40,12 +49,13 @@ struct Quantity {
   QuantitySection section = QuantitySection::kOutcome;
   Statistic statistic = Statistic::kMean;
   bool is_headline = false;  ///< what is shown where there is room for few
+  BetterSide better = BetterSide::kNeither;
 };
 
 /// What episodes of `env` are measured by: success (1 or 0), return, time to the target (of
 /// episodes that reached it); with a dwell the time until it had been held; of missions what became
-/// of targets and flights; the flight metrics in their order; the smoothness of actions; with a
-/// hold, or in a mission of states, how targets were held.
+/// of targets and flights; the flight metrics in their order, but for peaks; the smoothness of
+/// actions; with a hold, or in a mission of states, how targets were held; the peaks.
 std::vector<Quantity> QuantitiesOf(const EnvConfig& env);
 inline constexpr int kSuccessQuantity = 0, kReturnQuantity = 1, kTimeQuantity = 2;
 

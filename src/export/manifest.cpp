@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
+#include "base/error.h"
 #include "base/name_in.h"
+#include "src/files/output_file.h"
 #include "train/policy/autopilot_policy.h"
 
 namespace skein {
@@ -81,6 +84,17 @@ std::string Manifest(ExportForm form, const ExportedPolicy& high_level,
                    {"rules", Rules(env)}};
   if (!files.combined.empty()) manifest["combined"] = {{"file", FileName(files.combined)}};
   return manifest.dump(1) + "\n";
+}
+
+bool IsManifest(const std::string& path) {
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(path, failure)) return false;
+  try {
+    const Json document = Json::parse(ReadFile(path), nullptr, /*allow_exceptions=*/false);
+    return document.is_object() && document.contains("high_level") && document.contains("rules");
+  } catch (const Error&) {  // it cannot be read, or is far too large
+    return false;
+  }
 }
 
 }  // namespace skein

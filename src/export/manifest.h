@@ -19,4 +19,7 @@ struct HierarchyFiles {
 std::string Manifest(ExportForm form, const ExportedPolicy& high_level,
                      const StoredPolicy& low_level, const HierarchyFiles& files);
 
+/// Whether the file `path` is there, and such a manifest.
+bool IsManifest(const std::string& path);
+
 }  // namespace skein

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include "base/error.h"
 #include "envs/aircraft/registry.h"
@@ -19,6 +21,8 @@
 
 namespace skein {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// How far what is exported may lie from what it was made of, of actions in [-1, 1] and of commands
 /// as fractions of the surfaces' largest.
@@ -69,6 +73,23 @@ struct Exported {
   Output output;
   std::string checked;
 };
+
+/// Names what an earlier export of a hierarchy has left beside `outputs`: it would pass for theirs,
+/// and removing it is up to whose it is.
+std::vector<std::string> LeftByEarlier(const std::vector<Output>& outputs,
+                                       const HierarchyFiles& files, const std::string& manifest) {
+  std::vector<std::string> lines;
+  for (const std::string& path : {files.low_level, files.combined, manifest}) {
+    std::error_code failure;
+    const bool is_there = path == manifest ? IsManifest(path) : fs::exists(path, failure);
+    const bool is_written = std::any_of(outputs.begin(), outputs.end(),
+                                        [&](const Output& output) { return output.path == path; });
+    if (!is_there || is_written) continue;
+    lines.push_back(
+        fmt::format("untouched {} (of another export by its name; not of this policy)", path));
+  }
+  return lines;
+}
 
 Exported ExportOne(const PolicyExport& options, const RecurrentPolicy& policy,
                    const std::string& run, const std::string& who, const std::string& out) {
@@ -128,6 +149,9 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
     }
   }
   WriteAll(outputs);
+  const std::vector<std::string> left =
+      LeftByEarlier(outputs, {options.out, low_level_out, combined_out}, manifest_out);
+  lines.insert(lines.end(), left.begin(), left.end());
   return lines;
 }
 

@@ -20,10 +20,10 @@ struct PolicyExport {
 /// Writes the policy, and of a high-level policy its low-level policy (OUT with ".low_level" before
 /// its extension), as ONNX both in one graph where their rates allow it (".combined"), and a
 /// manifest that says how they act together (OUT with the extension ".json"). Returns what was
-/// done, line by line. Throws Error if something cannot be read, written or, where `check` asks for
-/// it, flown as the policy itself, and ChoiceError if a file that is read would be lost. The first
-/// file is written when all are made and checked; if a later one cannot be written, those before it
-/// stay.
+/// done, line by line, and which files of those names are there, and not of this export. Throws
+/// Error if something cannot be read, written or, where `check` asks for it, flown as the policy
+/// itself, and ChoiceError if a file that is read would be lost. The first file is written when all
+/// are made and checked; if a later one cannot be written, those before it stay.
 std::vector<std::string> ExportPolicy(const PolicyExport& options);
 
 /// Writes the flight control laws that `policy` flies through, of `aircraft` if there is none, as

@@ -58,6 +58,12 @@ std::string FileNamePart(const std::string& name) {
   return part;
 }
 
+std::string OutputName(const std::string& path, bool is_default) {
+  std::error_code failure;
+  const bool replaces = is_default && std::filesystem::is_regular_file(path, failure);
+  return replaces ? path + " (replaced)" : path;
+}
+
 void CheckWritable(const std::string& path) {
   if (path.empty()) return;
   struct stat status {};

@@ -27,6 +27,10 @@ void CheckWritable(const std::string& path);
 void CheckWritable(const std::vector<std::string>& paths,
                    const std::vector<std::string>& read = {});
 
+/// What the line about a file that is about to be written calls it: `path`, and where nobody asked
+/// for a file of that name (`is_default`) and one is there, " (replaced)" behind it.
+std::string OutputName(const std::string& path, bool is_default);
+
 /// `name` with what file names had better not hold replaced by '-'.
 std::string FileNamePart(const std::string& name);
 

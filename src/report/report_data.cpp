@@ -116,6 +116,19 @@ std::vector<FlownGroup> GroupByEnvironment(const std::vector<RunRecord>& runs,
   return groups;
 }
 
+/// Empty of what only describes a flight.
+const char* NameOf(BetterSide side) {
+  switch (side) {
+    case BetterSide::kHigher:
+      return "higher";
+    case BetterSide::kLower:
+      return "lower";
+    case BetterSide::kNeither:
+      break;
+  }
+  return "";
+}
+
 Json QuantitiesJson(const std::vector<Quantity>& quantities) {
   Json rows = Json::array();
   for (const Quantity& quantity : quantities) {
@@ -125,7 +138,8 @@ Json QuantitiesJson(const std::vector<Quantity>& quantities) {
                     {"section", TitleOf(quantity.section)},
                     {"shown_per_unit", quantity.shown_per_unit},
                     {"decimals", quantity.decimals},
-                    {"is_headline", quantity.is_headline}});
+                    {"is_headline", quantity.is_headline},
+                    {"better", NameOf(quantity.better)}});
   }
   return rows;
 }

@@ -54,7 +54,9 @@ ReportFlights FlyRuns(const std::vector<RunRecord>& runs, const ReportRequest& r
 std::string ReportData(const std::vector<RunRecord>& runs, const ReportFlights& flown,
                        const ReportRequest& request);
 
-/// A comparison's document (ToJson) as a page needs it, with what its columns are called.
+/// A comparison's document (ToJson), paired differences included, as a page needs it: with
+/// `quantities`, what its rows are called, how they are shown, and which side is `better`:
+/// "higher", "lower", or "" of what only describes a flight.
 nlohmann::ordered_json ShownComparison(nlohmann::ordered_json comparison,
                                        const ProgramConfig& config);
 

@@ -17,11 +17,11 @@
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
-#include "src/files/plain_line.h"
 #include "src/files/shell_text.h"
 #include "src/files/text_table.h"
 #include "src/run/hyperparameters.h"
 #include "src/run/progress.h"
+#include "src/run/recorded_run.h"
 #include "train/files/tensor_file.h"
 #include "train/policy/low_level_file.h"
 
@@ -121,8 +121,7 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
     trainer->Save(directory.checkpoint(0));
   }
   // Last: it makes the directory one of a run.
-  const std::string comment = started_from.empty() ? "" : "# " + PlainLine(started_from) + "\n";
-  WriteFile(directory.config(), comment + DumpToml(resolved));
+  WriteFile(directory.config(), StartComment(started_from, origin.from) + DumpToml(resolved));
   TrainingRun run(resolved, std::move(directory), *trainer, pool, leader, description, start,
                   origin.watch);
   run.SayBanner();

@@ -41,12 +41,17 @@ void RemoveStub(const std::string& run) {
   for (const char* name : {"/lock", "/checkpoints"}) fs::remove(run + name, ignored);
 }
 
-/// The configuration of the run in `directory`, which must be the one asked for.
-ProgramConfig ConfigOfRun(const RunDirectory& directory, const ProgramConfig& asked) {
+/// The configuration of the run in `directory`, which must be the one asked for, and have been
+/// started from the networks in the file `networks` (WasStartedFrom).
+ProgramConfig ConfigOfRun(const RunDirectory& directory, const ProgramConfig& asked,
+                          const std::string& networks) {
   ProgramConfig config = RecordedConfig(directory);
   std::vector<std::string> differences = DifferencesFromRecord(config, asked);
   if (!IsSamePolicy(config.train.low_level.get(), asked.train.low_level.get())) {
     differences.push_back("another low-level policy");
+  }
+  if (!WasStartedFrom(directory, networks)) {
+    differences.push_back("other networks to start from (training.from)");
   }
   if (!differences.empty()) {
     throw Error(fmt::format(
@@ -137,7 +142,7 @@ bool StudyTrainings::Train(const std::vector<std::string>& paths) {
 bool StudyTrainings::IsLeft(const Training& training) const {
   if (!IsRunDirectory(training.path)) return true;
   const RunDirectory directory = RunDirectory::Visit(training.path);
-  ConfigOfRun(directory, SetUp(training).config);
+  ConfigOfRun(directory, SetUp(training).config, NetworksToStartFrom(study_, training.task));
   return !fs::exists(directory.evaluation());
 }
 
@@ -155,18 +160,19 @@ void StudyTrainings::Print() {
 
 void StudyTrainings::TrainOne(const Training& training, const GoesOn& goes_on) {
   const TrainingSetup setup = SetUp(training);
+  const std::string from = NetworksToStartFrom(study_, training.task);
   if (!IsRunDirectory(training.path)) {
     RemoveStub(training.path);
     RunOrigin origin;
     origin.preset = IsTaskFile(training.task) ? "of " + training.task : study_.preset;
     origin.low_level = setup.low_level;
-    origin.from = NetworksToStartFrom(study_, training.task);
+    origin.from = from;
     origin.watch.goes_on = goes_on;
     TrainingRun::Begin(setup.config, training.path, pool_, origin);
     return;
   }
   RunDirectory directory = RunDirectory::Open(training.path);
-  const ProgramConfig begun = ConfigOfRun(directory, setup.config);
+  const ProgramConfig begun = ConfigOfRun(directory, setup.config, from);
   TrainingRun::Resume(begun, std::move(directory), pool_, {goes_on});
 }
 

@@ -141,6 +141,57 @@ TEST_P(FlightMetricsTest, SmoothnessIsOfTheSecondDifferences) {
   EXPECT_NEAR(Report(0, 6)[kSmoothness], 1 / (1 + (0.5 + 0.5) / 4 / kInterval), kSecondDifferences);
 }
 
+TEST_P(FlightMetricsTest, PeaksAreTheExtremesOfTheStates) {
+  struct Moment {
+    double nz, alpha_deg, beta_deg, p_deg_s;
+  };
+  // The extremes of each are in moments of their own, of sideslip and roll rate on either side.
+  const std::vector<Moment> flight = {
+      {3, 4, 1, 10}, {6.5, 7, -1, -30}, {2, 19, 2, 5}, {4, 3, -6, -90}, {1.5, 8, 3, 40}};
+  constexpr int i = 37;  // in the last, incomplete vector
+  const auto fly = [&](const Moment& moment) {
+    Fly(i, 700, moment.alpha_deg, moment.beta_deg, 20000);
+    flight_.at(kNz, i) = static_cast<float>(moment.nz);
+    flight_.at(kP, i) = static_cast<float>(moment.p_deg_s / kDegPerRad);
+    Add();
+  };
+  for (const Moment& moment : flight) fly(moment);
+  const Metrics peaks = Report(i, 5);
+  EXPECT_EQ(peaks[kPeakLoadFactor], 6.5f);
+  EXPECT_EQ(peaks[kLowestLoadFactor], 1.5f) << "not the 0 that memory begins with";
+  EXPECT_NEAR(peaks[kPeakAlpha], 19, kDegrees);
+  EXPECT_NEAR(peaks[kPeakAbsBeta], 6, kDegrees);
+  EXPECT_NEAR(peaks[kPeakAbsP], 90, kDegrees);
+  const Metrics other = Report(i - 1, 5);
+  EXPECT_EQ(other[kPeakLoadFactor], 1) << "another aircraft's";
+  EXPECT_EQ(other[kLowestLoadFactor], 1);
+  EXPECT_EQ(other[kPeakAbsP], 0);
+  // The next episode knows nothing of it. It pushes all the way: no peak is above 0.
+  sums_.Begin(i);
+  fly({-1, -3, 0, 0});
+  fly({-2.5, -9, 0, 0});
+  const Metrics pushed = Report(i, 2);
+  EXPECT_EQ(pushed[kPeakLoadFactor], -1);
+  EXPECT_EQ(pushed[kLowestLoadFactor], -2.5f);
+  EXPECT_NEAR(pushed[kPeakAlpha], -3, kDegrees) << "signed";
+  EXPECT_NEAR(pushed[kPeakAbsBeta], 0, kDegrees);
+  EXPECT_EQ(pushed[kPeakAbsP], 0);
+}
+
+TEST_P(FlightMetricsTest, PeaksOfAngleAreRelativeToTheAir) {
+  TestTile windy(kCount, kNumWindyColumns);
+  windy.Fill(kQ0, 1);
+  windy.Fill(kU, 700);
+  windy.Fill(kV, 300);  // over the ground
+  windy.Fill(kAirU, 600);
+  windy.Fill(kAirV, -10);
+  windy.Fill(kAirW, 60);
+  sums_.Add(*kernel_, windy.tile(), termination_.data());
+  EXPECT_NEAR(Report(0, 1)[kPeakAlpha], std::atan(0.1) * kDegPerRad, kDegrees);
+  EXPECT_NEAR(Report(0, 1)[kPeakAbsBeta], std::atan2(10, std::hypot(600, 60)) * kDegPerRad,
+              kDegrees);
+}
+
 TEST_P(FlightMetricsTest, EpisodesThatHaveEndedAddNothing) {
   Add();
   termination_[3] = static_cast<std::int32_t>(Termination::kOverload);
@@ -148,7 +199,9 @@ TEST_P(FlightMetricsTest, EpisodesThatHaveEndedAddNothing) {
   flight_.at(kNz, 4) = 9;
   Add();
   EXPECT_EQ(Report(3, 1)[kMeanLoadFactor], 1);
+  EXPECT_EQ(Report(3, 1)[kPeakLoadFactor], 1);
   EXPECT_EQ(Report(4, 2)[kMeanLoadFactor], 5);
+  EXPECT_EQ(Report(4, 2)[kPeakLoadFactor], 9);
 }
 
 TEST_P(FlightMetricsTest, OnlyWholeEpisodesHaveMetrics) {

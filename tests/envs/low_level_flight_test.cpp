@@ -18,6 +18,7 @@
 #include "envs/tasks/control.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
+#include "tests/envs/plant/drawn_plants.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_policy.h"
 #include "tests/envs/test_tile.h"
@@ -279,11 +280,10 @@ TEST(LowLevelFlight, HighLevelPoliciesHaveThreeActions) {
   EXPECT_EQ(VecEnv(Config(), 1, 1).action_size(), 4);
 }
 
-TEST(LowLevelFlight, DependsNeitherOnTilesNorOnThreads) {
-  VecEnv small(Config(), 300, 1, 32, LowLevelPolicy()),
-      middle(Config(), 300, 1, 160, LowLevelPolicy()),
-      large(Config(), 300, 1, 4096, LowLevelPolicy()),
-      parallel(Config(), 300, 1, 32, LowLevelPolicy());
+/// Returns all that is observed and rewarded.
+Log ExpectSameForAnyTilesAndThreads(const EnvConfig& config) {
+  VecEnv small(config, 300, 1, 32, LowLevelPolicy()), middle(config, 300, 1, 160, LowLevelPolicy()),
+      large(config, 300, 1, 4096, LowLevelPolicy()), parallel(config, 300, 1, 32, LowLevelPolicy());
   const Log log = Fly(&small, 0, 12);
   EXPECT_EQ(log, Fly(&middle, 0, 12));
   EXPECT_EQ(log, Fly(&large, 0, 12));
@@ -293,6 +293,22 @@ TEST(LowLevelFlight, DependsNeitherOnTilesNorOnThreads) {
   pool.ForEach(parallel.num_tiles(),
                [&](int tile, int) { FlyTile(&parallel, tile, 0, 12, &threaded); });
   EXPECT_EQ(log, threaded);
+  EXPECT_EQ(small.Snapshot(), parallel.Snapshot());
+  return log;
+}
+
+TEST(LowLevelFlight, DependsNeitherOnTilesNorOnThreads) {
+  ExpectSameForAnyTilesAndThreads(Config());
+}
+
+TEST(LowLevelFlight, NorDoesThatOfDrawnPlantsWhoseSensorsAndActionsAreLate) {
+  EnvConfig config = Config();
+  config.plant = DrawnPlants();
+  const Log drawn = ExpectSameForAnyTilesAndThreads(config);
+  // Every aircraft flies otherwise than the nominal one.
+  VecEnv nominal(Config(), 300, 1, 32, LowLevelPolicy());
+  const Log usual = Fly(&nominal, 0, 12);
+  for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_NE(drawn[i], usual[i]) << i;
 }
 
 TEST(LowLevelFlight, SnapshotsHoldTheLowLevelPolicysState) {

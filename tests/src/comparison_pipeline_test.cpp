@@ -90,6 +90,10 @@ TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
     const auto& a = first["estimates"][key];
     const auto& b = second["estimates"][key];
     if (a["count"] != 40 || b["count"] != 40) continue;  // the time, where not all succeeded
+    if (key.find("_worst") != std::string::npos) {
+      EXPECT_TRUE(difference["value"].is_null()) << key << " is of two flights that differ";
+      continue;
+    }
     EXPECT_NEAR(difference["value"].get<double>(),
                 b["value"].get<double>() - a["value"].get<double>(),
                 kRounding * (1 + std::abs(a["value"].get<double>())))
@@ -97,6 +101,59 @@ TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
     EXPECT_LE(difference["low"], difference["value"]) << key;
     EXPECT_GE(difference["high"], difference["value"]) << key;
   }
+}
+
+TEST_F(ComparisonPipeline, PeaksOfEveryAgentHaveTheWorstFlightBehindTheMean) {
+  const std::string csv = scratch_ / "table.csv";
+  const auto agents = Compare("autopilot,random,zero", {"--hold", "3", "--csv", csv})["agents"];
+  for (const auto& agent : agents) {
+    const auto value = [&agent](const std::string& key) {
+      return agent["estimates"].at(key)["value"].get<double>();
+    };
+    for (const char* key :
+         {"peak_load_factor_g", "peak_alpha_deg", "peak_abs_beta_deg", "peak_abs_p_deg_s"}) {
+      EXPECT_GE(value(std::string(key) + "_worst"), value(key)) << agent["name"] << " " << key;
+      EXPECT_EQ(agent["estimates"][key]["count"], 40);
+    }
+    EXPECT_LE(value("lowest_load_factor_g_worst"), value("lowest_load_factor_g"));
+    EXPECT_GE(value("peak_load_factor_g"), value("load_factor_g"));
+    EXPECT_LE(value("lowest_load_factor_g"), value("load_factor_g"));
+    EXPECT_GE(value("peak_abs_beta_deg"), value("abs_beta_deg"));
+  }
+  // Nobody moves the stick of the last one.
+  EXPECT_GT(agents[1]["estimates"]["peak_abs_p_deg_s"]["value"],
+            agents[2]["estimates"]["peak_abs_p_deg_s"]["value"]);
+  const std::size_t section = output_.find("peaks (worst flight):\n");
+  ASSERT_NE(section, std::string::npos) << output_;
+  std::istringstream rows(output_.substr(section));
+  std::string row;
+  std::getline(rows, row);
+  for (const char* label : {"peak nz, g", "lowest nz, g", "peak alpha, deg", "peak sideslip, deg",
+                            "peak roll rate, deg/s"}) {
+    std::getline(rows, row);
+    EXPECT_EQ(row.rfind(label, 0), 0u) << row;
+    EXPECT_LE(row.size(), 100u) << row;
+    EXPECT_EQ(std::count(row.begin(), row.end(), '('), 3) << "one flight's for each agent: " << row;
+    EXPECT_THAT(row, ::testing::Not(HasSubstr(".."))) << "cut off";
+  }
+  const std::string text = ReadFile(csv), header = text.substr(0, text.find('\n'));
+  EXPECT_THAT(header, HasSubstr(",hold_yaw_saturated_high,peak_load_factor_g,"
+                                "peak_load_factor_g_low,peak_load_factor_g_high,"
+                                "peak_load_factor_g_worst,"));
+}
+
+TEST_F(ComparisonPipeline, EveryAgentHasItsDifferencesFromAllAheadOfIt) {
+  const auto result = Compare("policy:untrained,random:0.2,zero");
+  const auto turned = Compare("random:0.2,zero,policy:untrained");
+  const auto& agents = result["agents"];
+  EXPECT_FALSE(agents[0].contains("against"));
+  for (std::size_t i = 1; i < 3; ++i) {
+    ASSERT_EQ(agents[i]["against"].size(), i);
+    EXPECT_EQ(agents[i]["against"][0], agents[i]["against_first"]);
+  }
+  // zero beside random, which is ahead of it in both.
+  EXPECT_EQ(agents[2]["against"][1], turned["agents"][1]["against_first"]);
+  EXPECT_NE(agents[2]["against"][1], agents[2]["against_first"]);
 }
 
 TEST_F(ComparisonPipeline, MeasuresHoldsOfTheSameSuccesses) {
@@ -213,6 +270,24 @@ TEST_F(ComparisonPipeline, ThePageThatNobodyAskedForReplacesNoResult) {
   if (result.exit_code == 0) GTEST_SKIP() << "built without a page";
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.error, HasSubstr("compare.html: the page goes there"));
+}
+
+TEST_F(ComparisonPipeline, SaysThatItReplacesAPageThatNobodyAskedFor) {
+  const auto compare = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"compare", "--task",     "heading", "--agents",
+                                      "zero",    "--episodes", "4"};
+    words.insert(words.end(), more.begin(), more.end());
+    return RunSkein(words, [&] {
+      if (chdir(scratch_.path().c_str()) != 0) _exit(1);
+    });
+  };
+  const ProgramResult first = compare({});
+  EXPECT_EQ(first.exit_code, 0) << first.error;
+  if (!std::filesystem::exists(scratch_ / "compare.html")) GTEST_SKIP() << "built without a page";
+  EXPECT_THAT(first.output, HasSubstr("report          compare.html\n"));
+  EXPECT_THAT(compare({}).output, HasSubstr("report          compare.html (replaced)\n"));
+  EXPECT_THAT(compare({"--html", "compare.html"}).output,
+              HasSubstr("report          compare.html\n"));
 }
 
 TEST_F(ComparisonPipeline, RecordsEveryAgentsFlights) {

@@ -156,6 +156,60 @@ TEST_F(EvaluationPipeline, FilesThatCannotBeWrittenAreAnErrorBeforeAnythingFlies
   }
 }
 
+/// Commands that fly the policy `file` and do not train.
+std::vector<std::vector<std::string>> FlightsOf(const std::string& file, const std::string& out) {
+  return {{"eval", "--policy", file},
+          {"compare", "--agents", "policy:" + file, "--no-html"},
+          {"replay", "--policy", file, "-o", out + ".csv"},
+          {"plot", "flights", "--agents", "policy:" + file, "-o", out + ".svg"},
+          {"fdm", "fly", "--policy", file, "--altitude-ft", "15000", "--speed-fps", "800", "-o",
+           out + ".csv"}};
+}
+
+TEST_F(EvaluationPipeline, SettingsThatNoFlightHeedsAreRefusedByEveryCommandThatFlies) {
+  const char* const for_trainings = "is for trainings and changes no flight";
+  const char* const for_fresh = "is of untrained networks, and none fly: a policy brings its own";
+  const std::vector<std::pair<std::string, std::string>> unheeded = {
+      {"network.gru_size=32", for_fresh},        {"network.tanh_mean=false", for_fresh},
+      {"learner.precision=fp32", for_trainings}, {"learner.rollout_tile=64", for_trainings},
+      {"ppo.epochs=3", for_trainings},           {"run.seed=3", for_trainings},
+      {"evaluation.episodes=3", for_trainings},  {"checkpoint.keep=3", for_trainings},
+      {"env.stagger_clocks=true", for_trainings}};
+  const std::string heading = SKEIN_SOURCE "/policies/heading.skein";
+  for (std::vector<std::string> words : FlightsOf(heading, folder_ + "/out")) {
+    words.insert(words.end(), {"--set", ""});
+    for (const auto& [assignment, why] : unheeded) {
+      words.back() = assignment;
+      const ProgramResult result = CallSkein(words);
+      EXPECT_EQ(result.exit_code, 2) << words[0] << " " << assignment;
+      EXPECT_EQ(result.error, "skein: error: --set " + assignment + ": " + why + "\n");
+    }
+  }
+  const ProgramResult zero = CallSkein({"compare", "--task", "heading", "--agents", "zero",
+                                        "--no-html", "--set", "learner.backend=fused"});
+  EXPECT_EQ(zero.exit_code, 2);
+  EXPECT_THAT(zero.error, HasSubstr("learner.backend=fused: computes networks, and no policy"));
+}
+
+TEST_F(EvaluationPipeline, SettingsThatFlightsHeedAndThoseOfFilesAreTaken) {
+  // Of untrained policies networks are made; a file may say what a run was trained with.
+  WriteFile(folder_ + "/config.toml", "[ppo]\nepochs = 3\n[network]\ngru_size = 32\n");
+  const std::vector<std::vector<std::string>> heeded = {
+      {"--policy", "untrained", "--task", "heading", "--set", "network.gru_size=16", "--set",
+       "network.hidden_size=16", "--set", "learner.backend=fused"},
+      {"--policy", SKEIN_SOURCE "/policies/heading.skein", "--config", folder_ + "/config.toml",
+       "--set", "learner.backend=fused"}};
+  for (std::vector<std::string> words : heeded) {
+    words.insert(words.begin(), {"eval", "--episodes", "2", "--set", "env.time_limit_steps=400"});
+    const ProgramResult result = CallSkein(words);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+  }
+  const ProgramResult compared =
+      CallSkein({"compare", "--task", "heading", "--agents", "zero,policy:untrained", "--no-html",
+                 "--episodes", "2", "--set", "network.hidden_size=16"});
+  EXPECT_EQ(compared.exit_code, 0) << compared.error;
+}
+
 TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
   const std::string file = folder_ + "/foreign.skein";
   WriteFile(file, "GIF89a");

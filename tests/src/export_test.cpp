@@ -372,6 +372,31 @@ TEST_F(ExportCommand, WritesAHierarchyAsTwoFilesAndAManifest) {
   EXPECT_EQ(manifest["low_level"]["observations"][0]["name"], "error_pitch_deg");
 }
 
+TEST_F(ExportCommand, NamesWhatAnEarlierExportHasLeftAndRemovesNothing) {
+  const auto names = [](const std::string& path) { return "untouched " + path + " ("; };
+  const std::string out = scratch_ / "x.onnx", combined = scratch_ / "x.combined.onnx",
+                    low_level = scratch_ / "x.low_level.onnx", manifest = scratch_ / "x.json";
+  // This one acts less often than its low-level policy: both are not one graph.
+  WriteFile(combined, "of another planner");
+  const ProgramResult planner = Export(ShippedPolicy("tracking-planner"), {"-o", out});
+  EXPECT_EQ(planner.exit_code, 0) << planner.error;
+  EXPECT_THAT(planner.output, HasSubstr(names(combined)));
+  for (const std::string& written : {low_level, manifest}) {
+    EXPECT_THAT(planner.output, ::testing::Not(HasSubstr(names(written))));
+  }
+  const std::string before = ReadFile(manifest);
+  const ProgramResult flat = Export(policy_, {"-o", out});
+  EXPECT_EQ(flat.exit_code, 0) << flat.error;
+  for (const std::string& left : {combined, low_level, manifest}) {
+    EXPECT_THAT(flat.output, HasSubstr(names(left)));
+  }
+  EXPECT_EQ(ReadFile(combined), "of another planner");
+  EXPECT_EQ(ReadFile(manifest), before);
+  // What else is called so is nobody's business.
+  WriteFile(manifest, "{\"mine\": 1}");
+  EXPECT_THAT(Export(policy_, {"-o", out}).output, ::testing::Not(HasSubstr(names(manifest))));
+}
+
 TEST_F(ExportCommand, WritesTheLawsThatAPolicyFliesThrough) {
   const std::string out = scratch_ / "laws.h";
   const ProgramResult result = Export(policy_, {"--flight-control", "c", "-o", out});

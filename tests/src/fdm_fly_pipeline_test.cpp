@@ -2,6 +2,7 @@
 // `skein fdm fly`: sticks of a file in the float64 closed loop, and agents in the environments.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -265,6 +266,45 @@ TEST_F(FdmFly, AFlightHasAtLeastOneStep) {
               "skein: error: 0.001 s are less than a step of 0.02 s: raise --seconds\n");
     EXPECT_FALSE(fs::exists(folder_ + "/none.csv"));
   }
+}
+
+TEST_F(FdmFly, AFileOfAnotherFormatIsRefused) {
+  const Words start = {"fdm", "fly", "--altitude-ft", "20000", "--speed-fps", "1000"};
+  for (const Words& pilot : {Words{}, Words{"--agents", "autopilot", "--task", "heading"}}) {
+    for (const std::string ending : {".svg", ".acmi", ".json", ".CSV"}) {
+      const std::string path = folder_ + "/flight" + ending;
+      const ProgramResult result = CallSkein(start + pilot + Words{"-o", path});
+      EXPECT_EQ(result.exit_code, 2) << ending;
+      EXPECT_EQ(result.error, "skein: error: " + path +
+                                  ": flights are written as CSV: let the name end in .csv\n");
+      EXPECT_FALSE(fs::exists(path));
+    }
+    for (const std::string name : {"/flight", "/a.flight.csv"}) {
+      const Words out = {"--seconds", "0.1", "-o", folder_ + name};
+      EXPECT_EQ(CallSkein(start + pilot + out).exit_code, 0) << name;
+      EXPECT_TRUE(fs::exists(folder_ + name));
+    }
+  }
+}
+
+TEST_F(FdmFly, SaysThatItReplacesAFileThatNobodyNamed) {
+  const auto fly = [&](const Words& more) {
+    const Words start = {"fdm",         "fly",  "--altitude-ft", "20000",
+                         "--speed-fps", "1000", "--seconds",     "0.1"};
+    const ProgramResult result = RunSkein(start + more, [&] {
+      if (chdir(folder_.c_str()) != 0) _exit(1);
+    });
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return result.output;
+  };
+  const Words autopilot = {"--agents", "autopilot", "--task", "heading"};
+  EXPECT_THAT(fly({}), HasSubstr("0.1 s: flight.csv\n"));
+  const std::string sticks = ReadFile(folder_ + "/flight.csv");
+  EXPECT_THAT(fly({}), HasSubstr("0.1 s: flight.csv (replaced)\n"));
+  EXPECT_THAT(fly({"-o", "flight.csv"}), HasSubstr("0.1 s: flight.csv\n"));
+  EXPECT_THAT(fly(autopilot), HasSubstr("flight.csv (replaced): 1 flight by autopilot\n"));
+  EXPECT_NE(ReadFile(folder_ + "/flight.csv"), sticks);
+  EXPECT_THAT(fly(autopilot + Words{"-o", "flight.csv"}), HasSubstr("flight.csv: 1 flight by"));
 }
 
 TEST_F(FdmFly, HowGustsAreNeedsGusts) {

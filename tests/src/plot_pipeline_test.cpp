@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -45,6 +46,22 @@ TEST_F(PlotPipeline, DrawsFlightsOfAgentsTwiceTheSame) {
     Plot(kind, "again.svg", {"--threads", "1"});
     EXPECT_TRUE(svg == ReadFile(scratch_ / "again.svg")) << kind;
   }
+}
+
+TEST_F(PlotPipeline, SaysThatItReplacesAPictureThatNobodyNamed) {
+  const auto plot = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"plot",     "tracks", "--task",     "heading",
+                                      "--agents", "zero",   "--episodes", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = RunSkein(words, [&] {
+      if (chdir(scratch_.path().c_str()) != 0) _exit(1);
+    });
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return result.output;
+  };
+  EXPECT_EQ(plot({}), "tracks.svg\n");
+  EXPECT_EQ(plot({}), "tracks.svg (replaced)\n");
+  EXPECT_EQ(plot({"-o", "tracks.svg"}), "tracks.svg\n");
 }
 
 TEST_F(PlotPipeline, AltitudesAreEnlargedAsAskedFor) {

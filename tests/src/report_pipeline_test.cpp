@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "src/config/configuration.h"
 #include "src/evaluation/recording_limit.h"
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
@@ -117,6 +119,40 @@ TEST_F(ReportPipeline, AWrittenComparisonIsShownWithoutFlyingAgain) {
   EXPECT_FALSE(shown["quantities"].empty());
   request.comparisons = {shown};
   EXPECT_GT(ReportData(request, pool).size(), bare.size());
+}
+
+/// By key, what a page of flights by `config` takes for the better side.
+std::map<std::string, std::string> BetterSides(const ProgramConfig& config) {
+  std::map<std::string, std::string> sides;
+  const auto shown = ShownComparison({{"task", "heading"}}, config);
+  for (const auto& quantity : shown["quantities"]) {
+    sides[quantity["key"]] = quantity["better"];
+  }
+  return sides;
+}
+
+TEST(ReportedQuantities, SayWhichSideIsTheBetterOne) {
+  ProgramConfig config = ResolveConfig({"heading", "default", "", {}});
+  config.train.env.hold_s = 30;
+  config.train.env.heading.dwell_s = 1;
+  std::map<std::string, std::string> sides = BetterSides(config);
+  for (const char* key : {"success_rate", "return", "alpha_margin", "smoothness", "hold_within"}) {
+    EXPECT_EQ(sides[key], "higher") << key;
+  }
+  for (const char* key : {"time_to_target_s", "time_held_s", "roll_variation_per_s",
+                          "hold_rms_p_deg_s", "hold_lost", "hold_pitch_reversals_per_s"}) {
+    EXPECT_EQ(sides[key], "lower") << key;
+  }
+  for (const char* key : {"load_factor_g", "mach", "climb_rate_fps", "abs_alpha_deg"}) {
+    EXPECT_EQ(sides.count(key), 1) << key;
+    EXPECT_EQ(sides[key], "") << key;
+  }
+  config.train.env.hold_s = config.train.env.heading.dwell_s = 0;
+  config.train.env.mission.length_s = 60;
+  sides = BetterSides(config);
+  EXPECT_EQ(sides["targets_per_minute"], "higher");
+  EXPECT_EQ(sides["targets_missed"], "lower");
+  EXPECT_EQ(sides["losses_per_hour"], "lower");
 }
 
 TEST_F(ReportPipeline, SharesOfATrainingsTimeSumToOne) {

@@ -12,6 +12,7 @@
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
 #include "src/report/run_record.h"
+#include "src/run/run_directory.h"
 #include "src/study/study.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
@@ -188,7 +189,10 @@ TEST_F(StudyPipeline, ReportsHowTargetsWereHeld) {
   const auto results = nlohmann::json::parse(ReadFile(out + "/results.json"));
   EXPECT_EQ(results[0]["comparison"]["agents"][0]["estimates"]["hold_within"]["count"], 20);
   const std::string csv = ReadFile(out + "/results.csv");
-  EXPECT_THAT(csv.substr(0, csv.find('\n')), HasSubstr(",hold_within,hold_within_low,"));
+  for (const char* columns : {",hold_within,hold_within_low,", ",peak_load_factor_g,",
+                              ",lowest_load_factor_g_worst,", ",peak_abs_p_deg_s_worst,"}) {
+    EXPECT_THAT(csv.substr(0, csv.find('\n')), HasSubstr(columns));
+  }
 }
 
 TEST_F(StudyPipeline, FliesAgainWhatItTrainedAgain) {
@@ -349,6 +353,43 @@ TEST_F(StudyPipeline, TrainingsStartFromWhatTheirTaskHas) {
 
   ExpectError(with(both, "from = [\"" + control + "\", \"" + heading + "\"]"),
               "training.from " + control);
+}
+
+TEST_F(StudyPipeline, OtherNetworksToStartFromAreNoticed) {
+  const auto study = [&](const std::string& from) {
+    std::string text = kStudy;
+    const std::string steps = "steps = 20480";
+    text.replace(text.find(steps), steps.size(), steps + "\n" + from);
+    WriteFile(file_, text);
+  };
+  const auto carry_out = [&](const std::string& out) {
+    std::vector<std::string> words = CommandForLevel(out, "quiet");
+    words.insert(words.end(), {"--seeds", "3"});
+    return CallSkein(words);
+  };
+  const std::string fresh = scratch_ / "fresh", out = scratch_ / "out";
+  study("");
+  ASSERT_EQ(carry_out(fresh).exit_code, 0);
+  const std::string run = fresh + "/runs/heading-quiet-seed3";
+  study("from = [\"" + run + "\"]");
+  ASSERT_EQ(carry_out(out).exit_code, 0);
+
+  // Called otherwise they are the same; others are not.
+  const std::string checkpoint = CheckpointsIn(run + "/checkpoints").back().path;
+  fs::copy_file(checkpoint, scratch_ / "copy.skein");
+  study("from = [\"" + (scratch_ / "copy.skein") + "\"]");
+  const ProgramResult same = carry_out(out);
+  EXPECT_EQ(same.exit_code, 0) << same.error;
+  EXPECT_THAT(same.output, ::testing::Not(HasSubstr("training 1 of")));
+  for (const std::string& from :
+       {std::string(), "from = [\"" + run + "/checkpoints/policy-final.skein\"]"}) {
+    study(from);
+    const ProgramResult other = carry_out(out);
+    EXPECT_EQ(other.exit_code, 1) << from;
+    EXPECT_THAT(other.error, HasSubstr("other networks to start from (training.from)"));
+  }
+  study("from = [\"" + run + "\"]");
+  EXPECT_THAT(carry_out(fresh).error, HasSubstr("other networks to start from"));
 }
 
 TEST_F(StudyPipeline, LevelsAndSeedsAreAddedByOption) {

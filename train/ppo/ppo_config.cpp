@@ -24,7 +24,8 @@ void ListAdamFields(PpoConfig& config, FieldList& list) {
   list.Add("learning_rate", &config.learning_rate, Bounds::PositiveFraction(),
            "Adam's learning rate at the start");
   list.Add("final_learning_rate_fraction", &config.final_learning_rate_fraction, Bounds::Fraction(),
-           "share of it at the budget's end; 1 keeps it constant");
+           "share of it at the budget's end; 1 keeps it constant; 0, to which it can fall linearly "
+           "alone, leaves the last iteration without an effect");
   list.Add("learning_rate_decay", &config.learning_rate_decay, kDecayNames,
            "how it falls to that in between")
       .OffUnless(config.learning_rate_decay != Decay::kLinear);

@@ -21,7 +21,8 @@ struct PpoConfig {
   int epochs = 2;
   int minibatches = 16;
   double learning_rate = 1e-3;
-  /// The learning rate falls to this fraction at the budget's end; 1 keeps it constant.
+  /// The learning rate falls to this fraction at the budget's end, and so in the last iteration; 1
+  /// keeps it constant, 0 (linear decay alone) makes that iteration's update none.
   double final_learning_rate_fraction = 0.02;
   Decay learning_rate_decay = Decay::kLinear;
   /// Of an iteration's approximate_kl, by which the learning rate is adapted below that line; 0: it

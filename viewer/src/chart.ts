@@ -4,6 +4,7 @@ import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { el } from './dom';
 import { styleColour } from './palette';
+import type { SharedRange } from './shared_range';
 
 export interface ChartOptions {
   title: string;
@@ -12,6 +13,8 @@ export interface ChartOptions {
   bands?: uPlot.Band[];
   /** Charts of one group show one cursor. */
   group: string;
+  /** Of all charts that show the same part of x; without one a chart shows all that it has. */
+  range?: SharedRange;
   nameX: string;
   formatX: (x: number) => string;
   scales?: uPlot.Scales;
@@ -41,6 +44,30 @@ export function axis(overrides: uPlot.Axis = {}): uPlot.Axis {
   };
 }
 
+/** What lets a chart have its x range from others, and set it for them. */
+function sharing(range: SharedRange): {
+  scale: uPlot.Scale; bind: uPlot.Cursor.Bind; hooks: uPlot.Hooks.Arrays;
+} {
+  return {
+    scale: { time: false, range: () => [range.limits.min, range.limits.max] },
+    bind: {
+      dblclick: (_, __, handler) => (event) => {
+        range.showAll();
+        return handler(event);
+      },
+    },
+    hooks: {
+      setSelect: [(plot) => {
+        const { left, width } = plot.select;
+        plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+        // Charts that follow the one that is dragged over have no event of their own.
+        if (!plot.cursor.event) return;
+        range.show({ min: plot.posToVal(left, 'x'), max: plot.posToVal(left + width, 'x') });
+      }],
+    },
+  };
+}
+
 /** A chart in `place`, as wide as it, until `stop` is called. */
 export class Chart {
   readonly plot: uPlot;
@@ -48,10 +75,13 @@ export class Chart {
   readonly readout = el('span', { class: 'readout' });
   private readonly observer: ResizeObserver;
 
-  constructor(place: HTMLElement, options: ChartOptions, data: uPlot.AlignedData) {
+  constructor(
+    place: HTMLElement, private readonly options: ChartOptions, data: uPlot.AlignedData,
+  ) {
     const figure = el('figure', { class: 'chart' }, el('figcaption', {}, options.title, this.readout));
     place.append(figure);
     const width = () => Math.max(figure.clientWidth, 120);
+    const shared = options.range && sharing(options.range);
     this.plot = new uPlot({
       width: width(),
       height: options.height,
@@ -60,19 +90,21 @@ export class Chart {
         ...options.series,
       ],
       bands: options.bands,
-      scales: { x: { time: false }, ...options.scales },
+      scales: { x: shared?.scale ?? { time: false }, ...options.scales },
       axes: options.axes ?? [
         axis({ size: 28, space: 60, values: (_, xs) => xs.map((x) => options.formatX(x)) }),
         axis(),
       ],
       cursor: {
         sync: { key: options.group, setSeries: false },
-        drag: { x: options.drag ?? true, y: false },
+        drag: { x: options.drag ?? true, y: false, setScale: !shared },
+        bind: shared?.bind,
         points: { size: 6 },
       },
       legend: { show: options.legend ?? true },
-      hooks: options.hooks,
+      hooks: { ...shared?.hooks, ...options.hooks },
     }, data, figure);
+    options.range?.join(this.plot);
     this.observer = new ResizeObserver(() => {
       if (width() !== this.plot.width) {
         this.plot.setSize({ width: width(), height: options.height });
@@ -83,6 +115,7 @@ export class Chart {
 
   stop(): void {
     this.observer.disconnect();
+    this.options.range?.leave(this.plot);
     this.plot.destroy();
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of metrics: policies beside the autopilots, on the same episodes.
-import { el, tick } from './dom';
+import { choice, el, tick } from './dom';
+import { differenceOf, isBetter, referencesOf, sideOfZero } from './paired';
 import type { Comparison, Estimate, Quantity, ReportPack } from './report';
 
 function number(quantity: Quantity, value: number): string {
@@ -21,25 +22,20 @@ export function formatEstimate(quantity: Quantity, estimate: Estimate | undefine
   return `${value} (${number(quantity, estimate.low)}, ${number(quantity, estimate.high)})`;
 }
 
-/** Whether the intervals of an agent and of the first lie apart, and the cells show it. */
-export function liesApart(
-  quantity: Quantity, first: Estimate | undefined, other: Estimate | undefined,
-): boolean {
-  if (first?.low == null || first.high == null || other?.low == null || other.high == null) {
-    return false;
-  }
-  if (formatEstimate(quantity, first) === formatEstimate(quantity, other)) return false;
-  return other.low > first.high || other.high < first.low;
+/** The same with its sign: "+0.42 ± 0.05". */
+export function formatDifference(quantity: Quantity, difference: Estimate | undefined): string {
+  const text = formatEstimate(quantity, difference);
+  return parseFloat(text) > 0 ? `+${text}` : text;
 }
 
-function rowOf(comparison: Comparison, quantity: Quantity): HTMLTableRowElement {
-  const first = comparison.agents[0].estimates[quantity.key];
-  const cells = comparison.agents.map((agent, i) => {
-    const estimate = agent.estimates[quantity.key];
-    const apart = i > 0 && liesApart(quantity, first, estimate);
-    return el('td', { class: apart ? 'apart' : '' }, formatEstimate(quantity, estimate));
-  });
-  return el('tr', {}, el('th', { scope: 'row' }, nameOf(quantity)), ...cells);
+/** Whether an agent's value is bold beside the reference's: it is better, and the cells show it. */
+export function isMarked(
+  quantity: Quantity, reference: Estimate | undefined, value: Estimate | undefined,
+  difference: Estimate | undefined,
+): boolean {
+  if (parseFloat(formatEstimate(quantity, difference)) === 0) return false;
+  if (formatEstimate(quantity, reference) === formatEstimate(quantity, value)) return false;
+  return isBetter(quantity, difference);
 }
 
 /** "|AOA| alpha, deg", "variation, 1/s (throttle)". */
@@ -49,49 +45,127 @@ export function nameOf(quantity: Quantity): string {
     : `${quantity.symbol}  ${quantity.label}`;
 }
 
-function endsRow(comparison: Comparison): HTMLTableRowElement {
-  const cells = comparison.agents.map((agent) => {
-    const ends = Object.entries(agent.terminations).filter(([, count]) => count > 0);
-    return el('td', {}, ends.map(([name, n]) => `${name.replace(/_/g, ' ')} ${n}`).join(', '));
-  });
-  return el('tr', {}, el('th', { scope: 'row' }, 'ended by'), ...cells);
+function betterSide({ better }: Quantity): HTMLElement | null {
+  if (!better) return null;
+  return el('small', { title: `${better} is better` }, better === 'higher' ? ' ↑' : ' ↓');
 }
 
-function tableOf(comparison: Comparison, isWhole: boolean): HTMLElement {
-  const body = el('tbody');
-  let section = '';
-  for (const quantity of comparison.quantities) {
-    if (!isWhole && !quantity.is_headline) continue;
-    if (comparison.agents.every((agent) => agent.estimates[quantity.key]?.value == null)) continue;
-    if (quantity.section !== section && quantity.section) {
-      const span = comparison.agents.length + 1;
-      body.append(el('tr', {}, el('th', { colspan: span, class: 'section' }, quantity.section)));
-    }
-    section = quantity.section;
-    body.append(rowOf(comparison, quantity));
+/** A comparison's table; where `reference` is an agent, with the differences of the others. */
+class MetricsTable {
+  constructor(
+    private readonly comparison: Comparison, private readonly reference: number | undefined,
+    private readonly isWhole: boolean,
+  ) {}
+
+  element(): HTMLElement {
+    return el('div', { class: 'wide' },
+      el('table', { class: 'metrics' }, el('thead', {}, ...this.headings()), this.body()));
   }
-  body.append(endsRow(comparison));
-  const names = comparison.agents.map((agent) => el('th', { scope: 'col' }, agent.name));
-  return el('div', { class: 'wide' }, el('table', { class: 'metrics' },
-    el('thead', {}, el('tr', {}, el('td'), ...names)), body));
+
+  private columnsOf(agent: number): number {
+    return this.reference === undefined || agent === this.reference ? 1 : 2;
+  }
+
+  private headings(): HTMLTableRowElement[] {
+    const { agents } = this.comparison;
+    const names = agents.map(({ name }, i) =>
+      el('th', { scope: 'colgroup', colspan: this.columnsOf(i) }, name));
+    const first = el('tr', {}, el('td'), ...names);
+    if (this.reference === undefined) return [first];
+    const parts = agents.flatMap((_, i) => (this.columnsOf(i) === 1 ? ['reference']
+      : ['value', 'difference']));
+    return [first, el('tr', { class: 'parts' }, el('td'),
+      ...parts.map((part) => el('th', { scope: 'col' }, part)))];
+  }
+
+  private body(): HTMLElement {
+    const { agents, quantities } = this.comparison;
+    const body = el('tbody');
+    let section = '';
+    for (const quantity of quantities) {
+      if (!this.isWhole && !quantity.is_headline) continue;
+      if (agents.every((agent) => agent.estimates[quantity.key]?.value == null)) continue;
+      if (quantity.section !== section && quantity.section) {
+        const span = agents.reduce((sum, _, i) => sum + this.columnsOf(i), 1);
+        body.append(el('tr', {}, el('th', { colspan: span, class: 'section' }, quantity.section)));
+      }
+      section = quantity.section;
+      body.append(this.row(quantity));
+    }
+    body.append(this.endsRow());
+    return body;
+  }
+
+  private row(quantity: Quantity): HTMLTableRowElement {
+    const cells = this.comparison.agents.flatMap((_, i) => this.cells(quantity, i));
+    return el('tr', {},
+      el('th', { scope: 'row' }, nameOf(quantity), betterSide(quantity)), ...cells);
+  }
+
+  private cells(quantity: Quantity, agent: number): HTMLTableCellElement[] {
+    const { agents } = this.comparison;
+    const estimate = agents[agent].estimates[quantity.key];
+    const value = formatEstimate(quantity, estimate);
+    if (this.reference === undefined || agent === this.reference) return [el('td', {}, value)];
+    const difference = differenceOf(this.comparison, agent, this.reference, quantity.key);
+    const reference = agents[this.reference].estimates[quantity.key];
+    const isBold = isMarked(quantity, reference, estimate, difference);
+    return [
+      el('td', { class: isBold ? 'better' : '' }, value),
+      el('td', {
+        class: sideOfZero(difference) === 0 ? 'difference' : 'difference apart',
+        title: difference && difference.count > 0 ? `${difference.count} episodes` : undefined,
+      }, formatDifference(quantity, difference)),
+    ];
+  }
+
+  private endsRow(): HTMLTableRowElement {
+    const cells = this.comparison.agents.map((agent, i) => {
+      const ends = Object.entries(agent.terminations).filter(([, count]) => count > 0);
+      return el('td', { colspan: this.columnsOf(i) },
+        ends.map(([name, n]) => `${name.replace(/_/g, ' ')} ${n}`).join(', '));
+    });
+    return el('tr', { class: 'ends' }, el('th', { scope: 'row' }, 'ended by'), ...cells);
+  }
 }
 
 function titleOf({ task, level, conditions }: Comparison): string {
   return `${task}${level ? `, ${level}` : ''}: ${conditions}`;
 }
 
+function explanation({ agents, episodes, seed }: Comparison, reference?: number): HTMLElement {
+  return el('p', { class: 'hint' }, `The same ${episodes} episodes for all (seed ${seed}), `
+    + 'policies with their mean action; 95 % intervals.',
+    reference === undefined ? null : ` Differences are paired, an agent's value less that of `
+      + `${agents[reference].name} in the same episode: a value is bold only where it is better `
+      + '(↑ higher, ↓ lower) and the interval of its difference leaves out 0 (others are grey).');
+}
+
+/** What is chosen; it outlives the view, which is drawn anew when the data of a watched run are. */
+const chosen = { isWhole: true, references: new Map<string, string>() };
+
+function partsOf(comparison: Comparison, redraw: () => void): (HTMLElement | null)[] {
+  const { agents } = comparison;
+  const title = titleOf(comparison);
+  const references = referencesOf(comparison);
+  const reference = references.find((i) => agents[i].name === chosen.references.get(title))
+    ?? references[0];
+  const choose = references.length < 2 ? null : el('div', { class: 'controls' },
+    choice('differences from', references.map((i) => [String(i), agents[i].name]),
+      String(reference), (value) => {
+        chosen.references.set(title, agents[Number(value)].name);
+        redraw();
+      }));
+  return [el('h2', {}, title), explanation(comparison, reference), choose,
+    new MetricsTable(comparison, reference, chosen.isWhole).element()];
+}
+
 export function showMetrics(place: HTMLElement, pack: ReportPack): () => void {
   const tables = el('div');
-  let isWhole = true;
-  const draw = () => tables.replaceChildren(...pack.document.comparisons.flatMap((comparison) => [
-    el('h2', {}, titleOf(comparison)),
-    el('p', { class: 'hint' }, `The same ${comparison.episodes} episodes for all (seed `
-      + `${comparison.seed}), policies with their mean action; values with 95 % intervals. `
-      + 'Bold: the interval lies apart from that of the first column.'),
-    tableOf(comparison, isWhole),
-  ]));
-  place.append(el('div', { class: 'controls' }, tick('all quantities', isWhole, (isOn) => {
-    isWhole = isOn;
+  const draw = () => tables.replaceChildren(...pack.document.comparisons
+    .flatMap((comparison) => partsOf(comparison, draw)).filter((part) => part !== null));
+  place.append(el('div', { class: 'controls' }, tick('all quantities', chosen.isWhole, (isOn) => {
+    chosen.isWhole = isOn;
     draw();
   })), tables);
   draw();

@@ -45,6 +45,14 @@ export interface Quantity {
   shown_per_unit: number;
   decimals: number;
   is_headline: boolean;
+  /** Which side is the better one; empty of what only describes a flight. */
+  better: 'higher' | 'lower' | '';
+}
+
+/** An agent's values less another one's, episode by episode. */
+export interface PairedDifferences {
+  estimates: Record<string, Estimate>;
+  success_p_value: number;
 }
 
 export interface ComparedAgent {
@@ -52,6 +60,10 @@ export interface ComparedAgent {
   action_repeat: number;
   terminations: Record<string, number>;
   estimates: Record<string, Estimate>;
+  /** Of the first agent itself none. */
+  against_first?: PairedDifferences;
+  /** [agent] from each of those ahead of this one, if the data have more than from the first. */
+  against?: PairedDifferences[];
 }
 
 export interface Comparison {

@@ -6,6 +6,7 @@ import { el, slider, tick } from './dom';
 import { colourOf, dashOf, faded } from './palette';
 import type { ReportPack, Run } from './report';
 import { at, band, formatCount, type Series, shares, smoothed, union, weightOf } from './series';
+import { type Limits, limitsOf, SharedRange } from './shared_range';
 
 interface Curve {
   title: string;
@@ -129,9 +130,11 @@ function drawnOf(curve: Curve, lines: Line[], isOverSeeds: boolean): Drawn {
   return isOverSeeds ? overSeeds(lines, shown) : overlaid(lines, shown);
 }
 
-function drawCurve(place: HTMLElement, curve: Curve, drawn: Drawn): Chart {
+function drawCurve(
+  place: HTMLElement, curve: Curve, drawn: Drawn, range: SharedRange,
+): Chart {
   return new Chart(place, {
-    title: curve.title, height: 190, group: 'training', nameX: 'control steps',
+    title: curve.title, height: 190, group: 'training', range, nameX: 'control steps',
     formatX: formatCount,
     series: drawn.series, bands: drawn.bands,
     scales: curve.isShare ? { y: { range: [0, 1] } } : undefined,
@@ -144,7 +147,9 @@ export function nameOfEnd(column: string): string {
 }
 
 /** How the episodes of a run ended over time: shares, one on top of the other. */
-function drawEnds(place: HTMLElement, run: Run, pack: ReportPack): Chart | null {
+function drawEnds(
+  place: HTMLElement, run: Run, pack: ReportPack, range: SharedRange,
+): Chart | null {
   const all = Object.keys(run.metrics).filter((name) => name.startsWith('ended_'));
   const names = all.filter((name) => pack.array(run.metrics[name]).some((value) => value > 0));
   if (names.length === 0) return null;
@@ -156,8 +161,8 @@ function drawEnds(place: HTMLElement, run: Run, pack: ReportPack): Chart | null 
   });
   const order = names.map((_, k) => names.length - 1 - k);
   return new Chart(place, {
-    title: `how episodes end: ${run.name}`, height: 190, group: 'training', nameX: 'control steps',
-    formatX: formatCount,
+    title: `how episodes end: ${run.name}`, height: 190, group: 'training', range,
+    nameX: 'control steps', formatX: formatCount,
     scales: { y: { range: [0, 1] } },
     series: order.map((k) => ({
       label: nameOfEnd(names[k]), stroke: colourOf(k), width: 1, points: { show: false },
@@ -168,15 +173,23 @@ function drawEnds(place: HTMLElement, run: Run, pack: ReportPack): Chart | null 
   }, [Array.from(pack.array(run.metrics.env_steps)), ...order.map((k) => tops[k])]);
 }
 
+/** From the first to the last iteration of all runs, in control steps. */
+export function stepsOf(pack: ReportPack): Limits {
+  return limitsOf(pack.document.runs.flatMap(({ metrics }) =>
+    (metrics.env_steps ? [pack.array(metrics.env_steps)] : [])));
+}
+
 class TrainingView {
   private readonly curves = new Map<Curve, Chart>();
   private readonly others: Chart[] = [];
   private readonly grid = el('div', { class: 'charts' });
+  private readonly range: SharedRange;
   private position = 20;
   private isOverSeeds: boolean;
 
   constructor(place: HTMLElement, private readonly pack: ReportPack) {
     const { runs } = pack.document;
+    this.range = new SharedRange(stepsOf(pack));
     const hasSeeds = new Set(runs.map((run) => run.repetition)).size < runs.length;
     this.isOverSeeds = hasSeeds;
     const smoothing = slider('smoothing', 0, 100, this.position, (position) => {
@@ -189,7 +202,8 @@ class TrainingView {
     });
     place.append(
       el('div', { class: 'controls' }, smoothing, hasSeeds ? seeds : null,
-        el('span', { class: 'hint' }, 'Drag over a chart to enlarge, double-click to go back.')),
+        el('span', { class: 'hint' }, 'All charts show the same control steps: drag over one to '
+          + 'enlarge a part in all, double-click to go back.')),
       this.grid,
     );
     this.draw();
@@ -205,22 +219,20 @@ class TrainingView {
     for (const curve of CURVES) {
       const lines = this.linesOf(curve);
       if (lines.length === 0) continue;
-      this.curves.set(curve, drawCurve(this.grid, curve, drawnOf(curve, lines, this.isOverSeeds)));
+      const drawn = drawnOf(curve, lines, this.isOverSeeds);
+      this.curves.set(curve, drawCurve(this.grid, curve, drawn, this.range));
     }
     for (const run of this.pack.document.runs) {
-      const chart = drawEnds(this.grid, run, this.pack);
+      const chart = drawEnds(this.grid, run, this.pack, this.range);
       if (chart) this.others.push(chart);
     }
     if (this.grid.childElementCount === 0) this.grid.append(el('p', {}, 'There is no iteration yet.'));
   }
 
-  /** The same charts, with what they enlarge. */
+  /** The same charts, with the part that they show. */
   private smooth(): void {
     for (const [curve, chart] of this.curves) {
-      const { data } = drawnOf(curve, this.linesOf(curve), this.isOverSeeds);
-      const { min, max } = chart.plot.scales.x;
-      chart.plot.setData(data, false);
-      if (min != null && max != null) chart.plot.setScale('x', { min, max });
+      chart.plot.setData(drawnOf(curve, this.linesOf(curve), this.isOverSeeds).data);
     }
   }
 

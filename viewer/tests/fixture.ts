@@ -2,7 +2,7 @@
 // A report made by hand: packed by the rules that skein's packer follows, written here again.
 import { deflateSync } from 'node:zlib';
 import type { ArrayReference } from '../src/pack';
-import type { ReportDocument } from '../src/report';
+import type { Comparison, Estimate, Quantity, ReportDocument } from '../src/report';
 
 export class Packer {
   private readonly chunks: Buffer[] = [];
@@ -80,6 +80,42 @@ function flightColumns(
   };
 }
 
+const quantity = (key: string, label: string, better: Quantity['better']): Quantity => ({
+  key, symbol: '', label, section: '', shown_per_unit: key === 'success_rate' ? 100 : 1,
+  decimals: 1, is_headline: true, better,
+});
+
+/**
+ * Three agents, each from all ahead of it: of the last two the intervals of the values overlap, and
+ * those of the differences leave out zero.
+ */
+function comparisonOf(names: string[]): Comparison {
+  const about = (value: number, half: number): Estimate =>
+    ({ value, low: value - half, high: value + half, count: 100 });
+  const success = [1, 0.9, 0.95];
+  const seconds = [15, 20, 19];
+  return {
+    task: 'heading', conditions: 'still air', episodes: 100, seed: 1,
+    quantities: [quantity('success_rate', 'success, %', 'higher'),
+      quantity('time_to_target_s', 'time to target, s', 'lower'), quantity('mach', 'Mach', '')],
+    agents: names.map((name, i) => {
+      const against = names.slice(0, i).map((_, k) => ({
+        estimates: {
+          success_rate: about(success[i] - success[k], 0.03),
+          time_to_target_s: about(seconds[i] - seconds[k], 0.5), mach: about(0.1 * (i - k), 0.01),
+        },
+        success_p_value: 0.01,
+      }));
+      return {
+        name, action_repeat: 5, terminations: { target_reached: 100 - i, time_limit: i },
+        estimates: { success_rate: about(success[i], 0.06), time_to_target_s: about(seconds[i], 2),
+          mach: about(0.8 + 0.1 * i, 0.01) },
+        ...(i > 0 ? { against_first: against[0], against } : {}),
+      };
+    }),
+  };
+}
+
 /** Two seeds of one configuration, and `flights` episodes by two agents, if any. */
 export function fixture(name: string, flights: number): Buffer {
   const packer = new Packer();
@@ -108,16 +144,7 @@ export function fixture(name: string, flights: number): Buffer {
   const agents = [name, 'autopilot:aggressive'];
   const document: ReportDocument = {
     format: 2, skein: '0.0.0', made: '2026-01-01T00:00:00Z', runs: [run(1), run(2)],
-    comparisons: [{
-      task: 'heading', conditions: 'still air', episodes: 100, seed: 1,
-      quantities: [{ key: 'success_rate', symbol: '', label: 'success, %', section: '',
-        shown_per_unit: 100, decimals: 1, is_headline: true }],
-      agents: agents.map((agent, i) => ({
-        name: agent, action_repeat: 5, terminations: { target_reached: 100 - i, time_limit: i },
-        estimates: { success_rate: { value: 1 - 0.1 * i, low: 0.96 - 0.1 * i, high: 1 - 0.08 * i,
-          count: 100 } },
-      })),
-    }],
+    comparisons: [comparisonOf([...agents, 'autopilot:traditional'])],
     flights: [{
       task: 'heading', conditions: 'still air', seed: 1, agents, is_point: false, hold_s: 10,
       span_ft: 30,

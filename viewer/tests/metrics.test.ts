@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import { isSpecial } from '../src/configuration';
-import { formatEstimate, liesApart, nameOf } from '../src/metrics';
+import { formatEstimate, nameOf } from '../src/metrics';
+import type { Quantity } from '../src/report';
 
-const SHARE = {
+const SHARE: Quantity = {
   key: 'success_rate', symbol: '', label: 'success, %', section: '', shown_per_unit: 100,
-  decimals: 1, is_headline: true,
+  decimals: 1, is_headline: true, better: 'higher',
 };
 const estimate = (value: number | null, low: number | null, high: number | null) =>
   ({ value, low, high, count: 10 });
@@ -17,19 +18,6 @@ describe('a cell of the table', () => {
     expect(formatEstimate(SHARE, estimate(0.5, null, null))).toBe('50.0');
     expect(formatEstimate(SHARE, estimate(null, null, null))).toBe('–');
     expect(formatEstimate(SHARE, undefined)).toBe('–');
-  });
-  it('is marked where intervals lie apart', () => {
-    expect(liesApart(SHARE, estimate(1, 0.9, 1.1), estimate(2, 1.2, 2.8))).toBe(true);
-    expect(liesApart(SHARE, estimate(1, 0.9, 1.3), estimate(2, 1.2, 2.8))).toBe(false);
-    expect(liesApart(SHARE, estimate(1, null, null), estimate(2, 1.2, 2.8))).toBe(false);
-  });
-  it('is not marked beside one that prints the same', () => {
-    const [low, high, below] = [1e-5, 3e-5, -2e-5].map((x) => estimate(x, x - 1e-6, x + 1e-6));
-    expect([low, high, below].map((shown) => formatEstimate(SHARE, shown)))
-      .toEqual(['0.0 ± 0.0', '0.0 ± 0.0', '0.0 ± 0.0']);
-    expect(liesApart(SHARE, low, high)).toBe(false);
-    expect(liesApart(SHARE, low, below)).toBe(false);
-    expect(liesApart({ ...SHARE, decimals: 3 }, low, high)).toBe(true);
   });
 });
 

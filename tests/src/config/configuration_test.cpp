@@ -236,6 +236,10 @@ TEST(Configuration, ValuesThatCannotGoTogetherAreRefused) {
   EXPECT_NE(refused({"checkpoint.interval_s=0"}), "");
   EXPECT_THAT(refused({"env.mission.training_time_limit_s=40"}),
               HasSubstr("0 without env.mission.training_length_s"));
+  EXPECT_THAT(
+      refused({"ppo.learning_rate_decay=exponential", "ppo.final_learning_rate_fraction=0"}),
+      HasSubstr("ppo.final_learning_rate_fraction = 0, which an exponential"));
+  EXPECT_EQ(refused({"ppo.learning_rate_decay=linear", "ppo.final_learning_rate_fraction=0"}), "");
   EXPECT_THAT(refused({"ppo.time_limit_ramp=0.5"}),
               HasSubstr("needs env.mission.training_time_limit_s"));
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -81,6 +82,49 @@ TEST(QuantitiesOf, TheTimeToATargetIsUntilItsTolerancesWereEnteredThatWereHeld) 
   const Episode missed = Flight(Termination::kTimeLimit, 1);
   EXPECT_NEAR(EstimateOf("time_to_target_s", dwelt, {reached, missed}).value, 10, kRounding);
   EXPECT_NEAR(EstimateOf("time_held_s", dwelt, {reached, missed}).value, 13, kRounding);
+}
+
+TEST(QuantitiesOf, PeaksAreMeansAndTheWorstOfThoseThatHaveThem) {
+  std::vector<Episode> flights(4, Flight(Termination::kTimeLimit, 1));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::array<float, 3> highest = {3, 7, 5}, lowest = {0.5f, 1, -1.5f};
+    flights[i].metrics[kPeakLoadFactor] = highest[i];
+    flights[i].metrics[kLowestLoadFactor] = lowest[i];
+    flights[i].metrics[kPeakAlpha] = -highest[i];
+  }
+  flights[3].termination = Termination::kNonFinite;
+  flights[3].metrics.fill(std::nanf(""));
+  const auto estimate = [&](const char* key) { return EstimateOf(key, EnvConfig(), flights); };
+  EXPECT_NEAR(estimate("peak_load_factor_g").value, 5, kRounding);
+  EXPECT_EQ(estimate("peak_load_factor_g").count, 3);
+  EXPECT_EQ(estimate("peak_load_factor_g_worst").value, 7);
+  EXPECT_EQ(estimate("peak_load_factor_g_worst").count, 3);
+  EXPECT_TRUE(std::isnan(estimate("peak_load_factor_g_worst").low)) << "no interval";
+  EXPECT_NEAR(estimate("lowest_load_factor_g").value, 0, kRounding);
+  EXPECT_EQ(estimate("lowest_load_factor_g_worst").value, -1.5) << "the lowest of all";
+  EXPECT_EQ(estimate("peak_alpha_deg_worst").value, -3) << "the highest, though below 0";
+  flights.erase(flights.begin(), flights.begin() + 3);
+  EXPECT_TRUE(std::isnan(estimate("peak_load_factor_g_worst").value)) << "nobody has one";
+  EXPECT_EQ(estimate("peak_load_factor_g_worst").count, 0);
+}
+
+TEST(QuantitiesOf, PeaksStandBehindAllOtherColumnsWhateverIsFlown) {
+  EnvConfig held;
+  held.hold_s = 30;
+  for (const EnvConfig& env : {EnvConfig(), held, Missions()}) {
+    const std::vector<Quantity> quantities = QuantitiesOf(env);
+    const auto is_peak = [](const Quantity& quantity) {
+      return quantity.section == QuantitySection::kPeaks;
+    };
+    const auto first = std::find_if(quantities.begin(), quantities.end(), is_peak);
+    EXPECT_EQ(quantities.end() - first, 2 * (kNumFlightMetrics - kFirstPeak));
+    EXPECT_TRUE(std::all_of(first, quantities.end(), is_peak));
+    // Each is followed by the worst flight's.
+    for (auto mean = first; mean != quantities.end(); mean += 2) {
+      EXPECT_EQ((mean + 1)->key, mean->key + "_worst");
+      EXPECT_EQ(mean->statistic, Statistic::kMean);
+    }
+  }
 }
 
 TEST(QuantitiesOf, MissionsOfTrainingAreNotThoseOfEvaluations) {

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
+#include "tests/envs/plant/drawn_plants.h"
 #include "tests/envs/test_policy.h"
 #include "tests/error_message.h"
 #include "tests/file_bytes.h"
@@ -150,6 +152,33 @@ TEST_F(HighLevelTrainingTest, EveryBitIsTheSameForAnyNumberOfThreads) {
     if (first == 0) first = trainer.Signature();
     EXPECT_EQ(trainer.Signature(), first) << threads << " threads";
   }
+}
+
+TEST_F(HighLevelTrainingTest, OverDrawnPlantsTooAndForAnyTiles) {
+  TrainConfig config = SmallHighLevelConfig();
+  config.env.plant = DrawnPlants();
+  EvaluationOptions options;
+  options.episodes = 300;  // more than a tile
+  std::uint64_t first = 0;
+  double first_return = 0;
+  for (const auto& [threads, tile] : {std::pair{1, 32}, {3, 32}, {1, 96}, {5, 64}}) {
+    WorkerPool pool(threads);
+    config.learner.rollout_tile = tile;
+    Trainer trainer(config, pool);
+    while (!trainer.finished()) trainer.Iterate();
+    const double mean_return =
+        Evaluate(Agent::MeanOf(trainer.policy()), config.env, options, pool).return_mean;
+    if (first == 0) {
+      first = trainer.Signature();
+      first_return = mean_return;
+    }
+    EXPECT_EQ(trainer.Signature(), first) << threads << " threads, tiles of " << tile;
+    EXPECT_EQ(mean_return, first_return) << threads << " threads, tiles of " << tile;
+  }
+  WorkerPool pool(2);
+  Trainer nominal(SmallHighLevelConfig(), pool);
+  while (!nominal.finished()) nominal.Iterate();
+  EXPECT_NE(nominal.Signature(), first) << "plants are drawn";
 }
 
 TEST_F(HighLevelTrainingTest, DependsOnTheLowLevelPolicy) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "tests/error_message.h"
 #include "tests/file_bytes.h"
@@ -16,6 +18,7 @@
 #include "train/files/tensor_access.h"
 #include "train/ppo/ppo_update.h"
 #include "train/ppo/trainer.h"
+#include "train/ppo/training_state.h"
 
 namespace skein {
 namespace {
@@ -205,6 +208,38 @@ INSTANTIATE_TEST_SUITE_P(Columns, ALossThatIsNotFinite,
                          testing::Values(std::pair{"actor", &Rollout::log_prob},
                                          std::pair{"critic", &Rollout::target}),
                          [](const auto& param) { return std::string(param.param.first) + "s"; });
+
+TEST_F(TrainerRanksTest, WhatOneRankAloneMeetsStopsAllAndLeavesTheStateOfBefore) {
+  constexpr int kAircraft = 50;  // of 96: rank 2 of 4 flies it, in its first shard, the ninth of 16
+  TrainConfig config = Sharded(SmallConfig());
+  config.evaluation.interval_iterations = 0;
+  config.env.truncate_at_time_limit = true;  // rewards then hold values
+  const std::string whole = scratch_ / "whole", forged_path = scratch_ / "forged";
+  WorkerPool pool(1);
+  Trainer trained(config, pool);
+  trained.Iterate();
+  trained.Save(whole);
+  const NetworkLayout actor(ActorShape(config.network, 22, 4)),
+      critic(CriticShape(config.network, 22));
+  for (const auto& [network, states] :
+       {std::pair{"actor", &RecurrentState::actor}, {"critic", &RecurrentState::critic}}) {
+    // Forged: a state that is no number spoils what its aircraft alone adds.
+    TrainingState forged =
+        LoadCheckpoint(TensorFile::Read(whole), whole, trained.config(), actor, critic);
+    (forged.recurrent.*states)[kAircraft * config.network.gru_size + 3] = std::nanf("");
+    StoreCheckpoint(trained.config(), actor, forged).Write(forged_path);
+    RunOnRanks(4, [&, network = network](Ranks& ranks) {
+      WorkerPool own(1);
+      Trainer trainer(config, own, ranks);
+      trainer.Restore(forged_path);
+      const std::uint64_t before = trainer.Signature();
+      const std::string message = MessageOf([&] { trainer.Iterate(); });
+      EXPECT_THAT(message, HasSubstr(std::string("the ") + network + "'s training exploded"));
+      EXPECT_THAT(message, HasSubstr("first in shard 8 on rank 2"));
+      EXPECT_EQ(trainer.Signature(), before) << ranks.Describe(ranks.rank());
+    });
+  }
+}
 
 }  // namespace
 }  // namespace skein

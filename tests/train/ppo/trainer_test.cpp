@@ -394,6 +394,21 @@ TEST_F(TrainerTest, LearningRateFallsLinearlyToItsFraction) {
   EXPECT_TRUE(trainer.finished());
 }
 
+TEST_F(TrainerTest, ALearningRateThatHasFallenToZeroLeavesTheActorAsItIs) {
+  WorkerPool pool(2);
+  TrainConfig config = SmallConfig();
+  config.ppo.final_learning_rate_fraction = 0;
+  Trainer trainer(config, pool);
+  std::vector<float> before;
+  IterationReport last;
+  while (!trainer.finished()) {
+    before = trainer.policy().parameters()->values;
+    last = trainer.Iterate();
+    EXPECT_EQ(trainer.policy().parameters()->values == before, trainer.finished());
+  }
+  EXPECT_EQ(last.learning_rate, 0);
+}
+
 TEST_F(TrainerTest, LearningRateFollowsTheDivergenceBelowTheLine) {
   WorkerPool pool(1);
   TrainConfig config = SmallConfig();

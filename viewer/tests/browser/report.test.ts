@@ -162,6 +162,78 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     await page.close();
   });
 
+  it('shows the same control steps in all charts of a training, enlarged too', async () => {
+    const { page, errors } = await open(browser, `${plain}#training`);
+    /** Where in each chart the one x lies that the pointer is at. */
+    const places = () => page.evaluate(() => [...document.querySelectorAll('.chart')].map((chart) => {
+      const line = chart.querySelector<HTMLElement>('.u-cursor-x') as HTMLElement;
+      const { width } = (chart.querySelector('.u-over') as Element).getBoundingClientRect();
+      return new DOMMatrix(line.style.transform).e / width;
+    }));
+    const box = async (k: number) => {
+      const over = page.locator('.chart .u-over').nth(k);
+      await over.scrollIntoViewIfNeeded();
+      return await over.boundingBox() as { x: number; y: number; width: number; height: number };
+    };
+    const point = async (k: number, share: number) => {
+      const { x, y, width, height } = await box(k);
+      await page.mouse.move(x + share * width, y + height / 2);
+    };
+    /** The pointer's place is rounded to pixels. */
+    const expectsAll = async (share: number) => expect.poll(async () =>
+      Math.max(...(await places()).map((place) => Math.abs(place - share))), PATIENCE)
+      .toBeLessThan(0.006);
+    const steps = () => page.locator('.chart .u-legend .u-value').first().textContent();
+    const holds = await page.locator('.chart').evaluateAll((charts) =>
+      charts.findIndex((chart) => chart.textContent?.startsWith('hold')));
+    await point(0, 0.5);
+    await expectsAll(0.5);
+    const middle = await steps();
+    // Where the chart of the hold, which begins later, has nothing.
+    await point(0, 0.02);
+    await page.mouse.down();
+    await point(0, 0.12);
+    await page.mouse.up();
+    await point(0, 0.8);
+    await expectsAll(0.8);
+    expect(await steps()).not.toBe(middle);
+    // What is enlarged stays, whatever is drawn anew.
+    const enlarged = await steps();
+    await page.locator('label', { hasText: 'smoothing' }).locator('input').fill('60');
+    await page.locator('label', { hasText: 'over seeds' }).locator('input').uncheck();
+    await point(0, 0.8);
+    await expectsAll(0.8);
+    expect(await steps()).toBe(enlarged);
+    const { x, y, width, height } = await box(holds);
+    await page.mouse.dblclick(x + width / 3, y + height / 2);
+    await point(0, 0.5);
+    await expectsAll(0.5);
+    expect(await steps()).toBe(middle);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('shows paired differences from the agent that is chosen', async () => {
+    const { page, errors } = await open(browser, `${plain}#metrics`);
+    const row = (name: string) => page.locator('table.metrics tr', { hasText: name })
+      .locator('td').allTextContents();
+    const bold = () => page.locator('td.better').allTextContents();
+    expect(await row('success')).toEqual(['100.0 ± 6.0', '90.0 ± 6.0', '-10.0 ± 3.0', '95.0 ± 6.0',
+      '-5.0 ± 3.0']);
+    expect(await bold()).toEqual([]);
+    expect(await page.textContent('main')).toContain('less that of seed in');
+    await page.locator('label', { hasText: 'differences from' }).locator('select')
+      .selectOption('1');
+    expect(await row('success')).toEqual(['100.0 ± 6.0', '+10.0 ± 3.0', '90.0 ± 6.0', '95.0 ± 6.0',
+      '+5.0 ± 3.0']);
+    expect(await row('Mach')).toEqual(['0.8 ± 0.0', '-0.1 ± 0.0', '0.9 ± 0.0', '1.0 ± 0.0',
+      '+0.1 ± 0.0']);
+    expect(await bold()).toEqual(['100.0 ± 6.0', '95.0 ± 6.0', '15.0 ± 2.0', '19.0 ± 2.0']);
+    expect(await page.textContent('main')).toContain('less that of autopilot:aggressive in');
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
   it('keeps the time in the charts that it shows a part of', async () => {
     const { page } = await open(browser, plain);
     await page.locator('label', { hasText: 'charts show' }).locator('select').selectOption('2');
