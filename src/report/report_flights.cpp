@@ -39,14 +39,16 @@ Json TargetsJson(const std::vector<TargetQuantity>& quantities) {
   return targets;
 }
 
-/// Every `stride`th value.
+/// Every `stride`th value, and the last one, at which the flight ended.
 std::vector<double> Thinned(const std::vector<double>& values, std::size_t stride) {
   std::vector<double> thinned;
-  for (std::size_t row = 0; row < values.size(); row += stride) thinned.push_back(values[row]);
+  for (std::size_t row = 0; row + 1 < values.size(); row += stride) thinned.push_back(values[row]);
+  thinned.push_back(values.back());
   return thinned;
 }
 
-/// How finely flights are shown: each row of `stride`, and their columns to so many levels.
+/// How finely flights are shown: each row of `stride` and the last, and their columns to so many
+/// levels.
 struct Fineness {
   std::size_t stride = 1;
   int levels = DataPack::kMostLevels;

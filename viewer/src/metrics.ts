@@ -2,7 +2,10 @@
 // The table of metrics: policies beside the autopilots, on the same episodes.
 import { choice, el, tick } from './dom';
 import { differenceOf, isBetter, referencesOf, sideOfZero } from './paired';
-import type { Comparison, Estimate, Quantity, ReportPack } from './report';
+import {
+  areOfMissions, type ComparedAgent, type Comparison, type Estimate, nameOfEnd, type Quantity,
+  type ReportPack,
+} from './report';
 
 function number(quantity: Quantity, value: number): string {
   const text = (value * quantity.shown_per_unit).toFixed(quantity.decimals);
@@ -43,6 +46,12 @@ export function nameOf(quantity: Quantity): string {
   if (!quantity.symbol) return quantity.label;
   return quantity.section ? `${quantity.label} (${quantity.symbol})`
     : `${quantity.symbol}  ${quantity.label}`;
+}
+
+/** "target reached 98, time limit 2". */
+export function endsOf({ terminations }: ComparedAgent, isMission: boolean): string {
+  return Object.entries(terminations).filter(([, count]) => count > 0)
+    .map(([end, count]) => `${nameOfEnd(end, isMission)} ${count}`).join(', ');
 }
 
 function betterSide({ better }: Quantity): HTMLElement | null {
@@ -120,11 +129,9 @@ class MetricsTable {
   }
 
   private endsRow(): HTMLTableRowElement {
-    const cells = this.comparison.agents.map((agent, i) => {
-      const ends = Object.entries(agent.terminations).filter(([, count]) => count > 0);
-      return el('td', { colspan: this.columnsOf(i) },
-        ends.map(([name, n]) => `${name.replace(/_/g, ' ')} ${n}`).join(', '));
-    });
+    const isMission = areOfMissions(this.comparison.conditions);
+    const cells = this.comparison.agents.map((agent, i) =>
+      el('td', { colspan: this.columnsOf(i) }, endsOf(agent, isMission)));
     return el('tr', { class: 'ends' }, el('th', { scope: 'row' }, 'ended by'), ...cells);
   }
 }

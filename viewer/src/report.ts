@@ -92,7 +92,7 @@ export interface Flight {
   /** When a mission's further targets came, and when targets counted as reached. */
   new_target_s: number[];
   reached_s: number[];
-  /** Between rows. */
+  /** Between rows; the last one, at `duration_s`, may come sooner. */
   interval_s: number;
   columns: Columns;
 }
@@ -110,11 +110,24 @@ export interface FlightSet {
   flights: Flight[];
 }
 
+/** Whether conditions (DescribeEvaluation in src/config/conditions.cpp) are those of missions. */
+export function areOfMissions(conditions: string): boolean {
+  return /; missions of /.test(conditions);
+}
+
 /** Whether targets come one after another. Of missions that never came to a second target only the
- * conditions say it (DescribeEvaluation in src/config/conditions.cpp). */
+ * conditions say it. */
 export function isOfMissions(set: FlightSet): boolean {
-  return /; missions of /.test(set.conditions)
+  return areOfMissions(set.conditions)
     || set.flights.some((flight) => flight.new_target_s.length > 0);
+}
+
+export const MISSION_FLOWN = 'mission flown';
+
+/** "low_speed" is "low speed". What ends a mission by its time is its length: no target is missed
+ * by it. */
+export function nameOfEnd(end: string, isMission: boolean): string {
+  return isMission && end === 'time_limit' ? MISSION_FLOWN : end.replace(/_/g, ' ');
 }
 
 export interface ReportDocument {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import { isSpecial } from '../src/configuration';
-import { formatEstimate, nameOf } from '../src/metrics';
-import type { Quantity } from '../src/report';
+import { endsOf, formatEstimate, nameOf } from '../src/metrics';
+import { areOfMissions, type ComparedAgent, type Quantity } from '../src/report';
 
 const SHARE: Quantity = {
   key: 'success_rate', symbol: '', label: 'success, %', section: '', shown_per_unit: 100,
@@ -33,4 +33,12 @@ it('settings are shown that differ from the preset or between runs', () => {
   expect(isSpecial([same, { ...same, value: '2' }])).toBe(true);
   expect(isSpecial([{ ...same, preset: '3' }])).toBe(true);
   expect(isSpecial([same, undefined])).toBe(true);
+});
+
+it('missions that were flown to their end are not called by the time limit', () => {
+  const agent = { terminations: { low_altitude: 1, target_reached: 0, time_limit: 2 } } as
+    unknown as ComparedAgent;
+  const conditions = 'f16 from 19000 to 20000 ft; still air; missions of 3 min';
+  expect(endsOf(agent, areOfMissions(conditions))).toBe('low altitude 1, mission flown 2');
+  expect(endsOf(agent, areOfMissions('f16; still air'))).toBe('low altitude 1, time limit 2');
 });

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Vector3 } from 'three';
+import { type LineSegments, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
+import { Goal } from '../src/flights/goal';
 import { readingsOf } from '../src/flights/pane';
 import { type FlightRecord, Pose, recordsOf } from '../src/flights/record';
 import { csvOf } from '../src/flights/save';
 import { dataOf, stripsOf } from '../src/flights/strip_list';
+import { Trails } from '../src/flights/trails';
 import type { ArrayReference } from '../src/pack';
 import type { FlightSet, ReportPack } from '../src/report';
 
@@ -84,6 +86,70 @@ describe('a record', () => {
     expect(record(STRAIGHT, {}, missions).end).toBe('mission flown');
     expect(record(STRAIGHT, { end: 'low_altitude', reached_s: [2] }, missions).outcome())
       .toBe('low altitude at 3.0 s');
+  });
+});
+
+/** Every third row of so many steps of a second, and the last one (FlightsJson of Skein); the
+ * aircraft flies 100 ft north in each, to the target that `target` says of a step. */
+function thinned(steps: number, target: (step: number) => number, more: object = {}): FlightRecord {
+  const kept = Array.from({ length: steps + 1 }, (_, row) => row)
+    .filter((row) => row % 3 === 0 || row === steps);
+  const all = (value: number) => kept.map(() => value);
+  return record({
+    north_ft: kept.map((row) => 100 * row), east_ft: all(0), altitude_ft: all(5), roll_deg: all(0),
+    pitch_deg: all(0), yaw_deg: all(0), target_north_ft: kept.map(target), target_east_ft: all(0),
+    target_altitude_ft: all(5), error_north_ft: kept.map((row) => target(row) - 100 * row),
+    reward: kept,
+  }, { interval_s: 3, duration_s: steps, ...more });
+}
+
+describe('a record that leaves rows out', () => {
+  const targets = ['north_ft', 'east_ft', 'altitude_ft'].map((column) =>
+    ({ column, is_angle: false, tolerance: 100 }));
+  const norths = (flown: FlightRecord) => new Goal(flown, targets, true, '#0072b2').places()
+    .map((point) => -point.z);
+
+  it('changes targets when they came, between two rows, too', () => {
+    const flown = thinned(11, (step) => [100, 200, 300][Number(step > 4) + Number(step > 8)],
+      { new_target_s: [4, 8] });
+    const read = (times: number[]) => times.map((time) => flown.drawn('target_north_ft', time));
+    expect(read([0, 3, 3.5, 4, 4.01, 6, 7])).toEqual([100, 100, 100, 100, 200, 200, 200]);
+    expect(read([8, 8.01, 9, 10, 11])).toEqual([200, 300, 300, 300, 300]);
+    expect(norths(flown)).toEqual([100, 200, 300]);
+    // Errors are linear, but where a target came.
+    expect([0, 1.5, 3, 4, 4.01, 6].map((time) => flown.value('error_north_ft', time)))
+      .toEqual([100, -50, -200, -200, -400, -400]);
+  });
+  it('changes them between the last two rows, and in a row', () => {
+    const flown = thinned(11, (step) => [100, 200, 300][Number(step > 6) + Number(step > 10)],
+      { new_target_s: [6, 10] });
+    expect([6, 6.01, 10, 10.01].map((time) => flown.drawn('target_north_ft', time)))
+      .toEqual([100, 200, 200, 300]);
+    expect(norths(flown)).toEqual([100, 200, 300]);
+  });
+  it('draws no other target for one that no row knows', () => {
+    const flown = thinned(11, (step) => [100, 200, 300][Number(step > 4) + Number(step > 5)],
+      { new_target_s: [4, 5] });
+    expect(norths(flown)).toEqual([100, 300]);
+    expect([4, 5.01].map((time) => flown.drawn('target_north_ft', time))).toEqual([100, 300]);
+  });
+  it('ends where it ended', () => {
+    const flown = thinned(11, () => 100);
+    const north = (time: number) => -flown.place(time, new Vector3()).z;
+    expect([8, 9, 9.5, 10, 11, 12].map(north)).toEqual([800, 900, 950, 1000, 1100, 1100]);
+    expect(flown.value('reward', 11)).toBe(11);
+    expect(Array.from({ length: flown.rows }, (_, row) => flown.timeOf(row)))
+      .toEqual([0, 3, 6, 9, 11]);
+  });
+  it('is saved, charted and drawn with the time of its end', () => {
+    const flown = thinned(11, () => 100);
+    expect(csvOf([flown], ['a']).trimEnd().split('\r\n').at(-1)?.split(',').slice(2, 4))
+      .toEqual(['11', '1100']);
+    const [line] = new Trails([flown], ['#0072b2']).group.children.slice(-1) as LineSegments[];
+    expect(Array.from(line.geometry.getAttribute('time').array).at(-1)).toBe(11);
+    const strip = { title: '', columns: ['reward'], isOn: true };
+    expect(dataOf([flown, thinned(14, () => 100)], strip)).toEqual([[0, 3, 6, 9, 11, 12, 14],
+      [0, 3, 6, 9, 11, null, null], [0, 3, 6, 9, 11, 12, 14]]);
   });
 });
 

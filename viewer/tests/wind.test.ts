@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import type { FlightRecord } from '../src/flights/record';
-import { steadyWind } from '../src/flights/wind';
+import { commonWind, steadyWind } from '../src/flights/wind';
 
 /** A flight in wind of these columns, ft/s; the air of others rests. */
-function flown(columns: Record<string, number[]>): FlightRecord {
+function flown(columns: Record<string, number[]>, episode = 0): FlightRecord {
   return {
+    episode,
     column: (name: string) => Float32Array.from(columns[name] ?? [0, 0, 0, 0]),
   } as unknown as FlightRecord;
 }
@@ -30,5 +31,23 @@ describe('the wind of a flight', () => {
     expect(steadyWind(flown({ wind_east_fps: [2, 2, 2, 2] }))).toBeNull();
     expect(steadyWind(flown({}))).toBeNull();
     expect(steadyWind(flown({ wind_north_fps: [NaN], wind_east_fps: [NaN] }))).toBeNull();
+  });
+});
+
+describe('the wind of some flights', () => {
+  const north = (speed: number, episode: number) =>
+    flown({ wind_north_fps: [speed, speed + 1, speed - 1, speed] }, episode);
+
+  it('is that of their episode', () => {
+    expect(commonWind([north(30, 4), north(30, 4)])?.toArray()).toEqual([0, 0, -30]);
+    expect(commonWind([flown({})])).toBeNull();
+  });
+  it('is none where episodes have others', () => {
+    expect(commonWind([north(30, 0), north(30, 0), north(-30, 1)])).toBeNull();
+    expect(commonWind([north(30, 0), flown({}, 1)])).toBeNull();
+    expect(commonWind([flown({}), north(30, 1)])).toBeNull();
+  });
+  it('is the one that all episodes have', () => {
+    expect(commonWind([north(30, 0), north(31, 1), north(29, 2)])?.toArray()).toEqual([0, 0, -30]);
   });
 });

@@ -54,6 +54,20 @@ TEST(ReportFlightsTest, ManyFlightsShareTheRowsOfAPageAndSayWhenTheyEnd) {
   EXPECT_DOUBLE_EQ(flight["duration_s"].get<double>(), 99 * kStep_s);
 }
 
+TEST(ReportFlightsTest, AFlightThatLeavesRowsOutKeepsTheOneThatEndedIt) {
+  AgentFlights flown = Flown(30, 100);
+  constexpr float kLast_ft = 900;
+  for (RecordedFlight& flight : flown.flights) {
+    flight.steps.back().state[static_cast<std::size_t>(kNorth)] = kLast_ft;
+  }
+  const auto flight = First(flown, 1100);
+  EXPECT_DOUBLE_EQ(flight["interval_s"].get<double>(), 3 * kStep_s);
+  EXPECT_EQ(RowsOf(flight), 35u);  // every third, to 99, and 100
+  // Its one value that differs stretches the column's levels.
+  const auto& north = flight["columns"]["north_ft"];
+  EXPECT_NEAR(north["unit"].get<double>() * DataPack::kMostLevels, kLast_ft, 1e-6 * kLast_ft);
+}
+
 TEST(ReportFlightsTest, ALongFlightLeavesRowsOutByItself) {
   EXPECT_LE(RowsOf(First(Flown(1, 30000), 1000000)), 4001u);
 }

@@ -129,10 +129,12 @@ export class Goal {
       out);
   }
 
-  /** All points of a mission, of an episode its only one. */
+  /** All points of a mission that its rows know, of an episode its only one. */
   private allPoints(): Vector3[] {
     return Array.from({ length: this.record.newTargets.length + 1 }, (_, i) =>
-      this.targetPoint(this.record.targetTimes(i)[1]));
+      this.record.lastRowTime(i))
+      .filter((time) => time !== null)
+      .map((time) => this.targetPoint(time));
   }
 
   private addBox(): void {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A flight that was recorded, read at any time.
-import { type Flight, type FlightSet, isOfMissions, type ReportPack } from '../report';
+import {
+  type Flight, type FlightSet, isOfMissions, MISSION_FLOWN, nameOfEnd, type ReportPack,
+} from '../report';
 import { attitude, mixedAngle, place } from './frames';
 import { Quaternion, Vector3 } from 'three';
 
@@ -23,10 +25,16 @@ export class Pose {
   readonly surfaces: Surfaces = { elevator: 0, aileron: 0, rudder: 0, leadingEdgeFlap: 0 };
 }
 
-const MISSION_FLOWN = 'mission flown';
+/** What jumps when a target comes. */
+const OF_TARGET = /^(target|error)_/;
 
-/** Rows that are reached but for a rounding error are reached. */
+/** Rows, and times in s, that are reached but for a rounding error are reached. */
 const ROUNDING = 1e-6;
+
+/** A time in s without its rounding error: equal to that of the same row of another flight. */
+export function rounded(time: number): number {
+  return Number(time.toFixed(6));
+}
 
 /** The same values; for one that is not there the one before, for the first ones the next. */
 function filled(values: Float32Array): Float32Array {
@@ -44,6 +52,7 @@ function mixed(values: Float32Array, left: number, right: number, share: number)
 
 export class FlightRecord {
   readonly rows: number;
+  /** Between rows, s; the last one, at the flight's end, may come sooner. */
   readonly interval: number;
   /** To its end, s. */
   readonly duration: number;
@@ -67,9 +76,7 @@ export class FlightRecord {
   constructor(flight: Flight, pack: ReportPack, private readonly isMission: boolean) {
     this.agent = flight.agent;
     this.episode = flight.episode;
-    // What ends a mission by its time is its length: no target is missed by it.
-    this.end = isMission && flight.end === 'time_limit' ? MISSION_FLOWN
-      : flight.end.replace(/_/g, ' ');
+    this.end = nameOfEnd(flight.end, isMission);
     this.result = flight.return;
     this.interval = flight.interval_s;
     this.newTargets = flight.new_target_s;
@@ -91,7 +98,7 @@ export class FlightRecord {
     const [reached] = this.reached;
     const flown = `${this.duration.toFixed(1)} s`;
     if (this.end === MISSION_FLOWN) return `${this.end}, ${flown}`;
-    const isEarlier = !this.isMission && reached < this.duration - 1e-6;
+    const isEarlier = !this.isMission && reached < this.duration - ROUNDING;
     if (!isEarlier) return `${this.end} at ${flown}`;
     const end = this.end === 'target reached' ? 'flown for' : `${this.end} at`;
     return `target reached at ${reached.toFixed(1)} s, ${end} ${flown}`;
@@ -127,10 +134,25 @@ export class FlightRecord {
     return values;
   }
 
+  /** When a row is, s. */
+  timeOf(row: number): number {
+    return row < this.rows - 1 ? row * this.interval : this.duration;
+  }
+
   /** The row of a time, with its fraction; the first or the last outside. */
   private rowAt(time: number): number {
-    const row = Math.min(Math.max(time / this.interval, 0), this.rows - 1);
-    return Math.abs(row - Math.round(row)) < ROUNDING ? Math.round(row) : row;
+    const before = Math.max(this.rows - 2, 0);
+    const from = this.timeOf(before);
+    const row = time > from ? before + (time - from) / (this.duration - from)
+      : time / this.interval;
+    const inside = Math.min(Math.max(row, 0), this.rows - 1);
+    return Math.abs(inside - Math.round(inside)) < ROUNDING ? Math.round(inside) : inside;
+  }
+
+  /** When the last target came between two rows, if one did: long flights leave rows out. */
+  private targetBetween(left: number, right: number): number | undefined {
+    const [from, to] = [this.timeOf(left), this.timeOf(right) - ROUNDING];
+    return this.newTargets.filter((time) => time > from && time < to).at(-1);
   }
 
   /** A column at a time, s: linear between rows, but for what is held during a step. NaN in a gap;
@@ -147,10 +169,11 @@ export class FlightRecord {
   private read(values: Float32Array | undefined, name: string, time: number): number {
     if (!values || values.length === 0) return 0;
     const row = this.rowAt(time);
-    if (HELD.test(name)) return values[Math.ceil(row)];
-    const left = Math.floor(row);
-    if (row === left) return values[left];
-    const right = Math.min(left + 1, values.length - 1);
+    const [left, right] = [Math.floor(row), Math.ceil(row)];
+    if (left === right) return values[left];
+    const came = OF_TARGET.test(name) ? this.targetBetween(left, right) : undefined;
+    if (came !== undefined) return values[time <= came ? left : right];
+    if (HELD.test(name)) return values[right];
     if (ANGLES.has(name)) return mixedAngle(values[left], values[right], row - left);
     return mixed(values, left, right, row - left);
   }
@@ -197,10 +220,18 @@ export class FlightRecord {
     return [target > 0 ? this.newTargets[target - 1] : 0, this.newTargets[target] ?? this.duration];
   }
 
+  /** When the last row is in which the n-th target is flown to, s; null where it came and went
+   * between two rows. */
+  lastRowTime(target: number): number | null {
+    const [from, to] = this.targetTimes(target);
+    const time = this.timeOf(Math.floor(this.rowAt(to)));
+    return target === 0 || time > from + ROUNDING ? time : null;
+  }
+
   /** Whether the n-th target counted as reached by `time`. */
   isReached(target: number, time: number): boolean {
     const [from, to] = this.targetTimes(target);
-    return this.reached.some((at) => at > from && at <= to + 1e-6 && at <= time);
+    return this.reached.some((at) => at > from && at <= to + ROUNDING && at <= time);
   }
 }
 

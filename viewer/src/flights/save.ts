@@ -2,7 +2,7 @@
 // What is in view as files: flights as a table, the view and its charts as one picture.
 import { el } from '../dom';
 import { styleColour } from '../palette';
-import type { FlightRecord } from './record';
+import { type FlightRecord, rounded } from './record';
 
 /** Hands a file to the browser's downloads. */
 export function download(name: string, content: Blob): void {
@@ -26,8 +26,7 @@ export function csvOf(records: FlightRecord[], agents: string[]): string {
     const columns = names.map((name) => (record.has(name) ? record.column(name) : null));
     for (let row = 0; row < record.rows; row += 1) {
       const cells = columns.map((column) => (column ? cellOf(column[row]) : ''));
-      lines.push([quoted, record.episode, Number((row * record.interval).toFixed(6)), ...cells]
-        .join(','));
+      lines.push([quoted, record.episode, rounded(record.timeOf(row)), ...cells].join(','));
     }
   }
   return `${lines.join('\r\n')}\r\n`;

@@ -15,7 +15,7 @@ import { type Ground, makeGround, windArrow } from './ground';
 import { Ladder } from './ladder';
 import { type FlightRecord, Pose } from './record';
 import { type Colouring, Trails } from './trails';
-import { steadyWind } from './wind';
+import { commonWind } from './wind';
 
 /** An aircraft is drawn at least so large, as a share of its distance; of many smaller. */
 const LEAST_SIZE = 0.03;
@@ -62,7 +62,7 @@ export class FlightScene {
     const sun = new DirectionalLight('#ffffff', 2.2);
     sun.position.set(0.5, 1, 0.3);
     this.scene.add(sun);
-    const wind = steadyWind(records[0]);
+    const wind = commonWind(records);
     if (wind) this.scene.add(windArrow(wind, this.ground, box, styleColour('--target')));
     this.cameras = new Cameras(element, [way[0], ...this.goals.flatMap((g) => g.places()), ...way],
       this.size);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which strip charts a set of flights has: what an engineer reads.
 import type { FlightSet } from '../report';
-import type { Series } from '../series';
-import type { FlightRecord } from './record';
+import { type Series, union } from '../series';
+import { type FlightRecord, rounded } from './record';
 
 export interface Strip {
   title: string;
@@ -30,14 +30,16 @@ export function isCommand(column: string): boolean {
   return /^(action|command|target)_/.test(column);
 }
 
-/** The columns over one time axis, that of the longest flight, which is the first of the arrays. */
+/** The columns over one time axis, which is the first of the arrays: the rows of the longest
+ * flight, and the ends of all. */
 export function dataOf(records: FlightRecord[], strip: Strip): [xs: number[], ...lines: Series[]] {
   const longest = records.reduce((a, b) => (a.duration > b.duration ? a : b));
-  const xs = Array.from({ length: longest.rows }, (_, i) => i * longest.interval);
+  const rows = Array.from({ length: longest.rows }, (_, row) => rounded(longest.timeOf(row)));
+  const xs = union([rows, records.map((record) => rounded(record.duration))]);
   const lines = records.flatMap((record) => strip.columns.map((column) => {
     const isThere = record.has(column);
     return xs.map((x) => {
-      const value = isThere && x <= record.duration ? record.value(column, x) : NaN;
+      const value = isThere && x <= rounded(record.duration) ? record.value(column, x) : NaN;
       return Number.isFinite(value) ? value : null;
     });
   }));

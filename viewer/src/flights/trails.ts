@@ -83,7 +83,7 @@ export class Trails {
     const [at, right, attitude] = [new Vector3(), new Vector3(), new Quaternion()];
     let vertex = 0;
     records.forEach((record, i) => this.rows[i].forEach((row, k) => {
-      const time = row * record.interval;
+      const time = record.timeOf(row);
       record.place(time, at);
       right.set(1, 0, 0).applyQuaternion(record.attitude(time, attitude));
       for (const side of [-1, 1]) {

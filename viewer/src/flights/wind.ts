@@ -3,7 +3,7 @@
 import { Vector3 } from 'three';
 import type { FlightRecord } from './record';
 
-/** A wind that is weaker is not drawn, ft/s. */
+/** A wind that is weaker is not drawn, nor is a difference that is smaller one, ft/s. */
 const LEAST_WIND_FPS = 3;
 
 /** Mean and variance of the numbers of a column. */
@@ -25,4 +25,14 @@ export function steadyWind(record: FlightRecord): Vector3 | null {
   const gusts = Math.sqrt(north.variance + east.variance);
   const wind = new Vector3(east.mean, 0, -north.mean);
   return wind.length() < Math.max(LEAST_WIND_FPS, gusts) ? null : wind;
+}
+
+/** The steady wind of some flights; null where it is not the same for all. */
+export function commonWind(records: FlightRecord[]): Vector3 | null {
+  const [first, ...others] = records;
+  const wind = steadyWind(first);
+  // Every episode draws its own; the agents that fly it all have that one.
+  const isCommon = others.every((record) => record.episode === first.episode
+    || (wind && (steadyWind(record)?.distanceTo(wind) ?? Infinity) < LEAST_WIND_FPS));
+  return isCommon ? wind : null;
 }

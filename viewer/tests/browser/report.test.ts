@@ -157,7 +157,12 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     const rough = await chart.screenshot();
     await slider.fill('100');
     expect(await difference(page, rough, await chart.screenshot())).toBeGreaterThan(0.0005);
-    expect(await page.locator('.chart', { hasText: 'hold' }).count()).toBe(1);
+    const hold = page.locator('.chart', { hasText: 'hold' });
+    expect(await hold.count()).toBe(1);
+    // Evaluations stay as they are.
+    const smooth = await hold.screenshot();
+    await slider.fill('0');
+    expect(await difference(page, smooth, await hold.screenshot())).toBe(0);
     expect(errors).toEqual([]);
     await page.close();
   });
