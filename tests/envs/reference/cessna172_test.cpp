@@ -54,6 +54,32 @@ TEST_F(Cessna172, PerformsAsItsHandbookSays) {
   EXPECT_NEAR(climb, 770, kClimb);
 }
 
+// By hand from the derivatives of its file, at sea level and 98 ft/s, 15 % above the stall: lift
+// and thrust carry the weight, drag is thrust, and the elevator holds the moment.
+TEST_F(Cessna172, TrimsNearItsStallAsItsDerivativesSay) {
+  constexpr Tolerance kAlpha{0.02, "deg, between the nodes of alpha and where lift begins to bend"};
+  constexpr Tolerance kElevator{0.02, "deg, by alpha"};
+  constexpr Tolerance kThrust{1, "lbf, drag between the nodes of alpha"};
+  constexpr double kWeight = 1043.3 / 14.59390294 * kGravityFtS2;
+  constexpr double kFeetPerMetre = 1 / 0.3048;
+  constexpr double kQbarS = 0.5 * 0.00237689 * 98 * 98 * 16.165 * kFeetPerMetre * kFeetPerMetre;
+  constexpr double kInduced = 1 / (3.14159265358979 * 0.8 * 10.912 * 10.912 / 16.165);
+  double alpha = 0, elevator = 0, thrust = 0;
+  for (int i = 0; i < 100; ++i) {
+    elevator = (-0.015 - 0.89 * alpha) / 1.28;
+    const double wing_lift = 0.31 + 5.143 * alpha;
+    thrust = kQbarS * (0.031 + kInduced * wing_lift * wing_lift) / std::cos(alpha);
+    const double lift = (kWeight - thrust * std::sin(alpha)) / kQbarS;
+    alpha = (lift - 0.31 - 0.43 * elevator) / 5.143;
+  }
+  TrimRequest request;
+  request.true_airspeed_ft_s = 98;
+  const TrimPoint trim = Trim(plant_, request);
+  EXPECT_NEAR(trim.alpha_rad * kDegPerRad, alpha * kDegPerRad, kAlpha);
+  EXPECT_NEAR(trim.controls.elevator_deg, elevator * kDegPerRad, kElevator);
+  EXPECT_NEAR(trim.controls.thrust_lbf, thrust, kThrust);
+}
+
 // Service ceiling, where it climbs 100 ft/min: 14,200 ft.
 TEST_F(Cessna172, StillClimbsAtItsCeiling) {
   const FlightEnvelope envelope = FindEnvelope(plant_, Limits(14200), 2, 12);

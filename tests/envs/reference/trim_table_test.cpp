@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "envs/aircraft/f16.h"
+#include "envs/aircraft/registry.h"
 #include "envs/reference/trim.h"
 #include "tests/tolerance.h"
 
@@ -81,6 +82,20 @@ TEST_F(TrimTableTest, TakesRangesOfOnePoint) {
   EXPECT_NEAR(row.At(15000, 700).alpha_rad, Exact(15000, 700).alpha_rad, kRounding);
   const TrimTable column(plant_, 10000, 15000, 500, 500);
   EXPECT_NEAR(column.At(10000, 500).alpha_rad, Exact(10000, 500).alpha_rad, kRounding);
+}
+
+// Slow starts, too, begin below the stall, which is at 15 degrees.
+TEST(TrimTableOfACessna, BeginsBelowTheStall) {
+  const Plant cessna(LoadAircraft("cessna172"), AtmosphereModel::kStandard1976);
+  for (const double fastest : {92.0, 98.0, 200.0}) {
+    const TrimTable table(cessna, 0, 0, 90, fastest);
+    double last = 15 / kDegPerRad;
+    for (double speed = 90; speed < fastest; speed += 1) {
+      const double alpha = table.At(0, speed).alpha_rad;
+      EXPECT_LT(alpha, last) << speed << " of 90 to " << fastest << " ft/s";
+      last = alpha;
+    }
+  }
 }
 
 TEST_F(TrimTableTest, RefusesWhatCannotBeFlownAndSaysWhere) {

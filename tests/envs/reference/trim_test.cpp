@@ -9,8 +9,10 @@
 
 #include "base/error.h"
 #include "envs/aircraft/engine.h"
+#include "envs/aircraft/registry.h"
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
+#include "envs/tuning/flight_envelope.h"
 #include "tests/envs/f16_at.h"
 #include "tests/error_message.h"
 #include "tests/tolerance.h"
@@ -169,6 +171,91 @@ TEST(Trim, StartingFromANeighbourGivesTheSameFlight) {
   const TrimPoint warm = Trim(plant, Level(21000, 600), neighbour);
   EXPECT_LT((direct.state - warm.state).norm(), kStateRounding);
   EXPECT_NEAR(direct.controls.thrust_lbf, warm.controls.thrust_lbf, kThrustRounding);
+}
+
+class TrimOfEveryAircraft : public ::testing::TestWithParam<std::string> {
+ protected:
+  double Stall() const {
+    const Airframe& airframe = plant_.aircraft().airframe;
+    const double lift = GreatestLiftAtSeaLevel().coefficient;
+    return std::sqrt(
+        2 * airframe.mass_slug * plant_.gravity().At(0) /
+        (AirAt(plant_.atmosphere(), 0).density_slug_ft3 * airframe.wing_area_ft2 * lift));
+  }
+
+  GreatestLift GreatestLiftAtSeaLevel() const {
+    return FindGreatestLift(plant_, 0, Fastest() / 2, 0.5);
+  }
+
+  double Fastest() const {
+    return plant_.aircraft().engine.mach.back() * AirAt(plant_.atmosphere(), 0).sound_speed_ft_s;
+  }
+
+  const Plant plant_{LoadAircraft(GetParam()), AtmosphereModel::kStandard1976};
+};
+
+// Faster level flight takes less lift, hence less alpha on the near side of the stall. Beyond it
+// alpha would rise with speed.
+TEST_P(TrimOfEveryAircraft, LessAlphaAtEveryFasterSpeed) {
+  constexpr double kSpeedStep = 2;
+  // The tail's load takes a part of the lift, and the Aerosonde's elevator ends at half above.
+  constexpr double kSlowestOverStall = 1.6;
+  const double stall = Stall(), stall_alpha = GreatestLiftAtSeaLevel().alpha_deg / kDegPerRad;
+  double slowest = 0, last = stall_alpha;
+  for (double speed = 1.02 * stall; speed < Fastest(); speed += kSpeedStep) {
+    SCOPED_TRACE(std::to_string(speed) + " ft/s");
+    const std::string failure = MessageOf([&] {
+      const double alpha = Trim(plant_, Level(0, speed)).alpha_rad;
+      if (slowest == 0) slowest = speed;
+      EXPECT_LT(alpha, last);
+      last = alpha;
+    });
+    // Flight has a slowest speed, and no gap above it.
+    EXPECT_TRUE(failure.empty() || slowest == 0) << failure;
+  }
+  EXPECT_GT(slowest, 0);
+  EXPECT_LT(slowest, kSlowestOverStall * stall);
+}
+
+// What climbs climbs, and what dives dives, or it is refused.
+TEST_P(TrimOfEveryAircraft, SteepFlightGoesWhereItWasAskedTo) {
+  constexpr Tolerance kSpeedRounding{1e-4,
+                                     "near the vertical the sine hardly knows the angle, ft/s"};
+  const double speed = 2 * Stall();
+  for (const double path_deg : {-90, -84, -60, 60, 84, 90}) {
+    SCOPED_TRACE(path_deg);
+    TrimRequest request = Level(0, speed);
+    request.flight_path_angle_rad = path_deg / kDegPerRad;
+    const std::string failure = MessageOf([&] {
+      const TrimPoint trim = Trim(plant_, request);
+      EXPECT_NEAR(-plant_.Evaluate(trim.state, trim.controls).state_rate[kDown],
+                  speed * std::sin(request.flight_path_angle_rad), kSpeedRounding);
+    });
+    EXPECT_TRUE(failure.empty() || std::abs(path_deg) > 80) << failure;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Aircraft, TrimOfEveryAircraft, ::testing::ValuesIn(AircraftNames()),
+                         [](const auto& test) { return test.param; });
+
+// The same speed has two flights: which one is found is what the start asks for.
+TEST(Trim, StaysBeyondTheStallOnlyWhereItStartsThere) {
+  constexpr Tolerance kStateRounding{1e-8, "residual at which the search ends"};
+  constexpr double kStallAlphaDeg = 15;
+  const Plant plant(LoadAircraft("cessna172"), AtmosphereModel::kStandard1976);
+  const TrimPoint below = Trim(plant, Level(0, 98));
+  EXPECT_LT(below.alpha_rad * kDegPerRad, kStallAlphaDeg);
+  const TrimPoint from_faster = Trim(plant, Level(0, 98), Trim(plant, Level(0, 200)));
+  EXPECT_LT((from_faster.state - below.state).norm(), kStateRounding);
+
+  TrimPoint start = below;
+  start.alpha_rad = 17 / kDegPerRad;
+  start.controls.thrust_lbf *= 2;
+  const TrimPoint beyond = Trim(plant, Level(0, 98), start);
+  EXPECT_GT(beyond.alpha_rad * kDegPerRad, kStallAlphaDeg);
+  EXPECT_GT(beyond.controls.thrust_lbf, below.controls.thrust_lbf);
+  const TrimPoint slower = Trim(plant, Level(0, 96), beyond);
+  EXPECT_GT(slower.alpha_rad * kDegPerRad, kStallAlphaDeg);
 }
 
 TEST(Trim, RefusesWhatCannotBeFlownAndSaysWhere) {
