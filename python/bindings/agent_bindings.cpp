@@ -52,6 +52,13 @@ FlyingAgent NamedAgent(const std::string& name, const ProgramConfig& config, std
   return {name, std::move(agent), observations, kActionSize, action_repeat, {}, DrawsActions(name)};
 }
 
+/// The trained policy that an agent's name means; none of other agents.
+std::optional<FlyingAgent> PolicyCalled(const std::string& name) {
+  const std::string file = PolicyFileOfAgent(name);
+  if (file.empty() || file == kUntrained) return std::nullopt;
+  return LoadAgent(file, false);
+}
+
 FlyingAgent CallableAgent(nb::object callable, const std::string& name, const ProgramConfig& config,
                           int action_size, int action_repeat, int state_size) {
   if (action_size < 1 || action_repeat < 1 || state_size < 0) {
@@ -127,6 +134,7 @@ void BindAgents(nb::module_& module) {
            nb::arg("policy_step"));
   module.def("load_agent", &LoadAgent, nb::arg("path"), nb::arg("sampled"));
   module.def("named_agent", &NamedAgent, nb::arg("name"), nb::arg("config"), nb::arg("seed"));
+  module.def("policy_called", &PolicyCalled, nb::arg("name"));
   module.def("callable_agent", &CallableAgent, nb::arg("callable"), nb::arg("name"),
              nb::arg("config"), nb::arg("action_size"), nb::arg("action_repeat"),
              nb::arg("state_size"));

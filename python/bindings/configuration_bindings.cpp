@@ -123,11 +123,14 @@ ProgramConfig ReadRecordOf(const std::string& path, bool is_final) {
   return config;
 }
 
+/// Of a task file there are none.
 std::vector<std::string> PresetsOfTask(const std::string& task) {
   std::vector<std::string> names;
   for (const Preset& preset : Presets()) {
     if (preset.task == task) names.emplace_back(preset.name);
   }
+  // Says which tasks there are.
+  if (names.empty() && !IsTaskFile(task)) AsUsage([&] { return FindPreset(task, ""); });
   return names;
 }
 

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "base/worker_pool.h"
+#include "envs/aircraft/registry.h"
 #include "envs/interface_names.h"
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
@@ -287,6 +288,21 @@ class BatchEnv {
   std::vector<float> final_observation_;
 };
 
+/// By the name under which each surface is observed, how far it goes up or down, as a multiple of
+/// its upper limit.
+nb::dict SurfaceReaches(const EnvConfig& env) {
+  const Actuators surfaces = LoadAircraft(env.aircraft).actuators;
+  nb::dict reaches;
+  const auto add = [&](const char* name, const Actuator& surface) {
+    reaches[name] = std::max(-surface.min_deg / surface.max_deg, 1.0);
+  };
+  add("elevator_fraction", surfaces.elevator);
+  add("aileron_fraction", surfaces.aileron);
+  add("rudder_fraction", surfaces.rudder);
+  add("leading_edge_flap_fraction", surfaces.leading_edge_flap);
+  return reaches;
+}
+
 /// The low-level policy that an environment flies with: that of `agent` if it is a high-level
 /// policy, else what `low_level` names; where the task can do without, none.
 std::shared_ptr<const Policy> LowLevelFor(const EnvConfig& env, const std::string& low_level,
@@ -343,6 +359,8 @@ void BindEnvironment(nb::module_& module) {
                    [](const BatchEnv& env) {
                      return std::max(env.config().observation_noise, env.config().most_noise());
                    })
+      .def_prop_ro("surface_reaches",
+                   [](const BatchEnv& env) { return SurfaceReaches(env.config()); })
       .def_prop_ro("draws_plants", [](const BatchEnv& env) { return env.config().plant.enabled(); })
       .def_prop_ro("threads", &BatchEnv::threads)
       .def_prop_ro("seed", &BatchEnv::seed);

@@ -36,8 +36,8 @@ from skein._skein import (
     simd_target,
 )
 from skein.agents import Agent, AgentLike, load_policy
-from skein.configuration import configure, presets
-from skein.custom_rules import CUSTOM_TERMINATION, FlightColumns
+from skein.configuration import Task, configure, presets
+from skein.custom_rules import CUSTOM_TERMINATION, FlightColumns, Rule
 from skein.environment import FlightEnv, FlightVectorEnv, make, make_vec, register_environments
 from skein.evaluation import Comparison, Evaluation, compare, evaluate, record
 from skein.flight_dynamics import (
@@ -77,7 +77,9 @@ __all__ = [
     "FlightEnv",
     "FlightVectorEnv",
     "LinearModel",
+    "Rule",
     "Run",
+    "Task",
     "Trajectory",
     "Trim",
     "TrimGrid",

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from skein import _skein
 from skein._skein import Config, ConfigurationError
 from skein.checks import MOST_ENVIRONMENTS, MOST_POLICY_STEP, MOST_SEED, MOST_SIZE, is_vector, rows, text, whole_number
-from skein.configuration import configure
+from skein.configuration import Task, configure
 
 FloatArray = NDArray[np.float32]
 
@@ -23,7 +23,7 @@ class Agent:
     its memory of each aircraft lies with the caller, as rows of `state`. A copy is the agent itself; one that is
     pickled is made again from the same arguments, so that its file must be there, unchanged."""
 
-    def __init__(self, name: str, task: str | Config = "heading", *, seed: int = 0, **config: Any) -> None:
+    def __init__(self, name: str, task: Task = "heading", *, seed: int = 0, **config: Any) -> None:
         """An agent by the name that `skein compare --agents` gives it: "autopilot" (alone: aggressive),
         "autopilot:VARIANT", "policy:FILE_OR_RUN" with "@sampled" behind it or not, "random[:SECONDS]", "zero".
 

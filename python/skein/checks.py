@@ -19,6 +19,9 @@ MOST_TEXT = 1024
 MOST_STEPS = 10**8
 MOST_POLICY_STEP = 2**32 - 1
 
+# What NumPy raises of rows of different lengths, and of tensors that it cannot read where they are.
+_NO_ARRAY = (TypeError, ValueError, RuntimeError, BufferError, AttributeError)
+
 
 class UnknownName(ConfigurationError, KeyError):
     """Something was asked for by a name that it does not have."""
@@ -50,9 +53,10 @@ def number(name: str, value: Any) -> float:
 
 
 def text(name: str, value: Any) -> str:
-    """A text or path of one line."""
+    """A text or path of one line, that UTF-8 can write."""
     if isinstance(value, (str, os.PathLike)) and isinstance(path := os.fspath(value), str):
-        if len(path) <= MOST_TEXT and not set(path) & set("\0\n\r"):
+        is_unicode = not any("\ud800" <= character <= "\udfff" for character in path[:MOST_TEXT])
+        if len(path) <= MOST_TEXT and is_unicode and not set(path) & set("\0\n\r"):
             return path
     raise ConfigurationError(f"{name} must be a text or path, not {shown(value)}")
 
@@ -62,11 +66,11 @@ def rows(name: str, value: Any, shape: tuple[int | None, ...], dtype: Any = np.f
     if isinstance(value, np.ndarray) and value.dtype == dtype and value.shape == shape and value.flags.c_contiguous:
         return value  # without delay: it is asked at every step
     try:
-        array = np.asarray(value)
+        array = _array(value)
         if array.dtype.kind not in ("iu" if np.issubdtype(dtype, np.integer) else "fiu"):
             raise TypeError
         converted = np.ascontiguousarray(array, dtype)
-    except (TypeError, ValueError, RuntimeError) as error:
+    except _NO_ARRAY as error:
         raise ConfigurationError(f"{name} must be an array of numbers, not {_described(value)}") from error
     if array.ndim != len(shape) or any(asked not in (None, size) for asked, size in zip(shape, array.shape)):
         wanted = ", ".join("n" if size is None else str(size) for size in shape) + ("," if len(shape) == 1 else "")
@@ -87,9 +91,15 @@ def flags(name: str, value: Any, count: int) -> NDArray[np.bool_]:
 def is_vector(value: Any) -> bool:
     """Whether it has one dimension."""
     try:
-        return np.ndim(value) == 1
-    except ValueError:  # rows of different lengths
+        return _array(value).ndim == 1
+    except _NO_ARRAY:
         return False
+
+
+def _array(value: Any) -> NDArray[Any]:
+    """What NumPy makes of it. By itself it does not ask for DLPack."""
+    speaks_dlpack_alone = hasattr(value, "__dlpack__") and not hasattr(value, "__array__")
+    return np.from_dlpack(value) if speaks_dlpack_alone else np.asarray(value)
 
 
 def _described(value: Any) -> str:

@@ -14,13 +14,15 @@ from skein import _skein
 from skein._skein import Config, ConfigurationError
 from skein.checks import shown, text
 
-TaskOrConfig = Union[str, Config]
+Task = Union[str, os.PathLike[str], Config]
+"""What is flown: "heading", "control" or "tracking"; the path of a task file; or a Config, which has a preset, files
+and settings behind it."""
 
 _MOST_TABLES = 8  # in one another; no key is in as many
 
 
 def configure(
-    task: TaskOrConfig,
+    task: Task,
     *,
     preset: str = "default",
     file: str | os.PathLike[str] = "",
@@ -50,7 +52,7 @@ def configure(
     conditions = [text("conditions", condition) for condition in conditions]
     assignments = [f"{key}={_toml(key, value)}" for key, value in _flattened("", settings)]
     if text("aircraft", aircraft):
-        assignments.insert(0, f"env.aircraft={json.dumps(os.fspath(aircraft))}")
+        assignments.insert(0, f"env.aircraft={_quoted(os.fspath(aircraft))}")
     if isinstance(task, Config):
         if preset != "default" or file:
             raise ConfigurationError("preset and file are for the name of a task: a Config has both behind it")
@@ -59,7 +61,11 @@ def configure(
 
 
 def presets(task: str) -> list[str]:
-    """Names of the task's presets."""
+    """Names of the task's presets; a task file has none.
+
+    Raises:
+        ConfigurationError: an unknown task.
+    """
     return _skein.presets_of(text("task", task))
 
 
@@ -84,8 +90,13 @@ def _toml(key: str, value: Any) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, str):
-        return json.dumps(text(key, value))
+        return _quoted(text(key, value))
     raise ConfigurationError(f"settings: {key} must be a number, a text, or true or false, not {type(value).__name__}")
+
+
+def _quoted(value: str) -> str:
+    # TOML has no pairs of surrogates, and wants DEL escaped, which JSON leaves as it is.
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _recalled(files: dict[str, str], is_final: bool) -> Config:

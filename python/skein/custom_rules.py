@@ -101,6 +101,8 @@ class FlightColumns(Mapping[str, NDArray[Any]]):
 
 
 Rule = Callable[[FlightColumns], Any]
+"""A function that rewards or terminates: it is given skein.FlightColumns after every policy step, and returns one
+number or truth value for each aircraft, (num_envs,)."""
 Ends = tuple[NDArray[np.int64], FloatArray, FloatArray, NDArray[np.int32]]
 
 

@@ -28,7 +28,7 @@ from skein._skein import (
 )
 from skein.agents import Agent
 from skein.checks import MOST_ENVIRONMENTS, MOST_SEED, MOST_THREADS, flags, rows, shown, text, whole_number
-from skein.configuration import configure
+from skein.configuration import Task, configure
 from skein.custom_rules import CUSTOM_TERMINATION, CustomRules, Rule
 
 FloatArray = NDArray[np.float32]
@@ -43,15 +43,17 @@ _TERMINATIONS = np.array((*TERMINATION_NAMES, "custom"), dtype=object)
 assert len(_TERMINATIONS) == CUSTOM_TERMINATION + 1
 
 
-def _bound(name: str) -> float:
+def _bound(name: str, surface_reaches: Mapping[str, float]) -> float:
     """The most that an observation without noise can be, up or down; infinite where physics, or a task file that
     scales it, sets no limit."""
-    is_bounded = name.startswith(("sin_", "cos_")) or name.endswith("_fraction")
-    return 1.0 + _ROUNDING if is_bounded and not name.endswith("_scaled") else np.inf
+    if name.endswith("_scaled") or not (name.startswith(("sin_", "cos_")) or name.endswith("_fraction")):
+        return np.inf
+    return surface_reaches.get(name, 1.0) + _ROUNDING
 
 
 def _observation_space(core: _skein.BatchEnv) -> spaces.Space[FloatArray]:
-    high = np.array([_bound(name) for name in core.observation_names])
+    reaches = core.surface_reaches
+    high = np.array([_bound(name, reaches) for name in core.observation_names])
     if core.draws_plants:  # other ranges of surfaces, and sensors that are biased
         high[:] = np.inf
     high = (high + _LARGEST_DEVIATE * core.observation_noise).astype(np.float32)
@@ -62,7 +64,7 @@ def _action_space(core: _skein.BatchEnv) -> spaces.Space[FloatArray]:
     return cast("spaces.Space[FloatArray]", spaces.Box(-1.0, 1.0, (core.action_size,), np.float32))
 
 
-def _staggers_by_preset(task: str | Config, config: Mapping[str, Any]) -> bool:
+def _staggers_by_preset(task: Task, config: Mapping[str, Any]) -> bool:
     """Whether env.stagger_clocks is what a preset says, and no Config, file or setting."""
     if isinstance(task, Config) or "env.stagger_clocks" in config or "stagger_clocks" in config.get("env", {}):
         return False
@@ -109,7 +111,8 @@ class _Flight:
         self._core = _skein.BatchEnv(config, num_envs, 0, threads, text("low_level", low_level), core)
         self.action_names = ACTION_NAMES if self._core.action_size == len(ACTION_NAMES) else HIGH_LEVEL_ACTION_NAMES
         self.observation_names = tuple(self._core.observation_names)
-        self._rules = CustomRules(self._core, reward, terminated) if reward or terminated else None
+        has_rules = reward is not None or terminated is not None
+        self._rules = CustomRules(self._core, reward, terminated) if has_rules else None
         self._stepped = self._core if self._rules is None else self._rules
         self._begun = False
         self._is_closed = False
@@ -202,7 +205,7 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
 
     def __init__(
         self,
-        task: str | Config = "heading",
+        task: Task = "heading",
         num_envs: int = 1,
         *,
         threads: int = 0,
@@ -313,7 +316,7 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
 
     def __init__(
         self,
-        task: str | Config = "heading",
+        task: Task = "heading",
         *,
         low_level: str | os.PathLike[str] = "",
         agent: Agent | None = None,
@@ -390,7 +393,7 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
 
 
 def make_vec(
-    task: str | Config,
+    task: Task,
     num_envs: int,
     *,
     preset: str = "default",
@@ -441,7 +444,7 @@ def make_vec(
 
 
 def make(
-    task: str | Config,
+    task: Task,
     *,
     preset: str = "default",
     file: str | os.PathLike[str] = "",

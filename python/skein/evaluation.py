@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skein import _skein
-from skein._skein import Config, ConfigurationError
+from skein._skein import ConfigurationError
 from skein.agents import Agent, AgentLike, agent_of
-from skein.checks import MOST_EPISODES, MOST_SEED, MOST_THREADS, whole_number
-from skein.configuration import configure
+from skein.checks import MOST_EPISODES, MOST_SEED, MOST_THREADS, shown, text, whole_number
+from skein.configuration import Task, configure
 
 if TYPE_CHECKING:
     import pandas
@@ -83,7 +83,7 @@ class Comparison:
 
 def evaluate(
     agent: AgentLike,
-    task: str | Config = "",
+    task: Task = "",
     *,
     episodes: int = 1000,
     seed: int = 0,
@@ -112,7 +112,7 @@ def evaluate(
 
 def compare(
     agents: Sequence[AgentLike] | Mapping[str, AgentLike],
-    task: str | Config,
+    task: Task,
     *,
     episodes: int = 1000,
     seed: int = 0,
@@ -122,7 +122,7 @@ def compare(
     """Flies agents over the same episodes, each at its own rate, as `skein compare` does: arguments as of evaluate.
 
     Args:
-        agents: at least one; a dict gives them their names.
+        agents: at least one, no two of the same name; a dict gives them their names.
     """
     _check_counts(episodes, seed, threads)
     configured = configure(task, **config)
@@ -133,14 +133,18 @@ def compare(
     if not cores:
         raise ConfigurationError("compare: no agents")
     names = [str(name) for name in agents] if isinstance(agents, Mapping) else [core.name for core in cores]
+    if twice := next((name for i, name in enumerate(names) if name in names[:i]), None):
+        raise ConfigurationError(f"compare: {shown(twice)} is there twice: use a dict to name the agents")
     summary, text = _skein.compare(cores, names, configured, episodes, seed, threads)
     return Comparison(json.loads(summary), text)
 
 
-def _task_of(what: str, agent: AgentLike, task: str | Config) -> str | Config:
+def _task_of(what: str, agent: AgentLike, task: Task) -> Task:
     """`task`, or where that is left out the one that a policy was trained for."""
-    if not task and isinstance(agent, Agent):
-        task = agent._core.task_file_config or agent.task
+    if not task and isinstance(agent, (Agent, str)):
+        policy = agent._core if isinstance(agent, Agent) else _skein.policy_called(text("name", agent))
+        if policy is not None:
+            task = policy.task_file_config or policy.task
     if not task:
         raise ConfigurationError(f"{what}: task is needed: the agent does not say its own")
     return task
@@ -154,7 +158,7 @@ def _check_counts(episodes: int, seed: int, threads: int) -> None:
 
 def record(
     agent: AgentLike,
-    task: str | Config = "",
+    task: Task = "",
     *,
     count: int = 8,
     seed: int = 0,

@@ -6,16 +6,20 @@ import json
 import os
 import pathlib
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Optional
+
+import numpy as np
 
 from skein import _skein
 from skein._skein import Config, ConfigurationError, Error
 from skein.agents import Agent, load_policy
 from skein.checks import MOST_THREADS, text, whole_number
-from skein.configuration import configure
+from skein.configuration import Task, configure
 
 if TYPE_CHECKING:
     import pandas
+
+Callback = Callable[[dict[str, Any]], Optional[bool]]
 
 
 class Run:
@@ -74,8 +78,9 @@ class Run:
             Error: the newest checkpoint is damaged, or the run has been trained to its end and has none any more.
             KeyboardInterrupt: as of skein.train.
         """
-        _check(callback, threads)
-        _skein.resume(str(self.path), threads, bool(progress), callback)
+        asked = _asked(callback)
+        whole_number("threads", threads, 0, MOST_THREADS)
+        _skein.resume(str(self.path), threads, bool(progress), asked)
         return self
 
     def _table(self, name: str) -> pandas.DataFrame:
@@ -91,7 +96,7 @@ class Run:
 
 
 def train(
-    task: str | Config,
+    task: Task,
     out: str | os.PathLike[str],
     *,
     callback: Callable[[dict[str, Any]], bool | None] | None = None,
@@ -105,7 +110,7 @@ def train(
     and what the training took (report.html, summary.json) are left to `skein report`.
 
         run = skein.train("heading", "runs/short", **{"run.total_steps": 5_000_000})
-        run.metrics.plot("env_steps", "success_rate")
+        run.metrics.plot("env_steps", "success_rate")  # needs the extra analysis
 
     Args:
         task, config: what is trained and how (skein.configure).
@@ -123,7 +128,8 @@ def train(
         KeyboardInterrupt: Ctrl-C. The iteration under way is dropped; those before it are saved.
     """
     configured = configure(task, **config)
-    _check(callback, threads)
+    asked = _asked(callback)
+    whole_number("threads", threads, 0, MOST_THREADS)
     _skein.train(
         configured,
         text("out", out),
@@ -131,12 +137,20 @@ def train(
         text("low_level", low_level),
         threads,
         bool(progress),
-        callback,
+        asked,
     )
     return Run(out)
 
 
-def _check(callback: Any, threads: int) -> None:
-    whole_number("threads", threads, 0, MOST_THREADS)
-    if not (callback is None or callable(callback)):
+def _asked(callback: Callback | None) -> Callback | None:
+    """The callback as the extension asks it, to which NumPy's false is no False."""
+    if callback is None:
+        return None
+    if not callable(callback):
         raise ConfigurationError(f"callback must be a function, not {type(callback).__name__}")
+
+    def goes_on(row: dict[str, Any]) -> bool:
+        returned = callback(row)
+        return bool(returned) if isinstance(returned, (bool, np.bool_)) else True
+
+    return goes_on

@@ -113,6 +113,15 @@ def test_agents_are_compared_on_the_same_episodes(heading_policy):
     assert len({agent["name"] for agent in compared.summary["agents"]}) == 3
 
 
+def test_agents_of_the_same_name_are_not_compared():
+    def idle(observation):
+        return np.zeros((len(observation), 4), np.float32)
+
+    for twice in (["zero", "autopilot", "zero"], [idle, idle], {1: "zero", "1": idle}):
+        with pytest.raises(skein.ConfigurationError, match="compare: .* is there twice: use a dict to name the agents"):
+            skein.compare(twice, "heading", episodes=4)
+
+
 def test_autopilots_fly_by_name():
     autopilot = skein.Agent("autopilot:traditional", "heading")
     assert autopilot.action_size == 4
@@ -194,6 +203,15 @@ def test_files_that_are_no_policies_are_refused(tmp_path):
         skein.load_policy(file)
     with pytest.raises(skein.Error):
         skein.load_policy(tmp_path / "missing.skein")
+
+
+def test_a_policy_brings_its_task_by_its_name_too():
+    file = ROOT / "policies" / "control.skein"
+    by_name, by_file = (skein.evaluate(agent, episodes=8) for agent in (f"policy:{file}", skein.load_policy(file)))
+    assert_same_columns(by_name, by_file)
+    for name in ("policy:untrained", "autopilot", "zero"):
+        with pytest.raises(skein.ConfigurationError, match="evaluate: task is needed"):
+            skein.evaluate(name, episodes=8)
 
 
 def test_a_policy_of_another_task_does_not_fly(heading_policy):

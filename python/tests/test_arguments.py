@@ -9,7 +9,8 @@ import skein
 
 HOSTILE = [
     None, True, -1, 0, 1, 2.5, 10**30, -(10**30), float("nan"), float("inf"), "", "heading", "x" * 5000, "a\nb", "a\0b",
-    b"bytes", [], [1], [[1, 2], [3]], {}, {"a": 1}, {"env": {"env": {}}}, object(), np.zeros(0), np.zeros((4, 4)),
+    "a\ud800", b"bytes", [], [1], [[1, 2], [3]], {}, {"a": 1}, {"env": {"env": {}}}, object(), np.zeros(0),
+    np.zeros((4, 4)),
     np.zeros((2, 2), complex), np.full((4, 4), np.nan), np.array("text"), np.zeros((3, 4), object), lambda at: None,
 ]
 CALLS = 3000
@@ -38,6 +39,7 @@ def calls(tmp_path, policy):
         (lambda a, b: skein.make_vec("heading", 2, preset=a, conditions=b), 2),
         (lambda a, b: skein.make_vec("heading", 2, file=a, agent=b), 2),
         (lambda a, b: skein.make("control", env=a, reward=b), 2),
+        (lambda a, b: skein.make("heading", reward=a, terminated=b), 2),
         (lambda a: skein.configure("heading", **{"env.heading.dwell_s": a}), 1),
         (lambda a: skein.configure("heading", **{"env.aircraft": a}), 1),
         (lambda a: skein.configure(a), 1),
@@ -77,6 +79,27 @@ def test_hostile_arguments_are_refused_with_a_line(tmp_path, heading_policy, mon
         refused += typed(call, *(draw.choice(HOSTILE) for _ in range(count)))
     assert refused > CALLS / 2
     assert [path.name for path in tmp_path.iterdir()] == ["a file"]
+
+
+@pytest.mark.parametrize("name", ["reward", "terminated"])
+def test_what_is_no_function_does_not_reward_or_terminate(name):
+    for value in (False, *HOSTILE):
+        if value is not None and not callable(value):
+            with pytest.raises(skein.ConfigurationError, match=f"{name} must be a function of columns"):
+                skein.make("heading", **{name: value})
+
+
+def test_a_function_may_look_empty():
+    class Empty:
+        def __len__(self):
+            return 0
+
+        def __call__(self, at):
+            return -np.ones_like(at["reward"])
+
+    env = skein.make("heading", reward=Empty())
+    env.reset(seed=0)
+    assert env.step(np.zeros(4))[1] == -1
 
 
 @pytest.mark.parametrize("make", [lambda: skein.make_vec("heading", 2), lambda: skein.make("heading")])

@@ -111,6 +111,17 @@ def test_the_file_of_an_aircraft_flies_as_its_name_does(tmp_path):
         skein.evaluate("zero", "heading", aircraft="cessna172", episodes=8)
 
 
+def test_texts_may_have_any_character(tmp_path):
+    folder = tmp_path / "\U0001f6e9 \u00e9\x7f\\"
+    folder.mkdir()
+    _, aircraft = own_files(folder)
+    for config in (
+        skein.configure("heading", aircraft=aircraft),
+        skein.configure("heading", **{"env.aircraft": str(aircraft)}),
+    ):
+        assert skein.evaluate("zero", config, episodes=4).summary["episodes"] == 4
+
+
 def test_settings_lie_on_top_of_conditions_and_presets():
     paper = skein.configure("heading", preset="paper", conditions={"noisy": "0.03"})
     assert paper["env.observation_noise"] == 0.03
@@ -142,3 +153,6 @@ def test_what_cannot_be_is_a_typed_exception(settings, says):
 def test_an_unknown_task_names_the_known_ones():
     with pytest.raises(skein.ConfigurationError, match="heading"):
         skein.make("aerobatics")
+    with pytest.raises(skein.ConfigurationError, match="task hedding.*did you mean heading.*known tasks: "):
+        skein.presets("hedding")
+    assert skein.presets(str(ROOT / "examples" / "tasks" / "level_turn.toml")) == []

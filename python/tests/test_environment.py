@@ -295,14 +295,20 @@ def test_lengths_of_first_episodes_are_what_was_flown():
     assert first_ends.all() and len(set(steps)) == 1
 
 
+@pytest.mark.parametrize("flight_control", ["full", "direct"])
 @pytest.mark.parametrize("aircraft", ["f16", "cessna172"])
-def test_observations_without_noise_lie_in_their_space(aircraft):
-    noiseless = {"env.observation_noise": 0, "env.training_noise_max": 0, "env.aircraft": aircraft}
-    envs = skein.make_vec("heading", 64, preset="default" if aircraft == "f16" else aircraft, **noiseless)
+def test_observations_without_noise_lie_in_their_space(aircraft, flight_control):
+    noiseless = {"env.observation_noise": 0, "env.training_noise_max": 0, "env.flight_control": flight_control}
+    preset = "default" if aircraft == "f16" else aircraft
+    envs = skein.make_vec("heading", 64, preset=preset, aircraft=aircraft, **noiseless)
     observation, _ = envs.reset(seed=3)
+    lowest = observation
     for actions in random_actions(envs, 200):
         assert envs.observation_space.contains(observation)
-        observation, *_ = envs.step(actions)
+        lowest = np.minimum(lowest, observation)
+        observation, *_ = envs.step(np.sign(actions))
+    if (aircraft, flight_control) == ("cessna172", "direct"):  # from 23 to -28 degrees
+        assert lowest[:, envs.observation_names.index("elevator_fraction")].min() < -1.1
 
 
 def test_what_a_task_file_scales_has_no_bound(tmp_path):
@@ -344,6 +350,32 @@ def test_tensors_of_torch_are_actions():
     observation, *_ = envs.step(torch.from_numpy(actions))
     np.testing.assert_array_equal(observation, same.step(actions)[0])
     assert torch.from_dlpack(observation).data_ptr() == observation.ctypes.data
+
+
+class DLPackAlone:
+    """An array of a library that NumPy cannot read by itself."""
+
+    def __init__(self, array):
+        self.array = array
+
+    def __dlpack__(self, **options):
+        return self.array.__dlpack__(**options)
+
+    def __dlpack_device__(self):
+        return self.array.__dlpack_device__()
+
+
+def test_arrays_that_speak_dlpack_alone_are_actions_and_observations(heading_policy):
+    envs, same = (skein.make_vec("heading", 32) for _ in range(2))
+    actions = random_actions(envs, 1)[0]
+    envs.reset(seed=0), same.reset(seed=0)
+    observation, *_ = envs.step(DLPackAlone(actions))
+    np.testing.assert_array_equal(observation, same.step(actions)[0])
+    for observed in (observation, observation[0]):
+        acted = heading_policy.act(DLPackAlone(observed))[0]
+        np.testing.assert_array_equal(acted, heading_policy.act(observed)[0])
+    with pytest.raises(skein.ConfigurationError, match="actions must be an array of numbers, not NoDevice"):
+        envs.step(type("NoDevice", (), {"__dlpack__": DLPackAlone.__dlpack__})())
 
 
 @pytest.mark.parametrize("shape", [(31, 4), (32, 3), (32,), (32, 4, 1)])

@@ -123,9 +123,10 @@ class Interruption(unittest.TestCase):
         self.assertEqual([training.returncode for training in trainings], [-signal.SIGKILL])
 
     def test_leaves_nothing(self):
-        ended = Interrupted("reproduce", "--load=1")
-        self.assertEqual((ended.code, ended.error), (130, "scripts/reproduce: interrupted\n"))
-        self.assertEqual((ended.left, ended.running), ([], []))
+        for number in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+            ended = Interrupted("reproduce", "--load=1", number=number)
+            self.assertEqual((ended.code, ended.error), (128 + number, "scripts/reproduce: interrupted\n"))
+            self.assertEqual((ended.left, ended.running), ([], []))
 
     def test_keeps_runs_that_differ(self):
         def differ(arguments, target, folder):

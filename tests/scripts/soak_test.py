@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What scripts/soak calls flat, and what it finds in samples of a training that leaks or slows down."""
 import pathlib
+import signal
 import sys
 import unittest
 
@@ -53,9 +54,10 @@ class Soak(unittest.TestCase):
         self.assertIn("give more minutes", findings[0])
 
     def test_interrupted_leaves_nothing(self):
-        ended = Interrupted("soak", "--minutes=60")
-        self.assertEqual((ended.code, ended.error), (130, "scripts/soak: interrupted\n"))
-        self.assertEqual((ended.left, ended.running), ([], []))
+        for number in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+            ended = Interrupted("soak", "--minutes=60", number=number)
+            self.assertEqual((ended.code, ended.error), (128 + number, "scripts/soak: interrupted\n"))
+            self.assertEqual((ended.left, ended.running), ([], []))
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ NEED_THE_PACKAGE = ["compare_python", "python_reference"]
 # What scripts read their arguments with: one that goes on finds no program to do harm with.
 TOOLS = ["dirname", "grep", "sed", "tr"]
 MORE = {"scripts/build": [["nosuch"], ["release", "--no-such-flag"]], "scripts/format": [["--check", "extra"]],
+        "scripts/fuzz": [[".*"]],
         "scripts/test": [["--preset", "nosuch"], ["--preset", "fuzz"], ["--preset"], ["--all", "extra"]]}
 
 

@@ -80,6 +80,19 @@ TEST_F(ActScript, ActsAsTheShippedPoliciesDo) {
   }
 }
 
+TEST_F(ActScript, EndsQuietlyWhereNobodyReadsOn) {
+  const ScratchDirectory scratch;
+  const std::string rows = scratch / "observations.csv", errors = scratch / "errors.txt";
+  std::string row = "0.1";
+  for (int i = 1; i < 22; ++i) row += ",0.1";
+  WriteFile(rows, row + "\n" + row + "\n");
+  // The reader is gone before the first row is written, which Python buffers until the end.
+  OutputOf("(sleep 1; python3 -I -S " SKEIN_SOURCE "/scripts/act " SKEIN_SOURCE
+           "/policies/heading.skein < '" +
+           rows + "' 2> '" + errors + "') | true");
+  EXPECT_EQ(ReadFile(errors), "");
+}
+
 TEST_F(ActScript, KnowsNetworksOfOtherSizes) {
   NetworkConfig config;
   config.hidden_layers = 1;
