@@ -26,12 +26,13 @@ std::vector<NetworkShape> ActorAndCritic() {
   return {ActorShape(config, kObservationSize, kActionSize), CriticShape(config, kObservationSize)};
 }
 
-/// Seconds per sample that products of one network take at the peak: one forward, two backward.
+/// Seconds per sample that products of one network take at the peak; backward in chunks of
+/// kChunkLength.
 double ForwardSeconds(const NetworkShape& shape, const NetworkPrecision& precision) {
   return ForwardFlops(NetworkLayout(shape)) / Peak(precision.forward);
 }
 double BackwardSeconds(const NetworkShape& shape, const NetworkPrecision& precision) {
-  return 2 * ForwardFlops(NetworkLayout(shape)) / Peak(precision.backward);
+  return BackwardFlops(NetworkLayout(shape), kChunkLength) / Peak(precision.backward);
 }
 
 /// Random samples of `batch` chunks for networks of the shape.
@@ -150,7 +151,7 @@ BENCHMARK_CAPTURE(Inference, bf16, LearnerPrecision::kBfloat16)
 
 /// The GRU on one tile of 48 chunks: a critic without hidden layers, whose observation is as wide
 /// as a layer. Beside the GRU that leaves two LayerNorms and a head of one output; backward lacks
-/// the gradient by the GRU's input.
+/// the gradient with respect to the GRU's input.
 void GruChunk(benchmark::State& state, simd::Precision precision, bool backward) {
   const DenormalsFlushed flushed;
   constexpr int kBatch = 48;
@@ -165,11 +166,7 @@ void GruChunk(benchmark::State& state, simd::Precision precision, bool backward)
   AlignedVector<float> accumulator(network->accumulator_size());
   NetworkWorkspace workspace;
   double peak_seconds = rows * ForwardSeconds(shape, both);
-  if (backward) {
-    constexpr int kGates = 3;
-    const double input_product = 2.0 * shape.observation_size * kGates * shape.gru_size;
-    peak_seconds += rows * (BackwardSeconds(shape, both) - input_product / Peak(precision));
-  }
+  if (backward) peak_seconds += rows * BackwardSeconds(shape, both);
   LearnerMeter meter(&state, samples.tile.sequence.rows(), peak_seconds);
   for (auto _ : state) {
     meter.Time([&] {
@@ -208,9 +205,8 @@ void Iteration(benchmark::State& state) {
     state.counters["policy steps/s"] = rates.rollout_policy_steps_per_s;
     state.counters["samples/s"] = rates.update_samples_per_s;
     state.counters["gradient_samples/s"] = rates.gradient_samples_per_s;
-    state.counters["%_of_FMA_peak"] = 100 * rates.gradient_samples_per_s *
-                                      rates.update_flops_per_sample /
-                                      (pool.threads() * Peak(simd::Precision::kFloat32));
+    const double gflops = 1e-9 * rates.gradient_samples_per_s * rates.update_flops_per_sample;
+    state.counters["%_of_FMA_peak"] = 100 * gflops / rates.peak_gflops;
     state.counters["%_rollout_and_gradients"] = 100 * rates.efficiency;
   }
 }

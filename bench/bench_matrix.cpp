@@ -4,19 +4,14 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstddef>
 #include <cstdint>
-#include <map>
-#include <random>
-#include <string>
 #include <vector>
 
-#include "base/aligned_vector.h"
+#include "base/median.h"
+#include "bench/learner_meter.h"
 #include "bench/libtorch_matmul.h"
+#include "bench/seconds_of.h"
 #include "simd/matrix_product.h"
-#include "simd/peak.h"
 #include "train/libtorch/libtorch_threads.h"
 
 namespace skein::bench {
@@ -24,63 +19,27 @@ namespace {
 
 using simd::Precision;
 
-AlignedVector<float> Normal(std::int64_t count) {
-  static std::mt19937 generator(1);
-  std::normal_distribution<float> normal(0, 1);
-  AlignedVector<float> values(count);
-  for (float& value : values) value = normal(generator);
-  return values;
-}
-
-/// Calls of one kind, and how long each took.
-class Contender {
- public:
-  template <class Call>
-  double Time(const Call& call) {
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
-    seconds_.push_back(duration.count());
-    return duration.count();
-  }
-  double Median() {
-    const auto middle = seconds_.begin() + static_cast<std::ptrdiff_t>(seconds_.size() / 2);
-    std::nth_element(seconds_.begin(), middle, seconds_.end());
-    return *middle;
-  }
-
- private:
-  std::vector<double> seconds_;
-};
-
-/// The roofs of one core, GFLOP/s; bfloat16 has that of float32 where it has no instruction.
-double Peak(Precision precision) {
-  static std::map<Precision, double> measured;
-  double& peak = measured[precision];
-  if (peak == 0) peak = simd::MeasureProductPeak(precision, 1).gflops_per_core;
-  return peak;
-}
-
 /// Times `own(precision)` and `libtorch()`, products of `multiply_adds`.
 template <class Own, class LibTorch>
 void Compare(benchmark::State& state, std::int64_t multiply_adds, const Own& own,
              const LibTorch& libtorch) {
-  Contender float32, bfloat16, reference;
+  std::vector<double> float32, bfloat16, reference;  // seconds of each call
   for (auto _ : state) {
-    reference.Time(libtorch);
-    bfloat16.Time([&] { own(Precision::kBfloat16); });
-    state.SetIterationTime(float32.Time([&] { own(Precision::kFloat32); }));
+    reference.push_back(SecondsOf(libtorch));
+    bfloat16.push_back(SecondsOf([&] { own(Precision::kBfloat16); }));
+    float32.push_back(SecondsOf([&] { own(Precision::kFloat32); }));
+    state.SetIterationTime(float32.back());
   }
-  const auto gflops = [&](Contender& contender) {
-    return 2e-9 * static_cast<double>(multiply_adds) / contender.Median();
+  const auto flops = [&](const std::vector<double>& seconds) {
+    return 2 * static_cast<double>(multiply_adds) / Median(seconds);
   };
   // Plain numbers: benchmark::Counter's rates would print with a unit of their own.
-  state.counters["fp32_GFLOP/s"] = gflops(float32);
-  state.counters["fp32_%_of_peak"] = 100 * gflops(float32) / Peak(Precision::kFloat32);
-  state.counters["bf16_GFLOP/s"] = gflops(bfloat16);
-  state.counters["bf16_%_of_peak"] = 100 * gflops(bfloat16) / Peak(Precision::kBfloat16);
-  state.counters["LibTorch_GFLOP/s"] = gflops(reference);
-  state.counters["fp32/LibTorch"] = reference.Median() / float32.Median();
+  state.counters["fp32_GFLOP/s"] = 1e-9 * flops(float32);
+  state.counters["fp32_%_of_peak"] = 100 * flops(float32) / Peak(Precision::kFloat32);
+  state.counters["bf16_GFLOP/s"] = 1e-9 * flops(bfloat16);
+  state.counters["bf16_%_of_peak"] = 100 * flops(bfloat16) / Peak(Precision::kBfloat16);
+  state.counters["LibTorch_GFLOP/s"] = 1e-9 * flops(reference);
+  state.counters["fp32/LibTorch"] = Median(reference) / Median(float32);
 }
 
 /// Floats between rows: a cache line more than a row has, so that rows do not all fall into the

@@ -7,16 +7,18 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "base/denormals.h"
 #include "base/error.h"
+#include "bench/positive.h"
+#include "bench/seconds_of.h"
 #include "bench/tile_parts.h"
 #include "simd/peak.h"
 #include "simd/target.h"
@@ -49,6 +51,10 @@ struct Roofs {
   double Of(Precision precision) const { return best.at(precision); }
 };
 
+bool IsBitEqual(const AlignedVector<float>& values, const float* others) {
+  return std::memcmp(values.data(), others, values.size() * sizeof(float)) == 0;
+}
+
 bool IsForward(TilePart part) {
   return part == TilePart::kHiddenForward || part == TilePart::kGateInputForward ||
          part == TilePart::kGateStateForward;
@@ -70,15 +76,36 @@ class Tiles {
   void Turn() {
     const TileReplay::Seconds seconds = replay_.Run(backward_);
     for (std::size_t i = 0; i < kParts; ++i) parts_[i].push_back(seconds[i]);
-    const auto start = std::chrono::steady_clock::now();
-    if (backward_) {
-      network_.AccumulateGradient(replay_.tile(), replay_.settings(), workspace_,
-                                  accumulator_.data());
-    } else {
-      network_.Forward(replay_.tile().sequence, workspace_);
-    }
-    whole_.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    whole_.push_back(SecondsOf([&] {
+      if (backward_) {
+        network_.AccumulateGradient(replay_.tile(), replay_.settings(), workspace_,
+                                    accumulator_.data());
+      } else {
+        network_.Forward(replay_.tile().sequence, workspace_);
+      }
+    }));
+  }
+
+  /// After as many turns of both: throws Error unless the parts compute what the network does, bit
+  /// for bit, and count its operations.
+  void CheckParts() const {
+    const auto require = [this](bool holds, const char* what) {
+      if (holds) return;
+      throw Error(std::string("bench_tile: ") + name_ + ": " + what +
+                  " of the parts is not FusedNetwork's; make bench/tile_parts.cpp follow "
+                  "train/network/fused_network.cpp");
+    };
+    const AlignedVector<float>&output = replay_.output(), &gradient = replay_.gradient();
+    require(IsBitEqual(output, workspace_.output()), "the output");
+    if (!backward_) return;
+    require(gradient.size() == accumulator_.size() && IsBitEqual(gradient, accumulator_.data()),
+            "the gradient");
+    double flops = 0;
+    for (std::size_t i = 0; i < kParts; ++i) flops += replay_.Flops(static_cast<TilePart>(i));
+    const SequenceTile& tile = replay_.tile().sequence;
+    const double of_sample =
+        ForwardFlops(replay_.layout()) + BackwardFlops(replay_.layout(), tile.steps);
+    require(flops == static_cast<double>(tile.rows()) * of_sample, "the number of operations");
   }
 
   void Print(const Roofs& roofs) const {
@@ -148,11 +175,15 @@ void Run(int rounds) {
   Roofs roofs;
   for (int round = 0; round < rounds; ++round) {
     if (round % 50 == 0) roofs.Measure();
-    for (Tiles& each : tiles) each.Turn();
+    for (Tiles& each : tiles) {
+      each.Turn();
+      if (round == 0) each.CheckParts();
+    }
   }
-  std::printf("peak of a core: %.1f GFLOP/s in float32, %.1f in bfloat16, %.1f in tiles\n",
-              roofs.Of(Precision::kFloat32) / 1e9, roofs.Of(Precision::kBfloat16) / 1e9,
-              roofs.Of(Precision::kTiles) / 1e9);
+  std::printf(
+      "SIMD target %s\npeak of a core: %.1f GFLOP/s in float32, %.1f in bfloat16, %.1f in tiles\n",
+      simd::Name(simd::ActiveTarget()), roofs.Of(Precision::kFloat32) / 1e9,
+      roofs.Of(Precision::kBfloat16) / 1e9, roofs.Of(Precision::kTiles) / 1e9);
   for (const Tiles& each : tiles) each.Print(roofs);
 }
 
@@ -160,13 +191,13 @@ void Run(int rounds) {
 }  // namespace skein::bench
 
 int main(int argc, char** argv) {
-  const int rounds = argc == 2 ? std::atoi(argv[1]) : argc == 1 ? 200 : 0;
-  if (rounds < 1) {
+  constexpr int kRounds = 200;
+  if (argc > 2) {
     std::cerr << "usage: bench_tile [ROUNDS]\n";
     return 2;
   }
   try {
-    skein::bench::Run(rounds);
+    skein::bench::Run(argc == 2 ? skein::bench::Positive("ROUNDS", argv[1]) : kRounds);
   } catch (const skein::Error& error) {
     std::cerr << error.what() << '\n';
     return 1;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "base/denormals.h"
 #include "base/error.h"
+#include "bench/positive.h"
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
@@ -87,15 +87,6 @@ void StepEnvironment(double observation_noise, int aircraft, int steps) {
   });
 }
 
-int Positive(const std::string& text) {
-  const bool digits =
-      !text.empty() && text.size() < 8 &&
-      std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
-  const int value = digits ? std::atoi(text.c_str()) : 0;
-  if (value <= 0) throw Error("count_steps: not a positive whole number: " + text);
-  return value;
-}
-
 int Run(const std::vector<std::string>& arguments) {
   if (arguments.size() == 1 && arguments[0] == "targets") {
     for (const simd::Target target : simd::SupportedTargets()) std::cout << Name(target) << '\n';
@@ -103,7 +94,8 @@ int Run(const std::vector<std::string>& arguments) {
   }
   if (arguments.size() == 3) {
     const std::string& part = arguments[0];
-    const int aircraft = Positive(arguments[1]), steps = Positive(arguments[2]);
+    const int aircraft = bench::Positive("AIRCRAFT", arguments[1]);
+    const int steps = bench::Positive("STEPS", arguments[2]);
     if (part == "rk4" || part == "controlled") {
       StepPlant(part == "controlled", aircraft, steps);
       return 0;

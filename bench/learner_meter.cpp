@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/learner_meter.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <map>
 #include <random>
 
+#include "base/median.h"
 #include "simd/peak.h"
 
 namespace skein::bench {
@@ -25,25 +24,20 @@ double Peak(simd::Precision precision) {
   return peak;
 }
 
-double LearnerMeter::Median() {
-  const auto middle = seconds_.begin() + static_cast<std::ptrdiff_t>(seconds_.size() / 2);
-  std::nth_element(seconds_.begin(), middle, seconds_.end());
-  return *middle;
-}
-
 void LearnerMeter::Report() {
   if (seconds_.empty()) return;
+  const double median = Median(seconds_);
   // Plain numbers: benchmark::Counter's rates would print with a unit of their own.
-  state_.counters["median_us"] = 1e6 * Median();
-  if (samples_ > 0) state_.counters["samples/s"] = samples_ / Median();
-  if (peak_seconds_ > 0) state_.counters["%_of_FMA_peak"] = 100 * peak_seconds_ / Median();
+  state_.counters["median_us"] = 1e6 * median;
+  if (samples_ > 0) state_.counters["samples/s"] = samples_ / median;
+  if (peak_seconds_ > 0) state_.counters["%_of_FMA_peak"] = 100 * peak_seconds_ / median;
 }
 
 void LearnerMeter::ReportCyclesPerValue(std::int64_t values) {
   if (seconds_.empty()) return;
   static const double clock = simd::MeasureClock();
   Report();
-  state_.counters["cycles/value"] = clock * Median() / static_cast<double>(values);
+  state_.counters["cycles/value"] = clock * Median(seconds_) / static_cast<double>(values);
 }
 
 }  // namespace skein::bench

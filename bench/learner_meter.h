@@ -3,11 +3,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <cstdint>
 #include <vector>
 
 #include "base/aligned_vector.h"
+#include "bench/seconds_of.h"
 #include "simd/matrix_product.h"
 
 namespace skein::bench {
@@ -30,9 +30,7 @@ class LearnerMeter {
 
   template <class Call>
   void Time(const Call& call) {
-    const auto start = Clock::now();
-    call();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = SecondsOf(call);
     state_.SetIterationTime(seconds);
     seconds_.push_back(seconds);
   }
@@ -43,10 +41,6 @@ class LearnerMeter {
   void ReportCyclesPerValue(std::int64_t values);
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  double Median();
-
   benchmark::State& state_;
   double samples_, peak_seconds_;
   std::vector<double> seconds_;  // of each call

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/report.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdio>
 #include <map>
 #include <string>
 
+#include "base/median.h"
 #include "simd/peak.h"
 #include "simd/target.h"
 
@@ -39,9 +38,7 @@ Meter::Meter(benchmark::State* state, double aircraft, double flops, int threads
 void Meter::Report() {
   if (seconds_.empty()) return;
   const Roofs& roofs = MeasuredRoofs(threads_);
-  const auto median = seconds_.begin() + static_cast<std::ptrdiff_t>(seconds_.size() / 2);
-  std::nth_element(seconds_.begin(), median, seconds_.end());
-  const double rate = aircraft_ / *median;
+  const double rate = aircraft_ / Median(seconds_);
   // Plain numbers: benchmark::Counter's rates would print with a unit of their own.
   state_.counters["aircraft/s"] = rate;
   state_.counters["cycles/aircraft"] = threads_ * roofs.clock / rate;

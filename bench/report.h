@@ -3,8 +3,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <vector>
+
+#include "bench/seconds_of.h"
 
 namespace skein::bench {
 
@@ -21,9 +22,7 @@ class Meter {
 
   template <class Call>
   void Time(const Call& call) {
-    const auto start = Clock::now();
-    call();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = SecondsOf(call);
     state_.SetIterationTime(seconds);
     seconds_.push_back(seconds);
   }
@@ -32,8 +31,6 @@ class Meter {
   void Report();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   benchmark::State& state_;
   double aircraft_;
   double flops_;

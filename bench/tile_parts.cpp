@@ -4,17 +4,19 @@
 #include <algorithm>
 
 #include "bench/learner_meter.h"
+#include "train/network/fused_network.h"
 #include "train/network/network_kernels.h"
 
 namespace skein::bench {
 namespace {
 
 constexpr int kObservations = 22, kActions = 4;
-constexpr int kHiddenLayers = 2;                                 // on each side of the GRU
-constexpr std::int64_t kForwardBlock = 48, kBackwardBlock = 96;  // rows, as FusedNetwork's
-constexpr int kSize = 128;                                       // of layers and state
-constexpr std::int64_t kGateStride = 4 * kSize + 16;
-constexpr std::int64_t kStride = kSize + 16;
+constexpr int kHiddenLayers = 2;  // on each side of the GRU
+constexpr int kSize = 128;        // of layers and state
+constexpr std::int64_t kGateStride = GateStride(kSize);
+constexpr std::int64_t kStride = RowStride(kSize);
+// Of parameters around fresh ones, whose zero biases would hide a bias that is left out.
+constexpr float kParameterSpread = 0.02f;
 
 template <typename Visit>
 void ForEachBlock(std::int64_t rows, std::int64_t most, const Visit& visit) {
@@ -23,7 +25,17 @@ void ForEachBlock(std::int64_t rows, std::int64_t most, const Visit& visit) {
   }
 }
 
+void AddTo(std::int64_t count, const float* values, float* sums) {
+  for (std::int64_t i = 0; i < count; ++i) sums[i] += values[i];
+}
+
 NetworkShape Shape() { return ActorShape(NetworkConfig(), kObservations, kActions); }
+
+std::vector<float> Parameters(const NetworkLayout& layout) {
+  std::vector<float> parameters = InitialParameters(layout, 0.01, 0, 1, 0);
+  AddTo(layout.size(), Normal(layout.size(), kParameterSpread).data(), parameters.data());
+  return parameters;
+}
 
 }  // namespace
 
@@ -77,8 +89,9 @@ TileReplay::TileReplay(const NetworkPrecision& precision, int steps, int batch)
       gate_input_(folded_layout_.gru(0).input, precision),
       gate_state_(folded_layout_.gru(0).hidden, precision),
       head_(folded_layout_.linear(layout_.head()), precision),
-      parameters_(InitialParameters(layout_, 0.01, 0, 1, 0)),
+      parameters_(Parameters(layout_)),
       folded_(folded_layout_.size()),
+      gate_bias_(3 * kSize),
       gradient_(folded_layout_.size(), 0.0f),
       observation_(Normal(static_cast<std::int64_t>(steps) * batch * kObservations)),
       initial_state_(Normal(static_cast<std::int64_t>(batch) * kSize, 0.3f)),
@@ -94,11 +107,14 @@ TileReplay::TileReplay(const NetworkPrecision& precision, int steps, int batch)
   for (LinearLayer* const linear : {&gate_input_, &gate_state_, &head_}) {
     linear->SetParameters(folded_.data());
   }
+  std::copy_n(folded_.data() + gate_input_.place().bias, 3 * kSize, gate_bias_.begin());
+  AddTo(2 * kSize, folded_.data() + gate_state_.place().bias, gate_bias_.data() + kSize);  // r, z
   tile_.sequence = {steps, batch, observation_.data(), initial_state_.data(), not_done_.data()};
   tile_.actor = {action_.data(), log_prob_.data(), advantage_.data()};
   settings_.sample_weight = 1.0 / static_cast<double>(tile_.sequence.rows());
   activations_.Reserve(layout_.shape(), steps, batch);
   output_.resize(tile_.sequence.rows() * kActions);
+  final_state_.resize(initial_state_.size());
 }
 
 TileReplay::Seconds TileReplay::Run(bool backward) {
@@ -190,8 +206,10 @@ void TileReplay::StateForward(int step, std::int64_t first, std::int64_t count, 
   float* const gates = rows.gates.data() + kept * kGateStride;
   Time(TilePart::kState, [&] {
     if (step == 0) {
-      for (std::int64_t i = 0; i < count; ++i) {
-        std::copy_n(initial_state_.data() + (first + i) * kSize, kSize, previous + i * kStride);
+      float* to = previous;
+      for (std::int64_t i = first; i < first + count; ++i, to += kStride) {
+        const float* const from = initial_state_.data() + i * kSize;
+        for (int j = 0; j < kSize; ++j) to[j] = not_done_[i] * from[j];
       }
     } else {
       MaskRows(count, kSize, not_done_.data() + step * batch + first, previous);
@@ -202,6 +220,12 @@ void TileReplay::StateForward(int step, std::int64_t first, std::int64_t count, 
                         2 * kSize, gates + kSize, kGateStride, &activations_.products);
   });
   Time(TilePart::kGates, [&] { GruStep(count, kSize, previous, gates, kGateStride, next); });
+  if (step + 1 < tile_.sequence.steps) return;
+  Time(TilePart::kState, [&] {
+    for (std::int64_t i = 0; i < count; ++i) {
+      std::copy_n(next + i * kStride, kSize, final_state_.data() + (first + i) * kSize);
+    }
+  });
 }
 
 void TileReplay::RowsForward(int step, std::int64_t first, std::int64_t count, std::int64_t kept) {
@@ -214,8 +238,8 @@ void TileReplay::RowsForward(int step, std::int64_t first, std::int64_t count, s
   for (int i = 0; i < kHiddenLayers; ++i) HiddenForward(i, kept, count);
   Time(TilePart::kGateInputForward, [&] {
     gate_input_.Forward(count, own.hidden[kHiddenLayers - 1].normalised.data() + kept * kStride,
-                        kStride, folded_.data() + gate_input_.place().bias, 0,
-                        own.gru[0].gates.data() + kept * kGateStride, kGateStride, &own.products);
+                        kStride, gate_bias_.data(), 0, own.gru[0].gates.data() + kept * kGateStride,
+                        kGateStride, &own.products);
   });
   StateForward(step, first, count, kept);
   Time(TilePart::kStateNormalise, [&] {
@@ -235,7 +259,7 @@ void TileReplay::RowsForward(int step, std::int64_t first, std::int64_t count, s
 void TileReplay::Forward(bool keeps) {
   const std::int64_t batch = tile_.sequence.batch;
   for (int step = 0; step < tile_.sequence.steps; ++step) {
-    ForEachBlock(batch, kForwardBlock, [&](std::int64_t first, std::int64_t count) {
+    ForEachBlock(batch, FusedNetwork::kForwardRows, [&](std::int64_t first, std::int64_t count) {
       if (keeps) FetchForward(step * batch + first, count);
       RowsForward(step, first, count, keeps ? step * batch + first : 0);
     });
@@ -267,7 +291,7 @@ void TileReplay::HiddenBackward(int index, float* input_gradient, std::int64_t f
 void TileReplay::StepBackward(int step) {
   const std::int64_t batch = tile_.sequence.batch;
   FusedActivations::GruRows& own = activations_.gru[0];
-  ForEachBlock(batch, kBackwardBlock, [&](std::int64_t offset, std::int64_t count) {
+  ForEachBlock(batch, FusedNetwork::kLayerRows, [&](std::int64_t offset, std::int64_t count) {
     const std::int64_t first = step * batch + offset;
     float* const gates = own.gates.data() + first * kGateStride;
     float* const gradient = activations_.state_gradient[0].data() + first * kStride;
@@ -295,7 +319,14 @@ void TileReplay::BackwardBehindGru() {
   FusedActivations& own = activations_;
   float* const by_state = own.state_gradient[0].data();
   float* const block[2] = {own.block_gradient[0].data(), own.block_gradient[1].data()};
-  ForEachBlock(rows, kBackwardBlock, [&](std::int64_t first, std::int64_t count) {
+  ForEachBlock(rows, FusedNetwork::kLayerRows, [&](std::int64_t first, std::int64_t count) {
+    const float* const by_output = own.output_gradient.data() + first * kActions;
+    Time(TilePart::kHead, [&] {
+      AddColumnSums(count, kActions, by_output, kActions, gradient_.data() + head_.place().bias);
+      head_.BackwardToWeight(count,
+                             own.hidden[2 * kHiddenLayers - 1].normalised.data() + first * kStride,
+                             kStride, by_output, kActions, gradient_.data(), &own.products);
+    });
     for (int i = 2 * kHiddenLayers - 1; i >= kHiddenLayers; --i) {
       FetchRows(InputOf(i), first, count, kStride);
     }
@@ -308,11 +339,6 @@ void TileReplay::BackwardBehindGru() {
       FetchRows(own.gru[0].states.data(), rows - batch, batch, kStride);
     }
     Time(TilePart::kHead, [&] {
-      const float* const by_output = own.output_gradient.data() + first * kActions;
-      AddColumnSums(count, kActions, by_output, kActions, gradient_.data() + head_.place().bias);
-      head_.BackwardToWeight(count,
-                             own.hidden[2 * kHiddenLayers - 1].normalised.data() + first * kStride,
-                             kStride, by_output, kActions, gradient_.data(), &own.products);
       head_.BackwardToInput(count, by_output, kActions, false, block[0], kStride, &own.products);
     });
     float* const by_block_state = by_state + first * kStride;
@@ -329,11 +355,15 @@ void TileReplay::Backward() {
   const std::int64_t rows = tile_.sequence.rows();
   FusedActivations& own = activations_;
   float* const block[2] = {own.block_gradient[0].data(), own.block_gradient[1].data()};
+  float* const sums = own.gate_sums.data();
   BackwardBehindGru();
+  std::fill_n(sums, 4 * kSize, 0.0f);
   for (int step = tile_.sequence.steps - 1; step >= 0; --step) StepBackward(step);
+  AddTo(3 * kSize, sums, gradient_.data() + gate_input_.place().bias);
+  AddTo(3 * kSize, sums + kSize, gradient_.data() + gate_state_.place().bias);
   const float* const gates = own.gru[0].gates.data();
   const float* const states = own.gru[0].states.data();
-  ForEachBlock(rows, kBackwardBlock, [&](std::int64_t first, std::int64_t count) {
+  ForEachBlock(rows, FusedNetwork::kLayerRows, [&](std::int64_t first, std::int64_t count) {
     const float* const own_gates = gates + first * kGateStride;
     for (int i = kHiddenLayers - 1; i >= 0; --i) {
       FetchRows(own.hidden[i].normalised.data(), first, count, kStride);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <vector>
 
 #include "base/aligned_vector.h"
+#include "bench/seconds_of.h"
 #include "train/network/fused_activations.h"
 #include "train/network/linear_layer.h"
 #include "train/network/ppo_loss.h"
@@ -20,7 +20,7 @@ enum class TilePart {
   kHiddenNormalise,    ///< ReLU and LayerNorm
   kGateInputForward,   ///< products of the GRU's input
   kGateStateForward,   ///< products of its state, step by step
-  kState,              ///< states zeroed where episodes begin
+  kState,              ///< states zeroed where episodes begin, the last ones handed on
   kGates,              ///< sigmoids and tanh
   kStateNormalise,     ///< LayerNorm of the state
   kHead,               ///< products forward and backward
@@ -40,7 +40,8 @@ enum class TilePart {
 const char* Name(TilePart part);
 
 /// Computes a tile of one network, an actor of the default settings, as FusedNetwork does: the same
-/// calls in the same order on memory laid out alike, but with a clock between any two parts.
+/// calls in the same order on memory laid out alike, but with a clock between any two parts. Output
+/// and gradient are the network's bit for bit, which bench_tile checks.
 class TileReplay {
  public:
   using Seconds = std::array<double, static_cast<std::size_t>(TilePart::kCount)>;
@@ -51,6 +52,10 @@ class TileReplay {
   const SampleTile& tile() const { return tile_; }
   const LossSettings& settings() const { return settings_; }
   const std::vector<float>& parameters() const { return parameters_; }
+  /// Of the last run.
+  const AlignedVector<float>& output() const { return output_; }
+  /// With respect to the folded parameters, the sum over all runs backward.
+  const AlignedVector<float>& gradient() const { return gradient_; }
 
   /// What each part took, forward alone or backward, too.
   Seconds Run(bool backward);
@@ -61,10 +66,7 @@ class TileReplay {
  private:
   template <typename Call>
   void Time(TilePart part, const Call& call) {
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    seconds_[static_cast<std::size_t>(part)] +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds_[static_cast<std::size_t>(part)] += SecondsOf(call);
   }
 
   const float* InputOf(int hidden) const;
@@ -85,7 +87,7 @@ class TileReplay {
   std::vector<LinearLayer> hidden_;
   LinearLayer gate_input_, gate_state_, head_;
   std::vector<float> parameters_;
-  AlignedVector<float> folded_, gradient_, output_;
+  AlignedVector<float> folded_, gate_bias_, gradient_, output_, final_state_;
   FusedActivations activations_;
   AlignedVector<float> observation_, initial_state_, action_, advantage_, not_done_, log_prob_;
   SampleTile tile_;

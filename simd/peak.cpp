@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simd/peak.h"
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include "base/error.h"
 #include "simd/bfloat16_peak.h"
 #include "simd/dispatch.h"
+#include "simd/work_rates.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/peak.cpp"
@@ -104,57 +99,6 @@ HWY_EXPORT(MultiplyInAChain);
 namespace simd {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-
-/// Does `rounds` rounds of some work and returns how much that is.
-using Work = double (*)(std::int64_t rounds, float* sink);
-
-/// Rates of several repetitions in which all threads start together, work per second, in ascending
-/// order.
-struct Rates {
-  std::vector<double> of_slowest;  ///< all work in the slowest thread's time
-  std::vector<double> summed;      ///< of each thread's own rate: as if none waited for another
-};
-
-Rates MeasureRates(Work work, std::int64_t rounds, int repetitions, int threads) {
-  std::atomic<int> arrived{0};
-  std::vector<double> done(repetitions * threads), seconds(repetitions * threads);
-  // Threads live through all repetitions: fresh ones may share a processor until they are moved.
-  const auto run = [&](int thread) {
-    for (int repetition = 0; repetition < repetitions; ++repetition) {
-      float sink = 0;
-      ++arrived;
-      while (arrived < threads * (repetition + 1)) std::this_thread::yield();
-      const auto start = Clock::now();
-      done[repetition * threads + thread] = work(rounds, &sink);
-      const volatile float kept = sink;
-      static_cast<void>(kept);
-      seconds[repetition * threads + thread] = Seconds(Clock::now() - start);
-    }
-  };
-  std::vector<std::thread> others;
-  for (int thread = 1; thread < threads; ++thread) others.emplace_back(run, thread);
-  run(0);
-  for (std::thread& other : others) other.join();
-
-  Rates rates;
-  for (int first = 0; first < repetitions * threads; first += threads) {
-    double total = 0, sum = 0, slowest = 0;
-    for (int i = first; i < first + threads; ++i) {
-      total += done[i];
-      sum += done[i] / seconds[i];
-      slowest = std::max(slowest, seconds[i]);
-    }
-    rates.of_slowest.push_back(total / slowest);
-    rates.summed.push_back(sum);
-  }
-  std::sort(rates.of_slowest.begin(), rates.of_slowest.end());
-  std::sort(rates.summed.begin(), rates.summed.end());
-  return rates;
-}
-
 [[noreturn]] void ThrowNoThreads(int threads) {
   throw Error("peak rates: " + std::to_string(threads) + " threads");
 }
@@ -167,8 +111,8 @@ struct Roof {
 Roof MeasureRoof(Work work, std::int64_t rounds, int threads) {
   if (threads < 1) ThrowNoThreads(threads);
   constexpr int kRepetitions = 129;
-  const Rates one = MeasureRates(work, rounds, kRepetitions, 1);
-  const Rates all = threads == 1 ? one : MeasureRates(work, rounds, kRepetitions, threads);
+  const WorkRates one = MeasureRates(work, rounds, kRepetitions, 1);
+  const WorkRates all = threads == 1 ? one : MeasureRates(work, rounds, kRepetitions, threads);
   return {one.of_slowest.back(), all.of_slowest.back(), all.summed[kRepetitions / 2]};
 }
 

@@ -61,10 +61,13 @@ class Work:
         return {name: value.astype(np.float32) for name, value in values.items()}
 
     def flops_per_sample(self):
-        """Multiplications and additions of matrix products: one product forward, two backward."""
+        """Multiplications and additions of matrix products: one product forward, two backward, without those for
+        gradients with respect to observations and to the states that chunks begin with, which none needs that folds
+        norms into the matrices (train/network/network.h)."""
         weights = sum(int(np.prod(shape)) for outputs in (ACTIONS, 1) for name, shape in self.shapes(outputs)
                       if len(shape) == 2 and not name.endswith("norm"))
-        return 3 * 2 * weights
+        to_observation, to_first_state = OBSERVATIONS * self.hidden, 3 * self.gru * self.gru / self.steps
+        return 2 * (3 * weights - 2 * (to_observation + to_first_state))  # of two networks
 
     def rollout(self):
         """Arrays [chunks, steps, ...] and the states that chunks begin with."""

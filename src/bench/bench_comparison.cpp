@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "src/bench/figure.h"
 #include "src/config/usage_error.h"
 #include "src/files/json_number.h"
@@ -147,7 +148,7 @@ std::vector<double> ComparedOf(const std::vector<Run>& runs, const std::string& 
     return Logarithms(MediansOfParts(Find(runs[0], name)->samples, kMostParts));
   }
   std::vector<double> medians;
-  for (const Run& run : runs) medians.push_back(MedianOf(Find(run, name)->samples));
+  for (const Run& run : runs) medians.push_back(Median(Find(run, name)->samples));
   return Logarithms(medians);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/median.h"
 
 namespace skein {
 namespace {
@@ -24,8 +25,6 @@ double Quantile(std::vector<double> samples, double share) {
 
 }  // namespace
 
-double MedianOf(std::vector<double> samples) { return Quantile(std::move(samples), 0.5); }
-
 std::vector<double> MediansOfParts(const std::vector<double>& samples, std::size_t most) {
   const std::size_t parts = std::min(samples.size(), most);
   std::vector<double> medians;
@@ -33,7 +32,7 @@ std::vector<double> MediansOfParts(const std::vector<double>& samples, std::size
     const auto at = [&](std::size_t index) {
       return samples.begin() + static_cast<std::ptrdiff_t>(index * samples.size() / parts);
     };
-    medians.push_back(MedianOf({at(part), at(part + 1)}));
+    medians.push_back(Median({at(part), at(part + 1)}));
   }
   return medians;
 }
@@ -41,7 +40,7 @@ std::vector<double> MediansOfParts(const std::vector<double>& samples, std::size
 Json ToJson(const std::vector<Figure>& figures) {
   Json json = Json::object();
   for (const Figure& figure : figures) {
-    const double median = MedianOf(figure.samples);
+    const double median = Median(figure.samples);
     const double spread = Quantile(figure.samples, 0.75) - Quantile(figure.samples, 0.25);
     json[figure.name] = {{"better", figure.more_is_better ? "more" : "less"},
                          {"median", median},

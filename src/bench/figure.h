@@ -14,9 +14,6 @@ struct Figure {
   std::vector<double> samples;  ///< in the order in which they were taken
 };
 
-/// The median, of an even number the lower one of the two in the middle; NaN of none.
-double MedianOf(std::vector<double> samples);
-
 /// The medians of at most `most` parts of equal length, to one, in their order: what is measured in
 /// a row is alike for a while, and says as much as a few samples that are further apart.
 std::vector<double> MediansOfParts(const std::vector<double>& samples, std::size_t most);

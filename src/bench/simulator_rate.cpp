@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "base/aligned_vector.h"
+#include "base/median.h"
+#include "base/seconds_since.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
 #include "envs/flight_reset.h"
@@ -18,7 +20,6 @@
 #include "envs/kernels/plant_kernel.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
-#include "src/bench/figure.h"
 
 namespace skein {
 namespace {
@@ -30,14 +31,13 @@ constexpr double kDt = 0.02;
 constexpr int kStepsOfTurn = 20;
 
 double Time(const std::function<void()>& step) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   step();
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return SecondsSince(start);
 }
 
 SimulatorRate MedianRate(std::vector<double> seconds, int aircraft) {
-  const double median = MedianOf(seconds);
+  const double median = Median(seconds);
   return {median, aircraft / median, std::move(seconds)};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "base/aligned_vector.h"
@@ -9,6 +10,10 @@
 #include "train/network/network.h"
 
 namespace skein {
+
+/// Floats between rows of gates: four gates, and a cache line so that rows do not all fall into the
+/// same sets of the cache.
+constexpr std::int64_t GateStride(int padded_gru) { return 4 * padded_gru + 16; }
 
 /// What FusedNetwork's forward pass of a tile leaves for its backward pass. One row per sample,
 /// time-major, RowStride apart (train/network/network_kernels.h).

@@ -10,14 +10,8 @@
 namespace skein {
 namespace {
 
-// Rows that go through all layers together: their values stay in the first two levels of the cache,
-// while the layers' weights are read once for all of them.
-constexpr std::int64_t kForwardRows = 48;
 // Fewer rows of a step are few for a product: rows of several steps go through a layer together.
 constexpr std::int64_t kFewRows = 12;
-// Rows that go back through a layer together: the weight's gradient is read and written once for
-// all of them, too.
-constexpr std::int64_t kLayerRows = 96;
 
 /// Calls visit(first, count) for `rows` rows, `most` at a time.
 template <typename Visit>
@@ -28,12 +22,8 @@ void ForEachRows(std::int64_t rows, std::int64_t most, const Visit& visit) {
 }
 template <typename Visit>
 void ForEachLayerRows(std::int64_t rows, const Visit& visit) {
-  ForEachRows(rows, kLayerRows, visit);
+  ForEachRows(rows, FusedNetwork::kLayerRows, visit);
 }
-
-/// Floats between rows of gates: four gates, and a cache line so that rows do not all fall into the
-/// same sets of the cache.
-std::int64_t GateStride(int padded_gru) { return 4 * padded_gru + 16; }
 
 void Grow(AlignedVector<float>& vector, std::int64_t size) {
   if (static_cast<std::int64_t>(vector.size()) < size) vector.resize(size);
@@ -95,7 +85,7 @@ void FusedActivations::Reserve(const NetworkShape& shape, int steps, int batch) 
   Grow(output_gradient, rows * shape.output_size);
   for (AlignedVector<float>& buffer : state_gradient) Grow(buffer, rows * state);
   for (AlignedVector<float>& buffer : block_gradient) {
-    Grow(buffer, kLayerRows * std::max(width, state));
+    Grow(buffer, FusedNetwork::kLayerRows * std::max(width, state));
   }
   Grow(gate_sums, 4 * size);
 }

@@ -17,6 +17,13 @@ namespace skein {
 /// it costs nothing per sample. Any depth and width; ReLU alone.
 class FusedNetwork : public RecurrentNetwork {
  public:
+  /// Rows that go through all layers together: their values stay in the first two levels of the
+  /// cache, while the layers' weights are read once for all of them.
+  static constexpr std::int64_t kForwardRows = 48;
+  /// Rows that go back through a layer together: the weight's gradient is read and written once for
+  /// all of them, too.
+  static constexpr std::int64_t kLayerRows = 96;
+
   /// Throws Error where FusedLimitation (train/network/backend.h) names one.
   explicit FusedNetwork(const NetworkLayout& layout, const NetworkPrecision& precision = {});
 

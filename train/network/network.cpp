@@ -206,4 +206,13 @@ double ForwardFlops(const NetworkLayout& layout) {
   return 2 * products;
 }
 
+double BackwardFlops(const NetworkLayout& layout, int steps) {
+  constexpr int kGates = 3;
+  const NetworkShape& shape = layout.shape();
+  const NormalisedLinear& first = layout.layer(0);
+  const double to_observation = 2.0 * first.in * first.out;
+  const double to_states = 2.0 * shape.gru_layers * kGates * shape.gru_size * shape.gru_size;
+  return 2 * ForwardFlops(layout) - to_observation - to_states / steps;
+}
+
 }  // namespace skein

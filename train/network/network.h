@@ -104,4 +104,10 @@ std::vector<float> InitialParameters(const NetworkLayout& layout, double head_sc
 /// sample: every matrix of the layout meets every sample once.
 double ForwardFlops(const NetworkLayout& layout);
 
+/// The same of one backward pass, of a sample in chunks of `steps`: every matrix meets every sample
+/// for its own gradient and for the one with respect to its input. Left out is what no gradient of
+/// parameters needs (with LayerNorms folded into the matrices, as in FusedNetwork): the gradient
+/// with respect to the observation, and to the states that chunks begin with.
+double BackwardFlops(const NetworkLayout& layout, int steps);
+
 }  // namespace skein

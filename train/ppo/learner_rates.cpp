@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/learner_rates.h"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 
+#include "base/median.h"
+#include "base/seconds_since.h"
 #include "envs/vec_env.h"
 #include "simd/peak.h"
 #include "train/network/network.h"
@@ -16,12 +17,6 @@
 
 namespace skein {
 namespace {
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Of the products of the low-level policy, if there is one, until the next policy step.
 double LowLevelFlopsPerPolicyStep(const TrainConfig& config) {
@@ -53,8 +48,7 @@ struct Runner {
     const std::uint64_t exchanges_before = ranks.exchanges(), sent_before = ranks.sent_bytes();
     const auto start = std::chrono::steady_clock::now();
     const IterationReport report = trainer->Iterate();
-    whole.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    whole.push_back(SecondsSince(start));
     exchange.push_back(ranks.exchange_seconds() - exchanged_s);
     idle.push_back((ranks.idle_seconds() - idle_s + report.wait_seconds) / whole.back());
     exchanges = static_cast<double>(ranks.exchanges() - exchanges_before);
@@ -82,7 +76,9 @@ struct Runner {
     const NetworkLayout actor(ActorShape(config.network, observed, env.action_size()));
     const NetworkLayout critic(
         CriticShape(config.network, observed + PrivilegedSize(config.ppo, env)));
+    const int steps = config.ppo.chunk_length;
     const double forward_flops = ForwardFlops(actor) + ForwardFlops(critic);
+    const double backward_flops = BackwardFlops(actor, steps) + BackwardFlops(critic, steps);
     LearnerRates rates;
     rates.backend = trainer->backend();
     rates.rollout_policy_steps_per_s = policy_steps / Median(rollout);
@@ -90,8 +86,7 @@ struct Runner {
     rates.rollout_flops_per_policy_step = forward_flops + LowLevelFlopsPerPolicyStep(config);
     rates.update_samples_per_s = samples / Median(update);
     rates.gradient_samples_per_s = samples / Median(gradient);
-    // Backward is two products for each one forward.
-    rates.update_flops_per_sample = 3 * forward_flops;
+    rates.update_flops_per_sample = forward_flops + backward_flops;
     rates.peak_gflops = Median(peak);
     rates.iteration_s = Median(whole);
     rates.efficiency = Median(efficiency);

@@ -17,10 +17,11 @@ struct LearnerRates {
   double simulator_share = 0;             ///< of the rollout's time, low-level policy included
   /// Of the networks' products until the next policy step, a low-level policy's among them.
   double rollout_flops_per_policy_step = 0;
-  double update_samples_per_s = 0;     ///< through forward, loss, backward and optimiser
-  double gradient_samples_per_s = 0;   ///< through forward, loss and backward alone
-  double update_flops_per_sample = 0;  ///< of the products, forward and backward, both networks
-  double iteration_s = 0;              ///< rollout, update and all between
+  double update_samples_per_s = 0;    ///< through forward, loss, backward and optimiser
+  double gradient_samples_per_s = 0;  ///< through forward, loss and backward alone
+  /// Of both networks' products, ForwardFlops and BackwardFlops (train/network/network.h).
+  double update_flops_per_sample = 0;
+  double iteration_s = 0;  ///< rollout, update and all between
   /// What the multiply-add units gave between iterations, with the operands of this learner's
   /// products (RoofPrecision).
   double peak_gflops = 0;

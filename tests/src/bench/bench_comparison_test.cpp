@@ -139,11 +139,11 @@ TEST_F(BenchComparisonTest, WhatCannotBeComparedIsRefused) {
 TEST(FigureTest, PartsKeepTheOrderAndAreOfEqualLength) {
   std::vector<double> samples;
   for (int i = 0; i < 3000; ++i) samples.push_back(1 + i);
-  EXPECT_EQ(MediansOfParts(samples, 3), (std::vector<double>{500, 1500, 2500}));
+  EXPECT_EQ(MediansOfParts(samples, 3), (std::vector<double>{500.5, 1500.5, 2500.5}));
   EXPECT_EQ(MediansOfParts({3, 1, 2}, 10), (std::vector<double>{3, 1, 2}));
   const Json json = ToJson({{"x", true, samples}});
   EXPECT_EQ(json["x"]["samples"].size(), 1000u);
-  EXPECT_EQ(json["x"]["median"], 1500);
+  EXPECT_EQ(json["x"]["median"], 1500.5);
   const std::vector<Figure> read = ReadFigures(json, "file");
   EXPECT_EQ(read.at(0).samples, MediansOfParts(samples, 1000));
   EXPECT_TRUE(read[0].more_is_better);

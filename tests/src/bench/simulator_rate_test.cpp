@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/bench/figure.h"
+#include "base/median.h"
 
 namespace skein {
 namespace {
@@ -13,7 +13,7 @@ TEST(SimulatorRate, IsOfTheMedianThatFiguresSay) {
   WorkerPool pool(1);
   const SimulatorRate rate = MeasurePlant(PlantPart::kRk4, kAircraft, kSteps, pool);
   EXPECT_EQ(rate.seconds.size(), 4u);
-  EXPECT_EQ(rate.step_s, MedianOf(rate.seconds));
+  EXPECT_EQ(rate.step_s, Median(rate.seconds));
   EXPECT_EQ(rate.aircraft_steps_per_s, kAircraft / rate.step_s);
 }
 

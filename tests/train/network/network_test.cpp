@@ -86,6 +86,33 @@ TEST(NetworkLayoutTest, FlopsAreThoseOfTheProducts) {
   EXPECT_EQ(ForwardFlops(NetworkLayout(shape)), 2 * (22 * 384 + 5 * 128 * 384 + 128));
 }
 
+TEST(NetworkLayoutTest, BackwardFlopsLeaveOutWhatNothingNeeds) {
+  NetworkShape shape;
+  shape.observation_size = 3;
+  shape.hidden_size = 4;
+  shape.gru_size = 5;
+  shape.output_size = 2;
+  shape.hidden_layers = 1;
+  shape.gru_layers = 2;
+  const NetworkLayout layout(shape);
+  // Layer 1, both GRU layers' input and state, layer 2, head.
+  const double to_weights = 3 * 4 + 4 * 15 + 3 * 5 * 15 + 5 * 4 + 4 * 2;
+  const double to_inputs = 4 * 15 + 5 * 15 + 5 * 4 + 4 * 2;  // not layer 1's
+  const double to_states = 2 * 5 * 15;                       // not before the first step
+  EXPECT_EQ(BackwardFlops(layout, 4), 2 * (to_weights + to_inputs + to_states * 3 / 4));
+  EXPECT_EQ(BackwardFlops(layout, 1), 2 * (to_weights + to_inputs));
+}
+
+TEST(NetworkLayoutTest, BackwardFlopsWithoutHiddenLayersLeaveOutTheGrusInput) {
+  NetworkShape shape;
+  shape.observation_size = 3;
+  shape.gru_size = 5;
+  shape.hidden_size = shape.output_size = 2;
+  shape.hidden_layers = 0;
+  const double to_weights = 3 * 15 + 5 * 15 + 5 * 2, to_inputs = 5 * 2, to_states = 5 * 15;
+  EXPECT_EQ(BackwardFlops(NetworkLayout(shape), 2), 2 * (to_weights + to_inputs + to_states / 2));
+}
+
 TEST(InitialParametersTest, WeightsAreOrthogonalWithTheirGain) {
   const NetworkLayout layout({22, 64, 32, 4, true});
   const std::vector<float> parameters = InitialParameters(layout, 0.01, -0.5, 3, 0);
