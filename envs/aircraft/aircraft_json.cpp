@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 
 namespace skein {
 namespace {
@@ -123,6 +124,9 @@ std::string InAnotherUnit(const json& values, const std::string& key) {
   return "";
 }
 
+/// Whether a key is for readers alone.
+bool IsText(const std::string& key) { return key == "source" || key == "about"; }
+
 }  // namespace
 
 json ParseAircraftJson(std::string_view text, const std::string& who) {
@@ -142,40 +146,76 @@ Section::Section(const json& values, std::string path) : values_(values), path_(
   if (!values_.is_object()) throw Error(path_ + " must be an object of named values");
 }
 
-const json& Section::At(const char* key) {
+const json* Section::Find(const char* key) {
+  known_.insert(key);
   const auto found = values_.find(key);
   if (found == values_.end()) {
-    throw Error(path_ + " lacks " + key + InAnotherUnit(values_, key));
+    missing_.emplace_back(key);
+    return nullptr;
   }
   read_.insert(key);
-  return *found;
+  return &*found;
 }
 
-void Section::Read(const char* key, double* value) {
-  *value = ToNumber(At(key), path_ + "." + key);
+const json& Section::At(const char* key) {
+  if (const json* value = Find(key)) return *value;
+  throw Error(Lacks(key));
+}
+
+void Section::Expect(std::initializer_list<const char*> keys) {
+  known_.insert(keys.begin(), keys.end());
+  for (const auto& entry : values_.items()) {
+    if (!IsText(entry.key()) && known_.count(entry.key()) == 0) RefuseKey(entry.key());
+  }
+}
+
+bool Section::Has(const char* key) {
+  known_.insert(key);
+  return values_.contains(key);
+}
+
+void Section::Skip(const char* key) {
+  known_.insert(key);
+  read_.insert(key);
+}
+
+bool Section::ReadNumber(const char* key, double* value) {
+  const json* const number = Find(key);
+  if (number != nullptr) *value = ToNumber(*number, path_ + "." + key);
+  return number != nullptr;
+}
+
+void Section::Read(const char* key, double* value) { ReadNumber(key, value); }
+
+void Section::ReadFraction(const char* key, double* value) {
+  if (!ReadNumber(key, value) || (*value > 0 && *value <= 1)) return;
+  Refuse(key, *value, "above 0 and at most 1");
 }
 
 void Section::ReadBetween(double low, double high, const char* key, double* value) {
-  Read(key, value);
-  if (*value > low && *value < high) return;
+  if (!ReadNumber(key, value) || (*value > low && *value < high)) return;
   Refuse(key, *value, "above " + Text(low) + (std::isinf(high) ? "" : " and below " + Text(high)));
 }
 
 void Section::Read(const char* key, FirstOrder* law) {
-  ReadList(key, "b1, b0, a0 of (b1 s + b0) / (s + a0)", {&law->b1, &law->b0, &law->a0});
+  if (!ReadList(key, "b1, b0, a0 of (b1 s + b0) / (s + a0)", {&law->b1, &law->b0, &law->a0})) {
+    return;
+  }
   // With zero it integrates: no state of it is steady.
   if (!(law->a0 > 0)) Refuse(key, law->a0, "above 0 in a0: the filter never comes to rest");
 }
 
 void Section::Read(const char* key, Ramp* ramp) {
-  ReadList(key, "x_low, y_low, x_high, y_high",
-           {&ramp->x_low, &ramp->y_low, &ramp->x_high, &ramp->y_high});
-  if (ramp->x_low < ramp->x_high) return;
+  const bool is_there = ReadList(key, "x_low, y_low, x_high, y_high",
+                                 {&ramp->x_low, &ramp->y_low, &ramp->x_high, &ramp->y_high});
+  if (!is_there || ramp->x_low < ramp->x_high) return;
   Refuse(key, ramp->x_high, "above its x_low, " + Text(ramp->x_low));
 }
 
 void Section::Read(const char* key, Actuator* actuator) {
-  Section section = Below(key);
+  const json* const values = Find(key);
+  if (values == nullptr) return;
+  Section section(*values, path_ + "." + key);
   section.ReadPositive("bandwidth_per_s", &actuator->bandwidth_per_s);
   section.ReadPositive("rate_limit_deg_per_s", &actuator->rate_limit_deg_per_s);
   section.Read("min_deg", &actuator->min_deg);
@@ -228,27 +268,45 @@ std::vector<std::string> Section::ReadKeys() {
   std::vector<std::string> keys;
   for (const auto& entry : values_.items()) {
     read_.insert(entry.key());
-    if (entry.key() != "source" && entry.key() != "about") keys.push_back(entry.key());
+    if (!IsText(entry.key())) keys.push_back(entry.key());
   }
   return keys;
 }
 
+std::string Section::Lacks(const std::string& key) const {
+  return path_ + " lacks " + key + InAnotherUnit(values_, key);
+}
+
+void Section::RefuseKey(const std::string& key) const {
+  std::set<std::string> absent;
+  for (const std::string& known : known_) {
+    if (!values_.contains(known)) absent.insert(known);
+  }
+  std::string rest = DidYouMean(key, {absent.begin(), absent.end()});
+  if (rest.empty() && !missing_.empty()) rest = ", and lacks " + missing_.front();
+  throw Error(path_ + " has the unknown key " + Printable(key) + rest);
+}
+
 void Section::Refuse(const char* key, double value, const std::string& rule) const {
+  if (!missing_.empty()) throw Error(Lacks(missing_.front()));
   throw Error(path_ + "." + key + " is " + Text(value) + ", but must be " + rule);
 }
 
 void Section::Finish() const {
-  for (const auto& entry : values_.items()) {
-    const std::string& key = entry.key();
-    if (key != "source" && key != "about" && read_.count(key) == 0) {
-      throw Error(path_ + " has the unknown key " + Printable(key));
-    }
+  for (const std::string& key : missing_) {
+    if (!InAnotherUnit(values_, key).empty()) throw Error(Lacks(key));
   }
+  for (const auto& entry : values_.items()) {
+    if (!IsText(entry.key()) && read_.count(entry.key()) == 0) RefuseKey(entry.key());
+  }
+  if (!missing_.empty()) throw Error(Lacks(missing_.front()));
 }
 
-void Section::ReadList(const char* key, const char* meaning,
+bool Section::ReadList(const char* key, const char* meaning,
                        std::initializer_list<double*> numbers) {
-  const json& list = At(key);
+  const json* const found = Find(key);
+  if (found == nullptr) return false;
+  const json& list = *found;
   const std::string path = path_ + "." + key;
   if (!list.is_array() || list.size() != numbers.size()) {
     throw Error(path + " must be a list of " + std::to_string(numbers.size()) +
@@ -256,6 +314,7 @@ void Section::ReadList(const char* key, const char* meaning,
   }
   std::size_t i = 0;
   for (double* number : numbers) *number = ToNumber(list[i++], path);
+  return true;
 }
 
 }  // namespace skein

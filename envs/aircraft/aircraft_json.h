@@ -34,13 +34,17 @@ inline constexpr const char* kNotOfTheModel[] = {kNameKey, kModelKey, kSettingsK
 nlohmann::json ParseAircraftJson(std::string_view text, const std::string& who);
 
 /// An object of an aircraft's file, whose every key must be read once Finish is called; "source"
-/// and "about" are for the human reader. Errors name the path of the key.
+/// and "about" are for the human reader. Errors name the path of the key. Numbers, laws, ramps and
+/// actuators that are missing stay as they are until Finish, which names an unknown key first: that
+/// is mostly the missing one, misspelt. All else that is missing is an error at once.
 class Section {
  public:
   /// `values` must live as long.
   Section(const nlohmann::json& values, std::string path);
 
-  bool Has(const char* key) const { return values_.contains(key); }
+  /// Throws Error if there is a key but these and what was skipped.
+  void Expect(std::initializer_list<const char*> keys);
+  bool Has(const char* key);
   Section Below(const char* key) { return {At(key), path_ + "." + key}; }
   const std::string& path() const { return path_; }
 
@@ -54,6 +58,8 @@ class Section {
   void Read(const char* key, FirstOrder* law);
   /// [x_low, y_low, x_high, y_high], of which x_high must be above x_low.
   void Read(const char* key, Ramp* ramp);
+  /// A number above 0, and at most 1.
+  void ReadFraction(const char* key, double* value);
   /// An object; its range must hold zero within.
   void Read(const char* key, Actuator* actuator);
   /// Numbers nested as deep as `shape` is long, row-major; each level must have as many elements as
@@ -66,21 +72,30 @@ class Section {
   /// The names of all keys but "source" and "about", which count as read.
   std::vector<std::string> ReadKeys();
   /// Counts `key` as read, if it is there.
-  void Skip(const char* key) { read_.insert(key); }
+  void Skip(const char* key);
 
-  /// Throws Error that `key` has the value, and what it must be.
+  /// Throws Error that `key` has the value, and what it must be; or that a number is missing, which
+  /// the value may come from.
   [[noreturn]] void Refuse(const char* key, double value, const std::string& rule) const;
 
-  /// Throws Error if there is a key that was not read.
+  /// Throws Error if there is a key that was not read, or a number is missing.
   void Finish() const;
 
  private:
   const nlohmann::json& At(const char* key);
-  void ReadList(const char* key, const char* meaning, std::initializer_list<double*> numbers);
+  /// Null if there is no such key, which is then missing.
+  const nlohmann::json* Find(const char* key);
+  /// False if there is none.
+  bool ReadNumber(const char* key, double* value);
+  bool ReadList(const char* key, const char* meaning, std::initializer_list<double*> numbers);
+  std::string Lacks(const std::string& key) const;
+  [[noreturn]] void RefuseKey(const std::string& key) const;
 
   const nlohmann::json& values_;
   std::string path_;
+  std::set<std::string> known_;  ///< what was asked for
   std::set<std::string> read_;
+  std::vector<std::string> missing_;
 };
 
 }  // namespace skein

@@ -28,7 +28,7 @@ void ReadAirframe(Section section, DerivativeAircraft* aircraft) {
   section.ReadPositive("wing_area_m2", &aircraft->wing_area_m2);
   section.ReadPositive("span_m", &aircraft->span_m);
   section.ReadPositive("chord_m", &aircraft->chord_m);
-  section.Read("cg_chord_fraction", &aircraft->cg_chord_fraction);
+  section.ReadFraction("cg_chord_fraction", &aircraft->cg_chord_fraction);
   section.Finish();
   if (aircraft->Ixz_kg_m2 * aircraft->Ixz_kg_m2 >= aircraft->Ixx_kg_m2 * aircraft->Izz_kg_m2) {
     section.Refuse("Ixz_kg_m2", aircraft->Ixz_kg_m2,
@@ -90,6 +90,8 @@ DerivativeAircraft ReadDerivativeAircraft(const std::string& name, std::string_v
   const json file = ParseAircraftJson(text, where);
   Section section(file, where);
   for (const char* key : kNotOfTheModel) section.Skip(key);
+  section.Expect({"airframe", "longitudinal", "lateral", "propulsion", "actuators", "limits",
+                  "flight_control", "observation_units"});
   DerivativeAircraft aircraft;
   aircraft.name = name;
   ReadAirframe(section.Below("airframe"), &aircraft);

@@ -112,6 +112,7 @@ ElectricPropulsion ReadElectric(Section* section) {
   section->ReadPositive("max_voltage_V", &propeller.max_voltage_V);
   electric.levels = ReadLevels<PropellerLevels>(section->Below("motor_throttle"));
   electric.cells = ReadCells(section);
+  section->Finish();
   // The motor's speed is the root of a quadratic, which there must be.
   if (!IsFinite(TabulateThrust(electric))) {
     section->Refuse("CQ_2", propeller.CQ_2,
@@ -173,6 +174,7 @@ PistonPropulsion ReadPiston(Section* section) {
   ReadPropeller(section->Below("propeller"), &piston.engine);
   piston.levels = ReadLevels<ThrottleLevels>(section->Below("engine_throttle"));
   piston.range = {ReadMaxAltitudeFt(section), ReadMaxMach(section)};
+  section->Finish();
   if (!IsFinite(TabulateThrust(piston))) {
     throw Error(section->path() + " gives thrust that is not finite");
   }
@@ -232,7 +234,6 @@ Propulsion ReadKind(Section* section) {
 }  // namespace
 
 void ReadPropulsion(Section section, DerivativeAircraft* aircraft) {
-  aircraft->propulsion = ReadKind(&section);
   Section gearing = section.Below("throttle_gearing");
   double knee_throttle = 0, knee_power = 0;
   gearing.ReadBetween(0, 1, "knee_throttle", &knee_throttle);
@@ -244,6 +245,8 @@ void ReadPropulsion(Section section, DerivativeAircraft* aircraft) {
   section.ReadPositive("power_rate_per_s", &rate_per_s);
   aircraft->power_lag = ConstantLag(rate_per_s);
   section.Read("untrimmed_thrust_N", &aircraft->untrimmed_thrust_N);
+  // At last: what it reads is looked at as a whole.
+  aircraft->propulsion = ReadKind(&section);
   section.Finish();
 }
 

@@ -264,7 +264,7 @@ void ReadAirframe(Section section, bool has_flap, Airframe* airframe) {
   section.ReadPositive("span_ft", &airframe->span_ft);
   section.ReadPositive("chord_ft", &airframe->chord_ft);
   section.Read("cg_reference_chord_fraction", &airframe->cg_reference);
-  section.Read("cg_chord_fraction", &airframe->cg);
+  section.ReadFraction("cg_chord_fraction", &airframe->cg);
   section.ReadPositive("Ixx_slug_ft2", &airframe->Ixx);
   section.ReadPositive("Iyy_slug_ft2", &airframe->Iyy);
   section.ReadPositive("Izz_slug_ft2", &airframe->Izz);
@@ -296,6 +296,7 @@ void ReadGearing(Section section, ThrottleGearing* gearing) {
   section.ReadPositive("dry_gain", &gearing->dry_gain);
   section.ReadPositive("afterburner_gain", &gearing->afterburner_gain);
   section.Read("afterburner_offset", &gearing->afterburner_offset);
+  section.Finish();
   constexpr double kRounding = 0.1;  // the F-16's stages meet within 0.0012, as published
   const double dry = PowerCommand(*gearing, gearing->military_throttle);
   const double lit =
@@ -308,15 +309,11 @@ void ReadGearing(Section section, ThrottleGearing* gearing) {
     section.Refuse("afterburner_gain", gearing->afterburner_gain,
                    "such that full throttle gives a power of 100 at most");
   }
-  section.Finish();
 }
 
 void ReadPowerLag(Section section, PowerLag* lag) {
   section.ReadPositive("max_rate_per_s", &lag->max_rate_per_s);
   section.ReadPositive("min_rate_per_s", &lag->min_rate_per_s);
-  if (!(lag->min_rate_per_s <= lag->max_rate_per_s)) {
-    section.Refuse("min_rate_per_s", lag->min_rate_per_s, "at most max_rate_per_s");
-  }
   section.Read("rate_offset_per_s", &lag->rate_offset_per_s);
   section.Read("rate_slope_per_s", &lag->rate_slope_per_s);
   if (section.Has("afterburner")) {
@@ -328,6 +325,9 @@ void ReadPowerLag(Section section, PowerLag* lag) {
     second.Finish();
   }
   section.Finish();
+  if (!(lag->min_rate_per_s <= lag->max_rate_per_s)) {
+    section.Refuse("min_rate_per_s", lag->min_rate_per_s, "at most max_rate_per_s");
+  }
 }
 
 void ReadEngine(Section section, Aircraft* aircraft) {
@@ -372,6 +372,8 @@ Aircraft ReadTableAircraft(const std::string& name, std::string_view text) {
   const json file = ParseAircraftJson(text, where);
   Section section(file, where);
   for (const char* key : kNotOfTheModel) section.Skip(key);
+  section.Expect({"airframe", "aerodynamics", "drag_rise", "engine", "actuators", "flight_control",
+                  "observation_units"});
   Aircraft aircraft;
   aircraft.name = name;
   const bool has_flap = section.Below("actuators").Has(kFlap);

@@ -43,19 +43,48 @@ class Findings {
 
 /// What an aircraft weighs and measures, in the units of its file.
 struct Sizes {
-  double mass, wing_area, span, chord, Ixx, Iyy, Izz;
+  double mass, wing_area, span, chord, Ixx, Iyy, Izz, Ixz;
   const char *mass_unit, *length_unit, *inertia_unit;  ///< as the keys end
   double kg_per_mass = 1, metres_per_length = 1;
 };
 
 Sizes SizesOf(const DerivativeAircraft& a) {
-  return {a.mass_kg,   a.wing_area_m2, a.span_m, a.chord_m, a.Ixx_kg_m2,
-          a.Iyy_kg_m2, a.Izz_kg_m2,    "kg",     "m",       "kg_m2"};
+  return {a.mass_kg,   a.wing_area_m2, a.span_m, a.chord_m, a.Ixx_kg_m2, a.Iyy_kg_m2,
+          a.Izz_kg_m2, a.Ixz_kg_m2,    "kg",     "m",       "kg_m2"};
 }
 
 Sizes SizesOf(const Airframe& a) {
-  return {a.mass_slug, a.wing_area_ft2, a.span_ft, a.chord_ft, a.Ixx,      a.Iyy,
-          a.Izz,       "slug",          "ft",      "slug_ft2", kKgPerSlug, kMetresPerFoot};
+  return {a.mass_slug, a.wing_area_ft2, a.span_ft, a.chord_ft, a.Ixx,      a.Iyy,         a.Izz,
+          a.Ixz,       "slug",          "ft",      "slug_ft2", kKgPerSlug, kMetresPerFoot};
+}
+
+/// That no principal moment of inertia is above the sum of the other two. One of three is the
+/// pitch axis's, as left and right are alike.
+void CheckPrincipalInertia(const Sizes& a, Findings* findings) {
+  constexpr double kRounding = 1e-9;
+  const double mean = (a.Ixx + a.Izz) / 2, half = std::hypot((a.Ixx - a.Izz) / 2, a.Ixz);
+  const double least = mean - half, most = mean + half;
+  const auto exceeds = [](double moment, double others) {
+    return moment > (1 + kRounding) * others;
+  };
+  const struct {
+    const char* name;
+    double inertia, others;
+  } axes[] = {
+      {"Ixx", a.Ixx, a.Iyy + a.Izz}, {"Iyy", a.Iyy, a.Ixx + a.Izz}, {"Izz", a.Izz, a.Ixx + a.Iyy}};
+  bool is_said = false;
+  for (const auto& axis : axes) {
+    const bool is_wrong = exceeds(axis.inertia, axis.others);
+    findings->Error(is_wrong,
+                    Say("airframe.%s_%s = %g is above the sum of the other two, %g: no body has "
+                        "such moments of inertia",
+                        axis.name, a.inertia_unit, axis.inertia, axis.others));
+    is_said = is_said || is_wrong;
+  }
+  findings->Error(!is_said && exceeds(most, least + a.Iyy),
+                  Say("airframe.Ixz_%s = %g makes principal moments of inertia of %.3g, %.3g and "
+                      "%.3g: no body has one above the sum of the other two",
+                      a.inertia_unit, a.Ixz, least, a.Iyy, most));
 }
 
 /// Radii of gyration over half the span, as Roskam tabulates them (Airplane Design V, appendix B;
@@ -75,10 +104,7 @@ void CheckInertia(const Sizes& a, Findings* findings) {
             "%.2f to %.2f",
             axis.name, a.inertia_unit, axis.inertia, found, axis.low, axis.high));
   }
-  findings->Error(a.Izz > a.Ixx + a.Iyy,
-                  Say("airframe.Izz_%s = %g is above the sum of the other two, %g: no body has "
-                      "such moments of inertia",
-                      a.inertia_unit, a.Izz, a.Ixx + a.Iyy));
+  CheckPrincipalInertia(a, findings);
 }
 
 void CheckGeometry(const Sizes& a, Findings* findings) {
@@ -131,8 +157,11 @@ void CheckLateral(const LateralDerivatives& k, Findings* findings) {
   findings->Error(
       k.Cl_aileron <= 0,
       Say("lateral.Cl_aileron = %g: positive ailerons roll right, as in books", k.Cl_aileron));
-  findings->Error(k.Cn_rudder >= 0,
+  findings->Error(k.Cn_rudder > 0,
                   Say("lateral.Cn_rudder = %g: positive rudder yaws left", k.Cn_rudder));
+  findings->Warn(k.Cn_rudder == 0,
+                 "lateral.Cn_rudder = 0: there is no rudder, and `skein aircraft tune` leaves its "
+                 "gains 0");
   findings->Warn(k.Cn_beta <= 0, Say("lateral.Cn_beta = %g: no weathercock stability", k.Cn_beta));
   findings->Warn(k.Cl_beta > 0,
                  Say("lateral.Cl_beta = %g: sideslip rolls into the wind", k.Cl_beta));
@@ -145,20 +174,48 @@ void CheckLateral(const LateralDerivatives& k, Findings* findings) {
 }
 
 /// No propeller gives more power than it takes.
+void CheckEfficiency(double advance_ratio, double efficiency, const char* propeller,
+                     Findings* findings) {
+  constexpr double kUsual = 0.92;
+  const std::string found = Say("%s: at the advance ratio %.3g its efficiency is %.2f", propeller,
+                                advance_ratio, efficiency);
+  findings->Error(efficiency >= 1, found);
+  findings->Warn(efficiency > kUsual && efficiency < 1, found + "; propellers reach 0.9");
+}
+
 void CheckPropeller(const PistonEngine& engine, Findings* findings) {
   for (std::size_t i = 0; i < engine.advance_ratio.size(); ++i) {
     const double J = engine.advance_ratio[i];
     double efficiency = 0;
     if (!engine.efficiency.empty()) efficiency = engine.efficiency[i];
     if (!engine.CP.empty() && engine.CP[i] > 0) efficiency = J * engine.CT[i] / engine.CP[i];
-    findings->Error(
-        efficiency > 1,
-        Say("propulsion.propeller: at the advance ratio %g its efficiency is %.2f", J, efficiency));
-    findings->Warn(efficiency > 0.92 && efficiency <= 1,
-                   Say("propulsion.propeller: at the advance ratio %g its efficiency is %.2f; "
-                       "propellers reach 0.9",
-                       J, efficiency));
+    CheckEfficiency(J, efficiency, "propulsion.propeller", findings);
   }
+}
+
+/// From standing to where its thrust ends: the first advance ratio at which it gives thrust for no
+/// torque, or else the one at which it is best.
+void CheckPropeller(const Propeller& propeller, Findings* findings) {
+  constexpr double kStep = 0.01, kTwoPi = 6.283185307179586477;
+  constexpr int kSteps = 300;
+  double best = 0, best_at = 0;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double J = kStep * i;
+    const double CT = propeller.CT_0 + J * (propeller.CT_1 + J * propeller.CT_2);
+    const double CQ = propeller.CQ_0 + J * (propeller.CQ_1 + J * propeller.CQ_2);
+    if (!(CT > 0)) break;
+    if (!(CQ > 0)) {
+      findings->Error(true, Say("propulsion: at the advance ratio %.3g the propeller gives thrust "
+                                "(CT = %.3g) and takes no torque (CQ = %.3g)",
+                                J, CT, CQ));
+      return;
+    }
+    const double efficiency = J * CT / (kTwoPi * CQ);
+    if (efficiency <= best) continue;
+    best = efficiency;
+    best_at = J;
+  }
+  CheckEfficiency(best_at, best, "propulsion, the propeller", findings);
 }
 
 std::string Where(const TrimPoint& trim) {
@@ -225,6 +282,9 @@ std::vector<Finding> CheckDerivatives(const DerivativeAircraft& aircraft) {
   if (const auto* piston = std::get_if<PistonPropulsion>(&aircraft.propulsion)) {
     CheckPropeller(piston->engine, &findings);
   }
+  if (const auto* electric = std::get_if<ElectricPropulsion>(&aircraft.propulsion)) {
+    CheckPropeller(electric->propeller, &findings);
+  }
   return findings.Take();
 }
 
@@ -252,6 +312,23 @@ std::vector<Finding> CheckEnvelope(const Plant& plant, const TuningLimits& limit
                       slowest * kMetresPerFoot, slowest / row.stall_speed_ft_s) +
                       WhyNot(plant, limits, 0, 0.97 * slowest));
   }
+  return findings.Take();
+}
+
+std::vector<Finding> CheckDrag(const Plant& plant, const FlightEnvelope& envelope,
+                               const std::string& cause) {
+  double least = 0;
+  std::string where;
+  for (const TrimPoint& trim : envelope.AllTrims()) {
+    const auto coefficients = plant.Evaluate(trim.state, trim.controls).coefficients;
+    const double drag =
+        -coefficients[0] * std::cos(trim.alpha_rad) - coefficients[2] * std::sin(trim.alpha_rad);
+    if (drag >= least) continue;
+    least = drag;
+    where = Where(trim);
+  }
+  Findings findings;
+  findings.Error(!where.empty(), where + Say(" drag is negative, CD = %.3g", least) + cause);
   return findings.Take();
 }
 

@@ -25,13 +25,18 @@ struct Finding {
 /// Of the airframe of a model of tables: ratios of mass and lengths.
 std::vector<Finding> CheckAirframe(const Airframe& airframe);
 
-/// Of the numbers of a derivative model alone: signs, ratios of mass and lengths, the propeller.
+/// Of the numbers of a derivative model alone: signs, ratios of mass, inertia and lengths, the
+/// propeller.
 std::vector<Finding> CheckDerivatives(const DerivativeAircraft& aircraft);
 
 /// Of level flight: that there is any, and how slow. `limits` are those that the envelope was found
 /// with.
 std::vector<Finding> CheckEnvelope(const Plant& plant, const TuningLimits& limits,
                                    const FlightEnvelope& envelope);
+
+/// Of drag in the envelope's trims, which is never negative; an error ends in `cause`.
+std::vector<Finding> CheckDrag(const Plant& plant, const FlightEnvelope& envelope,
+                               const std::string& cause);
 
 /// Of the aircraft without flight control.
 std::vector<Finding> CheckModes(const Plant& plant, const FlightEnvelope& envelope);

@@ -153,10 +153,24 @@ double CostOfLateral(const Plant& plant, const std::vector<Condition>& condition
   return cost;
 }
 
+/// Whether the rudder yaws. Where it does not there is none, and nothing for the gains of yaw to
+/// move.
+bool HasRudder(const Plant& plant, const TrimPoint& trim) {
+  constexpr double kNothing = 1e-9;  // a yawing moment coefficient's rounding
+  const auto yaw_at = [&](double rudder_deg) {
+    Controls controls = trim.controls;
+    controls.rudder_deg = rudder_deg;
+    constexpr int kCn = 5;
+    return plant.Evaluate(trim.state, controls).coefficients[kCn];
+  };
+  return std::abs(yaw_at(plant.aircraft().actuators.rudder.max_deg) - yaw_at(0)) > kNothing;
+}
+
 /// The rudder per aileron that takes away the yaw of ailerons and roll rate in a steady roll, the
-/// most that any condition asks for.
+/// most that any condition asks for; none without a rudder.
 double MostInterconnect(const Plant& plant, const std::vector<Condition>& conditions) {
   constexpr double kMost = 1;
+  if (!HasRudder(plant, conditions.front().trim)) return 0;
   double most = 0;
   for (const Condition& condition : conditions) {
     const LinearModel model = Linearise(plant, condition.trim.state, condition.trim.controls);
@@ -232,7 +246,7 @@ double AlphaToElevator(const Plant& plant, const std::vector<Condition>& conditi
 }
 
 /// First guesses for the searches, from the linear model at the slowest condition, where the loop
-/// gains are not reduced.
+/// gains are not reduced. Those that are zero stay zero.
 struct FirstGains {
   double pitch_proportional, pitch_integral, pitch_rate;
   double roll_rate, yaw_rate, side_acceleration, interconnect;
@@ -265,6 +279,10 @@ FirstGains GuessGains(const Plant& plant, const Condition& slow) {
   constexpr double kReached = 0.65, kFastestRoll = 200, kFaster = 1.6;
   first.max_roll_rate_deg_s = std::min(kFastestRoll, kFaster * B(kP, kAileronInput) * aileron_deg /
                                                          roll_damping * kDegPerRad / kReached);
+  if (!HasRudder(plant, slow.trim)) {
+    first.yaw_rate = first.side_acceleration = first.interconnect = first.max_pedal_deg = 0;
+    return first;
+  }
   // Pedals that bring ten degrees of sideslip at rest.
   constexpr double kSideslipDeg = 10;
   const double rudder_per_sideslip = yaw_stiffness / (B(kR, kRudderInput) * kDegPerRad);
@@ -329,11 +347,30 @@ Abuse FlyFullSticks(const Plant& plant, const std::vector<Condition>& conditions
   return abuse;
 }
 
-/// Draws the limiters in as far as full sticks go beyond stall or load factors in flight.
+/// What a round of drawing in leaves of a load factor.
+constexpr double kLess = 0.92;
+
+/// Lowers alpha's limit by `step_deg`, with its onset no higher, but not below `least_deg`.
+void LowerAlphaLimit(double step_deg, double least_deg, FlightControlGains* gains) {
+  const double lower = std::max(gains->alpha_limit_deg - step_deg, least_deg);
+  if (!(lower < gains->alpha_limit_deg)) return;
+  gains->alpha_limit_deg = lower;
+  gains->alpha_limit_gain_g_per_deg /= kLess;
+  gains->alpha_onset_deg = std::min(gains->alpha_onset_deg, lower);
+}
+
+/// Draws the limiters in as far as full sticks go beyond stall or load factors in flight. Alpha's
+/// stays above all level flight, which it would else push out of its trim; where that is not low
+/// enough, only the load factor's command is reduced.
 void KeepWithinLimits(const Plant& plant, const TuningLimits& limits, double stall_alpha_deg,
                       const std::vector<Condition>& conditions, FlightControlGains* gains) {
   constexpr int kMostRounds = 12;
-  constexpr double kAlphaMarginDeg = 1, kLess = 0.92;
+  constexpr double kAlphaMarginDeg = 1, kTrimMarginDeg = 0.5;
+  const auto by_alpha = [](const Condition& a, const Condition& b) {
+    return a.trim.alpha_rad < b.trim.alpha_rad;
+  };
+  const Condition& steepest = *std::max_element(conditions.begin(), conditions.end(), by_alpha);
+  const double least_limit_deg = steepest.trim.alpha_rad * kDegPerRad + kTrimMarginDeg;
   for (int round = 0; round < kMostRounds; ++round) {
     const Abuse abuse = FlyFullSticks(plant.WithFlightControl(*gains), conditions);
     const bool stalls = !(abuse.max_alpha_deg <= stall_alpha_deg - kAlphaMarginDeg);
@@ -343,16 +380,17 @@ void KeepWithinLimits(const Plant& plant, const TuningLimits& limits, double sta
     if (pulls) gains->max_load_factor_command *= kLess;
     if (pushes) gains->min_load_factor_command.y_high *= kLess;
     if (stalls) {
-      gains->alpha_limit_deg -= kAlphaMarginDeg;
-      gains->alpha_limit_gain_g_per_deg /= kLess;
+      LowerAlphaLimit(kAlphaMarginDeg, least_limit_deg, gains);
       gains->max_load_factor_command *= kLess;
     }
   }
 }
 
+/// To three digits. What the search has all but switched off is zero, which halving never reaches.
 double Rounded(double value) {
   constexpr int kDigits = 3;
-  if (value == 0) return 0;
+  constexpr double kNothing = 1e-6;  // of degrees, g and seconds: no surface moves by it
+  if (std::abs(value) < kNothing) return 0;
   const double unit = std::pow(10, kDigits - 1 - std::floor(std::log10(std::abs(value))));
   return std::round(value * unit) / unit;
 }

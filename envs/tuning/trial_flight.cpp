@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "envs/aircraft/engine.h"
 #include "envs/state/attitude.h"
@@ -92,7 +93,11 @@ double Ringing(const TrialFlight& flight, const std::vector<double>& values, dou
 
 double Peak(const std::vector<double>& values) {
   double peak = 0;
-  for (const double value : values) peak = std::max(peak, std::abs(value));
+  for (const double value : values) {
+    // std::max passes over what is not a number.
+    if (std::isnan(value)) return std::numeric_limits<double>::infinity();
+    peak = std::max(peak, std::abs(value));
+  }
   return peak;
 }
 

@@ -43,7 +43,7 @@ std::vector<Sticks> FullSticks();
 /// died.
 double Ringing(const TrialFlight& flight, const std::vector<double>& values, double start);
 
-/// The greatest magnitude.
+/// The greatest magnitude; infinity if any of them is not a number.
 double Peak(const std::vector<double>& values);
 
 }  // namespace skein

@@ -12,11 +12,12 @@
 
 #include "base/ends_with.h"
 #include "base/fnv_hash.h"
+#include "base/nearest_name.h"
 #include "envs/autopilot/autopilot.h"
 #include "src/agents/policy_file.h"
-#include "src/config/nearest_name.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
+#include "src/run/run_directory.h"
 #include "train/policy/other_aircraft.h"
 #include "train/policy/policy_environment.h"
 
@@ -139,6 +140,21 @@ std::string PolicyFileOfAgent(const std::string& name) {
   const std::string file = PolicyArgumentOf(name).file;
   if (file.empty()) throw UsageError(fmt::format("agent {}: policy: needs a file or a run", name));
   return PolicyFileOf(file);
+}
+
+std::string RunOfAgent(const std::string& name) {
+  if (KindOf(name) != kPolicy) return "";
+  const PolicyArgument argument = PolicyArgumentOf(name);
+  return argument.is_of_other_aircraft || !IsRunDirectory(argument.file) ? "" : argument.file;
+}
+
+std::vector<std::string> FilesOfRunsOfAgents(const std::vector<std::string>& names) {
+  std::vector<std::string> files;
+  for (const std::string& name : names) {
+    const std::vector<std::string> own = FilesOfPolicy(RunOfAgent(name));
+    files.insert(files.end(), own.begin(), own.end());
+  }
+  return files;
 }
 
 bool DrawsActions(const std::string& name) {

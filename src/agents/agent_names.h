@@ -19,6 +19,13 @@ std::string AutopilotVariantOf(const std::string& name);
 /// other agents. Throws UsageError on an unknown suffix of a file that is there.
 std::string PolicyFileOfAgent(const std::string& name);
 
+/// The directory of the run whose policy the agent is; empty for other agents, and for a policy
+/// that is to fly another aircraft than its own. Throws as PolicyFileOfAgent.
+std::string RunOfAgent(const std::string& name);
+
+/// The files of those runs that FilesOfPolicy names.
+std::vector<std::string> FilesOfRunsOfAgents(const std::vector<std::string>& names);
+
 /// Whether the agent of that name draws its actions at random. Throws as PolicyFileOfAgent.
 bool DrawsActions(const std::string& name);
 

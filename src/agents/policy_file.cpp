@@ -55,7 +55,7 @@ std::shared_ptr<const TermTaskConfig> TermTaskOf(const RecurrentPolicy& policy,
                                                  const std::string& who) {
   const std::string& text = policy.parameters()->task_file;
   if (text.empty()) return nullptr;
-  return ResolveConfig({who + "'s task file", "default", "", {}, {}, "", text}).train.env.term_task;
+  return std::make_shared<const TermTaskConfig>(TermTaskIn(text, who + "'s task file"));
 }
 
 RecurrentPolicy LoadPolicy(const std::string& file, const ProgramConfig& config, std::uint64_t seed,

@@ -2,11 +2,13 @@
 #include "src/aircraft/aircraft_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "envs/aircraft/aircraft_document.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
 #include "envs/aircraft/engine.h"
@@ -131,6 +133,15 @@ std::string DescribeModes(const Plant& plant, const FlightEnvelope& envelope) {
   return text;
 }
 
+/// That the presets that are to serve it are of an aircraft that has some.
+std::vector<Finding> CheckPresets(const AircraftDocument& document) {
+  const std::vector<std::string> known = AircraftNames();
+  const std::string& name = document.presets_of;
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return {};
+  return {{Finding::kError, fmt::format("presets_of: unknown aircraft {}{}; known: {}", name,
+                                        DidYouMean(name, known), fmt::join(known, ", "))}};
+}
+
 }  // namespace
 
 CheckedAircraft LoadForCheck(const std::string& aircraft) {
@@ -188,8 +199,12 @@ AircraftReport CheckAircraft(const CheckedAircraft& aircraft) {
   const auto append = [&](std::vector<Finding> more) {
     report.findings.insert(report.findings.end(), more.begin(), more.end());
   };
+  append(CheckPresets(aircraft.document));
   const FlightEnvelope envelope = ReportEnvelope(aircraft.plant, aircraft.limits);
   append(CheckEnvelope(aircraft.plant, aircraft.limits, envelope));
+  const bool is_of_derivatives = aircraft.document.model == "derivatives";
+  append(
+      CheckDrag(aircraft.plant, envelope, is_of_derivatives ? " (longitudinal.CD_elevator?)" : ""));
   append(CheckModes(aircraft.plant, envelope));
   report.figures =
       DescribeEnvelope(aircraft.plant, envelope) + DescribeModes(aircraft.plant, envelope);

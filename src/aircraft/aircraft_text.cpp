@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aircraft/aircraft_text.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "envs/aircraft/derivative_aircraft_file.h"
+#include "envs/aircraft/flight_control_file.h"
 
 namespace skein {
 namespace {
@@ -50,6 +56,20 @@ std::string AircraftText(const nlohmann::ordered_json& file) {
   std::string text;
   Append(file, "", &text);
   return text + "\n";
+}
+
+std::string TextWithGains(const AircraftDocument& document, const FlightControlGains& gains) {
+  Json file = Json::parse(document.text);
+  Json section = {{"about", "By `skein aircraft tune`, from the linear model over level flight."}};
+  section.update(FlightControlJson(gains));
+  file["flight_control"] = section;
+  std::string text = AircraftText(file);
+  try {
+    ReadDerivativeAircraft(document.name, text);
+  } catch (const Error& error) {
+    throw Error(fmt::format("the gains found are none of an aircraft: {}", error.what()));
+  }
+  return text;
 }
 
 }  // namespace skein

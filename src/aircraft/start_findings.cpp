@@ -23,6 +23,16 @@ std::string PresetOf(const std::string& task, const std::string& aircraft) {
   return preset.empty() ? "default" : preset;
 }
 
+/// The preset with the aircraft and the settings of its file. Throws Error if these are no
+/// configuration that can be flown.
+void CheckSettings(const ConfigSources& sources) {
+  const ProgramConfig preset = ResolveConfig({sources.task, sources.preset, "", {}});
+  const ProgramConfig config = WithAircraft(preset, [&](ProgramConfig* changed) {
+    ApplyConditionsAndAssignments({}, sources.assignments, changed, sources.assignments_are);
+  });
+  CheckFlyable(config.train.env);
+}
+
 /// What is wrong with steady level flight there, if anything is.
 std::optional<Finding> CheckLevelFlight(const Plant& plant, const std::string& task,
                                         double altitude_ft, double speed_fps) {
@@ -50,11 +60,17 @@ std::optional<Finding> CheckLevelFlight(const Plant& plant, const std::string& t
 
 std::vector<Finding> CheckStart(const std::string& aircraft, const std::string& task) {
   AsUsage([&] { return ResolveConfig({task, "default", "", {}}); });  // refuses an unknown task
+  const std::string known = IsAircraftPath(aircraft) ? KeepAircraftFile(aircraft) : aircraft;
+  const ConfigSources sources = {task, PresetOf(task, known), "", {AircraftAssignment(known)}, {},
+                                 task};
+  try {
+    CheckSettings(sources);
+  } catch (const Error& error) {
+    return {{Finding::kError, fmt::format("it cannot fly task {}: {}", task, error.what())}};
+  }
   ProgramConfig config;
   try {
-    const std::string known = IsAircraftPath(aircraft) ? KeepAircraftFile(aircraft) : aircraft;
-    config =
-        ResolveConfig({task, PresetOf(task, known), "", {AircraftAssignment(known)}, {}, task});
+    config = ResolveConfig(sources);
   } catch (const Error& error) {
     return {{Finding::kWarning, fmt::format("it cannot fly task {} yet: {}", task, error.what())}};
   }

@@ -4,12 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.h"
-#include "envs/aircraft/derivative_aircraft_file.h"
-#include "envs/aircraft/flight_control_file.h"
 #include "src/aircraft/aircraft_report.h"
 #include "src/aircraft/aircraft_text.h"
 #include "src/aircraft/start_findings.h"
@@ -20,8 +17,6 @@
 
 namespace skein {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Prints what was found, errors first; returns how many errors there are.
 int PrintFindings(const std::vector<Finding>& findings) {
@@ -51,15 +46,6 @@ void Check(const std::string& aircraft, const std::string& task) {
              Counted(static_cast<int>(report.findings.size()), "warning"));
 }
 
-/// The file with another section flight_control.
-void WriteTuned(const std::string& path, const std::string& text, const FlightControlGains& gains) {
-  Json file = Json::parse(text);
-  Json section = {{"about", "By `skein aircraft tune`, from the linear model over level flight."}};
-  section.update(FlightControlJson(gains));
-  file["flight_control"] = section;
-  WriteFile(path, AircraftText(file));
-}
-
 void Tune(const std::string& in, const std::string& out) {
   CheckWritable(out);
   const CheckedAircraft checked = LoadForCheck(in);
@@ -84,7 +70,7 @@ void Tune(const std::string& in, const std::string& out) {
     fmt::print("nothing is written; -o FILE writes {} with these gains\n", in);
     return;
   }
-  WriteTuned(out, document.text, tuned.aircraft().flight_control);
+  WriteFile(out, TextWithGains(document, tuned.aircraft().flight_control));
   fmt::print("wrote {}\n", out);
 }
 

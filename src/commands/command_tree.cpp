@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "src/config/nearest_name.h"
+#include "base/nearest_name.h"
 
 namespace skein {
 

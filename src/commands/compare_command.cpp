@@ -42,14 +42,16 @@ struct CompareOptions {
 
 ProgramConfig Configure(const CompareOptions& options) {
   const FlightOptions& flight = options.flight;
+  const std::string aircraft = AircraftOfRun(flight, options.agents);
   ConfigSources sources = SourcesFor(
-      flight, "", flight.task.empty() ? FirstPolicyWithTask(options.agents) : std::nullopt);
+      flight, "", flight.task.empty() ? FirstPolicyWithTask(options.agents) : std::nullopt,
+      aircraft);
   sources.file = flight.config;
   const std::vector<std::string> policies = PoliciesAmong(options.agents);
   return AsUsage([&] {
     ProgramConfig config = ResolveConfig(sources);
     const EnvConfig asked = config.train.env;
-    ApplyOverrides(flight, policies, &config);
+    ApplyOverrides(flight, policies, aircraft, &config);
     CheckEachAgentsOwn(config.train.env, asked);
     return config;
   });
@@ -57,8 +59,10 @@ ProgramConfig Configure(const CompareOptions& options) {
 
 std::vector<std::string> Inputs(const CompareOptions& options) {
   std::vector<std::string> files = FilesRead(options.flight);
-  const std::vector<std::string> policies = PolicyFilesOfAgents(options.agents);
-  files.insert(files.end(), policies.begin(), policies.end());
+  for (const auto& of_agents :
+       {PolicyFilesOfAgents(options.agents), FilesOfRunsOfAgents(options.agents)}) {
+    files.insert(files.end(), of_agents.begin(), of_agents.end());
+  }
   return files;
 }
 
@@ -186,7 +190,10 @@ void CompareAgents(const CompareOptions& options, Ranks& ranks) {
   DoTogether(ranks, [&] {
     config = Configure(options);
     RequireRoom(options, config.train.env);
-    if (ranks.rank() == 0) CheckFiles(options);
+    if (ranks.rank() == 0) {
+      CheckFiles(options);
+      WarnOfTargets(config.train.env);
+    }
     if (!options.html.empty()) ReportTemplate();  // without one there is nothing to fly for
     agents = FindAgents(options.agents, config, flight.seed);
     if (ranks.count() > 1) identity = Identity(options, config);

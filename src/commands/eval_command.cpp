@@ -75,9 +75,11 @@ Subject FindSubject(const EvalOptions& options) {
   }
   std::optional<RecurrentPolicy> trained;
   if (path != kUntrained) trained = RecurrentPolicy::Load(path);
-  ProgramConfig config = ConfigFor(flight, options.policy, trained);
+  const std::string aircraft =
+      options.other_aircraft ? "" : AircraftOfRun(flight, {"policy:" + options.policy});
+  ProgramConfig config = ConfigFor(flight, options.policy, trained, aircraft);
   if (trained) config.train.env = trained->EnvironmentFor(config.train.env);
-  ApplyOverrides(flight, {path}, &config);
+  ApplyOverrides(flight, {path}, aircraft, &config);
   std::shared_ptr<const StoredPolicy> low_level;
   if (!options.low_level.empty()) {
     config.train.env.tracking.acts_directly = false;  // whatever the preset trains
@@ -120,6 +122,7 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
     }
     if (ranks.rank() == 0) {
       CheckWritable({flight.json, flight.flights, flight.acmi}, Inputs(options));
+      WarnOfTargets(subject->config.train.env);
     }
     if (ranks.count() > 1) identity = Identity(*subject, flight);
   });

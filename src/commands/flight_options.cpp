@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <set>
 
@@ -16,6 +17,7 @@
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
+#include "src/config/target_reach.h"
 #include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
@@ -154,8 +156,21 @@ std::optional<RecurrentPolicy> FirstPolicyWithTask(const std::vector<std::string
   return std::nullopt;
 }
 
+std::string AircraftOfRun(const FlightOptions& options, const std::vector<std::string>& agents) {
+  if (!options.aircraft.empty()) return "";
+  for (const std::string& assignment : options.assignments) {
+    if (KeyOf(assignment) == "env.aircraft") return "";
+  }
+  for (const std::string& agent : agents) {
+    const std::string run = RunOfAgent(agent);
+    if (!run.empty()) return ReadRecord(run + "/config.toml").train.env.aircraft;
+  }
+  return "";
+}
+
 ConfigSources SourcesFor(const FlightOptions& options, const std::string& policy,
-                         const std::optional<RecurrentPolicy>& trained) {
+                         const std::optional<RecurrentPolicy>& trained,
+                         const std::string& aircraft) {
   const std::string policys_task = trained ? trained->task() : "";
   const std::string& task = options.task.empty() ? policys_task : options.task;
   if (task.empty()) {
@@ -164,17 +179,24 @@ ConfigSources SourcesFor(const FlightOptions& options, const std::string& policy
                        : fmt::format("--task is needed: --policy {} does not say its own", policy));
   }
   ConfigSources sources{task, options.preset, "", {}};
-  if (options.task.empty() && trained) sources.task_text = trained->parameters()->task_file;
+  sources.is_beginning = true;
+  if (!options.task.empty() || !trained) return sources;
+  sources.task_text = trained->parameters()->task_file;
+  EnvConfig own;
+  own.aircraft = options.aircraft.empty() ? aircraft : options.aircraft;
+  AsUsage([&] { KeepAircraft("", &own); });
+  sources.text_aircraft = own.aircraft;
   return sources;
 }
 
 ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
-                        const std::optional<RecurrentPolicy>& trained) {
+                        const std::optional<RecurrentPolicy>& trained,
+                        const std::string& aircraft) {
   const bool is_of_run = options.preset_option->count() == 0 && !IsTaskFile(options.task);
   if (IsRunDirectory(policy) && is_of_run) {
     return ReadRecord(policy + "/config.toml");
   }
-  const ConfigSources sources = SourcesFor(options, policy, trained);
+  const ConfigSources sources = SourcesFor(options, policy, trained, aircraft);
   return AsUsage([&] { return ResolveConfig(sources); });
 }
 
@@ -188,7 +210,7 @@ std::vector<std::string> PoliciesAmong(const std::vector<std::string>& agents) {
 }
 
 void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>& policies,
-                    ProgramConfig* config) {
+                    const std::string& aircraft, ProgramConfig* config) {
   const CLI::Option* const count = options.flights_count_option;
   const bool counts = RecordsFlights(options) || options.flights_on_page;
   if (count != nullptr && count->count() > 0 && !counts) {
@@ -200,6 +222,7 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
   const std::string& task = is_own ? base.train.env.task : options.task;
   *config = AsUsage([&] {
     ProgramConfig flown = WithAircraft(base, [&](ProgramConfig* changed) {
+      if (!aircraft.empty()) changed->train.env.aircraft = aircraft;
       if (!options.config.empty()) ApplyTomlFile(options.config, changed);
       if (!options.aircraft.empty()) {
         ApplyConditionsAndAssignments({}, {AircraftAssignment(options.aircraft)}, changed,
@@ -216,9 +239,16 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
       RequireTask(*changed, task);
     });
     RequireOwnScale(base, flown);
+    if (flown.train.env.aircraft == base.train.env.aircraft) RequireScaleOfTaskFile(flown);
     CheckFlyable(flown.train.env);
     return flown;
   });
+}
+
+void WarnOfTargets(const EnvConfig& env) {
+  for (const std::string& line : TargetsBeyondLimits(env)) {
+    fmt::print(stderr, "warning: {}\n", line);
+  }
 }
 
 std::vector<NamedAgent> FindAgents(const std::vector<std::string>& names,

@@ -69,24 +69,34 @@ std::vector<std::string> FilesRead(const FlightOptions& options);
 /// Error on a policy that cannot be read.
 std::optional<RecurrentPolicy> FirstPolicyWithTask(const std::vector<std::string>& agents);
 
+/// The aircraft of the first of these agents that is the policy of a run (RunOfAgent), as the run
+/// has recorded it; empty if none is, or if --aircraft or --set choose the aircraft.
+std::string AircraftOfRun(const FlightOptions& options, const std::vector<std::string>& agents);
+
 /// Where the configuration of the task begins that is asked for, else of that of `trained`: at the
-/// preset. Throws UsageError, which names `policy` unless that is empty, if nothing says a task.
+/// preset. `aircraft` is AircraftOfRun. Throws UsageError, which names `policy` unless that is
+/// empty, if nothing says a task.
 ConfigSources SourcesFor(const FlightOptions& options, const std::string& policy,
-                         const std::optional<RecurrentPolicy>& trained);
+                         const std::optional<RecurrentPolicy>& trained,
+                         const std::string& aircraft);
 
 /// What a policy was made for: the run's own configuration if `policy` is a run and no preset was
 /// asked for, else the preset's, of the task of `trained` if no other is asked for.
 ProgramConfig ConfigFor(const FlightOptions& options, const std::string& policy,
-                        const std::optional<RecurrentPolicy>& trained);
+                        const std::optional<RecurrentPolicy>& trained, const std::string& aircraft);
 
 /// The files of those of these agents that are policies, kUntrained for untrained ones.
 std::vector<std::string> PoliciesAmong(const std::vector<std::string>& agents);
 
-/// The environment of `config` with --config, --condition, --set, --hold and --mission on top.
-/// `policies` are those that fly (PoliciesAmong). Throws UsageError if they cannot be, name another
-/// task than --task (without it: than `config`), or if --set gives a key that no flight heeds.
+/// The environment of `config` with `aircraft` (AircraftOfRun), --config, --aircraft, --condition,
+/// --set, --hold and --mission on top. `policies` are those that fly (PoliciesAmong). Throws
+/// UsageError if they cannot be, name another task than --task (without it: than `config`), or if
+/// --set gives a key that no flight heeds.
 void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>& policies,
-                    ProgramConfig* config);
+                    const std::string& aircraft, ProgramConfig* config);
+
+/// Says on the error stream which targets no flight can come to (TargetsBeyondLimits).
+void WarnOfTargets(const EnvConfig& env);
 
 /// The agents of a list of --agents, for the environment of `config`. Throws UsageError on a name
 /// that is there twice.

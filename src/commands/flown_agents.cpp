@@ -84,9 +84,11 @@ std::vector<std::optional<float>> TargetOf(const std::vector<std::string>& texts
 }
 
 ProgramConfig Configure(const FlownAgents& flown, const std::vector<std::string>& names) {
-  ProgramConfig config = ConfigFor(flown.flight, flown.policy, FirstPolicyWithTask(names));
+  const std::string aircraft = AircraftOfRun(flown.flight, names);
+  ProgramConfig config =
+      ConfigFor(flown.flight, flown.policy, FirstPolicyWithTask(names), aircraft);
   const EnvConfig asked = config.train.env;
-  ApplyOverrides(flown.flight, PoliciesAmong(names), &config);
+  ApplyOverrides(flown.flight, PoliciesAmong(names), aircraft, &config);
   AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });
   EnvConfig& env = config.train.env;
   RequireRoomFor(flown.flight.episodes, names.size(),
@@ -137,14 +139,18 @@ std::vector<std::string> NamesOf(const FlownAgents& flown) {
 
 std::vector<std::string> FilesRead(const FlownAgents& flown) {
   std::vector<std::string> files = FilesRead(flown.flight);
-  for (const auto& policies : {FilesOfPolicy(flown.policy), PolicyFilesOfAgents(NamesOf(flown))}) {
+  const std::vector<std::string> names = NamesOf(flown);
+  for (const auto& policies :
+       {FilesOfPolicy(flown.policy), PolicyFilesOfAgents(names), FilesOfRunsOfAgents(names)}) {
     files.insert(files.end(), policies.begin(), policies.end());
   }
   return files;
 }
 
 std::string TaskOf(const FlownAgents& flown) {
-  return ConfigFor(flown.flight, flown.policy, FirstPolicyWithTask(NamesOf(flown))).train.env.task;
+  const std::vector<std::string> names = NamesOf(flown);
+  const std::string aircraft = AircraftOfRun(flown.flight, names);
+  return ConfigFor(flown.flight, flown.policy, FirstPolicyWithTask(names), aircraft).train.env.task;
 }
 
 ProgramConfig ConfigurationOf(const FlownAgents& flown) { return Configure(flown, NamesOf(flown)); }
@@ -155,6 +161,7 @@ std::vector<AgentFlights> FlyEpisodes(const FlownAgents& flown) {
   const std::vector<std::string> names = NamesOf(flown);
   const ProgramConfig config = Configure(flown, names);
   flight.target = TargetOf(flown.targets, config.train.env);
+  if (flown.targets.empty()) WarnOfTargets(config.train.env);
   WorkerPool pool(flight.threads);
   std::vector<AgentFlights> agents;
   for (const NamedAgent& named : FindAgents(names, config, flight.seed)) {

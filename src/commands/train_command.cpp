@@ -11,6 +11,7 @@
 #include "src/agents/policy_file.h"
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
+#include "src/commands/flight_options.h"
 #include "src/commands/launched_ranks.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
@@ -156,6 +157,7 @@ void Begin(const TrainOptions& options, Ranks& ranks) {
     FollowRun(config, origin.from, pool, ranks);
     return;
   }
+  WarnOfTargets(config.train.env);
   std::string path;
   origin.directory = &path;
   if (TrainingRun::Begin(config, options.out, pool, origin, ranks) == 0) {

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "base/ends_with.h"
+#include "base/nearest_name.h"
 #include "src/commands/command_tree.h"
-#include "src/config/nearest_name.h"
 
 namespace skein {
 namespace {

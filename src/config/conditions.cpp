@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "envs/env_config.h"
 #include "envs/tasks/terms/term_task_config.h"
 #include "envs/wind/dryden.h"
 #include "src/config/condition_level.h"
-#include "src/config/nearest_name.h"
 #include "src/config/plant_condition.h"
 
 namespace skein {

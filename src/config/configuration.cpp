@@ -157,6 +157,19 @@ std::string FolderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
+/// The path of an aircraft's file in the text of a task file that a policy holds is from a folder
+/// that is not known any more: `aircraft` stands for it, if that is known.
+void FindAircraftOfText(const std::string& aircraft, toml::table* settings) {
+  toml::table* const env = settings->get_as<toml::table>("env");
+  const auto* const named = env == nullptr ? nullptr : env->get_as<std::string>("aircraft");
+  if (named == nullptr || !IsAircraftPath(named->get())) return;
+  if (aircraft.empty()) {
+    env->erase("aircraft");
+  } else {
+    env->insert_or_assign("aircraft", aircraft);
+  }
+}
+
 ProgramConfig ConfigOfTaskFile(const ConfigSources& sources) {
   if (sources.preset != "default") {
     throw Error(
@@ -167,12 +180,15 @@ ProgramConfig ConfigOfTaskFile(const ConfigSources& sources) {
   }
   const std::string text =
       sources.task_text.empty() ? ReadTaskFileText(sources.task) : sources.task_text;
-  const TaskFile file = ReadTaskFile(text, sources.task, SettingsTables());
-  ProgramConfig config = TaskFileDefaults();
-  config.train.env.SetTermTask(file.terms);
-  TomlReader(sources.task, Reading::kStrict, &config).Apply(file.settings, "");
-  KeepAircraft(FolderOf(sources.task), &config.train.env);
-  return config;
+  TaskFile file = ReadTaskFile(text, sources.task, SettingsTables());
+  if (!sources.task_text.empty()) FindAircraftOfText(sources.text_aircraft, &file.settings);
+  ProgramConfig base = TaskFileDefaults();
+  base.train.env.SetTermTask(file.terms);
+  const std::string folder = sources.task_text.empty() ? FolderOf(sources.task) : "";
+  return WithAircraft(base, [&](ProgramConfig* config) {
+    TomlReader(sources.task, Reading::kStrict, config).Apply(file.settings, "");
+    KeepAircraft(folder, &config->train.env);
+  });
 }
 
 /// Gives a configuration that a run has recorded the task file that it names.
@@ -314,6 +330,10 @@ std::string TaskNameOf(const std::string& task) {
   return ReadTaskFile(ReadTaskFileText(task), task, SettingsTables()).terms.name;
 }
 
+TermTaskConfig TermTaskIn(const std::string& text, const std::string& source) {
+  return ReadTaskFile(text, source, SettingsTables()).terms;
+}
+
 std::string TaskFileHash(const std::string& path) {
   return ReadTaskFile(ReadTaskFileText(path), path, SettingsTables()).terms.hash;
 }
@@ -329,7 +349,13 @@ ProgramConfig ResolveConfig(const ConfigSources& sources) {
     RequireTask(*changed, base.train.env.task);
   });
   RequireOwnScale(base, config);
+  const bool is_of_base = config.train.env.aircraft == base.train.env.aircraft;
+  if (is_of_base && !sources.is_beginning) RequireScaleOfTaskFile(config);
   return config;
+}
+
+void RequireScaleOfTaskFile(const ProgramConfig& config) {
+  if (config.train.env.term_task != nullptr) RequireOwnScale(TaskFileDefaults(), config);
 }
 
 std::string DumpToml(const ProgramConfig& config) {

@@ -57,10 +57,17 @@ struct ConfigSources {
   std::vector<std::string> conditions = {};  ///< NAME=LEVEL, of lower precedence than assignments
   std::string assignments_are = "--set";     ///< what errors call an assignment
   std::string task_text = "";                ///< text of a task file, which errors then call `task`
+  /// NAME#HASH for the path of an aircraft's file in `task_text`; empty: not known, and passed
+  /// over.
+  std::string text_aircraft = "";
+  bool is_beginning = false;  ///< more comes on top: RequireScaleOfTaskFile is for later
 };
 
 /// The name of the task that was asked for: of a task file the one that it says.
 std::string TaskNameOf(const std::string& task);
+
+/// What the text of a task file, which errors call `source`, says of the task.
+TermTaskConfig TermTaskIn(const std::string& text, const std::string& source);
 
 /// As env.task_file_hash.
 std::string TaskFileHash(const std::string& path);
@@ -69,6 +76,10 @@ std::string TaskFileHash(const std::string& path);
 /// is its own tables of settings, on top of TaskFileSettings. Throws Error if one of them names
 /// another task.
 ProgramConfig ResolveConfig(const ConfigSources& sources);
+
+/// Throws Error as RequireOwnScale if the aircraft is another than the one that the settings of
+/// task files begin with. Other tasks pass.
+void RequireScaleOfTaskFile(const ProgramConfig& config);
 
 /// Every key of the configuration's task with its value, as TOML that ApplyToml reads back exactly,
 /// each with its meaning.

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "src/config/nearest_name.h"
+#include "base/nearest_name.h"
 
 namespace skein {
 

@@ -11,9 +11,9 @@
 
 #include "base/error.h"
 #include "base/field_list.h"
+#include "base/nearest_name.h"
 #include "base/number_text.h"
 #include "envs/plant/plant_config.h"
-#include "src/config/nearest_name.h"
 
 namespace skein {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "src/config/nearest_name.h"
+#include "base/nearest_name.h"
 
 namespace skein {
 namespace {

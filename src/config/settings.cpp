@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "src/config/nearest_name.h"
+#include "base/nearest_name.h"
 #include "src/files/plain_line.h"
 
 namespace skein {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "envs/tasks/termination.h"
-#include "src/config/nearest_name.h"
 #include "src/config/table_reader.h"
 #include "src/config/task_checks.h"
 #include "src/config/task_sections.h"

@@ -10,7 +10,7 @@
 
 #include "base/ends_with.h"
 #include "base/error.h"
-#include "src/config/nearest_name.h"
+#include "base/nearest_name.h"
 
 namespace skein {
 namespace {

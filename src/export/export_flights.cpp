@@ -24,8 +24,10 @@ EnvConfig PresetWith(const std::string& preset, const EnvConfig& made_in) {
 /// The usual preset if it has the aircraft, else the first that does.
 EnvConfig PresetOf(const EnvConfig& made_in) {
   if (made_in.term_task != nullptr) {
-    return ResolveConfig({made_in.task, kUsualPreset, "", {}, {}, "", made_in.term_task->text})
-        .train.env;
+    ConfigSources sources{made_in.task, kUsualPreset, "", {AircraftAssignment(made_in.aircraft)}};
+    sources.task_text = made_in.term_task->text;
+    sources.text_aircraft = made_in.aircraft;
+    return ResolveConfig(sources).train.env;
   }
   EnvConfig usual = ResolveConfig({made_in.task, kUsualPreset, "", {}}).train.env;
   if (usual.aircraft == made_in.aircraft) return usual;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
 #include "envs/env_config.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
@@ -209,6 +210,7 @@ Recordings ReadRecordings(const std::vector<std::string>& files) {
 
 Recordings RecordingsOf(const std::vector<AgentFlights>& agents) {
   Recordings recordings;
+  recordings.span_ft = LoadAircraft(agents.front().env.aircraft).airframe.span_ft;
   for (const AgentFlights& flown : agents) {
     recordings.agents.push_back({flown.agent, StyleOf(recordings.agents.size()), FlightsOf(flown)});
   }

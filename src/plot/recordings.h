@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct Recordings {
   std::vector<std::string> targets;          ///< columns that have a target
   std::map<std::string, double> tolerances;  ///< of them, as far as they are known
   std::vector<std::string> notes;            ///< what is damaged, for people
+  std::optional<double> span_ft;             ///< of the aircraft; files do not hold it
 };
 
 /// Files that skein eval, compare or replay wrote, one for each agent, which has the file's name,

@@ -246,6 +246,13 @@ class SpaceDrawing {
     }
   }
 
+  /// As it is drawn, in words.
+  std::string SizeOfAircraft() const {
+    const std::optional<double>& span_ft = recordings_.span_ft;
+    if (!span_ft) return TickText(std::round(enlarged_)) + " times the size of an F-16";
+    return TickText(std::round(enlarged_ * kGlyphWingSpan_ft / *span_ft)) + " times its true size";
+  }
+
   std::vector<LegendEntry> LegendEntries() const {
     std::vector<LegendEntry> entries;
     for (const Recording& agent : recordings_.agents) {
@@ -262,9 +269,8 @@ class SpaceDrawing {
                shapes->push_back(std::move(shape));
              }
            },
-           fmt::format("{}: an aircraft every {:g}\u00a0s, {} times its true size, underside "
-                       "drawn lighter",
-                       agent.name, interval_s_, TickText(std::round(enlarged_)))});
+           fmt::format("{}: an aircraft every {:g}\u00a0s, {}, underside drawn lighter", agent.name,
+                       interval_s_, SizeOfAircraft())});
     }
     if (const auto target = TargetEntry(tracks_.front(), recordings_)) {
       entries.push_back(*target);

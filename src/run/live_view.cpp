@@ -116,7 +116,7 @@ std::string TimeLine(const Progress& p, const TerminalStyle& style) {
 std::string SuccessLine(const Progress& p, const TerminalStyle& style) {
   constexpr std::size_t kLongestSparkline = 40;
   Line line("success", style);
-  line.Add(Percent(p.success_rate, 1));
+  line.Add(Percent(p.success_rate, 1) + OfHowMany(p));
   std::string evaluated;
   if (p.evaluation_success_rate >= 0) {
     evaluated = fmt::format("evaluated {}, best {}", Percent(p.evaluation_success_rate, 1),

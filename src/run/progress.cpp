@@ -53,6 +53,12 @@ double SecondsLeft(const Progress& p) {
   return static_cast<double>(left) / p.steps_per_s;
 }
 
+std::string OfHowMany(const Progress& p) {
+  constexpr std::uint64_t kEnough = 50;  // a rate of one half is known to 14 % by then
+  const bool is_few = p.success_episodes > 0 && p.success_episodes < kEnough;
+  return is_few ? fmt::format(" of {}", p.success_episodes) : "";
+}
+
 std::string FormatProgress(const Progress& p, Spacing spacing) {
   const double done = static_cast<double>(p.env_steps), total = static_cast<double>(p.total_steps);
   const bool known = p.steps_per_s > 0;
@@ -64,7 +70,7 @@ std::string FormatProgress(const Progress& p, Spacing spacing) {
   const std::string update = Percent(p.update_share, spacing, 0);
   const std::string mean_return =
       std::isfinite(p.return_mean) ? fmt::format("{:.1f}", p.return_mean) : "-";
-  const std::string success = Percent(p.success_rate, spacing, 1);
+  const std::string success = Percent(p.success_rate, spacing, 1) + OfHowMany(p);
   if (spacing == Spacing::kTight) {
     return fmt::format("{} {}/s return {} success {} left {}", steps, rate, mean_return, success,
                        left);
@@ -111,7 +117,10 @@ void ProgressMeter::Add(const IterationReport& report, Clock::time_point now) {
     progress_.update_share = (last.update_s - first.update_s) / seconds;
   }
   if (std::isfinite(report.return_mean)) progress_.return_mean = report.return_mean;
-  if (std::isfinite(report.success_rate)) progress_.success_rate = report.success_rate;
+  if (std::isfinite(report.success_rate)) {
+    progress_.success_rate = report.success_rate;
+    progress_.success_episodes = report.episodes;
+  }
   if (report.evaluation_success_rate >= 0) {
     progress_.evaluation_success_rate = report.evaluation_success_rate;
     progress_.best_evaluation = std::max(progress_.best_evaluation, report.evaluation_success_rate);

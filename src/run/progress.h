@@ -27,6 +27,7 @@ struct Progress {
   double steps_per_s = 0;  ///< 0: not known yet
   double rollout_share = 0, update_share = 0;
   double return_mean = 0, success_rate = 0;  ///< NaN: no episode has ended yet
+  std::uint64_t success_episodes = 0;        ///< that success_rate is of
   double evaluation_success_rate = -1;       ///< latest; negative: none yet
   double best_evaluation = -1;               ///< of those this process has seen
   std::uint64_t iteration = 0;               ///< of the run
@@ -38,6 +39,9 @@ struct Progress {
 
 /// NaN if it is not known yet.
 double SecondsLeft(const Progress& progress);
+
+/// " of 3" if success_rate is of so few episodes that it says little; else nothing.
+std::string OfHowMany(const Progress& progress);
 
 /// One line: steps and budget, steps per second, shares of time, mean return, success, time left.
 /// The tight one fits 72 columns and leaves shares and evaluation out.

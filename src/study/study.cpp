@@ -10,11 +10,11 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "envs/task_registry.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
-#include "src/config/nearest_name.h"
 #include "src/config/settings.h"
 #include "src/config/table_reader.h"
 #include "src/config/usage_error.h"

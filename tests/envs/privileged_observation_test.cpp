@@ -9,6 +9,7 @@
 
 #include "envs/vec_env.h"
 #include "tests/envs/step_buffers.h"
+#include "tests/extremes.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -89,8 +90,8 @@ TEST(PrivilegedObservation, ShowsClockToleranceAndProgress) {
     const float* const row = rows.data() + i * env.privileged_size();
     EXPECT_NEAR(row[IndexOf(env, "clock")], 0.1, kTolerance);
     EXPECT_NEAR(row[IndexOf(env, "dwell")], 0.5, kTolerance);
-    least = std::min(least, row[IndexOf(env, "tolerance")]);
-    most = std::max(most, row[IndexOf(env, "tolerance")]);
+    least = Smaller(least, row[IndexOf(env, "tolerance")]);
+    most = Larger(most, row[IndexOf(env, "tolerance")]);
   }
   EXPECT_NEAR(least, 0.5, kEnd);
   EXPECT_NEAR(most, 1, kEnd);
@@ -124,8 +125,8 @@ TEST(PrivilegedObservation, ShowsHowThePlantDiffers) {
     EXPECT_NEAR(row[IndexOf(env, "plant_inverse_mass")], -1, kTolerance);
     EXPECT_NEAR(row[IndexOf(env, "plant_action_delay")], 1, kTolerance);
     EXPECT_EQ(row[IndexOf(env, "plant_thrust")], 0);
-    least = std::min(least, row[IndexOf(env, "plant_cg_shift")]);
-    most = std::max(most, row[IndexOf(env, "plant_cg_shift")]);
+    least = Smaller(least, row[IndexOf(env, "plant_cg_shift")]);
+    most = Larger(most, row[IndexOf(env, "plant_cg_shift")]);
   }
   EXPECT_NEAR(least, -1, kEnd);
   EXPECT_NEAR(most, 1, kEnd);

@@ -16,6 +16,7 @@
 #include <hwy/highway.h>
 
 #include "simd/math-inl.h"
+#include "tests/extremes.h"
 #include "tests/tolerance.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -157,8 +158,7 @@ double WorstUlp(ColumnFunction function, const std::function<double(double)>& ex
   double worst = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double expected = exact(x[i]);
-    worst = std::fmax(worst, std::abs(y[i] - expected) / Ulp(expected));
-    if (std::isnan(y[i])) return std::numeric_limits<double>::infinity();
+    worst = Larger(worst, std::abs(y[i] - expected) / Ulp(expected));
   }
   return worst;
 }
@@ -169,8 +169,7 @@ double WorstAbsolute(ColumnFunction function, const std::function<double(double)
   function(x, y);
   double worst = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    worst = std::fmax(worst, std::abs(y[i] - exact(x[i])));
-    if (std::isnan(y[i])) return std::numeric_limits<double>::infinity();
+    worst = Larger(worst, std::abs(y[i] - exact(x[i])));
   }
   return worst;
 }
@@ -277,12 +276,18 @@ TEST_P(MathTest, Atan2OnCirclesOfEverySize) {
 }
 
 TEST_P(MathTest, Atan2OnTheAxes) {
-  const float cases[][3] = {{0, 0, 0},    {0, 1, 0},  {1, 0, 90},     {-1, 0, -90},
-                            {0, -1, 180}, {1, 1, 45}, {-1, -1, -135}, {1, -1, 135}};
+  const float cases[][3] = {{0, 0, 0},     {0, 1, 0},         {1, 0, 90},     {-1, 0, -90},
+                            {0, -1, 180},  {1, 1, 45},        {-1, -1, -135}, {1, -1, 135},
+                            {-0.0f, 1, 0}, {-0.0f, -1, -180}, {0, -0.0f, 0},  {-0.0f, -0.0f, 0}};
   for (const auto& c : cases) {
-    Column y(16, c[0]), x(16, c[1]), z(16);
-    SKEIN_DISPATCH(Atan2DegreesColumn)(y, x, z);
-    EXPECT_NEAR(z[0], c[2], kDegrees) << c[0] << ", " << c[1];
+    Column y(16, c[0]), x(16, c[1]), degrees(16), radians(16);
+    SKEIN_DISPATCH(Atan2DegreesColumn)(y, x, degrees);
+    SKEIN_DISPATCH(Atan2Column)(y, x, radians);
+    SCOPED_TRACE(testing::Message() << c[0] << ", " << c[1]);
+    EXPECT_NEAR(degrees[0], c[2], kDegrees);
+    EXPECT_NEAR(radians[0], c[2] / kRadToDeg, kRadians);
+    EXPECT_EQ(std::signbit(degrees[0]), std::signbit(c[0])) << "the sign of y, of a zero, too";
+    EXPECT_EQ(std::signbit(radians[0]), std::signbit(c[0]));
   }
 }
 

@@ -27,8 +27,19 @@ TEST(Philox4x32, GivesPublishedKnownAnswers) {
             (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
+// All 64 bits of a seed count.
+constexpr std::uint64_t kWideSeed = 0x123456789abcdef0;
+
+TEST(RandomWords, AreThoseOfTheCounterUnderBothHalvesOfTheSeed) {
+  const RandomKey key{kWideSeed, 7, 8, 9, RandomPurpose::kTarget};
+  for (const std::uint32_t block : {0u, 1u, 0xffffffu}) {
+    const std::uint32_t last = static_cast<std::uint32_t>(RandomPurpose::kTarget) | block << 8;
+    EXPECT_EQ(RandomWords(key, block), Philox4x32({7, 8, 9, last}, {0x9abcdef0, 0x12345678}));
+  }
+}
+
 TEST(RandomStream, DrawsTheWordsOfItsBlocksInOrder) {
-  const RandomKey key{0x123456789abcdef0, 7, 8, 9, RandomPurpose::kTarget};
+  const RandomKey key{kWideSeed, 7, 8, 9, RandomPurpose::kTarget};
   RandomStream stream(key);
   for (std::uint32_t block = 0; block < 3; ++block) {
     for (const std::uint32_t word : RandomWords(key, block)) EXPECT_EQ(stream.Word(), word);
@@ -77,23 +88,35 @@ class FillNormalsTest : public testing::TestWithParam<Target> {
   Target previous_{};
 };
 
-TEST_P(FillNormalsTest, AppliesBoxMullerToTheScalarWords) {
+/// The `j`-th normal deviate of a key by Box and Muller in double precision.
+double Normal(const RandomKey& key, int j) {
+  const auto words = RandomWords(key, static_cast<std::uint32_t>(j / 4));
+  const std::uint32_t radius_word = words[j % 4 < 2 ? 0 : 2];
+  const std::uint32_t angle_word = words[j % 4 < 2 ? 1 : 3];
+  const double radius = std::sqrt(-2 * std::log(((radius_word >> 8) + 1) * 0x1.0p-24));
+  const double in_quadrant = static_cast<std::int32_t>(angle_word << 2) * 0x1.0p-31;
+  const double angle = M_PI / 2 * (angle_word >> 30) + M_PI / 4 * in_quadrant;
+  return radius * (j % 2 == 0 ? std::cos(angle) : std::sin(angle));
+}
+
+TEST_P(FillNormalsTest, AppliesBoxMullerToTheScalarWordsOfEachRowsKey) {
   constexpr Tolerance kFloat32{2e-6, "logarithm, sine and cosine in float32, times up to 5.8"};
   constexpr int kCount = 37, kSize = 22;
   constexpr std::uint32_t kFirst = 1000;
-  const std::vector<float> normals = Draw(99, kFirst, kCount, kSize);
-  for (int i = 0; i < kCount; ++i) {
-    const RandomKey key{99, kFirst + static_cast<std::uint32_t>(i), 5, 11,
-                        RandomPurpose::kObservationNoise};
-    for (int j = 0; j < kSize; ++j) {
-      const auto words = RandomWords(key, static_cast<std::uint32_t>(j / 4));
-      const std::uint32_t radius_word = words[j % 4 < 2 ? 0 : 2];
-      const std::uint32_t angle_word = words[j % 4 < 2 ? 1 : 3];
-      const double radius = std::sqrt(-2 * std::log(((radius_word >> 8) + 1) * 0x1.0p-24));
-      const double in_quadrant = static_cast<std::int32_t>(angle_word << 2) * 0x1.0p-31;
-      const double angle = M_PI / 2 * (angle_word >> 30) + M_PI / 4 * in_quadrant;
-      const double expected = radius * (j % 2 == 0 ? std::cos(angle) : std::sin(angle));
-      EXPECT_NEAR(normals[static_cast<std::size_t>(i) * kSize + j], expected, kFloat32);
+  std::vector<std::uint32_t> b, c;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    b.push_back(5 + i);
+    c.push_back(11 + 3 * i);
+  }
+  for (const RandomPurpose purpose :
+       {RandomPurpose::kObservationNoise, RandomPurpose::kActionNoise}) {
+    std::vector<float> normals(kCount * kSize);
+    FillNormals(kWideSeed, kFirst, b.data(), c.data(), purpose, kCount, kSize, normals.data());
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      const RandomKey key{kWideSeed, kFirst + i, b[i], c[i], purpose};
+      for (int j = 0; j < kSize; ++j) {
+        EXPECT_NEAR(normals[i * kSize + static_cast<std::size_t>(j)], Normal(key, j), kFloat32);
+      }
     }
   }
 }
@@ -136,6 +159,8 @@ TEST_P(FillNormalsTest, DifferentKeysAreUncorrelated) {
   const std::vector<float> base = Draw(1, 0, kCount, kSize);
   const double bound = kStandardErrors / std::sqrt(static_cast<double>(base.size()));
   EXPECT_NEAR(Correlation(base, Draw(2, 0, kCount, kSize)), 0, bound);
+  constexpr std::uint64_t kOtherUpperHalf = 1 + (std::uint64_t{1} << 32);
+  EXPECT_NEAR(Correlation(base, Draw(kOtherUpperHalf, 0, kCount, kSize)), 0, bound);
   EXPECT_NEAR(Correlation(base, Draw(1, kCount, kCount, kSize)), 0, bound);
   EXPECT_NEAR(Correlation(base, Draw(1, 0, kCount, kSize, 12)), 0, bound);
   // Neighbouring elements: cosine and sine of one pair, and across pairs.

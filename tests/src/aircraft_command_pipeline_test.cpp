@@ -75,6 +75,42 @@ TEST_F(AircraftCommand, WhatTuneWritesIsCheckedAndTrained) {
   EXPECT_EQ(ReadFile(mine_), ReadFile(tuned_));
 }
 
+TEST_F(AircraftCommand, WhatTuneWritesOfShippedAircraftIsRead) {
+  for (const std::string& name : AircraftNames()) {
+    if (json::parse(AircraftText(name)).value("model", "derivatives") != "derivatives") continue;
+    const ProgramResult tuned = CallSkein({"aircraft", "tune", name, "-o", tuned_});
+    ASSERT_EQ(tuned.exit_code, 0) << name << ": " << tuned.error;
+    EXPECT_NO_THROW(LoadAircraft(tuned_)) << name;
+  }
+}
+
+TEST_F(AircraftCommand, CheckRefusesSettingsThatCannotBeFlown) {
+  json file = Cessna(150, 190);
+  file["flight_control"] = json::parse(AircraftText("cessna172"))["flight_control"];
+  const auto refused = [&](const json& changed, const std::string& why) {
+    Write(changed);
+    const ProgramResult result = Check(mine_);
+    EXPECT_EQ(result.exit_code, 1) << why;
+    EXPECT_THAT(result.output, HasSubstr("error: " + why));
+  };
+  json wrong = file;
+  wrong["env"]["heading"]["altitude_chnge_ft"] = 1;
+  refused(wrong,
+          "it cannot fly task heading: aircraft mine: unknown key env.heading.altitude_chnge_ft; "
+          "did you mean env.heading.altitude_change_ft?");
+  wrong = file;
+  wrong["env"]["atmosphere"] = "standart_1976";
+  refused(wrong, "it cannot fly task heading: aircraft mine: env.atmosphere");
+  wrong = file;
+  wrong["env"]["initial"]["true_airspeed_min_fps"] = 195;
+  refused(wrong,
+          "it cannot fly task heading: configuration: env.initial.true_airspeed_min_fps = 195, but "
+          "it must be no more than env.initial.true_airspeed_max_fps, 190");
+  wrong = file;
+  wrong["presets_of"] = "cesna172";
+  refused(wrong, "presets_of: unknown aircraft cesna172; did you mean cessna172?");
+}
+
 TEST_F(AircraftCommand, CheckSaysWhereStartsCannotBeFlown) {
   json file = Cessna(150, 190);
   file["flight_control"] = json::parse(AircraftText("cessna172"))["flight_control"];

@@ -17,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The aerosonde with another mass, where it flies in its own file.
 json MyAircraft(double mass_kg) {
@@ -106,6 +107,82 @@ TEST_F(OwnAircraft, APolicyFliesNoOtherAircraftUnlessAsked) {
   EXPECT_EQ(compared.exit_code, 0) << compared.error;
   Refused({"compare", "--task", "heading", "--agents", "zero,policy:" + policy}, 2,
           "env.aircraft = mine, but is to fly with env.aircraft = f16");
+}
+
+TEST_F(OwnAircraft, ARunIsComparedOnItsOwnAircraft) {
+  ASSERT_EQ(CallSkein(TinyTraining(run_, {"--aircraft", mine_})).exit_code, 0);
+  std::filesystem::remove(mine_);
+  const std::string results = scratch_ / "result.json", config = scratch_ / "calm.toml";
+  const std::string agents = "zero,policy:" + run_;
+  const std::vector<std::string> compare = {
+      "compare", "--agents", agents,         "--episodes", "4",    "--json",
+      results,   "--set",    "env.hold_s=0", "--config",   config, "--no-html"};
+  WriteFile(config, "[env]\nobservation_noise = 0\n");
+  const ProgramResult compared = CallSkein(compare);
+  EXPECT_EQ(compared.exit_code, 0) << compared.error;
+  EXPECT_THAT(ReadFile(results), HasSubstr("mine#"));
+  const ProgramResult replayed =
+      CallSkein({"replay", "--agents", agents, "--episodes", "1", "-o", scratch_ / "flights.csv"});
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.error;
+  // Under the task's own preset, not as it was trained.
+  const ProgramResult preset =
+      CallSkein({"eval", "--policy", run_, "--preset", "default", "--episodes", "4"});
+  EXPECT_EQ(preset.exit_code, 0) << preset.error;
+  // What the command says comes first.
+  Refused({"compare", "--agents", agents, "--aircraft", "f16", "--no-html"}, 2,
+          "is to fly with env.aircraft = f16 (--aircraft chooses its own, of a run "
+          "RUN/aircraft.json;");
+  WriteFile(config, "[env]\naircraft = \"f16\"\n");
+  Refused(compare, 2, "is to fly with env.aircraft = f16");
+  const ProgramResult other = CallSkein({"compare", "--agents", agents + "@other-aircraft",
+                                         "--episodes", "4", "--json", results, "--no-html"});
+  EXPECT_EQ(other.exit_code, 0) << other.error;
+  EXPECT_THAT(ReadFile(results), Not(HasSubstr("mine#")));
+  // The aircraft's file is read, too.
+  Refused({"compare", "--agents", agents, "--csv", run_ + "/aircraft.json", "--no-html"}, 2,
+          "aircraft.json");
+}
+
+TEST_F(OwnAircraft, ATaskFileMayNameIt) {
+  const std::string task = scratch_ / "bank.toml";
+  WriteFile(task, ReadFile(SKEIN_SOURCE "/examples/tasks/bank_and_altitude.toml") +
+                      "[env]\naircraft = \"mine.json\"\n");
+  const ProgramResult trained = CallSkein(TinyTrainingOf(task, run_));
+  ASSERT_EQ(trained.exit_code, 0) << trained.error;
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("true_airspeed_min_fps = 75.0"));
+  EXPECT_THAT(ReadFile(run_ + "/config.toml"), HasSubstr("drag_rise = false"));
+  const std::vector<std::string> untrained = {"eval",       "--policy", "untrained",
+                                              "--episodes", "2",        "--task",
+                                              task,         "--set",    "env.time_limit_steps=50"};
+  const ProgramResult before = CallSkein(untrained);
+  EXPECT_EQ(before.exit_code, 0) << before.error;
+  json silent = MyAircraft(11.5);
+  silent.erase("env");
+  WriteFile(mine_, silent.dump());
+  Refused(untrained, 2, "but all else is made for f16, from 1000 ft/s on");
+  WriteFile(scratch_ / "scale.toml",
+            "[env.initial]\naltitude_min_ft = 1500\naltitude_max_ft = 1600\n"
+            "true_airspeed_min_fps = 75\ntrue_airspeed_max_fps = 88\n"
+            "[env.termination]\nmin_altitude_ft = 500\n");
+  std::vector<std::string> scaled = untrained;
+  scaled.insert(scaled.end(), {"--config", scratch_ / "scale.toml"});
+  const ProgramResult by_config = CallSkein(scaled);
+  EXPECT_EQ(by_config.exit_code, 0) << by_config.error;
+  // The text of it that the policy has names a file from a folder that is not there any more.
+  std::filesystem::remove(task);
+  std::filesystem::remove(mine_);
+  const std::string policy = run_ + "/checkpoints/policy-final.skein";
+  const std::vector<std::string> all[] = {
+      {"compare", "--agents", "policy:" + run_, "--episodes", "4", "--no-html"},
+      {"eval", "--policy", run_, "--episodes", "4"},
+      {"eval", "--policy", policy, "--aircraft", run_ + "/aircraft.json", "--episodes", "4"},
+      {"export", run_, "--format", "c", "-o", scratch_ / "policy.h"},
+      {"export", policy, "--aircraft", run_ + "/aircraft.json", "-o", scratch_ / "alone.h"}};
+  for (const std::vector<std::string>& arguments : all) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 0) << arguments[0] << ": " << result.error;
+  }
+  Refused({"eval", "--policy", policy}, 2, "is to fly with env.aircraft = f16 (--aircraft chooses");
 }
 
 TEST_F(OwnAircraft, WhatDoesNotSayWhereItFliesIsRefused) {

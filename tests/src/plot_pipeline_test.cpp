@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -10,6 +11,7 @@
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -46,6 +48,41 @@ TEST_F(PlotPipeline, DrawsFlightsOfAgentsTwiceTheSame) {
     Plot(kind, "again.svg", {"--threads", "1"});
     EXPECT_TRUE(svg == ReadFile(scratch_ / "again.svg")) << kind;
   }
+}
+
+TEST_F(PlotPipeline, SaysHowMuchLargerThanTheAircraftThatWasFlownItsPictureIs) {
+  const auto number_before = [this](const std::string& picture, const std::string& words) {
+    const std::string svg = ReadFile(scratch_ / picture);
+    const std::size_t end = svg.find(words);
+    EXPECT_NE(end, std::string::npos) << picture << " lacks " << words;
+    if (end == std::string::npos) return 0.0;
+    std::string number = svg.substr(svg.rfind(' ', end - 1) + 1);
+    number.erase(std::remove(number.begin(), number.end(), ','), number.end());
+    return std::stod(number);
+  };
+  const std::vector<std::string> flown = {"--task",     "heading",
+                                          "--preset",   "aerosonde",
+                                          "--agents",   "zero",
+                                          "--episodes", "1",
+                                          "--set",      "env.time_limit_steps=3000",
+                                          "--set",      "env.heading.earliest_success_step=3000"};
+  const auto call = [this, &flown](std::vector<std::string> words, const std::string& out) {
+    words.insert(words.end(), flown.begin(), flown.end());
+    words.insert(words.end(), {"-o", scratch_ / out});
+    const ProgramResult result = CallSkein(words);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+  };
+  call({"plot", "space"}, "flown.svg");
+  call({"replay"}, "flights.csv");
+  const ProgramResult read =
+      CallSkein({"plot", "space", scratch_ / "flights.csv", "-o", scratch_ / "read.svg"});
+  EXPECT_EQ(read.exit_code, 0) << read.error;
+  // A file does not say which aircraft flew.
+  const double of_f16 = number_before("read.svg", " times the size of an F-16");
+  const double of_it = number_before("flown.svg", " times its true size");
+  constexpr double kSpanF16_ft = 30, kSpanAerosonde_ft = 2.8956 / 0.3048;
+  constexpr Tolerance kRounded{2.2, "both numbers are rounded to whole ones"};
+  EXPECT_NEAR(of_it, of_f16 * kSpanF16_ft / kSpanAerosonde_ft, kRounded);
 }
 
 TEST_F(PlotPipeline, SaysThatItReplacesAPictureThatNobodyNamed) {

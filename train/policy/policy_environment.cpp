@@ -25,7 +25,8 @@ void CheckAircraft(const EnvConfig& env, const std::map<std::string, std::string
   throw ChoiceError(
       who + " was made with env.aircraft = " + Shown(made, flown) +
       ", but is to fly with env.aircraft = " + Shown(flown, made) +
-      " (skein eval --other-aircraft and the agent policy:FILE@other-aircraft allow it)");
+      " (--aircraft chooses its own, of a run RUN/aircraft.json; skein eval --other-aircraft and "
+      "the agent policy:FILE@other-aircraft allow another)");
 }
 
 }  // namespace

@@ -55,7 +55,6 @@ TEST(DerivativeAircraftFile, ErrorsNameTheAircraftAndTheKey) {
   EXPECT_EQ(ErrorOf("{}"), "aircraft glider lacks airframe");
   EXPECT_EQ(ErrorOf("{\"airframe\": 3}"),
             "aircraft glider.airframe must be an object of named values");
-  EXPECT_EQ(ErrorOf(Changed("\"Cm_q\"", "\"Cmq\"")), "aircraft glider.longitudinal lacks Cm_q");
   EXPECT_EQ(ErrorOf(Changed("\"Cm_q\"", "\"CM_q\": 0, \"Cm_q\"")),
             "aircraft glider.longitudinal has the unknown key CM_q");
   EXPECT_EQ(ErrorOf(Changed("-38.21", "\"-38.21\"")),
@@ -66,6 +65,32 @@ TEST(DerivativeAircraftFile, ErrorsNameTheAircraftAndTheKey) {
       "(b1 s + b0) / (s + a0)");
   EXPECT_EQ(ErrorOf(Changed("\"min_deg\": -25.0", "\"min_deg\": 0")),
             "aircraft glider.actuators.elevator must have min_deg below zero and max_deg above");
+}
+
+// What is missing is mostly there, misspelt.
+TEST(DerivativeAircraftFile, AnUnknownKeyIsNamedBeforeWhatIsMissing) {
+  const auto renamed = [](const std::string& from, const std::string& to) {
+    return ErrorOf(Changed("\"" + from + "\":", "\"" + to + "\":"));
+  };
+  EXPECT_EQ(renamed("CL_alpha", "CL_alfa"),
+            "aircraft glider.longitudinal has the unknown key CL_alfa; did you mean CL_alpha?");
+  EXPECT_EQ(renamed("Cm_q", "Cmq"),
+            "aircraft glider.longitudinal has the unknown key Cmq; did you mean Cm_q?");
+  EXPECT_EQ(renamed("lateral", "latteral"),
+            "aircraft glider has the unknown key latteral; did you mean lateral?");
+  EXPECT_EQ(renamed("pedal_fade", "pedals_fade"),
+            "aircraft glider.flight_control has the unknown key pedals_fade; did you mean "
+            "pedal_fade?");
+  EXPECT_EQ(renamed("resistance_ohm", "resistence_ohm"),
+            "aircraft glider.propulsion has the unknown key resistence_ohm; did you mean "
+            "resistance_ohm?");
+  EXPECT_EQ(renamed("rudder", "ruder"),
+            "aircraft glider.actuators has the unknown key ruder; did you mean rudder?");
+  EXPECT_EQ(renamed("mass_kg", "weight"),
+            "aircraft glider.airframe has the unknown key weight, and lacks mass_kg");
+  EXPECT_EQ(renamed("mass_kg", "mass_slug"),
+            "aircraft glider.airframe lacks mass_kg (it has mass_slug: another unit)");
+  EXPECT_EQ(ErrorOf(Changed("\"Cm_q\": -38.21,", "")), "aircraft glider.longitudinal lacks Cm_q");
 }
 
 std::string WithoutFlightControl() {
@@ -101,6 +126,7 @@ TEST(DerivativeAircraftFile, WhatCannotBeFlownWithIsRefused) {
       {"wing_area_m2", {"0"}},
       {"span_m", {"0"}},
       {"chord_m", {"0", "-0.1"}},
+      {"cg_chord_fraction", {"0", "-0.1", "1.01", "30"}},
       {"oswald_efficiency", {"0"}},
       {"stall_alpha_rad", {"0", "2"}},
       {"stall_sharpness", {"0", "1000"}},

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "envs/air/atmosphere.h"
@@ -11,6 +10,7 @@
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
 #include "envs/aircraft/units.h"
+#include "tests/extremes.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -82,7 +82,7 @@ TEST_F(AerosondePropeller, TheThrottleCommandsNearlyTheMotors) {
       const double motor_throttle = levels.idle + (levels.maximum - levels.idle) * throttle;
       const double exact = PropellerThrust(propeller_, motor_throttle, speed,
                                            air.density_slug_ft3 * kKgM3PerSlugFt3);
-      worst = std::max(worst, std::abs(flown - exact));
+      worst = Larger(worst, std::abs(flown - exact));
     }
   }
   EXPECT_LT(worst, kStraightPiecesN + kBetweenNodesN);

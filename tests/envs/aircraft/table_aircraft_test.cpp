@@ -70,6 +70,8 @@ TEST(TableAircraft, ErrorsNameTheField) {
             "full throttle gives a power of 100 at most");
   EXPECT_EQ(at("/airframe/mass_slug", 0),
             "aircraft mine.airframe.mass_slug is 0, but must be above 0");
+  EXPECT_EQ(at("/airframe/cg_chord_fraction", 30),
+            "aircraft mine.airframe.cg_chord_fraction is 30, but must be above 0 and at most 1");
   EXPECT_EQ(at("/flight_control/yaw_lead", {1, 2, -3}),
             "aircraft mine.flight_control.yaw_lead is -3, but must be above 0 in a0: the filter "
             "never comes to rest");
@@ -78,6 +80,13 @@ TEST(TableAircraft, ErrorsNameTheField) {
             "filter never comes to rest");
   EXPECT_EQ(ErrorAfter([](json* file) { file->at("aerodynamics").at("tables").erase("Cmq"); }),
             "aircraft mine.aerodynamics.tables lacks Cmq");
+  EXPECT_EQ(ErrorAfter([](json* file) {
+              json& gearing = file->at("engine").at("throttle_gearing");
+              gearing.erase("dry_gain");
+              gearing["dry_gian"] = 64.94;
+            }),
+            "aircraft mine.engine.throttle_gearing has the unknown key dry_gian; did you mean "
+            "dry_gain?");
   EXPECT_EQ(ErrorAfter([](json* file) {
               file->at("airframe").erase("wing_area_ft2");
               file->at("airframe")["wing_area_m2"] = 27.87;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/autopilot/autopilot.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -15,6 +14,7 @@
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/envs/autopilot/flock.h"
+#include "tests/extremes.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -183,11 +183,11 @@ class StepResponse : public testing::TestWithParam<AutopilotVariant> {
         EXPECT_FALSE(flock.HasEnded(i)) << i;
         const double error = error_of(flock.env(), i);
         const double sign = start[static_cast<std::size_t>(i)] < 0 ? -1 : 1;
-        worst.overshoot = std::max(worst.overshoot, -sign * error);
+        worst.overshoot = Larger(worst.overshoot, -sign * error);
       }
     }
     for (int i = 0; i < kCount; ++i) {
-      worst.remaining = std::max(worst.remaining, std::abs(error_of(flock.env(), i)));
+      worst.remaining = Larger(worst.remaining, std::abs(error_of(flock.env(), i)));
     }
     return worst;
   }

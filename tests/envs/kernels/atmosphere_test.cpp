@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/air/atmosphere.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -21,6 +20,7 @@
 #include <hwy/highway.h>
 
 #include "envs/kernels/atmosphere-inl.h"
+#include "tests/extremes.h"
 #include "tests/tolerance.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -74,7 +74,7 @@ class AtmosphereTest : public testing::TestWithParam<std::tuple<simd::Target, At
       const Air air = AirAt(model(), altitude[i]);
       const double exact[] = {air.density_slug_ft3, air.temperature_degR, air.sound_speed_ft_s,
                               air.pressure_lbf_ft2};
-      for (int k = 0; k < 4; ++k) worst = std::max(worst, std::abs(out[k][i] / exact[k] - 1));
+      for (int k = 0; k < 4; ++k) worst = Larger(worst, std::abs(out[k][i] / exact[k] - 1));
     }
     return worst;
   }

@@ -22,6 +22,7 @@
 #include "envs/reference/trim.h"
 #include "envs/state/attitude.h"
 #include "tests/envs/test_tile.h"
+#include "tests/extremes.h"
 #include "tests/scoped_target.h"
 
 namespace skein {
@@ -135,14 +136,14 @@ class Envelope {
     const double alpha = std::atan2(w, u) * kDegPerRad;
     const double beta = std::atan2(v, std::hypot(u, w)) * kDegPerRad;
     flight->finite = flight->finite && std::isfinite(alpha) && std::isfinite(beta);
-    flight->largest_alpha = std::max(flight->largest_alpha, std::abs(alpha));
-    flight->largest_beta = std::max(flight->largest_beta, std::abs(beta));
+    flight->largest_alpha = Larger(flight->largest_alpha, std::abs(alpha));
+    flight->largest_beta = Larger(flight->largest_beta, std::abs(beta));
     flight->p.push_back(tile->at(kP, i) * kDegPerRad);
     flight->q.push_back(tile->at(kQ, i) * kDegPerRad);
     flight->r.push_back(tile->at(kR, i) * kDegPerRad);
-    flight->largest_p = std::max(flight->largest_p, std::abs(flight->p.back()));
-    flight->largest_nz = std::max(flight->largest_nz, static_cast<double>(tile->at(kNz, i)));
-    flight->smallest_nz = std::min(flight->smallest_nz, static_cast<double>(tile->at(kNz, i)));
+    flight->largest_p = Larger(flight->largest_p, std::abs(flight->p.back()));
+    flight->largest_nz = Larger(flight->largest_nz, static_cast<double>(tile->at(kNz, i)));
+    flight->smallest_nz = Smaller(flight->smallest_nz, static_cast<double>(tile->at(kNz, i)));
   }
 
   std::unique_ptr<Plant> plant_;

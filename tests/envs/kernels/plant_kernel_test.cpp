@@ -25,6 +25,7 @@
 #include "tests/envs/golden.h"
 #include "tests/envs/plant/drawn_aircraft.h"
 #include "tests/envs/test_tile.h"
+#include "tests/extremes.h"
 #include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
@@ -167,10 +168,7 @@ class ErrorTable {
       for (const auto& pair : pairs) largest = std::max(largest, std::abs(pair[1]));
       for (const auto& pair : pairs) {
         const double scale = std::max(std::abs(pair[1]), kScaleShare * largest);
-        const double error = std::abs(pair[0] - pair[1]) / scale;
-        // A NaN compares false: it must count as an error.
-        worst = error <= worst ? worst : error;
-        if (std::isnan(error)) worst = std::numeric_limits<double>::infinity();
+        worst = Larger(worst, std::abs(pair[0] - pair[1]) / scale);
       }
       EXPECT_LE(worst, tolerance) << quantity;
     }

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +11,7 @@
 
 #include "base/error.h"
 #include "envs/env_config.h"
+#include "tests/extremes.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -35,10 +35,10 @@ TEST(PlantDraw, FillsItsRangesAndNothingBeyond) {
   config.engine_momentum = {0, 160};
   double least = 2, most = 0, least_momentum = 160, most_momentum = 0;
   for (const PlantDraw& draw : Draws(config)) {
-    least = std::min(least, draw.mass);
-    most = std::max(most, draw.mass);
-    least_momentum = std::min(least_momentum, draw.engine_momentum);
-    most_momentum = std::max(most_momentum, draw.engine_momentum);
+    least = Smaller(least, draw.mass);
+    most = Larger(most, draw.mass);
+    least_momentum = Smaller(least_momentum, draw.engine_momentum);
+    most_momentum = Larger(most_momentum, draw.engine_momentum);
   }
   constexpr double kShare = 0.01;  // of the range: 3000 draws leave less
   EXPECT_GE(least, 0.9);

@@ -18,6 +18,7 @@
 #include "envs/state/state.h"
 #include "tests/envs/f16_at.h"
 #include "tests/envs/reference/test_flight.h"
+#include "tests/extremes.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -132,10 +133,10 @@ TEST_P(ClosedLoopGrid, SurvivesFullSticks) {
       SCOPED_TRACE(::testing::Message() << condition.altitude_ft << " ft, Mach " << condition.mach);
       const Flight flight = Fly(plant_, condition.trim, abuse.seconds, abuse.sticks);
       EXPECT_FALSE(flight.Departed());
-      EXPECT_LT(*std::max_element(flight.alpha.begin(), flight.alpha.end()), 29);
+      EXPECT_LT(LargestOf(flight.alpha), 29);
       EXPECT_LT(Peak(flight.beta), 12.5);
       EXPECT_GT(*std::min_element(flight.nz.begin(), flight.nz.end()), -3.2);
-      EXPECT_LT(*std::max_element(flight.nz.begin(), flight.nz.end()), 8.9);
+      EXPECT_LT(LargestOf(flight.nz), 8.9);
     }
   }
 }
@@ -169,7 +170,7 @@ TEST_P(ClosedLoopGrid, AnswersAPitchStep) {
     const Flight flight = Fly(plant_, condition.trim, 9, Held(0.1, 0, 0));
     std::vector<double> response;
     for (double nz : flight.nz) response.push_back(nz - 1);
-    const double largest = *std::max_element(response.begin(), response.end());
+    const double largest = LargestOf(response);
     EXPECT_LT(largest, 1.1 * 0.8);
     if (condition.trim.alpha_rad * kDegPerRad < 4) {
       EXPECT_GT(largest, 0.8 * 0.8);
@@ -179,10 +180,10 @@ TEST_P(ClosedLoopGrid, AnswersAPitchStep) {
   }
   ASSERT_GT(rises.size(), 60u);
   EXPECT_GT(*std::min_element(rises.begin(), rises.end()), 0.7);
-  EXPECT_LT(*std::max_element(rises.begin(), rises.end()), 3.5);
+  EXPECT_LT(LargestOf(rises), 3.5);
   EXPECT_LT(Median(rises), 2.6);
   RecordProperty("median_rise_ms", static_cast<int>(1000 * Median(rises)));
-  EXPECT_LT(*std::max_element(overshoots.begin(), overshoots.end()), 0.1);
+  EXPECT_LT(LargestOf(overshoots), 0.1);
 }
 
 TEST_P(ClosedLoopGrid, AnswersARollStepWithLittleOvershootAndSideslip) {
@@ -212,9 +213,9 @@ TEST_P(ClosedLoopGrid, AnswersAPedalStepWithSideslipAndLittleRoll) {
     overshoots.push_back(Peak(flight.beta) / std::abs(settled) - 1);
     rises.push_back(RiseTime(flight, flight.beta, settled));
   }
-  EXPECT_LT(*std::max_element(overshoots.begin(), overshoots.end()), 0.7);
+  EXPECT_LT(LargestOf(overshoots), 0.7);
   EXPECT_LT(Median(overshoots), 0.27);
-  EXPECT_LT(*std::max_element(rises.begin(), rises.end()), 0.8);
+  EXPECT_LT(LargestOf(rises), 0.8);
 }
 
 TrimPoint TrimAt(const Plant& plant, double altitude_ft, double speed_ft_s) {
@@ -246,7 +247,7 @@ TEST(ClosedLoop, CombinedSticksRarelyOverload) {
   const Plant plant = F16At(0.30);
   const auto overloads = [&](double speed, double seconds, const Sticks& sticks) {
     const Flight flight = Fly(plant, TrimAt(plant, 19500, speed), seconds, sticks);
-    return *std::max_element(flight.nz.begin(), flight.nz.end()) > kOverload;
+    return LargestOf(flight.nz) > kOverload;
   };
   EXPECT_FALSE(overloads(1100, 4, Held(1, 1, 1)));
   int count = 0;

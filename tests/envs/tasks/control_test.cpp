@@ -13,6 +13,7 @@
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "tests/envs/test_tile.h"
+#include "tests/extremes.h"
 #include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
@@ -322,8 +323,8 @@ TEST_P(ControlTest, TargetsAreDrawnAroundTheStart) {
                               target.at(kControlSpeed, 0) - 1100.0};
     EXPECT_LE(std::abs(yaw), M_PI + kFloat32);
     for (int k = 0; k < 3; ++k) {
-      least[k] = std::min(least[k], change[k]);
-      most[k] = std::max(most[k], change[k]);
+      least[k] = Smaller(least[k], change[k]);
+      most[k] = Larger(most[k], change[k]);
     }
   }
   const double limit[3] = {0.5, 3, 300};

@@ -14,6 +14,7 @@
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "tests/envs/test_tile.h"
+#include "tests/extremes.h"
 #include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
@@ -378,8 +379,8 @@ TEST_P(TrackingTest, TargetsLieWithinTheirAnglesOfTheNose) {
         kDegPerRad * std::remainder(std::atan2(east, north) - start.yaw_rad, 2 * M_PI),
         kDegPerRad * (std::atan2(up, level) - start.pitch_rad)};
     for (int k = 0; k < 3; ++k) {
-      least[k] = std::min(least[k], drawn[k]);
-      most[k] = std::max(most[k], drawn[k]);
+      least[k] = Smaller(least[k], drawn[k]);
+      most[k] = Larger(most[k], drawn[k]);
     }
     // The first path begins at the start.
     EXPECT_EQ(target.at(kTrackingLastNorth, 0), 0);

@@ -50,7 +50,11 @@ TEST(AircraftFindings, EveryWrongSignOrRatioIsNamed) {
       {[](auto* a) { a->lateral.CY_beta = 0.1; }, Finding::kWarning, "side force"},
       {[](auto* a) { a->lateral.Cn_aileron = 0.1; }, Finding::kWarning, "into the roll"},
       {[](auto* a) { a->Ixx_kg_m2 *= 20; }, Finding::kWarning, "radius of gyration"},
-      {[](auto* a) { a->Izz_kg_m2 *= 2; }, Finding::kError, "no body"},
+      {[](auto* a) { a->Izz_kg_m2 *= 2; }, Finding::kError, "Izz_kg_m2 = 3.518 is above the sum"},
+      {[](auto* a) { a->Ixx_kg_m2 = 3; }, Finding::kError, "Ixx_kg_m2 = 3 is above the sum"},
+      {[](auto* a) { a->Iyy_kg_m2 = 2.7; }, Finding::kError, "Iyy_kg_m2 = 2.7 is above the sum"},
+      {[](auto* a) { a->Ixz_kg_m2 = 0.6; }, Finding::kError, "Ixz_kg_m2 = 0.6 makes principal"},
+      {[](auto* a) { a->Ixz_kg_m2 = -0.6; }, Finding::kError, "Ixz_kg_m2 = -0.6 makes principal"},
       {[](auto* a) { a->chord_m *= 3; }, Finding::kWarning, "chord_m"},
       {[](auto* a) { a->mass_kg = 0.1; }, Finding::kWarning, "wing loading"},
   };
@@ -59,6 +63,14 @@ TEST(AircraftFindings, EveryWrongSignOrRatioIsNamed) {
     one.spoil(&aircraft);
     EXPECT_THAT(TextOf(CheckDerivatives(aircraft), one.kind), HasSubstr(one.says));
   }
+}
+
+TEST(AircraftFindings, AnAircraftMayHaveNoRudder) {
+  DerivativeAircraft wing = AerosondeModel();
+  wing.lateral.Cn_rudder = 0;
+  const std::vector<Finding> findings = CheckDerivatives(wing);
+  EXPECT_EQ(TextOf(findings, Finding::kError), "");
+  EXPECT_THAT(TextOf(findings, Finding::kWarning), HasSubstr("there is no rudder"));
 }
 
 TEST(AircraftFindings, TablesInAnotherUnitStandOut) {
@@ -89,6 +101,38 @@ TEST(AircraftFindings, NoPropellerGivesMoreThanItTakes) {
   aircraft.propulsion = piston;
   EXPECT_THAT(TextOf(CheckDerivatives(aircraft), Finding::kError),
               HasSubstr("at the advance ratio 0.7 its efficiency is 1.26"));
+}
+
+TEST(AircraftFindings, NoPropellerOfAMotorGivesMoreThanItTakes) {
+  DerivativeAircraft aircraft = AerosondeModel();
+  double& CQ_0 = std::get<ElectricPropulsion>(aircraft.propulsion).propeller.CQ_0;
+  const auto errors = [&] { return TextOf(CheckDerivatives(aircraft), Finding::kError); };
+  CQ_0 = 0.0047;
+  EXPECT_THAT(errors(), HasSubstr("at the advance ratio 0.61 its efficiency is 1.04"));
+  CQ_0 = 0.004;
+  EXPECT_THAT(errors(), HasSubstr("at the advance ratio 0.67 the propeller gives thrust (CT = "
+                                  "0.00464) and takes no torque"));
+  CQ_0 = 0.0049;
+  EXPECT_EQ(errors(), "");
+  EXPECT_THAT(TextOf(CheckDerivatives(aircraft), Finding::kWarning),
+              HasSubstr("propellers reach 0.9"));
+}
+
+TEST(AircraftFindings, DragIsNotNegativeAtATrim) {
+  EnvelopeLimits limits;
+  limits.max_speed_ft_s = 1000;
+  const auto check = [&](const DerivativeAircraft& aircraft) {
+    const Plant plant(MakeAircraft(aircraft), kAtmosphere);
+    const FlightEnvelope envelope = FindEnvelope(plant, limits, 1, 3);
+    EXPECT_FALSE(envelope.AllTrims().empty());
+    return TextOf(CheckDrag(plant, envelope, " (longitudinal.CD_elevator?)"), Finding::kError);
+  };
+  DerivativeAircraft aircraft = AerosondeModel();
+  EXPECT_EQ(check(aircraft), "");
+  aircraft.longitudinal.CD_elevator = 1;  // times an elevator that is negative in level flight
+  const std::string error = check(aircraft);
+  EXPECT_THAT(error, HasSubstr("m/s drag is negative, CD = -"));
+  EXPECT_THAT(error, HasSubstr("(longitudinal.CD_elevator?)"));
 }
 
 TEST(AircraftFindings, SaysWhyThereIsNoLevelFlight) {

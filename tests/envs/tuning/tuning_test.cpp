@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "envs/aircraft/flight_control_file.h"
 #include "envs/aircraft/registry.h"
 #include "envs/aircraft/units.h"
 #include "envs/state/state.h"
@@ -104,6 +105,80 @@ Plant Tuned(const DerivativeAircraft& model, const TuningLimits& limits) {
 TEST(TuneFlightControl, MakesTheAerosondeFly) {
   const TuningLimits limits = LimitsUpTo(4000);
   ExpectGoodHandling(Tuned(AerosondeModel(), limits), limits);
+}
+
+// The search halves a gain that is best at zero without end, to what no file may hold.
+TEST(TuneFlightControl, GivesGainsThatAFileCanHold) {
+  const Plant plant = Tuned(AerosondeModel(), LimitsUpTo(13000));
+  const nlohmann::json section = FlightControlJson(plant.aircraft().flight_control);
+  FlightControlGains read;
+  EXPECT_NO_THROW(ReadFlightControl(Section(section, "tuned"), &read));
+  EXPECT_EQ(read.pitch_rate_gain_g_s_per_deg, 0) << "it damps its pitch by itself";
+}
+
+/// An unmanned aircraft of 5 kg whose slowest level flight is near its stall.
+DerivativeAircraft Kite() {
+  DerivativeAircraft kite = AerosondeModel();
+  kite.mass_kg = 5;
+  kite.Ixx_kg_m2 = 0.36;
+  kite.Iyy_kg_m2 = 0.42;
+  kite.Izz_kg_m2 = 0.72;
+  kite.Ixz_kg_m2 = 0.03;
+  kite.wing_area_m2 = 0.55;
+  kite.span_m = 2.1;
+  kite.chord_m = 0.27;
+  kite.cg_chord_fraction = 0.3;
+  kite.longitudinal = {0.25, 4.9, 7, 0.36, 0.035, 0, 0, 0.04, -0.75, -12.5, -1.05, 0.85, 0.25, 50};
+  kite.lateral = {-0.4, -0.02, 0.2,   0,     0.17,  -0.06, -0.46, 0.11,
+                  0.2,  0.005, 0.065, -0.03, -0.09, -0.01, -0.07};
+  ElectricPropulsion electric;
+  electric.propeller = {0.38, 0.1, -0.06, -0.11, 0.0055, 0.004, -0.0165, 400, 0.04, 1.2, 22.2};
+  electric.levels = {0.3, 0.7, 1};
+  kite.propulsion = electric;
+  const Actuator surface{25, 300, -25, 25};
+  kite.elevator = kite.aileron = kite.rudder = surface;
+  return kite;
+}
+
+// However far full sticks stall it, alpha's limiter leaves level flight alone.
+TEST(TuneFlightControl, LimitsNoLevelFlight) {
+  constexpr double kClearDeg = 0.4;  // 0.5 less the rounding of gains to three digits
+  const TuningLimits limits = LimitsUpTo(13000);
+  const Plant plant = Tuned(Kite(), limits);
+  const FlightControlGains& gains = plant.aircraft().flight_control;
+  EXPECT_LE(gains.alpha_onset_deg, gains.alpha_limit_deg);
+  const std::vector<TrimPoint> trims = FindEnvelope(plant, limits.envelope, 2, 4).AllTrims();
+  ASSERT_GE(trims.size(), 8u);
+  for (const TrimPoint& trim : trims) {
+    EXPECT_GT(gains.alpha_onset_deg, trim.alpha_rad * kDegPerRad);
+    EXPECT_GT(gains.alpha_limit_deg, trim.alpha_rad * kDegPerRad + kClearDeg);
+    const Handling handling = AssessHandling(plant, trim);
+    EXPECT_GT(std::min(handling.pitch_damping, handling.lateral_damping), 0.25);
+    EXPECT_FALSE(handling.departs);
+  }
+}
+
+TEST(TuneFlightControl, LeavesNoGainsOfYawWithoutARudder) {
+  DerivativeAircraft wing = AerosondeModel();
+  wing.lateral.CY_rudder = wing.lateral.Cl_rudder = wing.lateral.Cn_rudder = 0;
+  const TuningLimits limits = LimitsUpTo(4000);
+  const Plant plant = Tuned(wing, limits);
+  const FlightControlGains& gains = plant.aircraft().flight_control;
+  for (const double gain :
+       {gains.max_pedal_rudder_deg, gains.yaw_rate_gain_s,
+        gains.lateral_acceleration_gain_deg_per_g, gains.aileron_rudder_interconnect_per_deg,
+        gains.interconnect_min, gains.interconnect_max}) {
+    EXPECT_EQ(gain, 0);
+  }
+  EXPECT_GT(gains.roll_rate_gain_s, 0);
+  const std::vector<TrimPoint> trims = FindEnvelope(plant, limits.envelope, 2, 4).AllTrims();
+  ASSERT_GE(trims.size(), 8u);
+  for (const TrimPoint& trim : trims) {
+    const Handling handling = AssessHandling(plant, trim);
+    // Nothing adds to the Dutch roll's own damping.
+    EXPECT_GT(std::min(handling.pitch_damping, handling.lateral_damping), 0.1);
+    EXPECT_FALSE(handling.departs);
+  }
 }
 
 // The same aircraft four times as large, by Froude's scaling: lengths 4, speeds 2, masses 64.

@@ -7,15 +7,18 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "envs/aircraft/registry.h"
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
 #include "src/config/configuration.h"
+#include "src/config/target_reach.h"
 #include "src/files/output_file.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/envs/test_policy.h"
@@ -141,6 +144,72 @@ TEST(TaskFileTest, NamesTheLineOfASetting) {
   WriteFile(file, Minimal() + "[ppo]\nlearning_rate = 1e-3\ngama = 0.9\n");
   const std::string message = MessageOf([&] { ResolveConfig({file, "default", "", {}}); });
   EXPECT_NE(message.find("hold.toml:14: unknown key ppo.gama"), std::string::npos) << message;
+}
+
+TEST(TaskFileTest, ItsAircraftIsChosenAsByAConfiguration) {
+  const ScratchDirectory scratch;
+  const std::string file = scratch / "hold.toml", bare = scratch / "bare.toml";
+  const std::string config = scratch / "config.toml", aircraft = scratch / "mine.json";
+  nlohmann::json mine = nlohmann::json::parse(AircraftText("aerosonde"));
+  mine.erase("presets_of");
+  WriteFile(file, Minimal() + "[env]\naircraft = \"mine.json\"\nhold_s = 5\n");
+  WriteFile(bare, Minimal() + "[env]\nhold_s = 5\n");
+  WriteFile(config, "[env]\naircraft = \"mine.json\"\n");
+
+  WriteFile(aircraft, mine.dump());
+  const std::string refusal = MessageOf([&] { ResolveConfig({file, "default", "", {}}); });
+  EXPECT_NE(refusal.find("but all else is made for f16, from 1000 ft/s on"), std::string::npos)
+      << refusal;
+  // What --set says counts.
+  ResolveConfig({file,
+                 "default",
+                 "",
+                 {"env.initial.true_airspeed_min_fps=75", "env.initial.true_airspeed_max_fps=88"}});
+
+  mine["env"] = {{"initial", {{"true_airspeed_min_fps", 75}, {"true_airspeed_max_fps", 88}}},
+                 {"hold_s", 3}};
+  WriteFile(aircraft, mine.dump());
+  const ProgramConfig named = ResolveConfig({file, "default", "", {}});
+  const ProgramConfig configured = ResolveConfig({bare, "default", config, {"env.hold_s=5"}});
+  EXPECT_EQ(named.train.env.initial.true_airspeed_fps.min, 75);
+  EXPECT_EQ(named.train.env.hold_s, 5) << "the task file's settings are on top of the aircraft's";
+  EXPECT_FALSE(named.train.env.drag_rises);
+  for (const std::string& difference : Differences(named, configured)) {
+    EXPECT_EQ(difference.rfind("env.task_file_hash", 0), 0u) << difference;
+  }
+}
+
+TEST(TaskFileTest, TargetsBeyondWhereFlightsEndAreNamed) {
+  const auto lines = [](const std::string& draw) {
+    EnvConfig env;  // from 19,000 to 20,000 ft, flights end below 2500 ft and above Mach 3
+    env.SetTermTask(Read(Minimal("quantity = \"altitude_ft\"\naround_start = 500", draw)));
+    return TargetsBeyondLimits(env);
+  };
+  const auto altitude = [&](const std::string& draw) {
+    return lines("quantity = \"altitude_ft\"\n" + draw);
+  };
+  const std::string altitude_too = "quantity = \"altitude_ft\"\naround_start = 500\n[[target]]\n";
+  const auto other = [&](const std::string& target) { return lines(altitude_too + target); };
+  EXPECT_TRUE(altitude("around_start = 500").empty());
+  EXPECT_TRUE(altitude("between = [0, 2600]").empty()) << "some can be reached";
+  EXPECT_TRUE(altitude("around_start = [-30000, -17000]").empty());
+  ASSERT_EQ(altitude("between = [0, 2400]").size(), 1u);
+  EXPECT_EQ(altitude("between = [0, 2400]")[0],
+            "target altitude cannot be reached: it is 2400 or less (altitude_ft), but flights end "
+            "below 2500 ft (env.termination.min_altitude_ft)");
+  EXPECT_EQ(altitude("around_start = [-30000, -18000]").size(), 1u);
+  EnvConfig raised;
+  raised.target_altitude_min_ft = 3000;
+  raised.SetTermTask(Read(Minimal("around_start = 500", "between = [0, 2400]")));
+  EXPECT_TRUE(TargetsBeyondLimits(raised).empty());
+  const std::string speed = "quantity = \"true_airspeed_fps\"\n", mach = "quantity = \"mach\"\n";
+  EXPECT_TRUE(other(speed + "around_start = 5").empty());
+  EXPECT_TRUE(other(speed + "between = [3200, 4000]").empty())
+      << "less than Mach 3 where it is warm";
+  EXPECT_EQ(other(speed + "between = [3400, 4000]").size(), 1u);
+  EXPECT_EQ(other(speed + "between = [1, 5]").size(), 1u) << "below Mach 0.01";
+  EXPECT_TRUE(other(mach + "between = [2, 4]").empty());
+  EXPECT_EQ(other(mach + "between = [3.1, 4]").size(), 1u);
 }
 
 TEST(TaskFileTest, RefusesTooMuch) {

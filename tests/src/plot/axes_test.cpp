@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/plot/axes.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "envs/aircraft/registry.h"
 #include "src/fdm/flight_grid.h"
@@ -17,6 +22,7 @@ namespace skein {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 
 constexpr double kRounding = 1e-9;  // of a few operations in float64, relative
 
@@ -115,6 +121,100 @@ TEST(FlightGridPictures, NameBothAxes) {
   EXPECT_THAT(NamesOfLeftAxes(grid), ElementsAre("altitude, ft"));
   EXPECT_THAT(NamesOfLeftAxes(polars), ElementsAre("lift coefficient"));
   for (const Picture& picture : {grid, polars}) ExpectLegible(picture);
+}
+
+/// An area without an edge, or null.
+const Path* AreaOf(const Shape& shape) {
+  const auto* const path = std::get_if<Path>(&shape);
+  return path != nullptr && path->is_closed && path->fill ? path : nullptr;
+}
+
+/// The colour of the area before the first of the legend's words with that ending.
+Colour ColourBeside(const Picture& picture, const std::string& ending) {
+  for (std::size_t k = 1; k < picture.shapes.size(); ++k) {
+    const auto* const words = std::get_if<Words>(&picture.shapes[k]);
+    const Path* const area = AreaOf(picture.shapes[k - 1]);
+    if (words != nullptr && area != nullptr && testing::Matches(EndsWith(ending))(words->text)) {
+      return *area->fill;
+    }
+  }
+  ADD_FAILURE() << "no legend of " << ending;
+  return kWhite;
+}
+
+TEST(FlightGridPictures, CellsLieAtTheirSpeedsAndAltitudesAndLookAsTheLegendSays) {
+  const Plant plant(LoadAircraft("f16"), AtmosphereModel::kStevensLewis);
+  const FlownGrid flown(plant, {{}, {0, 20000, 40000}, {200, 600, 1000}});
+  const Picture picture = DrawFlightGrid(flown, 518, "");
+  std::vector<Path> cells;
+  for (const Shape& shape : picture.shapes) {
+    const Path* const area = AreaOf(shape);
+    if (area != nullptr && cells.size() < 9) cells.push_back(*area);
+  }
+  ASSERT_EQ(cells.size(), 9u);
+  double most = 0;
+  for (const GridPoint& point : flown.points()) {
+    if (point.IsFlown()) most = std::max(most, point.flight->excess_power_ft_s);
+  }
+  int not_flown = 0;
+  for (std::size_t altitude = 0; altitude < 3; ++altitude) {
+    for (std::size_t speed = 0; speed < 3; ++speed) {
+      SCOPED_TRACE(testing::Message() << "altitude " << altitude << ", speed " << speed);
+      const Path& cell = cells[3 * altitude + speed];
+      // Corners from the lower left one on.
+      const PagePoint &from = cell.points[0], &to = cell.points[2];
+      EXPECT_LT(from.x, to.x);
+      EXPECT_GT(from.y, to.y);
+      if (speed > 0) {
+        EXPECT_EQ(from.x, cells[3 * altitude + speed - 1].points[2].x) << "faster is to the right";
+      }
+      if (altitude > 0) {
+        EXPECT_EQ(from.y, cells[3 * altitude - 3 + speed].points[2].y) << "higher is above";
+      }
+      const GridPoint& point = flown.At(altitude, speed);
+      if (!point.IsFlown()) {
+        EXPECT_EQ(*cell.fill, ColourBeside(picture, WordsOf(point.limits.front().limit)));
+        ++not_flown;
+      } else if (point.flight->excess_power_ft_s == most) {
+        EXPECT_EQ(*cell.fill, ColourBeside(picture, fmt::format(" to {:.0f} ft/s", most)));
+      }
+    }
+  }
+  EXPECT_GT(not_flown, 0);
+  EXPECT_LT(not_flown, 9);
+}
+
+TEST(FlightGridPictures, PolarsLieAtTheirCoefficients) {
+  const Plant plant(LoadAircraft("f16"), AtmosphereModel::kStevensLewis);
+  const FlownGrid flown(plant, {{}, {0, 20000}, {400, 500, 600, 800}});
+  const Picture picture = DrawDragPolars(flown, 518, "");
+  PagePoint origin;  // of no drag and no lift: the panel's corner
+  std::vector<Path> curves;
+  for (const Shape& shape : picture.shapes) {
+    const auto* const path = std::get_if<Path>(&shape);
+    if (path == nullptr || path->is_closed) continue;
+    const bool is_axes = path->stroke == kGrey && path->points.size() == 3;
+    if (is_axes) origin = path->points[1];
+    const bool is_curve = path->stroke == ColourOf(curves.size()) && path->points.size() > 1;
+    if (is_curve && curves.size() < 2) curves.push_back(*path);
+  }
+  ASSERT_EQ(curves.size(), 2u);
+  // Of the curves' ends, over those of the first one's slow end.
+  const SteadyFlight& first = *flown.At(0, 0).flight;
+  const PagePoint& place = curves[0].points.front();
+  ASSERT_GT(place.x, origin.x) << "drag to the right";
+  ASSERT_LT(place.y, origin.y) << "lift upwards";
+  for (std::size_t altitude = 0; altitude < 2; ++altitude) {
+    for (const std::size_t speed : {std::size_t{0}, std::size_t{3}}) {
+      const SteadyFlight& flight = *flown.At(altitude, speed).flight;
+      const std::vector<PagePoint>& points = curves[altitude].points;
+      const PagePoint& end = speed == 0 ? points.front() : points.back();
+      EXPECT_NEAR((end.x - origin.x) / (place.x - origin.x),
+                  flight.drag_coefficient() / first.drag_coefficient(), kRounding);
+      EXPECT_NEAR((end.y - origin.y) / (place.y - origin.y),
+                  flight.lift_coefficient() / first.lift_coefficient(), kRounding);
+    }
+  }
 }
 
 TEST(Panels, PlaceTheirCorners) {

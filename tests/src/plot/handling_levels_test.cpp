@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "src/fdm/flying_qualities_report.h"
 #include "src/plot/handling_levels_picture.h"
 #include "tests/src/plot/legible.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -53,6 +57,119 @@ TEST(HandlingLevels, EveryLeastLoadFactorByAlphaIsDrawn) {
   ASSERT_GT(wanted, 0u);
   EXPECT_EQ(Columns(landing), wanted);
   EXPECT_EQ(Columns(LimitsNamed("IV", "A")), 0u) << "which asks for none";
+}
+
+constexpr Dash kDashes[] = {Dash::kNone, Dash::kDashed, Dash::kShort};  // of levels 1 to 3
+constexpr Tolerance kPoints{1e-9, "float64 rounding of places, points"};
+
+/// Whether `point` lies on the line between two others.
+bool LiesBetween(const PagePoint& begin, const PagePoint& end, const PagePoint& point) {
+  const PagePoint along{end.x - begin.x, end.y - begin.y};
+  const PagePoint from{point.x - begin.x, point.y - begin.y};
+  const double length = std::hypot(along.x, along.y);
+  const double beside = (along.x * from.y - along.y * from.x) / length;
+  const double share = (along.x * from.x + along.y * from.y) / (length * length);
+  return std::abs(beside) <= kPoints && share >= 0 && share <= 1;
+}
+
+/// How many boundaries of `level` (from 0) run through all of the points.
+std::size_t BoundariesThrough(const Picture& picture, std::size_t level,
+                              const std::vector<PagePoint>& points) {
+  return static_cast<std::size_t>(
+      std::count_if(picture.shapes.begin(), picture.shapes.end(), [&](const Shape& shape) {
+        const auto* const path = std::get_if<Path>(&shape);
+        return path != nullptr && path->stroke == kInk && path->dash == kDashes[level] &&
+               path->points.size() == 2 &&
+               std::all_of(points.begin(), points.end(), [&](const PagePoint& point) {
+                 return LiesBetween(path->points[0], path->points[1], point);
+               });
+      }));
+}
+
+/// The dots of the flights, panel by panel.
+std::vector<PagePoint> DotsIn(const Picture& picture) {
+  std::vector<PagePoint> dots;
+  for (const Shape& shape : picture.shapes) {
+    if (const auto* const disc = std::get_if<Disc>(&shape)) dots.push_back(disc->middle);
+  }
+  return dots;
+}
+
+AssessedFlight FlightOf(double frequency, double load_factor_by_alpha, double damping = 0.7) {
+  AssessedFlight flight = FlightWith(1);
+  flight.qualities.short_period.frequency_rad_s = frequency;
+  flight.qualities.short_period.damping_ratio = damping;
+  flight.qualities.load_factor_by_alpha = load_factor_by_alpha;
+  return flight;
+}
+
+/// Boundaries of `level` through the dots of two flights with different n/alpha in the panel of
+/// frequencies.
+std::size_t BoundariesThroughBoth(const AssessedFlight& first, const AssessedFlight& second,
+                                  const LevelLimits& limits, std::size_t level) {
+  const std::vector<AssessedFlight> flights = {first, second};
+  const Picture picture = DrawHandlingLevels(flights, limits, kWidth, "");
+  const std::vector<PagePoint> dots = DotsIn(picture);
+  if (dots.size() < 2) return 0;
+  EXPECT_NE(dots[0].x, dots[1].x);
+  return BoundariesThrough(picture, level, {dots[0], dots[1]});
+}
+
+// MIL-F-8785C, figures 1 to 3: frequency^2 over n/alpha.
+TEST(HandlingLevels, FlightsAtALimitOfTheAnticipationLieOnItsBoundary) {
+  const LevelLimits limits = LimitsNamed("IV", "A");
+  int boundaries = 0;
+  for (std::size_t level = 0; level < 3; ++level) {
+    for (const LevelLimit& limit : {limits.anticipation_min, limits.anticipation_max}) {
+      // What is that of the level before is drawn as its boundary.
+      const bool is_new = level == 0 || limit[level] != limit[level - 1];
+      if (!is_new || !std::isfinite(limit[level])) continue;
+      SCOPED_TRACE(testing::Message() << "level " << level + 1 << ": " << limit[level]);
+      const auto at = [&](double load_factor_by_alpha, double share) {
+        return FlightOf(std::sqrt(share * limit[level] * load_factor_by_alpha),
+                        load_factor_by_alpha);
+      };
+      EXPECT_EQ(BoundariesThroughBoth(at(8, 1), at(30, 1), limits, level), 1u);
+      EXPECT_EQ(BoundariesThroughBoth(at(8, 1.1), at(30, 1.1), limits, level), 0u) << "beside it";
+      ++boundaries;
+    }
+  }
+  EXPECT_GE(boundaries, 4);
+}
+
+TEST(HandlingLevels, FlightsAtTheLeastFrequencyOrLoadFactorLieOnItsBoundary) {
+  const LevelLimits limits = LimitsNamed("IV", "C");
+  for (const std::size_t level : {0u, 1u}) {
+    SCOPED_TRACE(level + 1);
+    const double frequency = limits.short_period_frequency_min[level];
+    const double load_factor = limits.load_factor_by_alpha_min[level];
+    ASSERT_GT(frequency, 0);
+    ASSERT_GT(load_factor, 0);
+    EXPECT_EQ(BoundariesThroughBoth(FlightOf(frequency, 3), FlightOf(frequency, 9), limits, level),
+              1u);
+    const std::vector<AssessedFlight> flights = {FlightOf(1.5, load_factor),
+                                                 FlightOf(3, load_factor)};
+    const Picture picture = DrawHandlingLevels(flights, limits, kWidth, "");
+    const std::vector<PagePoint> dots = DotsIn(picture);
+    ASSERT_GE(dots.size(), 2u);
+    EXPECT_EQ(BoundariesThrough(picture, level, {dots[0], dots[1]}), 1u);
+  }
+}
+
+TEST(HandlingLevels, FlightsAtALimitOfTheDampingLieOnItsBoundary) {
+  const LevelLimits limits = LimitsNamed("IV", "A");
+  for (std::size_t level = 0; level < 3; ++level) {
+    for (const LevelLimit& limit :
+         {limits.short_period_damping_min, limits.short_period_damping_max}) {
+      if (!std::isfinite(limit[level])) continue;
+      SCOPED_TRACE(testing::Message() << "level " << level + 1 << ": " << limit[level]);
+      const std::vector<AssessedFlight> flights = {FlightOf(2, 8, limit[level])};
+      const Picture picture = DrawHandlingLevels(flights, limits, kWidth, "");
+      const std::vector<PagePoint> dots = DotsIn(picture);
+      ASSERT_GE(dots.size(), 2u);
+      EXPECT_EQ(BoundariesThrough(picture, level, {dots[1]}), 1u);
+    }
+  }
 }
 
 std::string AllWords(const Picture& picture) {

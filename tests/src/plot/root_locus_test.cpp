@@ -9,6 +9,7 @@
 
 #include "src/plot/root_locus_picture.h"
 #include "tests/src/plot/legible.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -89,24 +90,82 @@ FlightMode ModeOf(const std::string& name, ModeFamily family, std::complex<doubl
   return mode;
 }
 
-/// Dots in the second panel's half of the picture, the legend's left out.
-std::vector<PagePoint> EnlargedDots(const Picture& picture) {
-  std::vector<PagePoint> dots;
+/// Dots of the modes, the legend's left out: in the first panel, and in the second's half.
+struct ModeDots {
+  std::vector<PagePoint> all, enlarged;
+};
+ModeDots DotsOfModes(const Picture& picture) {
+  ModeDots dots;
   for (std::size_t k = 0; k + 1 < picture.shapes.size(); ++k) {
     const auto* const disc = std::get_if<Disc>(&picture.shapes[k]);
     const bool is_sample = std::holds_alternative<Words>(picture.shapes[k + 1]);
-    if (disc != nullptr && !is_sample && disc->middle.x > kWidth / 2) dots.push_back(disc->middle);
+    if (disc == nullptr || is_sample) continue;
+    (disc->middle.x > kWidth / 2 ? dots.enlarged : dots.all).push_back(disc->middle);
   }
   return dots;
+}
+
+/// Where the first panel's left (kEnd) or lower (kMiddle) axis says `number`.
+PagePoint PlaceOfNumber(const Picture& picture, Anchor anchor, const std::string& number) {
+  for (const Words& words : WordsIn(picture)) {
+    if (words.anchor == anchor && words.text == number) return words.at;
+  }
+  ADD_FAILURE() << "no axis says " << number;
+  return {};
+}
+
+constexpr Tolerance kPoints{1e-9, "float64 rounding of places, points"};
+
+/// Both parts of eigenvalues that any of the panels shows.
+void ExpectInProportion(const std::vector<PagePoint>& dots,
+                        const std::vector<std::complex<double>>& eigenvalues) {
+  ASSERT_EQ(dots.size(), eigenvalues.size());
+  ASSERT_GE(dots.size(), 2u);
+  const std::complex<double> whole = eigenvalues[1] - eigenvalues[0];
+  const double right = (dots[1].x - dots[0].x) / whole.real();
+  const double down = (dots[1].y - dots[0].y) / whole.imag();
+  EXPECT_GT(right, 0) << "real parts grow to the right";
+  EXPECT_LT(down, 0) << "imaginary parts grow upwards";
+  for (std::size_t k = 2; k < dots.size(); ++k) {
+    const std::complex<double> part = eigenvalues[k] - eigenvalues[0];
+    EXPECT_NEAR(dots[k].x - dots[0].x, right * part.real(), kPoints) << k;
+    EXPECT_NEAR(dots[k].y - dots[0].y, down * part.imag(), kPoints) << k;
+  }
+}
+
+TEST(RootLocus, DotsLieAtTheirEigenvalues) {
+  LinearisedFlight flight = FlightAt(5000, 400);
+  flight.modes = {ModeOf("phugoid", ModeFamily::kPhugoid, {-0.02, 0.2}),
+                  ModeOf("roll-spiral", ModeFamily::kSpiral, {0.1, 0.4}),
+                  ModeOf("spiral", ModeFamily::kSpiral, 0),
+                  ModeOf("short period", ModeFamily::kShortPeriod, {-1, 2}),
+                  ModeOf("roll", ModeFamily::kRoll, -3)};
+  std::vector<std::complex<double>> eigenvalues;
+  for (const FlightMode& mode : flight.modes) eigenvalues.push_back(mode.eigenvalue);
+  const Picture picture = DrawRootLocus({flight}, kWidth, "");
+  const ModeDots dots = DotsOfModes(picture);
+  ASSERT_EQ(dots.all.size(), flight.modes.size());
+  ExpectInProportion(dots.all, eigenvalues);
+  ExpectInProportion(dots.enlarged, {eigenvalues.begin(), eigenvalues.begin() + 3});
+
+  // And as the axes' numbers say, of which those at the left stand below their heights.
+  const PagePoint &spiral = dots.all[2], &short_period = dots.all[3], &roll = dots.all[4];
+  EXPECT_NEAR(spiral.x, PlaceOfNumber(picture, Anchor::kMiddle, "0").x, kPoints);
+  EXPECT_NEAR(short_period.x, PlaceOfNumber(picture, Anchor::kMiddle, "-1").x, kPoints);
+  EXPECT_NEAR(roll.x, PlaceOfNumber(picture, Anchor::kMiddle, "-3").x, kPoints);
+  const double below = PlaceOfNumber(picture, Anchor::kEnd, "0").y - spiral.y;
+  EXPECT_GE(below, 0);
+  EXPECT_LT(below, kSmallSize);
+  EXPECT_NEAR(PlaceOfNumber(picture, Anchor::kEnd, "2").y - short_period.y, below, kPoints);
 }
 
 TEST(RootLocus, OtherModesDoNotSetTheRangeOfTheEnlargedPanel) {
   LinearisedFlight flight = FlightAt(5000, 400);
   flight.modes = {ModeOf("phugoid", ModeFamily::kPhugoid, {-0.01, 0.1}),
                   ModeOf("spiral", ModeFamily::kSpiral, -0.02)};
-  const std::vector<PagePoint> alone = EnlargedDots(DrawRootLocus({flight}, kWidth, ""));
+  const auto alone = DotsOfModes(DrawRootLocus({flight}, kWidth, "")).enlarged;
   flight.modes.push_back(ModeOf("short period, real", ModeFamily::kShortPeriod, 0.4));
-  const std::vector<PagePoint> beside = EnlargedDots(DrawRootLocus({flight}, kWidth, ""));
+  const auto beside = DotsOfModes(DrawRootLocus({flight}, kWidth, "")).enlarged;
   ASSERT_EQ(alone.size(), 2u);
   ASSERT_EQ(beside.size(), 2u);
   for (std::size_t k = 0; k < alone.size(); ++k) {

@@ -52,10 +52,18 @@ TEST(LiveView, SaysEverything) {
   EXPECT_THAT(lines[0], HasSubstr(" 50.0 %  left 5 min 49 s"));
   EXPECT_EQ(lines[1], "steps    75.0 M of 150 M  215 k/s  iteration 61  5 min 50 s so far");
   EXPECT_EQ(lines[2], "time     rollout 38 %  update 60 %  other 2 %");
-  EXPECT_THAT(lines[3], HasSubstr("success  43.1 %  ___"));
+  EXPECT_THAT(lines[3], HasSubstr("success  43.1 %  __"));
   EXPECT_THAT(lines[3], HasSubstr("##  evaluated 52.0 %, best 55.0 %"));
   EXPECT_EQ(lines[4], "return   -312.0");
   EXPECT_EQ(lines[5], "ends     time_limit 50 %  target_reached 43 %  overload 7 %");
+}
+
+TEST(LiveView, SaysOfHowManyEpisodesASuccessIsIfTheyAreFew) {
+  Progress progress = HalfWay();
+  progress.success_episodes = 3;
+  EXPECT_THAT(LiveView(progress, {79, false, false})[3], HasSubstr("success  43.1 % of 3  __"));
+  progress.success_episodes = 3000;
+  EXPECT_THAT(LiveView(progress, {79, false, false})[3], HasSubstr("success  43.1 %  __"));
 }
 
 TEST(LiveView, FitsEveryWidthWithAndWithoutColour) {

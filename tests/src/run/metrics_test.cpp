@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "src/files/output_file.h"
+#include "src/report/csv_columns.h"
 #include "tests/scratch_directory.h"
 
 namespace skein {
@@ -31,6 +35,33 @@ TEST(Metrics, RowsHaveTheColumnsOfTheHeader) {
   };
   EXPECT_EQ(commas(MetricsHeader()), commas(MetricsRow({})));
   EXPECT_EQ(commas(TimingHeader()), commas(TimingRow({}, 0, {})));
+}
+
+TEST(Metrics, TimesStandUnderTheirNames) {
+  IterationReport report;
+  report.iteration = 1;
+  report.env_steps = 2;
+  report.rollout_seconds = 4;
+  report.update_seconds = 5;
+  report.evaluation_seconds = 6;
+  report.simulator_seconds = 7;
+  report.gradient_seconds = 8;
+  TurnSeconds turn;
+  turn.files = 9;
+  turn.start = 10;
+  turn.whole = 11;
+  const CsvColumns timing = ParseCsv(TimingHeader() + TimingRow(report, 3, turn));
+  const std::pair<const char*, double> expected[] = {
+      {"iteration", 1}, {"env_steps", 2},    {"unix_time_s", 3}, {"rollout_s", 4},
+      {"update_s", 5},  {"evaluation_s", 6}, {"simulator_s", 7}, {"gradient_s", 8},
+      {"files_s", 9},   {"start_s", 10},     {"whole_s", 11}};
+  ASSERT_EQ(timing.names.size(), std::size(expected));
+  ASSERT_EQ(timing.rows(), 1u);
+  for (const auto& [name, value] : expected) {
+    const std::vector<double>* const column = timing.Find(name);
+    ASSERT_NE(column, nullptr) << name;
+    EXPECT_EQ(column->front(), value) << name;
+  }
 }
 
 TEST(Metrics, NoColumnOfMetricsDependsOnTheClock) {

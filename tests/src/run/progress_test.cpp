@@ -51,7 +51,25 @@ TEST(Progress, TheTightLineFits72Columns) {
   progress.steps_per_s = 1.23e6;
   progress.return_mean = -123456.7;
   progress.success_rate = 1;
+  progress.success_episodes = 49;
   EXPECT_LE(FormatProgress(progress, Spacing::kTight).size(), 72u);
+}
+
+TEST(Progress, ASuccessOfFewEpisodesSaysOfHowMany) {
+  const ProgressMeter::Clock::time_point start{};
+  ProgressMeter meter(0, 100, start);
+  IterationReport report;
+  const auto line = [&](std::uint64_t episodes, double success_rate, Spacing spacing) {
+    report.episodes = episodes;
+    report.success_rate = success_rate;
+    meter.Add(report, start);
+    return FormatProgress(meter.progress(), spacing);
+  };
+  EXPECT_NE(line(1, 1, Spacing::kTight).find("success 100.0% of 1 left"), std::string::npos);
+  EXPECT_NE(line(49, 0.5, Spacing::kWide).find("success 50.0 % of 49 |"), std::string::npos);
+  // The latest that is known, of as many.
+  EXPECT_NE(line(0, std::nan(""), Spacing::kWide).find("50.0 % of 49 |"), std::string::npos);
+  EXPECT_NE(line(50, 0.5, Spacing::kWide).find("success 50.0 % |"), std::string::npos);
 }
 
 TEST(Progress, WhatIsNotKnownYetIsADash) {

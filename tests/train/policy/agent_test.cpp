@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "tests/tolerance.h"
@@ -76,6 +77,36 @@ TEST(AgentTest, SampledActionsScatterAboutTheMean) {
   constexpr Tolerance kProductShape{1e-5, "matrix products round by their shape"};
   const Floats alone = ActionsOf(sampling, {1, 7, 0}, 1);
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(alone[k], Row(actions, 7)[k], kProductShape);
+}
+
+/// Of two rows of numbers of mean 0 and variance 1.
+double Correlation(const Floats& x, const Floats& y) {
+  double sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) sum += static_cast<double>(x[i]) * y[i];
+  return sum / static_cast<double>(x.size());
+}
+
+TEST(AgentTest, SampledActionsAreDrawnAnewForEverySeedAircraftAndPolicyStep) {
+  const RecurrentPolicy policy = SmallPolicy();
+  const Agent sampling = Agent::SamplingFrom(policy);
+  const Floats mean = ActionsOf(Agent::MeanOf(policy), {}, 1);
+  constexpr int kCount = 5000;
+  const auto noise_at = [&](const Agent::Turn& turn) {
+    Floats noise = ActionsOf(sampling, turn, kCount);
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+      noise[i] = (noise[i] - mean[i % 4]) / std::exp(-1.0f);
+    }
+    return noise;
+  };
+  const Floats noise = noise_at({1, 0, 0});
+  constexpr std::uint64_t kOtherUpperHalf = 1 + (std::uint64_t{1} << 32);
+  const Agent::Turn others[] = {{1, 0, 1}, {2, 0, 0}, {kOtherUpperHalf, 0, 0}, {1, kCount, 0}};
+  for (const Agent::Turn& turn : others) {
+    EXPECT_NEAR(Correlation(noise, noise_at(turn)), 0, kStandardErrors / std::sqrt(4 * kCount))
+        << "seed " << turn.seed << ", aircraft " << turn.first_aircraft << ", policy step "
+        << turn.policy_step;
+  }
+  EXPECT_EQ(noise_at({1, 0, 0}), noise) << "and by nothing else";
 }
 
 TEST(AgentTest, AnyPolicyCanFly) {

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <set>
+#include <vector>
 
 #include "base/error.h"
 #include "tests/tolerance.h"
@@ -92,17 +95,33 @@ TEST_F(RecordFlightsTest, DependsNeitherOnThreadsNorOnHowManyAreRecorded) {
 }
 
 TEST_F(RecordFlightsTest, HoldsActionsForAPolicyStep) {
-  agent_ = sampling_;
-  for (const RecordedFlight& flight : Record(4, pool_)) {
-    int changes = 0;
-    for (std::size_t i = 1; i < flight.steps.size(); ++i) {
-      const bool changes_here = flight.steps[i].action != flight.steps[i - 1].action;
-      EXPECT_EQ(changes_here, i % env_.action_repeat == 0) << "step " << i;
-      changes += changes_here;
-      for (const float value : flight.steps[i].action) EXPECT_LE(std::abs(value), 1);
+  // Random actions depend on no observation: they change as what is drawn does.
+  for (const Agent& agent : {sampling_, Agent::Random(env_.action_repeat)}) {
+    agent_ = agent;
+    for (const RecordedFlight& flight : Record(4, pool_)) {
+      int changes = 0;
+      for (std::size_t i = 1; i < flight.steps.size(); ++i) {
+        const bool changes_here = flight.steps[i].action != flight.steps[i - 1].action;
+        EXPECT_EQ(changes_here, i % env_.action_repeat == 0) << "step " << i;
+        changes += changes_here;
+        for (const float value : flight.steps[i].action) EXPECT_LE(std::abs(value), 1);
+      }
+      EXPECT_GT(changes, 0);
     }
-    EXPECT_GT(changes, 0);
   }
+}
+
+TEST_F(RecordFlightsTest, RandomActionsAreOthersForEverySeedAndEpisode) {
+  agent_ = Agent::Random(env_.action_repeat);
+  std::set<std::vector<float>> first_actions;
+  for (const std::uint64_t seed :
+       {std::uint64_t{4}, std::uint64_t{5}, 4 + (std::uint64_t{1} << 32)}) {
+    options_.seed = seed;
+    for (const RecordedFlight& flight : Record(kEpisodes, pool_)) {
+      first_actions.insert(flight.steps.front().action);
+    }
+  }
+  EXPECT_EQ(first_actions.size(), std::size_t{3 * kEpisodes});
 }
 
 TEST_F(RecordFlightsTest, StatesAreOfOneUnbrokenFlight) {

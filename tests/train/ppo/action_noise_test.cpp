@@ -4,21 +4,28 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <vector>
+
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
 constexpr int kCount = 500, kSize = 2, kSteps = 40;
 
+std::vector<float> NoiseBy(const ActionNoiseKey& key, int count = kCount) {
+  ActionNoiseScratch scratch;
+  std::vector<float> noise(static_cast<std::size_t>(count * kSize));
+  FillActionNoise(key, count, kSize, scratch, noise.data());
+  return noise;
+}
+
 /// Of an aircraft's action in one policy step.
 std::vector<float> NoiseOf(std::uint64_t policy_step, const HeldNoise& held, int first = 0,
                            int count = kCount) {
-  ActionNoiseScratch scratch;
-  std::vector<float> noise(static_cast<std::size_t>(count * kSize));
-  FillActionNoise({7, static_cast<std::uint32_t>(first), policy_step, held}, count, kSize, scratch,
-                  noise.data());
-  return noise;
+  return NoiseBy({7, static_cast<std::uint32_t>(first), policy_step, held}, count);
 }
 
 /// Mean over aircraft and steps of the products of an action's noise in two steps `apart`.
@@ -54,6 +61,28 @@ TEST(ActionNoise, IsCorrelatedInTheActionsThatHoldItForAsLongAsTheyDo) {
   EXPECT_NEAR(Correlation(held, 0, 8), 0, kError);
   EXPECT_NEAR(Correlation({0.5, 8, 2}, 1, 4), 0.25, 2 * kError);
   EXPECT_NEAR(Correlation({0, 8, 2}, 0, 4), 0, kError);
+}
+
+TEST(ActionNoise, IsAnotherOfEverySeedAircraftAndPolicyStep) {
+  constexpr std::uint64_t kUpperHalf = std::uint64_t{1} << 32;
+  const double chance = kStandardErrors / std::sqrt(kCount * kSize);
+  // All is held, or nothing: either part is drawn by the whole key.
+  for (const HeldNoise& held : {HeldNoise{}, HeldNoise{1, 8, kSize}}) {
+    const std::vector<float> noise = NoiseBy({7, 0, 5, held});
+    const ActionNoiseKey others[] = {{8, 0, 5, held},
+                                     {7 + kUpperHalf, 0, 5, held},
+                                     {7, kCount, 5, held},
+                                     {7, 0, 5 + 8, held},
+                                     {7, 0, 5 + 8 * kUpperHalf, held}};
+    for (const ActionNoiseKey& key : others) {
+      const std::vector<float> other = NoiseBy(key);
+      double sum = 0;
+      for (std::size_t i = 0; i < noise.size(); ++i) sum += noise[i] * other[i];
+      EXPECT_NEAR(sum / static_cast<double>(noise.size()), 0, chance)
+          << "seed " << key.seed << ", aircraft " << key.first_aircraft << ", policy step "
+          << key.policy_step << ", held " << held.share;
+    }
+  }
 }
 
 TEST(ActionNoise, DependsOnNoOtherAircraft) {

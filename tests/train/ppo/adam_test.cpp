@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "simd/random.h"
 #include "simd/target.h"
+#include "tests/extremes.h"
 #include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 
@@ -84,7 +85,7 @@ TEST_P(AdamTest, AgreesWithLibTorchOverAThousandSteps) {
   double largest = 0, difference = 0;
   for (int i = 0; i < kSize; ++i) {
     largest = std::max<double>(largest, std::abs(reference[i]));
-    difference = std::max<double>(difference, std::abs(adam.parameters()[i] - reference[i]));
+    difference = Larger<double>(difference, std::abs(adam.parameters()[i] - reference[i]));
   }
   EXPECT_LE(difference / largest, simd::FusesMultiplyAdd(GetParam()) ? kFused : kUnfused);
 }

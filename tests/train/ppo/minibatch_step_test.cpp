@@ -41,6 +41,17 @@ TEST(ClippedStepTest, AShorterOneIsTakenAsItIs) {
   EXPECT_NEAR(moment[1], 0.8, kRounding);
 }
 
+TEST(ClippedStepTest, ParametersMoveByTheLearningRate) {
+  // Adam's first step is that far against the gradient, however long that is.
+  for (const double learning_rate : {kLearningRate, 2 * kLearningRate}) {
+    AdamOptimiser optimiser = WithNormOfTen();
+    ClippedStep(1, learning_rate, optimiser);
+    for (const float parameter : optimiser.ParameterVector()) {
+      EXPECT_NEAR(parameter, 1 - learning_rate, kRounding);
+    }
+  }
+}
+
 TEST(ClippedStepTest, AnExplodedOneChangesNothing) {
   AdamOptimiser optimiser = WithNormOfTen();
   for (const float gradient :

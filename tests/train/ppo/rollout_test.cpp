@@ -89,7 +89,6 @@ struct Flight {
     settings.seed = config.seed;
     settings.first_policy_step = policy_steps;
     policy_steps += config.ppo.rollout_steps;
-    const std::vector<float> log_std(4, 0.0f);
     return CollectRollout(env, actor, critic, log_std, settings, pool, state, rollout);
   }
 
@@ -101,8 +100,25 @@ struct Flight {
   std::vector<float> actor_parameters;
   Rollout rollout;
   RecurrentState state;
+  std::vector<float> log_std = std::vector<float>(4, 0.0f);
   std::uint64_t policy_steps = 0;
 };
+
+/// The means of a chunk's actions, computed anew: [step][aircraft][action].
+std::vector<float> MeansOf(const Flight& flight, int chunk) {
+  const Rollout& rollout = flight.rollout;
+  const int length = rollout.chunk_length;
+  const std::int64_t row = rollout.row(chunk * length, 0);
+  NetworkWorkspace workspace;
+  flight.actor.Forward(
+      {length, rollout.aircraft, rollout.observation.data() + row * rollout.observation_size,
+       rollout.actor_state.data() + rollout.row(chunk, 0) * rollout.state_size,
+       rollout.not_done.data() + row},
+      workspace);
+  std::vector<float> mean(static_cast<std::size_t>(length) * rollout.aircraft * 4);
+  GaussianMean(static_cast<std::int64_t>(mean.size()), true, workspace.output(), mean.data());
+  return mean;
+}
 
 TEST(RolloutTest, LogProbabilitiesRecomputedFromChunksAreTheRolloutsOwn) {
   Flight flight(SmallConfig());
@@ -110,24 +126,61 @@ TEST(RolloutTest, LogProbabilitiesRecomputedFromChunksAreTheRolloutsOwn) {
   flight.Fly();  // the second begins in the middle of episodes
   const Rollout& rollout = flight.rollout;
   ASSERT_GT(std::count(rollout.done.begin(), rollout.done.end(), 1), 0);
-  const int aircraft = rollout.aircraft, length = rollout.chunk_length;
-  NetworkWorkspace workspace;
-  std::vector<float> mean(static_cast<std::size_t>(length) * aircraft * 4),
-      log_prob(mean.size() / 4);
-  const std::vector<float> log_std(4, 0.0f);
+  const int samples = rollout.chunk_length * rollout.aircraft;
+  std::vector<float> log_prob(samples);
   for (int chunk = 0; chunk < rollout.chunks(); ++chunk) {
-    const std::int64_t row = rollout.row(chunk * length, 0);
-    flight.actor.Forward(
-        {length, aircraft, rollout.observation.data() + row * rollout.observation_size,
-         rollout.actor_state.data() + rollout.row(chunk, 0) * rollout.state_size,
-         rollout.not_done.data() + row},
-        workspace);
-    GaussianMean(static_cast<std::int64_t>(mean.size()), true, workspace.output(), mean.data());
-    LogProbability(length * aircraft, 4, mean.data(), log_std.data(),
+    const std::int64_t row = rollout.row(chunk * rollout.chunk_length, 0);
+    LogProbability(samples, 4, MeansOf(flight, chunk).data(), flight.log_std.data(),
                    rollout.action.data() + row * 4, log_prob.data());
-    for (int i = 0; i < length * aircraft; ++i) {
+    for (int i = 0; i < samples; ++i) {
       ASSERT_NEAR(log_prob[i], rollout.log_prob[row + i], kLogProb);
     }
+  }
+}
+
+/// What has been added to the means of a rollout's actions, in standard deviations:
+/// [step][aircraft][action].
+std::vector<double> Deviations(const Flight& flight) {
+  const std::vector<float>& action = flight.rollout.action;
+  std::vector<double> deviations;
+  for (int chunk = 0; chunk < flight.rollout.chunks(); ++chunk) {
+    for (const float mean : MeansOf(flight, chunk)) {
+      const std::size_t i = deviations.size();
+      deviations.push_back((action[i] - mean) / std::exp(flight.log_std[i % 4]));
+    }
+  }
+  return deviations;
+}
+
+TEST(RolloutTest, ActionsScatterByTheirDeviationsAnewInEveryStepOfEveryAircraft) {
+  Flight flight(SmallConfig());
+  flight.log_std = {-1, -0.5, 0, 0.25};
+  std::vector<double> deviations;  // of two rollouts, one after the other
+  for (int rollout = 0; rollout < 2; ++rollout) {
+    flight.Fly();
+    const std::vector<double> own = Deviations(flight);
+    deviations.insert(deviations.end(), own.begin(), own.end());
+  }
+  const std::size_t step = flight.rollout.aircraft * 4;
+  const std::size_t tile = flight.config.learner.rollout_tile * 4;
+  ASSERT_EQ(deviations.size(), 2 * flight.rollout.steps * step);
+  const double count = static_cast<double>(deviations.size()) / 4;
+  for (std::size_t k = 0; k < 4; ++k) {
+    double sum = 0, squares = 0;
+    for (std::size_t i = k; i < deviations.size(); i += 4) {
+      sum += deviations[i];
+      squares += deviations[i] * deviations[i];
+    }
+    EXPECT_NEAR(sum / count, 0, kStandardErrors / std::sqrt(count)) << k;
+    EXPECT_NEAR(squares / count, 1, kStandardErrors * std::sqrt(2 / count)) << k;
+  }
+  for (const std::size_t apart : {std::size_t{4}, tile, step, flight.rollout.steps * step}) {
+    double sum = 0;
+    for (std::size_t i = apart; i < deviations.size(); ++i) {
+      sum += deviations[i] * deviations[i - apart];
+    }
+    const double products = static_cast<double>(deviations.size() - apart);
+    EXPECT_NEAR(sum / products, 0, kStandardErrors / std::sqrt(products)) << apart;
   }
 }
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/config/target_reach.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "envs/air/atmosphere.h"
+#include "envs/tasks/terms/term_task_config.h"
+
+namespace skein {
+namespace {
+
+/// Where both atmospheres are coldest: sound is slowest there.
+constexpr double kColdest_ft = 60000;
+
+/// Where a target can be, of flights that begin in `start`.
+Range DrawnOf(const TermTarget& target, const Range& start) {
+  if (target.draw_from == TermTarget::Draw::kBetween) return target.draw;
+  return {start.min + target.draw.min, start.max + target.draw.max};
+}
+
+std::string Beyond(const TermTarget& target, const std::string& drawn, const std::string& limit) {
+  return fmt::format("target {} cannot be reached: it is {}, but flights end {}", target.name,
+                     drawn, limit);
+}
+
+/// Empty if some of `drawn` can be flown. `least_sound` and `most_sound` make Mach numbers of it.
+std::string BeyondMach(const TermTarget& target, const Range& drawn, double least_sound,
+                       double most_sound, const TerminationConfig& limits) {
+  const std::string& unit = target.quantity.name;
+  if (drawn.min > limits.max_mach * most_sound) {
+    return Beyond(target, fmt::format("{:.5g} or more ({})", drawn.min, unit),
+                  fmt::format("above Mach {:g} (env.termination.max_mach)", limits.max_mach));
+  }
+  if (drawn.max < limits.min_mach * least_sound) {
+    return Beyond(target, fmt::format("{:.5g} or less ({})", drawn.max, unit),
+                  fmt::format("below Mach {:g} (env.termination.min_mach)", limits.min_mach));
+  }
+  return "";
+}
+
+std::string BeyondAltitude(const TermTarget& target, const Range& drawn,
+                           const TerminationConfig& limits) {
+  if (drawn.max >= limits.min_altitude_ft) return "";
+  return Beyond(
+      target, fmt::format("{:.5g} or less ({})", drawn.max, target.quantity.name),
+      fmt::format("below {:.5g} ft (env.termination.min_altitude_ft)", limits.min_altitude_ft));
+}
+
+std::string BeyondLimits(const TermTarget& target, const EnvConfig& env) {
+  const TerminationConfig& limits = env.termination;
+  switch (target.quantity.value) {
+    case TermValue::kAltitude: {
+      if (env.mission.enabled()) return "";  // raises what is drawn too low
+      Range drawn = DrawnOf(target, env.initial.altitude_ft);
+      if (env.target_altitude_min_ft > 0) {
+        drawn.max = std::max(drawn.max, env.target_altitude_min_ft);
+      }
+      return BeyondAltitude(target, drawn, limits);
+    }
+    case TermValue::kTrueAirspeed: {
+      const auto sound = [&env](double altitude_ft) {
+        return AirAt(env.atmosphere, altitude_ft).sound_speed_ft_s;
+      };
+      const double least_sound = sound(kColdest_ft);
+      Range drawn = DrawnOf(target, env.initial.true_airspeed_fps);
+      drawn.max = std::max(drawn.max, env.target_mach_min * least_sound);
+      return BeyondMach(target, drawn, least_sound, sound(limits.min_altitude_ft), limits);
+    }
+    case TermValue::kMach:
+      return BeyondMach(target, target.draw, 1, 1, limits);
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env) {
+  std::vector<std::string> lines;
+  if (env.term_task == nullptr) return lines;
+  for (const TermTarget& target : env.term_task->targets) {
+    std::string line = BeyondLimits(target, env);
+    if (!line.empty()) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace skein
