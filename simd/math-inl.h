@@ -80,9 +80,10 @@ HWY_INLINE V AtanDegrees(D d, V t) {
   return hn::Mul(t, hn::Add(hn::MulAdd(high, t8, low), top));
 }
 
-/// atan2(y, x) in degrees, (-180, 180], for magnitudes below 2^125; arguments are taken as zero
+/// atan2(y, x) in degrees, [-180, 180], for magnitudes below 2^125; arguments are taken as zero
 /// where both are below 2^-100: absolute error 3e-5 degrees, relative error 5 ULP where |y| <= x.
-/// The sign is that of y (also of a zero y); x = -0 counts as +0. NaN may give any angle.
+/// The sign is that of y, also of a zero y: -180 where y = -0 and x < 0; x = -0 counts as +0. NaN
+/// may give any angle.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Atan2Degrees(D d, V y, V x) {
   const V abs_x = hn::Abs(x);
