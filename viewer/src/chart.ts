@@ -4,6 +4,7 @@ import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { el } from './dom';
 import { styleColour } from './palette';
+import type { Picture } from './save';
 import type { SharedRange } from './shared_range';
 
 export interface ChartOptions {
@@ -78,7 +79,8 @@ export class Chart {
   constructor(
     place: HTMLElement, private readonly options: ChartOptions, data: uPlot.AlignedData,
   ) {
-    const figure = el('figure', { class: 'chart' }, el('figcaption', {}, options.title, this.readout));
+    const figure = el('figure', { class: 'chart', 'aria-label': options.title },
+      el('figcaption', {}, options.title, this.readout));
     place.append(figure);
     const width = () => Math.max(figure.clientWidth, 120);
     const shared = options.range && sharing(options.range);
@@ -104,6 +106,7 @@ export class Chart {
       legend: { show: options.legend ?? true },
       hooks: { ...shared?.hooks, ...options.hooks },
     }, data, figure);
+    this.plot.ctx.canvas.setAttribute('aria-hidden', 'true');
     options.range?.join(this.plot);
     this.observer = new ResizeObserver(() => {
       if (width() !== this.plot.width) {
@@ -111,6 +114,22 @@ export class Chart {
       }
     });
     this.observer.observe(figure);
+  }
+
+  /** Other numbers of the same series; the pointer, and which series are shown, stay. */
+  renew(series: uPlot.Series[], data: uPlot.AlignedData): void {
+    series.forEach(({ value }, i) => {
+      if (value) this.plot.series[i + 1].value = value;
+    });
+    this.plot.setData(data);
+  }
+
+  /** As it is, with the names of the lines that are shown. */
+  picture(): Picture {
+    const { title, series } = this.options;
+    const keys = series.flatMap(({ label, stroke }, i): [string, string][] =>
+      (label && this.plot.series[i + 1].show ? [[String(label), String(stroke)]] : []));
+    return { title, canvas: this.plot.ctx.canvas, keys };
   }
 
   stop(): void {

@@ -2,6 +2,7 @@
 // The configuration of runs: what differs from the preset, and between them.
 import { el, tick } from './dom';
 import type { ReportPack, Run, Setting } from './report';
+import type { Shown } from './shown';
 
 function settingsByKey(run: Run): Map<string, Setting> {
   return new Map(run.configuration.map((setting) => [setting.key, setting]));
@@ -20,37 +21,45 @@ function cellOf(setting: Setting | undefined): HTMLTableCellElement {
     el('small', {}, ` preset: ${setting.preset}`));
 }
 
-export function showConfiguration(place: HTMLElement, pack: ReportPack): () => void {
-  const { runs } = pack.document;
+function tableOf(runs: Run[], isWhole: boolean): HTMLElement {
   const tables = runs.map(settingsByKey);
   const keys = [...new Set(tables.flatMap((table) => [...table.keys()]))];
   const body = el('tbody');
-  let isWhole = false;
-  const draw = () => {
-    body.replaceChildren();
-    for (const key of keys) {
-      const settings = tables.map((table) => table.get(key));
-      if (!isWhole && !isSpecial(settings)) continue;
-      const help = settings.find((setting) => setting)?.help ?? '';
-      body.append(el('tr', {}, el('th', { scope: 'row' }, key, el('small', {}, help)),
-        ...settings.map(cellOf)));
-    }
-    if (body.rows.length === 0) {
-      body.append(el('tr', {}, el('td', { colspan: runs.length + 1 },
-        'Every setting is the preset’s.')));
-    }
-  };
+  for (const key of keys) {
+    const settings = tables.map((table) => table.get(key));
+    if (!isWhole && !isSpecial(settings)) continue;
+    const help = settings.find((setting) => setting)?.help ?? '';
+    body.append(el('tr', {}, el('th', { scope: 'row' }, key, el('small', {}, help)),
+      ...settings.map(cellOf)));
+  }
+  if (body.rows.length === 0) {
+    body.append(el('tr', {}, el('td', { colspan: runs.length + 1 },
+      'Every setting is the preset’s.')));
+  }
   const names = runs.map((run) => el('th', { scope: 'col' }, run.name,
     el('small', {}, run.preset ? `preset ${run.preset}` : 'preset not known')));
+  return el('table', { class: 'settings' }, el('thead', {}, el('tr', {}, el('td'), ...names)), body);
+}
+
+export function showConfiguration(place: HTMLElement, pack: ReportPack): Shown {
+  const tables = el('div', { class: 'wide' });
+  let { runs } = pack.document;
+  let isWhole = false;
+  const draw = () => tables.replaceChildren(tableOf(runs, isWhole));
   place.append(
     el('div', { class: 'controls' }, tick('all settings', isWhole, (isOn) => {
       isWhole = isOn;
       draw();
     }), el('span', { class: 'hint' },
       'Bold: differs from the preset. Without the tick: what differs from it, or between runs.')),
-    el('div', { class: 'wide' }, el('table', { class: 'settings' },
-      el('thead', {}, el('tr', {}, el('td'), ...names)), body)),
+    tables,
   );
   draw();
-  return () => undefined;
+  return {
+    stop: () => undefined,
+    renew: (fresh) => {
+      runs = fresh.document.runs;
+      draw();
+    },
+  };
 }

@@ -95,8 +95,8 @@ function inRow(values: Series, row: number | null): number | null {
   return row === null ? null : values[row] ?? null;
 }
 
-/** A line a run. */
-function overlaid(lines: Line[], shown: Shown): Drawn {
+/** A line a run; values that are few, with their points, so that one alone is seen. */
+function overlaid(lines: Line[], shown: Shown, arePoints: boolean): Drawn {
   const xs = union(lines.map((line) => line.xs));
   return {
     data: [xs, ...lines.map((line) => xs.map((x) => at(line.xs, line.ys, x)))],
@@ -104,7 +104,7 @@ function overlaid(lines: Line[], shown: Shown): Drawn {
       const measured = xs.map((x) => at(line.xs, line.measured, x));
       return {
         label: line.name, stroke: colourOf(line.run), dash: dashOf(Math.floor(line.run / 8)),
-        width: 1.6, spanGaps: true, points: { show: false },
+        width: 1.6, spanGaps: true, points: { show: arePoints },
         value: (_, __, ___, row) => shown(inRow(measured, row)),
       };
     }),
@@ -113,7 +113,7 @@ function overlaid(lines: Line[], shown: Shown): Drawn {
 }
 
 /** Mean and range of the lines of each repetition. */
-function overSeeds(lines: Line[], shown: Shown): Drawn {
+function overSeeds(lines: Line[], shown: Shown, arePoints: boolean): Drawn {
   const xs = union(lines.map((line) => line.xs));
   const drawn: Drawn = { data: [xs], series: [], bands: [] };
   const data: (number[] | Series)[] = [xs];
@@ -133,7 +133,7 @@ function overSeeds(lines: Line[], shown: Shown): Drawn {
     };
     drawn.series.push(edge, edge, {
       label: `mean of ${own.map((line) => line.name).join(', ')}`, stroke: colour, width: 2,
-      spanGaps: true, points: { show: false }, value,
+      spanGaps: true, points: { show: arePoints }, value,
     });
     drawn.bands.push({ series: [first, first + 1], fill: faded(colour, 0.25) });
   }
@@ -148,7 +148,8 @@ const numberOf: Shown = (value) => (value === null ? '–' : value.toPrecision(4
 /** The lines of a curve; smoothing is drawn, and legends say what was measured. */
 export function drawnOf(curve: Curve, lines: Line[], isOverSeeds: boolean): Drawn {
   const shown = curve.isShare ? percentOf : numberOf;
-  return isOverSeeds ? overSeeds(lines, shown) : overlaid(lines, shown);
+  const arePoints = curve.isEvaluation ?? false;
+  return isOverSeeds ? overSeeds(lines, shown, arePoints) : overlaid(lines, shown, arePoints);
 }
 
 export interface End {

@@ -9,6 +9,7 @@ import { showMetrics } from './metrics';
 import { bytesOfBase64, inflate, unpack } from './pack';
 import { isDark } from './palette';
 import { KNOWN_FORMAT, type ReportDocument, type ReportPack } from './report';
+import type { Shown } from './shown';
 import { showTraining } from './training';
 import './style.css';
 
@@ -17,7 +18,7 @@ const MOST_NAMES = 3;
 interface View {
   name: string;
   title: string;
-  show: (place: HTMLElement, pack: ReportPack) => () => void;
+  show: (place: HTMLElement, pack: ReportPack) => Shown;
   isThere: (document: ReportDocument) => boolean;
 }
 
@@ -57,9 +58,9 @@ class Page {
   private readonly place = el('main');
   private readonly notes = el('div');
   private readonly made = el('p');
-  private readonly nav = el('nav');
+  private readonly nav = el('nav', { 'aria-label': 'views' });
   private chosen: View | undefined;
-  private stop = () => {};
+  private shown: Shown | undefined;
 
   constructor(root: HTMLElement, private pack: ReportPack) {
     const theme = button('◐', 'light or dark', () => {
@@ -86,9 +87,10 @@ class Page {
     this.pack = pack;
     this.say();
     if (!this.chosen || !this.views().includes(this.chosen)) this.choose();
-    // A flight that is being looked at goes on; what is fresh of it is shown when one comes back.
-    else if (this.chosen.name === 'flights') this.showNames();
-    else this.show();
+    else {
+      this.showNames();
+      this.shown?.renew(pack);
+    }
   }
 
   /** What is to be said of the data, whatever is shown of them. */
@@ -117,12 +119,12 @@ class Page {
 
   private show(): void {
     const scroll = scrollY;
-    this.stop();
-    this.stop = () => {};
+    this.shown?.stop();
+    this.shown = undefined;
     this.showNames();
     this.place.replaceChildren();
     this.place.className = this.chosen?.name ?? '';
-    if (this.chosen) this.stop = this.chosen.show(this.place, this.pack);
+    if (this.chosen) this.shown = this.chosen.show(this.place, this.pack);
     else this.place.append(el('p', {}, 'There is nothing in this report.'));
     scrollTo(0, scroll);
   }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of metrics: policies beside the autopilots, on the same episodes.
-import { choice, el, tick } from './dom';
+import { button, choice, el, tick } from './dom';
 import { differenceOf, isBetter, referencesOf, sideOfZero } from './paired';
 import {
   areOfMissions, type ComparedAgent, type Comparison, type Estimate, nameOfEnd, type Quantity,
   type ReportPack,
 } from './report';
+import { saveTable } from './save';
+import type { Shown } from './shown';
+import { metricsCsv } from './tables';
 
 function number(quantity: Quantity, value: number): string {
   const text = (value * quantity.shown_per_unit).toFixed(quantity.decimals);
@@ -148,7 +151,7 @@ function explanation({ agents, episodes, seed }: Comparison, reference?: number)
       + '(↑ higher, ↓ lower) and the interval of its difference leaves out 0 (others are grey).');
 }
 
-/** What is chosen; it outlives the view, which is drawn anew when the data of a watched run are. */
+/** What is chosen; it outlives the view. */
 const chosen = { isWhole: true, references: new Map<string, string>() };
 
 function partsOf(comparison: Comparison, redraw: () => void): (HTMLElement | null)[] {
@@ -167,14 +170,23 @@ function partsOf(comparison: Comparison, redraw: () => void): (HTMLElement | nul
     new MetricsTable(comparison, reference, chosen.isWhole).element()];
 }
 
-export function showMetrics(place: HTMLElement, pack: ReportPack): () => void {
+export function showMetrics(place: HTMLElement, pack: ReportPack): Shown {
   const tables = el('div');
-  const draw = () => tables.replaceChildren(...pack.document.comparisons
+  let { comparisons } = pack.document;
+  const draw = () => tables.replaceChildren(...comparisons
     .flatMap((comparison) => partsOf(comparison, draw)).filter((part) => part !== null));
   place.append(el('div', { class: 'controls' }, tick('all quantities', chosen.isWhole, (isOn) => {
     chosen.isWhole = isOn;
     draw();
-  })), tables);
+  }), button('save data', 'all values with their intervals, as CSV',
+    () => saveTable('metrics.csv', metricsCsv(comparisons)))), tables);
   draw();
-  return () => undefined;
+  return {
+    stop: () => undefined,
+    renew: (fresh) => {
+      const isOther = JSON.stringify(fresh.document.comparisons) !== JSON.stringify(comparisons);
+      comparisons = fresh.document.comparisons;
+      if (isOther) draw();
+    },
+  };
 }

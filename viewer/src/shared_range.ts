@@ -30,7 +30,7 @@ export class SharedRange {
   private readonly plots = new Set<Ranged>();
   private shown: Limits;
 
-  constructor(private readonly whole: Limits) {
+  constructor(private whole: Limits) {
     this.shown = whole;
   }
 
@@ -56,5 +56,13 @@ export class SharedRange {
 
   showAll(): void {
     this.show(this.whole);
+  }
+
+  /** The whole is another one: shown if the whole was, else the part that was shown stays. */
+  renew(whole: Limits): void {
+    const { min, max } = this.shown;
+    const wasWhole = min === this.whole.min && max === this.whole.max;
+    this.whole = whole;
+    this.show(wasWhole ? whole : this.shown);
   }
 }

@@ -3,28 +3,23 @@
 import type uPlot from 'uplot';
 import { Chart } from './chart';
 import {
-  type Curve, CURVES, type Drawn, drawnOf, type End, endKindsOf, type Line, linesOf, percentOf,
+  CURVES, type Drawn, drawnOf, type End, endKindsOf, linesOf, percentOf,
 } from './curves';
-import { el, slider, tick } from './dom';
+import { button, el, slider, tick } from './dom';
 import type { ReportPack, Run } from './report';
+import { montage, savePicture, saveTable } from './save';
 import { formatCount, type Series, shares, weightOf } from './series';
+import type { Shown } from './shown';
+import { trainingCsv } from './tables';
 import { type Limits, limitsOf, SharedRange } from './shared_range';
 
-function drawCurve(
-  place: HTMLElement, curve: Curve, drawn: Drawn, range: SharedRange,
-): Chart {
-  return new Chart(place, {
-    title: curve.title, height: 190, group: 'training', range, nameX: 'control steps',
-    formatX: formatCount,
-    series: drawn.series, bands: drawn.bands,
-    scales: curve.isShare ? { y: { range: [0, 1] } } : undefined,
-  }, drawn.data);
+interface Part extends Drawn {
+  title: string;
+  isShare: boolean;
 }
 
 /** How the episodes of a run ended over time: shares, one on top of the other. */
-function drawEnds(
-  place: HTMLElement, run: Run, all: End[], pack: ReportPack, range: SharedRange,
-): Chart | null {
+function endsPartOf(run: Run, all: End[], pack: ReportPack): Part | null {
   const countsOf = ({ column }: End) =>
     (run.metrics[column] ? pack.array(run.metrics[column]) : new Float32Array());
   const ends = all.filter((end) => countsOf(end).some((count) => count > 0));
@@ -35,17 +30,16 @@ function drawEnds(
     tops.push(part.map((v, i) => (v === null ? null : v + (k > 0 ? (tops[k - 1][i] ?? 0) : 0))));
   });
   const order = ends.map((_, k) => ends.length - 1 - k);
-  return new Chart(place, {
-    title: `how episodes end: ${run.name}`, height: 190, group: 'training', range,
-    nameX: 'control steps', formatX: formatCount,
-    scales: { y: { range: [0, 1] } },
+  return {
+    title: `how episodes end: ${run.name}`, isShare: true, bands: [],
     series: order.map((k) => ({
       label: ends[k].name, stroke: ends[k].colour, width: 1, points: { show: false },
       fill: ends[k].colour, spanGaps: true,
       value: (_: uPlot, __: number, ___: number, i: number | null) =>
         percentOf(i === null ? null : parts[k][i]),
     })),
-  }, [Array.from(pack.array(run.metrics.env_steps)), ...order.map((k) => tops[k])]);
+    data: [Array.from(pack.array(run.metrics.env_steps)), ...order.map((k) => tops[k])],
+  };
 }
 
 /** From the first to the last iteration of all runs, in control steps. */
@@ -54,22 +48,27 @@ export function stepsOf(pack: ReportPack): Limits {
     (metrics.env_steps ? [pack.array(metrics.env_steps)] : [])));
 }
 
-class TrainingView {
-  private readonly curves = new Map<Curve, Chart>();
-  private readonly others: Chart[] = [];
+/** What charts are of: the same of two packs if the second only has other numbers. */
+function subjectsOf(parts: Part[]): string {
+  return JSON.stringify(parts.map(({ title, series }) => [title, series.map(({ label }) => label)]));
+}
+
+class TrainingView implements Shown {
+  private parts: Part[] = [];
+  private charts: Chart[] = [];
   private readonly grid = el('div', { class: 'charts' });
   private readonly range: SharedRange;
   private position = 20;
   private isOverSeeds: boolean;
 
-  constructor(place: HTMLElement, private readonly pack: ReportPack) {
+  constructor(place: HTMLElement, private pack: ReportPack) {
     const { runs } = pack.document;
     this.range = new SharedRange(stepsOf(pack));
     const hasSeeds = new Set(runs.map((run) => run.repetition)).size < runs.length;
     this.isOverSeeds = hasSeeds;
     const smoothing = slider('smoothing', 0, 100, this.position, (position) => {
       this.position = position;
-      this.smooth();
+      this.draw();
     });
     const seeds = tick('mean and range over seeds', hasSeeds, (isOn) => {
       this.isOverSeeds = isOn;
@@ -77,52 +76,69 @@ class TrainingView {
     });
     place.append(
       el('div', { class: 'controls' }, smoothing, hasSeeds ? seeds : null,
+        button('save picture', 'the charts as they are, as PNG', () => this.savePicture()),
+        button('save data', 'what was measured, a row for every iteration of every run, as CSV',
+          () => this.saveData()),
         el('span', { class: 'hint' }, 'Smoothing leaves evaluations and legends as they are. All '
           + 'charts show the same control steps: drag over one to enlarge a part in all, double-click '
-          + 'to go back.')),
+          + 'to go back. A press on a name in a legend hides its line.')),
       this.grid,
     );
     this.draw();
   }
 
-  private linesOf(curve: Curve): Line[] {
-    return linesOf(curve, this.pack, weightOf(this.position));
+  private partsOf(): Part[] {
+    const { runs } = this.pack.document;
+    const weight = weightOf(this.position);
+    const curves = CURVES.flatMap((curve) => {
+      const lines = linesOf(curve, this.pack, weight);
+      return lines.length === 0 ? [] : [{ title: curve.title, isShare: curve.isShare ?? false,
+        ...drawnOf(curve, lines, this.isOverSeeds) }];
+    });
+    const kinds = endKindsOf(runs);
+    const ends = runs.map((run) => endsPartOf(run, kinds, this.pack)).filter((part) => part !== null);
+    return [...curves, ...ends];
   }
 
+  /** Numbers of what is drawn already go into its charts, which keep the pointer, the part that
+   * they show, and which lines are hidden. */
   private draw(): void {
+    const before = subjectsOf(this.parts);
+    this.parts = this.partsOf();
+    if (this.charts.length > 0 && subjectsOf(this.parts) === before) {
+      this.charts.forEach((chart, k) => chart.renew(this.parts[k].series, this.parts[k].data));
+      return;
+    }
     this.stop();
     this.grid.replaceChildren();
-    for (const curve of CURVES) {
-      const lines = this.linesOf(curve);
-      if (lines.length === 0) continue;
-      const drawn = drawnOf(curve, lines, this.isOverSeeds);
-      this.curves.set(curve, drawCurve(this.grid, curve, drawn, this.range));
-    }
-    const { runs } = this.pack.document;
-    const ends = endKindsOf(runs);
-    for (const run of runs) {
-      const chart = drawEnds(this.grid, run, ends, this.pack, this.range);
-      if (chart) this.others.push(chart);
-    }
-    if (this.grid.childElementCount === 0) this.grid.append(el('p', {}, 'There is no iteration yet.'));
+    this.charts = this.parts.map((part) => new Chart(this.grid, {
+      title: part.title, height: 190, group: 'training', range: this.range,
+      nameX: 'control steps', formatX: formatCount, series: part.series, bands: part.bands,
+      scales: part.isShare ? { y: { range: [0, 1] } } : undefined,
+    }, part.data));
+    if (this.charts.length === 0) this.grid.append(el('p', {}, 'There is no iteration yet.'));
   }
 
-  /** The same charts, with the part that they show. */
-  private smooth(): void {
-    for (const [curve, chart] of this.curves) {
-      chart.plot.setData(drawnOf(curve, this.linesOf(curve), this.isOverSeeds).data);
-    }
+  renew(pack: ReportPack): void {
+    this.pack = pack;
+    this.range.renew(stepsOf(pack));
+    this.draw();
+  }
+
+  private savePicture(): void {
+    savePicture('training.png', montage([], this.charts.map((chart) => chart.picture())));
+  }
+
+  private saveData(): void {
+    saveTable('training.csv', trainingCsv(this.pack));
   }
 
   stop(): void {
-    [...this.curves.values(), ...this.others].forEach((chart) => chart.stop());
-    this.curves.clear();
-    this.others.length = 0;
+    this.charts.splice(0).forEach((chart) => chart.stop());
   }
 }
 
-/** The view; returns what ends it. */
-export function showTraining(place: HTMLElement, pack: ReportPack): () => void {
-  const view = new TrainingView(place, pack);
-  return () => view.stop();
+/** The view. */
+export function showTraining(place: HTMLElement, pack: ReportPack): Shown {
+  return new TrainingView(place, pack);
 }

@@ -68,6 +68,15 @@ describe('smoothing', () => {
   });
 });
 
+it('an evaluation that is alone is seen, as a point', () => {
+  const drawnAs = (title: string, isOverSeeds: boolean) =>
+    drawnOf(curveOf(title), linesOf(curveOf(title), PACK, 0), isOverSeeds).series
+      .filter((series) => series.class !== 'edge').map(({ points }) => points?.show);
+  expect(drawnAs(EVALUATION.title, false)).toEqual([true, true]);
+  expect(drawnAs(EVALUATION.title, true)).toEqual([true]);
+  expect(drawnAs(RETURN.title, false)).toEqual([false, false, false, false]);
+});
+
 describe('a run', () => {
   const coloursOf = (title: string, isOverSeeds: boolean) =>
     drawnOf(curveOf(title), linesOf(curveOf(title), PACK, 0), isOverSeeds).series

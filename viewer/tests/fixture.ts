@@ -116,8 +116,9 @@ function comparisonOf(names: string[]): Comparison {
   };
 }
 
-/** Two seeds of one configuration, and `flights` episodes by two agents, if any. */
-export function fixture(name: string, flights: number): Buffer {
+/** Two seeds of one configuration, whose returns are higher by `more`, and `flights` episodes by two
+ * agents, if any. */
+export function fixture(name: string, flights: number, more = 0): Buffer {
   const packer = new Packer();
   const steps = Array.from({ length: 60 }, (_, i) => (i + 1) * 5e5);
   const run = (seed: number) => ({
@@ -129,7 +130,7 @@ export function fixture(name: string, flights: number): Buffer {
     ],
     metrics: {
       env_steps: packer.floats(steps),
-      return_mean: packer.floats(steps.map((x) => Math.log(x) * 10 + seed)),
+      return_mean: packer.floats(steps.map((x) => Math.log(x) * 10 + seed + more)),
       success_rate: packer.floats(steps.map((x, i) => (i < 3 ? NaN : x / 4e7))),
       evaluation_hold_within: packer.floats(steps.map((x, i) => (i % 10 === 9 ? x / 4e7 : NaN))),
       ended_target_reached: packer.floats(steps.map((_, i) => i)),

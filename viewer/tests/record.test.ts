@@ -2,10 +2,10 @@
 import { type LineSegments, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { Goal } from '../src/flights/goal';
-import { readingsOf } from '../src/flights/pane';
+import { errorsOf, readingsOf, sticksOf } from '../src/flights/pane';
 import { type FlightRecord, Pose, recordsOf } from '../src/flights/record';
-import { csvOf } from '../src/flights/save';
-import { dataOf, stripsOf } from '../src/flights/strip_list';
+import { flightCsv } from '../src/flights/flight_csv';
+import { dataOf, isWrapped, reading, stripsOf, wrapsOf } from '../src/flights/strip_list';
 import { Trails } from '../src/flights/trails';
 import type { ArrayReference } from '../src/pack';
 import type { FlightSet, ReportPack } from '../src/report';
@@ -143,7 +143,7 @@ describe('a record that leaves rows out', () => {
   });
   it('is saved, charted and drawn with the time of its end', () => {
     const flown = thinned(11, () => 100);
-    expect(csvOf([flown], ['a']).trimEnd().split('\r\n').at(-1)?.split(',').slice(2, 4))
+    expect(flightCsv([flown], ['a']).trimEnd().split('\r\n').at(-1)?.split(',').slice(2, 4))
       .toEqual(['11', '1100']);
     const [line] = new Trails([flown], ['#0072b2']).group.children.slice(-1) as LineSegments[];
     expect(Array.from(line.geometry.getAttribute('time').array).at(-1)).toBe(11);
@@ -162,8 +162,46 @@ it('readings know neither -0 nor a heading of 360', () => {
   expect(readingsOf(flown, 1)).toContain('hdg 190°');
 });
 
+it('targets are read with their tolerances, headings from 0 to 360', () => {
+  const targets = [{ column: 'altitude_ft', is_angle: false, tolerance: 100 },
+    { column: 'yaw_deg', is_angle: true, tolerance: 5 },
+    { column: 'mach', is_angle: false, tolerance: 0.01 }];
+  const flown = record({ ...STRAIGHT, target_altitude_ft: [905, 905, 905, 905],
+    error_altitude_ft: [900, 900, 898, 898], target_yaw_deg: [-10, -10, -170, -170],
+    error_yaw_deg: [-180, -180, 0, 0] });
+  expect(errorsOf(flown, targets, 0))
+    .toEqual(['altitude, ft: 900 off 905 ± 100', 'heading, deg: -180.0 off 350.0 ± 5']);
+  expect(errorsOf(flown, targets, 3)[1]).toBe('heading, deg: 0.0 off 190.0 ± 5 ✓');
+});
+
+it('sticks are read where there are some', () => {
+  expect(sticksOf(record(STRAIGHT), 1)).toBe('');
+  const flown = record({ ...STRAIGHT, action_roll: [NaN, -0.001, 1, 1],
+    action_throttle: [NaN, 1, 1, 1] });
+  expect(sticksOf(flown, 0)).toBe('stick  roll –   throttle –');
+  expect(sticksOf(flown, 1)).toBe('stick  roll 0.00   throttle 1.00');
+});
+
+it('a reading has the decimals of its column, so that it stands still', () => {
+  const texts = (column: string, ...values: number[]) => values.map((v) => reading(column, v));
+  expect(texts('load_factor_g', 1, 6.125, -1e-9, NaN)).toEqual(['1.00', '6.13', '0.00', '–']);
+  expect(texts('beta_deg', -3.1e-6)).toEqual(['0.00']);
+  expect(texts('error_altitude_ft', 987.6)).toEqual(['988']);
+  expect(texts('error_true_airspeed_fps', 11.52)).toEqual(['11.5']);
+  expect(texts('p_deg_s', -120)).toEqual(['-120.0']);
+  expect(texts('power', 50)).toEqual(['50.0']);
+});
+
+it('angles that go round are known', () => {
+  expect(['roll_deg', 'yaw_deg', 'error_yaw_deg'].every(isWrapped)).toBe(true);
+  expect(['pitch_deg', 'alpha_deg', 'r_deg_s'].some(isWrapped)).toBe(false);
+  const turns = [170, 179, -179, null, 178, -90, -175, 175];
+  expect(wrapsOf(turns, 0, 7)).toEqual([1, 4, 6]);
+  expect(wrapsOf(turns, 2, 4)).toEqual([]);
+});
+
 it('a table has every row of every flight, and quotes names', () => {
-  const text = csvOf([record(STRAIGHT), record({ ...STRAIGHT, mach: [1, 1, 1, 1] })], ['a "b", c']);
+  const text = flightCsv([record(STRAIGHT), record({ ...STRAIGHT, mach: [1, 1, 1, 1] })], ['a "b", c']);
   const lines = text.trimEnd().split('\r\n');
   expect(lines[0]).toBe('agent,episode,time_s,north_ft,east_ft,altitude_ft,roll_deg,pitch_deg,yaw_deg,mach');
   expect(lines.length).toBe(9);
@@ -174,7 +212,7 @@ it('a table has every row of every flight, and quotes names', () => {
 it('where there is no number a cell is blank, a chart has a gap, and a reading a dash', () => {
   const reward = [NaN, 1, NaN, 2];
   const flown = record({ ...STRAIGHT, reward, mach: reward });
-  const rows = csvOf([flown], ['a']).trimEnd().split('\r\n').slice(1);
+  const rows = flightCsv([flown], ['a']).trimEnd().split('\r\n').slice(1);
   expect(rows.map((row) => row.split(',').at(-1))).toEqual(['', '1', '', '2']);
   const other = record({ ...STRAIGHT, reward: [NaN, NaN, NaN, NaN] });
   const strip = { title: '', columns: ['reward'], isOn: true };

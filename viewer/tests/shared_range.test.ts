@@ -50,6 +50,16 @@ describe('a shared range', () => {
     range.show({ min: NaN, max: 3 });
     expect(range.limits).toEqual({ min: 0, max: 4 });
   });
+  it('grows with the whole, unless a part is shown', () => {
+    const range = new SharedRange({ min: 0, max: 10 });
+    range.renew({ min: 0, max: 12 });
+    expect(range.limits).toEqual({ min: 0, max: 12 });
+    range.show({ min: 2, max: 4 });
+    range.renew({ min: 0, max: 14 });
+    expect(range.limits).toEqual({ min: 2, max: 4 });
+    range.showAll();
+    expect(range.limits).toEqual({ min: 0, max: 14 });
+  });
   it('leaves plots alone that are gone', () => {
     const range = new SharedRange({ min: 0, max: 10 });
     const plot = new Plot();

@@ -3,14 +3,20 @@
 import { WebGLRenderer } from 'three';
 import { el } from '../dom';
 import { colourOf } from '../palette';
-import type { FlightSet } from '../report';
+import type { FlightSet, Target } from '../report';
 import { FlightScene, MANY } from './scene';
 import type { FlightRecord } from './record';
+import { reading, titleOf } from './strip_list';
 
 const READINGS: [name: string, column: string, unit: string, decimals: number][] = [
   ['alt', 'altitude_ft', 'ft', 0], ['TAS', 'true_airspeed_fps', 'ft/s', 0], ['M', 'mach', '', 2],
   ['hdg', 'yaw_deg', '°', 0], ['nz', 'load_factor_g', 'g', 1], ['α', 'alpha_deg', '°', 1],
   ['β', 'beta_deg', '°', 1], ['roll', 'roll_deg', '°', 0], ['pitch', 'pitch_deg', '°', 0],
+  ['p', 'p_deg_s', '°/s', 0],
+];
+const STICKS: [name: string, column: string][] = [
+  ['pitch', 'action_pitch'], ['roll', 'action_roll'], ['yaw', 'action_yaw'],
+  ['throttle', 'action_throttle'],
 ];
 
 export function readingsOf(record: FlightRecord, time: number): string {
@@ -23,6 +29,29 @@ export function readingsOf(record: FlightRecord, time: number): string {
     if (Number(text) % (isHeading ? 360 : Infinity) === 0) text = (0).toFixed(decimals);
     return `${name} ${text}${unit && unit !== '°' ? ` ${unit}` : unit}`;
   }).join('   ');
+}
+
+/** "stick  pitch 0.98   roll -0.10   throttle 1.00", from -1 to 1. */
+export function sticksOf(record: FlightRecord, time: number): string {
+  const there = STICKS.filter(([, column]) => record.has(column));
+  if (there.length === 0) return '';
+  return `stick  ${there.map(([name, column]) =>
+    `${name} ${reading(column, record.value(column, time))}`).join('   ')}`;
+}
+
+/** "altitude, ft: 988 off 20000 ± 100" of each target, with a tick where it is within; a yaw as the
+ * heading, 0 to 360. */
+export function errorsOf(record: FlightRecord, targets: Target[], time: number): string[] {
+  return targets.filter(({ column }) => record.has(`error_${column}`)).map(({ column, tolerance }) => {
+    const error = record.value(`error_${column}`, time);
+    const target = record.value(`target_${column}`, time);
+    const isYaw = column === 'yaw_deg';
+    const aim = reading(column, isYaw ? (target + 360) % 360 : target);
+    const name = isYaw ? 'heading, deg' : titleOf(column);
+    const within = Math.abs(error) <= tolerance ? ' ✓' : '';
+    return `${name}: ${reading(column, error)} off ${aim} ± ${Number(tolerance.toPrecision(3))}`
+      + within;
+  });
 }
 
 /** "target 2 of 5 (1 reached)" of a mission. */
@@ -56,9 +85,9 @@ function rendererOn(canvas: HTMLCanvasElement, isMany: boolean): WebGLRenderer |
 export class Pane {
   readonly element: HTMLElement;
   readonly scene: FlightScene;
-  readonly canvas = el('canvas', { tabindex: 0, 'aria-label': 'flights in space' });
+  readonly canvas = el('canvas', { tabindex: 0, role: 'img', 'aria-label': 'flights in space' });
   private readonly renderer: WebGLRenderer | null;
-  private readonly readings = el('output', { class: 'readings' });
+  private readonly readings = el('output', { class: 'readings', 'aria-live': 'off' });
   private readonly agent = el('strong');
   private readonly observer: ResizeObserver;
 
@@ -104,8 +133,10 @@ export class Pane {
     this.agent.textContent = this.title;
     this.agent.style.color = colourOf(record.agent);
     const isOver = time >= record.duration;
-    this.readings.textContent = readingsOf(record, time) + targetsOf(record, time)
+    const state = readingsOf(record, time) + targetsOf(record, time)
       + (isOver ? `   ended: ${record.end}` : '');
+    this.readings.textContent = [state, errorsOf(record, this.set.targets, time).join('   '),
+      sticksOf(record, time)].filter((line) => line !== '').join('\n');
   }
 
   /** The view as it is: to be read before anything else is drawn. */

@@ -59,6 +59,8 @@ export class FlightRecord {
   readonly agent: number;
   readonly episode: number;
   readonly end: string;
+  /** Whether the aircraft was: it ended neither at its target nor at the end of its time. */
+  readonly isLost: boolean;
   readonly result: number;
   /** When targets after the first came, and when targets counted as reached, s. */
   readonly newTargets: number[];
@@ -77,6 +79,7 @@ export class FlightRecord {
     this.agent = flight.agent;
     this.episode = flight.episode;
     this.end = nameOfEnd(flight.end, isMission);
+    this.isLost = !['target_reached', 'time_limit'].includes(flight.end);
     this.result = flight.return;
     this.interval = flight.interval_s;
     this.newTargets = flight.new_target_s;

@@ -14,6 +14,10 @@ export interface Strip {
   secondAxis?: boolean;
 }
 
+const NAMES: Record<string, string> = {
+  p_deg_s: 'roll rate p', q_deg_s: 'pitch rate q', r_deg_s: 'yaw rate r', power: 'power, %',
+};
+
 const UNITS: [RegExp, string][] = [
   [/_deg_s$/, 'deg/s'], [/_deg$/, 'deg'], [/_fps$/, 'ft/s'], [/_ft$/, 'ft'], [/_g$/, 'g'],
 ];
@@ -21,8 +25,37 @@ const UNITS: [RegExp, string][] = [
 /** "true_airspeed_fps" is "true airspeed, ft/s". */
 export function titleOf(column: string): string {
   const found = UNITS.find(([pattern]) => pattern.test(column));
-  const name = column.replace(found ? found[0] : /$^/, '').replace(/_/g, ' ');
+  const name = NAMES[column] ?? column.replace(found ? found[0] : /$^/, '').replace(/_/g, ' ');
   return found ? `${name}, ${found[1]}` : name;
+}
+
+const DECIMALS: [RegExp, number][] = [
+  [/^action_|_g$|^(error_)?(alpha|beta)_deg$/, 2], [/mach/, 3], [/_deg$|_fps$|^power$/, 1],
+  [/_deg_s$/, 1], [/_ft$/, 0],
+];
+
+/** A value of a column, as finely as it is read in flight: always as many decimals, so that it
+ * stands still. */
+export function reading(column: string, value: number): string {
+  if (!Number.isFinite(value)) return '–';
+  const [, decimals] = DECIMALS.find(([pattern]) => pattern.test(column)) ?? [/$^/, 2];
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? text.replace('-', '') : text;
+}
+
+/** An angle from -180 to 180 degrees. */
+export function isWrapped(column: string): boolean {
+  return /(roll|yaw)_deg$/.test(column);
+}
+
+/** The rows from `from` to before `to` after which such an angle goes on at the other end. */
+export function wrapsOf(
+  values: ArrayLike<number | null | undefined>, from: number, to: number,
+): number[] {
+  return Array.from({ length: Math.max(to - from, 0) }, (_, i) => from + i).filter((row) => {
+    const [left, right] = [values[row], values[row + 1]];
+    return left != null && right != null && Math.abs(right - left) > 180;
+  });
 }
 
 /** What is held from one policy step to the next, and drawn so. */

@@ -4,12 +4,26 @@ import uPlot from 'uplot';
 import { axis, Chart, formatted } from '../chart';
 import { choice, el, tick } from '../dom';
 import { colourOf, faded, styleColour } from '../palette';
+import type { Picture } from '../save';
 import type { FlightRecord } from './record';
-import { dataOf, isCommand, type Strip, titleOf } from './strip_list';
+import { dataOf, isCommand, isWrapped, reading, type Strip, titleOf, wrapsOf } from './strip_list';
 
 /** How much of the time the charts show, s. */
 const SPANS: [string, string][] = [['Infinity', 'whole'], ['20', '20 s'], ['5', '5 s'], ['2', '2 s']];
 const MOST_READOUTS = 4;
+
+/** Half of what is left out around a wrap: a chart of minutes has many rows in a pixel. */
+const WRAP_PIXELS = 1.5;
+
+/** No line goes across the chart where an angle goes on from 180 to -180 degrees. */
+function gapsOfWraps(
+  plot: uPlot, line: number, from: number, to: number, gaps: uPlot.Series.Gaps,
+): uPlot.Series.Gaps {
+  const xOf = (row: number) => plot.valToPos(plot.data[0][row], 'x', true);
+  const wraps = wrapsOf(plot.data[line], from, to)
+    .map((row): [number, number] => [xOf(row) - WRAP_PIXELS, xOf(row + 1) + WRAP_PIXELS]);
+  return [...gaps, ...wraps].sort(([a], [b]) => a - b);
+}
 
 function seriesOf(records: FlightRecord[], strip: Strip, agents: string[]): uPlot.Series[] {
   return records.flatMap((record) => strip.columns.map((column, k) => ({
@@ -17,6 +31,7 @@ function seriesOf(records: FlightRecord[], strip: Strip, agents: string[]): uPlo
     stroke: k === 0 ? colourOf(record.agent) : faded(colourOf(record.agent), 0.75),
     width: 1.4, dash: k === 0 ? undefined : [5, 4], points: { show: false },
     paths: isCommand(column) ? uPlot.paths.stepped?.({ align: -1 }) : undefined,
+    ...(isWrapped(column) ? { gaps: gapsOfWraps } : {}),
     scale: k > 0 && strip.secondAxis ? 'second' : 'y',
     value: (_: uPlot, v: number | null) => formatted(v),
   })));
@@ -110,7 +125,9 @@ export class Strips {
   }
 
   private chart(strip: Strip, records: FlightRecord[]): Chart {
-    const axes = [axis({ size: 26, space: 50 }), axis({ size: 46 })];
+    const inSeconds: uPlot.Axis.DynamicValues = (_, times) =>
+      times.map((time) => `${formatted(time)} s`);
+    const axes = [axis({ size: 26, space: 50, values: inSeconds }), axis({ size: 46 })];
     if (strip.secondAxis) {
       axes.push(axis({ scale: 'second', side: 1, size: 40, grid: { show: false } }));
     }
@@ -184,15 +201,19 @@ export class Strips {
     const time = this.pointed ?? this.now;
     for (const { strip, values } of this.charts) {
       for (const { record, place } of values) {
-        place.textContent = ` ${formatted(record.value(strip.columns[0], time))}`;
+        place.textContent = ` ${strip.columns.filter((column) => record.has(column))
+          .map((column) => reading(column, record.value(column, time))).join(' ┆ ')}`;
       }
     }
   }
 
   /** The charts' pictures, with their titles. */
-  pictures(): { title: string; canvas: HTMLCanvasElement }[] {
-    return this.charts.map(({ chart, strip }) =>
-      ({ title: strip.title, canvas: chart.plot.ctx.canvas }));
+  pictures(): Picture[] {
+    return this.charts.map(({ chart, strip }) => {
+      const { keys, ...picture } = chart.picture();
+      // Of each flight its solid line; the title says what is dashed.
+      return { ...picture, keys: keys?.filter((_, i) => i % strip.columns.length === 0) };
+    });
   }
 
   stop(): void {

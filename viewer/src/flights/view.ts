@@ -3,12 +3,15 @@
 import { button, choice, el, isPressable, tick } from '../dom';
 import { colourOf } from '../palette';
 import type { FlightSet, ReportPack } from '../report';
+import { montage, savePicture, saveTable } from '../save';
+import type { Shown } from '../shown';
 import { CAMERA_NAMES, type CameraName } from './cameras';
 import { Clock, SPEEDS } from './clock';
 import { colourScales, type ColourScale, rampOf } from './colouring';
+import { flightCsv } from './flight_csv';
+import { FlightTable } from './flight_table';
 import { Pane } from './pane';
 import { type FlightRecord, recordsOf } from './record';
-import { csvOf, download, montage } from './save';
 import { stripsOf } from './strip_list';
 import { Strips } from './strips';
 
@@ -33,7 +36,7 @@ class FlightsView {
     type: 'range', min: 0, max: 1, step: 'any', class: 'scrubber', 'aria-label': 'time',
     oninput: () => this.seek(Number(this.scrubber.value)),
   });
-  private readonly shownTime = el('output', { class: 'time' });
+  private readonly shownTime = el('output', { class: 'time', 'aria-live': 'off' });
   private readonly speed = this.select('speed', SPEEDS.map((v) => [String(v), `${v}×`]), '1',
     (value) => { this.clock.speed = Number(value); });
   private readonly episodes: HTMLLabelElement;
@@ -57,6 +60,7 @@ class FlightsView {
     this.scales = colourScales(set, this.records);
     this.hideSome();
     this.strips = new Strips(stripsOf(set, this.records), set.agents, (t) => this.seek(t));
+    const table = new FlightTable(this.records, set.agents, (record, time) => this.goTo(record, time));
     const episodes = [...new Set(this.records.map((record) => record.episode))];
     this.episodes = this.select('episode',
       [...episodes.map((e): [string, string] => [String(e), String(e)]), ['-1', 'all']], '0',
@@ -78,7 +82,7 @@ class FlightsView {
         button('save picture', 'windows and charts as they are, as PNG', () => this.savePicture()),
         button('save data', 'the flights in view as CSV', () => this.saveData()),
         el('details', { class: 'keys' }, el('summary', {}, 'keys'), el('p', {}, KEYS))),
-      this.legend, this.strips.element,
+      this.legend, table.element, this.strips.element,
     );
     addEventListener('keydown', this.onKey);
     this.rebuild();
@@ -158,6 +162,17 @@ class FlightsView {
     this.rebuild();
   }
 
+  /** To a moment of a flight, which is followed. */
+  private goTo(record: FlightRecord, time: number): void {
+    this.hidden.delete(record.agent);
+    this.episode = record.episode;
+    this.setSelected(this.episodes, String(record.episode));
+    this.followed = this.shown().indexOf(record);
+    this.rebuild();
+    this.seek(time);
+    this.windows.scrollIntoView({ block: 'nearest' });
+  }
+
   private chooseSplit(isOn: boolean): void {
     this.isSplit = isOn;
     this.rebuild();
@@ -196,13 +211,11 @@ class FlightsView {
       const title = `${pane.title}, ${this.clock.time.toFixed(2)} s`;
       return canvas ? [{ title, canvas }] : [];
     });
-    montage(windows, this.strips.pictures()).toBlob((blob) => {
-      if (blob) download('flights.png', blob);
-    });
+    savePicture('flights.png', montage(windows, this.strips.pictures()));
   }
 
   private saveData(): void {
-    download('flights.csv', new Blob([csvOf(this.shown(), this.set.agents)], { type: 'text/csv' }));
+    saveTable('flights.csv', flightCsv(this.shown(), this.set.agents));
   }
 
   private toggle(): void {
@@ -291,6 +304,7 @@ class FlightsView {
     for (const pane of this.panes) pane.show(this.clock.time, this.trail, lag);
     if (!this.clock.isPlaying || now - this.readAt >= READ_MS) this.read(now);
     this.scrubber.value = String(this.clock.time);
+    this.scrubber.setAttribute('aria-valuetext', `${this.clock.time.toFixed(2)} s`);
     this.shownTime.textContent = `${this.clock.time.toFixed(2)} / ${this.clock.end.toFixed(2)} s`;
     this.play.textContent = this.clock.isPlaying ? '⏸' : '▶';
   };
@@ -309,8 +323,8 @@ class FlightsView {
   }
 }
 
-/** Shows the sets of flights, one at a time; returns what ends it. */
-export function showFlights(place: HTMLElement, pack: ReportPack): () => void {
+/** Shows the sets of flights, one at a time. */
+export function showFlights(place: HTMLElement, pack: ReportPack): Shown {
   const { flights } = pack.document;
   const body = el('div');
   if (flights.length > 1) {
@@ -323,5 +337,6 @@ export function showFlights(place: HTMLElement, pack: ReportPack): () => void {
   }
   place.append(body);
   let view = new FlightsView(body, flights[0], pack);
-  return () => view.stop();
+  // A flight that is being looked at goes on; what is fresh of it is shown when one comes back.
+  return { stop: () => view.stop(), renew: () => undefined };
 }

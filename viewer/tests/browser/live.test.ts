@@ -107,6 +107,49 @@ describe.skipIf(MISSING !== '')('a report that is watched', () => {
     await page.close();
   });
 
+  it('keeps what a reader of the curves has chosen', async () => {
+    server.give(fixture('first', 0));
+    const { page, errors } = await open(browser, `${server.address}#training`);
+    const seeds = page.locator('label', { hasText: 'over seeds' }).locator('input');
+    const slider = page.locator('label', { hasText: 'smoothing' }).locator('input');
+    await seeds.uncheck();
+    await slider.fill('60');
+    const chart = page.locator('.chart').first();
+    const over = chart.locator('.u-over');
+    const { x, y, width, height } = await over.boundingBox() as
+      { x: number; y: number; width: number; height: number };
+    await page.mouse.move(x + 0.25 * width, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + 0.75 * width, y + height / 2);
+    await page.mouse.up();
+    const lines = chart.locator('.u-legend .u-series');
+    await lines.nth(1).locator('th').click();
+    await page.mouse.move(x + 0.5 * width, y + height / 2);
+    const values = () => chart.locator('.u-value').allTextContents();
+    await expect.poll(async () => (await values())[0], PATIENCE).toMatch(/ M$/);
+    const [steps, , second] = await values();
+    server.give(fixture('first', 0, 7));
+    // What is measured is new, where the pointer is still.
+    await expect.poll(async () => (await values())[2], PATIENCE).not.toBe(second);
+    expect((await values())[0]).toBe(steps);
+    expect(await lines.nth(1).getAttribute('class')).toContain('u-off');
+    expect(await slider.inputValue()).toBe('60');
+    expect(await seeds.isChecked()).toBe(false);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('keeps the whole of a configuration', async () => {
+    const { page } = await open(browser, `${server.address}#configuration`);
+    const whole = page.locator('label', { hasText: 'all settings' }).locator('input');
+    await whole.check();
+    server.give(fixture('second', 1));
+    await expect.poll(() => page.textContent('main'), PATIENCE).toContain('second-1');
+    expect(await whole.isChecked()).toBe(true);
+    expect(await page.textContent('main')).toContain('env.task');
+    await page.close();
+  });
+
   it('stays where it is when flights come that were not there', async () => {
     server.give(fixture('first', 0));
     const { page } = await open(browser, server.address);

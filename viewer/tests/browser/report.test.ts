@@ -272,6 +272,65 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     await page.close();
   });
 
+  it('finds the worst flight, and goes to its moment', async () => {
+    const { page, errors } = await open(browser, plain);
+    await page.locator('.finder summary').click();
+    const rows = page.locator('.finder tbody tr');
+    await expect.poll(() => rows.count(), PATIENCE).toBe(6);
+    await page.locator('.finder th button', { hasText: 'peak nz' }).click();
+    expect(await page.locator('.finder th[aria-sort]').textContent()).toBe('peak nz, g');
+    const peak = rows.nth(5).locator('button[aria-label^="peak nz"]');
+    const said = await peak.getAttribute('aria-label') ?? '';
+    expect(said).toBe('peak nz, g: 4.99 at 11.98 s');
+    await peak.focus();
+    await page.keyboard.press('Enter');
+    await showsTime(page, (time) => time === 11.98);
+    expect(await page.locator('label', { hasText: 'episode' }).locator('select').inputValue())
+      .toBe('2');
+    await expect.poll(() => page.textContent('.hud'), PATIENCE).toContain('autopilot:aggressive');
+    expect(await page.textContent('.hud')).toContain('nz 5.0 g');
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('hands out trainings and metrics as files', async () => {
+    const { page, errors } = await open(browser, `${plain}#training`);
+    const saved = async (face: string) => {
+      const [file] = await Promise.all([page.waitForEvent('download'),
+        page.locator('button', { hasText: face }).click()]);
+      return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+    };
+    const curves = await saved('save data');
+    expect(curves.name).toBe('training.csv');
+    expect(curves.bytes.toString('utf8').split('\r\n').length).toBe(2 * 60 + 2);
+    const picture = await saved('save picture');
+    expect(picture.name).toBe('training.png');
+    expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
+    await page.click('nav a[href="#metrics"]');
+    const metrics = await saved('save data');
+    expect(metrics.name).toBe('metrics.csv');
+    expect(metrics.bytes.toString('utf8')).toContain('"seed",success_rate,"success, %",100,94,106,100');
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('is printed on white, without what is pressed', async () => {
+    const { page } = await open(browser, plain, { colorScheme: 'dark' });
+    await page.click('header button');
+    await page.click('header button');
+    expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe('dark');
+    await page.emulateMedia({ media: 'print', colorScheme: null });
+    const colourOf = (name: string) => page.evaluate((property) =>
+      getComputedStyle(document.body)[property as 'color'], name);
+    expect(await colourOf('backgroundColor')).toBe('rgb(255, 255, 255)');
+    expect(await colourOf('color')).toBe('rgb(0, 0, 0)');
+    for (const pressed of ['nav', '.player', '.controls', 'header button']) {
+      expect(await page.locator(pressed).first().isVisible()).toBe(false);
+    }
+    expect(await page.locator('.strips .chart').first().isVisible()).toBe(true);
+    await page.close();
+  });
+
   it('fits a phone of 360 px, and is touched', async () => {
     const { page, errors } = await open(browser, plain,
       { viewport: { width: 360, height: 740 }, hasTouch: true });
