@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,13 +12,18 @@
 
 #include "base/error.h"
 #include "envs/actions.h"
+#include "envs/aircraft/registry.h"
 #include "envs/task_registry.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
 #include "src/agents/agent_names.h"
 #include "src/agents/policy_file.h"
+#include "src/config/aircraft_choice.h"
 #include "src/config/configuration.h"
 #include "src/config/program_config.h"
+#include "src/run/run_directory.h"
+#include "train/policy/policy_environment.h"
+#include "train/policy/policy_parameters.h"
 
 namespace nb = nanobind;
 
@@ -32,31 +38,44 @@ FlyingAgent FlyingPolicy(const std::string& name, Agent agent, const RecurrentPo
           policy.action_size(),
           policy.action_repeat(),
           policy,
-          draws};
+          draws,
+          "",
+          false};
 }
 
 FlyingAgent LoadAgent(const std::string& path, bool sampled) {
   const RecurrentPolicy policy = RecurrentPolicy::Load(PolicyFileOf(path));
-  return FlyingPolicy(path, sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), policy,
-                      sampled);
+  FlyingAgent flying = FlyingPolicy(
+      path, sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), policy, sampled);
+  if (IsRunDirectory(path)) flying.run = path;
+  return flying;
+}
+
+/// Says of a policy what its name says of where it flies.
+FlyingAgent Named(const std::string& name, FlyingAgent flying) {
+  flying.run = RunOfAgent(name);
+  flying.flies_any_aircraft = FliesAnyAircraft(name);
+  return flying;
 }
 
 /// An agent as the command line calls it, for the environment of `config`.
 FlyingAgent NamedAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
   Agent agent = FindAgent(name, config, seed);
   if (const std::string file = PolicyFileOfAgent(name); !file.empty()) {
-    return FlyingPolicy(name, std::move(agent), LoadPolicy(file, config, seed), DrawsActions(name));
+    return Named(name, FlyingPolicy(name, std::move(agent), LoadPolicy(file, config, seed),
+                                    DrawsActions(name)));
   }
   const int action_repeat = agent.EnvironmentFor(config.train.env).action_repeat;
   const int observations = MakeTask(config.train.env)->observation_layout().size();
-  return {name, std::move(agent), observations, kActionSize, action_repeat, {}, DrawsActions(name)};
+  return {name, std::move(agent),   observations, kActionSize, action_repeat,
+          {},   DrawsActions(name), "",           false};
 }
 
 /// The trained policy that an agent's name means; none of other agents.
 std::optional<FlyingAgent> PolicyCalled(const std::string& name) {
   const std::string file = PolicyFileOfAgent(name);
   if (file.empty() || file == kUntrained) return std::nullopt;
-  return LoadAgent(file, false);
+  return Named(name, LoadAgent(file, false));
 }
 
 FlyingAgent CallableAgent(nb::object callable, const std::string& name, const ProgramConfig& config,
@@ -68,7 +87,9 @@ FlyingAgent CallableAgent(nb::object callable, const std::string& name, const Pr
   const int observations = MakeTask(config.train.env)->observation_layout().size();
   auto policy =
       MakePythonPolicy(std::move(callable), {observations, action_size, action_repeat, state_size});
-  return {name, Agent::Of(std::move(policy)), observations, action_size, action_repeat, {}, false};
+  return {
+      name, Agent::Of(std::move(policy)), observations, action_size, action_repeat, {}, false, "",
+      false};
 }
 
 /// One policy step: actions, and the memory after it.
@@ -103,12 +124,29 @@ ProgramConfig EnvironmentFor(const FlyingAgent& flying, const ProgramConfig& con
   return own;
 }
 
-/// What a policy's own task file configures; none of another agent, or of a built-in task, which
-/// its name says.
-std::optional<ProgramConfig> TaskFileConfig(const FlyingAgent& flying) {
-  const auto task = flying.policy ? TermTaskOf(*flying.policy, flying.name) : nullptr;
-  if (task == nullptr) return std::nullopt;
-  return ResolveConfig({flying.policy->task(), "default", "", {}, {}, "", task->text});
+/// The preset that a policy of a built-in task flies by: default, or if that is of another aircraft
+/// than its own, the first that is made for that.
+std::string PresetOf(const FlyingAgent& flying) {
+  const std::string& task = flying.policy->task();
+  const AircraftIdentity own = AircraftMadeWith(flying.policy->parameters()->environment);
+  const std::vector<std::string> known = AircraftNames();
+  const bool is_known = std::find(known.begin(), known.end(), own.name) != known.end();
+  if (flying.flies_any_aircraft || !is_known) return "default";
+  const std::string flown = ResolveConfig({task, "default", "", {}}).train.env.aircraft;
+  const std::string made_for_it = flown == own.name ? "" : PresetServing(task, own.name);
+  return made_for_it.empty() ? "default" : made_for_it;
+}
+
+/// What a trained policy is to fly where nothing is asked for: of a run what that has recorded,
+/// else its task file, else a preset of its task. None of an agent that does not say its task.
+std::optional<ProgramConfig> OwnConfig(const FlyingAgent& flying) {
+  if (!flying.run.empty()) return ReadRecord(flying.run + "/config.toml");
+  if (!flying.policy || flying.policy->task().empty()) return std::nullopt;
+  const std::string& task = flying.policy->task();
+  if (const auto terms = TermTaskOf(*flying.policy, flying.name); terms != nullptr) {
+    return ResolveConfig({task, "default", "", {}, {}, "", terms->text});
+  }
+  return ResolveConfig({task, PresetOf(flying), "", {}});
 }
 
 }  // namespace
@@ -128,7 +166,7 @@ void BindAgents(nb::module_& module) {
                    })
       .def_prop_ro("is_high_level",
                    [](const FlyingAgent& flying) { return flying.agent.low_level() != nullptr; })
-      .def_prop_ro("task_file_config", &TaskFileConfig)
+      .def_prop_ro("own_config", &OwnConfig)
       .def("environment_for", &EnvironmentFor, nb::arg("config"))
       .def("act", &Act, nb::arg("observation"), nb::arg("state"), nb::arg("seed"),
            nb::arg("policy_step"));

@@ -29,8 +29,7 @@ ProgramConfig Resolve(const std::string& task, const std::string& preset, const 
                       const std::vector<std::string>& conditions,
                       const std::vector<std::string>& assignments) {
   return AsUsage([&] {
-    const ProgramConfig config =
-        ResolveConfig({task, preset, file, assignments, conditions, "settings"});
+    ProgramConfig config = ResolveConfig({task, preset, file, assignments, conditions, "settings"});
     CheckConsistent(config);
     return config;
   });
@@ -39,7 +38,7 @@ ProgramConfig Resolve(const std::string& task, const std::string& preset, const 
 ProgramConfig WithSettings(const ProgramConfig& config, const std::vector<std::string>& conditions,
                            const std::vector<std::string>& assignments) {
   return AsUsage([&] {
-    const ProgramConfig changed = WithAircraft(config, [&](ProgramConfig* set) {
+    ProgramConfig changed = WithAircraft(config, [&](ProgramConfig* set) {
       ApplyConditionsAndAssignments(conditions, assignments, set, "settings");
       RequireTask(*set, config.train.env.task);
     });

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,9 +63,24 @@ std::uint64_t HashOfEnvironment(const ProgramConfig& config, const Policy* low_l
   return hash.value();
 }
 
+/// Lets one thread of Python use an environment at a time. It waits without the interpreter's lock,
+/// which whoever it waits for takes back before it is done.
+class Turn {
+ public:
+  explicit Turn(std::mutex& mutex) : lock_(mutex, std::try_to_lock) {
+    if (lock_.owns_lock()) return;
+    const nb::gil_scoped_release released;
+    lock_.lock();
+  }
+
+ private:
+  std::unique_lock<std::mutex> lock_;
+};
+
 /// An environment's aircraft all at once: a VecEnv and the threads that step its tiles. Rows of
 /// arrays are aircraft, in the order of their numbers. Throws Error if an `agent` is given that was
-/// made for something else.
+/// made for something else. What touches the aircraft takes its Turn; `env_` itself is replaced
+/// with the interpreter's lock, with which its sizes are read.
 class BatchEnv {
  public:
   BatchEnv(const ProgramConfig& config, int num_envs, std::uint64_t seed, int threads,
@@ -91,12 +107,18 @@ class BatchEnv {
 
   /// The episodes that a fresh environment with this seed begins with.
   void Reset(std::uint64_t seed) {
-    const nb::gil_scoped_release released;
-    env_ = Make(env_->num_aircraft(), seed);
+    const Turn turn(mutex_);
+    std::unique_ptr<VecEnv> fresh;
+    {
+      const nb::gil_scoped_release released;
+      fresh = Make(env_->num_aircraft(), seed);
+    }
+    env_ = std::move(fresh);
     origin_.seed = seed;
   }
 
   void Restart(const Row<const bool>& begins) {
+    const Turn turn(mutex_);
     Require(begins.shape(0) == rows(), "restart: one flag for every environment");
     for (int tile = 0; tile < env_->num_tiles(); ++tile) {
       env_->Restart(tile, begins.data() + env_->tile_begin(tile));
@@ -104,6 +126,7 @@ class BatchEnv {
   }
 
   void Observe(const Rows<float>& observation) {
+    const Turn turn(mutex_);
     CheckObservation(observation);
     const nb::gil_scoped_release released;
     pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
@@ -115,6 +138,7 @@ class BatchEnv {
   int Step(const Rows<const float>& action, const Rows<float>& observation,
            const Row<float>& reward, const Row<std::uint8_t>& termination,
            const Row<bool>& terminated, const Row<bool>& truncated) {
+    const Turn turn(mutex_);
     CheckActions(action);
     CheckObservation(observation);
     Require(reward.shape(0) == rows() && termination.shape(0) == rows() &&
@@ -145,6 +169,7 @@ class BatchEnv {
   /// Of the episodes that ended in the latest step: environments and last observations; and of all
   /// environments, zero where none ended, returns and lengths in control steps.
   nb::tuple Ends() const {
+    const Turn turn(mutex_);
     std::vector<std::int64_t> index;
     std::vector<float> observation, episode_return(rows());
     std::vector<std::int32_t> steps(rows());
@@ -167,6 +192,7 @@ class BatchEnv {
   }
 
   nb::object State() const {
+    const Turn turn(mutex_);
     std::vector<float> state;
     for (int i = 0; i < env_->num_aircraft(); ++i) {
       for (const NamedColumn& shown : kShownColumns)
@@ -177,11 +203,13 @@ class BatchEnv {
 
   /// From now on steps remember the states that they end with.
   void KeepLastStates() {
+    const Turn turn(mutex_);
     last_states_ = std::make_unique<LastStates>(
         env_->num_aircraft(), MakeTask(config_)->num_targets(), config_.action_repeat);
   }
   /// As of LastStates::Columns().
   nb::object LastStatesSeen() const {
+    const Turn turn(mutex_);
     Require(last_states_ != nullptr, "last_states: they are not kept");
     return nb::cast(ToNumpy(last_states_->Columns(), {last_states_->num_columns(), rows()}));
   }
@@ -197,6 +225,7 @@ class BatchEnv {
   }
 
   nb::object Targets() const {
+    const Turn turn(mutex_);
     std::vector<float> targets;
     for (int i = 0; i < env_->num_aircraft(); ++i) {
       const std::vector<float> target = env_->TargetOf(i);
@@ -207,6 +236,7 @@ class BatchEnv {
   }
 
   nb::object Snapshot() const {
+    const Turn turn(mutex_);
     std::vector<std::uint32_t> words = env_->Snapshot();
     AddOrigin(origin_, &words);
     const std::size_t size = words.size();
@@ -215,6 +245,7 @@ class BatchEnv {
   /// Goes on from a Snapshot, with its seed. Throws Error on one of another configuration or number
   /// of aircraft, and changes nothing then.
   void Restore(const Row<const std::uint32_t>& snapshot) {
+    const Turn turn(mutex_);
     std::vector<std::uint32_t> words(snapshot.data(), snapshot.data() + snapshot.size());
     const SnapshotOrigin origin = TakeOrigin(&words);
     if (origin.configuration != origin_.configuration) {
@@ -275,6 +306,7 @@ class BatchEnv {
     }
   }
 
+  mutable std::mutex mutex_;
   EnvConfig config_;
   SnapshotOrigin origin_;
   std::shared_ptr<const Policy> low_level_;

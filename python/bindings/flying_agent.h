@@ -20,6 +20,8 @@ struct FlyingAgent {
   int action_repeat = 1;                  ///< control steps for which its actions are to be held
   std::optional<RecurrentPolicy> policy;  ///< if it is a trained one
   bool draws = false;                     ///< its actions at random
+  std::string run;                        ///< directory of the run that it is of; empty without
+  bool flies_any_aircraft = false;        ///< whatever it was trained on
 };
 
 /// A callable of Python as an agent: it is given float32 observations [count][observation_size],

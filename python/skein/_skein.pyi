@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The extension module (python/bindings/): what the package's modules wrap. A test holds it to the module itself."""
-from collections.abc import Callable, ItemsView, Iterator, KeysView, Sequence, ValuesView
+from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ TERMINATION_NAMES: tuple[str, ...]
 class Error(RuntimeError): ...
 class ConfigurationError(Error, ValueError): ...
 
-class Config:
+class Config(Mapping[str, Any]):
     @property
     def task(self) -> str: ...
     @property
@@ -56,7 +56,7 @@ class FlyingAgent:
     @property
     def is_high_level(self) -> bool: ...
     @property
-    def task_file_config(self) -> Config | None: ...
+    def own_config(self) -> Config | None: ...
     def environment_for(self, config: Config) -> Config: ...
     def act(
         self, observation: NDArray[np.float32], state: NDArray[np.float32], seed: int, policy_step: int

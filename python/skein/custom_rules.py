@@ -119,11 +119,13 @@ class CustomRules:
         self._flight_names = (*_skein.SHOWN_STATE_NAMES, *_ERROR_NAMES, *core.target_names)
         self._returns = np.zeros(core.num_envs)
         self._steps = np.zeros(core.num_envs, np.int32)
+        self._is_judged = True
 
     def begin(self, begins: BoolArray) -> None:
         """Some episodes begin."""
         self._returns[begins] = 0
         self._steps[begins] = 0
+        self._is_judged |= bool(begins.all())
 
     def step(
         self,
@@ -135,6 +137,9 @@ class CustomRules:
         truncated: BoolArray,
     ) -> int:
         """BatchEnv.step, then the functions; returns how many episodes ended."""
+        if not self._is_judged:
+            raise Error("step: reward or terminated failed in the step before, which has no result; reset all")
+        self._is_judged = False
         actions = np.ascontiguousarray(actions, np.float32)
         ended = self._core.step(actions, observation, reward, termination, terminated, truncated)
         columns: dict[str, NDArray[Any]] = dict(zip(self._flight_names, self._core.last_states(), strict=True))
@@ -153,6 +158,7 @@ class CustomRules:
         if ends is not None:
             ends &= termination == 0
             ended += self._end(ends, observation, termination, terminated)
+        self._is_judged = True
         return ended
 
     def ends(self) -> Ends:

@@ -428,6 +428,8 @@ def make_vec(
 
     Raises:
         ConfigurationError: as of skein.configure, and where low_level does not suit the task.
+        What reward or terminated raises comes through; its step has no result, and the next needs a reset of all, or
+        restore.
     """
     return FlightVectorEnv(
         task,

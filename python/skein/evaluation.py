@@ -95,7 +95,9 @@ def evaluate(
     Args:
         agent: an Agent, its name, or a function of observations, float32 (count, 22), that returns actions (count, 4)
             in [-1, 1], both ordered as in skein.FlightVectorEnv (all that it may be: skein.AgentLike in the reference).
-        task, config: what is flown (skein.configure); a policy's own task if it is left out.
+        task, config: what is flown (skein.configure). If task is left out: of a run's policy the run's configuration;
+            of a policy file its task, by the preset default, or if that is of another aircraft than the policy's by the
+            first that is made for that. preset or file stand in place of both.
         episodes: number of them.
         seed: of the episodes; the i-th depends on configuration, seed and i alone.
         threads: 0: one per CPU. Results do not depend on it.
@@ -104,7 +106,7 @@ def evaluate(
         Error: the agent does not fit the task. What a function raises comes through.
     """
     _check_counts(episodes, seed, threads)
-    configured = configure(_task_of("evaluate", agent, task), **config)
+    configured = configure(_task_of("evaluate", agent, task, config), **config)
     core = agent_of(agent, configured, seed)._core
     summary, columns, starts = _skein.evaluate(core, configured, episodes, seed, threads)
     return Evaluation(json.loads(summary), columns, starts)
@@ -139,12 +141,14 @@ def compare(
     return Comparison(json.loads(summary), text)
 
 
-def _task_of(what: str, agent: AgentLike, task: Task) -> Task:
-    """`task`, or where that is left out the one that a policy was trained for."""
+def _task_of(what: str, agent: AgentLike, task: Task, config: Mapping[str, Any]) -> Task:
+    """`task`, or where that is left out a policy's own: its configuration, or by its name where `config` chooses
+    another preset or file."""
     if not task and isinstance(agent, (Agent, str)):
         policy = agent._core if isinstance(agent, Agent) else _skein.policy_called(text("name", agent))
         if policy is not None:
-            task = policy.task_file_config or policy.task
+            is_chosen = ("preset" in config or "file" in config) and policy.task in _skein.TASKS
+            task = policy.task if is_chosen else policy.own_config or ""
     if not task:
         raise ConfigurationError(f"{what}: task is needed: the agent does not say its own")
     return task
@@ -178,6 +182,6 @@ def record(
     import pandas
 
     _check_counts(count, seed, threads)
-    configured = configure(_task_of("record", agent, task), **config)
+    configured = configure(_task_of("record", agent, task, config), **config)
     core = agent_of(agent, configured, seed)._core
     return pandas.read_csv(io.StringIO(_skein.record(core, configured, count, seed, threads, observations)))

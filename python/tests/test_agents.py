@@ -214,6 +214,45 @@ def test_a_policy_brings_its_task_by_its_name_too():
             skein.evaluate(name, episodes=8)
 
 
+@pytest.fixture(scope="module")
+def cessna_run(tmp_path_factory):
+    settings = {
+        "network": {"hidden_size": 8, "gru_size": 8},
+        "ppo": {"num_aircraft": 32, "rollout_steps": 8, "chunk_length": 8, "minibatches": 1},
+        "run.total_steps": 32 * 8 * 5,
+        "evaluation.final_episodes": 4,
+        "env.heading.dwell_s": 7,
+    }
+    folder = tmp_path_factory.mktemp("cessna")
+    return skein.train("heading", folder / "run", preset="cessna172", progress=False, **settings)
+
+
+def test_a_policy_of_a_run_brings_what_the_run_flies(cessna_run):
+    expected = skein.evaluate(cessna_run.policy, cessna_run.config, episodes=8)
+    assert cessna_run.config["env.heading.dwell_s"] == 7
+    for agent in (cessna_run.policy, f"policy:{cessna_run.path}"):
+        assert_same_columns(skein.evaluate(agent, episodes=8), expected)
+    other = skein.evaluate(cessna_run.policy, episodes=8, conditions={"windy": "60fps"})
+    by_config = skein.evaluate(cessna_run.policy, cessna_run.config, episodes=8, conditions={"windy": "60fps"})
+    assert_same_columns(other, by_config)
+
+
+def test_a_policy_file_brings_a_preset_of_its_aircraft(cessna_run):
+    pytest.importorskip("pandas")
+    file = cessna_run.path / "checkpoints" / "policy-final.skein"
+    expected = skein.evaluate(skein.load_policy(file), "heading", preset="cessna172", episodes=8)
+    for agent in (skein.load_policy(file), f"policy:{file}", f"policy:{file}@sampled"):
+        assert skein.evaluate(agent, episodes=8).starts == expected.starts
+    assert_same_columns(skein.evaluate(skein.load_policy(file), episodes=8), expected)
+    flights = skein.record(f"policy:{file}", count=1)
+    assert flights["true_airspeed_fps"].iloc[0] < 200
+    with pytest.raises(skein.Error, match="made with env.aircraft = cessna172"):
+        skein.evaluate(skein.load_policy(file), preset="default", episodes=8)
+    f16 = skein.evaluate("zero", "heading", episodes=8).starts
+    assert skein.evaluate(f"policy:{file}@other-aircraft", episodes=8).starts == f16
+    assert skein.evaluate(f"policy:{cessna_run.path}@other-aircraft", episodes=8).starts == f16
+
+
 def test_a_policy_of_another_task_does_not_fly(heading_policy):
     with pytest.raises(skein.Error, match="heading"):
         skein.evaluate(heading_policy, "control", episodes=4)

@@ -157,3 +157,30 @@ def test_what_a_function_must_not_return(rules, says):
         envs = skein.make_vec("heading", 8, **rules)
         envs.reset(seed=0)
         envs.step(np.zeros((8, 4)))
+
+
+@pytest.mark.parametrize("begin", [lambda env, snapshot: env.reset(), lambda env, snapshot: env.restore(snapshot)])
+def test_after_a_function_that_raised_an_episode_begins_anew(begin):
+    fails = True
+
+    def reward(at):
+        if fails and (at["termination"] != 0).any():
+            raise ZeroDivisionError("mine")
+        return np.ones_like(at["reward"])
+
+    env = skein.make("heading", reward=reward, env=SHORT)
+    env.reset(seed=0)
+    snapshot = env.snapshot()
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        while True:
+            env.step(np.zeros(4))
+    fails = False
+    with pytest.raises(skein.Error, match="failed in the step before.*reset all") as raised:
+        env.step(np.zeros(4))
+    assert "\n" not in str(raised.value)
+    begin(env, snapshot)
+    steps, over = 0, False
+    while not over:
+        *_, terminated, truncated, info = env.step(np.zeros(4))
+        steps, over = steps + 1, terminated or truncated
+    assert info["episode_return"] == steps

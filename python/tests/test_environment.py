@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import copy
 import pickle
+import subprocess
+import sys
 
 import gymnasium
 import numpy as np
@@ -411,3 +413,35 @@ def test_the_state_is_shown_by_name():
     altitude = observation[:, envs.observation_names.index("altitude_scaled")]
     np.testing.assert_allclose(-state["down_ft"] * 0.3048 / 5000, altitude, rtol=1e-5)
     np.testing.assert_allclose(sum(state[q] ** 2 for q in ("q0", "qx", "qy", "qz")), 1, rtol=1e-5)
+
+
+def test_threads_wait_for_one_another_where_they_share_an_environment():
+    program = """
+import threading, numpy as np, skein
+envs = skein.make_vec("heading", 256, threads=2)
+envs.reset(seed=0)
+failures = []
+
+def repeated(call):
+    try:
+        for i in range(60):
+            call(i)
+    except Exception as error:
+        failures.append(error)
+
+def begin(i):
+    envs.reset(seed=i)
+    envs.restore(envs.snapshot())
+    envs.state(), envs.targets()
+
+actions = np.ones((256, 4), np.float32)  # of which episodes end
+calls = [begin, begin, lambda _: envs.step(actions), lambda _: envs.step(actions), lambda _: envs.reset()]
+threads = [threading.Thread(target=repeated, args=(call,)) for call in calls]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+assert not failures, failures
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import ast
 import pathlib
+from collections.abc import Mapping
 
 import skein
 from skein import _skein
@@ -32,3 +33,10 @@ def test_the_stub_declares_what_the_extension_has():
     stub = pathlib.Path(skein.__file__).with_name("_skein.pyi").read_text()
     declared = {name for name in names_of(ast.parse(stub).body) if ".__" not in name}
     assert declared == set(names_in(_skein))
+
+
+def test_a_configuration_is_a_mapping_by_its_types_too():
+    stub = ast.parse(pathlib.Path(skein.__file__).with_name("_skein.pyi").read_text())
+    config = next(node for node in stub.body if isinstance(node, ast.ClassDef) and node.name == "Config")
+    assert [ast.unparse(base) for base in config.bases] == ["Mapping[str, Any]"]
+    assert isinstance(skein.configure("heading"), Mapping)

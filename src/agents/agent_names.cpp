@@ -148,6 +148,10 @@ std::string RunOfAgent(const std::string& name) {
   return argument.is_of_other_aircraft || !IsRunDirectory(argument.file) ? "" : argument.file;
 }
 
+bool FliesAnyAircraft(const std::string& name) {
+  return KindOf(name) == kPolicy && PolicyArgumentOf(name).is_of_other_aircraft;
+}
+
 std::vector<std::string> FilesOfRunsOfAgents(const std::vector<std::string>& names) {
   std::vector<std::string> files;
   for (const std::string& name : names) {

@@ -23,6 +23,9 @@ std::string PolicyFileOfAgent(const std::string& name);
 /// that is to fly another aircraft than its own. Throws as PolicyFileOfAgent.
 std::string RunOfAgent(const std::string& name);
 
+/// Whether it is a policy that may fly another aircraft than its own. Throws as PolicyFileOfAgent.
+bool FliesAnyAircraft(const std::string& name);
+
 /// The files of those runs that FilesOfPolicy names.
 std::vector<std::string> FilesOfRunsOfAgents(const std::vector<std::string>& names);
 
