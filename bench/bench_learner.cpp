@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rates of the learner's whole computations: gradients of a tile, inference of a rollout's tile,
-// the GRU alone, and whole iterations. Its parts are in learner_kernels.cpp and learner_step.cpp.
+// and the GRU alone. Its parts are in learner_kernels.cpp and learner_step.cpp; whole iterations
+// are measured by `skein bench iteration`.
 
 #include <benchmark/benchmark.h>
 
@@ -10,7 +11,6 @@
 #include "base/denormals.h"
 #include "bench/learner_meter.h"
 #include "train/network/backend_module.h"
-#include "train/ppo/learner_rates.h"
 
 namespace skein::bench {
 namespace {
@@ -188,29 +188,6 @@ SKEIN_GRU_CHUNK(forward_backward_fp32, simd::Precision::kFloat32, true);
 SKEIN_GRU_CHUNK(forward_bf16, simd::Precision::kBfloat16, false);
 SKEIN_GRU_CHUNK(forward_backward_bf16, simd::Precision::kBfloat16, true);
 #undef SKEIN_GRU_CHUNK
-
-/// Whole iterations of the default settings with a quarter of the aircraft and minibatches, on all
-/// CPUs; the time is one iteration's.
-void Iteration(benchmark::State& state) {
-  constexpr int kIterations = 3;
-  WorkerPool pool;
-  TrainConfig config;
-  config.ppo.num_aircraft /= 4;
-  config.ppo.minibatches /= 4;
-  config.learner.precision = LearnerPrecision::kFloat32;
-  config.total_steps = 100'000'000;
-  for (auto _ : state) {
-    const LearnerRates rates = MeasureLearners({config}, kIterations, pool)[0];
-    state.SetIterationTime(rates.iteration_s);
-    state.counters["policy steps/s"] = rates.rollout_policy_steps_per_s;
-    state.counters["samples/s"] = rates.update_samples_per_s;
-    state.counters["gradient_samples/s"] = rates.gradient_samples_per_s;
-    const double gflops = 1e-9 * rates.gradient_samples_per_s * rates.update_flops_per_sample;
-    state.counters["%_of_FMA_peak"] = 100 * gflops / rates.peak_gflops;
-    state.counters["%_rollout_and_gradients"] = 100 * rates.efficiency;
-  }
-}
-BENCHMARK(Iteration)->Iterations(1)->UseManualTime()->Unit(benchmark::kSecond);
 
 }  // namespace
 }  // namespace skein::bench

@@ -21,7 +21,7 @@ struct LossSettings {
 };
 
 /// Sums over samples, each weighted by LossSettings::sample_weight, and over pairs of successive
-/// steps, each by its pair_weight.
+/// steps, each by its pair_weight. The coefficients of LossSettings are left out.
 struct LossSums {
   double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0, clip_fraction = 0;
   /// Squared change of the mean action over a pair, summed over its components; none where an
@@ -49,8 +49,9 @@ LossSums ActorLoss(const SampleTile& tile, int size, const LossSettings& setting
                    const float* output, const float* log_std, float* output_gradient,
                    float* log_std_gradient);
 
-/// value_coefficient / 2 times the squared error against the target; with clip_value_loss the
-/// larger of it and the error of a value that moved at most `clip` from the old value.
+/// Half the squared error against the target; with clip_value_loss the larger of it and that of a
+/// value that moved at most `clip` from the old value. Writes the gradient of value_coefficient
+/// times that with respect to the values.
 LossSums CriticLoss(const SampleTile& tile, const LossSettings& settings, const float* value,
                     float* value_gradient);
 

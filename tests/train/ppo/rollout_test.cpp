@@ -85,7 +85,6 @@ struct Flight {
   }
 
   EpisodeStatistics Fly() {
-    RolloutSettings settings;
     settings.seed = config.seed;
     settings.first_policy_step = policy_steps;
     policy_steps += config.ppo.rollout_steps;
@@ -102,6 +101,7 @@ struct Flight {
   RecurrentState state;
   std::vector<float> log_std = std::vector<float>(4, 0.0f);
   std::uint64_t policy_steps = 0;
+  RolloutSettings settings;
 };
 
 /// The means of a chunk's actions, computed anew: [step][aircraft][action].
@@ -196,6 +196,64 @@ TEST(RolloutTest, EpisodesBeginWhereOthersEnded) {
   }
   for (int i = 0; i < rollout.aircraft; ++i) EXPECT_EQ(rollout.not_done[i], 0);
 }
+
+/// What a flight by discounts and a value scale of its own gets from its environment and critic.
+class ValuedRolloutTest : public testing::TestWithParam<bool> {
+ protected:
+  ValuedRolloutTest() : flight_(Config()) {
+    flight_.settings.gamma = 0.9;
+    flight_.settings.gae_lambda = 0.7;
+    flight_.settings.value_scale = {-40, 8};
+  }
+  static TrainConfig Config() {
+    TrainConfig config = SmallConfig();
+    config.ppo.privileged_critic = config.env.truncate_at_time_limit = GetParam();
+    return config;
+  }
+
+  Flight flight_;
+};
+
+TEST_P(ValuedRolloutTest, ItsAdvantagesAreThoseOfItsRewardsAndValues) {
+  flight_.Fly();
+  flight_.Fly();
+  const Rollout& rollout = flight_.rollout;
+  const RolloutSettings& settings = flight_.settings;
+  for (int step = 0; step < rollout.steps; ++step) {
+    for (int i = 0; i < rollout.aircraft; ++i) {
+      const double expected =
+          AdvantageByDefinition(rollout, step, i, settings.gamma, settings.gae_lambda);
+      EXPECT_NEAR(rollout.advantage[rollout.row(step, i)], expected,
+                  kAdvantage * std::max(1.0, std::abs(expected)));
+    }
+  }
+}
+
+TEST_P(ValuedRolloutTest, BootstrapsByTheValuesThatTheNextOneBeginsWith) {
+  flight_.Fly();
+  const std::vector<float> bootstrap = flight_.rollout.bootstrap;
+  flight_.Fly();
+  const Rollout& next = flight_.rollout;
+  EXPECT_GT(std::count(next.not_done.begin(), next.not_done.begin() + next.aircraft, 1.0f), 0);
+  EXPECT_TRUE(std::equal(bootstrap.begin(), bootstrap.end(), next.value.begin()));
+}
+
+TEST_P(ValuedRolloutTest, ValuesAreInTheScaleOfRewards) {
+  Flight plain(Config());
+  plain.Fly();
+  flight_.Fly();
+  EXPECT_EQ(flight_.rollout.action, plain.rollout.action);
+  const auto scaled = [](float value) { return static_cast<float>(-40 + 8.0 * value); };
+  for (const auto column : {&Rollout::value, &Rollout::bootstrap}) {
+    const std::vector<float>& values = flight_.rollout.*column;
+    EXPECT_TRUE(std::equal(values.begin(), values.end(), (plain.rollout.*column).begin(),
+                           [&](float value, float raw) { return value == scaled(raw); }));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Critics, ValuedRolloutTest, testing::Bool(), [](const auto& privileged) {
+  return privileged.param ? "PrivilegedAndTruncated" : "LikeTheActor";
+});
 
 TrainConfig PrivilegedConfig() {
   TrainConfig config = SmallConfig();
@@ -349,7 +407,7 @@ TEST_P(TruncationTest, AddsTheValueOfWhatWasSeenLast) {
       continue;
     }
     EXPECT_TRUE(other.rollout.done[row]);
-    EXPECT_NEAR(other.rollout.reward[row], reward - failure + RolloutSettings().gamma * values[row],
+    EXPECT_NEAR(other.rollout.reward[row], reward - failure + other.settings.gamma * values[row],
                 kTruncated);
     ++cut;
   }

@@ -9,14 +9,12 @@
 #include <numeric>
 #include <optional>
 #include <random>
-#include <set>
 
 #include "base/error.h"
 #include "tests/error_message.h"
 #include "tests/tolerance.h"
 #include "tests/train/small_config.h"
 #include "train/ppo/minibatch_step.h"
-#include "train/ppo/minibatches.h"
 #include "train/ppo/rank_shards.h"
 #include "train/ppo/trainer.h"
 #include "train/ppo/training_state.h"
@@ -131,58 +129,6 @@ TEST(ShardTreeTest, GradientsAreSummedBySliceAndThenByTheTree) {
       EXPECT_EQ(gradients.accumulators[0][36], untouched);
     }
   }
-}
-
-/// Of 24 aircraft, 4 chunks each.
-Rollout SmallRollout(const ShardRange& shards) {
-  PpoConfig config;
-  config.num_aircraft = 24 / shards.total * shards.count;
-  config.rollout_steps = 32;
-  config.minibatches = 5;
-  return Rollout(config, 2, 1, 1, 0, shards);
-}
-
-TEST(MinibatchesTest, EveryChunkIsVisitedOnceAnEpochAndEveryShardAlike) {
-  for (const int shards : {1, 2, 4}) {
-    const Rollout rollout = SmallRollout({shards, 0, shards});
-    const Minibatches minibatches(rollout, 5, 7, 2, 1);
-    std::multiset<std::int64_t> visited;
-    for (int k = 0; k < 5; ++k) {
-      const std::vector<Chunks> parts = minibatches.At(k);
-      ASSERT_EQ(static_cast<int>(parts.size()), shards);
-      for (int shard = 0; shard < shards; ++shard) {
-        EXPECT_EQ(parts[shard].count, parts[0].count);
-        for (int i = 0; i < parts[shard].count; ++i) {
-          const std::int64_t chunk = parts[shard].first[i];
-          EXPECT_EQ(chunk % 24 / (24 / shards), shard) << "an aircraft of another shard";
-          visited.insert(chunk);
-        }
-      }
-    }
-    EXPECT_EQ(visited.size(), 24u * 4);
-    EXPECT_EQ(std::set<std::int64_t>(visited.begin(), visited.end()).size(), 24u * 4);
-  }
-}
-
-TEST(MinibatchesTest, AShardsChunksDoNotDependOnWhichOthersAreComputedHere) {
-  const Minibatches all(SmallRollout({4, 0, 4}), 5, 7, 2, 1);
-  const Minibatches last(SmallRollout({4, 2, 2}), 5, 7, 2, 1);
-  std::set<std::vector<std::int64_t>> orders;
-  for (int k = 0; k < 5; ++k) {
-    for (int shard = 2; shard < 4; ++shard) {
-      const Chunks expected = all.At(k)[shard], chunks = last.At(k)[shard - 2];
-      ASSERT_EQ(chunks.count, expected.count);
-      std::vector<std::int64_t> order;
-      for (int i = 0; i < chunks.count; ++i) {
-        // Numbered among the aircraft that are computed here, of which there are half as many.
-        EXPECT_EQ(chunks.first[i] / 12, expected.first[i] / 24);
-        EXPECT_EQ(chunks.first[i] % 12, expected.first[i] % 24 - 12);
-        order.push_back(chunks.first[i] / 12 * 6 + chunks.first[i] % 6);
-      }
-      orders.insert(order);
-    }
-  }
-  EXPECT_EQ(orders.size(), 10u) << "every shard is shuffled by itself";
 }
 
 TrainConfig ShardedConfig(int shards) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "train/ppo/learner_rates.h"
+#include "src/bench/learner_rates.h"
 
 #include <chrono>
 #include <memory>
