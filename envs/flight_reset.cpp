@@ -29,8 +29,9 @@ RigidBodyState LevelState(double altitude_ft, double true_airspeed_ft_s, double 
 std::optional<TrimTable> SolveTrims(const InitialConfig& initial, const Plant& plant) {
   if (!initial.trimmed) return std::nullopt;
   const Range altitude_ft = initial.drawn_altitude_ft();
-  return TrimTable(plant, altitude_ft.min, altitude_ft.max, initial.true_airspeed_fps.min,
-                   initial.true_airspeed_fps.max);
+  const Range true_airspeed_fps = initial.drawn_true_airspeed_fps();
+  return TrimTable(plant, altitude_ft.min, altitude_ft.max, true_airspeed_fps.min,
+                   true_airspeed_fps.max);
 }
 
 /// Throws Error if the slowest or the fastest start ends at once, by the Mach number there.
@@ -53,10 +54,14 @@ void CheckMach(const EnvConfig& config) {
            initial.altitude_ft.max, fastest, "env.termination.max_mach");
   }
   const double lowest_ft = initial.drawn_altitude_ft().min;
-  const double slowest = mach_at(initial.true_airspeed_fps.min, lowest_ft);
+  const double slowest_fps = initial.drawn_true_airspeed_fps().min;
+  const double slowest = mach_at(slowest_fps, lowest_ft);
   const TerminationConfig& limits = config.termination;
   if (slowest < limits.Flown().min_mach) {
-    refuse("env.initial.true_airspeed_min_fps", initial.true_airspeed_fps.min, lowest_ft, slowest,
+    refuse(slowest_fps < initial.true_airspeed_fps.min
+               ? "env.initial.training_true_airspeed_min_fps"
+               : "env.initial.true_airspeed_min_fps",
+           slowest_fps, lowest_ft, slowest,
            slowest < limits.min_mach ? "env.termination.min_mach"
                                      : "env.termination.training_min_mach");
   }
@@ -67,7 +72,7 @@ void CheckMach(const EnvConfig& config) {
 FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
     : initial_(config.initial),
       altitude_ft_(initial_.drawn_altitude_ft()),
-      true_airspeed_fps_(initial_.true_airspeed_fps),
+      true_airspeed_fps_(initial_.drawn_true_airspeed_fps()),
       plant_(aircraft, config.atmosphere, 1, config.gravity),
       flight_control_(aircraft, config.flight_control, config.control_interval_s),
       draw_power_(config.draw_power),

@@ -10,10 +10,14 @@ void ListFields(InitialConfig& config, FieldList& list) {
                 "lowest initial altitude", "highest initial altitude");
   list.Add("training_altitude_min_ft", &config.training_altitude_min_ft, {0, kHighestStartFt},
            "in training the lowest initial altitude, from which ppo.condition_ramp and draw_power "
-           "count, "
-           "if it is lower; 0: no other")
+           "count, if it is lower; 0: no other")
       .TrainingOnly()
       .OffUnless(config.training_altitude_min_ft > 0);
+  list.Add("training_true_airspeed_min_fps", &config.training_true_airspeed_min_fps, {0, 3000},
+           "in training the lowest initial true airspeed, from which ppo.condition_ramp and "
+           "draw_power count, if it is lower; 0: no other")
+      .TrainingOnly()
+      .OffUnless(config.training_true_airspeed_min_fps > 0);
   list.Add("training_bank_max_deg", &config.training_bank_max_deg, {0, 180},
            "in training flights begin banked by up to this to either side: a turn that a policy "
            "does not begin by itself it learns from its middle")

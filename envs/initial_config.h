@@ -19,16 +19,23 @@ struct InitialConfig {
   bool trimmed = true;
   /// In training the least altitude, if it is lower; 0: no other.
   double training_altitude_min_ft = 0;
+  /// In training the least true airspeed, if it is lower; 0: no other.
+  double training_true_airspeed_min_fps = 0;
   /// In training flights begin banked by up to this, to either side, and otherwise as they would.
   double training_bank_max_deg = 0;
   /// In training flights begin in a pull of up to this, g, about the pitch axis; 1: in none.
   double training_load_factor_max = 1;
 
-  /// What initial altitudes are drawn from.
-  Range drawn_altitude_ft() const {
-    const bool is_lower =
-        training_altitude_min_ft > 0 && training_altitude_min_ft < altitude_ft.min;
-    return {is_lower ? training_altitude_min_ft : altitude_ft.min, altitude_ft.max};
+  /// What initial altitudes and true airspeeds are drawn from.
+  Range drawn_altitude_ft() const { return Lowered(altitude_ft, training_altitude_min_ft); }
+  Range drawn_true_airspeed_fps() const {
+    return Lowered(true_airspeed_fps, training_true_airspeed_min_fps);
+  }
+
+ private:
+  static Range Lowered(const Range& range, double training_min) {
+    const bool is_lower = training_min > 0 && training_min < range.min;
+    return {is_lower ? training_min : range.min, range.max};
   }
 };
 

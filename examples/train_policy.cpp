@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trains a small policy of the Heading task for a few iterations and saves it. The preset of the
-// program (configs/heading/default.toml) has what a good one needs: 2e8 steps, among others.
+// program (configs/heading/default.toml) has what a good one needs: 4e8 steps, among others.
 //   train_policy small.skein
 #include <skein/base/worker_pool.h>
 #include <skein/train/ppo/trainer.h>

@@ -159,14 +159,18 @@ const json* Section::Find(const char* key) {
 
 const json& Section::At(const char* key) {
   if (const json* value = Find(key)) return *value;
+  if (knows_all_ && InAnotherUnit(values_, key).empty()) RefuseAllBut(known_);
   throw Error(Lacks(key));
 }
 
 void Section::Expect(std::initializer_list<const char*> keys) {
+  Know(keys);
+  RefuseAllBut(known_);
+}
+
+void Section::Know(std::initializer_list<const char*> keys) {
   known_.insert(keys.begin(), keys.end());
-  for (const auto& entry : values_.items()) {
-    if (!IsText(entry.key()) && known_.count(entry.key()) == 0) RefuseKey(entry.key());
-  }
+  knows_all_ = true;
 }
 
 bool Section::Has(const char* key) {
@@ -277,12 +281,27 @@ std::string Section::Lacks(const std::string& key) const {
   return path_ + " lacks " + key + InAnotherUnit(values_, key);
 }
 
-void Section::RefuseKey(const std::string& key) const {
-  std::set<std::string> absent;
+std::string Section::MeantBy(const std::string& key) const {
+  std::vector<std::string> absent;
   for (const std::string& known : known_) {
-    if (!values_.contains(known)) absent.insert(known);
+    if (!values_.contains(known)) absent.push_back(known);
   }
-  std::string rest = DidYouMean(key, {absent.begin(), absent.end()});
+  return DidYouMean(key, absent);
+}
+
+void Section::RefuseAllBut(const std::set<std::string>& allowed) const {
+  std::vector<std::string> unknown;
+  for (const auto& entry : values_.items()) {
+    if (!IsText(entry.key()) && allowed.count(entry.key()) == 0) unknown.push_back(entry.key());
+  }
+  for (const std::string& key : unknown) {
+    if (!MeantBy(key).empty()) RefuseKey(key);
+  }
+  if (!unknown.empty()) RefuseKey(unknown.front());
+}
+
+void Section::RefuseKey(const std::string& key) const {
+  std::string rest = MeantBy(key);
   if (rest.empty() && !missing_.empty()) rest = ", and lacks " + missing_.front();
   throw Error(path_ + " has the unknown key " + Printable(key) + rest);
 }
@@ -296,9 +315,7 @@ void Section::Finish() const {
   for (const std::string& key : missing_) {
     if (!InAnotherUnit(values_, key).empty()) throw Error(Lacks(key));
   }
-  for (const auto& entry : values_.items()) {
-    if (!IsText(entry.key()) && read_.count(entry.key()) == 0) RefuseKey(entry.key());
-  }
+  RefuseAllBut(read_);
   if (!missing_.empty()) throw Error(Lacks(missing_.front()));
 }
 

@@ -36,7 +36,8 @@ nlohmann::json ParseAircraftJson(std::string_view text, const std::string& who);
 /// An object of an aircraft's file, whose every key must be read once Finish is called; "source"
 /// and "about" are for the human reader. Errors name the path of the key. Numbers, laws, ramps and
 /// actuators that are missing stay as they are until Finish, which names an unknown key first: that
-/// is mostly the missing one, misspelt. All else that is missing is an error at once.
+/// is mostly the missing one, misspelt. All else that is missing is an error at once, which does so
+/// after Know.
 class Section {
  public:
   /// `values` must live as long.
@@ -44,6 +45,9 @@ class Section {
 
   /// Throws Error if there is a key but these and what was skipped.
   void Expect(std::initializer_list<const char*> keys);
+  /// Says which keys there may be, beside those asked for: where one is missing, any other is
+  /// named.
+  void Know(std::initializer_list<const char*> keys);
   bool Has(const char* key);
   Section Below(const char* key) { return {At(key), path_ + "." + key}; }
   const std::string& path() const { return path_; }
@@ -90,11 +94,16 @@ class Section {
   bool ReadList(const char* key, const char* meaning, std::initializer_list<double*> numbers);
   std::string Lacks(const std::string& key) const;
   [[noreturn]] void RefuseKey(const std::string& key) const;
+  std::string MeantBy(const std::string& key) const;
+  /// Throws Error that names a key which is none of `allowed`, if there is one; if several, one
+  /// that is near to a key which is not there.
+  void RefuseAllBut(const std::set<std::string>& allowed) const;
 
   const nlohmann::json& values_;
   std::string path_;
   std::set<std::string> known_;  ///< what was asked for
   std::set<std::string> read_;
+  bool knows_all_ = false;  ///< known_ is all that there may be
   std::vector<std::string> missing_;
 };
 

@@ -122,6 +122,7 @@ ElectricPropulsion ReadElectric(Section* section) {
 }
 
 void ReadEngine(Section section, PistonEngine* engine) {
+  section.Know({"rated_power_W", "rated_rpm", "altitude_m", "power_fraction"});
   section.ReadPositive("rated_power_W", &engine->rated_power_W);
   section.ReadPositive("rated_rpm", &engine->rated_rpm);
   if (section.Has("altitude_m") || section.Has("power_fraction")) {
@@ -141,6 +142,8 @@ void ReadAdvanceRatios(Section* section, PistonEngine* engine) {
 }
 
 void ReadPropeller(Section section, PistonEngine* engine) {
+  section.Know(
+      {"diameter_m", "kind", "advance_ratio", "CT", "CP", "efficiency", "slope", "intercept"});
   section.ReadPositive("diameter_m", &engine->diameter_m);
   const std::string kind = ReadChoice({"fixed_pitch", "constant_speed", "polar"}, &section);
   if (kind == "polar") {
@@ -223,9 +226,24 @@ EngineTables ReadJet(Section* section) {
   return tables;
 }
 
-Propulsion ReadKind(Section* section) {
-  const std::string kind =
+/// The key `kind`, after which it is known which keys there may be.
+std::string ReadKind(Section* section) {
+  std::string kind =
       section->Has("kind") ? ReadChoice({"electric", "piston", "jet"}, section) : "electric";
+  section->Know({"throttle_gearing", "power_rate_per_s", "untrimmed_thrust_N"});
+  if (kind == "piston") {
+    section->Know({"engine", "propeller", "engine_throttle", "max_altitude_m", "max_mach"});
+  } else if (kind == "jet") {
+    section->Know({"altitude_m", "mach", "idle_N", "maximum_N", "military_N"});
+  } else {
+    section->Know({"diameter_m", "CT_0", "CT_1", "CT_2", "CQ_0", "CQ_1", "CQ_2",
+                   "speed_constant_rpm_per_V", "resistance_ohm", "no_load_current_A",
+                   "max_voltage_V", "motor_throttle", "max_altitude_m", "max_mach"});
+  }
+  return kind;
+}
+
+Propulsion ReadKeysOf(const std::string& kind, Section* section) {
   if (kind == "piston") return ReadPiston(section);
   if (kind == "jet") return ReadJet(section);
   return ReadElectric(section);
@@ -234,6 +252,7 @@ Propulsion ReadKind(Section* section) {
 }  // namespace
 
 void ReadPropulsion(Section section, DerivativeAircraft* aircraft) {
+  const std::string kind = ReadKind(&section);
   Section gearing = section.Below("throttle_gearing");
   double knee_throttle = 0, knee_power = 0;
   gearing.ReadBetween(0, 1, "knee_throttle", &knee_throttle);
@@ -246,7 +265,7 @@ void ReadPropulsion(Section section, DerivativeAircraft* aircraft) {
   aircraft->power_lag = ConstantLag(rate_per_s);
   section.Read("untrimmed_thrust_N", &aircraft->untrimmed_thrust_N);
   // At last: what it reads is looked at as a whole.
-  aircraft->propulsion = ReadKind(&section);
+  aircraft->propulsion = ReadKeysOf(kind, &section);
   section.Finish();
 }
 

@@ -107,6 +107,7 @@ class AerodynamicsReader {
       : section_(std::move(section)), has_flap_(has_flap), t_(*tables) {}
 
   void Read() {
+    section_.Know({"axes", "tables"});
     ReadAxes(section_.Below("axes"));
     Section tables = section_.Below("tables");
     for (const Entry& entry : kTables) ReadTable(tables, entry);
@@ -331,6 +332,8 @@ void ReadPowerLag(Section section, PowerLag* lag) {
 }
 
 void ReadEngine(Section section, Aircraft* aircraft) {
+  section.Know({"altitude_ft", "mach", "idle_lbf", "military_lbf", "maximum_lbf", "growth",
+                "throttle_gearing", "power_lag", "untrimmed_thrust_lbf"});
   EngineTables& tables = aircraft->engine;
   section.ReadAxis("altitude_ft", &tables.altitude_ft);
   section.ReadAxis("mach", &tables.mach);

@@ -173,6 +173,44 @@ void CheckLateral(const LateralDerivatives& k, Findings* findings) {
                      k.Cn_aileron));
 }
 
+/// Derivatives that aircraft do not have near zero. The bounds are judgement: well below a small
+/// flying wing's (the Zagi of Beard and McLain) and an airliner's, and above what per-degree
+/// numbers, 57 times too small, mostly are.
+void CheckPerRadian(const DerivativeAircraft& a, Findings* findings) {
+  const LongitudinalDerivatives& pitch = a.longitudinal;
+  const LateralDerivatives& roll = a.lateral;
+  const struct {
+    const char* name;
+    double value, sign, least;
+  } derivatives[] = {{"longitudinal.Cm_elevator", pitch.Cm_elevator, -1, 0.1},
+                     {"lateral.CY_beta", roll.CY_beta, -1, 0.02},
+                     {"lateral.Cl_p", roll.Cl_p, -1, 0.05},
+                     {"lateral.Cl_aileron", roll.Cl_aileron, 1, 0.005}};
+  for (const auto& one : derivatives) {
+    const double size = one.sign * one.value;
+    findings->Warn(size > 0 && size < one.least,
+                   Say("%s = %g per radian; aircraft have %g or more in magnitude (per degree?)",
+                       one.name, one.value, one.least));
+  }
+}
+
+void CheckActuator(const char* surface, const Actuator& actuator, Findings* findings) {
+  constexpr double kLeastTravel_deg = 2, kSlowest_deg_s = 5;
+  findings->Warn(std::max(-actuator.min_deg, actuator.max_deg) < kLeastTravel_deg,
+                 Say("actuators.%s goes from %g to %g deg; surfaces go farther (radians?)", surface,
+                     actuator.min_deg, actuator.max_deg));
+  findings->Warn(actuator.rate_limit_deg_per_s < kSlowest_deg_s,
+                 Say("actuators.%s.rate_limit_deg_per_s = %g; surfaces are faster (radians?)",
+                     surface, actuator.rate_limit_deg_per_s));
+}
+
+void CheckActuators(const DerivativeAircraft& a, Findings* findings) {
+  CheckActuator("elevator", a.elevator, findings);
+  CheckActuator("aileron", a.aileron, findings);
+  // One that moves nothing may be as it likes.
+  if (a.lateral.Cn_rudder != 0) CheckActuator("rudder", a.rudder, findings);
+}
+
 /// No propeller gives more power than it takes.
 void CheckEfficiency(double advance_ratio, double efficiency, const char* propeller,
                      Findings* findings) {
@@ -279,6 +317,8 @@ std::vector<Finding> CheckDerivatives(const DerivativeAircraft& aircraft) {
   CheckSizes(SizesOf(aircraft), &findings);
   CheckLongitudinal(aircraft.longitudinal, &findings);
   CheckLateral(aircraft.lateral, &findings);
+  CheckPerRadian(aircraft, &findings);
+  CheckActuators(aircraft, &findings);
   if (const auto* piston = std::get_if<PistonPropulsion>(&aircraft.propulsion)) {
     CheckPropeller(piston->engine, &findings);
   }

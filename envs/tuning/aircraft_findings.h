@@ -25,8 +25,8 @@ struct Finding {
 /// Of the airframe of a model of tables: ratios of mass and lengths.
 std::vector<Finding> CheckAirframe(const Airframe& airframe);
 
-/// Of the numbers of a derivative model alone: signs, ratios of mass, inertia and lengths, the
-/// propeller.
+/// Of the numbers of a derivative model alone: signs, ratios of mass, inertia and lengths, what is
+/// so small that it is per degree or in radians, the propeller.
 std::vector<Finding> CheckDerivatives(const DerivativeAircraft& aircraft);
 
 /// Of level flight: that there is any, and how slow. `limits` are those that the envelope was found

@@ -195,7 +195,6 @@ std::string DescribeHandling(const Plant& plant, const TuningLimits& limits,
 
 AircraftReport CheckAircraft(const CheckedAircraft& aircraft) {
   AircraftReport report;
-  report.findings = aircraft.findings;
   const auto append = [&](std::vector<Finding> more) {
     report.findings.insert(report.findings.end(), more.begin(), more.end());
   };

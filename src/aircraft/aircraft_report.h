@@ -23,12 +23,13 @@ struct CheckedAircraft {
 /// the section flight_control. Throws Error as the readers do.
 CheckedAircraft LoadForCheck(const std::string& aircraft);
 
-/// What a check found, and the figures it saw on the way.
+/// What a check found in flight, and the figures it saw on the way.
 struct AircraftReport {
-  std::vector<Finding> findings;
-  std::string figures;  ///< tables for people: envelope, modes, closed loop
+  std::vector<Finding> findings;  ///< beside those of CheckedAircraft
+  std::string figures;            ///< tables for people: envelope, modes, closed loop
 };
 
+/// Of its presets, and as it flies.
 AircraftReport CheckAircraft(const CheckedAircraft& aircraft);
 
 /// The table of how flight control flies the aircraft over `envelope`; what is found wrong is

@@ -168,7 +168,7 @@ void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents f
     options.aircraft = flight.condition.model.aircraft;
   }
   CheckWritable(paths, FilesRead(flown));
-  RequireCsvEnding(flight.out);
+  RequireEnding(flight.out, ".csv", "flights are written as CSV");
   options.own_assignments = AssignmentsOf(command, flight);
   for (auto& own : TargetsAtStart(TaskOf(flown))) options.own_assignments.push_back(std::move(own));
   options.episodes = 1;

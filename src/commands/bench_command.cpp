@@ -21,6 +21,7 @@ CLI::App* AddAny(CLI::App* bench, const std::string& name, const std::string& de
   command->callback([options, run] {
     // Of several processes one alone writes: the benchmark sees to it.
     if (LaunchedProcesses() == 1) CheckWritable({options->json}, FilesRead(*options));
+    RequireEnding(options->json, ".json", "--json writes JSON");
     run(*options);
   });
   return command;

@@ -22,7 +22,9 @@ using Json = nlohmann::ordered_json;
 std::vector<std::string> FilesRead(const BenchOptions& options) {
   std::vector<std::string> files = AircraftFilesIn(options.aircraft, options.assignments);
   for (const std::string& task : {options.task, options.beside}) {
-    if (IsTaskFile(task)) files.push_back(task);
+    if (!IsTaskFile(task)) continue;
+    files.push_back(task);
+    files.push_back(AsUsage([&] { return AircraftFileNamedIn(task); }));
   }
   const std::string low_level = IsAutopilot(options.low_level) ? "" : options.low_level;
   for (const auto& more : {FilesOfPolicy(low_level), CLI::detail::split(options.before, ','),

@@ -88,6 +88,9 @@ std::vector<std::string> Outputs(const CompareOptions& options) {
 void CheckFiles(const CompareOptions& options) {
   const std::vector<std::string> outputs = Outputs(options), inputs = Inputs(options);
   CheckWritable(outputs, inputs);
+  RequireEndings(options.flight);
+  RequireEnding(options.csv, ".csv", "--csv writes CSV");
+  RequireEnding(options.html, ".html", "--html writes a page");
   if (!WritesDefaultPage(options)) return;
   const auto place = [](const std::string& file) {
     std::error_code failure;

@@ -122,6 +122,7 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
     }
     if (ranks.rank() == 0) {
       CheckWritable({flight.json, flight.flights, flight.acmi}, Inputs(options));
+      RequireEndings(flight);
       WarnOfTargets(subject->config.train.env);
     }
     if (ranks.count() > 1) identity = Identity(*subject, flight);

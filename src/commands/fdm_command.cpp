@@ -102,6 +102,7 @@ void CheckOutput(const FileOptions& options) {
   std::vector<std::string> read = options.model.FilesRead();
   read.push_back(options.in);
   CheckWritable({options.out}, read);
+  RequireEnding(options.out, ".json", "results are written as JSON");
 }
 
 void Evaluate(const FileOptions& options) {

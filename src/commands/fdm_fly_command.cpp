@@ -16,8 +16,8 @@
 #include "src/config/whole_number.h"
 #include "src/fdm/commanded_flight.h"
 #include "src/fdm/left_tables.h"
+#include "src/files/csv_columns.h"
 #include "src/files/output_file.h"
-#include "src/report/csv_columns.h"
 
 namespace skein {
 namespace {
@@ -57,7 +57,7 @@ void FlySticks(const FlyOptions& options) {
   std::vector<std::string> read = options.condition.model.FilesRead();
   read.push_back(options.commands);
   CheckWritable({options.out}, read);
-  RequireCsvEnding(options.out);
+  RequireEnding(options.out, ".csv", "flights are written as CSV");
   CommandedFlight flight = options.flight;
   flight.mode = kModes.at(options.mode);
   if (options.by_altitude) flight.gusts.law = TurbulenceLaw::kByAltitude;

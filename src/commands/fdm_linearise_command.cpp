@@ -31,6 +31,7 @@ struct LineariseOptions {
 void FindLinearModels(const LineariseOptions& options) {
   if (!options.picture.empty()) CheckPictureFile(options.picture);
   CheckWritable({options.json, options.picture}, options.condition.model.FilesRead());
+  RequireEnding(options.json, ".json", "--json writes JSON");
   const Plant plant = options.condition.MakePlant();
   const auto flights = AtEveryPoint<LinearisedFlight>(
       plant, options.condition.grid, [&](const SteadyFlightRequest& request) {

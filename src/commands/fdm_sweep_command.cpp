@@ -29,6 +29,7 @@ struct SweepOptions {
 void Sweep(const SweepOptions& options) {
   if (!options.picture.empty()) CheckPictureFile(options.picture);
   CheckWritable({options.json, options.picture}, options.condition.model.FilesRead());
+  RequireEnding(options.json, ".json", "--json writes JSON");
   const Plant plant = options.condition.MakePlant();
   const LevelLimits limits = LimitsNamed(options.airplane_class, options.category);
   const auto flights = AtEveryPoint<AssessedFlight>(

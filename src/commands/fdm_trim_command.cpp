@@ -145,6 +145,8 @@ void FindTrim(TrimOptions options) {
   }
   CheckWritable({options.json, options.csv, options.picture, options.polar},
                 options.condition.model.FilesRead());
+  RequireEnding(options.json, ".json", "--json writes JSON");
+  RequireEnding(options.csv, ".csv", "--csv writes CSV");
   if (!options.wind.empty()) options.condition.grid.manoeuvre.wind_ft_s = ReadWind(options.wind);
   const Plant plant = options.condition.MakePlant();
   (options.condition.grid.IsOnePoint() ? TrimOnePoint : TrimGrid)(options, plant);

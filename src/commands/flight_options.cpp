@@ -143,8 +143,13 @@ CLI::Option* AddAgentList(CLI::App* command, const std::string& description,
 
 std::vector<std::string> FilesRead(const FlightOptions& options) {
   std::vector<std::string> files = AircraftFilesIn(options.aircraft, options.assignments);
-  files.push_back(options.config);
-  if (IsTaskFile(options.task)) files.push_back(options.task);
+  std::vector<std::string> settings;
+  if (!options.config.empty()) settings.push_back(options.config);
+  if (IsTaskFile(options.task)) settings.push_back(options.task);
+  for (const std::string& file : settings) {
+    files.push_back(file);
+    files.push_back(AsUsage([&] { return AircraftFileNamedIn(file); }));
+  }
   return files;
 }
 
@@ -282,10 +287,10 @@ AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, 
   return FlyAndRecord(name, agent, env, evaluation, options.flights_count, pool);
 }
 
-void RequireCsvEnding(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending.empty() || ending == ".csv") return;
-  throw UsageError(fmt::format("{}: flights are written as CSV: let the name end in .csv", path));
+void RequireEndings(const FlightOptions& options) {
+  RequireEnding(options.json, ".json", "--json writes JSON");
+  RequireEnding(options.flights, ".csv", "--flights writes CSV");
+  RequireEnding(options.acmi, ".acmi", "--acmi writes ACMI");
 }
 
 void WriteFlightsCsv(const FlightOptions& options, const std::string& path,

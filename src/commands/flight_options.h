@@ -113,9 +113,8 @@ std::string LengthOption(const EnvConfig& env);
 AgentFlights RecordFirst(const FlightOptions& options, const std::string& name, const Agent& agent,
                          const EnvConfig& env, WorkerPool& pool);
 
-/// Throws UsageError if the name of a file of flights that is CSV ends as one of another format: in
-/// anything but .csv. A name without an ending, as of a pipe, serves.
-void RequireCsvEnding(const std::string& path);
+/// As RequireEnding, of --json, --flights and --acmi.
+void RequireEndings(const FlightOptions& options);
 
 /// Writes them to `path` as CSV, and says so (OutputName). `manner` is how they were flown.
 void WriteFlightsCsv(const FlightOptions& options, const std::string& path,

@@ -16,6 +16,7 @@ namespace {
 
 void PrintInfo(const std::string& json_path) {
   CheckWritable(json_path);
+  RequireEnding(json_path, ".json", "--json writes JSON");
   const nlohmann::ordered_json info = DescribeMachine();
   if (!json_path.empty()) WriteJson(json_path, info);
   const std::string libtorch = info["libtorch"].is_null()

@@ -90,11 +90,13 @@ void CheckOutputs(const ReplayOptions& options, const std::vector<std::string>& 
   }
   if (options.out.empty()) throw UsageError("-o FILE or --live PORT is needed: where to?");
   std::vector<std::string> paths = {options.out};
-  if (ChooseFormat(options).has_file_per_agent && names.size() > 1) {
+  const ReplayFormat& format = ChooseFormat(options);
+  if (format.has_file_per_agent && names.size() > 1) {
     paths.clear();
     for (const std::string& name : names) paths.push_back(PathOfAgent(options.out, name));
   }
   CheckWritable(paths, FilesRead(options.flown));
+  RequireEnding(options.out, format.ending, fmt::format("--format {}", format.name));
 }
 
 void Stream(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {

@@ -94,6 +94,8 @@ void Report(const ReportOptions& options) {
                                                      : "report.html";
   CheckSomethingToShow(options.request.runs);
   CheckWritable({output, options.json}, FilesOfRuns(options.request.runs));
+  RequireEnding(output, ".html", "the report is a page");
+  RequireEnding(options.json, ".json", "--json writes JSON");
   SayTimes(options);
   ReportTemplate();
   const std::string data = ReportData(options.request, pool);
@@ -108,7 +110,7 @@ void Report(const ReportOptions& options) {
 
 void AddReportCommand(CLI::App* app) {
   auto options = std::make_shared<ReportOptions>();
-  options->request.flights_option = "--flights";
+  options->request.flights_option = "--flights-count";
   CLI::App* command = app->add_subcommand(
       "report", "Write a page that shows runs: curves, metrics, flights in 3-D");
   command->add_option("runs", options->request.runs, "directories of runs")
@@ -127,7 +129,7 @@ void AddReportCommand(CLI::App* app) {
       ->transform(WholeNumber(0, 1000000))
       ->capture_default_str();
   command
-      ->add_option("--flights", options->request.flights,
+      ->add_option("--flights-count,--flights", options->request.flights,
                    "how many of them are shown in space; 0: none")
       ->transform(WholeNumber(0, 1000))
       ->capture_default_str();

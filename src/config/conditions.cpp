@@ -62,6 +62,7 @@ Assignments HighSpeed(const LevelRequest& request, const std::string& level) {
   Append("initial.true_airspeed", "_fps", speed, &assignments);
   assignments.push_back(
       fmt::format("env.target_mach_min={}", request.is_held ? speed.min / kSpeedOfMachOne : 0));
+  assignments.emplace_back("env.initial.training_true_airspeed_min_fps=0");
   return assignments;
 }
 
@@ -78,6 +79,8 @@ Assignments HighAltitude(const LevelRequest& request, const std::string& level) 
   assignments.push_back(
       fmt::format("env.target_altitude_min_ft={}", request.is_held ? altitude.min : 0));
   assignments.emplace_back("env.initial.training_altitude_min_ft=0");
+  // What flies level low down may be below stall speed up there.
+  assignments.emplace_back("env.initial.training_true_airspeed_min_fps=0");
   // The published models' air is up to 9 % too dense above their tropopause.
   assignments.emplace_back("env.atmosphere=standard_1976");
   return assignments;
@@ -258,9 +261,13 @@ std::string DescribeConditions(const EnvConfig& env) {
   if (env.most_noise() > most_noise) {
     training += fmt::format("; in training noise up to {:.6g}", env.most_noise());
   }
-  const Range drawn = env.initial.drawn_altitude_ft();
-  if (drawn.min < env.initial.altitude_ft.min) {
-    training += fmt::format("; in training from {:.6g} ft", drawn.min);
+  const double lowest = env.initial.drawn_altitude_ft().min;
+  if (lowest < env.initial.altitude_ft.min) {
+    training += fmt::format("; in training from {:.6g} ft", lowest);
+  }
+  const double slowest = env.initial.drawn_true_airspeed_fps().min;
+  if (slowest < env.initial.true_airspeed_fps.min) {
+    training += fmt::format("; in training from {:.6g} ft/s", slowest);
   }
   return fmt::format(
       "{} from {} and {}{}; {}{}", env.aircraft, range(env.initial.altitude_ft, " ft"),

@@ -325,6 +325,13 @@ void CheckFlyable(const EnvConfig& env) {
   LoadAircraft(env.aircraft);  // throws on an unknown name
 }
 
+std::string AircraftFileNamedIn(const std::string& path) {
+  const toml::table table = ParseToml(ReadInputText(path), path);
+  const auto named = table["env"]["aircraft"].value<std::string>();
+  if (!named || !IsAircraftPath(*named)) return "";
+  return (std::filesystem::path(FolderOf(path)) / *named).string();
+}
+
 std::string TaskNameOf(const std::string& task) {
   if (!IsTaskFile(task)) return task;
   return ReadTaskFile(ReadTaskFileText(task), task, SettingsTables()).terms.name;

@@ -63,6 +63,11 @@ struct ConfigSources {
   bool is_beginning = false;  ///< more comes on top: RequireScaleOfTaskFile is for later
 };
 
+/// The path of the aircraft's file that the TOML file `path`, a configuration or a task file,
+/// names, from where the program runs; empty if it names none. Throws Error on a file that is no
+/// TOML.
+std::string AircraftFileNamedIn(const std::string& path);
+
 /// The name of the task that was asked for: of a task file the one that it says.
 std::string TaskNameOf(const std::string& task);
 

@@ -98,7 +98,7 @@ const Field& FindField(const std::vector<Field>& fields, const std::string& key,
                        const std::string& where) {
   for (const Field& field : fields) {
     if (field.key == key) return field;
-    if (field.former_key == key) {
+    if (!key.empty() && field.former_key == key) {
       throw Error(fmt::format("{}: {} is called {} now", where, key, field.key));
     }
   }

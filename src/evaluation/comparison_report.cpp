@@ -5,6 +5,7 @@
 
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
+#include "src/files/csv_text.h"
 #include "src/files/text_table.h"
 
 namespace skein {

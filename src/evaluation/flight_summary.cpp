@@ -146,13 +146,6 @@ std::string CsvCells(const Estimate& estimate) {
   return cells;
 }
 
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string FormatTerminations(const EvaluationResult& result) {
   std::string text;
   for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {

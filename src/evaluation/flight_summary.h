@@ -39,8 +39,6 @@ std::string FormatFigure(const FlightSummary& summary, std::size_t k);
 bool HasOwnPlace(const Quantity& quantity);
 /// The three numbers as cells of CSV, each with a comma ahead; empty where there is none.
 std::string CsvCells(const Estimate& estimate);
-/// A cell of CSV, in quotes where it must be.
-std::string CsvText(const std::string& text);
 /// "target_reached 998, time_limit 2".
 std::string FormatTerminations(const EvaluationResult& result);
 

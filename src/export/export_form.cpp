@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/name_in.h"
-#include "src/export/scratch_folder.h"
 #include "src/files/output_file.h"
+#include "src/files/scratch_folder.h"
 #include "src/files/shell_text.h"
 #include "train/export/c_policy.h"
 #include "train/export/c_text.h"

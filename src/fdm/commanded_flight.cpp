@@ -13,8 +13,8 @@
 #include "envs/state/attitude.h"
 #include "envs/state/state.h"
 #include "src/evaluation/state_readings.h"
+#include "src/files/csv_columns.h"
 #include "src/files/output_file.h"
-#include "src/report/csv_columns.h"
 
 namespace skein {
 namespace {

@@ -14,8 +14,8 @@
 #include "envs/aircraft/units.h"
 #include "envs/state/state.h"
 #include "src/config/usage_error.h"
-#include "src/evaluation/flight_summary.h"
 #include "src/fdm/fdm_plant.h"
+#include "src/files/csv_text.h"
 
 namespace skein {
 namespace {

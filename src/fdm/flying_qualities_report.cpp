@@ -29,6 +29,13 @@ std::string LevelText(const Requirement& requirement) {
          (requirement.is_doubtful ? "?" : "");
 }
 
+/// How near an equivalent system of `order` ("first", "second") is.
+std::string FitText(double mismatch, const char* order) {
+  if (mismatch <= kMostMismatch) return fmt::format("mismatch {:.1f}", mismatch);
+  return fmt::format("mismatch {:.1f}, above {}: the response is not of {} order", mismatch,
+                     kMostMismatch, order);
+}
+
 /// Below a table with doubtful levels.
 std::string DoubtNote() {
   return fmt::format(
@@ -151,12 +158,12 @@ std::string Describe(const FlyingQualities& qualities, const std::string& standa
                      DescribeStep("roll stick", qualities.roll_step, "deg/s");
   const EquivalentShortPeriod& pitch = qualities.short_period;
   text += fmt::format(
-      "equivalent short period: {:.2f} rad/s, damping {:.2f}, delay {:.3f} s (mismatch {:.1f}); "
-      "n/alpha {:.1f} g/rad\n"
-      "equivalent roll mode: {:.2f} s, delay {:.3f} s (mismatch {:.1f})\n\n",
-      pitch.frequency_rad_s, pitch.damping_ratio, pitch.delay_s, pitch.mismatch,
+      "equivalent short period: {:.2f} rad/s, damping {:.2f}, delay {:.3f} s ({}); n/alpha "
+      "{:.1f} g/rad\n"
+      "equivalent roll mode: {:.2f} s, delay {:.3f} s ({})\n\n",
+      pitch.frequency_rad_s, pitch.damping_ratio, pitch.delay_s, FitText(pitch.mismatch, "second"),
       qualities.load_factor_by_alpha, qualities.roll.time_constant_s, qualities.roll.delay_s,
-      qualities.roll.mismatch);
+      FitText(qualities.roll.mismatch, "first"));
   std::vector<std::vector<std::string>> rows = {
       {"MIL-F-8785C", standard, "", "", "limits of levels 1; 2; 3"}};
   for (const Requirement& requirement : qualities.requirements) {

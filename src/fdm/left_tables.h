@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "envs/reference/plant.h"
-#include "src/report/csv_columns.h"
+#include "src/files/csv_columns.h"
 
 namespace skein {
 

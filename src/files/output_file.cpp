@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/files/output_file.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -46,6 +48,11 @@ std::string ReplacedFile(const std::string& path) {
   const bool is_link = std::filesystem::is_symlink(path, failure);
   return is_link ? std::filesystem::weakly_canonical(path).string() : path;
 }
+
+/// Of the formats that are read or written here, and of pictures.
+constexpr const char* kEndings[] = {".acmi", ".c",           ".csv",   ".h",   ".html",
+                                    ".json", ".onnx",        ".pdf",   ".png", ".pt",
+                                    ".py",   ".safetensors", ".skein", ".svg", ".toml"};
 
 }  // namespace
 
@@ -104,6 +111,16 @@ void CheckWritable(const std::vector<std::string>& paths, const std::vector<std:
       throw ChoiceError(path + ": is read, too; choose another output");
     }
   }
+}
+
+void RequireEnding(const std::string& path, const std::string& ending, const std::string& content) {
+  std::string own = std::filesystem::path(path).extension().string();
+  std::transform(own.begin(), own.end(), own.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool is_known =
+      std::find(std::begin(kEndings), std::end(kEndings), own) != std::end(kEndings);
+  if (!is_known || own == ending) return;
+  throw ChoiceError(fmt::format("{}: {}: let the name end in {}", path, content, ending));
 }
 
 void WriteFile(const std::string& path, const std::string& text) {

@@ -27,6 +27,11 @@ void CheckWritable(const std::string& path);
 void CheckWritable(const std::vector<std::string>& paths,
                    const std::vector<std::string>& read = {});
 
+/// Throws ChoiceError if the name `path` ends as files of another format that Skein knows do, and
+/// not in `ending`, as ".csv": most likely another option was meant. `content` is what is written
+/// there: "flights are written as CSV". Other endings, none, and an empty path pass.
+void RequireEnding(const std::string& path, const std::string& ending, const std::string& content);
+
 /// What the line about a file that is about to be written calls it: `path`, and where nobody asked
 /// for a file of that name (`is_default`) and one is there, " (replaced)" behind it.
 std::string OutputName(const std::string& path, bool is_default);

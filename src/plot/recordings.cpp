@@ -75,18 +75,36 @@ std::vector<std::string> AgentsOf(const std::vector<std::string>& files) {
   return agents;
 }
 
+const char* NameOf(Termination end) { return kTerminationNames[static_cast<std::size_t>(end)]; }
+
+/// None of a mission that was flown to its end.
+std::string EndWords(const std::string& termination, bool is_mission) {
+  const bool is_flown = is_mission && termination == NameOf(Termination::kTimeLimit);
+  return is_flown ? "" : WithBlanks(termination);
+}
+
+/// Whether a target gives way to another one, as in missions alone.
+bool HasNewTarget(const CsvColumns& flight) {
+  for (const std::string& target : TargetsIn(flight)) {
+    const std::vector<double>& column = *flight.Find(kTargetPrefix + target);
+    const auto is_new = [](double a, double b) { return a < b || a > b; };
+    if (std::adjacent_find(column.begin(), column.end(), is_new) != column.end()) return true;
+  }
+  return false;
+}
+
 /// The rows [begin, end) of a file as one flight.
 DrawnFlight FlightOf(const std::string& file, const CsvColumns& all, std::size_t begin,
                      std::size_t end) {
   DrawnFlight flight;
   flight.source = file;
   flight.episode = fmt::format("{:g}", all.Find("episode")->at(begin));
-  flight.end = WithBlanks(all.words[end - 1]);
   flight.table.names = all.names;
   for (const std::vector<double>& column : all.values) {
     flight.table.values.emplace_back(column.begin() + static_cast<std::ptrdiff_t>(begin),
                                      column.begin() + static_cast<std::ptrdiff_t>(end));
   }
+  flight.end = EndWords(all.words[end - 1], HasNewTarget(flight.table));
   return flight;
 }
 
@@ -120,12 +138,6 @@ std::vector<DrawnFlight> ReadFlights(const std::string& file, std::vector<std::s
   return flights;
 }
 
-/// None of a flight under way, nor of a mission that was flown to its end.
-std::string EndWords(Termination end, bool is_mission) {
-  if (end == Termination::kNone || (is_mission && end == Termination::kTimeLimit)) return "";
-  return WithBlanks(kTerminationNames[static_cast<std::size_t>(end)]);
-}
-
 std::vector<DrawnFlight> FlightsOf(const AgentFlights& flown) {
   std::vector<DrawnFlight> flights;
   const bool is_mission = EvaluationConfig(flown.env).mission.enabled();
@@ -134,7 +146,8 @@ std::vector<DrawnFlight> FlightsOf(const AgentFlights& flown) {
     DrawnFlight flight;
     flight.source = flown.agent;
     flight.episode = std::to_string(k);
-    flight.end = EndWords(table.terminations.back(), is_mission);
+    const Termination end = table.terminations.back();
+    if (end != Termination::kNone) flight.end = EndWords(NameOf(end), is_mission);
     flight.table.names = std::move(table.names);
     flight.table.values = std::move(table.columns);
     flights.push_back(std::move(flight));

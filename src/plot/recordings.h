@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "src/evaluation/flight_table.h"
+#include "src/files/csv_columns.h"
 #include "src/plot/picture.h"
-#include "src/report/csv_columns.h"
 
 namespace skein {
 

@@ -152,10 +152,14 @@ class AcmiFlight {
   }
 
   void End(AcmiWriter* writer) {
-    const auto kind = static_cast<std::size_t>(flight_.steps.back().termination);
-    writer->AddEvent("Message", {aircraft_},
-                     fmt::format("{}: {} after {} s", agent_.agent, kTerminationNames[kind],
-                                 AcmiNumber(table_.Column("time_s").back(), 2)));
+    const Termination end = flight_.steps.back().termination;
+    const bool is_flown =
+        EvaluationConfig(agent_.env).mission.enabled() && end == Termination::kTimeLimit;
+    writer->AddEvent(
+        "Message", {aircraft_},
+        fmt::format("{}: {} after {} s", agent_.agent,
+                    is_flown ? "mission flown" : kTerminationNames[static_cast<std::size_t>(end)],
+                    AcmiNumber(table_.Column("time_s").back(), 2)));
     // Nothing was destroyed: Tacview is told that they have left.
     for (const std::uint64_t object : {aircraft_, target_object_}) {
       writer->AddEvent("LeftArea", {object}, "");

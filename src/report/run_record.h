@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "src/config/program_config.h"
-#include "src/report/csv_columns.h"
+#include "src/files/csv_columns.h"
 
 namespace skein {
 

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "src/evaluation/flight_summary.h"
+#include "src/files/csv_text.h"
 #include "src/files/text_table.h"
 
 namespace skein {

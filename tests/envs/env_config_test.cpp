@@ -45,6 +45,8 @@ const Fault kFaults[] = {
     {"env.training_noise_max = ", [](EnvConfig* c) { c->training_noise_max = -0.01; }},
     {"env.initial.training_altitude_min_ft = ",
      [](EnvConfig* c) { c->initial.training_altitude_min_ft = 2000; }},
+    {"env.initial.training_true_airspeed_min_fps = ",
+     [](EnvConfig* c) { c->initial.training_true_airspeed_min_fps = -1; }},
     {"env.termination.training_min_altitude_ft = ",
      [](EnvConfig* c) { c->termination.training_min_altitude_ft = 19500; }},
     {"env.wind.training_speed_max_fps = ",
@@ -301,6 +303,7 @@ TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   config.stagger_clocks = true;
   config.training_noise_max = 0.1;
   config.initial.training_altitude_min_ft = 5000;
+  config.initial.training_true_airspeed_min_fps = 500;
   config.initial.training_bank_max_deg = 90;
   config.initial.training_load_factor_max = 7;
   config.wind.training_speed_max_fps = config.wind.training_turbulence_max_fps = 10;
@@ -313,6 +316,7 @@ TEST(EnvConfigTest, EvaluationsTakeTheDefaultsOfWhatServesLearningAlone) {
   EXPECT_FALSE(evaluated.stagger_clocks);
   EXPECT_EQ(evaluated.training_noise_max, 0);
   EXPECT_EQ(evaluated.initial.training_altitude_min_ft, 0);
+  EXPECT_EQ(evaluated.initial.training_true_airspeed_min_fps, 0);
   EXPECT_EQ(evaluated.initial.training_bank_max_deg, 0);
   EXPECT_EQ(evaluated.initial.training_load_factor_max, 1);
   EXPECT_FALSE(evaluated.wind.enabled());

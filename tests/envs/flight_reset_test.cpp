@@ -115,6 +115,20 @@ TEST(FlightResetTest, TrainingBeginsLowerAndEvaluationsDoNot) {
   EXPECT_EQ(DrawOf(FlightReset(config, F16()), 3).columns, DrawOf(plain, 3).columns);
 }
 
+TEST(FlightResetTest, TrainingBeginsSlowerAndEvaluationsDoNot) {
+  EnvConfig config, slow;
+  config.initial.training_true_airspeed_min_fps = slow.initial.true_airspeed_fps.min = 500;
+  const FlightReset training(config, F16()), evaluation(EvaluationConfig(config), F16()),
+      plain(EnvConfig{}, F16()), slower(slow, F16());
+  for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
+    EXPECT_EQ(DrawOf(training, episode).columns, DrawOf(slower, episode).columns);
+    EXPECT_EQ(DrawOf(evaluation, episode).columns, DrawOf(plain, episode).columns);
+  }
+
+  config.initial.training_true_airspeed_min_fps = 1100;  // raises nothing
+  EXPECT_EQ(DrawOf(FlightReset(config, F16()), 3).columns, DrawOf(plain, 3).columns);
+}
+
 TEST(FlightResetTest, TrainingBeginsBankedAndEvaluationsDoNot) {
   EnvConfig config;
   config.initial.training_bank_max_deg = 90;
@@ -176,6 +190,10 @@ TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
   EXPECT_THROW(FlightReset(config, F16()), Error);
   config.termination.min_mach = 0.95;
   config.termination.training_min_mach = 0.97;
+  EXPECT_THROW(FlightReset(config, F16()), Error);
+  config.termination.training_min_mach = 0.9;
+  EXPECT_NO_THROW(FlightReset(config, F16()));
+  config.initial.training_true_airspeed_min_fps = 900;  // Mach 0.87
   EXPECT_THROW(FlightReset(config, F16()), Error);
 }
 

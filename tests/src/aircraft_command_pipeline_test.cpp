@@ -136,6 +136,20 @@ TEST_F(AircraftCommand, CheckSaysWhereStartsCannotBeFlown) {
   EXPECT_THAT(silent.output, HasSubstr("warning: it cannot fly task heading yet"));
 }
 
+TEST_F(AircraftCommand, CheckSaysWhatIsWrongInTheFileBeforeHowItFlies) {
+  constexpr double kFeetPerMetre = 1 / 0.3048;
+  json file = Cessna(150, 190);
+  file["flight_control"] = json::parse(AircraftText("cessna172"))["flight_control"];
+  file["airframe"]["span_m"] = file["airframe"]["span_m"].get<double>() * kFeetPerMetre;
+  Write(file);
+  const std::string output = Check(mine_).output;
+  const std::size_t cause = output.find("warning: airframe.chord_m");
+  const std::size_t effect = output.find("error: at 0 ft and ");
+  ASSERT_NE(cause, std::string::npos) << output;
+  ASSERT_NE(effect, std::string::npos) << output;
+  EXPECT_LT(cause, effect);
+}
+
 TEST_F(AircraftCommand, BadInputIsOneLine) {
   const auto refused = [](const std::vector<std::string>& arguments, int exit_code,
                           const std::string& why) {

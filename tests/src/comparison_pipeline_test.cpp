@@ -261,15 +261,17 @@ TEST_F(ComparisonPipeline, APageThatHasNoPlaceIsNoFailure) {
   EXPECT_THAT(result.output, HasSubstr("report          none: "));
 }
 
-TEST_F(ComparisonPipeline, ThePageThatNobodyAskedForReplacesNoResult) {
+TEST_F(ComparisonPipeline, ThePageThatNobodyAskedForReplacesNoFileThatIsRead) {
+  WriteFile(scratch_ / "compare.html", "[env]\n");
   const ProgramResult result = RunSkein({"compare", "--task", "heading", "--agents", "zero",
-                                         "--episodes", "4", "--json", "./compare.html"},
+                                         "--episodes", "4", "--config", "./compare.html"},
                                         [&] {
                                           if (chdir(scratch_.path().c_str()) != 0) _exit(1);
                                         });
   if (result.exit_code == 0) GTEST_SKIP() << "built without a page";
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.error, HasSubstr("compare.html: the page goes there"));
+  EXPECT_EQ(ReadFile(scratch_ / "compare.html"), "[env]\n");
 }
 
 TEST_F(ComparisonPipeline, SaysThatItReplacesAPageThatNobodyAskedFor) {

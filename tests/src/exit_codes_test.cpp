@@ -115,11 +115,15 @@ std::vector<std::pair<std::vector<std::string>, std::string>> ReplacersOf(
   const std::string policy = scratch / "policy.skein", task = scratch / "task.toml",
                     config = scratch / "config.toml", aircraft = scratch / "aircraft.json",
                     sticks = scratch / "sticks.csv", points = scratch / "points.json",
-                    link = scratch / "link", drawing = scratch / "link.svg";
+                    link = scratch / "link", drawing = scratch / "link.svg",
+                    own = scratch / "own.toml", own_task = scratch / "own_task.toml";
   fs::copy_file(SKEIN_SOURCE "/policies/heading.skein", policy);
   fs::copy_file(SKEIN_SOURCE "/examples/tasks/heading.toml", task);
   WriteFile(config, "[env]\nobservation_noise = 0.02\n");
   WriteFile(aircraft, AircraftText("f16"));
+  WriteFile(own, "[env]\naircraft = \"aircraft.json\"\n");
+  WriteFile(own_task, ReadFile(SKEIN_SOURCE "/examples/tasks/bank_and_altitude.toml") +
+                          "[env]\naircraft = \"aircraft.json\"\n");
   WriteFile(sticks, "time_s,pitch\n0,0.1\n");
   WriteFile(points, "{}");
   fs::create_symlink(policy, link);
@@ -141,6 +145,10 @@ std::vector<std::pair<std::vector<std::string>, std::string>> ReplacersOf(
        aircraft},
       {{"compare", "--task", "heading", "--no-html", "--agents", agent, "--csv", policy}, policy},
       {{"compare", "--agents", agent, "--config", config, "--html", config}, config},
+      {{"eval", "--policy", policy, "--config", own, "--json", aircraft}, aircraft},
+      {{"compare", "--agents", agent, "--config", own, "--no-html", "--csv", aircraft}, aircraft},
+      {{"compare", "--agents", "zero", "--task", own_task, "--json", aircraft}, aircraft},
+      {{"bench", "rollout", "--task", own_task, "--json", aircraft}, aircraft},
       {{"replay", "--policy", policy, "--format", "csv", "-o", policy}, policy},
       {{"replay", "--agents", agent, "--config", config, "--format", "acmi", "-o", config}, config},
       {{"fdm", "eval", "--in", points, "--out", points}, points},
@@ -170,6 +178,34 @@ TEST(ExitCodes, AnOutputThatIsReadIsWrongUsageInEveryCommandAndStays) {
     EXPECT_THAT(result.error, HasSubstr(": is read, too; choose another output"));
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
     EXPECT_EQ(ReadFile(file), before) << arguments[0];
+  }
+}
+
+TEST(ExitCodes, AnOutputThatEndsAsAnotherFormatIsWrongUsageInEveryCommand) {
+  const ScratchDirectory scratch;
+  const std::string csv = scratch / "out.csv", json = scratch / "out.json",
+                    svg = scratch / "out.svg";
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"info", "--json", csv},
+           {"eval", "--policy", "untrained", "--task", "heading", "--json", csv},
+           {"eval", "--policy", "untrained", "--task", "heading", "--flights", json},
+           {"eval", "--policy", "untrained", "--task", "heading", "--acmi", csv},
+           {"compare", "--task", "heading", "--agents", "zero", "--csv", json},
+           {"compare", "--task", "heading", "--agents", "zero", "--html", json},
+           {"replay", "--task", "heading", "--agents", "zero", "--format", "acmi", "-o", csv},
+           {"fdm", "trim", "--altitude-ft", "0", "--speed-fps", "500", "--json", svg},
+           {"fdm", "trim", "--altitude-ft", "0", "--speed-fps", "500,600", "--csv", svg},
+           {"fdm", "linearise", "--altitude-ft", "0", "--speed-fps", "500", "--json", svg},
+           {"fdm", "sweep", "--altitude-ft", "0", "--speed-fps", "500", "--json", svg},
+           {"fdm", "eval", "--in", SKEIN_SOURCE "/tests/data/golden.json", "--out", csv},
+           {"bench", "sim", "--json", csv}}) {
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments[0] << " " << arguments[1];
+    EXPECT_THAT(result.error, HasSubstr(arguments.back() + ": "));
+    EXPECT_THAT(result.error, HasSubstr(": let the name end in ."));
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+    EXPECT_EQ(result.output, "");
+    EXPECT_FALSE(fs::exists(arguments.back()));
   }
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "src/files/csv_columns.h"
 #include "src/files/output_file.h"
-#include "src/report/csv_columns.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/tolerance.h"
@@ -271,7 +271,7 @@ TEST_F(FdmFly, AFlightHasAtLeastOneStep) {
 TEST_F(FdmFly, AFileOfAnotherFormatIsRefused) {
   const Words start = {"fdm", "fly", "--altitude-ft", "20000", "--speed-fps", "1000"};
   for (const Words& pilot : {Words{}, Words{"--agents", "autopilot", "--task", "heading"}}) {
-    for (const std::string ending : {".svg", ".acmi", ".json", ".CSV"}) {
+    for (const std::string ending : {".svg", ".acmi", ".json", ".SVG"}) {
       const std::string path = folder_ + "/flight" + ending;
       const ProgramResult result = CallSkein(start + pilot + Words{"-o", path});
       EXPECT_EQ(result.exit_code, 2) << ending;
@@ -279,7 +279,7 @@ TEST_F(FdmFly, AFileOfAnotherFormatIsRefused) {
                                   ": flights are written as CSV: let the name end in .csv\n");
       EXPECT_FALSE(fs::exists(path));
     }
-    for (const std::string name : {"/flight", "/a.flight.csv"}) {
+    for (const std::string name : {"/flight", "/a.flight.csv", "/flight.CSV"}) {
       const Words out = {"--seconds", "0.1", "-o", folder_ + name};
       EXPECT_EQ(CallSkein(start + pilot + out).exit_code, 0) << name;
       EXPECT_TRUE(fs::exists(folder_ + name));

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "src/files/csv_columns.h"
 #include "src/files/output_file.h"
-#include "src/report/csv_columns.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/src/trimmed_flight.h"

@@ -167,8 +167,8 @@ TEST_F(ReportPipeline, SharesOfATrainingsTimeSumToOne) {
   }
   constexpr double kRounding = 1e-9;
   EXPECT_NEAR(sum, 1, kRounding);
-  const ProgramResult told =
-      CallSkein({"report", run, "--episodes", "0", "--flights", "0", "--json", scratch_ / "times"});
+  const ProgramResult told = CallSkein(
+      {"report", run, "--episodes", "0", "--flights-count", "0", "--json", scratch_ / "times"});
   EXPECT_THAT(told.output, HasSubstr("environment ")) << "also by a build without a page";
   const auto json = nlohmann::json::parse(ReadFile(scratch_ / "times"));
   EXPECT_EQ(json[0]["seconds"], times->seconds);

@@ -84,6 +84,14 @@ TEST(DerivativeAircraftFile, AnUnknownKeyIsNamedBeforeWhatIsMissing) {
   EXPECT_EQ(renamed("resistance_ohm", "resistence_ohm"),
             "aircraft glider.propulsion has the unknown key resistence_ohm; did you mean "
             "resistance_ohm?");
+  EXPECT_EQ(renamed("motor_throttle", "motor_trottle"),
+            "aircraft glider.propulsion has the unknown key motor_trottle; did you mean "
+            "motor_throttle?");
+  EXPECT_EQ(renamed("throttle_gearing", "throttle_gear"),
+            "aircraft glider.propulsion has the unknown key throttle_gear; did you mean "
+            "throttle_gearing?");
+  EXPECT_EQ(renamed("motor_throttle", "levels"),
+            "aircraft glider.propulsion has the unknown key levels, and lacks motor_throttle");
   EXPECT_EQ(renamed("rudder", "ruder"),
             "aircraft glider.actuators has the unknown key ruder; did you mean rudder?");
   EXPECT_EQ(renamed("mass_kg", "weight"),
@@ -228,6 +236,12 @@ TEST(DerivativeAircraftFile, PistonEnginesComeWithAnyPropeller) {
     }
   }
   const std::pair<std::string, std::string> refused[] = {
+      {R"("diameter_m": 2, "knd": "polar")",
+       "propulsion.propeller has the unknown key knd; did you mean kind?"},
+      {R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratios": [0, 1])",
+       "propulsion.propeller has the unknown key advance_ratios; did you mean advance_ratio?"},
+      {R"("kind": "fixed_pitch", "diameter_m": 2, "advance_ratio": [0, 1], "CP": [1, 1])",
+       "propulsion.propeller lacks CT"},
       {R"("kind": "folding", "diameter_m": 2)",
        "propulsion.propeller.kind must be one of fixed_pitch, constant_speed, polar"},
       {R"("diameter_m": 2)", "propulsion.propeller lacks kind"},

@@ -87,6 +87,17 @@ TEST(TableAircraft, ErrorsNameTheField) {
             }),
             "aircraft mine.engine.throttle_gearing has the unknown key dry_gian; did you mean "
             "dry_gain?");
+  const auto renamed = [](const char* section, const char* from, const char* to) {
+    return ErrorAfter([&](json* file) {
+      json& values = file->at(section);
+      values[to] = values.at(from);
+      values.erase(from);
+    });
+  };
+  EXPECT_EQ(renamed("engine", "power_lag", "power_lags"),
+            "aircraft mine.engine has the unknown key power_lags; did you mean power_lag?");
+  EXPECT_EQ(renamed("aerodynamics", "tables", "table"),
+            "aircraft mine.aerodynamics has the unknown key table; did you mean tables?");
   EXPECT_EQ(ErrorAfter([](json* file) {
               file->at("airframe").erase("wing_area_ft2");
               file->at("airframe")["wing_area_m2"] = 27.87;

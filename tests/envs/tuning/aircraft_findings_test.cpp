@@ -14,6 +14,7 @@ namespace skein {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr AtmosphereModel kAtmosphere = AtmosphereModel::kStandard1976;
 
@@ -57,6 +58,16 @@ TEST(AircraftFindings, EveryWrongSignOrRatioIsNamed) {
       {[](auto* a) { a->Ixz_kg_m2 = -0.6; }, Finding::kError, "Ixz_kg_m2 = -0.6 makes principal"},
       {[](auto* a) { a->chord_m *= 3; }, Finding::kWarning, "chord_m"},
       {[](auto* a) { a->mass_kg = 0.1; }, Finding::kWarning, "wing loading"},
+      {[](auto* a) { a->longitudinal.Cm_elevator /= kDegPerRad; }, Finding::kWarning,
+       "longitudinal.Cm_elevator = -0.0172788 per radian"},
+      {[](auto* a) { a->lateral.CY_beta /= kDegPerRad; }, Finding::kWarning, "lateral.CY_beta"},
+      {[](auto* a) { a->lateral.Cl_p /= kDegPerRad; }, Finding::kWarning, "lateral.Cl_p"},
+      {[](auto* a) { a->lateral.Cl_aileron /= kDegPerRad; }, Finding::kWarning,
+       "lateral.Cl_aileron = 0.00296706 per radian"},
+      {[](auto* a) { a->elevator.min_deg /= kDegPerRad, a->elevator.max_deg /= kDegPerRad; },
+       Finding::kWarning, "actuators.elevator goes from -0.436332 to 0.436332 deg"},
+      {[](auto* a) { a->rudder.rate_limit_deg_per_s /= kDegPerRad; }, Finding::kWarning,
+       "actuators.rudder.rate_limit_deg_per_s"},
   };
   for (const auto& one : cases) {
     DerivativeAircraft aircraft = AerosondeModel();
@@ -68,9 +79,12 @@ TEST(AircraftFindings, EveryWrongSignOrRatioIsNamed) {
 TEST(AircraftFindings, AnAircraftMayHaveNoRudder) {
   DerivativeAircraft wing = AerosondeModel();
   wing.lateral.Cn_rudder = 0;
+  wing.rudder.min_deg = -1;
+  wing.rudder.max_deg = 1;
   const std::vector<Finding> findings = CheckDerivatives(wing);
   EXPECT_EQ(TextOf(findings, Finding::kError), "");
   EXPECT_THAT(TextOf(findings, Finding::kWarning), HasSubstr("there is no rudder"));
+  EXPECT_THAT(TextOf(findings, Finding::kWarning), Not(HasSubstr("actuators.rudder")));
 }
 
 TEST(AircraftFindings, TablesInAnotherUnitStandOut) {

@@ -41,10 +41,12 @@ TEST(Conditions, AreConfigurationAssignments) {
   EXPECT_THAT(ConditionAssignments({"high_altitude=30..35kft"}),
               ElementsAre("env.initial.altitude_min_ft=30000", "env.initial.altitude_max_ft=35000",
                           "env.target_altitude_min_ft=0", "env.initial.training_altitude_min_ft=0",
+                          "env.initial.training_true_airspeed_min_fps=0",
                           "env.atmosphere=standard_1976"));
   EXPECT_THAT(ConditionAssignments({"high_altitude=32500ft"}),
               ElementsAre("env.initial.altitude_min_ft=32500", "env.initial.altitude_max_ft=32500",
                           "env.target_altitude_min_ft=0", "env.initial.training_altitude_min_ft=0",
+                          "env.initial.training_true_airspeed_min_fps=0",
                           "env.atmosphere=standard_1976"));
   EXPECT_THAT(ConditionAssignments({"noisy=0.03"}),
               ElementsAre("env.observation_noise=0.03", "env.observation_noise_max=0",
@@ -58,6 +60,20 @@ TEST(Conditions, WindIsThatOfTrainingToo) {
   const std::vector<std::string> assignments = ConditionAssignments({"windy=60fps"});
   EXPECT_THAT(assignments, Contains("env.wind.training_speed_max_fps=0"));
   EXPECT_THAT(assignments, Contains("env.wind.training_turbulence_max_fps=0"));
+}
+
+TEST(Conditions, HighSpeedIsThatOfTrainingToo) {
+  EXPECT_THAT(ConditionAssignments({"high_speed=1.0..1.5"}),
+              Contains("env.initial.training_true_airspeed_min_fps=0"));
+}
+
+TEST(Conditions, WhereTrainingAloneBeginsIsSaid) {
+  EnvConfig env;
+  env.initial.training_altitude_min_ft = 5000;
+  env.initial.training_true_airspeed_min_fps = 500;
+  EXPECT_THAT(DescribeConditions(env),
+              HasSubstr("; in training from 5000 ft; in training from 500 ft/s"));
+  EXPECT_EQ(DescribeConditions(EvaluationConfig(env)), DescribeConditions({}));
 }
 
 TEST(Conditions, AMachNumberIsASpeedInUnitsOfThatOfSoundAt20000Feet) {

@@ -121,6 +121,8 @@ TEST(Settings, UnknownKeysSuggestTheNearest) {
   EXPECT_EQ(MessageOf([] { Find("gamma"); }), "--set: unknown key gamma; did you mean ppo.gamma?");
   EXPECT_EQ(MessageOf([] { Find("zzzzzzzz"); }),
             "--set: unknown key zzzzzzzz; `skein train --help-keys` lists all keys");
+  // Most keys were never called otherwise.
+  EXPECT_THAT(MessageOf([] { Find(""); }), HasSubstr("--set: unknown key"));
 }
 
 TEST(Settings, TextsOfSeveralLinesAreRefusedInOne) {
@@ -234,9 +236,10 @@ TEST(Settings, WhatIsOffSetsNoCheckpointApart) {
   for (const char* key :
        {"env.wind.speed_max_fps", "env.wind.step_at_reset", "env.drag_rise",
         "env.thrust_growth_above_mach_1", "env.observation_noise_max", "env.training_noise_max",
-        "env.initial.training_altitude_min_ft", "env.initial.training_bank_max_deg",
-        "env.initial.training_load_factor_max", "env.wind.training_speed_max_fps",
-        "env.termination.training_min_mach", "env.termination.training_min_altitude_ft"}) {
+        "env.initial.training_altitude_min_ft", "env.initial.training_true_airspeed_min_fps",
+        "env.initial.training_bank_max_deg", "env.initial.training_load_factor_max",
+        "env.wind.training_speed_max_fps", "env.termination.training_min_mach",
+        "env.termination.training_min_altitude_ft"}) {
     EXPECT_EQ(described.count(key), 0u) << key;
   }
 }

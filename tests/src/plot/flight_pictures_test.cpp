@@ -373,6 +373,19 @@ TEST_F(FlightPictures, FlightsThatWentAsAskedHaveNoEnd) {
   EXPECT_EQ(end(Termination::kLowAltitude, 2), "low altitude; 2.0\u00a0s flown");
 }
 
+TEST_F(FlightPictures, AFileShowsAMissionByItsNewTargets) {
+  const auto end = [&](const std::string& last_target, const std::string& termination) {
+    WriteFile(scratch_ / "mission.csv",
+              "episode,time_s,altitude_ft,target_altitude_ft,termination\n"
+              "0,0,900,1000,\n0,1,990,1000,\n0,2,1000," +
+                  last_target + "," + termination + "\n");
+    return EndOf(ReadRecordings({scratch_ / "mission.csv"}).agents[0].flights[0]);
+  };
+  EXPECT_EQ(end("2000", "time_limit"), "2.0\u00a0s flown") << "a mission to its end";
+  EXPECT_EQ(end("2000", "low_altitude"), "low altitude; 2.0\u00a0s flown");
+  EXPECT_EQ(end("1000", "time_limit"), "time limit; 2.0\u00a0s flown");
+}
+
 TEST_F(FlightPictures, WhatCannotBeDrawnIsSaid) {
   const std::string flights = Write("a.csv", 2), other = Write("b.csv", 2, "height_ft");
   const auto choosing = [&](const RecordingChoice& choice) {

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "src/report/csv_columns.h"
+#include "src/files/csv_columns.h"
 #include "src/run/metrics.h"
 #include "tests/error_message.h"
 

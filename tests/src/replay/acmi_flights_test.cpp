@@ -237,6 +237,9 @@ TEST_F(AcmiFlightsTest, MissionsShowEveryTargetAndWhenItIsReached) {
                     [](const AcmiEvent& event) { return event.text == "zero reached its target"; }),
       5)
       << "the last one is the flight's end";
+  EXPECT_TRUE(std::any_of(
+      document.events.begin(), document.events.end(),
+      [](const AcmiEvent& event) { return event.text == "zero: mission flown after 1.2 s"; }));
 }
 
 TEST_F(AcmiFlightsTest, CommandsOfAHighLevelPolicyAreTheAircraftsLabel) {

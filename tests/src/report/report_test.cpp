@@ -4,7 +4,6 @@
 #include <zlib.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,7 +17,6 @@
 #include "base/worker_pool.h"
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
-#include "src/report/csv_columns.h"
 #include "src/report/data_pack.h"
 #include "src/report/live_report.h"
 #include "src/report/report_page.h"
@@ -32,30 +30,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-TEST(CsvColumnsTest, ReadsWholeRowsAndCountsTornOnes) {
-  const CsvColumns table = ParseCsv("a,b\n1,2.5\n3,\n4\n5,6");
-  EXPECT_THAT(table.names, ElementsAre("a", "b"));
-  EXPECT_EQ(table.rows(), 2u);
-  EXPECT_EQ(table.rows_left_out, 2);
-  EXPECT_THAT(*table.Find("a"), ElementsAre(1, 3));
-  EXPECT_EQ((*table.Find("b"))[0], 2.5);
-  EXPECT_TRUE(std::isnan((*table.Find("b"))[1]));
-  EXPECT_EQ(table.Find("c"), nullptr);
-}
-
-TEST(CsvColumnsTest, TakesNoNumberThatFloat32DoesNotHold) {
-  const CsvColumns table = ParseCsv("a,b,c\n3e38,1e39,-inf\n");
-  EXPECT_THAT(*table.Find("a"), ElementsAre(3e38));
-  EXPECT_TRUE(std::isnan((*table.Find("b"))[0]));
-  EXPECT_TRUE(std::isnan((*table.Find("c"))[0]));
-}
-
-TEST(CsvColumnsTest, HasNothingOfAnEmptyOrHeadlessFile) {
-  EXPECT_EQ(ParseCsv("").rows(), 0u);
-  EXPECT_EQ(ParseCsv("iteration,env_st").rows_left_out, 1);
-  EXPECT_TRUE(ParseCsv("iteration,env_st").names.empty());
-}
 
 TEST(DataPackTest, Base64IsThatOfTheStandard) {
   EXPECT_EQ(Base64(""), "");

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "src/files/csv_columns.h"
 #include "src/files/output_file.h"
-#include "src/report/csv_columns.h"
 #include "tests/scratch_directory.h"
 
 namespace skein {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/report/csv_columns.h"
+#include "src/files/csv_columns.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/export/scratch_folder.h"
+#include "src/files/scratch_folder.h"
 
 #include <stdlib.h>
 
