@@ -22,7 +22,7 @@
 namespace skein {
 namespace {
 
-/// The speed of sound at 20,000 ft: what a Mach number of the condition high_speed stands for.
+/// The speed of sound at 20,000 ft: what a Mach number of high_speed and low_speed stands for.
 constexpr double kSpeedOfMachOne = 1037;
 constexpr double kFpsPerKnot = 1852 / 0.3048 / 3600;
 constexpr double kFpsPerMetrePerSecond = 1 / 0.3048;
@@ -56,7 +56,8 @@ void Append(const char* quantity, const char* unit, const Range& range,
 
 using Assignments = std::vector<std::string>;
 
-Assignments HighSpeed(const LevelRequest& request, const std::string& level) {
+/// Of high_speed and low_speed.
+Assignments Airspeed(const LevelRequest& request, const std::string& level) {
   const Range speed = ParseRange(level, kMachUnits, request);
   Assignments assignments;
   Append("initial.true_airspeed", "_fps", speed, &assignments);
@@ -161,7 +162,9 @@ const std::vector<Condition>& Conditions() {
       {"high_speed",
        "an initial Mach number or range (1.2, 1.2..1.4) or mild, middle, hard; "
        "with ,held behind it no target speed is lower",
-       "1.0..1.2", "1.2..1.4", "1.4..1.8", true, HighSpeed},
+       "1.0..1.2", "1.2..1.4", "1.4..1.8", true, Airspeed},
+      {"low_speed", "an initial Mach number or range (0.7, 0.6..0.8) or mild, middle, hard",
+       "0.8..1.0", "0.65..0.8", "0.5..0.65", false, Airspeed},
       {"high_altitude",
        "an initial altitude or range (32kft, 30..35kft) or mild, middle, hard; "
        "with ,held behind it no target altitude is lower",
@@ -226,6 +229,10 @@ std::vector<std::string> ConditionAssignments(const std::vector<std::string>& co
     const Condition& condition = FindCondition(request.name);
     if (!names.insert(request.name).second) {
       throw Error(fmt::format("--condition {}: {} is given twice", text, request.name));
+    }
+    if (names.count("high_speed") + names.count("low_speed") > 1) {
+      throw Error(fmt::format(
+          "--condition {}: high_speed and low_speed both say how fast flights begin", text));
     }
     std::string level = request.level;
     const bool is_held = condition.can_be_held && CutHeld(&level);

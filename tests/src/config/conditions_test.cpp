@@ -38,16 +38,16 @@ EnvConfig Under(const std::vector<std::string>& conditions, const std::string& t
 
 TEST(Conditions, AreConfigurationAssignments) {
   EXPECT_THAT(ConditionAssignments({}), ElementsAre());
-  EXPECT_THAT(ConditionAssignments({"high_altitude=30..35kft"}),
-              ElementsAre("env.initial.altitude_min_ft=30000", "env.initial.altitude_max_ft=35000",
-                          "env.target_altitude_min_ft=0", "env.initial.training_altitude_min_ft=0",
-                          "env.initial.training_true_airspeed_min_fps=0",
-                          "env.atmosphere=standard_1976"));
-  EXPECT_THAT(ConditionAssignments({"high_altitude=32500ft"}),
-              ElementsAre("env.initial.altitude_min_ft=32500", "env.initial.altitude_max_ft=32500",
-                          "env.target_altitude_min_ft=0", "env.initial.training_altitude_min_ft=0",
-                          "env.initial.training_true_airspeed_min_fps=0",
-                          "env.atmosphere=standard_1976"));
+  EXPECT_THAT(
+      ConditionAssignments({"high_altitude=30..35kft"}),
+      ElementsAre("env.initial.altitude_min_ft=30000", "env.initial.altitude_max_ft=35000",
+                  "env.target_altitude_min_ft=0", "env.initial.training_altitude_min_ft=0",
+                  "env.initial.training_true_airspeed_min_fps=0", "env.atmosphere=standard_1976"));
+  EXPECT_THAT(
+      ConditionAssignments({"high_altitude=32500ft"}),
+      ElementsAre("env.initial.altitude_min_ft=32500", "env.initial.altitude_max_ft=32500",
+                  "env.target_altitude_min_ft=0", "env.initial.training_altitude_min_ft=0",
+                  "env.initial.training_true_airspeed_min_fps=0", "env.atmosphere=standard_1976"));
   EXPECT_THAT(ConditionAssignments({"noisy=0.03"}),
               ElementsAre("env.observation_noise=0.03", "env.observation_noise_max=0",
                           "env.training_noise_max=0"));
@@ -62,9 +62,24 @@ TEST(Conditions, WindIsThatOfTrainingToo) {
   EXPECT_THAT(assignments, Contains("env.wind.training_turbulence_max_fps=0"));
 }
 
-TEST(Conditions, HighSpeedIsThatOfTrainingToo) {
-  EXPECT_THAT(ConditionAssignments({"high_speed=1.0..1.5"}),
-              Contains("env.initial.training_true_airspeed_min_fps=0"));
+TEST(Conditions, AirspeedsAreThoseOfTrainingToo) {
+  for (const char* condition : {"high_speed=1.0..1.5", "low_speed=hard"}) {
+    EXPECT_THAT(ConditionAssignments({condition}),
+                Contains("env.initial.training_true_airspeed_min_fps=0"));
+  }
+}
+
+TEST(Conditions, LevelsOfLowSpeedGoOnWhereThoseOfHighSpeedEnd) {
+  const auto speeds = [](const char* condition) {
+    return Under({condition}).initial.true_airspeed_fps;
+  };
+  EXPECT_EQ(speeds("low_speed=mild").max, speeds("high_speed=mild").min);
+  EXPECT_EQ(speeds("low_speed=middle").max, speeds("low_speed=mild").min);
+  EXPECT_EQ(speeds("low_speed=hard").max, speeds("low_speed=middle").min);
+  EXPECT_DOUBLE_EQ(speeds("low_speed=hard").min, 518.5);
+  EXPECT_THAT(Complaint({"low_speed=mild", "high_speed=mild"}),
+              HasSubstr("high_speed and low_speed both say how fast flights begin"));
+  EXPECT_THAT(Complaint({"low_speed=mild,held"}), HasSubstr("cannot read"));
 }
 
 TEST(Conditions, WhereTrainingAloneBeginsIsSaid) {
@@ -220,6 +235,8 @@ TEST(Conditions, EveryLevelOfEachOnEveryTaskCanBeFlown) {
         together.push_back(condition);
       }
       EXPECT_NO_THROW(VecEnv(Under(together, task), 32, 1)) << task << " " << level;
+      const std::string slow = std::string("low_speed=") + level;
+      EXPECT_NO_THROW(VecEnv(Under({slow}, task), 32, 1)) << task << " " << slow;
     }
   }
 }
