@@ -30,7 +30,7 @@ class FlightReset {
   /// airspeeds.
   void SetShare(double share) {
     altitude_ft_ = Lowest(initial_.drawn_altitude_ft(), share);
-    true_airspeed_fps_ = Lowest(initial_.true_airspeed_fps, share);
+    true_airspeed_fps_ = Lowest(initial_.drawn_true_airspeed_fps(), share);
   }
 
   FreshFlight Draw(simd::RandomStream* random) const;

@@ -38,22 +38,26 @@ FlyingAgent FlyingPolicy(const std::string& name, Agent agent, const RecurrentPo
           policy.action_size(),
           policy.action_repeat(),
           policy,
-          draws,
-          "",
-          false};
+          draws};
+}
+
+/// What a run has recorded; none of no run (empty).
+std::optional<ProgramConfig> ConfigOfRun(const std::string& run) {
+  if (run.empty()) return std::nullopt;
+  return ReadRecord(run + "/config.toml");
 }
 
 FlyingAgent LoadAgent(const std::string& path, bool sampled) {
   const RecurrentPolicy policy = RecurrentPolicy::Load(PolicyFileOf(path));
   FlyingAgent flying = FlyingPolicy(
       path, sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), policy, sampled);
-  if (IsRunDirectory(path)) flying.run = path;
+  flying.run_config = ConfigOfRun(IsRunDirectory(path) ? path : "");
   return flying;
 }
 
 /// Says of a policy what its name says of where it flies.
 FlyingAgent Named(const std::string& name, FlyingAgent flying) {
-  flying.run = RunOfAgent(name);
+  flying.run_config = ConfigOfRun(RunOfAgent(name));
   flying.flies_any_aircraft = FliesAnyAircraft(name);
   return flying;
 }
@@ -67,8 +71,7 @@ FlyingAgent NamedAgent(const std::string& name, const ProgramConfig& config, std
   }
   const int action_repeat = agent.EnvironmentFor(config.train.env).action_repeat;
   const int observations = MakeTask(config.train.env)->observation_layout().size();
-  return {name, std::move(agent),   observations, kActionSize, action_repeat,
-          {},   DrawsActions(name), "",           false};
+  return {name, std::move(agent), observations, kActionSize, action_repeat, {}, DrawsActions(name)};
 }
 
 /// The trained policy that an agent's name means; none of other agents.
@@ -87,9 +90,7 @@ FlyingAgent CallableAgent(nb::object callable, const std::string& name, const Pr
   const int observations = MakeTask(config.train.env)->observation_layout().size();
   auto policy =
       MakePythonPolicy(std::move(callable), {observations, action_size, action_repeat, state_size});
-  return {
-      name, Agent::Of(std::move(policy)), observations, action_size, action_repeat, {}, false, "",
-      false};
+  return {name, Agent::Of(std::move(policy)), observations, action_size, action_repeat};
 }
 
 /// One policy step: actions, and the memory after it.
@@ -140,7 +141,7 @@ std::string PresetOf(const FlyingAgent& flying) {
 /// What a trained policy is to fly where nothing is asked for: of a run what that has recorded,
 /// else its task file, else a preset of its task. None of an agent that does not say its task.
 std::optional<ProgramConfig> OwnConfig(const FlyingAgent& flying) {
-  if (!flying.run.empty()) return ReadRecord(flying.run + "/config.toml");
+  if (flying.run_config) return flying.run_config;
   if (!flying.policy || flying.policy->task().empty()) return std::nullopt;
   const std::string& task = flying.policy->task();
   if (const auto terms = TermTaskOf(*flying.policy, flying.name); terms != nullptr) {

@@ -35,10 +35,13 @@ ProgramConfig Resolve(const std::string& task, const std::string& preset, const 
   });
 }
 
-ProgramConfig WithSettings(const ProgramConfig& config, const std::vector<std::string>& conditions,
+/// `config` with the TOML file `file` on top, if that is not empty, and what comes on top of that.
+ProgramConfig WithSettings(const ProgramConfig& config, const std::string& file,
+                           const std::vector<std::string>& conditions,
                            const std::vector<std::string>& assignments) {
   return AsUsage([&] {
     ProgramConfig changed = WithAircraft(config, [&](ProgramConfig* set) {
+      if (!file.empty()) ApplyTomlFile(file, set);
       ApplyConditionsAndAssignments(conditions, assignments, set, "settings");
       RequireTask(*set, config.train.env.task);
     });
@@ -189,7 +192,8 @@ void BindConfiguration(nb::module_& module) {
           },
           "The same without what only serves training: staggered clocks, training tolerances, "
           "stronger noise, starts in a bank or a pull.")
-      .def("with_settings", &WithSettings, nb::arg("conditions"), nb::arg("assignments"))
+      .def("with_settings", &WithSettings, nb::arg("file"), nb::arg("conditions"),
+           nb::arg("assignments"))
       .def("__repr__", [](const ProgramConfig& config) {
         return "<skein.Config of " + config.train.env.task + ": " +
                DescribeConditions(config.train.env) + ">";

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "src/config/program_config.h"
 #include "train/policy/agent.h"
 #include "train/policy/recurrent_policy.h"
 
@@ -17,11 +18,11 @@ struct FlyingAgent {
   std::string name;
   Agent agent;
   int observation_size = 0, action_size = 0;
-  int action_repeat = 1;                  ///< control steps for which its actions are to be held
-  std::optional<RecurrentPolicy> policy;  ///< if it is a trained one
-  bool draws = false;                     ///< its actions at random
-  std::string run;                        ///< directory of the run that it is of; empty without
-  bool flies_any_aircraft = false;        ///< whatever it was trained on
+  int action_repeat = 1;  ///< control steps for which its actions are to be held
+  std::optional<RecurrentPolicy> policy = {};    ///< if it is a trained one
+  bool draws = false;                            ///< its actions at random
+  std::optional<ProgramConfig> run_config = {};  ///< recorded by the run that it is of
+  bool flies_any_aircraft = false;               ///< whatever it was trained on
 };
 
 /// A callable of Python as an agent: it is given float32 observations [count][observation_size],

@@ -34,7 +34,7 @@ def configure(
 
     Args:
         task: "heading", "control" or "tracking", or the path of a task file, "my_task.toml"; or a Config, which then
-            stands for preset and file.
+            stands for the preset.
         preset: the task's named configuration (skein.presets).
         file: a TOML file.
         aircraft: what is flown: one of skein.AIRCRAFT or the path of an aircraft file, as env.aircraft.
@@ -54,9 +54,9 @@ def configure(
     if text("aircraft", aircraft):
         assignments.insert(0, f"env.aircraft={_quoted(os.fspath(aircraft))}")
     if isinstance(task, Config):
-        if preset != "default" or file:
-            raise ConfigurationError("preset and file are for the name of a task: a Config has both behind it")
-        return task.with_settings(conditions, assignments)
+        if preset != "default":
+            raise ConfigurationError("preset is for the name of a task: a Config has one behind it")
+        return task.with_settings(text("file", file), conditions, assignments)
     return _skein.resolve(text("task", task), text("preset", preset), text("file", file), conditions, assignments)
 
 

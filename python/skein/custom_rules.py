@@ -138,10 +138,28 @@ class CustomRules:
     ) -> int:
         """BatchEnv.step, then the functions; returns how many episodes ended."""
         if not self._is_judged:
-            raise Error("step: reward or terminated failed in the step before, which has no result; reset all")
-        self._is_judged = False
+            raise Error(
+                "step: reward or terminated failed in the step before, or that was interrupted, "
+                "so that it has no result; reset all"
+            )
         actions = np.ascontiguousarray(actions, np.float32)
-        ended = self._core.step(actions, observation, reward, termination, terminated, truncated)
+        try:
+            ended = self._core.step(actions, observation, reward, termination, terminated, truncated)
+            return ended + self._judge(actions, observation, reward, termination, terminated, ended)
+        except BaseException:  # also an interrupt
+            self._is_judged = False
+            raise
+
+    def _judge(
+        self,
+        actions: FloatArray,
+        observation: FloatArray,
+        reward: FloatArray,
+        termination: NDArray[np.uint8],
+        terminated: BoolArray,
+        ended: int,
+    ) -> int:
+        """What the functions say of a step in which the task `ended` episodes; returns how many they ended."""
         columns: dict[str, NDArray[Any]] = dict(zip(self._flight_names, self._core.last_states(), strict=True))
         columns |= zip(self._action_names, np.clip(actions, -1, 1).T, strict=True)
         shown = FlightColumns(columns | {"reward": reward.copy(), "termination": termination.copy()})
@@ -157,9 +175,8 @@ class CustomRules:
             self._ended.append((index, final, steps[index]))
         if ends is not None:
             ends &= termination == 0
-            ended += self._end(ends, observation, termination, terminated)
-        self._is_judged = True
-        return ended
+            return self._end(ends, observation, termination, terminated)
+        return 0
 
     def ends(self) -> Ends:
         """As of BatchEnv.ends, of episodes that the task or the function ended in the latest step."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import pathlib
 import re
+import threading
 from collections.abc import Mapping, Sequence
 from typing import Any, Union, cast
 
@@ -116,6 +117,8 @@ class _Flight:
         self._stepped = self._core if self._rules is None else self._rules
         self._begun = False
         self._is_closed = False
+        # Whole calls of several threads come one after another; functions that reward may call within their step.
+        self._turn = threading.RLock()
 
     @property
     def policy_step_s(self) -> float:
@@ -152,18 +155,21 @@ class _Flight:
         """Columns of the true state by name, each float32 (num_envs,), of a single environment (1,), in the unit of its
         name: u_fps, v_fps, w_fps and all others that skein.FlightColumns lists as those of state(); q0, qx, qy, qz are
         the attitude's quaternion. No noise is in them."""
-        return dict(zip(_skein.SHOWN_STATE_NAMES, self._core.state().T, strict=True))
+        with self._turn:
+            return dict(zip(_skein.SHOWN_STATE_NAMES, self._core.state().T, strict=True))
 
     def targets(self) -> FloatArray:
         """What is flown to, float32 (num_envs, 3), of a single environment (1, 3): altitude ft, yaw rad and true
         airspeed ft/s for Heading; pitch rad, yaw rad and true airspeed ft/s for Control; north, east and altitude, ft,
         for Tracking. Of a task file the targets that it has, in its order."""
-        return self._core.targets()
+        with self._turn:
+            return self._core.targets()
 
     def snapshot(self) -> NDArray[np.uint32]:
         """The whole mutable state, to go on from with `restore`, and the seed and a hash of the configuration: uint32
         (n,), whose order is its own."""
-        return self._core.snapshot()
+        with self._turn:
+            return self._core.snapshot()
 
     def _go_on_from(self, snapshot: NDArray[np.uint32]) -> FloatArray:
         """Goes on from a snapshot; returns what is observed there, (num_envs, 22)."""
@@ -234,13 +240,14 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
             seed: episodes are then those of any other environment with this seed; without it those that follow.
             options: {"reset_mask": bool (num_envs,)} resets a part of them.
         """
-        super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
-        unknown = set(options or ()) - {"reset_mask"}
-        if unknown:
-            raise ConfigurationError(f"reset: unknown option {sorted(unknown)[0]}; known: reset_mask")
-        mask = (options or {}).get("reset_mask")
-        self._new_episodes(seed, self.np_random, None if mask is None else flags("reset_mask", mask, self.num_envs))
-        return self._observe(), {}
+        with self._turn:
+            super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
+            unknown = set(options or ()) - {"reset_mask"}
+            if unknown:
+                raise ConfigurationError(f"reset: unknown option {sorted(unknown)[0]}; known: reset_mask")
+            mask = (options or {}).get("reset_mask")
+            self._new_episodes(seed, self.np_random, None if mask is None else flags("reset_mask", mask, self.num_envs))
+            return self._observe(), {}
 
     def step(self, actions: Any) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray, Info]:
         """One policy step of every aircraft (`policy_step_s`).
@@ -253,20 +260,21 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
             observations, float32 (num_envs, 22); rewards, float32 (num_envs,), the sum over the policy step's control
             steps; terminations and truncations, bool (num_envs,); and info (above).
         """
-        n = self.num_envs
-        self._require_open("step")
-        if not self._begun:
-            raise Error("step: reset begins the first episodes")
-        observation = np.empty((n, self._core.observation_size), np.float32)
-        reward = np.empty(n, np.float32)
-        termination = np.empty(n, np.uint8)
-        terminated, truncated = np.empty(n, bool), np.empty(n, bool)
-        shown = rows("actions", actions, (n, self._core.action_size))
-        ended = self._stepped.step(shown, observation, reward, termination, terminated, truncated)
-        info: Info = {"termination": termination}
-        if ended:
-            self._report_ends(termination, terminated | truncated, info)
-        return observation, reward, terminated, truncated, info
+        with self._turn:
+            n = self.num_envs
+            self._require_open("step")
+            if not self._begun:
+                raise Error("step: reset begins the first episodes")
+            observation = np.empty((n, self._core.observation_size), np.float32)
+            reward = np.empty(n, np.float32)
+            termination = np.empty(n, np.uint8)
+            terminated, truncated = np.empty(n, bool), np.empty(n, bool)
+            shown = rows("actions", actions, (n, self._core.action_size))
+            ended = self._stepped.step(shown, observation, reward, termination, terminated, truncated)
+            info: Info = {"termination": termination}
+            if ended:
+                self._report_ends(termination, terminated | truncated, info)
+            return observation, reward, terminated, truncated, info
 
     def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
         """Goes on from a snapshot of an environment with the same configuration, low-level policy and number, with its
@@ -276,9 +284,10 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
         Raises:
             Error: a snapshot of another configuration or number, or none. Nothing has changed then.
         """
-        observation = self._go_on_from(snapshot)
-        super().reset(seed=self._core.seed)
-        return observation
+        with self._turn:
+            observation = self._go_on_from(snapshot)
+            super().reset(seed=self._core.seed)
+            return observation
 
     def close_extras(self, **kwargs: Any) -> None:
         self._is_closed = True
@@ -341,13 +350,14 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[FloatArray, Info]:
         """Begins an episode: that of `seed`, or the next one. Returns an observation, float32 (22,), and an empty
         info."""
-        super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
-        if options:
-            raise ConfigurationError(f"reset: unknown option {next(iter(options))}; there are none")
-        if seed is not None or self._flying or not self._begun:  # else the next episode has begun with the step
-            self._new_episodes(seed, self.np_random, None)
-        self._flying = True
-        return self._observe()[0], {}
+        with self._turn:
+            super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
+            if options:
+                raise ConfigurationError(f"reset: unknown option {next(iter(options))}; there are none")
+            if seed is not None or self._flying or not self._begun:  # else the next episode has begun with the step
+                self._new_episodes(seed, self.np_random, None)
+            self._flying = True
+            return self._observe()[0], {}
 
     def step(self, action: Any) -> tuple[FloatArray, float, bool, bool, Info]:
         """One policy step (`policy_step_s`) with an action (4,), or (3,) of a high-level policy, in [-1, 1], clipped;
@@ -357,23 +367,24 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
             observation, float32 (22,); reward, the sum over the policy step's control steps; terminated, truncated,
             info.
         """
-        self._require_open("step")
-        if not self._flying:
-            raise Error("step: the episode is over; reset begins another")
-        observation = np.empty((1, self._core.observation_size), np.float32)
-        shown = rows("action", action, (self._core.action_size,))[None]
-        ended = self._stepped.step(shown, observation, self._reward, self._termination, *self._flags)
-        reward = float(self._reward[0])
-        if not ended:
-            return observation[0], reward, False, False, {}
-        self._flying = False
-        _, final, returns, steps = self._stepped.ends()
-        info = {
-            "termination": _TERMINATIONS[self._termination[0]],
-            "episode_return": float(returns[0]),
-            "episode_control_steps": int(steps[0]),
-        }
-        return final[0], reward, bool(self._flags[0][0]), bool(self._flags[1][0]), info
+        with self._turn:
+            self._require_open("step")
+            if not self._flying:
+                raise Error("step: the episode is over; reset begins another")
+            observation = np.empty((1, self._core.observation_size), np.float32)
+            shown = rows("action", action, (self._core.action_size,))[None]
+            ended = self._stepped.step(shown, observation, self._reward, self._termination, *self._flags)
+            reward = float(self._reward[0])
+            if not ended:
+                return observation[0], reward, False, False, {}
+            self._flying = False
+            _, final, returns, steps = self._stepped.ends()
+            info = {
+                "termination": _TERMINATIONS[self._termination[0]],
+                "episode_return": float(returns[0]),
+                "episode_control_steps": int(steps[0]),
+            }
+            return final[0], reward, bool(self._flags[0][0]), bool(self._flags[1][0]), info
 
     def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
         """Goes on from a snapshot of an environment with the same configuration, in the middle of its episode, with its
@@ -382,10 +393,11 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         Raises:
             Error: as of FlightVectorEnv.restore.
         """
-        observation: FloatArray = self._go_on_from(snapshot)[0]
-        super().reset(seed=self._core.seed)
-        self._flying = True
-        return observation
+        with self._turn:
+            observation: FloatArray = self._go_on_from(snapshot)[0]
+            super().reset(seed=self._core.seed)
+            self._flying = True
+            return observation
 
     def close(self) -> None:
         """Ends its use: a step or reset after it is an Error."""

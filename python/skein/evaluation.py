@@ -97,7 +97,7 @@ def evaluate(
             in [-1, 1], both ordered as in skein.FlightVectorEnv (all that it may be: skein.AgentLike in the reference).
         task, config: what is flown (skein.configure). If task is left out: of a run's policy the run's configuration;
             of a policy file its task, by the preset default, or if that is of another aircraft than the policy's by the
-            first that is made for that. preset or file stand in place of both.
+            first that is made for that. preset stands in place of both; file and settings come on top.
         episodes: number of them.
         seed: of the episodes; the i-th depends on configuration, seed and i alone.
         threads: 0: one per CPU. Results do not depend on it.
@@ -143,11 +143,11 @@ def compare(
 
 def _task_of(what: str, agent: AgentLike, task: Task, config: Mapping[str, Any]) -> Task:
     """`task`, or where that is left out a policy's own: its configuration, or by its name where `config` chooses
-    another preset or file."""
+    another preset."""
     if not task and isinstance(agent, (Agent, str)):
         policy = agent._core if isinstance(agent, Agent) else _skein.policy_called(text("name", agent))
         if policy is not None:
-            is_chosen = ("preset" in config or "file" in config) and policy.task in _skein.TASKS
+            is_chosen = "preset" in config and policy.task in _skein.TASKS
             task = policy.task if is_chosen else policy.own_config or ""
     if not task:
         raise ConfigurationError(f"{what}: task is needed: the agent does not say its own")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import copy
 import pickle
+import shutil
 
 import numpy as np
 import pytest
@@ -235,6 +236,35 @@ def test_a_policy_of_a_run_brings_what_the_run_flies(cessna_run):
     other = skein.evaluate(cessna_run.policy, episodes=8, conditions={"windy": "60fps"})
     by_config = skein.evaluate(cessna_run.policy, cessna_run.config, episodes=8, conditions={"windy": "60fps"})
     assert_same_columns(other, by_config)
+
+
+def test_a_policy_of_a_run_remembers_what_the_run_flies(cessna_run, tmp_path, monkeypatch):
+    expected = skein.evaluate(cessna_run.policy, episodes=8)
+    shutil.copytree(cessna_run.path, tmp_path / "run")
+    monkeypatch.chdir(tmp_path)
+    agents = skein.load_policy("run"), skein.Agent("policy:run", preset="cessna172")
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    for agent in agents:
+        assert_same_columns(skein.evaluate(agent, episodes=8), expected)
+    shutil.rmtree(tmp_path / "run")
+    for agent in agents:
+        assert_same_columns(skein.evaluate(agent, episodes=8), expected)
+
+
+def test_a_file_comes_on_top_of_what_a_run_flies(cessna_run, tmp_path):
+    file = tmp_path / "longer.toml"
+    file.write_text("[env]\ntime_limit_steps = 300\nhold_s = 2\n")
+    settings = {"time_limit_steps": 300, "hold_s": 1}
+    expected = skein.evaluate(cessna_run.policy, cessna_run.config, env=settings, episodes=8)
+    for agent in (cessna_run.policy, f"policy:{cessna_run.path}"):
+        flown = skein.evaluate(agent, file=file, env={"hold_s": 1}, episodes=8)
+        assert_same_columns(flown, expected)
+    assert (expected.columns["control_steps"] <= 300).all()
+    other_task = tmp_path / "control.toml"
+    other_task.write_text('env.task = "control"\n')
+    with pytest.raises(skein.ConfigurationError, match="control.*heading"):
+        skein.evaluate(cessna_run.policy, file=other_task, episodes=8)
 
 
 def test_a_policy_file_brings_a_preset_of_its_aircraft(cessna_run):

@@ -130,6 +130,17 @@ def test_settings_lie_on_top_of_conditions_and_presets():
     assert "paper" in skein.presets("heading")
 
 
+def test_a_file_lies_on_top_of_a_config_and_settings_on_top_of_it(tmp_path):
+    file = tmp_path / "noise.toml"
+    file.write_text("env.observation_noise = 0.03\nenv.hold_s = 2\n")
+    paper = skein.configure("heading", preset="paper", env={"observation_noise": 0.01})
+    on_top = skein.configure(paper, file=file, env={"hold_s": 1})
+    assert (on_top["env.observation_noise"], on_top["env.hold_s"]) == (0.03, 1)
+    assert on_top == skein.configure(paper, env={"observation_noise": 0.03, "hold_s": 1})
+    with pytest.raises(skein.ConfigurationError, match="preset is for the name of a task"):
+        skein.configure(paper, preset="easy")
+
+
 @pytest.mark.parametrize(
     ("settings", "says"),
     [

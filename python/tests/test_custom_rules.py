@@ -1,4 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
+import threading
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -184,3 +187,58 @@ def test_after_a_function_that_raised_an_episode_begins_anew(begin):
         *_, terminated, truncated, info = env.step(np.zeros(4))
         steps, over = steps + 1, terminated or truncated
     assert info["episode_return"] == steps
+
+
+def test_after_an_interrupt_the_next_step_says_so():
+    def reward(at):
+        raise KeyboardInterrupt
+
+    envs = skein.make_vec("heading", 2, reward=reward)
+    envs.reset(seed=0)
+    with pytest.raises(KeyboardInterrupt):
+        envs.step(np.zeros((2, 4)))
+    with pytest.raises(skein.Error, match="interrupted.*reset all"):
+        envs.step(np.zeros((2, 4)))
+
+
+PATIENCE_S = 0.2  # far longer than any of these calls takes
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda env, snapshot: env.step(env.action_space.sample()),
+        lambda env, snapshot: env.reset(seed=2),
+        lambda env, snapshot: env.restore(snapshot),
+        lambda env, snapshot: env.snapshot(),
+        lambda env, snapshot: env.state(),
+        lambda env, snapshot: env.targets(),
+    ],
+    ids=["step", "reset", "restore", "snapshot", "state", "targets"],
+)
+@pytest.mark.parametrize("make", [partial(skein.make_vec, num_envs=3), skein.make], ids=["make_vec", "make"])
+def test_a_thread_waits_for_the_whole_step_of_another(make, call):
+    failures, waited = [], []
+
+    def other_call():
+        try:
+            call(env, snapshot)
+        except skein.Error as error:
+            failures.append(error)
+
+    other = threading.Thread(target=other_call)
+
+    def reward(at):
+        assert np.array_equal(env.state()["p_rad_s"], at["p_rad_s"])  # the step's own thread does not wait
+        if not waited:
+            other.start()
+            other.join(PATIENCE_S)
+            waited.append(other.is_alive())
+        return at["reward"]
+
+    env = make("heading", reward=reward)
+    env.reset(seed=1)
+    snapshot = env.snapshot()
+    env.step(np.zeros(env.action_space.shape, np.float32))
+    other.join()
+    assert waited == [True] and not failures

@@ -28,7 +28,8 @@ void RequireNoAgentOptions(const CLI::App& command);
 /// Flies the environment's aircraft, from level flight at the condition, by each agent, writes the
 /// flights as CSV, and says where they led. What `command` was given of the condition, the wind and
 /// the steps is set in the environment; what it was not is as there. Throws UsageError of what an
-/// environment cannot begin in, and of an output that is not called as CSV (RequireCsvEnding).
+/// environment cannot begin in, and of an output that is called as another format than CSV
+/// (RequireEnding).
 void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents flown);
 
 }  // namespace skein

@@ -41,7 +41,8 @@ void Check(const std::string& aircraft, const std::string& task) {
   }
   fmt::print("{}\n", report.figures);
   // What is wrong in the file is mostly why it flies badly.
-  const int errors = PrintFindings(checked.findings) + PrintFindings(report.findings);
+  int errors = PrintFindings(checked.findings);
+  errors += PrintFindings(report.findings);
   if (errors > 0) throw Error(fmt::format("{} has {}", aircraft, Counted(errors, "error")));
   fmt::print(
       "{}: {}, no errors\n", checked.document.name,
@@ -50,6 +51,7 @@ void Check(const std::string& aircraft, const std::string& task) {
 
 void Tune(const std::string& in, const std::string& out) {
   CheckWritable(out);
+  RequireEnding(out, ".json", "aircraft are written as JSON");
   const CheckedAircraft checked = LoadForCheck(in);
   const AircraftDocument& document = checked.document;
   if (document.model != "derivatives") {

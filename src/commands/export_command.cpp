@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "base/ends_with.h"
+#include "base/name_in.h"
 #include "envs/aircraft/registry.h"
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
@@ -28,32 +28,29 @@ struct ExportOptions {
   CLI::Option* aircraft_option = nullptr;
 };
 
-/// The form that the name of a file tells by its ending; nothing if it tells none.
-std::optional<ExportForm> FormOfFile(const std::string& path) {
-  constexpr std::pair<const char*, ExportForm> kEndings[] = {
-      {".onnx", ExportForm::kOnnx},
-      {".safetensors", ExportForm::kSafetensors},
-      {".h", ExportForm::kC}};
-  for (const auto& [ending, form] : kEndings) {
-    if (EndsWith(path, ending)) return form;
-  }
-  return std::nullopt;
-}
+/// Of the files of each form.
+constexpr std::pair<ExportForm, const char*> kEndings[] = {
+    {ExportForm::kOnnx, ".onnx"},
+    {ExportForm::kTorchScript, ".pt"},
+    {ExportForm::kSafetensors, ".safetensors"},
+    {ExportForm::kC, ".h"}};
 
-/// The one that was asked for, or the one that the name of the file tells.
+/// The form that was asked for, or the one that the name of the file tells by its ending, but for
+/// .pt, which all files of PyTorch have. Throws ChoiceError if the ending is of another format.
 ExportForm ChooseForm(const ExportOptions& options) {
-  const std::optional<ExportForm> told = FormOfFile(options.out);
   if (options.format.empty()) {
-    if (told) return *told;
+    for (const auto& [form, ending] : kEndings) {
+      const bool tells = form != ExportForm::kTorchScript && EndsWith(options.out, ending);
+      if (tells) return form;
+    }
     throw UsageError(fmt::format(
         "--format is needed: onnx, torchscript, safetensors or c; -o {} does not tell it",
         options.out));
   }
   for (const auto& [form, name] : kExportForms) {
     if (options.format != name) continue;
-    if (told.value_or(form) == form) return form;
-    throw UsageError(fmt::format("--format {} of -o {}: the ending is of another format",
-                                 options.format, options.out));
+    RequireEnding(options.out, NameIn(kEndings, form), "--format " + options.format);
+    return form;
   }
   throw UsageError("unknown format " + options.format);
 }
@@ -67,10 +64,7 @@ std::vector<std::string> Export(ExportOptions options) {
     throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
   }
   if (!options.flight_control.empty()) {
-    if (FormOfFile(options.out).value_or(ExportForm::kC) != ExportForm::kC) {
-      throw UsageError(
-          fmt::format("--flight-control c of -o {}: the ending is of another format", options.out));
-    }
+    RequireEnding(options.out, ".h", "--flight-control c");
     CheckWritable({options.out}, {file});
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }

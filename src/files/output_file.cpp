@@ -49,7 +49,7 @@ std::string ReplacedFile(const std::string& path) {
   return is_link ? std::filesystem::weakly_canonical(path).string() : path;
 }
 
-/// Of the formats that are read or written here, and of pictures.
+/// Of all formats that a command reads or writes, and of pictures.
 constexpr const char* kEndings[] = {".acmi", ".c",           ".csv",   ".h",   ".html",
                                     ".json", ".onnx",        ".pdf",   ".png", ".pt",
                                     ".py",   ".safetensors", ".skein", ".svg", ".toml"};

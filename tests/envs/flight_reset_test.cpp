@@ -118,10 +118,16 @@ TEST(FlightResetTest, TrainingBeginsLowerAndEvaluationsDoNot) {
 TEST(FlightResetTest, TrainingBeginsSlowerAndEvaluationsDoNot) {
   EnvConfig config, slow;
   config.initial.training_true_airspeed_min_fps = slow.initial.true_airspeed_fps.min = 500;
-  const FlightReset training(config, F16()), evaluation(EvaluationConfig(config), F16()),
-      plain(EnvConfig{}, F16()), slower(slow, F16());
+  FlightReset training(config, F16()), slower(slow, F16());
+  const FlightReset evaluation(EvaluationConfig(config), F16()), plain(EnvConfig{}, F16());
+  for (const double share : {0.0, 0.5, 1.0}) {
+    training.SetShare(share);
+    slower.SetShare(share);
+    for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
+      EXPECT_EQ(DrawOf(training, episode).columns, DrawOf(slower, episode).columns);
+    }
+  }
   for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
-    EXPECT_EQ(DrawOf(training, episode).columns, DrawOf(slower, episode).columns);
     EXPECT_EQ(DrawOf(evaluation, episode).columns, DrawOf(plain, episode).columns);
   }
 

@@ -198,6 +198,10 @@ TEST(ExitCodes, AnOutputThatEndsAsAnotherFormatIsWrongUsageInEveryCommand) {
            {"fdm", "linearise", "--altitude-ft", "0", "--speed-fps", "500", "--json", svg},
            {"fdm", "sweep", "--altitude-ft", "0", "--speed-fps", "500", "--json", svg},
            {"fdm", "eval", "--in", SKEIN_SOURCE "/tests/data/golden.json", "--out", csv},
+           {"export", SKEIN_SOURCE "/policies/heading.skein", "--format", "c", "-o", json},
+           {"export", SKEIN_SOURCE "/policies/heading.skein", "--format", "torchscript", "-o", csv},
+           {"export", "--flight-control", "c", "-o", json},
+           {"aircraft", "tune", SKEIN_SOURCE "/data/aerosonde/aircraft.json", "-o", csv},
            {"bench", "sim", "--json", csv}}) {
     const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments[0] << " " << arguments[1];

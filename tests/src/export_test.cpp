@@ -352,7 +352,7 @@ TEST_F(ExportCommand, TheEndingOfItsNameTellsTheFormat) {
   }
   const ProgramResult other = Export(policy_, {"--format", "c", "-o", scratch_ / "other.onnx"});
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.error, HasSubstr("the ending is of another format"));
+  EXPECT_THAT(other.error, HasSubstr("let the name end in ."));
   const ProgramResult untold = Export(policy_, {"-o", scratch_ / "policy.pt"});
   EXPECT_EQ(untold.exit_code, 2);
   EXPECT_THAT(untold.error, HasSubstr("--format is needed: onnx, torchscript, safetensors or c"));

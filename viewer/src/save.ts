@@ -10,19 +10,22 @@ function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
+/** Hands a table, the text of a CSV, to the browser's downloads under this name. */
 export function saveTable(name: string, csv: string): void {
   download(name, new Blob([csv], { type: 'text/csv' }));
 }
 
+/** Hands a canvas as it is now to the downloads, as PNG; nothing if it has no width or height. */
 export function savePicture(name: string, canvas: HTMLCanvasElement): void {
   canvas.toBlob((blob) => {
     if (blob) download(name, blob);
   });
 }
 
-/** A cell of a number, of so many digits; blank where there is none. */
+/** A cell of a number: of so many digits, a whole one of all; blank where there is none. */
 export function cellOf(value: number | null | undefined, digits = 6): number | string {
-  return value != null && Number.isFinite(value) ? Number(value.toPrecision(digits)) : '';
+  if (value == null || !Number.isFinite(value)) return '';
+  return Number.isInteger(value) ? value : Number(value.toPrecision(digits));
 }
 
 /** Text that may hold commas or quotes, quoted (RFC 4180). */

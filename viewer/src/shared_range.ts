@@ -58,11 +58,13 @@ export class SharedRange {
     this.show(this.whole);
   }
 
-  /** The whole is another one: shown if the whole was, else the part that was shown stays. */
+  /** The whole is another one: shown if the whole was, or if nothing of the part that was shown is
+   * in it; else that part stays. */
   renew(whole: Limits): void {
     const { min, max } = this.shown;
     const wasWhole = min === this.whole.min && max === this.whole.max;
     this.whole = whole;
-    this.show(wasWhole ? whole : this.shown);
+    const isOutside = min >= whole.max || max <= whole.min;
+    this.show(wasWhole || isOutside ? whole : this.shown);
   }
 }

@@ -3,8 +3,8 @@
 import type { Comparison, ReportPack } from './report';
 import { cellOf, csvOf, quoted } from './save';
 
-/** What a column of 32 bits has, for counts of steps. */
-const DIGITS = 7;
+/** What tells every number of 32 bits from all others. */
+const DIGITS = 9;
 
 /** A row for every iteration of every run: run, seed, then the columns of any of them. */
 export function trainingCsv(pack: ReportPack): string {
@@ -27,7 +27,7 @@ export function metricsCsv(comparisons: Comparison[]): string {
       const estimate = agent.estimates[quantity.key];
       if (estimate?.value == null) return [];
       const cells = [estimate.value, estimate.low, estimate.high].map((value) =>
-        cellOf(value === null ? null : value * quantity.shown_per_unit));
+        cellOf(value === null ? null : value * quantity.shown_per_unit, DIGITS));
       return [[quoted(task), quoted(level ?? ''), quoted(conditions), quoted(agent.name),
         quantity.key, quoted(quantity.label), ...cells, estimate.count]];
     })));

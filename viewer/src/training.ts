@@ -48,6 +48,11 @@ export function stepsOf(pack: ReportPack): Limits {
     (metrics.env_steps ? [pack.array(metrics.env_steps)] : [])));
 }
 
+/** Whether there are runs of one configuration, to be shown as mean and range. */
+function hasSeeds({ document: { runs } }: ReportPack): boolean {
+  return new Set(runs.map((run) => run.repetition)).size < runs.length;
+}
+
 /** What charts are of: the same of two packs if the second only has other numbers. */
 function subjectsOf(parts: Part[]): string {
   return JSON.stringify(parts.map(({ title, series }) => [title, series.map(({ label }) => label)]));
@@ -59,23 +64,21 @@ class TrainingView implements Shown {
   private readonly grid = el('div', { class: 'charts' });
   private readonly range: SharedRange;
   private position = 20;
-  private isOverSeeds: boolean;
+  private isOverSeeds = true;
+  private readonly seeds: HTMLElement;
 
   constructor(place: HTMLElement, private pack: ReportPack) {
-    const { runs } = pack.document;
     this.range = new SharedRange(stepsOf(pack));
-    const hasSeeds = new Set(runs.map((run) => run.repetition)).size < runs.length;
-    this.isOverSeeds = hasSeeds;
     const smoothing = slider('smoothing', 0, 100, this.position, (position) => {
       this.position = position;
       this.draw();
     });
-    const seeds = tick('mean and range over seeds', hasSeeds, (isOn) => {
+    this.seeds = tick('mean and range over seeds', this.isOverSeeds, (isOn) => {
       this.isOverSeeds = isOn;
       this.draw();
     });
     place.append(
-      el('div', { class: 'controls' }, smoothing, hasSeeds ? seeds : null,
+      el('div', { class: 'controls' }, smoothing, this.seeds,
         button('save picture', 'the charts as they are, as PNG', () => this.savePicture()),
         button('save data', 'what was measured, a row for every iteration of every run, as CSV',
           () => this.saveData()),
@@ -90,10 +93,11 @@ class TrainingView implements Shown {
   private partsOf(): Part[] {
     const { runs } = this.pack.document;
     const weight = weightOf(this.position);
+    const isOverSeeds = this.isOverSeeds && hasSeeds(this.pack);
     const curves = CURVES.flatMap((curve) => {
       const lines = linesOf(curve, this.pack, weight);
       return lines.length === 0 ? [] : [{ title: curve.title, isShare: curve.isShare ?? false,
-        ...drawnOf(curve, lines, this.isOverSeeds) }];
+        ...drawnOf(curve, lines, isOverSeeds) }];
     });
     const kinds = endKindsOf(runs);
     const ends = runs.map((run) => endsPartOf(run, kinds, this.pack)).filter((part) => part !== null);
@@ -103,6 +107,7 @@ class TrainingView implements Shown {
   /** Numbers of what is drawn already go into its charts, which keep the pointer, the part that
    * they show, and which lines are hidden. */
   private draw(): void {
+    this.seeds.hidden = !hasSeeds(this.pack);
     const before = subjectsOf(this.parts);
     this.parts = this.partsOf();
     if (this.charts.length > 0 && subjectsOf(this.parts) === before) {
@@ -138,7 +143,7 @@ class TrainingView implements Shown {
   }
 }
 
-/** The view. */
+/** Puts the curves of the pack's trainings, and what they are saved and smoothed by, into `place`. */
 export function showTraining(place: HTMLElement, pack: ReportPack): Shown {
   return new TrainingView(place, pack);
 }

@@ -116,9 +116,9 @@ function comparisonOf(names: string[]): Comparison {
   };
 }
 
-/** Two seeds of one configuration, whose returns are higher by `more`, and `flights` episodes by two
+/** Seeds of one configuration, whose returns are higher by `more`, and `flights` episodes by two
  * agents, if any. */
-export function fixture(name: string, flights: number, more = 0): Buffer {
+export function fixture(name: string, flights: number, more = 0, seeds = [1, 2]): Buffer {
   const packer = new Packer();
   const steps = Array.from({ length: 60 }, (_, i) => (i + 1) * 5e5);
   const run = (seed: number) => ({
@@ -144,7 +144,7 @@ export function fixture(name: string, flights: number, more = 0): Buffer {
   });
   const agents = [name, 'autopilot:aggressive'];
   const document: ReportDocument = {
-    format: 2, skein: '0.0.0', made: '2026-01-01T00:00:00Z', runs: [run(1), run(2)],
+    format: 2, skein: '0.0.0', made: '2026-01-01T00:00:00Z', runs: seeds.map(run),
     comparisons: [comparisonOf([...agents, 'autopilot:traditional'])],
     flights: [{
       task: 'heading', conditions: 'still air', seed: 1, agents, is_point: false, hold_s: 10,

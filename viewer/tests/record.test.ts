@@ -2,7 +2,7 @@
 import { type LineSegments, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { Goal } from '../src/flights/goal';
-import { errorsOf, readingsOf, sticksOf } from '../src/flights/pane';
+import { actionsOf, errorsOf, readingsOf } from '../src/flights/pane';
 import { type FlightRecord, Pose, recordsOf } from '../src/flights/record';
 import { flightCsv } from '../src/flights/flight_csv';
 import { dataOf, isWrapped, reading, stripsOf, wrapsOf } from '../src/flights/strip_list';
@@ -174,12 +174,20 @@ it('targets are read with their tolerances, headings from 0 to 360', () => {
   expect(errorsOf(flown, targets, 3)[1]).toBe('heading, deg: 0.0 off 190.0 ± 5 ✓');
 });
 
-it('sticks are read where there are some', () => {
-  expect(sticksOf(record(STRAIGHT), 1)).toBe('');
+it('a target of heading just below north is read as 0', () => {
+  const targets = [{ column: 'yaw_deg', is_angle: true, tolerance: 5 }];
+  const flown = record({ ...STRAIGHT, target_yaw_deg: [-0.04, -0.04, -0.06, NaN],
+    error_yaw_deg: [1, 1, 1, 1] });
+  expect([0, 2, 3].map((time) => errorsOf(flown, targets, time)[0])).toEqual(
+    ['0.0', '359.9', '–'].map((aim) => `heading, deg: 1.0 off ${aim} ± 5 ✓`));
+});
+
+it('actions are read where there are some', () => {
+  expect(actionsOf(record(STRAIGHT), 1)).toBe('');
   const flown = record({ ...STRAIGHT, action_roll: [NaN, -0.001, 1, 1],
     action_throttle: [NaN, 1, 1, 1] });
-  expect(sticksOf(flown, 0)).toBe('stick  roll –   throttle –');
-  expect(sticksOf(flown, 1)).toBe('stick  roll 0.00   throttle 1.00');
+  expect(actionsOf(flown, 0)).toBe('actions  roll –   throttle –');
+  expect(actionsOf(flown, 1)).toBe('actions  roll 0.00   throttle 1.00');
 });
 
 it('a reading has the decimals of its column, so that it stands still', () => {

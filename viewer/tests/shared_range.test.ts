@@ -60,6 +60,19 @@ describe('a shared range', () => {
     range.showAll();
     expect(range.limits).toEqual({ min: 0, max: 14 });
   });
+  it('shows the whole where this shrinks below the part that is shown', () => {
+    const range = new SharedRange({ min: 0, max: 10 });
+    const plot = new Plot();
+    range.join(plot);
+    range.show({ min: 4, max: 8 });
+    range.renew({ min: 0, max: 6 });
+    expect(range.limits).toEqual({ min: 4, max: 6 });
+    range.renew({ min: 0, max: 3 });
+    expect(range.limits).toEqual({ min: 0, max: 3 });
+    expect(plot.told.at(-1)).toEqual({ min: 0, max: 3 });
+    range.renew({ min: 0, max: 5 });
+    expect(range.limits).toEqual({ min: 0, max: 5 });
+  });
   it('leaves plots alone that are gone', () => {
     const range = new SharedRange({ min: 0, max: 10 });
     const plot = new Plot();

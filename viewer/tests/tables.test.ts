@@ -18,6 +18,18 @@ it('a training has a row for every iteration of every run, blank where there is 
   ]);
 });
 
+it('a number of a training is told from its neighbours of 32 bits, and a count is whole', () => {
+  const measured = new Float32Array(new Uint32Array([0x3f9d70a4, 0x3f9d70a5]).buffer);
+  const steps = Float32Array.from([5e9, 2 ** 33]);
+  const pack = {
+    document: { runs: [{ name: 'a', seed: 1, metrics: { env_steps: steps, entropy: measured } }] },
+    array: (values: unknown) => values,
+  } as unknown as ReportPack;
+  const cells = trainingCsv(pack).trimEnd().split('\r\n').slice(1).map((line) => line.split(','));
+  expect(cells.map(([, , count]) => count)).toEqual(['5000000000', '8589934592']);
+  expect(cells.map(([, , , value]) => Math.fround(Number(value)))).toEqual(Array.from(measured));
+});
+
 it('metrics are in the unit of their label, with their interval', () => {
   const comparison = {
     task: 'heading', conditions: 'still air; noise 0.01',

@@ -32,6 +32,7 @@ function byMoment(k: number, { measure }: Extreme): Order {
 
 /** A press on a number goes to its moment, on an episode to its beginning. */
 export class FlightTable {
+  /** Closed at first; flights are searched for their peaks when it is opened. */
   readonly element = el('details', { class: 'finder' }, el('summary', {}, 'find a flight'));
   private readonly body = el('tbody');
   private readonly headings: HTMLTableCellElement[];

@@ -14,42 +14,48 @@ const READINGS: [name: string, column: string, unit: string, decimals: number][]
   ['β', 'beta_deg', '°', 1], ['roll', 'roll_deg', '°', 0], ['pitch', 'pitch_deg', '°', 0],
   ['p', 'p_deg_s', '°/s', 0],
 ];
-const STICKS: [name: string, column: string][] = [
+const ACTIONS: [name: string, column: string][] = [
   ['pitch', 'action_pitch'], ['roll', 'action_roll'], ['yaw', 'action_yaw'],
   ['throttle', 'action_throttle'],
 ];
 
+/** A yaw as the heading, from 0 to below 360, also once it is rounded to what is shown. */
+function headingOf(yaw: number, shown: (degrees: number) => string): string {
+  return shown(Number(shown(yaw + 360)) % 360);
+}
+
 export function readingsOf(record: FlightRecord, time: number): string {
   return READINGS.map(([name, column, unit, decimals]) => {
-    const isHeading = column === 'yaw_deg';
     const value = record.value(column, time);
     if (!Number.isFinite(value)) return `${name} –`;
-    let text = (isHeading ? (value + 360) % 360 : value).toFixed(decimals);
-    // Neither -0 nor a heading of 360.
-    if (Number(text) % (isHeading ? 360 : Infinity) === 0) text = (0).toFixed(decimals);
+    const shown = (number: number) => number.toFixed(decimals);
+    let text = column === 'yaw_deg' ? headingOf(value, shown) : shown(value);
+    // Not -0.
+    if (Number(text) === 0) text = shown(0);
     return `${name} ${text}${unit && unit !== '°' ? ` ${unit}` : unit}`;
   }).join('   ');
 }
 
-/** "stick  pitch 0.98   roll -0.10   throttle 1.00", from -1 to 1. */
-export function sticksOf(record: FlightRecord, time: number): string {
-  const there = STICKS.filter(([, column]) => record.has(column));
+/** "actions  pitch 0.98   roll -0.10   throttle 1.00", from -1 to 1. */
+export function actionsOf(record: FlightRecord, time: number): string {
+  const there = ACTIONS.filter(([, column]) => record.has(column));
   if (there.length === 0) return '';
-  return `stick  ${there.map(([name, column]) =>
+  return `actions  ${there.map(([name, column]) =>
     `${name} ${reading(column, record.value(column, time))}`).join('   ')}`;
 }
 
 /** "altitude, ft: 988 off 20000 ± 100" of each target, with a tick where it is within; a yaw as the
- * heading, 0 to 360. */
+ * heading, from 0 to below 360. */
 export function errorsOf(record: FlightRecord, targets: Target[], time: number): string[] {
   return targets.filter(({ column }) => record.has(`error_${column}`)).map(({ column, tolerance }) => {
     const error = record.value(`error_${column}`, time);
     const target = record.value(`target_${column}`, time);
     const isYaw = column === 'yaw_deg';
-    const aim = reading(column, isYaw ? (target + 360) % 360 : target);
+    const shown = (number: number) => reading(column, number);
+    const aim = isYaw ? headingOf(target, shown) : shown(target);
     const name = isYaw ? 'heading, deg' : titleOf(column);
     const within = Math.abs(error) <= tolerance ? ' ✓' : '';
-    return `${name}: ${reading(column, error)} off ${aim} ± ${Number(tolerance.toPrecision(3))}`
+    return `${name}: ${shown(error)} off ${aim} ± ${Number(tolerance.toPrecision(3))}`
       + within;
   });
 }
@@ -136,7 +142,7 @@ export class Pane {
     const state = readingsOf(record, time) + targetsOf(record, time)
       + (isOver ? `   ended: ${record.end}` : '');
     this.readings.textContent = [state, errorsOf(record, this.set.targets, time).join('   '),
-      sticksOf(record, time)].filter((line) => line !== '').join('\n');
+      actionsOf(record, time)].filter((line) => line !== '').join('\n');
   }
 
   /** The view as it is: to be read before anything else is drawn. */

@@ -118,16 +118,22 @@ describe.skipIf(MISSING !== '')('a report that is watched', () => {
     const over = chart.locator('.u-over');
     const { x, y, width, height } = await over.boundingBox() as
       { x: number; y: number; width: number; height: number };
-    await page.mouse.move(x + 0.25 * width, y + height / 2);
+    const point = (share: number) => page.mouse.move(x + share * width, y + height / 2);
+    const values = () => chart.locator('.u-value').allTextContents();
+    await point(0.5);
+    await expect.poll(async () => (await values())[0], PATIENCE).toMatch(/ M$/);
+    const [middle] = await values();
+    // A part whose middle is not that of the whole.
+    await point(0.25);
     await page.mouse.down();
-    await page.mouse.move(x + 0.75 * width, y + height / 2);
+    await point(0.5);
     await page.mouse.up();
     const lines = chart.locator('.u-legend .u-series');
     await lines.nth(1).locator('th').click();
-    await page.mouse.move(x + 0.5 * width, y + height / 2);
-    const values = () => chart.locator('.u-value').allTextContents();
+    await point(0.5);
     await expect.poll(async () => (await values())[0], PATIENCE).toMatch(/ M$/);
     const [steps, , second] = await values();
+    expect(steps).not.toBe(middle);
     server.give(fixture('first', 0, 7));
     // What is measured is new, where the pointer is still.
     await expect.poll(async () => (await values())[2], PATIENCE).not.toBe(second);
@@ -135,6 +141,23 @@ describe.skipIf(MISSING !== '')('a report that is watched', () => {
     expect(await lines.nth(1).getAttribute('class')).toContain('u-off');
     expect(await slider.inputValue()).toBe('60');
     expect(await seeds.isChecked()).toBe(false);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('offers the mean over seeds once there is more than one', async () => {
+    server.give(fixture('first', 0, 0, [1]));
+    const { page, errors } = await open(browser, `${server.address}#training`);
+    const seeds = page.locator('label', { hasText: 'over seeds' });
+    const legend = () => page.locator('.chart').first().locator('.u-legend').textContent();
+    expect(await seeds.isVisible()).toBe(false);
+    expect(await legend()).not.toContain('mean of');
+    server.give(fixture('first', 0));
+    await expect.poll(() => seeds.isVisible(), PATIENCE).toBe(true);
+    expect(await seeds.locator('input').isChecked()).toBe(true);
+    expect(await legend()).toContain('mean of first-1, first-2');
+    await seeds.locator('input').uncheck();
+    expect(await legend()).not.toContain('mean of');
     expect(errors).toEqual([]);
     await page.close();
   });
