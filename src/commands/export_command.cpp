@@ -63,9 +63,9 @@ std::vector<std::string> Export(ExportOptions options) {
       !IsKeptFile(options.aircraft)) {
     throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
   }
+  CheckWritable({options.out}, {options.policy, file});
   if (!options.flight_control.empty()) {
     RequireEnding(options.out, ".h", "--flight-control c");
-    CheckWritable({options.out}, {file});
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }
   if (options.policy.empty()) throw UsageError("a policy file or the directory of a run is needed");
