@@ -26,8 +26,9 @@ struct InitialConfig {
   /// In training flights begin in a pull of up to this, g, about the pitch axis; 1: in none.
   double training_load_factor_max = 1;
 
-  /// What initial altitudes and true airspeeds are drawn from.
+  /// What initial altitudes are drawn from.
   Range drawn_altitude_ft() const { return Lowered(altitude_ft, training_altitude_min_ft); }
+  /// What initial true airspeeds are drawn from.
   Range drawn_true_airspeed_fps() const {
     return Lowered(true_airspeed_fps, training_true_airspeed_min_fps);
   }
