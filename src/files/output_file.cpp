@@ -49,10 +49,11 @@ std::string ReplacedFile(const std::string& path) {
   return is_link ? std::filesystem::weakly_canonical(path).string() : path;
 }
 
-/// Of all formats that a command reads or writes, and of pictures.
-constexpr const char* kEndings[] = {".acmi", ".c",           ".csv",   ".h",   ".html",
-                                    ".json", ".onnx",        ".pdf",   ".png", ".pt",
-                                    ".py",   ".safetensors", ".skein", ".svg", ".toml"};
+/// Of all formats that a command reads or writes, and of pictures; but for .c, as whoever exports C
+/// may call it that.
+constexpr const char* kEndings[] = {".acmi",        ".csv",   ".h",   ".html", ".json",
+                                    ".onnx",        ".pdf",   ".png", ".pt",   ".py",
+                                    ".safetensors", ".skein", ".svg", ".toml"};
 
 }  // namespace
 
