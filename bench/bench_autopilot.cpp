@@ -10,6 +10,7 @@
 
 #include "bench/report.h"
 #include "envs/autopilot/autopilot.h"
+#include "envs/step_memory.h"
 #include "envs/vec_env.h"
 
 namespace skein::bench {
@@ -32,10 +33,7 @@ class FlownTile {
         observation_(Times(env_.observation_size())),
         memory_(Times(autopilot_->state_size())),
         actions_(kRounds * Times(env_.action_size())),
-        reward_(Times(1)),
-        episode_return_(Times(1)),
-        termination_(Times(1)),
-        episode_steps_(Times(1)) {
+        step_memory_(kTileSize) {
     for (int round = 0; round < kRounds; ++round) {
       Observe();
       Act(round);
@@ -49,14 +47,7 @@ class FlownTile {
   void Act(int round) {
     autopilot_->Act(kTileSize, observation_.data(), memory_.data(), ActionsOf(round));
   }
-  void Step(int round) {
-    StepOutput output;
-    output.reward = reward_.data();
-    output.termination = termination_.data();
-    output.episode_return = episode_return_.data();
-    output.episode_steps = episode_steps_.data();
-    env_.Step(0, ActionsOf(round), output);
-  }
+  void Step(int round) { env_.Step(0, ActionsOf(round), step_memory_.output()); }
 
  private:
   static EnvConfig ConfigOf(const char* task) {
@@ -77,9 +68,8 @@ class FlownTile {
   VecEnv env_;
   std::unique_ptr<Policy> autopilot_;
   std::vector<std::uint32_t> start_;
-  std::vector<float> observation_, memory_, actions_, reward_, episode_return_;
-  std::vector<std::uint8_t> termination_;
-  std::vector<std::int32_t> episode_steps_;
+  std::vector<float> observation_, memory_, actions_;
+  StepMemory step_memory_;
 };
 
 const char* const kTasks[] = {"heading", "control", "tracking"};

@@ -15,6 +15,7 @@ set(SKEIN_PUBLIC_HEADERS
     envs/plant/plant_config.h
     envs/policy.h
     envs/state/state.h
+    envs/step_memory.h
     envs/step_output.h
     envs/tasks/control_config.h
     envs/tasks/episode_progress.h

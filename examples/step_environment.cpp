@@ -3,6 +3,7 @@
 // minutes, as a learner or a controller of your own would.
 #include <skein/base/error.h>
 #include <skein/envs/autopilot/autopilot.h>
+#include <skein/envs/step_memory.h>
 #include <skein/envs/vec_env.h>
 
 #include <algorithm>
@@ -30,22 +31,15 @@ void FlyAutopilot() {
   std::vector<float> observation(kAircraft * env.observation_size());
   std::vector<float> action(kAircraft * env.action_size());
   std::vector<float> memory(kAircraft * autopilot->state_size());  // zeros: an episode begins
-  std::vector<float> reward(kAircraft), episode_return(kAircraft);
-  std::vector<std::uint8_t> termination(kAircraft);
-  std::vector<std::int32_t> episode_steps(kAircraft);
-  skein::StepOutput output;
-  output.reward = reward.data();
-  output.termination = termination.data();
-  output.episode_return = episode_return.data();
-  output.episode_steps = episode_steps.data();
+  skein::StepMemory step(kAircraft);  // what a step writes: rewards, ends of episodes
 
   int episodes = 0, reached = 0;
-  for (int step = 0; step < kControlSteps; step += config.action_repeat) {
+  for (int flown = 0; flown < kControlSteps; flown += config.action_repeat) {
     env.Observe(0, observation.data());
     autopilot->Act(kAircraft, observation.data(), memory.data(), action.data());
-    env.Step(0, action.data(), output);
+    env.Step(0, action.data(), step.output());
     for (int i = 0; i < kAircraft; ++i) {
-      const auto end = static_cast<skein::Termination>(termination[i]);
+      const auto end = static_cast<skein::Termination>(step.termination[i]);
       if (end == skein::Termination::kNone) continue;
       ++episodes;
       reached += end == skein::Termination::kTargetReached;

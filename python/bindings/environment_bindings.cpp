@@ -17,6 +17,7 @@
 #include "base/worker_pool.h"
 #include "envs/aircraft/registry.h"
 #include "envs/interface_names.h"
+#include "envs/step_memory.h"
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "python/bindings/bindings.h"
@@ -91,10 +92,7 @@ class BatchEnv {
         pool_(ThreadsFor(num_envs, threads)),
         env_(Make(num_envs, seed)),
         ended_(static_cast<std::size_t>(env_->num_tiles())),
-        episode_return_(static_cast<std::size_t>(num_envs)),
-        episode_steps_(static_cast<std::size_t>(num_envs)),
-        first_clock_(static_cast<std::size_t>(num_envs)),
-        final_observation_(static_cast<std::size_t>(num_envs * env_->observation_size())) {
+        memory_(num_envs, {env_->observation_size()}) {
     if (agent) agent->agent.CheckFits(*env_);
     pool_.StayAwake();  // what Python does between two steps is often short
   }
@@ -148,13 +146,9 @@ class BatchEnv {
     if (last_states_) last_states_->Begin();
     pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
       const std::size_t first = FirstOf(tile);
-      StepOutput output;
+      StepOutput output = memory_.output(env_->tile_begin(tile));
       output.reward = reward.data() + first;
       output.termination = termination.data() + first;
-      output.episode_return = episode_return_.data() + first;
-      output.episode_steps = episode_steps_.data() + first;
-      output.first_clock = first_clock_.data() + first;
-      output.final_observation = final_observation_.data() + first * observation_size();
       output.observes_every_end = true;
       output.observer = last_states_.get();
       env_->Step(tile, action.data() + first * action_size(), output);
@@ -180,10 +174,10 @@ class BatchEnv {
     observation.reserve(count * observation_size());
     for (const std::int64_t i : index) {
       const auto row = static_cast<std::size_t>(i);
-      const float* const last = final_observation_.data() + row * observation_size();
+      const float* const last = memory_.final_observation.data() + row * observation_size();
       observation.insert(observation.end(), last, last + observation_size());
-      episode_return[row] = episode_return_[row];
-      steps[row] = episode_steps_[row] - first_clock_[row];
+      episode_return[row] = memory_.episode_return[row];
+      steps[row] = memory_.episode_steps[row] - memory_.first_clock[row];
     }
     return nb::make_tuple(ToNumpy(std::move(index), {count}),
                           ToNumpy(std::move(observation), {count, observation_size()}),
@@ -314,10 +308,7 @@ class BatchEnv {
   std::unique_ptr<VecEnv> env_;
   std::unique_ptr<LastStates> last_states_;       ///< null: not kept
   std::vector<std::vector<std::int64_t>> ended_;  ///< in the latest step, by tile
-  std::vector<float> episode_return_;
-  std::vector<std::int32_t> episode_steps_;  ///< clocks of episodes that ended
-  std::vector<std::int32_t> first_clock_;    ///< what they stood at first
-  std::vector<float> final_observation_;
+  StepMemory memory_;  ///< of all environments; rewards and terminations are the caller's
 };
 
 /// By the name under which each surface is observed, how far it goes up or down, as a multiple of

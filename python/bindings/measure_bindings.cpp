@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "base/error.h"
 #include "base/worker_pool.h"
+#include "envs/step_memory.h"
 #include "envs/vec_env.h"
 #include "python/bindings/bindings.h"
 #include "src/config/program_config.h"
@@ -26,18 +26,13 @@ double VecEnvSeconds(const ProgramConfig& config, const Rows<const float>& actio
   const auto observed = static_cast<std::size_t>(env.observation_size());
   const auto acted = static_cast<std::size_t>(env.action_size());
   if (action.shape(1) != acted) throw Error("actions of another size than the environment takes");
-  std::vector<float> observation(count * observed), reward(count), episode_return(count),
-      final_observation(observation.size());
-  std::vector<std::uint8_t> termination(count);
-  std::vector<std::int32_t> episode_steps(count);
+  std::vector<float> observation(count * observed);
+  StepMemory memory(env.num_aircraft(), {env.observation_size()});
   const auto start = std::chrono::steady_clock::now();
   for (int step = 0; step < steps; ++step) {
     pool.ForEach(env.num_tiles(), [&](int tile, int) {
       const auto first = static_cast<std::size_t>(env.tile_begin(tile));
-      StepOutput output{reward.data() + first, termination.data() + first,
-                        episode_return.data() + first, episode_steps.data() + first,
-                        final_observation.data() + first * observed};
-      env.Step(tile, action.data() + first * acted, output);
+      env.Step(tile, action.data() + first * acted, memory.output(env.tile_begin(tile)));
       env.Observe(tile, observation.data() + first * observed);
     });
   }

@@ -16,6 +16,7 @@
 #include "envs/flight_metric_sums.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
+#include "envs/step_memory.h"
 #include "envs/vec_env.h"
 #include "tests/envs/test_tile.h"
 #include "tests/scoped_target.h"
@@ -242,25 +243,19 @@ Flown FlyTiles(const EnvConfig& config, int count, int tile_size, bool with_metr
   Flown flown{std::vector<Metrics>(count), std::vector<float>(count)};
   for (int tile = 0; tile < env.num_tiles(); ++tile) {
     const int size = env.tile_count(tile);
-    std::vector<float> action(size * 4, 0.3f), reward(size), episode_return(size);
-    std::vector<std::uint8_t> termination(size);
-    std::vector<std::int32_t> steps(size);
-    Metrics metrics(size * kNumFlightMetrics);
-    StepOutput output;
-    output.reward = reward.data();
-    output.termination = termination.data();
-    output.episode_return = episode_return.data();
-    output.episode_steps = steps.data();
-    if (with_metrics) output.flight_metrics = metrics.data();
+    const std::vector<float> action(size * 4, 0.3f);
+    StepMemory memory(size, {0, 0, with_metrics ? kNumFlightMetrics : 0});
     for (int policy_step = 0; policy_step * config.action_repeat < config.time_limit_steps;
          ++policy_step) {
-      env.Step(tile, action.data(), output);
+      env.Step(tile, action.data(), memory.output());
       for (int i = 0; i < size; ++i) {
-        Metrics& kept = flown.metrics[env.tile_begin(tile) + i];
-        if (termination[i] == 0 || !kept.empty()) continue;
-        kept.assign(metrics.begin() + i * kNumFlightMetrics,
-                    metrics.begin() + (i + 1) * kNumFlightMetrics);
-        flown.returns[env.tile_begin(tile) + i] = episode_return[i];
+        const int aircraft = env.tile_begin(tile) + i;
+        Metrics& kept = flown.metrics[aircraft];
+        if (memory.termination[i] == 0 || !kept.empty()) continue;
+        flown.returns[aircraft] = memory.episode_return[i];
+        if (!with_metrics) continue;
+        const auto row = memory.flight_metrics.begin() + i * kNumFlightMetrics;
+        kept.assign(row, row + kNumFlightMetrics);
       }
     }
   }
@@ -295,18 +290,13 @@ std::vector<Metrics> FlyPoisoned(int column, float value) {
   std::vector<std::uint32_t> snapshot = env.Snapshot();
   std::memcpy(&snapshot[column], &value, sizeof value);
   env.Restore(snapshot);
-  std::vector<float> action(8, 0.0f), reward(2), episode_return(2), metrics(2 * kNumFlightMetrics);
-  std::vector<std::uint8_t> termination(2);
-  std::vector<std::int32_t> steps(2);
-  StepOutput output;
-  output.reward = reward.data();
-  output.termination = termination.data();
-  output.episode_return = episode_return.data();
-  output.episode_steps = steps.data();
-  output.flight_metrics = metrics.data();
-  env.Step(0, action.data(), output);
-  EXPECT_EQ(termination[0], static_cast<std::uint8_t>(Termination::kNonFinite)) << column;
-  EXPECT_EQ(termination[1], static_cast<std::uint8_t>(Termination::kTimeLimit)) << column;
+  const std::vector<float> action(8, 0.0f);
+  StepMemory memory(2, {0, 0, kNumFlightMetrics});
+  env.Step(0, action.data(), memory.output());
+  const auto of = [&](int i) { return static_cast<Termination>(memory.termination[i]); };
+  EXPECT_EQ(of(0), Termination::kNonFinite) << column;
+  EXPECT_EQ(of(1), Termination::kTimeLimit) << column;
+  const std::vector<float>& metrics = memory.flight_metrics;
   return {{metrics.begin(), metrics.begin() + kNumFlightMetrics},
           {metrics.begin() + kNumFlightMetrics, metrics.end()}};
 }

@@ -5,32 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "envs/step_memory.h"
 #include "envs/vec_env.h"
 #include "train/policy/agent.h"
 #include "train/policy/tile_agent.h"
 
 namespace skein {
 namespace {
-
-/// Memory of one tile's StepOutput.
-struct StepMemory {
-  explicit StepMemory(const VecEnv& env)
-      : numbers(static_cast<std::size_t>(env.num_aircraft())),
-        returns(numbers.size()),
-        terminations(numbers.size()),
-        steps(numbers.size()),
-        final_observations(numbers.size() * static_cast<std::size_t>(env.observation_size())) {}
-
-  StepOutput output() {
-    return {numbers.data(), terminations.data(), returns.data(), steps.data(),
-            final_observations.data()};
-  }
-
-  std::vector<float> numbers, returns;
-  std::vector<std::uint8_t> terminations;
-  std::vector<std::int32_t> steps;
-  std::vector<float> final_observations;
-};
 
 void AppendRow(const std::vector<float>& rows, int row, int size, std::vector<float>* out) {
   const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(row) * size;
@@ -53,7 +34,7 @@ PolicyTrace RecordTrace(const RecurrentPolicy& policy, const EnvConfig& env, int
   const Agent agent = Agent::MeanOf(policy);
   agent.CheckFits(flown);
   TileAgent tile(agent, flown, 0, seed);
-  StepMemory memory(flown);
+  StepMemory memory(flights);
   PolicyTrace empty;
   empty.observation_size = policy.observation_size();
   empty.action_size = policy.action_size();
@@ -70,7 +51,7 @@ PolicyTrace RecordTrace(const RecurrentPolicy& policy, const EnvConfig& env, int
     flown.Step(0, actions.data(), memory.output());
     for (int i = 0; i < flights; ++i) {
       const auto index = static_cast<std::size_t>(i);
-      begins[index] = memory.terminations[index] == 0 ? 0.0f : 1.0f;
+      begins[index] = memory.termination[index] == 0 ? 0.0f : 1.0f;
       if (begins[index] > 0) tile.Forget(i);
     }
   }

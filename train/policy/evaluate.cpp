@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "envs/state/state.h"
+#include "envs/step_memory.h"
 #include "envs/task_registry.h"
 #include "train/measures/flight_measurer.h"
 
@@ -47,28 +48,20 @@ class TileEvaluation {
         tile_(tile),
         dwell_steps_(dwell_steps),
         agent_(MakeEvaluationAgent(agent, env, tile, options)),
-        reward_(env.tile_count(tile)),
-        episode_return_(reward_.size()),
-        final_observation_(reward_.size() * env.observation_size()),
-        metrics_(options.flight_metrics ? reward_.size() * kNumFlightMetrics : 0),
-        termination_(reward_.size()),
-        steps_(reward_.size()),
-        output_{reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
-                final_observation_.data()},
+        memory_(env.tile_count(tile), {0, 0, options.flight_metrics ? kNumFlightMetrics : 0}),
         measurer_(measurer) {
-    if (options.flight_metrics) output_.flight_metrics = metrics_.data();
-    if (measurer == nullptr) return;
-    measurer->Begin(env.tile_begin(tile), env.tile_count(tile));
-    output_.observer = measurer;
+    if (measurer != nullptr) measurer->Begin(env.tile_begin(tile), env.tile_count(tile));
   }
 
   /// `episodes` are those of the tile's aircraft, kNone until they have ended.
   void Fly(const WorkerPool& pool, Episode* episodes) {
     const int count = env_.tile_count(tile_);
+    StepOutput output = memory_.output();
+    output.observer = measurer_;
     for (int flying = count; flying > 0 && !pool.stopping();) {
-      env_.Step(tile_, agent_.Act().data(), output_);
+      env_.Step(tile_, agent_.Act().data(), output);
       for (int i = 0; i < count; ++i) {
-        if (termination_[i] == static_cast<std::uint8_t>(Termination::kNone)) continue;
+        if (memory_.termination[i] == static_cast<std::uint8_t>(Termination::kNone)) continue;
         agent_.Forget(i);
         if (episodes[i].termination != Termination::kNone) continue;
         Report(i, &episodes[i]);
@@ -80,12 +73,13 @@ class TileEvaluation {
  private:
   /// The episode that has ended.
   void Report(int i, Episode* episode) {
-    episode->termination = static_cast<Termination>(termination_[i]);
-    episode->episode_return = episode_return_[i];
-    episode->steps = steps_[i];
-    if (!metrics_.empty()) {
-      std::copy_n(metrics_.begin() + static_cast<std::ptrdiff_t>(i) * kNumFlightMetrics,
-                  kNumFlightMetrics, episode->metrics.begin());
+    episode->termination = static_cast<Termination>(memory_.termination[i]);
+    episode->episode_return = memory_.episode_return[i];
+    episode->steps = memory_.episode_steps[i];
+    if (!memory_.flight_metrics.empty()) {
+      std::copy_n(
+          memory_.flight_metrics.begin() + static_cast<std::ptrdiff_t>(i) * kNumFlightMetrics,
+          kNumFlightMetrics, episode->metrics.begin());
     }
     if (measurer_ != nullptr) {
       episode->measures = measurer_->Report(i);
@@ -105,10 +99,7 @@ class TileEvaluation {
   int tile_;
   std::int32_t dwell_steps_;
   TileAgent agent_;
-  std::vector<float> reward_, episode_return_, final_observation_, metrics_;
-  std::vector<std::uint8_t> termination_;
-  std::vector<std::int32_t> steps_;
-  StepOutput output_;
+  StepMemory memory_;
   FlightMeasurer* measurer_;
 };
 

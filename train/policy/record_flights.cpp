@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "envs/control_step.h"
 #include "envs/low_level_flight.h"
+#include "envs/step_memory.h"
 #include "envs/vec_env.h"
 #include "train/policy/tile_agent.h"
 
@@ -47,11 +48,7 @@ class TileRecorder : private ControlStepObserver {
         flights_(std::move(flights)),
         flying_(flights_.size(), true),
         targets_reached_(flights_.size(), 0),
-        reward_(env.tile_count(tile)),
-        episode_return_(reward_.size()),
-        final_observation_(reward_.size() * env.observation_size()),
-        termination_(reward_.size()),
-        steps_(reward_.size()) {
+        memory_(env.tile_count(tile)) {
     for (std::size_t i = 0; i < flights_.size(); ++i) {
       const int aircraft = begin_ + static_cast<int>(i);
       flights_[i]->initial_state = StateOf(env_, aircraft);
@@ -70,8 +67,7 @@ class TileRecorder : private ControlStepObserver {
         flights_[i]->observations.insert(flights_[i]->observations.end(), row, row + size);
     }
     action_ = action.data();
-    StepOutput output{reward_.data(), termination_.data(), episode_return_.data(), steps_.data(),
-                      final_observation_.data()};
+    StepOutput output = memory_.output();
     output.observer = this;
     env_.Step(tile_, action.data(), output);
   }
@@ -111,9 +107,7 @@ class TileRecorder : private ControlStepObserver {
   std::vector<bool> flying_;
   std::vector<int> targets_reached_;
   const float* action_ = nullptr;  // of the policy step under way
-  std::vector<float> reward_, episode_return_, final_observation_;
-  std::vector<std::uint8_t> termination_;
-  std::vector<std::int32_t> steps_;
+  StepMemory memory_;
 };
 
 }  // namespace

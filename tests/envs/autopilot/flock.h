@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "envs/autopilot/autopilot.h"
+#include "envs/step_memory.h"
 #include "envs/tasks/termination.h"
 #include "envs/vec_env.h"
 
@@ -22,21 +23,13 @@ class Flock {
         observation_(Times(env_.observation_size())),
         state_(Times(autopilot_->state_size())),
         action_(Times(env_.action_size())),
-        reward_(Times(1)),
-        episode_return_(Times(1)),
-        termination_(Times(1)),
-        episode_steps_(Times(1)) {}
+        memory_(count) {}
 
   /// One control step of all.
   void Step() {
     env_.Observe(0, observation_.data());
     autopilot_->Act(count_, observation_.data(), state_.data(), action_.data());
-    StepOutput output;
-    output.reward = reward_.data();
-    output.termination = termination_.data();
-    output.episode_return = episode_return_.data();
-    output.episode_steps = episode_steps_.data();
-    env_.Step(0, action_.data(), output);
+    env_.Step(0, action_.data(), memory_.output());
     for (int i = 0; i < count_; ++i) {
       if (HasEnded(i))
         std::fill_n(state_.begin() + i * autopilot_->state_size(), autopilot_->state_size(), 0.0f);
@@ -45,11 +38,11 @@ class Flock {
 
   const VecEnv& env() const { return env_; }
   int count() const { return count_; }
-  bool HasEnded(int i) const { return termination_[static_cast<std::size_t>(i)] != 0; }
+  bool HasEnded(int i) const { return memory_.termination[static_cast<std::size_t>(i)] != 0; }
   Termination termination(int i) const {
-    return static_cast<Termination>(termination_[static_cast<std::size_t>(i)]);
+    return static_cast<Termination>(memory_.termination[static_cast<std::size_t>(i)]);
   }
-  int episode_steps(int i) const { return episode_steps_[static_cast<std::size_t>(i)]; }
+  int episode_steps(int i) const { return memory_.episode_steps[static_cast<std::size_t>(i)]; }
   float action(int i, int k) const {
     return action_[static_cast<std::size_t>(i * env_.action_size() + k)];
   }
@@ -62,9 +55,8 @@ class Flock {
   VecEnv env_;
   std::unique_ptr<Policy> autopilot_;
   int count_;
-  std::vector<float> observation_, state_, action_, reward_, episode_return_;
-  std::vector<std::uint8_t> termination_;
-  std::vector<std::int32_t> episode_steps_;
+  std::vector<float> observation_, state_, action_;
+  StepMemory memory_;
 };
 
 /// The first episode of every aircraft of a flock.

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "envs/step_memory.h"
 #include "tests/tolerance.h"
 #include "tests/train/small_config.h"
 #include "train/network/fused_network.h"
@@ -337,22 +338,12 @@ std::vector<float> LastObservations(const Flight& flight) {
     for (int tile = 0; tile < env.num_tiles(); ++tile) {
       const int count = env.tile_count(tile);
       const std::int64_t row = rollout.row(step, env.tile_begin(tile));
-      std::vector<float> reward(count), episode_return(count), seen(count * own),
-          hidden(count * privileged);
-      std::vector<std::uint8_t> termination(count);
-      std::vector<std::int32_t> episode_steps(count);
-      StepOutput output;
-      output.reward = reward.data();
-      output.termination = termination.data();
-      output.episode_return = episode_return.data();
-      output.episode_steps = episode_steps.data();
-      output.final_observation = seen.data();
-      if (privileged > 0) output.final_privileged = hidden.data();
-      env.Step(tile, rollout.action.data() + row * rollout.action_size, output);
+      StepMemory memory(count, {own, privileged});
+      env.Step(tile, rollout.action.data() + row * rollout.action_size, memory.output());
       for (int i = 0; i < count; ++i) {
         float* const place = last.data() + (row + i) * size;
-        std::copy_n(seen.begin() + i * own, own, place);
-        std::copy_n(hidden.begin() + i * privileged, privileged, place + own);
+        std::copy_n(memory.final_observation.begin() + i * own, own, place);
+        std::copy_n(memory.final_privileged.begin() + i * privileged, privileged, place + own);
       }
     }
   }
