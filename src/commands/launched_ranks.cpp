@@ -8,11 +8,13 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <string>
 
 #include "base/error.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "train/files/file_descriptor.h"
+#include "train/ranks/collectives.h"
 #include "train/ranks/rank_module.h"
 
 namespace skein {
@@ -27,12 +29,6 @@ void CloseStandardOutput() {
   }
 }
 
-void RequirePowerOfTwo(int ranks) {
-  if ((ranks & (ranks - 1)) == 0) return;
-  throw UsageError(fmt::format("{} processes cannot work together: a power of two can, such as {}",
-                               ranks, 1 << static_cast<int>(std::log2(ranks))));
-}
-
 }  // namespace
 
 void AddRankTimeoutOption(CLI::App* command, double* timeout_s) {
@@ -45,24 +41,37 @@ void AddRankTimeoutOption(CLI::App* command, double* timeout_s) {
       ->capture_default_str();
 }
 
+void WorkAsRank(Ranks& ranks, const std::function<void(Ranks& ranks)>& work) {
+  const bool leads = ranks.rank() == 0;
+  if ((ranks.count() & (ranks.count() - 1)) != 0) {
+    if (!leads) return;
+    throw UsageError(
+        fmt::format("{} processes cannot work together: a power of two can, such as {}",
+                    ranks.count(), 1 << static_cast<int>(std::log2(ranks.count()))));
+  }
+  try {
+    work(ranks);
+  } catch (const JointError&) {
+    if (leads) throw;
+  } catch (const std::exception& failure) {
+    if (leads) throw;
+    // It befell this rank alone, and the others wait for it.
+    ranks.Abort(failure.what());
+  }
+}
+
 void OnLaunchedRanks(double timeout_s, const std::function<void(Ranks& ranks)>& work) {
   const std::unique_ptr<Ranks> joined = JoinLaunchedProcesses(timeout_s);
   if (joined == nullptr) {
+    const std::string warning = WarningOfLoneProcesses();
+    if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
     work(OneRank());
     return;
   }
-  try {
-    RequirePowerOfTwo(joined->count());
-    if (joined->rank() != 0) CloseStandardOutput();
-    work(*joined);
-  } catch (const Error&) {
-    // Every rank has been told: rank 0 says it.
-    if (joined->rank() == 0) throw;
-  } catch (const std::exception& failure) {
-    // No memory, no thread: it befell this rank alone, and the others wait for it.
-    if (joined->rank() == 0) throw;
-    joined->Abort(failure.what());
-  }
+  WorkAsRank(*joined, [&](Ranks& ranks) {
+    if (ranks.rank() != 0) CloseStandardOutput();
+    work(ranks);
+  });
 }
 
 }  // namespace skein

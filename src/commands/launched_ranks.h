@@ -14,9 +14,15 @@ inline constexpr double kRankTimeoutS = 600;
 /// Adds --rank-timeout SECONDS.
 void AddRankTimeoutOption(CLI::App* command, double* timeout_s);
 
+/// Does `work` on one of several ranks. What all have been told of (JointError) is thrown on rank 0
+/// alone; what else is thrown on another rank ends all, and is said with that rank's name. Throws
+/// UsageError, on rank 0, if there is no power of two of them.
+void WorkAsRank(Ranks& ranks, const std::function<void(Ranks& ranks)>& work);
+
 /// Does `work` alone, or, if a launcher (mpirun, srun) has started several processes, on each of
-/// them as a rank. Of several rank 0 alone has a standard output, and throws what `work` throws: it
-/// must throw on all of them together (DoTogether). Throws UsageError if they are no power of two.
+/// them as a rank (WorkAsRank), of which rank 0 alone has a standard output. Returns on each of
+/// them when all have done it; after that none waits for another, and rank 0 may work on. Warns of
+/// processes that should be ranks and cannot.
 void OnLaunchedRanks(double timeout_s, const std::function<void(Ranks& ranks)>& work);
 
 }  // namespace skein

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/field_list.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
 #include "src/commands/aircraft_option.h"
@@ -114,7 +115,8 @@ ProgramConfig ConfigureResumed(const TrainOptions& options, const RunDirectory& 
   return config;
 }
 
-void Resume(const TrainOptions& options, Ranks& ranks) {
+/// Returns the run's directory if it has come to its end and this process has led it, else nothing.
+std::string Resume(const TrainOptions& options, Ranks& ranks) {
   std::optional<RunDirectory> directory;
   ProgramConfig config;
   DoTogether(ranks, [&] {
@@ -126,16 +128,14 @@ void Resume(const TrainOptions& options, Ranks& ranks) {
   WorkerPool pool(options.threads);
   if (ranks.rank() != 0) {
     FollowResumedRun(config, *directory, pool, ranks);
-    return;
+    return "";
   }
   const std::string path = directory->path();
-  if (TrainingRun::Resume(config, std::move(*directory), pool, {}, ranks) == 0) {
-    ReportFinishedRun(path, pool);
-  }
+  return TrainingRun::Resume(config, std::move(*directory), pool, {}, ranks) == 0 ? path : "";
 }
 
-/// Begins a new run.
-void Begin(const TrainOptions& options, Ranks& ranks) {
+/// Begins a new run; returns what Resume does.
+std::string Begin(const TrainOptions& options, Ranks& ranks) {
   ProgramConfig config;
   RunOrigin origin;
   DoTogether(ranks, [&] {
@@ -155,14 +155,12 @@ void Begin(const TrainOptions& options, Ranks& ranks) {
   WorkerPool pool(options.threads);
   if (ranks.rank() != 0) {
     FollowRun(config, origin.from, pool, ranks);
-    return;
+    return "";
   }
   WarnOfTargets(config.train.env);
   std::string path;
   origin.directory = &path;
-  if (TrainingRun::Begin(config, options.out, pool, origin, ranks) == 0) {
-    ReportFinishedRun(path, pool);
-  }
+  return TrainingRun::Begin(config, options.out, pool, origin, ranks) == 0 ? path : "";
 }
 
 void Train(TrainOptions options) {
@@ -182,13 +180,13 @@ void Train(TrainOptions options) {
     fmt::print("{}", DescribeKeys(Configure(options, task)));
     return;
   }
+  std::string finished;
   OnLaunchedRanks(options.rank_timeout_s, [&](Ranks& ranks) {
-    if (options.resume_option->count() > 0) {
-      Resume(options, ranks);
-    } else {
-      Begin(options, ranks);
-    }
+    finished = options.resume_option->count() > 0 ? Resume(options, ranks) : Begin(options, ranks);
   });
+  if (finished.empty()) return;
+  WorkerPool pool(options.threads);
+  ReportFinishedRun(finished, pool);
 }
 
 constexpr const char* kFooter =
@@ -250,9 +248,9 @@ void AddTrainCommand(CLI::App* app) {
       ->add_option("--steps", options->steps,
                    "budget in control steps (50 Hz) over all aircraft, such as 10M or 1.35e9; same "
                    "as --set run.total_steps=...")
-      ->transform(WholeNumber(1, 0x1p53));
+      ->transform(WholeNumber(1, kMostWholeNumber));
   command->add_option("--seed", options->seed, "seed of the run; same as --set run.seed=...")
-      ->transform(WholeNumber(0, 0x1p53));
+      ->transform(WholeNumber(0, kMostWholeNumber));
   command
       ->add_option("--low-level", options->low_level,
                    "for presets planner and paper of task tracking: the low-level policy, trained "

@@ -55,31 +55,33 @@ RankCommand AgreeOnNext(Ranks& ranks, RunSignals& signals, RankCommand rank_zero
   return static_cast<RankCommand>(bits & kCommands);
 }
 
-RankLeader::~RankLeader() { End(); }
+RankLeader::~RankLeader() { Say(RankCommand::kEnd); }
 
 void RankLeader::Say(RankCommand command) {
   UnionOverRanks(ranks_, static_cast<std::uint64_t>(command));
 }
 
-void RankLeader::End() {
-  if (!ended_) Say(RankCommand::kEnd);
-  ended_ = true;
-}
-
-void FollowLeader(Trainer& trainer, WorkerPool& pool, Ranks& ranks) {
+void FollowLeader(Trainer& trainer, WorkerPool& pool, Ranks& ranks,
+                  const std::function<void()>& evaluate) {
+  const auto together = [](const auto& work) {
+    try {
+      work();
+    } catch (const Error&) {  // rank 0 has the same, and says so
+    }
+  };
   RunSignals signals(pool);
   for (;;) {
     switch (AgreeOnNext(ranks, signals, RankCommand::kNone)) {
       case RankCommand::kNone:
         break;
       case RankCommand::kIterate:
-        try {
-          trainer.Iterate();
-        } catch (const Error&) {  // rank 0 has the same, and says so
-        }
+        together([&] { trainer.Iterate(); });
         break;
       case RankCommand::kSave:
         trainer.Save("");
+        break;
+      case RankCommand::kEvaluate:
+        together(evaluate);
         break;
       case RankCommand::kEnd:
         return;

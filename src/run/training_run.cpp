@@ -24,14 +24,16 @@
 #include "src/run/recorded_run.h"
 #include "train/files/tensor_file.h"
 #include "train/policy/low_level_file.h"
+#include "train/policy/policy_parameters.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Far from the seeds that people choose for training, so that the final episodes are fresh.
-constexpr std::uint64_t kFreshSeedOffset = 1000000007;
+/// Far from the seeds that people choose for training, so that the final episodes are fresh.
+std::uint64_t FinalSeed(const TrainConfig& config) { return config.seed + 1000000007; }
 
 double UnixTime() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -85,6 +87,27 @@ std::string StartNetworks(const std::string& from, Trainer& trainer) {
   const bool with_critic = trainer.StartFrom(from);
   return fmt::format("started from {} ({})", from,
                      with_critic ? "actor and critic" : "actor; a fresh critic");
+}
+
+/// On all ranks together: the final evaluation of rank 0's `policy`, of which other ranks give any
+/// policy of the same training.
+EvaluationReport EvaluateAtEnd(RecurrentPolicy policy, const ProgramConfig& config,
+                               WorkerPool& pool, Ranks& ranks) {
+  if (ranks.count() > 1) {
+    // Other ranks may not see the run's directory.
+    RecurrentPolicy::Parameters parameters = *policy.parameters();
+    ShareRankZeros(ranks, parameters.values);
+    policy = RecurrentPolicy(std::make_shared<RecurrentPolicy::Parameters>(std::move(parameters)));
+  }
+  return EvaluateBothWays(policy.WithBackend(config.train.learner.backend), config.train.env,
+                          config.final_evaluation_episodes, FinalSeed(config.train), pool, ranks);
+}
+
+/// The part of a rank that does not lead, once it has its trainer.
+void Follow(ProgramConfig config, Trainer& trainer, WorkerPool& pool, Ranks& ranks) {
+  config.train = trainer.config();
+  DescribeRanks(config.train, pool, ranks);
+  FollowLeader(trainer, pool, ranks, [&] { EvaluateAtEnd(trainer.policy(), config, pool, ranks); });
 }
 
 }  // namespace
@@ -238,7 +261,6 @@ void TrainingRun::TrainAndEvaluate() {
   while (!trainer_.finished() && !pool_.stopping()) {
     const IterationReport report = Iterate();
     if (report.dropped) {
-      leader_.Say(RankCommand::kNone, signals_);  // to learn which rank's signal it was
       dropped = fmt::format("; dropped the iteration that was under way and its {} steps",
                             FormatCount(static_cast<double>(report.dropped_steps)));
       break;
@@ -257,7 +279,6 @@ void TrainingRun::TrainAndEvaluate() {
   if (saved_iteration_ != trainer_.iteration()) SaveCheckpoint();
   directory_.Prune(config_.checkpoint.keep);  // an earlier process may have failed just before it
   log_.Note(FormatProgress(meter.progress()));
-  leader_.End();
   if (!trainer_.finished()) {
     SayStopped(dropped);
     return;
@@ -269,6 +290,7 @@ void TrainingRun::TrainAndEvaluate() {
 }
 
 void TrainingRun::SayStopped(const std::string& dropped) {
+  leader_.Say(RankCommand::kNone, signals_);  // to learn which rank's signal it was
   const int signal = signals_.StopSignal();
   log_.Say(fmt::format("stopped by {} after {} of {} steps{}; resume with: {} train --resume {}",
                        signal != 0 ? fmt::format("SIG{}", sigabbrev_np(signal)) : "its caller",
@@ -350,13 +372,12 @@ void TrainingRun::Finish() {
   trainer_.policy().Save(directory_.final_policy());
   const bool has_best = std::filesystem::exists(directory_.best_policy());
   const std::string path = has_best ? directory_.best_policy() : directory_.final_policy();
-  const RecurrentPolicy policy =
-      RecurrentPolicy::Load(path).WithBackend(config_.train.learner.backend);
-  const std::uint64_t seed = config_.train.seed + kFreshSeedOffset;
+  const RecurrentPolicy policy = RecurrentPolicy::Load(path);
+  const std::uint64_t seed = FinalSeed(config_.train);
   const int episodes = config_.final_evaluation_episodes;
   log_.Say(fmt::format("evaluating {} over {}", path, Counted(episodes, "fresh episode")));
-  const EvaluationReport report =
-      EvaluateBothWays(policy, config_.train.env, episodes, seed, pool_);
+  leader_.Say(RankCommand::kEvaluate, signals_);
+  const EvaluationReport report = EvaluateAtEnd(policy, config_, pool_, leader_.ranks());
   if (pool_.stopping()) {
     SayStopped("; dropped the evaluation that was under way");
     return;
@@ -395,8 +416,7 @@ void FollowRun(const ProgramConfig& config, const std::string& from, WorkerPool&
                Ranks& ranks) {
   const std::unique_ptr<Trainer> trainer =
       MakeTrainer(config.train, pool, ranks, [&](Trainer& made) { StartNetworks(from, made); });
-  DescribeRanks(config.train, pool, ranks);
-  FollowLeader(*trainer, pool, ranks);
+  Follow(config, *trainer, pool, ranks);
 }
 
 void FollowResumedRun(const ProgramConfig& config, const RunDirectory& directory, WorkerPool& pool,
@@ -404,8 +424,7 @@ void FollowResumedRun(const ProgramConfig& config, const RunDirectory& directory
   const std::unique_ptr<Trainer> trainer =
       MakeTrainer(config.train, pool, ranks,
                   [&](Trainer& made) { RestoreNewest(directory.Checkpoints(), made); });
-  DescribeRanks(config.train, pool, ranks);
-  FollowLeader(*trainer, pool, ranks);
+  Follow(config, *trainer, pool, ranks);
 }
 
 }  // namespace skein

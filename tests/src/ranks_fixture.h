@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,20 @@ inline std::vector<pid_t> ProcessesOf(const std::string& word) {
     }
   }
   return found;
+}
+
+/// The same of an MPI job, by rank.
+inline std::vector<pid_t> RanksOf(const std::string& word) {
+  std::map<int, pid_t> by_rank;
+  for (const pid_t process : ProcessesOf(word)) {
+    const std::string variable = "OMPI_COMM_WORLD_RANK=";
+    const std::string all = ReadFile("/proc/" + std::to_string(process) + "/environ");
+    const std::size_t at = all.find(variable);
+    if (at != std::string::npos) by_rank[std::stoi(all.substr(at + variable.size()))] = process;
+  }
+  std::vector<pid_t> ranks;
+  for (const auto& [rank, process] : by_rank) ranks.push_back(process);
+  return ranks;
 }
 
 /// The sanitizer's options of ranks whose caller has these (null: none), as an assignment. OpenMPI

@@ -2,15 +2,19 @@
 // Runs trainings of several processes as a user does, with mpirun; skipped where there is none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <thread>
 
 #include "src/files/output_file.h"
+#include "src/run/run_directory.h"
 #include "tests/src/ranks_fixture.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
@@ -20,8 +24,23 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::vector<std::string> kShards = {"--set", "learner.shards=8", "--threads", "1"};
+
+/// What a process has used so far; 0 once it has ended.
+double ProcessorSeconds(pid_t process) {
+  try {
+    std::istringstream text(ReadFile("/proc/" + std::to_string(process) + "/stat"));
+    std::string word;
+    double user = 0, system = 0;
+    for (int field = 1; field <= 13; ++field) text >> word;
+    text >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  } catch (const Error&) {
+    return 0;
+  }
+}
 
 class RanksPipeline : public RanksFixture {
  protected:
@@ -33,16 +52,29 @@ class RanksPipeline : public RanksFixture {
     }
   }
 
+  /// evaluation.json but for the path of the policy.
+  static std::string EvaluationOf(const std::string& run) {
+    std::string text = ReadFile(run + "/evaluation.json");
+    const std::size_t path = text.find(run);
+    return path == std::string::npos ? text : text.replace(path, run.size(), "RUN");
+  }
+
+  static bool LogSays(const std::string& run, const std::string& words) {
+    return fs::exists(run + "/log.txt") &&
+           ReadFile(run + "/log.txt").find(words) != std::string::npos;
+  }
+
   std::string reference_ = scratch_ / "reference", run_ = scratch_ / "run";
 };
 
 TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcess) {
   ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
-  for (const int count : {2, 4}) {
+  for (const int count : {2, 4, 8}) {
     const std::string run = run_ + std::to_string(count);
     const ProgramResult result = RunWords(Mpirun(count, TinyTraining(run, kShards)));
     ASSERT_EQ(result.exit_code, 0) << result.error;
     ExpectSameRun(reference_, run);
+    EXPECT_EQ(EvaluationOf(run), EvaluationOf(reference_)) << "the final one, too, is shared out";
     EXPECT_THAT(result.output, HasSubstr(std::to_string(count) + " ranks"));
     EXPECT_EQ(result.output.find("training heading"), result.output.rfind("training heading"))
         << "rank 0 alone speaks";
@@ -82,6 +114,48 @@ TEST_F(RanksPipeline, ASignalToOneRankStopsAllAndTheRunGoesOnWithAnyNumber) {
   ExpectSameRun(reference_, run_);
 }
 
+TEST_F(RanksPipeline, ASignalToOneRankInTheFinalEvaluationKeepsWhatWasTrained) {
+  std::vector<std::string> arguments = TinyTraining(run_, kShards);
+  arguments.insert(arguments.end(), {"--set", "evaluation.final_episodes=30000"});
+  RunningProgram training(ProgramWords{Mpirun(2, arguments)});
+  ASSERT_TRUE(training.WaitUntil([&] { return LogSays(run_, "fresh episodes"); }));
+  const std::vector<pid_t> ranks = RanksOf(run_);
+  ASSERT_EQ(ranks.size(), 2u);
+  kill(ranks[1], SIGTERM);
+  const ProgramResult stopped = training.Wait();
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.error;
+  EXPECT_THAT(stopped.output, HasSubstr("stopped by SIGTERM"));
+  EXPECT_THAT(stopped.output, HasSubstr("dropped the evaluation"));
+  EXPECT_FALSE(fs::exists(run_ + "/evaluation.json"));
+  const ProgramResult resumed = RunWords(Mpirun(2, {"train", "--resume", run_, "--threads", "1"}));
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
+  EXPECT_TRUE(fs::exists(run_ + "/evaluation.json"));
+}
+
+TEST_F(RanksPipeline, ASignalToTheLauncherSavesOnce) {
+  std::vector<std::string> arguments = TinyTraining(run_, kShards);
+  arguments.insert(arguments.end(),
+                   {"--steps", "1e12", "--set", "checkpoint.interval_iterations=0"});
+  std::vector<std::string> words = Mpirun(2, arguments);
+  // How many seconds mpirun waits before it asks ranks to end, and again before it kills them.
+  words.insert(words.begin() + 1, {"--mca", "odls_base_sigkill_timeout", "5"});
+  RunningProgram training(ProgramWords{words});
+  ASSERT_TRUE(training.WaitUntil([&] {
+    return fs::exists(run_ + "/metrics.csv") &&
+           ReadFile(run_ + "/metrics.csv").find("\n2,") != std::string::npos;
+  }));
+  training.Signal(SIGTERM);
+  training.Wait();
+  EXPECT_TRUE(ProcessesOf(run_).empty());
+  EXPECT_TRUE(LogSays(run_, "stopped by SIGTERM"));
+  const std::vector<Checkpoint> saved = CheckpointsIn(run_ + "/checkpoints");
+  ASSERT_EQ(saved.size(), 1u);
+  const std::string metrics = ReadFile(run_ + "/metrics.csv");
+  EXPECT_EQ(static_cast<std::uint64_t>(std::count(metrics.begin(), metrics.end(), '\n')),
+            1 + saved[0].iteration)
+      << "everything flown is saved";
+}
+
 TEST_F(RanksPipeline, ARankThatIsAskedToSaveHasItSavedOnce) {
   std::vector<std::string> arguments = TinyTraining(run_, kShards);
   arguments.insert(arguments.end(), {"--set", "checkpoint.interval_iterations=0"});
@@ -115,15 +189,21 @@ TEST_F(RanksPipeline, AKilledRankEndsTheJobAndOneProcessGoesOn) {
 
 TEST_F(RanksPipeline, AHungRankIsNamedAndEndsTheJob) {
   std::vector<std::string> arguments = TinyTraining(run_, kShards);
-  arguments.insert(arguments.end(), {"--rank-timeout", "6"});
+  arguments.insert(arguments.end(), {"--rank-timeout", "6", "--steps", "1e12"});
   RunningProgram training(ProgramWords{Mpirun(4, arguments)});
   ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
-  const std::vector<pid_t> ranks = ProcessesOf(run_);
+  const std::vector<pid_t> ranks = RanksOf(run_);
   ASSERT_EQ(ranks.size(), 4u);
+  // Rank 1 is late, and waits for the one that hangs for the rest of the time.
   kill(ranks[2], SIGSTOP);
+  kill(ranks[1], SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  kill(ranks[1], SIGCONT);
   const ProgramResult result = training.Wait();
   EXPECT_NE(result.exit_code, 0);
-  EXPECT_THAT(result.error, HasSubstr("has not answered for 6 s"));
+  EXPECT_THAT(result.error, HasSubstr("): rank 2 ("));
+  EXPECT_THAT(result.error, HasSubstr(") has not answered for 6 s"));
+  EXPECT_THAT(result.error, Not(HasSubstr(" or rank "))) << "no other is named";
   EXPECT_TRUE(ProcessesOf(run_).empty());
 }
 
@@ -177,10 +257,72 @@ TEST_F(RanksPipeline, NumbersThatAreNotPossibleAreRefused) {
   EXPECT_EQ(wrong.error.find("ppo.gamma = 2"), wrong.error.rfind("ppo.gamma = 2")) << "said once";
 }
 
-TEST_F(RanksPipeline, WhatRankZeroCannotWriteStopsAll) {
+TEST_F(RanksPipeline, ADirectoryThatRankZeroCannotMakeStopsAll) {
   const ProgramResult result = RunWords(Mpirun(2, TinyTraining("/dev/full/run", kShards)));
-  EXPECT_NE(result.exit_code, 0);
+  EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.error, HasSubstr("/dev/full/run"));
+}
+
+TEST_F(RanksPipeline, AFullDiskAtRankZeroStopsAllAndLosesNothing) {
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  std::vector<std::string> words = Mpirun(2, TinyTraining(run_, kShards));
+  // A write beyond a limit then fails, and does not kill.
+  const std::vector<std::string> ignoring = {"sh", "-c", "trap '' XFSZ; exec \"$@\"", "sh"};
+  words.insert(std::find(words.begin(), words.end(), SKEIN_PROGRAM), ignoring.begin(),
+               ignoring.end());
+  RunningProgram training(ProgramWords{words});
+  ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+  const std::vector<pid_t> ranks = RanksOf(run_);
+  ASSERT_EQ(ranks.size(), 2u);
+  // As a disk that fills up.
+  const rlimit limit{8192, 8192};
+  ASSERT_EQ(prlimit(ranks[0], RLIMIT_FSIZE, &limit, nullptr), 0);
+  const ProgramResult full = training.Wait();
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.error, HasSubstr("skein: error: " + run_));
+  EXPECT_THAT(full.error, HasSubstr("cannot be written: File too large"));
+  EXPECT_TRUE(ProcessesOf(run_).empty());
+  const ProgramResult resumed = RunSkein({"train", "--resume", run_, "--threads", "1"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(RanksPipeline, RanksThatWaitForRankZeroAtTheEndSleep) {
+  // Rank 0 alone records flights.
+  const std::string word = scratch_ / "flights.csv";
+  RunningProgram evaluation(ProgramWords{
+      Mpirun(2, {"eval", "--policy", "untrained", "--task", "heading", "--episodes", "60",
+                 "--flights", word, "--flights-count", "60", "--threads", "1"})});
+  double used_s[2] = {};
+  evaluation.WaitUntil([&] {
+    const std::vector<pid_t> ranks = RanksOf(word);
+    for (std::size_t rank = 0; rank < ranks.size() && ranks.size() == 2; ++rank) {
+      used_s[rank] = std::max(used_s[rank], ProcessorSeconds(ranks[rank]));
+    }
+    return false;
+  });
+  EXPECT_EQ(evaluation.Wait().exit_code, 0);
+  EXPECT_GT(used_s[0], 0);
+  EXPECT_LT(used_s[1], used_s[0] / 2);
+}
+
+TEST(PlainStart, LoadsNoMpi) {
+  const ScratchDirectory scratch;
+  const ProgramResult result = RunSkein(TinyTraining(scratch / "run", {"--threads", "1"}),
+                                        [] { setenv("LD_DEBUG", "libs", 1); });
+  ASSERT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("libc.so")) << "the loader says what it does";
+  EXPECT_THAT(result.error, Not(HasSubstr("libmpi")));
+  EXPECT_THAT(result.error, Not(HasSubstr("libskein_mpi")));
+}
+
+TEST(PlainStart, OfSeveralProcessesBySrunWithoutPmixIsWarnedOf) {
+  const ScratchDirectory scratch;
+  const ProgramResult result = RunSkein(TinyTraining(scratch / "run", {"--threads", "1"}),
+                                        [] { setenv("SLURM_STEP_NUM_TASKS", "4", 1); });
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("srun --mpi=pmix"));
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
 }
 
 }  // namespace

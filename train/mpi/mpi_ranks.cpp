@@ -23,18 +23,27 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 /// A waiting rank asks without pause at first, then leaves its processor to others; beside a thread
 /// that computes, at once.
 constexpr std::chrono::microseconds kEager{200}, kPause{20};
+/// Between two looks at the end for the last to come.
+constexpr std::chrono::milliseconds kPauseAtEnd{1};
+/// A rank that waits so long tells the others, and from then on so many times until it gives up.
+constexpr std::chrono::seconds kFirstTelling{1};
+constexpr int kTellings = 10;
+/// Who has told in so many of these intervals waits still; one may be late.
+constexpr int kFresh = 3;
 /// The first of the ranks that wait says who hangs; the others only if it does not.
 constexpr std::chrono::seconds kGrace{5};
 constexpr std::chrono::duration<double> kForever{std::numeric_limits<double>::infinity()};
 
 }  // namespace
 
-MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
+MpiRanks::MpiRanks(double timeout_s)
+    : timeout_(timeout_s), telling_interval_(timeout_s / kTellings) {
   setenv(kEagerLimit, kEagerBytes, /*overwrite=*/0);  // ahead of the watch's thread
   const MpiWatch watch("start", timeout_);
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
   if (provided < MPI_THREAD_SERIALIZED) {
+    MPI_Finalize();
     throw Error("this MPI serves one thread of a process alone (thread level " +
                 std::to_string(provided) +
                 "), but gradients are exchanged while others are computed: install one that has "
@@ -48,6 +57,7 @@ MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
   MPI_Get_processor_name(own, &length);
   MPI_Allgather(own, MPI_MAX_PROCESSOR_NAME, MPI_CHAR, names.data(), MPI_MAX_PROCESSOR_NAME,
                 MPI_CHAR, MPI_COMM_WORLD);
+  heard_.resize(static_cast<std::size_t>(count_));
   for (int rank = 0; rank < count_; ++rank) {
     hosts_.emplace_back(names.data() + static_cast<std::size_t>(rank) * MPI_MAX_PROCESSOR_NAME);
   }
@@ -56,6 +66,14 @@ MpiRanks::MpiRanks(double timeout_s) : timeout_(timeout_s) {
 MpiRanks::~MpiRanks() {
   const MpiWatch watch("end", kForever);  // what rank 0 writes alone may take its time
   for (Sent& sent : sent_) MPI_Wait(&sent.request, MPI_STATUS_IGNORE);
+  // MPI_Finalize would use a whole processor until the last has come.
+  MPI_Request all_here;
+  MPI_Ibarrier(MPI_COMM_WORLD, &all_here);
+  for (int done = 0;;) {
+    MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
+    if (done != 0) break;
+    std::this_thread::sleep_for(kPauseAtEnd);
+  }
   MPI_Finalize();
 }
 
@@ -107,7 +125,9 @@ void MpiRanks::Wait(std::vector<MPI_Request>& requests) {
   const Clock::time_point start = Clock::now();
   const bool computes = std::this_thread::get_id() == computing_;
   const Clock::duration eager = computes ? kEager : Clock::duration::zero();
-  bool is_patient = false, told = false;
+  bool is_patient = false;
+  std::chrono::duration<double> next_telling =
+      std::min<std::chrono::duration<double>>(kFirstTelling, telling_interval_);
   for (;;) {
     int done = 0;
     MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
@@ -115,14 +135,14 @@ void MpiRanks::Wait(std::vector<MPI_Request>& requests) {
     const Clock::duration waited = Clock::now() - start;
     if (waited < eager) continue;
     if (!is_patient) {
-      HearOthers();  // of earlier waits
-      waits_.assign(static_cast<std::size_t>(count_), false);
+      HearOthers();  // so that what is told does not heap up
       is_patient = true;
     }
     std::this_thread::sleep_for(kPause);
-    if (!told && waited > timeout_ / 2) {
+    if (waited > next_telling) {
       TellOthers();
-      told = true;
+      HearOthers();
+      next_telling = waited + telling_interval_;
     }
     if (waited > timeout_) GiveUp(waited);
   }
@@ -139,7 +159,6 @@ void MpiRanks::TellOthers() {
 }
 
 void MpiRanks::HearOthers() {
-  waits_.resize(static_cast<std::size_t>(count_));
   for (;;) {
     int there = 0;
     MPI_Status status;
@@ -147,20 +166,24 @@ void MpiRanks::HearOthers() {
     if (there == 0) return;
     MPI_Recv(nullptr, 0, MPI_BYTE, status.MPI_SOURCE, kWaitingTag, MPI_COMM_WORLD,
              MPI_STATUS_IGNORE);
-    waits_[static_cast<std::size_t>(status.MPI_SOURCE)] = true;
+    heard_[static_cast<std::size_t>(status.MPI_SOURCE)] = Clock::now();
   }
+}
+
+bool MpiRanks::Waits(int rank) const {
+  return rank == rank_ ||
+         Clock::now() - heard_[static_cast<std::size_t>(rank)] < kFresh * telling_interval_;
 }
 
 void MpiRanks::GiveUp(std::chrono::duration<double> waited) {
   HearOthers();
-  waits_[static_cast<std::size_t>(rank_)] = true;
   std::string hanging;
   for (int rank = 0; rank < count_; ++rank) {
-    if (waits_[static_cast<std::size_t>(rank)]) {
+    if (Waits(rank)) {
       if (rank < rank_ && waited < timeout_ + kGrace) return;
       continue;
     }
-    hanging += (hanging.empty() ? "" : ", ") + Describe(rank);
+    hanging += (hanging.empty() ? "" : " or ") + Describe(rank);
   }
   char limit[32];
   std::snprintf(limit, sizeof limit, "%g", timeout_.count());

@@ -43,15 +43,17 @@ class MpiRanks final : public Ranks {
   void TellOthers();
   /// Takes note of who has told so since it was asked last.
   void HearOthers();
+  /// Whether the rank has told so lately.
+  bool Waits(int rank) const;
   /// Ends all if this is the first rank of those that wait, or none of them has for a while.
   void GiveUp(std::chrono::duration<double> waited);
 
-  std::chrono::duration<double> timeout_;
+  std::chrono::duration<double> timeout_, telling_interval_;
   std::thread::id computing_ = std::this_thread::get_id();
   int rank_ = 0, count_ = 1;
   std::vector<std::string> hosts_;
   std::list<Sent> sent_;
-  std::vector<bool> waits_;  ///< by rank: has told since this rank began to wait
+  std::vector<Clock::time_point> heard_;  ///< by rank: when it last told that it waits
 };
 
 }  // namespace skein

@@ -3,8 +3,6 @@
 
 #include <exception>
 
-#include "base/error.h"
-
 namespace skein {
 namespace {
 
@@ -49,7 +47,7 @@ void DoTogether(Ranks& ranks, const std::function<void()>& work) {
   for (const std::string& theirs : reasons) {
     if (theirs.empty()) continue;
     const auto failed = [](const std::string& text) { return !text.empty(); };
-    throw Error(NamesOf(ranks, reasons, failed) + ": " + theirs.substr(1));
+    throw JointError(NamesOf(ranks, reasons, failed) + ": " + theirs.substr(1));
   }
 }
 
@@ -57,9 +55,9 @@ void RequireSameOnRanks(Ranks& ranks, const std::string& what, const std::string
   const std::vector<std::string> texts = TextsOfRanks(ranks, text);
   for (const std::string& theirs : texts) {
     if (theirs == texts[0]) continue;
-    throw Error("ranks differ in " + what + ": rank 0 has " + texts[0] + ", " +
-                NamesOf(ranks, texts, [&](const std::string& of) { return of != texts[0]; }) + " " +
-                theirs);
+    throw JointError("ranks differ in " + what + ": rank 0 has " + texts[0] + ", " +
+                     NamesOf(ranks, texts, [&](const std::string& of) { return of != texts[0]; }) +
+                     " " + theirs);
   }
 }
 

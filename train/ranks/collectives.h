@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "base/worker_pool.h"
 #include "train/ranks/ranks.h"
 
@@ -21,6 +22,7 @@ namespace skein {
 /// combine commutes exactly, as an addition does.
 template <typename Value, typename Combine>
 void CombineOverRanks(Ranks& ranks, std::size_t count, Value* values, const Combine& combine) {
+  static_assert(std::is_trivially_copyable_v<Value>);
   std::vector<Value> theirs(ranks.count() > 1 ? count : 0);
   for (int distance = 1; distance < ranks.count(); distance *= 2) {
     const std::size_t bytes = count * sizeof(Value);
@@ -145,11 +147,32 @@ void GatherAtRankZero(Ranks& ranks, std::vector<Value>& values) {
   }
 }
 
+/// Gives all ranks rank 0's `values`; every rank has equally many.
+template <typename Value>
+void ShareRankZeros(Ranks& ranks, std::vector<Value>& values) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  const std::size_t bytes = values.size() * sizeof(Value);
+  if (ranks.rank() != 0) {
+    ranks.Exchange(0, nullptr, 0, values.data(), bytes);
+    return;
+  }
+  for (int rank = 1; rank < ranks.count(); ++rank) {
+    ranks.Exchange(rank, values.data(), bytes, nullptr, 0);
+  }
+}
+
+/// What every rank has been told of and throws: rank 0 alone says it to people.
+class JointError : public Error {
+ public:
+  explicit JointError(const std::string& message) : Error(message) {}
+};
+
 /// All ranks' texts, by rank, on every rank.
 std::vector<std::string> TextsOfRanks(Ranks& ranks, const std::string& text);
 
 /// Does `work` on every rank. If that throws an Error on any of them, throws on all: on rank 0 its
-/// own exception if it has one, else an Error that names the ranks and says what befell the first.
+/// own exception if it has one, else a JointError that names the ranks and says what befell the
+/// first.
 void DoTogether(Ranks& ranks, const std::function<void()>& work);
 
 /// Does `work` on rank 0 alone; what it throws is thrown on all, as by DoTogether.
@@ -159,8 +182,8 @@ inline void DoOnRankZero(Ranks& ranks, const std::function<void()>& work) {
   });
 }
 
-/// Throws Error on every rank, naming those that differ, unless `text`, which says what `what` is,
-/// is the same on all.
+/// Throws JointError on every rank, naming those that differ, unless `text`, which says what `what`
+/// is, is the same on all.
 void RequireSameOnRanks(Ranks& ranks, const std::string& what, const std::string& text);
 
 }  // namespace skein

@@ -2,7 +2,6 @@
 #include "train/ranks/rank_module.h"
 
 #include <cstdlib>
-#include <string>
 
 #include "base/error.h"
 #include "base/shared_module.h"
@@ -12,21 +11,11 @@ namespace {
 
 /// OpenMPI's mpirun, and launchers that speak PMI; PMIx says the size only if asked, Slurm does.
 constexpr const char* kSizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+constexpr const char* kSlurmSize = "SLURM_STEP_NUM_TASKS";
 
 int NumberIn(const char* variable) {
   const char* const text = std::getenv(variable);
   return text == nullptr ? 0 : std::atoi(text);
-}
-
-const RankModule& LoadRankModule() {
-  try {
-    return LoadModule<RankModuleEntry>(kMpiModule, kRankModuleEntry, SKEIN_BUILD_ID);
-  } catch (const Error& error) {
-    throw Error("started as one of " + std::to_string(LaunchedProcesses()) +
-                " processes, but trainings on several are not available (" + error.what() +
-                "): install MPI (Debian: libopenmpi-dev) and build Skein with SKEIN_BUILD_MPI=ON, "
-                "or start one process");
-  }
 }
 
 }  // namespace
@@ -36,8 +25,26 @@ int LaunchedProcesses() {
     if (NumberIn(size) > 0) return NumberIn(size);
   }
   const bool is_slurm_step = std::getenv("PMIX_RANK") != nullptr;
-  return is_slurm_step && NumberIn("SLURM_STEP_NUM_TASKS") > 0 ? NumberIn("SLURM_STEP_NUM_TASKS")
-                                                               : 1;
+  return is_slurm_step && NumberIn(kSlurmSize) > 0 ? NumberIn(kSlurmSize) : 1;
+}
+
+std::string WarningOfLoneProcesses() {
+  const int started = NumberIn(kSlurmSize);
+  if (started <= 1 || LaunchedProcesses() > 1 || NumberIn("SLURM_PROCID") != 0) return "";
+  return "srun has started " + std::to_string(started) +
+         " processes that do not know of each other, so each does all of the work alone: to share "
+         "it, start them with srun --mpi=pmix";
+}
+
+const RankModule& LoadRankModule(const std::string& file) {
+  try {
+    return LoadModule<RankModuleEntry>(file, kRankModuleEntry, SKEIN_BUILD_ID);
+  } catch (const Error& error) {
+    throw Error("started as one of " + std::to_string(LaunchedProcesses()) +
+                " processes, but trainings on several are not available (" + error.what() +
+                "): install MPI (Debian: libopenmpi-dev) and build Skein with SKEIN_BUILD_MPI=ON, "
+                "or start one process");
+  }
 }
 
 std::unique_ptr<Ranks> JoinLaunchedProcesses(double timeout_s) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "train/ranks/ranks.h"
 
@@ -29,8 +30,16 @@ inline constexpr const char* kMpiModule = "libskein_mpi.so";
 /// PMI), as its environment says; 1 without a launcher.
 int LaunchedProcesses();
 
-/// Joins them by MPI if there are several; else null: the process trains alone. Throws Error that
-/// says how to get the module if it is not there, or not of this build.
+/// One line for people if srun has started several processes of which none can find the others, as
+/// it was not told how (--mpi=pmix): of the first of them; of others, and otherwise, empty.
+std::string WarningOfLoneProcesses();
+
+/// The module in `file`. Throws Error that says how to get it if it is not there, or not of this
+/// build.
+const RankModule& LoadRankModule(const std::string& file = kMpiModule);
+
+/// Joins the other processes by MPI if there are several; else null: the process trains alone.
+/// Throws Error as LoadRankModule, or if MPI sees another number of processes.
 std::unique_ptr<Ranks> JoinLaunchedProcesses(double timeout_s);
 
 }  // namespace skein

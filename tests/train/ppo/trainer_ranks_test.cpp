@@ -109,7 +109,13 @@ INSTANTIATE_TEST_SUITE_P(Precisions, TrainerRanksPrecisionTest,
                          });
 
 TEST_F(TrainerRanksTest, AHighLevelPolicyTrainsTheSameOnAnyNumberOfRanks) {
-  ExpectSameForAnyRanks(Sharded(SmallHighLevelConfig()), {2, 4});
+  TrainConfig config = Sharded(SmallHighLevelConfig());
+  for (const LearnerPrecision precision :
+       {LearnerPrecision::kFloat32, LearnerPrecision::kBfloat16}) {
+    SCOPED_TRACE(Name(precision));
+    config.learner.precision = precision;
+    ExpectSameForAnyRanks(config, {2, 4, 8});
+  }
 }
 
 TEST_F(TrainerRanksTest, SoDoWindsPlantsAndACriticThatSeesMore) {

@@ -130,6 +130,16 @@ TEST_P(CollectivesTest, RankZeroGathersInOrder) {
   });
 }
 
+TEST_P(CollectivesTest, RankZerosValuesReachAll) {
+  const std::vector<int> expected{3, 1, 4, 1, 5};
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    std::vector<int> values(expected.size(), -ranks.rank());
+    if (ranks.rank() == 0) values = expected;
+    ShareRankZeros(ranks, values);
+    EXPECT_EQ(values, expected) << ranks.Describe(ranks.rank());
+  });
+}
+
 TEST_P(CollectivesTest, WhatFailsOnOneRankFailsOnAllAndIsNamed) {
   const int last = GetParam() - 1;
   RunOnRanks(GetParam(), [&](Ranks& ranks) {
@@ -155,7 +165,7 @@ TEST_P(CollectivesTest, WhatAllHaveBeenToldOfIsAnError) {
     if (last == 0) {
       EXPECT_THROW(DoTogether(ranks, fail), std::bad_alloc) << "rank 0 throws its own exception";
     } else {
-      EXPECT_THROW(DoTogether(ranks, fail), Error);
+      EXPECT_THROW(DoTogether(ranks, fail), JointError);
     }
   });
 }
