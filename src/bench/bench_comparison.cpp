@@ -51,13 +51,23 @@ std::vector<Run> ReadRuns(const std::vector<std::string>& paths) {
   return runs;
 }
 
-/// What the keys lead to, as text; null of what is not there.
-std::string TextAt(const Json& document, const std::vector<std::string>& keys) {
+/// What the keys lead to; null if they lead nowhere.
+Json At(const Json& document, const std::vector<std::string>& keys) {
   Json found = document;
   for (const std::string& key : keys) {
     found = found.is_object() && found.contains(key) ? Json(found[key]) : Json();
   }
+  return found;
+}
+
+/// The same as text.
+std::string TextAt(const Json& document, const std::vector<std::string>& keys) {
+  const Json found = At(document, keys);
   return found.is_string() ? found.get<std::string>() : found.dump();
+}
+
+bool Says(const Run& run, const std::vector<std::string>& keys) {
+  return !At(run.document, keys).is_null();
 }
 
 /// Throws UsageError if the keys do not lead to the same in both.
@@ -70,6 +80,12 @@ void RequireSame(const Run& first, const Run& other, const std::vector<std::stri
                   other.path, keys.back(), a, b, hint));
 }
 
+/// The same, but older files, and systems that do not know it, need not say it.
+void RequireSameIfSaid(const Run& first, const Run& other, const std::vector<std::string>& keys,
+                       const std::string& hint) {
+  if (Says(first, keys) && Says(other, keys)) RequireSame(first, other, keys, hint);
+}
+
 void RequireComparable(const Run& first, const Run& other, bool other_machine) {
   RequireSame(first, other, {"benchmark"}, "");
   RequireSame(first, other, {"settings"}, "");
@@ -77,6 +93,8 @@ void RequireComparable(const Run& first, const Run& other, bool other_machine) {
   if (other_machine) return;
   const std::string hint = " (--other-machine compares them all the same)";
   RequireSame(first, other, {"machine", "cpu"}, hint);
+  RequireSameIfSaid(first, other, {"machine", "cpu_family"}, hint);
+  RequireSameIfSaid(first, other, {"machine", "cpu_model"}, hint);
   RequireSame(first, other, {"machine", "simd"}, hint);
   RequireSame(first, other, {"threads"}, hint);
 }
@@ -175,9 +193,40 @@ std::string DescribeSource(const Run& run) {
                      TextAt(run.document, {"machine", "commit"}));
 }
 
+/// "AMD EPYC (family 25, model 17), avx512, 2 threads".
 std::string DescribePlace(const Run& run) {
-  return fmt::format("{}, {}, {} threads", TextAt(run.document, {"machine", "cpu"}),
-                     TextAt(run.document, {"machine", "simd"}), TextAt(run.document, {"threads"}));
+  std::string cpu = TextAt(run.document, {"machine", "cpu"});
+  if (Says(run, {"machine", "cpu_family"}) && Says(run, {"machine", "cpu_model"})) {
+    cpu += fmt::format(" (family {}, model {})", TextAt(run.document, {"machine", "cpu_family"}),
+                       TextAt(run.document, {"machine", "cpu_model"}));
+  }
+  return fmt::format("{}, {}, {} threads", cpu, TextAt(run.document, {"machine", "simd"}),
+                     TextAt(run.document, {"threads"}));
+}
+
+/// What the runs say there, each once; empty if none says anything.
+std::string TextsAt(const std::vector<Run>& runs, const std::vector<std::string>& keys) {
+  std::vector<std::string> texts;
+  for (const Run& run : runs) {
+    const std::string text = TextAt(run.document, keys);
+    const bool is_known = std::find(texts.begin(), texts.end(), text) != texts.end();
+    if (Says(run, keys) && !is_known) texts.push_back(text);
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::vector<SettingChange> DifferingSettings(const std::vector<Run>& before,
+                                             const std::vector<Run>& after) {
+  std::vector<SettingChange> differing;
+  for (const std::vector<std::string>& keys : {std::vector<std::string>{"machine", "compiler"},
+                                               {"machine", "build_type"},
+                                               {"machine", "libtorch"},
+                                               {"machine", "cpu_stepping"},
+                                               {"task_hash"}}) {
+    const std::string a = TextsAt(before, keys), b = TextsAt(after, keys);
+    if (!a.empty() && !b.empty() && a != b) differing.push_back({keys.back(), a, b});
+  }
+  return differing;
 }
 
 std::string Verdict(const FigureChange& change) {
@@ -211,6 +260,7 @@ BenchComparison CompareBenchmarks(const std::vector<std::string>& before,
   }
   comparison.before = DescribeSource(first);
   comparison.after = DescribeSource(first_after);
+  comparison.differing = DifferingSettings(old_runs, new_runs);
   for (const Figure* const figure : AllFigures(old_runs, new_runs)) {
     if (IsInAll(old_runs, figure->name) && IsInAll(new_runs, figure->name)) {
       comparison.changes.push_back(ChangeOf(*figure, old_runs, new_runs));
@@ -229,6 +279,14 @@ std::string ToText(const BenchComparison& comparison) {
   std::string text = fmt::format("bench {}: {} before and after; {}\n  before  {}\n  after   {}\n",
                                  comparison.benchmark, Counted(comparison.runs, "run"),
                                  comparison.machine, comparison.before, comparison.after);
+  if (!comparison.differing.empty()) {
+    std::vector<std::string> texts;
+    for (const SettingChange& change : comparison.differing) {
+      texts.push_back(
+          fmt::format("{} {} before, {} after", change.name, change.before, change.after));
+    }
+    text += fmt::format("  differ  {}\n", fmt::join(texts, "; "));
+  }
   std::vector<std::vector<std::string>> rows{
       {"figure", "before", "after", "ratio", "95 % interval", ""}};
   for (const FigureChange& change : comparison.changes) {
@@ -259,9 +317,17 @@ Json ToJson(const BenchComparison& comparison) {
                             {"high", NumberOrNull(change.ratio.high)},
                             {"beyond_noise", IsBeyondNoise(change)}};
   }
-  return {{"benchmark", comparison.benchmark}, {"runs", comparison.runs},
-          {"machine", comparison.machine},     {"before", comparison.before},
-          {"after", comparison.after},         {"figures", figures}};
+  Json differing = Json::object();
+  for (const SettingChange& change : comparison.differing) {
+    differing[change.name] = {{"before", change.before}, {"after", change.after}};
+  }
+  return {{"benchmark", comparison.benchmark},
+          {"runs", comparison.runs},
+          {"machine", comparison.machine},
+          {"before", comparison.before},
+          {"after", comparison.after},
+          {"differing", differing},
+          {"figures", figures}};
 }
 
 }  // namespace skein

@@ -19,7 +19,8 @@ struct Figure {
 std::vector<double> MediansOfParts(const std::vector<double>& samples, std::size_t most);
 
 /// An object by name: `better` ("more" or "less"), `median`, `spread` (difference of the quartiles
-/// over the median) and `samples`, of more than a thousand the medians of a thousand parts.
+/// over the median; of few samples an estimate that is hardly biased) and `samples`, of more than a
+/// thousand the medians of a thousand parts.
 nlohmann::ordered_json ToJson(const std::vector<Figure>& figures);
 
 /// What ToJson wrote. Throws Error, which begins with `path`, on anything else.

@@ -38,9 +38,9 @@ struct Runner {
   Runner(const TrainConfig& config, WorkerPool& pool, TimedRanks& processes)
       : ranks(processes),
         trainer(std::make_unique<Trainer>(config, pool, processes)),
-        threads(pool.threads()) {
-    trainer->Iterate();
-  }
+        threads(pool.threads()) {}
+
+  void WarmUp() { trainer->Iterate(); }
 
   void Iterate() {
     UnionOverRanks(ranks, 0);  // what came before took ranks differently long
@@ -116,7 +116,7 @@ std::vector<LearnerRates> MeasureLearners(const std::vector<TrainConfig>& config
   std::vector<Runner> runners;
   for (TrainConfig config : configs) {
     config.evaluation.interval_iterations = 0;
-    runners.emplace_back(config, pool, timed);
+    runners.emplace_back(config, pool, timed).WarmUp();
   }
   for (int i = 0; i < iterations; ++i) {
     for (Runner& runner : runners) runner.Iterate();

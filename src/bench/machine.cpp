@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <fstream>
+#include <istream>
 
 #include "simd/target.h"
 #include "src/bench/version.h"
@@ -12,15 +14,35 @@
 #include "train/network/backend_module.h"
 
 namespace skein {
+namespace {
 
-std::string CpuName() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.compare(0, 10, "model name") != 0) continue;
+using Json = nlohmann::ordered_json;
+
+std::optional<int> WholeNumber(const std::string& text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+Json NullIfUnsaid(const std::optional<int>& number) { return number ? Json(*number) : Json(); }
+
+}  // namespace
+
+CpuFacts ReadCpuFacts(std::istream& cpuinfo) {
+  CpuFacts facts;
+  // "key<tab>: value"; an empty line ends a processor.
+  for (std::string line; std::getline(cpuinfo, line) && !line.empty();) {
     const auto colon = line.find(": ");
-    if (colon != std::string::npos) return line.substr(colon + 2);
+    if (colon == std::string::npos) continue;
+    const std::string key = line.substr(0, line.find_last_not_of(" \t", colon - 1) + 1);
+    const std::string value = line.substr(colon + 2);
+    if (key == "model name") facts.name = value;
+    if (key == "cpu family") facts.family = WholeNumber(value);
+    if (key == "model") facts.model = WholeNumber(value);
+    if (key == "stepping") facts.stepping = WholeNumber(value);
   }
-  return "unknown";
+  return facts;
 }
 
 std::string DescribeWorkers(const WorkerPool& pool) {
@@ -34,23 +56,27 @@ std::string DescribeProgram() {
                      build.compiler, Name(simd::ActiveTarget()));
 }
 
-nlohmann::ordered_json DescribeMachine() {
+Json DescribeMachine() {
   const std::string libtorch = LibTorchVersion();
-  auto supported = nlohmann::ordered_json::array();
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  const CpuFacts cpu = ReadCpuFacts(cpuinfo);
+  Json supported = Json::array();
   for (const simd::Target target : simd::SupportedTargets()) supported.push_back(Name(target));
-  return {
-      {"version", Build().version},
-      {"commit", Build().commit},
-      {"compiler", Build().compiler},
-      {"build_type", Build().type},
-      {"cpu", CpuName()},
-      {"threads", WorkerPool().threads()},
-      {"simd", Name(simd::ActiveTarget())},
-      {"simd_supported", supported},
-      {"native_bf16", simd::NativeBfloat16()},
-      {"native_amx", simd::NativeTiles()},
-      {"precision", Name(DefaultPrecision())},
-      {"libtorch", libtorch.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(libtorch)}};
+  return {{"version", Build().version},
+          {"commit", Build().commit},
+          {"compiler", Build().compiler},
+          {"build_type", Build().type},
+          {"cpu", cpu.name},
+          {"cpu_family", NullIfUnsaid(cpu.family)},
+          {"cpu_model", NullIfUnsaid(cpu.model)},
+          {"cpu_stepping", NullIfUnsaid(cpu.stepping)},
+          {"threads", WorkerPool().threads()},
+          {"simd", Name(simd::ActiveTarget())},
+          {"simd_supported", supported},
+          {"native_bf16", simd::NativeBfloat16()},
+          {"native_amx", simd::NativeTiles()},
+          {"precision", Name(DefaultPrecision())},
+          {"libtorch", libtorch.empty() ? Json() : Json(libtorch)}};
 }
 
 }  // namespace skein

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <iosfwd>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "base/worker_pool.h"
 
 namespace skein {
 
-/// "Intel(R) Xeon(R) ..." as the system names the processor, or "unknown".
-std::string CpuName();
+/// What the system says of a processor. Hypervisors cut names short ("AMD EPYC"): family and model,
+/// as CPUID counts them, still tell generations apart.
+struct CpuFacts {
+  std::string name = "unknown";                ///< "Intel(R) Xeon(R) ..."
+  std::optional<int> family, model, stepping;  ///< none where the system does not say
+};
+
+/// Of the first processor in what Linux writes to /proc/cpuinfo.
+CpuFacts ReadCpuFacts(std::istream& cpuinfo);
 
 /// "SIMD target avx512, 2 threads": what the pool's workers compute with.
 std::string DescribeWorkers(const WorkerPool& pool);
@@ -20,8 +29,8 @@ std::string DescribeProgram();
 
 /// What a figure depends on: version, commit, compiler, processor, SIMD target in use and supported
 /// ones, threads that commands use unless told otherwise, LibTorch (null without its module). The
-/// document of `skein info
-/// --json`, and part of every benchmark's.
+/// document of `skein info --json`, and part of every benchmark's. Keys cpu_family, cpu_model and
+/// cpu_stepping are null where the system does not say.
 nlohmann::ordered_json DescribeMachine();
 
 }  // namespace skein

@@ -60,6 +60,7 @@ void Report(const BenchOptions& options, const BenchResults& results) {
     document["settings"]["num_aircraft"] = options.num_aircraft;
     document["settings"]["action_repeat"] = options.action_repeat;
   }
+  if (!results.task_hash.empty()) document["task_hash"] = results.task_hash;
   document["threads"] = results.threads;
   document["machine"] = DescribeMachine();
   WriteJson(options.json, document);

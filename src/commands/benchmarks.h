@@ -53,6 +53,7 @@ struct BenchResults {
   int threads = 0;
   std::vector<Figure> figures;
   nlohmann::ordered_json other;  ///< by the names of docs/reference/commands.md
+  std::string task_hash = "";    ///< EnvConfig::task_file_hash
 };
 
 /// Writes it, with how and on what it was measured, to options.json if that is given.

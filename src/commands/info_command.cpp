@@ -23,16 +23,22 @@ void PrintInfo(const std::string& json_path) {
                                    ? "not installed: networks by the fused kernels alone"
                                    : info["libtorch"].get<std::string>();
   const auto text = [&info](const char* key) { return info[key].get<std::string>(); };
+  // Hypervisors cut names short: "AMD EPYC".
+  const std::string generation =
+      info["cpu_family"].is_null() || info["cpu_model"].is_null()
+          ? ""
+          : fmt::format(" (family {}, model {})", info["cpu_family"].get<int>(),
+                        info["cpu_model"].get<int>());
   const auto yes_or_no = [&info](const char* key) { return info[key].get<bool>() ? "yes" : "no"; };
   fmt::print(
       "skein     {} (commit {}, {}, {})\n"
-      "cpu       {}\n"
+      "cpu       {}{}\n"
       "threads   {}\n"
       "simd      {} (supported: {}; force one with SKEIN_SIMD)\n"
       "learner   precision {} (native bf16: {}, amx: {}; choose one with learner.precision)\n"
       "libtorch  {}\n",
       text("version"), text("commit"), text("compiler"), text("build_type"), text("cpu"),
-      info["threads"].get<int>(), text("simd"),
+      generation, info["threads"].get<int>(), text("simd"),
       fmt::join(info["simd_supported"].get<std::vector<std::string>>(), ", "), text("precision"),
       yes_or_no("native_bf16"), yes_or_no("native_amx"), libtorch);
 }

@@ -224,7 +224,8 @@ void MeasureIteration(const BenchOptions& options, Ranks& ranks) {
                    {{"iteration_s", false, rates.samples.iteration_s},
                     {"policy_steps_per_s", true, rates.samples.rollout_policy_steps_per_s},
                     {"gradient_samples_per_s", true, rates.samples.gradient_samples_per_s}},
-                   IterationJson(config, rates, ranks.count())});
+                   IterationJson(config, rates, ranks.count()),
+                   config.env.task_file_hash});
 }
 
 }  // namespace
@@ -246,7 +247,7 @@ void BenchRollout(const BenchOptions& options) {
   results["simulator_share"] = learners[0].simulator_share;
   Report(options, {"rollout", pool.threads(),
                    FiguresOf(learners, "policy_steps_per_s", &Samples::rollout_policy_steps_per_s),
-                   results});
+                   results, config.env.task_file_hash});
 }
 
 void BenchUpdate(const BenchOptions& options) {
@@ -259,7 +260,8 @@ void BenchUpdate(const BenchOptions& options) {
       Compare(learners, {"samples", "samples_per_s", &LearnerRates::update_samples_per_s,
                          &LearnerRates::update_flops_per_sample});
   Report(options, {"update", pool.threads(),
-                   FiguresOf(learners, "samples_per_s", &Samples::update_samples_per_s), results});
+                   FiguresOf(learners, "samples_per_s", &Samples::update_samples_per_s), results,
+                   config.env.task_file_hash});
 }
 
 void BenchIteration(const BenchOptions& options) {

@@ -158,7 +158,9 @@ void BenchScaling(const BenchOptions& options) {
   const std::vector<Point> points = Measure(options, grids);
   Print(points);
   if (!has_launcher) fmt::print("  ({} is not there: no ranks)\n", launcher);
-  Report(options, ResultsOf(points, processors));
+  BenchResults results = ResultsOf(points, processors);
+  results.task_hash = config.env.task_file_hash;
+  Report(options, results);
 }
 
 }  // namespace skein

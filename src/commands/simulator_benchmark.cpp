@@ -120,7 +120,7 @@ void BenchSimulator(const BenchOptions& options) {
              options.steps, pool.threads(), Name(simd::ActiveTarget()));
   PrintRate("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
   PrintRate("F-16: ... with flight control, actuators", controlled);
-  BenchResults results{"sim", pool.threads(), {}, {}};
+  BenchResults results{"sim", pool.threads(), {}, {}, noisy.task_file_hash};
   results.other = {{"aircraft", options.num_aircraft},
                    {"steps", options.steps},
                    {"action_repeat", options.action_repeat}};

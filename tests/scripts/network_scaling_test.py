@@ -46,6 +46,23 @@ class Fit(unittest.TestCase):
         self.assertAlmostEqual(fit["rest_s"], 0.02, places=6)
 
 
+class LeftOut(unittest.TestCase):
+    def test_a_row_is_predicted_by_the_others_alone(self):
+        rows = [row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 2.5, 5, 25)]
+        for row in rows:
+            self.assertAlmostEqual(scaling.left_out_s(row, rows), row["iteration_s"], places=6)
+        # What is odd about a row does not reach its own prediction, but that of the fit that knows it.
+        expected = rows[1]["iteration_s"]
+        rows[1]["exchange_s"] += 1
+        self.assertAlmostEqual(scaling.left_out_s(rows[1], rows), expected, places=6)
+        fit, = scaling.fit(rows)
+        self.assertGreater(scaling.predicted_s(rows[1], fit), expected + 0.1)
+
+    def test_too_few_others_predict_nothing(self):
+        rows = [row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 5)]
+        self.assertIsNone(scaling.left_out_s(rows[0], rows))
+
+
 class Model(unittest.TestCase):
     def test_a_network_that_takes_no_time_costs_nothing(self):
         free = {**MODEL, "latency_us": 0, "gradient_mb": 0}

@@ -75,6 +75,20 @@ TEST_F(TaskFilePipelineTest, ResumesToTheSameBits) {
   ExpectSameFile(run_ + final_policy, other + final_policy);
 }
 
+TEST_F(TaskFilePipelineTest, BenchmarksOfAChangedFileSayThatTheyAreOfAnother) {
+  const std::string before = scratch_ / "before.json", after = scratch_ / "after.json";
+  WriteFile(file_, text_);
+  for (const std::string& json : {before, after}) {
+    const ProgramResult result = CallSkein({"bench", "sim", "--task", file_, "--num-aircraft", "64",
+                                            "--steps", "2", "--threads", "1", "--json", json});
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    WriteFile(file_, text_ + "\n# changed\n");
+  }
+  const ProgramResult compared = CallSkein({"bench", "compare", before, after});
+  EXPECT_EQ(compared.exit_code, 0) << compared.error;
+  EXPECT_THAT(compared.output, HasSubstr("differ  task_hash "));
+}
+
 TEST_F(TaskFilePipelineTest, RefusesWhatIsNotItsOwn) {
   WriteFile(file_, text_);
   ASSERT_EQ(Train(run_).exit_code, 0);

@@ -11,12 +11,19 @@
 #include "src/files/output_file.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
 
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
+
+constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+constexpr Tolerance kBiasOfSpread{
+    0.08,
+    "quartiles of few normal samples lie up to 6 % too far apart by order statistics; 1 % by "
+    "chance"};
 
 class BenchComparisonTest : public ::testing::Test {
  protected:
@@ -109,6 +116,28 @@ TEST_F(BenchComparisonTest, WhatOnlyOneSideHasIsSaid) {
   EXPECT_THAT(ToText(comparison), HasSubstr("not in all runs: old, new"));
 }
 
+TEST_F(BenchComparisonTest, WhatDiffersBesideTheCommitIsSaidInOneLine) {
+  const std::vector<Figure> figures{{"x", false, {1, 2}}};
+  const auto write = [&](const std::string& name, const std::string& compiler,
+                         const std::string& type, const std::string& hash) {
+    return Write(
+        name, figures,
+        {{"machine", {{"compiler", compiler}, {"build_type", type}}}, {"task_hash", hash}});
+  };
+  const std::string a = write("a", "GNU", "Release", "12"), b = write("b", "Clang", "Debug", "34"),
+                    same = write("c", "GNU", "Release", "12"), old = Write("d", figures);
+  const BenchComparison comparison = CompareBenchmarks({a}, {b}, false);
+  EXPECT_THAT(ToText(comparison),
+              HasSubstr("\n  differ  compiler GNU before, Clang after; build_type Release before, "
+                        "Debug after; task_hash 12 before, 34 after\n"));
+  EXPECT_EQ(ToJson(comparison)["differing"]["build_type"],
+            (Json{{"before", "Release"}, {"after", "Debug"}}));
+  for (const std::string& other : {same, old}) {
+    EXPECT_TRUE(CompareBenchmarks({a}, {other}, false).differing.empty());
+  }
+  EXPECT_EQ(CompareBenchmarks({a, b}, {same, a}, false).differing.at(0).before, "GNU, Clang");
+}
+
 TEST_F(BenchComparisonTest, WhatCannotBeComparedIsRefused) {
   const std::vector<Figure> figures{{"x", false, {1, 2}}};
   const std::string a = Write("a", figures);
@@ -124,6 +153,15 @@ TEST_F(BenchComparisonTest, WhatCannotBeComparedIsRefused) {
     EXPECT_THAT(refusal(changes), HasSubstr("--other-machine"));
     EXPECT_EQ(refusal(changes, true), "");
   }
+  const Json zen{{"machine", {{"cpu_family", 25}, {"cpu_model", 17}}}};
+  EXPECT_EQ(refusal(zen), "") << "the other file does not say it";
+  const std::string zen4 = Write("zen4", figures, zen);
+  const std::string zen5 =
+      Write("zen5", figures, {{"machine", {{"cpu_family", 26}, {"cpu_model", 68}}}});
+  EXPECT_THAT(MessageOf([&] { CompareBenchmarks({zen4}, {zen5}, false); }),
+              HasSubstr("cpu_family is 25 in one and 26 in the other (--other-machine"));
+  EXPECT_THAT(ToText(CompareBenchmarks({zen4}, {zen5}, true)),
+              HasSubstr("one (family 25, model 17), avx2, 2 threads; after: one (family 26, "));
   EXPECT_THAT(refusal({{"figures", nullptr}}), HasSubstr("nothing that could be compared"));
   EXPECT_THAT(refusal({{"benchmark", nullptr}}), HasSubstr("not what skein bench --json writes"));
   EXPECT_THAT(refusal({{"figures", {{"x", 3}}}}), HasSubstr("figures cannot be read"));
@@ -134,6 +172,31 @@ TEST_F(BenchComparisonTest, WhatCannotBeComparedIsRefused) {
   EXPECT_THAT(MessageOf([&] { CompareBenchmarks({a}, {scratch_ / "c"}, false); }),
               HasSubstr("not what skein bench --json writes"));
   EXPECT_NE(MessageOf([&] { CompareBenchmarks({a}, {scratch_ / "none"}, false); }), "");
+}
+
+double SpreadOf(const std::vector<double>& samples) {
+  const Figure figure{"x", true, samples};
+  return ToJson(std::vector<Figure>{figure})["x"]["spread"];
+}
+
+TEST(FigureTest, TheSpreadOfFewSamplesIsThatOfMany) {
+  EXPECT_EQ(SpreadOf({7}), 0);
+  // By definition 8 of Hyndman and Fan the quartiles of three samples lie a sixth of the way from
+  // the outer ones to the one in the middle.
+  EXPECT_NEAR(SpreadOf({4, 1, 2}), 5.0 / 6 * (4 - 1) / 2, kRounding);
+  constexpr double kMiddle = 100, kQuartilesOfNormal = 1.349;
+  constexpr int kRuns = 20000;
+  std::mt19937 generator(11);
+  std::normal_distribution<double> normal(kMiddle, 1);
+  for (const int count : {3, 5, 10}) {
+    double sum = 0;
+    for (int run = 0; run < kRuns; ++run) {
+      std::vector<double> samples(static_cast<std::size_t>(count));
+      for (double& sample : samples) sample = normal(generator);
+      sum += kMiddle * SpreadOf(samples);
+    }
+    EXPECT_NEAR(sum / kRuns / kQuartilesOfNormal, 1, kBiasOfSpread) << count << " samples";
+  }
 }
 
 TEST(FigureTest, PartsKeepTheOrderAndAreOfEqualLength) {
