@@ -14,7 +14,7 @@ namespace {
 /// A bound in at most ten digits: as many as leave it within the bounds, so that it can be typed.
 std::string TextOfBound(double bound, const Bounds& bounds) {
   constexpr int kMostDigits = 10;
-  if (bound == Bounds::WholeNumber().max) return "2^53";
+  if (bound == kMostWholeNumber) return "2^53 - 1";
   for (int digits = kMostDigits; digits > 0 && std::isfinite(bound); --digits) {
     std::string text = RoundedText(bound, digits);
     double typed = 0;

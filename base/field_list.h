@@ -16,6 +16,9 @@
 
 namespace skein {
 
+/// The largest whole number that no other is read as: 2^53 + 1 is 2^53 in a double.
+inline constexpr double kMostWholeNumber = 0x1p53 - 1;
+
 /// The interval that a number must lie in; `min_open` leaves `min` itself out. A number that is not
 /// finite lies in none.
 struct Bounds {
@@ -34,7 +37,7 @@ struct Bounds {
   static Bounds Count() { return {1, std::numeric_limits<int>::max()}; }
   static Bounds CountOrNone() { return {0, std::numeric_limits<int>::max()}; }
   /// What every reader of numbers holds exactly: TOML's signed integers, and doubles.
-  static Bounds WholeNumber() { return {0, 0x1p53}; }
+  static Bounds WholeNumber() { return {0, kMostWholeNumber}; }
 };
 
 /// Where the value of an enumeration lies, read and written by its names. `names` must live as

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -59,6 +60,18 @@ void WriteRecords(const EvalOptions& options, const std::string& path,
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, {flown});
 }
 
+/// Throws UsageError if `policy` is no file, but an agent of `skein compare`.
+void RequirePolicy(const std::string& policy) {
+  const std::string kind = policy.substr(0, policy.find(':'));
+  if (kind != "policy" && kind != "random" && kind != "zero" && !IsAutopilot(policy)) return;
+  std::error_code failure;
+  if (std::filesystem::exists(policy, failure)) return;
+  throw UsageError(
+      fmt::format("--policy {}: eval measures one policy, by its file or run; skein compare "
+                  "--agents {} flies other agents, too",
+                  policy, policy));
+}
+
 /// The policy that is flown, and where.
 struct Subject {
   std::string path;
@@ -68,6 +81,7 @@ struct Subject {
 
 Subject FindSubject(const EvalOptions& options) {
   const FlightOptions& flight = options.flight;
+  RequirePolicy(options.policy);
   const std::string path = PolicyFileOf(options.policy);
   if (path != kUntrained && !options.low_level.empty()) {
     throw UsageError(

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/field_list.h"
 #include "envs/aircraft/engine.h"
 #include "src/commands/agent_flight.h"
 #include "src/commands/fdm_commands.h"
@@ -23,7 +24,6 @@ namespace skein {
 namespace {
 
 constexpr double kMostSteps = 1e7;
-constexpr double kMostSeed = 9007199254740992;  // 2^53
 
 const std::map<std::string, FlightControlMode> kModes = {{"full", FlightControlMode::kFull},
                                                          {"direct", FlightControlMode::kDirect}};
@@ -128,7 +128,7 @@ void AddFlyCommand(CLI::App* fdm) {
   command
       ->add_option("--seed", options->flight.gusts.seed,
                    "of the gusts, and of all that agents meet")
-      ->transform(WholeNumber(0, kMostSeed))
+      ->transform(WholeNumber(0, kMostWholeNumber))
       ->capture_default_str();
   CLI::Option* commands =
       command

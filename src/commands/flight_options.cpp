@@ -104,7 +104,7 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
       ->transform(WholeNumber(1, texts.most_episodes))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "seed of the episodes")
-      ->transform(WholeNumber(0, 0x1p53))
+      ->transform(WholeNumber(0, kMostWholeNumber))
       ->capture_default_str();
   command
       ->add_option("--threads", options->threads,

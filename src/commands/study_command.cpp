@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/field_list.h"
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/commands/launched_ranks.h"
@@ -94,11 +95,11 @@ void AddStudyCommand(CLI::App* app) {
                    "seeds of the trainings, separated by commas (default: the file's)")
       ->type_name("SEED,...")
       ->delimiter(',')
-      ->transform(WholeNumber(0, 0x1p53));
+      ->transform(WholeNumber(0, kMostWholeNumber));
   command
       ->add_option("--steps", options->choice.steps,
                    "budget of a training, control steps (default: the file's, else the preset's)")
-      ->transform(WholeNumber(1, 0x1p53));
+      ->transform(WholeNumber(1, kMostWholeNumber));
   AddAircraftOption(command, &options->choice.aircraft);
   command
       ->add_option("--threads", options->threads,

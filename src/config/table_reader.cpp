@@ -176,7 +176,7 @@ double TableReader::WholeNumberIn(const toml::node& node, const std::string& key
   const std::optional<double> number = node.value<double>();
   if (!number || !(*number >= min && *number <= max) || *number != std::floor(*number)) {
     throw Error(
-        fmt::format("{} must be a whole number in [{:.10g}, {:.10g}]", At(node, key), min, max));
+        fmt::format("{} must be a whole number in [{:.16g}, {:.16g}]", At(node, key), min, max));
   }
   return *number;
 }

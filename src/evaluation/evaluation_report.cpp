@@ -33,8 +33,8 @@ std::string Lines(const char* mode, const FlightSummary& summary) {
     if (quantity.section != QuantitySection::kOutcome || !quantity.is_headline) continue;
     phrases.push_back(Phrase(quantity, summary.estimates[k]));
   }
-  return fmt::format("{}\n{:{}}ended by {}", InLines(begin, phrases, "   "), "", begin.size(),
-                     FormatTerminations(summary.result));
+  const std::string lines = InLines(begin, phrases, "   "), ends = FormatEnds(summary);
+  return ends.empty() ? lines : fmt::format("{}\n{:{}}{}", lines, "", begin.size(), ends);
 }
 
 }  // namespace
@@ -101,7 +101,9 @@ std::string ToSummary(const EvaluationReport& report) {
     table.Cell(FormatEstimate(quantity, sampled.estimates[k]));
     table.End();
   }
-  return text + "ended by " + FormatTerminations(mean.result);
+  const std::string ends = FormatEnds(mean);
+  if (ends.empty()) text.pop_back();  // the last row's newline
+  return text + ends;
 }
 
 }  // namespace skein

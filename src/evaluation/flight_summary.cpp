@@ -79,6 +79,7 @@ std::string InCommandColumns(const FlightSummary& summary, QuantitySection secti
 FlightSummary SummariseFlights(const std::vector<Episode>& episodes, const EnvConfig& env) {
   FlightSummary summary;
   summary.result = Summarise(episodes, env.control_interval_s);
+  summary.is_mission = env.mission.enabled();
   summary.quantities = QuantitiesOf(env);
   for (const Quantity& quantity : summary.quantities) {
     summary.estimates.push_back(EstimateOf(quantity, episodes, env.control_interval_s));
@@ -146,12 +147,22 @@ std::string CsvCells(const Estimate& estimate) {
   return cells;
 }
 
-std::string FormatTerminations(const EvaluationResult& result) {
+std::string EndLabel(const FlightSummary& summary, std::size_t termination) {
+  const bool is_end_of_mission =
+      summary.is_mission && termination == static_cast<std::size_t>(Termination::kTimeLimit);
+  if (is_end_of_mission) return "";
+  return fmt::format("{} by {}", summary.is_mission ? "lost" : "ended",
+                     kTerminationNames[termination]);
+}
+
+std::string FormatEnds(const FlightSummary& summary) {
   std::string text;
   for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
-    if (result.terminations[kind] == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", kTerminationNames[kind],
-                        result.terminations[kind]);
+    const std::string label = EndLabel(summary, kind);
+    const int count = summary.result.terminations[kind];
+    if (count == 0 || label.empty()) continue;
+    text += fmt::format("{} {}",
+                        text.empty() ? label : fmt::format(", {}", kTerminationNames[kind]), count);
   }
   return text;
 }

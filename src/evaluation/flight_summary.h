@@ -15,6 +15,7 @@ namespace skein {
 /// How an agent flew its episodes.
 struct FlightSummary {
   EvaluationResult result;
+  bool is_mission = false;
   std::vector<Quantity> quantities;  ///< QuantitiesOf the environment
   std::vector<Estimate> estimates;   ///< by them
 };
@@ -39,8 +40,11 @@ std::string FormatFigure(const FlightSummary& summary, std::size_t k);
 bool HasOwnPlace(const Quantity& quantity);
 /// The three numbers as cells of CSV, each with a comma ahead; empty where there is none.
 std::string CsvCells(const Estimate& estimate);
-/// "target_reached 998, time_limit 2".
-std::string FormatTerminations(const EvaluationResult& result);
+/// "ended by target_reached"; of a mission "lost by overload". Empty for the time limit of
+/// missions, which are flown to their end then: kSuccessQuantity has them.
+std::string EndLabel(const FlightSummary& summary, std::size_t termination);
+/// "ended by target_reached 998, time_limit 2"; of missions "lost by overload 2", or empty.
+std::string FormatEnds(const FlightSummary& summary);
 
 /// What a table calls a section; empty for those that come first.
 const char* TitleOf(QuantitySection section);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/field_list.h"
 #include "base/nearest_name.h"
 #include "envs/task_registry.h"
 #include "src/config/aircraft_choice.h"
@@ -37,7 +38,7 @@ void RefuseEmptyAndTwice(const std::vector<T>& values, const std::string& source
   }
 }
 
-constexpr double kMaxSeed = 0x1p53, kMaxEpisodes = 1e7;
+constexpr double kMaxEpisodes = 1e7;
 
 StudySettings ReadSettings(TableReader& reader) {
   return {reader.Texts("condition"), reader.Texts("set")};
@@ -59,7 +60,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   TableReader reader(table, source);
   Study study;
   study.tasks = reader.Texts("tasks");
-  study.seeds = reader.WholeNumbers("seeds", kMaxSeed);
+  study.seeds = reader.WholeNumbers("seeds", kMostWholeNumber);
   study.agents = reader.Texts("agents");
   study.preset = reader.Text("preset", study.preset);
   reader.RefuseOld("controller", "low_level");
@@ -68,7 +69,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
   study.assignments = reader.Texts("set");
   if (const toml::table* training = reader.Table("training")) {
     TableReader part(*training, source);
-    study.training.steps = part.WholeNumber("steps", 1, kMaxSeed);
+    study.training.steps = part.WholeNumber("steps", 1, kMostWholeNumber);
     study.training.from = part.Texts("from");
     study.training.settings = ReadSettings(part);
     study.training.per_level = part.Flag("per_level", true);
@@ -79,7 +80,7 @@ Study ReadTable(const toml::table& table, const std::string& source) {
     study.evaluation.episodes = static_cast<int>(
         part.WholeNumber("episodes", 1, kMaxEpisodes).value_or(study.evaluation.episodes));
     study.evaluation.seed =
-        static_cast<std::uint64_t>(part.WholeNumber("seed", 0, kMaxSeed).value_or(0));
+        static_cast<std::uint64_t>(part.WholeNumber("seed", 0, kMostWholeNumber).value_or(0));
     study.evaluation.hold_s = part.PositiveNumber("hold");
     study.evaluation.mission_min = part.PositiveNumber("mission");
     part.RefuseOthers();

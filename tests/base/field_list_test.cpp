@@ -129,7 +129,7 @@ TEST(FieldList, BoundsAreRoundedInwardsSoThatTheyCanBeTyped) {
   FieldList list;
   EXPECT_EQ(list.Add("x", &value, Bounds::UpToHalfTurn(), "").BoundsText(), "[0, 3.14159265]");
   EXPECT_EQ(list.Add("x", &value, {-0.1, 0.04}, "").BoundsText(), "[-0.1, 0.04]");
-  EXPECT_EQ(list.Add("x", &value, Bounds::WholeNumber(), "").BoundsText(), "[0, 2^53]");
+  EXPECT_EQ(list.Add("x", &value, Bounds::WholeNumber(), "").BoundsText(), "[0, 2^53 - 1]");
 }
 
 TEST(FieldList, FormerKeysOfAnOlderFileAreRenamed) {

@@ -192,6 +192,7 @@ TEST_F(ComparisonPipeline, MeasuresMissions) {
   EXPECT_EQ(result["agents"][0]["terminations"]["time_limit"], 40);
   EXPECT_THAT(output_, HasSubstr("losses per flight hour"));
   EXPECT_THAT(output_, HasSubstr("flown to the end, %"));
+  EXPECT_THAT(output_, ::testing::Not(HasSubstr("time_limit"))) << "said twice";
   const std::string text = ReadFile(csv);
   EXPECT_THAT(text.substr(0, text.find('\n')), HasSubstr(",targets_per_minute,"));
 }

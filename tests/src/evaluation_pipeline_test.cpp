@@ -222,6 +222,12 @@ TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
     EXPECT_EQ(result.exit_code, arguments[2] == file ? 1 : 2);
     EXPECT_THAT(result.error, HasSubstr(arguments[2]));
   }
+  for (const std::string agent : {"autopilot", "autopilot:traditional", "random:2", "zero"}) {
+    const ProgramResult result = CallSkein({"eval", "--policy", agent, "--task", "heading"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.error, HasSubstr("--policy " + agent + ": eval measures one policy"));
+    EXPECT_THAT(result.error, HasSubstr("skein compare --agents " + agent));
+  }
   const ProgramResult no_task = CallSkein({"eval", "--policy", "untrained"});
   EXPECT_EQ(no_task.exit_code, 2);
   EXPECT_THAT(no_task.error, HasSubstr("--task"));

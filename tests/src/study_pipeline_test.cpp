@@ -488,6 +488,8 @@ TEST_F(StudyPipeline, WrongStudiesAreErrorsOfOneLineBeforeAnyTraining) {
   ExpectError("tasks = [\"heading\"]\nseeds = [1, 1]", "seeds names 1 twice");
   ExpectError("tasks = \"heading\"\nseeds = [1]", ":1: tasks must be a list");
   ExpectError("tasks = [\"heading\"]\nseeds = [1.5]", ":2: seeds must be a whole number");
+  ExpectError("tasks = [\"heading\"]\nseeds = [9007199254740993]",
+              ":2: seeds must be a whole number in [0, 9007199254740991]");
   ExpectError("tasks = [\"hedding\"]\nseeds = [1]", "did you mean heading?");
   ExpectError("tasks = [\"heading\"]\nseed = [1]", ":2: unknown key seed; did you mean seeds?");
   ExpectError("tasks = [\"heading\"]\nseeds = [1]\nagents = [\"ace\"]", "unknown agent ace");

@@ -300,10 +300,15 @@ TEST(Usage, OldNamesAreErrorsThatSayTheNewOnes) {
 
 TEST(Usage, FlagsAreNamedInTheirErrors) {
   EXPECT_THAT(CallSkein({"train", "heading", "--steps", "0"}).error,
-              HasSubstr("--steps: '0' is not a whole number in [1 - 9007199254740992]"));
+              HasSubstr("--steps: '0' is not a whole number in [1 - 9007199254740991]"));
   EXPECT_THAT(CallSkein({"train", "heading", "--steps", "nan"}).error, HasSubstr("--steps"));
   EXPECT_THAT(CallSkein({"train", "heading", "--seed", "-1"}).error,
-              HasSubstr("--seed: '-1' is not a whole number in [0 - 9007199254740992]"));
+              HasSubstr("--seed: '-1' is not a whole number in [0 - 9007199254740991]"));
+  // 2^53 + 1, which would be read as 2^53.
+  EXPECT_THAT(CallSkein({"train", "heading", "--seed", "9007199254740993"}).error,
+              HasSubstr("--seed: '9007199254740993' is not a whole number"));
+  EXPECT_THAT(CallSkein({"fdm", "fly", "--seed", "9007199254740993"}).error,
+              HasSubstr("--seed: '9007199254740993' is not a whole number"));
 }
 
 TEST(Usage, CountsMayBeInAnyNotationOfANumber) {

@@ -147,6 +147,11 @@ TEST(Settings, WrongTypesAndValuesOutOfRangeAreNamed) {
             "file:3: ppo.epochs must be an integer, not 2.5");
   EXPECT_EQ(MessageOf([] {
               ProgramConfig config;
+              Assign("run.seed", std::int64_t{9007199254740993}, "--set", &config);
+            }),
+            "--set: run.seed = 9007199254740993 is out of range; it must be in [0, 2^53 - 1]");
+  EXPECT_EQ(MessageOf([] {
+              ProgramConfig config;
               Assign("env.flight_control", std::string("off"), "--set", &config);
             }),
             "--set: env.flight_control must be \"full\" or \"direct\", not \"off\"");
