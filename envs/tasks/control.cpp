@@ -61,6 +61,7 @@ void ControlReward(Tile flight, Tile task, const ControlConfig& config, const Re
   const V pitch_tolerance = Constant(config.pitch_tolerance_deg / kDegPerRad);
   const V yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
   const V speed_tolerance = Constant(config.speed_tolerance_fps);
+  const V angle_weight = Constant(config.angle_error_weight);
   const V speed_weight = Constant(config.speed_error_weight);
   for (int first = 0; first < flight.count; first += kLanes) {
     const ControlError error = ErrorOf(flight, task, first);
@@ -71,7 +72,8 @@ void ControlReward(Tile flight, Tile task, const ControlConfig& config, const Re
     const V share = Column(task, kControlTolerance, first);
     const RelativeAttitude relative = RelativeTo(flight, task, kControlQ0, first);
     const V angle = config.reward_includes_roll ? RotationAngle(relative) : NoseAngle(relative);
-    const V cost = hn::MulAdd(speed_weight, NormalisedSpeed(speed_error, units), angle);
+    const V cost =
+        hn::MulAdd(speed_weight, NormalisedSpeed(speed_error, units), hn::Mul(angle_weight, angle));
     hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
 
     const auto reached = hn::And(hn::Lt(hn::Abs(error.pitch), hn::Mul(share, pitch_tolerance)),

@@ -29,6 +29,9 @@ void ListFields(ControlConfig& config, FieldList& list) {
   list.Add(
       "reward_includes_roll", &config.reward_includes_roll,
       "true: the reward's angle is to the attitude, wings level; false: to where the nose points");
+  list.Add("angle_error_weight", &config.angle_error_weight, Bounds::NotNegative(),
+           "reward lost per step and rad of that angle")
+      .OffUnless(config.angle_error_weight != 1);  // as it is in files from before it was a setting
   list.Add("speed_error_weight", &config.speed_error_weight, Bounds::NotNegative(),
            "reward lost per step and unit of speed error (F-16: 340 m/s), beside the angle's");
 }

@@ -26,6 +26,7 @@ struct ControlConfig {
   /// that between the nose and where it should point. Roll does not count for the target, but has
   /// to be flown to reach it: the attitude's angle makes a bank cost more than the turn is worth.
   bool reward_includes_roll = false;
+  double angle_error_weight = 1;  ///< reward lost per step and rad of that angle; the paper's is 1
   /// Reward lost per step and unit of speed error (F-16: 340 m/s); the paper's is 0. At 5 the speed
   /// tolerance costs as much as the angular ones, and bringing the nose round at a wrong speed does
   /// not pay.

@@ -61,6 +61,7 @@ void HeadingReward(Tile flight, Tile task, const HeadingConfig& config, const Re
   const V altitude_tolerance = Constant(config.altitude_tolerance_ft);
   const V yaw_tolerance = Constant(config.yaw_tolerance_deg / kDegPerRad);
   const V speed_tolerance = Constant(config.speed_tolerance_fps);
+  const V norm_weight = Constant(config.error_norm_weight);
   const V speed_weight = Constant(config.speed_error_weight);
   const V altitude_weight = Constant(config.altitude_error_weight);
   const V yaw_weight = Constant(config.yaw_error_weight);
@@ -73,8 +74,9 @@ void HeadingReward(Tile flight, Tile task, const HeadingConfig& config, const Re
     const V squares =
         hn::MulAdd(scaled.altitude, scaled.altitude,
                    hn::MulAdd(scaled.yaw, scaled.yaw, hn::Mul(scaled.speed, scaled.speed)));
+    const V norm = hn::Mul(norm_weight, hn::Sqrt(squares));
     const V far = hn::MulAdd(altitude_weight, hn::Abs(scaled.altitude),
-                             hn::MulAdd(speed_weight, hn::Abs(scaled.speed), hn::Sqrt(squares)));
+                             hn::MulAdd(speed_weight, hn::Abs(scaled.speed), norm));
     const V cost = hn::MulAdd(yaw_weight, hn::Abs(scaled.yaw), far);
     hn::StoreU(hn::Neg(cost), d, step_result.reward + first);
 

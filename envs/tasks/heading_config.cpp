@@ -28,6 +28,9 @@ void ListFields(HeadingConfig& config, FieldList& list) {
       .OffUnless(config.dwell_s > 0);
   list.Add("earliest_success_step", &config.earliest_success_step, Bounds::CountOrNone(),
            "control step before which nothing counts as reached");
+  list.Add("error_norm_weight", &config.error_norm_weight, Bounds::NotNegative(),
+           "reward lost per step and unit of the norm of altitude, yaw and speed error")
+      .OffUnless(config.error_norm_weight != 1);  // as it is in files from before it was a setting
   list.Add("speed_error_weight", &config.speed_error_weight, Bounds::NotNegative(),
            "reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm");
   list.Add("altitude_error_weight", &config.altitude_error_weight, Bounds::NotNegative(),

@@ -21,6 +21,8 @@ struct HeadingConfig {
   /// first touch, as in the paper.
   double dwell_s = 0;
   int earliest_success_step = 300;  ///< control steps
+  /// Reward lost per step and unit of the norm of the three errors; the paper's is 1.
+  double error_norm_weight = 1;
   /// Reward lost per step and unit of speed error (F-16: 340 m/s), beside the errors' norm; the
   /// paper's is 0. The speed is what most targets wait for, and weighs least in the norm.
   double speed_error_weight = 0;

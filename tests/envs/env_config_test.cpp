@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -115,6 +116,7 @@ const Fault kFaults[] = {
     {"env.control.yaw_tolerance_deg = ", [](EnvConfig* c) { c->control.yaw_tolerance_deg = 0; }},
     {"env.control.speed_tolerance_fps = ",
      [](EnvConfig* c) { c->control.speed_tolerance_fps = 0; }},
+    {"env.heading.error_norm_weight = ", [](EnvConfig* c) { c->heading.error_norm_weight = -1; }},
     {"env.heading.speed_error_weight = ", [](EnvConfig* c) { c->heading.speed_error_weight = -1; }},
     {"env.heading.altitude_error_weight = ",
      [](EnvConfig* c) { c->heading.altitude_error_weight = -1; }},
@@ -123,6 +125,7 @@ const Fault kFaults[] = {
      [](EnvConfig* c) { c->control.training_tolerance_min = 0; }},
     {"env.control.training_tolerance_min = ",
      [](EnvConfig* c) { c->control.training_tolerance_min = 1.1; }},
+    {"env.control.angle_error_weight = ", [](EnvConfig* c) { c->control.angle_error_weight = -1; }},
     {"env.control.speed_error_weight = ", [](EnvConfig* c) { c->control.speed_error_weight = -1; }},
     {"env.tracking.distance_min_ft = ",
      [](EnvConfig* c) {
@@ -176,78 +179,77 @@ TEST(EnvConfigTest, RefusesWhatCannotBeFlownAndNamesTheKey) {
   }
 }
 
+using NumberOf = std::function<double*(EnvConfig*)>;
+
+const std::pair<std::string, NumberOf> kNumbers[] = {
+    {"env.cg_chord_fraction = ", [](EnvConfig* c) { return &c->cg; }},
+    {"env.engine_angular_momentum_slug_ft2_per_s = ",
+     [](EnvConfig* c) { return &c->engine_angular_momentum; }},
+    {"env.control_interval_s = ", [](EnvConfig* c) { return &c->control_interval_s; }},
+    {"env.observation_noise = ", [](EnvConfig* c) { return &c->observation_noise; }},
+    {"env.reward_scale = ", [](EnvConfig* c) { return &c->reward_scale; }},
+    {"env.initial.altitude_min_ft = ", [](EnvConfig* c) { return &c->initial.altitude_ft.min; }},
+    {"env.initial.altitude_max_ft = ", [](EnvConfig* c) { return &c->initial.altitude_ft.max; }},
+    {"env.initial.true_airspeed_min_fps = ",
+     [](EnvConfig* c) { return &c->initial.true_airspeed_fps.min; }},
+    {"env.initial.true_airspeed_max_fps = ",
+     [](EnvConfig* c) { return &c->initial.true_airspeed_fps.max; }},
+    {"env.heading.altitude_change_ft = ",
+     [](EnvConfig* c) { return &c->heading.altitude_change_ft; }},
+    {"env.heading.yaw_change_rad = ", [](EnvConfig* c) { return &c->heading.yaw_change_rad; }},
+    {"env.heading.speed_change_fps = ", [](EnvConfig* c) { return &c->heading.speed_change_fps; }},
+    {"env.heading.altitude_tolerance_ft = ",
+     [](EnvConfig* c) { return &c->heading.altitude_tolerance_ft; }},
+    {"env.heading.yaw_tolerance_deg = ",
+     [](EnvConfig* c) { return &c->heading.yaw_tolerance_deg; }},
+    {"env.heading.speed_tolerance_fps = ",
+     [](EnvConfig* c) { return &c->heading.speed_tolerance_fps; }},
+    {"env.heading.training_tolerance_min = ",
+     [](EnvConfig* c) { return &c->heading.training_tolerance_min; }},
+    {"env.heading.error_norm_weight = ",
+     [](EnvConfig* c) { return &c->heading.error_norm_weight; }},
+    {"env.heading.speed_error_weight = ",
+     [](EnvConfig* c) { return &c->heading.speed_error_weight; }},
+    {"env.heading.altitude_error_weight = ",
+     [](EnvConfig* c) { return &c->heading.altitude_error_weight; }},
+    {"env.heading.yaw_error_weight = ", [](EnvConfig* c) { return &c->heading.yaw_error_weight; }},
+    {"env.control.pitch_change_rad = ", [](EnvConfig* c) { return &c->control.pitch_change_rad; }},
+    {"env.control.yaw_change_rad = ", [](EnvConfig* c) { return &c->control.yaw_change_rad; }},
+    {"env.control.speed_change_fps = ", [](EnvConfig* c) { return &c->control.speed_change_fps; }},
+    {"env.control.pitch_tolerance_deg = ",
+     [](EnvConfig* c) { return &c->control.pitch_tolerance_deg; }},
+    {"env.control.yaw_tolerance_deg = ",
+     [](EnvConfig* c) { return &c->control.yaw_tolerance_deg; }},
+    {"env.control.speed_tolerance_fps = ",
+     [](EnvConfig* c) { return &c->control.speed_tolerance_fps; }},
+    {"env.control.training_tolerance_min = ",
+     [](EnvConfig* c) { return &c->control.training_tolerance_min; }},
+    {"env.control.angle_error_weight = ",
+     [](EnvConfig* c) { return &c->control.angle_error_weight; }},
+    {"env.control.speed_error_weight = ",
+     [](EnvConfig* c) { return &c->control.speed_error_weight; }},
+    {"env.tracking.distance_weight = ", [](EnvConfig* c) { return &c->tracking.distance_weight; }},
+    {"env.tracking.approach_weight = ", [](EnvConfig* c) { return &c->tracking.approach_weight; }},
+    {"env.termination.alpha_min_deg = ",
+     [](EnvConfig* c) { return &c->termination.alpha_deg.min; }},
+    {"env.termination.alpha_max_deg = ",
+     [](EnvConfig* c) { return &c->termination.alpha_deg.max; }},
+    {"env.termination.beta_min_deg = ", [](EnvConfig* c) { return &c->termination.beta_deg.min; }},
+    {"env.termination.beta_max_deg = ", [](EnvConfig* c) { return &c->termination.beta_deg.max; }},
+    {"env.termination.min_mach = ", [](EnvConfig* c) { return &c->termination.min_mach; }},
+    {"env.termination.max_mach = ", [](EnvConfig* c) { return &c->termination.max_mach; }},
+    {"env.termination.min_altitude_ft = ",
+     [](EnvConfig* c) { return &c->termination.min_altitude_ft; }},
+    {"env.termination.max_load_factor_g = ",
+     [](EnvConfig* c) { return &c->termination.max_load_factor; }},
+    {"env.termination.failure_reward = ",
+     [](EnvConfig* c) { return &c->termination.failure_reward; }},
+    {"env.termination.success_reward = ",
+     [](EnvConfig* c) { return &c->termination.success_reward; }},
+};
+
 TEST(EnvConfigTest, RefusesNumbersThatAreNotFinite) {
-  const std::vector<std::pair<std::string, std::function<double*(EnvConfig*)>>> fields = {
-      {"env.cg_chord_fraction = ", [](EnvConfig* c) { return &c->cg; }},
-      {"env.engine_angular_momentum_slug_ft2_per_s = ",
-       [](EnvConfig* c) { return &c->engine_angular_momentum; }},
-      {"env.control_interval_s = ", [](EnvConfig* c) { return &c->control_interval_s; }},
-      {"env.observation_noise = ", [](EnvConfig* c) { return &c->observation_noise; }},
-      {"env.reward_scale = ", [](EnvConfig* c) { return &c->reward_scale; }},
-      {"env.initial.altitude_min_ft = ", [](EnvConfig* c) { return &c->initial.altitude_ft.min; }},
-      {"env.initial.altitude_max_ft = ", [](EnvConfig* c) { return &c->initial.altitude_ft.max; }},
-      {"env.initial.true_airspeed_min_fps = ",
-       [](EnvConfig* c) { return &c->initial.true_airspeed_fps.min; }},
-      {"env.initial.true_airspeed_max_fps = ",
-       [](EnvConfig* c) { return &c->initial.true_airspeed_fps.max; }},
-      {"env.heading.altitude_change_ft = ",
-       [](EnvConfig* c) { return &c->heading.altitude_change_ft; }},
-      {"env.heading.yaw_change_rad = ", [](EnvConfig* c) { return &c->heading.yaw_change_rad; }},
-      {"env.heading.speed_change_fps = ",
-       [](EnvConfig* c) { return &c->heading.speed_change_fps; }},
-      {"env.heading.altitude_tolerance_ft = ",
-       [](EnvConfig* c) { return &c->heading.altitude_tolerance_ft; }},
-      {"env.heading.yaw_tolerance_deg = ",
-       [](EnvConfig* c) { return &c->heading.yaw_tolerance_deg; }},
-      {"env.heading.speed_tolerance_fps = ",
-       [](EnvConfig* c) { return &c->heading.speed_tolerance_fps; }},
-      {"env.heading.training_tolerance_min = ",
-       [](EnvConfig* c) { return &c->heading.training_tolerance_min; }},
-      {"env.heading.speed_error_weight = ",
-       [](EnvConfig* c) { return &c->heading.speed_error_weight; }},
-      {"env.heading.altitude_error_weight = ",
-       [](EnvConfig* c) { return &c->heading.altitude_error_weight; }},
-      {"env.heading.yaw_error_weight = ",
-       [](EnvConfig* c) { return &c->heading.yaw_error_weight; }},
-      {"env.control.pitch_change_rad = ",
-       [](EnvConfig* c) { return &c->control.pitch_change_rad; }},
-      {"env.control.yaw_change_rad = ", [](EnvConfig* c) { return &c->control.yaw_change_rad; }},
-      {"env.control.speed_change_fps = ",
-       [](EnvConfig* c) { return &c->control.speed_change_fps; }},
-      {"env.control.pitch_tolerance_deg = ",
-       [](EnvConfig* c) { return &c->control.pitch_tolerance_deg; }},
-      {"env.control.yaw_tolerance_deg = ",
-       [](EnvConfig* c) { return &c->control.yaw_tolerance_deg; }},
-      {"env.control.speed_tolerance_fps = ",
-       [](EnvConfig* c) { return &c->control.speed_tolerance_fps; }},
-      {"env.control.training_tolerance_min = ",
-       [](EnvConfig* c) { return &c->control.training_tolerance_min; }},
-      {"env.control.speed_error_weight = ",
-       [](EnvConfig* c) { return &c->control.speed_error_weight; }},
-      {"env.tracking.distance_weight = ",
-       [](EnvConfig* c) { return &c->tracking.distance_weight; }},
-      {"env.tracking.approach_weight = ",
-       [](EnvConfig* c) { return &c->tracking.approach_weight; }},
-      {"env.termination.alpha_min_deg = ",
-       [](EnvConfig* c) { return &c->termination.alpha_deg.min; }},
-      {"env.termination.alpha_max_deg = ",
-       [](EnvConfig* c) { return &c->termination.alpha_deg.max; }},
-      {"env.termination.beta_min_deg = ",
-       [](EnvConfig* c) { return &c->termination.beta_deg.min; }},
-      {"env.termination.beta_max_deg = ",
-       [](EnvConfig* c) { return &c->termination.beta_deg.max; }},
-      {"env.termination.min_mach = ", [](EnvConfig* c) { return &c->termination.min_mach; }},
-      {"env.termination.max_mach = ", [](EnvConfig* c) { return &c->termination.max_mach; }},
-      {"env.termination.min_altitude_ft = ",
-       [](EnvConfig* c) { return &c->termination.min_altitude_ft; }},
-      {"env.termination.max_load_factor_g = ",
-       [](EnvConfig* c) { return &c->termination.max_load_factor; }},
-      {"env.termination.failure_reward = ",
-       [](EnvConfig* c) { return &c->termination.failure_reward; }},
-      {"env.termination.success_reward = ",
-       [](EnvConfig* c) { return &c->termination.success_reward; }},
-  };
-  for (const auto& [name, field] : fields) {
+  for (const auto& [name, field] : kNumbers) {
     for (const double value : {kNan, kInfinity, -kInfinity}) {
       EnvConfig config;
       *field(&config) = value;
@@ -282,10 +284,11 @@ TEST(EnvConfigTest, AcceptsTheEdgesOfWhatItAllows) {
   config.observation_noise = 0;
   config.reward_scale = 0;
   config.heading.altitude_change_ft = config.heading.yaw_change_rad =
-      config.heading.speed_change_fps = 0;
+      config.heading.speed_change_fps = config.heading.error_norm_weight = 0;
   config.heading.earliest_success_step = 0;
   config.control.pitch_change_rad = config.control.yaw_change_rad =
-      config.control.speed_change_fps = config.control.speed_error_weight = 0;
+      config.control.speed_change_fps = config.control.angle_error_weight =
+          config.control.speed_error_weight = 0;
   config.time_limit_steps = config.substeps = config.action_repeat = 1;
   config.control_interval_s = 0.04;
   config.initial.altitude_ft = {20000, 20000};

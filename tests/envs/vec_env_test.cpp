@@ -18,6 +18,7 @@
 #include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "simd/random.h"
+#include "tests/envs/plant/drawn_plants.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/scoped_target.h"
 #include "tests/tolerance.h"
@@ -131,32 +132,12 @@ TEST(VecEnv, NeitherDoWindAndNoiseByEpisode) {
   EXPECT_EQ(Fly(&other, 40, 20), Fly(&small, 40, 20));
 }
 
-/// Everything of the plant drawn, with delays and faulty sensors.
-PlantConfig BusyPlant() {
-  PlantConfig plant;
-  for (Range PlantConfig::*factor :
-       {&PlantConfig::mass, &PlantConfig::inertia, &PlantConfig::axial_force,
-        &PlantConfig::normal_force, &PlantConfig::lateral, &PlantConfig::damping,
-        &PlantConfig::thrust, &PlantConfig::density, &PlantConfig::roll_stick,
-        &PlantConfig::actuator_bandwidth}) {
-    plant.*factor = {0.7, 1.3};
-  }
-  plant.weak_surface = {0.7, 1};
-  plant.cg_shift = {-0.05, 0.05};
-  plant.action_delay_steps = {0, 2};
-  plant.observation_delay_steps = {0, 3};
-  plant.sensor_bias = plant.sensor_scale = 0.02;
-  plant.sensor_freeze_chance = 0.5;
-  plant.sensor_freeze_s = {0, 2};
-  return plant;
-}
-
 TEST(VecEnv, NeitherDoDrawnPlants) {
   for (const std::string& task : TaskNames()) {
     for (const double turbulence_fps : {0.0, 10.0}) {
       EnvConfig config = BusyConfig();
       config.task = task;
-      config.plant = BusyPlant();
+      config.plant = DrawnPlants();
       config.wind.turbulence_fps = {0, turbulence_fps};
       VecEnv small(config, 70, 1, 32), large(config, 70, 1, 4096), few(config, 5, 1);
       const std::vector<Log> logs = Fly(&small, 0, 41);
@@ -184,13 +165,18 @@ TEST(VecEnv, ResultsDoNotDependOnOtherAircraft) {
 }
 
 TEST(VecEnv, ResultsDoNotDependOnThreads) {
-  VecEnv serial(BusyConfig(), 300, 1, 32), parallel(BusyConfig(), 300, 1, 32);
-  const std::vector<Log> expected = Fly(&serial, 0, 60);
-  WorkerPool pool(4);
-  std::vector<Log> logs(expected.size());
-  pool.ForEach(parallel.num_tiles(),
-               [&](int tile, int) { FlyTile(&parallel, tile, 0, 60, &logs); });
-  EXPECT_EQ(expected, logs);
+  EnvConfig drawn = BusyConfig();
+  drawn.plant = DrawnPlants();
+  drawn.wind.turbulence_fps = {0, 10};
+  for (const EnvConfig& config : {BusyConfig(), drawn}) {
+    VecEnv serial(config, 300, 1, 32), parallel(config, 300, 1, 32);
+    const std::vector<Log> expected = Fly(&serial, 0, 60);
+    WorkerPool pool(4);
+    std::vector<Log> logs(expected.size());
+    pool.ForEach(parallel.num_tiles(),
+                 [&](int tile, int) { FlyTile(&parallel, tile, 0, 60, &logs); });
+    EXPECT_EQ(expected, logs) << config.plant.enabled();
+  }
 }
 
 TEST(VecEnv, SeedsGiveDifferentFlights) {

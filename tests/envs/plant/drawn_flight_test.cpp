@@ -64,9 +64,9 @@ struct Response {
 
 constexpr double kShort = 1e-3;  // s
 
-Response Respond(EnvConfig config, const Action& action = {0, 0, 0, 0}) {
+Response Respond(EnvConfig config, const Action& action = {0, 0, 0, 0}, std::uint64_t seed = 1) {
   config.control_interval_s = kShort;
-  VecEnv env(config, 1, 1);
+  VecEnv env(config, 1, seed);
   std::array<double, kNumColumns> start{};
   for (int c = 0; c < kNumColumns; ++c) start[static_cast<std::size_t>(c)] = env.StateOf(0, c);
   StepBuffers buffers(1);
@@ -189,11 +189,41 @@ TEST(DrawnFlight, LateralMultipliesSideForceAndLeavesThePlaneOfSymmetry) {
   EXPECT_NEAR(changed.end[kNz], nominal.end[kNz], kRelative);
 }
 
-TEST(DrawnFlight, ASurfaceAtHalfEffectIsOneDeflectedHalf) {
-  // By the direct law a stick of 0.1 is a deflection, and half the effect half of it.
+/// By the direct law, surfaces centred: a stick of 0.1 is a deflection, half the effect half of it.
+EnvConfig OneDirectFlight() {
   EnvConfig config = OneFlight();
   config.flight_control = FlightControlMode::kDirect;
-  config.initial.trimmed = false;  // surfaces centred
+  config.initial.trimmed = false;
+  return config;
+}
+
+TEST(DrawnFlight, TheWeakSurfaceIsTheOneThatIsDrawn) {
+  const EnvConfig config = OneDirectFlight();
+  EnvConfig drawn = config;
+  drawn.plant.weak_surface = {0.5, 0.5};
+  const std::size_t rates[] = {kQ, kP, kR};  // by elevator, aileron and rudder
+  std::array<int, 3> weak{};
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    simd::RandomStream random({seed, 0, 0, 0, simd::RandomPurpose::kPlant});
+    const PlantDraw draw = DrawPlant(drawn.plant, &random);
+    const double effects[] = {draw.elevator, draw.aileron, draw.rudder};
+    for (std::size_t surface = 0; surface < 3; ++surface) {
+      weak[surface] += effects[surface] < 1;
+      Action stick{}, nominal_stick{};
+      stick[surface + 1] = 0.1f;
+      nominal_stick[surface + 1] = static_cast<float>(0.1 * effects[surface]);
+      const double expected = Respond(config, nominal_stick).rate[rates[surface]];
+      const double effect = expected - Respond(config).rate[rates[surface]];
+      EXPECT_NEAR(Respond(drawn, stick, seed).rate[rates[surface]], expected,
+                  0.02 * std::abs(effect))
+          << seed << ", " << surface;
+    }
+  }
+  for (const int count : weak) EXPECT_GT(count, 0);
+}
+
+TEST(DrawnFlight, ASurfaceAtHalfEffectIsOneDeflectedHalf) {
+  const EnvConfig config = OneDirectFlight();
   EnvConfig weak = config;
   weak.plant.control = {0.5, 0.5};
   const Response half = Respond(config, {0, 0.05f, 0.05f, 0.05f});

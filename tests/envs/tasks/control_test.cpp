@@ -221,6 +221,17 @@ TEST_P(ControlTest, SpeedErrorsCostTheirWeightOnEitherSide) {
   EXPECT_NEAR(reward_[0], -0.3, kFloat32);
 }
 
+TEST_P(ControlTest, EitherAngleCostsItsWeight) {
+  for (const bool reward_includes_roll : {false, true}) {
+    EnvConfig config = ConfigOf(5, reward_includes_roll);
+    config.control.angle_error_weight = 2;
+    SetFlight(0, {0, 0.2, 1});
+    SetTarget(0, -0.1, 1, 1000 + 0.2 * kSpeedUnit);
+    RewardBy(*MakeTask(config));
+    EXPECT_NEAR(reward_[0], -(2 * 0.3 + 5 * 0.2), kFloat32);
+  }
+}
+
 TEST_P(ControlTest, MirroredFlightsGetTheSameReward) {
   for (const int side : {0, 1}) {
     const double sign = side == 0 ? 1 : -1;

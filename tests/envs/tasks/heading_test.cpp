@@ -106,6 +106,16 @@ TEST_P(HeadingTest, RewardIsMinusTheNormOfTheErrors) {
   EXPECT_NEAR(reward_[0], -0.7, kFloat32);
 }
 
+TEST_P(HeadingTest, TheNormCostsItsWeightBesideTheSingleErrors) {
+  config_.heading.error_norm_weight = 0.5;
+  config_.heading.speed_error_weight = 3;
+  task_ = MakeTask(config_);
+  SetLevel(0, 0);
+  SetTarget(0, 20000 - 0.2 * kFtPerKm, 0.3, 1000 + 0.6 * 340 / 0.3048);
+  ComputeReward();
+  EXPECT_NEAR(reward_[0], -(0.5 * 0.7 + 3 * 0.6), 2 * kFloat32);
+}
+
 TEST_P(HeadingTest, SpeedErrorsCostTheirWeightBesideTheNorm) {
   config_.heading.speed_error_weight = 3;
   task_ = MakeTask(config_);
