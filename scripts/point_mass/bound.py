@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 from .forces import GRAVITY_FT_S2, PointMass
 
-SLOWEST_FPS, FASTEST_FPS = 500, 1800
 FAST = 10.0  # s per ft or ft/s: for where no flight gains, or none loses
 SIDE_FORCE_G = 1  # of sideslip and rudder, taken to cost no drag; the recorded flights' is below 0.8
 SIDESLIP_DEG = 12  # full pedal gives no more: docs/explanation/flight-control.md
@@ -20,7 +19,18 @@ SIDESLIP_DEG = 12  # full pedal gives no more: docs/explanation/flight-control.m
 TRANSIENT_FT = 50
 ALTITUDE_TOLERANCE_FT, YAW_TOLERANCE_DEG, PITCH_TOLERANCE_DEG, SPEED_TOLERANCE_FPS = 100, 5, 5, 20
 HEADING_EARLIEST_S, CONTROL_EARLIEST_S = 6.0, 0.02
-HEADING_ALTITUDES_FT, CONTROL_ALTITUDES_FT = (12000, 30000), (2500, 34000)
+
+
+@dataclass
+class Region:
+    """Where flights stay: the wider, the looser the bound."""
+    altitudes_ft: tuple
+    speeds_fps: tuple = (500, 1800)
+
+
+HEADING_REGION, CONTROL_REGION = Region((12000, 30000)), Region((2500, 34000))
+# From env.termination.min_altitude_ft on; where the tables of thrust end is 50,000 ft.
+CONDITION_REGION = Region((2500, 55000), (300, 2600))
 
 
 @dataclass
@@ -118,14 +128,15 @@ def edges_between(low, high, step):
     return [low + step * k for k in range(math.ceil((high - low) / step) + 1)]
 
 
-def heading_relaxation(model: PointMass, load_factor: float, resolution: Resolution) -> Relaxation:
-    low, high = HEADING_ALTITUDES_FT
-    edges = edges_between(energy_height(SLOWEST_FPS, low), energy_height(FASTEST_FPS, high), resolution.x_step)
+def heading_relaxation(model: PointMass, load_factor: float, resolution: Resolution,
+                       region: Region = HEADING_REGION) -> Relaxation:
+    (low, high), (least, greatest) = region.altitudes_ft, region.speeds_fps
+    edges = edges_between(energy_height(least, low), energy_height(greatest, high), resolution.x_step)
     hulls = []
     for edge in edges[:-1]:
         energy = edge + resolution.x_step / 2
-        slowest = math.sqrt(max(2 * GRAVITY_FT_S2 * (energy - high), SLOWEST_FPS**2))
-        fastest = math.sqrt(min(2 * GRAVITY_FT_S2 * (energy - low), FASTEST_FPS**2))
+        slowest = math.sqrt(max(2 * GRAVITY_FT_S2 * (energy - high), least**2))
+        fastest = math.sqrt(min(2 * GRAVITY_FT_S2 * (energy - low), greatest**2))
         points = []
         for k in range(resolution.grid + 1):
             speed = slowest + (fastest - slowest) * k / resolution.grid
@@ -136,10 +147,11 @@ def heading_relaxation(model: PointMass, load_factor: float, resolution: Resolut
     return Relaxation(edges, hulls, resolution.prices)
 
 
-def control_relaxation(model: PointMass, load_factor: float, resolution: Resolution) -> Relaxation:
+def control_relaxation(model: PointMass, load_factor: float, resolution: Resolution,
+                       region: Region = CONTROL_REGION) -> Relaxation:
     """Dives and climbs are free: gravity speeds up or slows down by a whole g."""
-    low, high = CONTROL_ALTITUDES_FT
-    edges = edges_between(SLOWEST_FPS, FASTEST_FPS, resolution.x_step)
+    low, high = region.altitudes_ft
+    edges = edges_between(*region.speeds_fps, resolution.x_step)
     hulls = []
     for edge in edges[:-1]:
         speed, points = edge + resolution.x_step / 2, []

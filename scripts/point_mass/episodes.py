@@ -10,7 +10,8 @@ from dataclasses import dataclass
 # Of the columns of docs/reference/file-formats.md: a start's, and a target's behind target_.
 START = ("altitude_ft", "yaw_deg", "true_airspeed_fps")
 TARGETS = {"heading": ("altitude_ft", "yaw_deg", "true_airspeed_fps"),
-           "control": ("pitch_deg", "yaw_deg", "true_airspeed_fps")}
+           "control": ("pitch_deg", "yaw_deg", "true_airspeed_fps"),
+           "tracking": ("north_ft", "east_ft", "altitude_ft")}
 STEP_S = 0.02
 ROUNDING_S = 1e-3  # of means that the program prints too
 
@@ -54,21 +55,24 @@ def read_flights(path, task, dwell_s):
                 episodes.append(Episode(tuple(float(row[k]) for k in start), tuple(float(row[k]) for k in target)))
             if row[end]:
                 # The step that completes the dwell is the last; the one that entered counts for it, too.
-                entered = float(row[time]) - (dwell_s - STEP_S)
+                entered = float(row[time]) - max(dwell_s - STEP_S, 0)
                 times.append(round(entered, 2) if row[end] == "target_reached" else None)
     if len(times) != len(episodes):
         raise EpisodeError(f"{path}: {len(episodes)} flights begin and {len(times)} end")
     return episodes, times
 
 
-def recorded(program, task, agent, episodes, seed, dwell_s, hold_s, folder):
+def recorded(program, task, agent, episodes, seed, dwell_s, hold_s, folder, conditions=()):
     """The file of the flights of one agent, in `folder`, and what the program reports of them. A file of a thousand
-    flights has 300 MB to 1 GB: remove it before the next."""
+    flights has 300 MB to 1 GB: remove it before the next. Tracking has no dwell and no hold."""
     report = os.path.join(folder, "report.json")
     command = [program, "compare", "--task", task, "--agents", agent, "--episodes", str(episodes), "--seed",
-               str(seed), "--set", f"env.{task}.dwell_s={dwell_s}", "--set", f"env.hold_s={hold_s}", "--threads", "1",
-               "--no-html", "--json", report, "--flights", os.path.join(folder, "flights.csv"),
-               "--flights-count", str(episodes)]
+               str(seed), "--threads", "1", "--no-html", "--json", report, "--flights",
+               os.path.join(folder, "flights.csv"), "--flights-count", str(episodes)]
+    if task != "tracking":
+        command += ["--set", f"env.{task}.dwell_s={dwell_s}", "--set", f"env.hold_s={hold_s}"]
+    for condition in conditions:
+        command += ["--condition", condition]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != 0:
         raise EpisodeError(f"skein compare failed: {done.stdout.strip()}")
@@ -77,13 +81,13 @@ def recorded(program, task, agent, episodes, seed, dwell_s, hold_s, folder):
         return path, json.load(file)["agents"][0]
 
 
-def fly(program, task, agents, episodes, seed, dwell_s):
+def fly(program, task, agents, episodes, seed, dwell_s, conditions=()):
     """Flies the agents over the same episodes: the episodes, and an Agent for each."""
     with tempfile.TemporaryDirectory() as folder:
         found = None
         results = []
         for agent in agents:
-            path, report = recorded(program, task, agent, episodes, seed, dwell_s, 0, folder)
+            path, report = recorded(program, task, agent, episodes, seed, dwell_s, 0, folder, conditions)
             begun, times = read_flights(path, task, dwell_s)
             os.remove(path)
             if found is not None and begun != found:

@@ -36,13 +36,13 @@ def linear(x, points, values):
     return values[k] + share * (values[k + 1] - values[k])
 
 
-def ask(program, points):
+def ask(program, points, atmosphere="stevens_lewis"):
     """The points with what `skein fdm eval` adds to them."""
     with tempfile.TemporaryDirectory() as folder:
         paths = [os.path.join(folder, name) for name in ("asked.json", "answered.json")]
         with open(paths[0], "w", encoding="utf-8") as file:
             json.dump({"points": points}, file)
-        command = [program, "fdm", "eval", "--in", paths[0], "--out", paths[1]]
+        command = [program, "fdm", "eval", "--atmosphere", atmosphere, "--in", paths[0], "--out", paths[1]]
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode != 0:
             raise ModelError(f"skein fdm eval failed: {done.stdout.strip()}")
@@ -60,7 +60,8 @@ def point(alpha_deg=0.0, elevator_deg=0.0, flap_deg=0.0, pitch_rate=0.0, altitud
 class PointMass:
     """The F-16, with drag rise and thrust growth as in the default presets."""
 
-    def __init__(self, program: str, alpha_step_deg: float = 1):
+    def __init__(self, program: str, alpha_step_deg: float = 1, atmosphere: str = "stevens_lewis"):
+        """`atmosphere` as of `skein fdm eval`."""
         try:
             with open(AIRCRAFT, encoding="utf-8") as file:
                 document = json.load(file)
@@ -74,7 +75,7 @@ class PointMass:
         steps = round((HIGHEST_ALPHA_DEG - LOWEST_ALPHA_DEG) / alpha_step_deg)
         self.alphas_deg = [LOWEST_ALPHA_DEG + alpha_step_deg * k for k in range(steps + 1)]
         self._ask_coefficients(program)
-        self._ask_air(program)
+        self._ask_air(program, atmosphere)
 
     def _ask_coefficients(self, program):
         """[alpha][elevator] of (Cx, Cz, Cm), each with the flap at both ends, and what pitch rate adds to it."""
@@ -93,8 +94,8 @@ class PointMass:
                 row.append(at_flaps)
             self.coefficients.append(row)
 
-    def _ask_air(self, program):
-        answers = ask(program, [point(altitude_ft=altitude) for altitude in ALTITUDES_FT])
+    def _ask_air(self, program, atmosphere):
+        answers = ask(program, [point(altitude_ft=altitude) for altitude in ALTITUDES_FT], atmosphere)
         self.densities = [2 * answer["qbar_psf"] / ASKED_SPEED_FPS**2 for answer in answers]
         self.sound_speeds = [ASKED_SPEED_FPS / answer["mach"] for answer in answers]
 

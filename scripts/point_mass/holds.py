@@ -78,9 +78,9 @@ def read_holds(path, dwell_s, hold_s):
     return holds
 
 
-def fly_holds(program, agent, episodes, seed, dwell_s, hold_s, folder):
+def fly_holds(program, agent, episodes, seed, dwell_s, hold_s, folder, conditions=()):
     """A Hold, or None, of each episode; they are what the program itself reports in the mean."""
-    path, report = recorded(program, "control", agent, episodes, seed, dwell_s, hold_s, folder)
+    path, report = recorded(program, "control", agent, episodes, seed, dwell_s, hold_s, folder, conditions)
     holds = read_holds(path, dwell_s, hold_s)
     os.remove(path)
     reached = [hold.within for hold in holds if hold]

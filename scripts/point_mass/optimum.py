@@ -21,6 +21,7 @@ THRUST_IN_TRIM = 0.47
 STEPS, HELD_STEPS = 50, 10
 SCALE = 1000  # of ft/s and ft
 MACHS = [0.4 + 0.1 * k for k in range(15)]
+MORE_MACHS = [0.3 + 0.1 * k for k in range(25)]
 LONGEST_S = 60
 
 
@@ -32,13 +33,13 @@ def table(name, axes, values):
 class Plane:
     """Rates of the states, and what the task looks at, as functions of casadi."""
 
-    def __init__(self, model):
+    def __init__(self, model, machs):
         alphas = [alpha for alpha in model.alphas_deg if alpha <= HIGHEST_ALPHA_DEG + 2]
-        pairs = [[model.trimmed(alpha, row, mach) for alpha, row in zip(alphas, model.coefficients)] for mach in MACHS]
-        cx, cz = (table(f"c{k}", [alphas, MACHS], [pair[k] for column in pairs for pair in column]) for k in (0, 1))
-        rise = table("rise", [MACHS], [linear(mach, model.rise["mach"], model.rise["CD"]) for mach in MACHS])
+        pairs = [[model.trimmed(alpha, row, mach) for alpha, row in zip(alphas, model.coefficients)] for mach in machs]
+        cx, cz = (table(f"c{k}", [alphas, machs], [pair[k] for column in pairs for pair in column]) for k in (0, 1))
+        rise = table("rise", [machs], [linear(mach, model.rise["mach"], model.rise["CD"]) for mach in machs])
         heights = list(ALTITUDES_FT[::5])
-        idle, maximum = (table(level, [heights, MACHS], [model.thrust(level, height, mach) for mach in MACHS
+        idle, maximum = (table(level, [heights, machs], [model.thrust(level, height, mach) for mach in machs
                                                          for height in heights]) for level in ("idle", "maximum"))
         density = table("density", [heights], [model.air(height)[0] for height in heights])
         sound = table("sound", [heights], [model.air(height)[1] for height in heights])
@@ -80,11 +81,13 @@ class Plane:
 
 
 class Optimum:
-    """The least time for one task, by start and target."""
+    """The least time for one task, by start and target; `region` is a bound.Region to stay in."""
 
-    def __init__(self, model, task, load_factor, dwell_s):
-        plane = Plane(model)
+    def __init__(self, model, task, load_factor, dwell_s, region=None):
+        plane = Plane(model, MORE_MACHS if region else MACHS)
         self.task = task
+        self.slowest, self.fastest = (speed / SCALE for speed in (region.speeds_fps if region else (400, 1750)))
+        self.lowest, self.highest = (feet / SCALE for feet in (region.altitudes_ft if region else (2500, 38000)))
         self.count = STEPS + HELD_STEPS
         x, u = ca.MX.sym("x", 7, self.count + 1), ca.MX.sym("u", 3, self.count)
         seconds, start, target = ca.MX.sym("T"), ca.MX.sym("start", 7), ca.MX.sym("target", 3)
@@ -133,8 +136,10 @@ class Optimum:
             commands += [0.07, 0, thrust]
         alpha, roll = math.radians(HIGHEST_ALPHA_DEG), math.radians(ROLL_RATE_DEG_S)
         least = HEADING_EARLIEST_S if self.task == "heading" else 10 * CONTROL_EARLIEST_S
-        lowest = [0.4, 2.5, -1.3, -9, -0.05, -7, 0] * (self.count + 1) + [-0.05, -roll, 0] * self.count + [least]
-        highest = [1.75, 38, 1.3, 9, alpha, 7, 1] * (self.count + 1) + [alpha, roll, 1] * self.count + [LONGEST_S]
+        lowest_state = [self.slowest, self.lowest, -1.3, -9, -0.05, -7, 0]
+        highest_state = [self.fastest, self.highest, 1.3, 9, alpha, 7, 1]
+        lowest = lowest_state * (self.count + 1) + [-0.05, -roll, 0] * self.count + [least]
+        highest = highest_state * (self.count + 1) + [alpha, roll, 1] * self.count + [LONGEST_S]
         result = self.solver(x0=states + commands + [guess_s], lbx=lowest, ubx=highest, lbg=self.lower, ubg=self.upper,
                              p=[speed, altitude, 0, 0, math.radians(0.5), 0, THRUST_IN_TRIM, first, yaw, end_speed])
         return float(result["x"][-1]) if self.solver.stats()["success"] else None

@@ -78,6 +78,32 @@ class SteadyFlights(unittest.TestCase):
         self.assertGreater(held, 1500 / 400)
         self.assertLess(held, 1500 / 200)
 
+    def test_a_path_without_a_pitch_is_level(self):
+        for altitude, speed in ((15000, 900), (25000, 1100)):
+            path, _, greatest = self.flight.straight(speed, altitude)
+            self.assertEqual(path, 0)
+            self.assertAlmostEqual(greatest, trim(altitude, speed, 0)["excess_power_fps"] / speed, delta=INTERPOLATED_G)
+
+    def test_a_dwell_is_held_where_thrust_and_drag_allow(self):
+        for altitude, speed in ((20000, 1100), (35000, 900)):
+            self.assertTrue(self.flight.can_hold_target("heading", (19500, 0, 1100), (altitude, 90, speed), 3))
+        # At this speed and altitude drag takes a g more than full thrust gives: 40 ft/s in less than 1.3 s.
+        lost_g = -trim(3000, 2400, 0)["excess_power_fps"] / 2400
+        self.assertGreater(lost_g, 1)
+        self.assertFalse(self.flight.can_hold_target("heading", (19500, 0, 1100), (3000, 0, 2400), 3))
+
+    def test_any_airspeed_within_the_tolerance_will_do(self):
+        # What is held for less than the dwell from the target's airspeed is held for longer from a higher one.
+        held = self.flight.seconds_held(1100, 45000, 26.3, 1100, 30)
+        with mock.patch("point_mass.steady_hold.SPEED_OFFSETS_FPS", [0]):
+            self.assertFalse(self.flight.can_hold([45000], 26.3, 1100, held + 1))
+        self.assertTrue(self.flight.can_hold([45000], 26.3, 1100, held + 1))
+
+    def test_a_target_of_control_is_held_at_any_altitude(self):
+        target = (26.3, 0, 1100)
+        self.assertFalse(self.flight.can_hold([45000], target[0], target[2], 15))
+        self.assertTrue(self.flight.can_hold_target("control", (45000, 0, 1100), target, 15))
+
     def test_the_tolerance_of_pitch_counts(self):
         lowered = self.flight.seconds_held(1100, 20000, 25, 1100, 30)
         with mock.patch("point_mass.steady_hold.PITCH_OFFSETS_DEG", [0]):
