@@ -15,6 +15,7 @@
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
+#include "envs/step_memory.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
 #include "simd/target.h"
@@ -71,19 +72,14 @@ void StepEnvironment(double observation_noise, int aircraft, int steps) {
   config.observation_noise = observation_noise;
   VecEnv env(config, aircraft, 1, aircraft);
   const auto count = static_cast<std::size_t>(aircraft);
-  const auto observation_size = static_cast<std::size_t>(env.observation_size());
   std::vector<float> action(count * static_cast<std::size_t>(env.action_size()));
   simd::RandomStream random({1, 0, 0, 0, simd::RandomPurpose::kActionNoise});
   for (float& value : action) value = static_cast<float>(random.Uniform(-1, 1));
-  std::vector<float> observation(count * observation_size), final_observation(observation.size());
-  std::vector<float> reward(count), episode_return(count);
-  std::vector<std::uint8_t> termination(count);
-  std::vector<std::int32_t> episode_steps(count);
+  std::vector<float> observation(count * static_cast<std::size_t>(env.observation_size()));
+  StepMemory memory(aircraft, {env.observation_size()});
   CountedSteps(steps, [&](int) {
     env.Observe(0, observation.data());
-    env.Step(0, action.data(),
-             {reward.data(), termination.data(), episode_return.data(), episode_steps.data(),
-              final_observation.data()});
+    env.Step(0, action.data(), memory.output());
   });
 }
 

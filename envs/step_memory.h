@@ -11,7 +11,7 @@ namespace skein {
 /// What a StepMemory keeps beside what every step writes: the size of its rows, 0 for none.
 struct StepRows {
   int final_observation = 0;  ///< VecEnv::observation_size()
-  int final_privileged = 0;   ///< VecEnv::privileged_size()
+  int final_privileged = 0;   ///< VecEnv::privileged_size(); needs final_observation
   int flight_metrics = 0;     ///< kNumFlightMetrics
 };
 

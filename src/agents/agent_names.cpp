@@ -27,6 +27,7 @@ namespace {
 constexpr const char* kPolicy = "policy";
 constexpr const char* kAutopilot = "autopilot";
 constexpr const char* kRandom = "random";
+constexpr const char* kZero = "zero";
 constexpr const char* kSampledSuffix = "@sampled";
 constexpr const char* kOtherAircraftSuffix = "@other-aircraft";
 constexpr double kRandomHold_s = 1;
@@ -112,6 +113,11 @@ Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
 
 }  // namespace
 
+bool IsAgentName(const std::string& name) {
+  const std::string kind = KindOf(name);
+  return kind == kPolicy || kind == kAutopilot || kind == kRandom || kind == kZero;
+}
+
 bool IsAutopilot(const std::string& name) { return KindOf(name) == kAutopilot; }
 
 std::string AutopilotVariantOf(const std::string& name) {
@@ -126,7 +132,7 @@ std::vector<AgentForm> AgentForms() {
       {"policy:FILE_OR_RUN[@sampled][@other-aircraft]",
        "a trained policy with its mean action, or as sampled; on another aircraft than its own"},
       {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
-      {"zero", "zero actions"}};
+      {kZero, "zero actions"}};
 }
 
 std::string AgentNames() {
@@ -184,11 +190,11 @@ Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint6
   const std::string kind = KindOf(name);
   if (kind == kPolicy) return PolicyAgent(name, config, seed);
   if (kind == kRandom) return RandomAgent(name, config.train.env.control_interval_s);
-  if (name == "zero") return Agent::Zero();
+  if (name == kZero) return Agent::Zero();
   if (IsAutopilot(name)) return AutopilotAgent(name, config.train.env);
   if (name == "idle") throw UsageError("agent idle is now called zero");
   throw UsageError(fmt::format("unknown agent {}{}; known agents: {}", name,
-                               DidYouMean(kind, {kAutopilot, kPolicy, kRandom, "zero"}),
+                               DidYouMean(kind, {kAutopilot, kPolicy, kRandom, kZero}),
                                AgentNames()));
 }
 

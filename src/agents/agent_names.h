@@ -10,6 +10,9 @@
 
 namespace skein {
 
+/// Whether `name` begins as an agent's name does: no file that is not there is called so.
+bool IsAgentName(const std::string& name);
+
 /// Whether `name` is "autopilot" or "autopilot:VARIANT".
 bool IsAutopilot(const std::string& name);
 /// The variant that such a name means; "autopilot" alone is the quickest, aggressive.

@@ -80,10 +80,23 @@ void RequireSame(const Run& first, const Run& other, const std::vector<std::stri
                   other.path, keys.back(), a, b, hint));
 }
 
-/// The same, but older files, and systems that do not know it, need not say it.
-void RequireSameIfSaid(const Run& first, const Run& other, const std::vector<std::string>& keys,
+/// The same in all that say it: older files, and systems that do not know it, do not.
+void RequireSameIfSaid(const std::vector<Run>& runs, const std::vector<std::string>& keys,
                        const std::string& hint) {
-  if (Says(first, keys) && Says(other, keys)) RequireSame(first, other, keys, hint);
+  const Run* first = nullptr;
+  for (const Run& run : runs) {
+    if (!Says(run, keys)) continue;
+    if (first == nullptr) first = &run;
+    RequireSame(*first, run, keys, hint);
+  }
+}
+
+constexpr const char* kOtherMachineHint = " (--other-machine compares them all the same)";
+
+/// Throws UsageError unless all runs that say of which kind their processor is name the same.
+void RequireOneKindOfProcessor(const std::vector<Run>& runs) {
+  RequireSameIfSaid(runs, {"machine", "cpu_family"}, kOtherMachineHint);
+  RequireSameIfSaid(runs, {"machine", "cpu_model"}, kOtherMachineHint);
 }
 
 void RequireComparable(const Run& first, const Run& other, bool other_machine) {
@@ -91,12 +104,9 @@ void RequireComparable(const Run& first, const Run& other, bool other_machine) {
   RequireSame(first, other, {"settings"}, "");
   RequireSame(first, other, {"ranks"}, "");
   if (other_machine) return;
-  const std::string hint = " (--other-machine compares them all the same)";
-  RequireSame(first, other, {"machine", "cpu"}, hint);
-  RequireSameIfSaid(first, other, {"machine", "cpu_family"}, hint);
-  RequireSameIfSaid(first, other, {"machine", "cpu_model"}, hint);
-  RequireSame(first, other, {"machine", "simd"}, hint);
-  RequireSame(first, other, {"threads"}, hint);
+  RequireSame(first, other, {"machine", "cpu"}, kOtherMachineHint);
+  RequireSame(first, other, {"machine", "simd"}, kOtherMachineHint);
+  RequireSame(first, other, {"threads"}, kOtherMachineHint);
 }
 
 const Figure* Find(const Run& run, const std::string& name) {
@@ -251,6 +261,13 @@ BenchComparison CompareBenchmarks(const std::vector<std::string>& before,
   RequireComparable(first, first_after, other_machine);
   for (const Run& run : old_runs) RequireComparable(first, run, false);
   for (const Run& run : new_runs) RequireComparable(first_after, run, false);
+  RequireOneKindOfProcessor(old_runs);
+  RequireOneKindOfProcessor(new_runs);
+  if (!other_machine) {
+    std::vector<Run> all = old_runs;
+    all.insert(all.end(), new_runs.begin(), new_runs.end());
+    RequireOneKindOfProcessor(all);
+  }
   BenchComparison comparison;
   comparison.benchmark = TextAt(first.document, {"benchmark"});
   comparison.runs = static_cast<int>(before.size());

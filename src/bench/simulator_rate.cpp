@@ -18,6 +18,7 @@
 #include "envs/flight_reset.h"
 #include "envs/kernels/flight_control_kernel.h"
 #include "envs/kernels/plant_kernel.h"
+#include "envs/step_memory.h"
 #include "envs/vec_env.h"
 #include "simd/random.h"
 
@@ -134,9 +135,8 @@ class SteppedEnvironment {
     simd::RandomStream random({0, 0, 0, 0, simd::RandomPurpose::kActionNoise});
     for (float& action : drawn) action = static_cast<float>(random.Uniform(-1, 1));
     for (int worker = 0; worker < pool.threads(); ++worker) {
-      workers_.push_back({std::vector<float>(size * observations), drawn, std::vector<float>(size),
-                          std::vector<float>(size), std::vector<float>(size * observations),
-                          std::vector<std::uint8_t>(size), std::vector<std::int32_t>(size)});
+      workers_.push_back({std::vector<float>(size * observations), drawn,
+                          StepMemory(largest, {env_.observation_size()})});
     }
   }
 
@@ -144,17 +144,14 @@ class SteppedEnvironment {
     pool_.ForEach(env_.num_tiles(), [&](int tile, int worker) {
       Buffers& buffers = workers_[static_cast<std::size_t>(worker)];
       env_.Observe(tile, buffers.observation.data());
-      env_.Step(tile, buffers.action.data(),
-                {buffers.reward.data(), buffers.termination.data(), buffers.episode_return.data(),
-                 buffers.episode_steps.data(), buffers.final_observation.data()});
+      env_.Step(tile, buffers.action.data(), buffers.memory.output());
     });
   }
 
  private:
   struct Buffers {
-    std::vector<float> observation, action, reward, episode_return, final_observation;
-    std::vector<std::uint8_t> termination;
-    std::vector<std::int32_t> episode_steps;
+    std::vector<float> observation, action;
+    StepMemory memory;
   };
 
   VecEnv env_;

@@ -60,12 +60,13 @@ void WriteRecords(const EvalOptions& options, const std::string& path,
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, {flown});
 }
 
-/// Throws UsageError if `policy` is no file, but an agent of `skein compare`.
-void RequirePolicy(const std::string& policy) {
-  const std::string kind = policy.substr(0, policy.find(':'));
-  if (kind != "policy" && kind != "random" && kind != "zero" && !IsAutopilot(policy)) return;
+/// Throws UsageError if `policy` is no file, but the name of an agent of `skein compare`.
+void RefuseAgentNames(const std::string& policy) {
   std::error_code failure;
-  if (std::filesystem::exists(policy, failure)) return;
+  if (!IsAgentName(policy) || std::filesystem::exists(policy, failure)) return;
+  if (const std::string file = PolicyFileOfAgent(policy); !file.empty()) {
+    throw UsageError(fmt::format("--policy {}: it takes the file or run alone: {}", policy, file));
+  }
   throw UsageError(
       fmt::format("--policy {}: eval measures one policy, by its file or run; skein compare "
                   "--agents {} flies other agents, too",
@@ -81,7 +82,7 @@ struct Subject {
 
 Subject FindSubject(const EvalOptions& options) {
   const FlightOptions& flight = options.flight;
-  RequirePolicy(options.policy);
+  RefuseAgentNames(options.policy);
   const std::string path = PolicyFileOf(options.policy);
   if (path != kUntrained && !options.low_level.empty()) {
     throw UsageError(

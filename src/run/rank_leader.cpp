@@ -81,7 +81,10 @@ void FollowLeader(Trainer& trainer, WorkerPool& pool, Ranks& ranks,
         trainer.Save("");
         break;
       case RankCommand::kEvaluate:
-        together(evaluate);
+        try {
+          evaluate();
+        } catch (const JointError&) {  // what else fails would leave others in their exchanges
+        }
         break;
       case RankCommand::kEnd:
         return;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/seconds_since.h"
@@ -93,14 +94,16 @@ std::string StartNetworks(const std::string& from, Trainer& trainer) {
 /// policy of the same training.
 EvaluationReport EvaluateAtEnd(RecurrentPolicy policy, const ProgramConfig& config,
                                WorkerPool& pool, Ranks& ranks) {
+  std::vector<int> episodes = {config.final_evaluation_episodes};
   if (ranks.count() > 1) {
+    ShareRankZeros(ranks, episodes);  // no part of what ranks must train alike with
     // Other ranks may not see the run's directory.
     RecurrentPolicy::Parameters parameters = *policy.parameters();
     ShareRankZeros(ranks, parameters.values);
     policy = RecurrentPolicy(std::make_shared<RecurrentPolicy::Parameters>(std::move(parameters)));
   }
   return EvaluateBothWays(policy.WithBackend(config.train.learner.backend), config.train.env,
-                          config.final_evaluation_episodes, FinalSeed(config.train), pool, ranks);
+                          episodes[0], FinalSeed(config.train), pool, ranks);
 }
 
 /// The part of a rank that does not lead, once it has its trainer.

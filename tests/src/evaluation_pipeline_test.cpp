@@ -228,6 +228,10 @@ TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
     EXPECT_THAT(result.error, HasSubstr("--policy " + agent + ": eval measures one policy"));
     EXPECT_THAT(result.error, HasSubstr("skein compare --agents " + agent));
   }
+  const ProgramResult prefixed =
+      CallSkein({"eval", "--policy", "policy:other.skein", "--task", "heading"});
+  EXPECT_EQ(prefixed.exit_code, 2);
+  EXPECT_THAT(prefixed.error, HasSubstr("it takes the file or run alone: other.skein"));
   const ProgramResult no_task = CallSkein({"eval", "--policy", "untrained"});
   EXPECT_EQ(no_task.exit_code, 2);
   EXPECT_THAT(no_task.error, HasSubstr("--task"));

@@ -38,9 +38,12 @@ inline std::vector<pid_t> RanksOf(const std::string& word) {
   std::map<int, pid_t> by_rank;
   for (const pid_t process : ProcessesOf(word)) {
     const std::string variable = "OMPI_COMM_WORLD_RANK=";
-    const std::string all = ReadFile("/proc/" + std::to_string(process) + "/environ");
-    const std::size_t at = all.find(variable);
-    if (at != std::string::npos) by_rank[std::stoi(all.substr(at + variable.size()))] = process;
+    try {
+      const std::string all = ReadFile("/proc/" + std::to_string(process) + "/environ");
+      const std::size_t at = all.find(variable);
+      if (at != std::string::npos) by_rank[std::stoi(all.substr(at + variable.size()))] = process;
+    } catch (const Error&) {  // it has ended
+    }
   }
   std::vector<pid_t> ranks;
   for (const auto& [rank, process] : by_rank) ranks.push_back(process);

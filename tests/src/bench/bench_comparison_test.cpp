@@ -160,6 +160,13 @@ TEST_F(BenchComparisonTest, WhatCannotBeComparedIsRefused) {
       Write("zen5", figures, {{"machine", {{"cpu_family", 26}, {"cpu_model", 68}}}});
   EXPECT_THAT(MessageOf([&] { CompareBenchmarks({zen4}, {zen5}, false); }),
               HasSubstr("cpu_family is 25 in one and 26 in the other (--other-machine"));
+  for (const auto& after : {std::vector<std::string>{a, zen5}, {zen5, zen4}}) {
+    EXPECT_THAT(MessageOf([&] {
+                  CompareBenchmarks({a, zen4}, after, false);
+                }),
+                HasSubstr("cpu_family is 25 in one and 26 in the other"))
+        << "whatever the first files say";
+  }
   EXPECT_THAT(ToText(CompareBenchmarks({zen4}, {zen5}, true)),
               HasSubstr("one (family 25, model 17), avx2, 2 threads; after: one (family 26, "));
   EXPECT_THAT(refusal({{"figures", nullptr}}), HasSubstr("nothing that could be compared"));
