@@ -3,7 +3,6 @@
 // scripts/count_instructions: two runs with different numbers of steps differ by those steps alone.
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <iostream>
 #include <string>

@@ -164,7 +164,7 @@ TEST_F(BenchComparisonTest, WhatCannotBeComparedIsRefused) {
     EXPECT_THAT(MessageOf([&] {
                   CompareBenchmarks({a, zen4}, after, false);
                 }),
-                HasSubstr("cpu_family is 25 in one and 26 in the other"))
+                HasSubstr("cannot be compared: cpu_family is"))
         << "whatever the first files say";
   }
   EXPECT_THAT(ToText(CompareBenchmarks({zen4}, {zen5}, true)),
