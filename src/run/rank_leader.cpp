@@ -63,19 +63,16 @@ void RankLeader::Say(RankCommand command) {
 
 void FollowLeader(Trainer& trainer, WorkerPool& pool, Ranks& ranks,
                   const std::function<void()>& evaluate) {
-  const auto together = [](const auto& work) {
-    try {
-      work();
-    } catch (const Error&) {  // rank 0 has the same, and says so
-    }
-  };
   RunSignals signals(pool);
   for (;;) {
     switch (AgreeOnNext(ranks, signals, RankCommand::kNone)) {
       case RankCommand::kNone:
         break;
       case RankCommand::kIterate:
-        together([&] { trainer.Iterate(); });
+        try {
+          trainer.Iterate();
+        } catch (const Error&) {  // rank 0 has the same, and says so
+        }
         break;
       case RankCommand::kSave:
         trainer.Save("");
