@@ -261,9 +261,10 @@ BenchComparison CompareBenchmarks(const std::vector<std::string>& before,
   RequireComparable(first, first_after, other_machine);
   for (const Run& run : old_runs) RequireComparable(first, run, false);
   for (const Run& run : new_runs) RequireComparable(first_after, run, false);
-  RequireOneKindOfProcessor(old_runs);
-  RequireOneKindOfProcessor(new_runs);
-  if (!other_machine) {
+  if (other_machine) {
+    RequireOneKindOfProcessor(old_runs);
+    RequireOneKindOfProcessor(new_runs);
+  } else {
     std::vector<Run> all = old_runs;
     all.insert(all.end(), new_runs.begin(), new_runs.end());
     RequireOneKindOfProcessor(all);
