@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "base/error.h"
 #include "base/range.h"
@@ -30,8 +31,12 @@ std::optional<TrimTable> SolveTrims(const InitialConfig& initial, const Plant& p
   if (!initial.trimmed) return std::nullopt;
   const Range altitude_ft = initial.drawn_altitude_ft();
   const Range true_airspeed_fps = initial.drawn_true_airspeed_fps();
-  return TrimTable(plant, altitude_ft.min, altitude_ft.max, true_airspeed_fps.min,
-                   true_airspeed_fps.max);
+  try {
+    return TrimTable(plant, altitude_ft.min, altitude_ft.max, true_airspeed_fps.min,
+                     true_airspeed_fps.max);
+  } catch (const Error& error) {
+    throw Error(std::string("flights cannot begin in all of env.initial: ") + error.what());
+  }
 }
 
 /// Throws Error if the slowest or the fastest start ends at once, by the Mach number there.

@@ -82,6 +82,27 @@ def _require_no_rendering(render_mode: Any) -> None:
         )
 
 
+class _Turn:
+    """Lets one thread use an environment at a time: whole calls come one after another, and functions that reward may
+    call within their step. A process that was forked has none of the threads that step, and a lock that one of them
+    held would never be free there: it is refused."""
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+        self._process = os.getpid()
+
+    def __enter__(self) -> None:
+        if os.getpid() != self._process:
+            raise Error(
+                "the environment belongs to the process that made it, and this one was forked from it since: "
+                "make environments in the process that steps them"
+            )
+        self._lock.acquire()
+
+    def __exit__(self, *_: object) -> None:
+        self._lock.release()
+
+
 class _Flight:
     """What both environments have: the aircraft, their configuration, and the names of what they show and take."""
 
@@ -117,8 +138,7 @@ class _Flight:
         self._stepped = self._core if self._rules is None else self._rules
         self._begun = False
         self._is_closed = False
-        # Whole calls of several threads come one after another; functions that reward may call within their step.
-        self._turn = threading.RLock()
+        self._turn = _Turn()
 
     @property
     def policy_step_s(self) -> float:

@@ -3,6 +3,7 @@
 import multiprocessing
 import os
 import re
+import select
 import signal
 import subprocess
 import sys
@@ -177,3 +178,58 @@ def test_environments_of_processes(method, num_envs):
     with multiprocessing.get_context(method).Pool(2) as pool:
         for there in pool.starmap_async(rollout, [(1, num_envs, 2), (1, num_envs, 1)]).get(timeout=120):
             np.testing.assert_array_equal(here, there)
+
+
+def uses_in_child(use):
+    """What a forked child says of `use`: its error's text, or "went on"."""
+    reader, writer = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            use()
+            os.write(writer, b"went on")
+        except skein.Error as error:
+            os.write(writer, str(error).encode())
+        finally:
+            os._exit(0)
+    os.close(writer)
+    answered = select.select([reader], [], [], MOST_SECONDS)[0]
+    if not answered:
+        os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    with os.fdopen(reader) as said:
+        return said.read()
+
+
+@pytest.mark.parametrize("num_envs", [1, 256])
+def test_a_forked_process_is_refused_environments_of_its_parent(num_envs):
+    envs = skein.make_vec("heading", num_envs, threads=2)
+    envs.reset(seed=1)
+    actions = np.zeros((num_envs, 4), np.float32)
+    done = threading.Event()
+
+    def fly():
+        while not done.is_set():
+            envs.step(actions)
+
+    thread = threading.Thread(target=fly)
+    thread.start()  # in whose step the fork comes: nobody ends it there
+    try:
+        for use in (lambda: envs.step(actions), envs.reset, envs.state, envs.targets, envs.snapshot):
+            said = uses_in_child(use)
+            assert "was forked" in said and "\n" not in said
+    finally:
+        done.set()
+        thread.join()
+    envs.step(actions)
+
+
+def test_a_forked_process_is_refused_a_single_environment_of_its_parent():
+    env = skein.make("heading")
+    env.reset(seed=1)
+    snapshot = env.snapshot()
+    for use in (lambda: env.step(np.zeros(4)), env.reset, lambda: env.restore(snapshot)):
+        assert "was forked" in uses_in_child(use)
+    env.close()
+    env = skein.make("heading")
+    assert uses_in_child(env.close) == "went on"

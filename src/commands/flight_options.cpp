@@ -251,8 +251,8 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
 }
 
 void WarnOfTargets(const EnvConfig& env) {
-  for (const std::string& line : TargetsBeyondLimits(env)) {
-    fmt::print(stderr, "warning: {}\n", line);
+  for (const auto& beyond : {TargetsBeyondLimits(env), AltitudesBeyondTables(env)}) {
+    for (const std::string& line : beyond) fmt::print(stderr, "warning: {}\n", line);
   }
 }
 

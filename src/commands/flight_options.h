@@ -95,7 +95,8 @@ std::vector<std::string> PoliciesAmong(const std::vector<std::string>& agents);
 void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>& policies,
                     const std::string& aircraft, ProgramConfig* config);
 
-/// Says on the error stream which targets no flight can come to (TargetsBeyondLimits).
+/// Says on the error stream which targets no flight can come to (TargetsBeyondLimits), and what
+/// lies above the engine's tables (AltitudesBeyondTables).
 void WarnOfTargets(const EnvConfig& env);
 
 /// The agents of a list of --agents, for the environment of `config`. Throws UsageError on a name

@@ -28,6 +28,12 @@ void LevelRequest::RefuseWithoutUnit(const std::string& number, const Units& uni
                           fmt::join(forms, ", ")));
 }
 
+void LevelRequest::RefuseReversed(const std::string& range, const std::string& low,
+                                  const std::string& high) const {
+  throw Error(fmt::format("--condition {}={}: {} is reversed; write {}..{}", name, level, range,
+                          high, low));
+}
+
 bool StartsWithDigit(const std::string& text) { return text.find_first_of(kDigits) == 0; }
 
 double ParseNumber(const std::string& text, const Units& units, const LevelRequest& request) {
@@ -56,7 +62,7 @@ Range ParseRange(const std::string& text, const Units& units, const LevelRequest
   if (low_has_unit && !high_has_unit) request.Refuse(text);  // 60kt..120: of what?
   if (!low_has_unit && high_has_unit) low += high.substr(unit + 1);
   const Range range{ParseNumber(low, units, request), ParseNumber(high, units, request)};
-  if (range.min > range.max) request.Refuse(text);
+  if (range.min > range.max) request.RefuseReversed("the range " + text, low, high);
   return range;
 }
 

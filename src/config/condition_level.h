@@ -26,6 +26,9 @@ struct LevelRequest {
   [[noreturn]] void Refuse(const std::string& part) const;
   /// Throws Error: a number needs one of the units.
   [[noreturn]] void RefuseWithoutUnit(const std::string& number, const Units& units) const;
+  /// Throws Error: `range` from `low` to `high`, "the range 2..1", has its ends exchanged.
+  [[noreturn]] void RefuseReversed(const std::string& range, const std::string& low,
+                                   const std::string& high) const;
 };
 
 // What follows throws Error by the request on what cannot be read.

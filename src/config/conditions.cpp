@@ -43,7 +43,7 @@ Range ParseSeverity(const std::string& text, const LevelRequest& request) {
   };
   const auto [low, high] = SplitRange(text);
   const Range range{deviation(low), deviation(high)};
-  if (range.min > range.max) request.Refuse(text);
+  if (range.min > range.max) request.RefuseReversed("the range " + text, low, high);
   return range;
 }
 

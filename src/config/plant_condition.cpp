@@ -81,8 +81,7 @@ Range ParseRangeOf(const std::string& quantity, const std::string& text,
   const auto [low, high] = SplitRange(text);
   const Range range{ParseNumber(low, kPlain, request), ParseNumber(high, kPlain, request)};
   if (range.min <= range.max) return range;
-  throw Error(fmt::format("--condition {}={}: {}: the range {} is reversed; write {}..{}",
-                          request.name, request.level, quantity, text, high, low));
+  request.RefuseReversed(quantity + ": the range " + text, low, high);
 }
 
 /// The values of env.plant's keys, at first those of a configuration or nominal.

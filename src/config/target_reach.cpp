@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "envs/air/atmosphere.h"
+#include "envs/aircraft/registry.h"
 #include "envs/tasks/terms/term_task_config.h"
 
 namespace skein {
@@ -76,7 +78,52 @@ std::string BeyondLimits(const TermTarget& target, const EnvConfig& env) {
   }
 }
 
+/// The altitude of the highest point that is drawn around the horizon.
+double HighestPoint(const EnvConfig& env, const Range& distance_ft, double elevation_deg) {
+  return env.initial.altitude_ft.max + distance_ft.max * std::sin(elevation_deg / kDegPerRad);
+}
+
+/// Targets that have an altitude, as messages call them, each with the highest that may be drawn.
+std::vector<std::pair<std::string, double>> HighestTargets(const EnvConfig& env) {
+  std::vector<std::pair<std::string, double>> highest;
+  if (env.term_task != nullptr) {
+    for (const TermTarget& target : env.term_task->targets) {
+      if (target.draw_from == TermTarget::Draw::kPoint) {
+        highest.emplace_back("target " + target.name,
+                             HighestPoint(env, target.distance_ft, target.elevation_deg));
+      } else if (target.quantity.value == TermValue::kAltitude) {
+        highest.emplace_back("target " + target.name, DrawnOf(target, env.initial.altitude_ft).max);
+      }
+    }
+  } else if (env.task == "heading") {
+    highest.emplace_back("the target altitude",
+                         env.initial.altitude_ft.max + env.heading.altitude_change_ft);
+  } else if (env.task == "tracking") {
+    highest.emplace_back("the target",
+                         HighestPoint(env, env.tracking.distance_ft, env.tracking.elevation_deg));
+  }
+  for (auto& [name, altitude_ft] : highest) {
+    altitude_ft = std::max(altitude_ft, env.target_altitude_min_ft);
+  }
+  return highest;
+}
+
 }  // namespace
+
+std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env) {
+  const double end_ft = LoadAircraft(env.aircraft).engine.altitude_ft.back();
+  std::vector<std::string> lines;
+  const auto append = [&](const std::string& what, double altitude_ft) {
+    if (altitude_ft <= end_ft) return;
+    lines.push_back(
+        fmt::format("{} at up to {:.0f} ft: the engine's tables end at {:.0f} ft, and thrust above "
+                    "is held as there",
+                    what, altitude_ft, end_ft));
+  };
+  append("flights begin", env.initial.altitude_ft.max);
+  for (const auto& [name, altitude_ft] : HighestTargets(env)) append(name + " is", altitude_ft);
+  return lines;
+}
 
 std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env) {
   std::vector<std::string> lines;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "src/evaluation/state_readings.h"
 #include "src/files/csv_columns.h"
 #include "src/files/output_file.h"
+#include "src/files/plain_line.h"
 
 namespace skein {
 namespace {
@@ -31,6 +33,16 @@ constexpr std::array<StickColumn, 4> kStickColumns = {{{"throttle", &PilotComman
                                                        {"roll", &PilotCommands::roll, -1},
                                                        {"yaw", &PilotCommands::yaw, -1}}};
 
+/// Of what other programs write: ends of lines of Windows, and a last line without its end.
+std::string WithPlainLineEnds(std::string text) {
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  for (std::size_t end = text.find("\r\n"); end != std::string::npos;
+       end = text.find("\r\n", end)) {
+    text.erase(end, 1);
+  }
+  return text;
+}
+
 void CheckColumns(const CsvColumns& table, const std::string& path) {
   if (table.rows() == 0 || table.rows_left_out > 0) {
     throw Error(path + ": expected a header and rows of as many numbers");
@@ -41,7 +53,10 @@ void CheckColumns(const CsvColumns& table, const std::string& path) {
     for (const StickColumn& column : kStickColumns) is_known = is_known || name == column.name;
     if (!is_known) {
       throw Error(fmt::format("{}: column {}: time_s, throttle, pitch, roll and yaw are known",
-                              path, name));
+                              path, PlainLine(name)));
+    }
+    if (std::count(table.names.begin(), table.names.end(), name) > 1) {
+      throw Error(fmt::format("{}: column {} is there twice", path, name));
     }
   }
 }
@@ -76,9 +91,7 @@ std::string Row(double time, const std::vector<Reading>& readings, const PilotCo
 }  // namespace
 
 std::vector<StickCommand> ReadStickCommands(const std::string& path, const PilotCommands& trimmed) {
-  std::string text = ReadFile(path);
-  if (!text.empty() && text.back() != '\n') text += '\n';
-  const CsvColumns table = ParseCsv(text);
+  const CsvColumns table = ParseCsv(WithPlainLineEnds(ReadFile(path)));
   CheckColumns(table, path);
   std::vector<StickCommand> commands;
   for (std::size_t row = 0; row < table.rows(); ++row) {

@@ -174,7 +174,7 @@ void ChooseEpisodes(const std::vector<int>& episodes, Recording* agent) {
   for (const int episode : episodes) {
     const auto found = std::find(known.begin(), known.end(), std::to_string(episode));
     if (found == known.end()) {
-      throw Error(fmt::format("{}: no episode {}; there are {}", agent->flights.front().source,
+      throw Error(fmt::format("{}: no episode {}; known: {}", agent->flights.front().source,
                               episode, fmt::join(known, ", ")));
     }
     chosen.push_back(agent->flights[static_cast<std::size_t>(found - known.begin())]);

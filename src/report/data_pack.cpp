@@ -19,8 +19,8 @@ constexpr std::size_t kAlignment = 8;
 
 template <typename T>
 void AppendLittleEndian(T value, std::string* bytes) {
-  static_assert(sizeof(T) <= 4);
-  std::uint32_t bits = 0;
+  static_assert(sizeof(T) <= 8);
+  std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof(T));
   for (std::size_t i = 0; i < sizeof(T); ++i) {
     bytes->push_back(static_cast<char>((bits >> (8 * i)) & 0xff));
@@ -45,11 +45,24 @@ Range FiniteRange(const std::vector<double>& values) {
   return {*low, *high};
 }
 
+/// Whether it is whole, and a float would be another number.
+bool IsCountBeyondFloats(double value) {
+  return std::isfinite(value) && std::trunc(value) == value &&
+         static_cast<double>(static_cast<float>(value)) != value;
+}
+
 }  // namespace
 
-Json DataPack::AddFloats(const std::vector<double>& values) {
-  Json reference = {{"f32", {arrays_.size(), values.size()}}};
-  for (const double value : values) AppendLittleEndian(static_cast<float>(value), &arrays_);
+Json DataPack::AddNumbers(const std::vector<double>& values) {
+  const bool as_doubles = std::any_of(values.begin(), values.end(), IsCountBeyondFloats);
+  Json reference = {{as_doubles ? "f64" : "f32", {arrays_.size(), values.size()}}};
+  for (const double value : values) {
+    if (as_doubles) {
+      AppendLittleEndian(value, &arrays_);
+    } else {
+      AppendLittleEndian(static_cast<float>(value), &arrays_);
+    }
+  }
   PadToAlignment('\0', &arrays_);
   return reference;
 }

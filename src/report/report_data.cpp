@@ -23,14 +23,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 /// The strongest, and the one that keeps its wings upright: what a policy has to beat.
 constexpr const char* kAutopilots[] = {"autopilot:aggressive", "autopilot:traditional"};
 
 Json TableJson(const CsvColumns& table, DataPack* pack) {
   Json columns = Json::object();
   for (std::size_t k = 0; k < table.names.size(); ++k) {
-    columns[table.names[k]] = pack->AddFloats(table.values[k]);
+    columns[table.names[k]] = pack->AddNumbers(table.values[k]);
   }
   return columns;
 }

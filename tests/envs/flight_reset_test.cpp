@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -180,6 +181,20 @@ TEST(FlightResetTest, TrainingBeginsInAPullAndEvaluationsDoNot) {
     EXPECT_EQ(DrawOf(evaluation, episode).columns, level.columns);
   }
   ExpectUniform(shares);
+}
+
+TEST(FlightResetTest, NamesTheStartsThatAreNoSteadyFlight) {
+  EnvConfig config;
+  config.initial.true_airspeed_fps.min = 100;  // below the stall
+  config.termination.min_mach = 0;
+  try {
+    FlightReset(config, F16());
+    FAIL() << "it flew";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("flights cannot begin in all of env.initial: no ", 0),
+              0u)
+        << error.what();
+  }
 }
 
 TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {

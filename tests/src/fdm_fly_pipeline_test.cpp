@@ -147,6 +147,10 @@ TEST_F(FdmFly, SticksOfAFileAreFlown) {
   EXPECT_EQ(stick[101], 0);
   EXPECT_GT(flown.Find("p_deg_s")->at(100), 30);
   EXPECT_GT(flown.Find("roll_deg")->at(100), 20);
+  const std::string as_flown = ReadFile(path);
+  WriteFile(sticks, "time_s,roll\r\n0,0\r\n1,0.2\r\n2,0\r\n");
+  ASSERT_EQ(CallSkein(words).exit_code, 0);
+  EXPECT_EQ(ReadFile(path), as_flown) << "as Windows ends lines";
   const ProgramResult drawn =
       CallSkein({"plot", "flights", path, "--columns", "p_deg_s", "-o", folder_ + "/fly.svg"});
   EXPECT_EQ(drawn.exit_code, 0) << drawn.error;
@@ -160,6 +164,8 @@ TEST_F(FdmFly, SticksOfAFileAreFlown) {
       {"time_s,roll\n0,0,0\n", "expected a header"},
       {"roll\n0\n", "no column time_s"},
       {"time_s,stick\n0,0\n", "column stick"},
+      {"time_s,ro\rll\n0,0\n", "column ro ll"},
+      {"time_s,roll,roll\n0,0,0.2\n", "column roll is there twice"},
       {"time_s,roll\n1,0\n1,0\n", "row 2: times are from 0 on and increase"},
       {"time_s,roll\nx,0\n", "row 1: times"},
       {"time_s,roll\n0,2\n", "row 1: roll is not a number from -1 to 1"},

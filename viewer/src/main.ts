@@ -36,6 +36,13 @@ function titleOf(names: string[]): string {
   return `${names.slice(0, MOST_NAMES - 1).join(', ')} and ${names.length - MOST_NAMES + 1} others`;
 }
 
+/** The runs; of a report without one, the agents of its first comparison or flights. */
+function shownNames(report: ReportDocument): string[] {
+  if (report.runs.length > 0) return report.runs.map((run) => run.name);
+  return [...report.comparisons.map((c) => c.agents.map((agent) => agent.name)),
+    ...report.flights.map((set) => set.agents)][0] ?? ['nothing'];
+}
+
 function notesOf(document: ReportDocument): HTMLElement | null {
   const notes = document.runs.flatMap((run) => run.notes.map((note) => `${run.name}: ${note}`));
   if (notes.length === 0) return null;
@@ -59,6 +66,7 @@ class Page {
   private readonly notes = el('div');
   private readonly made = el('p');
   private readonly nav = el('nav', { 'aria-label': 'views' });
+  private readonly title = el('h1');
   private chosen: View | undefined;
   private shown: Shown | undefined;
 
@@ -67,13 +75,8 @@ class Page {
       document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
       this.show();
     });
-    const { document: report } = pack;
-    const flown = [...report.comparisons.map((c) => c.agents.map((agent) => agent.name)),
-      ...report.flights.map((set) => set.agents)][0] ?? ['nothing'];
-    const title = titleOf(report.runs.length > 0 ? report.runs.map((run) => run.name) : flown);
-    document.title = `${title} – Skein`;
     root.replaceChildren(
-      el('header', {}, el('h1', {}, title), this.nav, theme),
+      el('header', {}, this.title, this.nav, theme),
       this.notes, this.status, this.place,
       el('footer', {}, this.made, licences()),
     );
@@ -96,6 +99,8 @@ class Page {
   /** What is to be said of the data, whatever is shown of them. */
   private say(): void {
     const { document: report } = this.pack;
+    this.title.textContent = titleOf(shownNames(report));
+    document.title = `${this.title.textContent} – Skein`;
     this.notes.replaceChildren(...[notesOf(report)].filter((notes) => notes !== null));
     this.made.textContent = `skein ${report.skein}, ${report.made}`;
   }

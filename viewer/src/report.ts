@@ -2,7 +2,7 @@
 // The document of a report, as skein packs it (src/report/report_data.cpp).
 import type { ArrayReference, Pack } from './pack';
 
-export const KNOWN_FORMAT = 2;
+export const KNOWN_FORMAT = 3;
 
 export type Columns = Record<string, ArrayReference>;
 

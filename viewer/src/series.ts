@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What curves do to numbers.
+import type { Numbers } from './pack';
 
 /** A value that is not there is null, as uPlot has it. */
 export type Series = (number | null)[];
@@ -76,7 +77,7 @@ export function union(arrays: ArrayLike<number>[]): number[] {
 }
 
 /** Shares of their sum, column by column; null where nothing ended. */
-export function shares(columns: Float32Array[]): Series[] {
+export function shares(columns: Numbers[]): Series[] {
   return columns.map((column) =>
     Array.from(column, (value, i) => {
       const sum = columns.reduce((total, other) => total + other[i], 0);

@@ -22,6 +22,12 @@ export class Packer {
     return { f32: [this.add(bytes), values.length] };
   }
 
+  doubles(values: number[]): ArrayReference {
+    const bytes = Buffer.alloc(8 * values.length);
+    values.forEach((value, i) => bytes.writeDoubleLE(value, 8 * i));
+    return { f64: [this.add(bytes), values.length] };
+  }
+
   quantised(values: number[]): ArrayReference {
     const finite = values.filter(Number.isFinite);
     const low = finite.length > 0 ? Math.min(...finite) : 0;
@@ -144,7 +150,7 @@ export function fixture(name: string, flights: number, more = 0, seeds = [1, 2])
   });
   const agents = [name, 'autopilot:aggressive'];
   const document: ReportDocument = {
-    format: 2, skein: '0.0.0', made: '2026-01-01T00:00:00Z', runs: seeds.map(run),
+    format: 3, skein: '0.0.0', made: '2026-01-01T00:00:00Z', runs: seeds.map(run),
     comparisons: [comparisonOf([...agents, 'autopilot:traditional'])],
     flights: [{
       task: 'heading', conditions: 'still air', seed: 1, agents, is_point: false, hold_s: 10,

@@ -17,6 +17,13 @@ describe('the pack', () => {
     expect(Array.from(pack.array(pack.document.a))).toEqual(values);
   });
 
+  it('gives back counts that no float is', async () => {
+    const packer = new Packer();
+    const counts = [1, 2 ** 24 + 1, 2 ** 53 - 1];
+    const pack = await through(packer, { first: packer.floats([7]), a: packer.doubles(counts) });
+    expect(Array.from(pack.array(pack.document.a))).toEqual(counts);
+  });
+
   it('gives back quantised values to a 65000th of their range', async () => {
     const packer = new Packer();
     const values = Array.from({ length: 500 }, (_, i) => 300 * Math.sin(i / 7));

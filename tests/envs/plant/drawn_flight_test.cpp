@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each randomised quantity acts as it is called, in flights of the environment.
+// Each randomised quantity of the aircraft and its air acts as it is called, in flights of the
+// environment.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,48 +14,12 @@
 #include "envs/reference/closed_loop.h"
 #include "envs/vec_env.h"
 #include "tests/envs/plant/drawn_aircraft.h"
+#include "tests/envs/plant/one_flight.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/tolerance.h"
 
 namespace skein {
 namespace {
-
-using Action = std::array<float, 4>;
-using Actions = std::function<Action(int step)>;
-
-constexpr double kInterval = 0.02;
-
-/// One F-16 at 20,000 ft and 900 ft/s in steady flight, without noise.
-EnvConfig OneFlight() {
-  EnvConfig config;
-  config.observation_noise = 0;
-  config.initial.altitude_ft = {20000, 20000};
-  config.initial.true_airspeed_fps = {900, 900};
-  return config;
-}
-
-/// A pull, a roll and a push of the rudder, after one another and together.
-Action Lively(int step) {
-  const float t = static_cast<float>(step) * 0.02f;
-  return {0.2f, 0.3f * std::sin(3 * t), 0.4f * std::sin(2 * t + 1), 0.2f * std::sin(t)};
-}
-
-/// Columns of the state after each control step, in their order.
-std::vector<float> Fly(const EnvConfig& config, const Actions& actions, int steps) {
-  VecEnv env(config, 1, 1);
-  StepBuffers buffers(1);
-  std::vector<float> states;
-  for (int step = 0; step < steps; ++step) {
-    const Action action = actions(step);
-    std::copy(action.begin(), action.end(), buffers.action.begin());
-    env.Step(0, buffers.action.data(), buffers.output());
-    EXPECT_EQ(buffers.termination[0], 0);
-    for (int column = 0; column < kNumColumns; ++column) {
-      states.push_back(env.StateOf(0, column));
-    }
-  }
-  return states;
-}
 
 /// Rates of change over one short control step with the sticks at `action`, and nz and ny.
 struct Response {
@@ -78,13 +42,6 @@ Response Respond(EnvConfig config, const Action& action = {0, 0, 0, 0}, std::uin
     response.rate[c] = (response.end[c] - start[c]) / kShort;
   }
   return response;
-}
-
-/// The same as a plant that is drawn: other kernels fly it, which round otherwise.
-EnvConfig OneDrawnFlight() {
-  EnvConfig config = OneFlight();
-  config.plant.sensor_freeze_chance = 1e-9;  // never, and yet not off
-  return config;
 }
 
 EnvConfig With(Range PlantConfig::*quantity, double value) {
@@ -364,188 +321,6 @@ TEST(DrawnFlight, RateIsTheActuatorsLimit) {
       1);
   EXPECT_NEAR(states[kAileron], -0.5 * F16().actuators.aileron.rate_limit_deg_per_s * kInterval,
               kFloat32);
-}
-
-TEST(DrawnFlight, AnActionDelayOfKStepsShiftsTheCommandsByK) {
-  for (const int delay : {1, 2, 3}) {
-    EnvConfig late = OneFlight();
-    late.plant.action_delay_steps = {delay, delay};
-    const float trim = VecEnv(OneFlight(), 1, 1).StateOf(0, kPower);
-    const auto throttle = static_cast<float>(
-        2 * ThrottleForPower(F16().throttle_gearing, static_cast<double>(trim)) - 1);
-    const auto shifted = [&](int step) {
-      return step < delay ? Action{throttle, 0, 0, 0} : Lively(step - delay);
-    };
-    const auto expected = Fly(OneDrawnFlight(), shifted, 40), flown = Fly(late, Lively, 40);
-    for (std::size_t k = 0; k < flown.size(); ++k) {
-      ASSERT_NEAR(flown[k], expected[k], 2e-5 * (1 + std::abs(expected[k]))) << delay << ", " << k;
-    }
-  }
-}
-
-/// Observations before each of `steps` control steps.
-std::vector<std::array<float, kObservationSize>> Observe(const EnvConfig& config, int steps) {
-  VecEnv env(config, 1, 1);
-  StepBuffers buffers(1);
-  std::vector<std::array<float, kObservationSize>> rows(static_cast<std::size_t>(steps));
-  for (int step = 0; step < steps; ++step) {
-    env.Observe(0, rows[static_cast<std::size_t>(step)].data());
-    const Action action = Lively(step);
-    std::copy(action.begin(), action.end(), buffers.action.begin());
-    env.Step(0, buffers.action.data(), buffers.output());
-  }
-  return rows;
-}
-
-void ExpectDelayedObservations(const EnvConfig& nominal) {
-  constexpr std::size_t kSteps = 30;
-  const auto prompt = Observe(nominal, kSteps);
-  for (const std::size_t delay : {1u, 2u, 3u}) {
-    EnvConfig late = nominal;
-    late.plant.observation_delay_steps = {static_cast<int>(delay), static_cast<int>(delay)};
-    const auto seen = Observe(late, kSteps);
-    for (std::size_t step = 0; step < kSteps; ++step) {
-      EXPECT_EQ(seen[step], prompt[step < delay ? 0 : step - delay])
-          << nominal.task << ", " << delay << ", " << step;
-    }
-  }
-}
-
-TEST(DrawnFlight, AnObservationDelayOfKStepsShowsTheStateOfKStepsAgo) {
-  for (const bool windy : {false, true}) {
-    EnvConfig nominal = OneDrawnFlight();
-    if (windy) nominal.wind.turbulence_fps = {10, 10};
-    for (const char* task : {"heading", "control"}) {
-      nominal.task = task;
-      ExpectDelayedObservations(nominal);
-    }
-    nominal.task = "tracking";
-    for (const TrackingAxes axes : {TrackingAxes::kHeading, TrackingAxes::kPath}) {
-      nominal.tracking.error_axes = axes;
-      ExpectDelayedObservations(nominal);
-    }
-  }
-}
-
-TEST(DrawnFlight, SensorErrorsAreConstantAndLeaveTheTasksErrors) {
-  constexpr Tolerance kScale{0.101, "the largest error, and float32 rounding of a change of 0.01"};
-  constexpr Tolerance kLine{1e-4, "float32 rounding of a change of 0.01, at changes of 1"};
-  EnvConfig config = OneDrawnFlight();
-  const auto exact = Observe(config, 20);
-  config.plant.sensor_bias = 0.05;
-  config.plant.sensor_scale = 0.1;
-  const auto seen = Observe(config, 20);
-  int different = 0;
-  for (std::size_t k = 0; k < kObservationSize; ++k) {
-    // The line through two of the points holds for all.
-    const double change = exact[15][k] - exact[3][k];
-    for (std::size_t step = 0; step < 20; ++step) {
-      if (k < 3) {
-        EXPECT_EQ(seen[step][k], exact[step][k]);
-      } else {
-        EXPECT_NEAR(seen[step][k], exact[step][k], 0.05 + 0.1 * std::abs(exact[step][k]));
-      }
-    }
-    if (k >= 3 && seen[0][k] != exact[0][k]) ++different;
-    if (k < 3 || std::abs(change) < 0.01) continue;
-    const double scale = (seen[15][k] - seen[3][k]) / change;
-    EXPECT_NEAR(scale, 1, kScale) << k;
-    for (std::size_t step = 0; step < 20; ++step) {
-      EXPECT_NEAR(seen[step][k] - seen[3][k], scale * (exact[step][k] - exact[3][k]), kLine) << k;
-    }
-  }
-  EXPECT_EQ(different, kObservationSize - 3);
-}
-
-TEST(DrawnFlight, SensorErrorsAreTheDrawnOnes) {
-  EnvConfig config = OneDrawnFlight();
-  const auto exact = Observe(config, 1);
-  config.plant.sensor_bias = 0.05;
-  config.plant.sensor_scale = 0.1;
-  const auto seen = Observe(config, 1);
-  simd::RandomStream random({1, 0, 0, 0, simd::RandomPurpose::kPlant});
-  const PlantDraw draw = DrawPlant(config.plant, &random);
-  constexpr double kPacked = 1.0 / 128, kRounding = 1e-6;  // of what was drawn; of float32
-  for (std::size_t k = 3; k < kObservationSize; ++k) {
-    const double value = exact[0][k];
-    const double by_scale = value * draw.sensor_scale[k - 3], bias = draw.sensor_bias[k - 3];
-    EXPECT_NEAR(seen[0][k], value + by_scale + bias,
-                kPacked * (std::abs(by_scale) + std::abs(bias)) + kRounding)
-        << k;
-  }
-}
-
-TEST(DrawnFlight, AFrozenSensorShowsWhatItLastShowed) {
-  constexpr int kCount = 64, kSteps = 20, kFrozen = 5;
-  EnvConfig config = OneFlight();
-  config.observation_noise = 0.01;
-  config.plant.sensor_freeze_chance = 1;
-  config.plant.sensor_freeze_s = {kFrozen * kInterval, kFrozen * kInterval};
-  VecEnv env(config, kCount, 1);
-  StepBuffers buffers(kCount);
-  std::vector<std::vector<float>> seen;
-  for (int step = 0; step < kSteps; ++step) {
-    env.Observe(0, buffers.observation.data());
-    seen.push_back(buffers.observation);
-    env.Step(0, buffers.action.data(), buffers.output());
-  }
-  std::array<int, kObservationSize> frozen{};
-  for (int i = 0; i < kCount; ++i) {
-    int numbers = 0;
-    for (int k = 0; k < kObservationSize; ++k) {
-      const auto at = [&](int step) {
-        return seen[static_cast<std::size_t>(step)]
-                   [static_cast<std::size_t>(i * kObservationSize + k)];
-      };
-      bool is_constant = true;
-      for (int step = kFrozen; step < kSteps; ++step) is_constant &= at(step) == at(kFrozen);
-      EXPECT_NE(at(kFrozen - 1), at(kFrozen)) << "noise is new every step";
-      numbers += is_constant;
-      frozen[static_cast<std::size_t>(k)] += is_constant;
-    }
-    EXPECT_GE(numbers, 1) << i;
-    EXPECT_LE(numbers, 2) << i;
-  }
-  for (const FreezingSensor& sensor : kFreezingSensors) {
-    EXPECT_GT(frozen[static_cast<std::size_t>(sensor.first)], 0) << sensor.first;
-  }
-  for (const std::size_t k : {0u, 1u, 2u, 4u, 5u, 6u, 7u}) EXPECT_EQ(frozen[k], 0) << k;
-}
-
-void ExpectHeldActionsAreTheSameInEveryControlStep(EnvConfig config) {
-  constexpr int kCount = 64, kPolicySteps = 12;
-  config.observation_noise = 0.01;
-  config.plant.sensor_bias = 0.02;
-  config.plant.sensor_freeze_chance = 0.5;
-  config.plant.sensor_freeze_s = {5 * kInterval, 40 * kInterval};
-  for (const int longest : {1, 2, 7}) {
-    config.plant.action_delay_steps = config.plant.observation_delay_steps = {0, longest};
-    EnvConfig held = config;
-    held.action_repeat = 5;
-    VecEnv once(held, kCount, 1), again(config, kCount, 1);
-    StepBuffers buffers(kCount), others(kCount);
-    for (int step = 0; step < kPolicySteps; ++step) {
-      once.Observe(0, buffers.observation.data());
-      again.Observe(0, others.observation.data());
-      ASSERT_EQ(buffers.observation, others.observation) << longest << ", " << step;
-      const Action action = Lively(step);
-      for (std::size_t i = 0; i < kCount; ++i) {
-        std::copy(action.begin(), action.end(), buffers.action.begin() + 4 * i);
-      }
-      once.Step(0, buffers.action.data(), buffers.output());
-      for (int k = 0; k < held.action_repeat; ++k) {
-        again.Step(0, buffers.action.data(), others.output());
-      }
-    }
-  }
-}
-
-TEST(DrawnFlight, AHeldActionIsTheSameActionInEveryControlStep) {
-  EnvConfig config = OneDrawnFlight();
-  ExpectHeldActionsAreTheSameInEveryControlStep(config);
-  config.task = "tracking";  // whose delayed states are those of a point and, now, of wind
-  config.wind.turbulence_fps = {10, 10};
-  ExpectHeldActionsAreTheSameInEveryControlStep(config);
 }
 
 // All at once, against the float64 aircraft whose data are others.

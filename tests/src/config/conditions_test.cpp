@@ -260,8 +260,11 @@ TEST(Conditions, WhatCannotBeReadIsNamedWithWhatCould) {
   EXPECT_THAT(Complaint({"windy=60mph"}), HasSubstr("cannot read \"60mph\""));
   EXPECT_THAT(Complaint({"windy=60fps,moderat"}), HasSubstr("cannot read \"moderat\""));
   EXPECT_THAT(Complaint({"windy=60fps,90fps"}), HasSubstr("cannot read \"90fps\""));
-  EXPECT_THAT(Complaint({"windy=severe..light"}), HasSubstr("cannot read \"severe..light\""));
-  EXPECT_THAT(Complaint({"high_speed=1.4..1.2"}), HasSubstr("cannot read \"1.4..1.2\""));
+  EXPECT_THAT(Complaint({"windy=severe..light"}),
+              HasSubstr("the range severe..light is reversed; write light..severe"));
+  EXPECT_THAT(Complaint({"high_speed=1.4..1.2"}),
+              HasSubstr("the range 1.4..1.2 is reversed; write 1.2..1.4"));
+  EXPECT_THAT(Complaint({"windy=120..60fps"}), HasSubstr("is reversed; write 60fps..120fps"));
   EXPECT_THAT(Complaint({"high_altitude="}), HasSubstr("cannot read \"\""));
   EXPECT_THAT(Complaint({"high_altitude=32000"}), HasSubstr("are thousands of feet"));
   EXPECT_THAT(Complaint({"windy=,light"}), HasSubstr("cannot read \"\""));

@@ -398,7 +398,7 @@ TEST_F(FlightPictures, WhatCannotBeDrawnIsSaid) {
                 ReadRecordings({flights, other});
               }),
               HasSubstr("b.csv: flights of another task"));
-  EXPECT_THAT(choosing({{}, {7}, {}}), HasSubstr("no episode 7; there are 0, 1"));
+  EXPECT_THAT(choosing({{}, {7}, {}}), HasSubstr("no episode 7; known: 0, 1"));
   EXPECT_THAT(choosing({{}, {}, {{"speed", 20}}}),
               HasSubstr("speed has no target; these have: altitude_ft, yaw_deg"));
   EXPECT_THAT(choosing({{"x", "y"}, {}, {}}), HasSubstr("2 names for 1 agent"));

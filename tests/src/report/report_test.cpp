@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -43,7 +44,7 @@ TEST(DataPackTest, Base64IsThatOfTheStandard) {
 TEST(DataPackTest, ReferencesSayWhereArraysLie) {
   DataPack pack;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(pack.AddFloats({1, 2, 3}).dump(), R"({"f32":[0,3]})");
+  EXPECT_EQ(pack.AddNumbers({1, 2, 3}).dump(), R"({"f32":[0,3]})");
   const auto quantised = pack.AddQuantised({0, nan, 65000});
   EXPECT_EQ(quantised["i16"].dump(), "[16,3]");
   EXPECT_EQ(quantised["first"], 0.0);
@@ -60,22 +61,51 @@ TEST(DataPackTest, FewerLevelsAreALargerUnit) {
   EXPECT_EQ(late["unit"], 0.001);
 }
 
-/// The levels of the values, the first that a pack is given.
-std::vector<int> LevelsOf(const std::vector<double>& values) {
-  DataPack pack;
-  pack.AddQuantised(values);
+/// The bytes of a pack's arrays, less than 1 KiB.
+std::string ArraysOf(const DataPack& pack) {
   const std::string deflated = pack.Deflated({});
   std::string bytes(1024, '\0');
   uLongf size = bytes.size();
   EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
                        reinterpret_cast<const Bytef*>(deflated.data()), deflated.size()),
             Z_OK);
+  // After the length of the document, which is shorter than 256 bytes.
+  return bytes.substr(4u + static_cast<unsigned char>(bytes.at(0)));
+}
+
+TEST(DataPackTest, CountsThatNoFloatIsStayExact) {
+  const std::vector<double> counts = {1, 16777217, 9007199254740991};
+  DataPack pack;
+  EXPECT_EQ(pack.AddNumbers(counts).dump(), R"({"f64":[0,3]})");
+  const std::string bytes = ArraysOf(pack);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    std::uint64_t bits = 0;
+    for (std::size_t k = 8; k-- > 0;) {
+      bits = bits << 8 | static_cast<unsigned char>(bytes.at(8 * i + k));
+    }
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof(value));
+    EXPECT_EQ(value, counts[i]);
+  }
+}
+
+TEST(DataPackTest, WhatIsMeasuredIsKeptAsFloats) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  DataPack pack;
+  EXPECT_EQ(pack.AddNumbers({0.1, 16777216, kNan, kInfinity}).dump(), R"({"f32":[0,4]})");
+}
+
+/// The levels of the values, the first that a pack is given.
+std::vector<int> LevelsOf(const std::vector<double>& values) {
+  DataPack pack;
+  pack.AddQuantised(values);
+  const std::string bytes = ArraysOf(pack);
   const auto at = [&bytes](std::size_t i) { return static_cast<unsigned char>(bytes.at(i)); };
-  const std::size_t begin = 4u + at(0);  // a document that is shorter than 256 bytes
   std::vector<int> levels;
   int level = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    level = (level + at(begin + 2 * i) + 256 * at(begin + 2 * i + 1)) % 65536;
+    level = (level + at(2 * i) + 256 * at(2 * i + 1)) % 65536;
     levels.push_back(level);
   }
   return levels;

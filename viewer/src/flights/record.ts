@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A flight that was recorded, read at any time.
+import type { Numbers } from '../pack';
 import {
   type Flight, type FlightSet, isOfMissions, MISSION_FLOWN, nameOfEnd, type ReportPack,
 } from '../report';
@@ -37,7 +38,7 @@ export function rounded(time: number): number {
 }
 
 /** The same values; for one that is not there the one before, for the first ones the next. */
-function filled(values: Float32Array): Float32Array {
+function filled(values: Numbers): Numbers {
   let before = values.find(Number.isFinite) ?? 0;
   return values.map((value) => {
     if (Number.isFinite(value)) before = value;
@@ -46,7 +47,7 @@ function filled(values: Float32Array): Float32Array {
 }
 
 /** Between two rows of a column. */
-function mixed(values: Float32Array, left: number, right: number, share: number): number {
+function mixed(values: Numbers, left: number, right: number, share: number): number {
   return values[left] + (values[right] - values[left]) * share;
 }
 
@@ -65,12 +66,12 @@ export class FlightRecord {
   /** When targets after the first came, and when targets counted as reached, s. */
   readonly newTargets: number[];
   readonly reached: number[];
-  private readonly columns = new Map<string, Float32Array>();
+  private readonly columns = new Map<string, Numbers>();
   /** Of those that have been drawn, without gaps. */
-  private readonly drawnColumns = new Map<string, Float32Array>();
+  private readonly drawnColumns = new Map<string, Numbers>();
   /** What is read for every frame: the column names of a pose. */
-  private readonly path: Float32Array[];
-  private readonly moving: Float32Array[];
+  private readonly path: Numbers[];
+  private readonly moving: Numbers[];
   /** The attitude of each row. */
   private readonly turns: Float32Array;
   private readonly other = new Quaternion();
@@ -127,11 +128,11 @@ export class FlightRecord {
   }
 
   /** NaN where there is no number; of a column that is not there, zeros. */
-  column(name: string): Float32Array {
+  column(name: string): Numbers {
     return this.columns.get(name) ?? new Float32Array(this.rows);
   }
 
-  private drawnColumn(name: string): Float32Array {
+  private drawnColumn(name: string): Numbers {
     const values = this.drawnColumns.get(name) ?? filled(this.column(name));
     this.drawnColumns.set(name, values);
     return values;
@@ -169,7 +170,7 @@ export class FlightRecord {
     return this.read(this.drawnColumn(name), name, time);
   }
 
-  private read(values: Float32Array | undefined, name: string, time: number): number {
+  private read(values: Numbers | undefined, name: string, time: number): number {
     if (!values || values.length === 0) return 0;
     const row = this.rowAt(time);
     const [left, right] = [Math.floor(row), Math.ceil(row)];

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The steady wind of a flight, told from its gusts.
 import { Vector3 } from 'three';
+import type { Numbers } from '../pack';
 import type { FlightRecord } from './record';
 
 /** A wind that is weaker is not drawn, nor is a difference that is smaller one, ft/s. */
 const LEAST_WIND_FPS = 3;
 
 /** Mean and variance of the numbers of a column. */
-function momentsOf(values: Float32Array): { mean: number; variance: number } {
+function momentsOf(values: Numbers): { mean: number; variance: number } {
   const numbers = Array.from(values).filter(Number.isFinite);
   const meanOf = (terms: number[]) =>
     terms.reduce((sum, term) => sum + term, 0) / Math.max(1, terms.length);

@@ -87,6 +87,8 @@ describe.skipIf(MISSING !== '')('a report that is watched', () => {
     expect(await page.textContent('main')).not.toContain('second');
     // What is said of the data is always of the last ones.
     expect(await page.textContent('.notes')).toContain('second: a remark');
+    expect(await page.textContent('h1')).toBe('second-1, second-2');
+    expect(await page.title()).toBe('second-1, second-2 – Skein');
     // Who goes to another view and comes back sees what is fresh.
     await page.click('nav a[href="#configuration"]');
     await page.waitForSelector('main.configuration > *');
