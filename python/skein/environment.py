@@ -7,6 +7,7 @@ import pathlib
 import re
 import threading
 from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
 from typing import Any, Union, cast
 
 import gymnasium
@@ -82,27 +83,6 @@ def _require_no_rendering(render_mode: Any) -> None:
         )
 
 
-class _Turn:
-    """Lets one thread use an environment at a time: whole calls come one after another, and functions that reward may
-    call within their step. A process that was forked has none of the threads that step, and a lock that one of them
-    held would never be free there: it is refused."""
-
-    def __init__(self) -> None:
-        self._lock = threading.RLock()
-        self._process = os.getpid()
-
-    def __enter__(self) -> None:
-        if os.getpid() != self._process:
-            raise Error(
-                "the environment belongs to the process that made it, and this one was forked from it since: "
-                "make environments in the process that steps them"
-            )
-        self._lock.acquire()
-
-    def __exit__(self, *_: object) -> None:
-        self._lock.release()
-
-
 class _Flight:
     """What both environments have: the aircraft, their configuration, and the names of what they show and take."""
 
@@ -138,7 +118,20 @@ class _Flight:
         self._stepped = self._core if self._rules is None else self._rules
         self._begun = False
         self._is_closed = False
-        self._turn = _Turn()
+        self._lock = threading.RLock()
+        self._process = os.getpid()
+
+    @property
+    def _turn(self) -> AbstractContextManager[bool]:
+        """Lets one thread use the environment at a time: whole calls come one after another, and functions that reward
+        may call within their step. A process that was forked has none of the threads that step, and a lock that one of
+        them held would never be free there: it is refused."""
+        if os.getpid() != self._process:
+            raise Error(
+                "the environment belongs to the process that made it, and this one was forked from it since: "
+                "make environments in the process that steps them"
+            )
+        return self._lock
 
     @property
     def policy_step_s(self) -> float:

@@ -111,10 +111,12 @@ std::vector<std::pair<std::string, double>> HighestTargets(const EnvConfig& env)
 }  // namespace
 
 std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env) {
+  // Of tables in metres: 50,000 ft come back as a little less.
+  constexpr double kRounding_ft = 1e-3;
   const double end_ft = LoadAircraft(env.aircraft).engine.altitude_ft.back();
   std::vector<std::string> lines;
   const auto append = [&](const std::string& what, double altitude_ft) {
-    if (altitude_ft <= end_ft) return;
+    if (altitude_ft <= end_ft + kRounding_ft) return;
     lines.push_back(
         fmt::format("{} at up to {:.0f} ft: the engine's tables end at {:.0f} ft, and thrust above "
                     "is held as there",

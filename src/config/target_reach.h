@@ -16,8 +16,8 @@ std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env);
 
 /// A line if flights may begin above the engine's tables of the aircraft, and one for every target
 /// of altitude, or point, that may be drawn above them; thrust is held there at what it is at their
-/// end. Points are taken for drawn around the horizon, and later targets of a mission for its
-/// first. Throws Error on an unknown aircraft.
+/// end. Of the tables' lower end nothing is said. Points are taken for drawn around the horizon,
+/// and later targets of a mission for its first. Throws Error on an unknown aircraft.
 std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env);
 
 }  // namespace skein

@@ -34,13 +34,15 @@ constexpr std::array<StickColumn, 4> kStickColumns = {{{"throttle", &PilotComman
                                                        {"yaw", &PilotCommands::yaw, -1}}};
 
 /// Of what other programs write: ends of lines of Windows, and a last line without its end.
-std::string WithPlainLineEnds(std::string text) {
-  if (!text.empty() && text.back() != '\n') text += '\n';
-  for (std::size_t end = text.find("\r\n"); end != std::string::npos;
-       end = text.find("\r\n", end)) {
-    text.erase(end, 1);
+std::string WithPlainLineEnds(const std::string& text) {
+  std::string plain;
+  plain.reserve(text.size() + 1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool ends_line = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+    if (!ends_line) plain += text[i];
   }
-  return text;
+  if (!plain.empty() && plain.back() != '\n') plain += '\n';
+  return plain;
 }
 
 void CheckColumns(const CsvColumns& table, const std::string& path) {

@@ -51,7 +51,7 @@ inline std::vector<float> Fly(const EnvConfig& config, const Actions& actions, i
   return states;
 }
 
-/// The same as a plant that is drawn: other kernels fly it, which round otherwise.
+/// OneFlight with a plant that is drawn, and nominal: other kernels fly it, which round otherwise.
 inline EnvConfig OneDrawnFlight() {
   EnvConfig config = OneFlight();
   config.plant.sensor_freeze_chance = 1e-9;  // never, and yet not off

@@ -69,6 +69,7 @@ std::string ArraysOf(const DataPack& pack) {
   EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
                        reinterpret_cast<const Bytef*>(deflated.data()), deflated.size()),
             Z_OK);
+  bytes.resize(size);
   // After the length of the document, which is shorter than 256 bytes.
   return bytes.substr(4u + static_cast<unsigned char>(bytes.at(0)));
 }
