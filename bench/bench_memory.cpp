@@ -25,8 +25,8 @@ constexpr std::size_t kMultiple = 128;  // of which a stream has some floats
 using Pass = void (*)(AlignedVector<float>* values);
 
 /// Times `pass` over state.range(0) KiB on each of state.range(1) threads, `bytes_moved` times what
-/// there is. Small streams are passed over again and again: a thread passes over 1 GB a call, beside
-/// which it takes no time to wake it.
+/// there is. Small streams are passed over again and again: a thread passes over 1 GB a call,
+/// beside which it takes no time to wake it.
 void Stream(benchmark::State& state, Pass pass, double bytes_moved) {
   const std::size_t bytes = static_cast<std::size_t>(state.range(0)) * 1024;
   const std::size_t count = bytes / sizeof(float) / kMultiple * kMultiple;
