@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,19 +68,25 @@ class RanksFixture : public ::testing::Test {
     }
   }
 
-  /// The words that start `count` ranks over shared memory, as they are all here; `environment` is
-  /// set for the last of them alone, by a shell: Open MPI 5.0.7's mpirun crashes where it starts
-  /// more than one program.
+  /// What the last rank has of its own: assignments to its environment, and its program.
+  struct LastRank {
+    std::string environment;
+    std::string program = SKEIN_PROGRAM;
+  };
+
+  /// The words that start `count` ranks over shared memory, as they are all here. What the last has
+  /// of its own a shell gives it: Open MPI 5.0.7's mpirun crashes where it starts more than one
+  /// program.
   static std::vector<std::string> Mpirun(int count, const std::vector<std::string>& arguments,
-                                         const std::string& environment = "") {
+                                         const std::optional<LastRank>& last = std::nullopt) {
     std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
     words.insert(words.end(), {"--mca", "btl", "^tcp", "-np", std::to_string(count), "-x",
                                AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS"))});
-    if (!environment.empty()) {
-      const std::string last = std::to_string(count - 1);
+    if (last) {
       words.insert(words.end(), {"sh", "-c",
-                                 "[ $OMPI_COMM_WORLD_RANK != " + last + " ] || export " +
-                                     environment + "; exec \"$@\"",
+                                 "[ $OMPI_COMM_WORLD_RANK = " + std::to_string(count - 1) +
+                                     " ] || exec \"$@\"; shift; exec env " + last->environment +
+                                     " '" + last->program + "' \"$@\"",
                                  "sh"});
     }
     words.push_back(SKEIN_PROGRAM);

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <thread>
 
+#include "src/bench/version.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
 #include "tests/src/ranks_fixture.h"
@@ -67,6 +68,18 @@ class RanksPipeline : public RanksFixture {
     const std::vector<std::string> shell = {"sh", "-c", script, "sh"};
     words.insert(std::find(words.begin(), words.end(), SKEIN_PROGRAM), shell.begin(), shell.end());
     return words;
+  }
+
+  /// A copy of the program with as many letters x in place of `text`, wherever it is in the file.
+  std::string CopyWithout(const std::string& text) {
+    std::string bytes = ReadFile(SKEIN_PROGRAM);
+    for (std::size_t at = 0; (at = bytes.find(text, at)) != std::string::npos;) {
+      bytes.replace(at, text.size(), text.size(), 'x');
+    }
+    const std::string copy = scratch_ / "skein";
+    WriteFile(copy, bytes);
+    fs::permissions(copy, fs::perms::owner_all);
+    return copy;
   }
 
   static bool LogSays(const std::string& run, const std::string& words) {
@@ -247,10 +260,29 @@ TEST_F(RanksPipeline, ALauncherThatIsKilledWhileRanksStartLeavesNone) {
 
 TEST_F(RanksPipeline, RanksThatComputeDifferentlyAreRefusedAndNamed) {
   const ProgramResult result =
-      RunWords(Mpirun(2, TinyTraining(run_, kShards), "SKEIN_SIMD=scalar"));
+      RunWords(Mpirun(2, TinyTraining(run_, kShards), LastRank{"SKEIN_SIMD=scalar"}));
   EXPECT_NE(result.exit_code, 0);
   EXPECT_THAT(result.error, HasSubstr("ranks differ in what they train with"));
   EXPECT_THAT(result.error, HasSubstr("rank 1 ("));
+  EXPECT_FALSE(fs::exists(run_));
+}
+
+TEST_F(RanksPipeline, ARankOfAnotherCommitIsRefusedAndNamed) {
+  const std::string other = CopyWithout(Build().commit);
+  const ProgramResult result =
+      RunWords(Mpirun(2, TinyTraining(run_, kShards), LastRank{"", other}));
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("ranks differ in what they train with"));
+  EXPECT_THAT(result.error, HasSubstr("of commit xxx"));
+  EXPECT_FALSE(fs::exists(run_));
+}
+
+TEST_F(RanksPipeline, ARankOfAnotherVersionLoadsNoModuleAndEndsTheJob) {
+  const std::string other = CopyWithout(std::string(Build().version) + " (");
+  const ProgramResult result =
+      RunWords(Mpirun(2, TinyTraining(run_, kShards), LastRank{"", other}));
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("is of another build than xxx"));
   EXPECT_FALSE(fs::exists(run_));
 }
 

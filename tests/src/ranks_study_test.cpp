@@ -179,7 +179,7 @@ TEST_F(RanksStudy, RanksThatComputeDifferentlyAreRefusedAndNamed) {
       {"compare", "--task", "heading", "--agents", "zero,random", "--no-html"},
       Study(together_)};
   for (const std::vector<std::string>& command : commands) {
-    const ProgramResult result = RunWords(Mpirun(2, command, "SKEIN_SIMD=scalar"));
+    const ProgramResult result = RunWords(Mpirun(2, command, LastRank{"SKEIN_SIMD=scalar"}));
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.error, HasSubstr("ranks differ in what they"));
     EXPECT_THAT(result.error, HasSubstr("rank 1 ("));
