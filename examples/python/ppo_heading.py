@@ -192,6 +192,8 @@ def main():
     parser.add_argument("--episodes", type=int, default=500, help="of the evaluation at the end")
     parser.add_argument("--json", help="also write the learning curve and the evaluation here")
     options = parser.parse_args()
+    if options.json:
+        open(options.json, "a", encoding="utf-8").close()  # what cannot be written fails before the training
     agent, curve = train(options)
     success = evaluate(agent, options.episodes)
     print(f"deterministic success over {options.episodes} fresh episodes: {success:.3f}")
@@ -201,4 +203,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (skein.Error, OSError) as error:
+        sys.exit(f"{sys.argv[0]}: {error}")

@@ -80,6 +80,8 @@ def main():
     parser.add_argument("--episodes", type=int, default=500, help="of the evaluation at the end")
     parser.add_argument("--json", help="also write the learning curve and the evaluation here")
     options = parser.parse_args()
+    if options.json:
+        open(options.json, "a", encoding="utf-8").close()  # what cannot be written fails before the training
     torch.set_num_threads(1)  # networks of this size gain nothing from more
     envs = VecNormalize(
         skein.sb3.VecEnv(skein.make_vec("heading", options.aircraft, preset="easy", threads=options.threads)), gamma=GAMMA)
@@ -93,4 +95,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (skein.Error, OSError) as error:
+        sys.exit(f"{sys.argv[0]}: {error}")

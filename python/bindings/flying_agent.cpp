@@ -28,13 +28,14 @@ void CopyFromPython(const nb::object& returned, const char* what, int count, int
   if (returned.is_none() || !nb::try_cast(returned, array) ||
       array.shape(0) != static_cast<std::size_t>(count) ||
       array.shape(1) != static_cast<std::size_t>(size)) {
-    const std::string shape =
-        nb::hasattr(returned, "shape")
-            ? std::string(" of shape ") + nb::repr(nb::object(returned.attr("shape"))).c_str()
-            : "";
+    std::string kind;
+    if (nb::hasattr(returned, "dtype") && nb::hasattr(returned, "shape")) {
+      kind = std::string(" of ") + nb::str(nb::object(returned.attr("dtype"))).c_str() +
+             " and shape " + nb::repr(nb::object(returned.attr("shape"))).c_str();
+    }
     throw Error(std::string("the agent must return its ") + what + " as an array of shape (" +
                 std::to_string(count) + ", " + std::to_string(size) + "), but it returned " +
-                nb::str(returned.type().attr("__name__")).c_str() + shape);
+                nb::str(returned.type().attr("__name__")).c_str() + kind);
   }
   std::copy_n(array.data(), array.size(), rows);
 }

@@ -20,7 +20,7 @@ MOST_STEPS = 10**8
 MOST_POLICY_STEP = 2**32 - 1
 
 # What NumPy raises of rows of different lengths, and of tensors that it cannot read where they are.
-_NO_ARRAY = (TypeError, ValueError, RuntimeError, BufferError, AttributeError)
+NO_ARRAY = (TypeError, ValueError, RuntimeError, BufferError, AttributeError)
 
 
 class UnknownName(ConfigurationError, KeyError):
@@ -33,6 +33,12 @@ class UnknownName(ConfigurationError, KeyError):
 def shown(value: Any) -> str:
     """The value for a message: on one line, and short."""
     return " ".join(repr(value).split())[:60]
+
+
+def reason_of(error: Exception) -> str:
+    """What another library says of its error, such as how to detach a tensor, for the end of a message."""
+    said = " ".join(str(error).split())[:160]
+    return f": {said}" if said else ""
 
 
 def whole_number(name: str, value: Any, least: int, most: int) -> int:
@@ -58,7 +64,9 @@ def text(name: str, value: Any) -> str:
         is_unicode = not any("\ud800" <= character <= "\udfff" for character in path[:MOST_TEXT])
         if len(path) <= MOST_TEXT and is_unicode and not set(path) & set("\0\n\r"):
             return path
-    raise ConfigurationError(f"{name} must be a text or path, not {shown(value)}")
+    raise ConfigurationError(
+        f"{name} must be a text or path of one line, up to {MOST_TEXT} characters, not {shown(value)}"
+    )
 
 
 def rows(name: str, value: Any, shape: tuple[int | None, ...], dtype: Any = np.float32) -> NDArray[Any]:
@@ -70,8 +78,9 @@ def rows(name: str, value: Any, shape: tuple[int | None, ...], dtype: Any = np.f
         if array.dtype.kind not in ("iu" if np.issubdtype(dtype, np.integer) else "fiu"):
             raise TypeError
         converted = np.ascontiguousarray(array, dtype)
-    except _NO_ARRAY as error:
-        raise ConfigurationError(f"{name} must be an array of numbers, not {_described(value)}") from error
+    except NO_ARRAY as error:
+        reason = reason_of(error)
+        raise ConfigurationError(f"{name} must be an array of numbers, not {_described(value)}{reason}") from error
     if array.ndim != len(shape) or any(asked not in (None, size) for asked, size in zip(shape, array.shape)):
         wanted = ", ".join("n" if size is None else str(size) for size in shape) + ("," if len(shape) == 1 else "")
         raise ConfigurationError(f"{name} must have the shape ({wanted}), not {array.shape}")
@@ -92,7 +101,7 @@ def is_vector(value: Any) -> bool:
     """Whether it has one dimension."""
     try:
         return _array(value).ndim == 1
-    except _NO_ARRAY:
+    except NO_ARRAY:
         return False
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from skein import _skein
 from skein._skein import OBSERVATION_NAMES, TERMINATION_NAMES, ConfigurationError, Error
-from skein.checks import UnknownName
+from skein.checks import NO_ARRAY, UnknownName, reason_of
 
 FloatArray = NDArray[np.float32]
 BoolArray = NDArray[np.bool_]
@@ -204,16 +204,21 @@ class CustomRules:
     def _result(self, name: str, rule: Rule | None, columns: FlightColumns, dtype: Any) -> NDArray[Any] | None:
         if rule is None:
             return None
-        returned = np.asarray(rule(columns))
-        kinds, wanted = ("b", "truth values") if dtype is bool else ("fiub", "numbers")
+        given = rule(columns)  # what it raises comes through
+        kinds, numbers = ("b", "truth values") if dtype is bool else ("fiub", "numbers")
+        wanted = f"{name} must return {numbers} of shape ({self._core.num_envs},), but it returned"
+        try:
+            returned = np.asarray(given)
+        except NO_ARRAY as error:
+            raise Error(f"{wanted} {type(given).__name__}{reason_of(error)}") from error
         if returned.shape != (self._core.num_envs,) or returned.dtype.kind not in kinds:
-            raise Error(
-                f"{name} must return {wanted} of shape ({self._core.num_envs},), "
-                f"but it returned {returned.dtype} of shape {returned.shape}"
-            )
-        if not (is_finite := np.isfinite(returned)).all():
-            raise Error(f"{name} must return finite numbers, but it did not for aircraft {is_finite.argmin()}")
-        return returned.astype(dtype)
+            raise Error(f"{wanted} {returned.dtype} of shape {returned.shape}")
+        with np.errstate(over="ignore"):
+            result: NDArray[Any] = returned.astype(dtype)
+        if not (is_finite := np.isfinite(result)).all():
+            where = is_finite.argmin()
+            raise Error(f"{name} must return numbers finite in float32, but it did not for aircraft {where}")
+        return result
 
 
 def _action_names(core: _skein.BatchEnv) -> tuple[str, ...]:

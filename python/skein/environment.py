@@ -204,7 +204,7 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
     Actions are float32 (num_envs, 4) in [-1, 1], clipped, in the order of `action_names`: throttle (-1 is idle, 1 is
     maximum: 2 * t - 1 of a throttle t from 0 to 1), pitch (+ nose up), roll (+ right), yaw (+ nose right). Those of a
     high-level policy are three: changes of the pitch, yaw and speed that the low-level policy is to reach, as shares of
-    env.high_level's largest.
+    env.high_level's largest. One that is not finite ends its aircraft's episode as "non_finite"; the others fly on.
 
     An array that `step` returns is written by the simulator, and never again: nothing is copied. Actions may be any
     array that speaks DLPack, such as a tensor of torch; float32 rows on the CPU are read in place. Threads of Python
@@ -240,11 +240,11 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
         configured = configure(task, **config)
         flown = configured.evaluation() if evaluation else configured
         self._begin_flight(flown, num_envs, threads, low_level, agent, reward, terminated)
-        self.num_envs = num_envs
+        self.num_envs = int(num_envs)  # an integer of NumPy may be too narrow to count steps with
         self.single_observation_space = _observation_space(self._core)
         self.single_action_space = _action_space(self._core)
-        self.observation_space = batch_space(self.single_observation_space, num_envs)
-        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[FloatArray, Info]:
         """Begins new episodes; returns observations, float32 (num_envs, 22), and an empty info.
@@ -257,7 +257,7 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
             super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
             unknown = set(options or ()) - {"reset_mask"}
             if unknown:
-                raise ConfigurationError(f"reset: unknown option {sorted(unknown)[0]}; known: reset_mask")
+                raise ConfigurationError(f"reset: unknown option {min(map(str, unknown))}; known: reset_mask")
             mask = (options or {}).get("reset_mask")
             self._new_episodes(seed, self.np_random, None if mask is None else flags("reset_mask", mask, self.num_envs))
             return self._observe(), {}
@@ -383,7 +383,8 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         with self._turn:
             self._require_open("step")
             if not self._flying:
-                raise Error("step: the episode is over; reset begins another")
+                over = "the episode is over; reset begins another" if self._begun else "reset begins the first episode"
+                raise Error(f"step: {over}")
             observation = np.empty((1, self._core.observation_size), np.float32)
             shown = rows("action", action, (self._core.action_size,))[None]
             ended = self._stepped.step(shown, observation, self._reward, self._termination, *self._flags)

@@ -134,11 +134,13 @@ def compare(
     cores = [agent_of(agent, configured, seed)._core for agent in named]
     if not cores:
         raise ConfigurationError("compare: no agents")
-    names = [str(name) for name in agents] if isinstance(agents, Mapping) else [core.name for core in cores]
+    names = [core.name for core in cores]
+    if isinstance(agents, Mapping):
+        names = [text("compare: the name of an agent", str(name)) for name in agents]
     if twice := next((name for i, name in enumerate(names) if name in names[:i]), None):
         raise ConfigurationError(f"compare: {shown(twice)} is there twice: use a dict to name the agents")
-    summary, text = _skein.compare(cores, names, configured, episodes, seed, threads)
-    return Comparison(json.loads(summary), text)
+    summary, table = _skein.compare(cores, names, configured, episodes, seed, threads)
+    return Comparison(json.loads(summary), table)
 
 
 def _task_of(what: str, agent: AgentLike, task: Task, config: Mapping[str, Any]) -> Task:

@@ -13,7 +13,7 @@ import numpy as np
 from skein import _skein
 from skein._skein import Config, ConfigurationError, Error
 from skein.agents import Agent, load_policy
-from skein.checks import MOST_THREADS, text, whole_number
+from skein.checks import MOST_THREADS, reason_of, text, whole_number
 from skein.configuration import Task, configure
 
 if TYPE_CHECKING:
@@ -56,7 +56,10 @@ class Run:
         file = self.path / "evaluation.json"
         if not file.is_file():
             return None
-        document: dict[str, Any] = json.loads(file.read_text())
+        try:
+            document: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise Error(f"{file}: not valid JSON (damaged){reason_of(error)}") from error
         return document
 
     @property
@@ -90,6 +93,8 @@ class Run:
             return pandas.read_csv(self.path / name)
         except (FileNotFoundError, pandas.errors.EmptyDataError) as error:
             raise Error(f"{self.path}: there is no {name} in it yet: no iteration has been recorded") from error
+        except ValueError as error:
+            raise Error(f"{self.path / name}: not a valid table (damaged){reason_of(error)}") from error
 
     def __repr__(self) -> str:
         return f"<skein.Run {self.path}>"
@@ -130,9 +135,11 @@ def train(
     configured = configure(task, **config)
     asked = _asked(callback)
     whole_number("threads", threads, 0, MOST_THREADS)
+    if not text("out", out):
+        raise ConfigurationError("out must name the directory of the run, and is empty")
     _skein.train(
         configured,
-        text("out", out),
+        os.fspath(out),
         text("start_from", start_from),
         text("low_level", low_level),
         threads,

@@ -197,6 +197,16 @@ def test_what_a_function_returns_must_be_actions(returned):
         skein.evaluate(lambda observation: returned, "heading", episodes=4)
 
 
+def test_what_a_function_returns_must_be_real():
+    with pytest.raises(skein.Error, match=r"returned ndarray of complex128 and shape \(4, 4\)"):
+        skein.evaluate(lambda observation: np.zeros((4, 4), complex), "heading", episodes=4)
+
+
+def test_names_of_agents_are_of_one_line():
+    with pytest.raises(skein.ConfigurationError, match="name of an agent must be a text"):
+        skein.compare({"mine\nand more": "zero"}, "heading", episodes=4)
+
+
 def test_files_that_are_no_policies_are_refused(tmp_path):
     file = tmp_path / "not.skein"
     file.write_bytes(b"not a policy")
@@ -204,6 +214,8 @@ def test_files_that_are_no_policies_are_refused(tmp_path):
         skein.load_policy(file)
     with pytest.raises(skein.Error):
         skein.load_policy(tmp_path / "missing.skein")
+    with pytest.raises(skein.ConfigurationError, match="path must name a policy"):
+        skein.load_policy("")
 
 
 def test_a_policy_brings_its_task_by_its_name_too():

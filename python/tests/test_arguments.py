@@ -117,8 +117,32 @@ def test_a_closed_environment_says_so(make):
 def test_a_step_needs_a_reset():
     with pytest.raises(skein.Error, match="reset"):
         skein.make_vec("heading", 2).step(np.zeros((2, 4)))
-    with pytest.raises(skein.Error, match="reset"):
+    with pytest.raises(skein.Error, match="reset begins the first episode"):
         skein.make("heading").step(np.zeros(4))
+
+
+def test_a_number_of_aircraft_of_numpy_is_one_of_python():
+    assert type(skein.make_vec("heading", np.uint8(3)).num_envs) is int
+
+
+def test_an_unknown_option_of_a_reset_may_have_any_name():
+    with pytest.raises(skein.ConfigurationError, match="unknown option 1"):
+        skein.make_vec("heading", 2).reset(options={1: 2, "a": 3})
+
+
+def test_what_another_library_says_of_an_array_is_passed_on():
+    class Tensor:
+        """As one of torch that requires gradients."""
+
+        dtype = "torch.float32"
+
+        def __array__(self, *_, **__):
+            raise RuntimeError("Can't call numpy() on Tensor that requires grad.\nUse tensor.detach().numpy() instead.")
+
+    envs = skein.make_vec("heading", 2)
+    envs.reset(seed=0)
+    with pytest.raises(skein.ConfigurationError, match=r"Tensor of torch.float32: .* Use tensor.detach\(\)"):
+        envs.step(Tensor())
 
 
 def test_what_is_refused_is_also_a_value_error():

@@ -86,6 +86,17 @@ def learnt(tmp_path, example, *arguments):
     return json.loads(out.read_text())
 
 
+@pytest.mark.parametrize("example", ["ppo_heading.py", "sb3_heading.py"])
+@pytest.mark.parametrize("option,says", [("--json={}/no/curve.json", "no/curve.json"), ("--aircraft=0", "num_envs must")])
+def test_an_example_that_cannot_end_well_does_not_begin(tmp_path, example, option, says):
+    pytest.importorskip("sb3_contrib")
+    pytest.importorskip("torch")
+    command = [sys.executable, ROOT / "examples" / "python" / example, option.format(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 1 and done.stdout == ""
+    assert says in done.stderr and done.stderr.count("\n") == 1
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("arguments", [["ppo_heading.py"], ["sb3_heading.py"], ["sb3_heading.py", "--recurrent"]])
 def test_a_learner_of_others_learns_the_easy_preset(tmp_path, arguments):

@@ -150,6 +150,8 @@ def test_one_aircraft_has_functions_too():
         ({"reward": 3}, "function"),
         ({"reward": lambda at: 1.0}, r"shape \(8,\)"),
         ({"reward": lambda at: np.full(8, np.nan)}, "finite"),
+        ({"reward": lambda at: np.full(8, 1e300)}, "finite in float32"),
+        ({"reward": lambda at: [*range(7), [1]]}, r"shape \(8,\), but it returned list: "),
         ({"reward": lambda at: at["altitude_m"]}, "altitude_ft"),
         ({"terminated": lambda at: at["reward"]}, "truth values"),
         ({"terminated": lambda at: None}, "truth values"),

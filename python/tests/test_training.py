@@ -74,6 +74,24 @@ def test_what_a_callback_raises_comes_through_and_the_run_is_saved(tmp_path):
     assert skein.Run(tmp_path / "run").policy.task == "heading"
 
 
+def test_a_run_without_a_directory_is_not_begun(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(skein.ConfigurationError, match="out must name the directory"):
+        skein.train("heading", "", **TINY)
+    assert not list(tmp_path.iterdir())
+
+
+def test_damaged_records_of_a_run_are_named(tmp_path):
+    pytest.importorskip("pandas")
+    for name, content in {"config.toml": "", "evaluation.json": "{", "metrics.csv": 'a,b\n1,2\n"'}.items():
+        (tmp_path / name).write_text(content)
+    run = skein.Run(tmp_path)
+    for name, read in {"evaluation.json": lambda: run.evaluation, "metrics.csv": lambda: run.metrics}.items():
+        with pytest.raises(skein.Error, match=f"{name}: .*damaged") as raised:
+            read()
+        assert "\n" not in str(raised.value)
+
+
 def test_a_directory_without_a_run_is_refused(tmp_path):
     with pytest.raises(skein.Error, match="no config.toml"):
         skein.Run(tmp_path)
