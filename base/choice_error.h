@@ -7,8 +7,9 @@
 
 namespace skein {
 
-/// What was given by its path or name is not there, or is of another kind than asked for: a
-/// directory for a file, a folder that holds no run. Whoever gave it is to give another one.
+/// What was given is not there, is of another kind than asked for, or cannot be flown: a directory
+/// for a file, a folder that holds no run, a start without steady flight. Whoever gave it is to give
+/// another one.
 class ChoiceError : public Error {
  public:
   /// As of Error.

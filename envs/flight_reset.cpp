@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "base/error.h"
+#include "base/choice_error.h"
 #include "base/range.h"
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/engine.h"
@@ -35,11 +35,11 @@ std::optional<TrimTable> SolveTrims(const InitialConfig& initial, const Plant& p
     return TrimTable(plant, altitude_ft.min, altitude_ft.max, true_airspeed_fps.min,
                      true_airspeed_fps.max);
   } catch (const Error& error) {
-    throw Error(std::string("flights cannot begin in all of env.initial: ") + error.what());
+    throw ChoiceError(std::string("flights cannot begin in all of env.initial: ") + error.what());
   }
 }
 
-/// Throws Error if the slowest or the fastest start ends at once, by the Mach number there.
+/// Throws ChoiceError if the slowest or the fastest start ends at once, by the Mach number there.
 void CheckMach(const EnvConfig& config) {
   const auto mach_at = [&config](double speed_ft_s, double altitude_ft) {
     return speed_ft_s / AirAt(config.atmosphere, altitude_ft).sound_speed_ft_s;
@@ -49,7 +49,7 @@ void CheckMach(const EnvConfig& config) {
     char text[160];
     std::snprintf(text, sizeof text, "%s: %g ft/s at %g ft is Mach %.2f, beyond %s", key,
                   speed_ft_s, altitude_ft, mach, limit);
-    throw Error(text);
+    throw ChoiceError(text);
   };
   const InitialConfig& initial = config.initial;
   // The higher, the slower is sound.

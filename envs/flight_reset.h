@@ -23,7 +23,7 @@ struct FreshFlight {
 /// Draws the states in which episodes begin. Heading north at the origin; flight control at rest.
 class FlightReset {
  public:
-  /// Solves the trims that trimmed starts need. Throws Error where there is none.
+  /// Solves the trims that trimmed starts need. Throws ChoiceError where there is none.
   FlightReset(const EnvConfig& config, const Aircraft& aircraft);
 
   /// From now on flights begin in the lowest and slowest `share`, in [0, 1], of the altitudes and

@@ -11,6 +11,7 @@
 #include "base/number_text.h"
 #include "envs/aircraft/aircraft.h"
 #include "src/config/usage_error.h"
+#include "src/evaluation/flight_summary.h"
 #include "src/fdm/fdm_plant.h"
 #include "src/fdm/trim_limits.h"
 #include "src/files/output_file.h"
@@ -108,7 +109,8 @@ void RequireLevelStart(const CLI::App& command) {
   }
 }
 
-/// Throws Error that says why, if there is no steady flight that the environment can begin with.
+/// Throws ChoiceError that says why, if there is no steady flight that the environment can begin
+/// with.
 void RequireSteadyFlight(const EnvConfig& env) {
   if (!env.initial.trimmed) return;
   const Plant plant =
@@ -117,16 +119,22 @@ void RequireSteadyFlight(const EnvConfig& env) {
   TrimOrExplain(plant, {env.initial.altitude_ft.min, env.initial.true_airspeed_fps.min});
 }
 
+/// " of 20, ended by low_altitude" if a flight ended before the `seconds` asked for; empty
+/// otherwise.
+std::string EndOf(const AgentFlights& flown, Termination end, double seconds) {
+  if (end == Termination::kNone) return "";
+  const std::string label =
+      EndLabel(EvaluationConfig(flown.env).mission.enabled(), static_cast<std::size_t>(end));
+  return fmt::format(" of {}, {}", ShortestText(seconds),
+                     label.empty() ? "flown to the end" : label);
+}
+
 /// Where the flight led: how it ended, and of each target what was asked for and reached.
 void Report(const AgentFlights& flown, double seconds) {
   const RecordedFlight& flight = flown.flights.front();
   const FlightTable table = TableOf(flown.env, flight);
-  const Termination end = table.terminations.back();
   fmt::print("{}: {:.6g} s{}\n", flown.agent, table.columns.front().back(),
-             end == Termination::kNone
-                 ? ""
-                 : fmt::format(" of {}, ended by {}", ShortestText(seconds),
-                               kTerminationNames[static_cast<std::size_t>(end)]));
+             EndOf(flown, table.terminations.back(), seconds));
   std::vector<std::vector<std::string>> rows = {{"", "at the start", "target", "at the end"}};
   for (const TargetQuantity& quantity : flown.targets) {
     const std::string name = quantity.column;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/choice_error.h"
 #include "envs/air/gravity.h"
 #include "src/config/usage_error.h"
 #include "src/fdm/fdm_plant.h"
@@ -44,7 +45,8 @@ struct FlightCondition {
 };
 
 /// What `at` returns of the flights of a grid of that plant. A flight that there is not is named on
-/// the error stream; the Error of the only one, or of all, is thrown, and what CheckSize throws.
+/// the error stream; the Error of the only one, a ChoiceError if there is none at all, and what
+/// CheckSize throws, are thrown.
 template <typename Result>
 std::vector<Result> AtEveryPoint(const Plant& plant, const FlightGrid& grid,
                                  const std::function<Result(const SteadyFlightRequest&)>& at) {
@@ -62,7 +64,7 @@ std::vector<Result> AtEveryPoint(const Plant& plant, const FlightGrid& grid,
       }
     }
   }
-  if (results.empty()) throw Error("there is no steady flight at any of these points");
+  if (results.empty()) throw ChoiceError("there is no steady flight at any of these points");
   return results;
 }
 

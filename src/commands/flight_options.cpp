@@ -17,7 +17,6 @@
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
-#include "src/config/target_reach.h"
 #include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
@@ -250,8 +249,8 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
   });
 }
 
-void WarnOfTargets(const EnvConfig& env) {
-  for (const auto& beyond : {TargetsBeyondLimits(env), AltitudesBeyondTables(env)}) {
+void WarnOfTargets(const EnvConfig& env, const GivenTargets& given) {
+  for (const auto& beyond : {TargetsBeyondLimits(env, given), AltitudesBeyondTables(env, given)}) {
     for (const std::string& line : beyond) fmt::print(stderr, "warning: {}\n", line);
   }
 }

@@ -11,6 +11,7 @@
 #include "src/commands/launched_ranks.h"
 #include "src/config/configuration.h"
 #include "src/config/program_config.h"
+#include "src/config/target_reach.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/flight_table.h"
 #include "src/replay/acmi_writer.h"
@@ -97,7 +98,7 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
 
 /// Says on the error stream which targets no flight can come to (TargetsBeyondLimits), and what
 /// lies above the engine's tables (AltitudesBeyondTables).
-void WarnOfTargets(const EnvConfig& env);
+void WarnOfTargets(const EnvConfig& env, const GivenTargets& given = {});
 
 /// The agents of a list of --agents, for the environment of `config`. Throws UsageError on a name
 /// that is there twice.

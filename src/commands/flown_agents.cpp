@@ -27,11 +27,13 @@ long StepsOf(double seconds, const EnvConfig& env) {
   return std::lround(seconds / env.control_interval_s);
 }
 
-/// Neither the time limit nor a reached target ends an episode before.
+/// Neither the time limit nor a reached target ends an episode before. A mission, which goes on
+/// from target to target, holds none.
 void GoOnFor(double seconds, EnvConfig* env) {
   const long steps = StepsOf(seconds, *env);
   env->time_limit_steps = std::max(env->time_limit_steps, static_cast<int>(steps));
-  if (!MakeTask(*env)->is_point()) env->hold_s = std::max(env->hold_s, seconds);
+  const bool is_mission = EvaluationConfig(*env).mission.enabled();
+  if (!MakeTask(*env)->is_point() && !is_mission) env->hold_s = std::max(env->hold_s, seconds);
 }
 
 /// Where a target of that name may lie.
@@ -81,6 +83,16 @@ std::vector<std::optional<float>> TargetOf(const std::vector<std::string>& texts
         quantities[index].is_angle ? std::remainder(value, 360.0) / kDegPerRad : value);
   }
   return target;
+}
+
+/// Of texts that TargetOf takes.
+GivenTargets GivenBy(const std::vector<std::string>& texts) {
+  GivenTargets given;
+  for (const std::string& text : texts) {
+    const std::string name = text.substr(0, text.find('='));
+    given.emplace(name, ValueOf(text, name));
+  }
+  return given;
 }
 
 ProgramConfig Configure(const FlownAgents& flown, const std::vector<std::string>& names) {
@@ -161,7 +173,7 @@ std::vector<AgentFlights> FlyEpisodes(const FlownAgents& flown) {
   const std::vector<std::string> names = NamesOf(flown);
   const ProgramConfig config = Configure(flown, names);
   flight.target = TargetOf(flown.targets, config.train.env);
-  if (flown.targets.empty()) WarnOfTargets(config.train.env);
+  WarnOfTargets(config.train.env, GivenBy(flown.targets));
   WorkerPool pool(flight.threads);
   std::vector<AgentFlights> agents;
   for (const NamedAgent& named : FindAgents(names, config, flight.seed)) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "envs/air/atmosphere.h"
@@ -21,6 +22,13 @@ constexpr double kColdest_ft = 60000;
 Range DrawnOf(const TermTarget& target, const Range& start) {
   if (target.draw_from == TermTarget::Draw::kBetween) return target.draw;
   return {start.min + target.draw.min, start.max + target.draw.max};
+}
+
+/// What is given of that column, alone.
+std::optional<Range> GivenOf(const GivenTargets& given, const std::string& column) {
+  const auto found = given.find(column);
+  if (found == given.end()) return std::nullopt;
+  return Range{found->second, found->second};
 }
 
 std::string Beyond(const TermTarget& target, const std::string& drawn, const std::string& limit) {
@@ -51,10 +59,13 @@ std::string BeyondAltitude(const TermTarget& target, const Range& drawn,
       fmt::format("below {:.5g} ft (env.termination.min_altitude_ft)", limits.min_altitude_ft));
 }
 
-std::string BeyondLimits(const TermTarget& target, const EnvConfig& env) {
+std::string BeyondLimits(const TermTarget& target, const EnvConfig& env,
+                         const GivenTargets& given) {
   const TerminationConfig& limits = env.termination;
+  const std::optional<Range> alone = GivenOf(given, target.quantity.name);
   switch (target.quantity.value) {
     case TermValue::kAltitude: {
+      if (alone) return BeyondAltitude(target, *alone, limits);
       if (env.mission.enabled()) return "";  // raises what is drawn too low
       Range drawn = DrawnOf(target, env.initial.altitude_ft);
       if (env.target_altitude_min_ft > 0) {
@@ -69,10 +80,11 @@ std::string BeyondLimits(const TermTarget& target, const EnvConfig& env) {
       const double least_sound = sound(kColdest_ft);
       Range drawn = DrawnOf(target, env.initial.true_airspeed_fps);
       drawn.max = std::max(drawn.max, env.target_mach_min * least_sound);
-      return BeyondMach(target, drawn, least_sound, sound(limits.min_altitude_ft), limits);
+      return BeyondMach(target, alone.value_or(drawn), least_sound, sound(limits.min_altitude_ft),
+                        limits);
     }
     case TermValue::kMach:
-      return BeyondMach(target, target.draw, 1, 1, limits);
+      return BeyondMach(target, alone.value_or(target.draw), 1, 1, limits);
     default:
       return "";
   }
@@ -83,8 +95,10 @@ double HighestPoint(const EnvConfig& env, const Range& distance_ft, double eleva
   return env.initial.altitude_ft.max + distance_ft.max * std::sin(elevation_deg / kDegPerRad);
 }
 
-/// Targets that have an altitude, as messages call them, each with the highest that may be drawn.
-std::vector<std::pair<std::string, double>> HighestTargets(const EnvConfig& env) {
+/// Targets that have an altitude, as messages call them, each with the highest that may be flown
+/// to.
+std::vector<std::pair<std::string, double>> HighestTargets(const EnvConfig& env,
+                                                           const GivenTargets& given) {
   std::vector<std::pair<std::string, double>> highest;
   if (env.term_task != nullptr) {
     for (const TermTarget& target : env.term_task->targets) {
@@ -105,12 +119,14 @@ std::vector<std::pair<std::string, double>> HighestTargets(const EnvConfig& env)
   for (auto& [name, altitude_ft] : highest) {
     altitude_ft = std::max(altitude_ft, env.target_altitude_min_ft);
   }
+  const std::optional<Range> alone = GivenOf(given, "altitude_ft");
+  if (alone && !highest.empty()) highest.front().second = alone->max;
   return highest;
 }
 
 }  // namespace
 
-std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env) {
+std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env, const GivenTargets& given) {
   // Of tables in metres: 50,000 ft come back as a little less.
   constexpr double kRounding_ft = 1e-3;
   const double end_ft = LoadAircraft(env.aircraft).engine.altitude_ft.back();
@@ -123,15 +139,17 @@ std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env) {
                     what, altitude_ft, end_ft));
   };
   append("flights begin", env.initial.altitude_ft.max);
-  for (const auto& [name, altitude_ft] : HighestTargets(env)) append(name + " is", altitude_ft);
+  for (const auto& [name, altitude_ft] : HighestTargets(env, given)) {
+    append(name + " is", altitude_ft);
+  }
   return lines;
 }
 
-std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env) {
+std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given) {
   std::vector<std::string> lines;
   if (env.term_task == nullptr) return lines;
   for (const TermTarget& target : env.term_task->targets) {
-    std::string line = BeyondLimits(target, env);
+    std::string line = BeyondLimits(target, env, given);
     if (!line.empty()) lines.push_back(std::move(line));
   }
   return lines;

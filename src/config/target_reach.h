@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,16 +9,22 @@
 
 namespace skein {
 
+/// What flights are given to fly to in the place of what is drawn, by the columns of their files:
+/// altitude_ft, true_airspeed_fps.
+using GivenTargets = std::map<std::string, double>;
+
 /// A line for every target of a task file that no flight can come to, for all that is drawn of it
 /// lies beyond where flights end: altitudes below env.termination.min_altitude_ft, airspeeds and
 /// Mach numbers out of min_mach to max_mach. What else makes a target too high or too fast, it does
-/// not know.
-std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env);
+/// not know. What is `given` is judged as all that is drawn.
+std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given = {});
 
 /// A line if flights may begin above the engine's tables of the aircraft, and one for every target
-/// of altitude, or point, that may be drawn above them; thrust is held there at what it is at their
-/// end. Of the tables' lower end nothing is said. Points are taken for drawn around the horizon,
-/// and later targets of a mission for its first. Throws Error on an unknown aircraft.
-std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env);
+/// of altitude, or point, that may be drawn, or is `given`, above them; thrust is held there at
+/// what it is at their end. Of the tables' lower end nothing is said. Points are taken for drawn
+/// around the horizon, and later targets of a mission for its first. A given altitude is the first
+/// target's. Throws Error on an unknown aircraft.
+std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env,
+                                               const GivenTargets& given = {});
 
 }  // namespace skein

@@ -56,7 +56,7 @@ class AgentColumns {
       const auto count = [kind](const ComparedAgent& agent) {
         return agent.summary.result.terminations[kind];
       };
-      const std::string label = EndLabel(comparison_.agents[begin_].summary, kind);
+      const std::string label = EndLabel(comparison_.agents[begin_].summary.is_mission, kind);
       if (label.empty()) continue;
       if (std::none_of(comparison_.agents.begin(), comparison_.agents.end(), count)) continue;
       const auto cell = [&](const ComparedAgent& agent) { return fmt::format("{}", count(agent)); };

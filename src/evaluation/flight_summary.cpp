@@ -147,18 +147,15 @@ std::string CsvCells(const Estimate& estimate) {
   return cells;
 }
 
-std::string EndLabel(const FlightSummary& summary, std::size_t termination) {
-  const bool is_end_of_mission =
-      summary.is_mission && termination == static_cast<std::size_t>(Termination::kTimeLimit);
-  if (is_end_of_mission) return "";
-  return fmt::format("{} by {}", summary.is_mission ? "lost" : "ended",
-                     kTerminationNames[termination]);
+std::string EndLabel(bool is_mission, std::size_t termination) {
+  if (is_mission && termination == static_cast<std::size_t>(Termination::kTimeLimit)) return "";
+  return fmt::format("{} by {}", is_mission ? "lost" : "ended", kTerminationNames[termination]);
 }
 
 std::string FormatEnds(const FlightSummary& summary) {
   std::string text;
   for (std::size_t kind = 1; kind < kNumTerminations; ++kind) {
-    const std::string label = EndLabel(summary, kind);
+    const std::string label = EndLabel(summary.is_mission, kind);
     const int count = summary.result.terminations[kind];
     if (count == 0 || label.empty()) continue;
     text += fmt::format("{} {}",

@@ -42,7 +42,7 @@ bool HasOwnPlace(const Quantity& quantity);
 std::string CsvCells(const Estimate& estimate);
 /// "ended by target_reached"; of a mission "lost by overload". Empty for the time limit of
 /// missions, which are flown to their end then: kSuccessQuantity has them.
-std::string EndLabel(const FlightSummary& summary, std::size_t termination);
+std::string EndLabel(bool is_mission, std::size_t termination);
 /// "ended by target_reached 998, time_limit 2"; of missions "lost by overload 2", or empty.
 std::string FormatEnds(const FlightSummary& summary);
 

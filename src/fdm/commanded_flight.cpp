@@ -33,16 +33,10 @@ constexpr std::array<StickColumn, 4> kStickColumns = {{{"throttle", &PilotComman
                                                        {"roll", &PilotCommands::roll, -1},
                                                        {"yaw", &PilotCommands::yaw, -1}}};
 
-/// Of what other programs write: ends of lines of Windows, and a last line without its end.
-std::string WithPlainLineEnds(const std::string& text) {
-  std::string plain;
-  plain.reserve(text.size() + 1);
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool ends_line = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
-    if (!ends_line) plain += text[i];
-  }
-  if (!plain.empty() && plain.back() != '\n') plain += '\n';
-  return plain;
+/// Other programs, and people, leave a last line without its end.
+std::string WithLastLineEnded(std::string text) {
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  return text;
 }
 
 void CheckColumns(const CsvColumns& table, const std::string& path) {
@@ -93,7 +87,7 @@ std::string Row(double time, const std::vector<Reading>& readings, const PilotCo
 }  // namespace
 
 std::vector<StickCommand> ReadStickCommands(const std::string& path, const PilotCommands& trimmed) {
-  const CsvColumns table = ParseCsv(WithPlainLineEnds(ReadFile(path)));
+  const CsvColumns table = ParseCsv(WithLastLineEnded(ReadFile(path)));
   CheckColumns(table, path);
   std::vector<StickCommand> commands;
   for (std::size_t row = 0; row < table.rows(); ++row) {

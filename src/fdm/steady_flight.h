@@ -49,8 +49,8 @@ struct SteadyFlight {
   double ground_speed_ft_s() const;
 };
 
-/// Throws UsageError on a turn that is a pull-up, too, and Error where there is no such flight; it
-/// says which limit is in the way, if one is.
+/// Throws UsageError on a turn that is a pull-up, too, and ChoiceError where there is no such
+/// flight; it says which limit is in the way, if one is.
 SteadyFlight FindSteadyFlight(const Plant& plant, const SteadyFlightRequest& request);
 
 /// The trim that `request` asks for of `plant`, in still air: a steady wind does not change it.

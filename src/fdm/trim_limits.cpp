@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "base/choice_error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/tuning/flight_envelope.h"
 
@@ -120,8 +120,8 @@ TrimPoint TrimOrExplain(const Plant& plant, const TrimRequest& request) {
     return Trim(plant, request);
   } catch (const Error& error) {
     const std::vector<std::string> limits = WordsOf(LimitsOnTheWay(plant, request));
-    if (limits.empty()) throw;
-    throw Error(fmt::format("this flight {}; {}", fmt::join(limits, ", and "), error.what()));
+    if (limits.empty()) throw ChoiceError(error.what());
+    throw ChoiceError(fmt::format("this flight {}; {}", fmt::join(limits, ", and "), error.what()));
   }
 }
 

@@ -39,7 +39,7 @@ std::vector<ExceededLimit> BelowStall(const Plant& plant, const TrimRequest& req
 /// without it: flight below stall speed, or outside the engine's tables. Empty otherwise.
 std::vector<ExceededLimit> LimitsOnTheWay(const Plant& plant, const TrimRequest& request);
 
-/// Trims; an Error of it says first what limit may be its cause.
+/// Trims. Throws ChoiceError if there is no such flight, which says first what limit may be why.
 TrimPoint TrimOrExplain(const Plant& plant, const TrimRequest& request);
 
 }  // namespace skein

@@ -19,6 +19,19 @@ std::vector<std::string_view> CellsOf(std::string_view line) {
   }
 }
 
+/// Without the byte order mark that other programs begin UTF-8 with.
+std::string_view WithoutMark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  return text;
+}
+
+/// Without what Windows puts before the end of a line.
+std::string_view WithoutReturn(std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
 double NumberIn(std::string_view cell) {
   double value = 0;
   const auto [stop, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
@@ -38,11 +51,11 @@ const std::vector<double>* CsvColumns::Find(const std::string& name) const {
 
 CsvColumns ParseCsv(const std::string& text, const std::string& word_column) {
   CsvColumns table;
-  std::string_view rest(text);
+  std::string_view rest = WithoutMark(text);
   while (!rest.empty()) {
     const std::size_t end = rest.find('\n');
     const bool is_whole = end != std::string_view::npos;
-    const std::vector<std::string_view> cells = CellsOf(rest.substr(0, end));
+    const std::vector<std::string_view> cells = CellsOf(WithoutReturn(rest.substr(0, end)));
     rest.remove_prefix(is_whole ? end + 1 : rest.size());
     if (!is_whole || (!table.names.empty() && cells.size() != table.names.size())) {
       ++table.rows_left_out;

@@ -19,7 +19,8 @@ struct CsvColumns {
   const std::vector<double>* Find(const std::string& name) const;
 };
 
-/// Reads CSV without quotes, as metrics.csv and files of flights are. A row that a crash has cut
+/// Reads CSV without quotes, as metrics.csv and files of flights are, also where another program
+/// has written a byte order mark ahead, or ends of lines of Windows. A row that a crash has cut
 /// short is left out and counted; so is one of another length. Text that is empty has no columns.
 /// The cells of `word_column`, if there is one, are kept as text, too.
 CsvColumns ParseCsv(const std::string& text, const std::string& word_column = "");

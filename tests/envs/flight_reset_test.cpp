@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "base/choice_error.h"
 #include "envs/air/gravity.h"
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/f16.h"
@@ -190,7 +190,7 @@ TEST(FlightResetTest, NamesTheStartsThatAreNoSteadyFlight) {
   try {
     FlightReset(config, F16());
     FAIL() << "it flew";
-  } catch (const Error& error) {
+  } catch (const ChoiceError& error) {
     EXPECT_EQ(std::string(error.what()).rfind("flights cannot begin in all of env.initial: no ", 0),
               0u)
         << error.what();
@@ -200,22 +200,22 @@ TEST(FlightResetTest, NamesTheStartsThatAreNoSteadyFlight) {
 TEST(FlightResetTest, RefusesStartsThatEndAtOnce) {
   EnvConfig config;
   config.termination.max_mach = 1.1;  // 1200 ft/s at 20,000 ft is Mach 1.16
-  EXPECT_THROW(FlightReset(config, F16()), Error);
+  EXPECT_THROW(FlightReset(config, F16()), ChoiceError);
   config.termination.max_mach = 1.2;
   config.termination.min_mach = 0.95;  // 1000 ft/s at 19,000 ft is Mach 0.96
   EXPECT_NO_THROW(FlightReset(config, F16()));
   config.initial.training_altitude_min_ft = 10000;  // Mach 0.93
-  EXPECT_THROW(FlightReset(config, F16()), Error);
+  EXPECT_THROW(FlightReset(config, F16()), ChoiceError);
   config.initial.training_altitude_min_ft = 0;
   config.termination.min_mach = 0.97;
-  EXPECT_THROW(FlightReset(config, F16()), Error);
+  EXPECT_THROW(FlightReset(config, F16()), ChoiceError);
   config.termination.min_mach = 0.95;
   config.termination.training_min_mach = 0.97;
-  EXPECT_THROW(FlightReset(config, F16()), Error);
+  EXPECT_THROW(FlightReset(config, F16()), ChoiceError);
   config.termination.training_min_mach = 0.9;
   EXPECT_NO_THROW(FlightReset(config, F16()));
   config.initial.training_true_airspeed_min_fps = 900;  // Mach 0.87
-  EXPECT_THROW(FlightReset(config, F16()), Error);
+  EXPECT_THROW(FlightReset(config, F16()), ChoiceError);
 }
 
 TEST(FlightResetTest, DependsOnTheStreamAlone) {

@@ -266,6 +266,50 @@ TEST(ExitCodes, WhatIsAskedOfFilesThatDoNotFitIsWrongUsage) {
   EXPECT_FALSE(fs::exists(scratch / "run"));
 }
 
+TEST(ExitCodes, AFlightThatCannotBeginIsWrongUsageInEveryCommand) {
+  const ScratchDirectory scratch;
+  const std::string csv = scratch / "out.csv";
+  struct Case {
+    std::vector<std::string> start;
+    std::string message;
+    std::vector<std::vector<std::string>> commands;
+  };
+  const std::vector<std::vector<std::string>> of_environments = {
+      {"train", "heading", "--out", scratch / "run"},
+      {"eval", "--policy", "untrained", "--task", "heading", "--episodes", "1"},
+      {"compare", "--no-html", "--task", "heading", "--agents", "zero", "--episodes", "1"},
+      {"replay", "-o", csv, "--task", "heading", "--agents", "zero", "--episodes", "1"}};
+  const std::vector<Case> cases = {
+      {{"--altitude-ft", "20000", "--speed-fps", "60"},
+       "this flight is below stall speed",
+       {{"fdm", "trim"},
+        {"fdm", "linearise"},
+        {"fdm", "sweep"},
+        {"fdm", "fly", "-o", csv},
+        {"fdm", "fly", "-o", csv, "--task", "heading", "--agents", "zero"}}},
+      {{"--altitude-ft", "20000", "--speed-fps", "1000", "--flight-path-deg", "90"},
+       "no steady flight found",
+       {{"fdm", "trim"}, {"fdm", "sweep"}}},
+      {{"--altitude-ft", "20000", "--speed-fps", "60,70"},
+       "there is no steady flight at any of these points",
+       {{"fdm", "linearise"}, {"fdm", "sweep"}}},
+      {{"--set", "env.initial.true_airspeed_min_fps=60", "--set", "env.termination.min_mach=0"},
+       "flights cannot begin in all of env.initial",
+       of_environments},
+      {{"--set", "env.termination.max_mach=0.9"},
+       "is Mach 1.16, beyond env.termination.max_mach",
+       of_environments}};
+  for (const Case& given : cases) {
+    for (std::vector<std::string> arguments : given.commands) {
+      arguments.insert(arguments.end(), given.start.begin(), given.start.end());
+      const ProgramResult result = CallSkein(arguments);
+      EXPECT_EQ(result.exit_code, 2) << arguments[0] << " " << arguments[1] << result.error;
+      EXPECT_THAT(result.error, HasSubstr(given.message));
+    }
+  }
+  EXPECT_TRUE(fs::is_empty(scratch.path()));
+}
+
 TEST(ExitCodes, AFileThatIsDamagedIsAFailure) {
   const ScratchDirectory scratch;
   const std::string damaged = scratch / "damaged";

@@ -151,6 +151,9 @@ TEST_F(FdmFly, SticksOfAFileAreFlown) {
   WriteFile(sticks, "time_s,roll\r\n0,0\r\n1,0.2\r\n2,0\r\n");
   ASSERT_EQ(CallSkein(words).exit_code, 0);
   EXPECT_EQ(ReadFile(path), as_flown) << "as Windows ends lines";
+  WriteFile(sticks, "\xEF\xBB\xBFtime_s,roll\n0,0\n1,0.2\n2,0\n");
+  ASSERT_EQ(CallSkein(words).exit_code, 0);
+  EXPECT_EQ(ReadFile(path), as_flown) << "as spreadsheets begin a file";
   const ProgramResult drawn =
       CallSkein({"plot", "flights", path, "--columns", "p_deg_s", "-o", folder_ + "/fly.svg"});
   EXPECT_EQ(drawn.exit_code, 0) << drawn.error;
@@ -261,6 +264,41 @@ TEST_F(FdmFly, AgentsFlyToTheTargetsThatAreGiven) {
   EXPECT_NEAR(control.Find("pitch_deg")->back(), 10, kAngle);
 }
 
+TEST_F(FdmFly, StartsAndTargetsAboveTheEnginesTablesAreSaid) {
+  const std::string above =
+      " ft: the engine's tables end at 50000 ft, and thrust above is held as "
+      "there\n";
+  const auto said = [&](const std::string& altitude, const Words& words) {
+    const ProgramResult result =
+        CallSkein(Words{"fdm", "fly", "--altitude-ft", altitude, "--speed-fps", "1000", "--seconds",
+                        "0.1", "-o", folder_ + "/high.csv", "--agents", "autopilot"} +
+                  words);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    return result.error;
+  };
+  const Words heading = {"--task", "heading"};
+  EXPECT_EQ(said("45000", heading + Words{"--target", "altitude_ft=50000"}), "");
+  EXPECT_EQ(said("45000", heading + Words{"--target", "altitude_ft=55000"}),
+            "warning: the target altitude is at up to 55000" + above);
+  EXPECT_EQ(said("51000", heading + Words{"--target", "altitude_ft=49000"}),
+            "warning: flights begin at up to 51000" + above);
+  EXPECT_EQ(said("51000", {"--task", "control", "--target", "pitch_deg=0"}),
+            "warning: flights begin at up to 51000" + above);
+  EXPECT_EQ(said("49000", {"--task", "tracking", "--target", "altitude_ft=49000"}), "")
+      << "points as they are drawn may lie higher";
+}
+
+TEST_F(FdmFly, AMissionIsFlownToItsEnd) {
+  for (const char* task : {"heading", "tracking"}) {
+    const ProgramResult result =
+        CallSkein({"fdm", "fly", "--altitude-ft", "20000", "--speed-fps", "1000", "--agents",
+                   "autopilot", "--task", task, "--set", "env.mission.length_s=2", "--set",
+                   "env.hold_s=0", "--seconds", "3", "-o", folder_ + "/mission.csv"});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.output, HasSubstr("autopilot: 2 s of 3, flown to the end\n"));
+  }
+}
+
 TEST_F(FdmFly, AFlightHasAtLeastOneStep) {
   const Words start = {"--altitude-ft", "20000", "--speed-fps", "1000"};
   for (const Words& pilot : {Words{}, Words{"--agents", "autopilot", "--task", "heading"}}) {
@@ -356,7 +394,7 @@ TEST_F(FdmFly, WhatAgentsCannotFlySaysSo) {
   const ProgramResult stalled =
       CallSkein({"fdm", "fly", "--altitude-ft", "20000", "--speed-fps", "60", "--agents",
                  "autopilot", "--task", "heading", "-o", folder_ + "/x.csv"});
-  EXPECT_EQ(stalled.exit_code, 1);
+  EXPECT_EQ(stalled.exit_code, 2);
   EXPECT_THAT(stalled.error, HasSubstr("this flight is below stall speed"));
   EXPECT_EQ(std::count(stalled.error.begin(), stalled.error.end(), '\n'), 1) << stalled.error;
 }

@@ -128,7 +128,7 @@ TEST_F(FdmTrimPipeline, LinearModelsAndFlyingQualitiesAreThoseOfTheMachNumber) {
 TEST_F(FdmTrimPipeline, AnImpossibleTrimIsOneLine) {
   const ProgramResult result =
       CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "30"});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
   EXPECT_EQ(result.error.find("skein: error: this flight is below stall speed: at 15000 ft"), 0u)
       << result.error;

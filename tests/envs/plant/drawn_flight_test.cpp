@@ -21,6 +21,13 @@
 namespace skein {
 namespace {
 
+using one_flight::Action;
+using one_flight::Fly;
+using one_flight::kInterval;
+using one_flight::Lively;
+using one_flight::OneDrawnFlight;
+using one_flight::OneFlight;
+
 /// Rates of change over one short control step with the sticks at `action`, and nz and ny.
 struct Response {
   std::array<double, kNumColumns> rate{}, end{};

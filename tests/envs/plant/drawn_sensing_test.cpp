@@ -19,7 +19,15 @@
 namespace skein {
 namespace {
 
+using one_flight::Action;
+using one_flight::Fly;
+using one_flight::kInterval;
+using one_flight::Lively;
+using one_flight::OneDrawnFlight;
+using one_flight::OneFlight;
+
 TEST(DrawnSensing, AnActionDelayOfKStepsShiftsTheCommandsByK) {
+  constexpr Tolerance kThrottle{2e-5, "float32 of the trim's throttle, 40 steps on, relative"};
   for (const int delay : {1, 2, 3}) {
     EnvConfig late = OneFlight();
     late.plant.action_delay_steps = {delay, delay};
@@ -31,7 +39,8 @@ TEST(DrawnSensing, AnActionDelayOfKStepsShiftsTheCommandsByK) {
     };
     const auto expected = Fly(OneDrawnFlight(), shifted, 40), flown = Fly(late, Lively, 40);
     for (std::size_t k = 0; k < flown.size(); ++k) {
-      ASSERT_NEAR(flown[k], expected[k], 2e-5 * (1 + std::abs(expected[k]))) << delay << ", " << k;
+      ASSERT_NEAR(flown[k], expected[k], kThrottle * (1 + std::abs(expected[k])))
+          << delay << ", " << k;
     }
   }
 }
@@ -81,12 +90,13 @@ TEST(DrawnSensing, AnObservationDelayOfKStepsShowsTheStateOfKStepsAgo) {
 }
 
 TEST(DrawnSensing, SensorErrorsAreConstantAndLeaveTheTasksErrors) {
+  constexpr double kMostBias = 0.05, kMostScale = 0.1;  // what may be drawn
   constexpr Tolerance kScale{0.101, "the largest error, and float32 rounding of a change of 0.01"};
   constexpr Tolerance kLine{1e-4, "float32 rounding of a change of 0.01, at changes of 1"};
   EnvConfig config = OneDrawnFlight();
   const auto exact = Observe(config, 20);
-  config.plant.sensor_bias = 0.05;
-  config.plant.sensor_scale = 0.1;
+  config.plant.sensor_bias = kMostBias;
+  config.plant.sensor_scale = kMostScale;
   const auto seen = Observe(config, 20);
   int different = 0;
   for (std::size_t k = 0; k < kObservationSize; ++k) {
@@ -96,7 +106,8 @@ TEST(DrawnSensing, SensorErrorsAreConstantAndLeaveTheTasksErrors) {
       if (k < 3) {
         EXPECT_EQ(seen[step][k], exact[step][k]);
       } else {
-        EXPECT_NEAR(seen[step][k], exact[step][k], 0.05 + 0.1 * std::abs(exact[step][k]));
+        EXPECT_NEAR(seen[step][k], exact[step][k],
+                    kMostBias + kMostScale * std::abs(exact[step][k]));
       }
     }
     if (k >= 3 && seen[0][k] != exact[0][k]) ++different;
@@ -118,7 +129,8 @@ TEST(DrawnSensing, SensorErrorsAreTheDrawnOnes) {
   const auto seen = Observe(config, 1);
   simd::RandomStream random({1, 0, 0, 0, simd::RandomPurpose::kPlant});
   const PlantDraw draw = DrawPlant(config.plant, &random);
-  constexpr double kPacked = 1.0 / 128, kRounding = 1e-6;  // of what was drawn; of float32
+  constexpr Tolerance kPacked{1.0 / 128, "what packing rounds off each error, relative"};
+  constexpr Tolerance kRounding{1e-6, "float32 rounding of numbers up to some units"};
   for (std::size_t k = 3; k < kObservationSize; ++k) {
     const double value = exact[0][k];
     const double by_scale = value * draw.sensor_scale[k - 3], bias = draw.sensor_bias[k - 3];

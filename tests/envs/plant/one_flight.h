@@ -12,7 +12,8 @@
 #include "envs/vec_env.h"
 #include "tests/envs/step_buffers.h"
 
-namespace skein {
+/// One flight of the environment, to be compared with another one.
+namespace skein::one_flight {
 
 using Action = std::array<float, 4>;
 using Actions = std::function<Action(int step)>;
@@ -58,4 +59,4 @@ inline EnvConfig OneDrawnFlight() {
   return config;
 }
 
-}  // namespace skein
+}  // namespace skein::one_flight

@@ -4,11 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "envs/aircraft/registry.h"
 #include "envs/task_registry.h"
 #include "src/config/configuration.h"
+#include "src/files/output_file.h"
+#include "tests/scratch_directory.h"
 
 namespace skein {
 namespace {
@@ -59,6 +63,65 @@ TEST(AltitudesBeyondTables, AreNamedOfTaskFiles) {
   env.SetTermTask(task);
   EXPECT_THAT(AltitudesBeyondTables(env), ElementsAre("target altitude is at up to 52000" + kEnd,
                                                       "target point is at up to 60000" + kEnd));
+}
+
+TEST(AltitudesBeyondTables, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
+  EnvConfig env;
+  env.initial.altitude_ft = {51000, 51000};
+  const std::string start = "flights begin at up to 51000" + kEnd;
+  EXPECT_THAT(AltitudesBeyondTables(env, {{"altitude_ft", 50000}, {"yaw_deg", 90000}}),
+              ElementsAre(start));
+  EXPECT_THAT(AltitudesBeyondTables(env, {{"altitude_ft", 55000}}),
+              ElementsAre(start, "the target altitude is at up to 55000" + kEnd));
+  env.task = "tracking";
+  EXPECT_THAT(AltitudesBeyondTables(env, {{"altitude_ft", 50000}}), ElementsAre(start));
+  EXPECT_THAT(AltitudesBeyondTables(env, {{"altitude_ft", 55000}}),
+              ElementsAre(start, "the target is at up to 55000" + kEnd));
+  env.task = "control";
+  EXPECT_THAT(AltitudesBeyondTables(env, {{"pitch_deg", 90}}), ElementsAre(start));
+}
+
+TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
+  EnvConfig env;
+  TermTaskConfig task;
+  task.targets.resize(2);
+  task.targets[0].name = "height";
+  task.targets[0].quantity.name = "altitude_ft";
+  task.targets[0].quantity.value = TermValue::kAltitude;
+  task.targets[0].draw_from = TermTarget::Draw::kBetween;
+  task.targets[0].draw = {100, 200};
+  task.targets[1].name = "speed";
+  task.targets[1].quantity.name = "true_airspeed_fps";
+  task.targets[1].quantity.value = TermValue::kTrueAirspeed;
+  env.SetTermTask(task);
+  const std::string low =
+      "target height cannot be reached: it is 200 or less (altitude_ft), but flights end below "
+      "2500 ft (env.termination.min_altitude_ft)";
+  EXPECT_THAT(TargetsBeyondLimits(env), ElementsAre(low));
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"altitude_ft", 2500}}), IsEmpty());
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"true_airspeed_fps", 1000}}), ElementsAre(low));
+  env.termination.max_mach = 1;
+  EXPECT_THAT(
+      TargetsBeyondLimits(env, {{"altitude_ft", 9000}, {"true_airspeed_fps", 2000}}),
+      ElementsAre("target speed cannot be reached: it is 2000 or more (true_airspeed_fps), but "
+                  "flights end above Mach 1 (env.termination.max_mach)"));
+}
+
+TEST(AltitudesBeyondTables, OfTablesInMetresEndAtTheFeetOfThem) {
+  const ScratchDirectory scratch;
+  auto file = nlohmann::json::parse(AircraftText("cessna172"));
+  file["propulsion"]["max_altitude_m"] = 6096;
+  EnvConfig env;
+  env.task = "control";
+  env.aircraft = scratch / "high.json";
+  WriteFile(env.aircraft, file.dump());
+  ASSERT_LT(LoadAircraft(env.aircraft).engine.altitude_ft.back(), 20000) << "by rounding alone";
+  env.initial.altitude_ft = {20000, 20000};
+  EXPECT_THAT(AltitudesBeyondTables(env), IsEmpty());
+  env.initial.altitude_ft.max = 20001;
+  EXPECT_THAT(AltitudesBeyondTables(env),
+              ElementsAre("flights begin at up to 20001 ft: the engine's tables end at 20000 ft, "
+                          "and thrust above is held as there"));
 }
 
 TEST(AltitudesBeyondTables, AreThoseOfTheAircraft) {

@@ -29,6 +29,21 @@ TEST(CsvColumnsTest, TakesNoNumberThatFloat32DoesNotHold) {
   EXPECT_TRUE(std::isnan((*table.Find("c"))[0]));
 }
 
+TEST(CsvColumnsTest, ReadsWhatOtherProgramsMakeOfAFile) {
+  const CsvColumns plain = ParseCsv("a,word\n1,up\n2,\n", "word");
+  const CsvColumns marked = ParseCsv(
+      "\xEF\xBB\xBF"
+      "a,word\r\n1,up\r\n2,\r\n",
+      "word");
+  EXPECT_EQ(marked.names, plain.names);
+  EXPECT_EQ(marked.values[0], plain.values[0]);
+  EXPECT_EQ(marked.words, plain.words);
+  EXPECT_THAT(marked.words, ElementsAre("up", ""));
+  EXPECT_EQ(marked.rows_left_out, 0);
+  EXPECT_TRUE(ParseCsv("\xEF\xBB\xBF").names.empty());
+  EXPECT_THAT(ParseCsv("a\rb\n").names, ElementsAre("a\rb")) << "ends no line";
+}
+
 TEST(CsvColumnsTest, HasNothingOfAnEmptyOrHeadlessFile) {
   EXPECT_EQ(ParseCsv("").rows(), 0u);
   EXPECT_EQ(ParseCsv("iteration,env_st").rows_left_out, 1);
