@@ -160,7 +160,12 @@ void EnvStepper::BeginEpisode(const EnvBlock& block, int i, std::int32_t episode
   if (wind_.enabled()) wind_.Begin(block.flight, i, GustKeysOf(block));
   if (block.plants.is_drawn()) BeginPlant(block, i);
   simd::RandomStream target = stream(simd::RandomPurpose::kTarget);
-  if (config_.mission.enabled()) LimitDescent(config_, flight.start.altitude_ft, &flight.start);
+  const double share = config_.mission.training_target_share;
+  if (config_.mission.enabled()) {
+    LimitDescent(config_, flight.start.altitude_ft, &flight.start);
+  } else if (share > 0 && initial.Uniform() < share) {
+    JoinMission(config_, task_->is_point(), &initial, &flight.start);
+  }
   task_->Reset(flight.start, &target, block.task, i);
 }
 

@@ -14,8 +14,8 @@
 namespace skein {
 namespace {
 
-RigidBodyState LevelState(double altitude_ft, double true_airspeed_ft_s, double alpha_rad,
-                          double bank_rad, double pitch_rad) {
+RigidBodyState StraightFlight(double altitude_ft, double true_airspeed_ft_s, double alpha_rad,
+                              double bank_rad, double pitch_rad) {
   RigidBodyState state = RigidBodyState::Zero();
   state[kU] = true_airspeed_ft_s * std::cos(alpha_rad);
   state[kW] = true_airspeed_ft_s * std::sin(alpha_rad);
@@ -86,7 +86,7 @@ FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
 }
 
 TrimmedStart FlightReset::UntrimmedAt(double altitude_ft, double true_airspeed_ft_s) const {
-  const RigidBodyState state = LevelState(altitude_ft, true_airspeed_ft_s, 0, 0, 0);
+  const RigidBodyState state = StraightFlight(altitude_ft, true_airspeed_ft_s, 0, 0, 0);
   Controls controls;
   controls.thrust_lbf = plant_.aircraft().untrimmed_thrust_lbf;
   const PlantOutput output = plant_.Evaluate(state, controls);
@@ -127,13 +127,17 @@ FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
   const double speed_ft_s = BentInto(true_airspeed_fps_, random->Uniform(), draw_power_);
   TrimmedStart start =
       trims_ ? trims_->At(altitude_ft, speed_ft_s) : UntrimmedAt(altitude_ft, speed_ft_s);
-  const double most_rad = initial_.training_bank_max_deg / kDegPerRad;
-  const double banked_rad = most_rad > 0 ? random->Uniform(-most_rad, most_rad) : 0;
+  const auto either_side_rad = [random](double most_deg) {
+    const double most_rad = most_deg / kDegPerRad;
+    return most_rad > 0 ? random->Uniform(-most_rad, most_rad) : 0;
+  };
+  const double banked_rad = either_side_rad(initial_.training_bank_max_deg);
   const double most_g = initial_.training_load_factor_max;
   const double pulled_g = most_g > 1 ? random->Uniform(0, most_g - 1) : 0;
+  const double climb_rad = either_side_rad(initial_.training_climb_max_deg);
   const double roll_rad = start.bank_rad + banked_rad;
-  RigidBodyState state =
-      LevelState(altitude_ft, speed_ft_s, start.alpha_rad, roll_rad, start.pitch_rad);
+  RigidBodyState state = StraightFlight(altitude_ft, speed_ft_s, start.alpha_rad, roll_rad,
+                                        start.pitch_rad + climb_rad);
   if (pulled_g > 0) Pull(pulled_g, &state, &start);
 
   const Air air = AirAt(plant_.atmosphere(), altitude_ft);
@@ -163,6 +167,7 @@ FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
   for (int i = 0; i < kNumFlightControlStates; ++i) {
     set(kAlphaFilter + i, filters[static_cast<std::size_t>(i)]);
   }
+  // Without the climb: pitches that are asked for lie around steady flight.
   flight.start = {altitude_ft, speed_ft_s, start.pitch_rad, 0, roll_rad};
   return flight;
 }

@@ -23,6 +23,10 @@ void ListFields(InitialConfig& config, FieldList& list) {
            "does not begin by itself it learns from its middle")
       .TrainingOnly()
       .OffUnless(config.training_bank_max_deg > 0);
+  list.Add("training_climb_max_deg", &config.training_climb_max_deg, {0, 60},
+           "in training flights begin climbing or descending by up to this")
+      .TrainingOnly()
+      .OffUnless(config.training_climb_max_deg > 0);
   list.Add("training_load_factor_max", &config.training_load_factor_max, {1, 9},
            "in training flights begin in a pull of up to so many g; 1: in none")
       .TrainingOnly()

@@ -23,6 +23,8 @@ struct InitialConfig {
   double training_true_airspeed_min_fps = 0;
   /// In training flights begin banked by up to this, to either side, and otherwise as they would.
   double training_bank_max_deg = 0;
+  /// In training flights begin climbing or descending by up to this, and otherwise as they would.
+  double training_climb_max_deg = 0;
   /// In training flights begin in a pull of up to this, g, about the pitch axis; 1: in none.
   double training_load_factor_max = 1;
 

@@ -37,6 +37,17 @@ void LeadBack(double altitude_ft, FlightStart* start) {
                                 -kLargestPitchBack, kLargestPitchBack);
 }
 
+void JoinMission(const EnvConfig& config, bool is_point, simd::RandomStream* random,
+                 FlightStart* start) {
+  const double altitude_ft = start->altitude_ft;
+  const auto drawn = [random](const Range& range) { return random->Uniform(range.min, range.max); };
+  start->altitude_ft = drawn(config.initial.altitude_ft);
+  start->true_airspeed_ft_s = drawn(config.initial.true_airspeed_fps);
+  LimitDescent(config, altitude_ft, start);
+  LeadBack(altitude_ft, start);
+  if (is_point) start->altitude_ft = altitude_ft;
+}
+
 int TimeLimitSteps(const EnvConfig& config, double share) {
   const MissionConfig& mission = config.mission;
   if (!mission.is_of_training() || mission.training_time_limit_s == 0) {

@@ -22,4 +22,10 @@ void LimitDescent(const EnvConfig& config, double altitude_ft, FlightStart* star
 /// Centres the pitch of its next target on what leads back to the altitude at which it began.
 void LeadBack(double altitude_ft, FlightStart* start);
 
+/// Makes of `start` what the next target of a mission is drawn relative to that began where
+/// evaluations do, drawn from `random`, and is where this flight begins by now. Targets that are
+/// points (`is_point`) stay relative to where it begins.
+void JoinMission(const EnvConfig& config, bool is_point, simd::RandomStream* random,
+                 FlightStart* start);
+
 }  // namespace skein

@@ -22,6 +22,12 @@ void ListFields(MissionConfig& config, FieldList& list) {
            "grow); 0: env.time_limit_steps")
       .TrainingOnly()
       .OffUnless(config.is_of_training() && config.training_time_limit_s > 0);
+  list.Add(
+          "training_target_share", &config.training_target_share, {0, 1},
+          "share of flights of one target in training whose target is what a mission that began as "
+          "evaluations do would ask for where they begin")
+      .TrainingOnly()
+      .OffUnless(config.training_target_share > 0);
 }
 
 }  // namespace skein

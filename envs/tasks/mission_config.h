@@ -16,6 +16,10 @@ struct MissionConfig {
   /// evaluations do.
   double training_time_limit_s = 0;
 
+  /// Share of flights in training, where they are no missions, whose target is one that a mission
+  /// would ask for where they begin (JoinMission).
+  double training_target_share = 0;
+
   bool is_of_training() const { return training_length_s > 0; }  ///< whether training has its own
   /// What is flown of the two lengths, s; 0: an episode has one target.
   double flown_length_s() const { return is_of_training() ? training_length_s : length_s; }

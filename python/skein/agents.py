@@ -164,9 +164,9 @@ def load_policy(path: str | os.PathLike[str], *, sampled: bool = False, seed: in
         Error: a file that is missing, damaged, or none of Skein's.
     """
     whole_number("seed", seed, 0, MOST_SEED)
-    if not text("path", path):
+    if not (file := text("path", path)):
         raise ConfigurationError("path must name a policy file, checkpoint or run, and is empty")
-    core = _skein.load_agent(os.fspath(path), bool(sampled))
+    core = _skein.load_agent(file, bool(sampled))
     return Agent._of(core, seed, partial(load_policy, path, sampled=sampled, seed=seed))
 
 

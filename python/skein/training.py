@@ -135,11 +135,11 @@ def train(
     configured = configure(task, **config)
     asked = _asked(callback)
     whole_number("threads", threads, 0, MOST_THREADS)
-    if not text("out", out):
+    if not (directory := text("out", out)):
         raise ConfigurationError("out must name the directory of the run, and is empty")
     _skein.train(
         configured,
-        os.fspath(out),
+        directory,
         text("start_from", start_from),
         text("low_level", low_level),
         threads,

@@ -87,7 +87,9 @@ def learnt(tmp_path, example, *arguments):
 
 
 @pytest.mark.parametrize("example", ["ppo_heading.py", "sb3_heading.py"])
-@pytest.mark.parametrize("option,says", [("--json={}/no/curve.json", "no/curve.json"), ("--aircraft=0", "num_envs must")])
+@pytest.mark.parametrize(
+    "option,says", [("--json={}/no/curve.json", "no/curve.json"), ("--aircraft=0", "num_envs must")]
+)
 def test_an_example_that_cannot_end_well_does_not_begin(tmp_path, example, option, says):
     pytest.importorskip("sb3_contrib")
     pytest.importorskip("torch")

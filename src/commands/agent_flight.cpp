@@ -109,8 +109,7 @@ void RequireLevelStart(const CLI::App& command) {
   }
 }
 
-/// Throws ChoiceError that says why, if there is no steady flight that the environment can begin
-/// with.
+/// Throws ChoiceError that says why, if the environment has no steady flight to begin with.
 void RequireSteadyFlight(const EnvConfig& env) {
   if (!env.initial.trimmed) return;
   const Plant plant =
@@ -119,8 +118,7 @@ void RequireSteadyFlight(const EnvConfig& env) {
   TrimOrExplain(plant, {env.initial.altitude_ft.min, env.initial.true_airspeed_fps.min});
 }
 
-/// " of 20, ended by low_altitude" if a flight ended before the `seconds` asked for; empty
-/// otherwise.
+/// " of 20, ended by low_altitude" of a flight that ended before the `seconds` asked for, or empty.
 std::string EndOf(const AgentFlights& flown, Termination end, double seconds) {
   if (end == Termination::kNone) return "";
   const std::string label =

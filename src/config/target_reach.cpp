@@ -95,8 +95,7 @@ double HighestPoint(const EnvConfig& env, const Range& distance_ft, double eleva
   return env.initial.altitude_ft.max + distance_ft.max * std::sin(elevation_deg / kDegPerRad);
 }
 
-/// Targets that have an altitude, as messages call them, each with the highest that may be flown
-/// to.
+/// Targets that have an altitude, as messages call them, each with the highest that may be asked.
 std::vector<std::pair<std::string, double>> HighestTargets(const EnvConfig& env,
                                                            const GivenTargets& given) {
   std::vector<std::pair<std::string, double>> highest;

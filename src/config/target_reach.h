@@ -10,7 +10,7 @@
 namespace skein {
 
 /// What flights are given to fly to in the place of what is drawn, by the columns of their files:
-/// altitude_ft, true_airspeed_fps.
+/// altitude_ft, true_airspeed_fps, mach.
 using GivenTargets = std::map<std::string, double>;
 
 /// A line for every target of a task file that no flight can come to, for all that is drawn of it

@@ -136,26 +136,41 @@ TEST(FlightResetTest, TrainingBeginsSlowerAndEvaluationsDoNot) {
   EXPECT_EQ(DrawOf(FlightReset(config, F16()), 3).columns, DrawOf(plain, 3).columns);
 }
 
-TEST(FlightResetTest, TrainingBeginsBankedAndEvaluationsDoNot) {
-  EnvConfig config;
-  config.initial.training_bank_max_deg = 90;
+/// Holds that flights of `config` begin as others do but for `angle`, which is uniformly up to
+/// `most_rad` beside, and that evaluations begin as others do.
+void ExpectBegunAside(const EnvConfig& config, double EulerAngles::*angle, double most_rad) {
   const FlightReset training(config, F16()), evaluation(EvaluationConfig(config), F16()),
       plain(EnvConfig{}, F16());
   std::vector<double> shares;
   for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
-    const FreshFlight banked = DrawOf(training, episode), level = DrawOf(plain, episode);
-    const EulerAngles attitude = EulerFromQuaternion(BodyOf(banked).segment<4>(kQ0));
-    const EulerAngles before = EulerFromQuaternion(BodyOf(level).segment<4>(kQ0));
-    shares.push_back((attitude.roll - before.roll) / (M_PI / 2));
-    EXPECT_NEAR(attitude.pitch, before.pitch, kFloat32);
-    EXPECT_NEAR(attitude.yaw, before.yaw, kFloat32);
+    const FreshFlight aside = DrawOf(training, episode), level = DrawOf(plain, episode);
+    const EulerAngles attitude = EulerFromQuaternion(BodyOf(aside).segment<4>(kQ0));
+    EulerAngles expected = EulerFromQuaternion(BodyOf(level).segment<4>(kQ0));
+    shares.push_back((attitude.*angle - expected.*angle) / most_rad);
+    expected.*angle = attitude.*angle;
+    EXPECT_NEAR(attitude.roll, expected.roll, kFloat32);
+    EXPECT_NEAR(attitude.pitch, expected.pitch, kFloat32);
+    EXPECT_NEAR(attitude.yaw, expected.yaw, kFloat32);
     for (int column = 0; column < kNumColumns; ++column) {
       if (column >= kQ0 && column <= kQz) continue;
-      EXPECT_EQ(At(banked, column), At(level, column)) << column;
+      EXPECT_EQ(At(aside, column), At(level, column)) << column;
     }
+    EXPECT_EQ(aside.start.pitch_rad, level.start.pitch_rad);
     EXPECT_EQ(DrawOf(evaluation, episode).columns, level.columns);
   }
   ExpectUniform(shares);
+}
+
+TEST(FlightResetTest, TrainingBeginsBankedAndEvaluationsDoNot) {
+  EnvConfig config;
+  config.initial.training_bank_max_deg = 90;
+  ExpectBegunAside(config, &EulerAngles::roll, M_PI / 2);
+}
+
+TEST(FlightResetTest, TrainingBeginsInClimbsAndDescentsAndEvaluationsDoNot) {
+  EnvConfig config;
+  config.initial.training_climb_max_deg = 30;
+  ExpectBegunAside(config, &EulerAngles::pitch, M_PI / 6);
 }
 
 TEST(FlightResetTest, TrainingBeginsInAPullAndEvaluationsDoNot) {

@@ -84,7 +84,7 @@ TEST(AltitudesBeyondTables, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
 TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
   EnvConfig env;
   TermTaskConfig task;
-  task.targets.resize(2);
+  task.targets.resize(3);
   task.targets[0].name = "height";
   task.targets[0].quantity.name = "altitude_ft";
   task.targets[0].quantity.value = TermValue::kAltitude;
@@ -93,6 +93,11 @@ TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
   task.targets[1].name = "speed";
   task.targets[1].quantity.name = "true_airspeed_fps";
   task.targets[1].quantity.value = TermValue::kTrueAirspeed;
+  task.targets[2].name = "number";
+  task.targets[2].quantity.name = "mach";
+  task.targets[2].quantity.value = TermValue::kMach;
+  task.targets[2].draw_from = TermTarget::Draw::kBetween;
+  task.targets[2].draw = {0.8, 0.9};
   env.SetTermTask(task);
   const std::string low =
       "target height cannot be reached: it is 200 or less (altitude_ft), but flights end below "
@@ -105,6 +110,9 @@ TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
       TargetsBeyondLimits(env, {{"altitude_ft", 9000}, {"true_airspeed_fps", 2000}}),
       ElementsAre("target speed cannot be reached: it is 2000 or more (true_airspeed_fps), but "
                   "flights end above Mach 1 (env.termination.max_mach)"));
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"altitude_ft", 9000}, {"mach", 1.5}}),
+              ElementsAre("target number cannot be reached: it is 1.5 or more (mach), but flights "
+                          "end above Mach 1 (env.termination.max_mach)"));
 }
 
 TEST(AltitudesBeyondTables, OfTablesInMetresEndAtTheFeetOfThem) {
