@@ -70,11 +70,12 @@ class RanksPipeline : public RanksFixture {
     return words;
   }
 
-  /// A copy of the program with as many letters x in place of `text`, wherever it is in the file.
+  /// A copy of the program with as many question marks in place of `text`, wherever it is in the
+  /// file.
   std::string CopyWithout(const std::string& text) {
     std::string bytes = ReadFile(SKEIN_PROGRAM);
     for (std::size_t at = 0; (at = bytes.find(text, at)) != std::string::npos;) {
-      bytes.replace(at, text.size(), text.size(), 'x');
+      bytes.replace(at, text.size(), text.size(), '?');
     }
     const std::string copy = scratch_ / "skein";
     WriteFile(copy, bytes);
@@ -273,7 +274,7 @@ TEST_F(RanksPipeline, ARankOfAnotherCommitIsRefusedAndNamed) {
       RunWords(Mpirun(2, TinyTraining(run_, kShards), LastRank{"", other}));
   EXPECT_NE(result.exit_code, 0);
   EXPECT_THAT(result.error, HasSubstr("ranks differ in what they train with"));
-  EXPECT_THAT(result.error, HasSubstr("of commit xxx"));
+  EXPECT_THAT(result.error, HasSubstr("of commit ???"));
   EXPECT_FALSE(fs::exists(run_));
 }
 
@@ -282,7 +283,7 @@ TEST_F(RanksPipeline, ARankOfAnotherVersionLoadsNoModuleAndEndsTheJob) {
   const ProgramResult result =
       RunWords(Mpirun(2, TinyTraining(run_, kShards), LastRank{"", other}));
   EXPECT_NE(result.exit_code, 0);
-  EXPECT_THAT(result.error, HasSubstr("is of another build than xxx"));
+  EXPECT_THAT(result.error, HasSubstr("is of another build than ???"));
   EXPECT_FALSE(fs::exists(run_));
 }
 

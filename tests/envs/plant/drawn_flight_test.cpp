@@ -18,15 +18,8 @@
 #include "tests/envs/step_buffers.h"
 #include "tests/tolerance.h"
 
-namespace skein {
+namespace skein::one_flight {
 namespace {
-
-using one_flight::Action;
-using one_flight::Fly;
-using one_flight::kInterval;
-using one_flight::Lively;
-using one_flight::OneDrawnFlight;
-using one_flight::OneFlight;
 
 /// Rates of change over one short control step with the sticks at `action`, and nz and ny.
 struct Response {
@@ -377,4 +370,4 @@ TEST(DrawnFlight, FliesLikeTheClosedLoopInDoublePrecision) {
 }
 
 }  // namespace
-}  // namespace skein
+}  // namespace skein::one_flight

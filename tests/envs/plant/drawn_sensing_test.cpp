@@ -16,15 +16,8 @@
 #include "tests/envs/step_buffers.h"
 #include "tests/tolerance.h"
 
-namespace skein {
+namespace skein::one_flight {
 namespace {
-
-using one_flight::Action;
-using one_flight::Fly;
-using one_flight::kInterval;
-using one_flight::Lively;
-using one_flight::OneDrawnFlight;
-using one_flight::OneFlight;
 
 TEST(DrawnSensing, AnActionDelayOfKStepsShiftsTheCommandsByK) {
   constexpr Tolerance kThrottle{2e-5, "float32 of the trim's throttle, 40 steps on, relative"};
@@ -214,4 +207,4 @@ TEST(DrawnSensing, AHeldActionIsTheSameActionInEveryControlStep) {
 }
 
 }  // namespace
-}  // namespace skein
+}  // namespace skein::one_flight
