@@ -50,9 +50,13 @@ void PackBackward(benchmark::State& state, simd::Precision precision) {
 void Fold(benchmark::State& state) {
   const NetworkLayout layout = Actor();
   const FoldedLayout folded_layout(layout);
+  std::vector<FoldedLinear> layers{folded_layout.gru(0).hidden};
+  for (int i = 0; i <= layout.head(); ++i) layers.push_back(folded_layout.linear(i));
   const auto parameters = Normal(layout.size());
   AlignedVector<float> folded(folded_layout.size());
-  Once(state, layout.size(), [&] { folded_layout.Fold(parameters.data(), folded.data()); });
+  Once(state, layout.size(), [&] {
+    for (const FoldedLinear& layer : layers) FoldLinear(layer, parameters.data(), folded.data());
+  });
 }
 
 void UnfoldGradient(benchmark::State& state) {

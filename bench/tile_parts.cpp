@@ -99,13 +99,15 @@ TileReplay::TileReplay(const NetworkPrecision& precision, int steps, int batch)
       advantage_(Normal(static_cast<std::int64_t>(steps) * batch)),
       not_done_(advantage_.size(), 1.0f),
       log_prob_(advantage_.size(), -5.5f) {
-  folded_layout_.Fold(parameters_.data(), folded_.data());
+  folded_layout_.FoldRest(parameters_.data(), folded_.data());
   for (int i = 0; i < layout_.head(); ++i) {
     if (i != layout_.gru_input()) hidden_.emplace_back(folded_layout_.linear(i), precision);
   }
-  for (LinearLayer& linear : hidden_) linear.SetParameters(folded_.data());
+  for (LinearLayer& linear : hidden_) {
+    linear.SetParameters(parameters_.data(), folded_.data());
+  }
   for (LinearLayer* const linear : {&gate_input_, &gate_state_, &head_}) {
-    linear->SetParameters(folded_.data());
+    linear->SetParameters(parameters_.data(), folded_.data());
   }
   std::copy_n(folded_.data() + gate_input_.place().bias, 3 * kSize, gate_bias_.begin());
   AddTo(2 * kSize, folded_.data() + gate_state_.place().bias, gate_bias_.data() + kSize);  // r, z

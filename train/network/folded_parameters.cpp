@@ -21,6 +21,66 @@ void FoldBiases(std::int64_t columns, const float* weight, const float* beta, co
   for (int r = 0; r < kRows; ++r) folded[r] = static_cast<float>(sums[r]);
 }
 
+/// The affine part of a LayerNorm and the gradient with respect to it, which adds up over rows.
+struct NormGradient {
+  const float* gamma = nullptr;
+  const float* beta = nullptr;
+  std::vector<double> by_gamma, by_beta;
+
+  /// One row's: W, G and g of FoldedLayout::UnfoldGradient; writes dW.
+  void Unfold(int columns, const float* weight, const float* by_weight, float by_bias,
+              float* gradient) {
+    double* const gammas = by_gamma.data();
+    double* const betas = by_beta.data();
+    for (int j = 0; j < columns; ++j) {
+      gradient[j] = by_weight[j] * gamma[j] + by_bias * beta[j];
+      gammas[j] += static_cast<double>(weight[j]) * by_weight[j];
+      betas[j] += static_cast<double>(weight[j]) * by_bias;
+    }
+  }
+};
+
+void UnfoldLinear(const FoldedLinear& linear, const float* parameters, const float* folded_gradient,
+                  float* gradient) {
+  const int columns = linear.flat_in;
+  const bool has_norm = linear.norm_weight >= 0;
+  NormGradient norm;
+  if (has_norm) {
+    norm = {parameters + linear.norm_weight, parameters + linear.norm_bias,
+            std::vector<double>(columns, 0.0), std::vector<double>(columns, 0.0)};
+  }
+  std::vector<float> transposed(linear.gradient_by_input ? columns : 0);
+  for (int row = 0; row < linear.out; ++row) {
+    const int flat_row = linear.FlatRow(row);
+    if (flat_row < 0) continue;
+    const float* by_weight = folded_gradient + linear.WeightGradient(row, 0);
+    if (linear.gradient_by_input) {
+      for (int j = 0; j < columns; ++j) {
+        transposed[j] = folded_gradient[linear.WeightGradient(row, j)];
+      }
+      by_weight = transposed.data();
+    }
+    const std::int64_t flat = linear.flat_weight + static_cast<std::int64_t>(flat_row) * columns;
+    const float by_bias = folded_gradient[linear.bias + row];
+    gradient[linear.flat_bias + flat_row] = by_bias;
+    if (has_norm) {
+      norm.Unfold(columns, parameters + flat, by_weight, by_bias, gradient + flat);
+    } else {
+      std::copy_n(by_weight, columns, gradient + flat);
+    }
+  }
+  if (!has_norm) return;
+  std::copy_n(norm.by_gamma.begin(), columns, gradient + linear.norm_weight);
+  std::copy_n(norm.by_beta.begin(), columns, gradient + linear.norm_bias);
+}
+
+}  // namespace
+
+int FoldedLinear::FlatRow(int row) const {
+  const int unit = row % padded_block;
+  return unit < block ? order[row / padded_block] * block + unit : -1;
+}
+
 void FoldLinear(const FoldedLinear& linear, const float* parameters, float* folded) {
   constexpr int kRowsAtOnce = 8;
   const bool has_norm = linear.norm_weight >= 0;
@@ -58,45 +118,6 @@ void FoldLinear(const FoldedLinear& linear, const float* parameters, float* fold
                     bias + row, out_bias + row);
     }
   }
-}
-
-void UnfoldLinear(const FoldedLinear& linear, const float* parameters, const float* folded_gradient,
-                  float* gradient) {
-  const bool has_norm = linear.norm_weight >= 0;
-  const float* const gamma = has_norm ? parameters + linear.norm_weight : nullptr;
-  const float* const beta = has_norm ? parameters + linear.norm_bias : nullptr;
-  std::vector<double> gamma_gradient(linear.flat_in, 0.0), beta_gradient(linear.flat_in, 0.0);
-  for (int row = 0; row < linear.out; ++row) {
-    const int flat_row = linear.FlatRow(row);
-    if (flat_row < 0) continue;
-    const std::int64_t flat =
-        linear.flat_weight + static_cast<std::int64_t>(flat_row) * linear.flat_in;
-    const float* const weight = parameters + flat;
-    const float bias_gradient = folded_gradient[linear.bias + row];
-    gradient[linear.flat_bias + flat_row] = bias_gradient;
-    for (int j = 0; j < linear.flat_in; ++j) {
-      const float folded = folded_gradient[linear.WeightGradient(row, j)];
-      if (!has_norm) {
-        gradient[flat + j] = folded;
-        continue;
-      }
-      gradient[flat + j] = folded * gamma[j] + bias_gradient * beta[j];
-      gamma_gradient[j] += static_cast<double>(weight[j]) * folded;
-      beta_gradient[j] += static_cast<double>(weight[j]) * bias_gradient;
-    }
-  }
-  if (!has_norm) return;
-  for (int j = 0; j < linear.flat_in; ++j) {
-    gradient[linear.norm_weight + j] = static_cast<float>(gamma_gradient[j]);
-    gradient[linear.norm_bias + j] = static_cast<float>(beta_gradient[j]);
-  }
-}
-
-}  // namespace
-
-int FoldedLinear::FlatRow(int row) const {
-  const int unit = row % padded_block;
-  return unit < block ? order[row / padded_block] * block + unit : -1;
 }
 
 FoldedLinear FoldedLayout::Place(int in, int padded_in, int blocks, int block, int padded_block) {
@@ -169,8 +190,7 @@ void FoldedLayout::ForEachLinear(const Visit& visit) const {
   }
 }
 
-void FoldedLayout::Fold(const float* parameters, float* folded) const {
-  ForEachLinear([&](const FoldedLinear& linear) { FoldLinear(linear, parameters, folded); });
+void FoldedLayout::FoldRest(const float* parameters, float* folded) const {
   std::copy_n(parameters + flat_log_std_, outputs_, folded + log_std_);
 }
 

@@ -34,6 +34,9 @@ struct FoldedLinear {
   }
 };
 
+/// Writes the layer's part of a folded vector, from a network's flat one.
+void FoldLinear(const FoldedLinear& linear, const float* parameters, float* folded);
+
 /// The linear layers of one GRU layer. Gates of the input layer are in the order n, r, z, of the
 /// hidden layer r, z, n, so that a row of gate gradients [n | r | z | q] is contiguous for both
 /// products.
@@ -53,8 +56,8 @@ class FoldedLayout {
   const FoldedGru& gru(int layer) const { return gru_[layer]; }
   std::int64_t log_std() const { return log_std_; }
 
-  /// The folded form of `parameters`, the network's flat vector.
-  void Fold(const float* parameters, float* folded) const;
+  /// Writes what of a folded vector belongs to no linear layer, from a network's flat one.
+  void FoldRest(const float* parameters, float* folded) const;
   /// The gradient with respect to the flat parameters from the one with respect to the folded
   /// ones, which is linear in it: the sum over tiles may be unfolded at once. With G the gradient
   /// with respect to W' and g with respect to b', dW = G diag(gamma) + g beta^T, dgamma = column

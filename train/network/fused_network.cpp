@@ -111,16 +111,17 @@ FusedNetwork::FusedNetwork(const NetworkLayout& layout, const NetworkPrecision& 
 
 void FusedNetwork::SetParameters(const float* parameters) {
   parameters_.assign(parameters, parameters + layout_.size());
-  folded_layout_.Fold(parameters, folded_.data());
-  for (LinearLayer& linear : hidden_) linear.SetParameters(folded_.data());
+  float* const folded_all = folded_.data();
+  for (LinearLayer& linear : hidden_) linear.SetParameters(parameters, folded_all);
   const int size = PaddedWidth(layout_.shape().gru_size);
   for (Gru& gru : gru_) {
-    gru.input.SetParameters(folded_.data());
-    gru.hidden.SetParameters(folded_.data());
+    gru.input.SetParameters(parameters, folded_all);
+    gru.hidden.SetParameters(parameters, folded_all);
     std::copy_n(folded(gru.input.place().bias), 3 * size, gru.gate_bias.begin());
     AddTo(2 * size, folded(gru.hidden.place().bias), gru.gate_bias.data() + size);  // r, z
   }
-  head_.SetParameters(folded_.data());
+  head_.SetParameters(parameters, folded_all);
+  folded_layout_.FoldRest(parameters, folded_all);
 }
 
 const float* FusedNetwork::InputOf(int index, const FusedActivations& activations) const {

@@ -3,7 +3,8 @@
 
 namespace skein {
 
-void LinearLayer::SetParameters(const float* folded) {
+void LinearLayer::SetParameters(const float* parameters, float* folded) {
+  FoldLinear(place_, parameters, folded);
   const float* const weight = folded + place_.weight;
   forward_.Pack(place_.in, place_.out, weight, 1, place_.in, precision_.forward);
   backward_.Pack(place_.out, place_.in, weight, place_.in, 1, precision_.backward);

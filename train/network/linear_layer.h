@@ -19,7 +19,9 @@ class LinearLayer {
   /// Widths, and where weight and bias lie in folded vectors.
   const FoldedLinear& place() const { return place_; }
 
-  void SetParameters(const float* folded);
+  /// Folds its part of a network's flat vector into `folded`, and packs it while it is in the
+  /// cache.
+  void SetParameters(const float* parameters, float* folded);
 
   /// out = W in, plus what was in `out` in its first `accumulated` columns, and `bias` in the
   /// others.

@@ -32,7 +32,7 @@ AdamOptimiser::AdamOptimiser(const std::vector<float>& parameters, double epsilo
       first_moment_(parameters_.size(), 0.0f),
       second_moment_(parameters_.size(), 0.0f) {}
 
-void AdamOptimiser::Step(double learning_rate) {
+void AdamOptimiser::Step(double learning_rate, float gradient_scale) {
   ++step_;
   const auto t = static_cast<double>(step_);
   AdamStep step;
@@ -41,6 +41,7 @@ void AdamOptimiser::Step(double learning_rate) {
   step.first_moment = first_moment_.data();
   step.second_moment = second_moment_.data();
   step.gradient = gradient_.data();
+  step.gradient_scale = gradient_scale;
   step.beta1 = static_cast<float>(kBeta1);
   step.one_minus_beta1 = static_cast<float>(1 - kBeta1);
   step.beta2 = static_cast<float>(kBeta2);

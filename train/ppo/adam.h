@@ -35,7 +35,8 @@ class AdamOptimiser {
   const float* parameters() const { return parameters_.data(); }
   float* gradient() { return gradient_.data(); }
 
-  void Step(double learning_rate);
+  /// By `gradient_scale` times the gradient.
+  void Step(double learning_rate, float gradient_scale = 1);
 
   std::vector<float> ParameterVector() const { return {parameters(), parameters() + size_}; }
   /// `parameters` has size() floats.

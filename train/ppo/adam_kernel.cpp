@@ -22,9 +22,10 @@ void AdamStepKernel(const AdamStep& step) {
   const auto beta1 = Constant(step.beta1), one_minus_beta1 = Constant(step.one_minus_beta1);
   const auto beta2 = Constant(step.beta2), one_minus_beta2 = Constant(step.one_minus_beta2);
   const auto root_correction = Constant(step.root_correction);
+  const auto gradient_scale = Constant(step.gradient_scale);
   const auto epsilon = Constant(step.epsilon), step_size = Constant(step.step_size);
   for (std::int64_t i = 0; i < step.size; i += kLanes) {
-    const auto g = hn::Load(d, step.gradient + i);
+    const auto g = hn::Mul(hn::Load(d, step.gradient + i), gradient_scale);
     const auto m =
         hn::MulAdd(g, one_minus_beta1, hn::Mul(hn::Load(d, step.first_moment + i), beta1));
     const auto v = hn::MulAdd(hn::Mul(one_minus_beta2, g), g,

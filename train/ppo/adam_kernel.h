@@ -16,6 +16,7 @@ struct AdamStep {
   float* first_moment = nullptr;
   float* second_moment = nullptr;
   const float* gradient = nullptr;
+  float gradient_scale = 1;
   float beta1 = 0, one_minus_beta1 = 0;
   float beta2 = 0, one_minus_beta2 = 0;
   float root_correction = 0;  ///< sqrt(1 - beta2^t)
@@ -23,7 +24,7 @@ struct AdamStep {
   float step_size = 0;  ///< learning rate / (1 - beta1^t)
 };
 
-/// m = beta1 m + (1 - beta1) g, v = beta2 v + (1 - beta2) g^2,
+/// With g the scaled gradient: m = beta1 m + (1 - beta1) g, v = beta2 v + (1 - beta2) g^2,
 /// p -= step_size m / (sqrt(v) / root_correction + epsilon).
 void TakeAdamStep(const AdamStep& step);
 

@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/minibatch_step.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace skein {
 namespace {
 
+/// Of independent sums, as each is a chain of additions.
 double Norm(const float* values, std::int64_t size) {
-  double squares = 0;
-  for (std::int64_t i = 0; i < size; ++i) squares += static_cast<double>(values[i]) * values[i];
-  return std::sqrt(squares);
+  constexpr std::int64_t kSums = 8;
+  std::array<double, kSums> squares{};
+  const std::int64_t whole = size - size % kSums;
+  for (std::int64_t i = 0; i < whole; i += kSums) {
+    for (std::int64_t k = 0; k < kSums; ++k) {
+      const double value = values[i + k];
+      squares[k] += value * value;
+    }
+  }
+  for (std::int64_t i = whole; i < size; ++i) {
+    squares[i - whole] += static_cast<double>(values[i]) * values[i];
+  }
+  return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
 }
 
 /// Adds up `count` vectors in their order, in the first.
@@ -63,15 +76,9 @@ void SumGradients(std::int64_t begin, std::int64_t end, int slices,
 }
 
 double ClippedStep(double max_norm, double learning_rate, AdamOptimiser& optimiser) {
-  float* const gradient = optimiser.gradient();
-  const std::int64_t size = optimiser.size();
-  const double norm = Norm(gradient, size);
+  const double norm = Norm(optimiser.gradient(), optimiser.size());
   if (!(norm <= kExplodedGradientNorm)) return norm;
-  if (norm > max_norm) {
-    const auto scale = static_cast<float>(max_norm / norm);
-    for (std::int64_t i = 0; i < size; ++i) gradient[i] *= scale;
-  }
-  optimiser.Step(learning_rate);
+  optimiser.Step(learning_rate, norm > max_norm ? static_cast<float>(max_norm / norm) : 1.0f);
   return norm;
 }
 

@@ -186,19 +186,29 @@ void PpoUpdate::ComputeGradients(const Source& source, const Minibatch& minibatc
                     accumulator, worker);
   });
   gradient_seconds_ += SecondsSince(start);
-  for (Side* const side : sides) SumAccumulators(*side, minibatch.slices);
+  SumAccumulators(sides, minibatch.slices);
 }
 
-void PpoUpdate::SumAccumulators(Side& side, int slices) {
-  const auto size = static_cast<std::int64_t>(side.accumulators[0].size());
-  const auto blocks = static_cast<int>((size + kSumBlock - 1) / kSumBlock);
-  pool_.ForEach(blocks, [&](int block, int) {
-    const std::int64_t begin = block * kSumBlock;
-    SumGradients(begin, std::min(size, begin + kSumBlock), slices, side.accumulators);
+void PpoUpdate::SumAccumulators(const std::vector<Side*>& sides, int slices) {
+  struct Block {
+    Side* side;
+    std::int64_t begin, end;
+  };
+  std::vector<Block> blocks;
+  for (Side* const side : sides) {
+    const auto size = static_cast<std::int64_t>(side->accumulators[0].size());
+    for (std::int64_t begin = 0; begin < size; begin += kSumBlock) {
+      blocks.push_back({side, begin, std::min(size, begin + kSumBlock)});
+    }
+  }
+  pool_.ForEach(static_cast<int>(blocks.size()), [&](int i, int) {
+    SumGradients(blocks[i].begin, blocks[i].end, slices, blocks[i].side->accumulators);
   });
-  std::vector<LossSums> shards(side.losses.size() / slices);
-  for (std::size_t i = 0; i < side.losses.size(); ++i) shards[i / slices] += side.losses[i];
-  side.beside = {SumByTree(shards), pool_.stopping()};
+  for (Side* const side : sides) {
+    std::vector<LossSums> shards(side->losses.size() / slices);
+    for (std::size_t i = 0; i < side->losses.size(); ++i) shards[i / slices] += side->losses[i];
+    side->beside = {SumByTree(shards), pool_.stopping()};
+  }
 }
 
 void PpoUpdate::AddOtherRanks(Side& side) {

@@ -114,8 +114,8 @@ class PpoUpdate {
                         const std::vector<Side*>& sides);
   void AccumulateSlice(Side& side, const Source& source, const Chunks& chunks,
                        const LossSettings& settings, int accumulator, int worker);
-  /// Leaves the sum in the first accumulator.
-  void SumAccumulators(Side& side, int slices);
+  /// Leaves each network's sum in its first accumulator.
+  void SumAccumulators(const std::vector<Side*>& sides, int slices);
   /// Adds what the other ranks have of a gradient and beside it.
   void AddOtherRanks(Side& side);
   /// Clips and takes a network's step, unless a pool is stopping.
