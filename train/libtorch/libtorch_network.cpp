@@ -226,7 +226,8 @@ LossSums LibTorchNetwork::AccumulateGradient(const SampleTile& tile, const LossS
   return loss.sums;
 }
 
-void LibTorchNetwork::FinishGradient(const float* accumulator, float* gradient) const {
+void LibTorchNetwork::FinishGradient(const float* /*parameters*/, const float* accumulator,
+                                     float* gradient) const {
   std::copy_n(accumulator, layout_.size(), gradient);
 }
 

@@ -20,7 +20,8 @@ class LibTorchNetwork : public RecurrentNetwork {
   std::int64_t accumulator_size() const override { return layout_.size(); }
   LossSums AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
                               NetworkWorkspace& workspace, float* accumulator) const override;
-  void FinishGradient(const float* accumulator, float* gradient) const override;
+  void FinishGradient(const float* parameters, const float* accumulator,
+                      float* gradient) const override;
 
  private:
   NetworkLayout layout_;

@@ -21,34 +21,11 @@ void FoldBiases(std::int64_t columns, const float* weight, const float* beta, co
   for (int r = 0; r < kRows; ++r) folded[r] = static_cast<float>(sums[r]);
 }
 
-/// The affine part of a LayerNorm and the gradient with respect to it, which adds up over rows.
-struct NormGradient {
-  const float* gamma = nullptr;
-  const float* beta = nullptr;
-  std::vector<double> by_gamma, by_beta;
-
-  /// One row's: W, G and g of FoldedLayout::UnfoldGradient; writes dW.
-  void Unfold(int columns, const float* weight, const float* by_weight, float by_bias,
-              float* gradient) {
-    double* const gammas = by_gamma.data();
-    double* const betas = by_beta.data();
-    for (int j = 0; j < columns; ++j) {
-      gradient[j] = by_weight[j] * gamma[j] + by_bias * beta[j];
-      gammas[j] += static_cast<double>(weight[j]) * by_weight[j];
-      betas[j] += static_cast<double>(weight[j]) * by_bias;
-    }
-  }
-};
-
 void UnfoldLinear(const FoldedLinear& linear, const float* parameters, const float* folded_gradient,
                   float* gradient) {
   const int columns = linear.flat_in;
   const bool has_norm = linear.norm_weight >= 0;
-  NormGradient norm;
-  if (has_norm) {
-    norm = {parameters + linear.norm_weight, parameters + linear.norm_bias,
-            std::vector<double>(columns, 0.0), std::vector<double>(columns, 0.0)};
-  }
+  std::vector<double> by_gamma(columns, 0.0), by_beta(columns, 0.0);
   std::vector<float> transposed(linear.gradient_by_input ? columns : 0);
   for (int row = 0; row < linear.out; ++row) {
     const int flat_row = linear.FlatRow(row);
@@ -64,14 +41,16 @@ void UnfoldLinear(const FoldedLinear& linear, const float* parameters, const flo
     const float by_bias = folded_gradient[linear.bias + row];
     gradient[linear.flat_bias + flat_row] = by_bias;
     if (has_norm) {
-      norm.Unfold(columns, parameters + flat, by_weight, by_bias, gradient + flat);
+      UnfoldRow(columns,
+                {parameters + linear.norm_weight, parameters + linear.norm_bias, parameters + flat,
+                 by_weight, by_bias, gradient + flat, by_gamma.data(), by_beta.data()});
     } else {
       std::copy_n(by_weight, columns, gradient + flat);
     }
   }
   if (!has_norm) return;
-  std::copy_n(norm.by_gamma.begin(), columns, gradient + linear.norm_weight);
-  std::copy_n(norm.by_beta.begin(), columns, gradient + linear.norm_bias);
+  std::copy_n(by_gamma.begin(), columns, gradient + linear.norm_weight);
+  std::copy_n(by_beta.begin(), columns, gradient + linear.norm_bias);
 }
 
 }  // namespace

@@ -110,7 +110,6 @@ FusedNetwork::FusedNetwork(const NetworkLayout& layout, const NetworkPrecision& 
 }
 
 void FusedNetwork::SetParameters(const float* parameters) {
-  parameters_.assign(parameters, parameters + layout_.size());
   float* const folded_all = folded_.data();
   for (LinearLayer& linear : hidden_) linear.SetParameters(parameters, folded_all);
   const int size = PaddedWidth(layout_.shape().gru_size);
@@ -336,8 +335,9 @@ LossSums FusedNetwork::AccumulateGradient(const SampleTile& tile, const LossSett
   return sums;
 }
 
-void FusedNetwork::FinishGradient(const float* accumulator, float* gradient) const {
-  folded_layout_.UnfoldGradient(parameters_.data(), accumulator, gradient);
+void FusedNetwork::FinishGradient(const float* parameters, const float* accumulator,
+                                  float* gradient) const {
+  folded_layout_.UnfoldGradient(parameters, accumulator, gradient);
 }
 
 void FusedNetwork::HiddenBackward(int index, float* input_gradient, std::int64_t first,

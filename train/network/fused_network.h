@@ -34,7 +34,8 @@ class FusedNetwork : public RecurrentNetwork {
   std::int64_t accumulator_size() const override { return folded_layout_.size(); }
   LossSums AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
                               NetworkWorkspace& workspace, float* accumulator) const override;
-  void FinishGradient(const float* accumulator, float* gradient) const override;
+  void FinishGradient(const float* parameters, const float* accumulator,
+                      float* gradient) const override;
 
  private:
   struct Gru {
@@ -106,7 +107,6 @@ class FusedNetwork : public RecurrentNetwork {
   std::vector<LinearLayer> hidden_;  ///< before the GRU, then behind it
   std::vector<Gru> gru_;
   LinearLayer head_;
-  std::vector<float> parameters_;  ///< flat
   AlignedVector<float> folded_;
 };
 

@@ -368,6 +368,32 @@ void GruStepBackwardKernel(std::int64_t rows, int size, const float* previous, f
   kernel(rows, size, previous, gates, stride, later, state_gradient, gate_sums);
 }
 
+void UnfoldRowKernel(int columns, const UnfoldedRow& row) {
+  const hn::ScalableTag<double> wide;
+  const hn::Rebind<float, hn::ScalableTag<double>> narrow;
+  const int lanes = static_cast<int>(hn::Lanes(wide));
+  const auto g = hn::Set(narrow, row.bias_gradient);
+  const auto wide_g = hn::PromoteTo(wide, g);
+  int j = 0;
+  for (; j + lanes <= columns; j += lanes) {
+    const auto folded = hn::LoadU(narrow, row.folded_gradient + j);
+    const auto weight = hn::PromoteTo(wide, hn::LoadU(narrow, row.weight + j));
+    const auto by_gamma = hn::Mul(folded, hn::LoadU(narrow, row.gamma + j));
+    const auto by_beta = hn::Mul(g, hn::LoadU(narrow, row.beta + j));
+    hn::StoreU(hn::Add(by_gamma, by_beta), narrow, row.by_weight + j);
+    hn::StoreU(
+        hn::Add(hn::LoadU(wide, row.by_gamma + j), hn::Mul(weight, hn::PromoteTo(wide, folded))),
+        wide, row.by_gamma + j);
+    hn::StoreU(hn::Add(hn::LoadU(wide, row.by_beta + j), hn::Mul(weight, wide_g)), wide,
+               row.by_beta + j);
+  }
+  for (; j < columns; ++j) {
+    row.by_weight[j] = row.folded_gradient[j] * row.gamma[j] + row.bias_gradient * row.beta[j];
+    row.by_gamma[j] += static_cast<double>(row.weight[j]) * row.folded_gradient[j];
+    row.by_beta[j] += static_cast<double>(row.weight[j]) * row.bias_gradient;
+  }
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace skein
@@ -384,6 +410,7 @@ HWY_EXPORT(NormaliseBackwardKernel);
 HWY_EXPORT(MaskRowsKernel);
 HWY_EXPORT(GruStepKernel);
 HWY_EXPORT(GruStepBackwardKernel);
+HWY_EXPORT(UnfoldRowKernel);
 
 void NormaliseRows(std::int64_t rows, int columns, const float* in, float* out) {
   SKEIN_DISPATCH(NormaliseRowsKernel)(rows, columns, in, out);
@@ -425,6 +452,10 @@ void GruStepBackward(std::int64_t rows, int size, const float* previous, float* 
                      float* gate_sums) {
   SKEIN_DISPATCH(GruStepBackwardKernel)
   (rows, size, previous, gates, stride, later, state_gradient, gate_sums);
+}
+
+void UnfoldRow(int columns, const UnfoldedRow& row) {
+  SKEIN_DISPATCH(UnfoldRowKernel)(columns, row);
 }
 
 void AddColumnSums(std::int64_t rows, int columns, const float* in, std::int64_t stride,

@@ -40,7 +40,7 @@ class RecurrentNetwork {
   virtual ~RecurrentNetwork() = default;
 
   virtual const NetworkLayout& layout() const = 0;
-  /// Takes over a flat parameter vector of layout().size() floats.
+  /// Copies what it needs of a flat vector of layout().size() floats.
   virtual void SetParameters(const float* parameters) = 0;
 
   /// Leaves output and final state in the workspace.
@@ -48,12 +48,13 @@ class RecurrentNetwork {
 
   /// Tiles are added up in an accumulator of the implementation's own form (sums of accumulators
   /// are accumulators), which FinishGradient turns into the gradient with respect to the flat
-  /// parameters.
+  /// parameters, given those that were set.
   virtual std::int64_t accumulator_size() const = 0;
   /// Adds the gradient of the tile's loss, and returns its losses.
   virtual LossSums AccumulateGradient(const SampleTile& tile, const LossSettings& settings,
                                       NetworkWorkspace& workspace, float* accumulator) const = 0;
-  virtual void FinishGradient(const float* accumulator, float* gradient) const = 0;
+  virtual void FinishGradient(const float* parameters, const float* accumulator,
+                              float* gradient) const = 0;
 };
 
 /// Throws Error if `backend` cannot compute the shape; ChooseBackend (train/network/backend.h) asks

@@ -220,7 +220,8 @@ void PpoUpdate::Step(Side& side, const LearningRates& learning_rates) {
   if (side.beside.stopping > 0) return;
   const DenormalsFlushed flushed;
   AdamOptimiser& optimiser = side.trained.optimiser;
-  side.trained.network->FinishGradient(side.accumulators[0].data(), optimiser.gradient());
+  side.trained.network->FinishGradient(optimiser.parameters(), side.accumulators[0].data(),
+                                       optimiser.gradient());
   if (side.trained.idle_pedals) side.trained.idle_pedals->DropGradient(optimiser.gradient());
   const double learning_rate = is_actor(side) ? learning_rates.actor : learning_rates.critic;
   side.norm = ClippedStep(config_.max_gradient_norm, learning_rate, optimiser);

@@ -52,14 +52,15 @@ inline double Cosine(const std::vector<float>& values, const std::vector<double>
   return dot / std::sqrt(squares * reference_squares);
 }
 
-/// The gradient of one tile, and its losses in `sums`.
-inline std::vector<float> GradientBy(const RecurrentNetwork& network, const SampleTile& tile,
-                                     const LossSettings& settings, LossSums* sums = nullptr) {
+/// The gradient of one tile by a network that has `parameters`, and its losses in `sums`.
+inline std::vector<float> GradientBy(const RecurrentNetwork& network, const float* parameters,
+                                     const SampleTile& tile, const LossSettings& settings,
+                                     LossSums* sums = nullptr) {
   NetworkWorkspace workspace;
   std::vector<float> accumulator(network.accumulator_size(), 0.0f), flat(network.layout().size());
   const LossSums done = network.AccumulateGradient(tile, settings, workspace, accumulator.data());
   if (sums != nullptr) *sums = done;
-  network.FinishGradient(accumulator.data(), flat.data());
+  network.FinishGradient(parameters, accumulator.data(), flat.data());
   return flat;
 }
 
@@ -69,7 +70,7 @@ inline std::vector<float> GradientBy(Backend backend, const NetworkLayout& layou
                                      const NetworkPrecision& precision = {}) {
   const auto network = MakeNetwork(backend, layout, precision);
   network->SetParameters(parameters.data());
-  return GradientBy(*network, tile, settings, sums);
+  return GradientBy(*network, parameters.data(), tile, settings, sums);
 }
 
 }  // namespace skein

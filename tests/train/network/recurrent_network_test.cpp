@@ -354,6 +354,26 @@ TEST_P(RecurrentNetworkTest, AgreesWithFiniteDifferencesOfItsOwnLoss) {
   }
 }
 
+/// Of widths that are whole vectors of a target or not.
+TEST_P(RecurrentNetworkTest, AnAccumulatorIsFinishedAlikeOnEveryTarget) {
+  for (const NetworkShape& shape : OddShapes()) {
+    const NetworkLayout layout(shape);
+    const std::vector<float> parameters = DisturbedParameters(layout);
+    const FusedNetwork network(layout);
+    std::mt19937 random(3);
+    std::normal_distribution<float> normal;
+    std::vector<float> accumulator(network.accumulator_size());
+    for (float& value : accumulator) value = normal(random);
+    std::vector<float> here(layout.size()), scalar(layout.size());
+    network.FinishGradient(parameters.data(), accumulator.data(), here.data());
+    {
+      const ScopedTarget target(simd::Target::kScalar);
+      network.FinishGradient(parameters.data(), accumulator.data(), scalar.data());
+    }
+    EXPECT_EQ(here, scalar) << shape.hidden_size << " wide";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Targets, RecurrentNetworkTest, testing::ValuesIn(simd::SupportedTargets()),
                          [](const auto& target) { return std::string(simd::Name(target.param)); });
 

@@ -126,7 +126,8 @@ Whole ComputeWhole(RandomUpdate& update, TrainedNetwork& trained) {
     tile.target = target.data() + row;
     tile.old_value = value.data() + row;
     LossSums losses;
-    const std::vector<float> part = GradientBy(*trained.network, tile, settings, &losses);
+    const std::vector<float> part =
+        GradientBy(*trained.network, trained.optimiser.parameters(), tile, settings, &losses);
     for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] += part[i];
     whole.losses += losses;
   }
