@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -90,9 +91,13 @@ class TomlReader {
     return FindField(fields_, key, where);
   }
 
-  void ApplyValue(const std::string& key, const toml::node& node) const {
+  void ApplyValue(const std::string& key, const toml::node& node) {
     const std::string where = At(source_, node);
     const Field& field = Find(key, where);
+    const auto [first, is_first] = lines_.emplace(field.key, node.source().begin.line);
+    if (!is_first) {  // as "a.b" of a string and as b of a table
+      throw Error(fmt::format("{}: {} is given in line {}, too", where, key, first->second));
+    }
     const std::optional<SettingValue> value = ToValue(node);
     if (!value) {
       throw Error(fmt::format("{}: {} must be {}, not a TOML {}", where, field.key,
@@ -109,6 +114,7 @@ class TomlReader {
   Reading reading_;
   const ProgramConfig& config_;
   std::vector<Field> fields_;
+  std::map<std::string, toml::source_index> lines_;  ///< of the keys that have been read
 };
 
 void ApplyText(const std::string& text, const std::string& source, Reading reading,

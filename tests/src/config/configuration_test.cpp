@@ -46,6 +46,8 @@ TEST(Configuration, TomlErrorsNameFileLineAndReason) {
             "run.toml:2: ppo.gamma must be a number, not \"high\"");
   EXPECT_EQ(ErrorOf("[ppo]\ngamma = inf\n"),
             "run.toml:2: ppo.gamma = inf is out of range; it must be in [0, 1]");
+  EXPECT_EQ(ErrorOf("\"ppo.gamma\" = 0.9\n[ppo]\ngamma = 0.8\n"),
+            "run.toml:1: ppo.gamma is given in line 3, too");
 }
 
 TEST(Configuration, AnEmptyFileChangesNothingAndAMissingOneIsNamed) {
