@@ -90,6 +90,19 @@ std::string BeyondLimits(const TermTarget& target, const EnvConfig& env,
   }
 }
 
+/// What is given of a task of the program's own, as targets of a task file.
+std::vector<TermTarget> GivenAlone(const GivenTargets& given) {
+  std::vector<TermTarget> targets;
+  for (const TermName& known : TermNames()) {
+    if (given.count(known.name) == 0) continue;
+    TermTarget target;
+    target.name = target.quantity.name = known.name;
+    target.quantity.value = known.value;
+    targets.push_back(std::move(target));
+  }
+  return targets;
+}
+
 /// The altitude of the highest point that is drawn around the horizon.
 double HighestPoint(const EnvConfig& env, const Range& distance_ft, double elevation_deg) {
   return env.initial.altitude_ft.max + distance_ft.max * std::sin(elevation_deg / kDegPerRad);
@@ -146,8 +159,9 @@ std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env, const Given
 
 std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given) {
   std::vector<std::string> lines;
-  if (env.term_task == nullptr) return lines;
-  for (const TermTarget& target : env.term_task->targets) {
+  const std::vector<TermTarget> targets =
+      env.term_task == nullptr ? GivenAlone(given) : env.term_task->targets;
+  for (const TermTarget& target : targets) {
     std::string line = BeyondLimits(target, env, given);
     if (!line.empty()) lines.push_back(std::move(line));
   }

@@ -115,6 +115,15 @@ TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
                           "end above Mach 1 (env.termination.max_mach)"));
 }
 
+TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenToATaskOfTheProgramsOwn) {
+  EnvConfig env;
+  EXPECT_THAT(TargetsBeyondLimits(env), IsEmpty());
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"altitude_ft", 2500}, {"yaw_deg", 90}}), IsEmpty());
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"altitude_ft", 1000}, {"yaw_deg", 90}}),
+              ElementsAre("target altitude_ft cannot be reached: it is 1000 or less (altitude_ft), "
+                          "but flights end below 2500 ft (env.termination.min_altitude_ft)"));
+}
+
 TEST(AltitudesBeyondTables, OfTablesInMetresEndAtTheFeetOfThem) {
   const ScratchDirectory scratch;
   auto file = nlohmann::json::parse(AircraftText("cessna172"));
