@@ -50,12 +50,11 @@ void PackBackward(benchmark::State& state, simd::Precision precision) {
 void Fold(benchmark::State& state) {
   const NetworkLayout layout = Actor();
   const FoldedLayout folded_layout(layout);
-  std::vector<FoldedLinear> layers{folded_layout.gru(0).hidden};
-  for (int i = 0; i <= layout.head(); ++i) layers.push_back(folded_layout.linear(i));
   const auto parameters = Normal(layout.size());
   AlignedVector<float> folded(folded_layout.size());
   Once(state, layout.size(), [&] {
-    for (const FoldedLinear& layer : layers) FoldLinear(layer, parameters.data(), folded.data());
+    folded_layout.ForEachLinear(
+        [&](const FoldedLinear& linear) { FoldLinear(linear, parameters.data(), folded.data()); });
   });
 }
 
@@ -91,17 +90,11 @@ void SumGradients(benchmark::State& state) {
 
 /// Norm, clipping and Adam.
 void ClippedStep(benchmark::State& state) {
-  const DenormalsFlushed flushed;
   const std::int64_t size = Actor().size();
   const auto parameters = Normal(size), gradient = Normal(size);
   AdamOptimiser adam({parameters.begin(), parameters.end()}, 1e-5);
-  LearnerMeter meter(&state, 0);
-  for (auto _ : state) {
-    // Clipping shortens it.
-    std::copy(gradient.begin(), gradient.end(), adam.gradient());
-    meter.Time([&] { benchmark::DoNotOptimize(skein::ClippedStep(1, 1e-6, adam)); });
-  }
-  meter.ReportCyclesPerValue(size);
+  std::copy(gradient.begin(), gradient.end(), adam.gradient());
+  Once(state, size, [&] { benchmark::DoNotOptimize(skein::ClippedStep(1, 1e-6, adam)); });
 }
 
 /// Adam alone.

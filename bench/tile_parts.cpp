@@ -99,7 +99,7 @@ TileReplay::TileReplay(const NetworkPrecision& precision, int steps, int batch)
       advantage_(Normal(static_cast<std::int64_t>(steps) * batch)),
       not_done_(advantage_.size(), 1.0f),
       log_prob_(advantage_.size(), -5.5f) {
-  folded_layout_.FoldRest(parameters_.data(), folded_.data());
+  folded_layout_.CopyLogStd(parameters_.data(), folded_.data());
   for (int i = 0; i < layout_.head(); ++i) {
     if (i != layout_.gru_input()) hidden_.emplace_back(folded_layout_.linear(i), precision);
   }

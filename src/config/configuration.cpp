@@ -95,8 +95,8 @@ class TomlReader {
     const std::string where = At(source_, node);
     const Field& field = Find(key, where);
     const auto [first, is_first] = lines_.emplace(field.key, node.source().begin.line);
-    if (!is_first) {  // as "a.b" of a string and as b of a table
-      throw Error(fmt::format("{}: {} is given in line {}, too", where, key, first->second));
+    if (!is_first) {  // once as the quoted key "a.b", once as b in [a]
+      throw Error(fmt::format("{}: {} is given in line {}, too", where, field.key, first->second));
     }
     const std::optional<SettingValue> value = ToValue(node);
     if (!value) {

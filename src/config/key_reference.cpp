@@ -20,7 +20,7 @@ constexpr const char* kIntroduction = R"(<!-- Written by `skein train --help-key
 
 A key is set by `--set KEY=VALUE`, or in a TOML file, where the dots are tables (`[env.heading]`, `altitude_change_ft = 3000`).
 From lowest to highest precedence: built-in defaults, preset, `--config`, `--condition`, `--set`. Units are in the names. Whole numbers may be
-written as 1.35e9, and on the command line as 10M (k, M, G). An unknown key, a key of another task than the one that is flown, a wrong type
+written as 1.35e9, and on the command line as 10M (k, M, G). An unknown key, one that a file gives twice, a key of another task than the one that is flown, a wrong type
 and a value out of range are errors. `skein train TASK --help-keys` prints this list with the values of a preset and a file.
 
 The values below are those of the presets of task )";

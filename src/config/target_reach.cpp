@@ -90,8 +90,8 @@ std::string BeyondLimits(const TermTarget& target, const EnvConfig& env,
   }
 }
 
-/// What is given of a task of the program's own, as targets of a task file.
-std::vector<TermTarget> GivenAlone(const GivenTargets& given) {
+/// What is given of a built-in task, as targets of a task file.
+std::vector<TermTarget> TargetsOfBuiltIn(const GivenTargets& given) {
   std::vector<TermTarget> targets;
   for (const TermName& known : TermNames()) {
     if (given.count(known.name) == 0) continue;
@@ -160,7 +160,7 @@ std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env, const Given
 std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given) {
   std::vector<std::string> lines;
   const std::vector<TermTarget> targets =
-      env.term_task == nullptr ? GivenAlone(given) : env.term_task->targets;
+      env.term_task == nullptr ? TargetsOfBuiltIn(given) : env.term_task->targets;
   for (const TermTarget& target : targets) {
     std::string line = BeyondLimits(target, env, given);
     if (!line.empty()) lines.push_back(std::move(line));

@@ -13,8 +13,8 @@ namespace skein {
 /// altitude_ft, true_airspeed_fps, mach.
 using GivenTargets = std::map<std::string, double>;
 
-/// A line for every target of a task file, or that is `given`, that no flight can come to, for all
-/// that is drawn of it lies beyond where flights end: altitudes below
+/// A line for every target, of a task file or, in a built-in task, of what is `given`, that no
+/// flight can come to, for all that is drawn of it lies beyond where flights end: altitudes below
 /// env.termination.min_altitude_ft, airspeeds and Mach numbers out of min_mach to max_mach. What
 /// else makes a target too high or too fast, it does not know. What is `given` is judged as all
 /// that is drawn.

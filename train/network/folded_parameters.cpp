@@ -25,32 +25,39 @@ void UnfoldLinear(const FoldedLinear& linear, const float* parameters, const flo
                   float* gradient) {
   const int columns = linear.flat_in;
   const bool has_norm = linear.norm_weight >= 0;
-  std::vector<double> by_gamma(columns, 0.0), by_beta(columns, 0.0);
-  std::vector<float> transposed(linear.gradient_by_input ? columns : 0);
+  std::vector<double> gamma_gradient(columns, 0.0), beta_gradient(columns, 0.0);
+  std::vector<float> gathered(linear.gradient_by_input ? columns : 0);
+  UnfoldedRow unfolded;
+  unfolded.gamma_gradient = gamma_gradient.data();
+  unfolded.beta_gradient = beta_gradient.data();
+  if (has_norm) {
+    unfolded.gamma = parameters + linear.norm_weight;
+    unfolded.beta = parameters + linear.norm_bias;
+  }
   for (int row = 0; row < linear.out; ++row) {
     const int flat_row = linear.FlatRow(row);
     if (flat_row < 0) continue;
-    const float* by_weight = folded_gradient + linear.WeightGradient(row, 0);
+    const std::int64_t flat = linear.flat_weight + static_cast<std::int64_t>(flat_row) * columns;
+    unfolded.weight = parameters + flat;
+    unfolded.weight_gradient = gradient + flat;
+    unfolded.folded_gradient = folded_gradient + linear.WeightGradient(row, 0);
     if (linear.gradient_by_input) {
       for (int j = 0; j < columns; ++j) {
-        transposed[j] = folded_gradient[linear.WeightGradient(row, j)];
+        gathered[j] = folded_gradient[linear.WeightGradient(row, j)];
       }
-      by_weight = transposed.data();
+      unfolded.folded_gradient = gathered.data();
     }
-    const std::int64_t flat = linear.flat_weight + static_cast<std::int64_t>(flat_row) * columns;
-    const float by_bias = folded_gradient[linear.bias + row];
-    gradient[linear.flat_bias + flat_row] = by_bias;
+    unfolded.bias_gradient = folded_gradient[linear.bias + row];
+    gradient[linear.flat_bias + flat_row] = unfolded.bias_gradient;
     if (has_norm) {
-      UnfoldRow(columns,
-                {parameters + linear.norm_weight, parameters + linear.norm_bias, parameters + flat,
-                 by_weight, by_bias, gradient + flat, by_gamma.data(), by_beta.data()});
+      UnfoldRow(columns, unfolded);
     } else {
-      std::copy_n(by_weight, columns, gradient + flat);
+      std::copy_n(unfolded.folded_gradient, columns, unfolded.weight_gradient);
     }
   }
   if (!has_norm) return;
-  std::copy_n(by_gamma.begin(), columns, gradient + linear.norm_weight);
-  std::copy_n(by_beta.begin(), columns, gradient + linear.norm_bias);
+  std::copy_n(gamma_gradient.begin(), columns, gradient + linear.norm_weight);
+  std::copy_n(beta_gradient.begin(), columns, gradient + linear.norm_bias);
 }
 
 }  // namespace
@@ -160,16 +167,7 @@ FoldedLayout::FoldedLayout(const NetworkLayout& layout) {
   size_ += outputs_;
 }
 
-template <typename Visit>
-void FoldedLayout::ForEachLinear(const Visit& visit) const {
-  for (const FoldedLinear& linear : linear_) visit(linear);
-  for (std::size_t i = 0; i < gru_.size(); ++i) {
-    if (i > 0) visit(gru_[i].input);  // the first one's is among linear_
-    visit(gru_[i].hidden);
-  }
-}
-
-void FoldedLayout::FoldRest(const float* parameters, float* folded) const {
+void FoldedLayout::CopyLogStd(const float* parameters, float* folded) const {
   std::copy_n(parameters + flat_log_std_, outputs_, folded + log_std_);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -56,8 +57,18 @@ class FoldedLayout {
   const FoldedGru& gru(int layer) const { return gru_[layer]; }
   std::int64_t log_std() const { return log_std_; }
 
-  /// Writes what of a folded vector belongs to no linear layer, from a network's flat one.
-  void FoldRest(const float* parameters, float* folded) const;
+  /// Every linear layer once.
+  template <typename Visit>
+  void ForEachLinear(const Visit& visit) const {
+    for (const FoldedLinear& linear : linear_) visit(linear);
+    for (std::size_t i = 0; i < gru_.size(); ++i) {
+      if (i > 0) visit(gru_[i].input);  // the first one's is among linear_
+      visit(gru_[i].hidden);
+    }
+  }
+
+  /// Copies the log standard deviations, which belong to no layer, from a network's flat vector.
+  void CopyLogStd(const float* parameters, float* folded) const;
   /// The gradient with respect to the flat parameters from the one with respect to the folded
   /// ones, which is linear in it: the sum over tiles may be unfolded at once. With G the gradient
   /// with respect to W' and g with respect to b', dW = G diag(gamma) + g beta^T, dgamma = column
@@ -67,8 +78,6 @@ class FoldedLayout {
  private:
   /// Places a layer of `blocks` blocks of rows.
   FoldedLinear Place(int in, int padded_in, int blocks, int block, int padded_block);
-  template <typename Visit>
-  void ForEachLinear(const Visit& visit) const;
 
   std::vector<FoldedLinear> linear_;
   std::vector<FoldedGru> gru_;

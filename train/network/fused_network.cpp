@@ -110,17 +110,16 @@ FusedNetwork::FusedNetwork(const NetworkLayout& layout, const NetworkPrecision& 
 }
 
 void FusedNetwork::SetParameters(const float* parameters) {
-  float* const folded_all = folded_.data();
-  for (LinearLayer& linear : hidden_) linear.SetParameters(parameters, folded_all);
+  for (LinearLayer& linear : hidden_) linear.SetParameters(parameters, folded_.data());
   const int size = PaddedWidth(layout_.shape().gru_size);
   for (Gru& gru : gru_) {
-    gru.input.SetParameters(parameters, folded_all);
-    gru.hidden.SetParameters(parameters, folded_all);
+    gru.input.SetParameters(parameters, folded_.data());
+    gru.hidden.SetParameters(parameters, folded_.data());
     std::copy_n(folded(gru.input.place().bias), 3 * size, gru.gate_bias.begin());
     AddTo(2 * size, folded(gru.hidden.place().bias), gru.gate_bias.data() + size);  // r, z
   }
-  head_.SetParameters(parameters, folded_all);
-  folded_layout_.FoldRest(parameters, folded_all);
+  head_.SetParameters(parameters, folded_.data());
+  folded_layout_.CopyLogStd(parameters, folded_.data());
 }
 
 const float* FusedNetwork::InputOf(int index, const FusedActivations& activations) const {

@@ -378,19 +378,20 @@ void UnfoldRowKernel(int columns, const UnfoldedRow& row) {
   for (; j + lanes <= columns; j += lanes) {
     const auto folded = hn::LoadU(narrow, row.folded_gradient + j);
     const auto weight = hn::PromoteTo(wide, hn::LoadU(narrow, row.weight + j));
-    const auto by_gamma = hn::Mul(folded, hn::LoadU(narrow, row.gamma + j));
-    const auto by_beta = hn::Mul(g, hn::LoadU(narrow, row.beta + j));
-    hn::StoreU(hn::Add(by_gamma, by_beta), narrow, row.by_weight + j);
-    hn::StoreU(
-        hn::Add(hn::LoadU(wide, row.by_gamma + j), hn::Mul(weight, hn::PromoteTo(wide, folded))),
-        wide, row.by_gamma + j);
-    hn::StoreU(hn::Add(hn::LoadU(wide, row.by_beta + j), hn::Mul(weight, wide_g)), wide,
-               row.by_beta + j);
+    const auto from_weight = hn::Mul(folded, hn::LoadU(narrow, row.gamma + j));
+    const auto from_bias = hn::Mul(g, hn::LoadU(narrow, row.beta + j));
+    hn::StoreU(hn::Add(from_weight, from_bias), narrow, row.weight_gradient + j);
+    const auto product = hn::Mul(weight, hn::PromoteTo(wide, folded));
+    hn::StoreU(hn::Add(hn::LoadU(wide, row.gamma_gradient + j), product), wide,
+               row.gamma_gradient + j);
+    hn::StoreU(hn::Add(hn::LoadU(wide, row.beta_gradient + j), hn::Mul(weight, wide_g)), wide,
+               row.beta_gradient + j);
   }
   for (; j < columns; ++j) {
-    row.by_weight[j] = row.folded_gradient[j] * row.gamma[j] + row.bias_gradient * row.beta[j];
-    row.by_gamma[j] += static_cast<double>(row.weight[j]) * row.folded_gradient[j];
-    row.by_beta[j] += static_cast<double>(row.weight[j]) * row.bias_gradient;
+    const float folded = row.folded_gradient[j];
+    row.weight_gradient[j] = folded * row.gamma[j] + row.bias_gradient * row.beta[j];
+    row.gamma_gradient[j] += static_cast<double>(row.weight[j]) * folded;
+    row.beta_gradient[j] += static_cast<double>(row.weight[j]) * row.bias_gradient;
   }
 }
 

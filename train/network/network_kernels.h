@@ -74,20 +74,22 @@ void GruStepBackward(std::int64_t rows, int size, const float* previous, float* 
                      std::int64_t stride, const LaterStep& later, float* state_gradient,
                      float* gate_sums);
 
-/// One row, at any address, of a layer with a LayerNorm folded in
-/// (train/network/folded_parameters.h): from the gradient G with respect to its folded weights and
-/// g to its bias by_weight[j] = G[j] gamma[j] + g beta[j], by_gamma[j] += W[j] G[j], by_beta[j] +=
-/// W[j] g. Rounds alike on every target.
+/// What UnfoldRow reads and writes; no alignment is needed.
 struct UnfoldedRow {
   const float* gamma = nullptr;
   const float* beta = nullptr;
-  const float* weight = nullptr;           ///< W
-  const float* folded_gradient = nullptr;  ///< G
-  float bias_gradient = 0;                 ///< g
-  float* by_weight = nullptr;
-  double* by_gamma = nullptr;
-  double* by_beta = nullptr;
+  const float* weight = nullptr;
+  const float* folded_gradient = nullptr;
+  float bias_gradient = 0;
+  float* weight_gradient = nullptr;
+  double* gamma_gradient = nullptr;
+  double* beta_gradient = nullptr;
 };
+
+/// Unfolds one row W of a layer with a LayerNorm folded in (train/network/folded_parameters.h).
+/// With G and g the gradients with respect to its folded weights and its bias, weight_gradient =
+/// G gamma + g beta; adds W G to gamma_gradient and W g to beta_gradient. Rounds alike on every
+/// target.
 void UnfoldRow(int columns, const UnfoldedRow& row);
 
 /// sums[j] += sum over rows of in[row][j]. Any number of columns, rows `stride` floats apart.

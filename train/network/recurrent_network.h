@@ -48,7 +48,8 @@ class RecurrentNetwork {
 
   /// Tiles are added up in an accumulator of the implementation's own form (sums of accumulators
   /// are accumulators), which FinishGradient turns into the gradient with respect to the flat
-  /// parameters, given those that were set.
+  /// parameters. `parameters` must be those of the last SetParameters, of which the tiles were
+  /// computed.
   virtual std::int64_t accumulator_size() const = 0;
   /// Adds the gradient of the tile's loss, and returns its losses.
   virtual LossSums AccumulateGradient(const SampleTile& tile, const LossSettings& settings,

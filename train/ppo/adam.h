@@ -35,7 +35,7 @@ class AdamOptimiser {
   const float* parameters() const { return parameters_.data(); }
   float* gradient() { return gradient_.data(); }
 
-  /// By `gradient_scale` times the gradient.
+  /// Steps by `gradient_scale` times the gradient, which stays as it is.
   void Step(double learning_rate, float gradient_scale = 1);
 
   std::vector<float> ParameterVector() const { return {parameters(), parameters() + size_}; }

@@ -9,7 +9,7 @@
 namespace skein {
 namespace {
 
-/// Of independent sums, as each is a chain of additions.
+/// In eight sums side by side: one alone is a chain of dependent additions.
 double Norm(const float* values, std::int64_t size) {
   constexpr std::int64_t kSums = 8;
   std::array<double, kSums> squares{};

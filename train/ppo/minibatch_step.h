@@ -22,8 +22,9 @@ inline constexpr double kExplodedGradientNorm = 1e8;
 void SumGradients(std::int64_t begin, std::int64_t end, int slices,
                   std::vector<AlignedVector<float>>& accumulators);
 
-/// Scales the optimiser's gradient down to `max_norm` if it is longer, and takes a step; returns
-/// the norm before. Leaves all as it is if that is above kExplodedGradientNorm or not a number.
+/// Takes a step by the optimiser's gradient, scaled down to `max_norm` if it is longer, and returns
+/// its norm. The gradient stays as it is; all else does, too, if the norm is above
+/// kExplodedGradientNorm or not a number.
 double ClippedStep(double max_norm, double learning_rate, AdamOptimiser& optimiser);
 
 }  // namespace skein

@@ -148,7 +148,7 @@ const numberOf: Shown = (value) => (value === null ? '–' : value.toPrecision(4
 /** The lines of a curve; smoothing is drawn, and legends say what was measured. */
 export function drawnOf(curve: Curve, lines: Line[], isOverSeeds: boolean): Drawn {
   const shown = curve.isShare ? percentOf : numberOf;
-  const arePoints = curve.isEvaluation ?? false;
+  const arePoints = (curve.isEvaluation ?? false) || lines.some(({ xs }) => xs.length === 1);
   return isOverSeeds ? overSeeds(lines, shown, arePoints) : overlaid(lines, shown, arePoints);
 }
 

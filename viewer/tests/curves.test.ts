@@ -77,6 +77,13 @@ it('an evaluation that is alone is seen, as a point', () => {
   expect(drawnAs(RETURN.title, false)).toEqual([false, false, false, false]);
 });
 
+it('a single iteration is seen, as a point', () => {
+  const lines = linesOf(RETURN, PACK, 0)
+    .map((line) => ({ ...line, xs: [line.xs[0]], ys: [line.ys[0]], measured: [line.ys[0]] }));
+  expect(drawnOf(RETURN, lines, false).series.map(({ points }) => points?.show))
+    .toEqual(lines.map(() => true));
+});
+
 describe('a run', () => {
   const coloursOf = (title: string, isOverSeeds: boolean) =>
     drawnOf(curveOf(title), linesOf(curveOf(title), PACK, 0), isOverSeeds).series

@@ -115,13 +115,18 @@ TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
                           "end above Mach 1 (env.termination.max_mach)"));
 }
 
-TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenToATaskOfTheProgramsOwn) {
+TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenToABuiltInTask) {
   EnvConfig env;
   EXPECT_THAT(TargetsBeyondLimits(env), IsEmpty());
   EXPECT_THAT(TargetsBeyondLimits(env, {{"altitude_ft", 2500}, {"yaw_deg", 90}}), IsEmpty());
   EXPECT_THAT(TargetsBeyondLimits(env, {{"altitude_ft", 1000}, {"yaw_deg", 90}}),
               ElementsAre("target altitude_ft cannot be reached: it is 1000 or less (altitude_ft), "
                           "but flights end below 2500 ft (env.termination.min_altitude_ft)"));
+  env.termination.max_mach = 1;
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"true_airspeed_fps", 2000}}),
+              ElementsAre("target true_airspeed_fps cannot be reached: it is 2000 or more "
+                          "(true_airspeed_fps), but flights end above Mach 1 "
+                          "(env.termination.max_mach)"));
 }
 
 TEST(AltitudesBeyondTables, OfTablesInMetresEndAtTheFeetOfThem) {
