@@ -162,15 +162,6 @@ void MultiplyPanels(const ProductKernels& kernels, const PanelRow& panels, const
   }
 }
 
-/// Copies elements `column_stride` apart within rows of `block` to contiguous rows `stride` apart.
-void CopyStrided(const RowBlock& block, std::int64_t column_stride, std::int64_t stride,
-                 float* out) {
-  for (std::int64_t j = 0; j < block.columns; ++j) {
-    const float* const column = block.data + j * column_stride;
-    for (std::int64_t i = 0; i < block.rows; ++i) out[i * stride + j] = column[i * block.stride];
-  }
-}
-
 }  // namespace
 
 void ProductWorkspace::FetchSoon(const float* data, std::int64_t size) {
@@ -193,6 +184,10 @@ void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* d
     throw Error("PackedMatrix: " + std::to_string(depth) + " x " + std::to_string(columns) +
                 " elements; both must be positive");
   }
+  if (depth_stride != 1 && column_stride != 1) {
+    throw Error("PackedMatrix: strides of " + std::to_string(depth_stride) + " and " +
+                std::to_string(column_stride) + "; one must be 1");
+  }
   const ProductKernels kernels = KernelsFor(precision);
   const PanelRow panels(kernels, columns);
   depth_ = depth;
@@ -214,7 +209,7 @@ void PackedMatrix::Pack(std::int64_t depth, std::int64_t columns, const float* d
                       depth_stride};
         if (column_stride != 1) {
           strip.resize(kStripRows * stride);
-          CopyStrided(rows, column_stride, stride, strip.data());
+          TransposeRows({rows.columns, rows.rows, rows.data, column_stride}, stride, strip.data());
           rows.data = strip.data();
           rows.stride = stride;
         }

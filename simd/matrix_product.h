@@ -64,7 +64,8 @@ class ProductWorkspace {
 class PackedMatrix {
  public:
   /// Element (k, j) is data[k * depth_stride + j * column_stride]: a transposed matrix packs by its
-  /// strides. Packing again reuses the memory. Throws Error unless depth and columns are positive.
+  /// strides, one of which is 1. Packing again reuses the memory. Throws Error unless depth and
+  /// columns are positive and one stride is 1.
   void Pack(std::int64_t depth, std::int64_t columns, const float* data, std::int64_t depth_stride,
             std::int64_t column_stride, Precision precision);
 

@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "simd/bfloat16-inl.h"
+#include "simd/transpose-inl.h"
 #include "simd/vocabulary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -192,6 +193,28 @@ void RoundRows(const RowBlock& block, std::int64_t words_stride, void* words) {
   }
 }
 
+void TransposeRowsKernel(const RowBlock& rows, std::int64_t out_stride, float* out) {
+  const FloatTag d;
+  std::int64_t i = 0;
+  for (; i + kLanes <= rows.rows; i += kLanes) {
+    const float* const in = rows.data + i * rows.stride;
+    std::int64_t j = 0;
+    for (; j + kLanes <= rows.columns; j += kLanes) {
+      V square[kLanes];
+      for (int k = 0; k < kLanes; ++k) square[k] = hn::LoadU(d, in + k * rows.stride + j);
+      Transpose(d, square);
+      for (int k = 0; k < kLanes; ++k) hn::StoreU(square[k], d, out + (j + k) * out_stride + i);
+    }
+    for (; j < rows.columns; ++j) {
+      for (int k = 0; k < kLanes; ++k) out[j * out_stride + i + k] = in[k * rows.stride + j];
+    }
+  }
+  for (; i < rows.rows; ++i) {
+    const float* const in = rows.data + i * rows.stride;
+    for (std::int64_t j = 0; j < rows.columns; ++j) out[j * out_stride + i] = in[j];
+  }
+}
+
 simd::ProductKernels Kernels(bool rounded) {
   if (rounded) {
     return {kLanes, kPanelVectors, {2, 2}, &MultiplyPanel, &RoundRows, &PackRowsRounded};
@@ -207,8 +230,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace skein {
 HWY_EXPORT(Kernels);
+HWY_EXPORT(TransposeRowsKernel);
 
 namespace simd {
+
+void TransposeRows(const RowBlock& rows, std::int64_t out_stride, float* out) {
+  SKEIN_DISPATCH(TransposeRowsKernel)(rows, out_stride, out);
+}
 
 ProductKernels Float32Kernels() { return SKEIN_DISPATCH(Kernels)(false); }
 

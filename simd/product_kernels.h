@@ -77,6 +77,9 @@ struct ProductKernels {
   void (*end)() = nullptr;
 };
 
+/// out[j * out_stride + i] = the element of `rows` in row i and column j.
+void TransposeRows(const RowBlock& rows, std::int64_t out_stride, float* out);
+
 /// Kernels of the active target with float32 operands.
 ProductKernels Float32Kernels();
 

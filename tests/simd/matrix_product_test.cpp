@@ -529,6 +529,12 @@ TEST(MatrixProduct, EmptyMatrixIsAnError) {
   EXPECT_THROW(packed.Pack(1, 0, data, 1, 1, Precision::kFloat32), Error);
 }
 
+TEST(MatrixProduct, MatrixWithoutContiguousRowsOrColumnsIsAnError) {
+  PackedMatrix packed;
+  const float data[4] = {};
+  EXPECT_THROW(packed.Pack(1, 2, data, 2, 2, Precision::kFloat32), Error);
+}
+
 TEST(Bfloat16, RoundsToNearestEven) {
   // A bfloat16 has 8 significant bits: neighbours of one are 2^-7 apart.
   EXPECT_EQ(Bfloat16Value(RoundToBfloat16(1.0f + 0x1p-8f)), 1.0f);
