@@ -8,19 +8,6 @@
 namespace skein {
 namespace {
 
-/// bias[r] + weight[r] beta for kRows rows at once: each is one chain of dependent sums.
-template <int kRows>
-void FoldBiases(std::int64_t columns, const float* weight, const float* beta, const float* bias,
-                float* folded) {
-  double sums[kRows];
-  for (int r = 0; r < kRows; ++r) sums[r] = bias[r];
-  for (std::int64_t j = 0; j < columns; ++j) {
-    const double b = beta[j];
-    for (int r = 0; r < kRows; ++r) sums[r] += weight[r * columns + j] * b;
-  }
-  for (int r = 0; r < kRows; ++r) folded[r] = static_cast<float>(sums[r]);
-}
-
 void UnfoldLinear(const FoldedLinear& linear, const float* parameters, const float* folded_gradient,
                   float* gradient) {
   const int columns = linear.flat_in;
@@ -68,41 +55,32 @@ int FoldedLinear::FlatRow(int row) const {
 }
 
 void FoldLinear(const FoldedLinear& linear, const float* parameters, float* folded) {
-  constexpr int kRowsAtOnce = 8;
   const bool has_norm = linear.norm_weight >= 0;
-  const float* const gamma = has_norm ? parameters + linear.norm_weight : nullptr;
-  const float* const beta = has_norm ? parameters + linear.norm_bias : nullptr;
+  FoldedRows rows;
+  rows.stride = linear.in;
+  if (has_norm) {
+    rows.gamma = parameters + linear.norm_weight;
+    rows.beta = parameters + linear.norm_bias;
+  }
   for (int first = 0; first < linear.out; first += linear.padded_block) {
     const int flat_row = linear.FlatRow(first);
-    const float* const weight =
-        parameters + linear.flat_weight + static_cast<std::int64_t>(flat_row) * linear.flat_in;
     const float* const bias = parameters + linear.flat_bias + flat_row;
-    float* const out = folded + linear.weight + static_cast<std::int64_t>(first) * linear.in;
-    float* const out_bias = folded + linear.bias + first;
+    rows.weight =
+        parameters + linear.flat_weight + static_cast<std::int64_t>(flat_row) * linear.flat_in;
+    rows.folded_weight = folded + linear.weight + first * rows.stride;
+    rows.bias = folded + linear.bias + first;
+    std::fill(std::copy_n(bias, linear.block, rows.bias), rows.bias + linear.padded_block, 0.0f);
+    if (has_norm) FoldRows(linear.block, linear.flat_in, rows);
     for (int row = 0; row < linear.block; ++row) {
-      const float* const from = weight + static_cast<std::int64_t>(row) * linear.flat_in;
-      float* const to = out + static_cast<std::int64_t>(row) * linear.in;
-      if (has_norm) {
-        for (int j = 0; j < linear.flat_in; ++j) to[j] = from[j] * gamma[j];
-      } else {
-        std::copy_n(from, linear.flat_in, to);
+      float* const to = rows.folded_weight + row * rows.stride;
+      if (!has_norm) {
+        std::copy_n(rows.weight + static_cast<std::int64_t>(row) * linear.flat_in, linear.flat_in,
+                    to);
       }
       std::fill(to + linear.flat_in, to + linear.in, 0.0f);
     }
-    std::fill_n(out + static_cast<std::int64_t>(linear.block) * linear.in,
-                static_cast<std::int64_t>(linear.padded_block - linear.block) * linear.in, 0.0f);
-    std::fill(std::copy_n(bias, linear.block, out_bias), out_bias + linear.padded_block, 0.0f);
-    if (!has_norm) continue;
-    int row = 0;
-    for (; row + kRowsAtOnce <= linear.block; row += kRowsAtOnce) {
-      FoldBiases<kRowsAtOnce>(linear.flat_in,
-                              weight + static_cast<std::int64_t>(row) * linear.flat_in, beta,
-                              bias + row, out_bias + row);
-    }
-    for (; row < linear.block; ++row) {
-      FoldBiases<1>(linear.flat_in, weight + static_cast<std::int64_t>(row) * linear.flat_in, beta,
-                    bias + row, out_bias + row);
-    }
+    std::fill_n(rows.folded_weight + linear.block * rows.stride,
+                (linear.padded_block - linear.block) * rows.stride, 0.0f);
   }
 }
 

@@ -74,6 +74,21 @@ void GruStepBackward(std::int64_t rows, int size, const float* previous, float* 
                      std::int64_t stride, const LaterStep& later, float* state_gradient,
                      float* gate_sums);
 
+/// What FoldRows reads and writes; no alignment is needed.
+struct FoldedRows {
+  const float* weight = nullptr;  ///< [count][columns]
+  const float* gamma = nullptr;
+  const float* beta = nullptr;
+  float* folded_weight = nullptr;  ///< rows of `stride` floats
+  std::int64_t stride = 0;
+  float* bias = nullptr;
+};
+
+/// Folds a LayerNorm into `count` rows of the layer behind it
+/// (train/network/folded_parameters.h): folded_weight = weight diag(gamma); adds weight beta to
+/// the bias, along the columns in float64. Rounds alike on every target.
+void FoldRows(int count, int columns, const FoldedRows& rows);
+
 /// What UnfoldRow reads and writes; no alignment is needed.
 struct UnfoldedRow {
   const float* gamma = nullptr;
