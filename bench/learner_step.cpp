@@ -12,7 +12,8 @@
 #include "train/network/folded_parameters.h"
 #include "train/network/fused_network.h"
 #include "train/ppo/adam.h"
-#include "train/ppo/minibatch_step.h"
+#include "train/ppo/clipped_step.h"
+#include "train/ppo/gradient_sums.h"
 
 namespace skein::bench {
 namespace {

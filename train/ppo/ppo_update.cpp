@@ -11,7 +11,8 @@
 #include "base/error.h"
 #include "base/seconds_since.h"
 #include "train/ppo/broken_shard.h"
-#include "train/ppo/minibatch_step.h"
+#include "train/ppo/clipped_step.h"
+#include "train/ppo/gradient_sums.h"
 #include "train/ranks/collectives.h"
 
 namespace skein {

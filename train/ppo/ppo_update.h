@@ -40,7 +40,7 @@ class PpoUpdate {
 
   /// `iteration` keys the shuffles; `handling_weight` multiplies the action smoothness. Throws
   /// Error, on all ranks alike, if a loss or a gradient is not finite, or a gradient's norm exceeds
-  /// kExplodedGradientNorm (train/ppo/minibatch_step.h); parameters may then have moved. So they
+  /// kExplodedGradientNorm (train/ppo/clipped_step.h); parameters may then have moved. So they
   /// may if a pool is stopping: the update then ends within a tile of its rank, unfinished.
   UpdateReport Run(const Rollout& rollout, const ValueScale& scale, std::uint64_t iteration,
                    const LearningRates& learning_rates, double handling_weight = 1);

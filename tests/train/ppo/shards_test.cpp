@@ -11,10 +11,12 @@
 #include <random>
 
 #include "base/error.h"
+#include "simd/target.h"
 #include "tests/error_message.h"
+#include "tests/scoped_target.h"
 #include "tests/tolerance.h"
 #include "tests/train/small_config.h"
-#include "train/ppo/minibatch_step.h"
+#include "train/ppo/gradient_sums.h"
 #include "train/ppo/rank_shards.h"
 #include "train/ppo/trainer.h"
 #include "train/ppo/training_state.h"
@@ -118,15 +120,18 @@ struct Gradients {
 };
 
 TEST(ShardTreeTest, GradientsAreSummedBySliceAndThenByTheTree) {
-  for (const int shards : {1, 2, 4, 8, 16, 32, 64}) {
-    for (const int slices : {1, 2, 5, 7}) {
-      Gradients gradients(shards, slices);
-      const float untouched = gradients.accumulators[0][36];
-      SumGradients(0, 36, slices, gradients.accumulators);
-      for (int i = 0; i < 36; ++i) {
-        EXPECT_EQ(gradients.accumulators[0][i], gradients.Sum(i)) << shards << " by " << slices;
+  for (const simd::Target target : simd::SupportedTargets()) {
+    const ScopedTarget scoped(target);
+    for (const int shards : {1, 2, 4, 8, 16, 32, 64}) {
+      for (const int slices : {1, 2, 5, 7, 16}) {
+        Gradients gradients(shards, slices);
+        const float untouched = gradients.accumulators[0][36];
+        SumGradients(0, 36, slices, gradients.accumulators);
+        for (int i = 0; i < 36; ++i) {
+          EXPECT_EQ(gradients.accumulators[0][i], gradients.Sum(i)) << shards << " by " << slices;
+        }
+        EXPECT_EQ(gradients.accumulators[0][36], untouched);
       }
-      EXPECT_EQ(gradients.accumulators[0][36], untouched);
     }
   }
 }

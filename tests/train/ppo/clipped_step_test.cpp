@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "train/ppo/minibatch_step.h"
+#include "train/ppo/clipped_step.h"
 
 #include <gtest/gtest.h>
 
