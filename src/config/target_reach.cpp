@@ -31,22 +31,32 @@ std::optional<Range> GivenOf(const GivenTargets& given, const std::string& colum
   return Range{found->second, found->second};
 }
 
-std::string Beyond(const TermTarget& target, const std::string& drawn, const std::string& limit) {
-  return fmt::format("target {} cannot be reached: it is {}, but flights end {}", target.name,
-                     drawn, limit);
+/// Of a target of which the nearest value to what can be flown is `nearest`, and others are `more`
+/// ("or more") or none.
+std::string Beyond(const TermTarget& target, double nearest, const std::string& more,
+                   const std::string& limit) {
+  const std::string& unit = target.quantity.name;
+  return fmt::format("target {} cannot be reached: it is {:.5g}{}{}, but flights end {}",
+                     target.name, nearest, more, unit == target.name ? "" : " (" + unit + ")",
+                     limit);
+}
+std::string AboveAll(const TermTarget& target, const Range& drawn, const std::string& limit) {
+  return Beyond(target, drawn.min, drawn.max > drawn.min ? " or more" : "", limit);
+}
+std::string BelowAll(const TermTarget& target, const Range& drawn, const std::string& limit) {
+  return Beyond(target, drawn.max, drawn.max > drawn.min ? " or less" : "", limit);
 }
 
 /// Empty if some of `drawn` can be flown. `least_sound` and `most_sound` make Mach numbers of it.
 std::string BeyondMach(const TermTarget& target, const Range& drawn, double least_sound,
                        double most_sound, const TerminationConfig& limits) {
-  const std::string& unit = target.quantity.name;
   if (drawn.min > limits.max_mach * most_sound) {
-    return Beyond(target, fmt::format("{:.5g} or more ({})", drawn.min, unit),
-                  fmt::format("above Mach {:g} (env.termination.max_mach)", limits.max_mach));
+    return AboveAll(target, drawn,
+                    fmt::format("above Mach {:g} (env.termination.max_mach)", limits.max_mach));
   }
   if (drawn.max < limits.min_mach * least_sound) {
-    return Beyond(target, fmt::format("{:.5g} or less ({})", drawn.max, unit),
-                  fmt::format("below Mach {:g} (env.termination.min_mach)", limits.min_mach));
+    return BelowAll(target, drawn,
+                    fmt::format("below Mach {:g} (env.termination.min_mach)", limits.min_mach));
   }
   return "";
 }
@@ -54,8 +64,8 @@ std::string BeyondMach(const TermTarget& target, const Range& drawn, double leas
 std::string BeyondAltitude(const TermTarget& target, const Range& drawn,
                            const TerminationConfig& limits) {
   if (drawn.max >= limits.min_altitude_ft) return "";
-  return Beyond(
-      target, fmt::format("{:.5g} or less ({})", drawn.max, target.quantity.name),
+  return BelowAll(
+      target, drawn,
       fmt::format("below {:.5g} ft (env.termination.min_altitude_ft)", limits.min_altitude_ft));
 }
 
