@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "train/network/folding_kernels.h"
 #include "train/network/network_kernels.h"
 
 namespace skein {
