@@ -26,7 +26,7 @@ class LimitedActions:
 
     def __init__(self, policy, pull=1.0, throttle=-1.0):
         self.policy, self.pull, self.throttle = policy, pull, throttle
-        self.state_size = policy.initial_state(1).shape[-1]
+        self.state_size = policy.state_size
         self.action_repeat = policy.action_repeat
 
     def __call__(self, observations, state):

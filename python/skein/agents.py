@@ -14,6 +14,7 @@ from skein import _skein
 from skein._skein import Config, ConfigurationError
 from skein.checks import MOST_ENVIRONMENTS, MOST_POLICY_STEP, MOST_SEED, MOST_SIZE, is_vector, rows, text, whole_number
 from skein.configuration import Task, configure
+from skein.messages import in_words_of_python
 
 FloatArray = NDArray[np.float32]
 
@@ -37,7 +38,8 @@ class Agent:
         """
         whole_number("seed", seed, 0, MOST_SEED)
         configured = configure(task, **config)
-        self._core = _skein.named_agent(text("name", name), configured, seed)
+        with in_words_of_python():
+            self._core = _skein.named_agent(text("name", name), configured, seed)
         self._seed = seed
         self._make: Callable[[], Agent] = partial(Agent, name, configured, seed=seed)
 
@@ -149,7 +151,8 @@ as a task file shows, and returns actions (count, 4) in [-1, 1], both ordered as
 the function may say more: `action_repeat`, the control steps for which its actions are held (else the configuration's);
 `action_size`; and `state_size`: then it is also given its memory of the aircraft, float32 (count, state_size), zeros
 where an episode begins, and returns a pair, actions and memory. It must not depend on which aircraft come together in a
-call."""
+call. Calls come in several threads, one before another has ended (threads=1: one at a time, in the caller's): what
+holds for a thread alone, such as torch.no_grad, is said within the function."""
 
 
 def load_policy(path: str | os.PathLike[str], *, sampled: bool = False, seed: int = 0) -> Agent:
@@ -166,7 +169,8 @@ def load_policy(path: str | os.PathLike[str], *, sampled: bool = False, seed: in
     whole_number("seed", seed, 0, MOST_SEED)
     if not (file := text("path", path)):
         raise ConfigurationError("path must name a policy file, checkpoint or run, and is empty")
-    core = _skein.load_agent(file, bool(sampled))
+    with in_words_of_python():
+        core = _skein.load_agent(file, bool(sampled))
     return Agent._of(core, seed, partial(load_policy, path, sampled=sampled, seed=seed))
 
 
@@ -178,7 +182,8 @@ def agent_of(agent: AgentLike, config: Config, seed: int) -> Agent:
         return Agent(agent, config, seed=seed)
     if not callable(agent):
         raise ConfigurationError(
-            f"an agent is a skein.Agent, a name or a function of observations, not {type(agent).__name__}"
+            f"an agent is a skein.Agent (skein.load_policy makes one of a file), a name or a function of observations, "
+            f"not {type(agent).__name__}"
         )
     name = getattr(agent, "__name__", type(agent).__name__)
     repeat = whole_number("action_repeat", getattr(agent, "action_repeat", config["env.action_repeat"]), 1, MOST_SIZE)

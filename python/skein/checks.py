@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skein._skein import ConfigurationError
+from skein.messages import words_of_python
 
 MOST_SEED = 2**64 - 1
 MOST_ENVIRONMENTS = 2**24
@@ -27,7 +28,12 @@ class UnknownName(ConfigurationError, KeyError):
     """Something was asked for by a name that it does not have."""
 
     def __str__(self) -> str:
-        return str(self.args[0])  # and not in quotes, as of a KeyError
+        return words_of_python(str(self.args[0]))  # and not in quotes, as of a KeyError
+
+
+class UnknownArgument(ConfigurationError, TypeError):
+    """An argument that a function does not take. Gymnasium's users expect a TypeError: make_vec_env of
+    Stable-Baselines3 asks for a render mode, and then, on a TypeError, for none."""
 
 
 def shown(value: Any) -> str:

@@ -8,17 +8,22 @@ import os
 import pathlib
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
 from typing import Any, Union
 
 from skein import _skein
 from skein._skein import Config, ConfigurationError
-from skein.checks import shown, text
+from skein.checks import UnknownArgument, shown, text
+from skein.messages import in_words_of_python
 
 Task = Union[str, os.PathLike[str], Config]
 """What is flown: "heading", "control" or "tracking"; the path of a task file; or a Config, which has a preset, files
 and settings behind it."""
 
 _MOST_TABLES = 8  # in one another; no key is in as many
+_ARGUMENTS = ("preset", "file", "aircraft", "conditions")
+_NEAR = 0.8  # of difflib's ratio: "condition" is near to "conditions"
+_ARGUMENTS_OF_OTHERS = ("agent", "evaluation", "low_level", "num_envs", "reward", "terminated", "threads")
 
 
 def configure(
@@ -27,7 +32,7 @@ def configure(
     preset: str = "default",
     file: str | os.PathLike[str] = "",
     aircraft: str | os.PathLike[str] = "",
-    conditions: Sequence[str] | Mapping[str, str] = (),
+    conditions: Sequence[str] | Mapping[str, str | float] = (),
     **settings: Any,
 ) -> Config:
     """A configuration: defaults, then preset, file, conditions and settings, each on top of those before it.
@@ -38,7 +43,8 @@ def configure(
         preset: the task's named configuration (skein.presets).
         file: a TOML file.
         aircraft: what is flown: one of skein.AIRCRAFT or the path of an aircraft file, as env.aircraft.
-        conditions: as of `skein train --condition`: ["windy=0..60fps", "noisy=0.03"], or the same as a dict.
+        conditions: as of `skein train --condition`: ["windy=0..60fps", "noisy=0.03"], or the same as a dict,
+            {"windy": "0..60fps", "noisy": 0.03}.
         settings: configuration keys (docs/reference/configuration.md), as the program has them
             (**{"env.heading.dwell_s": 1}), nested (env={"heading": {"dwell_s": 1}}), or both.
 
@@ -50,14 +56,17 @@ def configure(
     if not isinstance(conditions, (list, tuple)):
         raise ConfigurationError(f"conditions must be a list of texts or a dict, not {type(conditions).__name__}")
     conditions = [text("conditions", condition) for condition in conditions]
+    _refuse_arguments(settings)
     assignments = [f"{key}={_toml(key, value)}" for key, value in _flattened("", settings)]
     if text("aircraft", aircraft):
         assignments.insert(0, f"env.aircraft={_quoted(os.fspath(aircraft))}")
     if isinstance(task, Config):
         if preset != "default":
             raise ConfigurationError("preset is for the name of a task: a Config has one behind it")
-        return task.with_settings(text("file", file), conditions, assignments)
-    return _skein.resolve(text("task", task), text("preset", preset), text("file", file), conditions, assignments)
+        with in_words_of_python():
+            return task.with_settings(text("file", file), conditions, assignments)
+    with in_words_of_python():
+        return _skein.resolve(text("task", task), text("preset", preset), text("file", file), conditions, assignments)
 
 
 def presets(task: str) -> list[str]:
@@ -67,6 +76,19 @@ def presets(task: str) -> list[str]:
         ConfigurationError: an unknown task.
     """
     return _skein.presets_of(text("task", task))
+
+
+def _refuse_arguments(settings: Mapping[str, Any]) -> None:
+    """Names an argument that is misspelt, or that the caller does not take, for what it is: no key is one."""
+    for name, value in settings.items():
+        if "." in name or isinstance(value, Mapping):
+            continue
+        if near := get_close_matches(name, _ARGUMENTS, 1, _NEAR):
+            raise UnknownArgument(f"there is no argument {name}; did you mean {near[0]}?")
+        if name == "seed":
+            raise UnknownArgument("seed is no setting: reset takes an environment's; run.seed is that of a training")
+        if name in _ARGUMENTS_OF_OTHERS:
+            raise UnknownArgument(f"{name} is neither an argument of this function nor a setting")
 
 
 def _flattened(prefix: str, settings: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

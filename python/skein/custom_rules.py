@@ -70,9 +70,9 @@ class FlightColumns(Mapping[str, NDArray[Any]]):
       altitude_ft, roll_rad, pitch_rad, yaw_rad (in [-pi, pi]), true_airspeed_fps, made of those.
     The targets in force when the step began: of Heading target_altitude_ft, target_yaw_rad, target_true_airspeed_fps;
       of Control target_pitch_rad, target_yaw_rad, target_true_airspeed_fps; of Tracking target_north_ft,
-      target_east_ft, target_altitude_ft.
+      target_east_ft, target_altitude_ft. Of a task file those that it has.
     The task's errors without noise, as they are observed: error_0_scaled, error_1_scaled, error_2_scaled (F-16: lengths
-      in km, angles in rad, speeds in 340 m/s).
+      in km, angles in rad, speeds in 340 m/s). Those of a task file are in its order; of errors that it has not, zeros.
     The actions, clipped: action_throttle, action_pitch, action_roll, action_yaw in [-1, 1] (of a high-level policy
       action_target_pitch, action_target_yaw, action_target_speed).
     What the task says: reward, of the policy step, and termination (uint8, an index of TERMINATION_NAMES).

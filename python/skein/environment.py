@@ -29,9 +29,20 @@ from skein._skein import (
     Error,
 )
 from skein.agents import Agent
-from skein.checks import MOST_ENVIRONMENTS, MOST_SEED, MOST_THREADS, flags, rows, shown, text, whole_number
+from skein.checks import (
+    MOST_ENVIRONMENTS,
+    MOST_SEED,
+    MOST_THREADS,
+    UnknownArgument,
+    flags,
+    rows,
+    shown,
+    text,
+    whole_number,
+)
 from skein.configuration import Task, configure
 from skein.custom_rules import CUSTOM_TERMINATION, CustomRules, Rule
+from skein.messages import in_words_of_python
 
 FloatArray = NDArray[np.float32]
 BoolArray = NDArray[np.bool_]
@@ -78,7 +89,7 @@ def _staggers_by_preset(task: Task, config: Mapping[str, Any]) -> bool:
 
 def _require_no_rendering(render_mode: Any) -> None:
     if render_mode is not None:
-        raise ConfigurationError(
+        raise UnknownArgument(
             f"render_mode must be None, not {shown(render_mode)}: look at flights with skein.record and `skein replay`"
         )
 
@@ -108,9 +119,10 @@ class _Flight:
         whole_number("threads", threads, 0, MOST_THREADS)
         if not (agent is None or isinstance(agent, Agent)):
             raise ConfigurationError(f"agent must be a skein.Agent, not {type(agent).__name__}")
-        self.config = config if agent is None else agent._core.environment_for(config)
         core = None if agent is None else agent._core
-        self._core = _skein.BatchEnv(config, num_envs, 0, threads, text("low_level", low_level), core)
+        with in_words_of_python():
+            self.config = config if core is None else core.environment_for(config)
+            self._core = _skein.BatchEnv(config, num_envs, 0, threads, text("low_level", low_level), core)
         self.action_names = ACTION_NAMES if self._core.action_size == len(ACTION_NAMES) else HIGH_LEVEL_ACTION_NAMES
         self.observation_names = tuple(self._core.observation_names)
         has_rules = reward is not None or terminated is not None
@@ -144,10 +156,7 @@ class _Flight:
 
     def _new_episodes(self, seed: int | None, draw: np.random.Generator, begins: BoolArray | None) -> None:
         """Begins episodes: those of `seed` if there is one, else the next ones, where `begins` says so."""
-        self._require_open("reset")
         if seed is not None or not self._begun:
-            if begins is not None:
-                raise Error("reset: a part of the environments can only be reset without a seed, after a whole reset")
             self._core.reset(int(draw.integers(2**53)) if seed is None else seed)
         else:
             self._core.restart(np.ones(self._core.num_envs, bool) if begins is None else begins)
@@ -254,12 +263,17 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
             options: {"reset_mask": bool (num_envs,)} resets a part of them.
         """
         with self._turn:
-            super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
+            self._require_open("reset")
+            asked = None if seed is None else whole_number("seed", seed, 0, MOST_SEED)
             unknown = set(options or ()) - {"reset_mask"}
             if unknown:
                 raise ConfigurationError(f"reset: unknown option {min(map(str, unknown))}; known: reset_mask")
             mask = (options or {}).get("reset_mask")
-            self._new_episodes(seed, self.np_random, None if mask is None else flags("reset_mask", mask, self.num_envs))
+            begins = None if mask is None else flags("reset_mask", mask, self.num_envs)
+            if begins is not None and (seed is not None or not self._begun):
+                raise Error("reset: a part of the environments can only be reset without a seed, after a whole reset")
+            super().reset(seed=asked)
+            self._new_episodes(asked, self.np_random, begins)
             return self._observe(), {}
 
     def step(self, actions: Any) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray, Info]:
@@ -364,11 +378,13 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         """Begins an episode: that of `seed`, or the next one. Returns an observation, float32 (22,), and an empty
         info."""
         with self._turn:
-            super().reset(seed=None if seed is None else whole_number("seed", seed, 0, MOST_SEED))
+            self._require_open("reset")
+            asked = None if seed is None else whole_number("seed", seed, 0, MOST_SEED)
             if options:
                 raise ConfigurationError(f"reset: unknown option {next(iter(options))}; there are none")
-            if seed is not None or self._flying or not self._begun:  # else the next episode has begun with the step
-                self._new_episodes(seed, self.np_random, None)
+            super().reset(seed=asked)
+            if asked is not None or self._flying or not self._begun:  # else the next episode has begun with the step
+                self._new_episodes(asked, self.np_random, None)
             self._flying = True
             return self._observe()[0], {}
 
@@ -424,7 +440,7 @@ def make_vec(
     *,
     preset: str = "default",
     file: str | os.PathLike[str] = "",
-    conditions: Sequence[str] | Mapping[str, str] = (),
+    conditions: Sequence[str] | Mapping[str, str | float] = (),
     threads: int = 0,
     low_level: str | os.PathLike[str] = "",
     agent: Agent | None = None,
@@ -476,7 +492,7 @@ def make(
     *,
     preset: str = "default",
     file: str | os.PathLike[str] = "",
-    conditions: Sequence[str] | Mapping[str, str] = (),
+    conditions: Sequence[str] | Mapping[str, str | float] = (),
     low_level: str | os.PathLike[str] = "",
     agent: Agent | None = None,
     evaluation: bool = False,

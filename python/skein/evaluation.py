@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,7 @@ from skein._skein import ConfigurationError
 from skein.agents import Agent, AgentLike, agent_of
 from skein.checks import MOST_EPISODES, MOST_SEED, MOST_THREADS, shown, text, whole_number
 from skein.configuration import Task, configure
+from skein.messages import in_words_of_python
 
 if TYPE_CHECKING:
     import pandas
@@ -108,7 +110,8 @@ def evaluate(
     _check_counts(episodes, seed, threads)
     configured = configure(_task_of("evaluate", agent, task, config), **config)
     core = agent_of(agent, configured, seed)._core
-    summary, columns, starts = _skein.evaluate(core, configured, episodes, seed, threads)
+    with in_words_of_python():
+        summary, columns, starts = _skein.evaluate(core, configured, episodes, seed, threads)
     return Evaluation(json.loads(summary), columns, starts)
 
 
@@ -139,7 +142,8 @@ def compare(
         names = [text("compare: the name of an agent", str(name)) for name in agents]
     if twice := next((name for i, name in enumerate(names) if name in names[:i]), None):
         raise ConfigurationError(f"compare: {shown(twice)} is there twice: use a dict to name the agents")
-    summary, table = _skein.compare(cores, names, configured, episodes, seed, threads)
+    with in_words_of_python():
+        summary, table = _skein.compare(cores, names, configured, episodes, seed, threads)
     return Comparison(json.loads(summary), table)
 
 
@@ -151,6 +155,9 @@ def _task_of(what: str, agent: AgentLike, task: Task, config: Mapping[str, Any])
         if policy is not None:
             is_chosen = "preset" in config and policy.task in _skein.TASKS
             task = policy.task if is_chosen else policy.own_config or ""
+    if not task and isinstance(agent, (str, os.PathLike)) and os.path.exists(agent):
+        path = shown(os.fspath(agent))
+        raise ConfigurationError(f"{what}: {path} is a path and no agent: skein.load_policy makes one")
     if not task:
         raise ConfigurationError(f"{what}: task is needed: the agent does not say its own")
     return task
@@ -186,4 +193,6 @@ def record(
     _check_counts(count, seed, threads)
     configured = configure(_task_of("record", agent, task, config), **config)
     core = agent_of(agent, configured, seed)._core
-    return pandas.read_csv(io.StringIO(_skein.record(core, configured, count, seed, threads, observations)))
+    with in_words_of_python():
+        flights = _skein.record(core, configured, count, seed, threads, observations)
+    return pandas.read_csv(io.StringIO(flights))

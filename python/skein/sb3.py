@@ -15,6 +15,7 @@ import numpy as np
 from stable_baselines3.common import vec_env
 from stable_baselines3.common.monitor import Monitor
 
+from skein._skein import ConfigurationError
 from skein.environment import FlightVectorEnv
 
 
@@ -26,6 +27,8 @@ class VecEnv(vec_env.VecEnv):
     """
 
     def __init__(self, envs: FlightVectorEnv) -> None:
+        if not isinstance(envs, FlightVectorEnv):
+            raise ConfigurationError(f"envs must be what skein.make_vec gives, not {type(envs).__name__}")
         self.envs = envs
         self._repeat = envs.config["env.action_repeat"]
         self._actions = np.zeros(0, np.float32)

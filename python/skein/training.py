@@ -15,6 +15,7 @@ from skein._skein import Config, ConfigurationError, Error
 from skein.agents import Agent, load_policy
 from skein.checks import MOST_THREADS, reason_of, text, whole_number
 from skein.configuration import Task, configure
+from skein.messages import in_words_of_python
 
 if TYPE_CHECKING:
     import pandas
@@ -83,7 +84,8 @@ class Run:
         """
         asked = _asked(callback)
         whole_number("threads", threads, 0, MOST_THREADS)
-        _skein.resume(str(self.path), threads, bool(progress), asked)
+        with in_words_of_python():
+            _skein.resume(str(self.path), threads, bool(progress), asked)
         return self
 
     def _table(self, name: str) -> pandas.DataFrame:
@@ -137,15 +139,9 @@ def train(
     whole_number("threads", threads, 0, MOST_THREADS)
     if not (directory := text("out", out)):
         raise ConfigurationError("out must name the directory of the run, and is empty")
-    _skein.train(
-        configured,
-        directory,
-        text("start_from", start_from),
-        text("low_level", low_level),
-        threads,
-        bool(progress),
-        asked,
-    )
+    start, below = text("start_from", start_from), text("low_level", low_level)
+    with in_words_of_python():
+        _skein.train(configured, directory, start, below, threads, bool(progress), asked)
     return Run(out)
 
 

@@ -2,6 +2,8 @@
 import copy
 import pickle
 import shutil
+import threading
+from functools import partial
 
 import numpy as np
 import pytest
@@ -181,6 +183,23 @@ def test_a_function_sees_what_a_task_file_shows():
 
     skein.evaluate(turn, str(file), episodes=4)
     assert shapes == {skein.make_vec(str(file), 1).single_observation_space.shape[0]} == {27}
+
+
+@pytest.mark.parametrize("fly", [
+    partial(skein.evaluate, episodes=300),
+    partial(skein.record, count=2),
+    lambda agent, task, threads: skein.compare([agent], task, episodes=300, threads=threads),
+])
+def test_one_thread_calls_a_function_in_that_of_the_caller(fly):
+    callers = set()
+
+    def zero(observation):
+        callers.add(threading.get_ident())
+        return np.zeros((len(observation), 4), np.float32)
+
+    fly(zero, "heading", threads=1)
+    assert callers == {threading.get_ident()}
+    assert "threads=1: one at a time, in the caller's" in (ROOT / "docs" / "reference" / "python-api.md").read_text()
 
 
 def test_what_a_function_raises_comes_through():

@@ -49,6 +49,25 @@ def test_the_adapter_says_what_the_environment_does():
     assert adapter.get_attr("num_envs", [0, 3]) == [20, 20]
 
 
+def test_stable_baselines_makes_the_environment_by_its_name():
+    pytest.importorskip("stable_baselines3")
+    from stable_baselines3 import PPO
+    from stable_baselines3.common.env_util import make_vec_env
+
+    envs = make_vec_env("skein/Heading-v0", n_envs=2, env_kwargs={"preset": "easy"})
+    assert envs.reset().shape == (2, 22)
+    assert PPO("MlpPolicy", "skein/Heading-v0", device="cpu").get_env().num_envs == 1
+
+
+def test_the_adapter_takes_many_aircraft_alone():
+    pytest.importorskip("stable_baselines3")
+    import skein.sb3
+
+    for wrong in (skein.make("heading"), "heading"):
+        with pytest.raises(skein.ConfigurationError, match="envs must be what skein.make_vec gives, not "):
+            skein.sb3.VecEnv(wrong)
+
+
 def test_stable_baselines_evaluates_by_the_returns_of_the_environment():
     pytest.importorskip("stable_baselines3")
     from stable_baselines3.common.evaluation import evaluate_policy

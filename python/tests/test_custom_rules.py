@@ -4,6 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import skein
 
@@ -80,6 +81,20 @@ def test_targets_are_those_in_force_when_the_step_began():
         np.testing.assert_array_equal(targets, np.stack([seen[-1][name] for name in names], axis=1))
         changed += ((envs.targets() != targets).any(axis=1) & ~(terminated | truncated)).sum()
     assert changed > 0  # also within flights
+
+
+def test_targets_and_errors_of_a_task_file_are_its_own_in_their_order():
+    seen = []
+    task = ROOT / "examples" / "tasks" / "level_turn.toml"  # of two errors: yaw, altitude
+    noiseless = {"observation_noise": 0}
+    envs = skein.make_vec(task, 4, env=noiseless, reward=lambda at: seen.append(dict(at)) or at["reward"])
+    envs.reset(seed=1)
+    observations, *_ = envs.step(np.zeros((4, 4), np.float32))
+    assert [name for name in seen[0] if name.startswith("target_")] == ["target_yaw_rad", "target_altitude_ft"]
+    errors = np.stack([seen[0][f"error_{i}_scaled"] for i in range(3)], axis=1)
+    np.testing.assert_array_equal(errors[:, :2], observations[:, :2])
+    np.testing.assert_array_equal(errors[:, 2], 0)
+    assert "Those of a task file are in its order; of errors that it has not, zeros." in skein.FlightColumns.__doc__
 
 
 def test_columns_are_a_mapping():

@@ -151,6 +151,21 @@ def test_a_mask_resets_a_part():
         envs.reset(options={"mask": mask})
 
 
+@pytest.mark.parametrize("make", [lambda: skein.make("heading"), lambda: skein.make_vec("heading", 2)])
+def test_a_reset_that_is_refused_leaves_the_seed_of_what_is_flown(make):
+    env = make()
+    env.reset(seed=5)
+    drawn = env.np_random.bit_generator.state
+    refused = [{"mask": 1}, {"reset_mask": [True, True]}, {"reset_mask": [True]}]
+    for options in refused:
+        with pytest.raises(skein.Error):
+            env.reset(seed=9, options=options)
+    env.close()
+    with pytest.raises(skein.Error, match="closed"):
+        env.reset(seed=9)
+    assert env.np_random_seed == 5 and env.np_random.bit_generator.state == drawn
+
+
 def test_resets_without_a_seed_go_on_to_other_episodes():
     env = skein.make("heading")
     seen = [env.reset(seed=1)[0], env.reset()[0], env.reset()[0]]
@@ -271,6 +286,7 @@ def test_nothing_is_drawn(make):
     says = "render_mode must be None, not 'rgb_array'.*skein.record"
     with pytest.raises(skein.ConfigurationError, match=says) as raised:
         make("skein/Heading-v0", render_mode="rgb_array")
+    assert isinstance(raised.value, TypeError)  # on which make_vec_env of Stable-Baselines3 asks for none
     assert "\n" not in str(raised.value)
 
 
