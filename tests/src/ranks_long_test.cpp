@@ -87,5 +87,23 @@ TEST_F(ManyRanks, SixteenAreOneInEveryPrecision) {
   }
 }
 
+TEST_F(ManyRanks, HighLevelPoliciesTrainOverALowLevelPolicyAsByOne) {
+  const std::string control = scratch_ / "control";
+  ASSERT_EQ(RunSkein(TinyTrainingOf("control", control, {"--steps", "10240"})).exit_code, 0);
+  std::vector<std::string> more = kShards;
+  more.insert(more.end(), {"--preset", "planner", "--low-level", control, "--steps",
+                           std::to_string(2 * kStepsPerIteration * kIterations), "--set",
+                           "env.action_repeat=10"});
+  ASSERT_EQ(RunSkein(TinyTrainingOf("tracking", reference_, more)).exit_code, 0);
+  for (const int count : {2, 16}) {
+    SCOPED_TRACE(count);
+    const std::string together = run_ + std::to_string(count);
+    const ProgramResult result =
+        RunWords(Mpirun(count, TinyTrainingOf("tracking", together, more)));
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    ExpectSameRun(reference_, together);
+  }
+}
+
 }  // namespace
 }  // namespace skein

@@ -136,6 +136,7 @@ void ShareWithAllRanks(Ranks& ranks, std::vector<Value>& values) {
 /// other ranks' stay.
 template <typename Value>
 void GatherAtRankZero(Ranks& ranks, std::vector<Value>& values) {
+  static_assert(std::is_trivially_copyable_v<Value>);
   const std::size_t size = values.size(), bytes = size * sizeof(Value);
   if (ranks.rank() != 0) {
     ranks.Exchange(0, values.data(), bytes, nullptr, 0);

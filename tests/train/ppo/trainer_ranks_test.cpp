@@ -100,6 +100,12 @@ TEST_P(TrainerRanksPrecisionTest, EveryBitIsTheSameForAnyNumberOfRanks) {
   ExpectSameForAnyRanks(config, {2, 4, 8, 16});
 }
 
+TEST_P(TrainerRanksPrecisionTest, SoIsThatOfAHighLevelPolicy) {
+  TrainConfig config = Sharded(SmallHighLevelConfig());
+  config.learner.precision = GetParam();
+  ExpectSameForAnyRanks(config, {2, 4, 8, 16});
+}
+
 INSTANTIATE_TEST_SUITE_P(Precisions, TrainerRanksPrecisionTest,
                          testing::Values(LearnerPrecision::kFloat32, LearnerPrecision::kMixed,
                                          LearnerPrecision::kBfloat16, LearnerPrecision::kFast,
@@ -107,16 +113,6 @@ INSTANTIATE_TEST_SUITE_P(Precisions, TrainerRanksPrecisionTest,
                          [](const testing::TestParamInfo<LearnerPrecision>& param) {
                            return Name(param.param);
                          });
-
-TEST_F(TrainerRanksTest, AHighLevelPolicyTrainsTheSameOnAnyNumberOfRanks) {
-  TrainConfig config = Sharded(SmallHighLevelConfig());
-  for (const LearnerPrecision precision :
-       {LearnerPrecision::kFloat32, LearnerPrecision::kBfloat16}) {
-    SCOPED_TRACE(Name(precision));
-    config.learner.precision = precision;
-    ExpectSameForAnyRanks(config, {2, 4, 8});
-  }
-}
 
 TEST_F(TrainerRanksTest, SoDoWindsPlantsAndACriticThatSeesMore) {
   TrainConfig config = Sharded(SmallConfig());
