@@ -193,6 +193,9 @@ Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint6
   if (name == kZero) return Agent::Zero();
   if (IsAutopilot(name)) return AutopilotAgent(name, config.train.env);
   if (name == "idle") throw UsageError("agent idle is now called zero");
+  if (name == kUntrained || EndsWith(name, ".skein") || IsRunDirectory(name)) {
+    throw UsageError(fmt::format("unknown agent {}; did you mean {}:{}?", name, kPolicy, name));
+  }
   throw UsageError(fmt::format("unknown agent {}{}; known agents: {}", name,
                                DidYouMean(kind, {kAutopilot, kPolicy, kRandom, kZero}),
                                AgentNames()));

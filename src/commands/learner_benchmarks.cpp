@@ -10,6 +10,7 @@
 #include "src/commands/benchmarks.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
+#include "src/files/text_table.h"
 #include "src/run/progress.h"
 #include "train/network/backend_module.h"
 #include "train/network/precision.h"
@@ -150,8 +151,8 @@ double PeakMemoryGb() {
 }
 
 std::string Workers(int ranks, int threads) {
-  if (ranks == 1) return fmt::format("{} threads", threads);
-  return fmt::format("{} ranks x {} threads", ranks, threads);
+  const std::string each = Counted(threads, "thread");
+  return ranks == 1 ? each : fmt::format("{} ranks x {}", ranks, each);
 }
 
 /// What whole iterations came to.
@@ -235,8 +236,8 @@ void BenchRollout(const BenchOptions& options) {
   const TrainConfig config = LearnerBenchConfig(options);
   const std::vector<LearnerRates> learners =
       MeasureLearners(LearnersOf(config), options.iterations, pool);
-  fmt::print("rollout: {} aircraft, {} threads; {}\n", config.ppo.num_aircraft, pool.threads(),
-             Describe(learners[0].backend));
+  fmt::print("rollout: {} aircraft, {}; {}\n", config.ppo.num_aircraft,
+             Counted(pool.threads(), "thread"), Describe(learners[0].backend));
   Json results = Compare(
       learners, {"policy steps", "policy_steps_per_s", &LearnerRates::rollout_policy_steps_per_s,
                  &LearnerRates::rollout_flops_per_policy_step});
@@ -255,7 +256,7 @@ void BenchUpdate(const BenchOptions& options) {
   const TrainConfig config = LearnerBenchConfig(options);
   const std::vector<LearnerRates> learners =
       MeasureLearners(LearnersOf(config), options.iterations, pool);
-  fmt::print("update: {} threads; {}\n", pool.threads(), Describe(learners[0].backend));
+  fmt::print("update: {}; {}\n", Counted(pool.threads(), "thread"), Describe(learners[0].backend));
   const Json results =
       Compare(learners, {"samples", "samples_per_s", &LearnerRates::update_samples_per_s,
                          &LearnerRates::update_flops_per_sample});

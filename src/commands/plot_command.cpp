@@ -14,6 +14,7 @@
 #include <set>
 #include <utility>
 
+#include "base/ends_with.h"
 #include "base/number_text.h"
 #include "src/agents/agent_names.h"
 #include "src/commands/flown_agents.h"
@@ -135,6 +136,14 @@ bool AreFlown(const FlightPlotOptions& options) {
   return !options.flown.policy.empty() || !options.flown.agents.empty();
 }
 
+/// Throws UsageError if a policy or a run is named where files of flights are.
+void RequireNoPolicies(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    if (!EndsWith(file, ".skein") && !IsRunDirectory(file)) continue;
+    throw UsageError(fmt::format("{0}: not a file of flights; did you mean --policy {0}?", file));
+  }
+}
+
 Recordings RecordingsFor(const FlightPlotOptions& options, const CLI::App& command) {
   const bool flies = AreFlown(options);
   if (options.files.empty() != flies) {
@@ -142,6 +151,7 @@ Recordings RecordingsFor(const FlightPlotOptions& options, const CLI::App& comma
                            : "give files of flights, or --policy or --agents: who flies?");
   }
   if (!flies) {
+    RequireNoPolicies(options.files);
     RequireNotGiven(command, {"--task", "--preset", "--config", "--aircraft", "--condition",
                               "--set", "--hold", "--mission", "--episodes", "--seed"});
   }

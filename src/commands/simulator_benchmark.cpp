@@ -8,6 +8,7 @@
 #include "src/commands/benchmarks.h"
 #include "src/config/configuration.h"
 #include "src/config/usage_error.h"
+#include "src/files/text_table.h"
 #include "src/run/progress.h"
 
 namespace skein {
@@ -55,7 +56,7 @@ std::vector<Beside> Others(const EnvConfig& config, const BenchOptions& options)
 }
 
 void PrintRate(const std::string& what, const SimulatorRate& rate, const std::string& note = "") {
-  fmt::print("  {:<38}  {:9.2f} ms a step, {} aircraft-steps/s{}\n", what, 1e3 * rate.step_s,
+  fmt::print("  {:<40}  {:9.2f} ms a step, {} aircraft-steps/s{}\n", what, 1e3 * rate.step_s,
              FormatCount(rate.aircraft_steps_per_s), note);
 }
 
@@ -116,8 +117,9 @@ void BenchSimulator(const BenchOptions& options) {
   const SimulatorRate rk4 = plant(PlantPart::kRk4);
   const SimulatorRate controlled = plant(PlantPart::kFlightControlAndRk4);
   const double gflops = rk4.aircraft_steps_per_s * kFlopsPerRk4Step / 1e9;
-  fmt::print("simulator: {} aircraft, {} steps, {} threads, {}\n", options.num_aircraft,
-             options.steps, pool.threads(), Name(simd::ActiveTarget()));
+  fmt::print("simulator: {} aircraft, {}, {}, {}\n", options.num_aircraft,
+             Counted(options.steps, "step"), Counted(pool.threads(), "thread"),
+             Name(simd::ActiveTarget()));
   PrintRate("F-16: RK4 with engine", rk4, " (" + ShareOfPeak(gflops, peak.gflops) + ")");
   PrintRate("F-16: ... with flight control, actuators", controlled);
   BenchResults results{"sim", pool.threads(), {}, {}, noisy.task_file_hash};

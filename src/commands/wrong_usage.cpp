@@ -104,15 +104,39 @@ std::string WrongOptions(const CLI::App& command, const CLI::ParseError& error) 
   return text;  // a ValidationError, whose words are the program's own
 }
 
+bool Takes(const CLI::App& command, const char* option) {
+  const std::vector<std::string> options = OptionNames(command);
+  return std::count(options.begin(), options.end(), option) > 0;
+}
+
 /// An argument of a command that takes no more; of a policy with the option that takes it.
 std::string Unexpected(const CLI::App& command, const std::string& argument) {
-  const std::vector<std::string> options = OptionNames(command);
   std::error_code failure;
   const bool is_policy =
-      std::count(options.begin(), options.end(), "--policy") > 0 &&
-      (EndsWith(argument, ".skein") || std::filesystem::is_directory(argument, failure));
-  return fmt::format("unexpected argument {}{}", argument,
-                     is_policy ? fmt::format("; did you mean --policy {}?", argument) : "");
+      EndsWith(argument, ".skein") || std::filesystem::is_directory(argument, failure);
+  const char* const option = !is_policy                   ? nullptr
+                             : Takes(command, "--policy") ? "--policy "
+                             : Takes(command, "--agents") ? "--agents policy:"
+                                                          : nullptr;
+  return fmt::format(
+      "unexpected argument {}{}", argument,
+      option != nullptr ? fmt::format("; did you mean {}{}?", option, argument) : "");
+}
+
+/// An option that the command does not have, with the one that was meant: of two commands that fly
+/// policies, one is told of a policy and the other of agents.
+std::string UnknownOption(const CLI::App& command, const std::string& argument) {
+  const std::string name = argument.substr(0, argument.find('='));
+  std::string meant;
+  if (name == "--controller") return "--controller is now called --low-level";
+  if (name == "--policy" && Takes(command, "--agents")) {
+    meant = "; did you mean --agents policy:FILE_OR_RUN?";
+  } else if (name == "--agents" && Takes(command, "--policy")) {
+    meant = "; it flies one --policy, and skein compare several agents";
+  } else {
+    meant = DidYouMean(argument, OptionNames(command));
+  }
+  return fmt::format("unknown option {}{}", argument, meant);
 }
 
 /// Names that are not known come first, in their order: CLI11 says that what is required is missing
@@ -125,8 +149,7 @@ std::string WhatIsWrong(const CLI::App& command, const CLI::ParseError& error) {
   }
   for (const std::string& argument : unknown) {
     if (argument.rfind('-', 0) != 0) continue;
-    if (argument.rfind("--controller", 0) == 0) return "--controller is now called --low-level";
-    return "unknown option " + argument + DidYouMean(argument, OptionNames(command));
+    return UnknownOption(command, argument);
   }
   return unknown.empty() ? WrongOptions(command, error) : Unexpected(command, unknown.front());
 }

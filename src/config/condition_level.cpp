@@ -60,7 +60,12 @@ Range ParseRange(const std::string& text, const Units& units, const LevelRequest
   const std::size_t unit = high.find_last_of(kDigits), end = low.find_last_of(kDigits);
   const bool low_has_unit = end + 1 < low.size(), high_has_unit = unit + 1 < high.size();
   if (low_has_unit && !high_has_unit) request.Refuse(text);  // 60kt..120: of what?
-  if (!low_has_unit && high_has_unit) low += high.substr(unit + 1);
+  if (!low_has_unit && high_has_unit) {
+    const std::string suffix = high.substr(unit + 1);
+    const auto is_it = [&suffix](const Unit& known) { return suffix == known.suffix; };
+    if (std::none_of(units.begin(), units.end(), is_it)) request.Refuse(text);
+    low += suffix;
+  }
   const Range range{ParseNumber(low, units, request), ParseNumber(high, units, request)};
   if (range.min > range.max) request.RefuseReversed("the range " + text, low, high);
   return range;

@@ -24,6 +24,8 @@ namespace {
 
 /// The speed of sound at 20,000 ft: what a Mach number of high_speed and low_speed stands for.
 constexpr double kSpeedOfMachOne = 1037;
+/// What env.initial.true_airspeed_max_fps takes.
+constexpr double kFastestStartFps = 3000;
 constexpr double kFpsPerKnot = 1852 / 0.3048 / 3600;
 constexpr double kFpsPerMetrePerSecond = 1 / 0.3048;
 
@@ -59,6 +61,13 @@ using Assignments = std::vector<std::string>;
 /// Of high_speed and low_speed.
 Assignments Airspeed(const LevelRequest& request, const std::string& level) {
   const Range speed = ParseRange(level, kMachUnits, request);
+  if (speed.max > kFastestStartFps) {
+    throw Error(
+        fmt::format("--condition {}={}: that is up to Mach {:g}, and {:.3g} is the most; numbers "
+                    "are Mach numbers, of {:g} ft/s",
+                    request.name, request.level, speed.max / kSpeedOfMachOne,
+                    kFastestStartFps / kSpeedOfMachOne, kSpeedOfMachOne));
+  }
   Assignments assignments;
   Append("initial.true_airspeed", "_fps", speed, &assignments);
   assignments.push_back(

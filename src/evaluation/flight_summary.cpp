@@ -79,7 +79,7 @@ std::string InCommandColumns(const FlightSummary& summary, QuantitySection secti
 FlightSummary SummariseFlights(const std::vector<Episode>& episodes, const EnvConfig& env) {
   FlightSummary summary;
   summary.result = Summarise(episodes, env.control_interval_s);
-  summary.is_mission = env.mission.enabled();
+  summary.is_mission = EvaluationConfig(env).mission.enabled();
   summary.quantities = QuantitiesOf(env);
   for (const Quantity& quantity : summary.quantities) {
     summary.estimates.push_back(EstimateOf(quantity, episodes, env.control_interval_s));

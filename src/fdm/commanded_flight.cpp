@@ -41,7 +41,7 @@ std::string WithLastLineEnded(std::string text) {
 
 void CheckColumns(const CsvColumns& table, const std::string& path) {
   if (table.rows() == 0 || table.rows_left_out > 0) {
-    throw Error(path + ": expected a header and rows of as many numbers");
+    throw Error(path + ": expected a header and rows of as many numbers, with commas between them");
   }
   if (table.Find("time_s") == nullptr) throw Error(path + ": no column time_s");
   for (const std::string& name : table.names) {

@@ -41,8 +41,8 @@ void AppendOutside(const std::vector<double>& axis, double value, const char* be
 std::vector<ExceededLimit> OutsideEngineTables(const Plant& plant, const TrimRequest& request) {
   const EngineTables& engine = plant.aircraft().engine;
   std::vector<ExceededLimit> limits;
-  AppendOutside(engine.altitude_ft, request.altitude_ft, "below", "above", "{} ft", &limits);
-  AppendOutside(engine.mach, MachOf(plant, request), "slower than", "faster than", "Mach {}",
+  AppendOutside(engine.altitude_ft, request.altitude_ft, "below", "above", "{:.0f} ft", &limits);
+  AppendOutside(engine.mach, MachOf(plant, request), "slower than", "faster than", "Mach {:.6g}",
                 &limits);
   return limits;
 }

@@ -30,6 +30,12 @@ constexpr std::size_t kRowsPerObstacle = 20;
 constexpr std::size_t kPathParts = 12;
 constexpr double kDashesRepeat = 52.5;  // points, after which both kinds of dashes begin anew
 
+/// Where "start" may be, from the dot: below, to the right, to the left, above.
+const std::vector<Words> kBesideStart = {{{0, 14}, "", kTextSize, Anchor::kMiddle},
+                                         {{7, 3}, "", kTextSize, Anchor::kStart},
+                                         {{-7, 3}, "", kTextSize, Anchor::kEnd},
+                                         {{0, -7}, "", kTextSize, Anchor::kMiddle}};
+
 constexpr double kFlat = 0.1, kLegible = 0.2;  // altitudes over the horizontal extent
 constexpr double kMostDefaultScale = 32;
 
@@ -71,7 +77,7 @@ class SpaceDrawing {
     for (const Track& track : tracks_) DrawShadow(track);
     for (const Track& track : tracks_) DrawTargetOf(track);
     DrawFlights();
-    DrawStarts();
+    DrawStarts(top_ + height + 24);
     DrawTimes(top_ + height + 24);
     const double bottom = DrawLegend({kMargin, top_ + height + 48}, options_.width - kMargin,
                                      LegendEntries(), &shapes_);
@@ -199,7 +205,7 @@ class SpaceDrawing {
   }
 
   /// Dots, and one word for all of them, as episodes begin near each other.
-  void DrawStarts() {
+  void DrawStarts(double bottom) {
     const auto lower = [this](const Track& a, const Track& b) {
       return view_.Place(a.points[0]).y < view_.Place(b.points[0]).y;
     };
@@ -208,15 +214,26 @@ class SpaceDrawing {
     for (const Track& track : tracks_) {
       shapes_.emplace_back(Disc{view_.Place(track.points[0]), 2, kInk, std::nullopt});
     }
-    Words words{view_.Place(lowest.points[0]), "start", kTextSize, Anchor::kMiddle};
-    words.at.y += 14;
+    const PagePoint at = view_.Place(lowest.points[0]);
+    Words words{{at.x, at.y + 14}, "start", kTextSize, Anchor::kMiddle};
     words.has_halo = true;
-    shapes_.emplace_back(std::move(words));
+    // At a corner of the ground a number may be there.
+    LabelPlaces places = PlacesBesideWords(bottom);
+    shapes_.emplace_back(places.Put(words, at, kBesideStart).value_or(words));
+  }
+
+  /// Of the paper down to `bottom` what no words are on.
+  LabelPlaces PlacesBesideWords(double bottom) const {
+    LabelPlaces places({kMargin, top_ - kTop, options_.width - kMargin, bottom});
+    for (const Shape& shape : shapes_) {
+      if (const auto* const words = std::get_if<Words>(&shape)) places.Forbid(BoxOf(*words));
+    }
+    return places;
   }
 
   /// How long each flight was, beside its end, where little is covered.
   void DrawTimes(double bottom) {
-    LabelPlaces places({kMargin, top_ - kTop, options_.width - kMargin, bottom});
+    LabelPlaces places = PlacesBesideWords(bottom);
     constexpr double kHeavy = 10;
     for (const Track& track : tracks_) {
       for (std::size_t row = 0; row < track.points.size(); row += kRowsPerObstacle) {
@@ -230,9 +247,6 @@ class SpaceDrawing {
         places.Avoid({target.x + share * (tip.x - target.x), target.y + share * (tip.y - target.y)},
                      4, kHeavy);
       }
-    }
-    for (const Shape& shape : shapes_) {
-      if (const auto* const words = std::get_if<Words>(&shape)) places.Forbid(BoxOf(*words));
     }
     for (const Track& track : tracks_) {
       Words words{{},

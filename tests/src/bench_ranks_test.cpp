@@ -39,7 +39,7 @@ TEST_F(BenchRanks, IterationsOfSeveralRanksSayHowLongTheyExchange) {
   const ProgramResult result =
       RunWords(Mpirun(2, Bench("iteration", {"--threads", "1", "--set", "learner.shards=2"})));
   ASSERT_EQ(result.exit_code, 0) << result.error;
-  EXPECT_THAT(result.output, HasSubstr("2 ranks x 1 threads"));
+  EXPECT_THAT(result.output, HasSubstr("2 ranks x 1 thread; "));
   EXPECT_EQ(result.output.find("iteration: "), result.output.rfind("iteration: ")) << "said once";
   const auto json = Results();
   EXPECT_EQ(json["ranks"], 2);

@@ -333,6 +333,8 @@ TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
       {"zreo", "unknown agent zreo; did you mean zero?; known agents: autopilot"},
       {"zero:3", "unknown agent zero:3"},
       {"idle", "agent idle is now called zero"},
+      {"policies/a.skein", "unknown agent policies/a.skein; did you mean policy:policies/a.skein?"},
+      {"untrained", "unknown agent untrained; did you mean policy:untrained?"},
       {"autopilot:lazy", "unknown autopilot \"lazy\"; known: public, traditional, aggressive"},
       {"policy", "policy: needs a file or a run"},
       {"random:often", "as in random:0.5"},

@@ -165,6 +165,7 @@ TEST_F(FdmFly, SticksOfAFileAreFlown) {
       {"", "expected a header"},
       {"time_s,roll\n", "expected a header"},
       {"time_s,roll\n0,0,0\n", "expected a header"},
+      {"time_s;roll\n0;0,5\n", "rows of as many numbers, with commas between them"},
       {"roll\n0\n", "no column time_s"},
       {"time_s,stick\n0,0\n", "column stick"},
       {"time_s,ro\rll\n0,0\n", "column ro ll"},

@@ -286,6 +286,11 @@ TEST_F(FdmTrimPipeline, ATrimAboveTheTablesSaysSo) {
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_THAT(result.output,
               HasSubstr("this flight is above the engine's tables, which end at 50000 ft"));
+  // 4500 m, which no number of feet is exactly.
+  EXPECT_THAT(CallSkein({"fdm", "trim", "--altitude-ft", "15000", "--speed-fps", "200",
+                         "--aircraft", "cessna172"})
+                  .output,
+              HasSubstr("is above the engine's tables, which end at 14764 ft\n"));
 }
 
 }  // namespace

@@ -402,6 +402,19 @@ TEST(Usage, OptionsOfAnUnknownCommandAreNotBlamed) {
               HasSubstr("unknown option --altitude-ft"));
 }
 
+TEST(Usage, RatesOfTheSimulatorLineUp) {
+  const ProgramResult result =
+      CallSkein({"bench", "sim", "--num-aircraft", "64", "--steps", "2", "--threads", "1"});
+  EXPECT_THAT(result.output, HasSubstr("64 aircraft, 2 steps, 1 thread, "));
+  std::istringstream lines(result.output);
+  std::set<std::size_t> columns;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(" ms a step");
+    if (at != std::string::npos) columns.insert(at);
+  }
+  EXPECT_EQ(columns.size(), 1u) << result.output;
+}
+
 TEST(Usage, UnknownOptionsSuggestTheNearest) {
   EXPECT_EQ(
       CallSkein({"train", "heading", "--stpes", "5"}).error,

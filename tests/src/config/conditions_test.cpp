@@ -80,6 +80,7 @@ TEST(Conditions, LevelsOfLowSpeedGoOnWhereThoseOfHighSpeedEnd) {
   EXPECT_THAT(Complaint({"low_speed=mild", "high_speed=mild"}),
               HasSubstr("high_speed and low_speed both say how fast flights begin"));
   EXPECT_THAT(Complaint({"low_speed=mild,held"}), HasSubstr("cannot read"));
+  EXPECT_THAT(Complaint({"low_speed=0.8..1.0,held"}), HasSubstr("cannot read \"0.8..1.0,held\""));
 }
 
 TEST(Conditions, WhereTrainingAloneBeginsIsSaid) {
@@ -267,6 +268,9 @@ TEST(Conditions, WhatCannotBeReadIsNamedWithWhatCould) {
   EXPECT_THAT(Complaint({"windy=120..60fps"}), HasSubstr("is reversed; write 60fps..120fps"));
   EXPECT_THAT(Complaint({"high_altitude="}), HasSubstr("cannot read \"\""));
   EXPECT_THAT(Complaint({"high_altitude=32000"}), HasSubstr("are thousands of feet"));
+  EXPECT_THAT(Complaint({"high_speed=700..900"}),
+              HasSubstr("that is up to Mach 900, and 2.89 is the most; numbers are Mach numbers"));
+  EXPECT_EQ(Under({"high_speed=2.89"}).initial.true_airspeed_fps.max, 2.89 * 1037);
   EXPECT_THAT(Complaint({"windy=,light"}), HasSubstr("cannot read \"\""));
 }
 

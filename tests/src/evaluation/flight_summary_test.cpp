@@ -35,5 +35,13 @@ TEST(FlightSummaryTest, OfMissionsOnlyLossesAreEnds) {
   EXPECT_EQ(EndsOf({whole, whole}, env), "") << "all are flown to their end";
 }
 
+TEST(FlightSummaryTest, MissionsOfTrainingAreNotThoseOfEvaluations) {
+  EnvConfig env;  // as of Tracking's default preset
+  env.mission.training_length_s = 180;
+  const Episode late = EndedBy(Termination::kTimeLimit);
+  const Episode there = EndedBy(Termination::kTargetReached);
+  EXPECT_EQ(EndsOf({there, late}, env), "ended by target_reached 1, time_limit 1");
+}
+
 }  // namespace
 }  // namespace skein

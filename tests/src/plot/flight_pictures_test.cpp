@@ -150,6 +150,18 @@ TEST_F(FlightPictures, SpaceShowsEachEndAndItsScales) {
   ExpectLegible(picture);
 }
 
+TEST_F(FlightPictures, TheStartIsBesideTheNumbersOfACorner) {
+  std::string text =
+      "episode,time_s,north_ft,east_ft,altitude_ft,roll_deg,pitch_deg,yaw_deg,"
+      "termination\n";
+  for (int t = 0; t <= 60; ++t) {
+    text += fmt::format("0,{},{},{},{},0,0,90,\n", t, 7000 - 7000 * std::exp(-t / 8.0), 950 * t,
+                        21000 - 1000 * std::exp(-t / 8.0));
+  }
+  WriteFile(scratch_ / "turn.csv", text);
+  ExpectLegible(SpacePicture(ReadRecordings({scratch_ / "turn.csv"}), {}));
+}
+
 /// On the paper.
 double LengthOf(const Path& path) {
   const PagePoint &a = path.points[0], &b = path.points[1];
