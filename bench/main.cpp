@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   try {
-    skein::bench::DescribeRoofs();
+    skein::bench::DescribeContext();
     benchmark::RunSpecifiedBenchmarks();
   } catch (const skein::Error& error) {
     std::cerr << error.what() << '\n';

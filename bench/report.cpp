@@ -9,7 +9,12 @@
 #include "simd/peak.h"
 #include "simd/target.h"
 
-namespace skein::bench {
+namespace skein {
+
+// Of the generated commit.cpp (cmake/Commit.cmake).
+extern const char* const kCommit;
+
+namespace bench {
 namespace {
 
 struct Roofs {
@@ -47,8 +52,9 @@ void Meter::Report() {
   }
 }
 
-void DescribeRoofs() {
+void DescribeContext() {
   const Roofs& roofs = MeasuredRoofs(1);
+  benchmark::AddCustomContext("commit", kCommit);
   benchmark::AddCustomContext("simd_target", simd::Name(simd::ActiveTarget()));
   benchmark::AddCustomContext("core_clock", Rounded(roofs.clock / 1e9, "GHz"));
   benchmark::AddCustomContext("core_fma_peak", Rounded(roofs.peak.gflops_per_core, "GFLOP/s"));
@@ -60,4 +66,5 @@ void DescribeRoofs() {
   if (simd::NativeTiles()) add_peak("core_tile_peak", simd::Precision::kTiles);
 }
 
-}  // namespace skein::bench
+}  // namespace bench
+}  // namespace skein

@@ -38,7 +38,9 @@ class Meter {
   std::vector<double> seconds_;  // of each call
 };
 
-/// Puts the machine's roofs, for one thread, at the head of the report.
-void DescribeRoofs();
+/// Puts the program's commit ("-dirty" behind it if files have changed; or "unknown"), its SIMD
+/// target and the machine's roofs, for one thread, at the head of the report: in JSON under
+/// "context".
+void DescribeContext();
 
 }  // namespace skein::bench

@@ -50,6 +50,19 @@ def existing_program(path):
     return os.path.abspath(path)
 
 
+def writable_file(path):
+    """The type of an argument that names what is written at the end: what cannot be is said before the work."""
+    is_new = not os.path.lexists(path)
+    try:
+        with open(path, "a", encoding="utf-8"):
+            pass
+        if is_new:
+            os.unlink(path)
+    except OSError as error:
+        raise argparse.ArgumentTypeError(f"{path}: {error.strerror}") from error
+    return path
+
+
 def release_program(target, place):
     """The program that scripts/build makes of `target`, at `place` in build/release, after it was made."""
     if subprocess.run([os.path.join(ROOT, "scripts/build"), "release", target]).returncode != 0:

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts say of numbers that they do not take."""
+"""What scripts say of numbers and files that they do not take."""
 import argparse
 import pathlib
 import sys
+import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
-from command_line import bounded  # noqa: E402
+from command_line import bounded, writable_file  # noqa: E402
 
 
 class Bounded(unittest.TestCase):
@@ -29,6 +30,27 @@ class Bounded(unittest.TestCase):
             with self.assertRaises(argparse.ArgumentTypeError) as raised:
                 number(text)
             self.assertEqual(str(raised.exception), says)
+
+
+class WritableFile(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_is_left_as_it_is(self):
+        new, old = self.folder / "new", self.folder / "old"
+        old.write_text("kept")
+        self.assertEqual([writable_file(str(path)) for path in (new, old)], [str(new), str(old)])
+        self.assertFalse(new.exists())
+        self.assertEqual(old.read_text(), "kept")
+
+    def test_says_why_it_cannot_be_written(self):
+        for path, says in [(self.folder, "Is a directory"),
+                           (self.folder / "none" / "file", "No such file or directory")]:
+            with self.assertRaises(argparse.ArgumentTypeError) as raised:
+                writable_file(str(path))
+            self.assertEqual(str(raised.exception), f"{path}: {says}")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What scripts/network_scaling makes of measurements, without a network."""
+import contextlib
+import io
+import json
 import pathlib
 import sys
+import tempfile
 import unittest
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -61,6 +66,40 @@ class LeftOut(unittest.TestCase):
     def test_too_few_others_predict_nothing(self):
         rows = [row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 5)]
         self.assertIsNone(scaling.left_out_s(rows[0], rows))
+
+
+class Document(unittest.TestCase):
+    """What --json writes, and --model reads again."""
+
+    def end_of(self, *arguments):
+        out = io.StringIO()
+        with mock.patch.object(sys, "argv", ["network_scaling", *arguments]), contextlib.redirect_stdout(out):
+            scaling.main()
+        return out.getvalue()
+
+    def test_has_machine_samples_and_spread(self):
+        points = [row_of(rate, 0, share, 0, 0.02) for share in (1.2, 1.3, 1.1) for rate in (1, 5, 25)]
+        machine = {"commit": "0123456789", "cpu": "a processor"}
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(scaling.os, "geteuid", lambda: 0), \
+                mock.patch.object(scaling.shutil, "which", lambda _: "/a/tool"), \
+                mock.patch.object(scaling, "machine_of", lambda _: machine), \
+                mock.patch.object(scaling, "measure", lambda *_: points):
+            path = pathlib.Path(folder) / "network.json"
+            printed = self.end_of("--json", str(path), "--skein", sys.executable)
+            self.assertEqual(self.end_of("--model", str(path)), printed)
+            document = json.loads(path.read_text())
+        self.assertEqual((document["machine"], document["points"]), (machine, points))
+        self.assertEqual([row["rate_gbit_s"] for row in document["medians"]], [1, 5, 25])
+        for row, middle, least, most in zip(document["medians"], points[:3], points[6:], points[3:]):
+            figures = row.pop("figures")
+            self.assertEqual(row, middle)
+            self.assertEqual(set(figures), set(row) - {"ranks", "rate_gbit_s", "delay_us"})
+            exchange = figures["exchange_s"]
+            self.assertEqual(set(exchange), {"better", "median", "spread", "samples"})
+            self.assertEqual(exchange["samples"], [of["exchange_s"] for of in (middle, most, least)])
+            self.assertGreater(exchange["spread"], 0)
+            self.assertLess(exchange["spread"], most["exchange_s"] / least["exchange_s"] - 1)
+            self.assertEqual(figures["sent_mb"]["spread"], 0)
 
 
 class Model(unittest.TestCase):
