@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fixed number of steps of one part of the simulator, on one thread and without timing, for
-// scripts/count_instructions: two runs with different numbers of steps differ by those steps alone.
+// scripts/count_instructions and instruction_mix: two runs with different numbers of steps differ
+// by those steps alone.
+
+#include <dlfcn.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -10,6 +14,7 @@
 
 #include "base/denormals.h"
 #include "base/error.h"
+#include "bench/instruction_trace.h"
 #include "bench/positive.h"
 #include "envs/aircraft/f16.h"
 #include "envs/kernels/flight_control_kernel.h"
@@ -30,17 +35,33 @@ __attribute__((noinline)) void CountedSteps(int steps, const std::function<void(
 namespace {
 
 constexpr char kUsage[] =
-    "usage: count_steps PART AIRCRAFT STEPS   steps one tile; PART is one of rk4, controlled,\n"
-    "                                         environment, environment_with_noise\n"
-    "       count_steps targets               prints the SIMD targets that run here\n";
+    "usage: count_steps PART AIRCRAFT STEPS         steps one tile; PART is one of rk4,\n"
+    "                                               controlled, environment,\n"
+    "                                               environment_with_noise\n"
+    "       count_steps PART AIRCRAFT STEPS trace   instruction by instruction: prints how often\n"
+    "                                               each ran: its file, its offset there, times\n"
+    "       count_steps targets                     prints the SIMD targets that run here\n";
 constexpr float kDt = 0.02f;
 constexpr float kThrottle = 0.2f;
 constexpr int kStepsFromTrim = 50;
 
+/// Does the steps [0, steps) by calling `step`.
+using Stepper = std::function<void(int steps, const std::function<void(int)>& step)>;
+
+void TraceSteps(int steps, const std::function<void(int)>& step) {
+  for (const auto& [address, count] :
+       bench::TraceInstructions([&] { CountedSteps(steps, step); })) {
+    Dl_info place;
+    if (dladdr(reinterpret_cast<void*>(address), &place) == 0) continue;  // the kernel's page
+    const auto base = reinterpret_cast<std::uintptr_t>(place.dli_fbase);
+    std::cout << place.dli_fname << ' ' << address - base << ' ' << count << '\n';
+  }
+}
+
 /// Trimmed F-16s, each step one RK4 step, with flight control and actuators before it if
 /// `controlled`. The sticks stay centred; flights begin anew every second, as those without control
 /// would leave the tables.
-void StepPlant(bool controlled, int aircraft, int steps) {
+void StepPlant(bool controlled, int aircraft, int steps, const Stepper& stepper) {
   const EnvConfig config;
   const VecEnv start(config, aircraft, 1, aircraft);
   const std::size_t stride = TileStride(aircraft);
@@ -58,7 +79,7 @@ void StepPlant(bool controlled, int aircraft, int steps) {
   const PilotColumns pilot{throttle.data(), centred.data(), centred.data(), centred.data()};
   const std::vector<float> trimmed = columns;
   const DenormalsFlushed flushed;
-  CountedSteps(steps, [&](int step) {
+  stepper(steps, [&](int step) {
     if (step % kStepsFromTrim == 0) std::copy(trimmed.begin(), trimmed.end(), columns.begin());
     if (controlled) ControlTile(*kernel, constants, tile, pilot);
     StepTile(*kernel, tile, kDt, 1);
@@ -66,7 +87,7 @@ void StepPlant(bool controlled, int aircraft, int steps) {
 }
 
 /// The Heading environment under constant random actions: observe, step, reward, terminate, reset.
-void StepEnvironment(double observation_noise, int aircraft, int steps) {
+void StepEnvironment(double observation_noise, int aircraft, int steps, const Stepper& stepper) {
   EnvConfig config;
   config.observation_noise = observation_noise;
   VecEnv env(config, aircraft, 1, aircraft);
@@ -76,7 +97,7 @@ void StepEnvironment(double observation_noise, int aircraft, int steps) {
   for (float& value : action) value = static_cast<float>(random.Uniform(-1, 1));
   std::vector<float> observation(count * static_cast<std::size_t>(env.observation_size()));
   StepMemory memory(aircraft, {env.observation_size()});
-  CountedSteps(steps, [&](int) {
+  stepper(steps, [&](int) {
     env.Observe(0, observation.data());
     env.Step(0, action.data(), memory.output());
   });
@@ -87,16 +108,19 @@ int Run(const std::vector<std::string>& arguments) {
     for (const simd::Target target : simd::SupportedTargets()) std::cout << Name(target) << '\n';
     return 0;
   }
-  if (arguments.size() == 3) {
+  const bool traces = arguments.size() == 4 && arguments[3] == "trace";
+  if (traces || arguments.size() == 3) {
+    const Stepper stepper = traces ? TraceSteps : CountedSteps;
     const std::string& part = arguments[0];
     const int aircraft = bench::Positive("AIRCRAFT", arguments[1]);
     const int steps = bench::Positive("STEPS", arguments[2]);
     if (part == "rk4" || part == "controlled") {
-      StepPlant(part == "controlled", aircraft, steps);
+      StepPlant(part == "controlled", aircraft, steps, stepper);
       return 0;
     }
     if (part == "environment" || part == "environment_with_noise") {
-      StepEnvironment(part == "environment" ? 0 : EnvConfig{}.observation_noise, aircraft, steps);
+      StepEnvironment(part == "environment" ? 0 : EnvConfig{}.observation_noise, aircraft, steps,
+                      stepper);
       return 0;
     }
   }
