@@ -14,12 +14,16 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
+#include <exception>
 #endif
 
 namespace skein::bench {
 #if defined(__linux__) && defined(__x86_64__)
 namespace {
+
+constexpr int kRefused = 3, kFailed = 4;  // exit codes of the child
 
 /// A process that stops around its work.
 class TracedChild {
@@ -27,17 +31,19 @@ class TracedChild {
   explicit TracedChild(const std::function<void()>& work) : process_(fork()) {
     if (process_ < 0) Fail("fork");
     if (process_ > 0) return;
-    if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) _exit(1);
+    if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) _exit(kRefused);
     raise(SIGSTOP);
     try {
       work();
-    } catch (...) {
-      _exit(1);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      _exit(kFailed);
     }
     raise(SIGSTOP);
     _exit(0);
   }
   ~TracedChild() {
+    if (has_ended_) return;
     kill(process_, SIGKILL);
     waitpid(process_, nullptr, 0);
   }
@@ -45,11 +51,17 @@ class TracedChild {
   TracedChild& operator=(const TracedChild&) = delete;
 
   /// Waits until it stops, and returns the signal that stopped it.
-  int WaitForStop() const {
+  int WaitForStop() {
     int status = 0;
-    if (waitpid(process_, &status, 0) < 0) Fail("waitpid");
-    if (!WIFSTOPPED(status)) throw Error("tracing: the process has ended by itself");
-    return WSTOPSIG(status);
+    while (waitpid(process_, &status, 0) < 0) {
+      if (errno != EINTR) Fail("waitpid");
+    }
+    if (WIFSTOPPED(status)) return WSTOPSIG(status);
+    has_ended_ = true;
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+    throw Error(code == kRefused  ? "tracing: this system does not let processes be traced"
+                : code == kFailed ? "tracing: what is traced has failed"
+                                  : "tracing: the traced process has ended by itself");
   }
 
   void Step() const {
@@ -71,19 +83,35 @@ class TracedChild {
   }
 
   pid_t process_;
+  bool has_ended_ = false;
 };
+
+/// Signals that a process ignores stop it nonetheless while it is traced.
+bool IsIgnored(int signal) { return signal == SIGWINCH || signal == SIGCHLD || signal == SIGCONT; }
 
 }  // namespace
 
 InstructionCounts TraceInstructions(const std::function<void()>& work) {
-  const TracedChild child(work);
+  TracedChild child(work);
   child.WaitForStop();
   InstructionCounts counts;
-  do {
-    ++counts[child.Address()];
+  std::uintptr_t last = 0;
+  while (true) {
+    // A string instruction stops behind each of its repetitions.
+    if (const std::uintptr_t address = child.Address(); address != last) {
+      ++counts[address];
+      last = address;
+    }
     child.Step();
-  } while (child.WaitForStop() == SIGTRAP);
-  return counts;
+    int signal = child.WaitForStop();
+    while (IsIgnored(signal)) {
+      child.Step();
+      signal = child.WaitForStop();
+    }
+    if (signal == SIGSTOP) return counts;
+    if (signal == SIGTRAP) continue;
+    throw Error(std::string("tracing: the traced process got a signal: ") + strsignal(signal));
+  }
 }
 #else
 InstructionCounts TraceInstructions(const std::function<void()>&) {

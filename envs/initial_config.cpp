@@ -13,7 +13,8 @@ void ListFields(InitialConfig& config, FieldList& list) {
            "count, if it is lower; 0: no other")
       .TrainingOnly()
       .OffUnless(config.training_altitude_min_ft > 0);
-  list.Add("training_true_airspeed_min_fps", &config.training_true_airspeed_min_fps, {0, 3000},
+  list.Add("training_true_airspeed_min_fps", &config.training_true_airspeed_min_fps,
+           {0, kFastestStartFps},
            "in training the lowest initial true airspeed, from which ppo.condition_ramp and "
            "draw_power count, if it is lower; 0: no other")
       .TrainingOnly()
@@ -31,8 +32,9 @@ void ListFields(InitialConfig& config, FieldList& list) {
            "in training flights begin in a pull of up to so many g; 1: in none")
       .TrainingOnly()
       .OffUnless(config.training_load_factor_max > 1);
-  list.AddRange("true_airspeed", "fps", &config.true_airspeed_fps, {10, 3000},
-                "lowest initial true airspeed", "highest initial true airspeed");
+  list.AddRange("true_airspeed", "fps", &config.true_airspeed_fps,
+                {kSlowestStartFps, kFastestStartFps}, "lowest initial true airspeed",
+                "highest initial true airspeed");
   list.Add("trimmed", &config.trimmed,
            "true: steady flight; false: level, alpha 0, surfaces centred, a set thrust (F-16: 2000 "
            "lbf)");

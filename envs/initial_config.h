@@ -9,6 +9,8 @@ class FieldList;
 
 /// The greatest altitude of a start that a configuration may ask for.
 inline constexpr double kHighestStartFt = 60000;
+/// The same of true airspeeds.
+inline constexpr double kSlowestStartFps = 10, kFastestStartFps = 3000;
 
 /// Where episodes begin.
 struct InitialConfig {

@@ -77,7 +77,8 @@ struct ProductKernels {
   void (*end)() = nullptr;
 };
 
-/// out[j * out_stride + i] = the element of `rows` in row i and column j.
+/// out[j * out_stride + i] = the element of `rows` in row i and column j. No alignment is needed;
+/// out_stride is rows.rows at least, and `out` overlaps nothing.
 void TransposeRows(const RowBlock& rows, std::int64_t out_stride, float* out);
 
 /// Kernels of the active target with float32 operands.

@@ -155,12 +155,16 @@ def _task_of(what: str, agent: AgentLike, task: Task, config: Mapping[str, Any])
         if policy is not None:
             is_chosen = "preset" in config and policy.task in _skein.TASKS
             task = policy.task if is_chosen else policy.own_config or ""
-    if not task and isinstance(agent, (str, os.PathLike)) and os.path.exists(agent):
+    if not task and isinstance(agent, (str, os.PathLike)) and _is_policy_or_run(agent):
         path = shown(os.fspath(agent))
         raise ConfigurationError(f"{what}: {path} is a path and no agent: skein.load_policy makes one")
     if not task:
         raise ConfigurationError(f"{what}: task is needed: the agent does not say its own")
     return task
+
+
+def _is_policy_or_run(path: str | os.PathLike[str]) -> bool:
+    return os.path.isfile(path) or os.path.isfile(os.path.join(path, "config.toml"))
 
 
 def _check_counts(episodes: int, seed: int, threads: int) -> None:

@@ -14,7 +14,7 @@ _SENTENCES = (
     ("by --config or", "by settings, a file or"),
     ("skein eval --other-aircraft and the agent policy:FILE@other-aircraft allow", "policy:FILE@other-aircraft allows"),
 )
-_RESUME = re.compile(r"continue it with --resume .*, or choose")
+_RESUME = re.compile(r"continue it with --resume (.*), or choose")
 _ARGUMENTS = {
     "aircraft": "aircraft",
     "condition": "conditions",
@@ -29,7 +29,7 @@ def words_of_python(message: str) -> str:
     """The message with arguments in the place of options: --low-level is low_level."""
     for old, new in _SENTENCES:
         message = message.replace(old, new)
-    message = _RESUME.sub("continue it with skein.Run(PATH).resume(), or choose", message)
+    message = _RESUME.sub(lambda run: f"continue it with skein.Run({run[1]!r}).resume(), or choose", message)
     return _OPTION.sub(lambda option: _ARGUMENTS[option[1]], message)
 
 

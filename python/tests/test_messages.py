@@ -49,7 +49,8 @@ def test_a_directory_in_use_is_refused_in_words_of_python(tmp_path):
     assert refusal(train).endswith("choose another out")
     (tmp_path / "run" / "a file").unlink()
     train()
-    assert refusal(train).endswith("continue it with skein.Run(PATH).resume(), or choose another out")
+    resume = f"skein.Run({str(tmp_path / 'run')!r}).resume()"
+    assert refusal(train).endswith(f"continue it with {resume}, or choose another out")
 
 
 @pytest.mark.parametrize("said", ["/runs--out/a: is missing", "a --outer one", "out--out", "--seed 1"])

@@ -11,6 +11,7 @@
 #include "base/field_list.h"
 #include "base/number_text.h"
 #include "envs/aircraft/aircraft.h"
+#include "envs/initial_config.h"
 #include "envs/task_registry.h"
 #include "src/agents/agent_names.h"
 #include "src/agents/policy_file.h"
@@ -41,8 +42,8 @@ Bounds BoundsOf(const std::string& name) {
   constexpr double kFarthest = 1e7;  // of lengths in float32, where a foot is a foot
   if (name == "pitch_deg") return {-90, 90};
   // As where flights may begin.
-  if (name == "altitude_ft") return {0, 60000};
-  if (name == "true_airspeed_fps") return {10, 3000};
+  if (name == "altitude_ft") return {0, kHighestStartFt};
+  if (name == "true_airspeed_fps") return {kSlowestStartFps, kFastestStartFps};
   return {-kFarthest, kFarthest};
 }
 

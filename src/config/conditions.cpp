@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "envs/env_config.h"
+#include "envs/initial_config.h"
 #include "envs/tasks/terms/term_task_config.h"
 #include "envs/wind/dryden.h"
 #include "src/config/condition_level.h"
@@ -24,8 +25,6 @@ namespace {
 
 /// The speed of sound at 20,000 ft: what a Mach number of high_speed and low_speed stands for.
 constexpr double kSpeedOfMachOne = 1037;
-/// What env.initial.true_airspeed_max_fps takes.
-constexpr double kFastestStartFps = 3000;
 constexpr double kFpsPerKnot = 1852 / 0.3048 / 3600;
 constexpr double kFpsPerMetrePerSecond = 1 / 0.3048;
 

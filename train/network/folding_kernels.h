@@ -7,10 +7,10 @@ namespace skein {
 
 /// What FoldRows reads and writes; no alignment is needed.
 struct FoldedRows {
-  const float* weight = nullptr;  ///< [count][columns]
-  const float* gamma = nullptr;
-  const float* beta = nullptr;
-  float* folded_weight = nullptr;  ///< rows of `stride` floats
+  const float* weight = nullptr;   ///< [count][columns]
+  const float* gamma = nullptr;    ///< [columns]
+  const float* beta = nullptr;     ///< [columns]
+  float* folded_weight = nullptr;  ///< [count][stride], of which `columns` are written
   std::int64_t stride = 0;
   float* bias = nullptr;  ///< [count]
 };
@@ -20,7 +20,7 @@ struct FoldedRows {
 /// the bias, along the columns in float64. Rounds alike on every target.
 void FoldRows(int count, int columns, const FoldedRows& rows);
 
-/// What UnfoldRow reads and writes; no alignment is needed.
+/// What UnfoldRow reads and writes, [columns] each; no alignment is needed.
 struct UnfoldedRow {
   const float* gamma = nullptr;
   const float* beta = nullptr;

@@ -26,8 +26,8 @@ struct Addition {
   std::array<const float*, kOthers> others;
 };
 
-/// sums[i] = combine(sums[i], others[i]) while whole vectors of `d` are left; what is left behind
-/// `addition.begin`, which moves on, is none if `d` has one lane.
+/// sums[i] = combine(sums[i], others[i]), vector by vector of `d`. Stops before a remainder of
+/// fewer elements than its lanes, which begins at addition->begin.
 template <class D, std::size_t kOthers, class Combine>
 HWY_INLINE void AddVectors(D d, const Combine& combine, Addition<kOthers>* addition) {
   const auto lanes = static_cast<std::int64_t>(hn::Lanes(d));
@@ -68,8 +68,12 @@ void AddByTree(std::int64_t begin, std::int64_t end, std::size_t stride,
   // Two levels at a time.
   for (; 2 * stride < count; stride *= 4) {
     for (std::size_t first = 0; first < count; first += 4 * stride) {
-      const auto data = [&](std::size_t k) { return vectors[first + k * stride].data(); };
-      Add(Addition<3>{begin, end, data(0), {data(1), data(2), data(3)}},
+      AlignedVector<float>* const four[] = {&vectors[first], &vectors[first + stride],
+                                            &vectors[first + 2 * stride],
+                                            &vectors[first + 3 * stride]};
+      Add(
+          Addition<3>{
+              begin, end, four[0]->data(), {four[1]->data(), four[2]->data(), four[3]->data()}},
           [](auto sum, const auto* others)
               HWY_ATTR { return hn::Add(hn::Add(sum, others[0]), hn::Add(others[1], others[2])); });
     }
