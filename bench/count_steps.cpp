@@ -52,7 +52,8 @@ void TraceSteps(int steps, const std::function<void(int)>& step) {
   for (const auto& [address, count] :
        bench::TraceInstructions([&] { CountedSteps(steps, step); })) {
     Dl_info place;
-    if (dladdr(reinterpret_cast<void*>(address), &place) == 0) continue;  // the kernel's page
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the tracer knows numbers, and dladdr pointers
+    if (dladdr(reinterpret_cast<const void*>(address), &place) == 0) continue;  // the kernel's page
     const auto base = reinterpret_cast<std::uintptr_t>(place.dli_fbase);
     std::cout << place.dli_fname << ' ' << address - base << ' ' << count << '\n';
   }
