@@ -3,7 +3,7 @@
 import argparse
 
 from command_line import bounded, existing_program, release_program
-from jsbsim_flight.intervals import mean_and_interval
+from intervals import mean_and_interval
 
 
 def add_episodes(parser):

@@ -19,7 +19,7 @@ from script_module import SCRIPTS, load_script  # noqa: E402
 
 peers = load_script("peers")
 
-T95_OF_TWO, T95_OF_THREE = 12.706, 4.303  # Student's t of one and of two degrees of freedom
+T95_OF_TWO, T95_OF_THREE = 12.7062047, 4.30265273  # Student's t of one and of two degrees of freedom
 MACHINE = {"version": "1.2.3", "commit": "0123456789-dirty", "cpu": "a processor"}
 FLOPS = 2e6  # of a sample
 # A program that answers what the script asks; of either benchmark a run is twice as fast as the one before.
@@ -90,12 +90,6 @@ class Interval(unittest.TestCase):
         turned = peers.interval([1 / ratio for ratio in ratios])
         for value, other in zip(turned, (1 / middle, 1 / high, 1 / low)):
             self.assertAlmostEqual(value, other)
-
-    def test_many_runs_have_a_normal_distributions(self):
-        ratios = [1.0, math.e] * 50
-        middle, low, high = peers.interval(ratios)
-        self.assertAlmostEqual(math.log(middle), 0.5)
-        self.assertAlmostEqual(math.log(high / low), 2 * 1.96 * 0.5 * math.sqrt(100 / 99) / 10)
 
 
 class SameWork(unittest.TestCase):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Means and shares of flights with their 95 % intervals, as docs/reference/metrics.md defines them."""
+"""Means and shares with their 95 % intervals, as docs/reference/metrics.md defines them and
+src/evaluation/estimate.cpp has them."""
 import math
 import statistics
 
@@ -7,9 +8,15 @@ NORMAL_QUANTILE = statistics.NormalDist().inv_cdf(0.975)
 
 
 def student_quantile(degrees_of_freedom):
-    """The 97.5 % quantile of Student's t; Abramowitz and Stegun 26.7.5, to 0.1 % from 5 degrees of freedom on."""
+    """The 97.5 % quantile of Student's t: exact of one and two degrees of freedom, Abramowitz and Stegun 26.7.5 from
+    there on, to 0.2 %."""
     z, n = NORMAL_QUANTILE, degrees_of_freedom
-    terms = [(z**3 + z) / 4, (5 * z**5 + 16 * z**3 + 3 * z) / 96, (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384]
+    if n == 1:
+        return math.tan(math.pi * 0.475)
+    if n == 2:
+        return 0.95 * math.sqrt(2 / (1 - 0.95**2))
+    terms = [(z**3 + z) / 4, (5 * z**5 + 16 * z**3 + 3 * z) / 96, (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384,
+             (79 * z**9 + 776 * z**7 + 1482 * z**5 - 1920 * z**3 - 945 * z) / 92160]
     return z + sum(term / n**(k + 1) for k, term in enumerate(terms))
 
 
