@@ -52,6 +52,8 @@ def parse_arguments():
 def main():
     arguments = parse_arguments()
     policy = skein.load_policy(arguments.policy)
+    if policy.is_high_level:
+        sys.exit(f"{sys.argv[0]}: {arguments.policy}: a high-level policy, which moves neither throttle nor stick")
     agents = {"as it is": policy}
     for pull in filter(None, arguments.pull.split(",")):
         agents[f"pulls to {pull}"] = LimitedActions(policy, pull=float(pull))

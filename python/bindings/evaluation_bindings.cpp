@@ -68,8 +68,8 @@ nb::tuple EvaluateAgent(const FlyingAgent& flying, const ProgramConfig& config, 
                         std::uint64_t seed, int threads) {
   WorkerPool pool(threads);
   const EnvConfig env = flying.agent.EnvironmentFor(config.train.env);
-  const FlownEpisodes flown =
-      Unlocked(pool, [&] { return FlyEpisodes(flying.agent, env, Options(episodes, seed), pool); });
+  const FlownEpisodes flown = UnlockedAsWhole(
+      pool, [&] { return FlyEpisodes(flying.agent, env, Options(episodes, seed), pool); });
   return nb::make_tuple(ToJson(SummariseFlights(flown.episodes, env)).dump(),
                         EpisodeColumns(flown.episodes), flown.starts);
 }
@@ -82,7 +82,7 @@ nb::tuple CompareAgents(const std::vector<FlyingAgent>& agents,
   std::vector<NamedAgent> named;
   for (std::size_t i = 0; i < agents.size(); ++i) named.push_back({names[i], agents[i].agent});
   const Comparison comparison =
-      Unlocked(pool, [&] { return Compare(named, config, episodes, seed, pool); });
+      UnlockedAsWhole(pool, [&] { return Compare(named, config, episodes, seed, pool); });
   return nb::make_tuple(ToJson(comparison, config).dump(), ToText(comparison));
 }
 
@@ -92,11 +92,12 @@ std::string RecordAgent(const FlyingAgent& flying, const ProgramConfig& config, 
   WorkerPool pool(threads);
   const EnvConfig env = flying.agent.EnvironmentFor(config.train.env);
   RequireRoomFor(count, 1, LongestFlight(env), env, "count");
-  const std::vector<RecordedFlight> flights = Unlocked(
-      pool, [&] { return RecordFlights(flying.agent, env, Options(count, seed), count, pool); });
-  return FlightsCsv(
-      env, flights,
-      with_observations ? FlightColumns::kStatesAndObservations : FlightColumns::kStates);
+  const FlightColumns columns =
+      with_observations ? FlightColumns::kStatesAndObservations : FlightColumns::kStates;
+  return UnlockedAsWhole(pool, [&] {
+    return FlightsCsv(env, RecordFlights(flying.agent, env, Options(count, seed), count, pool),
+                      columns, &pool);
+  });
 }
 
 }  // namespace

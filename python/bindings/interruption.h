@@ -5,6 +5,7 @@
 
 #include <csignal>
 
+#include "base/error.h"
 #include "base/worker_pool.h"
 #include "src/run/run_signals.h"
 
@@ -24,12 +25,13 @@ inline void RaiseSignal(int signal) {
 }
 
 /// Does long work on the pool without the interpreter's lock, and returns what it does. Ctrl-C
-/// stops the pool, and then ends the work as it ends Python's own.
+/// stops the pool, and then ends the work as it ends Python's own. SIGUSR1 is left to the work, and
+/// to Python.
 template <typename Work>
 auto Unlocked(WorkerPool& pool, const Work& work) {
   int stop_signal = 0;
   auto result = [&] {
-    const RunSignals signals(pool);
+    const RunSignals signals(pool, SaveSignal::kLeft);
     HandleSignals();  // that came before
     const nanobind::gil_scoped_release released;
     auto done = work();
@@ -37,6 +39,17 @@ auto Unlocked(WorkerPool& pool, const Work& work) {
     return done;
   }();
   RaiseSignal(stop_signal);
+  return result;
+}
+
+/// The same of work that is nothing unless it is whole: throws Error if it was stopped by a signal
+/// of which Python's handler raised nothing.
+template <typename Work>
+auto UnlockedAsWhole(WorkerPool& pool, const Work& work) {
+  auto result = Unlocked(pool, work);
+  if (pool.stopping()) {
+    throw Error("stopped by a signal, whose handler raised nothing: there is no result");
+  }
   return result;
 }
 

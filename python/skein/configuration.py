@@ -87,6 +87,11 @@ def _refuse_arguments(settings: Mapping[str, Any]) -> None:
             raise UnknownArgument(f"there is no argument {name}; did you mean {near[0]}?")
         if name == "seed":
             raise UnknownArgument("seed is no setting: reset takes an environment's; run.seed is that of a training")
+        if name == "max_episode_steps":
+            raise UnknownArgument(
+                "max_episode_steps is no setting: env.time_limit_steps is that of an episode, in control steps; with "
+                "env.truncate_at_time_limit=True it truncates"
+            )
         if name in _ARGUMENTS_OF_OTHERS:
             raise UnknownArgument(f"{name} is neither an argument of this function nor a setting")
 

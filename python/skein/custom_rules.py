@@ -18,6 +18,8 @@ BoolArray = NDArray[np.bool_]
 CUSTOM_TERMINATION = len(TERMINATION_NAMES)
 """What info["termination"] has where a function ended the episode; its name is "custom"."""
 
+_NON_FINITE = TERMINATION_NAMES.index("non_finite")
+
 _ERROR_NAMES = OBSERVATION_NAMES[:3]
 
 
@@ -164,9 +166,10 @@ class CustomRules:
         columns |= zip(self._action_names, np.clip(actions, -1, 1).T, strict=True)
         shown = FlightColumns(columns | {"reward": reward.copy(), "termination": termination.copy()})
         ends = self._result("terminated", self._terminated, shown, bool)
-        rewards = self._result("reward", self._reward, shown, np.float32)
+        lost = termination == _NON_FINITE  # no function can judge what is not finite
+        rewards = self._result("reward", self._reward, shown, np.float32, lost)
         if rewards is not None:
-            reward[:] = rewards
+            reward[:] = np.where(lost, reward, rewards)
         self._returns += reward
         self._steps += self._core.action_repeat
         self._ended: list[tuple[Any, ...]] = []
@@ -201,7 +204,9 @@ class CustomRules:
         self._core.observe(observation)
         return len(index)
 
-    def _result(self, name: str, rule: Rule | None, columns: FlightColumns, dtype: Any) -> NDArray[Any] | None:
+    def _result(
+        self, name: str, rule: Rule | None, columns: FlightColumns, dtype: Any, lost: BoolArray | None = None
+    ) -> NDArray[Any] | None:
         if rule is None:
             return None
         given = rule(columns)  # what it raises comes through
@@ -215,7 +220,8 @@ class CustomRules:
             raise Error(f"{wanted} {returned.dtype} of shape {returned.shape}")
         with np.errstate(over="ignore"):
             result: NDArray[Any] = returned.astype(dtype)
-        if not (is_finite := np.isfinite(result)).all():
+        is_finite = np.isfinite(result) if lost is None else np.isfinite(result) | lost
+        if not is_finite.all():
             where = is_finite.argmin()
             raise Error(f"{name} must return numbers finite in float32, but it did not for aircraft {where}")
         return result

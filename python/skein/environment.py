@@ -306,7 +306,8 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
     def restore(self, snapshot: NDArray[np.uint32]) -> FloatArray:
         """Goes on from a snapshot of an environment with the same configuration, low-level policy and number, with its
         seed, which np_random_seed then says. Returns what is observed there, float32 (num_envs, 22). Returns of a
-        reward of one's own count from there.
+        reward of one's own count from there, and beside a `terminated` of one's own so do those of the task, and the
+        control steps of episodes that it ends.
 
         Raises:
             Error: a snapshot of another configuration or number, or none. Nothing has changed then.

@@ -179,6 +179,20 @@ def test_what_a_function_must_not_return(rules, says):
         envs.step(np.zeros((8, 4)))
 
 
+def test_an_action_that_is_not_finite_has_the_tasks_reward():
+    envs = skein.make_vec("heading", 4, reward=lambda at: at["true_airspeed_fps"])
+    plain = skein.make_vec("heading", 4)
+    actions = np.zeros((4, 4), np.float32)
+    actions[2, 1] = np.nan
+    for each in (envs, plain):
+        each.reset(seed=0)
+    _, rewards, terminated, _, info = envs.step(actions)
+    assert terminated.tolist() == [False, False, True, False]
+    assert rewards[2] == plain.step(actions)[1][2] == info["final_info"]["episode_return"][2]
+    assert (rewards[[0, 1, 3]] > 500).all()
+    envs.step(np.zeros((4, 4)))
+
+
 @pytest.mark.parametrize("begin", [lambda env, snapshot: env.reset(), lambda env, snapshot: env.restore(snapshot)])
 def test_after_a_function_that_raised_an_episode_begins_anew(begin):
     fails = True

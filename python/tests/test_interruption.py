@@ -93,17 +93,50 @@ def test_an_interrupted_training_is_resumed_to_the_same_bits(tmp_path, sigint_as
         assert (cut.path / name).read_bytes() == (whole.path / name).read_bytes()
 
 
-def test_a_python_handler_has_its_say():
+def handled_in(work, number):
+    """What a handler that raises nothing sees of a signal that comes in the midst of the work."""
     seen = []
-    before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
-    timer = threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT))
+    before = signal.signal(number, lambda number, frame: seen.append(number))
+    timer = threading.Timer(1, os.kill, (os.getpid(), number))
     try:
         timer.start()
-        skein.evaluate("autopilot", "heading", episodes=10**5)
+        work()
     finally:
         timer.join()
-        signal.signal(signal.SIGINT, before)
-    assert seen == [signal.SIGINT]
+        signal.signal(number, before)
+    return seen
+
+
+@pytest.mark.parametrize(
+    "work",
+    [
+        lambda: skein.evaluate("autopilot", "heading", episodes=10**5),
+        lambda: skein.compare(["autopilot", "zero"], "heading", episodes=10**5),
+        lambda: skein.record("autopilot", "heading", count=1000),
+    ],
+)
+def test_what_a_handler_lets_be_stopped_is_no_result(work):
+    def stopped():
+        with pytest.raises(skein.Error, match="^stopped by a signal, .*: there is no result$"):
+            work()
+
+    assert handled_in(stopped, signal.SIGINT) == [signal.SIGINT]
+
+
+def test_a_training_that_a_handler_lets_be_stopped_is_a_run_that_can_go_on(tmp_path):
+    runs = []
+    assert handled_in(lambda: runs.append(skein.train("heading", tmp_path / "run")), signal.SIGTERM) == [signal.SIGTERM]
+    assert runs[0].evaluation is None
+
+
+def test_sigusr1_is_left_to_pythons_handler():
+    results = []
+
+    def evaluate():
+        results.append(skein.evaluate("autopilot", "heading", episodes=5000, threads=1))
+
+    assert handled_in(evaluate, signal.SIGUSR1) == [signal.SIGUSR1]
+    assert results[0].success_rate > 0.99
 
 
 def counted_while(work):

@@ -62,6 +62,7 @@ def test_what_is_no_option_of_an_argument_stays(said):
     ("condition", "there is no argument condition; did you mean conditions"),
     ("presets", "did you mean preset"),
     ("seed", "reset takes an environment's; run.seed is that of a training"),
+    ("max_episode_steps", "env.time_limit_steps is that of an episode, in control steps"),
     ("threads", "threads is neither an argument of this function nor a setting"),
     ("num_envs", "num_envs is neither"),
     ("action_repeat", "did you mean env.action_repeat"),

@@ -38,9 +38,10 @@ void AppendRow(const FlightTable& table, std::size_t episode, std::size_t row, s
 }  // namespace
 
 std::string FlightsCsv(const EnvConfig& env, const std::vector<RecordedFlight>& flights,
-                       FlightColumns columns) {
+                       FlightColumns columns, const WorkerPool* pool) {
   std::string text;
   for (std::size_t episode = 0; episode < flights.size(); ++episode) {
+    if (pool != nullptr && pool->stopping()) break;
     const FlightTable table = TableOf(env, flights[episode], columns);
     if (episode == 0) AppendHeader(table, &text);
     for (std::size_t row = 0; row < table.rows(); ++row) AppendRow(table, episode, row, &text);

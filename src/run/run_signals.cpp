@@ -43,7 +43,7 @@ bool IsMainThread() { return gettid() == getpid(); }
 
 }  // namespace
 
-RunSignals::RunSignals(WorkerPool& pool) : pool_(pool), handles_(IsMainThread()) {
+RunSignals::RunSignals(WorkerPool& pool, SaveSignal save) : pool_(pool), handles_(IsMainThread()) {
   if (!handles_) return;
   outer_pool_ = stopped_pool.exchange(&pool);
   outer_signal_ = stop_signal.exchange(0);
@@ -51,7 +51,7 @@ RunSignals::RunSignals(WorkerPool& pool) : pool_(pool), handles_(IsMainThread())
   Install(SIGINT, OnStop);
   Install(SIGTERM, OnStop);
   if (!IgnoresHangUp()) Install(SIGHUP, OnStop);
-  Install(SIGUSR1, OnSave);
+  if (save == SaveSignal::kTaken) Install(SIGUSR1, OnSave);
   Install(SIGPIPE, SIG_IGN);
 }
 

@@ -8,6 +8,9 @@
 
 namespace skein {
 
+/// Whether SIGUSR1 asks for a save, or stays what it was.
+enum class SaveSignal { kTaken, kLeft };
+
 /// While it lives, SIGINT, SIGTERM and SIGHUP ask a pool to stop and SIGUSR1 asks for a save
 /// instead of ending the process. A second one that asks to stop ends it at once, as by default. A
 /// SIGHUP that was ignored (nohup) stays so. SIGPIPE is ignored: a reader of the progress that goes
@@ -17,7 +20,7 @@ namespace skein {
 class RunSignals {
  public:
   /// Throws Error if the system refuses a handler.
-  explicit RunSignals(WorkerPool& pool);
+  explicit RunSignals(WorkerPool& pool, SaveSignal save = SaveSignal::kTaken);
   ~RunSignals();
   RunSignals(const RunSignals&) = delete;
   RunSignals& operator=(const RunSignals&) = delete;
