@@ -105,7 +105,7 @@ void TextTable::Begin(const std::string& label) {
 }
 
 void TextTable::Cell(const std::string& cell) {
-  line_ += fmt::format("{:>{}}", EndOf(cell, cell_width_), cell_width_);
+  line_ += fmt::format("{:>{}}", cell, std::max(cell_width_, cell.size() + kGap));
 }
 
 void TextTable::End() {

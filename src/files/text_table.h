@@ -22,7 +22,8 @@ std::string InLines(const std::string& begin, const std::string& text);
 std::string InColumns(const std::vector<std::vector<std::string>>& rows);
 
 /// Appends rows to a text for people: a label at the left, cells at the right of their columns. Of
-/// what is too wide for its column the end is shown, behind "..".
+/// a label that is too wide the end is shown, behind ".."; a cell that is moves the others along:
+/// of figures nothing is cut.
 class TextTable {
  public:
   TextTable(std::size_t label_width, std::size_t cell_width, std::string* text)

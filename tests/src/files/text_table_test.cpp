@@ -67,6 +67,17 @@ TEST(TextTableTest, HeadingsKeepCharactersWhole) {
   EXPECT_THAT(LinesOf(text)[1], testing::EndsWith(" \u00e4\u00f6"));
 }
 
+TEST(TextTableTest, CellsAreWholeAndLabelsCut) {
+  std::string text;
+  TextTable table(12, 12, &text);
+  table.Begin("rms roll rate, deg/s");
+  table.Cell("1.2 +- 0.1");
+  table.Cell("-119.96 +- 9.59");
+  table.Cell("3");
+  table.End();
+  EXPECT_EQ(text, "..e, deg/s    1.2 +- 0.1  -119.96 +- 9.59           3\n");
+}
+
 TEST(TextTableTest, HeadingsShowNamesWhole) {
   std::string text;
   TextTable table(4, 20, &text);
