@@ -202,11 +202,9 @@ void Validate(const EnvConfig& config) {
   Require(config.mission.training_time_limit_s == 0 || config.mission.is_of_training(),
           "env.mission.training_time_limit_s", config.mission.training_time_limit_s,
           "0 without env.mission.training_length_s, whose flights it is for");
-  const bool is_point =
-      config.term_task != nullptr ? config.term_task->has_point() : config.task == "tracking";
-  Require(config.hold_s == 0 || !is_point, "env.hold_s", config.hold_s,
-          "0 for " + config.task + ": a point is passed, not held");
   if (config.term_task != nullptr) ValidateTerms(config);
+  Require(config.hold_s == 0 || !MakeTask(config)->is_point(), "env.hold_s", config.hold_s,
+          "0 for " + config.task + ": a point is passed, not held");
   Require(config.hold_s == 0 || !config.mission.enabled(), "env.hold_s", config.hold_s,
           "0 in a mission (env.mission.length_s, training_length_s), whose targets come one after "
           "another");
@@ -220,6 +218,16 @@ void Validate(const EnvConfig& config) {
   Require(termination.min_mach < termination.max_mach, "env.termination.min_mach",
           termination.min_mach,
           "below env.termination.max_mach, " + ShortestText(termination.max_mach));
+  Require(termination.max_load_factor > 1, "env.termination.max_load_factor_g",
+          termination.max_load_factor, "above 1, with which level flight begins");
+  Require(termination.alpha_deg.min < 0, "env.termination.alpha_min_deg", termination.alpha_deg.min,
+          "below 0, about which fast flights begin");
+  Require(termination.alpha_deg.max > 0, "env.termination.alpha_max_deg", termination.alpha_deg.max,
+          "above 0, about which fast flights begin");
+  Require(termination.beta_deg.min < 0, "env.termination.beta_min_deg", termination.beta_deg.min,
+          "below 0, at which flights begin");
+  Require(termination.beta_deg.max > 0, "env.termination.beta_max_deg", termination.beta_deg.max,
+          "above 0, at which flights begin");
   const InitialConfig& initial = config.initial;
   const std::string above =
       "above env.termination.min_altitude_ft, " + ShortestText(termination.min_altitude_ft);

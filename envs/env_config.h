@@ -85,6 +85,13 @@ struct EnvConfig {
     return is_noisy ? std::max(training_noise_max, observation_noise_max) : 0;
   }
 
+  /// The most that flights begin in a pull of, g: no more than seven tenths of what would end them.
+  double starting_load_factor_max() const {
+    constexpr double kShareOfLimit = 0.7;
+    return std::min(initial.training_load_factor_max,
+                    std::max(1.0, kShareOfLimit * termination.max_load_factor));
+  }
+
   /// Flies the task of a task file from now on.
   void SetTermTask(const TermTaskConfig& terms);
 

@@ -78,6 +78,7 @@ FlightReset::FlightReset(const EnvConfig& config, const Aircraft& aircraft)
     : initial_(config.initial),
       altitude_ft_(initial_.drawn_altitude_ft()),
       true_airspeed_fps_(initial_.drawn_true_airspeed_fps()),
+      load_factor_max_(config.starting_load_factor_max()),
       plant_(aircraft, config.atmosphere, 1, config.gravity),
       flight_control_(aircraft, config.flight_control, config.control_interval_s),
       draw_power_(config.draw_power),
@@ -132,8 +133,7 @@ FreshFlight FlightReset::Draw(simd::RandomStream* random) const {
     return most_rad > 0 ? random->Uniform(-most_rad, most_rad) : 0;
   };
   const double banked_rad = either_side_rad(initial_.training_bank_max_deg);
-  const double most_g = initial_.training_load_factor_max;
-  const double pulled_g = most_g > 1 ? random->Uniform(0, most_g - 1) : 0;
+  const double pulled_g = load_factor_max_ > 1 ? random->Uniform(0, load_factor_max_ - 1) : 0;
   const double climb_rad = either_side_rad(initial_.training_climb_max_deg);
   const double roll_rad = start.bank_rad + banked_rad;
   RigidBodyState state = StraightFlight(altitude_ft, speed_ft_s, start.alpha_rad, roll_rad,

@@ -43,6 +43,7 @@ class FlightReset {
 
   InitialConfig initial_;
   Range altitude_ft_, true_airspeed_fps_;  ///< what is drawn from
+  double load_factor_max_;
   Plant plant_;
   FlightControl flight_control_;
   int draw_power_;

@@ -27,7 +27,8 @@ struct InitialConfig {
   double training_bank_max_deg = 0;
   /// In training flights begin climbing or descending by up to this, and otherwise as they would.
   double training_climb_max_deg = 0;
-  /// In training flights begin in a pull of up to this, g, about the pitch axis; 1: in none.
+  /// In training flights begin in a pull of up to this, g, about the pitch axis; 1: in none
+  /// (EnvConfig::starting_load_factor_max).
   double training_load_factor_max = 1;
 
   /// What initial altitudes are drawn from.

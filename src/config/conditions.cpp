@@ -15,7 +15,7 @@
 #include "base/nearest_name.h"
 #include "envs/env_config.h"
 #include "envs/initial_config.h"
-#include "envs/tasks/terms/term_task_config.h"
+#include "envs/task_registry.h"
 #include "envs/wind/dryden.h"
 #include "src/config/condition_level.h"
 #include "src/config/plant_condition.h"
@@ -102,6 +102,14 @@ Assignments Noisy(const LevelRequest& request, const std::string& level) {
           "env.training_noise_max=0"};
 }
 
+/// A sector of bearings, clockwise: one whose end is the smaller goes across north.
+Range ParseSector(const std::string& text, const LevelRequest& request) {
+  const auto [begin, end] = SplitRange(text);
+  Range sector{ParseNumber(begin, kAngleUnits, request), ParseNumber(end, kAngleUnits, request)};
+  if (sector.min > sector.max) sector.min -= 360;
+  return sector;
+}
+
 Assignments Windy(const LevelRequest& request, const std::string& level) {
   Assignments assignments;
   std::set<std::string> given;
@@ -117,7 +125,7 @@ Assignments Windy(const LevelRequest& request, const std::string& level) {
       return part.substr(length);
     };
     if (const auto from = value_of("from=")) {
-      append(part, "wind.from", "_deg", ParseRange(*from, kAngleUnits, request));
+      append(part, "wind.from", "_deg", ParseSector(*from, request));
     } else if (const auto sigma = value_of("sigma=")) {
       append(part, "wind.turbulence", "_fps", ParseRange(*sigma, kSpeedUnits, request));
     } else if (StartsWithDigit(part)) {
@@ -158,10 +166,15 @@ struct Condition {
   bool can_be_held;
   Assignments (*assign)(const LevelRequest& request, const std::string& level);
 
+  /// `level` with what its name stands for in the place of that; parts may follow it.
   std::string LevelText(const std::string& level) const {
-    if (level == "mild") return mild;
-    if (level == "middle") return middle;
-    return level == "hard" ? hard : level;
+    const std::size_t end = std::min(level.find(','), level.size());
+    const std::string word = level.substr(0, end);
+    for (const auto& [known, text] :
+         {std::pair("mild", mild), {"middle", middle}, {"hard", hard}}) {
+      if (word == known) return text + level.substr(end);
+    }
+    return level;
   }
 };
 
@@ -179,7 +192,7 @@ const std::vector<Condition>& Conditions() {
        "30..35kft", "35..40kft", "40..45kft", true, HighAltitude},
       {"windy",
        "a steady wind and turbulence by severity, each alone or a range (60fps,moderate; "
-       "0..120fps,light..severe; sigma=5fps,from=270deg) or mild, middle, hard",
+       "0..120fps,light..severe; sigma=5fps,from=270deg) or mild, middle, hard (hard,from=270deg)",
        "60fps,light", "120fps,moderate", "200fps,severe", false, Windy},
       {"noisy", "a standard deviation or range (0.03, 0.01..0.05) or mild, middle, hard", "0.02",
        "0.05", "0.1", false, Noisy},
@@ -197,11 +210,41 @@ const Condition& FindCondition(const std::string& name) {
                           DidYouMean(name, names), fmt::join(names, ", ")));
 }
 
-double DwellOf(const EnvConfig& env) {
-  if (env.term_task != nullptr) return env.term_task->dwell_s;
-  return env.task == "heading"   ? env.heading.dwell_s
-         : env.task == "control" ? env.control.dwell_s
-                                 : 0;
+/// "; in training: noise up to 0.05; starts from 5000 ft": what evaluations do without; empty if
+/// that is nothing.
+std::string DescribeTraining(const EnvConfig& env) {
+  const EnvConfig evaluated = EvaluationConfig(env);
+  const InitialConfig &start = env.initial, &evaluated_start = evaluated.initial;
+  std::string all;
+  const auto add = [&](bool differs, const char* form, double value) {
+    if (!differs) return;
+    all += all.empty() ? "; in training: " : "; ";
+    all += fmt::format(fmt::runtime(form), value);
+  };
+  const auto add_most = [&](const char* form, double trained, double flown) {
+    add(trained > flown, form, trained);
+  };
+  const auto add_least = [&](const char* form, const Range& trained, const Range& flown) {
+    add(trained.min < flown.min, form, trained.min);
+  };
+  add_most("noise up to {:.6g}", env.most_noise(),
+           std::max(evaluated.observation_noise, evaluated.most_noise()));
+  add_most("wind up to {:.6g} ft/s", env.wind.drawn_speed_fps().max,
+           evaluated.wind.drawn_speed_fps().max);
+  add_most("turbulence up to {:.6g} ft/s", env.wind.drawn_turbulence_fps().max,
+           evaluated.wind.drawn_turbulence_fps().max);
+  add_least("starts from {:.6g} ft", start.drawn_altitude_ft(),
+            evaluated_start.drawn_altitude_ft());
+  add_least("starts from {:.6g} ft/s", start.drawn_true_airspeed_fps(),
+            evaluated_start.drawn_true_airspeed_fps());
+  add_most("banks of up to {:.6g} deg", start.training_bank_max_deg,
+           evaluated_start.training_bank_max_deg);
+  add_most("climbs of up to {:.6g} deg", start.training_climb_max_deg,
+           evaluated_start.training_climb_max_deg);
+  add_most("pulls of up to {:.6g} g", env.starting_load_factor_max(),
+           evaluated.starting_load_factor_max());
+  add(env.mission.is_of_training(), "missions of {:.6g} min", env.mission.flown_length_s() / 60);
+  return all;
 }
 
 /// "; drag rise; a target counts after 1 s and is held for 8 s".
@@ -214,7 +257,7 @@ std::string DescribeRules(const EnvConfig& env) {
   if (mission.enabled()) {
     return rules + fmt::format("; missions of {:.6g} min", mission.flown_length_s() / 60);
   }
-  const double dwell = DwellOf(env);
+  const double dwell = MakeTask(env)->dwell_s();
   if (dwell > 0) rules += fmt::format("; a target counts after {:.6g} s", dwell);
   if (env.hold_s > 0) {
     rules +=
@@ -258,10 +301,21 @@ std::string DescribeConditions(const EnvConfig& env) {
                : fmt::format("{:.6g} to {:.6g}{}", values.min, values.max, unit);
   };
   const WindConfig& wind = env.wind;
-  std::string air = wind.enabled() ? "" : "; still air";
+  std::string air = EvaluationConfig(env).wind.enabled() ? "" : "; still air";
   if (wind.speed_fps.max > 0) air += "; wind of " + range(wind.speed_fps, " ft/s");
+  const bool is_from_anywhere = wind.from_deg.max - wind.from_deg.min >= 360;
+  if (wind.speed_fps.max > 0 && !is_from_anywhere) {
+    air += " from " + range(wind.from_deg, " deg");
+  }
   if (wind.turbulence_fps.max > 0) {
     air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
+    if (wind.rotational_gusts) air += ", rotational gusts";
+  }
+  const EnvConfig usual;
+  if (env.flight_control == FlightControlMode::kDirect) air += "; direct flight control";
+  if (env.cg != usual.cg) air += fmt::format("; cg at {:.6g} of the chord", env.cg);
+  if (env.gravity.at_sea_level_ft_s2 != usual.gravity.at_sea_level_ft_s2) {
+    air += fmt::format("; gravity of {:.6g} ft/s^2", env.gravity.at_sea_level_ft_s2);
   }
   const std::string plant = DescribePlant(env.plant);
   if (!plant.empty()) air += "; " + plant;
@@ -272,23 +326,11 @@ std::string DescribeConditions(const EnvConfig& env) {
     air += fmt::format("; targets from {:.6g} ft on", env.target_altitude_min_ft);
   }
   const double most_noise = std::max(env.observation_noise, env.observation_noise_max);
-  std::string training;
-  if (env.most_noise() > most_noise) {
-    training += fmt::format("; in training noise up to {:.6g}", env.most_noise());
-  }
-  const double lowest = env.initial.drawn_altitude_ft().min;
-  if (lowest < env.initial.altitude_ft.min) {
-    training += fmt::format("; in training from {:.6g} ft", lowest);
-  }
-  const double slowest = env.initial.drawn_true_airspeed_fps().min;
-  if (slowest < env.initial.true_airspeed_fps.min) {
-    training += fmt::format("; in training from {:.6g} ft/s", slowest);
-  }
   return fmt::format(
       "{} from {} and {}{}; {}{}", env.aircraft, range(env.initial.altitude_ft, " ft"),
       range(env.initial.true_airspeed_fps, " ft/s"), air,
       most_noise > 0 ? "noise " + range({env.observation_noise, most_noise}, "") : "no noise",
-      training);
+      DescribeTraining(env));
 }
 
 std::string DescribeEvaluation(const EnvConfig& env) {

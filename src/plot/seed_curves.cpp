@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "base/choice_error.h"
@@ -145,6 +147,13 @@ std::vector<CurveSetting> SettingsOf(std::vector<RunRecord> runs, std::optional<
                                      const std::vector<std::string>& names) {
   std::vector<CurveSetting> settings;
   std::vector<std::string> keys;
+  std::set<std::filesystem::path> places;
+  for (const RunRecord& run : runs) {
+    std::error_code none;
+    if (!places.insert(std::filesystem::weakly_canonical(run.path, none)).second) {
+      throw Error(fmt::format("{}: it is there twice", run.path));
+    }
+  }
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const std::string key =
         seeds ? std::to_string(k / static_cast<std::size_t>(*seeds)) : Repetition(runs[k]);

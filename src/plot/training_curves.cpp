@@ -32,18 +32,36 @@ const std::map<std::string, std::string>& TaskTitles() {
   return titles;
 }
 
-const std::map<std::string, std::string>& ColumnTitles() {
-  static const std::map<std::string, std::string> titles = {
-      {"evaluation_success_rate", "episodes that reach their target, flown by the mean action, %"},
+/// What a column of success is of: episodes of one target, or missions.
+struct SuccessTitle {
+  const char *of_targets, *of_missions;
+  bool (*flies_missions)(const EnvConfig& env);
+};
+
+const std::map<std::string, SuccessTitle>& SuccessTitles() {
+  static const std::map<std::string, SuccessTitle> titles = {
+      {"evaluation_success_rate",
+       {"episodes that reach their target, flown by the mean action, %",
+        "missions flown to their end by the mean action, %",
+        [](const EnvConfig& env) { return EvaluationConfig(env).mission.enabled(); }}},
       {"success_rate",
-       "training episodes that reach their target and the end of its hold, sampled actions, %"},
-      {"return_mean", "mean return of the training episodes"}};
+       {"training episodes that reach their target and the end of its hold, sampled actions, %",
+        "training missions flown to their end, sampled actions, %",
+        [](const EnvConfig& env) { return env.mission.enabled(); }}}};
   return titles;
 }
 
-std::string ColumnTitle(const std::string& column) {
-  const auto known = ColumnTitles().find(column);
-  return known != ColumnTitles().end() ? known->second : InWords(column);
+std::string ColumnTitle(const std::string& column, const std::vector<CurveSetting>& settings) {
+  if (column == "return_mean") return "mean return of the training episodes";
+  const auto known = SuccessTitles().find(column);
+  if (known == SuccessTitles().end()) return InWords(column);
+  const SuccessTitle& title = known->second;
+  const auto flies_missions = [&](const CurveSetting& setting) {
+    return title.flies_missions(setting.runs.front().config.train.env);
+  };
+  if (std::all_of(settings.begin(), settings.end(), flies_missions)) return title.of_missions;
+  if (std::none_of(settings.begin(), settings.end(), flies_missions)) return title.of_targets;
+  return fmt::format("{}; or {}", title.of_targets, title.of_missions);
 }
 
 std::string TaskTitle(const std::string& task) {
@@ -141,7 +159,7 @@ class CurveDrawing {
   double DrawRow(const std::vector<std::string>& tasks, const std::string& column, double top) {
     top += 4;
     for (const std::string& line :
-         Wrapped(ColumnTitle(column), options_.width - kLeft - kMargin, kTextSize)) {
+         Wrapped(ColumnTitle(column, settings_), options_.width - kLeft - kMargin, kTextSize)) {
       top += 1.25 * kTextSize;
       shapes_.emplace_back(Words{{kLeft, top}, line});
     }

@@ -115,7 +115,7 @@ std::string TimeLine(const Progress& p, const TerminalStyle& style) {
 
 std::string SuccessLine(const Progress& p, const TerminalStyle& style) {
   constexpr std::size_t kLongestSparkline = 40;
-  Line line("success", style);
+  Line line(p.flies_missions ? "to end" : "success", style);
   line.Add(Percent(p.success_rate, 1) + OfHowMany(p));
   std::string evaluated;
   if (p.evaluation_success_rate >= 0) {

@@ -70,14 +70,14 @@ std::string FormatProgress(const Progress& p, Spacing spacing) {
   const std::string update = Percent(p.update_share, spacing, 0);
   const std::string mean_return =
       std::isfinite(p.return_mean) ? fmt::format("{:.1f}", p.return_mean) : "-";
-  const std::string success = Percent(p.success_rate, spacing, 1) + OfHowMany(p);
+  const std::string success = fmt::format("{} {}", p.flies_missions ? "to the end" : "success",
+                                          Percent(p.success_rate, spacing, 1) + OfHowMany(p));
   if (spacing == Spacing::kTight) {
-    return fmt::format("{} {}/s return {} success {} left {}", steps, rate, mean_return, success,
-                       left);
+    return fmt::format("{} {}/s return {} {} left {}", steps, rate, mean_return, success, left);
   }
   return fmt::format(
-      "{} steps ({}) | {} steps/s | rollout {} update {} | return {} | success {}{} | left {}",
-      steps, Percent(done / total, spacing, 1), rate, rollout, update, mean_return, success,
+      "{} steps ({}) | {} steps/s | rollout {} update {} | return {} | {}{} | left {}", steps,
+      Percent(done / total, spacing, 1), rate, rollout, update, mean_return, success,
       p.evaluation_success_rate < 0
           ? ""
           : fmt::format(" (evaluated {})", Percent(p.evaluation_success_rate, spacing, 1)),
@@ -85,9 +85,10 @@ std::string FormatProgress(const Progress& p, Spacing spacing) {
 }
 
 ProgressMeter::ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps,
-                             Clock::time_point start)
+                             bool flies_missions, Clock::time_point start)
     : start_(start) {
   progress_.env_steps = env_steps;
+  progress_.flies_missions = flies_missions;
   progress_.total_steps = total_steps;
   progress_.return_mean = progress_.success_rate = std::nan("");
   samples_.push_back({start, env_steps, 0, 0, {}});

@@ -28,6 +28,7 @@ struct Progress {
   double rollout_share = 0, update_share = 0;
   double return_mean = 0, success_rate = 0;  ///< NaN: no episode has ended yet
   std::uint64_t success_episodes = 0;        ///< that success_rate is of
+  bool flies_missions = false;               ///< success_rate is of flights flown to the end
   double evaluation_success_rate = -1;       ///< latest; negative: none yet
   double best_evaluation = -1;               ///< of those this process has seen
   std::uint64_t iteration = 0;               ///< of the run
@@ -53,8 +54,10 @@ class ProgressMeter {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `env_steps`: where this process begins (above 0 when resumed).
-  ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps, Clock::time_point start);
+  /// `env_steps`: where this process begins (above 0 when resumed); `flies_missions`: what is
+  /// trained on are flights of many targets.
+  ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps, bool flies_missions,
+                Clock::time_point start);
 
   void Add(const IterationReport& report, Clock::time_point now);
   const Progress& progress() const { return progress_; }

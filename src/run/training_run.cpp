@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/field_list.h"
 #include "base/seconds_since.h"
 #include "envs/aircraft/registry.h"
 #include "simd/target.h"
@@ -33,8 +34,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Far from the seeds that people choose for training, so that the final episodes are fresh.
-std::uint64_t FinalSeed(const TrainConfig& config) { return config.seed + 1000000007; }
+/// Far from the seeds that people choose for training, so that the final episodes are fresh; one
+/// that --seed takes.
+std::uint64_t FinalSeed(const TrainConfig& config) {
+  constexpr auto kSeeds = static_cast<std::uint64_t>(kMostWholeNumber) + 1;
+  return (config.seed + 1000000007) % kSeeds;
+}
 
 double UnixTime() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -258,7 +263,8 @@ void TrainingRun::SayBanner() {
 void TrainingRun::TrainAndEvaluate() {
   const std::uint64_t first_step = trainer_.env_steps();
   const Clock::time_point start = Clock::now();
-  ProgressMeter meter(first_step, LastStep(config_.train), start);
+  ProgressMeter meter(first_step, LastStep(config_.train), config_.train.env.mission.enabled(),
+                      start);
   turn_.start = SecondsSince(turn_begin_);
   std::string dropped;
   while (!trainer_.finished() && !pool_.stopping()) {
@@ -403,8 +409,8 @@ void TrainingRun::SayResult(const EvaluationReport& report, const std::string& p
       "configuration   {}\n"
       "checkpoints     {}\n"
       "{}",
-      ToText(report, true), policy, directory_.evaluation(), directory_.metrics(),
-      directory_.path(), directory_.config(), directory_.checkpoints(), again);
+      ToText(report, true), policy, directory_.evaluation(), directory_.metrics(), run,
+      directory_.config(), directory_.checkpoints(), again);
   const std::string in_short = fmt::format(
       "{}\n"
       "policy          {}\n"

@@ -74,6 +74,25 @@ const Fault kFaults[] = {
     {"env.control.dwell_s = ", [](EnvConfig* c) { c->control.dwell_s = 1e-9; }},
     {"env.mission.length_s = ", [](EnvConfig* c) { c->mission.length_s = 1e12; }},
     {"env.mission.dwell_s = ", [](EnvConfig* c) { c->mission.dwell_s = 1e12; }},
+    // Flights would end as they begin.
+    {"env.termination.max_load_factor_g = ",
+     [](EnvConfig* c) { c->termination.max_load_factor = 1; }},
+    {"env.termination.alpha_max_deg = ",
+     [](EnvConfig* c) {
+       c->termination.alpha_deg = {-20, -10};
+     }},
+    {"env.termination.alpha_min_deg = ",
+     [](EnvConfig* c) {
+       c->termination.alpha_deg = {1, 45};
+     }},
+    {"env.termination.beta_max_deg = ",
+     [](EnvConfig* c) {
+       c->termination.beta_deg = {-30, -1};
+     }},
+    {"env.termination.beta_min_deg = ",
+     [](EnvConfig* c) {
+       c->termination.beta_deg = {1, 30};
+     }},
     {"env.reward_scale = ", [](EnvConfig* c) { c->reward_scale = -1; }},
     {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 0; }},
     {"env.cg_chord_fraction = ", [](EnvConfig* c) { c->cg = 30; }},

@@ -173,6 +173,24 @@ TEST(FlightResetTest, TrainingBeginsInClimbsAndDescentsAndEvaluationsDoNot) {
   ExpectBegunAside(config, &EulerAngles::pitch, M_PI / 6);
 }
 
+TEST(FlightResetTest, PullsKeepAwayFromTheLoadFactorThatEndsFlights) {
+  EnvConfig config;
+  config.initial.training_load_factor_max = 7;
+  EXPECT_EQ(config.starting_load_factor_max(), 7) << "of the F-16's 10 g";
+  config.termination.max_load_factor = 5;
+  constexpr double kMost = 3.5;
+  EXPECT_DOUBLE_EQ(config.starting_load_factor_max(), kMost);
+  const FlightReset reset(config, F16());
+  double most = 0;
+  for (std::uint32_t episode = 0; episode < kDraws; ++episode) {
+    most = std::max(most, static_cast<double>(At(DrawOf(reset, episode), kNz)));
+  }
+  EXPECT_LT(most, kMost);
+  EXPECT_GT(most, 0.9 * kMost);
+  config.termination.max_load_factor = 1.2;
+  EXPECT_EQ(config.starting_load_factor_max(), 1);
+}
+
 TEST(FlightResetTest, TrainingBeginsInAPullAndEvaluationsDoNot) {
   EnvConfig config;
   config.initial.training_load_factor_max = 7;

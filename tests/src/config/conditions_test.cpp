@@ -16,10 +16,12 @@
 namespace skein {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string Complaint(const std::vector<std::string>& conditions) {
   try {
@@ -83,13 +85,61 @@ TEST(Conditions, LevelsOfLowSpeedGoOnWhereThoseOfHighSpeedEnd) {
   EXPECT_THAT(Complaint({"low_speed=0.8..1.0,held"}), HasSubstr("cannot read \"0.8..1.0,held\""));
 }
 
+TEST(Conditions, ASectorOfWindsGoesClockwiseAcrossNorth) {
+  const Range sector = Under({"windy=60fps,from=350..10deg"}).wind.from_deg;
+  EXPECT_EQ(sector.min, -10);
+  EXPECT_EQ(sector.max, 10);
+  const Range other = Under({"windy=60fps,from=10..350deg"}).wind.from_deg;
+  EXPECT_EQ(other.min, 10);
+  EXPECT_EQ(other.max, 350);
+}
+
+TEST(Conditions, ANamedWindMayHaveADirection) {
+  const WindConfig wind = Under({"windy=hard,from=270deg"}).wind;
+  EXPECT_EQ(wind.speed_fps.max, 200);
+  EXPECT_EQ(wind.turbulence_fps.max, 21);
+  EXPECT_EQ(wind.from_deg.min, 270);
+  EXPECT_EQ(wind.from_deg.max, 270);
+  EXPECT_THAT(Complaint({"windy=hard,light"}), HasSubstr("cannot read \"light\""));
+  EXPECT_THAT(Complaint({"noisy=hard,0.1"}), HasSubstr("cannot read"));
+}
+
+TEST(Conditions, WhatDiffersFromTheUsualIsSaid) {
+  EXPECT_THAT(DescribeConditions(Under({"windy=60fps,severe,from=260..280deg"})),
+              HasSubstr("; wind of 60 ft/s from 260 to 280 deg; turbulence of 21 ft/s; noise"));
+  EnvConfig env = Under({"windy=severe"});
+  EXPECT_THAT(DescribeConditions(env), Not(HasSubstr("from 0 to 360")));
+  env.wind.rotational_gusts = true;
+  env.flight_control = FlightControlMode::kDirect;
+  env.cg = 0.25;
+  env.gravity.at_sea_level_ft_s2 = 20;
+  EXPECT_THAT(DescribeConditions(env),
+              HasSubstr("; turbulence of 21 ft/s, rotational gusts; direct flight control; cg at "
+                        "0.25 of the chord; gravity of 20 ft/s^2; noise"));
+}
+
 TEST(Conditions, WhereTrainingAloneBeginsIsSaid) {
   EnvConfig env;
   env.initial.training_altitude_min_ft = 5000;
   env.initial.training_true_airspeed_min_fps = 500;
   EXPECT_THAT(DescribeConditions(env),
-              HasSubstr("; in training from 5000 ft; in training from 500 ft/s"));
+              HasSubstr("; in training: starts from 5000 ft; starts from 500 ft/s"));
   EXPECT_EQ(DescribeConditions(EvaluationConfig(env)), DescribeConditions({}));
+}
+
+TEST(Conditions, WhatTrainingAloneFliesThroughIsSaid) {
+  EXPECT_THAT(
+      DescribeConditions(Under({}, "tracking")),
+      EndsWith("; still air; noise 0.01; in training: noise up to 0.05; wind up to 120 ft/s; "
+               "turbulence up to 10 ft/s; starts from 5000 ft; missions of 3 min"));
+  EXPECT_THAT(DescribeConditions(Under({"windy=30fps"}, "tracking")),
+              AllOf(HasSubstr("; wind of 30 ft/s; "), Not(HasSubstr("wind up to"))));
+  EnvConfig climbing;
+  climbing.initial.training_climb_max_deg = 30;
+  EXPECT_THAT(DescribeConditions(climbing),
+              EndsWith("; still air; noise 0.01; in training: climbs of up to 30 deg"));
+  climbing.mission.training_length_s = 60;
+  EXPECT_EQ(DescribeConditions(EvaluationConfig(climbing)), DescribeConditions({}));
 }
 
 TEST(Conditions, AMachNumberIsASpeedInUnitsOfThatOfSoundAt20000Feet) {
@@ -191,11 +241,14 @@ TEST(Conditions, WindReplacesAllOfAnotherWind) {
 
 TEST(Conditions, AreDescribedInWords) {
   EXPECT_EQ(DescribeConditions(Under({"windy=60fps", "noisy=0.01..0.05", "high_altitude=30kft"})),
-            "f16 from 30000 ft and 1000 to 1200 ft/s; wind of 60 ft/s; noise 0.01 to 0.05");
-  EXPECT_THAT(DescribeConditions(Under({})), HasSubstr("noise 0.01; in training noise up to 0.04"));
+            "f16 from 30000 ft and 1000 to 1200 ft/s; wind of 60 ft/s; noise 0.01 to 0.05; "
+            "in training: banks of up to 90 deg; pulls of up to 7 g");
+  EXPECT_THAT(DescribeConditions(Under({})),
+              EndsWith("; noise 0.01; in training: noise up to 0.04; banks of up to 90 deg; "
+                       "pulls of up to 7 g"));
   EXPECT_EQ(DescribeConditions(EvaluationConfig(Under({}))),
             "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; noise 0.01");
-  EXPECT_EQ(DescribeConditions(Under({"noisy=0"})),
+  EXPECT_EQ(DescribeConditions(EvaluationConfig(Under({"noisy=0"}))),
             "f16 from 19000 to 20000 ft and 1000 to 1200 ft/s; still air; no noise");
 }
 

@@ -16,10 +16,12 @@
 namespace skein {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kRounding = 1e-12;
 
@@ -62,6 +64,36 @@ TEST(TrainingCurvesTest, MeanAndBandAreThoseOfTheSeeds) {
     EXPECT_NEAR(curve.mean[k].x, static_cast<double>(k + 1), kRounding);
   }
   EXPECT_NEAR(*MinutesPerMillion(setting), 1, kRounding) << "120 s for two million";
+}
+
+TEST(TrainingCurvesTest, TheTitleSaysWhatASuccessIs) {
+  // Words as they are wrapped, put together again.
+  const auto titles = [](std::vector<RunRecord> runs, const std::string& column) {
+    std::vector<CurveSetting> settings;
+    for (RunRecord& run : runs) {
+      run.metrics.names[1] = column;
+      settings.push_back({"heading", run.name, {run}});
+    }
+    CurveOptions options;
+    options.columns = {column};
+    std::string all;
+    for (const std::string& words : WordsOf(TrainingCurves(settings, options))) all += words + " ";
+    return all;
+  };
+  const RunRecord one_target = RunOf("a", {0.1, 0.5});
+  RunRecord trained_on = RunOf("b", {0.1, 0.5}), evaluated_on = RunOf("c", {0.1, 0.5});
+  trained_on.config.train.env.mission.training_length_s = 180;
+  evaluated_on.config.train.env.mission.length_s = 600;
+  for (const char* column : {"success_rate", "evaluation_success_rate"}) {
+    EXPECT_THAT(titles({one_target}, column), HasSubstr("reach their target"));
+    EXPECT_THAT(titles({one_target}, column), Not(HasSubstr("missions")));
+    EXPECT_THAT(titles({evaluated_on}, column), HasSubstr("missions flown to their end"));
+    EXPECT_THAT(titles({evaluated_on}, column), Not(HasSubstr("reach their target")));
+  }
+  EXPECT_THAT(titles({trained_on}, "success_rate"), HasSubstr("training missions flown to"));
+  EXPECT_THAT(titles({trained_on}, "evaluation_success_rate"), Not(HasSubstr("missions")));
+  EXPECT_THAT(titles({one_target, trained_on}, "success_rate"),
+              AllOf(HasSubstr("reach their target"), HasSubstr("missions flown to")));
 }
 
 TEST(TrainingCurvesTest, WhatIsShownInPercentIsLabelledSo) {
@@ -156,6 +188,13 @@ TEST(TrainingCurvesTest, EachTaskHasAPanel) {
         "one seed"}) {
     EXPECT_THAT(words, Contains(wanted));
   }
+}
+
+TEST(TrainingCurvesTest, ARunThatIsGivenTwiceIsNoSecondSeed) {
+  EXPECT_THAT(MessageOf([] {
+                SettingsOf({RunOf("runs/a", {0.1}), RunOf("runs/b/../a", {0.1})}, std::nullopt, {});
+              }),
+              HasSubstr("runs/b/../a: it is there twice"));
 }
 
 using Style = std::tuple<Colour, Dash, double>;

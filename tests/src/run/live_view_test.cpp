@@ -66,6 +66,12 @@ TEST(LiveView, SaysOfHowManyEpisodesASuccessIsIfTheyAreFew) {
   EXPECT_THAT(LiveView(progress, {79, false, false})[3], HasSubstr("success  43.1 %  __"));
 }
 
+TEST(LiveView, OfMissionsItSaysHowManyWereFlownToTheEnd) {
+  Progress progress = HalfWay();
+  progress.flies_missions = true;
+  EXPECT_THAT(LiveView(progress, {79, false, false})[3], HasSubstr("to end   43.1 %  __"));
+}
+
 TEST(LiveView, FitsEveryWidthWithAndWithoutColour) {
   for (const bool is_rich : {false, true}) {
     for (std::size_t width = 1; width <= 120; ++width) {

@@ -57,7 +57,7 @@ TEST(Progress, TheTightLineFits72Columns) {
 
 TEST(Progress, ASuccessOfFewEpisodesSaysOfHowMany) {
   const ProgressMeter::Clock::time_point start{};
-  ProgressMeter meter(0, 100, start);
+  ProgressMeter meter(0, 100, false, start);
   IterationReport report;
   const auto line = [&](std::uint64_t episodes, double success_rate, Spacing spacing) {
     report.episodes = episodes;
@@ -72,6 +72,18 @@ TEST(Progress, ASuccessOfFewEpisodesSaysOfHowMany) {
   EXPECT_NE(line(50, 0.5, Spacing::kWide).find("success 50.0 % |"), std::string::npos);
 }
 
+TEST(Progress, OfMissionsItSaysHowManyWereFlownToTheEnd) {
+  const ProgressMeter::Clock::time_point start{};
+  ProgressMeter meter(0, 100, true, start);
+  IterationReport report;
+  report.episodes = 50;
+  report.success_rate = 0.5;
+  meter.Add(report, start);
+  EXPECT_NE(FormatProgress(meter.progress()).find("| to the end 50.0 % |"), std::string::npos);
+  const std::string tight = FormatProgress(meter.progress(), Spacing::kTight);
+  EXPECT_NE(tight.find(" to the end 50.0% left"), std::string::npos);
+}
+
 TEST(Progress, WhatIsNotKnownYetIsADash) {
   Progress progress;
   progress.total_steps = 100;
@@ -84,7 +96,7 @@ TEST(Progress, WhatIsNotKnownYetIsADash) {
 TEST(Progress, RatesComeFromTheLastHalfMinute) {
   using std::chrono::seconds;
   const ProgressMeter::Clock::time_point start{};
-  ProgressMeter meter(1000, 1000000, start);
+  ProgressMeter meter(1000, 1000000, false, start);
   IterationReport report;
   report.return_mean = report.success_rate = std::nan("");
   // A slow start of 100 steps/s, then 1000 steps/s with a quarter of the time in rollouts.
@@ -107,7 +119,7 @@ TEST(Progress, RatesComeFromTheLastHalfMinute) {
 
 TEST(Progress, LatestKnownValuesStay) {
   const ProgressMeter::Clock::time_point start{};
-  ProgressMeter meter(0, 100, start);
+  ProgressMeter meter(0, 100, false, start);
   IterationReport report;
   report.env_steps = 10;
   report.return_mean = -5;
