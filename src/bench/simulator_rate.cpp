@@ -61,7 +61,7 @@ EnvConfig SpreadFlights() {
 /// Aircraft in trimmed flight with stick commands, tile behind tile in memory.
 class TrimmedFlock {
  public:
-  /// Made by the workers, so that pages are first touched where they are used.
+  /// Filled by the workers.
   TrimmedFlock(int count, WorkerPool& pool)
       : count_(count), columns_(static_cast<std::size_t>(num_tiles()) * kFloatsPerTile) {
     const EnvConfig config = SpreadFlights();

@@ -109,6 +109,16 @@ void RequireLevelStart(const CLI::App& command) {
   }
 }
 
+/// Throws UsageError on a condition that says where flights begin: the options do.
+void RequireStartOfOptions(const std::vector<std::string>& conditions) {
+  for (const std::string& condition : conditions) {
+    const std::string name = condition.substr(0, condition.find('='));
+    if (name != "high_speed" && name != "low_speed" && name != "high_altitude") continue;
+    throw UsageError(fmt::format(
+        "--condition {}: --altitude-ft and --speed-fps say where the flight begins", condition));
+  }
+}
+
 /// Throws ChoiceError that says why, if the environment has no steady flight to begin with.
 void RequireSteadyFlight(const EnvConfig& env) {
   if (!env.initial.trimmed) return;
@@ -170,6 +180,7 @@ void FlyAgents(const CLI::App& command, const AgentFlight& flight, FlownAgents f
     paths.push_back(names.size() == 1 ? flight.out : PathOfAgent(flight.out, name));
   }
   FlightOptions& options = flown.flight;
+  RequireStartOfOptions(options.conditions);
   if (command.get_option("--aircraft")->count() > 0) {
     options.aircraft = flight.condition.model.aircraft;
   }

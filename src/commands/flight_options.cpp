@@ -11,6 +11,7 @@
 
 #include "base/field_list.h"
 #include "base/number_text.h"
+#include "envs/task_registry.h"
 #include "src/agents/agent_names.h"
 #include "src/agents/policy_file.h"
 #include "src/commands/aircraft_option.h"
@@ -62,6 +63,17 @@ void RequireHeeded(const std::vector<std::string>& assignments,
       if (!why.empty()) throw UsageError(fmt::format("--set {}: {}", assignment, why));
     }
   }
+}
+
+/// Throws UsageError if a mission of evaluations is over before a target could count.
+void RequireRoomForTargets(const EnvConfig& env) {
+  const MissionConfig& mission = env.mission;
+  if (MakeTask(env)->is_point() || mission.length_s >= mission.dwell_s) return;
+  throw UsageError(
+      fmt::format("--mission: {} s are too short for any target, which counts after {} s "
+                  "(env.mission.dwell_s); "
+                  "the option takes minutes",
+                  ShortestText(mission.length_s), ShortestText(mission.dwell_s)));
 }
 
 }  // namespace
@@ -245,6 +257,7 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
     RequireOwnScale(base, flown);
     if (flown.train.env.aircraft == base.train.env.aircraft) RequireScaleOfTaskFile(flown);
     CheckFlyable(flown.train.env);
+    if (options.mission_min) RequireRoomForTargets(EvaluationConfig(flown.train.env));
     return flown;
   });
 }

@@ -45,7 +45,8 @@ std::optional<std::vector<double>> ReadSpaced(const std::string& text) {
   if (!spacing || !spacing->Fault().empty()) return std::nullopt;
   std::vector<double> numbers;
   for (int i = 0; i < static_cast<int>(spacing->Count()); ++i) {
-    numbers.push_back(spacing->from + i * spacing->step);
+    // As people would write it: 0.3 + 3 * 0.6 is 2.1, and not 2.0999999999999996.
+    numbers.push_back(*ReadNumber(fmt::format("{:.12g}", spacing->from + i * spacing->step)));
   }
   return numbers;
 }

@@ -16,6 +16,7 @@
 #include "base/choice_error.h"
 #include "base/error.h"
 #include "src/config/configuration.h"
+#include "src/files/shell_text.h"
 #include "src/run/require_run.h"
 #include "train/files/file_descriptor.h"
 
@@ -106,9 +107,9 @@ RunDirectory RunDirectory::Create(const std::string& path) {
   if (fs::exists(path, failure) && !(fs::is_directory(path) && fs::is_empty(path, failure))) {
     throw ChoiceError(
         IsRunDirectory(path)
-            ? fmt::format("{0}: holds a run already; continue it with --resume {0}, or "
+            ? fmt::format("{}: holds a run already; continue it with --resume {}, or "
                           "choose another --out",
-                          path)
+                          path, ShellWord(path))
             : fmt::format("{}: exists and is not an empty directory; choose another --out", path));
   }
   return RunDirectory(path);

@@ -220,7 +220,7 @@ Study ReadStudy(const std::string& path, const StudyChoice& choice) {
   Study study = ReadTable(table, path);
   Choose(choice, path, &study);
   RefuseEmptyAndTwice(study.tasks, path, "tasks");
-  RefuseEmptyAndTwice(study.seeds, path, "seeds");
+  RefuseEmptyAndTwice(study.seeds, choice.seeds.empty() ? path : "--seeds", "seeds");
   if (!study.agents.empty()) RefuseEmptyAndTwice(study.agents, path, "agents");
   std::vector<std::string> files;
   for (const StudyLevel& level : study.all_levels) files.push_back(FileNamePart(level.name));

@@ -136,6 +136,15 @@ TEST_F(EvaluationPipeline, MoreFlightsThanCanBeRecordedAreRefusedBeforeAnythingF
   EXPECT_EQ(result.output, "");
 }
 
+TEST_F(EvaluationPipeline, MissionsTooShortForATargetAreRefused) {
+  const ProgramResult result =
+      CallSkein(Evaluation(folder_ + "/result.json", {"--mission", "0.05"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.error,
+              HasSubstr("--mission: 3 s are too short for any target, which counts "
+                        "after 5 s (env.mission.dwell_s); the option takes minutes\n"));
+}
+
 TEST_F(EvaluationPipeline, FilesThatCannotBeWrittenAreAnErrorBeforeAnythingFlies) {
   constexpr std::size_t kLongestName = 255;
   // /proc gives root every right and makes no files.

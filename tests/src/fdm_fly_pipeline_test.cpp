@@ -383,6 +383,8 @@ TEST_F(FdmFly, WhatAgentsCannotFlySaysSo) {
       {autopilot + Words{"--step-s", "5"}, "--step-s: env.control_interval_s = 5 is out of range"},
       {autopilot + Words{"--seconds", "1.5e5"}, "5000000 are the most: lower --seconds"},
       {autopilot + Words{"--pull-up-g", "3"}, "begins in level flight"},
+      {autopilot + Words{"--condition", "high_altitude=40kft"},
+       "--altitude-ft and --speed-fps say where the flight begins"},
       {autopilot + Words{"--wind-fps", "0,0,3"}, "down must be 0"},
       {{"--agents", "pilot", "--task", "heading"}, "pilot"},
       {autopilot + Words{"--set", "ppo.epochs=3"}, "is for trainings"}};

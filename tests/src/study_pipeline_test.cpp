@@ -413,7 +413,7 @@ TEST_F(StudyPipeline, LevelsAndSeedsAreAddedByOption) {
   EXPECT_THAT(CallSkein(part).error, HasSubstr("was trained with another configuration"));
   for (const auto& [option, value, message] :
        {std::tuple{"--level", "quite", "no level is called quite; did you mean quiet?"},
-        std::tuple{"--seeds", "1,1", "seeds names 1 twice"},
+        std::tuple{"--seeds", "1,1", "error: --seeds: seeds names 1 twice"},
         std::tuple{"--seeds", "1.5", "--seeds"}}) {
     part = Command(out);
     part.insert(part.end(), {option, value});

@@ -24,6 +24,11 @@ bool IsRewardWeight(const std::string& key) {
   return is_of_handling || EndsWith(key, "_weight") || EndsWith(key, "_reward");
 }
 
+/// "; KEY = VALUE" of what multiplies them; empty if that is 1.
+std::string ScaleOfRewards(const EnvConfig& env) {
+  return env.reward_scale == 1 ? "" : "; env.reward_scale = " + ShortestText(env.reward_scale);
+}
+
 /// "KEY = VALUE" of the weight that is largest in magnitude, of those that this task reads.
 std::string LargestWeight(TrainConfig config) {
   std::string name;
@@ -55,7 +60,7 @@ void RequireUsableRewards(const TrainConfig& config, const std::vector<float>& r
     if (IsUsable(rewards[i]) || !IsUsable(values[i])) continue;
     throw Error("a step's reward is " + std::to_string(rewards[i]) +
                 ": too large to learn from; the largest weight of the reward is " +
-                LargestWeight(config));
+                LargestWeight(config) + ScaleOfRewards(config.env));
   }
 }
 

@@ -55,6 +55,11 @@ TEST(RewardCheck, NamesTheWeightThatIsLargestInMagnitude) {
               EndsWith("is env.termination.failure_reward = -10000"));
 }
 
+TEST(RewardCheck, NamesWhatMultipliesTheWeightsIfItIsNotOne) {
+  EXPECT_THAT(Blamed([](EnvConfig* env) { env->reward_scale = 1e18; }),
+              EndsWith("; env.reward_scale = 1e+18"));
+}
+
 TEST(RewardCheck, NamesTheTermOfATaskFile) {
   EXPECT_THAT(Blamed([](EnvConfig* env) {
                 auto task = std::make_shared<TermTaskConfig>();
