@@ -29,8 +29,8 @@ void ListFields(InitialConfig& config, FieldList& list) {
       .TrainingOnly()
       .OffUnless(config.training_climb_max_deg > 0);
   list.Add("training_load_factor_max", &config.training_load_factor_max, {1, 9},
-           "in training flights begin in a pull of up to so many g, and seven tenths of "
-           "env.termination.max_load_factor_g; 1: in none")
+           "in training flights begin in a pull of up to so many g, but no more than seven tenths "
+           "of env.termination.max_load_factor_g; 1: in none")
       .TrainingOnly()
       .OffUnless(config.training_load_factor_max > 1);
   list.AddRange("true_airspeed", "fps", &config.true_airspeed_fps,

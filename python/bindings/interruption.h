@@ -25,13 +25,13 @@ inline void RaiseSignal(int signal) {
 }
 
 /// Does long work on the pool without the interpreter's lock, and returns what it does. Ctrl-C
-/// stops the pool, and then ends the work as it ends Python's own. SIGUSR1 is left to the work, and
-/// to Python.
+/// stops the pool, and then ends the work as it ends Python's own. `save` is whether SIGUSR1 is the
+/// work's, or left to Python.
 template <typename Work>
-auto Unlocked(WorkerPool& pool, const Work& work) {
+auto Unlocked(WorkerPool& pool, SaveSignal save, const Work& work) {
   int stop_signal = 0;
   auto result = [&] {
-    const RunSignals signals(pool, SaveSignal::kLeft);
+    const RunSignals signals(pool, save);
     HandleSignals();  // that came before
     const nanobind::gil_scoped_release released;
     auto done = work();
@@ -46,7 +46,7 @@ auto Unlocked(WorkerPool& pool, const Work& work) {
 /// of which Python's handler raised nothing.
 template <typename Work>
 auto UnlockedAsWhole(WorkerPool& pool, const Work& work) {
-  auto result = Unlocked(pool, work);
+  auto result = Unlocked(pool, SaveSignal::kLeft, work);
   if (pool.stopping()) {
     throw Error("stopped by a signal, whose handler raised nothing: there is no result");
   }

@@ -61,7 +61,8 @@ void TrainUnlocked(const nb::object& callback, bool progress, WorkerPool& pool, 
     };
   }
   // Its own signals are those of the run; what comes before it begins stops it, too.
-  const int stop_signal = Unlocked(pool, [&] { return work(std::move(watch)); });
+  const int stop_signal =
+      Unlocked(pool, SaveSignal::kTaken, [&] { return work(std::move(watch)); });
   if (failure) std::rethrow_exception(failure);
   RaiseSignal(stop_signal);
 }

@@ -61,6 +61,13 @@ def test_ctrl_c_is_a_keyboard_interrupt(call, delay, tmp_path):
     assert float(times[1][0]) - float(times[0][0]) < MOST_SECONDS
 
 
+TINY = {
+    "network.hidden_size": 16, "network.gru_size": 16, "ppo.num_aircraft": 64, "ppo.rollout_steps": 16,
+    "ppo.chunk_length": 8, "ppo.minibatches": 2, "run.total_steps": 6 * 64 * 16 * 5, "evaluation.final_episodes": 8,
+    "evaluation.interval_iterations": 0,
+}
+
+
 @pytest.fixture
 def sigint_as_python_has_it():
     """Which it is not in what a shell runs in the background."""
@@ -70,20 +77,13 @@ def sigint_as_python_has_it():
 
 
 def test_an_interrupted_training_is_resumed_to_the_same_bits(tmp_path, sigint_as_python_has_it):
-    tiny = {
-        "network.hidden_size": 16, "network.gru_size": 16, "ppo.num_aircraft": 64, "ppo.rollout_steps": 16,
-        "ppo.chunk_length": 8,
-        "ppo.minibatches": 2, "run.total_steps": 6 * 64 * 16 * 5, "evaluation.final_episodes": 8,
-        "evaluation.interval_iterations": 0,
-    }
-
     def interrupted(row):
         if row["iteration"] == 2:
             os.kill(os.getpid(), signal.SIGINT)
 
-    whole = skein.train("heading", tmp_path / "whole", **tiny)
+    whole = skein.train("heading", tmp_path / "whole", **TINY)
     with pytest.raises(KeyboardInterrupt):
-        skein.train("heading", tmp_path / "cut", callback=interrupted, **tiny)
+        skein.train("heading", tmp_path / "cut", callback=interrupted, **TINY)
     cut = skein.Run(tmp_path / "cut")
     assert cut.evaluation is None
     seen = []
@@ -101,6 +101,7 @@ def handled_in(work, number):
     try:
         timer.start()
         work()
+        assert not timer.is_alive(), "the work was over before the signal"
     finally:
         timer.join()
         signal.signal(number, before)
@@ -110,9 +111,9 @@ def handled_in(work, number):
 @pytest.mark.parametrize(
     "work",
     [
-        lambda: skein.evaluate("autopilot", "heading", episodes=10**5),
-        lambda: skein.compare(["autopilot", "zero"], "heading", episodes=10**5),
-        lambda: skein.record("autopilot", "heading", count=1000),
+        lambda: skein.evaluate("autopilot", "heading", episodes=10**5, threads=1),
+        lambda: skein.compare(["autopilot", "zero"], "heading", episodes=10**5, threads=1),
+        lambda: skein.record("autopilot", "heading", count=1000, threads=1),
     ],
 )
 def test_what_a_handler_lets_be_stopped_is_no_result(work):
@@ -124,16 +125,22 @@ def test_what_a_handler_lets_be_stopped_is_no_result(work):
 
 
 def test_a_training_that_a_handler_lets_be_stopped_is_a_run_that_can_go_on(tmp_path):
-    runs = []
-    assert handled_in(lambda: runs.append(skein.train("heading", tmp_path / "run")), signal.SIGTERM) == [signal.SIGTERM]
-    assert runs[0].evaluation is None
+    seen = []
+    before = signal.signal(signal.SIGTERM, lambda number, frame: seen.append(number))
+    try:
+        run = skein.train("heading", tmp_path / "run", callback=lambda row: os.kill(os.getpid(), signal.SIGTERM), **TINY)
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert seen == [signal.SIGTERM]
+    assert run.evaluation is None
+    assert run.resume().evaluation is not None
 
 
 def test_sigusr1_is_left_to_pythons_handler():
     results = []
 
     def evaluate():
-        results.append(skein.evaluate("autopilot", "heading", episodes=5000, threads=1))
+        results.append(skein.evaluate("autopilot", "heading", episodes=20000, threads=1))
 
     assert handled_in(evaluate, signal.SIGUSR1) == [signal.SIGUSR1]
     assert results[0].success_rate > 0.99

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <set>
@@ -13,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "envs/aircraft/registry.h"
 #include "envs/env_config.h"
 #include "envs/initial_config.h"
 #include "envs/task_registry.h"
@@ -105,8 +107,10 @@ Assignments Noisy(const LevelRequest& request, const std::string& level) {
 /// A sector of bearings, clockwise: one whose end is the smaller goes across north.
 Range ParseSector(const std::string& text, const LevelRequest& request) {
   const auto [begin, end] = SplitRange(text);
+  constexpr double kTurn = 360;  // bearings lie within one to either side
   Range sector{ParseNumber(begin, kAngleUnits, request), ParseNumber(end, kAngleUnits, request)};
-  if (sector.min > sector.max) sector.min -= 360;
+  if (std::abs(sector.min) > kTurn || std::abs(sector.max) > kTurn) request.Refuse(text);
+  if (sector.min > sector.max) (sector.min >= 0 ? sector.min -= kTurn : sector.max += kTurn);
   return sector;
 }
 
@@ -163,12 +167,13 @@ struct Condition {
   const char* mild;
   const char* middle;
   const char* hard;
-  bool can_be_held;
+  bool can_be_held, takes_parts;
   Assignments (*assign)(const LevelRequest& request, const std::string& level);
 
-  /// `level` with what its name stands for in the place of that; parts may follow it.
+  /// `level` with what its name stands for in the place of that; parts may follow it if they may
+  /// follow each other.
   std::string LevelText(const std::string& level) const {
-    const std::size_t end = std::min(level.find(','), level.size());
+    const std::size_t end = takes_parts ? std::min(level.find(','), level.size()) : level.size();
     const std::string word = level.substr(0, end);
     for (const auto& [known, text] :
          {std::pair("mild", mild), {"middle", middle}, {"hard", hard}}) {
@@ -183,20 +188,20 @@ const std::vector<Condition>& Conditions() {
       {"high_speed",
        "an initial Mach number or range (1.2, 1.2..1.4) or mild, middle, hard; "
        "with ,held behind it no target speed is lower",
-       "1.0..1.2", "1.2..1.4", "1.4..1.8", true, Airspeed},
+       "1.0..1.2", "1.2..1.4", "1.4..1.8", true, false, Airspeed},
       {"low_speed", "an initial Mach number or range (0.7, 0.6..0.8) or mild, middle, hard",
-       "0.8..1.0", "0.65..0.8", "0.5..0.65", false, Airspeed},
+       "0.8..1.0", "0.65..0.8", "0.5..0.65", false, false, Airspeed},
       {"high_altitude",
        "an initial altitude or range (32kft, 30..35kft) or mild, middle, hard; "
        "with ,held behind it no target altitude is lower",
-       "30..35kft", "35..40kft", "40..45kft", true, HighAltitude},
+       "30..35kft", "35..40kft", "40..45kft", true, false, HighAltitude},
       {"windy",
        "a steady wind and turbulence by severity, each alone or a range (60fps,moderate; "
        "0..120fps,light..severe; sigma=5fps,from=270deg) or mild, middle, hard (hard,from=270deg)",
-       "60fps,light", "120fps,moderate", "200fps,severe", false, Windy},
+       "60fps,light", "120fps,moderate", "200fps,severe", false, true, Windy},
       {"noisy", "a standard deviation or range (0.03, 0.01..0.05) or mild, middle, hard", "0.02",
-       "0.05", "0.1", false, Noisy},
-      {"plant", kPlantForm, "0.5", "1", "1.5", false, PlantAssignments}};
+       "0.05", "0.1", false, false, Noisy},
+      {"plant", kPlantForm, "0.5", "1", "1.5", false, false, PlantAssignments}};
   return conditions;
 }
 
@@ -311,10 +316,10 @@ std::string DescribeConditions(const EnvConfig& env) {
     air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
     if (wind.rotational_gusts) air += ", rotational gusts";
   }
-  const EnvConfig usual;
   if (env.flight_control == FlightControlMode::kDirect) air += "; direct flight control";
-  if (env.cg != usual.cg) air += fmt::format("; cg at {:.6g} of the chord", env.cg);
-  if (env.gravity.at_sea_level_ft_s2 != usual.gravity.at_sea_level_ft_s2) {
+  if (env.cg != LoadAircraft(env.aircraft).airframe.cg)
+    air += fmt::format("; cg at {:.6g} of the chord", env.cg);
+  if (env.gravity.at_sea_level_ft_s2 != Gravity().at_sea_level_ft_s2) {
     air += fmt::format("; gravity of {:.6g} ft/s^2", env.gravity.at_sea_level_ft_s2);
   }
   const std::string plant = DescribePlant(env.plant);

@@ -108,6 +108,8 @@ void TextTable::Cell(const std::string& cell) {
   line_ += fmt::format("{:>{}}", cell, std::max(cell_width_, cell.size() + kGap));
 }
 
+void TextTable::Name(const std::string& name) { Cell(EndOf(name, cell_width_)); }
+
 void TextTable::End() {
   line_.erase(line_.find_last_not_of(' ') + 1);
   *text_ += line_ + "\n";

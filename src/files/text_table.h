@@ -34,6 +34,8 @@ class TextTable {
   void Headings(const std::vector<std::string>& names);
   void Begin(const std::string& label);
   void Cell(const std::string& cell);
+  /// A cell that is cut as a label is.
+  void Name(const std::string& name);
   void End();
 
  private:

@@ -119,8 +119,8 @@ std::string SuccessLine(const Progress& p, const TerminalStyle& style) {
   line.Add(Percent(p.success_rate, 1) + OfHowMany(p));
   std::string evaluated;
   if (p.evaluation_success_rate >= 0) {
-    evaluated = fmt::format("evaluated {}, best {}", Percent(p.evaluation_success_rate, 1),
-                            Percent(p.best_evaluation, 1));
+    evaluated = fmt::format("{} {}, best {}", EvaluatedWords(p),
+                            Percent(p.evaluation_success_rate, 1), Percent(p.best_evaluation, 1));
   }
   const std::size_t kept = evaluated.empty() ? 0 : evaluated.size() + 2;
   const std::size_t room = line.Room() > kept ? line.Room() - kept : line.Room();

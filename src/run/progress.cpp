@@ -59,6 +59,11 @@ std::string OfHowMany(const Progress& p) {
   return is_few ? fmt::format(" of {}", p.success_episodes) : "";
 }
 
+std::string EvaluatedWords(const Progress& p) {
+  const bool is_of_other = p.flies_missions && !p.evaluates_missions;
+  return is_of_other ? "evaluated success" : "evaluated";
+}
+
 std::string FormatProgress(const Progress& p, Spacing spacing) {
   const double done = static_cast<double>(p.env_steps), total = static_cast<double>(p.total_steps);
   const bool known = p.steps_per_s > 0;
@@ -78,17 +83,18 @@ std::string FormatProgress(const Progress& p, Spacing spacing) {
   return fmt::format(
       "{} steps ({}) | {} steps/s | rollout {} update {} | return {} | {}{} | left {}", steps,
       Percent(done / total, spacing, 1), rate, rollout, update, mean_return, success,
-      p.evaluation_success_rate < 0
-          ? ""
-          : fmt::format(" (evaluated {})", Percent(p.evaluation_success_rate, spacing, 1)),
+      p.evaluation_success_rate < 0 ? ""
+                                    : fmt::format(" ({} {})", EvaluatedWords(p),
+                                                  Percent(p.evaluation_success_rate, spacing, 1)),
       left);
 }
 
 ProgressMeter::ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps,
-                             bool flies_missions, Clock::time_point start)
+                             const EnvConfig& env, Clock::time_point start)
     : start_(start) {
   progress_.env_steps = env_steps;
-  progress_.flies_missions = flies_missions;
+  progress_.flies_missions = env.mission.enabled();
+  progress_.evaluates_missions = EvaluationConfig(env).mission.enabled();
   progress_.total_steps = total_steps;
   progress_.return_mean = progress_.success_rate = std::nan("");
   samples_.push_back({start, env_steps, 0, 0, {}});

@@ -29,6 +29,7 @@ struct Progress {
   double return_mean = 0, success_rate = 0;  ///< NaN: no episode has ended yet
   std::uint64_t success_episodes = 0;        ///< that success_rate is of
   bool flies_missions = false;               ///< success_rate is of flights flown to the end
+  bool evaluates_missions = false;           ///< the same of evaluation_success_rate
   double evaluation_success_rate = -1;       ///< latest; negative: none yet
   double best_evaluation = -1;               ///< of those this process has seen
   std::uint64_t iteration = 0;               ///< of the run
@@ -44,6 +45,9 @@ double SecondsLeft(const Progress& progress);
 /// " of 3" if success_rate is of so few episodes that it says little; else nothing.
 std::string OfHowMany(const Progress& progress);
 
+/// "evaluated", and of what if training's success is of something else.
+std::string EvaluatedWords(const Progress& progress);
+
 /// One line: steps and budget, steps per second, shares of time, mean return, success, time left.
 /// The tight one fits 72 columns and leaves shares and evaluation out.
 std::string FormatProgress(const Progress& progress, Spacing spacing = Spacing::kWide);
@@ -54,9 +58,8 @@ class ProgressMeter {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `env_steps`: where this process begins (above 0 when resumed); `flies_missions`: what is
-  /// trained on are flights of many targets.
-  ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps, bool flies_missions,
+  /// `env_steps`: where this process begins (above 0 when resumed); `env`: what is trained on.
+  ProgressMeter(std::uint64_t env_steps, std::uint64_t total_steps, const EnvConfig& env,
                 Clock::time_point start);
 
   void Add(const IterationReport& report, Clock::time_point now);

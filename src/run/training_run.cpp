@@ -263,8 +263,7 @@ void TrainingRun::SayBanner() {
 void TrainingRun::TrainAndEvaluate() {
   const std::uint64_t first_step = trainer_.env_steps();
   const Clock::time_point start = Clock::now();
-  ProgressMeter meter(first_step, LastStep(config_.train), config_.train.env.mission.enabled(),
-                      start);
+  ProgressMeter meter(first_step, LastStep(config_.train), config_.train.env, start);
   turn_.start = SecondsSince(turn_begin_);
   std::string dropped;
   while (!trainer_.finished() && !pool_.stopping()) {

@@ -134,7 +134,7 @@ std::string StudyText(const Json& results, const std::vector<Quantity>& quantiti
     table.Begin(quantity.label);
     table.Cell(fmt::format("trained ({})", Counted(static_cast<int>(trained), "seed")));
     for (std::size_t i = trained; i < first["agents"].size(); ++i) {
-      table.Cell(first["agents"][i]["name"].get<std::string>());
+      table.Name(first["agents"][i]["name"].get<std::string>());
     }
     table.End();
     for (const Json& result : results) {

@@ -92,6 +92,10 @@ TEST(Conditions, ASectorOfWindsGoesClockwiseAcrossNorth) {
   const Range other = Under({"windy=60fps,from=10..350deg"}).wind.from_deg;
   EXPECT_EQ(other.min, 10);
   EXPECT_EQ(other.max, 350);
+  const Range nearly_all = Under({"windy=60fps,from=-10..-20deg"}).wind.from_deg;
+  EXPECT_EQ(nearly_all.min, -10);
+  EXPECT_EQ(nearly_all.max, 340);
+  EXPECT_THAT(Complaint({"windy=60fps,from=400..20deg"}), HasSubstr("cannot read \"400..20deg\""));
 }
 
 TEST(Conditions, ANamedWindMayHaveADirection) {
@@ -101,7 +105,7 @@ TEST(Conditions, ANamedWindMayHaveADirection) {
   EXPECT_EQ(wind.from_deg.min, 270);
   EXPECT_EQ(wind.from_deg.max, 270);
   EXPECT_THAT(Complaint({"windy=hard,light"}), HasSubstr("cannot read \"light\""));
-  EXPECT_THAT(Complaint({"noisy=hard,0.1"}), HasSubstr("cannot read"));
+  EXPECT_THAT(Complaint({"plant=hard,mass:1.1"}), HasSubstr("cannot read \"hard\""));
 }
 
 TEST(Conditions, WhatDiffersFromTheUsualIsSaid) {
@@ -116,6 +120,10 @@ TEST(Conditions, WhatDiffersFromTheUsualIsSaid) {
   EXPECT_THAT(DescribeConditions(env),
               HasSubstr("; turbulence of 21 ft/s, rotational gusts; direct flight control; cg at "
                         "0.25 of the chord; gravity of 20 ft/s^2; noise"));
+  const std::string other = SKEIN_SOURCE "/examples/aircraft/stevens_lewis_f16.json";
+  const EnvConfig own =
+      ResolveConfig({"heading", "default", "", {"env.aircraft=\"" + other + "\""}}).train.env;
+  EXPECT_THAT(DescribeConditions(own), Not(HasSubstr("cg at"))) << "its own";
 }
 
 TEST(Conditions, WhereTrainingAloneBeginsIsSaid) {

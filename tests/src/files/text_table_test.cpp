@@ -74,8 +74,9 @@ TEST(TextTableTest, CellsAreWholeAndLabelsCut) {
   table.Cell("1.2 +- 0.1");
   table.Cell("-119.96 +- 9.59");
   table.Cell("3");
+  table.Name("a name of some length");
   table.End();
-  EXPECT_EQ(text, "..e, deg/s    1.2 +- 0.1  -119.96 +- 9.59           3\n");
+  EXPECT_EQ(text, "..e, deg/s    1.2 +- 0.1  -119.96 +- 9.59           3  ..e length\n");
 }
 
 TEST(TextTableTest, HeadingsShowNamesWhole) {

@@ -57,7 +57,7 @@ TEST(Progress, TheTightLineFits72Columns) {
 
 TEST(Progress, ASuccessOfFewEpisodesSaysOfHowMany) {
   const ProgressMeter::Clock::time_point start{};
-  ProgressMeter meter(0, 100, false, start);
+  ProgressMeter meter(0, 100, {}, start);
   IterationReport report;
   const auto line = [&](std::uint64_t episodes, double success_rate, Spacing spacing) {
     report.episodes = episodes;
@@ -74,12 +74,17 @@ TEST(Progress, ASuccessOfFewEpisodesSaysOfHowMany) {
 
 TEST(Progress, OfMissionsItSaysHowManyWereFlownToTheEnd) {
   const ProgressMeter::Clock::time_point start{};
-  ProgressMeter meter(0, 100, true, start);
+  EnvConfig env;
+  env.mission.training_length_s = 180;
+  ProgressMeter meter(0, 100, env, start);
   IterationReport report;
   report.episodes = 50;
   report.success_rate = 0.5;
+  report.evaluation_success_rate = 0.97;
   meter.Add(report, start);
-  EXPECT_NE(FormatProgress(meter.progress()).find("| to the end 50.0 % |"), std::string::npos);
+  EXPECT_NE(
+      FormatProgress(meter.progress()).find("| to the end 50.0 % (evaluated success 97.0 %) |"),
+      std::string::npos);
   const std::string tight = FormatProgress(meter.progress(), Spacing::kTight);
   EXPECT_NE(tight.find(" to the end 50.0% left"), std::string::npos);
 }
@@ -96,7 +101,7 @@ TEST(Progress, WhatIsNotKnownYetIsADash) {
 TEST(Progress, RatesComeFromTheLastHalfMinute) {
   using std::chrono::seconds;
   const ProgressMeter::Clock::time_point start{};
-  ProgressMeter meter(1000, 1000000, false, start);
+  ProgressMeter meter(1000, 1000000, {}, start);
   IterationReport report;
   report.return_mean = report.success_rate = std::nan("");
   // A slow start of 100 steps/s, then 1000 steps/s with a quarter of the time in rollouts.
@@ -119,7 +124,7 @@ TEST(Progress, RatesComeFromTheLastHalfMinute) {
 
 TEST(Progress, LatestKnownValuesStay) {
   const ProgressMeter::Clock::time_point start{};
-  ProgressMeter meter(0, 100, false, start);
+  ProgressMeter meter(0, 100, {}, start);
   IterationReport report;
   report.env_steps = 10;
   report.return_mean = -5;
