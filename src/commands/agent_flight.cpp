@@ -10,6 +10,7 @@
 #include "base/field_list.h"
 #include "base/number_text.h"
 #include "envs/aircraft/aircraft.h"
+#include "src/config/conditions.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/flight_summary.h"
 #include "src/fdm/fdm_plant.h"
@@ -112,10 +113,11 @@ void RequireLevelStart(const CLI::App& command) {
 /// Throws UsageError on a condition that says where flights begin: the options do.
 void RequireStartOfOptions(const std::vector<std::string>& conditions) {
   for (const std::string& condition : conditions) {
-    const std::string name = condition.substr(0, condition.find('='));
-    if (name != "high_speed" && name != "low_speed" && name != "high_altitude") continue;
-    throw UsageError(fmt::format(
-        "--condition {}: --altitude-ft and --speed-fps say where the flight begins", condition));
+    for (const std::string& key : AsUsage([&] { return ConditionAssignments({condition}); })) {
+      if (key.rfind("env.initial.", 0) != 0) continue;
+      throw UsageError(fmt::format(
+          "--condition {}: --altitude-ft and --speed-fps say where the flight begins", condition));
+    }
   }
 }
 

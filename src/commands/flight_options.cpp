@@ -71,8 +71,7 @@ void RequireRoomForTargets(const EnvConfig& env) {
   if (MakeTask(env)->is_point() || mission.length_s >= mission.dwell_s) return;
   throw UsageError(
       fmt::format("--mission: {} s are too short for any target, which counts after {} s "
-                  "(env.mission.dwell_s); "
-                  "the option takes minutes",
+                  "(env.mission.dwell_s); the option takes minutes",
                   ShortestText(mission.length_s), ShortestText(mission.dwell_s)));
 }
 

@@ -108,10 +108,12 @@ Assignments Noisy(const LevelRequest& request, const std::string& level) {
 Range ParseSector(const std::string& text, const LevelRequest& request) {
   const auto [begin, end] = SplitRange(text);
   constexpr double kTurn = 360;  // bearings lie within one to either side
-  Range sector{ParseNumber(begin, kAngleUnits, request), ParseNumber(end, kAngleUnits, request)};
+  const Range sector{ParseNumber(begin, kAngleUnits, request),
+                     ParseNumber(end, kAngleUnits, request)};
   if (std::abs(sector.min) > kTurn || std::abs(sector.max) > kTurn) request.Refuse(text);
-  if (sector.min > sector.max) (sector.min >= 0 ? sector.min -= kTurn : sector.max += kTurn);
-  return sector;
+  if (sector.min <= sector.max) return sector;
+  return sector.min >= 0 ? Range{sector.min - kTurn, sector.max}
+                         : Range{sector.min, sector.max + kTurn};
 }
 
 Assignments Windy(const LevelRequest& request, const std::string& level) {
@@ -317,8 +319,9 @@ std::string DescribeConditions(const EnvConfig& env) {
     if (wind.rotational_gusts) air += ", rotational gusts";
   }
   if (env.flight_control == FlightControlMode::kDirect) air += "; direct flight control";
-  if (env.cg != LoadAircraft(env.aircraft).airframe.cg)
+  if (env.cg != LoadAircraft(env.aircraft).airframe.cg) {
     air += fmt::format("; cg at {:.6g} of the chord", env.cg);
+  }
   if (env.gravity.at_sea_level_ft_s2 != Gravity().at_sea_level_ft_s2) {
     air += fmt::format("; gravity of {:.6g} ft/s^2", env.gravity.at_sea_level_ft_s2);
   }
