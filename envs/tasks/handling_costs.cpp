@@ -129,7 +129,7 @@ void ListFields(HandlingCosts& config, FieldList& list) {
   add("outside_tolerances", &config.outside_tolerances,
       "reward lost per control step outside them: a price on time");
   add("before_reached", &config.before_reached,
-      "the same until the target counts as reached, and not while it is held");
+      "the same until the target counts as reached, and not while it is held; in missions always");
   add("action_change", &config.action_change,
       "reward lost per policy step and squared change of each action but the throttle");
 }
