@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -24,9 +25,24 @@ struct ExportOptions {
   std::string flight_control;
   std::string aircraft = "f16";
   std::string out;
+  std::string name;
   bool check = false;
   CLI::Option* aircraft_option = nullptr;
 };
+
+constexpr char kLetters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
+/// What C, ONNX and TorchScript take as a name.
+CLI::Validator IsIdentifier() {
+  return {[](const std::string& name) {
+            const bool is_one =
+                std::strchr(kLetters, name.front()) != nullptr &&
+                name.find_first_not_of(std::string(kLetters) + "0123456789_") == std::string::npos;
+            return is_one ? ""
+                          : name + " is no name: letters, digits and underscores, a letter first";
+          },
+          "", "identifier"};
+}
 
 /// Of the files of each form.
 constexpr std::pair<ExportForm, const char*> kEndings[] = {
@@ -69,7 +85,8 @@ std::vector<std::string> Export(ExportOptions options) {
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }
   if (options.policy.empty()) throw UsageError("a policy file or the directory of a run is needed");
-  return ExportPolicy({options.policy, ChooseForm(options), options.out, options.check, file});
+  return ExportPolicy(
+      {options.policy, ChooseForm(options), options.out, options.check, file, options.name});
 }
 
 std::vector<std::string> FormNames() {
@@ -95,11 +112,18 @@ void AddExportCommand(CLI::App* app) {
                        "PyTorch's names, or one C99 header (default: by the name of the file, "
                        ".onnx, .safetensors or .h)")
           ->check(OneOf(FormNames()));
+  CLI::Option* name = command
+                          ->add_option("--name", options->name,
+                                       "what functions and arrays in C begin with, and what the "
+                                       "model is called (default: the policy's task)")
+                          ->check(IsIdentifier())
+                          ->type_name("NAME");
   command
       ->add_option("--flight-control", options->flight_control,
                    "write the flight control laws that the policy flies through, as one C99 header")
       ->check(OneOf(std::vector<std::string>{"c"}))
-      ->excludes(format);
+      ->excludes(format)
+      ->excludes(name);
   options->aircraft_option =
       command
           ->add_option("--aircraft", options->aircraft,

@@ -58,7 +58,7 @@ std::string Check(ExportForm form, const std::string& bytes, const ExportedPolic
   const double error = LargestError(trace, Fly(form, bytes, exported, trace, flyer));
   std::string found =
       fmt::format("{} policy steps of task {} in {} flights, by {}: actions within {:.1e}",
-                  trace.steps(), exported.name, kExportFlights, flyer, error);
+                  trace.steps(), exported.interface.env.task, kExportFlights, flyer, error);
   RequireNear(error, found);
   return found;
 }
@@ -92,8 +92,10 @@ std::vector<std::string> LeftByEarlier(const std::vector<Output>& outputs,
 }
 
 Exported ExportOne(const PolicyExport& options, const RecurrentPolicy& policy,
-                   const std::string& run, const std::string& who, const std::string& out) {
+                   const std::string& run, const std::string& who, const std::string& out,
+                   const std::string& suffix = "") {
   Exported one{PrepareExport(policy, who, VersionText(), TermTaskOf(policy, who)), {out, ""}, ""};
+  if (!options.name.empty()) one.policy.name = options.name + suffix;
   const PolicyTrace trace = RecordExportFlights(run, policy, one.policy.interface.env);
   one.output.bytes = Encode(options.form, one.policy, trace, kExportSteps);
   if (options.check) one.checked = Check(options.form, one.output.bytes, one.policy, trace);
@@ -121,8 +123,8 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
   std::vector<Exported> parts = {ExportOne(options, policy, options.policy, path, options.out)};
   if (low_level != nullptr) {
     // A run of the high-level policy says nothing of flights of the Control task.
-    parts.push_back(
-        ExportOne(options, *low_level, path, path + "'s low-level policy", low_level_out));
+    parts.push_back(ExportOne(options, *low_level, path, path + "'s low-level policy",
+                              low_level_out, "_low_level"));
   }
   std::vector<Output> outputs;
   std::vector<std::string> lines;
@@ -130,11 +132,13 @@ std::vector<std::string> ExportPolicy(const PolicyExport& options) {
                             FitInOneGraph(parts[0].policy, parts[1].policy);
   if (is_one_graph) {
     outputs.push_back({combined_out, OnnxHierarchy(parts[0].policy, parts[1].policy)});
-    lines.push_back(fmt::format("wrote     {} (both in one graph)", combined_out));
+    lines.push_back(fmt::format("wrote     {} (both in one graph{})", combined_out,
+                                options.check ? "; --check flies each of them, not this" : ""));
   }
   for (const Exported& part : parts) {
     outputs.push_back(part.output);
-    lines.push_back(fmt::format("wrote     {} (task {})", part.output.path, part.policy.name));
+    lines.push_back(
+        fmt::format("wrote     {} (task {})", part.output.path, part.policy.interface.env.task));
     if (options.check) lines.push_back("checked   " + part.checked);
   }
   if (policy.low_level() != nullptr) {

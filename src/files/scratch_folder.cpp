@@ -18,7 +18,7 @@ namespace {
 
 /// Of what a program complained of the line that says most: a first error that calls itself one,
 /// else the line below a rule, which is where mpirun begins, else the last line, which is where
-/// Python names its exception.
+/// Python names its exception; empty if it said nothing.
 std::string Essence(const std::string& complaint) {
   std::istringstream lines(complaint);
   std::string last, below_rule;
@@ -49,7 +49,8 @@ void RunShell(const std::string& line, const ScratchFolder& folder, const std::s
   const std::string errors = folder / "errors";
   const int code = std::system(("{ " + line + "; } 2>" + SingleQuoted(errors)).c_str());
   if (code == 0) return;
-  throw Error(what + ": " + Essence(ReadFile(errors)));
+  const std::string complaint = Essence(ReadFile(errors));
+  throw Error(what + ": " + (complaint.empty() ? "it failed without a word" : complaint));
 }
 
 }  // namespace skein

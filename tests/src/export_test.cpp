@@ -17,6 +17,7 @@
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/tolerance.h"
+#include "tests/train/libtorch.h"
 #include "train/export/c_flight_control.h"
 #include "train/export/c_policy.h"
 #include "train/export/onnx_policy.h"
@@ -80,19 +81,23 @@ Flown FlyMadeUp(const NetworkConfig& config) {
   return flown;
 }
 
-/// Networks that differ from the usual one in every part.
-std::vector<NetworkConfig> OddNetworks() {
+/// Networks that differ from the usual one in every part but the activation.
+NetworkConfig SmallNetwork() {
   NetworkConfig small;
   small.hidden_layers = 1;
   small.hidden_size = 24;
   small.gru_size = 17;
   small.tanh_mean = false;
   small.actor_head_scale = 2;
-  NetworkConfig deep = small;
+  return small;
+}
+
+NetworkConfig DeepNetwork() {
+  NetworkConfig deep = SmallNetwork();
   deep.hidden_layers = 0;
   deep.gru_layers = 3;
   deep.tanh_mean = true;
-  return {small, deep};
+  return deep;
 }
 
 /// What flies a form: a compiler, a Python, or LibTorch.
@@ -165,7 +170,17 @@ TEST_P(Exported, ActsAsTheShippedPolicies) {
 }
 
 TEST_P(Exported, KnowsNetworksOfOtherSizes) {
-  for (const NetworkConfig& config : OddNetworks()) {
+  for (const NetworkConfig& config : {SmallNetwork(), DeepNetwork()}) {
+    if (!ExpectTheSameActions(FlyMadeUp(config))) GTEST_SKIP() << missing_;
+  }
+}
+
+TEST_P(Exported, KnowsEveryActivation) {
+  SKEIN_SKIP_WITHOUT_LIBTORCH();
+  for (const auto& [activation, name] : kActivationNames) {
+    SCOPED_TRACE(name);
+    NetworkConfig config = SmallNetwork();
+    config.activation = activation;
     if (!ExpectTheSameActions(FlyMadeUp(config))) GTEST_SKIP() << missing_;
   }
 }
@@ -175,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(By, Exported, ::testing::ValuesIn(Flyers()),
 
 TEST(CExport, TellsADifferenceByItsOwnTest) {
   if (!Has("cc")) GTEST_SKIP() << "needs cc";
-  Flown flown = FlyMadeUp(OddNetworks().front());
+  Flown flown = FlyMadeUp(SmallNetwork());
   flown.trace.actions[3] += 1e-3f;
   EXPECT_THAT(MessageOf([&] {
                 Fly(ExportForm::kC,
@@ -185,8 +200,24 @@ TEST(CExport, TellsADifferenceByItsOwnTest) {
               HasSubstr("the header's own test fails at policy step 2"));
 }
 
+TEST(CExport, WhatIsNoNumberShowsInTheActions) {
+  if (!Has("cc")) GTEST_SKIP() << "needs cc";
+  Flown flown = FlyMadeUp(SmallNetwork());
+  // Not in the steps that the header's own test flies.
+  const auto broken = static_cast<std::size_t>(flown.steps_per_flight - 1);
+  flown.trace.observations[broken * static_cast<std::size_t>(flown.trace.observation_size)] = NAN;
+  const std::vector<float> actions = Fly(
+      ExportForm::kC, Encode(ExportForm::kC, flown.exported, flown.trace, flown.steps_per_flight),
+      flown.exported, flown.trace, "cc");
+  const auto size = static_cast<std::size_t>(flown.trace.action_size);
+  for (std::size_t i = 0; i < size; ++i) {
+    EXPECT_TRUE(std::isfinite(actions[(broken - 1) * size + i]));
+    EXPECT_TRUE(std::isnan(actions[broken * size + i]));
+  }
+}
+
 TEST(CExport, CompilesForMicrocontrollersAndAsCpp) {
-  const Flown flown = FlyMadeUp(OddNetworks().back());
+  const Flown flown = FlyMadeUp(DeepNetwork());
   const ScratchDirectory scratch;
   WriteFile(scratch / "policy.h", CPolicy(flown.exported, flown.trace, flown.steps_per_flight));
   const std::string strict = " -Wall -Wextra -Wpedantic -Werror -DMADE_UP_IMPLEMENTATION -c -o " +
@@ -254,7 +285,7 @@ ExportedPolicy Made(const std::string& task, const NetworkConfig& config, int ac
 }
 
 Hierarchy FlyHierarchy() {
-  NetworkConfig config = OddNetworks().front();
+  NetworkConfig config = SmallNetwork();
   Hierarchy flown;
   flown.low_level = Made("control", config, 4, nullptr);
   const RecurrentPolicy low_level(flown.low_level.policy);
@@ -338,6 +369,26 @@ TEST_F(ExportCommand, WritesAHeaderThatSaysWhatItsNumbersAre) {
                            "throttle_fraction = 0.5 actions[0] + 0.5", "held for 0.1 s",
                            "void heading_step(const float obs[HEADING_OBSERVATION_SIZE]"}) {
     EXPECT_THAT(header, HasSubstr(text));
+  }
+}
+
+TEST_F(ExportCommand, NamesKeepTwoPoliciesOfOneTaskApart) {
+  if (!Has("cc")) GTEST_SKIP() << "needs cc";
+  const std::string calm = scratch_ / "calm.h", robust = scratch_ / "robust.h";
+  EXPECT_EQ(Export(policy_, {"--name", "calm", "-o", calm, "--check"}).exit_code, 0);
+  EXPECT_EQ(Export(ShippedPolicy("heading-robust"), {"--name", "Robust_2", "-o", robust}).exit_code,
+            0);
+  const std::string program = scratch_ / "two.c";
+  WriteFile(program,
+            "#define CALM_IMPLEMENTATION\n#include \"calm.h\"\n"
+            "#define ROBUST_2_IMPLEMENTATION\n#include \"robust.h\"\n"
+            "int main(void) { return calm_self_test() + Robust_2_self_test(); }\n");
+  const std::string built = scratch_ / "two";
+  EXPECT_EQ(std::system(("cc -o " + built + " " + program + " -lm && " + built).c_str()), 0);
+  for (const char* name : {"2nd", "_calm", "calm-1", "\xc3\xa4"}) {
+    const ProgramResult refused = Export(policy_, {"--name", name, "-o", calm});
+    EXPECT_EQ(refused.exit_code, 2) << name;
+    EXPECT_THAT(refused.error, HasSubstr("is no name: letters, digits and underscores"));
   }
 }
 

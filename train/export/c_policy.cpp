@@ -128,7 +128,7 @@ class Writer {
 const char* ActivationOf(Activation activation) {
   switch (activation) {
     case Activation::kRelu:
-      return "y[i] > 0.0f ? y[i] : 0.0f";
+      return "y[i] < 0.0f ? 0.0f : y[i]";  // what is no number shows in the actions
     case Activation::kTanh:
       return "tanhf(y[i])";
     case Activation::kElu:

@@ -12,7 +12,7 @@ namespace skein {
 
 /// A policy on its way into another format.
 struct ExportedPolicy {
-  std::string name;  ///< of functions and files: the task, an identifier
+  std::string name;  ///< of functions and models, an identifier; by default the task
   std::shared_ptr<const RecurrentPolicy::Parameters> policy;
   PolicyInterface interface;
   std::map<std::string, std::string> metadata;  ///< InterfaceMetadata, and what wrote it: "version"

@@ -23,7 +23,8 @@ struct LossSettings {
 /// Sums over samples, each weighted by LossSettings::sample_weight, and over pairs of successive
 /// steps, each by its pair_weight. The coefficients of LossSettings are left out.
 struct LossSums {
-  double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0, clip_fraction = 0;
+  double policy_loss = 0, value_loss = 0, entropy = 0, approximate_kl = 0;
+  double clip_fraction = 0;  ///< of samples whose ratio lies beyond 1 +- clip, held by it or not
   /// Squared change of the mean action over a pair, summed over its components; none where an
   /// episode ended in between.
   double action_change = 0;

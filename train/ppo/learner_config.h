@@ -12,7 +12,7 @@ struct LearnerConfig {
   /// As asked for; ChooseBackend (train/network/backend.h) says what runs.
   Backend backend = Backend::kFused;
   LearnerPrecision precision = LearnerPrecision::kAuto;
-  /// Samples per gradient tile: fixed shards, so results do not depend on threads.
+  /// Samples per gradient tile: tiles are cut and summed alike on any number of threads.
   int tile_samples = 384;
   int rollout_tile = 64;  ///< aircraft per rollout tile
   /// Into which the aircraft are cut (train/ppo/shards.h); a power of two, part of the result.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace skein {
 
@@ -28,13 +27,8 @@ LearningRates LearningRatesBeside(double actor, const PpoConfig& config, double 
   return {actor, config.critic_learning_rate * share};
 }
 
-void MoveAverage(const float* parameters, std::uint64_t iteration, int iterations,
-                 std::vector<float>* mean) {
-  const auto known = std::min(iteration, static_cast<std::uint64_t>(iterations));
-  const float share = 1 / static_cast<float>(known);
-  for (std::size_t i = 0; i < mean->size(); ++i) {
-    (*mean)[i] = (1 - share) * (*mean)[i] + share * parameters[i];
-  }
+std::string CriticLearningRateKey(const PpoConfig& config) {
+  return config.critic_learning_rate > 0 ? "ppo.critic_learning_rate" : "ppo.learning_rate";
 }
 
 }  // namespace skein

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include <string>
 
 #include "train/ppo/ppo_config.h"
 
@@ -31,11 +30,7 @@ struct LearningRates {
 /// ppo.critic_learning_rate, which falls as LargestLearningRate does, or without one the actor's.
 LearningRates LearningRatesBeside(double actor, const PpoConfig& config, double done);
 
-/// Moves the mean of parameters to what it is after iteration `iteration`, from 1 on, which left
-/// `parameters`: their plain mean until there are `iterations` of them, then by 1 / `iterations` of
-/// the difference. (Polyak and Juditsky 1992, "Acceleration of stochastic approximation by
-/// averaging".)
-void MoveAverage(const float* parameters, std::uint64_t iteration, int iterations,
-                 std::vector<float>* mean);
+/// The key that sets the critic's.
+std::string CriticLearningRateKey(const PpoConfig& config);
 
 }  // namespace skein

@@ -10,6 +10,9 @@
 namespace skein {
 namespace {
 
+/// Far above what flushed denormals round to 0: parameters without a gradient divide 0 by it.
+constexpr double kLeastAdamEpsilon = 1e-30;
+
 void ListRolloutFields(PpoConfig& config, FieldList& list) {
   list.Add("num_aircraft", &config.num_aircraft, {1, 10000000}, "aircraft flown at once");
   list.Add("rollout_steps", &config.rollout_steps, {1, 1000000},
@@ -38,7 +41,7 @@ void ListAdamFields(PpoConfig& config, FieldList& list) {
            "whatever the KL divergence; 0: the actor's. A critic that begins beside a trained "
            "policy (skein train --from) has all to learn")
       .OffUnless(config.critic_learning_rate > 0);
-  list.Add("adam_epsilon", &config.adam_epsilon, Bounds::PositiveFraction(), "Adam's epsilon");
+  list.Add("adam_epsilon", &config.adam_epsilon, {kLeastAdamEpsilon, 1}, "Adam's epsilon");
   list.Add("log_std_rate_factor", &config.log_std_rate_factor, Bounds::Positive(),
            "the actions' standard deviations learn at so many times the learning rate")
       .OffUnless(config.log_std_rate_factor != 1);

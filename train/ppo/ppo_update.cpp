@@ -9,6 +9,7 @@
 
 #include "base/denormals.h"
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/seconds_since.h"
 #include "train/ppo/broken_shard.h"
 #include "train/ppo/clipped_step.h"
@@ -22,6 +23,7 @@ namespace {
 /// enough to keep the gradients in memory.
 constexpr int kMaxAccumulators = 32;
 constexpr double kAdvantageEpsilon = 1e-8;
+constexpr int kErrorDigits = 4;  // of figures in errors
 
 }  // namespace
 
@@ -243,11 +245,11 @@ void PpoUpdate::RequireSane(const Side& side) {
   const double loss = side.beside.losses.*side.loss;
   if (std::isfinite(loss) && side.norm <= kExplodedGradientNorm) return;
   exploded_ = true;
-  const bool own_rate = !is_actor(side) && config_.critic_learning_rate > 0;
-  const std::string rate = own_rate ? "ppo.critic_learning_rate" : "ppo.learning_rate";
+  const std::string rate = is_actor(side) ? "ppo.learning_rate" : CriticLearningRateKey(config_);
   throw Error("the " + std::string(side.name) + "'s training exploded (loss " +
-              std::to_string(loss) + ", gradient norm " + std::to_string(side.norm) +
-              FirstBrokenShard(side) + "); lower " + rate + ", or ppo.max_gradient_norm");
+              RoundedText(loss, kErrorDigits) + ", gradient norm " +
+              RoundedText(side.norm, kErrorDigits) + FirstBrokenShard(side) + "); lower " + rate +
+              ", or ppo.max_gradient_norm");
 }
 
 bool PpoUpdate::AddTo(UpdateReport& report, const Side& side) {

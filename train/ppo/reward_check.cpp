@@ -58,7 +58,7 @@ void RequireUsableRewards(const TrainConfig& config, const std::vector<float>& r
                           const std::vector<float>& values) {
   for (std::size_t i = 0; i < rewards.size(); ++i) {
     if (IsUsable(rewards[i]) || !IsUsable(values[i])) continue;
-    throw Error("a step's reward is " + std::to_string(rewards[i]) +
+    throw Error("a step's reward is " + RoundedText(rewards[i], 4) +
                 ": too large to learn from; the largest weight of the reward is " +
                 LargestWeight(config) + ScaleOfRewards(config.env));
   }

@@ -14,6 +14,7 @@
 #include "train/ppo/actor_critic.h"
 #include "train/ppo/broken_shard.h"
 #include "train/ppo/learning_rate.h"
+#include "train/ppo/mean_actor.h"
 #include "train/ppo/popart.h"
 #include "train/ppo/ppo_update.h"
 #include "train/ppo/rank_shards.h"
@@ -252,8 +253,8 @@ struct Trainer::Impl {
       }
     }
     throw Error("the critic's training exploded: value targets are not finite" +
-                NameFirstBroken(shards, first, ranks) +
-                "; lower ppo.learning_rate, or ppo.max_gradient_norm");
+                NameFirstBroken(shards, first, ranks) + "; lower " +
+                CriticLearningRateKey(config.ppo) + ", or ppo.max_gradient_norm");
   }
 
   void Learn(IterationReport& report) {
@@ -268,6 +269,7 @@ struct Trainer::Impl {
     const UpdateReport done =
         update.Run(rollout, popart.scale(), iteration, learning_rates, HandlingWeight());
     stopped = done.stopped;
+    if (stopped) return;
     report.gradient_seconds = done.gradient_seconds;
     report.wait_seconds = done.wait_seconds;
     report.policy_loss = done.losses.policy_loss;
@@ -278,7 +280,7 @@ struct Trainer::Impl {
       adapted_learning_rate =
           AdaptedLearningRate(config.ppo, report.learning_rate, report.approximate_kl);
     }
-    if (!mean_actor.empty() && !stopped) {
+    if (!mean_actor.empty()) {
       MoveAverage(networks.actor.optimiser.parameters(), iteration + 1,
                   config.ppo.average_iterations, &mean_actor);
     }

@@ -200,7 +200,14 @@ StartingNetworks LoadNetworks(const std::string& path, const TrainConfig& config
   const TensorFile file = TensorFile::Read(path);
   const std::shared_ptr<const RecurrentPolicy::Parameters> policy = LoadPolicy(file, path);
   if (!(policy->shape == actor.shape())) {
-    throw Error(path + ": its networks have other sizes than the configuration's (network.*)");
+    throw Error(path +
+                ": its networks have other sizes, or another activation, than the configuration's "
+                "(network.*)");
+  }
+  if (policy->config.tanh_mean != config.network.tanh_mean) {
+    throw Error(path + ": was made with network.tanh_mean = " +
+                (policy->config.tanh_mean ? "true" : "false") +
+                ", and the configuration says otherwise");
   }
   RecurrentPolicy(policy).CheckMadeFor(config.env, path);
   StartingNetworks networks;
