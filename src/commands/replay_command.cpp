@@ -97,6 +97,7 @@ void CheckOutputs(const ReplayOptions& options, const std::vector<std::string>& 
   }
   CheckWritable(paths, FilesRead(options.flown));
   RequireEnding(options.out, format.ending, fmt::format("--format {}", format.name));
+  if (format.write == WriteHtml) ReportTemplate();  // without one there is nothing to fly for
 }
 
 void Stream(const ReplayOptions& options, const std::vector<AgentFlights>& agents) {

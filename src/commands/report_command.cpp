@@ -48,9 +48,10 @@ void Open(const std::string& place) {
 
 void Watch(const ReportOptions& options, WorkerPool& pool) {
   const RunSignals signals(pool);
+  const std::string page = LivePage(ReportTemplate());  // without one there is nothing to fly for
   LiveReport report(options.request, pool);
   report.Data();  // what is wrong with the runs is said here, and not in a browser
-  ReportServer server(LivePage(ReportTemplate()), [&] { return report.Data(); });
+  ReportServer server(page, [&] { return report.Data(); });
   fmt::print("{}  until Ctrl-C; for this machine alone\n", server.address());
   std::fflush(stdout);
   if (options.opens) Open(server.address());

@@ -116,8 +116,11 @@ CsvColumns ReadTable(const std::string& file, std::vector<std::string>* notes) {
         "{}: no column {}; is it a file of flights (skein replay --format csv)?", file, column));
   }
   if (table.rows() == 0) throw Error(file + ": holds no flights");
-  for (const double time : *table.Find("time_s")) {
-    if (!std::isfinite(time)) throw Error(file + ": a cell of column time_s holds no number");
+  for (const char* column : {"episode", "time_s"}) {
+    for (const double value : *table.Find(column)) {
+      if (std::isfinite(value)) continue;
+      throw Error(fmt::format("{}: a cell of column {} holds no number", file, column));
+    }
   }
   if (table.rows_left_out > 0) {
     notes->push_back(
@@ -126,8 +129,24 @@ CsvColumns ReadTable(const std::string& file, std::vector<std::string>* notes) {
   return table;
 }
 
+/// Throws Error unless the rows of an episode are together and their time does not go back.
+void RequireInOrder(const std::string& file, const CsvColumns& table) {
+  const std::vector<double>& episodes = *table.Find("episode");
+  const std::vector<double>& times = *table.Find("time_s");
+  std::set<double> ended;
+  for (std::size_t row = 1; row < episodes.size(); ++row) {
+    const bool goes_on = episodes[row] == episodes[row - 1];
+    if (!goes_on) ended.insert(episodes[row - 1]);
+    if (goes_on ? times[row] >= times[row - 1] : ended.count(episodes[row]) == 0) continue;
+    throw Error(
+        fmt::format("{}: rows of episode {:g} are out of order; sort them by episode and time_s",
+                    file, episodes[row]));
+  }
+}
+
 std::vector<DrawnFlight> ReadFlights(const std::string& file, std::vector<std::string>* notes) {
   const CsvColumns table = ReadTable(file, notes);
+  RequireInOrder(file, table);
   const std::vector<double>& episodes = *table.Find("episode");
   std::vector<DrawnFlight> flights;
   for (std::size_t begin = 0, row = 1; row <= episodes.size(); ++row) {

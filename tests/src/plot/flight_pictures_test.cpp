@@ -428,6 +428,19 @@ TEST_F(FlightPictures, WhatCannotBeDrawnIsSaid) {
       HasSubstr("bare.csv: no column north_ft"));
 }
 
+TEST_F(FlightPictures, RowsOutOfOrderAreRefused) {
+  const std::string file = scratch_ / "rows.csv";
+  const auto complaint = [&](const std::string& rows) {
+    WriteFile(file, "episode,time_s,termination\n" + rows);
+    return MessageOf([&] { ReadRecordings({file}); });
+  };
+  EXPECT_EQ(complaint("1,0,\n1,0.5,\n0,0,\n0,0.5,\n"), "") << "episodes in any order";
+  for (const char* rows : {"0,0.5,\n0,0,\n", "0,0,\n1,0,\n0,0.5,\n"}) {
+    EXPECT_THAT(complaint(rows), HasSubstr("rows.csv: rows of episode 0 are out of order"));
+  }
+  EXPECT_THAT(complaint("nan,0,\n"), HasSubstr("a cell of column episode holds no number"));
+}
+
 TEST_F(FlightPictures, WhatIsTooFarAwayIsRefused) {
   const std::string file = scratch_ / "far.csv";
   for (const char* place : {"1e20,0,20000,0", "0,-1e20,20000,0", "0,0,1e20,0", "0,0,0,1e20"}) {
