@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 # As dch says who packages.
 set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
-if(maintainer STREQUAL " <>")
+if("$ENV{DEBFULLNAME}" STREQUAL "" OR "$ENV{DEBEMAIL}" STREQUAL "")
   set(maintainer "The Skein authors <skein@localhost>")
 endif()
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")

@@ -16,18 +16,17 @@ if(SKEIN_BUILD_TRAIN)
 endif()
 
 install(TARGETS ${skein_targets} EXPORT skein COMPONENT development)
-add_custom_target(
-  public_headers
+# Staged by the build: an installation by root would leave files of root's in the build tree.
+set(headers_staged ${PROJECT_BINARY_DIR}/include/staged)
+add_custom_command(
+  OUTPUT ${headers_staged}
   COMMAND ${CMAKE_COMMAND} "-DHEADERS=${SKEIN_PUBLIC_HEADERS}" -DSOURCE=${PROJECT_SOURCE_DIR}
           -DOUTPUT=${PROJECT_BINARY_DIR}/include -P ${CMAKE_CURRENT_LIST_DIR}/StagePublicHeaders.cmake
+  COMMAND ${CMAKE_COMMAND} -E touch ${headers_staged}
+  DEPENDS ${CMAKE_CURRENT_LIST_DIR}/PublicHeaders.cmake ${CMAKE_CURRENT_LIST_DIR}/StagePublicHeaders.cmake
+          ${SKEIN_PUBLIC_HEADERS}
   VERBATIM)
-install(
-  CODE "
-    set(HEADERS \"${SKEIN_PUBLIC_HEADERS}\")
-    set(SOURCE \"${PROJECT_SOURCE_DIR}\")
-    set(OUTPUT \"${PROJECT_BINARY_DIR}/include\")
-    include(\"${CMAKE_CURRENT_LIST_DIR}/StagePublicHeaders.cmake\")"
-  COMPONENT development)
+add_custom_target(public_headers ALL DEPENDS ${headers_staged})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(EXPORT skein NAMESPACE skein:: FILE skein-targets.cmake DESTINATION ${SKEIN_PACKAGE_DIR} COMPONENT development)
 
@@ -38,5 +37,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/skein-config-version.cmak
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/skein-config.cmake
               ${PROJECT_BINARY_DIR}/skein-config-version.cmake DESTINATION ${SKEIN_PACKAGE_DIR} COMPONENT development)
-install(FILES ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)

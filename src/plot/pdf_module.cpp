@@ -10,9 +10,10 @@ const PdfModule& LoadPdfModule(const std::string& file) {
   try {
     return LoadModule<PdfModuleEntry>(file, kPdfModuleEntry, SKEIN_BUILD_ID);
   } catch (const Error& error) {
-    throw Error(std::string("PDF cannot be written (") + error.what() +
-                "): install cairo (Debian: libcairo2-dev) and build Skein again, or let the name "
-                "end in .svg");
+    throw Error(
+        std::string("PDF cannot be written (") + error.what() +
+        "): install cairo (with Debian's package of Skein: libcairo2; to build: libcairo2-dev), "
+        "or let the name end in .svg");
   }
 }
 

@@ -31,7 +31,7 @@ endfunction()
 
 run("" cpack --config ${BUILD}/CPackConfig.cmake -B ${SCRATCH}/packages)
 unpack(skein usr/bin/skein usr/share/man/man1/skein.1.gz usr/share/bash-completion/completions/skein
-       usr/share/zsh/site-functions/_skein usr/share/fish/vendor_completions.d/skein.fish)
+       usr/share/zsh/vendor-completions/_skein usr/share/fish/vendor_completions.d/skein.fish)
 unpack(skein-dev usr/include/skein/envs/vec_env.h)
 
 # A plain start needs nothing that only modules link.

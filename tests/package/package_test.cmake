@@ -32,6 +32,8 @@ run("" ${CMAKE_COMMAND} --build ${SCRATCH}/build)
 run("[1-9][0-9]+ of [1-9][0-9]+ episodes" ${examples}/step_environment)
 run("alpha 4.531 deg.*-0.781  [+]0.728i" ${examples}/trim_and_linearise)
 if(EXISTS ${examples}/fly_policy)
+  # Where its modules are.
+  run("PATH[^\n]*[[:]${SCRATCH}/prefix/lib[^:\n]*/skein[]:]" readelf -d ${examples}/fly_policy)
   run("256 episodes of heading, (9[0-9]|100)[.]. %" ${examples}/fly_policy
       ${SCRATCH}/prefix/share/skein/policies/heading.skein)
   run("iteration 3: 245760 control steps" ${examples}/train_policy ${SCRATCH}/small.skein)
