@@ -95,6 +95,21 @@ TEST_F(InterruptedTraining, KilledBeforeTheFirstCheckpointBeginsAgain) {
   ExpectSameRun(reference_, run_);
 }
 
+TEST_F(InterruptedTraining, KilledAfterACheckpointThatTimeAskedForGoesOnFromIt) {
+  const std::string checkpoints = run_ + "/checkpoints";
+  {
+    RunningProgram program(
+        TinyTraining(run_, {"--steps", "1e8", "--set", "checkpoint.interval_iterations=0", "--set",
+                            "checkpoint.interval_s=0.2"}));
+    ASSERT_TRUE(program.WaitUntil([&] { return CheckpointsIn(checkpoints).size() >= 2; }));
+    program.Signal(SIGKILL);
+    program.Wait();
+  }
+  const std::uint64_t iteration = CheckpointsIn(checkpoints).back().iteration;
+  RunningProgram program({"train", "--resume", run_});
+  EXPECT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, iteration + 1); }));
+}
+
 TEST_F(InterruptedTraining, SigtermSavesAndEndsCleanly) {
   // The signal has all but five of them to come in.
   const std::vector<std::string> steps = {"--steps", std::to_string(200 * kStepsPerIteration)};

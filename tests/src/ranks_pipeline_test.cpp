@@ -13,6 +13,7 @@
 #include <sstream>
 #include <thread>
 
+#include "simd/target.h"
 #include "src/bench/version.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
@@ -103,6 +104,17 @@ TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcess) {
     EXPECT_EQ(result.output.find("training heading"), result.output.rfind("training heading"))
         << "rank 0 alone speaks";
   }
+}
+
+/// Networks so large that more than two ranks sum their gradients part by part.
+TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcessOfLargerNetworksToo) {
+  std::vector<std::string> arguments = kShards;
+  arguments.insert(arguments.end(),
+                   {"--set", "network.hidden_size=64", "--set", "network.gru_size=64"});
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, arguments)).exit_code, 0);
+  const ProgramResult result = RunWords(Mpirun(4, TinyTraining(run_, arguments)));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameRun(reference_, run_);
 }
 
 TEST(RanksFixture, LeavesTheSanitizerTheCallersOptions) {
@@ -260,6 +272,7 @@ TEST_F(RanksPipeline, ALauncherThatIsKilledWhileRanksStartLeavesNone) {
 }
 
 TEST_F(RanksPipeline, RanksThatComputeDifferentlyAreRefusedAndNamed) {
+  if (simd::ActiveTarget() == simd::Target::kScalar) GTEST_SKIP() << "needs another SIMD target";
   const ProgramResult result =
       RunWords(Mpirun(2, TinyTraining(run_, kShards), LastRank{"SKEIN_SIMD=scalar"}));
   EXPECT_NE(result.exit_code, 0);

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 
+#include "simd/target.h"
 #include "tests/src/ranks_fixture.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
@@ -174,6 +175,7 @@ TEST_F(RanksStudy, WhatCannotBeIsSaidOnceByRankZero) {
 }
 
 TEST_F(RanksStudy, RanksThatComputeDifferentlyAreRefusedAndNamed) {
+  if (simd::ActiveTarget() == simd::Target::kScalar) GTEST_SKIP() << "needs another SIMD target";
   const std::vector<std::vector<std::string>> commands = {
       {"eval", "--policy", "untrained", "--task", "heading"},
       {"compare", "--task", "heading", "--agents", "zero,random", "--no-html"},

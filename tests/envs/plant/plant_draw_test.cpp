@@ -50,6 +50,59 @@ TEST(PlantDraw, FillsItsRangesAndNothingBeyond) {
   EXPECT_GT(most_momentum, (1 - kShare) * 160);
 }
 
+/// A quantity that is drawn from a range, in its configuration and in what is drawn.
+struct Quantity {
+  const char* name;
+  Range PlantConfig::*range;
+  double PlantDraw::*value;
+};
+
+/// Without what the three surfaces share.
+constexpr Quantity kQuantities[] = {
+    {"mass", &PlantConfig::mass, &PlantDraw::mass},
+    {"inertia", &PlantConfig::inertia, &PlantDraw::inertia},
+    {"cg_shift", &PlantConfig::cg_shift, &PlantDraw::cg_shift},
+    {"axial_force", &PlantConfig::axial_force, &PlantDraw::axial_force},
+    {"normal_force", &PlantConfig::normal_force, &PlantDraw::normal_force},
+    {"pitching_moment", &PlantConfig::pitching_moment, &PlantDraw::pitching_moment},
+    {"lateral", &PlantConfig::lateral, &PlantDraw::lateral},
+    {"damping", &PlantConfig::damping, &PlantDraw::damping},
+    {"thrust", &PlantConfig::thrust, &PlantDraw::thrust},
+    {"thrust_lag", &PlantConfig::thrust_lag, &PlantDraw::thrust_lag},
+    {"engine_momentum", &PlantConfig::engine_momentum, &PlantDraw::engine_momentum},
+    {"density", &PlantConfig::density, &PlantDraw::density},
+    {"pitch_stick", &PlantConfig::pitch_stick, &PlantDraw::pitch_stick},
+    {"roll_stick", &PlantConfig::roll_stick, &PlantDraw::roll_stick},
+    {"yaw_stick", &PlantConfig::yaw_stick, &PlantDraw::yaw_stick},
+    {"actuator_rate", &PlantConfig::actuator_rate, &PlantDraw::actuator_rate},
+    {"actuator_bandwidth", &PlantConfig::actuator_bandwidth, &PlantDraw::actuator_bandwidth},
+};
+
+TEST(PlantDraw, QuantitiesAreUniformAndIndependent) {
+  PlantConfig config;
+  for (const Quantity& quantity : kQuantities) config.*quantity.range = {0.5, 1.5};
+  const std::vector<PlantDraw> draws = Draws(config);
+  // Of uniform numbers less their mean: variance 1/12, and of their squares 1/180.
+  const double error_of_mean = kStandardErrors / std::sqrt(12.0 * kDraws);
+  const double error_of_variance = kStandardErrors / std::sqrt(180.0 * kDraws);
+  const double error_of_covariance = kStandardErrors / (12 * std::sqrt(double{kDraws}));
+  for (const Quantity& one : kQuantities) {
+    double sum = 0;
+    for (const PlantDraw& draw : draws) sum += draw.*one.value - 1;
+    EXPECT_NEAR(sum / kDraws, 0, error_of_mean) << one.name;
+    for (const Quantity& other : kQuantities) {
+      double products = 0;
+      for (const PlantDraw& draw : draws) {
+        products += (draw.*one.value - 1) * (draw.*other.value - 1);
+      }
+      const bool is_same = &one == &other;
+      EXPECT_NEAR(products / kDraws, is_same ? 1.0 / 12 : 0,
+                  is_same ? error_of_variance : error_of_covariance)
+          << one.name << ", " << other.name;
+    }
+  }
+}
+
 TEST(PlantDraw, WhatIsNotAskedForIsNominal) {
   const PlantDraw nominal;
   for (const PlantDraw& draw : Draws(PlantConfig())) {
