@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "src/config/configuration.h"
 #include "src/evaluation/recording_limit.h"
@@ -17,6 +22,7 @@
 #include "src/report/training_times.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
+#include "tests/src/report/report_client.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
 
@@ -24,7 +30,22 @@ namespace skein {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+/// The document of what ReportData returns (src/report/data_pack.h).
+nlohmann::ordered_json DocumentOf(const std::string& data) {
+  std::string bytes(std::size_t{1} << 24, '\0');
+  uLongf size = bytes.size();
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+                       reinterpret_cast<const Bytef*>(data.data()), data.size()),
+            Z_OK);
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data(), sizeof length);
+  return nlohmann::ordered_json::parse(bytes.substr(sizeof length, length));
+}
 
 /// Reports on the run of a training that takes a moment.
 class ReportPipeline : public ::testing::Test {
@@ -111,14 +132,60 @@ TEST_F(ReportPipeline, AWrittenComparisonIsShownWithoutFlyingAgain) {
   WorkerPool pool(1);
   ReportRequest request;
   request.runs = {*folder_ / "run"};
-  request.episodes = request.flights = 0;
-  request.made = "once";
-  const std::string bare = ReportData(request, pool);
+  request.episodes = 0;
+  request.flights = 1;  // so that policies fly, but not for a comparison
   const ProgramConfig config = ReadRunRecord(request.runs.front()).config;
   const auto shown = ShownComparison({{"task", "heading"}}, config);
   EXPECT_FALSE(shown["quantities"].empty());
   request.comparisons = {shown};
-  EXPECT_GT(ReportData(request, pool).size(), bare.size());
+  const auto document = DocumentOf(ReportData(request, pool));
+  EXPECT_THAT(document["comparisons"], ElementsAre(shown));
+  EXPECT_THAT(document["flights"], SizeIs(1));
+}
+
+TEST_F(ReportPipeline, AComparisonThatIsFlownStandsBehindTheWrittenOne) {
+  WorkerPool pool(1);
+  ReportRequest request;
+  request.runs = {*folder_ / "run"};
+  request.episodes = 8;
+  request.flights = 0;
+  const auto flown = DocumentOf(ReportData(request, pool))["comparisons"];
+  ASSERT_THAT(flown, SizeIs(1));
+  EXPECT_EQ(flown[0]["episodes"], 8);
+  const ProgramConfig config = ReadRunRecord(request.runs.front()).config;
+  const auto shown = ShownComparison({{"task", "heading"}}, config);
+  request.comparisons = {shown};
+  EXPECT_THAT(DocumentOf(ReportData(request, pool))["comparisons"], ElementsAre(shown, flown[0]));
+}
+
+TEST_F(ReportPipeline, WatchServesWhatTheRunHasByNowUntilItIsStopped) {
+  const std::string run = Copy(), metrics = ReadFile(run + "/metrics.csv");
+  WriteFile(run + "/metrics.csv", metrics.substr(0, metrics.rfind('\n', metrics.size() - 2) + 1));
+  RunningProgram program({"report", run, "--watch", "--episodes", "0", "--flights-count", "0"});
+  std::string address;
+  const bool serves = program.WaitUntil([&] {
+    const std::string output = program.output();
+    address = output.substr(0, output.find(' '));
+    return output.find('\n') != std::string::npos;
+  });
+  if (!serves) {
+    ASSERT_THAT(program.Wait().error, HasSubstr("this build has no page for reports"));
+    GTEST_SKIP() << "built without the page";
+  }
+  ASSERT_THAT(address, StartsWith("http://127.0.0.1:"));
+  EXPECT_THAT(ReportClient(address).Get("/"), StartsWith("HTTP/1.1 200 OK"));
+  const auto iterations = [&address] {
+    const std::string answer = ReportClient(address).Get("/data"), end = "\r\n\r\n";
+    const auto document = DocumentOf(answer.substr(answer.find(end) + end.size()));
+    return document["runs"][0]["metrics"]["iteration"]["f32"][1];
+  };
+  EXPECT_EQ(iterations(), kIterations - 1);
+  WriteFile(run + "/metrics.csv", metrics);
+  EXPECT_EQ(iterations(), kIterations);
+  program.Signal(SIGTERM);
+  const ProgramResult result = program.Wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.error, "");
 }
 
 /// By key, what a page of flights by `config` takes for the better side.

@@ -3,15 +3,19 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <limits>
 #include <new>
 #include <string>
 #include <system_error>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -23,11 +27,14 @@
 #include "src/report/report_page.h"
 #include "src/report/report_server.h"
 #include "tests/scratch_directory.h"
+#include "tests/src/report/report_client.h"
 
 namespace skein {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -176,6 +183,26 @@ TEST_F(LiveReportTest, FliesAgainWhenThePolicyIsAnotherAndNotWhenTheMetricsHaveG
   EXPECT_FALSE(HasFlights(report.Data(), first));
 }
 
+TEST_F(LiveReportTest, FliesAgainWhenTheConfigurationOrTheEvaluationIsAnother) {
+  const std::string policy = ReadFile(policy_), broken(policy.size(), 'x');
+  const std::string evaluation = "{\"seed\": 7}";
+  const std::string config = DumpToml(ResolveConfig({"heading", "default", "", {"run.seed=7"}}));
+  const auto written = std::filesystem::last_write_time(policy_);
+  for (const auto& [file, text] :
+       {std::pair{"/config.toml", config}, {"/evaluation.json", evaluation}}) {
+    WriteFile(policy_, policy);
+    std::filesystem::last_write_time(policy_, written);
+    LiveReport report(request_, pool_);
+    const std::string first = report.Data();
+    // Who flies again finds no policy.
+    WriteFile(policy_, broken);
+    std::filesystem::last_write_time(policy_, written);
+    ASSERT_EQ(report.Data(), first) << file;
+    WriteFile(run_ + file, text);
+    EXPECT_FALSE(HasFlights(report.Data(), first)) << file;
+  }
+}
+
 class ReportServerTest : public ::testing::Test {
  protected:
   std::string Host() const {
@@ -194,6 +221,21 @@ TEST_F(ReportServerTest, ServesThePageAndItsData) {
   EXPECT_THAT(Ask("GET /", Host()), StartsWith("HTTP/1.1 200 OK"));
   EXPECT_THAT(Ask("GET /", Host()), HasSubstr("\r\n\r\n<page>"));
   EXPECT_THAT(Ask("GET /data", Host()), HasSubstr("\r\n\r\ndata"));
+}
+
+TEST_F(ReportServerTest, ServesOverSocketsBesideAClientThatSaysNothingUntilItIsStopped) {
+  constexpr std::chrono::seconds kAtMost{3};
+  std::atomic<bool> stopping{false};
+  const std::future<void> serving = std::async(
+      std::launch::async, [&] { server_.Serve([&stopping] { return stopping.load(); }); });
+  // Declared after the future, which waits for Serve: what it has got stuck on goes first.
+  const ReportClient silent(server_.address());
+  EXPECT_THAT(ReportClient(server_.address()).Get("/data"),
+              AllOf(StartsWith("HTTP/1.1 200 OK"), EndsWith("\r\n\r\ndata")));
+  EXPECT_THAT(ReportClient(server_.address()).Get("/"), EndsWith("\r\n\r\n<page>"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // by now it waits for a client
+  stopping = true;
+  EXPECT_EQ(serving.wait_for(kAtMost), std::future_status::ready);
 }
 
 TEST_F(ReportServerTest, RefusesOtherHostsMethodsAndPaths) {

@@ -11,10 +11,13 @@
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
+#include "tests/train/hierarchy_config.h"
 #include "tests/train/libtorch.h"
 #include "tests/train/small_config.h"
+#include "tests/train/version_0_1.h"
 #include "train/files/tensor_file.h"
 #include "train/policy/low_level_file.h"
+#include "train/policy/policy_parameters.h"
 #include "train/ppo/trainer.h"
 
 namespace skein {
@@ -85,6 +88,22 @@ TEST_F(PolicyTest, ReadsFilesFromBeforeNetworksHadDepths) {
   }
   file.Write(path_);
   EXPECT_EQ(ActionsOf(RecurrentPolicy::Load(path_), 5), ActionsOf(policy, 5));
+}
+
+TEST_F(PolicyTest, FilesOfVersion01AreThePoliciesThatTheyWere) {
+  WorkerPool pool(1);
+  const RecurrentPolicy policy = Trainer(SmallHighLevelConfig(), pool).policy();
+  policy.Save(path_);
+  const TensorFile old = AsOfVersion01(TensorFile::Read(path_));
+  EXPECT_EQ(old.tensors.count("controller/actor/head.bias"), 1u);
+  EXPECT_EQ(old.metadata.count("controller.policy.format"), 1u);
+  EXPECT_EQ(old.metadata.count("policy.env.planner.yaw_change_rad"), 1u);
+  old.Write(path_);
+  const RecurrentPolicy loaded = RecurrentPolicy::Load(path_);
+  ASSERT_NE(loaded.low_level(), nullptr);
+  EXPECT_TRUE(IsSamePolicy(loaded.low_level().get(), SmallLowLevelPolicy().get()));
+  EXPECT_EQ(loaded.parameters()->environment, policy.parameters()->environment);
+  EXPECT_TRUE(IsSamePolicy(&loaded, &policy));
 }
 
 constexpr Tolerance kFloat32{1e-5, "a few float32 roundings of values of order one"};

@@ -19,6 +19,7 @@
 #include "train/ppo/ppo_update.h"
 #include "train/ppo/trainer.h"
 #include "train/ppo/training_state.h"
+#include "train/ranks/collectives.h"
 
 namespace skein {
 namespace {
@@ -123,6 +124,17 @@ TEST_F(TrainerRanksTest, SoDoWindsPlantsAndACriticThatSeesMore) {
   config.ppo.held_noise_share = 0.5;
   config.ppo.log_std_rate_factor = 2;
   ExpectSameForAnyRanks(config, {2, 8});
+}
+
+TEST_F(TrainerRanksTest, SoDoNetworksWhoseGradientsAreSummedByParts) {
+  TrainConfig config = Sharded(SmallConfig());
+  config.network.hidden_size = config.network.gru_size = 64;
+  for (const NetworkShape& shape :
+       {ActorShape(config.network, 22, 4), CriticShape(config.network, 22)}) {
+    ASSERT_GE(NetworkLayout(shape).size() * sizeof(float), kSummedByParts);
+  }
+  config.total_steps /= 2;
+  ExpectSameForAnyRanks(config, {4, 8});
 }
 
 TEST_F(TrainerRanksTest, SoDoPoliciesThatLeaveThePedalsAlone) {

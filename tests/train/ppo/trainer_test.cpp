@@ -16,9 +16,11 @@
 #include "tests/file_bytes.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
+#include "tests/train/hierarchy_config.h"
 #include "tests/train/libtorch.h"
 #include "tests/train/network/gradient_comparison.h"
 #include "tests/train/small_config.h"
+#include "tests/train/version_0_1.h"
 #include "train/policy/policy_parameters.h"
 #include "train/ppo/training_state.h"
 
@@ -126,6 +128,21 @@ TEST_F(TrainerTest, RefusesACheckpointOfAnotherConfigurationAndNamesTheField) {
   EXPECT_NE(RefusalOf(SmallConfig(), scratch_ / "policy").find("not a checkpoint"),
             std::string::npos);
   EXPECT_EQ(RefusalOf(SmallConfig(), path_), "");
+}
+
+TEST_F(TrainerTest, CheckpointsOfVersion01ResumeBitExactly) {
+  WorkerPool pool(1);
+  Trainer whole(SmallHighLevelConfig(), pool), resumed(SmallHighLevelConfig(), pool);
+  whole.Iterate();
+  whole.Save(path_);
+  const TensorFile old = AsOfVersion01(TensorFile::Read(path_));
+  EXPECT_EQ(old.tensors.count("recurrent/keep"), 1u);
+  old.Write(path_);
+  resumed.Restore(path_);
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
+  whole.Iterate();
+  resumed.Iterate();
+  EXPECT_EQ(resumed.Signature(), whole.Signature());
 }
 
 TEST_F(TrainerTest, RefusesACheckpointWhosePolicyHasOtherSizes) {

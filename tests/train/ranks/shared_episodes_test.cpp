@@ -28,10 +28,18 @@ class SharedEpisodesTest : public testing::TestWithParam<int> {
   }
 };
 
+bool AreSame(const FlightMeasures& a, const FlightMeasures& b) {
+  // All of them are 32 bits wide, so there is no padding; NaN equals NaN.
+  static_assert(sizeof(FlightMeasures) % sizeof(float) == 0);
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 bool AreEqual(const std::vector<Episode>& a, const std::vector<Episode>& b) {
   const auto is_same = [](const Episode& one, const Episode& other) {
     return one.termination == other.termination && one.episode_return == other.episode_return &&
            one.steps == other.steps && one.succeeded == other.succeeded &&
+           one.reached_step == other.reached_step && one.entered_step == other.entered_step &&
+           AreSame(one.measures, other.measures) &&
            std::memcmp(&one.metrics, &other.metrics, sizeof one.metrics) == 0;
   };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), is_same);
@@ -55,6 +63,34 @@ TEST_P(SharedEpisodesTest, AreThoseOfOneProcessOnEveryRank) {
       });
     }
   }
+}
+
+TEST_P(SharedEpisodesTest, SoAreThoseThatReachAndHoldTheirTargets) {
+  EnvConfig env = NoisyEnv();
+  env.hold_s = 1;
+  env.heading.dwell_s = 0.2;
+  env.heading.earliest_success_step = 10;
+  env.heading.altitude_tolerance_ft = 3000;
+  env.heading.yaw_tolerance_deg = 120;
+  env.heading.speed_tolerance_fps = 300;
+  EvaluationOptions options;
+  options.seed = 4;
+  options.episodes = 150;
+  options.flight_metrics = true;
+  WorkerPool pool(1);
+  const FlownEpisodes whole = FlyEpisodes(Agent::Zero(), env, options, pool);
+  const auto reached =
+      std::count_if(whole.episodes.begin(), whole.episodes.end(), [](const Episode& episode) {
+        return episode.reached_step > 0 && episode.entered_step > 0 &&
+               episode.measures.hold.within > 0 && episode.measures.reached_step > 0;
+      });
+  EXPECT_GT(reached, options.episodes / 4);
+  EXPECT_LT(reached, options.episodes);
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    WorkerPool own(1);
+    const FlownEpisodes shared = FlyEpisodesOnRanks(Agent::Zero(), env, options, own, ranks);
+    EXPECT_TRUE(AreEqual(shared.episodes, whole.episodes)) << ranks.Describe(ranks.rank());
+  });
 }
 
 TEST_P(SharedEpisodesTest, AStopOnOneRankStopsAll) {
