@@ -154,23 +154,79 @@ def test_flights_are_tables(heading_policy):
     assert flown.to_pandas()["termination"].tolist() == flights.groupby("episode")["termination"].last().tolist()
 
 
-def test_peaks_are_those_of_the_recorded_flights(heading_policy):
+HOLD_S, CONTROL_STEP_S = 2, 0.02
+FLOAT32 = {"rtol": 1e-5, "atol": 1e-4}  # of each flight: recorded flights have seven digits
+MEAN_OF_FLOAT32 = {"rel": 1e-4, "abs": 1e-4}
+
+
+@pytest.fixture(scope="module")
+def held_flights(heading_policy):
+    """Flights as they are measured, and their states after every control step: the initial one does not count."""
     pytest.importorskip("pandas")
-    flown = skein.evaluate(heading_policy, episodes=3, env={"hold_s": 2})
-    flights = skein.record(heading_policy, count=3, env={"hold_s": 2})
-    steps = flights[flights["time_s"] > 0].groupby("episode")  # the initial state does not count
-    for name, peaks in {
-        "peak_load_factor_g": steps["load_factor_g"].max(),
-        "lowest_load_factor_g": steps["load_factor_g"].min(),
-        "peak_alpha_deg": steps["alpha_deg"].max(),
-        "peak_abs_beta_deg": steps["beta_deg"].apply(lambda beta: beta.abs().max()),
-        "peak_abs_p_deg_s": steps["p_deg_s"].apply(lambda p: p.abs().max()),
-    }.items():
-        np.testing.assert_allclose(flown.columns[name], peaks, rtol=1e-5, atol=1e-4, err_msg=name)
-        estimates = flown.summary["estimates"]
-        assert estimates[name]["value"] == pytest.approx(peaks.mean(), rel=1e-4, abs=1e-4)
-        worst = peaks.min() if name == "lowest_load_factor_g" else peaks.max()
-        assert estimates[name + "_worst"]["value"] == pytest.approx(worst, rel=1e-4, abs=1e-4)
+    flown = skein.evaluate(heading_policy, episodes=3, env={"hold_s": HOLD_S})
+    flights = skein.record(heading_policy, count=3, env={"hold_s": HOLD_S})
+    assert (flights.groupby("episode")["termination"].last() == "target_reached").all()
+    return flown, [flight for _, flight in flights[flights["time_s"] > 0].groupby("episode")]
+
+
+def assert_measured(flown, expected, has_columns=True):
+    """What an evaluation has of all flights in its summary, and of each, if it has columns of that."""
+    for name, values in expected.items():
+        if has_columns:
+            np.testing.assert_allclose(flown.columns[name], values, **FLOAT32, err_msg=name)
+        mean = flown.summary["estimates"][name]["value"]
+        assert mean == pytest.approx(np.mean(values), **MEAN_OF_FLOAT32), name
+
+
+def test_peaks_are_those_of_the_recorded_flights(held_flights):
+    flown, flights = held_flights
+    peaks = {
+        "peak_load_factor_g": [flight["load_factor_g"].max() for flight in flights],
+        "lowest_load_factor_g": [flight["load_factor_g"].min() for flight in flights],
+        "peak_alpha_deg": [flight["alpha_deg"].max() for flight in flights],
+        "peak_abs_beta_deg": [flight["beta_deg"].abs().max() for flight in flights],
+        "peak_abs_p_deg_s": [flight["p_deg_s"].abs().max() for flight in flights],
+    }
+    assert_measured(flown, peaks)
+    for name, values in peaks.items():
+        worst = min(values) if name == "lowest_load_factor_g" else max(values)
+        assert flown.summary["estimates"][name + "_worst"]["value"] == pytest.approx(worst, **MEAN_OF_FLOAT32)
+
+
+# What docs/reference/metrics.md says that a mean over the states of a flight is of.
+FLIGHT_METRICS = {
+    "load_factor_g": lambda flight: flight["load_factor_g"],
+    "true_airspeed_fps": lambda flight: flight["true_airspeed_fps"],
+    "mach": lambda flight: flight["mach"],
+    "abs_alpha_deg": lambda flight: flight["alpha_deg"].abs(),
+    "abs_beta_deg": lambda flight: flight["beta_deg"].abs(),
+    "abs_p_rad_s": lambda flight: np.radians(flight["p_deg_s"].abs()),
+    "abs_q_rad_s": lambda flight: np.radians(flight["q_deg_s"].abs()),
+    "abs_r_rad_s": lambda flight: np.radians(flight["r_deg_s"].abs()),
+    "altitude_margin": lambda flight: (flight["altitude_ft"] - 2500) / (5000 / 0.3048),
+    "speed_margin": lambda flight: (1.505 - (flight["mach"] - 1.505).abs()) / 1.505,
+    "overload_margin": lambda flight: (10 - flight["load_factor_g"].abs()) / 10,
+    "alpha_margin": lambda flight: (32.5 - (flight["alpha_deg"] - 12.5).abs()) / 32.5,
+    "beta_margin": lambda flight: (30 - flight["beta_deg"].abs()) / 30,
+}
+
+
+def test_flight_metrics_are_means_over_the_recorded_flights(held_flights):
+    flown, flights = held_flights
+    assert_measured(flown, {
+        name: [value(flight).mean() for flight in flights] for name, value in FLIGHT_METRICS.items()
+    })
+
+
+def test_metrics_of_the_hold_are_those_of_the_end_of_the_recorded_flights(held_flights):
+    flown, flights = held_flights
+    holds = [flight.tail(round(HOLD_S / CONTROL_STEP_S)) for flight in flights]
+    squared = ["p_deg_s", "q_deg_s", "r_deg_s", "beta_deg"]
+    squared += ["error_altitude_ft", "error_yaw_deg", "error_true_airspeed_fps"]
+    expected = {f"hold_rms_{name}": [np.sqrt((hold[name] ** 2).mean()) for hold in holds] for name in squared}
+    expected["hold_abs_bank_deg"] = [hold["roll_deg"].abs().mean() for hold in holds]
+    expected["hold_load_factor_deviation_g"] = [hold["load_factor_g"].std(ddof=0) for hold in holds]
+    assert_measured(flown, expected, has_columns=False)
 
 
 def test_a_function_sees_what_a_task_file_shows():

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/config/conditions.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/field_list.h"
+#include "base/number_text.h"
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "src/config/configuration.h"
+#include "src/files/output_file.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -36,6 +43,150 @@ EnvConfig Under(const std::vector<std::string>& conditions, const std::string& t
   const ProgramConfig config = ResolveConfig({task, "default", "", {}, conditions});
   CheckConsistent(config);
   return config.train.env;
+}
+
+/// The rows of the table of docs/reference/conditions.md whose head begins with "| HEAD |", as
+/// their cells.
+std::vector<std::vector<std::string>> TableOfPage(const std::string& head) {
+  std::istringstream page(ReadFile(SKEIN_SOURCE "/docs/reference/conditions.md"));
+  std::vector<std::vector<std::string>> rows;
+  bool is_in_table = false;
+  for (std::string line; std::getline(page, line);) {
+    is_in_table =
+        line.rfind("| " + head + " |", 0) == 0 || (is_in_table && line.rfind('|', 0) == 0);
+    if (!is_in_table) continue;
+    std::istringstream cells(line.substr(2));
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, '|');) {
+      const std::size_t end = cell.find_last_not_of(' ') + 1, begin = cell.find_first_not_of(' ');
+      if (begin < end) rows.back().push_back(cell.substr(begin, end - begin));
+    }
+  }
+  if (rows.size() > 2) rows.erase(rows.begin(), rows.begin() + 2);  // the head and the line below
+  return rows;
+}
+
+/// The names in a cell: what stands between backquotes.
+std::vector<std::string> NamesIn(const std::string& cell) {
+  std::vector<std::string> names;
+  std::istringstream parts(cell);
+  std::string part;
+  while (std::getline(parts, part, '`') && std::getline(parts, part, '`')) names.push_back(part);
+  return names;
+}
+
+/// "A", "A to B" or "A..B" of a page.
+Range RangeIn(const std::string& cell) {
+  for (const std::string between : {" to ", ".."}) {
+    const std::size_t at = cell.find(between);
+    if (at == std::string::npos) continue;
+    return {std::stod(cell.substr(0, at)), std::stod(cell.substr(at + between.size()))};
+  }
+  return {std::stod(cell), std::stod(cell)};
+}
+
+/// The same or "+-X", to either side of the nominal value, or "+-X %" of it.
+Range RangeAround(double nominal, const std::string& cell) {
+  if (cell.rfind("+-", 0) != 0) return RangeIn(cell);
+  const double half_width = std::stod(cell.substr(2)) / (cell.back() == '%' ? 100 : 1);
+  return {nominal - half_width, nominal + half_width};
+}
+
+void ExpectRange(const Range& is, const Range& expected, const std::string& of) {
+  EXPECT_DOUBLE_EQ(is.min, expected.min) << of;
+  EXPECT_DOUBLE_EQ(is.max, expected.max) << of;
+}
+
+/// By their keys: "mass_min".
+std::map<std::string, double> ValuesOf(PlantConfig plant) {
+  std::map<std::string, double> values;
+  for (const Field& field : FieldsOf(plant)) {
+    values[field.key] = NumberOf(field.ValueText(ShortestText)).value();
+  }
+  return values;
+}
+
+/// Of the keys of a quantity, those of its least and greatest value; one of what is no range.
+std::vector<std::string> KeysOf(const std::string& quantity) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : ValuesOf({})) {
+    const bool is_end =
+        key.rfind(quantity + "_min", 0) == 0 || key.rfind(quantity + "_max", 0) == 0;
+    if (is_end || key == quantity) keys.push_back(key);
+  }
+  return keys;
+}
+
+const std::vector<std::string> kLevels = {"mild", "middle", "hard"};
+
+/// Of all but plant: what the level sets is what the page says of it.
+void ExpectLevel(const std::string& condition, const std::string& level, const std::string& cell) {
+  const std::string text = condition + "=" + level;
+  const EnvConfig env = Under({text});
+  if (condition == "windy") {
+    const std::size_t comma = cell.find("fps,");
+    ASSERT_NE(comma, std::string::npos) << cell;
+    ExpectRange(env.wind.speed_fps, RangeIn(cell.substr(0, comma)), text);
+    double deviation_fps = 0;
+    for (const auto& row : TableOfPage("severity")) {
+      if (row[0] == cell.substr(comma + 4)) deviation_fps = std::stod(row[1]);
+    }
+    ExpectRange(env.wind.turbulence_fps, {deviation_fps, deviation_fps}, text);
+    return;
+  }
+  const Range range = RangeIn(cell);
+  if (condition == "noisy") {
+    EXPECT_EQ(env.observation_noise, range.min) << text;
+    EXPECT_EQ(env.most_noise(), 0) << text;
+  } else if (condition == "high_altitude") {
+    ExpectRange(env.initial.altitude_ft, {1000 * range.min, 1000 * range.max}, text);
+  } else {
+    constexpr double kFpsOfMachOne = 1037;  // by the page
+    ExpectRange(env.initial.true_airspeed_fps,
+                {kFpsOfMachOne * range.min, kFpsOfMachOne * range.max}, text);
+  }
+}
+
+TEST(Conditions, LevelsAreThoseOfThePage) {
+  std::vector<std::string> names;
+  for (const auto& row : TableOfPage("condition")) {
+    ASSERT_EQ(row.size(), 3 + kLevels.size());
+    names.push_back(NamesIn(row[0]).at(0));
+    for (std::size_t k = 0; k < kLevels.size(); ++k) {
+      if (names.back() != "plant") {
+        ExpectLevel(names.back(), kLevels[k], row[3 + k]);
+        continue;
+      }
+      EXPECT_EQ(ConditionAssignments({"plant=" + kLevels[k]}),
+                ConditionAssignments({"plant=" + row[3 + k]}));
+    }
+  }
+  EXPECT_THAT(Complaint({"all=mild"}), EndsWith(fmt::format("known: {}", fmt::join(names, ", "))));
+}
+
+TEST(Conditions, LevelsOfThePlantAreThoseOfThePage) {
+  const std::map<std::string, double> nominal = ValuesOf({});
+  for (std::size_t k = 0; k < kLevels.size(); ++k) {
+    std::map<std::string, double> left = ValuesOf(Under({"plant=" + kLevels[k]}).plant);
+    for (const auto& row : TableOfPage("quantity")) {
+      ASSERT_EQ(row.size(), 2 + kLevels.size());
+      for (const std::string& quantity : NamesIn(row[0])) {
+        const std::vector<std::string> keys = KeysOf(quantity);
+        ASSERT_FALSE(keys.empty()) << quantity;
+        const Range expected = RangeAround(nominal.at(keys[0]), row[2 + k]);
+        for (const std::string& key : keys) {
+          ASSERT_EQ(left.count(key), 1u) << key << " is there twice";
+          const bool is_max = key.find("_max") != std::string::npos;
+          EXPECT_DOUBLE_EQ(left[key], is_max ? expected.max : expected.min)
+              << key << " of " << kLevels[k];
+          left.erase(key);
+        }
+      }
+    }
+    // When a sensor freezes is no matter of levels.
+    EXPECT_EQ(left, (std::map<std::string, double>{{"sensor_freeze_min_s", 5},
+                                                   {"sensor_freeze_max_s", 30}}));
+  }
 }
 
 TEST(Conditions, AreConfigurationAssignments) {
@@ -176,6 +327,7 @@ TEST(Conditions, WindTakesASpeedAndASeverityOrNumbers) {
   EXPECT_NEAR(numbers.speed_fps.max, 50.634, kDigits);
   EXPECT_EQ(numbers.turbulence_fps.max, 5);
   EXPECT_EQ(numbers.from_deg.min, 260);
+  EXPECT_NEAR(Under({"windy=10m/s"}).wind.speed_fps.max, 32.808, kDigits);
 
   EXPECT_EQ(Under({"windy=moderate"}).wind.speed_fps.max, 0);
   EXPECT_THAT(Complaint({"windy=60kt..120"}), HasSubstr("cannot read \"60kt..120\""));
@@ -291,7 +443,7 @@ TEST(Conditions, EveryLevelOfEachOnEveryTaskCanBeFlown) {
   for (const std::string& task : TaskNames()) {
     for (const char* level : {"mild", "middle", "hard"}) {
       std::vector<std::string> together;
-      for (const char* name : {"high_speed", "high_altitude", "windy", "noisy"}) {
+      for (const char* name : {"high_speed", "high_altitude", "windy", "noisy", "plant"}) {
         const std::string condition = std::string(name) + "=" + level;
         EXPECT_NO_THROW(VecEnv(Under({condition}, task), 32, 1)) << task << " " << condition;
         together.push_back(condition);
