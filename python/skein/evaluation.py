@@ -38,7 +38,8 @@ class Evaluation:
     columns: dict[str, NDArray[Any]]
     """One number for each episode, in their order, (episodes,): termination (an index of TERMINATION_NAMES), succeeded,
     episode_return, control_steps, reached_step and entered_step (control steps at which the target counted, and its
-    tolerances were entered; 0: never), and the metrics and peaks of docs/reference/metrics.md, units in their names."""
+    tolerances were entered; 0: never), and the flight metrics and peaks of docs/reference/metrics.md, units in
+    their names. What is of holds and missions stands in `summary`."""
     starts: int
     """A hash of initial states and targets: equal for agents that flew the same episodes."""
 
