@@ -3,9 +3,12 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { el } from './dom';
-import { styleColour } from './palette';
-import type { Picture } from './save';
+import { dashStyleOf, styleColour } from './palette';
+import type { Key, Picture } from './save';
 import type { SharedRange } from './shared_range';
+
+/** Of a legend's marks, pixels: what a double edge takes. */
+const MARK_WIDTH = 3;
 
 export interface ChartOptions {
   title: string;
@@ -18,6 +21,8 @@ export interface ChartOptions {
   range?: SharedRange;
   nameX: string;
   formatX: (x: number) => string;
+  /** Of a tick, with all its digits. */
+  tickX: (x: number) => string;
   scales?: uPlot.Scales;
   axes?: uPlot.Axis[];
   hooks?: uPlot.Hooks.Arrays;
@@ -25,12 +30,20 @@ export interface ChartOptions {
   drag?: boolean;
 }
 
-/** A number as axes and legends show it. */
+/** A number as legends show it. */
 export function formatted(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   const size = Math.abs(value);
   if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(1);
   return String(Number(value.toPrecision(size >= 1000 ? 5 : 3)));
+}
+
+/** A tick of an axis: all its digits, as ticks are multiples of a step that has few of them; a
+ * rounding error has more. */
+export function tickText(value: number): string {
+  const exact = Number(value.toPrecision(10));
+  const size = Math.abs(exact);
+  return size !== 0 && (size < 1e-3 || size >= 1e6) ? exact.toExponential() : String(exact);
 }
 
 export function axis(overrides: uPlot.Axis = {}): uPlot.Axis {
@@ -40,7 +53,7 @@ export function axis(overrides: uPlot.Axis = {}): uPlot.Axis {
     ticks: { stroke: styleColour('--grid'), width: 1, size: 4 },
     font: '11px system-ui, sans-serif',
     size: 50,
-    values: (_, splits) => splits.map((value) => (value === null ? '' : formatted(value))),
+    values: (_, splits) => splits.map((value) => (value === null ? '' : tickText(value))),
     ...overrides,
   };
 }
@@ -69,6 +82,11 @@ function sharing(range: SharedRange): {
   };
 }
 
+/** What a legend shows a series by: of an area its colour, not that of its edge. */
+function keyColour({ fill, stroke }: uPlot.Series): string {
+  return String(fill ?? stroke);
+}
+
 /** A chart in `place`, as wide as it, until `stop` is called. */
 export class Chart {
   readonly plot: uPlot;
@@ -94,7 +112,7 @@ export class Chart {
       bands: options.bands,
       scales: { x: shared?.scale ?? { time: false }, ...options.scales },
       axes: options.axes ?? [
-        axis({ size: 28, space: 60, values: (_, xs) => xs.map((x) => options.formatX(x)) }),
+        axis({ size: 28, space: 60, values: (_, xs) => xs.map((x) => options.tickX(x)) }),
         axis(),
       ],
       cursor: {
@@ -103,9 +121,14 @@ export class Chart {
         bind: shared?.bind,
         points: { size: 6 },
       },
-      legend: { show: options.legend ?? true },
+      legend: { show: options.legend ?? true, markers: {
+        width: MARK_WIDTH,
+        stroke: (_, i) => keyColour(options.series[i - 1]),
+        dash: (_, i) => dashStyleOf(options.series[i - 1].dash),
+      } },
       hooks: { ...shared?.hooks, ...options.hooks },
     }, data, figure);
+    this.legend();
     this.plot.ctx.canvas.setAttribute('aria-hidden', 'true');
     options.range?.join(this.plot);
     this.observer = new ResizeObserver(() => {
@@ -116,6 +139,27 @@ export class Chart {
     this.observer.observe(figure);
   }
 
+  /** Names of lines are buttons for the keyboard and for readers of screens, too. */
+  private legend(): void {
+    const [, ...names] = this.plot.root.querySelectorAll<HTMLElement>('.u-legend .u-series th');
+    names.forEach((name) => {
+      name.tabIndex = 0;
+      name.setAttribute('role', 'button');
+      name.addEventListener('keydown', (event) => {
+        if (event.key !== 'Enter' && event.key !== ' ') return;
+        event.preventDefault();
+        name.click();
+      });
+    });
+    this.sayShown(names);
+    this.plot.hooks.setSeries = [() => this.sayShown(names)];
+  }
+
+  private sayShown(names: HTMLElement[]): void {
+    names.forEach((name, i) =>
+      name.setAttribute('aria-pressed', String(this.plot.series[i + 1].show !== false)));
+  }
+
   /** Other numbers of the same series; the pointer, and which series are shown, stay. */
   renew(series: uPlot.Series[], data: uPlot.AlignedData): void {
     series.forEach(({ value }, i) => {
@@ -124,11 +168,20 @@ export class Chart {
     this.plot.setData(data);
   }
 
+  /** Which lines are not shown. */
+  get hidden(): number[] {
+    return this.plot.series.flatMap(({ show }, i) => (i > 0 && show === false ? [i] : []));
+  }
+
+  hide(lines: number[]): void {
+    for (const line of lines) this.plot.setSeries(line, { show: false });
+  }
+
   /** As it is, with the names of the lines that are shown. */
   picture(): Picture {
     const { title, series } = this.options;
-    const keys = series.flatMap(({ label, stroke }, i): [string, string][] =>
-      (label && this.plot.series[i + 1].show ? [[String(label), String(stroke)]] : []));
+    const keys = series.flatMap((line, i): Key[] => (line.label && this.plot.series[i + 1].show
+      ? [{ name: String(line.label), colour: keyColour(line), dash: line.dash ?? [] }] : []));
     return { title, canvas: this.plot.ctx.canvas, keys };
   }
 

@@ -57,6 +57,7 @@ export function showConfiguration(place: HTMLElement, pack: ReportPack): Shown {
   draw();
   return {
     stop: () => undefined,
+    recolour: () => undefined,
     renew: (fresh) => {
       runs = fresh.document.runs;
       draw();

@@ -2,7 +2,7 @@
 // What the charts of trainings are made of: the curves, a line of each run's, and their colours,
 // which are the same in every chart.
 import type uPlot from 'uplot';
-import { colourOf, dashOf, faded } from './palette';
+import { colourOf, dashOf, endColourOf, faded } from './palette';
 import { nameOfEnd, type ReportPack, type Run } from './report';
 import { at, band, type Series, smoothed, union } from './series';
 
@@ -103,7 +103,7 @@ function overlaid(lines: Line[], shown: Shown, arePoints: boolean): Drawn {
     series: lines.map((line) => {
       const measured = xs.map((x) => at(line.xs, line.measured, x));
       return {
-        label: line.name, stroke: colourOf(line.run), dash: dashOf(Math.floor(line.run / 8)),
+        label: line.name, stroke: colourOf(line.run), dash: dashOf(line.run),
         width: 1.6, spanGaps: true, points: { show: arePoints },
         value: (_, __, ___, row) => shown(inRow(measured, row)),
       };
@@ -133,7 +133,7 @@ function overSeeds(lines: Line[], shown: Shown, arePoints: boolean): Drawn {
     };
     drawn.series.push(edge, edge, {
       label: `mean of ${own.map((line) => line.name).join(', ')}`, stroke: colour, width: 2,
-      spanGaps: true, points: { show: arePoints }, value,
+      dash: dashOf(repetition), spanGaps: true, points: { show: arePoints }, value,
     });
     drawn.bands.push({ series: [first, first + 1], fill: faded(colour, 0.25) });
   }
@@ -165,6 +165,8 @@ export function endKindsOf(runs: Run[]): End[] {
   const counted = [...new Set(runs.flatMap(({ metrics }) => Object.keys(metrics)))]
     .filter((name) => name.startsWith('ended_'));
   const first = FIRST_ENDS.filter((name) => counted.includes(name));
-  return [...first, ...counted.filter((name) => !first.includes(name))].map((name, i) =>
-    ({ column: name, name: nameOfEnd(name.replace(/^ended_/, ''), false), colour: colourOf(i) }));
+  return [...first, ...counted.filter((name) => !first.includes(name))].map((column) => {
+    const end = column.replace(/^ended_/, '');
+    return { column, name: nameOfEnd(end, false), colour: endColourOf(end) };
+  });
 }

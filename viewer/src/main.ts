@@ -58,7 +58,7 @@ function licences(): HTMLElement {
     el('h3', {}, 'Skein'), el('pre', {}, 'Apache License, Version 2.0'));
 }
 
-/** The whole page of a pack; shows it again when the view or the theme changes. */
+/** The whole page of a pack; shows it again when the view changes. */
 class Page {
   /** What is the matter with the data's freshness; empty while nothing is. */
   readonly status = el('p', { class: 'status', role: 'status' });
@@ -73,7 +73,7 @@ class Page {
   constructor(root: HTMLElement, private pack: ReportPack) {
     const theme = button('◐', 'light or dark', () => {
       document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
-      this.show();
+      this.shown?.recolour();
     });
     root.replaceChildren(
       el('header', {}, this.title, this.nav, theme),
@@ -82,7 +82,8 @@ class Page {
     );
     this.say();
     addEventListener('hashchange', () => this.choose());
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.show());
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change',
+      () => this.shown?.recolour());
     this.choose();
   }
 

@@ -123,7 +123,8 @@ class MetricsTable {
     const reference = agents[this.reference].estimates[quantity.key];
     const isBold = isMarked(quantity, reference, estimate, difference);
     return [
-      el('td', { class: isBold ? 'better' : '' }, value),
+      el('td', { class: isBold ? 'better' : '' }, value,
+        isBold ? el('span', { class: 'unseen' }, ' better') : null),
       el('td', {
         class: sideOfZero(difference) === 0 ? 'difference' : 'difference apart',
         title: difference && difference.count > 0 ? `${difference.count} episodes` : undefined,
@@ -183,6 +184,7 @@ export function showMetrics(place: HTMLElement, pack: ReportPack): Shown {
   draw();
   return {
     stop: () => undefined,
+    recolour: () => undefined,
     renew: (fresh) => {
       const isOther = JSON.stringify(fresh.document.comparisons) !== JSON.stringify(comparisons);
       comparisons = fresh.document.comparisons;

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours that people with any colour vision tell apart (Okabe and Ito 2008), in shades that keep
-// their contrast on light and on dark grounds.
+// Colours of lines, areas and ramps. Four colours are as many as differ clearly for protanopes and
+// deuteranopes, too, and stand out from the ground; tests/palette.test.ts says by how much. More
+// lines differ by their dashes.
 
-const LIGHT = ['#0072b2', '#d55e00', '#00795a', '#a8447f', '#8a6a00', '#3b82a8', '#555555', '#7a3e9d'];
-const DARK = ['#56b4e9', '#ff8c42', '#2fd6a3', '#e58fc0', '#e6c229', '#8fd3ff', '#b8b8b8', '#c79bf2'];
-/** Lines differ by these too. */
+const LIGHT = ['#0072b2', '#d55e00', '#009e73', '#59124a'];
+const DARK = ['#56b4e9', '#ff8c42', '#6df2c6', '#3071f2'];
 const DASHES = [[], [8, 4], [2, 3], [8, 3, 2, 3]];
+/** How the edge of a legend's mark shows each of these. */
+const DASH_STYLES = ['solid', 'dashed', 'dotted', 'double'];
+
+/** Of areas, by how episodes end (kTerminationNames in envs/tasks/termination.h of Skein): losses
+ * are warm. They are the same on both grounds, as areas touch each other more than the ground. */
+const ENDS: Record<string, string> = {
+  target_reached: '#0072b2', time_limit: '#9a9a9a', low_altitude: '#b22400', overload: '#ffd426',
+  low_speed: '#4c2640', high_speed: '#ffb2ff', extreme_state: '#e67300', non_finite: '#e6d8a1',
+};
+const OTHER_END = '#000000';
 
 export function isDark(): boolean {
   const chosen = document.documentElement.dataset.theme;
@@ -13,13 +23,43 @@ export function isDark(): boolean {
   return matchMedia('(prefers-color-scheme: dark)').matches;
 }
 
+/** Of the line of this index, which shares it with every fourth one. */
 export function colourOf(index: number): string {
   const colours = isDark() ? DARK : LIGHT;
   return colours[index % colours.length];
 }
 
+function dashIndex(index: number): number {
+  return Math.floor(index / LIGHT.length) % DASHES.length;
+}
+
+/** What tells the line of this index from those of its colour: lengths of strokes and gaps. */
 export function dashOf(index: number): number[] {
-  return DASHES[index % DASHES.length];
+  return DASHES[dashIndex(index)];
+}
+
+/** The style of a border that stands for a line with these dashes. */
+export function dashStyleOf(dash: number[] | undefined): string {
+  return DASH_STYLES[Math.max(DASHES.findIndex((known) => String(known) === String(dash)), 0)];
+}
+
+/** A background that shows the line of this index: its colour, with the gaps of its dashes. */
+export function swatchOf(index: number): string {
+  const colour = colourOf(index);
+  const dash = dashOf(index);
+  if (dash.length === 0) return colour;
+  let at = 0;
+  const stops = dash.map((length, k) => {
+    const from = at;
+    at += length;
+    return `${k % 2 === 0 ? colour : 'transparent'} ${from}px ${at}px`;
+  });
+  return `repeating-linear-gradient(to right, ${stops.join(', ')})`;
+}
+
+/** Of the area of an end, "low_altitude". */
+export function endColourOf(end: string): string {
+  return ENDS[end] ?? OTHER_END;
 }
 
 /** `colour`, "#rrggbb", let through. */

@@ -38,17 +38,23 @@ export function csvOf(rows: (number | string)[][]): string {
   return rows.map((row) => `${row.join(',')}\r\n`).join('');
 }
 
+export interface Key {
+  name: string;
+  colour: string;
+  dash: number[];
+}
+
 export interface Picture {
   title: string;
   canvas: HTMLCanvasElement;
-  /** Whose its lines are, by their colours. */
-  keys?: [name: string, colour: string][];
+  /** Whose its lines are, by their colours and dashes. */
+  keys?: Key[];
 }
 
 const GAP = 12;
 const LINE = 18;
 const COLUMNS = 3;
-const SWATCH = 14;
+const SWATCH = 22;
 
 /** Pictures of one size beside one another, in as many rows as it takes; lengths in pixels. */
 interface Block {
@@ -81,11 +87,16 @@ function drawHead(
   pen.font = `${11 * scale}px system-ui, sans-serif`;
   const [swatch, base] = [SWATCH * scale, top + (LINE + 12) * scale];
   let x = left;
-  for (const [name, colour] of keys ?? []) {
+  for (const { name, colour, dash } of keys ?? []) {
     const needed = swatch + pen.measureText(name).width + 12 * scale;
     if (x > left && x + needed > left + width) break;
-    pen.fillStyle = colour;
-    pen.fillRect(x, base - 5 * scale, swatch - 4 * scale, 3 * scale);
+    pen.strokeStyle = colour;
+    pen.lineWidth = 3 * scale;
+    pen.setLineDash(dash.map((length) => length * scale));
+    pen.beginPath();
+    pen.moveTo(x, base - 3.5 * scale);
+    pen.lineTo(x + swatch - 4 * scale, base - 3.5 * scale);
+    pen.stroke();
     pen.fillStyle = styleColour('--text');
     pen.fillText(name, x + swatch, base, left + width - x - swatch);
     x += needed;

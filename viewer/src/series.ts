@@ -85,10 +85,10 @@ export function shares(columns: Numbers[]): Series[] {
     }));
 }
 
-/** "1.2 M", "300 k". */
-export function formatCount(value: number): string {
+/** "1.2 M", "300 k": of so many digits. */
+export function formatCount(value: number, digits = 3): string {
   for (const [unit, name] of [[1e9, 'G'], [1e6, 'M'], [1e3, 'k']] as const) {
-    if (Math.abs(value) >= unit) return `${Number((value / unit).toPrecision(3))} ${name}`;
+    if (Math.abs(value) >= unit) return `${Number((value / unit).toPrecision(digits))} ${name}`;
   }
-  return `${Number(value.toPrecision(3))}`;
+  return `${Number(value.toPrecision(digits))}`;
 }

@@ -7,4 +7,6 @@ export interface Shown {
   stop: () => void;
   /** Takes fresh data of a watched run, and leaves as it is what a reader has chosen. */
   renew: (pack: ReportPack) => void;
+  /** Draws in the colours of another theme what is not the style sheet's, and leaves all else. */
+  recolour: () => void;
 }

@@ -6,6 +6,7 @@ import {
   CURVES, type Drawn, drawnOf, type End, endKindsOf, linesOf, percentOf,
 } from './curves';
 import { button, el, slider, tick } from './dom';
+import { styleColour } from './palette';
 import type { ReportPack, Run } from './report';
 import { montage, savePicture, saveTable } from './save';
 import { formatCount, type Series, shares, weightOf } from './series';
@@ -13,13 +14,16 @@ import type { Shown } from './shown';
 import { trainingCsv } from './tables';
 import { type Limits, limitsOf, SharedRange } from './shared_range';
 
+/** More than a tick has, fewer than show a rounding error. */
+const TICK_DIGITS = 10;
+
 interface Part extends Drawn {
   title: string;
   isShare: boolean;
 }
 
 /** How the episodes of a run ended over time: shares, one on top of the other. */
-function endsPartOf(run: Run, all: End[], pack: ReportPack): Part | null {
+export function endsPartOf(run: Run, all: End[], pack: ReportPack): Part | null {
   const countsOf = ({ column }: End) =>
     (run.metrics[column] ? pack.array(run.metrics[column]) : new Float32Array());
   const ends = all.filter((end) => countsOf(end).some((count) => count > 0));
@@ -33,7 +37,8 @@ function endsPartOf(run: Run, all: End[], pack: ReportPack): Part | null {
   return {
     title: `how episodes end: ${run.name}`, isShare: true, bands: [],
     series: order.map((k) => ({
-      label: ends[k].name, stroke: ends[k].colour, width: 1, points: { show: false },
+      // Between areas is a line of the ground's colour.
+      label: ends[k].name, stroke: styleColour('--ground'), width: 1, points: { show: false },
       fill: ends[k].colour, spanGaps: true,
       value: (_: uPlot, __: number, ___: number, i: number | null) =>
         percentOf(i === null ? null : parts[k][i]),
@@ -79,12 +84,13 @@ class TrainingView implements Shown {
     });
     place.append(
       el('div', { class: 'controls' }, smoothing, this.seeds,
+        button('whole', 'all control steps in all charts', () => this.range.showAll()),
         button('save picture', 'the charts as they are, as PNG', () => this.savePicture()),
         button('save data', 'what was measured, a row for every iteration of every run, as CSV',
           () => this.saveData()),
         el('span', { class: 'hint' }, 'Smoothing leaves evaluations and legends as they are. All '
           + 'charts show the same control steps: drag over one to enlarge a part in all, double-click '
-          + 'to go back. A press on a name in a legend hides its line.')),
+          + 'or "whole" to go back. A press on a name in a legend hides its line.')),
       this.grid,
     );
     this.draw();
@@ -118,7 +124,8 @@ class TrainingView implements Shown {
     this.grid.replaceChildren();
     this.charts = this.parts.map((part) => new Chart(this.grid, {
       title: part.title, height: 190, group: 'training', range: this.range,
-      nameX: 'control steps', formatX: formatCount, series: part.series, bands: part.bands,
+      nameX: 'control steps', formatX: (x) => formatCount(x),
+      tickX: (x) => formatCount(x, TICK_DIGITS), series: part.series, bands: part.bands,
       scales: part.isShare ? { y: { range: [0, 1] } } : undefined,
     }, part.data));
     if (this.charts.length === 0) this.grid.append(el('p', {}, 'There is no iteration yet.'));
@@ -128,6 +135,16 @@ class TrainingView implements Shown {
     this.pack = pack;
     this.range.renew(stepsOf(pack));
     this.draw();
+  }
+
+  /** Charts have the colours that they were made with. */
+  recolour(): void {
+    const scroll = scrollY;
+    const hidden = this.charts.map((chart) => chart.hidden);
+    this.stop();
+    this.draw();
+    this.charts.forEach((chart, k) => chart.hide(hidden[k]));
+    scrollTo(0, scroll);
   }
 
   private savePicture(): void {

@@ -3,7 +3,7 @@ import type uPlot from 'uplot';
 import { afterAll, beforeAll, describe, expect, it, vi } from 'vitest';
 import { CURVES, drawnOf, endKindsOf, linesOf } from '../src/curves';
 import type { ArrayReference } from '../src/pack';
-import { colourOf } from '../src/palette';
+import { colourOf, dashOf, endColourOf } from '../src/palette';
 import type { ReportPack, Run } from '../src/report';
 import { weightOf } from '../src/series';
 
@@ -99,6 +99,17 @@ describe('a run', () => {
   });
 });
 
+it('lines of one colour differ by their dashes, means over seeds too', () => {
+  const many = packOf(Array.from({ length: 10 }, () => ({ ...STEPS, return_mean: [0, 1, 2, 3] })));
+  const lines = linesOf(RETURN, many, 0);
+  const looksOf = (isOverSeeds: boolean) => drawnOf(RETURN, lines, isOverSeeds).series
+    .filter((series) => series.class !== 'edge')
+    .map(({ stroke, dash }) => `${String(stroke)} ${String(dash)}`);
+  expect(new Set(looksOf(false)).size).toBe(10);
+  expect(new Set(looksOf(true)).size).toBe(5);
+  expect(looksOf(true)[4]).toBe(`${colourOf(0)} ${String(dashOf(4))}`);
+});
+
 it('kinds of ends have the same order and colour for all runs', () => {
   const runs = packOf([
     { ended_low_speed: [1], ended_target_reached: [0], ended_time_limit: [3] },
@@ -107,6 +118,10 @@ it('kinds of ends have the same order and colour for all runs', () => {
   const kinds = endKindsOf(runs);
   expect(kinds.map(({ name }) => name))
     .toEqual(['target reached', 'time limit', 'low speed', 'overload']);
-  expect(kinds.map(({ colour }) => colour)).toEqual([0, 1, 2, 3].map(colourOf));
+  expect(kinds.map(({ colour }) => colour))
+    .toEqual(['target_reached', 'time_limit', 'low_speed', 'overload'].map(endColourOf));
+  // Whichever others there are.
+  const [alone] = endKindsOf(packOf([{ ended_overload: [1] }]).document.runs);
+  expect(alone.colour).toBe(kinds[3].colour);
   expect(endKindsOf([])).toEqual([]);
 });

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import { readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { expect, it } from 'vitest';
+import viewer from '../vite.config';
 
 /** Debian 12's. */
 const OLDEST_NODE = 18;
@@ -26,6 +27,16 @@ it('every package of the lock file runs on the oldest Node that is supported', (
   const refusing = Object.entries(lock.packages)
     .filter(([, { engines }]) => engines?.node && !admits(engines.node)).map(([name]) => name);
   expect(refusing).toEqual([]);
+});
+
+/** Not beside a copy of the viewer, in which a build tests it. */
+const MANUAL = join(__dirname, '../../docs/how-to/report.md');
+
+it.skipIf(!existsSync(MANUAL))('the page is built for the browsers that its manual names', () => {
+  const [, ...versions] = /needs Chromium (\d+)[^,]*, Firefox ([\d.]+), Safari ([\d.]+)/
+    .exec(readFileSync(MANUAL, 'utf8')) ?? [];
+  expect(viewer.build?.target)
+    .toEqual(['chrome', 'firefox', 'safari'].map((name, i) => name + versions[i]));
 });
 
 it('the lock file names no registry', () => {

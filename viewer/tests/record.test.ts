@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type LineSegments, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { Goal } from '../src/flights/goal';
+import { Goal, recordsWithGoal } from '../src/flights/goal';
 import { actionsOf, errorsOf, readingsOf } from '../src/flights/pane';
 import { type FlightRecord, Pose, recordsOf } from '../src/flights/record';
 import { flightCsv } from '../src/flights/flight_csv';
-import { dataOf, isWrapped, reading, stripsOf, wrapsOf } from '../src/flights/strip_list';
+import { chartedOf, dataOf, isWrapped, MOST_CHARTED, reading, stripsOf, wrapsOf } from '../src/flights/strip_list';
 import { Trails } from '../src/flights/trails';
 import type { ArrayReference } from '../src/pack';
 import type { FlightSet, ReportPack } from '../src/report';
@@ -87,6 +87,34 @@ describe('a record', () => {
     expect(record(STRAIGHT, { end: 'low_altitude', reached_s: [2] }, missions).outcome())
       .toBe('low altitude at 3.0 s');
   });
+});
+
+describe('in space', () => {
+  const setOf = (isPoint: boolean, ...columns: string[]) => ({ is_point: isPoint,
+    targets: columns.map((column) => ({ column, is_angle: true, tolerance: 5 })) }) as FlightSet;
+  const records = [0, 0, 1, 1].map((episode, agent) => record(STRAIGHT, { episode, agent }));
+  const shownOf = (set: FlightSet) => recordsWithGoal(set, records).own;
+
+  it('a target of no place and no heading is not shown', () => {
+    expect(shownOf(setOf(false, 'roll_deg', 'altitude_ft'))).toEqual([]);
+    expect(shownOf(setOf(false))).toEqual([]);
+  });
+  it('a heading is shown of everyone, a place once an episode', () => {
+    expect(shownOf(setOf(false, 'yaw_deg', 'altitude_ft'))).toEqual(records);
+    expect(shownOf(setOf(true, 'north_ft', 'east_ft', 'altitude_ft')))
+      .toEqual([records[0], records[2]]);
+  });
+});
+
+it('charts hold the flights of the first episodes, of all agents', () => {
+  // As they are packed, by agent.
+  const flown = [0, 1].flatMap((agent) => Array.from({ length: 20 }, (_, episode) =>
+    record(STRAIGHT, { agent, episode })));
+  const charted = chartedOf(flown);
+  expect(charted.length).toBe(MOST_CHARTED);
+  expect(charted.map(({ agent, episode }) => [episode, agent]))
+    .toEqual(Array.from({ length: MOST_CHARTED }, (_, i) => [Math.floor(i / 2), i % 2]));
+  expect(flown[1].episode).toBe(1);
 });
 
 /** Every third row of so many steps of a second, and the last one (FlightsJson of Skein); the

@@ -56,5 +56,9 @@ it('a union is sorted and has every value once', () => {
 });
 
 it('counts are short', () => {
-  expect([0, 950, 12_345, 1e8].map(formatCount)).toEqual(['0', '950', '12.3 k', '100 M']);
+  expect([0, 950, 12_345, 1e8].map((count) => formatCount(count)))
+    .toEqual(['0', '950', '12.3 k', '100 M']);
+  // Ticks near each other differ.
+  expect([1.0005e7, 1.001e7, 1.0015e7].map((count) => formatCount(count, 10)))
+    .toEqual(['10.005 M', '10.01 M', '10.015 M']);
 });

@@ -56,6 +56,13 @@ export class Cameras {
     this.isFollowing = false;
   }
 
+  /** Looks from where another one of the same flights did, if that was turned by hand. */
+  resume(other: Cameras): void {
+    if (!other.isTurned) return;
+    this.copyView(other);
+    this.isTurned = true;
+  }
+
   get chosen(): CameraName {
     return this.name;
   }

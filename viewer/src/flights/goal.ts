@@ -5,7 +5,7 @@ import {
   BoxGeometry, BufferAttribute, BufferGeometry, Color, DoubleSide, EdgesGeometry,
   Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3,
 } from 'three';
-import type { Target } from '../report';
+import type { FlightSet, Target } from '../report';
 import { direction, place } from './frames';
 import type { FlightRecord } from './record';
 
@@ -79,6 +79,19 @@ interface Half {
 function crossAt(at: Vector3, reach: number): number[] {
   return [[reach, 0, 0], [0, reach, 0], [0, 0, reach]].flatMap(([x, y, z]) =>
     [at.x - x, at.y - y, at.z - z, at.x + x, at.y + y, at.z + z]);
+}
+
+/** Those of the records whose targets are shown in space, of tasks that have a place or a heading as
+ * target: of points one an episode, as all agents fly to it, but for missions; of directions
+ * everyone's. */
+export function recordsWithGoal(
+  { is_point: isPoint, targets }: FlightSet, records: FlightRecord[],
+): { own: FlightRecord[]; isShared: boolean } {
+  const isShared = isPoint && records.every((record) => record.newTargets.length === 0);
+  if (!isPoint && !targets.some(({ column }) => column === 'yaw_deg')) return { own: [], isShared };
+  if (!isShared) return { own: records, isShared };
+  return { isShared, own: records.filter((record, i) =>
+    records.findIndex((other) => other.episode === record.episode) === i) };
 }
 
 export class Goal {

@@ -2,7 +2,8 @@
 // What a scene stands on: a grid of a known spacing at a known altitude, the points of the compass,
 // and the wind.
 import {
-  ArrowHelper, Box3, CanvasTexture, Color, GridHelper, Group, Sprite, SpriteMaterial, Vector3,
+  ArrowHelper, Box3, CanvasTexture, Color, GridHelper, Group, Sprite, SpriteMaterial, SRGBColorSpace,
+  Vector3,
 } from 'three';
 import { niceStep } from './frames';
 
@@ -25,7 +26,9 @@ export function label(text: string, colour: string, height: number): Sprite {
   pen.fillStyle = colour;
   pen.textBaseline = 'middle';
   pen.fillText(text, 8, 32);
-  const sprite = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false }));
+  const map = new CanvasTexture(canvas);
+  map.colorSpace = SRGBColorSpace;
+  const sprite = new Sprite(new SpriteMaterial({ map, depthTest: false }));
   sprite.scale.set((height * canvas.width) / canvas.height, height, 1);
   return sprite;
 }

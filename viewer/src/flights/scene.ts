@@ -10,7 +10,7 @@ import { SPAN_FT } from './aircraft';
 import { Cameras, type CameraName } from './cameras';
 import { Fleet } from './fleet';
 import { Ghosts } from './ghosts';
-import { Goal } from './goal';
+import { Goal, recordsWithGoal } from './goal';
 import { type Ground, makeGround, windArrow } from './ground';
 import { Ladder } from './ladder';
 import { type FlightRecord, Pose } from './record';
@@ -73,14 +73,8 @@ export class FlightScene {
     return this.spanFt / SPAN_FT;
   }
 
-  /** Of points one an episode, as all agents fly to it, but for missions; of directions everyone's. */
   private addGoals(set: FlightSet, box: Box3): void {
-    const { records } = this;
-    const isShared = set.is_point && records.every((record) => record.newTargets.length === 0);
-    const own = isShared
-      ? records.filter((record, i) =>
-        records.findIndex((other) => other.episode === record.episode) === i)
-      : records;
+    const { own, isShared } = recordsWithGoal(set, this.records);
     if (!isShared && own.length > MOST_GOALS) return;
     for (const record of own) {
       const colour = isShared ? styleColour('--target') : colourOf(record.agent);

@@ -14,6 +14,9 @@ export interface Strip {
   secondAxis?: boolean;
 }
 
+/** Of more flights in view the charts hold the first episodes': more lines are not told apart. */
+export const MOST_CHARTED = 12;
+
 const NAMES: Record<string, string> = {
   p_deg_s: 'roll rate p', q_deg_s: 'pitch rate q', r_deg_s: 'yaw rate r', power: 'power, %',
 };
@@ -77,6 +80,11 @@ export function dataOf(records: FlightRecord[], strip: Strip): [xs: number[], ..
     });
   }));
   return [xs, ...lines];
+}
+
+/** Those of the flights in view that the charts hold: of the first episodes, of all agents. */
+export function chartedOf(shown: FlightRecord[]): FlightRecord[] {
+  return [...shown].sort((a, b) => a.episode - b.episode || a.agent - b.agent).slice(0, MOST_CHARTED);
 }
 
 /** The charts that a set of flights has, of any of its agents. */

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Strip charts over the time of the flights in view.
 import uPlot from 'uplot';
-import { axis, Chart, formatted } from '../chart';
+import { axis, Chart, formatted, tickText } from '../chart';
 import { choice, el, tick } from '../dom';
-import { colourOf, faded, styleColour } from '../palette';
+import { colourOf, dashOf, faded, styleColour } from '../palette';
 import type { Picture } from '../save';
 import type { FlightRecord } from './record';
 import { dataOf, isCommand, isWrapped, reading, type Strip, titleOf, wrapsOf } from './strip_list';
@@ -29,7 +29,7 @@ function seriesOf(records: FlightRecord[], strip: Strip, agents: string[]): uPlo
   return records.flatMap((record) => strip.columns.map((column, k) => ({
     label: k === 0 ? agents[record.agent] : titleOf(column),
     stroke: k === 0 ? colourOf(record.agent) : faded(colourOf(record.agent), 0.75),
-    width: 1.4, dash: k === 0 ? undefined : [5, 4], points: { show: false },
+    width: 1.4, dash: k === 0 ? dashOf(record.agent) : [5, 4], points: { show: false },
     paths: isCommand(column) ? uPlot.paths.stepped?.({ align: -1 }) : undefined,
     ...(isWrapped(column) ? { gaps: gapsOfWraps } : {}),
     scale: k > 0 && strip.secondAxis ? 'second' : 'y',
@@ -92,7 +92,7 @@ export class Strips {
     const ticks = strips.map((strip) => tick(strip.title.replace(/, and dashed.*/, ' | surface'),
       strip.isOn, (isOn) => {
         strip.isOn = isOn;
-        this.draw(this.records);
+        this.draw(this.records, this.end);
       }));
     const span = choice('charts show', SPANS, 'Infinity', (value) => {
       this.span = Number(value);
@@ -102,9 +102,10 @@ export class Strips {
       el('details', { class: 'picker' }, el('summary', {}, 'which charts'), ...ticks)), this.grid);
   }
 
-  draw(records: FlightRecord[]): void {
+  /** Charts of these records, from 0 to `end`, s, which is that of all flights in view. */
+  draw(records: FlightRecord[], end: number): void {
     this.records = records;
-    this.end = Math.max(0, ...records.map((record) => record.duration));
+    this.end = end;
     this.stop();
     this.grid.replaceChildren();
     for (const strip of this.strips) {
@@ -125,15 +126,16 @@ export class Strips {
   }
 
   private chart(strip: Strip, records: FlightRecord[]): Chart {
-    const inSeconds: uPlot.Axis.DynamicValues = (_, times) =>
-      times.map((time) => `${formatted(time)} s`);
+    const secondsOf = (time: number) => `${tickText(time)} s`;
+    const inSeconds: uPlot.Axis.DynamicValues = (_, times) => times.map(secondsOf);
     const axes = [axis({ size: 26, space: 50, values: inSeconds }), axis({ size: 46 })];
     if (strip.secondAxis) {
       axes.push(axis({ scale: 'second', side: 1, size: 40, grid: { show: false } }));
     }
     const chart = new Chart(this.grid, {
       title: strip.title, height: 130, group: 'strips', legend: false, axes, drag: false,
-      nameX: 'time', formatX: (x) => `${x.toFixed(1)} s`, series: seriesOf(records, strip, this.agents),
+      nameX: 'time', formatX: (x) => `${x.toFixed(1)} s`, tickX: secondsOf,
+      series: seriesOf(records, strip, this.agents),
       hooks: {
         drawClear: [(plot) => {
           if (strip.tolerance !== undefined) shadeTolerance(plot, strip.tolerance);

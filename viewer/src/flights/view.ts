@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view of flights: windows, player, charts.
 import { button, choice, el, isPressable, tick } from '../dom';
-import { colourOf } from '../palette';
+import { swatchOf } from '../palette';
 import type { FlightSet, ReportPack } from '../report';
 import { montage, savePicture, saveTable } from '../save';
 import type { Shown } from '../shown';
@@ -12,13 +12,16 @@ import { flightCsv } from './flight_csv';
 import { FlightTable } from './flight_table';
 import { Pane } from './pane';
 import { type FlightRecord, recordsOf } from './record';
-import { stripsOf } from './strip_list';
+import { chartedOf, MOST_CHARTED, stripsOf } from './strip_list';
 import { Strips } from './strips';
 
 const TRAILS: [string, string][] = [['1e9', 'whole'], ['20', '20 s'], ['5', '5 s'], ['0', 'none']];
-const KEYS = 'Space plays; ← → 1 s (with Shift 0.1 s); ↑ ↓ speed; Home, End; N, P episode; '
-  + '[ ] target of a mission; 1–4 or C camera; F whom it follows; S side by side; T trail colour.';
+const KEYS = 'Space plays; ← → 1 s (with Shift 0.1 s); N, P episode; '
+  + '[ ] target of a mission; 1–4 or C camera; F whom it follows; S side by side; T trail colour. '
+  + 'In the windows and the player: ↑ ↓ speed; Home, End.';
 
+/** Of windows and player alone. */
+const SCROLLING = ['ArrowUp', 'ArrowDown', 'Home', 'End'];
 /** While it plays, readings and charts follow so often, ms. */
 const READ_MS = 100;
 /** So much after a target came it is the one that is flown to. */
@@ -31,7 +34,9 @@ class FlightsView {
   private readonly strips: Strips;
   private readonly windows = el('div', { class: 'windows' });
   private readonly legend = el('div', { class: 'legend' });
-  private readonly play = button('▶', 'play or stop (Space)', () => this.toggle());
+  /** That there are more flights in view than in the charts, if there are. */
+  private readonly charted = el('p', { class: 'hint charted' });
+  private readonly play = button('▶', 'play', () => this.toggle());
   private readonly scrubber = el('input', {
     type: 'range', min: 0, max: 1, step: 'any', class: 'scrubber', 'aria-label': 'time',
     oninput: () => this.seek(Number(this.scrubber.value)),
@@ -82,7 +87,7 @@ class FlightsView {
         button('save picture', 'windows and charts as they are, as PNG', () => this.savePicture()),
         button('save data', 'the flights in view as CSV', () => this.saveData()),
         el('details', { class: 'keys' }, el('summary', {}, 'keys'), el('p', {}, KEYS))),
-      this.legend, table.element, this.strips.element,
+      this.legend, table.element, this.charted, this.strips.element,
     );
     addEventListener('keydown', this.onKey);
     this.rebuild();
@@ -132,13 +137,25 @@ class FlightsView {
     this.clock.end = Math.max(0.02, ...shown.map((record) => record.duration));
     this.clock.seek(this.clock.time);
     this.scrubber.max = String(this.clock.end);
-    this.strips.draw(shown.slice(0, 12));
+    const charted = chartedOf(shown);
+    this.charted.textContent = charted.length < shown.length
+      ? `charts: ${MOST_CHARTED} of the ${shown.length} flights in view` : '';
+    this.strips.draw(charted, this.clock.end);
     for (const pane of this.panes) {
       pane.fit();
       pane.scene.cameras.onTurned = () => this.turnAll(pane);
     }
     this.chooseCamera((this.camera.querySelector('select') as HTMLSelectElement).value as CameraName);
     this.chooseColouring(this.colouring);
+  }
+
+  /** Windows and charts have the colours that they were made with. */
+  recolour(): void {
+    const scroll = scrollY;
+    const before = this.panes.map((pane) => pane.scene.cameras);
+    this.rebuild();
+    this.panes.forEach((pane, i) => pane.scene.cameras.resume(before[i]));
+    scrollTo(0, scroll);
   }
 
   /** The other windows look the same way. */
@@ -198,7 +215,7 @@ class FlightsView {
         this.rebuild();
       });
       const swatch = el('span', { class: 'swatch' });
-      swatch.style.background = colourOf(agent);
+      swatch.style.background = swatchOf(agent);
       box.prepend(swatch);
       return box;
     });
@@ -281,6 +298,8 @@ class FlightsView {
     const number = CAMERA_NAMES[Number(event.key) - 1];
     const act = this.keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!number && !act) return;
+    // Elsewhere they scroll the page.
+    if (SCROLLING.includes(event.key) && !target.closest('.windows, .player')) return;
     event.preventDefault();
     if (number) this.chooseCamera(number);
     else act(event);
@@ -306,8 +325,16 @@ class FlightsView {
     this.scrubber.value = String(this.clock.time);
     this.scrubber.setAttribute('aria-valuetext', `${this.clock.time.toFixed(2)} s`);
     this.shownTime.textContent = `${this.clock.time.toFixed(2)} / ${this.clock.end.toFixed(2)} s`;
-    this.play.textContent = this.clock.isPlaying ? '⏸' : '▶';
+    this.sayPlaying();
   };
+
+  private sayPlaying(): void {
+    const says = this.clock.isPlaying ? 'stop' : 'play';
+    if (this.play.getAttribute('aria-label') === says) return;
+    this.play.textContent = this.clock.isPlaying ? '⏸' : '▶';
+    this.play.setAttribute('aria-label', says);
+    this.play.title = `${says} (Space)`;
+  }
 
   private read(now: number): void {
     this.readAt = now;
@@ -338,5 +365,5 @@ export function showFlights(place: HTMLElement, pack: ReportPack): Shown {
   place.append(body);
   let view = new FlightsView(body, flights[0], pack);
   // A flight that is being looked at goes on; what is fresh of it is shown when one comes back.
-  return { stop: () => view.stop(), renew: () => undefined };
+  return { stop: () => view.stop(), renew: () => undefined, recolour: () => view.recolour() };
 }

@@ -6,6 +6,7 @@ import { fixture, HOSTILE } from '../fixture';
 import { difference, drawnShare, launch, MISSING, open, reportFile } from './page';
 
 const PANE = '.pane canvas';
+const PLAY = '.player button:is([aria-label="play"], [aria-label="stop"])';
 const PATIENCE = { timeout: 20000 };
 
 describe.skipIf(MISSING !== '')('a report opened from disk', () => {
@@ -40,9 +41,9 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
   it('plays, stops, and is scrubbed', async () => {
     const { page } = await open(browser, plain);
     const before = await page.locator(PANE).screenshot();
-    await page.click('button[aria-label^="play"]');
+    await page.click(PLAY);
     await showsTime(page, (time) => time > 0.2);
-    await page.click('button[aria-label^="play"]');
+    await page.click(PLAY);
     await page.waitForTimeout(300);
     const played = await timeShown(page);
     expect(await difference(page, before, await page.locator(PANE).screenshot()))
@@ -89,6 +90,7 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
       .toBe('1');
     await page.keyboard.press('s');
     expect(await page.locator('.pane').count()).toBe(2);
+    await page.locator(PANE).first().focus();
     await page.keyboard.press('End');
     await expect.poll(() => page.textContent('.hud'), PATIENCE).toContain('target reached');
     expect(errors).toEqual([]);
@@ -97,7 +99,7 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
 
   it('leaves Space to the button, box or summary that has the focus', async () => {
     const { page, errors } = await open(browser, plain);
-    const isPlaying = async () => (await page.textContent('button[aria-label^="play"]')) === '⏸';
+    const isPlaying = async () => (await page.textContent(PLAY)) === '⏸';
     const box = page.locator('label', { hasText: 'side by side' }).locator('input');
     await box.focus();
     await page.keyboard.press('Space');
@@ -107,6 +109,7 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
       await page.locator('.keys summary').focus();
       await page.keyboard.press(key);
       expect(await page.locator('.keys').getAttribute('open')).toBe(key === 'Space' ? '' : null);
+      await page.locator(PANE).first().focus();
       await page.keyboard.press('End');
       await showsTime(page, (time) => time > 11);
       await page.locator('button[aria-label^="to the beginning"]').focus();
@@ -139,6 +142,7 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     await page.keyboard.press(']');
     await showsTime(page, (time) => time === 5);
     await reads('target 2 of 2');
+    await page.locator(PANE).focus();
     await page.keyboard.press('End');
     await reads('target 2 of 2 (1 reached)');
     await page.keyboard.press('[');
@@ -229,11 +233,15 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     expect(await page.textContent('main')).toContain('less that of seed in');
     await page.locator('label', { hasText: 'differences from' }).locator('select')
       .selectOption('1');
-    expect(await row('success')).toEqual(['100.0 ± 6.0', '+10.0 ± 3.0', '90.0 ± 6.0', '95.0 ± 6.0',
-      '+5.0 ± 3.0']);
+    expect(await row('success')).toEqual(['100.0 ± 6.0 better', '+10.0 ± 3.0', '90.0 ± 6.0',
+      '95.0 ± 6.0 better', '+5.0 ± 3.0']);
     expect(await row('Mach')).toEqual(['0.8 ± 0.0', '-0.1 ± 0.0', '0.9 ± 0.0', '1.0 ± 0.0',
       '+0.1 ± 0.0']);
-    expect(await bold()).toEqual(['100.0 ± 6.0', '95.0 ± 6.0', '15.0 ± 2.0', '19.0 ± 2.0']);
+    expect(await bold()).toEqual(['100.0 ± 6.0', '95.0 ± 6.0', '15.0 ± 2.0', '19.0 ± 2.0']
+      .map((value) => `${value} better`));
+    // Which is said, and not seen.
+    const said = await page.locator('td.better .unseen').first().boundingBox();
+    expect(said?.width).toBe(1);
     expect(await page.textContent('main')).toContain('less that of autopilot:aggressive in');
     expect(errors).toEqual([]);
     await page.close();
@@ -314,6 +322,139 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
     await page.close();
   });
 
+  it('charts of many flights are of all agents, and say that they are of the first episodes', async () => {
+    const { page, errors } = await open(browser, reportFile(fixture('seed', 7)));
+    const said = page.locator('.charted');
+    expect(await said.isVisible()).toBe(false);
+    await page.locator('label', { hasText: 'episode' }).locator('select').selectOption('-1');
+    expect(await said.textContent()).toBe('charts: 12 of the 14 flights in view');
+    // The last flights, which no chart holds, are longer.
+    await page.locator('.scrubber').fill('19.9');
+    await showsTime(page, (time) => time === 19.9);
+    const [line, over] = await Promise.all(['.now', '.u-over'].map((part) =>
+      page.locator(`.strips .chart ${part}`).first().boundingBox()));
+    expect(line && over && line.x > over.x + over.width / 2).toBe(true);
+    expect(line && over && line.x <= over.x + over.width).toBe(true);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('keeps what is shown in another theme', async () => {
+    const { page, errors } = await open(browser, plain, { colorScheme: 'light' });
+    const theme = page.locator('header button');
+    const episode = page.locator('label', { hasText: 'episode' }).locator('select');
+    const shot = async () => {
+      await page.waitForTimeout(400);
+      return page.locator(PANE).screenshot();
+    };
+    await episode.selectOption('1');
+    await page.locator('.scrubber').fill('4');
+    const home = await shot();
+    const { x, y } = await page.locator(PANE).boundingBox() as { x: number; y: number };
+    await page.mouse.move(x + 400, y + 300);
+    await page.mouse.down();
+    await page.mouse.move(x + 520, y + 340, { steps: 3 });
+    await page.mouse.up();
+    const turned = await shot();
+    expect(await difference(page, home, turned)).toBeGreaterThan(0.005);
+    await theme.click();
+    expect(await difference(page, turned, await shot())).toBeGreaterThan(0.5);
+    expect(await episode.inputValue()).toBe('1');
+    expect(await timeShown(page)).toBe(4);
+    // What the reader's system prefers is asked for where nothing else was chosen.
+    await page.evaluate(() => { delete document.documentElement.dataset.theme; });
+    await page.emulateMedia({ colorScheme: 'dark' });
+    expect(await difference(page, turned, await shot())).toBeGreaterThan(0.5);
+    await page.emulateMedia({ colorScheme: 'light' });
+    expect(await difference(page, turned, await shot())).toBeLessThan(0.002);
+    expect(await timeShown(page)).toBe(4);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('keeps the part and the lines of a training in another theme', async () => {
+    const { page, errors } = await open(browser, `${plain}#training`, { colorScheme: 'light' });
+    await page.locator('label', { hasText: 'over seeds' }).locator('input').uncheck();
+    const chart = page.locator('.chart').first();
+    const canvas = chart.locator('canvas');
+    const over = await chart.locator('.u-over').boundingBox() as
+      { x: number; y: number; width: number; height: number };
+    const point = (share: number) =>
+      page.mouse.move(over.x + share * over.width, over.y + over.height / 2);
+    await chart.locator('.u-series th').nth(1).click();
+    const line = chart.locator('.u-legend .u-series').nth(1);
+    await point(0.2);
+    await page.mouse.down();
+    await point(0.4);
+    await page.mouse.up();
+    await page.mouse.move(0, 0);
+    const enlarged = await canvas.screenshot();
+    await page.locator('header button').click();
+    expect(await difference(page, enlarged, await canvas.screenshot())).toBeGreaterThan(0.5);
+    expect(await line.getAttribute('class')).toContain('u-off');
+    await page.locator('header button').click();
+    await page.mouse.move(0, 0);
+    expect(await difference(page, enlarged, await canvas.screenshot())).toBeLessThan(0.002);
+    await page.locator('button', { hasText: 'whole' }).click();
+    expect(await difference(page, enlarged, await canvas.screenshot())).toBeGreaterThan(0.005);
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('hides lines by the keyboard, and says so', async () => {
+    const { page, errors } = await open(browser, `${plain}#training`);
+    await page.locator('label', { hasText: 'over seeds' }).locator('input').uncheck();
+    const chart = page.locator('.chart').first();
+    const name = chart.getByRole('button', { name: 'seed-1' });
+    expect(await name.getAttribute('aria-pressed')).toBe('true');
+    for (const [key, pressed] of [['Enter', 'false'], ['Space', 'true']]) {
+      await name.focus();
+      await page.keyboard.press(key);
+      expect(await name.getAttribute('aria-pressed')).toBe(pressed);
+      expect(await chart.locator('.u-series.u-off').count()).toBe(pressed === 'true' ? 0 : 1);
+    }
+    expect(errors).toEqual([]);
+    await page.close();
+  });
+
+  it('marks lines by their dashes, areas by their own colours', async () => {
+    const { page } = await open(browser, reportFile(fixture('seed', 0, 0, [1, 2, 3, 4, 5])));
+    await page.locator('label', { hasText: 'over seeds' }).locator('input').uncheck();
+    const marksOf = (title: string) => page.locator('.chart', { hasText: title }).first()
+      .locator('.u-legend .u-marker').evaluateAll((marks) => marks.slice(1).map((mark) => {
+        const { borderTopStyle, borderTopColor, backgroundColor } = getComputedStyle(mark);
+        return [borderTopStyle, borderTopColor, backgroundColor];
+      }));
+    const lines = await marksOf('return of an episode');
+    expect(lines.map(([style]) => style)).toEqual(['solid', 'solid', 'solid', 'solid', 'dashed']);
+    expect(lines[4][1]).toBe(lines[0][1]);
+    const areas = await marksOf('how episodes end');
+    expect(areas.map(([, edge]) => edge)).toEqual(areas.map(([, , ground]) => ground));
+    expect(areas[0][1]).toBe('rgb(154, 154, 154)');
+    await page.close();
+  });
+
+  it('leaves the keys that scroll to the page, but for windows and player', async () => {
+    const { page } = await open(browser, plain, { viewport: { width: 1280, height: 500 } });
+    await page.locator('.scrubber').fill('5');
+    await showsTime(page, (time) => time === 5);
+    await page.locator('nav a[href="#flights"]').focus();
+    await page.keyboard.press('End');
+    await expect.poll(() => page.evaluate(() => scrollY), PATIENCE).toBeGreaterThan(100);
+    await page.waitForTimeout(300);
+    expect(await timeShown(page)).toBe(5);
+    const play = page.locator(PLAY);
+    expect(await play.getAttribute('aria-label')).toBe('play');
+    await play.focus();
+    await page.keyboard.press('Home');
+    await showsTime(page, (time) => time === 0);
+    await page.keyboard.press('ArrowUp');
+    expect(await page.locator('.player select').inputValue()).toBe('2');
+    await page.keyboard.press('Enter');
+    await expect.poll(() => play.getAttribute('aria-label'), PATIENCE).toBe('stop');
+    await page.close();
+  });
+
   it('is printed on white, without what is pressed', async () => {
     const { page } = await open(browser, plain, { colorScheme: 'dark' });
     await page.click('header button');
@@ -340,7 +481,7 @@ describe.skipIf(MISSING !== '')('a report opened from disk', () => {
       expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(360);
     }
     await page.tap('nav a[href="#flights"]');
-    await page.tap('button[aria-label^="play"]');
+    await page.tap(PLAY);
     await showsTime(page, (time) => time > 0.1);
     expect(await drawnShare(page, PANE)).toBeGreaterThan(0.02);
     expect(errors).toEqual([]);
