@@ -14,4 +14,9 @@ void* FindModuleEntry(const std::string& file, const char* entry) {
   return address;
 }
 
+std::string WhyNotLoaded(const Error& reason, const std::string& advice) {
+  const bool is_there = dynamic_cast<const OtherBuild*>(&reason) != nullptr;
+  return std::string(" (") + reason.what() + ")" + (is_there ? "" : ": " + advice);
+}
+
 }  // namespace skein

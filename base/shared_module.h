@@ -12,12 +12,25 @@ namespace skein {
 /// Error with the reason alone: the caller says what to do.
 void* FindModuleEntry(const std::string& file, const char* entry);
 
+/// A module that was found, and is of another build than the program.
+class OtherBuild : public Error {
+ public:
+  using Error::Error;
+};
+
+/// " (REASON)" of why a module was not loaded, with ": ADVICE" on how to install it behind it where
+/// that is what it lacks.
+std::string WhyNotLoaded(const Error& reason, const std::string& advice);
+
 /// What the function `entry` of a module returns for `build`, the caller's SKEIN_BUILD_ID: an
-/// interface, or null if the module's own is another.
+/// interface, or null if the module's own is another. Throws OtherBuild then.
 template <typename Entry>
 auto& LoadModule(const std::string& file, const char* entry, const char* build) {
   auto* const module = reinterpret_cast<Entry*>(FindModuleEntry(file, entry))(build);
-  if (module == nullptr) throw Error(file + " is of another build than " + build);
+  if (module == nullptr) {
+    throw OtherBuild(file + " is of another build than " + build +
+                     "; build, or install, all of Skein again");
+  }
   return *module;
 }
 

@@ -16,7 +16,7 @@ if(SKEIN_BUILD_TRAIN)
 endif()
 
 install(TARGETS ${skein_targets} EXPORT skein COMPONENT development)
-# Staged by the build: an installation by root would leave files of root's in the build tree.
+# Staged by the build: an installation by root would leave headers of root's, which the next build could not replace.
 set(headers_staged ${PROJECT_BINARY_DIR}/include/staged)
 add_custom_command(
   OUTPUT ${headers_staged}
@@ -26,7 +26,8 @@ add_custom_command(
   DEPENDS ${CMAKE_CURRENT_LIST_DIR}/PublicHeaders.cmake ${CMAKE_CURRENT_LIST_DIR}/StagePublicHeaders.cmake
           ${SKEIN_PUBLIC_HEADERS}
   VERBATIM)
-add_custom_target(public_headers ALL DEPENDS ${headers_staged})
+add_custom_target(public_headers DEPENDS ${headers_staged})
+add_dependencies(skein_base public_headers)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(EXPORT skein NAMESPACE skein:: FILE skein-targets.cmake DESTINATION ${SKEIN_PACKAGE_DIR} COMPONENT development)
 

@@ -32,7 +32,7 @@ struct ExportOptions {
 
 constexpr char kLetters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/// What C, ONNX and TorchScript take as a name.
+/// What C and ONNX take as a name, and TorchScript but for Python's keywords.
 CLI::Validator IsIdentifier() {
   return {[](const std::string& name) {
             const bool is_one =
@@ -85,8 +85,11 @@ std::vector<std::string> Export(ExportOptions options) {
     return ExportFlightControl(options.policy, options.aircraft, options.out, options.check);
   }
   if (options.policy.empty()) throw UsageError("a policy file or the directory of a run is needed");
-  return ExportPolicy(
-      {options.policy, ChooseForm(options), options.out, options.check, file, options.name});
+  const ExportForm form = ChooseForm(options);
+  if (!options.name.empty() && form == ExportForm::kSafetensors) {
+    throw UsageError("--name is for c, onnx and torchscript: safetensors hold no name");
+  }
+  return ExportPolicy({options.policy, form, options.out, options.check, file, options.name});
 }
 
 std::vector<std::string> FormNames() {

@@ -20,7 +20,7 @@ void PrintInfo(const std::string& json_path) {
   const nlohmann::ordered_json info = DescribeMachine();
   if (!json_path.empty()) WriteJson(json_path, info);
   const std::string libtorch = info["libtorch"].is_null()
-                                   ? "not installed: networks by the fused kernels alone"
+                                   ? "not available: networks by the fused kernels alone"
                                    : info["libtorch"].get<std::string>();
   const auto text = [&info](const char* key) { return info[key].get<std::string>(); };
   // Hypervisors cut names short: "AMD EPYC".

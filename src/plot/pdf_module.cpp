@@ -10,10 +10,10 @@ const PdfModule& LoadPdfModule(const std::string& file) {
   try {
     return LoadModule<PdfModuleEntry>(file, kPdfModuleEntry, SKEIN_BUILD_ID);
   } catch (const Error& error) {
-    throw Error(
-        std::string("PDF cannot be written (") + error.what() +
-        "): install cairo (with Debian's package of Skein: libcairo2; to build: libcairo2-dev), "
-        "or let the name end in .svg");
+    throw Error("PDF cannot be written" +
+                WhyNotLoaded(error,
+                             "install cairo (with Debian's package of Skein: libcairo2; to build "
+                             "Skein again: libcairo2-dev), or let the name end in .svg"));
   }
 }
 

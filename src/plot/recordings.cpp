@@ -129,7 +129,7 @@ CsvColumns ReadTable(const std::string& file, std::vector<std::string>* notes) {
   return table;
 }
 
-/// Throws Error unless the rows of an episode are together and their time does not go back.
+/// Throws Error unless the rows of an episode are together and their time goes on.
 void RequireInOrder(const std::string& file, const CsvColumns& table) {
   const std::vector<double>& episodes = *table.Find("episode");
   const std::vector<double>& times = *table.Find("time_s");
@@ -137,9 +137,10 @@ void RequireInOrder(const std::string& file, const CsvColumns& table) {
   for (std::size_t row = 1; row < episodes.size(); ++row) {
     const bool goes_on = episodes[row] == episodes[row - 1];
     if (!goes_on) ended.insert(episodes[row - 1]);
-    if (goes_on ? times[row] >= times[row - 1] : ended.count(episodes[row]) == 0) continue;
+    if (goes_on ? times[row] > times[row - 1] : ended.count(episodes[row]) == 0) continue;
     throw Error(
-        fmt::format("{}: rows of episode {:g} are out of order; sort them by episode and time_s",
+        fmt::format("{}: rows of episode {:g} are not together, or their time does not go on; a "
+                    "file holds the flights of one agent, one after the other",
                     file, episodes[row]));
   }
 }

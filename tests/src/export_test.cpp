@@ -390,6 +390,9 @@ TEST_F(ExportCommand, NamesKeepTwoPoliciesOfOneTaskApart) {
     EXPECT_EQ(refused.exit_code, 2) << name;
     EXPECT_THAT(refused.error, HasSubstr("is no name: letters, digits and underscores"));
   }
+  const ProgramResult unused = Export(policy_, {"--name", "x", "-o", scratch_ / "x.safetensors"});
+  EXPECT_EQ(unused.exit_code, 2);
+  EXPECT_THAT(unused.error, HasSubstr("safetensors hold no name"));
 }
 
 TEST_F(ExportCommand, TheEndingOfItsNameTellsTheFormat) {

@@ -107,7 +107,10 @@ TEST_F(InterruptedTraining, KilledAfterACheckpointThatTimeAskedForGoesOnFromIt) 
   }
   const std::uint64_t iteration = CheckpointsIn(checkpoints).back().iteration;
   RunningProgram program({"train", "--resume", run_});
-  EXPECT_TRUE(program.WaitUntil([&] { return HasCheckpoint(run_, iteration + 1); }));
+  EXPECT_TRUE(program.WaitUntil([&] {
+    return HasCheckpoint(run_, iteration + 1) &&
+           program.output().find("resuming heading") != std::string::npos;
+  }));
 }
 
 TEST_F(InterruptedTraining, SigtermSavesAndEndsCleanly) {

@@ -10,11 +10,11 @@ const BackendModule& LoadBackendModule(const std::string& file) {
   try {
     return LoadModule<BackendModuleEntry>(file, kBackendModuleEntry, SKEIN_BUILD_ID);
   } catch (const Error& error) {
-    throw Error(
-        std::string("LibTorch's networks are not available (") + error.what() +
-        "): install LibTorch (with Debian's package of Skein: what apt suggests for it; to build: "
-        "libtorch-dev, SKEIN_BUILD_LIBTORCH=ON), or choose learner.backend = \"fused\" and "
-        "network.activation = \"relu\"");
+    throw Error("LibTorch's networks are not available" +
+                WhyNotLoaded(error,
+                             "install LibTorch (with Debian's package of Skein: what apt suggests "
+                             "for it; to build: libtorch-dev, SKEIN_BUILD_LIBTORCH=ON), or choose "
+                             "learner.backend = \"fused\" and network.activation = \"relu\""));
   }
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 /// Squares of sums of so many stay below float32's largest number, 3e38.
 constexpr float kLargestReward = 1e15F;
+constexpr int kErrorDigits = 4;  // of figures in errors
 
 bool IsUsable(float reward) { return std::abs(reward) <= kLargestReward; }
 
@@ -58,7 +59,7 @@ void RequireUsableRewards(const TrainConfig& config, const std::vector<float>& r
                           const std::vector<float>& values) {
   for (std::size_t i = 0; i < rewards.size(); ++i) {
     if (IsUsable(rewards[i]) || !IsUsable(values[i])) continue;
-    throw Error("a step's reward is " + RoundedText(rewards[i], 4) +
+    throw Error("a step's reward is " + RoundedText(rewards[i], kErrorDigits) +
                 ": too large to learn from; the largest weight of the reward is " +
                 LargestWeight(config) + ScaleOfRewards(config.env));
   }

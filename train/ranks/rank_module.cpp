@@ -40,11 +40,12 @@ const RankModule& LoadRankModule(const std::string& file) {
   try {
     return LoadModule<RankModuleEntry>(file, kRankModuleEntry, SKEIN_BUILD_ID);
   } catch (const Error& error) {
-    throw Error(
-        "started as one of " + std::to_string(LaunchedProcesses()) +
-        " processes, but trainings on several are not available (" + error.what() +
-        "): install MPI (with Debian's package of Skein: openmpi-bin and what apt suggests for "
-        "it; to build: libopenmpi-dev, SKEIN_BUILD_MPI=ON), or start one process");
+    throw Error("started as one of " + std::to_string(LaunchedProcesses()) +
+                " processes, but trainings on several are not available" +
+                WhyNotLoaded(error,
+                             "install MPI (with Debian's package of Skein: openmpi-bin and what "
+                             "apt suggests for it; to build: libopenmpi-dev, SKEIN_BUILD_MPI=ON), "
+                             "or start one process"));
   }
 }
 

@@ -435,8 +435,8 @@ TEST_F(FlightPictures, RowsOutOfOrderAreRefused) {
     return MessageOf([&] { ReadRecordings({file}); });
   };
   EXPECT_EQ(complaint("1,0,\n1,0.5,\n0,0,\n0,0.5,\n"), "") << "episodes in any order";
-  for (const char* rows : {"0,0.5,\n0,0,\n", "0,0,\n1,0,\n0,0.5,\n"}) {
-    EXPECT_THAT(complaint(rows), HasSubstr("rows.csv: rows of episode 0 are out of order"));
+  for (const char* rows : {"0,0.5,\n0,0,\n", "0,0,\n0,0,\n", "0,0,\n1,0,\n0,0.5,\n"}) {
+    EXPECT_THAT(complaint(rows), HasSubstr("rows.csv: rows of episode 0 are not together"));
   }
   EXPECT_THAT(complaint("nan,0,\n"), HasSubstr("a cell of column episode holds no number"));
 }
