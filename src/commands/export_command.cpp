@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -36,7 +35,7 @@ constexpr char kLetters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXY
 CLI::Validator IsIdentifier() {
   return {[](const std::string& name) {
             const bool is_one =
-                std::strchr(kLetters, name.front()) != nullptr &&
+                name.find_first_of(kLetters) == 0 &&
                 name.find_first_not_of(std::string(kLetters) + "0123456789_") == std::string::npos;
             return is_one ? ""
                           : name + " is no name: letters, digits and underscores, a letter first";

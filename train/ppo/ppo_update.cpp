@@ -23,7 +23,6 @@ namespace {
 /// enough to keep the gradients in memory.
 constexpr int kMaxAccumulators = 32;
 constexpr double kAdvantageEpsilon = 1e-8;
-constexpr int kErrorDigits = 4;  // of figures in errors
 
 }  // namespace
 

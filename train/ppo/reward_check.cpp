@@ -15,7 +15,6 @@ namespace {
 
 /// Squares of sums of so many stay below float32's largest number, 3e38.
 constexpr float kLargestReward = 1e15F;
-constexpr int kErrorDigits = 4;  // of figures in errors
 
 bool IsUsable(float reward) { return std::abs(reward) <= kLargestReward; }
 

@@ -38,10 +38,13 @@ export function formatted(value: number | null | undefined): string {
   return String(Number(value.toPrecision(size >= 1000 ? 5 : 3)));
 }
 
-/** A tick of an axis: all its digits, as ticks are multiples of a step that has few of them; a
- * rounding error has more. */
+/** More than a tick has, which is a multiple of a step of few digits, and fewer than show a rounding
+ * error. */
+export const TICK_DIGITS = 10;
+
+/** A tick of an axis, with all its digits. */
 export function tickText(value: number): string {
-  const exact = Number(value.toPrecision(10));
+  const exact = Number(value.toPrecision(TICK_DIGITS));
   const size = Math.abs(exact);
   return size !== 0 && (size < 1e-3 || size >= 1e6) ? exact.toExponential() : String(exact);
 }

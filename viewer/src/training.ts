@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves of trainings: runs overlaid, those of one configuration as mean and range over their seeds.
 import type uPlot from 'uplot';
-import { Chart } from './chart';
+import { Chart, TICK_DIGITS } from './chart';
 import {
   CURVES, type Drawn, drawnOf, type End, endKindsOf, linesOf, percentOf,
 } from './curves';
@@ -13,9 +13,6 @@ import { formatCount, type Series, shares, weightOf } from './series';
 import type { Shown } from './shown';
 import { trainingCsv } from './tables';
 import { type Limits, limitsOf, SharedRange } from './shared_range';
-
-/** More than a tick has, fewer than show a rounding error. */
-const TICK_DIGITS = 10;
 
 interface Part extends Drawn {
   title: string;
