@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "base/denormals.h"
 #include "bench/noise_part.h"
 #include "bench/report.h"
@@ -54,16 +55,17 @@ struct TrimmedTile {
   std::size_t stride = TileStride(kTileSize);
   std::shared_ptr<const KernelAircraft> aircraft = MakeKernelAircraft(F16(), config.atmosphere);
   std::unique_ptr<Task> task = MakeTask(config);
-  std::vector<float> flight = std::vector<float>(stride * kNumColumns);
-  std::vector<float> target =
-      std::vector<float>(stride * static_cast<std::size_t>(task->num_columns()));
-  std::vector<float> command = std::vector<float>(stride, 0.1f);
-  std::vector<float> errors = std::vector<float>(stride * kNumTaskErrors);
-  std::vector<float> reward = std::vector<float>(stride), policy_step = reward, total = reward;
-  std::vector<std::int32_t> reached = std::vector<std::int32_t>(stride), step = reached,
-                            termination = reached, episode = reached;
-  std::vector<float> observation =
-      std::vector<float>(static_cast<std::size_t>(kTileSize) * kObservationSize);
+  // Columns begin at cache lines, as the environment's do.
+  AlignedVector<float> flight = AlignedVector<float>(stride * kNumColumns);
+  AlignedVector<float> target =
+      AlignedVector<float>(stride * static_cast<std::size_t>(task->num_columns()));
+  AlignedVector<float> command = AlignedVector<float>(stride, 0.1f);
+  AlignedVector<float> errors = AlignedVector<float>(stride * kNumTaskErrors);
+  AlignedVector<float> reward = AlignedVector<float>(stride), policy_step = reward, total = reward;
+  AlignedVector<std::int32_t> reached = AlignedVector<std::int32_t>(stride), step = reached,
+                              termination = reached, episode = reached;
+  AlignedVector<float> observation =
+      AlignedVector<float>(static_cast<std::size_t>(kTileSize) * kObservationSize);
 };
 
 /// Times `part`, one round of the tile's work.
@@ -83,7 +85,7 @@ void TimeRounds(benchmark::State& state, const Part& part) {
 
 void BM_Rk4(benchmark::State& state) {
   TrimmedTile t;
-  const std::vector<float> start = t.flight;
+  const AlignedVector<float> start = t.flight;
   Meter meter(&state, static_cast<double>(kTileSize) * kRounds, kFlopsPerRk4Step);
   for (auto _ : state) {
     // Hands-off flight goes on for ever; starting anew keeps it near the trim.

@@ -2,8 +2,8 @@
 // Where the time of a tile goes: every part of what a network does with a tile of an update or of
 // a rollout, on one core, with its share of the peak. Tiles of all precisions take turns with each
 // other, with the network itself, and with the measurements of the peak. Times are lower quartiles
-// over the turns: other programs take the processor from a long part more often than from a short
-// one.
+// over the turns (of fewer than four the least): other programs take the processor from a long part
+// more often than from a short one.
 
 #include <algorithm>
 #include <array>

@@ -36,7 +36,7 @@ HWY_INLINE V ClampTo(D d, V x, float low, float high) {
   return hn::Min(hn::Max(x, hn::Set(d, low)), hn::Set(d, high));
 }
 
-/// 1 / x for normal |x| in [2^-125, 2^125]: 2 ULP.
+/// 1 / x for normal |x| in [2^-125, 2^125]: 2 ULP. Of a larger finite x the result may be 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Reciprocal(D d, V x) {
 #if HWY_TARGET == HWY_AVX3

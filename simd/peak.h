@@ -18,7 +18,8 @@ struct PeakRate {
   double median_gflops = 0;
 };
 
-/// Measures what the multiply-add units give with operands in registers.
+/// Measures what the multiply-add units give with operands in registers; where four begin one in a
+/// cycle (some of AArch64) three quarters of it.
 PeakRate MeasurePeak(int threads);
 
 /// The same of the instruction that products of this precision take (simd/matrix_product.h):

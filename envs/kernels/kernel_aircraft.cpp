@@ -243,6 +243,17 @@ KernelAxis MakeKernelAxis(const std::vector<double>& nodes, const char* name) {
   axis.inner_more_cells_per_unit = static_cast<float>(1 / inner_width - 1 / outer_width);
   axis.offset = static_cast<float>(first - nodes[first] / inner_width);
   axis.last_cell = cells - 1;
+  // As CellAt finds them: float32 must tell the cells apart.
+  const auto is_at = [&](float x, float inner, int cell) {
+    constexpr float kMostOff = 0.01f;
+    const float position =
+        x * axis.cells_per_unit + (inner * axis.inner_more_cells_per_unit + axis.offset);
+    return std::abs(position - static_cast<float>(cell)) <= kMostOff;
+  };
+  if (!is_at(axis.low, axis.inner_low, 0) || !is_at(axis.inner_low, axis.inner_low, first) ||
+      !is_at(axis.high, axis.inner_high, cells)) {
+    throw Error(std::string("axis ") + name + " has cells too small for float32");
+  }
   return axis;
 }
 

@@ -21,7 +21,8 @@ struct KernelAxis {
   std::int32_t last_cell = 0;
 };
 
-/// Throws Error if `nodes` (strictly increasing, at least two) are not of that form.
+/// Throws Error if `nodes` (strictly increasing, at least two) are not of that form, or have cells
+/// that float32 cannot tell apart.
 KernelAxis MakeKernelAxis(const std::vector<double>& nodes, const char* name);
 
 /// A bilinear patch: a function in one cell of the alpha x beta grid, as what it is at the cell's

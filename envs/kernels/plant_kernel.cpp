@@ -181,7 +181,7 @@ template <AirMotion kAir, bool kDrawn>
 void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
                 MemoryAhead ahead, const PlantTile& plants) {
   KernelBlock block;
-  const int parts = 4 * (tile.count + kLanesPerBlock - 1) / kLanesPerBlock;
+  const int parts = 4 * ((tile.count + kLanesPerBlock - 1) / kLanesPerBlock);
   Prefetcher prefetcher{
       ahead, ahead.bytes / static_cast<std::size_t>(parts) / kCacheLine * kCacheLine + kCacheLine};
   for (int first = 0; first < tile.count; first += kLanesPerBlock) {

@@ -181,6 +181,19 @@ TEST_P(MathTest, Reciprocal) {
   EXPECT_LE(WorstUlp(function, exact, Linear(-2, -1)), kReciprocal);
 }
 
+/// As a sigmoid asks for: 1 / (1 + exp(87)).
+TEST_P(MathTest, ReciprocalsOfTheLargestNumbersAreNext0) {
+  constexpr double kSmallestNormal = 0x1p-126;
+  const auto function = SKEIN_DISPATCH(ReciprocalColumn);
+  const Column x = Geometric(0x1p125, 0x1.fp127);
+  Column y(x.size());
+  function(x, y);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_GE(y[i], 0) << x[i];
+    EXPECT_LE(y[i], 4 * kSmallestNormal) << x[i];
+  }
+}
+
 TEST_P(MathTest, ReciprocalSqrt) {
   const auto exact = [](double x) { return 1 / std::sqrt(x); };
   const auto function = SKEIN_DISPATCH(ReciprocalSqrtColumn);

@@ -81,6 +81,18 @@ TEST(KernelAxis, OtherArrangementsAreErrors) {
   EXPECT_THROW(MakeKernelAxis({0, 1, 3, 4}, "wide inside"), Error);
 }
 
+/// Otherwise the kernels would look for cells where no table is.
+TEST(KernelAxis, CellsThatFloat32CannotTellApartAreErrors) {
+  constexpr double kFarFromZero = 40.1;
+  const auto nodes_apart = [](double width) {
+    std::vector<double> nodes;
+    for (int k = 0; k < 20; ++k) nodes.push_back(kFarFromZero + k * width);
+    return nodes;
+  };
+  EXPECT_THROW(MakeKernelAxis(nodes_apart(3 * 0x1p-37), "tiny"), Error);
+  EXPECT_NO_THROW(MakeKernelAxis(nodes_apart(0.1), "small"));
+}
+
 TEST(KernelAircraft, IncrementsBeyondTheFlapTablesAreThoseAtTheirEnd) {
   const auto kernel = Make(F16());
   const std::vector<double>& alpha = kernel->source.aerodynamics.alpha_deg;
