@@ -115,17 +115,24 @@ std::optional<Notice> MpiRanks::TakeNotice() {
 }
 
 void MpiRanks::Wait(std::vector<MPI_Request>& requests) {
-  const Clock::time_point start = Clock::now();
+  Clock::time_point start = Clock::now(), looked = start;
   const bool computes = std::this_thread::get_id() == computing_;
   const Clock::duration eager = computes ? kEager : Clock::duration::zero();
   bool is_patient = false;
-  std::chrono::duration<double> next_telling =
+  const std::chrono::duration<double> first_telling =
       std::min<std::chrono::duration<double>>(kFirstTelling, telling_interval_);
+  std::chrono::duration<double> next_telling = first_telling;
   for (;;) {
     int done = 0;
     MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
     if (done != 0) return;
-    const Clock::duration waited = Clock::now() - start;
+    const Clock::time_point now = Clock::now();
+    if (now - looked > kStandstill) {
+      start = now;
+      next_telling = first_telling;
+    }
+    looked = now;
+    const Clock::duration waited = now - start;
     if (waited < eager) continue;
     if (!is_patient) {
       HearOthers();  // so that what is told does not heap up
