@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/choice_error.h"
+#include "base/reason_of.h"
 #include "src/bench/version.h"
 #include "src/commands/command_tree.h"
 #include "src/commands/commands.h"
@@ -147,9 +148,9 @@ int RunToExitCode(int argc, char** argv) {
 }
 
 /// In a way that needs no memory.
-void PrintOutOfMemory() {
+void PrintOutOfMemory(const std::bad_alloc& failure) {
   std::fflush(stdout);
-  std::fputs("skein: error: out of memory; fewer aircraft or shorter rollouts need less\n", stderr);
+  std::fprintf(stderr, "skein: error: %s\n", ReasonOf(failure));
 }
 
 std::terminate_handler TerminateOtherwise();
@@ -159,8 +160,8 @@ std::terminate_handler TerminateOtherwise();
 [[noreturn]] void EndWithoutMemory() {
   try {
     if (std::current_exception() != nullptr) throw;
-  } catch (const std::bad_alloc&) {
-    PrintOutOfMemory();
+  } catch (const std::bad_alloc& failure) {
+    PrintOutOfMemory(failure);
     std::_Exit(kExitFailure);
   } catch (...) {
   }
@@ -183,8 +184,8 @@ int RunProgram(int argc, char** argv) {
   TerminateOtherwise();
   try {
     return RunToExitCode(argc, argv);
-  } catch (const std::bad_alloc&) {
-    PrintOutOfMemory();
+  } catch (const std::bad_alloc& failure) {
+    PrintOutOfMemory(failure);
     return kExitFailure;
   }
 }

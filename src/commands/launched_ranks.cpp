@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/reason_of.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "train/files/file_descriptor.h"
@@ -19,6 +20,9 @@
 
 namespace skein {
 namespace {
+
+/// How long ranks that have been told of an error take to end, at most.
+constexpr double kEndS = 5;
 
 /// What is written to the standard output from now on is lost.
 void CloseStandardOutput() {
@@ -54,9 +58,9 @@ void WorkAsRank(Ranks& ranks, const std::function<void(Ranks& ranks)>& work) {
   } catch (const JointError&) {
     if (leads) throw;
   } catch (const std::exception& failure) {
-    if (leads) throw;
-    // It befell this rank alone, and the others wait for it.
-    ranks.Abort(failure.what());
+    // Of what rank 0 throws the others mostly know, and end. Else they wait for this rank.
+    if (!leads || !ranks.EndsWithin(kEndS)) ranks.Abort(ReasonOf(failure));
+    throw;
   }
 }
 

@@ -15,8 +15,9 @@ inline constexpr double kRankTimeoutS = 600;
 void AddRankTimeoutOption(CLI::App* command, double* timeout_s);
 
 /// Does `work` on one of several ranks. What all have been told of (JointError) is thrown on rank 0
-/// alone; what else is thrown on another rank ends all, and is said with that rank's name. Throws
-/// UsageError, on rank 0, if there is no power of two of them.
+/// alone; so is what else rank 0 throws if the others end, too. What is thrown on a rank for which
+/// the others wait ends all, and is said with that rank's name. Throws UsageError, on rank 0, if
+/// there is no power of two of them.
 void WorkAsRank(Ranks& ranks, const std::function<void(Ranks& ranks)>& work);
 
 /// Does `work` alone, or, if a launcher (mpirun, srun) has started several processes, on each of

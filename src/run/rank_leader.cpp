@@ -2,6 +2,7 @@
 #include "src/run/rank_leader.h"
 
 #include <fmt/format.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,6 +14,7 @@
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "src/bench/machine.h"
+#include "src/files/text_table.h"
 #include "train/policy/policy_parameters.h"
 #include "train/ppo/training_state.h"
 #include "train/ranks/collectives.h"
@@ -24,6 +26,34 @@ namespace {
 constexpr std::array<std::pair<std::uint64_t, int>, 4> kSignals{
     {{1 << 8, SIGINT}, {1 << 9, SIGTERM}, {1 << 10, SIGHUP}, {1 << 11, SIGUSR1}}};
 constexpr std::uint64_t kCommands = 0xFF;
+
+/// Threads of ranks and what they may run on; as it is sent.
+struct Workers {
+  int threads;
+  cpu_set_t processors;
+  char host[256];
+
+  bool AreCrowded() const { return threads > CPU_COUNT(&processors); }
+};
+
+Workers OwnWorkers(const WorkerPool& pool) {
+  Workers own{};
+  own.threads = pool.threads();
+  // Of more processors than a set holds all may do: then nothing is warned of.
+  if (sched_getaffinity(0, sizeof own.processors, &own.processors) != 0) {
+    for (std::size_t i = 0; i < CPU_SETSIZE; ++i) CPU_SET(i, &own.processors);
+  }
+  gethostname(own.host, sizeof own.host - 1);
+  return own;
+}
+
+std::string WarningOf(const std::string& host, const char* who, const Workers& workers) {
+  return fmt::format(
+      "\nwarning: {} lets {} use {} for {}: give ranks fewer (--threads), or bind them otherwise "
+      "(--bind-to none)",
+      host, who, Counted(CPU_COUNT(&workers.processors), "processor"),
+      Counted(workers.threads, "thread"));
+}
 
 /// What must be the same on all ranks, for people.
 std::string Identity(const Trainer& trainer) {
@@ -102,29 +132,30 @@ std::unique_ptr<Trainer> MakeTrainer(const TrainConfig& config, WorkerPool& pool
 
 std::string DescribeRanks(const TrainConfig& config, const WorkerPool& pool, Ranks& ranks) {
   if (ranks.count() == 1) return "";
-  char host[256] = {};
-  gethostname(host, sizeof host - 1);
-  const std::string own =
-      fmt::format("{} {} {}", pool.threads(), sysconf(_SC_NPROCESSORS_ONLN), host);
+  std::vector<Workers> of_ranks(static_cast<std::size_t>(ranks.count()));
+  of_ranks[static_cast<std::size_t>(ranks.rank())] = OwnWorkers(pool);
+  ShareWithAllRanks(ranks, of_ranks);
   struct Machine {
-    int ranks = 0, threads = 0, processors = 0;
+    int ranks = 0;
+    Workers all{}, crowded{};  ///< `crowded`: of one rank, if it has too few processors
   };
   std::map<std::string, Machine> machines;
-  for (const std::string& text : TextsOfRanks(ranks, own)) {
-    const std::size_t second = text.find(' ') + 1, third = text.find(' ', second) + 1;
-    Machine& machine = machines[text.substr(third)];
+  for (const Workers& workers : of_ranks) {
+    Machine& machine = machines[workers.host];
     ++machine.ranks;
-    machine.threads += std::stoi(text);
-    machine.processors = std::stoi(text.substr(second));
+    machine.all.threads += workers.threads;
+    CPU_OR(&machine.all.processors, &machine.all.processors, &workers.processors);
+    if (workers.AreCrowded()) machine.crowded = workers;
   }
   std::string lines = fmt::format("  {} ranks, {} of {} shards each", ranks.count(),
                                   config.learner.shards / ranks.count(), config.learner.shards);
   for (const auto& [name, machine] : machines) {
-    lines += fmt::format("\n    {}: {} ranks, {} threads", name, machine.ranks, machine.threads);
-    if (machine.threads > machine.processors) {
-      lines += fmt::format(
-          "\nwarning: {} has {} processors for {} threads: give ranks fewer (--threads)", name,
-          machine.processors, machine.threads);
+    lines +=
+        fmt::format("\n    {}: {} ranks, {} threads", name, machine.ranks, machine.all.threads);
+    if (machine.all.AreCrowded()) {
+      lines += WarningOf(name, "its ranks", machine.all);
+    } else if (machine.crowded.AreCrowded()) {
+      lines += WarningOf(name, "a rank", machine.crowded);
     }
   }
   return lines;

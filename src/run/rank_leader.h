@@ -55,8 +55,9 @@ void FollowLeader(Trainer& trainer, WorkerPool& pool, Ranks& ranks,
 std::unique_ptr<Trainer> MakeTrainer(const TrainConfig& config, WorkerPool& pool, Ranks& ranks,
                                      const std::function<void(Trainer&)>& begin);
 
-/// On all ranks together: lines for people on who computes what, with a warning where a machine has
-/// fewer processors than threads; empty if there is one rank.
+/// On all ranks together: lines for people on who computes what, with a warning where a rank, or
+/// the ranks of a machine, have more threads than processors that they may use; empty if there is
+/// one rank.
 std::string DescribeRanks(const TrainConfig& config, const WorkerPool& pool, Ranks& ranks);
 
 }  // namespace skein

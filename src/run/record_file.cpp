@@ -24,6 +24,7 @@ RecordFile::RecordFile(const std::string& path, const std::string& header)
   } else {
     Add(ReadFile(path, kLargestRecord));
   }
+  SyncDirectory(std::filesystem::absolute(path).parent_path().string());
 }
 
 void RecordFile::Append(const std::string& row) {

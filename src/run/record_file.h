@@ -12,8 +12,8 @@ namespace skein {
 /// A CSV file of a run, which grows by a row in every iteration, and the hash of all that it holds.
 class RecordFile {
  public:
-  /// Goes on with the file at `path`, or begins it with `header`. Throws Error if it cannot be read
-  /// or written.
+  /// Goes on with the file at `path`, or begins it with `header`; its name is durable. Throws Error
+  /// if it cannot be read or written.
   RecordFile(const std::string& path, const std::string& header);
 
   /// Throws Error if it cannot be written.

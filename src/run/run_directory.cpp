@@ -74,11 +74,16 @@ bool Make(const std::string& path) {
 
 FileDescriptor LockDirectory(const std::string& directory) {
   FileDescriptor file(directory + "/lock", OpenMode::kAppend);
-  if (flock(file.value(), LOCK_EX | LOCK_NB) != 0) {
-    throw Error(errno == EWOULDBLOCK
-                    ? fmt::format("{}: another skein is at work here", directory)
-                    : fmt::format("{}: cannot be locked: {}", directory, SystemReason()));
+  if (flock(file.value(), LOCK_EX | LOCK_NB) == 0) return file;
+  if (errno == EWOULDBLOCK) {
+    throw Error(fmt::format("{}: another skein is at work here", directory));
   }
+  if (!LacksLocks()) {
+    throw Error(fmt::format("{}: cannot be locked: {}", directory, SystemReason()));
+  }
+  fmt::print(stderr,
+             "warning: {}: its file system has no locks ({}): nothing keeps a second skein out\n",
+             directory, SystemReason());
   return file;
 }
 

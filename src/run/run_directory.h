@@ -74,8 +74,9 @@ class RunDirectory {
   FileDescriptor lock_;
 };
 
-/// Takes the lock of a directory that training works in, for as long as the descriptor lives.
-/// Throws Error if another process holds it.
+/// Takes the lock of a directory that training works in, for as long as the descriptor lives; warns
+/// on the standard error where the file system has no locks. Throws Error if another process holds
+/// it.
 FileDescriptor LockDirectory(const std::string& directory);
 
 /// Whether a process holds that lock now.

@@ -27,7 +27,8 @@ void OnStop(int signal) {
     std::raise(signal);
     return;
   }
-  stopped_pool.load()->RequestStop();
+  // None if the object has gone since the system chose this handler.
+  if (WorkerPool* const pool = stopped_pool.load()) pool->RequestStop();
 }
 
 void OnSave(int) { save_requested = true; }

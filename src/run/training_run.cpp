@@ -99,16 +99,19 @@ std::string StartNetworks(const std::string& from, Trainer& trainer) {
 /// policy of the same training.
 EvaluationReport EvaluateAtEnd(RecurrentPolicy policy, const ProgramConfig& config,
                                WorkerPool& pool, Ranks& ranks) {
-  std::vector<int> episodes = {config.final_evaluation_episodes};
-  if (ranks.count() > 1) {
-    ShareRankZeros(ranks, episodes);  // no part of what ranks must train alike with
-    // Other ranks may not see the run's directory.
-    RecurrentPolicy::Parameters parameters = *policy.parameters();
-    ShareRankZeros(ranks, parameters.values);
-    policy = RecurrentPolicy(std::make_shared<RecurrentPolicy::Parameters>(std::move(parameters)));
-  }
-  return EvaluateBothWays(policy.WithBackend(config.train.learner.backend), config.train.env,
-                          episodes[0], FinalSeed(config.train), pool, ranks);
+  return DoForOthers(ranks, [&] {
+    std::vector<int> episodes = {config.final_evaluation_episodes};
+    if (ranks.count() > 1) {
+      ShareRankZeros(ranks, episodes);  // no part of what ranks must train alike with
+      // Other ranks may not see the run's directory.
+      RecurrentPolicy::Parameters parameters = *policy.parameters();
+      ShareRankZeros(ranks, parameters.values);
+      policy =
+          RecurrentPolicy(std::make_shared<RecurrentPolicy::Parameters>(std::move(parameters)));
+    }
+    return EvaluateBothWays(policy.WithBackend(config.train.learner.backend), config.train.env,
+                            episodes[0], FinalSeed(config.train), pool, ranks);
+  });
 }
 
 /// The part of a rank that does not lead, once it has its trainer.
@@ -148,8 +151,9 @@ int TrainingRun::Begin(const ProgramConfig& config, const std::string& path, Wor
   }
   // A run that is killed before its first checkpoint would begin anew with fresh networks.
   if (!origin.from.empty()) {
+    const std::string beginning = directory.checkpoint(0);
     leader.Say(RankCommand::kSave);
-    trainer->Save(directory.checkpoint(0));
+    trainer->Save(beginning);
   }
   // Last: it makes the directory one of a run.
   WriteFile(directory.config(), StartComment(started_from, origin.from) + DumpToml(resolved));
@@ -360,8 +364,9 @@ bool TrainingRun::CheckpointIsDue() const {
 }
 
 void TrainingRun::Save(const std::string& path) {
+  const std::string records = metrics_.Mark();
   leader_.Say(RankCommand::kSave, signals_);
-  trainer_.Save(path, metrics_.Mark());
+  trainer_.Save(path, records);
 }
 
 void TrainingRun::SaveCheckpoint() {

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/error.h"
@@ -34,7 +36,17 @@ inline std::vector<pid_t> ProcessesOf(const std::string& word) {
   return found;
 }
 
-/// The same of an MPI job, by rank.
+/// Whether they all end within a minute.
+inline bool AllEnd(const std::string& word) {
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!ProcessesOf(word).empty()) {
+    if (std::chrono::steady_clock::now() > limit) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+/// The same as ProcessesOf of an MPI job, by rank.
 inline std::vector<pid_t> RanksOf(const std::string& word) {
   std::map<int, pid_t> by_rank;
   for (const pid_t process : ProcessesOf(word)) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <random>
 #include <thread>
@@ -72,6 +73,49 @@ TEST_F(ManyRanks, ThirtyKillsAtAnyMomentLoseNothing) {
     Finish();
     ExpectSameRun(reference_, run_);
   }
+}
+
+TEST_F(ManyRanks, TenKilledLaunchersLoseNothing) {
+  constexpr int kKills = 10;
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  std::mt19937 random(2);
+  for (int trial = 0; trial < kKills; ++trial) {
+    SCOPED_TRACE(trial);
+    std::filesystem::remove_all(run_);
+    RunningProgram training(
+        ProgramWords{Mpirun(trial % 2 == 0 ? 4 : 2, TinyTraining(run_, kShards))});
+    // Any checkpoint but the last, and a moment more.
+    const std::uint64_t iteration = 1 + random() % (kIterations - 1);
+    training.WaitUntil([&] { return HasCheckpoint(run_, iteration); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 50));
+    training.Signal(SIGKILL);
+    training.Wait();
+    ASSERT_TRUE(AllEnd(run_));
+    Finish();
+    ExpectSameRun(reference_, run_);
+  }
+}
+
+TEST_F(ManyRanks, AJobThatStoodStillLongerThanTheTimeoutGoesOn) {
+  std::vector<std::string> arguments = TinyTraining(run_, kShards);
+  arguments.insert(arguments.end(), {"--rank-timeout", "12", "--steps", "1e12"});
+  RunningProgram training(ProgramWords{Mpirun(2, arguments)});
+  ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+  const std::vector<pid_t> ranks = RanksOf(run_);
+  ASSERT_EQ(ranks.size(), 2u);
+  const auto send = [&](int rank, int signal) {
+    kill(ranks[static_cast<std::size_t>(rank)], signal);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  };
+  // Rank 0 waits for the other by the time it is stopped, and is the first to go on.
+  for (const int rank : {1, 0}) send(rank, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(13));
+  const std::uint64_t before = CheckpointsIn(run_ + "/checkpoints").back().iteration;
+  for (const int rank : {0, 1}) send(rank, SIGCONT);
+  EXPECT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, before + 2); }));
+  training.Signal(SIGKILL);
+  training.Wait();
+  EXPECT_TRUE(AllEnd(run_));
 }
 
 TEST_F(ManyRanks, SixteenAreOneInEveryPrecision) {

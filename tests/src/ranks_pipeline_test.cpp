@@ -10,13 +10,16 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <sstream>
 #include <thread>
 
+#include "base/reason_of.h"
 #include "simd/target.h"
 #include "src/bench/version.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
+#include "tests/sanitizers.h"
 #include "tests/src/ranks_fixture.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
@@ -84,12 +87,33 @@ class RanksPipeline : public RanksFixture {
     return copy;
   }
 
+  /// A training of two ranks, of which one does not get the memory that it asks for for the time
+  /// `at`; 0: always does, and leaves in calls_ how often it asks (tests/src/faults/).
+  ProgramResult TrainWithoutMemory(int rank, long at, int iterations = kIterations) {
+    fs::remove_all(run_);
+    const std::string script =
+        "[ $OMPI_COMM_WORLD_RANK = " + std::to_string(rank) + " ] || exec \"$@\"; exec env " +
+        "LD_PRELOAD='" SKEIN_FAILING_CALLS "' SKEIN_FAULT=m SKEIN_FAULT_AT=" + std::to_string(at) +
+        " SKEIN_FAULT_RECORD='" + calls_ + "' \"$@\"";
+    std::vector<std::string> arguments = TinyTraining(run_, kShards);
+    arguments.insert(arguments.end(), {"--steps", std::to_string(iterations * kStepsPerIteration)});
+    return RunWords(MpirunByShell(2, arguments, script));
+  }
+
+  /// How often rank 1 of two asks for memory.
+  long AllocationsIn(int iterations) {
+    EXPECT_EQ(TrainWithoutMemory(1, 0, iterations).exit_code, 0);
+    const std::string counted = ReadFile(calls_);  // "allocations N"
+    return std::stol(counted.substr(counted.find(' ')));
+  }
+
   static bool LogSays(const std::string& run, const std::string& words) {
     return fs::exists(run + "/log.txt") &&
            ReadFile(run + "/log.txt").find(words) != std::string::npos;
   }
 
   std::string reference_ = scratch_ / "reference", run_ = scratch_ / "run";
+  const std::string calls_ = scratch_ / "calls";
 };
 
 TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcess) {
@@ -243,6 +267,22 @@ TEST_F(RanksPipeline, AHungRankIsNamedAndEndsTheJob) {
   EXPECT_TRUE(ProcessesOf(run_).empty());
 }
 
+TEST_F(RanksPipeline, ARankThatHangsInTheFinalEvaluationIsNamedAndEndsTheJob) {
+  std::vector<std::string> arguments = TinyTraining(run_, kShards);
+  arguments.insert(arguments.end(),
+                   {"--set", "evaluation.final_episodes=30000", "--rank-timeout", "8"});
+  RunningProgram training(ProgramWords{Mpirun(2, arguments)});
+  ASSERT_TRUE(training.WaitUntil([&] { return LogSays(run_, "fresh episodes"); }));
+  const std::vector<pid_t> ranks = RanksOf(run_);
+  ASSERT_EQ(ranks.size(), 2u);
+  kill(ranks[1], SIGSTOP);
+  const ProgramResult result = training.Wait();
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.error, HasSubstr("): rank 1 ("));
+  EXPECT_THAT(result.error, HasSubstr(") has not answered for 8 s"));
+  EXPECT_TRUE(ProcessesOf(run_).empty());
+}
+
 TEST_F(RanksPipeline, ARankThatHangsWhileRanksStartEndsTheJob) {
   std::vector<std::string> arguments = TinyTraining(run_, kShards);
   arguments.insert(arguments.end(), {"--rank-timeout", "2"});
@@ -262,12 +302,40 @@ TEST_F(RanksPipeline, ALauncherThatIsKilledWhileRanksStartLeavesNone) {
     std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
     training.Signal(SIGKILL);
     training.Wait();
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!ProcessesOf(run_).empty() && std::chrono::steady_clock::now() < end) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    EXPECT_TRUE(ProcessesOf(run_).empty()) << "after " << delay_ms << " ms";
+    EXPECT_TRUE(AllEnd(run_)) << "after " << delay_ms << " ms";
     fs::remove_all(run_);
+  }
+}
+
+TEST_F(RanksPipeline, ALauncherThatIsKilledLeavesNoRankAndOneProcessGoesOn) {
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  RunningProgram training(ProgramWords{Mpirun(2, TinyTraining(run_, kShards))});
+  ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, 1); }));
+  training.Signal(SIGKILL);
+  training.Wait();
+  ASSERT_TRUE(AllEnd(run_));
+  const ProgramResult resumed = RunSkein({"train", "--resume", run_, "--threads", "1"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(RanksPipeline, ARankWithoutMemorySaysSoAndEndsTheJob) {
+  if (kIsSanitized) GTEST_SKIP() << "sanitizers have allocators of their own";
+  // Behind those of a training of one iteration: not while it starts.
+  const long first = AllocationsIn(1), more = AllocationsIn(kIterations) - first;
+  ASSERT_GT(more, 0);
+  for (const int rank : {0, 1}) {
+    for (const int quarter : {1, 2, 3}) {
+      SCOPED_TRACE("rank " + std::to_string(rank) + ", quarter " + std::to_string(quarter));
+      // Rank 0 has some more for files, and as many as the other while they train.
+      const ProgramResult result = TrainWithoutMemory(rank, first + more * quarter / 4);
+      EXPECT_NE(result.exit_code, 0);
+      EXPECT_THAT(result.error, HasSubstr(ReasonOf(std::bad_alloc())));
+      EXPECT_THAT(result.error, HasSubstr(rank == 1 ? "rank 1 (" : ""));
+      EXPECT_THAT(result.error, Not(HasSubstr("MPI_ERR"))) << "at the wrong exchange";
+      EXPECT_THAT(result.error, Not(HasSubstr("has not answered")));
+      EXPECT_TRUE(ProcessesOf(run_).empty());
+    }
   }
 }
 

@@ -41,6 +41,10 @@ int FlagsOf(OpenMode mode) {
 
 std::string SystemReason() { return std::strerror(errno); }
 
+bool LacksLocks() {
+  return errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL || errno == ENOLCK;
+}
+
 FileDescriptor::FileDescriptor(const std::string& path, OpenMode mode, const std::string& name)
     : name_(name.empty() ? path : name),
       value_(open(path.c_str(), FlagsOf(mode) | O_CLOEXEC, 0666)) {
@@ -115,7 +119,7 @@ void FileDescriptor::Empty() {
 void FileDescriptor::Lock() {
   while (flock(value_, LOCK_EX) != 0) {
     if (errno == EINTR) continue;
-    if (errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL || errno == ENOLCK) return;
+    if (LacksLocks()) return;
     Fail("cannot be locked");
   }
 }

@@ -39,8 +39,8 @@ class FileDescriptor {
   std::string ReadToEnd(std::uint64_t largest);
   /// Drops all bytes.
   void Empty();
-  /// Waits until nobody else has the lock of the file. Does nothing on file systems without locks,
-  /// or without one left (EOPNOTSUPP, ENOSYS, EINVAL, ENOLCK).
+  /// Waits until nobody else has the lock of the file. Does nothing where there are no locks
+  /// (LacksLocks).
   void Lock();
   /// Gives the lock of the file and its copies back; so does closing them all, in all processes.
   void Unlock();
@@ -80,5 +80,8 @@ void SyncDirectory(const std::string& path);
 
 /// "No space left on device" and the like for the current errno.
 std::string SystemReason();
+
+/// Whether the current errno, of flock, says that a file system has no locks, or none left.
+bool LacksLocks();
 
 }  // namespace skein

@@ -18,8 +18,6 @@ namespace {
 constexpr const char* kEagerLimit = "OMPI_MCA_btl_tcp_eager_limit";
 constexpr const char* kEagerBytes = "1048576";
 constexpr int kDataTag = 1, kWaitingTag = 2, kNoticeTag = 3;
-/// MPI counts in ints.
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 /// A waiting rank asks without pause at first, then leaves its processor to others; beside a thread
 /// that computes, at once.
 constexpr std::chrono::microseconds kEager{200}, kPause{20};
@@ -36,8 +34,8 @@ constexpr std::chrono::duration<double> kForever{std::numeric_limits<double>::in
 
 }  // namespace
 
-MpiRanks::MpiRanks(double timeout_s)
-    : timeout_(timeout_s), telling_interval_(timeout_s / kTellings) {
+MpiRanks::MpiRanks(double timeout_s, std::size_t most_bytes)
+    : timeout_(timeout_s), telling_interval_(timeout_s / kTellings), most_bytes_(most_bytes) {
   setenv(kEagerLimit, kEagerBytes, /*overwrite=*/0);  // ahead of the watch's thread
   const MpiWatch watch("start", timeout_);
   int provided = 0;
@@ -61,19 +59,13 @@ MpiRanks::MpiRanks(double timeout_s)
   for (int rank = 0; rank < count_; ++rank) {
     hosts_.emplace_back(names.data() + static_cast<std::size_t>(rank) * MPI_MAX_PROCESSOR_NAME);
   }
+  name_ = Describe(rank_);
 }
 
 MpiRanks::~MpiRanks() {
   const MpiWatch watch("end", kForever);  // what rank 0 writes alone may take its time
   for (Sent& sent : sent_) MPI_Wait(&sent.request, MPI_STATUS_IGNORE);
-  // MPI_Finalize would use a whole processor until the last has come.
-  MPI_Request all_here;
-  MPI_Ibarrier(MPI_COMM_WORLD, &all_here);
-  for (int done = 0;;) {
-    MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
-    if (done != 0) break;
-    std::this_thread::sleep_for(kPauseAtEnd);
-  }
+  EndsWithin(kForever.count());  // MPI_Finalize would use a whole processor until the last has come
   MPI_Finalize();
 }
 
@@ -83,16 +75,17 @@ std::string MpiRanks::Describe(int rank) const {
 
 void MpiRanks::ExchangeAll(int partner, const std::vector<Transfer>& transfers) {
   std::vector<MPI_Request> requests;
+  requests.reserve(2 * transfers.size());
   for (const Transfer& transfer : transfers) {
-    for (std::size_t begin = 0; begin < transfer.receive_bytes; begin += kMostBytes) {
-      const auto bytes = static_cast<int>(std::min(kMostBytes, transfer.receive_bytes - begin));
+    for (std::size_t begin = 0; begin < transfer.receive_bytes; begin += most_bytes_) {
+      const auto bytes = static_cast<int>(std::min(most_bytes_, transfer.receive_bytes - begin));
       MPI_Irecv(static_cast<char*>(transfer.receive) + begin, bytes, MPI_BYTE, partner, kDataTag,
                 MPI_COMM_WORLD, &requests.emplace_back());
     }
   }
   for (const Transfer& transfer : transfers) {
-    for (std::size_t begin = 0; begin < transfer.send_bytes; begin += kMostBytes) {
-      const auto bytes = static_cast<int>(std::min(kMostBytes, transfer.send_bytes - begin));
+    for (std::size_t begin = 0; begin < transfer.send_bytes; begin += most_bytes_) {
+      const auto bytes = static_cast<int>(std::min(most_bytes_, transfer.send_bytes - begin));
       MPI_Isend(static_cast<const char*>(transfer.send) + begin, bytes, MPI_BYTE, partner, kDataTag,
                 MPI_COMM_WORLD, &requests.emplace_back());
     }
@@ -122,17 +115,24 @@ std::optional<Notice> MpiRanks::TakeNotice() {
 }
 
 void MpiRanks::Wait(std::vector<MPI_Request>& requests) {
-  const Clock::time_point start = Clock::now();
+  Clock::time_point start = Clock::now(), looked = start;
   const bool computes = std::this_thread::get_id() == computing_;
   const Clock::duration eager = computes ? kEager : Clock::duration::zero();
   bool is_patient = false;
-  std::chrono::duration<double> next_telling =
+  const std::chrono::duration<double> first_telling =
       std::min<std::chrono::duration<double>>(kFirstTelling, telling_interval_);
+  std::chrono::duration<double> next_telling = first_telling;
   for (;;) {
     int done = 0;
     MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
     if (done != 0) return;
-    const Clock::duration waited = Clock::now() - start;
+    const Clock::time_point now = Clock::now();
+    if (now - looked > kStandstill) {
+      start = now;
+      next_telling = first_telling;
+    }
+    looked = now;
+    const Clock::duration waited = now - start;
     if (waited < eager) continue;
     if (!is_patient) {
       HearOthers();  // so that what is told does not heap up
@@ -187,13 +187,27 @@ void MpiRanks::GiveUp(std::chrono::duration<double> waited) {
   }
   char limit[32];
   std::snprintf(limit, sizeof limit, "%g", timeout_.count());
-  Abort((hanging.empty() ? "some rank" : hanging) + " has not answered for " + limit +
-        " s (--rank-timeout); all ranks end, and --resume goes on from the last checkpoint");
+  const std::string reason =
+      (hanging.empty() ? "some rank" : hanging) + " has not answered for " + limit +
+      " s (--rank-timeout); all ranks end, and --resume goes on from the last checkpoint";
+  Abort(reason.c_str());
 }
 
-void MpiRanks::Abort(const std::string& reason) {
+bool MpiRanks::EndsWithin(double seconds) {
+  const Clock::time_point start = Clock::now();
+  if (!all_end_) MPI_Ibarrier(MPI_COMM_WORLD, &all_end_.emplace());
+  for (;;) {
+    int done = 0;
+    MPI_Test(&*all_end_, &done, MPI_STATUS_IGNORE);
+    if (done != 0) return true;
+    if (Clock::now() - start > std::chrono::duration<double>(seconds)) return false;
+    std::this_thread::sleep_for(kPauseAtEnd);
+  }
+}
+
+void MpiRanks::Abort(const char* reason) {
   std::fflush(stdout);
-  std::fprintf(stderr, "skein: error: %s: %s\n", Describe(rank_).c_str(), reason.c_str());
+  std::fprintf(stderr, "skein: error: %s: %s\n", name_.c_str(), reason);
   std::fflush(stderr);
   MPI_Abort(MPI_COMM_WORLD, 1);
   std::abort();  // not reached: MPI_Abort is only not declared so

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <list>
 #include <optional>
@@ -18,7 +19,11 @@ namespace skein {
 /// The processes of an MPI job. Made on the thread that computes.
 class MpiRanks final : public Ranks {
  public:
-  explicit MpiRanks(double timeout_s);
+  /// MPI counts in ints: what is longer than this goes in several messages.
+  static constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+
+  /// `most_bytes`: of a message; the same on all ranks.
+  explicit MpiRanks(double timeout_s, std::size_t most_bytes = kMostBytes);
   ~MpiRanks() override;
 
   int rank() const override { return rank_; }
@@ -27,7 +32,8 @@ class MpiRanks final : public Ranks {
   void ExchangeAll(int partner, const std::vector<Transfer>& transfers) override;
   void Notify(int rank, std::int64_t word) override;
   std::optional<Notice> TakeNotice() override;
-  [[noreturn]] void Abort(const std::string& reason) override;
+  bool EndsWithin(double seconds) override;
+  [[noreturn]] void Abort(const char* reason) override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -49,11 +55,14 @@ class MpiRanks final : public Ranks {
   void GiveUp(std::chrono::duration<double> waited);
 
   std::chrono::duration<double> timeout_, telling_interval_;
+  std::size_t most_bytes_;
   std::thread::id computing_ = std::this_thread::get_id();
   int rank_ = 0, count_ = 1;
   std::vector<std::string> hosts_;
+  std::string name_;  ///< of this rank, for people
   std::list<Sent> sent_;
   std::vector<Clock::time_point> heard_;  ///< by rank: when it last told that it waits
+  std::optional<MPI_Request> all_end_;    ///< once this rank has come to its end
 };
 
 }  // namespace skein

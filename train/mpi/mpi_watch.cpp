@@ -25,12 +25,15 @@ MpiWatch::~MpiWatch() {
 }
 
 void MpiWatch::Watch() {
-  const auto start = std::chrono::steady_clock::now();
+  auto start = std::chrono::steady_clock::now(), looked = start;
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, kInterval, [this] { return is_over_; })) {
     // The processes of one that has ended are another's.
     if (getppid() != launcher_) End("the launcher has ended");
-    if (std::chrono::steady_clock::now() - start > timeout_) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - looked > kStandstill) start = now;
+    looked = now;
+    if (now - start > timeout_) {
       char reason[80];
       std::snprintf(reason, sizeof reason, "MPI has not answered for %g s (--rank-timeout)",
                     timeout_.count());

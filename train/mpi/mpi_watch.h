@@ -10,6 +10,11 @@
 
 namespace skein {
 
+/// Who waits looks at the clock many times a second. A process that has not for so long stood still
+/// itself, with its job or its machine (scontrol suspend, a virtual machine that was paused): that
+/// was no waiting.
+inline constexpr std::chrono::seconds kStandstill{10};
+
 /// Ends this process, with one line on standard error and exit code 1, if MPI, while this is there,
 /// takes longer than `timeout`, or if the launcher ends: what MPI does at its start and at its end
 /// cannot be interrupted, and waits for a launcher that is no more.

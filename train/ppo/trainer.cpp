@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/fnv_hash.h"
+#include "base/reason_of.h"
 #include "base/seconds_since.h"
 #include "envs/vec_env.h"
 #include "train/policy/policy_environment.h"
@@ -148,12 +149,14 @@ struct Trainer::Impl {
 
   /// The whole training's, on rank 0.
   TrainingState GatheredState() const {
-    TrainingState state = State();
-    GatherAtRankZero(ranks, state.recurrent.actor);
-    GatherAtRankZero(ranks, state.recurrent.critic);
-    GatherAtRankZero(ranks, state.recurrent.not_done);
-    GatherAtRankZero(ranks, state.env);
-    return state;
+    return DoForOthers(ranks, [this] {
+      TrainingState state = State();
+      GatherAtRankZero(ranks, state.recurrent.actor);
+      GatherAtRankZero(ranks, state.recurrent.critic);
+      GatherAtRankZero(ranks, state.recurrent.not_done);
+      GatherAtRankZero(ranks, state.env);
+      return state;
+    });
   }
 
   /// Of a whole training's state what is this rank's.
@@ -180,8 +183,8 @@ struct Trainer::Impl {
       const AdamOptimiser& optimiser = network->optimiser;
       hash.Add(optimiser.parameters(), static_cast<std::size_t>(optimiser.size()) * sizeof(float));
     }
-    fails_alike = true;
     if (UnionOverRanks(ranks, pool.stopping()) != 0) return true;
+    fails_alike = true;
     RequireSameOnRanks(ranks, "the hash of their parameters after an iteration", hash.Hex());
     return false;
   }
@@ -303,9 +306,9 @@ struct Trainer::Impl {
     EvaluationOptions options;
     options.episodes = config.evaluation.episodes;
     options.seed = ~config.seed;
+    const Agent agent = Agent::MeanOf(CurrentPolicy());
     fails_alike = true;
-    const FlownEpisodes flown =
-        FlyEpisodesOnRanks(Agent::MeanOf(CurrentPolicy()), config.env, options, pool, ranks);
+    const FlownEpisodes flown = FlyEpisodesOnRanks(agent, config.env, options, pool, ranks);
     fails_alike = false;
     return Summarise(flown.episodes, config.env.control_interval_s);
   }
@@ -360,7 +363,7 @@ const BackendChoice& Trainer::backend() const { return impl_->networks.backend; 
 
 IterationReport Trainer::Iterate() {
   Impl& impl = *impl_;
-  const TrainingState before = impl.State();
+  const TrainingState before = DoForOthers(impl.ranks, [&] { return impl.State(); });
   impl.fails_alike = false;
   bool learns = false;
   try {
@@ -381,7 +384,7 @@ IterationReport Trainer::Iterate() {
   } catch (const std::exception& error) {
     const bool exploded = learns && impl.update.exploded();
     const bool alike = impl.fails_alike || exploded || impl.ranks.count() == 1;
-    if (!alike) impl.ranks.Abort(error.what());
+    if (!alike) impl.ranks.Abort(ReasonOf(error));
     impl.SetState(before);
     throw;
   }

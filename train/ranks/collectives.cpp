@@ -22,15 +22,17 @@ std::string NamesOf(const Ranks& ranks, const std::vector<std::string>& texts,
 }  // namespace
 
 std::vector<std::string> TextsOfRanks(Ranks& ranks, const std::string& text) {
-  std::vector<char> characters(static_cast<std::size_t>(ranks.count()) * kLongestText, '\0');
-  const std::size_t own = static_cast<std::size_t>(ranks.rank()) * kLongestText;
-  std::copy_n(text.begin(), std::min(text.size(), kLongestText), characters.begin() + own);
-  ShareWithAllRanks(ranks, characters);
-  std::vector<std::string> texts;
-  for (auto begin = characters.begin(); begin != characters.end(); begin += kLongestText) {
-    texts.emplace_back(begin, std::find(begin, begin + kLongestText, '\0'));
-  }
-  return texts;
+  return DoForOthers(ranks, [&] {
+    std::vector<char> characters(static_cast<std::size_t>(ranks.count()) * kLongestText, '\0');
+    const std::size_t own = static_cast<std::size_t>(ranks.rank()) * kLongestText;
+    std::copy_n(text.begin(), std::min(text.size(), kLongestText), characters.begin() + own);
+    ShareWithAllRanks(ranks, characters);
+    std::vector<std::string> texts;
+    for (auto begin = characters.begin(); begin != characters.end(); begin += kLongestText) {
+      texts.emplace_back(begin, std::find(begin, begin + kLongestText, '\0'));
+    }
+    return texts;
+  });
 }
 
 void DoTogether(Ranks& ranks, const std::function<void()>& work) {
@@ -40,7 +42,7 @@ void DoTogether(Ranks& ranks, const std::function<void()>& work) {
     work();
   } catch (const std::exception& error) {
     failure = std::current_exception();
-    reason = std::string("x") + error.what();
+    reason = std::string("x") + ReasonOf(error);
   }
   const std::vector<std::string> reasons = TextsOfRanks(ranks, reason);
   if (failure != nullptr && ranks.rank() == 0) std::rethrow_exception(failure);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/reason_of.h"
 #include "base/worker_pool.h"
 #include "train/ranks/ranks.h"
 
@@ -167,6 +169,20 @@ class JointError : public Error {
  public:
   explicit JointError(const std::string& message) : Error(message) {}
 };
+
+/// Returns work(), for which other ranks wait. What it throws ends all processes, since they do not
+/// know of it, unless all have been told (JointError) or there are no others.
+template <typename Work>
+auto DoForOthers(Ranks& ranks, const Work& work) {
+  try {
+    return work();
+  } catch (const JointError&) {
+    throw;
+  } catch (const std::exception& failure) {
+    if (ranks.count() > 1) ranks.Abort(ReasonOf(failure));
+    throw;
+  }
+}
 
 /// All ranks' texts, by rank, on every rank.
 std::vector<std::string> TextsOfRanks(Ranks& ranks, const std::string& text);

@@ -16,7 +16,8 @@ class SingleRank final : public Ranks {
   }
   void Notify(int rank, std::int64_t /*word*/) override { Refuse(rank); }
   std::optional<Notice> TakeNotice() override { return std::nullopt; }
-  [[noreturn]] void Abort(const std::string& reason) override { throw Error(reason); }
+  bool EndsWithin(double /*seconds*/) override { return true; }
+  [[noreturn]] void Abort(const char* reason) override { throw Error(reason); }
 
  private:
   [[noreturn]] static void Refuse(int rank) {

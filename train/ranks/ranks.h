@@ -49,9 +49,12 @@ class Ranks {
   /// nothing if there is none yet.
   virtual std::optional<Notice> TakeNotice() = 0;
 
+  /// Waits for all ranks to come to their end, which each does by calling this or by being
+  /// destroyed: false if they have not after `seconds`.
+  virtual bool EndsWithin(double seconds) = 0;
   /// Ends all processes with an exit code that is not 0, after saying `reason`, one line, on the
-  /// standard error: for what has gone wrong in this process alone.
-  [[noreturn]] virtual void Abort(const std::string& reason) = 0;
+  /// standard error: for what has gone wrong in this process alone, be it a lack of memory.
+  [[noreturn]] virtual void Abort(const char* reason) = 0;
 };
 
 /// A process that works alone.

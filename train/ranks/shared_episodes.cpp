@@ -38,20 +38,22 @@ FlownEpisodes FlyEpisodesOnRanks(const Agent& agent, const EnvConfig& env,
   if (ranks.count() == 1) return FlyEpisodes(agent, env, options, pool);
   const EvaluationOptions share = ShareOf(options, ranks);
   std::optional<VecEnv> own;
+  FlownEpisodes flown;
   DoTogether(ranks, [&] {
     if (share.episodes > 0) own.emplace(MakeEvaluationEnv(agent, env, share));
+    flown.episodes.resize(static_cast<std::size_t>(options.episodes));
   });
-  FlownEpisodes flown;
-  flown.starts = HashOfAllStarts(own, ranks);
-  flown.episodes.resize(static_cast<std::size_t>(options.episodes));
+  flown.starts = DoForOthers(ranks, [&] { return HashOfAllStarts(own, ranks); });
   DoTogether(ranks, [&] {
     if (!own) return;
     const std::vector<Episode> episodes = FlyEpisodes(agent, *own, share, pool);
     std::copy(episodes.begin(), episodes.end(),
               flown.episodes.begin() + (share.first_episode - options.first_episode));
   });
-  ShareWithAllRanks(ranks, flown.episodes);
-  flown.stopped = AgreeOnStop(ranks, pool);
+  flown.stopped = DoForOthers(ranks, [&] {
+    ShareWithAllRanks(ranks, flown.episodes);
+    return AgreeOnStop(ranks, pool);
+  });
   return flown;
 }
 

@@ -42,7 +42,8 @@ class TimedRanks final : public Ranks {
   }
   void Notify(int rank, std::int64_t word) override { ranks_.Notify(rank, word); }
   std::optional<Notice> TakeNotice() override { return ranks_.TakeNotice(); }
-  [[noreturn]] void Abort(const std::string& reason) override {
+  bool EndsWithin(double seconds) override { return ranks_.EndsWithin(seconds); }
+  [[noreturn]] void Abort(const char* reason) override {
     ranks_.Abort(reason);
     std::abort();  // not reached: the compiler does not see it through the virtual call
   }

@@ -6,9 +6,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <new>
+#include <optional>
 #include <utility>
 
+#include "base/reason_of.h"
 #include "tests/error_message.h"
 #include "tests/file_bytes.h"
 #include "tests/scratch_directory.h"
@@ -179,6 +183,42 @@ TEST_F(TrainerRanksTest, AStopOfOneRankDropsTheIterationOfAll) {
     EXPECT_TRUE(trainer.Iterate().dropped) << ranks.Describe(ranks.rank());
     EXPECT_EQ(trainer.Signature(), before) << ranks.Describe(ranks.rank());
     EXPECT_EQ(trainer.iteration(), 1u);
+  });
+}
+
+/// A rank that has no memory left to exchange anything, once it is told.
+class StarvingRank final : public Ranks {
+ public:
+  explicit StarvingRank(Ranks& ranks) : ranks_(ranks) {}
+  void Starve() { starves_ = true; }
+
+  int rank() const override { return ranks_.rank(); }
+  int count() const override { return ranks_.count(); }
+  std::string Describe(int rank) const override { return ranks_.Describe(rank); }
+  void ExchangeAll(int partner, const std::vector<Transfer>& transfers) override {
+    if (starves_) throw std::bad_alloc();
+    ranks_.ExchangeAll(partner, transfers);
+  }
+  void Notify(int rank, std::int64_t word) override { ranks_.Notify(rank, word); }
+  std::optional<Notice> TakeNotice() override { return ranks_.TakeNotice(); }
+  bool EndsWithin(double seconds) override { return ranks_.EndsWithin(seconds); }
+  [[noreturn]] void Abort(const char* reason) override {
+    throw Error(std::string("aborted: ") + reason);
+  }
+
+ private:
+  Ranks& ranks_;
+  bool starves_ = false;
+};
+
+TEST_F(TrainerRanksTest, ARankWithoutMemoryForWhatAllSaveEndsAll) {
+  RunOnRanks(2, [&](Ranks& ranks) {
+    WorkerPool pool(1);
+    StarvingRank own(ranks);
+    const Trainer trainer(Sharded(SmallConfig()), pool, own);
+    if (ranks.rank() == 0) own.Starve();  // the other gives it what it has, and goes on
+    EXPECT_EQ(MessageOf([&] { trainer.Save(scratch_ / "none"); }),
+              ranks.rank() == 0 ? std::string("aborted: ") + ReasonOf(std::bad_alloc()) : "");
   });
 }
 

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/reason_of.h"
 #include "tests/error_message.h"
 #include "tests/train/ranks/thread_ranks.h"
 #include "train/ppo/shards.h"
@@ -166,7 +167,22 @@ TEST_P(CollectivesTest, WhatAllHaveBeenToldOfIsAnError) {
       EXPECT_THROW(DoTogether(ranks, fail), std::bad_alloc) << "rank 0 throws its own exception";
     } else {
       EXPECT_THROW(DoTogether(ranks, fail), JointError);
+      EXPECT_EQ(MessageOf([&] { DoTogether(ranks, fail); }),
+                "rank " + std::to_string(last) + ": " + ReasonOf(std::bad_alloc()));
     }
+  });
+}
+
+TEST_P(CollectivesTest, WhatOthersWaitForFailsOnAllUnlessTheyKnow) {
+  RunOnRanks(GetParam(), [&](Ranks& ranks) {
+    EXPECT_EQ(DoForOthers(ranks, [] { return 7; }), 7);
+    const auto fail = [&](const auto& failure) {
+      return MessageOf([&] { DoForOthers(ranks, [&] { throw failure; }); });
+    };
+    EXPECT_EQ(fail(JointError("rank 3: no space")), "rank 3: no space");
+    EXPECT_EQ(fail(Error("no space")), ranks.count() == 1 ? "no space" : "aborted: no space");
+    if (ranks.count() == 1) return;  // what is no Error is its caller's
+    EXPECT_EQ(fail(std::bad_alloc()), std::string("aborted: ") + ReasonOf(std::bad_alloc()));
   });
 }
 
