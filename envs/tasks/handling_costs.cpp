@@ -127,7 +127,7 @@ void ListFields(HandlingCosts& config, FieldList& list) {
   add("within_tolerances", &config.within_tolerances,
       "reward gained per control step within the episode's tolerances");
   add("outside_tolerances", &config.outside_tolerances,
-      "reward lost per control step outside them: a price on time");
+      "reward lost per control step outside them: a time penalty");
   add("before_reached", &config.before_reached,
       "the same until the target counts as reached, and not while it is held; in missions always");
   add("action_change", &config.action_change,

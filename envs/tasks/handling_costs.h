@@ -26,10 +26,10 @@ struct HandlingCosts {
   /// Of a control step in which the target counts as touched (within the episode's tolerances, and
   /// for Heading not before its earliest success): gained, not lost.
   double within_tolerances = 0;
-  /// Of any other control step: a price on time. What is gained within them is none, as a
+  /// Of any other control step: a time penalty. What is gained within them is none, as a
   /// flight ends a given time after it reached its target, however late.
   double outside_tolerances = 0;
-  /// Of a control step until the target counts as reached: a price on time that leaves the hold
+  /// Of a control step until the target counts as reached: a time penalty that leaves the hold
   /// alone. In missions, of every control step.
   double before_reached = 0;
   /// Of a policy step, per squared change of each of its actions but the throttle, which are

@@ -25,7 +25,7 @@ class Agent:
     pickled is made again from the same arguments, so that its file must be there, unchanged."""
 
     def __init__(self, name: str, task: Task = "heading", *, seed: int = 0, **config: Any) -> None:
-        """An agent by the name that `skein compare --agents` gives it: "autopilot" (alone: aggressive),
+        """An agent by the name that `skein compare --agents` gives it: "autopilot" ("autopilot:aggressive"),
         "autopilot:VARIANT", "policy:FILE_OR_RUN" with "@sampled" behind it or not, "random[:SECONDS]", "zero".
 
         Args:

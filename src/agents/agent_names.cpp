@@ -128,7 +128,7 @@ std::string AutopilotVariantOf(const std::string& name) {
 std::vector<AgentForm> AgentForms() {
   return {
       {fmt::format("autopilot[:{}]", fmt::join(AutopilotNames(), "|:")),
-       "the autopilot of TECS and L1 (alone: aggressive)"},
+       "the autopilot of TECS and L1 (autopilot means autopilot:aggressive)"},
       {"policy:FILE_OR_RUN[@sampled][@other-aircraft]",
        "a trained policy with its mean action, or as sampled; on another aircraft than its own"},
       {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
@@ -138,7 +138,7 @@ std::vector<AgentForm> AgentForms() {
 std::string AgentNames() {
   std::vector<std::string> names;
   for (const AgentForm& form : AgentForms()) names.push_back(form.name);
-  return fmt::format("{} (autopilot alone: aggressive)", fmt::join(names, ", "));
+  return fmt::format("{} (autopilot means autopilot:aggressive)", fmt::join(names, ", "));
 }
 
 std::string PolicyFileOfAgent(const std::string& name) {

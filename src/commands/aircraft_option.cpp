@@ -19,8 +19,8 @@ std::string AircraftHelp(const std::string& what) {
 CLI::Option* AddAircraftOption(CLI::App* command, std::string* aircraft) {
   return command
       ->add_option("--aircraft", *aircraft,
-                   "who flies: an aircraft of skein list aircraft, or a file of an own one, which "
-                   "then says where it flies, unless other settings do; same as --set "
+                   "aircraft: a name from skein list aircraft, or your own aircraft file, whose "
+                   "section env sets starts and targets unless other settings do; same as --set "
                    "env.aircraft=...")
       ->type_name("NAME_OR_FILE");
 }

@@ -107,9 +107,9 @@ void AddCompare(CLI::App* bench, const std::shared_ptr<BenchOptions>& options) {
   command->add_flag("--other-machine", options->other_machine,
                     "compare runs of another processor, SIMD target or number of threads, too");
   command->footer(
-      "Ratios, after / before, with 95 % intervals. Run both builds in turns, several times: one "
-      "run each\n"
-      "does not hold what differs from run to run.\n"
+      "Ratios, after / before, with 95 % intervals. Run both builds in turns, several times: with "
+      "one\n"
+      "run each, the intervals leave out run-to-run variation.\n"
       "Example: skein bench compare old.1.json,old.2.json,old.3.json "
       "new.1.json,new.2.json,new.3.json");
 }

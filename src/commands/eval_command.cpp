@@ -180,10 +180,11 @@ void AddEvalCommand(CLI::App* app) {
       "(by mean actions, with --sampled by sampled ones)";
   AddFlightOptions(command, texts, &options->flight);
   command
-      ->add_option("--low-level", options->low_level,
-                   "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
-                   "(alone: aggressive) that is the low-level policy; without it the policy flies "
-                   "itself")
+      ->add_option(
+          "--low-level", options->low_level,
+          "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
+          "(autopilot means autopilot:aggressive) that is the low-level policy; without it "
+          "the policy flies itself")
       ->type_name("RUN_OR_POLICY");
   command->add_flag("--other-aircraft", options->other_aircraft,
                     "fly the policy even if it was trained on another aircraft");

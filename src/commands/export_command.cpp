@@ -129,9 +129,8 @@ void AddExportCommand(CLI::App* app) {
   options->aircraft_option =
       command
           ->add_option("--aircraft", options->aircraft,
-                       AircraftHelp("of a policy file that was trained on an own aircraft, that "
-                                    "aircraft's file; with --flight-control and without a policy: "
-                                    "whose laws"))
+                       AircraftHelp("for a policy trained on an aircraft file, that file; with "
+                                    "--flight-control and without a policy: whose laws"))
           ->check(CompletesAircraft())
           ->type_name("NAME_OR_FILE")
           ->capture_default_str();

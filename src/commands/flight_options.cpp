@@ -99,14 +99,14 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
   CLI::Option* hold =
       command
           ->add_option("--hold", options->hold_s,
-                       "go on for so long after the target was reached, and measure how it is held "
+                       "fly on for SECONDS after the target was reached and measure how it is held "
                        "(env.hold_s)")
           ->type_name("SECONDS")
           ->transform(NumberAboveZero());
   command
       ->add_option("--mission", options->mission_min,
-                   "fly for so long, a new target whenever one was held "
-                   "(env.mission.length_s)")
+                   "fly one target after another for MINUTES; the next comes when one is reached "
+                   "or its time limit has passed (sets env.mission.length_s, in s)")
       ->type_name("MINUTES")
       ->transform(NumberAboveZero())
       ->excludes(hold);
@@ -134,7 +134,8 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
       ->type_name("FILE");
   options->flights_count_option = command
                                       ->add_option("--flights-count", options->flights_count,
-                                                   "how many of them (all, if there are fewer)")
+                                                   "number of episodes that --flights, --acmi and "
+                                                   "a page show (all, if there are fewer)")
                                       ->transform(WholeNumber(1, 1000))
                                       ->capture_default_str();
   command

@@ -405,11 +405,12 @@ void AddCurvesPlot(CLI::App* plot) {
       ->allow_extra_args(false);
   command
       ->add_option("--machine", options->curves.machine,
-                   "words for the axis of minutes, which are the quickest run's: on what")
+                   "name of the processor, written at the axis of training minutes (those of the "
+                   "quickest run)")
       ->type_name("TEXT");
   AddPaperOptions(command, "curves", &options->paper);
   command->footer(
-      "Each task has a column of panels. A run that goes on is drawn as far as it is.\n"
+      "Each task has a column of panels. An unfinished run is drawn as far as it has come.\n"
       "Example: skein plot curves runs/seed-1 runs/seed-2 runs/seed-3 -o seeds.pdf --width 3.5\n"
       "         skein plot curves runs/* --columns success_rate,return_mean,entropy");
   command->callback([options] { DrawCurves(*options); });

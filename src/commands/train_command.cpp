@@ -255,7 +255,7 @@ void AddTrainCommand(CLI::App* app) {
       ->add_option("--low-level", options->low_level,
                    "for presets planner and paper of task tracking: the low-level policy, trained "
                    "on task control (a file, or a "
-                   "run's best), or autopilot[:VARIANT] (alone: aggressive)")
+                   "run's best), or autopilot[:VARIANT] (autopilot means autopilot:aggressive)")
       ->type_name("RUN_OR_POLICY");
   CLI::Option* out = command
                          ->add_option("--out", options->out,
@@ -266,7 +266,7 @@ void AddTrainCommand(CLI::App* app) {
       command
           ->add_option("--from", options->from,
                        "start from the networks of a run (its newest checkpoint) or a policy, with "
-                       "a fresh optimiser and the whole budget: to train on what is finished")
+                       "a fresh optimiser and the whole budget: to fine-tune what is finished")
           ->type_name("RUN_OR_POLICY");
   options->resume_option =
       command

@@ -128,7 +128,7 @@ std::string ToText(const Comparison& comparison) {
                   comparison.task, Counted(comparison.episodes, "episode"), comparison.seed,
                   InLines("  ", comparison.conditions));
   for (const ComparedAgent& agent : comparison.agents) {
-    text += fmt::format("  {}: a policy step every {:.4g} s\n", agent.name,
+    text += fmt::format("  {}: acts every {:.4g} s\n", agent.name,
                         agent.action_repeat * comparison.control_interval_s);
   }
   for (std::size_t begin = 0; begin < comparison.agents.size(); begin += kAgentsPerTable) {
@@ -137,7 +137,7 @@ std::string ToText(const Comparison& comparison) {
     text += "\n";
     columns.Flights(&text);
     if (comparison.agents.size() == 1) continue;
-    text += fmt::format("paired, less {}:\n", comparison.agents[0].name);
+    text += fmt::format("paired differences, agent minus {}:\n", comparison.agents[0].name);
     columns.Differences(&text);
   }
   text.pop_back();

@@ -141,7 +141,8 @@ TEST(Usage, ListSaysWhichFilesAreNoPolicies) {
 
 TEST(Usage, HelpSaysWhatAutopilotAloneMeans) {
   for (const char* command : {"compare", "eval", "train"}) {
-    EXPECT_THAT(CallSkein({command, "--help"}).output, HasSubstr("alone: aggressive"));
+    EXPECT_THAT(CallSkein({command, "--help"}).output,
+                HasSubstr("autopilot means autopilot:aggressive"));
   }
 }
 

@@ -31,8 +31,8 @@ class LibTorchNetwork : public RecurrentNetwork {
 /// Loss of one tile and its gradient with respect to the flat parameters, in float64 throughout,
 /// written from the formulas of the network and the losses with differentiable operations alone.
 struct ReferenceGradient {
-  /// Policy loss less the entropy bonus plus the price of action changes, or value_coefficient x
-  /// value loss.
+  /// Policy loss less the entropy bonus plus the penalty on action changes, or value_coefficient
+  /// x value loss.
   double loss = 0;
   LossSums sums;
   std::vector<double> gradient;

@@ -42,8 +42,8 @@ void LogProbability(std::int64_t rows, int size, const float* mean, const float*
 /// Differential entropy of a diagonal Gaussian: sum of log_std + log(2 pi e) / 2.
 double GaussianEntropy(int size, const float* log_std);
 
-/// PPO's clipped surrogate (Schulman et al. 2017, equation 7), the entropy bonus, and the price of
-/// action changes (Mysore et al. 2021, "Regularizing action policies for smooth control with
+/// PPO's clipped surrogate (Schulman et al. 2017, equation 7), the entropy bonus, and the penalty
+/// on action changes (Mysore et al. 2021, "Regularizing action policies for smooth control with
 /// reinforcement learning": the temporal term, squared). Writes the gradient with respect to the
 /// actor's outputs (before tanh), `size` of them per row, and adds that of log_std.
 LossSums ActorLoss(const SampleTile& tile, int size, const LossSettings& settings,
