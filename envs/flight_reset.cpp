@@ -8,6 +8,7 @@
 #include "base/choice_error.h"
 #include "base/range.h"
 #include "envs/air/atmosphere.h"
+#include "envs/air/gravity.h"
 #include "envs/aircraft/engine.h"
 #include "envs/state/attitude.h"
 
@@ -120,7 +121,7 @@ void FlightReset::Pull(double pulled_g, RigidBodyState* state, TrimmedStart* sta
   start->nz += pulled_g;
   *state = at_alpha(start->alpha_rad);
   // What gravity does not turn by itself, as in a steady turn.
-  (*state)[kQ] = pulled_g * plant_.gravity().At(-(*state)[kDown]) / speed_ft_s;
+  (*state)[kQ] = pulled_g * kGravityFtS2 / speed_ft_s;
 }
 
 FreshFlight FlightReset::Draw(simd::RandomStream* random) const {

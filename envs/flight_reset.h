@@ -37,8 +37,9 @@ class FlightReset {
 
  private:
   TrimmedStart UntrimmedAt(double altitude_ft, double true_airspeed_ft_s) const;
-  /// Turns a steady start into the middle of a pull of `pulled_g` more than that, by the slope of
-  /// lift over alpha there: with the lift of the pitch rate the plant has up to 10 % of it more.
+  /// Turns a steady start into the middle of a pull-up of `pulled_g` more than that, by the slope
+  /// of lift over alpha there: with the lift of the pitch rate the plant has up to 10 % of it more;
+  /// beyond the alpha where lift is straight, in slow flight, it has less.
   void Pull(double pulled_g, RigidBodyState* state, TrimmedStart* start) const;
 
   InitialConfig initial_;

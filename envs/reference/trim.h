@@ -10,7 +10,7 @@ struct TrimRequest {
   double altitude_ft = 0;
   double true_airspeed_ft_s = 0;
   double flight_path_angle_rad = 0;
-  double turn_rate_rad_s = 0;  ///< + to the right; the trim is then a coordinated turn
+  double turn_rate_rad_s = 0;  ///< + to the right; the trim is then a turn without sideslip
   /// + upwards: the rate at which pitch and flight path turn in the vertical plane. Speed and rates
   /// are steady then, flight path and attitude are not: a moment of a pull-up or, below zero, of a
   /// push-over.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 
 #include "envs/reference/linear_flight.h"
@@ -63,6 +64,15 @@ bool IsAperiodicAirspeed(const LinearMode& mode) {
 
 bool IsPhugoid(const LinearMode& mode) { return mode.is_oscillatory() && IsSlow(mode); }
 
+/// Whether no pilot bears it: what grows and swings faster than a phugoid, and what diverges faster
+/// than 3.2.1.1 has it of an airspeed of level 3.
+bool IsUnstable(const LinearMode& mode) {
+  constexpr double kGrowth = 0.02;    // 1/s: a phugoid that is a little too fast to be slow
+  constexpr double kLeastDouble = 6;  // s
+  if (!mode.is_oscillatory()) return mode.time_to_double_s() < kLeastDouble;
+  return !IsSlow(mode) && mode.eigenvalue.real() > kGrowth;
+}
+
 /// Of the modes that count, the one that decays least or grows fastest; nullptr without one.
 const LinearMode* LeastStable(const std::vector<LinearMode>& modes,
                               bool (*counts)(const LinearMode& mode)) {
@@ -76,6 +86,17 @@ const LinearMode* LeastStable(const std::vector<LinearMode>& modes,
 
 // Outputs of closed_loop_outputs.h.
 constexpr int kPitchRateOutput = 3, kRollRateOutput = 2;
+
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
+
+/// What `sticks` add to what is measured of a flight with hands off.
+std::vector<double> AddedBy(const Sticks& sticks, const Plant& plant, const TrimPoint& trim,
+                            double seconds, std::vector<double> TrialFlight::*measured) {
+  std::vector<double> added = FlyTrial(plant, trim, seconds, sticks).*measured;
+  const std::vector<double> hands_off = FlyTrial(plant, trim, seconds, HandsOff()).*measured;
+  std::transform(added.begin(), added.end(), hands_off.begin(), added.begin(), std::minus<>());
+  return added;
+}
 
 /// Seconds until the bank has changed by `bank_deg`, with full roll stick.
 double TimeToBank(const Plant& plant, const TrimPoint& trim, double bank_deg) {
@@ -146,11 +167,24 @@ std::string DutchRollText(const LevelLimits& limits) {
   });
 }
 
+Requirement EquivalentDelay(const char* what, double delay_s, bool is_doubtful,
+                            const LevelLimits& limits) {
+  return {"3.5.3",
+          what,
+          "s",
+          delay_s,
+          EquivalentDelayLevel(limits, delay_s),
+          ToLevels(limits.equivalent_delay_max_s),
+          is_doubtful};
+}
+
 void AssessShortPeriod(const Plant& plant, const TrimPoint& trim, const Axis& axis,
                        const LevelLimits& limits, FlyingQualities* qualities) {
   const LinearFlight bare = LineariseFlight(plant, trim, FlapMotion::kScheduled);
   const double inverse_T = -bare.A(kAngleOfAttack, kAngleOfAttack);
-  qualities->short_period = FitShortPeriod(axis.From(0, kPitchRateOutput), inverse_T);
+  qualities->short_period = qualities->unstable_mode
+                                ? EquivalentShortPeriod{kNoFigure, kNoFigure, kNoFigure, kNoFigure}
+                                : FitShortPeriod(axis.From(0, kPitchRateOutput), inverse_T);
   const double frequency = qualities->short_period.frequency_rad_s;
   const double damping = qualities->short_period.damping_ratio;
   const double load_factor = qualities->load_factor_by_alpha = bare.C(0, kAngleOfAttack);
@@ -168,11 +202,12 @@ void AssessShortPeriod(const Plant& plant, const TrimPoint& trim, const Axis& ax
                                         limits.short_period_damping_max[level]);
                           }),
                           is_doubtful});
+  requirements.push_back(EquivalentDelay("equivalent delay of pitch",
+                                         qualities->short_period.delay_s, is_doubtful, limits));
 }
 
-void AssessPitch(const Plant& plant, const TrimPoint& trim, const LevelLimits& limits,
-                 FlyingQualities* qualities) {
-  const Axis axis(plant, trim, LoopAxis::kLongitudinal);
+void AssessPitch(const Plant& plant, const TrimPoint& trim, const Axis& axis,
+                 const LevelLimits& limits, FlyingQualities* qualities) {
   AssessShortPeriod(plant, trim, axis, limits, qualities);
   for (const Requirement& requirement : AssessAirspeed(axis.modes, limits)) {
     qualities->requirements.push_back(requirement);
@@ -191,16 +226,23 @@ void AssessDutchRoll(const Axis& axis, const LevelLimits& limits, FlyingQualitie
       {"3.3.1.1", "Dutch roll frequency", "rad/s", frequency, level, DutchRollText(limits)});
 }
 
-void AssessLateral(const Plant& plant, const TrimPoint& trim, const LevelLimits& limits,
-                   FlyingQualities* qualities) {
-  const Axis axis(plant, trim, LoopAxis::kLateral);
-  AssessDutchRoll(axis, limits, qualities);
-  auto& requirements = qualities->requirements;
-  qualities->roll = FitRoll(axis.From(0, kRollRateOutput));
+void AssessRoll(const Axis& axis, const LevelLimits& limits, FlyingQualities* qualities) {
+  qualities->roll = qualities->unstable_mode ? EquivalentRoll{kNoFigure, kNoFigure, kNoFigure}
+                                             : FitRoll(axis.From(0, kRollRateOutput));
   const double time = qualities->roll.time_constant_s;
-  requirements.push_back({"3.3.1.2", "roll mode time constant", "s", time,
-                          RollModeLevel(limits, time), ToLevels(limits.roll_time_max_s),
-                          qualities->roll.mismatch > kMostMismatch});
+  const bool is_doubtful = qualities->roll.mismatch > kMostMismatch;
+  qualities->requirements.push_back({"3.3.1.2", "roll mode time constant", "s", time,
+                                     RollModeLevel(limits, time), ToLevels(limits.roll_time_max_s),
+                                     is_doubtful});
+  qualities->requirements.push_back(
+      EquivalentDelay("equivalent delay of roll", qualities->roll.delay_s, is_doubtful, limits));
+}
+
+void AssessLateral(const Plant& plant, const TrimPoint& trim, const Axis& axis,
+                   const LevelLimits& limits, FlyingQualities* qualities) {
+  AssessDutchRoll(axis, limits, qualities);
+  AssessRoll(axis, limits, qualities);
+  auto& requirements = qualities->requirements;
   if (const LinearMode* spiral = LeastStable(axis.modes, IsSlow)) {
     const double time_to_double = spiral->time_to_double_s();
     requirements.push_back({"3.3.1.3", "spiral: time to double", "s", time_to_double,
@@ -217,23 +259,23 @@ void AssessLateral(const Plant& plant, const TrimPoint& trim, const LevelLimits&
 
 }  // namespace
 
-StepResponse MeasureStep(const std::vector<double>& values, double start, double size) {
+StepResponse MeasureStep(const std::vector<double>& added, double size) {
   StepResponse response;
   response.size = size;
-  response.reached = values.back() - start;
+  response.reached = added.back();
   if (!std::isfinite(response.reached) || response.reached == 0) {
     response.rise_s = response.overshoot = std::nan("");
     return response;
   }
   const auto first = [&](double share) {
-    const auto found = std::find_if(values.begin(), values.end(), [&](double value) {
-      return (value - start) / response.reached >= share;
+    const auto found = std::find_if(added.begin(), added.end(), [&](double value) {
+      return value / response.reached >= share;
     });
-    return kTrialInterval * static_cast<double>(found - values.begin() + 1);
+    return kTrialInterval * static_cast<double>(found - added.begin() + 1);
   };
   response.rise_s = first(0.9) - first(0.1);
   double most = 0;
-  for (const double value : values) most = std::max(most, (value - start) / response.reached);
+  for (const double value : added) most = std::max(most, value / response.reached);
   response.overshoot = most - 1;
   return response;
 }
@@ -259,14 +301,18 @@ std::vector<Requirement> AssessAirspeed(const std::vector<LinearMode>& modes,
 FlyingQualities AssessFlyingQualities(const Plant& plant, const TrimPoint& trim,
                                       const LevelLimits& limits) {
   constexpr double kPitchStick = 0.1, kRollStick = 0.2, kPitchSeconds = 3, kRollSeconds = 2;
+  const Axis pitch(plant, trim, LoopAxis::kLongitudinal), lateral(plant, trim, LoopAxis::kLateral);
   FlyingQualities qualities;
-  AssessPitch(plant, trim, limits, &qualities);
-  AssessLateral(plant, trim, limits, &qualities);
-  const TrialFlight pitch = FlyTrial(plant, trim, kPitchSeconds, Held(kPitchStick, 0, 0));
-  const double level = plant.Evaluate(trim.state, trim.controls).nz;
-  qualities.pitch_step = MeasureStep(pitch.nz, level, kPitchStick);
-  const TrialFlight roll = FlyTrial(plant, trim, kRollSeconds, Held(0, kRollStick, 0));
-  qualities.roll_step = MeasureStep(roll.p, 0, kRollStick);
+  std::vector<LinearMode> modes = pitch.modes;
+  modes.insert(modes.end(), lateral.modes.begin(), lateral.modes.end());
+  if (const LinearMode* mode = LeastStable(modes, IsUnstable)) qualities.unstable_mode = *mode;
+  AssessPitch(plant, trim, pitch, limits, &qualities);
+  AssessLateral(plant, trim, lateral, limits, &qualities);
+  qualities.pitch_step = MeasureStep(
+      AddedBy(Held(kPitchStick, 0, 0), plant, trim, kPitchSeconds, &TrialFlight::nz), kPitchStick);
+  qualities.roll_step = MeasureStep(
+      AddedBy(Held(0, kRollStick, 0), plant, trim, kRollSeconds, &TrialFlight::p), kRollStick);
+  if (qualities.unstable_mode) return qualities;
   for (const auto& [where, name] : kLoopBreaks) {
     qualities.loops.push_back(
         {where, FindLoopMargins(BreakLoop(plant, trim, where, kTrialInterval))});

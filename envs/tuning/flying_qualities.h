@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,18 +14,19 @@
 
 namespace skein {
 
-/// The response to a step of a stick from trim, in the float64 closed loop.
+/// The response to a step of a stick from trim, in the float64 closed loop: what it adds to the
+/// flight with hands off.
 struct StepResponse {
   double size = 0;     ///< of the step, share of the full stick
-  double reached = 0;  ///< at the end, g or deg/s, without what it was before
+  double reached = 0;  ///< at the end, g or deg/s
   /// From a tenth to nine tenths of that, and beyond it, as a share of it; neither is a number if
   /// what is reached is 0 or not finite.
   double rise_s = 0, overshoot = 0;
 };
 
-/// Of `values`, one or more at every kTrialInterval (envs/tuning/trial_flight.h) after a step of
-/// `size`, which were `start` before it.
-StepResponse MeasureStep(const std::vector<double>& values, double start, double size);
+/// Of what a step of `size` adds, one value or more at every kTrialInterval
+/// (envs/tuning/trial_flight.h) after it.
+StepResponse MeasureStep(const std::vector<double>& added, double size);
 
 /// A requirement of MIL-F-8785C and how it is met.
 struct Requirement {
@@ -52,6 +54,10 @@ struct LoopAt {
 
 /// How an aircraft with flight control flies about a trim.
 struct FlyingQualities {
+  /// Of the modes of the closed loop that grow faster than pilots bear the one that grows fastest.
+  /// With it there are no loops and no equivalent systems: their figures are no numbers, and what
+  /// is asked of them is beyond level 3. What grows slowly is judged by its own requirements.
+  std::optional<LinearMode> unstable_mode;
   EquivalentShortPeriod short_period;
   EquivalentRoll roll;
   LinearMode dutch_roll;            ///< the oscillatory mode of sideslip and yaw

@@ -92,6 +92,7 @@ LevelLimits LimitsOf(AirplaneClass airplane, FlightPhaseCategory category) {
   limits.roll_paragraph = roll.paragraph;
   limits.bank_deg = roll.bank_deg[phase];
   limits.bank_time_max_s = roll.time_s[phase];
+  limits.equivalent_delay_max_s = {0.1, 0.2, 0.25};
   return limits;
 }
 
@@ -145,6 +146,11 @@ int SpiralLevel(const LevelLimits& limits, double time_to_double_s) {
 int RollPerformanceLevel(const LevelLimits& limits, double bank_time_s) {
   return FirstLevel(
       [&](std::size_t level) { return bank_time_s <= limits.bank_time_max_s[level]; });
+}
+
+int EquivalentDelayLevel(const LevelLimits& limits, double delay_s) {
+  return FirstLevel(
+      [&](std::size_t level) { return delay_s <= limits.equivalent_delay_max_s[level]; });
 }
 
 }  // namespace skein

@@ -39,12 +39,14 @@ struct LevelLimits {
   const char* roll_paragraph;
   double bank_deg;
   LevelLimit bank_time_max_s;
+  LevelLimit equivalent_delay_max_s;  ///< 3.5.3, table XIV
 };
 
 /// Of aeroplanes of that class, in flight phases of that category.
 LevelLimits LimitsOf(AirplaneClass airplane, FlightPhaseCategory category);
 
-/// The level of figures alone, by the limits of the same names: 1 to 3, or 4 beyond level 3.
+/// The level of figures alone, by the limits of the same names: 1 to 3, or 4 beyond level 3, as of
+/// figures that are no numbers.
 int AnticipationLevel(const LevelLimits& limits, double anticipation, double frequency_rad_s,
                       double load_factor_by_alpha);
 int ShortPeriodDampingLevel(const LevelLimits& limits, double damping_ratio);
@@ -54,5 +56,6 @@ int DutchRollLevel(const LevelLimits& limits, double damping_ratio, double frequ
 int RollModeLevel(const LevelLimits& limits, double time_constant_s);
 int SpiralLevel(const LevelLimits& limits, double time_to_double_s);
 int RollPerformanceLevel(const LevelLimits& limits, double bank_time_s);
+int EquivalentDelayLevel(const LevelLimits& limits, double delay_s);
 
 }  // namespace skein

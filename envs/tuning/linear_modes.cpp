@@ -54,6 +54,11 @@ std::vector<std::string> LongitudinalNames(const std::vector<FlightMode>& modes)
   return names;
 }
 
+/// Of the only real lateral mode.
+const char* RollOrSpiral(const FlightMode& mode) {
+  return mode.shares[kRollRate] > mode.shares[kBankAngle] ? "roll" : "spiral";
+}
+
 std::vector<std::string> LateralNames(const std::vector<FlightMode>& modes) {
   std::vector<std::size_t> real;  // from the fastest to the slowest
   for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -65,6 +70,8 @@ std::vector<std::string> LateralNames(const std::vector<FlightMode>& modes) {
     if (modes[i].is_oscillatory()) {
       names.emplace_back(has_dutch_roll ? "roll-spiral" : "Dutch roll");
       has_dutch_roll = true;
+    } else if (real.size() == 1) {
+      names.emplace_back(RollOrSpiral(modes[i]));
     } else if (i == real.back()) {
       names.emplace_back("spiral");
     } else {

@@ -54,7 +54,9 @@ struct FlightMode : LinearMode {
 /// period, of the real lateral ones the fastest is roll and the slowest spiral. Names of what is
 /// rarer: "short period, real" and "phugoid, real" where a pair has become two real modes (an
 /// unstable airframe), "third oscillatory" (a phugoid by its family) for a pair between two real
-/// ones, "roll-spiral" (a spiral) for a second lateral pair, "Dutch roll, real".
+/// ones, "roll-spiral" (a spiral) for a second lateral pair, "Dutch roll, real". A single real
+/// lateral one is roll where it is more of roll rate than of bank, else spiral. Names are of flight
+/// with level wings: in a turn all modes couple, and each has the name of what it is nearest to.
 std::vector<FlightMode> FindFlightModes(const LinearFlight& model);
 
 }  // namespace skein

@@ -22,13 +22,14 @@ inline constexpr std::array<std::pair<LoopBreak, const char*>, 3> kLoopBreaks{
 /// loop that closes with negative feedback. Sampling and hold are part of it.
 SampledSystem BreakLoop(const Plant& plant, const TrimPoint& trim, LoopBreak where, double dt);
 
-/// How far a loop is from instability. Infinite where nothing is in the way.
+/// How far a stable loop is from instability. Infinite where nothing is in the way.
 struct LoopMargins {
   /// By how much the gain may rise, and fall, dB; both above 0. Only loops that make an unstable
   /// aircraft stable have a finite second one.
   double gain_up_db = std::numeric_limits<double>::infinity();
   double gain_down_db = std::numeric_limits<double>::infinity();
-  /// The least over all frequencies of gain one, and there; below 0: unstable.
+  /// By how much the phase may fall or rise, both above 0: the least over all frequencies of gain
+  /// one, and there.
   double phase_deg = std::numeric_limits<double>::infinity();
   double crossover_rad_s = 0;
   double gain_up_rad_s = 0;  ///< frequency of gain_up_db
@@ -36,7 +37,8 @@ struct LoopMargins {
   double delay_s = std::numeric_limits<double>::infinity();
 };
 
-/// Of a loop that closes with negative feedback and is stable then.
+/// Of a loop that closes with negative feedback and is stable then; of one that is not the figures
+/// say nothing.
 LoopMargins FindLoopMargins(const SampledSystem& loop);
 
 }  // namespace skein

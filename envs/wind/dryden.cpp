@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 
 #include "envs/state/attitude.h"
@@ -138,23 +140,31 @@ DrydenScales DrydenScalesAt(double altitude_ft) {
   return scales;
 }
 
-double TurbulenceAt(double at_20000_ft, double altitude_ft) {
+namespace {
+
+/// Of calm air, light, moderate and severe turbulence at an altitude, ft/s.
+std::array<double, 4> DeviationsAt(double altitude_ft) {
   const auto* above = std::upper_bound(
       std::begin(dryden::kTurbulenceByAltitude) + 1, std::end(dryden::kTurbulenceByAltitude) - 1,
       altitude_ft, [](double altitude, const auto& row) { return altitude < row.altitude_ft; });
   const dryden::TurbulenceRow &low = above[-1], &high = *above;
   const double fraction =
       std::clamp((altitude_ft - low.altitude_ft) / (high.altitude_ft - low.altitude_ft), 0.0, 1.0);
-  // By severity, from calm on: here, and at 20,000 ft.
-  double here[] = {0, low.light, low.moderate, low.severe};
-  const double there[] = {0, high.light, high.moderate, high.severe};
-  for (int i = 0; i < 4; ++i) here[i] += fraction * (there[i] - here[i]);
-  int i = 0;
-  while (i < 2 && at_20000_ft > kTurbulenceSeverities[i + 1].standard_deviation_fps) ++i;
-  const double from = kTurbulenceSeverities[i].standard_deviation_fps;
-  const double to = kTurbulenceSeverities[i + 1].standard_deviation_fps;
-  if (at_20000_ft > to) return here[3] * at_20000_ft / to;
-  return here[i] + (here[i + 1] - here[i]) * (at_20000_ft - from) / (to - from);
+  std::array<double, 4> deviations = {0, low.light, low.moderate, low.severe};
+  const std::array<double, 4> higher = {0, high.light, high.moderate, high.severe};
+  for (std::size_t i = 0; i < 4; ++i) deviations[i] += fraction * (higher[i] - deviations[i]);
+  return deviations;
+}
+
+}  // namespace
+
+double TurbulenceAt(double at_20000_ft, double altitude_ft) {
+  static const std::array<double, 4> there = DeviationsAt(20000);
+  const std::array<double, 4> here = DeviationsAt(altitude_ft);
+  if (at_20000_ft > there[3]) return here[3] * at_20000_ft / there[3];
+  std::size_t i = 0;
+  while (at_20000_ft > there[i + 1]) ++i;
+  return here[i] + (here[i + 1] - here[i]) * (at_20000_ft - there[i]) / (there[i + 1] - there[i]);
 }
 
 namespace {

@@ -33,8 +33,8 @@ inline constexpr std::array<TurbulenceSeverity, 4> kTurbulenceSeverities = {
     {{"calm", 0}, {"light", 3.7}, {"moderate", 7.3}, {"severe", 21}}};
 
 /// Standard deviation of a gust at an altitude, ft/s, where that at 20,000 ft is `at_20000_ft`:
-/// MIL-F-8785C, figure 7. Between the severities above it is interpolated, below the least and
-/// above the greatest in proportion; below 500 ft and above 80,000 ft it is that there.
+/// MIL-F-8785C, figure 7. Between the severities of the figure it is interpolated, below the least
+/// and above the greatest in proportion; below 500 ft and above 80,000 ft it is that there.
 double TurbulenceAt(double at_20000_ft, double altitude_ft);
 
 /// How long gusts are, and how much stronger horizontal ones are than vertical ones.

@@ -191,7 +191,7 @@ def trim(
     Args:
         altitude_ft, true_airspeed_fps: of the flight, above sea level and through the air.
         flight_path_deg: positive in a climb.
-        turn_rate_deg_s: positive to the right; the turn is coordinated.
+        turn_rate_deg_s: positive to the right; a turn without sideslip.
         pull_up_g: of a pull-up with level wings: force across the flight path over weight, 1 in level flight; no turn
             then.
         aircraft: one of skein.AIRCRAFT, or the path of a file.
@@ -315,13 +315,14 @@ def linear_models(point: Trim, *, flap: str = "fixed") -> dict[str, Any]:
         "with_flight_control": "longitudinal" and "lateral", each the same in control steps of "dt_s": x of the next
             step is A x + B u, and y = C x is measured before it. Inputs are "pitch_stick", or "roll_stick" and
             "yaw_pedals", in [-1, 1]; states are rigid body, actuators and filters; modes have no names. Power is held.
+            Of flight with level wings: turns and pull-ups do not have it.
     """
     _require_trim("linear_models", point)
     if flap not in ("fixed", "scheduled"):
         raise ConfigurationError(f'flap must be "fixed" or "scheduled", not {shown(flap)}')
     request = _skein.FlightRequest(*point._request)
     models: dict[str, Any] = json.loads(point._plant.core.linear_models(request, flap == "scheduled"))
-    for model in (models["bare_airframe"], *models["with_flight_control"].values()):
+    for model in (models["bare_airframe"], *models.get("with_flight_control", {}).values()):
         for name in "ABCD":
             model[name] = np.array(model[name], np.float64)
     return models
@@ -341,6 +342,8 @@ def flying_qualities(point: Trim, *, airplane_class: str = "IV", category: str =
         "load_factor_by_alpha_g_per_rad", "equivalent_short_period", "equivalent_roll", "dutch_roll", "bank_s" (from
         full stick to "bank_deg"); "requirements", a list of dicts with "paragraph", "what", "value", "unit" and
         "level" (1 to 3; 4 is below level 3); and "loops", one for each actuator, with margins in dB, deg and s.
+        "unstable_mode" is None, or the mode of the closed loop that grows ("eigenvalue_per_s", "frequency_rad_s",
+        "time_to_double_s"): then there are no loops, and the equivalent systems' figures are None.
 
     Raises:
         ConfigurationError: it is a turn or a pull-up.

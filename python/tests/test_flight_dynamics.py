@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import copy
+import json
 import pickle
 
 import numpy as np
@@ -42,7 +43,7 @@ def test_a_trim_is_pickled_and_compared():
         assert again != trim and trim == trim and len({again, trim}) == 2  # arrays are not compared
 
 
-def test_a_coordinated_turn_turns():
+def test_a_turn_turns():
     turn = skein.trim(15000, 500, turn_rate_deg_s=6)
     assert turn.bank_deg > 40
     flight = skein.simulate(turn, turn.controls, duration_s=5)
@@ -200,6 +201,25 @@ def test_linear_models_have_modes_with_names():
     assert scheduled["B"].shape[1] == bare["B"].shape[1] - 1
     with pytest.raises(skein.ConfigurationError, match="flap"):
         skein.linear_models(point, flap="loose")
+
+
+def test_models_with_flight_control_are_of_flight_with_level_wings():
+    climb = skein.linear_models(skein.trim(15000, 600, flight_path_deg=10))
+    assert set(climb["with_flight_control"]) == {"longitudinal", "lateral"}
+    for manoeuvre in ({"turn_rate_deg_s": 8}, {"pull_up_g": 3}):
+        models = skein.linear_models(skein.trim(15000, 600, **manoeuvre))
+        assert "with_flight_control" not in models
+        assert models["bare_airframe"]["A"].shape == (9, 9)
+
+
+def test_an_unstable_closed_loop_has_no_margins(tmp_path):
+    hot = json.loads((ROOT / "data" / "f16" / "aircraft.json").read_text())
+    hot["flight_control"]["pitch_proportional_deg_per_g"] *= 6
+    (tmp_path / "hot.json").write_text(json.dumps(hot))
+    found = skein.flying_qualities(skein.trim(5000, 1000, aircraft=tmp_path / "hot.json"))
+    assert found["unstable_mode"]["time_to_double_s"] < 1
+    assert found["loops"] == [] and found["equivalent_short_period"]["damping_ratio"] is None
+    assert skein.flying_qualities(skein.trim(5000, 1000))["unstable_mode"] is None
 
 
 def test_flying_qualities_are_of_a_class_and_category():

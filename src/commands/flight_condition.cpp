@@ -52,12 +52,11 @@ void AddFlightPath(CLI::App* command, SteadyFlightRequest* manoeuvre) {
 }
 
 void AddTurnAndPullUp(CLI::App* command, SteadyFlightRequest* manoeuvre) {
-  CLI::Option* turn =
-      command
-          ->add_option("--turn-rate-deg-s", manoeuvre->turn_rate_deg_s,
-                       "turn rate, deg/s, positive to the right; the turn is coordinated")
-          ->transform(FiniteNumber())
-          ->capture_default_str();
+  CLI::Option* turn = command
+                          ->add_option("--turn-rate-deg-s", manoeuvre->turn_rate_deg_s,
+                                       "turn rate, deg/s, positive to the right, without sideslip")
+                          ->transform(FiniteNumber())
+                          ->capture_default_str();
   command
       ->add_option("--pull-up-g", manoeuvre->load_factor,
                    "pull-up with level wings: force across the flight path over weight, 1 in level "

@@ -96,8 +96,9 @@ std::vector<std::string> PoliciesAmong(const std::vector<std::string>& agents);
 void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>& policies,
                     const std::string& aircraft, ProgramConfig* config);
 
-/// Says on the error stream which targets no flight can come to (TargetsBeyondLimits), and what
-/// lies above the engine's tables (AltitudesBeyondTables).
+/// Says on the error stream which targets no flight can come to (TargetsBeyondLimits), what lies
+/// above the engine's tables (AltitudesBeyondTables), and which winds few flights get over
+/// (WindsBeyondAirspeed).
 void WarnOfTargets(const EnvConfig& env, const GivenTargets& given = {});
 
 /// The agents of a list of --agents, for the environment of `config`. Throws UsageError on a name

@@ -314,8 +314,10 @@ std::string DescribeConditions(const EnvConfig& env) {
   if (wind.speed_fps.max > 0 && !is_from_anywhere) {
     air += " from " + range(wind.from_deg, " deg");
   }
+  if (wind.speed_fps.max > 0 && !wind.step_at_reset) air += ", trimmed in it";
   if (wind.turbulence_fps.max > 0) {
     air += "; turbulence of " + range(wind.turbulence_fps, " ft/s");
+    if (wind.turbulence_by_altitude) air += " at 20000 ft, elsewhere by MIL-F-8785C";
     if (wind.rotational_gusts) air += ", rotational gusts";
   }
   if (env.flight_control == FlightControlMode::kDirect) air += "; direct flight control";
@@ -324,6 +326,10 @@ std::string DescribeConditions(const EnvConfig& env) {
   }
   if (env.gravity.at_sea_level_ft_s2 != Gravity().at_sea_level_ft_s2) {
     air += fmt::format("; gravity of {:.6g} ft/s^2", env.gravity.at_sea_level_ft_s2);
+  }
+  if (env.gravity.falls_with_altitude) air += "; gravity falls with altitude";
+  if (env.engine_angular_momentum != 0) {
+    air += fmt::format("; engine momentum of {:.6g} slug ft^2/s", env.engine_angular_momentum);
   }
   const std::string plant = DescribePlant(env.plant);
   if (!plant.empty()) air += "; " + plant;

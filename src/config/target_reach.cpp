@@ -167,6 +167,14 @@ std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env, const Given
   return lines;
 }
 
+std::vector<std::string> WindsBeyondAirspeed(const EnvConfig& env) {
+  const double wind = env.wind.speed_fps.max, slowest = env.initial.true_airspeed_fps.min;
+  if (!env.wind.step_at_reset || wind < slowest) return {};
+  return {fmt::format(
+      "winds of up to {:.6g} ft/s met as a step at {:.6g} ft/s: flights may end as they begin",
+      wind, slowest)};
+}
+
 std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given) {
   std::vector<std::string> lines;
   const std::vector<TermTarget> targets =

@@ -28,4 +28,8 @@ std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTa
 std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env,
                                                const GivenTargets& given = {});
 
+/// A line if the strongest steady wind, met as a step, is no weaker than the slowest flight begins:
+/// from behind it leaves no air ahead.
+std::vector<std::string> WindsBeyondAirspeed(const EnvConfig& env);
+
 }  // namespace skein

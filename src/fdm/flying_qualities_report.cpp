@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "base/number_text.h"
@@ -77,6 +79,43 @@ std::string DescribeLoops(const FlyingQualities& qualities) {
   return InColumns(rows);
 }
 
+/// The equivalent systems, or why there are none.
+std::string DescribeEquivalents(const FlyingQualities& qualities) {
+  if (const auto& mode = qualities.unstable_mode) {
+    return fmt::format(
+        "the closed loop is unstable: {}time to double {:.3g} s; margins and equivalent systems "
+        "have no meaning\n",
+        mode->is_oscillatory() ? Figure(mode->frequency_rad_s()) + " rad/s, " : "",
+        mode->time_to_double_s());
+  }
+  const EquivalentShortPeriod& pitch = qualities.short_period;
+  return fmt::format(
+      "equivalent short period: {:.2f} rad/s, damping {:.2f}, delay {:.3f} s ({}); n/alpha "
+      "{:.1f} g/rad\n"
+      "equivalent roll mode: {:.2f} s, delay {:.3f} s ({})\n",
+      pitch.frequency_rad_s, pitch.damping_ratio, pitch.delay_s, FitText(pitch.mismatch, "second"),
+      qualities.load_factor_by_alpha, qualities.roll.time_constant_s, qualities.roll.delay_s,
+      FitText(qualities.roll.mismatch, "first"));
+}
+
+/// The least gain margin and phase margin of a line of a table, and the loops that have them; of an
+/// unstable closed loop there are none.
+std::vector<std::string> MarginCells(const FlyingQualities& qualities) {
+  const std::vector<LoopAt>& loops = qualities.loops;
+  if (loops.empty()) return {"unstable", "unstable", "-"};
+  const auto gain = [](const LoopAt& loop) {
+    return std::min(loop.margins.gain_up_db, loop.margins.gain_down_db);
+  };
+  const auto least_gain =
+      std::min_element(loops.begin(), loops.end(),
+                       [&](const LoopAt& a, const LoopAt& b) { return gain(a) < gain(b); });
+  const auto least_phase = std::min_element(
+      loops.begin(), loops.end(),
+      [](const LoopAt& a, const LoopAt& b) { return a.margins.phase_deg < b.margins.phase_deg; });
+  return {Figure(gain(*least_gain)), Figure(least_phase->margins.phase_deg),
+          LimitingLoops(*least_gain, *least_phase)};
+}
+
 /// The worst level of the requirements of a paragraph that begins with `prefix`; "-" without any.
 std::string WorstLevel(const FlyingQualities& qualities, const std::string& prefix) {
   int worst = 0;
@@ -96,6 +135,14 @@ Json ToJson(const StepResponse& step, const char* reached) {
           {reached, NumberOrNull(step.reached)},
           {"rise_s", NumberOrNull(step.rise_s)},
           {"overshoot", NumberOrNull(step.overshoot)}};
+}
+
+Json ToJson(const std::optional<LinearMode>& unstable_mode) {
+  if (!unstable_mode) return nullptr;
+  const std::complex<double> eigenvalue = unstable_mode->eigenvalue;
+  return {{"eigenvalue_per_s", {eigenvalue.real(), eigenvalue.imag()}},
+          {"frequency_rad_s", unstable_mode->frequency_rad_s()},
+          {"time_to_double_s", unstable_mode->time_to_double_s()}};
 }
 
 Json ToJson(const LoopAt& loop) {
@@ -141,7 +188,7 @@ LevelLimits LimitsNamed(const std::string& airplane_class, const std::string& ca
 
 AssessedFlight AssessSteadyFlight(const Plant& plant, const SteadyFlightRequest& request,
                                   const LevelLimits& limits) {
-  if (request.turn_rate_deg_s != 0 || request.load_factor) {
+  if (!request.IsStraight()) {
     throw UsageError("flying qualities are of flight with level wings, without a pull-up");
   }
   const SteadyFlight flight = FindSteadyFlight(plant, request);
@@ -156,14 +203,7 @@ AssessedFlight AssessSteadyFlight(const Plant& plant, const SteadyFlightRequest&
 std::string Describe(const FlyingQualities& qualities, const std::string& standard) {
   std::string text = DescribeStep("pitch stick", qualities.pitch_step, "g") +
                      DescribeStep("roll stick", qualities.roll_step, "deg/s");
-  const EquivalentShortPeriod& pitch = qualities.short_period;
-  text += fmt::format(
-      "equivalent short period: {:.2f} rad/s, damping {:.2f}, delay {:.3f} s ({}); n/alpha "
-      "{:.1f} g/rad\n"
-      "equivalent roll mode: {:.2f} s, delay {:.3f} s ({})\n\n",
-      pitch.frequency_rad_s, pitch.damping_ratio, pitch.delay_s, FitText(pitch.mismatch, "second"),
-      qualities.load_factor_by_alpha, qualities.roll.time_constant_s, qualities.roll.delay_s,
-      FitText(qualities.roll.mismatch, "first"));
+  text += DescribeEquivalents(qualities) + "\n";
   std::vector<std::vector<std::string>> rows = {
       {"MIL-F-8785C", standard, "", "", "limits of levels 1; 2; 3"}};
   for (const Requirement& requirement : qualities.requirements) {
@@ -173,32 +213,23 @@ std::string Describe(const FlyingQualities& qualities, const std::string& standa
                     LevelText(requirement), requirement.limits});
   }
   text += InColumns(rows) + (HasDoubt(qualities) ? DoubtNote() : "");
-  return text + "\n" + DescribeLoops(qualities);
+  return qualities.loops.empty() ? text : text + "\n" + DescribeLoops(qualities);
 }
 
 std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
   std::vector<std::vector<std::string>> rows = {{"altitude", "speed", "short period", "airspeed",
                                                  "phugoid", "Dutch roll", "roll", "spiral", "bank",
-                                                 "GM, dB", "PM, deg", "limiting loop"}};
+                                                 "delay", "GM, dB", "PM, deg", "limiting loop"}};
   for (const AssessedFlight& flight : flights) {
     const FlyingQualities& qualities = flight.qualities;
-    const auto gain = [](const LoopAt& loop) {
-      return std::min(loop.margins.gain_up_db, loop.margins.gain_down_db);
-    };
-    const auto least_gain =
-        std::min_element(qualities.loops.begin(), qualities.loops.end(),
-                         [&](const LoopAt& a, const LoopAt& b) { return gain(a) < gain(b); });
-    const auto least_phase = std::min_element(
-        qualities.loops.begin(), qualities.loops.end(),
-        [](const LoopAt& a, const LoopAt& b) { return a.margins.phase_deg < b.margins.phase_deg; });
     rows.push_back({ShortestText(flight.request.altitude_ft),
                     fmt::format("{:.6g}", flight.request.true_airspeed_ft_s),
                     WorstLevel(qualities, "3.2.2.1"), WorstLevel(qualities, "3.2.1.1"),
                     WorstLevel(qualities, "3.2.1.2"), WorstLevel(qualities, "3.3.1.1"),
                     WorstLevel(qualities, "3.3.1.2"), WorstLevel(qualities, "3.3.1.3"),
-                    WorstLevel(qualities, "3.3.4"), Figure(gain(*least_gain)),
-                    Figure(least_phase->margins.phase_deg),
-                    LimitingLoops(*least_gain, *least_phase)});
+                    WorstLevel(qualities, "3.3.4"), WorstLevel(qualities, "3.5.3")});
+    const std::vector<std::string> margins = MarginCells(qualities);
+    rows.back().insert(rows.back().end(), margins.begin(), margins.end());
   }
   const bool has_doubt =
       std::any_of(flights.begin(), flights.end(),
@@ -209,20 +240,22 @@ std::string DescribeLevels(const std::vector<AssessedFlight>& flights) {
 Json ToJson(const AssessedFlight& flight) {
   const FlyingQualities& qualities = flight.qualities;
   const LinearMode& dutch_roll = qualities.dutch_roll;
+  const EquivalentShortPeriod& pitch = qualities.short_period;
   Json json = {{"altitude_ft", flight.request.altitude_ft},
                {"speed_fps", flight.request.true_airspeed_ft_s},
+               {"unstable_mode", ToJson(qualities.unstable_mode)},
                {"pitch_step", ToJson(qualities.pitch_step, "load_factor_g")},
                {"roll_step", ToJson(qualities.roll_step, "p_deg_s")},
                {"load_factor_by_alpha_g_per_rad", qualities.load_factor_by_alpha},
                {"equivalent_short_period",
-                {{"frequency_rad_s", qualities.short_period.frequency_rad_s},
-                 {"damping_ratio", qualities.short_period.damping_ratio},
-                 {"delay_s", qualities.short_period.delay_s},
-                 {"mismatch", qualities.short_period.mismatch}}},
+                {{"frequency_rad_s", NumberOrNull(pitch.frequency_rad_s)},
+                 {"damping_ratio", NumberOrNull(pitch.damping_ratio)},
+                 {"delay_s", NumberOrNull(pitch.delay_s)},
+                 {"mismatch", NumberOrNull(pitch.mismatch)}}},
                {"equivalent_roll",
-                {{"time_constant_s", qualities.roll.time_constant_s},
-                 {"delay_s", qualities.roll.delay_s},
-                 {"mismatch", qualities.roll.mismatch}}},
+                {{"time_constant_s", NumberOrNull(qualities.roll.time_constant_s)},
+                 {"delay_s", NumberOrNull(qualities.roll.delay_s)},
+                 {"mismatch", NumberOrNull(qualities.roll.mismatch)}}},
                {"dutch_roll",
                 {{"eigenvalue_per_s", {dutch_roll.eigenvalue.real(), dutch_roll.eigenvalue.imag()}},
                  {"frequency_rad_s", dutch_roll.frequency_rad_s()},
@@ -232,6 +265,7 @@ Json ToJson(const AssessedFlight& flight) {
   for (const Requirement& requirement : qualities.requirements) {
     json["requirements"].push_back(ToJson(requirement));
   }
+  json["loops"] = Json::array();
   for (const LoopAt& loop : qualities.loops) json["loops"].push_back(ToJson(loop));
   return json;
 }

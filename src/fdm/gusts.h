@@ -26,8 +26,8 @@ struct Gust {
   Eigen::Vector3d air_rates_rad_s;  ///< body axes
 };
 
-/// Dryden turbulence (envs/wind/dryden.h) around one aircraft: the gusts that the environment would
-/// draw with this seed for its first aircraft.
+/// Dryden turbulence (envs/wind/dryden.h) around one aircraft: gusts of the same statistics as the
+/// environment's.
 class Gusts {
  public:
   /// `span_ft` is the aircraft's.

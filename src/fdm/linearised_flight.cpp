@@ -175,6 +175,7 @@ LinearisedFlight LineariseSteadyFlight(const Plant& plant, const SteadyFlightReq
   const TrimPoint& trim = linearised.flight.trim;
   linearised.bare = LineariseFlight(plant, trim, flap);
   linearised.modes = FindFlightModes(linearised.bare);
+  if (!request.IsStraight()) return linearised;
   for (const LoopAxis axis : {LoopAxis::kLongitudinal, LoopAxis::kLateral}) {
     LinearLoop loop;
     loop.axis = axis;
@@ -199,6 +200,11 @@ std::string Describe(const LinearisedFlight& linearised) {
   }
   text += "\nbare airframe, altitude and power held\n" + InColumns(rows);
   for (const LinearLoop& loop : linearised.loops) text += DescribeLoop(loop);
+  if (linearised.loops.empty()) {
+    text +=
+        "\nmodels with flight control are of flight with level wings, without a pull-up: there are "
+        "none\n";
+  }
   return text;
 }
 

@@ -20,7 +20,8 @@ struct LinearLoop {
   std::vector<LinearMode> modes;
 };
 
-/// A steady flight's linear models: of the bare airframe, and of both axes with flight control.
+/// A steady flight's linear models: of the bare airframe, and of both axes with flight control,
+/// which decouple in straight flight alone: turns and pull-ups have no `loops`.
 struct LinearisedFlight {
   SteadyFlightRequest request;
   SteadyFlight flight;

@@ -18,7 +18,7 @@ struct SteadyFlightRequest {
   double altitude_ft = 0;
   double true_airspeed_ft_s = 0;
   double flight_path_deg = 0;  ///< + in a climb; through the air
-  double turn_rate_deg_s = 0;  ///< + to the right; the turn is coordinated
+  double turn_rate_deg_s = 0;  ///< + to the right; a turn without sideslip
   /// Of a pull-up, with the wings level: what the force across the flight path is, in weights.
   /// Level flight has 1, a climb the cosine of its angle; below that it is a push-over.
   std::optional<double> load_factor = std::nullopt;
@@ -26,6 +26,8 @@ struct SteadyFlightRequest {
   Eigen::Vector3d wind_ft_s = Eigen::Vector3d::Zero();
 
   bool HasWind() const { return wind_ft_s != Eigen::Vector3d::Zero(); }
+  /// Neither a turn nor a pull-up.
+  bool IsStraight() const { return turn_rate_deg_s == 0 && !load_factor; }
 };
 
 /// The steady flight that was found.

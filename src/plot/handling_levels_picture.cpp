@@ -33,8 +33,10 @@ double Frequency(const AssessedFlight& flight) {
 }
 double Damping(const AssessedFlight& flight) { return flight.qualities.short_period.damping_ratio; }
 
-bool HasEquivalentSystem(const AssessedFlight& flight) {
-  return flight.qualities.short_period.mismatch <= kMostMismatch;
+/// Whether its equivalent system is too far from it; an unstable flight has none, which is no
+/// doubt.
+bool IsDoubtful(const AssessedFlight& flight) {
+  return flight.qualities.short_period.mismatch > kMostMismatch;
 }
 
 /// The worse of what 3.2.2.1 asks of the frequency and of the damping.
@@ -104,9 +106,8 @@ class LevelsDrawing {
     const bool is_shown = x >= panel.x_range().min && x <= panel.x_range().max &&
                           y >= panel.y_range().min && y <= panel.y_range().max;
     if (!is_shown) return;
-    const Disc look = HasEquivalentSystem(flight)
-                          ? Disc{{}, kRadius, ColourAt(flight), kGrey, 0.3}
-                          : Disc{{}, kRadius, kWhite, ColourAt(flight), 0.8};
+    const Disc look = IsDoubtful(flight) ? Disc{{}, kRadius, kWhite, ColourAt(flight), 0.8}
+                                         : Disc{{}, kRadius, ColourAt(flight), kGrey, 0.3};
     shapes_.push_back(
         MarkerAt(panel.Place(x, y), altitudes_.at(flight.request.altitude_ft).marker, look));
   }
@@ -239,9 +240,7 @@ class LevelsDrawing {
       const double left = at.x - kHalfWidth, right = at.x + kHalfWidth;
       const double high = at.y - kHalfHeight, low = at.y + kHalfHeight;
       shapes_.emplace_back(Area({{left, high}, {right, high}, {right, low}, {left, low}}, colour));
-      if (!HasEquivalentSystem(flight)) {
-        shapes_.emplace_back(Disc{at, kRadius, kWhite, kGrey, 0.8});
-      }
+      if (IsDoubtful(flight)) shapes_.emplace_back(Disc{at, kRadius, kWhite, kGrey, 0.8});
     }
     return panel.bottom();
   }
@@ -265,7 +264,7 @@ class LevelsDrawing {
       entries.push_back({BandSample(kLevelColours[level], 1),
                          level < 3 ? fmt::format("level {}", level + 1) : "below level 3"});
     }
-    if (!std::all_of(flights_.begin(), flights_.end(), HasEquivalentSystem)) {
+    if (std::any_of(flights_.begin(), flights_.end(), IsDoubtful)) {
       entries.push_back({MarkerSample(Marker::kDisc, {{}, kRadius, kWhite, kGrey, 0.8}),
                          fmt::format("no equivalent system: mismatch above {}", kMostMismatch)});
     }

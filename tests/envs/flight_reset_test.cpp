@@ -216,6 +216,24 @@ TEST(FlightResetTest, TrainingBeginsInAPullAndEvaluationsDoNot) {
   ExpectUniform(shares);
 }
 
+// Load factors are in multiples of kGravityFtS2: so is what bends the path.
+TEST(FlightResetTest, APullBendsThePathByItsLoadFactorInAnyGravity) {
+  for (const double gravity_ft_s2 : {20.0, kGravityFtS2, 40.0}) {
+    EnvConfig config;
+    config.gravity.at_sea_level_ft_s2 = gravity_ft_s2;
+    const FlightReset plain(config, F16());
+    config.initial.training_load_factor_max = 5;
+    const FlightReset training(config, F16());
+    for (std::uint32_t episode = 0; episode < 20; ++episode) {
+      const FreshFlight pulled = DrawOf(training, episode), level = DrawOf(plain, episode);
+      const double more_g = At(pulled, kNz) - At(level, kNz);
+      EXPECT_NEAR(At(pulled, kQ) * BodyOf(level).segment<3>(kU).norm() / kGravityFtS2, more_g,
+                  kStartRounding)
+          << gravity_ft_s2;
+    }
+  }
+}
+
 TEST(FlightResetTest, NamesTheStartsThatAreNoSteadyFlight) {
   EnvConfig config;
   config.initial.true_airspeed_fps.min = 100;  // below the stall

@@ -255,6 +255,27 @@ TEST_F(FdmPipeline, LinearModelsHaveNamesForRowsAndColumns) {
   EXPECT_THAT(result.output, HasSubstr("with flight control, longitudinal, 50 control steps"));
 }
 
+TEST_F(FdmPipeline, ModelsWithFlightControlAreOfStraightFlight) {
+  const std::string path = folder_ + "/straight.json";
+  const auto has_loops = [&](const std::vector<std::string>& manoeuvre) {
+    std::vector<std::string> command = {"fdm",         "linearise", "--altitude-ft", "15000",
+                                        "--speed-fps", "600",       "--json",        path};
+    command.insert(command.end(), manoeuvre.begin(), manoeuvre.end());
+    const ProgramResult result = CallSkein(command);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    const bool is_said =
+        result.output.find("models with flight control are of flight with level wings") !=
+        std::string::npos;
+    const json point = json::parse(ReadFile(path))["points"][0];
+    EXPECT_EQ(point["bare_airframe"]["A"].size(), 9u);
+    EXPECT_EQ(point.contains("with_flight_control"), !is_said);
+    return !is_said;
+  };
+  EXPECT_TRUE(has_loops({"--flight-path-deg", "10"}));
+  EXPECT_FALSE(has_loops({"--turn-rate-deg-s", "8"}));
+  EXPECT_FALSE(has_loops({"--pull-up-g", "3"}));
+}
+
 // Level flight: thrust and aerodynamic force along and across the path hold drag and weight.
 TEST_F(FdmPipeline, LiftAndDragAreInBalanceWithWeightAndThrust) {
   constexpr Tolerance kBalance{1e-6, "of the trim, relative"};

@@ -115,10 +115,10 @@ INSTANTIATE_TEST_SUITE_P(
                       TrimRequest{15000, 700, -0.15, 0}, TrimRequest{15000, 600, 0, 0.1},
                       TrimRequest{15000, 600, 0, -0.1}, TrimRequest{5000, 700, 0.1, 0.2}));
 
-// Coordinated turns: tan(bank) = V turn rate / g for a level one, to what the fuselage's side force
-// and the inclination of the thrust leave (the asymmetric tables alone ask for half a degree of
-// bank).
-TEST(Trim, TurnsAreCoordinatedAndNearlySymmetric) {
+// Turns without sideslip: tan(bank) = V turn rate / g for a level one, to what the fuselage's side
+// force and the inclination of the thrust leave (the asymmetric tables alone ask for half a degree
+// of bank).
+TEST(Trim, TurnsAreNearlySymmetric) {
   constexpr Tolerance kAsymmetryDeg{1.5, "asymmetric tables, side force and inclined thrust"};
   constexpr Tolerance kAsymmetryAlphaRad{2e-4, "asymmetric tables"};
   constexpr Tolerance kAsymmetryElevatorDeg{0.02, "asymmetric tables"};

@@ -7,11 +7,13 @@
 
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "envs/aircraft/registry.h"
 #include "envs/tuning/trial_flight.h"
+#include "tests/envs/f16_at.h"
 #include "tests/tolerance.h"
 
 namespace skein {
@@ -107,8 +109,8 @@ TEST(EquivalentSystem, FindsTheSystemThatItIsGiven) {
 
 TEST(StepResponse, IsMeasuredOfWhatIsReached) {
   constexpr Tolerance kRounding{1e-12, "float64 rounding"};
-  // From 3 to 13, in tenths, with a peak of 15 on the way.
-  const StepResponse response = MeasureStep({4, 8, 12, 15, 13, 13}, 3, 0.2);
+  // To 10, in tenths, with a peak of 12 on the way.
+  const StepResponse response = MeasureStep({1, 5, 9, 12, 10, 10}, 0.2);
   EXPECT_EQ(response.size, 0.2);
   EXPECT_EQ(response.reached, 10);
   EXPECT_NEAR(response.rise_s, 2 * kTrialInterval, kRounding);
@@ -116,8 +118,8 @@ TEST(StepResponse, IsMeasuredOfWhatIsReached) {
 }
 
 TEST(StepResponse, HasNoRiseAndNoOvershootWhereNothingIsReached) {
-  for (const double last : {std::nan(""), HUGE_VAL, -HUGE_VAL, 3.0}) {
-    const StepResponse response = MeasureStep({4, 8, last}, 3, 0.1);
+  for (const double last : {std::nan(""), HUGE_VAL, -HUGE_VAL, 0.0}) {
+    const StepResponse response = MeasureStep({1, 5, last}, 0.1);
     EXPECT_TRUE(std::isnan(response.rise_s)) << last;
     EXPECT_TRUE(std::isnan(response.overshoot)) << last;
   }
@@ -153,6 +155,82 @@ TEST(FlyingQualities, LevelsEndWhereTheStandardEndsThem) {
   EXPECT_EQ(SpiralLevel(limits, 3), 4);
   EXPECT_EQ(RollPerformanceLevel(limits, 1.3), 1);
   EXPECT_EQ(RollPerformanceLevel(limits, INFINITY), 4);
+  EXPECT_EQ(EquivalentDelayLevel(limits, 0.1), 1);
+  EXPECT_EQ(EquivalentDelayLevel(limits, 0.2), 2);
+  EXPECT_EQ(EquivalentDelayLevel(limits, 0.25), 3);
+  EXPECT_EQ(EquivalentDelayLevel(limits, 0.26), 4);
+  EXPECT_EQ(EquivalentDelayLevel(limits, std::nan("")), 4);
+}
+
+/// Of class IV, category A.
+FlyingQualities QualitiesAt(const Plant& plant, double altitude_ft, double speed_ft_s,
+                            double flight_path_deg = 0) {
+  TrimRequest request;
+  request.altitude_ft = altitude_ft;
+  request.true_airspeed_ft_s = speed_ft_s;
+  request.flight_path_angle_rad = flight_path_deg / kDegPerRad;
+  return AssessFlyingQualities(plant, Trim(plant, request),
+                               LimitsOf(AirplaneClass::kIV, FlightPhaseCategory::kA));
+}
+
+constexpr const char* kOfEquivalents[] = {"3.2.2.1.1", "3.2.2.1.2", "3.3.1.2", "3.5.3"};
+
+TEST(FlyingQualities, DelaysOfBothAxesAreJudged) {
+  const FlyingQualities qualities = QualitiesAt(F16At(0.3), 5000, 1000);
+  std::vector<double> delays;
+  for (const Requirement& requirement : qualities.requirements) {
+    if (requirement.paragraph != std::string("3.5.3")) continue;
+    delays.push_back(requirement.value);
+    EXPECT_EQ(requirement.is_doubtful,
+              (delays.size() == 1 ? qualities.short_period.mismatch : qualities.roll.mismatch) >
+                  kMostMismatch);
+  }
+  EXPECT_EQ(delays, (std::vector<double>{qualities.short_period.delay_s, qualities.roll.delay_s}));
+}
+
+TEST(FlyingQualities, AnUnstableClosedLoopHasNeitherMarginsNorLevelsOfEquivalentSystems) {
+  const FlyingQualities sound = QualitiesAt(F16At(0.3), 5000, 1000);
+  EXPECT_FALSE(sound.unstable_mode);
+  EXPECT_EQ(sound.loops.size(), kLoopBreaks.size());
+  Aircraft hot = F16();
+  hot.flight_control.pitch_proportional_deg_per_g *= 6;
+  const FlyingQualities qualities =
+      QualitiesAt(Plant(hot, AtmosphereModel::kStevensLewis), 5000, 1000);
+  ASSERT_TRUE(qualities.unstable_mode);
+  EXPECT_TRUE(qualities.unstable_mode->is_oscillatory());
+  EXPECT_LT(qualities.unstable_mode->time_to_double_s(), 1);
+  EXPECT_TRUE(qualities.loops.empty());
+  EXPECT_TRUE(std::isnan(qualities.short_period.damping_ratio));
+  EXPECT_TRUE(std::isnan(qualities.roll.time_constant_s));
+  for (const char* paragraph : kOfEquivalents) {
+    int count = 0;
+    for (const Requirement& requirement : qualities.requirements) {
+      if (requirement.paragraph != std::string(paragraph)) continue;
+      ++count;
+      EXPECT_EQ(requirement.level, 4) << requirement.what;
+    }
+    EXPECT_GT(count, 0) << paragraph;
+  }
+}
+
+// What drifts slowly has requirements of its own.
+TEST(FlyingQualities, ASlowDivergenceIsNoInstability) {
+  const Plant plant = F16At(0.3);
+  EXPECT_FALSE(QualitiesAt(plant, 25000, 400).unstable_mode) << "airspeed doubles in 36 s";
+  const std::optional<LinearMode> mode = QualitiesAt(plant, 35000, 400).unstable_mode;
+  ASSERT_TRUE(mode);
+  EXPECT_FALSE(mode->is_oscillatory());
+  EXPECT_LT(mode->time_to_double_s(), 6);
+}
+
+// In a climb flight control leads the load factor of the trim, cos(60 deg), to 1 with hands off.
+TEST(StepResponse, IsWithoutWhatTheFlightDoesByItself) {
+  constexpr Tolerance kSpeedLost{0.05, "what a climb slows down in 3 s, relative"};
+  const Plant plant = F16At(0.3);
+  const double level = QualitiesAt(plant, 5000, 1000).pitch_step.reached;
+  const double climbing = QualitiesAt(plant, 5000, 1000, 60).pitch_step.reached;
+  EXPECT_GT(level, 0.5);
+  EXPECT_NEAR(climbing / level, 1, kSpeedLost);
 }
 
 /// What is asked of the airspeed where the longitudinal modes have these eigenvalues, 1/s.

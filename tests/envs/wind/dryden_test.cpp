@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "envs/state/attitude.h"
@@ -119,18 +120,26 @@ TEST_P(DrydenTest, SpectraAreDrydens) {
 TEST(TurbulenceTest, FollowsTheStandardByAltitude) {
   constexpr Tolerance kFigure{0.06, "the severities at 20,000 ft are rounded to 0.05 ft/s"};
   constexpr Tolerance kRounding{1e-12, "float64 rounding"};
-  EXPECT_NEAR(TurbulenceAt(3.7, 35000), 0.4, kRounding);
-  EXPECT_NEAR(TurbulenceAt(7.3, 35000), 5.0, kRounding);
-  EXPECT_NEAR(TurbulenceAt(21, 35000), 16.0, kRounding);
-  EXPECT_NEAR(TurbulenceAt(7.3, 40000), 4.6, kRounding);
-  EXPECT_NEAR(TurbulenceAt(5.5, 15000), 6.3, kRounding) << "half way between two severities";
-  EXPECT_NEAR(TurbulenceAt(42, 25000), 40, kRounding) << "twice as strong as severe";
-  EXPECT_NEAR(TurbulenceAt(1.85, 7500), 3.35, kRounding) << "half as strong as light";
-  EXPECT_EQ(TurbulenceAt(7.3, 100), 8.6);
-  EXPECT_EQ(TurbulenceAt(7.3, 90000), 0);
-  for (const TurbulenceSeverity& severity : kTurbulenceSeverities) {
-    const double deviation = severity.standard_deviation_fps;
-    EXPECT_NEAR(TurbulenceAt(deviation, 20000), deviation, kFigure) << severity.name;
+  // The figure's at 20,000 ft, half way from 15,000 to 25,000.
+  constexpr double kLight = 3.65, kModerate = 7.3, kSevere = 21.05;
+  EXPECT_NEAR(TurbulenceAt(kLight, 35000), 0.4, kRounding);
+  EXPECT_NEAR(TurbulenceAt(kModerate, 35000), 5.0, kRounding);
+  EXPECT_NEAR(TurbulenceAt(kSevere, 35000), 16.0, kRounding);
+  EXPECT_NEAR(TurbulenceAt(kModerate, 40000), 4.6, kRounding);
+  EXPECT_NEAR(TurbulenceAt((kLight + kModerate) / 2, 15000), 6.3, kRounding) << "half way between";
+  EXPECT_NEAR(TurbulenceAt(2 * kSevere, 25000), 40, kRounding) << "twice as strong as severe";
+  EXPECT_NEAR(TurbulenceAt(kLight / 2, 7500), 3.35, kRounding) << "half as strong as light";
+  EXPECT_NEAR(TurbulenceAt(kModerate, 100), 8.6, kRounding);
+  EXPECT_NEAR(TurbulenceAt(kModerate, 90000), 0, kRounding);
+  for (const auto& [k, figure] : {std::pair(1u, kLight), {2, kModerate}, {3, kSevere}}) {
+    EXPECT_NEAR(kTurbulenceSeverities[k].standard_deviation_fps, figure, kFigure) << k;
+  }
+}
+
+TEST(TurbulenceTest, IsWhatIsConfiguredAt20000Feet) {
+  constexpr Tolerance kRounding{1e-12, "float64 rounding"};
+  for (const double deviation : {0.0, 1.0, 3.65, 3.7, 5.0, 7.3, 10.0, 21.0, 42.0}) {
+    EXPECT_NEAR(TurbulenceAt(deviation, 20000), deviation, kRounding);
   }
 }
 

@@ -271,6 +271,16 @@ TEST(Conditions, WhatDiffersFromTheUsualIsSaid) {
   EXPECT_THAT(DescribeConditions(env),
               HasSubstr("; turbulence of 21 ft/s, rotational gusts; direct flight control; cg at "
                         "0.25 of the chord; gravity of 20 ft/s^2; noise"));
+  EnvConfig carried = Under({"windy=60fps,light,from=270deg"});
+  EXPECT_THAT(DescribeConditions(carried), Not(HasSubstr("trimmed in it")));
+  carried.wind.step_at_reset = false;
+  carried.wind.turbulence_by_altitude = carried.wind.rotational_gusts = true;
+  carried.gravity.falls_with_altitude = true;
+  carried.engine_angular_momentum = 160;
+  EXPECT_THAT(DescribeConditions(carried),
+              HasSubstr("; wind of 60 ft/s from 270 deg, trimmed in it; turbulence of 3.7 ft/s at "
+                        "20000 ft, elsewhere by MIL-F-8785C, rotational gusts; gravity falls with "
+                        "altitude; engine momentum of 160 slug ft^2/s; noise"));
   const std::string other = SKEIN_SOURCE "/examples/aircraft/stevens_lewis_f16.json";
   const EnvConfig own =
       ResolveConfig({"heading", "default", "", {"env.aircraft=\"" + other + "\""}}).train.env;

@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 std::vector<std::string> Beyond(const std::string& task,
                                 const std::vector<std::string>& assignments,
@@ -79,6 +80,21 @@ TEST(AltitudesBeyondTables, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
               ElementsAre(start, "the target is at up to 55000" + kEnd));
   env.task = "control";
   EXPECT_THAT(AltitudesBeyondTables(env, {{"pitch_deg", 90}}), ElementsAre(start));
+}
+
+TEST(WindsBeyondAirspeed, AreNamedWhereTheyAreMetAsAStep) {
+  const auto beyond = [](const std::vector<std::string>& conditions,
+                         const std::vector<std::string>& assignments = {}) {
+    const ProgramConfig begun_at_75_fps =
+        ResolveConfig({"heading", "aerosonde", "", assignments, conditions});
+    return WindsBeyondAirspeed(begun_at_75_fps.train.env);
+  };
+  EXPECT_THAT(beyond({"windy=hard"}),
+              ElementsAre("winds of up to 200 ft/s met as a step at 75 ft/s: flights may end as "
+                          "they begin"));
+  EXPECT_THAT(beyond({"windy=75fps"}), SizeIs(1));
+  EXPECT_THAT(beyond({"windy=74fps"}), IsEmpty());
+  EXPECT_THAT(beyond({"windy=hard"}, {"env.wind.step_at_reset=false"}), IsEmpty());
 }
 
 TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {

@@ -212,6 +212,25 @@ TEST(HandlingLevels, AFlightWithoutAnEquivalentSystemIsDoubted) {
   }
 }
 
+TEST(HandlingLevels, AnUnstableFlightIsBelowLevelThreeAndHasNoDot) {
+  const LevelLimits limits = LimitsNamed("IV", "A");
+  AssessedFlight unstable = FlightWith(std::nan(""));
+  FlyingQualities& qualities = unstable.qualities;
+  qualities.unstable_mode = LinearMode{{5, 34}, {}};
+  qualities.short_period.frequency_rad_s = qualities.short_period.damping_ratio = std::nan("");
+  qualities.requirements.front().level = 4;
+  for (const bool is_alone : {true, false}) {
+    std::vector<AssessedFlight> flights = {unstable};
+    if (!is_alone) flights.push_back(FlightWith(1));
+    const Picture picture = DrawHandlingLevels(flights, limits, kWidth, "");
+    EXPECT_THAT(AllWords(picture), HasSubstr("below level 3"));
+    EXPECT_THAT(AllWords(picture), Not(HasSubstr("mismatch above")));
+    const std::size_t of_legend = 1, of_panels = is_alone ? 0 : 2;
+    EXPECT_EQ(DotsIn(picture).size(), of_panels + of_legend);
+    ExpectLegible(picture);
+  }
+}
+
 TEST(HandlingLevels, EveryAltitudeLooksDifferent) {
   constexpr std::size_t kAltitudes = 7;  // one more than there are colours
   std::vector<AssessedFlight> flights;
