@@ -311,7 +311,7 @@ void EnvStepper::SubtractCosts(const EnvBlock& block, const float* policy_action
                                Scratch& scratch) const {
   if (costs_.of_control_steps()) {
     SubtractHandlingCosts(costs_, block.flight, scratch.errors, kAircraftPerBlock,
-                          scratch.step_reward);
+                          block.progress.reached_step, scratch.step_reward);
   }
   if (costs_.of_tolerances()) {
     RewardTolerances(costs_, block.count, scratch.reached, block.progress.reached_step,

@@ -37,17 +37,29 @@ HWY_INLINE V NearCost(const HandlingCosts& costs, const Tile& flight, int first)
   return cost;
 }
 
+/// Where the target counts as reached: nowhere, if that is not remembered.
+HWY_INLINE hn::Mask<FloatTag> IsReached(const std::int32_t* reached_step, int first) {
+  const IntTag di;
+  const auto zero = hn::Zero(di);
+  const auto reached = reached_step == nullptr ? zero : hn::LoadU(di, reached_step + first);
+  return hn::RebindMask(FloatTag(), hn::Gt(reached, zero));
+}
+
 void SubtractHandlingCostsKernel(const HandlingCosts& costs, Tile flight, const float* errors,
-                                 std::size_t error_stride, float* reward) {
+                                 std::size_t error_stride, const std::int32_t* reached_step,
+                                 float* reward) {
   const FloatTag d;
+  const V floor = Constant(costs.near_floor);
   for (int first = 0; first < flight.count; first += kLanes) {
     V square = hn::Zero(d);
     for (int k = 0; k < kNumTaskErrors; ++k) {
       const V error = hn::LoadU(d, errors + k * error_stride + first);
       square = hn::MulAdd(error, error, square);
     }
-    const V near =
+    const V nearness =
         hn::Div(Constant(1), hn::MulAdd(Constant(costs.near_sharpness), square, Constant(1)));
+    const V near =
+        hn::IfThenElse(IsReached(reached_step, first), hn::Max(nearness, floor), nearness);
     const VelocityVectors velocity = Velocity(flight, first);
     const V sin_beta = hn::Mul(velocity.air.v, velocity.per_speed);
     const V anywhere =
@@ -69,10 +81,9 @@ void RewardTolerancesKernel(const HandlingCosts& costs, int count, const std::in
     const auto is_outside = hn::RebindMask(d, hn::Eq(hn::LoadU(di, within + first), zero));
     const V step_reward =
         hn::Add(hn::LoadU(d, reward + first), hn::IfThenElse(is_outside, loss, gain));
-    const auto reached = reached_step == nullptr ? zero : hn::LoadU(di, reached_step + first);
-    const auto is_open = hn::RebindMask(d, hn::Eq(reached, zero));
-    hn::StoreU(hn::IfThenElse(is_open, hn::Sub(step_reward, price), step_reward), d,
-               reward + first);
+    hn::StoreU(
+        hn::IfThenElse(IsReached(reached_step, first), step_reward, hn::Sub(step_reward, price)), d,
+        reward + first);
   }
 }
 
@@ -124,6 +135,10 @@ void ListFields(HandlingCosts& config, FieldList& list) {
   list.Add("near_sharpness", &config.near_sharpness, Bounds::NotNegative(),
            "the near terms are multiplied by 1 / (1 + this |normalised error|^2)")
       .OffUnless(config.of_control_steps());
+  list.Add("near_floor", &config.near_floor, Bounds::NotNegative(),
+           "what they are multiplied by at least while the target is held, having counted as "
+           "reached, be it near or not; in missions nothing")
+      .OffUnless(config.of_control_steps());
   add("within_tolerances", &config.within_tolerances,
       "reward gained per control step within the episode's tolerances");
   add("outside_tolerances", &config.outside_tolerances,
@@ -135,8 +150,10 @@ void ListFields(HandlingCosts& config, FieldList& list) {
 }
 
 void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float* errors,
-                           std::size_t error_stride, float* reward) {
-  SKEIN_DISPATCH(SubtractHandlingCostsKernel)(costs, flight, errors, error_stride, reward);
+                           std::size_t error_stride, const std::int32_t* reached_step,
+                           float* reward) {
+  SKEIN_DISPATCH(SubtractHandlingCostsKernel)
+  (costs, flight, errors, error_stride, reached_step, reward);
 }
 
 void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,

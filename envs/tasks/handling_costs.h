@@ -23,6 +23,9 @@ struct HandlingCosts {
   double roll_rate = 0;  ///< per rad/s, near or not
   double sideslip = 0;   ///< per unit of sin(beta), near or not
   double near_sharpness = 20;
+  /// What they are multiplied by at least once the target counts as reached. With 1 a target that
+  /// cannot be held is no reason to weave after it; above 1 holding costs more than arriving.
+  double near_floor = 0;
   /// Of a control step in which the target counts as touched (within the episode's tolerances, and
   /// for Heading not before its earliest success): gained, not lost.
   double within_tolerances = 0;
@@ -52,13 +55,14 @@ struct HandlingCosts {
 void ListFields(HandlingCosts& config, FieldList& list);
 
 /// Subtracts the costs of a control step from `reward`, one element per aircraft. `errors` are the
-/// task's normalised ones, kNumTaskErrors columns `error_stride` apart.
+/// task's normalised ones, kNumTaskErrors columns `error_stride` apart; `reached_step` is
+/// EpisodeProgress's before the control step, padded as Tile says, or null.
 void SubtractHandlingCosts(const HandlingCosts& costs, Tile flight, const float* errors,
-                           std::size_t error_stride, float* reward);
+                           std::size_t error_stride, const std::int32_t* reached_step,
+                           float* reward);
 
 /// Adds what `count` aircraft gain where they are `within` their tolerances, and subtracts what
-/// they lose elsewhere, and until their targets count: `reached_step` is EpisodeProgress's before
-/// the control step, or null. Columns are padded as Tile says.
+/// they lose elsewhere, and until their targets count, by the same `reached_step`.
 void RewardTolerances(const HandlingCosts& costs, int count, const std::int32_t* within,
                       const std::int32_t* reached_step, float* reward);
 

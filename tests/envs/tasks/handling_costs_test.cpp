@@ -38,7 +38,8 @@ class HandlingCostsTest : public testing::TestWithParam<simd::Target> {
   /// What a control step of the last aircraft costs.
   double Cost() {
     std::vector<float> reward(flight_.stride(), 0.5f);
-    SubtractHandlingCosts(costs_, flight_.tile(), errors_.data(), flight_.stride(), reward.data());
+    SubtractHandlingCosts(costs_, flight_.tile(), errors_.data(), flight_.stride(),
+                          reached_step_.empty() ? nullptr : reached_step_.data(), reward.data());
     return 0.5 - reward[kCount - 1];
   }
 
@@ -47,6 +48,7 @@ class HandlingCostsTest : public testing::TestWithParam<simd::Target> {
   HandlingCosts costs_;
   TestTile flight_{kCount};
   std::vector<float> errors_ = std::vector<float>(kNumTaskErrors * flight_.stride());
+  std::vector<std::int32_t> reached_step_;
 };
 
 TEST_P(HandlingCostsTest, EveryRateCostsItsWeightWhateverItsSign) {
@@ -71,6 +73,21 @@ TEST_P(HandlingCostsTest, NearTermsFadeWithTheErrorAndOthersDoNot) {
   EXPECT_NEAR(Cost(), 0.1 / (1 + 20 * 3 * 0.01) + 0.01, kRounding);
   SetError(1000);
   EXPECT_NEAR(Cost(), 0.01, kRounding);
+}
+
+TEST_P(HandlingCostsTest, NearTermsDoNotFadeBelowTheFloorOnceTheTargetCounts) {
+  costs_.near_roll_rate = 0.1;
+  costs_.near_sharpness = 20;
+  costs_.near_floor = 0.5;
+  flight_.Fill(kP, 1);
+  SetError(1000);
+  EXPECT_NEAR(Cost(), 0, kRounding);
+  reached_step_.assign(flight_.stride(), 0);
+  EXPECT_NEAR(Cost(), 0, kRounding);
+  reached_step_.assign(flight_.stride(), 70);
+  EXPECT_NEAR(Cost(), 0.05, kRounding);
+  SetError(0.1);
+  EXPECT_NEAR(Cost(), 0.1 / (1 + 20 * 3 * 0.01), kRounding);
 }
 
 TEST_P(HandlingCostsTest, UnacceleratedFlightCostsNothingInAnyAttitude) {

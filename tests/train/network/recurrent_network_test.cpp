@@ -139,6 +139,29 @@ TEST_P(RecurrentNetworkTest, EveryShapeAgreesWithDoublePrecision) {
   }
 }
 
+/// More rows than the kernels take at once, and more sequences, neither in whole blocks. By tanh:
+/// among so many values some lie so near a kink of ReLU that float32 is on its other side.
+TEST_P(RecurrentNetworkTest, SeveralBlocksOfRowsAgreeWithDoublePrecision) {
+  for (NetworkShape shape : {kActor, kCritic, NetworkShape{22, 100, 100, 4, true, 2, 2}}) {
+    shape.activation = Activation::kTanh;
+    SCOPED_TRACE(NameOf(shape));
+    const NetworkLayout layout(shape);
+    const std::vector<float> parameters = DisturbedParameters(layout);
+    for (const auto& [steps, batch] : {std::pair(8, 25), std::pair(3, 2 * 96 + 5)}) {
+      const RandomTile samples(shape, steps, batch);
+      const LossSettings settings = FullLossSettings(steps * batch);
+      const ReferenceGradient reference =
+          ComputeReferenceGradient(layout, parameters, samples.tile(), settings);
+      for (const Backend backend : {Backend::kFused, Backend::kLibTorch}) {
+        const std::vector<float> gradient =
+            GradientBy(backend, layout, parameters, samples.tile(), settings);
+        SCOPED_TRACE(Name(backend));
+        ExpectSlicesAgree(layout, gradient, reference.gradient);
+      }
+    }
+  }
+}
+
 /// What pads the widths is zero after any number of tiles, so that sums over rows do not see it.
 TEST_P(RecurrentNetworkTest, PaddingStaysExactlyZero) {
   const NetworkShape shape{6, 20, 9, 3, true, 1, 2};
