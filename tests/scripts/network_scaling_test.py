@@ -5,6 +5,7 @@ import contextlib
 import io
 import json
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -16,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from script_module import load_script  # noqa: E402
 
 scaling = load_script("network_scaling")
-MODEL = {"share": 1.15, "latencies": 2.0, "latency_us": 30, "gradient_mb": 1.2}
+MODEL = {"share": 1.15, "latencies": 2.0, "latency_us": 30, "gradient_mb": 1.2, "rest_ms": 0.5}
 
 
 def row_of(rate_gbit_s, delay_us, share, latencies, rest_s):
@@ -55,27 +56,43 @@ class LeftOut(unittest.TestCase):
     def test_a_row_is_predicted_by_the_others_alone(self):
         rows = [row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 2.5, 5, 25)]
         for row in rows:
-            self.assertAlmostEqual(scaling.left_out_s(row, rows), row["iteration_s"], places=6)
+            without = scaling.fit_without(row, rows)
+            self.assertAlmostEqual(scaling.predicted_s(row, without), row["iteration_s"], places=6)
+            self.assertAlmostEqual(scaling.error_percent(row, without), 0, places=6)
         # What is odd about a row does not reach its own prediction, but that of the fit that knows it.
         expected = rows[1]["iteration_s"]
         rows[1]["exchange_s"] += 1
-        self.assertAlmostEqual(scaling.left_out_s(rows[1], rows), expected, places=6)
+        without = scaling.fit_without(rows[1], rows)
+        self.assertAlmostEqual(scaling.predicted_s(rows[1], without), expected, places=6)
         fit, = scaling.fit(rows)
         self.assertGreater(scaling.predicted_s(rows[1], fit), expected + 0.1)
 
     def test_too_few_others_predict_nothing(self):
         rows = [row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 5)]
-        self.assertIsNone(scaling.left_out_s(rows[0], rows))
+        self.assertIsNone(scaling.fit_without(rows[0], rows))
+
+    def test_ends_are_of_what_was_varied(self):
+        rows = [row_of(rate, 50, 1, 1, 0) for rate in (1, 5, 25)]
+        self.assertEqual([scaling.is_at_an_end(row, rows) for row in rows], [True, False, True])
+
+
+def printed_by(*arguments):
+    out = io.StringIO()
+    with mock.patch.object(sys, "argv", ["network_scaling", *arguments]), contextlib.redirect_stdout(out):
+        scaling.main()
+    return out.getvalue()
+
+
+def printed_of(rows, *arguments):
+    """By --model, of rows as --json writes them."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "network.json"
+        path.write_text(json.dumps({"medians": rows, "fits": scaling.fit(rows)}))
+        return printed_by("--model", str(path), *arguments)
 
 
 class Document(unittest.TestCase):
     """What --json writes, and --model reads again."""
-
-    def end_of(self, *arguments):
-        out = io.StringIO()
-        with mock.patch.object(sys, "argv", ["network_scaling", *arguments]), contextlib.redirect_stdout(out):
-            scaling.main()
-        return out.getvalue()
 
     def test_has_machine_samples_and_spread(self):
         points = [row_of(rate, 0, share, 0, 0.02) for share in (1.2, 1.3, 1.1) for rate in (1, 5, 25)]
@@ -85,8 +102,8 @@ class Document(unittest.TestCase):
                 mock.patch.object(scaling, "machine_of", lambda _: machine), \
                 mock.patch.object(scaling, "measure", lambda *_: points):
             path = pathlib.Path(folder) / "network.json"
-            printed = self.end_of("--json", str(path), "--skein", sys.executable)
-            self.assertEqual(self.end_of("--model", str(path)), printed)
+            printed = printed_by("--json", str(path), "--skein", sys.executable)
+            self.assertEqual(printed_by("--model", str(path)), printed)
             document = json.loads(path.read_text())
         self.assertEqual((document["machine"], document["points"]), (machine, points))
         self.assertEqual([row["rate_gbit_s"] for row in document["medians"]], [1, 5, 25])
@@ -102,9 +119,35 @@ class Document(unittest.TestCase):
             self.assertEqual(figures["sent_mb"]["spread"], 0)
 
 
+class Printed(unittest.TestCase):
+    """Of rows by hand, of which the law is known."""
+
+    def test_errors_of_a_fit_that_does_not_know_the_row(self):
+        rows = [row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 5, 25)] + [row_of(2.5, 0, 1.2, 0, 0.02)]
+        rows[-1]["exchange_s"] *= 1.25  # of which the law of the others makes four fifths
+        lines = printed_of(rows).splitlines()
+        column = re.search("left out, %", lines[0]).end()
+        self.assertEqual(lines[4][:column].split()[-1], "-20")
+        self.assertRegex(lines[4], r"^ *2 +2\.5 ")
+
+    def test_errors_of_a_fit_to_fewer_ranks(self):
+        rows = [row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 5, 25)]
+        rows += [{**row, "ranks": 4, "exchange_s": times * row["exchange_s"]} for row, times in zip(rows, (2, 4, 0.5))]
+        said = printed_of(rows)
+        self.assertIn("4 ranks, by the fit of 2 ranks: exchanging -75 to +100 % off\n", said)
+        self.assertNotIn("2 ranks, by the fit", said)
+
+    def test_a_rest_is_added_to_every_minibatch(self):
+        rows = [row_of(rate, 0, 1.2, 0, 0.02) for rate in (1, 5, 25)]
+        free = ("--latency-us=0", "--gradient-mb=0", "--presets", "some:0.1:20:0")
+        for rest, plain, overlapping in ((), "100", "100"), (("--rest-ms=5",), "50*", "49*"):
+            weak = [line for line in printed_of(rows, *free, *rest).splitlines() if " s weak " in line]
+            self.assertEqual([line.split()[-1] for line in weak], 2 * [plain, overlapping])
+
+
 class Model(unittest.TestCase):
     def test_a_network_that_takes_no_time_costs_nothing(self):
-        free = {**MODEL, "latency_us": 0, "gradient_mb": 0}
+        free = {**MODEL, "latency_us": 0, "gradient_mb": 0, "rest_ms": 0}
         for overlaps in (False, True):
             self.assertEqual(scaling.seconds(64, 2.0, 1.4, 32, 10, free, overlaps), 2.0)
 
