@@ -108,7 +108,7 @@ TEST(Usage, VersionNamesTheCommitAndTheBuild) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.output,
               testing::MatchesRegex("skein [0-9]+\\.[0-9]+\\.[0-9]+ \\(commit "
-                                    "([0-9a-f]{10,}(-dirty)?|unknown), .+, .+\\)\n"));
+                                    "([0-9a-f]{10,}(-dirty(-[0-9a-f]{10})?)?|unknown), .+, .+\\)\n"));
 }
 
 TEST(Usage, ListNamesWhatThereIs) {
