@@ -38,9 +38,8 @@ class Meter {
   std::vector<double> seconds_;  // of each call
 };
 
-/// Puts the program's commit ("-dirty" behind it if files have changed; or "unknown"), its SIMD
-/// target and the machine's roofs, for one thread, at the head of the report: in JSON under
-/// "context".
+/// Puts the program's commit (as in BuildInfo, src/bench/version.h), its SIMD target and the
+/// machine's roofs, for one thread, at the head of the report: in JSON under "context".
 void DescribeContext();
 
 }  // namespace skein::bench

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # skein_commit: objects that define skein::kCommit and skein::kCommitDate (Commit.cmake), for the program and the benchmarks.
-# The source is looked at with every build, and rewritten only if the commit has changed.
+# The source is looked at with every build, and rewritten only if the commit, or what is not committed yet, has changed.
 set(commit_source ${PROJECT_BINARY_DIR}/commit.cpp)
 add_custom_target(
   skein_commit_source

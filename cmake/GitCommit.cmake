@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # find_git_commit(SOURCE FORMAT): sets `commit` to the commit of the git work tree SOURCE, "-dirty" behind it if files have
-# changed, or to "unknown"; and `commit_date` to its date in FORMAT of git, such as %cs for 2026-11-22, or to nothing.
+# changed, and a hash of the changes behind that where builds read such files: "0123456789-dirty-abcdef0123"; or to
+# "unknown". And sets `commit_date` to its date in FORMAT of git, such as %cs for 2026-11-22, or to nothing.
 function(find_git_commit source format)
   set(commit unknown)
   set(commit_date "")
@@ -16,6 +17,18 @@ function(find_git_commit source format)
                       OUTPUT_VARIABLE description ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failure)
       if(NOT failure)
         set(commit ${description})
+        if(commit MATCHES "-dirty$")
+          # What no build reads is left out: to edit a page would link every program again.
+          execute_process(
+            COMMAND ${git} -C ${source} diff --no-color --no-ext-diff --no-textconv --binary --full-index HEAD -- .
+                    :!*.md :!docs :!policies :!scripts :!tests
+            OUTPUT_VARIABLE changes ERROR_QUIET)
+          if(NOT changes STREQUAL "")
+            string(SHA1 hash "${changes}")
+            string(SUBSTRING ${hash} 0 10 hash)
+            string(APPEND commit -${hash})
+          endif()
+        endif()
         execute_process(COMMAND ${git} -C ${source} show --no-patch --format=${format} OUTPUT_VARIABLE commit_date
                         OUTPUT_STRIP_TRAILING_WHITESPACE)
       endif()

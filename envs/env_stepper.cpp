@@ -87,7 +87,7 @@ EnvStepper::EnvStepper(const EnvConfig& config, std::uint64_t seed, int num_airc
       limits_(EndsOf(config_), config_.episode()),
       remembers_actions_(config_.reward.action_change > 0 ||
                          task_->observation_layout().actions > 0),
-      progress_(RulesOf(config_, *task_, limits_.failure_reward)),
+      progress_(RulesOf(config_, *task_)),
       costs_(config_.reward),
       reset_(config_, aircraft_),
       wind_(config_.wind, config_.draw_power, aircraft_.airframe.span_ft),

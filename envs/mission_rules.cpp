@@ -57,7 +57,7 @@ int TimeLimitSteps(const EnvConfig& config, double share) {
   return first + static_cast<int>(std::lround(share * (config.time_limit_steps - first)));
 }
 
-ProgressRules RulesOf(const EnvConfig& config, const Task& task, float failure_reward) {
+ProgressRules RulesOf(const EnvConfig& config, const Task& task) {
   const auto steps = [&config](double seconds) { return ControlSteps(config, seconds); };
   const bool is_mission_of_states = config.mission.enabled() && !task.is_point();
   ProgressRules rules;
@@ -66,7 +66,8 @@ ProgressRules RulesOf(const EnvConfig& config, const Task& task, float failure_r
   rules.mission_steps = steps(config.mission.flown_length_s());
   rules.time_limit_steps = TimeLimitSteps(config, 0);
   rules.reached_reward = static_cast<float>(config.termination.success_reward);
-  rules.missed_reward = config.truncate_at_time_limit ? 0 : failure_reward;
+  rules.missed_reward =
+      config.truncate_at_time_limit ? 0 : static_cast<float>(config.termination.late_reward());
   return rules;
 }
 

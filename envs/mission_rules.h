@@ -7,9 +7,8 @@
 
 namespace skein {
 
-/// When targets count and are missed in flights of `config`. `failure_reward` is what a failure
-/// brings.
-ProgressRules RulesOf(const EnvConfig& config, const Task& task, float failure_reward);
+/// When targets count and are missed in flights of `config`.
+ProgressRules RulesOf(const EnvConfig& config, const Task& task);
 
 /// Control steps after which a target is missed, `share`, in [0, 1], of the way from the first
 /// limit in training to the full one.

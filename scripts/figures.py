@@ -4,11 +4,12 @@ program and the machine."""
 import json
 import math
 import os
+import platform
 import statistics
 import subprocess
 import tempfile
 
-from command_line import fail
+from command_line import ROOT, fail
 
 
 def said_as_json(command):
@@ -26,6 +27,19 @@ def said_as_json(command):
 def machine_of(program):
     """Commit, compiler, processor, SIMD target and the like: what a benchmark of the program has as `machine`."""
     return said_as_json([program, "info"])
+
+
+def machine_of_scripts():
+    """The same, as far as it goes, of figures that no program of Skein's has part in: the commit of the scripts' source
+    tree, or "unknown", the processor, and the version of Python."""
+    try:
+        commit = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty", "--abbrev=10", "--match="],
+                                capture_output=True, text=True).stdout.strip()
+    except OSError:  # no git
+        commit = ""
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        names = [line.partition(":")[2].strip() for line in file if line.startswith("model name")]
+    return {"commit": commit or "unknown", "cpu": names[0] if names else "unknown", "python": platform.python_version()}
 
 
 def quantile(samples, share):

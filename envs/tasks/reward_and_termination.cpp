@@ -170,7 +170,8 @@ TerminationLimits::TerminationLimits(const TerminationConfig& config,
       max_load_factor(static_cast<float>(config.max_load_factor)),
       failure_reward(static_cast<float>(config.failure_reward)),
       success_reward(static_cast<float>(config.success_reward)),
-      time_limit_reward(episode.truncate_at_time_limit ? 0 : failure_reward),
+      time_limit_reward(episode.truncate_at_time_limit ? 0
+                                                       : static_cast<float>(config.late_reward())),
       reward_scale(static_cast<float>(episode.reward_scale)),
       time_limit_steps(episode.time_limit_steps) {}
 

@@ -6,6 +6,12 @@
 #include "base/field_list.h"
 
 namespace skein {
+namespace {
+
+/// Beyond it the weight to blame for a reward that is too large would be this one.
+constexpr double kMostLateRewardFactor = 1000;
+
+}  // namespace
 
 void ListFields(TerminationConfig& config, FieldList& list) {
   list.AddRange("alpha", "deg", &config.alpha_deg, {-180, 180},
@@ -21,6 +27,11 @@ void ListFields(TerminationConfig& config, FieldList& list) {
   list.Add("max_load_factor_g", &config.max_load_factor, Bounds::Positive(),
            "overload above this load factor");
   list.Add("failure_reward", &config.failure_reward, Bounds::Any(), "reward for ending at a limit");
+  list.Add("late_reward_factor", &config.late_reward_factor, {0, kMostLateRewardFactor},
+           "the reward for ending at the time limit, and of a mission for a target that it misses, "
+           "is so many times failure_reward; without an effect where env.truncate_at_time_limit "
+           "leaves both without a reward")
+      .OffUnless(config.late_reward_factor != 1);
   list.Add("success_reward", &config.success_reward, Bounds::Any(),
            "reward for reaching the target");
   list.Add("training_min_mach", &config.training_min_mach, Bounds::NotNegative(),

@@ -16,10 +16,14 @@ struct TerminationConfig {
   double min_altitude_ft = 2500;
   double max_load_factor = 10;  ///< g, of nz; there is no limit to negative ones
   double failure_reward = -200;
+  double late_reward_factor = 1;
   double success_reward = 200;
   /// Limits of flights in training, where they are narrower: what is kept clear of there is kept
   /// clear of by more elsewhere. 0: as above.
   double training_min_mach = 0, training_min_altitude_ft = 0;
+
+  /// For ending at the time limit, and for a target that a mission misses.
+  double late_reward() const { return late_reward_factor * failure_reward; }
 
   /// With the limits that are flown with.
   TerminationConfig Flown() const;

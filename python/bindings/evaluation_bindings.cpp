@@ -13,6 +13,7 @@
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
 #include "python/bindings/interruption.h"
+#include "src/bench/machine.h"
 #include "src/config/program_config.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/flight_file.h"
@@ -83,7 +84,9 @@ nb::tuple CompareAgents(const std::vector<FlyingAgent>& agents,
   for (std::size_t i = 0; i < agents.size(); ++i) named.push_back({names[i], agents[i].agent});
   const Comparison comparison =
       UnlockedAsWhole(pool, [&] { return Compare(named, config, episodes, seed, pool); });
-  return nb::make_tuple(ToJson(comparison, config).dump(), ToText(comparison));
+  nlohmann::ordered_json summary = ToJson(comparison, config);
+  summary["program"] = ProgramJson();
+  return nb::make_tuple(summary.dump(), ToText(comparison));
 }
 
 /// The first `count` of those episodes as a CSV table, a row for every control step.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <nanobind/stl/string.h>
+
 #include <chrono>
 #include <cstddef>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "envs/step_memory.h"
 #include "envs/vec_env.h"
 #include "python/bindings/bindings.h"
+#include "src/bench/machine.h"
 #include "src/config/program_config.h"
 
 namespace nb = nanobind;
@@ -44,6 +47,7 @@ double VecEnvSeconds(const ProgramConfig& config, const Rows<const float>& actio
 void BindMeasures(nb::module_& module) {
   module.def("vec_env_seconds", &VecEnvSeconds, nb::arg("config"), nb::arg("action"),
              nb::arg("threads"), nb::arg("steps"));
+  module.def("describe_machine", [] { return DescribeMachine().dump(); });
 }
 
 }  // namespace skein

@@ -114,6 +114,7 @@ def test_agents_are_compared_on_the_same_episodes(heading_policy):
     assert rates["policy"] > rates["idle"] == 0
     assert "policy" in str(compared)
     assert len({agent["name"] for agent in compared.summary["agents"]}) == 3
+    assert compared.summary["program"]["version"] == skein.__version__
 
 
 def test_agents_of_the_same_name_are_not_compared():

@@ -56,6 +56,14 @@ std::string DescribeProgram() {
                      build.compiler, Name(simd::ActiveTarget()));
 }
 
+Json ProgramJson() {
+  const BuildInfo& build = Build();
+  return {{"version", build.version},
+          {"commit", build.commit},
+          {"compiler", build.compiler},
+          {"simd", Name(simd::ActiveTarget())}};
+}
+
 Json DescribeMachine() {
   const std::string libtorch = LibTorchVersion();
   std::ifstream cpuinfo("/proc/cpuinfo");

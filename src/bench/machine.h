@@ -27,6 +27,11 @@ std::string DescribeWorkers(const WorkerPool& pool);
 /// configuration.
 std::string DescribeProgram();
 
+/// The same as a document, with keys version, commit, compiler and simd: `program` of files that
+/// hold results and no times. They name no machine, so that they are the same whatever number of
+/// threads and ranks wrote them.
+nlohmann::ordered_json ProgramJson();
+
 /// What a figure depends on: version, commit, compiler, processor, SIMD target in use and supported
 /// ones, threads that commands use unless told otherwise, LibTorch (null without its module). The
 /// document of `skein info --json`, and part of every benchmark's. Keys cpu_family, cpu_model and

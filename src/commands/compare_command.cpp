@@ -178,7 +178,11 @@ void WriteAll(const CompareOptions& options, const Comparison& comparison,
   if (!options.csv.empty()) {
     WriteFile(options.csv, ToCsv(comparison));
   }
-  if (!flight.json.empty()) WriteJson(flight.json, ToJson(comparison, config));
+  if (!flight.json.empty()) {
+    nlohmann::ordered_json json = ToJson(comparison, config);
+    json["program"] = ProgramJson();
+    WriteJson(flight.json, json);
+  }
   if (RecordsFlights(flight)) WriteRecords(flight, agents, config.train.env, pool);
   if (options.no_html) return;
   WritePage(options, [&] { return PageData(options, comparison, config, agents, pool); });

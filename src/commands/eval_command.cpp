@@ -154,7 +154,9 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
              InLines("  ", DescribeEvaluation(env)), Rates(policy, env), Describe(policy.backend()),
              DescribeWorkers(pool), ToText(report, !options.sampled));
   if (!flight.json.empty()) {
-    WriteJson(flight.json, ToJson(report, path, config, flight.seed, !options.sampled));
+    nlohmann::ordered_json json = ToJson(report, path, config, flight.seed, !options.sampled);
+    json["program"] = ProgramJson();
+    WriteJson(flight.json, json);
   }
   if (RecordsFlights(flight)) WriteRecords(options, path, policy, env, pool);
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "src/bench/machine.h"
 #include "src/commands/commands.h"
 #include "src/commands/fdm_commands.h"
 #include "src/commands/flight_condition.h"
@@ -95,6 +96,7 @@ void WriteTrajectories(const FileOptions& options, const FdmFile& file, Json* do
 
 void WriteDocument(const FileOptions& options, Json document) {
   document["precision"] = options.precision;
+  document["program"] = ProgramJson();
   WriteJson(options.out, document);
 }
 

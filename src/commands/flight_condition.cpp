@@ -8,6 +8,7 @@
 
 #include "base/field_list.h"
 #include "base/number_text.h"
+#include "src/bench/machine.h"
 #include "src/commands/aircraft_option.h"
 #include "src/config/number_in.h"
 #include "src/config/number_list.h"
@@ -174,6 +175,7 @@ nlohmann::ordered_json FlightCondition::ToJson(const Plant& plant) const {
       {"drag_rise", setting.drag_rises},
       {"thrust_growth", setting.thrust_grows}};
   if (grid.manoeuvre.load_factor) json["pull_up_g"] = *grid.manoeuvre.load_factor;
+  json["program"] = ProgramJson();
   return json;
 }
 

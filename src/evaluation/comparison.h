@@ -63,9 +63,10 @@ std::string ToText(const Comparison& comparison);
 /// A header, and a row for every agent.
 std::string ToCsv(const Comparison& comparison);
 
-/// Keys: task, conditions, episodes, seed, starts (hexadecimal), environment, agents: name,
-/// action_repeat, the keys of FlightSummary, and but for the first agent against_first (estimates
-/// by key, success_p_value) and against (a list of the same beside every agent ahead of it).
+/// The document of `skein compare --json` but for `program` (ProgramJson). Keys: task, conditions,
+/// episodes, seed, starts (hexadecimal), environment, agents: name, action_repeat, the keys of
+/// FlightSummary, and but for the first agent against_first (estimates by key, success_p_value) and
+/// against (a list of the same beside every agent ahead of it).
 nlohmann::ordered_json ToJson(const Comparison& comparison, const ProgramConfig& config);
 
 }  // namespace skein

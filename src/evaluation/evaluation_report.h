@@ -24,8 +24,9 @@ struct EvaluationReport {
 EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
                                   std::uint64_t seed, WorkerPool& pool, Ranks& ranks = OneRank());
 
-/// The document of `skein eval --json` and evaluation.json: policy, task, mode, seed, the keys of
-/// FlightSummary for the mode asked for, both modes in full, and the environment's settings.
+/// The document of `skein eval --json` and evaluation.json but for `program` (ProgramJson): policy,
+/// task, mode, seed, the keys of FlightSummary for the mode asked for, both modes in full, and the
+/// environment's settings.
 nlohmann::ordered_json ToJson(const EvaluationReport& report, const std::string& policy,
                               const ProgramConfig& config, std::uint64_t seed, bool deterministic);
 

@@ -395,7 +395,9 @@ void TrainingRun::Finish() {
     SayStopped("; dropped the evaluation that was under way");
     return;
   }
-  WriteJson(directory_.evaluation(), ToJson(report, path, config_, seed, true));
+  nlohmann::ordered_json evaluation = ToJson(report, path, config_, seed, true);
+  evaluation["program"] = ProgramJson();
+  WriteJson(directory_.evaluation(), evaluation);
   SayResult(report, path, fmt::format("--episodes {} --seed {}", episodes, seed));
   log_.Sync();
 }

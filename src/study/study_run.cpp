@@ -186,6 +186,7 @@ bool StudyRun::Evaluate(const std::string& task, const StudyLevel& level) {
   if (!comparison) return false;
   DoOnRankZero(ranks_, [&] {
     Json document = ToJson(*comparison, config);
+    document["program"] = ProgramJson();
     document["identity"] = identity;
     results_.Add(task, level, std::move(document));
   });

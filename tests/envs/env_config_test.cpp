@@ -263,6 +263,8 @@ const std::pair<std::string, NumberOf> kNumbers[] = {
      [](EnvConfig* c) { return &c->termination.max_load_factor; }},
     {"env.termination.failure_reward = ",
      [](EnvConfig* c) { return &c->termination.failure_reward; }},
+    {"env.termination.late_reward_factor = ",
+     [](EnvConfig* c) { return &c->termination.late_reward_factor; }},
     {"env.termination.success_reward = ",
      [](EnvConfig* c) { return &c->termination.success_reward; }},
 };

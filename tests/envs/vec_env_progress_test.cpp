@@ -290,6 +290,8 @@ TEST(VecEnvProgress, AMissedTargetCostsWhatTheTimeLimitDoes) {
   EnvConfig failed = truncated;
   failed.truncate_at_time_limit = false;
   for (const float sum : Paid(truncated, failed)) EXPECT_NEAR(sum, 200, kFloat32);
+  failed.termination.late_reward_factor = 0.25;
+  for (const float sum : Paid(truncated, failed)) EXPECT_NEAR(sum, 50, kFloat32);
 }
 
 TEST(VecEnvProgress, MissionsInTrainingFlyAsMissionsDoAndEvaluationsNoneOfThem) {

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/compare_python refuses, without the packages that it needs."""
+"""What scripts/compare_python refuses and writes, without the packages that it needs."""
 import contextlib
 import io
+import json
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 from unittest import mock
 
@@ -26,6 +28,38 @@ def refusal(*arguments):
         except SystemExit as end:
             return end.code, said.getvalue()
     return 0, said.getvalue()
+
+
+class Figures(unittest.TestCase):
+    def test_have_their_samples_and_say_what_was_measured_where(self):
+        native = mock.MagicMock()
+        native.vec_env_seconds.side_effect = [1.0, 2.0, 6.0]
+        native.describe_machine.return_value = '{"commit": "0123456789"}'
+        package = mock.MagicMock(TASKS=("heading",), _skein=native)
+        package.make_vec.return_value.policy_step_s = 0.5
+        with tempfile.TemporaryDirectory() as folder, \
+                mock.patch.dict(sys.modules, {"numpy": mock.MagicMock(), "skein": package}), \
+                contextlib.redirect_stdout(io.StringIO()):
+            path = pathlib.Path(folder) / "figures.json"
+            words = ["compare_python", "--aircraft", "8", "--steps", "10", "--pairs", "3", "--json", str(path)]
+            script = load_script("compare_python")
+            with mock.patch.object(sys, "argv", words), \
+                    mock.patch.object(script, "seconds_from_python", side_effect=[2.0, 4.0, 8.0]), \
+                    mock.patch.object(script, "single_step_us", side_effect=range(1, 11)):
+                script.main()
+            said = json.loads(path.read_text())
+        self.assertEqual(said["machine"], {"commit": "0123456789"})
+        self.assertEqual(said["settings"], {"task": "heading", "aircraft": 8, "steps": 10, "pairs": 3, "threads": 0})
+        self.assertIsNone(said["peers"])
+        figures = said["figures"]
+        self.assertEqual(figures["share_of_cpp"]["samples"], [0.5, 0.5, 0.75])
+        self.assertEqual(figures["share_of_cpp"]["median"], 0.5)
+        self.assertEqual(figures["policy_steps_per_s"]["samples"], [40, 20, 10])
+        self.assertEqual(figures["simulated_s_per_s"]["samples"], [20, 10, 5])
+        self.assertEqual(figures["single_policy_step_us"]["samples"], [6, 7, 8, 9, 10])
+        for name, figure in figures.items():
+            self.assertGreater(figure["spread"], 0, name)
+            self.assertEqual(figure["better"], "less" if name.endswith("_us") else "more", name)
 
 
 class Arguments(unittest.TestCase):

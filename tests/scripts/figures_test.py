@@ -12,7 +12,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
-from figures import figure, machine_of, quantile, said_as_json  # noqa: E402
+from figures import figure, machine_of, machine_of_scripts, quantile, said_as_json  # noqa: E402
 
 PROGRAM = os.environ["SKEIN_PROGRAM"]
 ROUNDING = 1e-9
@@ -34,6 +34,12 @@ class Figures(unittest.TestCase):
     def test_are_of_the_machine_that_the_program_names(self):
         self.assertEqual(machine_of(PROGRAM), self.said["machine"])
         self.assertIn("commit", self.said["machine"])
+
+    def test_of_scripts_are_of_the_same_machine(self):
+        said = machine_of_scripts()
+        self.assertEqual(set(said), {"commit", "cpu", "python"})
+        self.assertRegex(said["commit"], "^([0-9a-f]{10,}(-dirty)?|unknown)$")
+        self.assertEqual(said["cpu"], self.said["machine"]["cpu"])
 
 
 class Spread(unittest.TestCase):

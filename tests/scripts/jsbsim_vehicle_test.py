@@ -121,7 +121,9 @@ class Program(unittest.TestCase):
             return json.load(file)
 
     def test_flights_depend_on_the_seed_and_their_number_alone(self):
-        flights = self.report("--episodes=3", "--processes=1")["flights"]
+        report = self.report("--episodes=3", "--processes=1")
+        flights = report["flights"]
+        self.assertEqual(set(report["machine"]), {"commit", "cpu", "python"})
         self.assertEqual(self.report("--episodes=2", "--processes=2")["flights"], flights[:2])
         self.assertNotEqual(self.report("--episodes=1", "--seed=1")["flights"], flights[:1])
         self.assertEqual(len({tuple(flight["target"]) for flight in flights}), 3)

@@ -2,6 +2,8 @@
 """Laws of the bounds that scripts/least_time prints, and of the forces they rest on, held against Skein's own trims
 (SKEIN_PROGRAM). Needs no package."""
 import argparse
+import contextlib
+import io
 import json
 import math
 import os
@@ -9,11 +11,13 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path[:0] = [os.path.dirname(os.path.realpath(__file__)),
                 os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts")]
 
+from figures import machine_of  # noqa: E402
 from point_mass import bound  # noqa: E402
 from point_mass.episodes import TARGETS, EpisodeError, fly, read_flights  # noqa: E402
 from point_mass.forces import PointMass  # noqa: E402
@@ -173,6 +177,22 @@ class Conditions(unittest.TestCase):
         self.assertEqual(script.chosen_of(options(9, True), times), [1, 3])
         self.assertEqual(script.chosen_of(options(9, False), times), [0, 1, 2, 3])
         self.assertIn(script.chosen_of(options(1, True), times), ([1], [3]))
+
+
+class Report(unittest.TestCase):
+    def test_has_every_episode_and_says_what_was_flown_where(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "report.json")
+            words = ["least_time", "--task", "heading", "--agents", "autopilot", "--episodes", "2", "--skein", PROGRAM,
+                     "--json", path]
+            with mock.patch.object(sys, "argv", words), contextlib.redirect_stdout(io.StringIO()):
+                load_script("least_time").main()
+            with open(path, encoding="utf-8") as file:
+                report = json.load(file)
+        self.assertEqual(report["machine"], machine_of(PROGRAM))
+        self.assertEqual((report["options"]["task"], len(report["episodes"])), ("heading", 2))
+        for episode in report["episodes"]:
+            self.assertLessEqual(episode["bound_s"], episode["agents_s"]["autopilot"])
 
 
 class Flights(unittest.TestCase):

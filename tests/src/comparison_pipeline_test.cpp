@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "src/bench/machine.h"
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
@@ -79,6 +80,8 @@ TEST_F(ComparisonPipeline, FliesWhatEvalFlies) {
   EXPECT_EQ(compared["agents"][0]["estimates"], evaluated["deterministic"]["estimates"]);
   EXPECT_EQ(compared["agents"][1]["estimates"], evaluated["sampled"]["estimates"]);
   EXPECT_EQ(compared["environment"], evaluated["environment"]);
+  EXPECT_EQ(compared["program"], nlohmann::json(ProgramJson()));
+  EXPECT_EQ(evaluated["program"], nlohmann::json(ProgramJson()));
 }
 
 TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {

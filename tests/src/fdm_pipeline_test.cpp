@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "src/bench/machine.h"
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
 #include "tests/src/run_program.h"
@@ -121,6 +122,10 @@ TEST_F(FdmPipeline, TrajectoriesEqualTheReference) {
 TEST_F(FdmPipeline, ResultsInTheInputAreIgnored) {
   json wrong = golden_;
   for (json& point : wrong["points"]) point["xdot"] = json::array({1, 2, 3});
+  wrong["program"] = "another one";
+  for (const char* command : {"eval", "simulate"}) {
+    EXPECT_EQ(Run(command, wrong, "float64")["program"], json(ProgramJson())) << command;
+  }
   EXPECT_EQ(Run("eval", wrong, "float64")["points"],
             Run("eval", WithoutResults(golden_), "float64")["points"]);
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "src/bench/machine.h"
 #include "src/files/csv_columns.h"
 #include "src/files/output_file.h"
 #include "tests/scratch_directory.h"
@@ -122,6 +123,19 @@ TEST_F(FdmTrimPipeline, LinearModelsAndFlyingQualitiesAreThoseOfTheMachNumber) {
     const json by_mach = points_of("--mach", "0.5");
     const std::string speed = fmt::format("{}", by_mach[0]["speed_fps"].get<double>());
     EXPECT_EQ(points_of("--speed-fps", speed), by_mach) << command;
+  }
+}
+
+TEST_F(FdmTrimPipeline, EveryDocumentSaysWhichProgramMadeIt) {
+  const std::string path = folder_ + "/figures.json";
+  for (const char* command : {"trim", "linearise", "sweep"}) {
+    for (const char* speeds : {"500", "500,600"}) {
+      const ProgramResult result = CallSkein(
+          {"fdm", command, "--altitude-ft", "15000", "--speed-fps", speeds, "--json", path});
+      ASSERT_EQ(result.exit_code, 0) << result.error;
+      EXPECT_EQ(json::parse(ReadFile(path))["program"], json(ProgramJson()))
+          << command << ' ' << speeds;
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "src/bench/machine.h"
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
 #include "src/report/run_record.h"
@@ -88,6 +89,7 @@ TEST_F(StudyPipeline, TrainsAndComparesEveryCell) {
     ASSERT_EQ(level["comparison"]["agents"].size(), 3u);
     EXPECT_EQ(level["comparison"]["agents"][1]["name"], "seed 4");
     EXPECT_EQ(level["comparison"]["episodes"], 20);
+    EXPECT_EQ(level["comparison"]["program"], nlohmann::json(ProgramJson()));
   }
   EXPECT_EQ(results[0]["comparison"]["environment"]["env.observation_noise"], 0.01);
   EXPECT_EQ(results[1]["comparison"]["environment"]["env.observation_noise"], 0.1);

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simd/target.h"
+#include "src/bench/machine.h"
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
 #include "src/run/run_directory.h"
@@ -50,6 +51,7 @@ TEST_F(TrainingPipeline, LeavesEverythingBehindThatItSays) {
   int ended = 0;
   for (const auto& [kind, count] : evaluation["terminations"].items()) ended += count.get<int>();
   EXPECT_EQ(ended, 32) << "every episode ends for one reason";
+  EXPECT_EQ(evaluation["program"], nlohmann::json(ProgramJson()));
 }
 
 TEST_F(TrainingPipeline, ControlTrainsAndFlies) {

@@ -106,9 +106,9 @@ TEST(Usage, HelpAndVersionComeAtOnce) {
 TEST(Usage, VersionNamesTheCommitAndTheBuild) {
   const ProgramResult result = CallSkein({"--version"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.output,
-              testing::MatchesRegex("skein [0-9]+\\.[0-9]+\\.[0-9]+ \\(commit "
-                                    "([0-9a-f]{10,}(-dirty)?|unknown), .+, .+\\)\n"));
+  EXPECT_THAT(result.output, testing::MatchesRegex(
+                                 "skein [0-9]+\\.[0-9]+\\.[0-9]+ \\(commit "
+                                 "([0-9a-f]{10,}(-dirty(-[0-9a-f]{10})?)?|unknown), .+, .+\\)\n"));
 }
 
 TEST(Usage, ListNamesWhatThereIs) {

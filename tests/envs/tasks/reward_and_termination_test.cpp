@@ -133,8 +133,20 @@ TEST_P(RewardAndTerminationTest, SuccessAndTimeLimit) {
   EXPECT_EQ(Of(4), Termination::kOverload);
 }
 
+TEST_P(RewardAndTerminationTest, BeingLateCostsItsFactorOfAFailureWhichCostsTheSame) {
+  config_.termination.late_reward_factor = 0.25;
+  step_[0] = 2499;
+  flight_.at(kNz, 1) = 11;
+  ComputeReward();
+  EXPECT_EQ(Of(0), Termination::kTimeLimit);
+  EXPECT_FLOAT_EQ(policy_step_[0], -50.5f);
+  EXPECT_EQ(Of(1), Termination::kOverload);
+  EXPECT_FLOAT_EQ(policy_step_[1], -200.5f);
+}
+
 TEST_P(RewardAndTerminationTest, TruncationHasNoTerminalReward) {
   config_.truncate_at_time_limit = true;
+  config_.termination.late_reward_factor = 2;
   step_[0] = 2499;
   ComputeReward();
   EXPECT_EQ(Of(0), Termination::kTimeLimit);

@@ -49,5 +49,13 @@ TEST(Machine, TheDocumentHasWhatTheSystemSays) {
   EXPECT_EQ(document.at("cpu_stepping").dump(), said(facts.stepping));
 }
 
+TEST(Machine, TheProgramIsThatOfTheMachinesDocument) {
+  const nlohmann::ordered_json machine = DescribeMachine(), program = ProgramJson();
+  EXPECT_EQ(program.size(), 4u);
+  for (const char* key : {"version", "commit", "compiler", "simd"}) {
+    EXPECT_EQ(program.at(key), machine.at(key)) << key;
+  }
+}
+
 }  // namespace
 }  // namespace skein
