@@ -84,8 +84,8 @@ const ShippedPolicy kPolicies[] = {
     {"heading-robust", "heading", "mission", kMission, 0.99, std::nullopt,
      SmoothnessLimits{0.71, 4.5, 0.132}, 1.8},
     // Steep dives and climbs cannot be held: thrust.
-    {"control", "control", "calm", Held("control"), 0.98, HoldLimits{0.89, 5.9, 0.295, 0.27},
-     SmoothnessLimits{0.25, 2.1, 0.12}},
+    {"control", "control", "calm", Held("control"), 0.98, HoldLimits{0.88, 4.35, 0.282, 0.082},
+     SmoothnessLimits{0.215, 1.7, 0.107}},
     {"control", "control", "mission", kMission, 0.985, std::nullopt,
      SmoothnessLimits{0.95, 3.6, 0.09}, 2.2},
     {"control-robust", "control", "calm", Held("control"), 0.965, HoldLimits{0.87, 2.3, 0.25, 0.04},
