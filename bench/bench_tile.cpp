@@ -3,25 +3,30 @@
 // a rollout, on one core, with its share of the peak. Tiles of all precisions take turns with each
 // other, with the network itself, and with the measurements of the peak. Times are lower quartiles
 // over the turns (of fewer than four the least): other programs take the processor from a long part
-// more often than from a short one.
+// more often than from a short one. --json writes every turn's times, as skein bench does.
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/denormals.h"
 #include "base/error.h"
-#include "bench/positive.h"
 #include "bench/seconds_of.h"
 #include "bench/tile_parts.h"
 #include "simd/peak.h"
 #include "simd/target.h"
+#include "src/bench/figure.h"
+#include "src/bench/machine.h"
+#include "src/files/output_file.h"
 #include "train/network/fused_network.h"
 
 namespace skein::bench {
@@ -53,6 +58,19 @@ struct Roofs {
 
 bool IsBitEqual(const AlignedVector<float>& values, const float* others) {
   return std::memcmp(values.data(), others, values.size() * sizeof(float)) == 0;
+}
+
+/// "GRU: LayerNorm" as "gru_layernorm": a part of a figure's name.
+std::string InFigureName(const std::string& text) {
+  std::string name;
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (!name.empty() && name.back() != '_') {
+      name += '_';
+    }
+  }
+  return name;
 }
 
 bool IsForward(TilePart part) {
@@ -108,6 +126,20 @@ class Tiles {
     require(flops == static_cast<double>(tile.rows()) * of_sample, "the number of operations");
   }
 
+  /// Microseconds of every turn: "fp32_update_loss_us", and "fp32_update_us" of the network itself.
+  void AddFigures(std::vector<Figure>* figures) const {
+    const std::string tile = InFigureName(name_) + (backward_ ? "_update" : "_rollout");
+    const auto add = [&](const std::string& name, std::vector<double> seconds) {
+      for (double& each : seconds) each *= 1e6;
+      figures->push_back({name + "_us", false, std::move(seconds)});
+    };
+    for (std::size_t i = 0; i < kParts; ++i) {
+      if (LowerQuartile(parts_[i]) == 0) continue;
+      add(tile + "_" + InFigureName(Name(static_cast<TilePart>(i))), parts_[i]);
+    }
+    add(tile, whole_);
+  }
+
   void Print(const Roofs& roofs) const {
     const double whole = LowerQuartile(whole_);
     double sum = 0, at_peak = 0;
@@ -153,7 +185,22 @@ class Tiles {
   std::vector<double> whole_;
 };
 
-void Run(int rounds) {
+void WriteFigures(const std::string& path, int rounds, const Roofs& roofs,
+                  const std::vector<Tiles>& tiles) {
+  std::vector<Figure> figures;
+  for (const Tiles& each : tiles) each.AddFigures(&figures);
+  WriteJson(path, {{"benchmark", "tile"},
+                   {"peak_gflops",
+                    {{"float32", roofs.Of(Precision::kFloat32) / 1e9},
+                     {"bfloat16", roofs.Of(Precision::kBfloat16) / 1e9},
+                     {"tiles", roofs.Of(Precision::kTiles) / 1e9}}},
+                   {"figures", ToJson(figures)},
+                   {"settings", {{"rounds", rounds}}},
+                   {"threads", 1},
+                   {"machine", DescribeMachine()}});
+}
+
+void Run(int rounds, const std::string& json) {
   const DenormalsFlushed flushed;
   constexpr NetworkPrecision kFloat32, kMixed{Precision::kFloat32, Precision::kBfloat16},
       kBfloat16{Precision::kBfloat16, Precision::kBfloat16},
@@ -185,19 +232,29 @@ void Run(int rounds) {
       simd::Name(simd::ActiveTarget()), roofs.Of(Precision::kFloat32) / 1e9,
       roofs.Of(Precision::kBfloat16) / 1e9, roofs.Of(Precision::kTiles) / 1e9);
   for (const Tiles& each : tiles) each.Print(roofs);
+  if (!json.empty()) WriteFigures(json, rounds, roofs, tiles);
 }
 
 }  // namespace
 }  // namespace skein::bench
 
 int main(int argc, char** argv) {
-  constexpr int kRounds = 200;
-  if (argc > 2) {
-    std::cerr << "usage: bench_tile [ROUNDS]\n";
-    return 2;
-  }
+  CLI::App app("The time of a tile of the learner, part by part, beside the peak of a core");
+  int rounds = 200;
+  std::string json;
+  app.add_option("ROUNDS", rounds, "turns of every tile")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  app.add_option("--json", json, "write the times of every turn here")->type_name("FILE");
   try {
-    skein::bench::Run(argc == 2 ? skein::bench::Positive("ROUNDS", argv[1]) : kRounds);
+    app.parse(argc, argv);
+    skein::CheckWritable(json);
+    skein::bench::Run(rounds, json);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
   } catch (const skein::Error& error) {
     std::cerr << error.what() << '\n';
     return 1;

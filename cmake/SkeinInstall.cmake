@@ -11,8 +11,11 @@ if(SKEIN_BUILD_TRAIN)
   install(TARGETS skein RUNTIME COMPONENT program)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/policies DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT program
           FILES_MATCHING PATTERN *.skein)
-  install(FILES ${PROJECT_SOURCE_DIR}/policies/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
-          RENAME policies.md)
+  # Under the names that the program, its manual page and each other call them by.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+          COMPONENT program)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs/studies DESTINATION ${CMAKE_INSTALL_DOCDIR}/configs COMPONENT program)
+  install(FILES ${PROJECT_SOURCE_DIR}/policies/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/policies COMPONENT program)
 endif()
 
 install(TARGETS ${skein_targets} EXPORT skein COMPONENT development)

@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from conftest import ROOT
@@ -42,6 +43,10 @@ def test_whoever_takes_a_task_takes_all_that_may_be_one():
 def test_errors_say_what_they_are(error, base):
     assert base in (error.__doc__ or "")
     assert f"\n{error.__doc__}\n" in (ROOT / "docs" / "reference" / "python-api.md").read_text()
+
+
+def test_the_licence_of_what_the_extension_contains_lies_beside_it():
+    assert "Redistributions in binary form" in Path(skein.__file__).with_name("nanobind-LICENSE.txt").read_text()
 
 
 def test_help_says_what_arrays_hold():

@@ -115,7 +115,11 @@ std::string ManualPage(const std::vector<CommandForm>& commands) {
          ".TP\n\\fBSKEIN_PYTHON\\fR\n"
          "the Python of skein export \\-\\-check (default: python3)\n"
          ".TP\n\\fBNO_COLOR\\fR\n"
-         "if set, progress is shown without colour\n";
+         "if set, progress is shown without colour\n"
+         ".SH FILES\n"
+         "What is called docs/, configs/studies/ or examples/ lies in the source tree,\n"
+         "and of an installation in share/doc/skein.\n"
+         "Policies of an installation lie in share/skein/policies.\n";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/bench/machine.h"
 #include "src/run/progress.h"
 
 namespace skein {
@@ -76,7 +77,10 @@ nlohmann::ordered_json ToJson(const TrainingTimes& times) {
   for (const auto& [name, share] : times.shares) shares[name] = share;
   nlohmann::ordered_json trained;
   if (times.seconds_to_trained) trained = *times.seconds_to_trained;
-  return {{"seconds", times.seconds}, {"seconds_to_95_percent", trained}, {"shares", shares}};
+  return {{"seconds", times.seconds},
+          {"seconds_to_95_percent", trained},
+          {"shares", shares},
+          {"program", ProgramJson()}};
 }
 
 std::string ToText(const TrainingTimes& times) {

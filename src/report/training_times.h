@@ -29,7 +29,7 @@ struct TrainingTimes {
 /// Nothing if an iteration's times are not known: a run that an older version has begun.
 std::optional<TrainingTimes> TimesOf(const RunRecord& run);
 
-/// seconds, seconds_to_95_percent (null if it never was), shares.
+/// seconds, seconds_to_95_percent (null if it never was), shares, and program: what writes this.
 nlohmann::ordered_json ToJson(const TrainingTimes& times);
 
 /// A line for people without the shares, and one with them.

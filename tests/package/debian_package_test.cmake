@@ -31,7 +31,9 @@ endfunction()
 
 run("" cpack --config ${BUILD}/CPackConfig.cmake -B ${SCRATCH}/packages)
 unpack(skein usr/bin/skein usr/share/man/man1/skein.1.gz usr/share/bash-completion/completions/skein
-       usr/share/zsh/vendor-completions/_skein usr/share/fish/vendor_completions.d/skein.fish)
+       usr/share/zsh/vendor-completions/_skein usr/share/fish/vendor_completions.d/skein.fish
+       usr/share/doc/skein/docs/reference/conditions.md usr/share/doc/skein/configs/studies/noise.toml
+       usr/share/doc/skein/examples/step_environment.cpp)
 unpack(skein-dev usr/include/skein/envs/vec_env.h)
 
 # A plain start needs nothing that only modules link.

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "src/bench/version.h"
 #include "src/config/configuration.h"
 #include "src/evaluation/recording_limit.h"
 #include "src/files/output_file.h"
@@ -240,6 +241,7 @@ TEST_F(ReportPipeline, SharesOfATrainingsTimeSumToOne) {
   const auto json = nlohmann::json::parse(ReadFile(scratch_ / "times"));
   EXPECT_EQ(json[0]["seconds"], times->seconds);
   EXPECT_EQ(json[0]["shares"].size(), times->shares.size());
+  EXPECT_EQ(json[0]["program"]["version"], Build().version);
 }
 
 TEST_F(ReportPipeline, TheTimeToATrainedPolicyIsThatOfItsEvaluation) {
