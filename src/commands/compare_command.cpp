@@ -26,6 +26,7 @@
 #include "src/files/output_file.h"
 #include "src/report/report_data.h"
 #include "src/report/report_page.h"
+#include "src/report/run_report.h"
 #include "train/ranks/collectives.h"
 
 namespace skein {
@@ -147,18 +148,14 @@ void RequireRoom(const CompareOptions& options, const EnvConfig& env) {
 /// A page that was asked for is written, or the command fails; without being asked one is written
 /// where one can be.
 void WritePage(const CompareOptions& options, const std::function<std::string()>& data) {
-  const bool is_default = options.html.empty();
-  if (is_default && !WritesDefaultPage(options)) return;
-  const std::string path = is_default ? kDefaultPage : options.html;
-  try {
-    CheckWritable(path);
-    const std::string page = data(), name = OutputName(path, is_default);
-    WriteReport(path, page);
-    fmt::print("report          {}\n", name);
-  } catch (const std::exception& error) {
-    if (!is_default) throw;
-    fmt::print("report          none: {}\n", error.what());
+  if (options.no_html) return;
+  if (options.html.empty()) {
+    WriteReportAtEnd(kDefaultPage, data, true);
+    return;
   }
+  CheckWritable(options.html);
+  WriteReport(options.html, data());
+  fmt::print("report          {}\n", options.html);
 }
 
 /// What the agents are and what they fly, in short.

@@ -118,7 +118,7 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
       ->capture_default_str();
   command
       ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one per CPU)")
+                   "worker threads; results do not depend on it (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
 }
 

@@ -147,7 +147,7 @@ void AddReportCommand(CLI::App* app) {
       ->excludes(watch);
   command
       ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one per CPU)")
+                   "worker threads; results do not depend on it (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
   command->footer(
       "Runs of one configuration are shown as mean and band over their seeds.\n"

@@ -103,7 +103,7 @@ void AddStudyCommand(CLI::App* app) {
   AddAircraftOption(command, &options->choice.aircraft);
   command
       ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one per CPU)")
+                   "worker threads; results do not depend on it (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
   AddRankTimeoutOption(command, &options->rank_timeout_s);
   command->footer(

@@ -212,7 +212,7 @@ constexpr const char* kFooter =
 void AddWorkerOptions(CLI::App* command, TrainOptions* options) {
   command
       ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one per CPU)")
+                   "worker threads; results do not depend on it (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
   AddRankTimeoutOption(command, &options->rank_timeout_s);
 }

@@ -28,7 +28,8 @@ void SayTimes(const std::string& run) {
 
 }  // namespace
 
-void WriteReportAtEnd(const std::string& path, const std::function<std::string()>& data) {
+void WriteReportAtEnd(const std::string& path, const std::function<std::string()>& data,
+                      bool is_default) {
   if (!FindReportTemplate()) {
     // In a line of a terminal: what a training prints at its end is to fit a screen.
     fmt::print("report          none: built without it (scripts/setup --viewer, scripts/build)\n");
@@ -36,8 +37,9 @@ void WriteReportAtEnd(const std::string& path, const std::function<std::string()
   }
   try {
     CheckWritable(path);
-    WriteReport(path, data());
-    fmt::print("report          {}\n", path);
+    const std::string page = data(), name = OutputName(path, is_default);
+    WriteReport(path, page);
+    fmt::print("report          {}\n", name);
   } catch (const std::exception& error) {
     fmt::print("report          none: {}\n", error.what());
   }
