@@ -103,8 +103,8 @@ const ShippedPolicy kPolicies[] = {
      SmoothnessLimits{0.76, 2.85, 0.16}},
     {"tracking-robust", "tracking", "mission", kMission, 0.99, std::nullopt,
      SmoothnessLimits{0.52, 2.9, 0.05}, 2.2},
-    {"tracking-planner", "tracking", "calm", kCalm, 0.95, std::nullopt,
-     SmoothnessLimits{3.1, 3.85, 0.42}},
+    {"tracking-planner", "tracking", "calm", kCalm, 0.975, std::nullopt,
+     SmoothnessLimits{0.56, 1.5, 0.095}},
 };
 
 class ShippedPolicies : public ::testing::TestWithParam<ShippedPolicy> {
