@@ -30,7 +30,9 @@ CLI::App* AddAny(CLI::App* bench, const std::string& name, const std::string& de
 CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& description,
                    const std::shared_ptr<BenchOptions>& options, void (*run)(const BenchOptions&)) {
   CLI::App* command = AddAny(bench, name, description, options, run);
-  command->add_option("--threads", options->threads, "worker threads (default: one for each CPU it may use)")
+  command
+      ->add_option("--threads", options->threads,
+                   "worker threads (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
   return command;
 }

@@ -117,8 +117,9 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
       ->transform(WholeNumber(0, kMostWholeNumber))
       ->capture_default_str();
   command
-      ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one for each CPU it may use)")
+      ->add_option(
+          "--threads", options->threads,
+          "worker threads; results do not depend on it (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
 }
 

@@ -146,8 +146,9 @@ void AddReportCommand(CLI::App* app) {
       ->type_name("FILE")
       ->excludes(watch);
   command
-      ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one for each CPU it may use)")
+      ->add_option(
+          "--threads", options->threads,
+          "worker threads; results do not depend on it (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
   command->footer(
       "Runs of one configuration are shown as mean and band over their seeds.\n"

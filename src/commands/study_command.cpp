@@ -102,8 +102,9 @@ void AddStudyCommand(CLI::App* app) {
       ->transform(WholeNumber(1, kMostWholeNumber));
   AddAircraftOption(command, &options->choice.aircraft);
   command
-      ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one for each CPU it may use)")
+      ->add_option(
+          "--threads", options->threads,
+          "worker threads; results do not depend on it (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
   AddRankTimeoutOption(command, &options->rank_timeout_s);
   command->footer(

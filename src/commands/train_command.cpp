@@ -211,8 +211,9 @@ constexpr const char* kFooter =
 /// Who computes: threads, and other processes.
 void AddWorkerOptions(CLI::App* command, TrainOptions* options) {
   command
-      ->add_option("--threads", options->threads,
-                   "worker threads; results do not depend on it (default: one for each CPU it may use)")
+      ->add_option(
+          "--threads", options->threads,
+          "worker threads; results do not depend on it (default: one for each CPU it may use)")
       ->transform(WholeNumber(1, 1024));
   AddRankTimeoutOption(command, &options->rank_timeout_s);
 }
