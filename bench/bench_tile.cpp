@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -235,10 +236,8 @@ void Run(int rounds, const std::string& json) {
   if (!json.empty()) WriteFigures(json, rounds, roofs, tiles);
 }
 
-}  // namespace
-}  // namespace skein::bench
-
-int main(int argc, char** argv) {
+/// What the command line asks for; its exit code.
+int RunCommand(int argc, char** argv) {
   CLI::App app("The time of a tile of the learner, part by part, beside the peak of a core");
   int rounds = 200;
   std::string json;
@@ -248,16 +247,25 @@ int main(int argc, char** argv) {
   app.add_option("--json", json, "write the times of every turn here")->type_name("FILE");
   try {
     app.parse(argc, argv);
-    skein::CheckWritable(json);
-    skein::bench::Run(rounds, json);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
     std::cerr << error.what() << '\n';
     return 2;
-  } catch (const skein::Error& error) {
+  }
+  CheckWritable(json);
+  Run(rounds, json);
+  return 0;
+}
+
+}  // namespace
+}  // namespace skein::bench
+
+int main(int argc, char** argv) {
+  try {
+    return skein::bench::RunCommand(argc, argv);
+  } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;
   }
-  return 0;
 }
