@@ -178,8 +178,8 @@ void StepTileOpenLoopKernel(const KernelAircraft& aircraft, Tile tile,
 }
 
 template <AirMotion kAir, bool kDrawn>
-void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                MemoryAhead ahead, const PlantTile& plants) {
+HWY_NOINLINE void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                             MemoryAhead ahead, const PlantTile& plants) {
   KernelBlock block;
   const int parts = 4 * ((tile.count + kLanesPerBlock - 1) / kLanesPerBlock);
   Prefetcher prefetcher{
@@ -213,34 +213,25 @@ void StepTileIn(const KernelAircraft& aircraft, Tile tile, float dt, int substep
   }
 }
 
-void StepTileInStillAir(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                        MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<kStillAir, false>(aircraft, tile, dt, substeps, ahead, plants);
-}
-
-void StepTileInWind(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                    MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<kMovingAir, false>(aircraft, tile, dt, substeps, ahead, plants);
-}
-
-void StepTileInRotationalGusts(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                               MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<kTurningAir, false>(aircraft, tile, dt, substeps, ahead, plants);
-}
-
-void StepDrawnPlantsInStillAir(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
-                               MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<kStillAir, true>(aircraft, tile, dt, substeps, ahead, plants);
-}
-
-void StepDrawnPlantsInWind(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+template <bool kDrawn>
+HWY_INLINE void StepTileOf(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
                            MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<kMovingAir, true>(aircraft, tile, dt, substeps, ahead, plants);
+  if (tile.rotational_gusts) {
+    StepTileIn<kTurningAir, kDrawn>(aircraft, tile, dt, substeps, ahead, plants);
+  } else if (tile.windy) {
+    StepTileIn<kMovingAir, kDrawn>(aircraft, tile, dt, substeps, ahead, plants);
+  } else {
+    StepTileIn<kStillAir, kDrawn>(aircraft, tile, dt, substeps, ahead, plants);
+  }
 }
 
-void StepDrawnPlantsInRotationalGusts(const KernelAircraft& aircraft, Tile tile, float dt,
-                                      int substeps, MemoryAhead ahead, const PlantTile& plants) {
-  StepTileIn<kTurningAir, true>(aircraft, tile, dt, substeps, ahead, plants);
+void StepTileKernel(const KernelAircraft& aircraft, Tile tile, float dt, int substeps,
+                    MemoryAhead ahead, const PlantTile& plants) {
+  if (plants.is_drawn()) {
+    StepTileOf<true>(aircraft, tile, dt, substeps, ahead, plants);
+  } else {
+    StepTileOf<false>(aircraft, tile, dt, substeps, ahead, plants);
+  }
 }
 
 }  // namespace
@@ -253,12 +244,7 @@ namespace skein {
 
 HWY_EXPORT(EvaluateTileKernel);
 HWY_EXPORT(StepTileOpenLoopKernel);
-HWY_EXPORT(StepTileInStillAir);
-HWY_EXPORT(StepTileInWind);
-HWY_EXPORT(StepTileInRotationalGusts);
-HWY_EXPORT(StepDrawnPlantsInStillAir);
-HWY_EXPORT(StepDrawnPlantsInWind);
-HWY_EXPORT(StepDrawnPlantsInRotationalGusts);
+HWY_EXPORT(StepTileKernel);
 
 void EvaluateTile(const KernelAircraft& aircraft, Tile tile, const ControlColumns& controls,
                   float* state_rate, float* coefficients) {
@@ -272,22 +258,7 @@ void StepTileOpenLoop(const KernelAircraft& aircraft, Tile tile, const ControlCo
 
 void StepTile(const KernelAircraft& aircraft, Tile tile, float dt, int substeps, MemoryAhead ahead,
               const PlantTile& plants) {
-  if (plants.is_drawn()) {
-    if (tile.rotational_gusts) {
-      SKEIN_DISPATCH(StepDrawnPlantsInRotationalGusts)
-      (aircraft, tile, dt, substeps, ahead, plants);
-    } else if (tile.windy) {
-      SKEIN_DISPATCH(StepDrawnPlantsInWind)(aircraft, tile, dt, substeps, ahead, plants);
-    } else {
-      SKEIN_DISPATCH(StepDrawnPlantsInStillAir)(aircraft, tile, dt, substeps, ahead, plants);
-    }
-  } else if (tile.rotational_gusts) {
-    SKEIN_DISPATCH(StepTileInRotationalGusts)(aircraft, tile, dt, substeps, ahead, plants);
-  } else if (tile.windy) {
-    SKEIN_DISPATCH(StepTileInWind)(aircraft, tile, dt, substeps, ahead, plants);
-  } else {
-    SKEIN_DISPATCH(StepTileInStillAir)(aircraft, tile, dt, substeps, ahead, plants);
-  }
+  SKEIN_DISPATCH(StepTileKernel)(aircraft, tile, dt, substeps, ahead, plants);
 }
 
 }  // namespace skein

@@ -76,7 +76,7 @@ def main():
     parser.add_argument("--steps", type=int, default=600_000, help="policy steps over all aircraft")
     parser.add_argument("--aircraft", type=int, default=256)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--threads", type=int, default=0, help="of the simulator; 0: one per CPU")
+    parser.add_argument("--threads", type=int, default=0, help="of the simulator; 0: one for each CPU it may use")
     parser.add_argument("--episodes", type=int, default=500, help="of the evaluation at the end")
     parser.add_argument("--json", help="also write the learning curve and the evaluation here")
     options = parser.parse_args()

@@ -457,7 +457,7 @@ def make_vec(
     Args:
         task, preset, file, conditions, settings: what is flown (skein.configure).
         num_envs: aircraft.
-        threads: that step them, 0: one per CPU. Results do not depend on it.
+        threads: that step them, 0: one for each CPU it may use. Results do not depend on it.
         low_level: for presets of Tracking that are flown by a high-level policy ("planner", "paper"): what flies below
             it, a policy file or run of task control, or "autopilot".
         agent: who is to fly: its own choices, such as the rate at which it acts, then hold, and a high-level policy

@@ -103,7 +103,7 @@ def evaluate(
             first that is made for that. preset stands in place of both; file and settings come on top.
         episodes: number of them.
         seed: of the episodes; the i-th depends on configuration, seed and i alone.
-        threads: 0: one per CPU. Results do not depend on it.
+        threads: 0: one for each CPU it may use. Results do not depend on it.
 
     Raises:
         Error: the agent does not fit the task. What a function raises comes through.

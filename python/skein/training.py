@@ -126,7 +126,7 @@ def train(
             Run.resume goes on. What it raises does the same, and comes through.
         start_from: a run or policy whose networks it starts from.
         low_level: as of skein.make_vec.
-        threads: 0: one per CPU. Results do not depend on it.
+        threads: 0: one for each CPU it may use. Results do not depend on it.
         progress: print it, and the result, on the process's standard output, as the program does, past sys.stdout;
             False: nothing. The run's log.txt has all of it.
 

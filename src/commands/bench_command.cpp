@@ -6,6 +6,7 @@
 #include "src/commands/benchmarks.h"
 #include "src/commands/commands.h"
 #include "src/commands/launched_ranks.h"
+#include "src/commands/threads_option.h"
 #include "src/config/conditions.h"
 #include "src/config/whole_number.h"
 #include "src/files/output_file.h"
@@ -30,10 +31,8 @@ CLI::App* AddAny(CLI::App* bench, const std::string& name, const std::string& de
 CLI::App* AddBench(CLI::App* bench, const std::string& name, const std::string& description,
                    const std::shared_ptr<BenchOptions>& options, void (*run)(const BenchOptions&)) {
   CLI::App* command = AddAny(bench, name, description, options, run);
-  command
-      ->add_option("--threads", options->threads,
-                   "worker threads (default: one for each CPU it may use)")
-      ->transform(WholeNumber(1, 1024));
+  AddThreadsOption(command, &options->threads)
+      ->description("worker threads (default: one for each CPU it may use)");
   return command;
 }
 

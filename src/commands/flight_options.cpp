@@ -15,6 +15,7 @@
 #include "src/agents/agent_names.h"
 #include "src/agents/policy_file.h"
 #include "src/commands/aircraft_option.h"
+#include "src/commands/threads_option.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
@@ -116,11 +117,7 @@ void AddEpisodeOptions(CLI::App* command, const FlightOptionTexts& texts, Flight
   command->add_option("--seed", options->seed, "seed of the episodes")
       ->transform(WholeNumber(0, kMostWholeNumber))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--threads", options->threads,
-          "worker threads; results do not depend on it (default: one for each CPU it may use)")
-      ->transform(WholeNumber(1, 1024));
+  AddThreadsOption(command, &options->threads);
 }
 
 void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightOptions* options) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "src/commands/commands.h"
+#include "src/commands/threads_option.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/files/output_file.h"
@@ -145,11 +146,7 @@ void AddReportCommand(CLI::App* app) {
                    "write what the trainings took here: seconds, and the share of each part")
       ->type_name("FILE")
       ->excludes(watch);
-  command
-      ->add_option(
-          "--threads", options->threads,
-          "worker threads; results do not depend on it (default: one for each CPU it may use)")
-      ->transform(WholeNumber(1, 1024));
+  AddThreadsOption(command, &options->threads);
   command->footer(
       "Runs of one configuration are shown as mean and band over their seeds.\n"
       "Example: skein report runs/short --open\n"

@@ -10,6 +10,7 @@
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/commands/launched_ranks.h"
+#include "src/commands/threads_option.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "src/files/shell_text.h"
@@ -101,11 +102,7 @@ void AddStudyCommand(CLI::App* app) {
                    "budget of a training, control steps (default: the file's, else the preset's)")
       ->transform(WholeNumber(1, kMostWholeNumber));
   AddAircraftOption(command, &options->choice.aircraft);
-  command
-      ->add_option(
-          "--threads", options->threads,
-          "worker threads; results do not depend on it (default: one for each CPU it may use)")
-      ->transform(WholeNumber(1, 1024));
+  AddThreadsOption(command, &options->threads);
   AddRankTimeoutOption(command, &options->rank_timeout_s);
   command->footer(
       "The same command resumes after an interruption of any kind, and skips what is finished.\n"

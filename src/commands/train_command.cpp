@@ -14,6 +14,7 @@
 #include "src/commands/commands.h"
 #include "src/commands/flight_options.h"
 #include "src/commands/launched_ranks.h"
+#include "src/commands/threads_option.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
 #include "src/config/configuration.h"
@@ -210,11 +211,7 @@ constexpr const char* kFooter =
 
 /// Who computes: threads, and other processes.
 void AddWorkerOptions(CLI::App* command, TrainOptions* options) {
-  command
-      ->add_option(
-          "--threads", options->threads,
-          "worker threads; results do not depend on it (default: one for each CPU it may use)")
-      ->transform(WholeNumber(1, 1024));
+  AddThreadsOption(command, &options->threads);
   AddRankTimeoutOption(command, &options->rank_timeout_s);
 }
 

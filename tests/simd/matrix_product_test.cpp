@@ -14,9 +14,9 @@
 #include "base/error.h"
 #include "base/fnv_hash.h"
 #include "gtest/gtest.h"
-#include "simd/bfloat16.h"
 #include "simd/target.h"
 #include "tests/scoped_target.h"
+#include "tests/simd/bfloat16.h"
 #include "tests/tolerance.h"
 
 namespace skein::simd {
