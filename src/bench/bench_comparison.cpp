@@ -148,13 +148,19 @@ double Variance(const std::vector<double>& values, double mean) {
   return squares / static_cast<double>(values.size() - 1);
 }
 
+/// Such samples say nothing of noise.
+bool AreAllAlike(const std::vector<double>& samples) {
+  return std::all_of(samples.begin(), samples.end(),
+                     [&samples](double sample) { return sample == samples.front(); });
+}
+
 /// Of unpaired samples: Welch's t, with the degrees of freedom by Satterthwaite (Biometrics
 /// Bulletin 2, 1946) rounded down.
 Estimate EstimateDifference(const std::vector<double>& before, const std::vector<double>& after) {
   const double mean_before = EstimateMean(before).value, mean_after = EstimateMean(after).value;
   Estimate estimate{mean_after - mean_before, kNaN, kNaN,
                     static_cast<int>(std::min(before.size(), after.size()))};
-  if (estimate.count < 2) return estimate;
+  if (estimate.count < 2 || (AreAllAlike(before) && AreAllAlike(after))) return estimate;
   const auto error = [](const std::vector<double>& values, double mean) {
     return Variance(values, mean) / static_cast<double>(values.size());
   };
@@ -162,8 +168,7 @@ Estimate EstimateDifference(const std::vector<double>& before, const std::vector
   const double degrees = (a + b) * (a + b) /
                          (a * a / static_cast<double>(before.size() - 1) +
                           b * b / static_cast<double>(after.size() - 1));
-  const int whole = std::isnan(degrees) ? 1 : std::max(1, static_cast<int>(degrees));
-  const double half = StudentPoint(whole) * std::sqrt(a + b);
+  const double half = StudentPoint(std::max(1, static_cast<int>(degrees))) * std::sqrt(a + b);
   estimate.low = estimate.value - half;
   estimate.high = estimate.value + half;
   return estimate;
@@ -190,6 +195,7 @@ FigureChange ChangeOf(const Figure& figure, const std::vector<Run>& before,
     std::vector<double> differences;
     for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(b[i] - a[i]);
     difference = EstimateMean(differences);
+    if (AreAllAlike(differences)) difference.low = difference.high = kNaN;
   }
   const Estimate ratio{std::exp(difference.value), std::exp(difference.low),
                        std::exp(difference.high), difference.count};
@@ -240,7 +246,7 @@ std::vector<SettingChange> DifferingSettings(const std::vector<Run>& before,
 }
 
 std::string Verdict(const FigureChange& change) {
-  if (std::isnan(change.ratio.low)) return "one sample: no interval";
+  if (std::isnan(change.ratio.low)) return "one sample, or all alike: no interval";
   if (!IsBeyondNoise(change)) return "within noise";
   const bool is_better = (change.ratio.value > 1) == change.more_is_better;
   return fmt::format("{} by {:.1f} %", is_better ? "better" : "worse",

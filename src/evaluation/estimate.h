@@ -13,8 +13,9 @@ struct Estimate {
   int count = 0;  ///< of what the figure is made
 };
 
-/// The mean, by Student's t: exact for normal values, and nearly so for the mean of many of any
-/// kind. Values that are NaN are left out; fewer than two leave no interval.
+/// The mean, by Student's t: exact for normal values, and nearly so for the mean of many that a few
+/// exceptions do not decide. Values that are all alike leave no width; those that are NaN are left
+/// out; fewer than two leave no interval.
 Estimate EstimateMean(const std::vector<double>& values);
 
 /// A share, successes / trials, by Wilson's score interval (JASA 22, 1927): it holds for shares

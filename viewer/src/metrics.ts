@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of metrics: policies beside the autopilots, on the same episodes.
 import { button, choice, el, tick } from './dom';
-import { differenceOf, isBetter, referencesOf, sideOfZero } from './paired';
+import { type Difference, differenceOf, isBetter, referencesOf, sideOfZero } from './paired';
 import {
   areOfMissions, type ComparedAgent, type Comparison, type Estimate, nameOfEnd, type Quantity,
   type ReportPack,
@@ -37,7 +37,7 @@ export function formatDifference(quantity: Quantity, difference: Estimate | unde
 /** Whether an agent's value is bold beside the reference's: it is better, and the cells show it. */
 export function isMarked(
   quantity: Quantity, reference: Estimate | undefined, value: Estimate | undefined,
-  difference: Estimate | undefined,
+  difference: Difference | undefined,
 ): boolean {
   if (parseFloat(formatEstimate(quantity, difference)) === 0) return false;
   if (formatEstimate(quantity, reference) === formatEstimate(quantity, value)) return false;
@@ -149,7 +149,8 @@ function explanation({ agents, episodes, seed }: Comparison, reference?: number)
     + 'policies with their mean action; 95 % intervals.',
     reference === undefined ? null : ` Differences are paired, an agent's value less that of `
       + `${agents[reference].name} in the same episode: a value is bold only where it is better `
-      + '(↑ higher, ↓ lower) and the interval of its difference leaves out 0 (others are grey).');
+      + '(↑ higher, ↓ lower) and the interval of its difference leaves out 0, and of success McNemar\'s test '
+        + 'has p < 0.05, too (others are grey).');
 }
 
 /** What is chosen; it outlives the view. */

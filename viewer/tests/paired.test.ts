@@ -14,7 +14,11 @@ const estimate = (value: number | null, low: number | null, high: number | null)
 /** Agents whose value is their number, with differences as the data have them. */
 function comparisonOf(count: number, hasAll: boolean): Comparison {
   const paired = (value: number) => ({
-    estimates: { success_rate: estimate(value, value - 0.3, value + 0.1) }, success_p_value: 1,
+    estimates: {
+      success_rate: estimate(value, value - 0.3, value + 0.1),
+      mach: estimate(value, value - 0.3, value + 0.1),
+    },
+    success_p_value: 0.06,
   });
   const agents: ComparedAgent[] = Array.from({ length: count }, (_, i) => ({
     name: `agent ${i}`, action_repeat: 1, terminations: {},
@@ -28,22 +32,31 @@ function comparisonOf(count: number, hasAll: boolean): Comparison {
 describe('the difference of an agent from another', () => {
   it('is the one of the data, turned round where the other comes later', () => {
     const comparison = comparisonOf(3, true);
-    expect(differenceOf(comparison, 2, 1, 'success_rate')).toEqual(estimate(1, 0.7, 1.1));
-    expect(differenceOf(comparison, 1, 2, 'success_rate')).toEqual(estimate(-1, -1.1, -0.7));
-    expect(differenceOf(comparison, 2, 2, 'success_rate')).toBeUndefined();
-    expect(differenceOf(comparison, 2, 1, 'mach')).toBeUndefined();
+    expect(differenceOf(comparison, 2, 1, 'mach')).toEqual(estimate(1, 0.7, 1.1));
+    expect(differenceOf(comparison, 1, 2, 'mach')).toEqual(estimate(-1, -1.1, -0.7));
+    expect(differenceOf(comparison, 2, 2, 'mach')).toBeUndefined();
+    expect(differenceOf(comparison, 2, 1, 'sideslip')).toBeUndefined();
   });
   it('is known from the first alone in data that have no others', () => {
     const comparison = comparisonOf(3, false);
-    expect(differenceOf(comparison, 2, 0, 'success_rate')).toEqual(estimate(2, 1.7, 2.1));
-    expect(differenceOf(comparison, 0, 2, 'success_rate')).toEqual(estimate(-2, -2.1, -1.7));
-    expect(differenceOf(comparison, 2, 1, 'success_rate')).toBeUndefined();
+    expect(differenceOf(comparison, 2, 0, 'mach')).toEqual(estimate(2, 1.7, 2.1));
+    expect(differenceOf(comparison, 0, 2, 'mach')).toEqual(estimate(-2, -2.1, -1.7));
+    expect(differenceOf(comparison, 2, 1, 'mach')).toBeUndefined();
+  });
+  it('has the p-value of success, which is none where its interval leaves out 0', () => {
+    const comparison = comparisonOf(2, false);
+    for (const [agent, reference] of [[1, 0], [0, 1]]) {
+      const difference = differenceOf(comparison, agent, reference, 'success_rate');
+      expect(difference?.p_value).toBe(0.06);
+      expect(sideOfZero(difference)).toBe(0);
+      expect(sideOfZero({ ...difference!, p_value: 0.04 })).toBe(agent > reference ? 1 : -1);
+    }
   });
   it('is nothing where there is nothing, also turned round', () => {
     const comparison = comparisonOf(2, false);
     const none = estimate(null, null, null);
-    comparison.agents[1].against_first = { estimates: { success_rate: none }, success_p_value: 1 };
-    expect(differenceOf(comparison, 0, 1, 'success_rate')).toEqual(none);
+    comparison.agents[1].against_first = { estimates: { mach: none }, success_p_value: 1 };
+    expect(differenceOf(comparison, 0, 1, 'mach')).toEqual(none);
   });
 });
 

@@ -104,8 +104,20 @@ TEST_F(BenchComparisonTest, OneSampleLeavesNoInterval) {
   const std::string b = Write("b", {{"step_ms", false, {2}}});
   const BenchComparison comparison = CompareBenchmarks({a}, {b}, false);
   EXPECT_FALSE(IsBeyondNoise(comparison.changes.at(0)));
-  EXPECT_THAT(ToText(comparison), HasSubstr("one sample: no interval"));
+  EXPECT_THAT(ToText(comparison), HasSubstr("no interval"));
   EXPECT_TRUE(ToJson(comparison)["figures"]["step_ms"]["low"].is_null());
+}
+
+TEST_F(BenchComparisonTest, SamplesThatAreAllAlikeLeaveNoInterval) {
+  const std::vector<std::string> before = {Write("a", {{"step_ms", false, {3, 3, 3}}}),
+                                           Write("b", {{"step_ms", false, {3, 3, 3}}})};
+  const std::vector<std::string> after = {Write("c", {{"step_ms", false, {4, 4, 4}}}),
+                                          Write("d", {{"step_ms", false, {4, 4, 4}}})};
+  for (const BenchComparison& comparison : {CompareBenchmarks({before[0]}, {after[0]}, false),
+                                            CompareBenchmarks(before, after, false)}) {
+    EXPECT_FALSE(IsBeyondNoise(comparison.changes.at(0)));
+    EXPECT_THAT(ToText(comparison), HasSubstr("all alike: no interval"));
+  }
 }
 
 TEST_F(BenchComparisonTest, WhatOnlyOneSideHasIsSaid) {
