@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "base/ends_with.h"
+#include "src/files/column_words.h"
 
 namespace skein {
 namespace {
@@ -19,13 +21,6 @@ constexpr double kNameBottom = 22;       // as well, below
 constexpr double kHeadGap = 4;           // between a panel and the base line of its head, points
 constexpr double kRoundingGuard = 1e-9;  // of a step, so that ends that are multiples count
 constexpr double kCountWithTwo = 5;      // steps are at most half the range from here on
-
-constexpr std::array<std::pair<const char*, const char*>, 6> kUnits = {{{"_deg_s", "deg/s"},
-                                                                        {"_fps", "ft/s"},
-                                                                        {"_deg", "deg"},
-                                                                        {"_ft", "ft"},
-                                                                        {"_g", "g"},
-                                                                        {"_s", "s"}}};
 
 /// A thousands separator for every three digits of the whole part.
 std::string WithCommas(const std::string& number) {
@@ -58,24 +53,12 @@ std::vector<double> TicksNear(const Range& range, double count) {
 
 }  // namespace
 
-bool IsShare(const std::string& column) {
-  const std::string ending = "success_rate";
-  return column.size() >= ending.size() && column.substr(column.size() - ending.size()) == ending;
-}
+bool IsShare(const std::string& column) { return EndsWith(column, "success_rate"); }
 
 std::string InWords(const std::string& column) {
   if (IsShare(column)) return WithBlanks(column) + ", %";
-  for (const auto& [ending, unit] : kUnits) {
-    const std::string end(ending);
-    if (column.size() <= end.size() || column.substr(column.size() - end.size()) != end) continue;
-    return fmt::format("{}, {}", WithBlanks(column.substr(0, column.size() - end.size())), unit);
-  }
-  return WithBlanks(column);
-}
-
-std::string WithBlanks(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+  const ColumnWords words = ColumnWordsOf(column);
+  return words.unit.empty() ? words.quantity : words.quantity + ", " + words.unit;
 }
 
 std::vector<double> Ticks(const Range& range, double count) {

@@ -16,9 +16,6 @@ bool IsShare(const std::string& column);
 /// "success rate, %".
 std::string InWords(const std::string& column);
 
-/// "target reached" of the name target_reached.
-std::string WithBlanks(std::string name);
-
 /// Round numbers (1, 2 or 5 times a power of ten apart) within the range, about `count` of them;
 /// more where one number would be all, as that is no scale.
 std::vector<double> Ticks(const Range& range, double count);
