@@ -16,7 +16,6 @@ namespace skein {
 namespace {
 
 constexpr double kHeightPerWidth = 0.9;
-constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr double kRadius = 2, kPale = 0.75;
 constexpr std::size_t kMostMarkers = 2 * kMarkers.size();  // full, then hollow
 
@@ -70,11 +69,7 @@ class LocusDrawing {
       }
     }
     const Panel panel(corner, width, kHeightPerWidth * width, Padded(real), Padded(imaginary));
-    const auto across = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
-    const auto up = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
-    panel.DrawGrid(across, up, &shapes_);
-    panel.LabelLeft(up, &shapes_);
-    panel.LabelBottom(across, &shapes_);
+    panel.DrawAxes(&shapes_);
     panel.DrawCurve({{0, panel.y_range().min}, {0, panel.y_range().max}}, kInk, 0.8, Dash::kNone,
                     &shapes_);
     panel.DrawHead(head, &shapes_);
