@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/number_text.h"
@@ -26,6 +27,18 @@ bool IsPhugoidOrSpiral(const FlightMode& mode) {
   return mode.family == ModeFamily::kPhugoid || mode.family == ModeFamily::kSpiral;
 }
 
+/// "short period" of "short period, real".
+std::string NameOf(const FlightMode& mode) { return mode.name.substr(0, mode.name.find(',')); }
+
+/// The same in every picture, of each of the names that FindFlightModes gives.
+Colour ColourOfMode(const std::string& name) {
+  static const std::map<std::string, Colour> colours = {
+      {"short period", ColourOf(0)}, {"phugoid", ColourOf(1)}, {"Dutch roll", ColourOf(2)},
+      {"roll", ColourOf(3)},         {"spiral", ColourOf(4)},  {"third oscillatory", ColourOf(5)},
+      {"roll-spiral", kInk}};
+  return colours.at(name);
+}
+
 class LocusDrawing {
  public:
   LocusDrawing(const std::vector<LinearisedFlight>& flights, double width)
@@ -35,8 +48,7 @@ class LocusDrawing {
       speeds.push_back(flight.request.true_airspeed_ft_s);
       altitudes_.emplace(flight.request.altitude_ft, 0);
       for (const FlightMode& mode : flight.modes) {
-        const std::string name = mode.name.substr(0, mode.name.find(','));
-        colours_.emplace(name, ColourOf(colours_.size()));
+        names_.insert(NameOf(mode));
       }
     }
     speeds_ = SpanOf(speeds);
@@ -84,7 +96,7 @@ class LocusDrawing {
     const std::size_t altitude = altitudes_.at(flight.request.altitude_ft);
     for (const FlightMode& mode : flight.modes) {
       if (!is_shown(mode)) continue;
-      const Colour colour = colours_.at(mode.name.substr(0, mode.name.find(',')));
+      const Colour colour = ColourOfMode(NameOf(mode));
       shapes_.push_back(MarkerAt(panel.Place(mode.eigenvalue.real(), mode.eigenvalue.imag()),
                                  MarkerOf(altitude),
                                  LookOf(altitude, Mixed(colour, kWhite, kPale * (1 - share)))));
@@ -104,8 +116,8 @@ class LocusDrawing {
 
   std::vector<LegendEntry> Entries() const {
     std::vector<LegendEntry> entries;
-    for (const auto& [name, colour] : colours_) {
-      entries.push_back({MarkerSample(Marker::kDisc, LookOf(0, colour)), name});
+    for (const std::string& name : names_) {
+      entries.push_back({MarkerSample(Marker::kDisc, LookOf(0, ColourOfMode(name))), name});
     }
     if (speeds_.max > speeds_.min) {
       entries.push_back(
@@ -129,7 +141,7 @@ class LocusDrawing {
   double width_;
   Range speeds_;
   std::map<double, std::size_t> altitudes_;  ///< and their numbers, from below
-  std::map<std::string, Colour> colours_;
+  std::set<std::string> names_;              ///< of the modes that there are
   std::vector<Shape> shapes_;
 };
 
