@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/field_list.h"
+#include "base/number_text.h"
 #include "envs/aircraft/engine.h"
 #include "src/commands/agent_flight.h"
 #include "src/commands/fdm_commands.h"
@@ -24,6 +25,7 @@ namespace skein {
 namespace {
 
 constexpr double kMostSteps = 1e7;
+constexpr int kTimeDigits = 12;  // so that the product of steps and their length is round
 
 const std::map<std::string, FlightControlMode> kModes = {{"full", FlightControlMode::kFull},
                                                          {"direct", FlightControlMode::kDirect}};
@@ -74,7 +76,9 @@ void FlySticks(const FlyOptions& options) {
   for (const ExceededLimit& limit : start.exceeded_limits) {
     fmt::print("the flight at its start {}\n", limit.words);
   }
-  fmt::print("flew {} for {} s: {}\n", options.condition.Describe(plant), flight.seconds, out_name);
+  const double seconds = static_cast<double>(flight.Steps()) * flight.step_s;
+  fmt::print("flew {} for {} s: {}\n", options.condition.Describe(plant),
+             RoundedText(seconds, kTimeDigits), out_name);
   for (const std::string& left : LeftTables(plant, ParseCsv(flown))) fmt::print("  {}\n", left);
 }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/ends_with.h"
 #include "base/field_list.h"
 #include "base/number_text.h"
 #include "envs/task_registry.h"
@@ -325,10 +326,7 @@ AcmiRecording AcmiOf(const FlightOptions& options, const std::vector<AgentFlight
 void WriteFlightsAcmi(const FlightOptions& options, const std::string& path,
                       const std::vector<AgentFlights>& agents) {
   const std::string file = AcmiFile(AcmiOf(options, agents));
-  const std::string zipped = ".zip.acmi";
-  const bool is_zipped =
-      path.size() > zipped.size() && path.substr(path.size() - zipped.size()) == zipped;
-  WriteFile(path, is_zipped ? ZipArchive("flights.txt.acmi", file) : file);
+  WriteFile(path, EndsWith(path, ".zip.acmi") ? ZipArchive("flights.txt.acmi", file) : file);
   fmt::print("{}: {} by {}, for Tacview\n", path,
              Counted(static_cast<int>(agents.front().flights.size()), "episode"),
              Counted(static_cast<int>(agents.size()), "agent"));

@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "envs/aircraft/registry.h"
@@ -157,9 +158,8 @@ constexpr const char* kHeld = ",held";
 
 /// Cuts ",held" off a level's end; whether it was there.
 bool CutHeld(std::string* level) {
-  const std::size_t length = std::strlen(kHeld);
-  if (level->size() < length || level->substr(level->size() - length) != kHeld) return false;
-  level->resize(level->size() - length);
+  if (!EndsWith(*level, kHeld)) return false;
+  level->resize(level->size() - std::strlen(kHeld));
   return true;
 }
 

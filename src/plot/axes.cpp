@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "base/ends_with.h"
+#include "src/files/column_words.h"
 
 namespace skein {
 namespace {
@@ -19,13 +21,8 @@ constexpr double kNameBottom = 22;       // as well, below
 constexpr double kHeadGap = 4;           // between a panel and the base line of its head, points
 constexpr double kRoundingGuard = 1e-9;  // of a step, so that ends that are multiples count
 constexpr double kCountWithTwo = 5;      // steps are at most half the range from here on
-
-constexpr std::array<std::pair<const char*, const char*>, 6> kUnits = {{{"_deg_s", "deg/s"},
-                                                                        {"_fps", "ft/s"},
-                                                                        {"_deg", "deg"},
-                                                                        {"_ft", "ft"},
-                                                                        {"_g", "g"},
-                                                                        {"_s", "s"}}};
+constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
+constexpr int kLeastDigits = 5, kMostDigits = 15;  // of a tick, significant
 
 /// A thousands separator for every three digits of the whole part.
 std::string WithCommas(const std::string& number) {
@@ -34,6 +31,22 @@ std::string WithCommas(const std::string& number) {
   std::string text = number;
   while (at > begin + 3) text.insert(at -= 3, ",");
   return text;
+}
+
+/// With separators, to so many significant digits.
+std::string InLetters(double value, int digits) {
+  const std::string text = fmt::format("{:.{}g}", value, digits);
+  return text.find('e') == std::string::npos ? WithCommas(text) : text;
+}
+
+/// From the first digit of the largest tick to that of the step.
+int TickDigits(const std::vector<double>& ticks) {
+  if (ticks.size() < 2) return kLeastDigits;
+  const double step = (ticks.back() - ticks.front()) / static_cast<double>(ticks.size() - 1);
+  const double largest = std::max(std::abs(ticks.front()), std::abs(ticks.back()));
+  const double digits =
+      std::floor(std::log10(largest)) - std::floor(std::log10(step) + kRoundingGuard) + 1;
+  return static_cast<int>(std::clamp<double>(digits, kLeastDigits, kMostDigits));
 }
 
 /// Round numbers within the range, about `count` of them.
@@ -58,24 +71,12 @@ std::vector<double> TicksNear(const Range& range, double count) {
 
 }  // namespace
 
-bool IsShare(const std::string& column) {
-  const std::string ending = "success_rate";
-  return column.size() >= ending.size() && column.substr(column.size() - ending.size()) == ending;
-}
+bool IsShare(const std::string& column) { return EndsWith(column, "success_rate"); }
 
 std::string InWords(const std::string& column) {
   if (IsShare(column)) return WithBlanks(column) + ", %";
-  for (const auto& [ending, unit] : kUnits) {
-    const std::string end(ending);
-    if (column.size() <= end.size() || column.substr(column.size() - end.size()) != end) continue;
-    return fmt::format("{}, {}", WithBlanks(column.substr(0, column.size() - end.size())), unit);
-  }
-  return WithBlanks(column);
-}
-
-std::string WithBlanks(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+  const ColumnWords words = ColumnWordsOf(column);
+  return words.unit.empty() ? words.quantity : words.quantity + ", " + words.unit;
 }
 
 std::vector<double> Ticks(const Range& range, double count) {
@@ -86,9 +87,21 @@ std::vector<double> Ticks(const Range& range, double count) {
   return ticks;
 }
 
-std::string TickText(double value) {
-  const std::string text = fmt::format("{:.5g}", value);
-  return text.find('e') == std::string::npos ? WithCommas(text) : text;
+std::vector<double> TicksAcross(const Range& range, double width) {
+  return Ticks(range, width / kPointsPerTick);
+}
+
+std::vector<double> TicksUp(const Range& range, double height) {
+  return Ticks(range, height / kHeightPerTick);
+}
+
+std::string TickText(double value) { return InLetters(value, kLeastDigits); }
+
+std::vector<std::string> TickTexts(const std::vector<double>& ticks) {
+  const int digits = TickDigits(ticks);
+  std::vector<std::string> texts;
+  for (const double tick : ticks) texts.push_back(InLetters(tick, digits));
+  return texts;
 }
 
 Range SpanOf(const std::vector<double>& values) {
@@ -121,6 +134,14 @@ std::vector<PagePoint> Panel::Placed(const std::vector<PagePoint>& points) const
   return placed;
 }
 
+void Panel::DrawAxes(std::vector<Shape>* shapes) const {
+  const std::vector<double> across = TicksAcross(x_range_, width_);
+  const std::vector<double> up = TicksUp(y_range_, height_);
+  DrawGrid(across, up, shapes);
+  LabelLeft(up, shapes);
+  LabelBottom(across, shapes);
+}
+
 void Panel::DrawGrid(const std::vector<double>& x_ticks, const std::vector<double>& y_ticks,
                      std::vector<Shape>* shapes) const {
   constexpr double kHair = 0.5;
@@ -137,16 +158,18 @@ void Panel::DrawGrid(const std::vector<double>& x_ticks, const std::vector<doubl
 }
 
 void Panel::LabelLeft(const std::vector<double>& ticks, std::vector<Shape>* shapes) const {
-  for (const double tick : ticks) {
-    const PagePoint at{left() - kLabelGap, Place(0, tick).y + 0.35 * kSmallSize};
-    shapes->emplace_back(Words{at, TickText(tick), kSmallSize, Anchor::kEnd});
+  const std::vector<std::string> texts = TickTexts(ticks);
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const PagePoint at{left() - kLabelGap, Place(0, ticks[k]).y + 0.35 * kSmallSize};
+    shapes->emplace_back(Words{at, texts[k], kSmallSize, Anchor::kEnd});
   }
 }
 
 void Panel::LabelBottom(const std::vector<double>& ticks, std::vector<Shape>* shapes) const {
-  for (const double tick : ticks) {
-    const PagePoint at{Place(tick, 0).x, bottom() + kLabelGap + kSmallSize};
-    shapes->emplace_back(Words{at, TickText(tick), kSmallSize, Anchor::kMiddle});
+  const std::vector<std::string> texts = TickTexts(ticks);
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    const PagePoint at{Place(ticks[k], 0).x, bottom() + kLabelGap + kSmallSize};
+    shapes->emplace_back(Words{at, texts[k], kSmallSize, Anchor::kMiddle});
   }
 }
 

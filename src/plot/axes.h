@@ -16,15 +16,20 @@ bool IsShare(const std::string& column);
 /// "success rate, %".
 std::string InWords(const std::string& column);
 
-/// "target reached" of the name target_reached.
-std::string WithBlanks(std::string name);
-
 /// Round numbers (1, 2 or 5 times a power of ten apart) within the range, about `count` of them;
 /// more where one number would be all, as that is no scale.
 std::vector<double> Ticks(const Range& range, double count);
 
-/// A tick in letters: "12,500", "-0.02".
+/// Ticks of a lower axis of that width, and of a left axis of that height, in points: about as many
+/// as there is room for.
+std::vector<double> TicksAcross(const Range& range, double width);
+std::vector<double> TicksUp(const Range& range, double height);
+
+/// A number in letters, to five digits: "12,500", "-0.02".
 std::string TickText(double value);
+/// The ticks of an axis, evenly spaced, in letters: as TickText, but to as many digits as their
+/// step has, up to 15: "15,000", "15,000.2".
+std::vector<std::string> TickTexts(const std::vector<double>& ticks);
 
 /// Of the numbers among `values`, with some room around; 0 to 1 of none.
 Range Padded(const std::vector<double>& values);
@@ -47,6 +52,7 @@ class Panel {
   double right() const { return left_top_.x + width_; }
   double bottom() const { return left_top_.y + height_; }
   double width() const { return width_; }
+  double height() const { return height_; }
   const Range& x_range() const { return x_range_; }
   const Range& y_range() const { return y_range_; }
 
@@ -54,6 +60,8 @@ class Panel {
   /// `points` hold values.
   std::vector<PagePoint> Placed(const std::vector<PagePoint>& points) const;
 
+  /// The grid and its numbers, at ticks for which there is room.
+  void DrawAxes(std::vector<Shape>* shapes) const;
   /// Grey lines at the ticks, and the panel's left and lower edge.
   void DrawGrid(const std::vector<double>& x_ticks, const std::vector<double>& y_ticks,
                 std::vector<Shape>* shapes) const;

@@ -15,8 +15,7 @@
 namespace skein {
 namespace {
 
-constexpr double kHeightPerWidth = 0.55;
-constexpr double kPointsPerTick = 46, kHeightPerTick = 24, kRadius = 2.4;
+constexpr double kHeightPerWidth = 0.55, kRadius = 2.4;
 
 struct Polar {
   double altitude_ft = 0;
@@ -71,11 +70,7 @@ Picture DrawDragPolars(const FlownGrid& flown, double width, const std::string& 
   const double panel_width = width - kLeftOfPanel - kMargin;
   const Panel panel({kLeftOfPanel, top}, panel_width, kHeightPerWidth * panel_width, FromZero(drag),
                     FromZero(lift));
-  const auto across = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
-  const auto up = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
-  panel.DrawGrid(across, up, &shapes);
-  panel.LabelLeft(up, &shapes);
-  panel.LabelBottom(across, &shapes);
+  panel.DrawAxes(&shapes);
   std::vector<LegendEntry> entries;
   for (std::size_t i = 0; i < polars.size(); ++i) {
     const Polar& polar = polars[i];

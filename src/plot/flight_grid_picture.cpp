@@ -15,7 +15,6 @@ namespace skein {
 namespace {
 
 constexpr double kHeightPerWidth = 0.55;
-constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr Colour kFlown = 0x0072B2;
 constexpr int kShades = 4;
 
@@ -42,10 +41,8 @@ class GridDrawing {
     for (std::size_t i = 0; i < altitudes.size(); ++i) {
       for (std::size_t k = 0; k < speeds.size(); ++k) DrawCell(panel, i, k);
     }
-    const auto across = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
-    const auto up = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
-    panel.LabelLeft(up, &shapes_);
-    panel.LabelBottom(across, &shapes_);
+    panel.LabelLeft(TicksUp(panel.y_range(), panel.height()), &shapes_);
+    panel.LabelBottom(TicksAcross(panel.x_range(), panel.width()), &shapes_);
     panel.NameLeft("altitude, ft", &shapes_);
     panel.NameBottom("true airspeed, ft/s", &shapes_);
     const double bottom =

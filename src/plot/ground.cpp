@@ -64,6 +64,12 @@ int EveryNth(double dx, double dy, double width) {
   return 20;
 }
 
+/// Evenly spaced numbers in thousands.
+std::vector<std::string> ThousandsOf(std::vector<double> values) {
+  for (double& value : values) value /= kThousand;
+  return TickTexts(values);
+}
+
 double WidestOf(const std::vector<std::string>& lines) {
   double widest = 0;
   for (const std::string& line : lines) widest = std::max(widest, TextWidth(line, kSmallSize));
@@ -152,17 +158,16 @@ void Ground::DrawEdge(const View& view, bool is_along_north, double across,
     return is_along_north ? SpacePoint(value, across, floor_ft())
                           : SpacePoint(across, value, floor_ft());
   };
-  std::vector<std::string> numbers;
-  for (const double value : Multiples(along, step_ft_)) {
-    numbers.push_back(TickText(value / kThousand));
-  }
+  const std::vector<double> values = Multiples(along, step_ft_);
+  const std::vector<std::string> numbers = ThousandsOf(values);
   const double widest = WidestOf(numbers);
   const PagePoint first = view.Place(point(0)), next = view.Place(point(step_ft_));
   const int every = EveryNth(next.x - first.x, next.y - first.y, widest);
-  for (const double value : Multiples(along, step_ft_)) {
-    const bool is_shown = std::lround(value / step_ft_) % every == 0;
-    if (!is_shown || point(value) == LeftmostCorner(view)) continue;
-    Words words = Outside(view, point(value), outward, 7, TickText(value / kThousand));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const SpacePoint place = point(values[k]);
+    const bool is_shown = std::lround(values[k] / step_ft_) % every == 0;
+    if (!is_shown || place == LeftmostCorner(view)) continue;
+    Words words = Outside(view, place, outward, 7, numbers[k]);
     words.at.y += 3;
     shapes->emplace_back(words);
   }
@@ -191,15 +196,15 @@ void Ground::DrawAltitudes(const View& view, std::vector<Shape>* shapes) const {
   shapes->emplace_back(Line({bottom, {bottom.x, top}}, kGrey, 0.8));
   const double room = (bottom.y - top) / (1.5 * kSmallSize);
   double last = std::numeric_limits<double>::infinity();
-  for (const double level : Ticks(altitude_, std::min(room, kMostLevels))) {
-    const double y = height(level);
+  const std::vector<double> levels = Ticks(altitude_, std::min(room, kMostLevels));
+  const std::vector<std::string> numbers = ThousandsOf(levels);
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const double y = height(levels[k]);
     shapes->emplace_back(Line({{bottom.x - 3, y}, {bottom.x, y}}, kGrey, 0.8));
     if (last - y < kSmallSize + 1) continue;  // seen from above, the post is short
     last = y;
-    shapes->emplace_back(Words{{bottom.x - 5, y + 0.35 * kSmallSize},
-                               TickText(level / kThousand),
-                               kSmallSize,
-                               Anchor::kEnd});
+    shapes->emplace_back(
+        Words{{bottom.x - 5, y + 0.35 * kSmallSize}, numbers[k], kSmallSize, Anchor::kEnd});
   }
   double y = top - 7 - 1.2 * kSmallSize;
   for (const char* line : {"altitude,", "1000\u00a0ft"}) {

@@ -16,8 +16,7 @@
 namespace skein {
 namespace {
 
-constexpr double kHeightPerWidth = 0.9, kBelowPanel = 40;
-constexpr double kMapHeightPerWidth = 0.24, kPointsPerTick = 46, kHeightPerTick = 24;
+constexpr double kHeightPerWidth = 0.9, kMapHeightPerWidth = 0.24, kBelowPanel = 40;
 constexpr double kRadius = 2.2, kPale = 0.7;
 constexpr double kLeastPadding = 0.1;  // decades beyond the outermost figures
 
@@ -196,11 +195,7 @@ class LevelsDrawing {
     }
     for (const double damping : limits_.short_period_damping_max) up.push_back(damping);
     const Panel panel(corner, width, kHeightPerWidth * width, Padded(across), Padded(up));
-    const auto x_ticks = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
-    const auto y_ticks = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
-    panel.DrawGrid(x_ticks, y_ticks, &shapes_);
-    panel.LabelLeft(y_ticks, &shapes_);
-    panel.LabelBottom(x_ticks, &shapes_);
+    panel.DrawAxes(&shapes_);
     for (std::size_t level = 0; level < kLevelDashes.size(); ++level) {
       DrawLevelLine(panel, limits_.short_period_damping_min[level], kLevelDashes[level]);
       DrawLevelLine(panel, limits_.short_period_damping_max[level], kLevelDashes[level]);
@@ -224,11 +219,7 @@ class LevelsDrawing {
     const double width = width_ - kLeftOfPanel - kMargin;
     const Panel panel({kLeftOfPanel, top}, width, kMapHeightPerWidth * width, Padded(across),
                       Padded(up));
-    const auto x_ticks = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
-    const auto y_ticks = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
-    panel.DrawGrid(x_ticks, y_ticks, &shapes_);
-    panel.LabelLeft(y_ticks, &shapes_);
-    panel.LabelBottom(x_ticks, &shapes_);
+    panel.DrawAxes(&shapes_);
     panel.DrawHead("MIL-F-8785C, 3.2.2.1: the worse of the levels of frequency and damping",
                    &shapes_);
     panel.NameLeft("altitude, ft", &shapes_);

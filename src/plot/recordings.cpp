@@ -10,12 +10,13 @@
 #include <set>
 #include <utility>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "envs/aircraft/registry.h"
 #include "envs/env_config.h"
+#include "src/files/column_words.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
-#include "src/plot/axes.h"
 #include "src/plot/legend.h"
 
 namespace skein {
@@ -23,10 +24,7 @@ namespace {
 
 constexpr const char* kTargetPrefix = "target_";
 
-bool IsAngle(const std::string& column) {
-  const std::string ending = "_deg";
-  return column.size() > ending.size() && column.substr(column.size() - ending.size()) == ending;
-}
+bool IsAngle(const std::string& column) { return EndsWith(column, "_deg"); }
 
 /// The same angles without jumps of 360 degrees.
 std::vector<double> Unwrapped(std::vector<double> degrees) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/range.h"
 #include "src/evaluation/flight_table.h"
 #include "src/files/csv_columns.h"
 #include "src/plot/picture.h"
@@ -22,7 +23,9 @@ struct DrawnFlight {
   /// Throws Error if there is no such column.
   const std::vector<double>& Column(const std::string& name) const;
   bool Has(const std::string& name) const { return table.Find(name) != nullptr; }
-  double duration_s() const { return Column("time_s").back(); }
+  /// Of its first row and its last.
+  Range times_s() const { return {Column("time_s").front(), Column("time_s").back()}; }
+  double duration_s() const { return times_s().max - times_s().min; }
 
   /// What was flown, and what the target asks for (empty without a target), as values over time,
   /// without what is no number. Angles go on beyond 180 degrees, and targets lie beside them.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/number_text.h"
@@ -16,7 +17,6 @@ namespace skein {
 namespace {
 
 constexpr double kHeightPerWidth = 0.9;
-constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr double kRadius = 2, kPale = 0.75;
 constexpr std::size_t kMostMarkers = 2 * kMarkers.size();  // full, then hollow
 
@@ -25,6 +25,18 @@ bool IsAnyMode(const FlightMode&) { return true; }
 /// Of the modes that are far slower than the others.
 bool IsPhugoidOrSpiral(const FlightMode& mode) {
   return mode.family == ModeFamily::kPhugoid || mode.family == ModeFamily::kSpiral;
+}
+
+/// "short period" of "short period, real".
+std::string NameOf(const FlightMode& mode) { return mode.name.substr(0, mode.name.find(',')); }
+
+/// The same in every picture, of each of the names that FindFlightModes gives.
+Colour ColourOfMode(const std::string& name) {
+  static const std::map<std::string, Colour> colours = {
+      {"short period", ColourOf(0)}, {"phugoid", ColourOf(1)}, {"Dutch roll", ColourOf(2)},
+      {"roll", ColourOf(3)},         {"spiral", ColourOf(4)},  {"third oscillatory", ColourOf(5)},
+      {"roll-spiral", kInk}};
+  return colours.at(name);
 }
 
 class LocusDrawing {
@@ -36,8 +48,7 @@ class LocusDrawing {
       speeds.push_back(flight.request.true_airspeed_ft_s);
       altitudes_.emplace(flight.request.altitude_ft, 0);
       for (const FlightMode& mode : flight.modes) {
-        const std::string name = mode.name.substr(0, mode.name.find(','));
-        colours_.emplace(name, ColourOf(colours_.size()));
+        names_.insert(NameOf(mode));
       }
     }
     speeds_ = SpanOf(speeds);
@@ -70,11 +81,7 @@ class LocusDrawing {
       }
     }
     const Panel panel(corner, width, kHeightPerWidth * width, Padded(real), Padded(imaginary));
-    const auto across = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
-    const auto up = Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
-    panel.DrawGrid(across, up, &shapes_);
-    panel.LabelLeft(up, &shapes_);
-    panel.LabelBottom(across, &shapes_);
+    panel.DrawAxes(&shapes_);
     panel.DrawCurve({{0, panel.y_range().min}, {0, panel.y_range().max}}, kInk, 0.8, Dash::kNone,
                     &shapes_);
     panel.DrawHead(head, &shapes_);
@@ -89,7 +96,7 @@ class LocusDrawing {
     const std::size_t altitude = altitudes_.at(flight.request.altitude_ft);
     for (const FlightMode& mode : flight.modes) {
       if (!is_shown(mode)) continue;
-      const Colour colour = colours_.at(mode.name.substr(0, mode.name.find(',')));
+      const Colour colour = ColourOfMode(NameOf(mode));
       shapes_.push_back(MarkerAt(panel.Place(mode.eigenvalue.real(), mode.eigenvalue.imag()),
                                  MarkerOf(altitude),
                                  LookOf(altitude, Mixed(colour, kWhite, kPale * (1 - share)))));
@@ -109,8 +116,8 @@ class LocusDrawing {
 
   std::vector<LegendEntry> Entries() const {
     std::vector<LegendEntry> entries;
-    for (const auto& [name, colour] : colours_) {
-      entries.push_back({MarkerSample(Marker::kDisc, LookOf(0, colour)), name});
+    for (const std::string& name : names_) {
+      entries.push_back({MarkerSample(Marker::kDisc, LookOf(0, ColourOfMode(name))), name});
     }
     if (speeds_.max > speeds_.min) {
       entries.push_back(
@@ -134,7 +141,7 @@ class LocusDrawing {
   double width_;
   Range speeds_;
   std::map<double, std::size_t> altitudes_;  ///< and their numbers, from below
-  std::map<std::string, Colour> colours_;
+  std::set<std::string> names_;              ///< of the modes that there are
   std::vector<Shape> shapes_;
 };
 

@@ -47,9 +47,9 @@ std::vector<PagePoint> ValuesOf(const RunRecord& run, const std::string& column)
   for (const RunRecord& run : setting.runs) paths.push_back(run.path);
   const std::string last = paths.back();
   paths.pop_back();
-  throw ChoiceError(
-      fmt::format("{} and {} have no control steps in common for {}; leave out --seeds",
-                  fmt::join(paths, ", "), last, column));
+  throw ChoiceError(fmt::format(
+      "{} and {} have no control steps in common for {}; --seeds 1 draws each for itself",
+      fmt::join(paths, ", "), last, column));
 }
 
 /// Settings of one task that have the same name are called by the paths of their first runs.
@@ -92,6 +92,7 @@ double Interpolated(const std::vector<PagePoint>& curve, double x) {
   const auto after =
       std::lower_bound(curve.begin(), curve.end(), x,
                        [](const PagePoint& point, double wanted) { return point.x < wanted; });
+  if (after == curve.end()) return curve.back().y;
   if (after->x == x || after == curve.begin()) return after->y;
   const PagePoint &a = *(after - 1), &b = *after;
   return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);

@@ -33,7 +33,7 @@ void LeaveOutRunsWithoutValues(const std::vector<std::string>& columns,
 /// the runs have values, but none over the same control steps.
 SeedCurve CurveOf(const CurveSetting& setting, const std::string& column);
 
-/// The value at x of a curve, which lies between its first point and its last.
+/// The value at x of a curve of one point or more; beyond its ends that of the end.
 double Interpolated(const std::vector<PagePoint>& curve, double x);
 
 /// Of the quickest run: the others had less of their machine. Nothing without recorded times.

@@ -66,11 +66,14 @@ class HistoryDrawing {
         options_(options),
         episodes_(EpisodesOf(recordings)),
         rows_(options.columns.empty() ? RowsOf(recordings) : options.columns) {
+    std::vector<double> times;
     for (const DrawnEpisode& episode : episodes_) {
       for (const DrawnEpisode::Entry& entry : episode.flights) {
-        times_.max = std::max(times_.max, entry.flight->duration_s());
+        const Range own = entry.flight->times_s();
+        times.insert(times.end(), {own.min, own.max});
       }
     }
+    times_ = SpanOf(times);
     const auto count = static_cast<double>(episodes_.size());
     panel_width_ = (options.width - kMargin - left_ - (count - 1) * kAside) / count;
   }
@@ -239,7 +242,7 @@ class HistoryDrawing {
   const HistoryOptions& options_;
   std::vector<DrawnEpisode> episodes_;
   std::vector<std::string> rows_;
-  Range times_{0, 0};
+  Range times_;
   bool has_own_targets_ = false;  ///< whether a cell was drawn with them
   double left_ = kMostLabelWidth, panel_width_ = 0;
   std::vector<Shape> shapes_;

@@ -82,17 +82,16 @@ class TracksDrawing {
   }
 
   Panel AltitudePanel(double top) const {
-    std::vector<double> altitudes;
-    Range times{0, 0};
+    std::vector<double> altitudes, times;
     for (const Track& track : tracks_) {
       for (const SpacePoint& point : track.points) altitudes.push_back(point.z());
       for (const PagePoint& point : track.flight->Target("altitude_ft")) {
         altitudes.push_back(point.y);
       }
-      times.max = std::max(times.max, track.times.back());
+      times.insert(times.end(), {track.flight->times_s().min, track.times.back()});
     }
     Range range = Padded(altitudes);
-    return Panel({kLeft, top}, width(), kAltitudeHeight, times,
+    return Panel({kLeft, top}, width(), kAltitudeHeight, SpanOf(times),
                  {range.min / kThousand, range.max / kThousand});
   }
 

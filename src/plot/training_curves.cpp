@@ -20,7 +20,6 @@ namespace {
 constexpr double kBandOpacity = 0.2;
 constexpr double kLeft = 40, kAside = 40, kLeastPanelWidth = 100;
 constexpr double kHeightPerWidth = 0.7, kMostHeight = 170;
-constexpr double kPointsPerTick = 46, kHeightPerTick = 24;
 constexpr std::size_t kMostDots = 40;  // that still show where a curve has points
 constexpr double kCurveWidth = 1.4;
 
@@ -207,12 +206,7 @@ class CurveDrawing {
   void DrawPanel(const Panel& panel, const std::string& task, const std::string& column,
                  const std::vector<SeedCurve>& curves) {
     const std::vector<std::size_t> own = SettingsIn(task);
-    const std::vector<double> across = Ticks(panel.x_range(), panel.width() / kPointsPerTick);
-    const std::vector<double> up =
-        Ticks(panel.y_range(), (panel.bottom() - panel.top()) / kHeightPerTick);
-    panel.DrawGrid(across, up, &shapes_);
-    panel.LabelLeft(up, &shapes_);
-    panel.LabelBottom(across, &shapes_);
+    panel.DrawAxes(&shapes_);
     panel.NameBottom("control steps, million", &shapes_);
     for (const std::size_t k : own) {
       panel.DrawBand(curves[k].low, curves[k].high, StyleFor(k).colour, kBandOpacity, &shapes_);
@@ -283,7 +277,7 @@ class CurveDrawing {
     const double last = panel.x_range().max * least;
     shapes_.emplace_back(
         Line({{panel.left(), panel.top()}, {panel.right(), panel.top()}}, kGrey, 0.6));
-    for (const double minutes : Ticks({0, last}, panel.width() / kPointsPerTick)) {
+    for (const double minutes : TicksAcross({0, last}, panel.width())) {
       const double x = panel.Place(minutes / least, 0).x;
       shapes_.emplace_back(Line({{x, panel.top()}, {x, panel.top() - 3}}, kGrey, 0.6));
       shapes_.emplace_back(

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/ends_with.h"
 #include "envs/aircraft/aircraft.h"
 #include "envs/aircraft/units.h"
+#include "src/files/column_words.h"
 #include "src/replay/flat_earth.h"
 
 namespace skein {
@@ -16,25 +16,23 @@ namespace {
 
 constexpr double kMarkerDistance_ft = 6076.115;  // a nautical mile
 
-/// What a column's unit is in ACMI files, by the end of its name.
-struct Unit {
-  const char* ending;
-  const char* name;
+/// A unit of ACMI files, and how many of it one of the column's own is.
+struct AcmiUnit {
+  std::string name;
   double factor;
 };
-constexpr Unit kUnits[] = {
-    {"_ft", "m", kMetresPerFoot}, {"_fps", "m/s", kMetresPerFoot}, {"_deg", "deg", 1}, {"", "", 1}};
 
-Unit UnitOf(const std::string& column) {
-  return *std::find_if(std::begin(kUnits), std::end(kUnits),
-                       [&](const Unit& unit) { return EndsWith(column, unit.ending); });
+AcmiUnit AcmiUnitOf(const std::string& unit) {
+  if (unit == "ft") return {"m", kMetresPerFoot};
+  if (unit == "ft/s") return {"m/s", kMetresPerFoot};
+  return {unit, 1};
 }
 
-/// "true_airspeed_fps" is "true airspeed".
-std::string Words(const std::string& column, const Unit& unit) {
-  std::string words = column.substr(0, column.size() - std::string(unit.ending).size());
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
+/// One, and more where a tolerance needs them for two significant digits.
+int DecimalsFor(double tolerance) {
+  constexpr double kMostDecimals = 9;
+  if (!(tolerance > 0)) return 1;
+  return static_cast<int>(std::clamp(1 - std::floor(std::log10(tolerance)), 1.0, kMostDecimals));
 }
 
 std::string Metres(double feet) { return AcmiNumber(feet * kMetresPerFoot, 2); }
@@ -78,11 +76,14 @@ bool AcmiTarget::IsPoint() const {
 std::string AcmiTarget::Describe(std::size_t row) const {
   std::string text;
   for (const TargetQuantity& quantity : quantities_) {
-    const Unit unit = UnitOf(quantity.column);
+    const ColumnWords words = ColumnWordsOf(quantity.column);
+    const AcmiUnit unit = AcmiUnitOf(words.unit);
     const double value = flight_.Column(std::string("target_") + quantity.column)[row];
-    text += fmt::format("{}{} {} +- {} {}", text.empty() ? "" : ", ", Words(quantity.column, unit),
-                        AcmiNumber(value * unit.factor, 1),
-                        AcmiNumber(quantity.tolerance * unit.factor, 1), unit.name);
+    const double tolerance = quantity.tolerance * unit.factor;
+    const int decimals = DecimalsFor(tolerance);
+    text += fmt::format("{}{} {} +- {}{}{}", text.empty() ? "" : ", ", words.quantity,
+                        AcmiNumber(value * unit.factor, decimals), AcmiNumber(tolerance, decimals),
+                        unit.name.empty() ? "" : " ", unit.name);
   }
   return text;
 }

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/choice_error.h"
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "src/config/configuration.h"
 #include "src/files/shell_text.h"
@@ -37,8 +38,7 @@ std::string WithoutTrailingSlashes(const std::string& path) {
 std::optional<std::uint64_t> IterationOf(const std::string& name) {
   const std::string prefix = kCheckpointPrefix, extension = kExtension;
   if (name.size() <= prefix.size() + extension.size() ||
-      name.compare(0, prefix.size(), prefix) != 0 ||
-      name.compare(name.size() - extension.size(), std::string::npos, extension) != 0) {
+      name.compare(0, prefix.size(), prefix) != 0 || !EndsWith(name, extension)) {
     return std::nullopt;
   }
   std::uint64_t iteration = 0;

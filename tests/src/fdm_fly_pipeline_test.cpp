@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/files/csv_columns.h"
@@ -310,6 +311,17 @@ TEST_F(FdmFly, AFlightHasAtLeastOneStep) {
     EXPECT_EQ(result.error,
               "skein: error: 0.001 s are less than a step of 0.02 s: raise --seconds\n");
     EXPECT_FALSE(fs::exists(folder_ + "/none.csv"));
+  }
+}
+
+TEST_F(FdmFly, SaysHowLongItFlew) {
+  for (const auto& [asked, flown] :
+       {std::pair("0.02", "0.02"), std::pair("0.03", "0.04"), std::pair("0.3", "0.3")}) {
+    const std::string path = folder_ + "/short.csv";
+    const ProgramResult result = CallSkein({"fdm", "fly", "--altitude-ft", "20000", "--speed-fps",
+                                            "1000", "--seconds", asked, "-o", path});
+    EXPECT_THAT(result.output, HasSubstr(std::string(" for ") + flown + " s: "));
+    EXPECT_EQ(ParseCsv(ReadFile(path)).Find("time_s")->back(), std::stod(flown));
   }
 }
 

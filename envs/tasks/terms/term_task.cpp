@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/state/attitude.h"
@@ -43,12 +44,8 @@ double StartOf(const FlightStart& start, TermValue value) {
 std::string UnitOf(TermValue value) {
   for (const TermName& name : TermNames()) {
     if (name.value != value || name.per_value != 1) continue;
-    const std::string text = name.name;
     for (const char* unit : {"_deg_s", "_rad", "_ft", "_fps", "_g", "_deg"}) {
-      const std::size_t place = text.rfind(unit);
-      if (place != std::string::npos && place + std::string(unit).size() == text.size()) {
-        return unit;
-      }
+      if (EndsWith(name.name, unit)) return unit;
     }
   }
   return "";

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/number_text.h"
 #include "envs/aircraft/registry.h"
 #include "src/fdm/flight_grid.h"
 #include "src/plot/drag_polar_picture.h"
@@ -85,6 +86,38 @@ TEST(AxisWords, NumbersHaveSeparators) {
   EXPECT_EQ(TickText(-1250), "-1,250");
   EXPECT_EQ(TickText(-0.02), "-0.02");
   EXPECT_EQ(TickText(100), "100");
+}
+
+/// The number that letters with separators are.
+double NumberIn(std::string letters) {
+  letters.erase(std::remove(letters.begin(), letters.end(), ','), letters.end());
+  return NumberOf(letters).value_or(std::nan(""));
+}
+
+TEST(AxisWords, NumbersOfAnAxisAreItsTicksHoweverSmallTheStep) {
+  constexpr double kOfStep = 1e-6;  // that the last digit and rounding in float64 leave
+  for (const Range& range : {Range{15000, 15000.5},
+                             {14998, 15003},
+                             {15, 15.0004},
+                             {-1000.3, -999.9},
+                             {99990, 100012},
+                             {1e8, 1e8 + 10},
+                             {0, 1},
+                             {-3.2, 17.9}}) {
+    const std::vector<double> ticks = Ticks(range, 5);
+    const double step = ticks[1] - ticks[0];
+    const Panel panel({100, 100}, 100, 100, range, range);
+    Picture left, below;
+    panel.LabelLeft(ticks, &left.shapes);
+    panel.LabelBottom(ticks, &below.shapes);
+    for (const Picture& picture : {left, below}) {
+      const std::vector<Words> numbers = WordsIn(picture);
+      ASSERT_EQ(numbers.size(), ticks.size());
+      for (std::size_t k = 0; k < ticks.size(); ++k) {
+        EXPECT_NEAR(NumberIn(numbers[k].text), ticks[k], kOfStep * step) << numbers[k].text;
+      }
+    }
+  }
 }
 
 TEST(Panels, HaveNamesBesideTheirNumbersAndAHeadAbove) {

@@ -398,6 +398,42 @@ TEST_F(FlightPictures, AFileShowsAMissionByItsNewTargets) {
   EXPECT_EQ(end("1000", "time_limit"), "time limit; 2.0\u00a0s flown");
 }
 
+TEST_F(FlightPictures, ARecordingMayBeginAtAnyTime) {
+  constexpr Tolerance kRounding{1e-6, "of times of some thousand s in float64, on the page"};
+  const auto recorded = [&](double start_s) {
+    std::string rows =
+        "episode,time_s,north_ft,east_ft,altitude_ft,roll_deg,pitch_deg,yaw_deg,termination\n";
+    for (int k = 0; k < 60; ++k) {
+      rows += fmt::format("0,{},{},0,{},0,0,0,\n", start_s + 0.1 * k, 50 * k, 20000 + k);
+    }
+    WriteFile(scratch_ / "recording.csv", rows);
+    return ReadRecordings({scratch_ / "recording.csv"});
+  };
+  /// Where lines in the agent's colour begin and end.
+  const auto ends = [](const Picture& picture) {
+    std::vector<double> across;
+    for (const Shape& shape : picture.shapes) {
+      const auto* const path = std::get_if<Path>(&shape);
+      if (path == nullptr || path->is_closed || path->stroke != ColourOf(0)) continue;
+      across.insert(across.end(), {path->points.front().x, path->points.back().x});
+    }
+    return across;
+  };
+  const Recordings early = recorded(0), late = recorded(1000);
+  EXPECT_EQ(EndOf(early.agents[0].flights[0]), "5.9\u00a0s flown");
+  EXPECT_EQ(EndOf(late.agents[0].flights[0]), "5.9\u00a0s flown");
+  const auto expect_alike = [&](const Picture& a, const Picture& b) {
+    const std::vector<double> wanted = ends(a), drawn = ends(b);
+    ASSERT_FALSE(wanted.empty());
+    ASSERT_EQ(drawn.size(), wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_NEAR(drawn[k], wanted[k], kRounding);
+  };
+  HistoryOptions histories;
+  histories.columns = {"altitude_ft"};
+  expect_alike(TimeHistories(early, histories), TimeHistories(late, histories));
+  expect_alike(TracksPicture(early, {}), TracksPicture(late, {}));
+}
+
 TEST_F(FlightPictures, WhatCannotBeDrawnIsSaid) {
   const std::string flights = Write("a.csv", 2), other = Write("b.csv", 2, "height_ft");
   const auto choosing = [&](const RecordingChoice& choice) {

@@ -6,10 +6,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <variant>
 
+#include "base/number_text.h"
 #include "src/plot/aircraft_glyph.h"
 #include "src/plot/ground.h"
+#include "tests/src/plot/legible.h"
 
 namespace skein {
 namespace {
@@ -119,6 +123,20 @@ TEST(GroundTest, LiesUnderAllPoints) {
     EXPECT_LT(ground.floor_ft(), point.z());
     EXPECT_GE(ground.ceiling_ft(), point.z());
   }
+}
+
+TEST(GroundTest, NumbersDifferHoweverSmallTheGrid) {
+  const Ground ground({{15000, 25000, 5000}, {15001, 25001, 5000.5}});
+  View view(30, 30);
+  view.PutOrigin({0, 0}, 500);
+  Picture picture;
+  picture.shapes = ground.Draw(view);
+  std::vector<std::string> numbers;  // of north, east and altitude, which have none in common
+  for (const Words& words : WordsIn(picture)) {
+    if (NumberOf(words.text)) numbers.push_back(words.text);
+  }
+  EXPECT_GE(numbers.size(), 9u);
+  EXPECT_EQ(std::set<std::string>(numbers.begin(), numbers.end()).size(), numbers.size());
 }
 
 TEST(GroundTest, OfOnePointHasASize) {

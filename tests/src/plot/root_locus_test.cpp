@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <complex>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,6 +19,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::Pair;
 
 constexpr double kWidth = 500;
 
@@ -157,6 +160,38 @@ TEST(RootLocus, DotsLieAtTheirEigenvalues) {
   EXPECT_GE(below, 0);
   EXPECT_LT(below, kSmallSize);
   EXPECT_NEAR(PlaceOfNumber(picture, Anchor::kEnd, "2").y - short_period.y, below, kPoints);
+}
+
+/// The colours of the legend, by what stands beside them.
+std::map<std::string, Colour> ColoursOf(const std::vector<FlightMode>& modes) {
+  LinearisedFlight flight = FlightAt(5000, 400);
+  flight.modes = modes;
+  const Picture picture = DrawRootLocus({flight}, kWidth, "");
+  std::map<std::string, Colour> colours;
+  for (std::size_t k = 0; k + 1 < picture.shapes.size(); ++k) {
+    const auto* const disc = std::get_if<Disc>(&picture.shapes[k]);
+    const auto* const words = std::get_if<Words>(&picture.shapes[k + 1]);
+    if (disc != nullptr && words != nullptr) colours[words->text] = *disc->fill;
+  }
+  return colours;
+}
+
+TEST(RootLocus, EveryModeHasAColourOfItsOwnWhateverIsDrawnBesideIt) {
+  std::vector<FlightMode> modes;
+  for (const char* name : {"short period", "third oscillatory", "phugoid", "Dutch roll",
+                           "roll-spiral", "roll", "spiral"}) {
+    modes.push_back(ModeOf(name, ModeFamily::kShortPeriod, {-1, 2}));
+  }
+  const std::map<std::string, Colour> together = ColoursOf(modes);
+  std::set<Colour> colours;
+  for (const auto& [name, colour] : together) colours.insert(colour);
+  EXPECT_EQ(colours.size(), modes.size());
+  for (const FlightMode& mode : modes) {
+    EXPECT_THAT(ColoursOf({mode}), ElementsAre(Pair(mode.name, together.at(mode.name))));
+    LinearisedFlight flight = FlightAt(5000, 400);
+    flight.modes = {mode};
+    EXPECT_EQ(Dots(DrawRootLocus({flight}, kWidth, ""), 1)[0].first, together.at(mode.name));
+  }
 }
 
 TEST(RootLocus, OtherModesDoNotSetTheRangeOfTheEnlargedPanel) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -172,7 +173,14 @@ TEST(TrainingCurvesTest, RunsWithoutCommonStepsAreNotPutTogether) {
       "heading", "", {RunOf("a", {0.1, 0.2}), RunOf("b", {none, none, 0.4, 0.5})}};
   EXPECT_THAT(MessageOf([&] { CurveOf(setting, "evaluation_success_rate"); }),
               HasSubstr("a and b have no control steps in common for evaluation_success_rate; "
-                        "leave out --seeds"));
+                        "--seeds 1 draws each for itself"));
+}
+
+TEST(TrainingCurvesTest, ACurveGoesOnBeyondItsEndsAsItEnds) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<PagePoint> curve = {{0.1, 3}, {0.7, 5}};
+  EXPECT_EQ(Interpolated(curve, std::nextafter(0.1, -kInfinity)), 3);
+  EXPECT_EQ(Interpolated(curve, std::nextafter(0.7, kInfinity)), 5);
 }
 
 TEST(TrainingCurvesTest, EachTaskHasAPanel) {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "envs/aircraft/aircraft.h"
+#include "src/replay/acmi_target.h"
 #include "tests/src/replay/acmi_reader.h"
 #include "tests/tolerance.h"
 
@@ -221,6 +222,25 @@ TEST_F(AcmiFlightsTest, HeadingsAreMarkedAheadAtTheAltitudeAskedFor) {
   EXPECT_NEAR(std::stod(target.property("Height")), 2 * 100 * kMetresPerFoot, kHundredths);
   EXPECT_THAT(target.property("Label"), HasSubstr("yaw "));
   EXPECT_THAT(target.property("Label"), HasSubstr("+- 5 deg"));
+}
+
+TEST(AcmiTargetTest, WordsHaveEveryUnitAndShowEveryTolerance) {
+  const std::vector<TargetQuantity> quantities = {{"altitude_ft", false, 1, 100},
+                                                  {"true_airspeed_fps", false, 1, 0.1},
+                                                  {"yaw_deg", true, 1, 5},
+                                                  {"p_deg_s", false, 1, 2.5},
+                                                  {"load_factor_g", false, 1, 0.02},
+                                                  {"mach", false, 1, 0.004},
+                                                  {"power", false, 1, 0}};
+  FlightTable flight;
+  for (const TargetQuantity& quantity : quantities) {
+    flight.names.push_back(std::string("target_") + quantity.column);
+  }
+  flight.columns = {{5000}, {1000}, {10}, {-30}, {2.7}, {0.8}, {50}};
+  flight.terminations = {Termination::kNone};
+  EXPECT_EQ(AcmiTarget(quantities, flight).Describe(0),
+            "altitude 1524 +- 30.5 m, true airspeed 304.8 +- 0.03 m/s, yaw 10 +- 5 deg, "
+            "p -30 +- 2.5 deg/s, load factor 2.7 +- 0.02 g, mach 0.8 +- 0.004, power 50 +- 0");
 }
 
 TEST_F(AcmiFlightsTest, MissionsShowEveryTargetAndWhenItIsReached) {
