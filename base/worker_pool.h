@@ -20,8 +20,9 @@ class WorkerPool {
   int threads() const { return threads_; }  ///< of the pool, at least 1
 
   /// Calls body(index, worker) once for every index in [0, count), each on some worker in [0,
-  /// threads()); returns when all have run. Calls of one worker never overlap. The first exception
-  /// is rethrown, and which of the others have run by then is open.
+  /// threads()); returns when all have run. Calls of one worker never overlap if one thread
+  /// at a time calls ForEach on a pool; a body that does so calls within its own. The first
+  /// exception is rethrown, and which of the others have run by then is open.
   void ForEach(int count, const std::function<void(int index, int worker)>& body);
 
   /// From now on, workers that have nothing to do sleep only after 0.2 ms, so that a ForEach that

@@ -51,7 +51,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # The libraries are archives: programs that use them link these packages' libraries; the modules lie in skein.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "skein (= ${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), libeigen3-dev, libhwy-dev, libtbb-dev, \
-nlohmann-json3-dev, pkgconf | pkg-config")
+pkgconf | pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "${about}
 This package has headers, libraries and the CMake package: find_package(skein)

@@ -35,6 +35,7 @@ set(SKEIN_PUBLIC_HEADERS
     envs/air/gravity.h
     envs/aircraft/aerodynamic_tables.h
     envs/aircraft/aircraft.h
+    envs/aircraft/engine.h
     envs/aircraft/flight_control_gains.h
     envs/aircraft/registry.h
     envs/autopilot/autopilot.h

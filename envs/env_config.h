@@ -34,11 +34,14 @@ struct EnvConfig {
   std::shared_ptr<const TermTaskConfig> term_task;
   /// Its TermTaskConfig::hash and TermTaskConfig::interface, empty without: what files say it was.
   std::string task_file_hash, task_interface;
+  /// As LoadAircraft takes it. Nothing else follows it: cg, drag, thrust, starts, targets and
+  /// limits are the F-16's until they are set, as the program does from presets and
+  /// AircraftSettings.
   std::string aircraft = "f16";
   AtmosphereModel atmosphere = AtmosphereModel::kStevensLewis;
   Gravity gravity;
   FlightControlMode flight_control = FlightControlMode::kFull;
-  double cg = 0.30;                    ///< fraction of the mean chord
+  double cg = 0.30;  ///< fraction of the mean chord, whatever the aircraft's file says
   double engine_angular_momentum = 0;  ///< slug ft^2/s
   bool thrust_grows = false;  ///< above Mach 1 (Aircraft::engine); false: held at its value there
   bool drag_rises = false;    ///< with the Mach number (Aircraft::drag_rise)

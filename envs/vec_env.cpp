@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/vec_env.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -28,6 +30,17 @@ int RequireTileSize(int tile_size) {
   if (tile_size >= 1) return tile_size;
   throw Error("environment: tiles of " + std::to_string(tile_size) +
               " aircraft, but a tile must have at least 1");
+}
+
+void RequireTile(int tile, int num_tiles) {
+  if (tile >= 0 && tile < num_tiles) return;
+  throw Error("environment: no tile " + std::to_string(tile) + " among " +
+              std::to_string(num_tiles));
+}
+
+void RequireColumn(int column) {
+  if (column >= 0 && column < kNumRotationalGustColumns) return;
+  throw Error("environment: no state column " + std::to_string(column));
 }
 
 }  // namespace
@@ -71,14 +84,21 @@ const EnvConfig& VecEnv::config() const { return impl_->stepper.config(); }
 int VecEnv::num_aircraft() const { return impl_->storage.num_aircraft(); }
 int VecEnv::first_aircraft() const { return impl_->stepper.first_aircraft(); }
 int VecEnv::num_tiles() const { return impl_->storage.num_tiles(); }
-int VecEnv::tile_begin(int tile) const { return impl_->storage.tile_begin(tile); }
-int VecEnv::tile_count(int tile) const { return impl_->storage.tile_count(tile); }
+int VecEnv::tile_begin(int tile) const {
+  RequireTile(tile, num_tiles());
+  return impl_->storage.tile_begin(tile);
+}
+int VecEnv::tile_count(int tile) const {
+  RequireTile(tile, num_tiles());
+  return impl_->storage.tile_count(tile);
+}
 int VecEnv::observation_size() const { return impl_->stepper.observation_size(); }
 int VecEnv::action_size() const { return impl_->stepper.action_size(); }
 
 void VecEnv::Observe(int tile, float* observation) const {
   const DenormalsFlushed flushed;
-  for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
+  const int count = tile_count(tile);
+  for (int begin = 0; begin < count; begin += kAircraftPerBlock) {
     impl_->stepper.Observe(impl_->storage.BlockAt(tile, begin),
                            observation + static_cast<std::size_t>(begin * observation_size()));
   }
@@ -92,7 +112,8 @@ std::vector<std::string> VecEnv::privileged_names() const {
 void VecEnv::ObservePrivileged(int tile, float* rows) const {
   const DenormalsFlushed flushed;
   const auto size = static_cast<std::size_t>(privileged_size());
-  for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
+  const int count = tile_count(tile);
+  for (int begin = 0; begin < count; begin += kAircraftPerBlock) {
     impl_->stepper.ObservePrivileged(impl_->storage.BlockAt(tile, begin),
                                      rows + static_cast<std::size_t>(begin) * size);
   }
@@ -101,7 +122,8 @@ void VecEnv::ObservePrivileged(int tile, float* rows) const {
 void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
   // Also where the caller's thread does not: results must not depend on who drives the tile.
   const DenormalsFlushed flushed;
-  for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
+  const int count = tile_count(tile);
+  for (int begin = 0; begin < count; begin += kAircraftPerBlock) {
     const std::size_t row = static_cast<std::size_t>(begin);
     StepOutput part = output;
     part.reward += begin;
@@ -125,7 +147,8 @@ void VecEnv::Step(int tile, const float* action, const StepOutput& output) {
 
 void VecEnv::Restart(int tile, const bool* begins) {
   const DenormalsFlushed flushed;
-  for (int begin = 0; begin < tile_count(tile); begin += kAircraftPerBlock) {
+  const int count = tile_count(tile);
+  for (int begin = 0; begin < count; begin += kAircraftPerBlock) {
     const EnvBlock block = impl_->storage.BlockAt(tile, begin);
     for (int i = 0; i < block.count; ++i) {
       if (begins[begin + i]) impl_->stepper.BeginNextEpisode(block, i);
@@ -171,11 +194,22 @@ void VecEnv::Restore(const std::vector<std::uint32_t>& snapshot) {
 }
 
 float VecEnv::StateOf(int aircraft, int column) const {
-  if (column < 0 || column >= kNumRotationalGustColumns) {
-    throw Error("environment: no state column " + std::to_string(column));
-  }
+  RequireColumn(column);
   const Tile flight = impl_->storage.BlockFrom(aircraft).flight;
   return column < flight.num_columns() ? flight[column][0] : 0;
+}
+
+void VecEnv::ReadColumn(int tile, int column, float* values) const {
+  RequireColumn(column);
+  const int count = tile_count(tile);
+  for (int begin = 0; begin < count; begin += kAircraftPerBlock) {
+    const EnvBlock block = impl_->storage.BlockAt(tile, begin);
+    if (column < block.flight.num_columns()) {
+      std::copy_n(block.flight[column], block.count, values + begin);
+    } else {
+      std::fill_n(values + begin, block.count, 0.0f);
+    }
+  }
 }
 
 std::vector<float> VecEnv::TargetOf(int aircraft) const {
@@ -192,6 +226,9 @@ void VecEnv::SetTarget(int aircraft, const std::vector<float>& target) {
   if (target.size() != static_cast<std::size_t>(task.num_targets())) {
     throw Error("environment: a target of " + std::to_string(target.size()) +
                 " numbers, but the task's have " + std::to_string(task.num_targets()));
+  }
+  if (!std::all_of(target.begin(), target.end(), [](float x) { return std::isfinite(x); })) {
+    throw Error("environment: a target that is not finite");
   }
   const Tile columns = impl_->storage.BlockFrom(aircraft).task;
   for (std::size_t k = 0; k < target.size(); ++k) columns[static_cast<int>(k)][0] = target[k];

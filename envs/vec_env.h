@@ -14,8 +14,9 @@
 namespace skein {
 
 /// N aircraft flying one task, as independent tiles. Tiles may be driven from different threads at
-/// once, each by one. Every number depends only on (config, seed, aircraft index, actions): not on
-/// tile size, threads or the other aircraft.
+/// once, each by one; Error is thrown where there is no such tile, aircraft or column. Every number
+/// depends only on (config, seed, aircraft index, actions): not on tile size, threads or the other
+/// aircraft.
 ///
 /// Without a low-level policy, actions are throttle and sticks. With one, they are a high-level
 /// policy's, and the low-level policy flies.
@@ -24,6 +25,9 @@ class VecEnv {
   /// Aircraft get the indices [0, num_aircraft). `tile_size` is rounded up to a multiple of 32.
   /// Throws Error on a configuration that cannot be flown. All aircraft start in a fresh episode.
   /// The first flies as aircraft `first_aircraft` of a larger environment does, and so on.
+  /// Of `low_level` sizes alone are checked: Policy::CheckMadeFor says whether it was made for the
+  /// task "control" in this environment. TrackingConfig::acts_directly is not asked: with
+  /// `low_level` there is a hierarchy.
   VecEnv(const EnvConfig& config, int num_aircraft, std::uint64_t seed, int tile_size = 256,
          std::shared_ptr<const Policy> low_level = nullptr, int first_aircraft = 0);
   ~VecEnv();
@@ -85,14 +89,16 @@ class VecEnv {
   /// Goes on from a Snapshot. Throws Error on a size that does not fit.
   void Restore(const std::vector<std::uint32_t>& snapshot);
 
-  /// One column of the physical state (envs/state/state.h) of one aircraft, for recording
-  /// flights and tests; in still air the wind's are zero.
+  /// One column of the physical state (envs/state/state.h) of one aircraft; in still air the wind's
+  /// are zero.
   float StateOf(int aircraft, int column) const;
+  /// The same of all aircraft of a tile, [count], at once.
+  void ReadColumn(int tile, int column, float* values) const;
   /// The target of one aircraft: altitude ft, yaw rad, speed ft/s for Heading; pitch rad,
   /// yaw rad, speed ft/s for Control; north, east and altitude, ft, for Tracking.
   std::vector<float> TargetOf(int aircraft) const;
   /// Another target for the episode under way of one aircraft, as of TargetOf. Throws Error on one
-  /// of another size.
+  /// of another size, or that is not finite.
   void SetTarget(int aircraft, const std::vector<float>& target);
 
  private:

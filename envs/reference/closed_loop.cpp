@@ -2,7 +2,9 @@
 #include "envs/reference/closed_loop.h"
 
 #include <cmath>
+#include <string>
 
+#include "base/error.h"
 #include "envs/aircraft/engine.h"
 #include "envs/reference/actuator.h"
 #include "envs/state/state.h"
@@ -48,6 +50,10 @@ Eigen::VectorXd ClosedLoop::memory() const {
 }
 
 void ClosedLoop::set_memory(const Eigen::VectorXd& memory) {
+  if (memory.size() != kClosedLoopMemory) {
+    throw Error("closed loop: a memory of " + std::to_string(memory.size()) +
+                " numbers, but it has " + std::to_string(kClosedLoopMemory));
+  }
   const auto angles = [&memory](int at) -> SurfaceAngles {
     return {memory[at], memory[at + 1], memory[at + 2], memory[at + 3]};
   };

@@ -34,6 +34,7 @@ class ClosedLoop {
   /// interval, s; it is integrated in `substeps` steps. Keeps a reference to `plant`.
   ClosedLoop(const Plant& plant, const TrimPoint& trim, FlightControlMode mode, double dt,
              int substeps = 1);
+  ClosedLoop(Plant&&, const TrimPoint&, FlightControlMode, double, int = 1) = delete;
 
   /// One control step.
   void Step(const PilotCommands& pilot);
@@ -51,7 +52,8 @@ class ClosedLoop {
 
   /// All that the next step depends on, as ClosedLoopMemory lays it out.
   Eigen::VectorXd memory() const;
-  void set_memory(const Eigen::VectorXd& memory);  ///< goes on from there
+  /// Goes on from there. Throws Error on another size.
+  void set_memory(const Eigen::VectorXd& memory);
 
   /// At the end of the last step.
   const RigidBodyState& state() const { return state_; }

@@ -29,7 +29,8 @@ struct TrimPoint {
 
 /// Solves for steady flight. Throws Error when it does not converge to a residual below 1e-6 or
 /// when the solution needs deflections beyond the actuators' limits. Thrust beyond the engine's is
-/// the caller's to check (see `power`). Where a wing carries the weight below its stall and beyond
+/// the caller's to check: it differs from that of `power` (Thrust in envs/aircraft/engine.h, which
+/// has ThrottleForPower, too). Where a wing carries the weight below its stall and beyond
 /// it, the flight below is the answer; beyond the stall only where there is none below, as where
 /// thrust holds up what lift does not.
 TrimPoint Trim(const Plant& plant, const TrimRequest& request);

@@ -39,6 +39,7 @@ struct TrackingConfig {
   /// what it began with, however long the flight; so the next target is no loss.
   double approach_weight = 0;
   /// true: the policy gives stick commands; false: it commands a low-level policy, as in the paper.
+  /// Who makes a VecEnv goes by it: a VecEnv has the low-level policy that it is given.
   bool acts_directly = false;
 };
 

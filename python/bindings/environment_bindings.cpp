@@ -187,10 +187,12 @@ class BatchEnv {
 
   nb::object State() const {
     const Turn turn(mutex_);
-    std::vector<float> state;
-    for (int i = 0; i < env_->num_aircraft(); ++i) {
-      for (const NamedColumn& shown : kShownColumns)
-        state.push_back(env_->StateOf(i, shown.column));
+    std::vector<float> state(rows() * kShownColumns.size()), column(rows());
+    for (std::size_t k = 0; k < kShownColumns.size(); ++k) {
+      for (int tile = 0; tile < env_->num_tiles(); ++tile) {
+        env_->ReadColumn(tile, kShownColumns[k].column, column.data() + env_->tile_begin(tile));
+      }
+      for (std::size_t i = 0; i < rows(); ++i) state[i * kShownColumns.size() + k] = column[i];
     }
     return nb::cast(ToNumpy(std::move(state), {rows(), kShownColumns.size()}));
   }

@@ -30,6 +30,13 @@ run("" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${SCRATCH}/build -G Ninj
     -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
 run("" ${CMAKE_COMMAND} --build ${SCRATCH}/build)
 run("[1-9][0-9]+ of [1-9][0-9]+ episodes" ${examples}/step_environment)
+run("[0-9]+ numbers, [0-9]+ rates" ${SCRATCH}/build/matrices_fsanitize_address)
+file(READ /proc/cpuinfo processor)
+if(processor MATCHES " avx2 ")
+  run("[0-9]+ numbers, [0-9]+ rates" ${SCRATCH}/build/matrices_mavx2)
+else()
+  message("not run: matrices_mavx2, as there is no AVX2")
+endif()
 run("alpha 4.531 deg.*-0.781  [+]0.728i" ${examples}/trim_and_linearise)
 if(EXISTS ${examples}/fly_policy)
   # Where its modules are.

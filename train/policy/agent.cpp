@@ -67,6 +67,9 @@ Agent::Agent(const RecurrentPolicy& policy, Sampling sampling)
 }
 
 Agent Agent::Of(std::shared_ptr<const Policy> policy) {
+  if (const auto* recurrent = dynamic_cast<const RecurrentPolicy*>(policy.get())) {
+    return MeanOf(*recurrent);
+  }
   return {std::move(policy), Sampling::kNone};
 }
 

@@ -15,7 +15,7 @@ namespace skein {
 /// copy, and safe to use from several threads.
 class Agent {
  public:
-  /// The actions of `policy`.
+  /// The actions of `policy`, of a RecurrentPolicy the mean ones.
   static Agent Of(std::shared_ptr<const Policy> policy);
   /// The mean actions of `policy`.
   static Agent MeanOf(const RecurrentPolicy& policy);
@@ -34,7 +34,8 @@ class Agent {
   /// What flies for it if it is a high-level policy; null if it flies itself.
   std::shared_ptr<const Policy> low_level() const;
 
-  /// Throws Error that says why not unless `env` is what it was made for, in sizes and meaning.
+  /// Throws Error that says why not unless `env` is what it was made for, in sizes and meaning, if
+  /// not in its rate.
   void CheckFits(const VecEnv& env) const;
 
   /// Which policy step of which aircraft: what random numbers depend on.

@@ -23,7 +23,7 @@ struct EvaluationOptions {
   std::uint64_t seed = 0;
   int first_episode = 0;        ///< number of the first of them
   bool flight_metrics = false;  ///< measure how episodes were flown, too
-  /// What all of them fly to first, in the order of Task::target_quantities, angles in radians;
+  /// What all of them fly to first, in the order of VecEnv::TargetOf, angles in radians;
   /// where there is nothing, and beyond the end, what is drawn.
   std::vector<std::optional<float>> target = {};
 };
@@ -67,7 +67,8 @@ struct EvaluationResult {
 
 /// Initial states, targets, noise and wind of the i-th episode depend on (env, options.seed, i)
 /// alone, not on the agent. If the pool is stopping, ends within a policy step. Throws Error where
-/// the agent does not fit the task.
+/// the agent does not fit the task. Rates are not compared: `env` should be an
+/// Agent::EnvironmentFor, or actions are held for another time than the agent reckons with.
 FlownEpisodes FlyEpisodes(const Agent& agent, const EnvConfig& env,
                           const EvaluationOptions& options, WorkerPool& pool);
 
@@ -81,9 +82,10 @@ EvaluationResult Evaluate(const Agent& agent, const EnvConfig& env,
 /// policy if it has one. Throws Error where the agent does not fit the task.
 VecEnv MakeEvaluationEnv(const Agent& agent, const EnvConfig& env,
                          const EvaluationOptions& options);
-/// And who flies a tile of it.
+/// And who flies a tile of it; `agent` and `env` must outlive it.
 TileAgent MakeEvaluationAgent(const Agent& agent, const VecEnv& env, int tile,
                               const EvaluationOptions& options);
+TileAgent MakeEvaluationAgent(Agent&&, const VecEnv&, int, const EvaluationOptions&) = delete;
 /// Flies the episodes of such an environment, which nobody has flown yet.
 std::vector<Episode> FlyEpisodes(const Agent& agent, VecEnv& env, const EvaluationOptions& options,
                                  WorkerPool& pool);

@@ -16,6 +16,7 @@ class TileAgent {
  public:
   /// Agent and environment must outlive it.
   TileAgent(const Agent& agent, const VecEnv& env, int tile, std::uint64_t seed);
+  TileAgent(Agent&&, const VecEnv&, int, std::uint64_t) = delete;
 
   /// Observes the tile and takes a policy step. Row-major [tile count][action_size], not clipped;
   /// valid until the next call.

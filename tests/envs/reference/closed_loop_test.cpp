@@ -18,6 +18,7 @@
 #include "envs/state/state.h"
 #include "tests/envs/f16_at.h"
 #include "tests/envs/reference/test_flight.h"
+#include "tests/error_message.h"
 #include "tests/extremes.h"
 #include "tests/tolerance.h"
 
@@ -295,6 +296,13 @@ TEST(ClosedLoop, AccelerometersReadWhatHoldsTheAircraftUp) {
   const ClosedLoop loop(plant, trim, FlightControlMode::kFull, kDt);
   EXPECT_NEAR(loop.nz(), std::cos(trim.pitch_rad) * std::cos(trim.bank_rad), kRounding);
   EXPECT_NEAR(loop.ny(), -std::cos(trim.pitch_rad) * std::sin(trim.bank_rad), kRounding);
+}
+
+TEST(ClosedLoop, AMemoryOfAnotherSizeIsAnError) {
+  const Plant plant = F16At(0.30);
+  ClosedLoop loop(plant, TrimAt(plant, 20000, 900), FlightControlMode::kFull, kDt);
+  EXPECT_EQ(MessageOf([&] { loop.set_memory(Eigen::VectorXd::Zero(3)); }),
+            "closed loop: a memory of 3 numbers, but it has " + std::to_string(kClosedLoopMemory));
 }
 
 // Sub-steps change the flight by the integrator's error alone.

@@ -109,6 +109,17 @@ TEST(AgentTest, SampledActionsAreDrawnAnewForEverySeedAircraftAndPolicyStep) {
   EXPECT_EQ(noise_at({1, 0, 0}), noise) << "and by nothing else";
 }
 
+TEST(AgentTest, ARecurrentPolicyFliesByItsMeanWithItsLowLevelPolicyHoweverItIsGiven) {
+  const auto low_level = std::make_shared<const RecurrentPolicy>(SmallPolicy());
+  const RecurrentPolicy high_level =
+      RecurrentPolicy::Untrained(SmallConfig().network, 22, 3, 3, 50, low_level);
+  const Agent agent = Agent::Of(std::make_shared<RecurrentPolicy>(high_level));
+  EXPECT_EQ(agent.low_level(), high_level.low_level());
+  const Agent of_one = Agent::Of(low_level);
+  EXPECT_EQ(of_one.low_level(), nullptr);
+  EXPECT_EQ(ActionsOf(of_one, {}, 3), ActionsOf(Agent::MeanOf(*low_level), {}, 3));
+}
+
 TEST(AgentTest, AnyPolicyCanFly) {
   /// Remembers how many policy steps it has taken.
   class CountingPolicy final : public Policy {
