@@ -2,6 +2,7 @@
 # Builds PAGE, the page of skein report, from the FILES of SOURCE in the folder WORK with NPM. Packages that cannot be
 # had are said, and no error: the program then says that it has no page. What fails leaves no page of earlier sources.
 file(REMOVE ${PAGE})
+file(REMOVE_RECURSE ${WORK}/src ${WORK}/tests) # tsc and vitest read all that is there
 foreach(file IN LISTS FILES)
   configure_file(${SOURCE}/${file} ${WORK}/${file} COPYONLY)
 endforeach()

@@ -8,6 +8,6 @@ file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "namespace skein {
 extern const char* const kCommit;
 const char* const kCommit = \"@commit@\";
 extern const char* const kCommitDate;
-const char* const kCommitDate = \"@commit_date@\";
+const char* const kCommitDate = \"@formatted_commit@\";
 }  // namespace skein
 " @ONLY)

@@ -10,4 +10,3 @@ add_custom_target(
   VERBATIM)
 add_library(skein_commit OBJECT ${commit_source})
 add_dependencies(skein_commit skein_commit_source)
-target_compile_options(skein_commit PRIVATE ${SKEIN_COMPILE_OPTIONS})

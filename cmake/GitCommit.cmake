@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # find_git_commit(SOURCE FORMAT): sets `commit` to the commit of the git work tree SOURCE, "-dirty" behind it if files have
 # changed, and a hash of the changes behind that where builds read such files: "0123456789-dirty-abcdef0123"; or to
-# "unknown". And sets `commit_date` to its date in FORMAT of git, such as %cs for 2026-11-22, or to nothing.
+# "unknown". And sets `formatted_commit` to what git says of it in FORMAT, such as %cs for its date, 2026-11-22, or to
+# nothing.
 function(find_git_commit source format)
   set(commit unknown)
-  set(commit_date "")
+  set(formatted_commit "")
   find_program(git git)
   if(git)
     # SOURCE may lie unpacked inside another work tree, whose commit says nothing about it.
@@ -29,11 +30,11 @@ function(find_git_commit source format)
             string(APPEND commit -${hash})
           endif()
         endif()
-        execute_process(COMMAND ${git} -C ${source} show --no-patch --format=${format} OUTPUT_VARIABLE commit_date
+        execute_process(COMMAND ${git} -C ${source} show --no-patch --format=${format} OUTPUT_VARIABLE formatted_commit
                         OUTPUT_STRIP_TRAILING_WHITESPACE)
       endif()
     endif()
   endif()
   set(commit ${commit} PARENT_SCOPE)
-  set(commit_date "${commit_date}" PARENT_SCOPE)
+  set(formatted_commit "${formatted_commit}" PARENT_SCOPE)
 endfunction()

@@ -6,11 +6,12 @@ target_include_directories(skein_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_
                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(skein_settings INTERFACE cxx_std_17)
 
-# Floating point stays strict: contraction is explicit in the kernels, NaN checks and reproducibility survive.
+# Of every target. Floating point stays strict: contraction is explicit in the kernels, NaN checks and reproducibility survive.
 set(SKEIN_COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -Wall -Wextra -Wshadow -Wno-psabi)
 if(SKEIN_WERROR)
   list(APPEND SKEIN_COMPILE_OPTIONS -Werror)
 endif()
+add_compile_options(${SKEIN_COMPILE_OPTIONS})
 
 # skein_lighten_kernels(SOURCE ...): those that Highway compiles once per SIMD target do without one check of the address
 # sanitizer, of variables after their scope: it makes g++ 12 take eight times as long over functions
@@ -42,7 +43,6 @@ function(skein_library name)
   add_library(skein::${name} ALIAS skein_${name})
   set_target_properties(skein_${name} PROPERTIES EXPORT_NAME ${name})
   target_link_libraries(skein_${name} PUBLIC skein_settings ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  target_compile_options(skein_${name} PRIVATE ${SKEIN_COMPILE_OPTIONS})
 endfunction()
 
 # skein_test(NAME source ... LIBRARIES lib ... [LABELS label ...] [TIMEOUT seconds]): one GoogleTest program, its cases known to ctest.
@@ -52,7 +52,7 @@ function(skein_test name)
   add_executable(${name} ${ARG_SOURCES})
   skein_lighten_kernels(${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
-  target_compile_options(${name} PRIVATE ${SKEIN_COMPILE_OPTIONS} $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name} PRIVATE SKEIN_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)

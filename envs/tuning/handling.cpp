@@ -12,8 +12,10 @@
 namespace skein {
 namespace {
 
+/// Slower modes are judged by their time to double, the others by their damping, 1/s.
+constexpr double kSlowest = 0.5;
+
 double LeastDamping(const ClosedLoopModel& model) {
-  constexpr double kSlowest = 0.5;
   double least = 1;
   for (const std::complex<double>& mode : model.Modes()) {
     if (std::abs(mode) >= kSlowest) least = std::min(least, DampingRatio(mode));
@@ -23,8 +25,9 @@ double LeastDamping(const ClosedLoopModel& model) {
 
 double LeastTimeToDouble(const ClosedLoopModel& model) {
   double least = std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& mode : model.Modes())
-    least = std::min(least, TimeToDouble(mode));
+  for (const std::complex<double>& mode : model.Modes()) {
+    if (std::abs(mode) < kSlowest) least = std::min(least, TimeToDouble(mode));
+  }
   return least;
 }
 
@@ -89,7 +92,6 @@ Handling AssessHandling(const Plant& plant, const TrimPoint& trim) {
   AssessLinear(plant, trim, &handling);
   AssessPitchStep(plant, trim, &handling);
   handling.roll_rate_deg_s = FlyTrial(plant, trim, 1, Held(0, 1, 0)).p.back();
-  handling.pedal_sideslip_deg = Peak(FlyTrial(plant, trim, 4, Held(0, 0, 1)).beta);
   handling.settles = Settles(FlyTrial(plant, trim, 7, HandsOff(), {kPush, false, 1}));
   AssessFullSticks(plant, trim, &handling);
   return handling;

@@ -168,8 +168,9 @@ FlightEnvelope ReportEnvelope(const Plant& plant, const TuningLimits& limits) {
 std::string DescribeHandling(const Plant& plant, const TuningLimits& limits,
                              const FlightEnvelope& envelope, std::vector<Finding>* findings) {
   std::string text =
-      "\nwith flight control: least damping of pitch, of roll and yaw; seconds to double; a pitch\n"
-      "step's rise, s, and overshoot, %; deg/s of full roll; most sideslip and alpha, deg; g\n";
+      "\nwith flight control: least damping of pitch, of roll and yaw; slow modes' seconds to\n"
+      "double; a pitch step's rise, s, and overshoot, %; deg/s of full roll; most sideslip and\n"
+      "alpha, deg; g\n";
   constexpr std::size_t kWide = 22, kNarrow = 8;
   const auto row = [&](const std::string& label, const std::vector<std::string>& cells) {
     TextTable table(kWide, kNarrow, &text);

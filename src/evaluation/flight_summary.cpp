@@ -147,8 +147,12 @@ std::string CsvCells(const Estimate& estimate) {
   return cells;
 }
 
+bool IsMissionFlown(bool is_mission, std::string_view end) {
+  return is_mission && end == kTerminationNames[static_cast<std::size_t>(Termination::kTimeLimit)];
+}
+
 std::string EndLabel(bool is_mission, std::size_t termination) {
-  if (is_mission && termination == static_cast<std::size_t>(Termination::kTimeLimit)) return "";
+  if (IsMissionFlown(is_mission, kTerminationNames[termination])) return "";
   return fmt::format("{} by {}", is_mission ? "lost" : "ended", kTerminationNames[termination]);
 }
 

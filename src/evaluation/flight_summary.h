@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/evaluation/estimate.h"
@@ -40,8 +41,11 @@ std::string FormatFigure(const FlightSummary& summary, std::size_t k);
 bool HasOwnPlace(const Quantity& quantity);
 /// The three numbers as cells of CSV, each with a comma ahead; empty where there is none.
 std::string CsvCells(const Estimate& estimate);
-/// "ended by target_reached"; of a mission "lost by overload". Empty for the time limit of
-/// missions, which are flown to their end then: kSuccessQuantity has them.
+/// Whether a flight that ended by `end`, of kTerminationNames, is a mission that was flown to its
+/// end: its time limit is none to name.
+bool IsMissionFlown(bool is_mission, std::string_view end);
+/// "ended by target_reached"; of a mission "lost by overload". Empty if IsMissionFlown:
+/// kSuccessQuantity has them.
 std::string EndLabel(bool is_mission, std::size_t termination);
 /// "ended by target_reached 998, time_limit 2"; of missions "lost by overload 2", or empty.
 std::string FormatEnds(const FlightSummary& summary);

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "envs/aircraft/registry.h"
 #include "envs/env_config.h"
+#include "src/evaluation/flight_summary.h"
 #include "src/files/column_words.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
@@ -77,8 +78,7 @@ const char* NameOf(Termination end) { return kTerminationNames[static_cast<std::
 
 /// None of a mission that was flown to its end.
 std::string EndWords(const std::string& termination, bool is_mission) {
-  const bool is_flown = is_mission && termination == NameOf(Termination::kTimeLimit);
-  return is_flown ? "" : WithBlanks(termination);
+  return IsMissionFlown(is_mission, termination) ? "" : WithBlanks(termination);
 }
 
 /// Whether a target gives way to another one, as in missions alone.

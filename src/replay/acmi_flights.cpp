@@ -13,6 +13,7 @@
 #include "envs/aircraft/units.h"
 #include "envs/interface_names.h"
 #include "src/bench/version.h"
+#include "src/evaluation/flight_summary.h"
 #include "src/replay/acmi_target.h"
 #include "src/replay/flat_earth.h"
 
@@ -152,13 +153,12 @@ class AcmiFlight {
   }
 
   void End(AcmiWriter* writer) {
-    const Termination end = flight_.steps.back().termination;
-    const bool is_flown =
-        EvaluationConfig(agent_.env).mission.enabled() && end == Termination::kTimeLimit;
+    const char* const end =
+        kTerminationNames[static_cast<std::size_t>(flight_.steps.back().termination)];
+    const bool is_flown = IsMissionFlown(EvaluationConfig(agent_.env).mission.enabled(), end);
     writer->AddEvent(
         "Message", {aircraft_},
-        fmt::format("{}: {} after {} s", agent_.agent,
-                    is_flown ? "mission flown" : kTerminationNames[static_cast<std::size_t>(end)],
+        fmt::format("{}: {} after {} s", agent_.agent, is_flown ? "mission flown" : end,
                     AcmiNumber(table_.Column("time_s").back(), 2)));
     // Nothing was destroyed: Tacview is told that they have left.
     for (const std::uint64_t object : {aircraft_, target_object_}) {

@@ -32,7 +32,7 @@ std::optional<TrainingTimes> TimesOf(const RunRecord& run);
 /// seconds, seconds_to_95_percent (null if it never was), shares, and program: what writes this.
 nlohmann::ordered_json ToJson(const TrainingTimes& times);
 
-/// A line for people without the shares, and one with them.
+/// For people, a line each: the seconds, and the shares of them.
 std::string ToText(const TrainingTimes& times);
 std::string SharesText(const TrainingTimes& times);
 

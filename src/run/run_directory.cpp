@@ -59,6 +59,8 @@ fs::file_time_type LastWritten(const std::string& run) {
   return latest;
 }
 
+std::string LockFileOf(const std::string& directory) { return directory + "/lock"; }
+
 /// Makes a directory, durably; false if it is there already.
 bool Make(const std::string& path) {
   std::error_code failure;
@@ -73,7 +75,7 @@ bool Make(const std::string& path) {
 }  // namespace
 
 FileDescriptor LockDirectory(const std::string& directory) {
-  FileDescriptor file(directory + "/lock", OpenMode::kAppend);
+  FileDescriptor file(LockFileOf(directory), OpenMode::kAppend);
   if (flock(file.value(), LOCK_EX | LOCK_NB) == 0) return file;
   if (errno == EWOULDBLOCK) {
     throw Error(fmt::format("{}: another skein is at work here", directory));
@@ -89,8 +91,8 @@ FileDescriptor LockDirectory(const std::string& directory) {
 
 bool IsHeld(const std::string& directory) {
   std::error_code failure;
-  if (!fs::exists(directory + "/lock", failure)) return false;
-  const FileDescriptor file(directory + "/lock", OpenMode::kRead);
+  if (!fs::exists(LockFileOf(directory), failure)) return false;
+  const FileDescriptor file(LockFileOf(directory), OpenMode::kRead);
   return flock(file.value(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
@@ -138,6 +140,20 @@ RunDirectory RunDirectory::Open(const std::string& path) {
 RunDirectory RunDirectory::Visit(const std::string& path) {
   RequireRun(path);
   return {path, FileDescriptor(path + "/config.toml", OpenMode::kRead)};
+}
+
+void RunDirectory::RemoveStub(const std::string& path) {
+  std::error_code ignored;  // what stays is in the way of Create
+  if (!fs::is_directory(path, ignored) || IsRunDirectory(path)) return;
+  const RunDirectory stub(path, FileDescriptor(path, OpenMode::kDirectory));
+  for (const std::string& file :
+       {stub.config(), stub.low_level(), stub.task_file(), stub.aircraft(), stub.checkpoint(0)}) {
+    fs::remove(file, ignored);
+    fs::remove(file + kTemporaryExtension, ignored);
+  }
+  for (const std::string& last : {LockFileOf(stub.path()), stub.checkpoints()}) {
+    fs::remove(last, ignored);
+  }
 }
 
 RunDirectory::RunDirectory(const std::string& path)

@@ -42,6 +42,10 @@ class RunDirectory {
   /// The same without holding it, for processes that train with the one that does.
   static RunDirectory Visit(const std::string& path);
 
+  /// Removes what a process that was killed while it made a run in `path` has left there. A run,
+  /// and what is none of its files, stay: of these Create says that they are in the way.
+  static void RemoveStub(const std::string& path);
+
   const std::string& path() const { return path_; }
   std::string config() const { return path_ + "/config.toml"; }
   /// Where the low-level policy is: runs of version 0.1 have it as controller.skein.

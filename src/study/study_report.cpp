@@ -101,7 +101,7 @@ std::string StudyCsv(const Json& results, const std::vector<Quantity>& quantitie
     const Json& comparison = result["comparison"];
     const std::size_t trained = SeedsOf(comparison).size();
     const auto begin = [&](const std::string& agent, const std::string& seeds) {
-      text += fmt::format("{},{},{},{},{}", result["task"].get<std::string>(),
+      text += fmt::format("{},{},{},{},{}", CsvText(result["task"].get<std::string>()),
                           CsvText(result["level"].get<std::string>()), CsvText(agent),
                           comparison["episodes"].get<int>(), seeds);
     };

@@ -19,7 +19,6 @@
 #include "src/run/recorded_run.h"
 #include "src/run/run_directory.h"
 #include "src/run/run_signals.h"
-#include "train/files/file_descriptor.h"
 #include "train/policy/low_level_file.h"
 #include "train/ranks/collectives.h"
 #include "train/ranks/task_share.h"
@@ -28,18 +27,6 @@ namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Removes what a process killed while it made a run's directory has left: no run is in it yet.
-void RemoveStub(const std::string& run) {
-  std::error_code ignored;  // RunDirectory::Create says what is in the way
-  fs::remove(run + "/config.toml" + kTemporaryExtension, ignored);
-  for (const char* name : {"/low_level.skein", "/task.toml", "/aircraft.json",
-                           "/checkpoints/checkpoint-000000.skein"}) {
-    fs::remove(run + name, ignored);
-    fs::remove(run + name + kTemporaryExtension, ignored);
-  }
-  for (const char* name : {"/lock", "/checkpoints"}) fs::remove(run + name, ignored);
-}
 
 /// The configuration of the run in `directory`, which must be the one asked for, and have been
 /// started from the networks in the file `networks` (WasStartedFrom).
@@ -162,7 +149,7 @@ void StudyTrainings::TrainOne(const Training& training, const GoesOn& goes_on) {
   const TrainingSetup setup = SetUp(training);
   const std::string from = NetworksToStartFrom(study_, training.task);
   if (!IsRunDirectory(training.path)) {
-    RemoveStub(training.path);
+    RunDirectory::RemoveStub(training.path);
     RunOrigin origin;
     origin.preset = IsTaskFile(training.task) ? "of " + training.task : study_.preset;
     origin.low_level = setup.low_level;

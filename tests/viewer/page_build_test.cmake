@@ -63,6 +63,19 @@ expect("" 2 22.1.0 "")
 file(REMOVE ${SCRATCH}/build/page_build/unreachable)
 expect(second 3 22.1.0 "")
 
+# A source that is gone is gone where the page is built.
+foreach(folder src tests)
+  file(WRITE ${SCRATCH}/viewer/${folder}/kept.ts "")
+  file(WRITE ${SCRATCH}/viewer/${folder}/gone.ts "")
+endforeach()
+expect(second 3 22.1.0 "")
+file(REMOVE ${SCRATCH}/viewer/src/gone.ts ${SCRATCH}/viewer/tests/gone.ts)
+expect(second 3 22.1.0 "")
+file(GLOB_RECURSE copied RELATIVE ${SCRATCH}/build/page_build ${SCRATCH}/build/page_build/*.ts)
+if(NOT copied STREQUAL "src/kept.ts;tests/kept.ts")
+  message(FATAL_ERROR "the page is built from the sources ${copied}")
+endif()
+
 # Neither is a page left for which Node has become too old.
 expect("" 3 17.9.1 "older than 18")
 expect(second 3 18.0.0 "")

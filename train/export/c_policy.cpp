@@ -7,6 +7,7 @@
 #include "base/name_in.h"
 #include "base/number_text.h"
 #include "train/export/c_text.h"
+#include "train/network/network_kernels.h"
 
 namespace skein {
 namespace data {
@@ -14,6 +15,8 @@ extern const std::string_view c_policy_template;
 }  // namespace data
 
 namespace {
+
+static_assert(kLayerNormEpsilon == 1e-5f, "policy.h.in adds another number to the variance");
 
 constexpr int kBlock = 8;  ///< rows that the header's products take at once
 constexpr int kTestFlights = 2, kTestSteps = 10;

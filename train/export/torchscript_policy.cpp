@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "train/export/named_parameters.h"
+#include "train/network/network_kernels.h"
 
 namespace skein {
 namespace {
@@ -54,9 +56,10 @@ class Source {
   void Line(const std::string& line) { text_ += "  " + line + "\n"; }
 
   void Norm(const std::string& layer, int size) {
+    constexpr int kFloat32Digits = 7;
     const std::string of = "self." + layer + "_norm_";
     Line("x = torch.layer_norm(x, [" + std::to_string(size) + "], " + of + "weight, " + of +
-         "bias, 1e-05)");
+         "bias, " + RoundedText(kLayerNormEpsilon, kFloat32Digits) + ")");
   }
 
   void Linear(const std::string& layer, int in) {

@@ -26,6 +26,13 @@ TEST(FlightSummaryTest, EndsAreCountedByKind) {
   EXPECT_EQ(EndsOf({late, there, there}, {}), "ended by target_reached 2, time_limit 1");
 }
 
+TEST(FlightSummaryTest, AMissionIsFlownWhenItsTimeIsOver) {
+  EXPECT_TRUE(IsMissionFlown(true, "time_limit"));
+  EXPECT_FALSE(IsMissionFlown(true, "overload"));
+  EXPECT_FALSE(IsMissionFlown(true, "")) << "in flight";
+  EXPECT_FALSE(IsMissionFlown(false, "time_limit"));
+}
+
 TEST(FlightSummaryTest, OfMissionsOnlyLossesAreEnds) {
   EnvConfig env;
   env.mission.length_s = 600;

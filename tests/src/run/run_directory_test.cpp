@@ -43,6 +43,38 @@ TEST_F(RunDirectoryTest, OpenRefusesWhatIsNotARun) {
   EXPECT_THROW(RunDirectory::Open(root_ + "/absent"), Error);
 }
 
+TEST_F(RunDirectoryTest, WhatAKilledProcessLeftIsNotInTheWay) {
+  const std::string path = root_ + "/run";
+  RunDirectory::RemoveStub(path);
+  EXPECT_FALSE(fs::exists(path));
+  {
+    const RunDirectory stub = RunDirectory::Create(path);
+    for (const std::string& file :
+         {stub.low_level(), stub.task_file(), stub.aircraft(), stub.checkpoint(0)}) {
+      WriteFile(file, "begun");
+      WriteFile(file + kTemporaryExtension, "begun");
+    }
+    WriteFile(stub.config() + kTemporaryExtension, "begun");
+  }
+  RunDirectory::RemoveStub(path);
+  EXPECT_TRUE(fs::is_empty(path));
+  EXPECT_NO_THROW(RunDirectory::Create(path));
+}
+
+TEST_F(RunDirectoryTest, RunsAndForeignFilesAreNoStubs) {
+  const std::string path = root_ + "/run";
+  const RunDirectory run = RunDirectory::Create(path);
+  WriteFile(path + "/note", "precious");
+  WriteFile(run.aircraft(), "begun");
+  RunDirectory::RemoveStub(path);
+  EXPECT_FALSE(fs::exists(run.aircraft()));
+  EXPECT_EQ(ReadFile(path + "/note"), "precious");
+  WriteFile(run.config(), "");
+  WriteFile(run.aircraft(), "begun");
+  RunDirectory::RemoveStub(path);
+  EXPECT_TRUE(fs::exists(run.aircraft()));
+}
+
 TEST_F(RunDirectoryTest, TheLowLevelPolicyIsFoundByItsOlderNameToo) {
   const RunDirectory run = RunDirectory::Create(root_ + "/run");
   EXPECT_EQ(run.low_level(), root_ + "/run/low_level.skein");

@@ -144,6 +144,13 @@ TEST(StudyReport, EveryAgentHasARowOfItsOwnFigures) {
   EXPECT_THAT(csv, HasSubstr("\nheading,quiet,zero,20,,0.05,0.01,0.24,-3,-4,-2,,,,,,\n"));
 }
 
+TEST(StudyReport, TaskFilesMayHaveCommasInTheirNames) {
+  Json results = Results();
+  for (Json& result : results) result["task"] = "tasks/steep, slow.toml";
+  EXPECT_THAT(StudyCsv(results, Quantities()),
+              HasSubstr("\n\"tasks/steep, slow.toml\",quiet,zero,20,,0.05,"));
+}
+
 TEST(StudyReport, PeopleSeeTheMeanOfTheSeedsAndTheLowestAndHighest) {
   const std::string text =
       std::regex_replace(StudyText(Results(), Quantities()), std::regex(" +"), " ");
