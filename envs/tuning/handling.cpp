@@ -12,7 +12,7 @@
 namespace skein {
 namespace {
 
-/// Slower modes are judged by their time to double, the others by their damping, 1/s.
+/// 1/s. Slower modes are judged by their time to double, the others by their damping ratio.
 constexpr double kSlowest = 0.5;
 
 double LeastDamping(const ClosedLoopModel& model) {
