@@ -14,29 +14,43 @@ METADATA = {"policy.format": "skein-policy-2", "policy.gru_size": "4", "policy.t
             "policy.observation_size": "22"}
 
 
-def error_of(header):
-    """The line that the script ends with, of a file of this header alone."""
+def file_of(header, data=b""):
     text = json.dumps(header).encode()
+    return struct.pack("<Q", len(text)) + text + data
+
+
+def error_of(content):
+    """The line that the script ends with, of a file of this content."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "policy.skein")
-        path.write_bytes(struct.pack("<Q", len(text)) + text)
+        path.write_bytes(content)
         done = subprocess.run([sys.executable, "-I", "-S", SCRIPT, path], input="", capture_output=True, text=True)
     if done.returncode == 1 and done.stderr.count("\n") == 1:
         return done.stderr.partition("policy.skein: ")[2].strip()
     return f"exit code {done.returncode}: {done.stderr}"
 
 
-class Header(unittest.TestCase):
+NO_POLICY = "not a policy file, or a truncated one"
+
+
+class File(unittest.TestCase):
     def test_of_another_kind_is_said_in_one_line(self):
         for header in [[], 1, {"__metadata__": 1}, {"__metadata__": METADATA, "weights": []},
                        {"__metadata__": METADATA, "weights": {"dtype": "F32", "data_offsets": ["0", "4"]}}]:
-            self.assertEqual(error_of(header), "its header is not one of safetensors", header)
+            self.assertEqual(error_of(file_of(header)), NO_POLICY, header)
+
+    def test_that_is_truncated_is_said_in_one_line(self):
+        whole = file_of({"__metadata__": METADATA, "weights": {"dtype": "F32", "shape": [1], "data_offsets": [0, 4]}},
+                        struct.pack("<f", 1))
+        for size in [0, 4, 8, 100, len(whole) - 1]:
+            self.assertEqual(error_of(whole[:size]), NO_POLICY, size)
+        self.assertNotEqual(error_of(whole), NO_POLICY)
 
     def test_without_what_it_must_have_is_said_in_one_line(self):
-        self.assertEqual(error_of({}), "__metadata__ is missing")
+        self.assertEqual(error_of(file_of({})), "__metadata__ is missing")
         for key in ["policy.gru_size", "policy.tanh_mean", "policy.observation_size"]:
             metadata = {name: value for name, value in METADATA.items() if name != key}
-            self.assertEqual(error_of({"__metadata__": metadata}), f"{key} is missing")
+            self.assertEqual(error_of(file_of({"__metadata__": metadata})), f"{key} is missing")
 
 
 if __name__ == "__main__":
