@@ -66,8 +66,8 @@ const Preset& FindPreset(const std::string& task, const std::string& name) {
     throw Error(fmt::format("unknown task {}{}; known tasks: {}; a task file ends in .toml", task,
                             DidYouMean(task, PresetTasks()), fmt::join(PresetTasks(), ", ")));
   }
-  throw Error(fmt::format("unknown preset {} of task {}; known presets: {}", name, task,
-                          fmt::join(names, ", ")));
+  throw Error(fmt::format("unknown preset {} of task {}{}; known presets: {}", name, task,
+                          DidYouMean(name, names), fmt::join(names, ", ")));
 }
 
 }  // namespace skein

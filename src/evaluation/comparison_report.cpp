@@ -147,9 +147,9 @@ std::string ToText(const Comparison& comparison) {
 std::string ToCsv(const Comparison& comparison) {
   std::string rows = CsvHeader(comparison.quantities);
   for (const ComparedAgent& agent : comparison.agents) {
-    rows += fmt::format("{},{},{},{},{},{}", comparison.task, CsvText(comparison.conditions),
-                        CsvText(agent.name), comparison.episodes, comparison.seed,
-                        agent.action_repeat * comparison.control_interval_s);
+    rows += fmt::format("{},{},{},{},{},{}", CsvText(comparison.task),
+                        CsvText(comparison.conditions), CsvText(agent.name), comparison.episodes,
+                        comparison.seed, agent.action_repeat * comparison.control_interval_s);
     for (const Estimate& estimate : agent.summary.estimates) rows += CsvCells(estimate);
     if (agent.against.empty()) {
       rows += std::string(3 * comparison.quantities.size() + 1, ',');

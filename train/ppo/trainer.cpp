@@ -125,7 +125,6 @@ struct Trainer::Impl {
     state.iteration = iteration;
     state.policy_steps = policy_steps;
     state.best_success_rate = best_success_rate;
-    state.best_return = best_return;
     return state;
   }
 
@@ -144,7 +143,6 @@ struct Trainer::Impl {
     iteration = state.iteration;
     policy_steps = state.policy_steps;
     best_success_rate = state.best_success_rate;
-    best_return = state.best_return;
   }
 
   /// The whole training's, on rank 0.
@@ -321,12 +319,8 @@ struct Trainer::Impl {
     const EvaluationResult result = Evaluation();
     report.evaluation_success_rate = result.success_rate;
     report.evaluation_hold_within = result.hold_within_mean;
-    report.best = result.success_rate > best_success_rate ||
-                  (result.success_rate == best_success_rate && result.return_mean > best_return);
-    if (report.best) {
-      best_success_rate = result.success_rate;
-      best_return = result.return_mean;
-    }
+    report.best = result.success_rate >= best_success_rate;
+    if (report.best) best_success_rate = result.success_rate;
     report.evaluation_seconds = SecondsSince(start);
   }
 
@@ -345,9 +339,9 @@ struct Trainer::Impl {
   std::vector<float> mean_actor;  ///< empty without ppo.average_iterations
   std::uint64_t iteration = 0;
   std::uint64_t policy_steps = 0;
-  bool stopped = false;      ///< some rank's pool was asked to stop, as all ranks have learned
-  bool fails_alike = false;  ///< what is thrown now is thrown on all ranks
-  double best_success_rate = -1, best_return = 0;
+  bool stopped = false;           ///< some rank's pool was asked to stop, as all ranks have learned
+  bool fails_alike = false;       ///< what is thrown now is thrown on all ranks
+  double best_success_rate = -1;  ///< of the evaluations so far
 };
 
 Trainer::Trainer(const TrainConfig& config, WorkerPool& pool, Ranks& ranks)

@@ -61,7 +61,8 @@ void CheckCounters(const TrainingState& state, const TrainConfig& config, const 
 }
 
 std::array<double, 4> Scalars(const TrainingState& state) {
-  return {state.popart.mean, state.popart.mean_square, state.best_success_rate, state.best_return};
+  constexpr double kFormerReturn = 0;  // of the best evaluation, which no longer counts
+  return {state.popart.mean, state.popart.mean_square, state.best_success_rate, kFormerReturn};
 }
 
 /// The configuration that the checkpoint was made with, by today's names.
@@ -184,7 +185,6 @@ TrainingState LoadCheckpoint(TensorFile file, const std::string& path, const Tra
   state.popart.mean = scalars[0];
   state.popart.mean_square = scalars[1];
   state.best_success_rate = scalars[2];
-  state.best_return = scalars[3];
   if (config.ppo.target_kl > 0) {
     state.adapted_learning_rate = LoadTensor<double>(file, path, kAdaptedLearningRate, {1})[0];
   }

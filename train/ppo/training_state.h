@@ -25,7 +25,7 @@ struct TrainingState {
   std::vector<std::uint32_t> env;  ///< VecEnv's snapshot, clocks and returns of episodes included
   std::uint64_t iteration = 0;
   std::uint64_t policy_steps = 0;  ///< per aircraft
-  double best_success_rate = -1, best_return = 0;
+  double best_success_rate = -1;   ///< of the evaluations so far
 };
 
 /// Metadata key of a checkpoint: the SIMD target that it was made on.

@@ -279,16 +279,22 @@ TEST(Configuration, UnknownPresetsAndTasksListWhatThereIs) {
   EXPECT_THROW(
       {
         try {
-          ResolveConfig({"heading", "fast", "", {}});
+          ResolveConfig({"heading", "hover", "", {}});
         } catch (const Error& error) {
           EXPECT_STREQ(
               error.what(),
-              "unknown preset fast of task heading; known presets: aerosonde, cessna172, default, "
+              "unknown preset hover of task heading; known presets: aerosonde, cessna172, default, "
               "easy, paper, quick, robust");
           throw;
         }
       },
       Error);
+  try {
+    ResolveConfig({"heading", "defalt", "", {}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("; did you mean default?; known presets: "));
+  }
   EXPECT_THROW(ResolveConfig({"heding", "default", "", {}}), Error);
 }
 
