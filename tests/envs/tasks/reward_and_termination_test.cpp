@@ -38,10 +38,11 @@ class RewardAndTerminationTest : public testing::TestWithParam<simd::Target> {
     flight_.at(kNz, i) = 1;
   }
   void ComputeReward() {
+    StepResult step_result{reward_.data(), reached_.data()};
+    step_result.bonus = bonus_.data();
     ComputeRewardAndTermination(
         *kernel_, TerminationLimits(config_.termination, config_.episode()), flight_.tile(),
-        {reward_.data(), reached_.data()},
-        {step_.data(), termination_.data(), policy_step_.data(), return_.data()});
+        step_result, {step_.data(), termination_.data(), policy_step_.data(), return_.data()});
   }
   Termination Of(int i) const {
     return static_cast<Termination>(termination_[static_cast<std::size_t>(i)]);
@@ -54,6 +55,7 @@ class RewardAndTerminationTest : public testing::TestWithParam<simd::Target> {
   EnvConfig config_;
   TestTile flight_{kCount};
   std::vector<float> reward_ = std::vector<float>(flight_.stride(), -0.5f);
+  std::vector<float> bonus_ = std::vector<float>(flight_.stride());
   std::vector<std::int32_t> reached_ = std::vector<std::int32_t>(flight_.stride());
   std::vector<std::int32_t> step_ = std::vector<std::int32_t>(flight_.stride(), 10);
   std::vector<std::int32_t> termination_ = std::vector<std::int32_t>(flight_.stride());
@@ -93,6 +95,11 @@ TEST_P(RewardAndTerminationTest, EveryLimitEndsTheEpisodeOnItsFarSideOnly) {
       {1000, 3, 0, 2499, 1, Termination::kLowAltitude},
       {0.0101 * sound, 3, 0, kAltitude, 1, Termination::kNone},
       {0.0099 * sound, 3, 0, kAltitude, 1, Termination::kLowSpeed},
+      // Of the whole airspeed, sideslip included.
+      {2.99 * sound, 3, 29, kAltitude, 1, Termination::kNone},
+      {3.01 * sound, 3, 29, kAltitude, 1, Termination::kHighSpeed},
+      {0.0101 * sound, 3, 29, kAltitude, 1, Termination::kNone},
+      {0.0099 * sound, 3, 29, kAltitude, 1, Termination::kLowSpeed},
       {1000, 3, 0, kAltitude, 9.99, Termination::kNone},
       {1000, 3, 0, kAltitude, 10.01, Termination::kOverload},
       {1000, 3, 0, kAltitude, -10.01, Termination::kNone},
@@ -131,6 +138,17 @@ TEST_P(RewardAndTerminationTest, SuccessAndTimeLimit) {
   EXPECT_FLOAT_EQ(policy_step_[2], 199.5f);
   EXPECT_EQ(Of(3), Termination::kTargetReached);
   EXPECT_EQ(Of(4), Termination::kOverload);
+}
+
+TEST_P(RewardAndTerminationTest, TheScaleIsOfStepRewardsAlone) {
+  config_.reward_scale = 0.5;
+  bonus_[0] = 40;  // of a target after which the flight goes on
+  reached_[1] = 1;
+  flight_.at(kNz, 2) = 11;
+  ComputeReward();
+  EXPECT_FLOAT_EQ(policy_step_[0], -0.25f + 40);
+  EXPECT_FLOAT_EQ(policy_step_[1], -0.25f + 200);
+  EXPECT_FLOAT_EQ(policy_step_[2], -0.25f - 200);
 }
 
 TEST_P(RewardAndTerminationTest, BeingLateCostsItsFactorOfAFailureWhichCostsTheSame) {
