@@ -13,6 +13,7 @@ namespace skein {
 namespace {
 
 constexpr Tolerance kFloat32{1e-6, "float32 rounding"};
+constexpr Tolerance kRounding{1e-9, "float64 rounding of altitudes, ft"};
 constexpr Tolerance kSteadyPitch{0.05, "pitch of steady flight, about which targets are drawn"};
 
 constexpr double kHighestFt = 19000, kLowestFt = 8000;
@@ -38,6 +39,22 @@ TEST(MissionRules, WhatJoinsAMissionIsAskedForWhatItsNextTargetWouldBe) {
     LimitDescent(config, kLowestFt, &next);
     EXPECT_EQ(joined.lowest_pitch_rad, next.lowest_pitch_rad);
     EXPECT_EQ(joined.lowest_altitude_ft, next.lowest_altitude_ft);
+  }
+}
+
+TEST(MissionRules, NoDiveForALowestPitchEndsBelowTheLowestAltitude) {
+  const EnvConfig config;
+  const double floor_ft = config.termination.min_altitude_ft;
+  FlightStart start;
+  start.altitude_ft = 15000;
+  start.true_airspeed_ft_s = 700;
+  const double flown_ft =
+      1.3 * start.true_airspeed_ft_s * config.time_limit_steps * config.control_interval_s;
+  for (const double altitude_ft : {6000.0, 15000.0, 24000.0}) {
+    LimitDescent(config, altitude_ft, &start);
+    EXPECT_NEAR(start.lowest_altitude_ft, floor_ft + 0.1 * (15000 - floor_ft), kRounding);
+    EXPECT_NEAR(altitude_ft + flown_ft * std::sin(start.lowest_pitch_rad), start.lowest_altitude_ft,
+                kRounding);
   }
 }
 
