@@ -280,6 +280,29 @@ TEST(LowLevelFlight, HighLevelPoliciesHaveThreeActions) {
   EXPECT_EQ(VecEnv(Config(), 1, 1).action_size(), 4);
 }
 
+TEST(LowLevelFlight, ChangesOfAllThreeActionsCostAndAreThoseOfPolicySteps) {
+  constexpr Tolerance kFloat32{1e-4, "float32 rounding of rewards of some tens"};
+  constexpr int kCount = 3;
+  EnvConfig priced = Config();
+  priced.reward.action_change = 1;
+  VecEnv free(Config(), kCount, 1, 32, LowLevelPolicy());
+  VecEnv env(priced, kCount, 1, 32, LowLevelPolicy());
+  const double first = 0.5 * 0.5 + 0.25 * 0.25 + 1;  // the last is clipped
+  for (const double expected : {first, 0.0}) {
+    StepBuffers one(kCount, kHighLevelActionSize), other(kCount, kHighLevelActionSize);
+    for (int i = 0; i < kCount; ++i) {
+      const std::array<float, kHighLevelActionSize> action{0.5f, -0.25f, 2};
+      std::copy(action.begin(), action.end(), one.action.begin() + i * kHighLevelActionSize);
+    }
+    other.action = one.action;
+    free.Step(0, one.action.data(), one.output());
+    env.Step(0, other.action.data(), other.output());
+    for (int i = 0; i < kCount; ++i) {
+      EXPECT_NEAR(one.reward[Index(i)] - other.reward[Index(i)], expected, kFloat32);
+    }
+  }
+}
+
 /// Returns all that is observed and rewarded.
 Log ExpectSameForAnyTilesAndThreads(const EnvConfig& config) {
   VecEnv small(config, 300, 1, 32, LowLevelPolicy()), middle(config, 300, 1, 160, LowLevelPolicy()),
