@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "envs/aircraft/aircraft.h"
+#include "envs/state/attitude.h"
 #include "envs/task_registry.h"
 #include "envs/vec_env.h"
 #include "tests/envs/step_buffers.h"
@@ -18,6 +20,8 @@ namespace skein {
 namespace {
 
 constexpr Tolerance kFloat32{1e-3, "float32 rounding of 700, or of 200 in each of 50 sums"};
+
+constexpr Tolerance kAheadRad{5 / kDegPerRad + 1e-4, "5 deg of azimuth, and float32 rounding"};
 
 /// What the policy steps of all aircraft gave, aircraft by aircraft, and their targets after each.
 struct Log {
@@ -192,6 +196,38 @@ TEST(VecEnvProgress, NoPointOfAMissionIsLowerThanATenthOfTheStartsHeight) {
   EXPECT_GT(limited, 0);
 }
 
+TEST(VecEnvProgress, PointsOfAMissionLieAheadOfWhereTheAircraftHasTurned) {
+  constexpr int kAircraft = 8;
+  EnvConfig config = Mission("tracking");
+  config.action_repeat = 1;
+  config.mission.length_s = 60;
+  config.tracking.azimuth_deg = config.tracking.elevation_deg = 5;
+  config.time_limit_steps = 20;
+  VecEnv env(config, kAircraft, 1);
+  StepBuffers buffers(kAircraft);
+  int turned = 0;
+  for (int step = 0; step < 400; ++step) {
+    for (std::size_t i = 0; i < kAircraft; ++i) {
+      buffers.action[4 * i + 1] = step < 100 ? 0.0f : 0.5f;
+      buffers.action[4 * i + 2] = step < 50 ? 0.4f : 0.0f;
+    }
+    std::vector<std::vector<float>> before;
+    for (int i = 0; i < kAircraft; ++i) before.push_back(env.TargetOf(i));
+    env.Step(0, buffers.action.data(), buffers.output());
+    for (int i = 0; i < kAircraft; ++i) {
+      const std::vector<float> point = env.TargetOf(i);
+      if (buffers.termination[static_cast<std::size_t>(i)] != 0) continue;
+      if (point == before[static_cast<std::size_t>(i)]) continue;
+      const auto state = [&](int column) { return static_cast<double>(env.StateOf(i, column)); };
+      const double yaw = EulerFromQuaternion({state(kQ0), state(kQx), state(kQy), state(kQz)}).yaw;
+      const double bearing = std::atan2(point[1] - state(kEast), point[0] - state(kNorth));
+      EXPECT_LE(std::abs(std::remainder(bearing - yaw, 2 * M_PI)), kAheadRad) << step;
+      turned += std::abs(yaw) > 0.5;
+    }
+  }
+  EXPECT_GT(turned, kAircraft);
+}
+
 TEST(VecEnvProgress, EveryTargetOfAMissionIsWorthATerminalReward) {
   EnvConfig config = Mission("control");
   config.reward = {};
@@ -344,6 +380,26 @@ TEST(VecEnvProgress, ActionsFlownWhileNothingIsPricedAreRemembered) {
   EXPECT_EQ(flown.reward, expected.reward);
   step(0.25f);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_LT(flown.reward[i], expected.reward[i]);
+}
+
+TEST(VecEnvProgress, AnEpisodesFirstActionIsAChangeFromCentredSticks) {
+  EnvConfig free = NearTargets("heading");
+  free.time_limit_steps = free.heading.earliest_success_step = free.action_repeat;
+  EnvConfig priced = free;
+  priced.reward.action_change = 1;
+  VecEnv one(free, 4, 1), other(priced, 4, 1);
+  for (int episode = 0; episode < 3; ++episode) {
+    StepBuffers expected(4), flown(4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      expected.action[4 * i + 1] = flown.action[4 * i + 1] = 0.5f;
+    }
+    one.Step(0, expected.action.data(), expected.output());
+    other.Step(0, flown.action.data(), flown.output());
+    for (std::size_t i = 0; i < 4; ++i) {
+      ASSERT_NE(flown.termination[i], 0);
+      EXPECT_NEAR(expected.reward[i] - flown.reward[i], 0.25, kFloat32) << episode;
+    }
+  }
 }
 
 TEST(VecEnvProgress, TimesOfNoControlStepOrMoreThanCanBeCountedAreRefused) {
