@@ -226,12 +226,13 @@ TEST(DrawnFlight, ThrustLagIsTimeOfThePower) {
               0.01 * nominal);
 }
 
-TEST(DrawnFlight, EngineMomentumPitchesAYawingAircraft) {
+TEST(DrawnFlight, EngineMomentumPitchesAYawingAircraftByItsInertia) {
   // q' = -h r / Iyy, without flight control that answers.
   constexpr double kMomentum = 20000;
   constexpr int kSteps = 6;
-  const auto fly = [](double momentum) {
+  const auto fly = [](double momentum, double inertia) {
     EnvConfig config = With(&PlantConfig::engine_momentum, momentum);
+    config.plant.inertia = {inertia, inertia};
     config.flight_control = FlightControlMode::kDirect;
     return Fly(
         config,
@@ -240,15 +241,17 @@ TEST(DrawnFlight, EngineMomentumPitchesAYawingAircraft) {
         },
         kSteps);
   };
-  const auto usual = fly(0), turning = fly(kMomentum);
-  double angle = 0;  // yawed before the last step, and half of what it adds
-  for (int step = 0; step < kSteps; ++step) {
-    const double r = usual[static_cast<std::size_t>(step * kNumColumns + kR)];
-    angle += (step + 1 < kSteps ? 1 : 0.5) * r * kInterval;
+  for (const double inertia : {1.0, 2.0}) {
+    const auto usual = fly(0, inertia), turning = fly(kMomentum, inertia);
+    double angle = 0;  // yawed before the last step, and half of what it adds
+    for (int step = 0; step < kSteps; ++step) {
+      const double r = usual[static_cast<std::size_t>(step * kNumColumns + kR)];
+      angle += (step + 1 < kSteps ? 1 : 0.5) * r * kInterval;
+    }
+    const double expected = -kMomentum * angle / (inertia * F16().airframe.Iyy);
+    const auto last = static_cast<std::size_t>((kSteps - 1) * kNumColumns + kQ);
+    EXPECT_NEAR(turning[last] - usual[last], expected, 0.1 * std::abs(expected)) << inertia;
   }
-  const double expected = -kMomentum * angle / F16().airframe.Iyy;
-  const auto last = static_cast<std::size_t>((kSteps - 1) * kNumColumns + kQ);
-  EXPECT_NEAR(turning[last] - usual[last], expected, 0.1 * std::abs(expected));
 }
 
 TEST(DrawnFlight, DensityMultipliesForcesAndIsObservedInTheEquivalentAirspeed) {
