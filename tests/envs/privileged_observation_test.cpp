@@ -97,6 +97,27 @@ TEST(PrivilegedObservation, ShowsClockToleranceAndProgress) {
   EXPECT_NEAR(most, 1, kEnd);
 }
 
+TEST(PrivilegedObservation, ATargetThatIsHeldIsReachedAndItsDwellWhole) {
+  EnvConfig config;
+  config.heading.altitude_change_ft = 10;
+  config.heading.yaw_change_rad = 0.01;
+  config.heading.speed_change_fps = 2;
+  config.heading.earliest_success_step = 1;
+  config.heading.dwell_s = 0.1;
+  config.hold_s = 2;
+  VecEnv env(config, 1, 1);
+  StepBuffers buffers(1);
+  for (int step = 1; step <= 20; ++step) {
+    env.Step(0, buffers.action.data(), buffers.output());
+    const std::vector<float> row = PrivilegedRows(env);
+    const auto shown = [&](const char* name) {
+      return row[static_cast<std::size_t>(IndexOf(env, name))];
+    };
+    EXPECT_FLOAT_EQ(shown("dwell"), step < 5 ? static_cast<float>(step) / 5 : 1.0f) << step;
+    EXPECT_EQ(shown("reached"), step < 5 ? 0 : 1) << step;
+  }
+}
+
 TEST(PrivilegedObservation, ShowsTheWindAlongTheBodyAxes) {
   EnvConfig config;
   config.wind.speed_fps = {50, 50};
