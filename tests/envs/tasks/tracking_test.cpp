@@ -318,6 +318,28 @@ TEST_P(TrackingTest, APathBeginsWhereTheLastOneEnded) {
   for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(reached_[i], 0);
 }
 
+TEST_P(TrackingTest, WhereATargetIsGivenNothingHasBeenApproachedYet) {
+  EnvConfig config = Config();
+  config.tracking.distance_weight = 0;
+  config.tracking.approach_weight = 1;
+  const std::unique_ptr<Task> task = MakeTask(config);
+  FlightStart start;
+  start.north_ft = 30000;
+  start.east_ft = -50000;
+  start.altitude_ft = 20000;
+  for (int i = 0; i < kCount; ++i) {
+    simd::RandomStream random(
+        {1, static_cast<std::uint32_t>(i), 0, 0, simd::RandomPurpose::kTarget});
+    task->Reset(start, &random, targets_.tile(), i);
+    SetPosition(i, {start.north_ft, start.east_ft, start.altitude_ft});
+  }
+  ComputeReward(*task);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    EXPECT_EQ(reward_[i], 0) << i;
+    EXPECT_EQ(reached_[i], 0) << i;
+  }
+}
+
 TEST_P(TrackingTest, TolerancesAreDrawnByEpisodeForTraining) {
   EnvConfig config = Config();
   config.tracking.position_tolerance_ft = 20;
