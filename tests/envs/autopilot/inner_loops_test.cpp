@@ -55,6 +55,8 @@ TEST(InnerLoops, RollTheShorterWayRoundOnlyToInvertedFlight) {
   loops.flight.roll = -2.5;
   EXPECT_LT(loops.Roll(2.5), 0);  // 1.28 rad through inverted, not 5 rad
   EXPECT_GT(loops.Roll(0.0), 0);
+  loops.flight.roll = -3;
+  EXPECT_GT(loops.Roll(0.5 * loops.lift.max_straight_bank), 0);  // upright, be it farther
 }
 
 TEST(InnerLoops, RollRateDemandIsLimited) {

@@ -79,14 +79,16 @@ TEST(Tecs, IntegratesWhatRemains) {
   }
 }
 
-TEST(Tecs, IntegratorStopsWhileTheThrottleIsAtItsLimit) {
-  LevelFlight level;
-  level.Throttle({300, 0, 0});
-  for (int i = 0; i < 1000; ++i) level.Throttle({300, 0, 0}, kLater);
-  EXPECT_EQ(level.memory.throttle, 1);
-  EXPECT_EQ(level.memory.integrator, 0);
-  // Nothing is left of it when the error has gone.
-  EXPECT_DOUBLE_EQ(level.Throttle({0, 0, 0}, kLater), kLevelThrottle);
+TEST(Tecs, IntegratorStopsWhileTheThrottleIsAtEitherLimit) {
+  for (const double speed_error : {300, -300}) {
+    LevelFlight level;
+    level.Throttle({speed_error, 0, 0});
+    for (int i = 0; i < 1000; ++i) level.Throttle({speed_error, 0, 0}, kLater);
+    EXPECT_EQ(level.memory.throttle, speed_error > 0 ? 1 : 0);
+    EXPECT_EQ(level.memory.integrator, 0);
+    // Nothing is left of it when the error has gone.
+    EXPECT_DOUBLE_EQ(level.Throttle({0, 0, 0}, kLater), kLevelThrottle);
+  }
 }
 
 TEST(Tecs, IntegratorStaysWithinItsLimit) {
