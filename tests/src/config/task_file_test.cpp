@@ -262,6 +262,56 @@ TEST(TaskFileTest, RollsAroundTheStartAreOfTheBankThatFlightsBeginWith) {
   EXPECT_GT(most, 0.5);
 }
 
+/// Flights of two control steps each that observe their last actions.
+EnvConfig ObservingActions(double noise) {
+  EnvConfig env;
+  env.SetTermTask(Read(Minimal("[[target]]", "last_actions = true\n[[target]]")));
+  env.time_limit_steps = 2;
+  env.observation_noise = noise;
+  return env;
+}
+
+/// The last four numbers of each row.
+std::vector<float> ActionsObserved(const VecEnv& env) {
+  const auto size = static_cast<std::size_t>(env.observation_size());
+  std::vector<float> rows(static_cast<std::size_t>(env.num_aircraft()) * size), observed;
+  env.Observe(0, rows.data());
+  for (std::size_t end = size; end <= rows.size(); end += size) {
+    observed.insert(observed.end(), rows.begin() + static_cast<std::ptrdiff_t>(end - kActionSize),
+                    rows.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+  return observed;
+}
+
+TEST(TaskFileTest, LastActionsAreThoseOfThePolicyStepBeforeInItsEpisode) {
+  VecEnv env(ObservingActions(0), 1, 1);
+  StepBuffers buffers(1);
+  buffers.action = {2, -0.5f, 0.25f, 0.125f};
+  const std::vector<float> none(kActionSize), clipped = {1, -0.5f, 0.25f, 0.125f};
+  for (int episode = 0; episode < 2; ++episode) {
+    EXPECT_EQ(ActionsObserved(env), none);
+    env.Step(0, buffers.action.data(), buffers.output());
+    EXPECT_EQ(ActionsObserved(env), clipped);
+    env.Step(0, buffers.action.data(), buffers.output());
+    EXPECT_NE(buffers.termination[0], 0);
+  }
+}
+
+TEST(TaskFileTest, LastActionsAreAsNoisyAsAllThatIsObserved) {
+  constexpr double kNoise = 0.5;
+  const std::vector<float> observed =
+      ActionsObserved(VecEnv(ObservingActions(kNoise), 500, 1, 500));
+  const auto count = static_cast<double>(observed.size()) / kActionSize;
+  for (std::size_t k = 0; k < kActionSize; ++k) {
+    double squares = 0;
+    for (std::size_t i = k; i < observed.size(); i += kActionSize) {
+      squares += observed[i] * observed[i];
+    }
+    const double variance = kNoise * kNoise;
+    EXPECT_NEAR(squares / count, variance, kStandardErrors * variance * std::sqrt(2 / count)) << k;
+  }
+}
+
 /// What is observed before each control step of a flight in turbulence, by a task that observes
 /// these numbers, `delay` control steps late.
 std::vector<std::vector<float>> ObservedInWind(const std::string& numbers, int delay) {
