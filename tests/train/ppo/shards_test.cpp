@@ -93,6 +93,23 @@ TEST(ShardsOfRankTest, ARefusalNamesANumberThatWorks) {
   }
 }
 
+TEST(ShardsTest, TheFirstRolloutsEpisodesAreThoseOfOneShard) {
+  TrainConfig config = SmallConfig();
+  config.env.stagger_clocks = false;
+  // All end with the rollout.
+  config.env.time_limit_steps = config.env.heading.earliest_success_step =
+      config.ppo.rollout_steps * config.env.action_repeat;
+  WorkerPool pool(1);
+  const IterationReport one = Trainer(config, pool).Iterate();
+  config.learner.shards = 4;
+  const IterationReport four = Trainer(config, pool).Iterate();
+  EXPECT_GE(one.episodes, 96u);
+  EXPECT_EQ(four.episodes, one.episodes);
+  EXPECT_EQ(four.terminations, one.terminations);
+  EXPECT_NEAR(four.return_mean, one.return_mean, kSumOrder * std::abs(one.return_mean));
+  EXPECT_NEAR(four.explained_variance, one.explained_variance, kSumOrder);
+}
+
 /// [shard][slice] vectors, and what SumGradients must leave of one element.
 struct Gradients {
   Gradients(int shards, int slices) {
