@@ -34,6 +34,18 @@ TEST(RampsTest, CostsOfHandlingGrowFromNothingOverTheirShareOfTheBudget) {
   EXPECT_NE(grown[1], unpriced[1]);
 }
 
+TEST(RampsTest, WhatHasGrownStaysAtItsFullWeight) {
+  TrainConfig priced = SmallConfig();
+  priced.env.reward.roll_rate = 1;
+  priced.ppo.popart = false;
+  priced.ppo.learning_rate = 1e-30;  // rollouts then differ by their rewards alone
+  TrainConfig ramped = priced;
+  ramped.ppo.handling_ramp = kOneIteration;
+  const std::vector<double> full = Rollouts(priced, 4), grown = Rollouts(ramped, 4);
+  EXPECT_NE(grown[0], full[0]);
+  for (const std::size_t rollout : {1u, 2u, 3u}) EXPECT_EQ(grown[rollout], full[rollout]);
+}
+
 TEST(RampsTest, ThePriceOfChangesInTheLossGrowsAsTheOthersDo) {
   TrainConfig priced = SmallConfig();
   priced.ppo.action_smoothness_coefficient = 1;
