@@ -63,6 +63,18 @@ TEST(ActionNoise, IsCorrelatedInTheActionsThatHoldItForAsLongAsTheyDo) {
   EXPECT_NEAR(Correlation({0, 8, 2}, 0, 4), 0, kError);
 }
 
+TEST(ActionNoise, IsHeldAnewByAnEqualShareOfTheAircraftInEveryPolicyStep) {
+  constexpr int kHeldSteps = 8;
+  const HeldNoise all{1, kHeldSteps, kSize};
+  for (std::uint64_t step = 0; step < 2 * kHeldSteps; ++step) {
+    const std::vector<float> now = NoiseOf(step, all), next = NoiseOf(step + 1, all);
+    int changed = 0;
+    for (std::size_t i = 0; i < now.size(); i += kSize) changed += now[i] != next[i];
+    EXPECT_GE(changed, kCount / kHeldSteps) << step;
+    EXPECT_LE(changed, kCount / kHeldSteps + 1) << step;
+  }
+}
+
 TEST(ActionNoise, IsAnotherOfEverySeedAircraftAndPolicyStep) {
   constexpr std::uint64_t kUpperHalf = std::uint64_t{1} << 32;
   const double chance = kStandardErrors / std::sqrt(kCount * kSize);
