@@ -185,6 +185,20 @@ TEST(FlightMeasurerTest, AMissionIsMeasuredWhileItIsWithinTolerances) {
   EXPECT_NEAR(measures.hold.net_rolls_per_min, rolls_per_min, rolls_per_min * 10 * kFloat);
 }
 
+TEST(FlightMeasurerTest, ARollFromOneTargetToTheNextIsNoneOfHolding) {
+  EnvConfig env;
+  env.mission.length_s = 2;
+  HandFlight flight(env);
+  for (int i = 0; i < 100; ++i) {
+    const bool completes = i == 49;
+    flight.SetAttitude(i < 50 ? 0 : 0.5);
+    flight.targets_reached += completes;
+    flight.Fly(!completes);  // at the next one in the step after
+  }
+  EXPECT_FLOAT_EQ(flight.Report().hold.within, 1);
+  EXPECT_NEAR(flight.Report().hold.net_rolls_per_min, 0, kFloat);
+}
+
 TEST(FlightMeasurerTest, SideslipIsRelativeToTheAir) {
   HandFlight flight(Holding(1), kNumWindyColumns);
   flight.tile.Fill(kV, 50);  // over the ground
