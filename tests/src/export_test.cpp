@@ -364,10 +364,12 @@ TEST_F(ExportCommand, WritesAHeaderThatSaysWhatItsNumbersAre) {
   const ProgramResult result = Export(policy_, {"--format", "c", "-o", out});
   EXPECT_EQ(result.exit_code, 0) << result.error;
   const std::string header = ReadFile(out);
-  for (const char* text : {"error_altitude_ft = 3280.84 obs[0]", "error_yaw_deg = 57.29578 obs[1]",
-                           "altitude_ft = 16404.2 obs[3]", "leading_edge_flap_deg = 25 obs[20]",
-                           "throttle_fraction = 0.5 actions[0] + 0.5", "held for 0.1 s",
-                           "void heading_step(const float obs[HEADING_OBSERVATION_SIZE]"}) {
+  for (const char* text :
+       {"error_altitude_ft = 3280.84 obs[0]", "error_yaw_deg = 57.29578 obs[1]",
+        "altitude_ft = 16404.2 obs[3]", "elevator_deg = 25 obs[17]", "aileron_deg = 21.5 obs[18]",
+        "rudder_deg = 30 obs[19]", "leading_edge_flap_deg = 25 obs[20]",
+        "throttle_fraction = 0.5 actions[0] + 0.5", "held for 0.1 s",
+        "void heading_step(const float obs[HEADING_OBSERVATION_SIZE]"}) {
     EXPECT_THAT(header, HasSubstr(text));
   }
 }
