@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the program as a user does, on trainings of about a second.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -10,11 +11,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
 
 #include "simd/target.h"
 #include "src/bench/machine.h"
 #include "src/config/configuration.h"
 #include "src/files/output_file.h"
+#include "src/report/run_record.h"
 #include "src/run/run_directory.h"
 #include "tests/src/run_program.h"
 #include "tests/src/tiny_training.h"
@@ -46,6 +50,7 @@ TEST_F(TrainingPipeline, LeavesEverythingBehindThatItSays) {
   EXPECT_EQ(std::count(metrics.begin(), metrics.end(), '\n'), 1 + kIterations);
 
   const auto evaluation = nlohmann::json::parse(ReadFile(run_ + "/evaluation.json"));
+  EXPECT_EQ(evaluation["policy"], run_ + "/checkpoints/policy-best.skein");
   EXPECT_EQ(evaluation["episodes"], 32);
   EXPECT_GE(evaluation["success_rate"], 0);
   int ended = 0;
@@ -284,6 +289,51 @@ TEST_F(TrainingPipeline, AResumedRunKeepsItsConfiguration) {
   EXPECT_EQ(longer.exit_code, 2);
   ExpectOneLine(longer.error, "run.total_steps");
   EXPECT_EQ(CallSkein({"train", "--resume", reference_, "--preset", "paper"}).exit_code, 2);
+}
+
+std::set<std::string> EventFilesOf(const std::string& run) {
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(run)) {
+    const std::string path = entry.path().string();
+    if (path.find("tfevents") != std::string::npos) files.insert(path);
+  }
+  return files;
+}
+
+/// At which step the session of an event file starts, by its second record: length, checksum, wall
+/// time, step as a varint.
+std::uint64_t SessionStart(const std::string& events) {
+  constexpr std::size_t kFrame = 8 + 4, kWallTime = 1 + 8;
+  const auto byte = [&events](std::size_t at) { return static_cast<unsigned char>(events.at(at)); };
+  const std::size_t second = kFrame + byte(0) + 4;
+  std::uint64_t step = 0;
+  std::size_t at = second + kFrame + kWallTime + 1;
+  for (int shift = 0;; shift += 7, ++at) {
+    step |= static_cast<std::uint64_t>(byte(at) & 0x7f) << shift;
+    if (byte(at) < 0x80) return step;
+  }
+}
+
+TEST_F(TrainingPipeline, WhatAResumedRunFliesAgainIsRecordedOnce) {
+  FlyReference();
+  const std::set<std::string> before = EventFilesOf(reference_);
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_EQ(SessionStart(ReadFile(*before.begin())), 1u);
+  for (const int iteration : {11, 12}) {
+    fs::remove(fmt::format("{}/checkpoints/checkpoint-{:06}.skein", reference_, iteration));
+  }
+  const ProgramResult resumed = RunSkein({"train", "--resume", reference_});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  const RunRecord run = ReadRunRecord(reference_);
+  std::vector<double> iterations(kIterations);
+  std::iota(iterations.begin(), iterations.end(), 1);
+  EXPECT_EQ(*run.metrics.Find("iteration"), iterations);
+  EXPECT_EQ(*run.timing.Find("iteration"), iterations);
+  // TensorBoard forgets what the first file says of the steps from there on.
+  for (const std::string& events : EventFilesOf(reference_)) {
+    if (before.count(events) > 0) continue;
+    EXPECT_EQ(SessionStart(ReadFile(events)), 10u * kStepsPerIteration + 1);
+  }
 }
 
 TEST_F(TrainingPipeline, NoCheckpointIsToBeRemovedForAnotherReasonThanDamage) {
