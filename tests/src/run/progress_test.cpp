@@ -122,6 +122,19 @@ TEST(Progress, RatesComeFromTheLastHalfMinute) {
   EXPECT_TRUE(std::isnan(meter.progress().return_mean));
 }
 
+TEST(Progress, RatesAreOfNoLessThanHalfAMinute) {
+  using std::chrono::seconds;
+  const ProgressMeter::Clock::time_point start{};
+  ProgressMeter meter(0, 10000000, {}, start);
+  IterationReport report;
+  // Two iterations of 20 s each, a slow and a quick one, are the fewest that last so long.
+  for (int i = 1; i <= 8; ++i) {
+    report.env_steps += i % 2 == 0 ? 60000 : 20000;
+    meter.Add(report, start + seconds(20 * i));
+    EXPECT_DOUBLE_EQ(meter.progress().steps_per_s, i == 1 ? 1000 : 2000) << i;
+  }
+}
+
 TEST(Progress, LatestKnownValuesStay) {
   const ProgressMeter::Clock::time_point start{};
   ProgressMeter meter(0, 100, {}, start);
