@@ -183,6 +183,13 @@ TEST(TrainingCurvesTest, ACurveGoesOnBeyondItsEndsAsItEnds) {
   EXPECT_EQ(Interpolated(curve, std::nextafter(0.7, kInfinity)), 5);
 }
 
+TEST(TrainingCurvesTest, ACurveIsStraightBetweenItsPoints) {
+  const std::vector<PagePoint> curve = {{0, 3}, {4, 5}, {5, 1}};
+  for (const PagePoint& point : {PagePoint{1, 3.5}, {3, 4.5}, {4, 5}, {4.25, 4}}) {
+    EXPECT_NEAR(Interpolated(curve, point.x), point.y, kRounding) << point.x;
+  }
+}
+
 TEST(TrainingCurvesTest, EachTaskHasAPanel) {
   const std::vector<CurveSetting> settings =
       SettingsOf({RunOf("a", {0.1, 0.5}), RunOf("b", {0.2, 0.7}, "control")}, std::nullopt, {});
