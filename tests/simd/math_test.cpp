@@ -38,6 +38,8 @@ V CosOfBits(D d, V x) {
   return c;
 }
 
+V ClampToRange(D d, V x) { return ClampTo(d, x, -1, 2); }
+
 V SinOf(D d, V x) {
   V s, c;
   SinCos(d, x, s, c);
@@ -67,6 +69,7 @@ void Apply(Binary f, const std::vector<float>& x, const std::vector<float>& y,
 }
 
 using Column = std::vector<float>;
+void ClampColumn(const Column& x, Column& y) { Apply(ClampToRange, x, y); }
 void ReciprocalColumn(const Column& x, Column& y) { Apply(Reciprocal<D>, x, y); }
 void ReciprocalSqrtColumn(const Column& x, Column& y) { Apply(ReciprocalSqrt<D>, x, y); }
 void AtanDegreesColumn(const Column& x, Column& y) { Apply(AtanDegrees<D>, x, y); }
@@ -90,6 +93,7 @@ HWY_AFTER_NAMESPACE();
 namespace skein {
 namespace {
 
+HWY_EXPORT(ClampColumn);
 HWY_EXPORT(ReciprocalColumn);
 HWY_EXPORT(ReciprocalSqrtColumn);
 HWY_EXPORT(AtanDegreesColumn);
@@ -172,6 +176,16 @@ double WorstAbsolute(ColumnFunction function, const std::function<double(double)
     worst = Larger(worst, std::abs(y[i] - exact(x[i])));
   }
   return worst;
+}
+
+TEST_P(MathTest, ClampToLimitsToItsRangeAndNaNToItsLowerEnd) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Column x = {-kInfinity,     -5, -1, -0.5f, 0, 0.5f, 2, 7, kInfinity, std::nanf(""),
+                    -std::nanf(""), 1,  1,  1,     1, 1};
+  const Column expected = {-1, -1, -1, -0.5f, 0, 0.5f, 2, 2, 2, -1, -1, 1, 1, 1, 1, 1};
+  Column y(x.size());
+  SKEIN_DISPATCH(ClampColumn)(x, y);
+  EXPECT_EQ(y, expected);
 }
 
 TEST_P(MathTest, Reciprocal) {
