@@ -14,6 +14,7 @@
 #include "src/config/configuration.h"
 #include "tests/envs/step_buffers.h"
 #include "tests/scoped_target.h"
+#include "tests/tolerance.h"
 
 namespace skein {
 namespace {
@@ -26,6 +27,8 @@ struct Pair {
 };
 
 std::ostream& operator<<(std::ostream& out, const Pair& pair) { return out << pair.name; }
+
+constexpr Tolerance kGivenAttitude{1e-4, "float32 rounding of an attitude, there and back"};
 
 class TaskFileEqualityTest : public testing::TestWithParam<std::tuple<simd::Target, Pair>> {};
 
@@ -80,6 +83,22 @@ TEST_P(TaskFileEqualityTest, FliesAsTheBuiltInTask) {
   }
   EXPECT_GT(ended, kAircraft);
   for (int i = 0; i < count; ++i) ASSERT_EQ(ours.TargetOf(i), built_in.TargetOf(i));
+  // Targets that are given, each aircraft its neighbour's.
+  const std::vector<float> first = ours.TargetOf(0);
+  for (int i = 0; i < count; ++i) {
+    const std::vector<float> given = i + 1 < count ? ours.TargetOf(i + 1) : first;
+    ours.SetTarget(i, given);
+    built_in.SetTarget(i, given);
+  }
+  ours.Step(0, a.action.data(), a.output());
+  built_in.Step(0, a.action.data(), b.output());
+  for (std::size_t i = 0; i < a.reward.size(); ++i) {
+    EXPECT_NEAR(a.reward[i], b.reward[i], kGivenAttitude) << "target that is given to " << i;
+  }
+  const EnvConfig evaluated = EvaluationConfig(ConfigOf(file, pair.settings));
+  const EnvConfig evaluated_built_in = EvaluationConfig(ConfigOf(pair.name, settings));
+  EXPECT_EQ(Privileged(VecEnv(evaluated, kAircraft, 11, kAircraft)),
+            Privileged(VecEnv(evaluated_built_in, kAircraft, 11, kAircraft)));
 }
 
 const std::vector<std::string> kConditions = {
@@ -97,12 +116,20 @@ const std::vector<std::string> kSinglePoints = {
     "env.wind.training_turbulence_max_fps=0", "env.termination.training_min_mach=0",
     "env.termination.failure_reward=-200",    "env.termination.success_reward=200"};
 
+/// Target after target, from low flights: none may lead into the ground.
+const std::vector<std::string> kMissions = {
+    "env.hold_s=0", "env.mission.length_s=40", "env.mission.dwell_s=1",
+    "env.initial.altitude_min_ft=3500", "env.initial.altitude_max_ft=4500"};
+
 std::vector<Pair> Pairs() {
   return {{"heading"},
           {"control"},
           {"tracking", {}, kSinglePoints},
           {"heading", kConditions},
-          {"tracking", kConditions, kSinglePoints}};
+          {"tracking", kConditions, kSinglePoints},
+          {"heading", kMissions},
+          {"control", kMissions},
+          {"tracking", kMissions, kSinglePoints}};
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, TaskFileEqualityTest,
