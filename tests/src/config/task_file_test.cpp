@@ -312,6 +312,35 @@ TEST(TaskFileTest, LastActionsAreAsNoisyAsAllThatIsObserved) {
   }
 }
 
+TEST(TaskFileTest, FrozenSensorsAreTheSameBehindAnyLeadingNumbers) {
+  constexpr int kCount = 64;
+  const auto observed = [](const std::string& numbers) {
+    EnvConfig env;
+    env.SetTermTask(Read(Minimal("\"error_altitude\"", numbers)));
+    env.observation_noise = 0;
+    env.plant.sensor_freeze_chance = 1;
+    env.plant.sensor_freeze_s = {0.1, 0.1};
+    VecEnv flights(env, kCount, 1);
+    StepBuffers buffers(kCount);
+    for (std::size_t i = 0; i < kCount; ++i) buffers.action[4 * i + 1] = 0.5f;
+    for (int step = 0; step < 20; ++step) {
+      flights.Step(0, buffers.action.data(), buffers.output());
+    }
+    const auto size = static_cast<std::size_t>(flights.observation_size());
+    std::vector<float> rows(kCount * size), sensed;
+    flights.Observe(0, rows.data());
+    constexpr std::size_t kSensed = 19;
+    for (std::size_t end = size; end <= rows.size(); end += size) {
+      sensed.insert(sensed.end(), rows.begin() + static_cast<std::ptrdiff_t>(end - kSensed),
+                    rows.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    return sensed;
+  };
+  const std::string one = "\"error_altitude\"", two = one + ", \"pitch_rad\"";
+  EXPECT_EQ(observed(one), observed(two + ", \"q_rad_s\""));
+  EXPECT_EQ(observed(two), observed(two + ", \"q_rad_s\""));
+}
+
 /// What is observed before each control step of a flight in turbulence, by a task that observes
 /// these numbers, `delay` control steps late.
 std::vector<std::vector<float>> ObservedInWind(const std::string& numbers, int delay) {
