@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -226,6 +227,19 @@ TEST(VecEnvProgress, PointsOfAMissionLieAheadOfWhereTheAircraftHasTurned) {
     }
   }
   EXPECT_GT(turned, kAircraft);
+}
+
+TEST(VecEnvProgress, TargetsThatAreMissedAreFollowedByOthers) {
+  EnvConfig config = Mission("heading");
+  config.heading.speed_change_fps = 300;  // not within their time
+  config.time_limit_steps = 30;
+  VecEnv env(config, 1, 1);
+  std::set<std::vector<float>> targets = {env.TargetOf(0)};
+  for (int step = 0; step < 40; ++step) {
+    Fly(&env, 1);
+    targets.insert(env.TargetOf(0));
+  }
+  EXPECT_EQ(targets.size(), 5u) << "four were missed in 120 control steps";
 }
 
 TEST(VecEnvProgress, EveryTargetOfAMissionIsWorthATerminalReward) {
