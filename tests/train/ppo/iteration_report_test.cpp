@@ -7,6 +7,7 @@
 
 #include "tests/tolerance.h"
 #include "tests/train/small_config.h"
+#include "train/policy/evaluate.h"
 #include "train/ppo/trainer.h"
 
 namespace skein {
@@ -36,6 +37,44 @@ TEST(IterationReportTest, EntropyAndDeviationAreOfTheActionsThatAreExplored) {
     EXPECT_NEAR(report.log_std_mean, -0.75, kFloat32);
     EXPECT_NEAR(report.entropy, explored * (of_unit_deviation - 0.75), kFloat32);
   }
+}
+
+TEST(IterationReportTest, WhatEvaluationsHeldIsThatOfTheSameEpisodes) {
+  TrainConfig config = SmallConfig();
+  config.evaluation.interval_iterations = 1;
+  config.env.hold_s = 0.2;
+  config.env.heading.earliest_success_step = 1;
+  config.env.heading.altitude_tolerance_ft = 1500;
+  config.env.heading.yaw_tolerance_deg = 40;
+  config.env.heading.speed_tolerance_fps = 150;
+  WorkerPool pool(1);
+  Trainer trainer(config, pool);
+  const IterationReport report = trainer.Iterate();
+  EvaluationOptions options;
+  options.episodes = config.evaluation.episodes;
+  options.seed = ~config.seed;
+  const EvaluationResult result =
+      Evaluate(Agent::MeanOf(trainer.policy()), config.env, options, pool);
+  EXPECT_GT(result.success_rate, 0);
+  EXPECT_GT(result.hold_within_mean, 0);
+  EXPECT_NE(result.hold_within_mean, result.success_rate);
+  EXPECT_EQ(report.evaluation_success_rate, result.success_rate);
+  EXPECT_EQ(report.evaluation_hold_within, result.hold_within_mean);
+}
+
+TEST(IterationReportTest, AtARateOfZeroPoliciesOfLinearMeansStayWhereTheyAreToo) {
+  constexpr Tolerance kSquareOfRounding{1e-7, "the square of float32 roundings of about ten"};
+  TrainConfig config = SmallConfig();
+  config.network.tanh_mean = false;
+  config.ppo.learning_rate = 1e-2;  // means grow beyond where tanh is linear
+  config.ppo.final_learning_rate_fraction = 0;
+  WorkerPool pool(1);
+  Trainer trainer(config, pool);
+  IterationReport last;
+  while (!trainer.finished()) last = trainer.Iterate();
+  EXPECT_EQ(last.learning_rate, 0);
+  EXPECT_NEAR(last.approximate_kl, 0, kSquareOfRounding);
+  EXPECT_EQ(last.clip_fraction, 0);
 }
 
 }  // namespace
