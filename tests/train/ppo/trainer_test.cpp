@@ -207,12 +207,15 @@ TEST_F(TrainerTest, APrivilegedCriticTrainsAndResumesBitExactly) {
 TEST_F(TrainerTest, NetworksThatDoNotFitChangeNothing) {
   WorkerPool pool(1);
   Trainer(SmallConfig(), pool).Save(path_);
-  TrainConfig larger = SmallConfig();
+  TrainConfig larger = SmallConfig(), linear = SmallConfig();
   larger.network.gru_size = 32;
-  Trainer trainer(larger, pool);
-  const std::uint64_t before = trainer.Signature();
-  EXPECT_THROW(trainer.StartFrom(path_), Error);
-  EXPECT_EQ(trainer.Signature(), before);
+  linear.network.tanh_mean = false;
+  for (const TrainConfig& other : {larger, linear}) {
+    Trainer trainer(other, pool);
+    const std::uint64_t before = trainer.Signature();
+    EXPECT_THROW(trainer.StartFrom(path_), Error);
+    EXPECT_EQ(trainer.Signature(), before);
+  }
 }
 
 TEST_F(TrainerTest, StatisticsLeaveOutEpisodesWithStaggeredClocks) {
