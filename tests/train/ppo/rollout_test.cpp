@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "base/error.h"
@@ -183,6 +184,13 @@ TEST(RolloutTest, ActionsScatterByTheirDeviationsAnewInEveryStepOfEveryAircraft)
     const double products = static_cast<double>(deviations.size() - apart);
     EXPECT_NEAR(sum / products, 0, kStandardErrors / std::sqrt(products)) << apart;
   }
+}
+
+TEST(RolloutTest, FlightsThatAreNotFiniteAreAllCounted) {
+  Flight flight(SmallConfig());  // whose first episodes are no others' statistics
+  flight.log_std.assign(4, std::numeric_limits<float>::infinity());
+  const EpisodeStatistics statistics = flight.Fly();
+  EXPECT_EQ(statistics.non_finite, statistics.policy_steps);
 }
 
 TEST(RolloutTest, EpisodesBeginWhereOthersEnded) {
