@@ -68,6 +68,9 @@ TEST(EvaluateTest, AllAgentsFlyTheSameEpisodes) {
   EXPECT_EQ(starts(Agent::SamplingFrom(SmallPolicy())), first);
   EXPECT_EQ(starts(Agent::Random(25)), first);
   EXPECT_EQ(starts(Agent::Zero()), first);
+  options.target = {15000.0f};
+  EXPECT_NE(starts(Agent::Zero()), first) << "to another altitude";
+  options.target = {};
   options.seed = 9;
   EXPECT_NE(starts(Agent::Zero()), first);
 }
