@@ -217,5 +217,23 @@ TEST_F(RecordFlightsTest, RefusesToRecordNothing) {
   EXPECT_THROW(Record(1, pool_), Error);
 }
 
+TEST(RecordMissionsTest, TargetsOfAMissionAreReachedUpToItsLastStep) {
+  EnvConfig env;
+  env.task = "control";
+  env.control.pitch_tolerance_deg = env.control.yaw_tolerance_deg = 180;
+  env.control.speed_tolerance_fps = 1e6;  // within them in every state
+  env.mission.dwell_s = 1;
+  env.mission.length_s = 5;
+  EvaluationOptions options;
+  options.episodes = 1;
+  WorkerPool pool(1);
+  const RecordedFlight flight = RecordFlights(Agent::Zero(), env, options, 1, pool).front();
+  ASSERT_EQ(flight.steps.size(), 250u);
+  EXPECT_EQ(flight.steps.back().termination, Termination::kTimeLimit);
+  for (std::size_t step = 0; step < flight.steps.size(); ++step) {
+    EXPECT_EQ(flight.steps[step].reaches_target, step % 50 == 49) << step;
+  }
+}
+
 }  // namespace
 }  // namespace skein
