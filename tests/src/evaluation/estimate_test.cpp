@@ -115,5 +115,13 @@ TEST(EstimateTest, WithoutDiscordancePairedSharesAreEqual) {
   EXPECT_EQ(CompareShares(4, 4, 50).p_value, 1);
 }
 
+TEST(EstimateTest, IntervalsOfSharesHoldTheirShareWhereAllOrNoneSucceeded) {
+  for (int trials = 1; trials <= 1000; ++trials) {
+    const Estimate none = EstimateShare(0, trials), all = EstimateShare(trials, trials);
+    EXPECT_EQ(none.low, 0) << trials;
+    EXPECT_EQ(all.high, 1) << trials;
+  }
+}
+
 }  // namespace
 }  // namespace skein

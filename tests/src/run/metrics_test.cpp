@@ -96,6 +96,9 @@ TEST(Metrics, ScalarsAreGroupedAsTensorBoardShowsThem) {
   report.evaluation_hold_within = 0.5;
   report.rollout_seconds = 1.5;
   report.update_seconds = 2.5;
+  report.episodes = 4;
+  report.terminations[static_cast<std::size_t>(Termination::kTargetReached)] = 3;
+  report.terminations[static_cast<std::size_t>(Termination::kLowAltitude)] = 1;
   const auto scalars = Scalars(report, 1000);
   const auto value = [&scalars](const std::string& tag) {
     for (const auto& [name, number] : scalars) {
@@ -106,6 +109,8 @@ TEST(Metrics, ScalarsAreGroupedAsTensorBoardShowsThem) {
   EXPECT_EQ(value("eval/success_rate"), 0.75);
   EXPECT_EQ(value("eval/hold_within"), 0.5);
   EXPECT_EQ(value("time/fps"), 250);
+  EXPECT_EQ(value("ended/target_reached"), 0.75);
+  EXPECT_EQ(value("ended/low_altitude"), 0.25);
   EXPECT_EQ(value("train/return_mean"), 0);
 }
 

@@ -135,6 +135,18 @@ TEST(Progress, RatesAreOfNoLessThanHalfAMinute) {
   }
 }
 
+TEST(Progress, NothingIsLeftOfABudgetThatIsFlown) {
+  Progress progress;
+  progress.total_steps = 1000;
+  progress.steps_per_s = 10;
+  progress.env_steps = 600;
+  EXPECT_EQ(SecondsLeft(progress), 40);
+  for (const std::uint64_t flown : {1000u, 1001u}) {
+    progress.env_steps = flown;
+    EXPECT_EQ(SecondsLeft(progress), 0) << flown;
+  }
+}
+
 TEST(Progress, LatestKnownValuesStay) {
   const ProgressMeter::Clock::time_point start{};
   ProgressMeter meter(0, 100, {}, start);
