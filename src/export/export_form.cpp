@@ -25,7 +25,7 @@ extern const std::string_view fly_policy_c, fly_flight_control_c, fly_policy_py;
 namespace {
 
 constexpr const char* kStrictC = " -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror ";
-constexpr const char* kCannotFly = "the exported file cannot be flown";
+constexpr const char* kCannotFly = "nothing is written: the exported file cannot be flown";
 
 std::string FromEnvironment(const char* variable, const char* usual) {
   const char* const named = std::getenv(variable);
@@ -74,7 +74,7 @@ std::vector<float> FlyC(const std::string& header, const std::string& include,
   WriteFile(folder / "fly.c", FillIn(main, {{"name", name}, {"NAME", UpperCase(name)}}));
   const std::string program = SingleQuoted(folder / "fly");
   RunShell(compiler + kStrictC + SingleQuoted(folder / "fly.c") + " -o " + program + " -lm", folder,
-           compiler + " cannot compile the exported header");
+           "nothing is written: " + compiler + " cannot compile the exported header");
   return Answers(program, rows, folder);
 }
 

@@ -129,7 +129,7 @@ bool Has(const std::string& program) {
 /// Whether a form cannot be written or flown for want of Python packages or of LibTorch's module.
 bool IsForWantOfLibraries(const std::string& complaint) {
   return testing::Matches(AnyOf(
-      ContainsRegex("^the exported file cannot be flown: .* has no package .* -m pip install "),
+      ContainsRegex("^nothing is written: .* has no package .* -m pip install "),
       HasSubstr(std::string(kLibTorchModule) + ": cannot open shared object file")))(complaint);
 }
 
