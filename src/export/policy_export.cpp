@@ -47,8 +47,9 @@ void WriteAll(const std::vector<Output>& outputs) {
 void RequireNear(double error, const std::string& found) {
   if (error <= kMostError) return;
   throw Error(
-      fmt::format("the exported file does not do what it was made of: {}; {:.0e} is allowed", found,
-                  kMostError));
+      fmt::format("nothing is written: the exported file does not do what it was made of: {}; "
+                  "{:.0e} is allowed",
+                  found, kMostError));
 }
 
 /// Flies an exported file, and says how near it came.

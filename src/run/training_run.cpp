@@ -347,7 +347,7 @@ void TrainingRun::Record(const IterationReport& report) {
     log_.Note(fmt::format("iteration {}, {} steps: deterministic success {:.1f} %{}",
                           report.iteration, FormatCount(static_cast<double>(report.env_steps)),
                           100 * report.evaluation_success_rate,
-                          report.best ? ", the best so far" : ""));
+                          report.best ? ", kept as the best" : ""));
   }
   if (report.best) trainer_.policy().Save(directory_.best_policy());
   turn_ = {};

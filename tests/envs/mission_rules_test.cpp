@@ -43,16 +43,19 @@ TEST(MissionRules, WhatJoinsAMissionIsAskedForWhatItsNextTargetWouldBe) {
 }
 
 TEST(MissionRules, NoDiveForALowestPitchEndsBelowTheLowestAltitude) {
+  constexpr double kDiveSpeed = 1.3;  // of the start's airspeed
+  constexpr double kClearance = 0.1;  // of the start's height above the floor
   const EnvConfig config;
   const double floor_ft = config.termination.min_altitude_ft;
   FlightStart start;
   start.altitude_ft = 15000;
   start.true_airspeed_ft_s = 700;
   const double flown_ft =
-      1.3 * start.true_airspeed_ft_s * config.time_limit_steps * config.control_interval_s;
+      kDiveSpeed * start.true_airspeed_ft_s * config.time_limit_steps * config.control_interval_s;
   for (const double altitude_ft : {6000.0, 15000.0, 24000.0}) {
     LimitDescent(config, altitude_ft, &start);
-    EXPECT_NEAR(start.lowest_altitude_ft, floor_ft + 0.1 * (15000 - floor_ft), kRounding);
+    EXPECT_NEAR(start.lowest_altitude_ft, floor_ft + kClearance * (start.altitude_ft - floor_ft),
+                kRounding);
     EXPECT_NEAR(altitude_ft + flown_ft * std::sin(start.lowest_pitch_rad), start.lowest_altitude_ft,
                 kRounding);
   }

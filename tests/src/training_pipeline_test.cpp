@@ -330,6 +330,7 @@ TEST_F(TrainingPipeline, WhatAResumedRunFliesAgainIsRecordedOnce) {
   EXPECT_EQ(*run.metrics.Find("iteration"), iterations);
   EXPECT_EQ(*run.timing.Find("iteration"), iterations);
   // TensorBoard forgets what the first file says of the steps from there on.
+  ASSERT_EQ(EventFilesOf(reference_).size(), 2u);
   for (const std::string& events : EventFilesOf(reference_)) {
     if (before.count(events) > 0) continue;
     EXPECT_EQ(SessionStart(ReadFile(events)), 10u * kStepsPerIteration + 1);

@@ -42,7 +42,7 @@ struct IterationReport {
   double evaluation_success_rate = -1;
   /// And its EvaluationResult::hold_within_mean; NaN without an evaluation, and without env.hold_s.
   double evaluation_hold_within = std::numeric_limits<double>::quiet_NaN();
-  bool best = false;  ///< none of the evaluations so far reached more targets than this one
+  bool best = false;  ///< no evaluation so far had more success than this one
   double rollout_seconds = 0, update_seconds = 0, evaluation_seconds = 0;
   double simulator_seconds = 0;  ///< of the rollout, mean of the threads
   double gradient_seconds = 0;   ///< of the update: forward, losses and backward
