@@ -237,6 +237,7 @@ std::vector<SettingChange> DifferingSettings(const std::vector<Run>& before,
   for (const std::vector<std::string>& keys : {std::vector<std::string>{"machine", "compiler"},
                                                {"machine", "build_type"},
                                                {"machine", "libtorch"},
+                                               {"machine", "libtorch_openblas"},
                                                {"machine", "cpu_stepping"},
                                                {"task_hash"}}) {
     const std::string a = TextsAt(before, keys), b = TextsAt(after, keys);

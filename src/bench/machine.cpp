@@ -65,7 +65,7 @@ Json ProgramJson() {
 }
 
 Json DescribeMachine() {
-  const std::string libtorch = LibTorchVersion();
+  const std::string libtorch = LibTorchVersion(), blas = LibTorchBlas();
   std::ifstream cpuinfo("/proc/cpuinfo");
   const CpuFacts cpu = ReadCpuFacts(cpuinfo);
   Json supported = Json::array();
@@ -84,7 +84,8 @@ Json DescribeMachine() {
           {"native_bf16", simd::NativeBfloat16()},
           {"native_amx", simd::NativeTiles()},
           {"precision", Name(DefaultPrecision())},
-          {"libtorch", libtorch.empty() ? Json() : Json(libtorch)}};
+          {"libtorch", libtorch.empty() ? Json() : Json(libtorch)},
+          {"libtorch_openblas", blas.empty() ? Json() : Json(blas)}};
 }
 
 }  // namespace skein

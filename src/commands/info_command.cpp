@@ -22,6 +22,10 @@ void PrintInfo(const std::string& json_path) {
   const std::string libtorch = info["libtorch"].is_null()
                                    ? "not available: networks by the fused kernels alone"
                                    : info["libtorch"].get<std::string>();
+  const std::string blas = info["libtorch_openblas"].is_null()
+                               ? ""
+                               : fmt::format(" (OpenBLAS for {}; force one with OPENBLAS_CORETYPE)",
+                                             info["libtorch_openblas"].get<std::string>());
   const auto text = [&info](const char* key) { return info[key].get<std::string>(); };
   // Hypervisors cut names short: "AMD EPYC".
   const std::string generation =
@@ -36,11 +40,11 @@ void PrintInfo(const std::string& json_path) {
       "threads   {}\n"
       "simd      {} (supported: {}; force one with SKEIN_SIMD)\n"
       "learner   precision {} (native bf16: {}, amx: {}; choose one with learner.precision)\n"
-      "libtorch  {}\n",
+      "libtorch  {}{}\n",
       text("version"), text("commit"), text("compiler"), text("build_type"), text("cpu"),
       generation, info["threads"].get<int>(), text("simd"),
       fmt::join(info["simd_supported"].get<std::vector<std::string>>(), ", "), text("precision"),
-      yes_or_no("native_bf16"), yes_or_no("native_amx"), libtorch);
+      yes_or_no("native_bf16"), yes_or_no("native_amx"), libtorch, blas);
 }
 
 }  // namespace

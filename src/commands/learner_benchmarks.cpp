@@ -124,6 +124,12 @@ Json Compare(const std::vector<LearnerRates>& learners, const Comparison& compar
                          {"times_libtorch", has_reference ? Json(rate / reference) : Json()}},
                         gflops, rates.peak_gflops));
   }
+  if (has_reference && LibTorchBlas() == kBlasOfUnknownProcessors &&
+      simd::FusesMultiplyAdd(simd::ActiveTarget())) {
+    fmt::print(
+        "  LibTorch multiplies without AVX: its OpenBLAS does not know this processor "
+        "(OPENBLAS_CORETYPE=SkylakeX or Haswell says which one it is like)\n");
+  }
   Json results = all[0];
   results["learners"] = all;
   return results;

@@ -462,6 +462,7 @@ TEST(Usage, InfoNamesWhatItRunsOn) {
   EXPECT_EQ(info["simd"], "scalar");
   EXPECT_GE(info["threads"], 1);
   EXPECT_NE(info["libtorch"], "");
+  EXPECT_NE(info["libtorch_openblas"], "");
   EXPECT_EQ(info["native_bf16"], false) << "the scalar target has none";
   EXPECT_EQ(info["precision"], "fp32");
   EXPECT_THAT(result.output, HasSubstr("learner   precision fp32 (native bf16: no, amx: no;"));
@@ -546,6 +547,26 @@ TEST(Usage, BenchmarksReportRatesAndTheirShareOfThePeak) {
   EXPECT_GT(updates["samples_per_s"], 0);
   EXPECT_EQ(updates["learners"].back()["backend"], "libtorch");
   EXPECT_EQ(updates["learners"].back()["times_libtorch"], 1);
+}
+
+TEST(Usage, BenchmarksSayWhenLibTorchDoesNotKnowTheProcessor) {
+  if (!simd::FusesMultiplyAdd(simd::ActiveTarget())) GTEST_SKIP() << "a processor without AVX2";
+  const auto update = [](const char* processor) {
+    return RunSkein(
+        {"bench", "update", "--iterations", "1", "--set", "ppo.num_aircraft=64", "--set",
+         "ppo.rollout_steps=8", "--set", "ppo.chunk_length=8", "--set", "ppo.minibatches=1"},
+        [processor] { setenv("OPENBLAS_CORETYPE", processor, 1); });
+  };
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "info.json";
+  RunSkein({"info", "--json", path}, [] { setenv("OPENBLAS_CORETYPE", "Prescott", 1); });
+  const auto info = nlohmann::json::parse(ReadFile(path));
+  if (info["libtorch_openblas"] != "Prescott") GTEST_SKIP() << "no OpenBLAS that can be forced";
+  const auto says = HasSubstr("LibTorch multiplies without AVX");
+  const ProgramResult slow = update("Prescott"), fast = update("Haswell");
+  EXPECT_EQ(slow.exit_code, 0) << slow.error;
+  EXPECT_THAT(slow.output, says);
+  EXPECT_THAT(fast.output, Not(says));
 }
 
 TEST(Usage, BenchmarkOfIterationsSaysWhatABudgetWouldTake) {

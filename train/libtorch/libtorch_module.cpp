@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <dlfcn.h>
 #include <torch/version.h>
 
 #include <cstring>
@@ -13,6 +14,11 @@ namespace {
 class LibTorchModule final : public BackendModule {
  public:
   std::string LibraryVersion() const override { return TORCH_VERSION; }
+  std::string BlasKernels() const override {
+    using CoreName = const char* (*)();
+    const auto name = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+    return name == nullptr ? "" : name();
+  }
   std::unique_ptr<RecurrentNetwork> MakeNetwork(const NetworkLayout& layout) const override {
     return std::make_unique<LibTorchNetwork>(layout);
   }

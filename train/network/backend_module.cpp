@@ -26,4 +26,8 @@ std::string LibTorchVersion() {
   }
 }
 
+std::string LibTorchBlas() {
+  return LibTorchVersion().empty() ? "" : LoadBackendModule().BlasKernels();
+}
+
 }  // namespace skein

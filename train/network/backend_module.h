@@ -18,6 +18,9 @@ class BackendModule {
   virtual ~BackendModule() = default;
   /// Of the library, as "1.13.0".
   virtual std::string LibraryVersion() const = 0;
+  /// The processor that the library's products are made for, by OpenBLAS's names for them, as
+  /// "SkylakeX"; empty if another library multiplies.
+  virtual std::string BlasKernels() const = 0;
   virtual std::unique_ptr<RecurrentNetwork> MakeNetwork(const NetworkLayout& layout) const = 0;
   /// The bytes of a TorchScript file, as torch.jit.load reads them.
   virtual std::string SaveScript(const ScriptModule& module) const = 0;
@@ -41,5 +44,10 @@ const BackendModule& LoadBackendModule(const std::string& file = kLibTorchModule
 
 /// Loads LibTorch's module to ask it; empty if it is not there.
 std::string LibTorchVersion();
+
+/// The kernels that OpenBLAS takes on a processor that it does not know: those of one without AVX.
+inline constexpr const char* kBlasOfUnknownProcessors = "Prescott";
+/// BackendModule::BlasKernels of LibTorch's module; empty if that is not there.
+std::string LibTorchBlas();
 
 }  // namespace skein
