@@ -263,13 +263,17 @@ std::shared_ptr<const KernelAircraft> MakeKernelAircraft(const Aircraft& aircraf
   auto kernel = std::make_shared<KernelAircraft>();
   kernel->source = aircraft;
   kernel->atmosphere_model = atmosphere;
-  FillAerodynamics(aircraft.aerodynamics, kernel.get());
-  kernel->engine = MakeEngine(aircraft.engine, aircraft.power_lag);
   kernel->atmosphere = MakeAtmosphere(atmosphere);
   kernel->constants = MakeConstants(aircraft.airframe, gravity);
   kernel->depends_on_mach = aircraft.drag_rises || aircraft.engine.grows;
-  kernel->drag_rise = MakeMachFunction(aircraft.drag_rise, aircraft.drag_rises, 0);
-  kernel->thrust_growth = MakeMachFunction(aircraft.engine.growth, aircraft.engine.grows, 1);
+  try {
+    FillAerodynamics(aircraft.aerodynamics, kernel.get());
+    kernel->engine = MakeEngine(aircraft.engine, aircraft.power_lag);
+    kernel->drag_rise = MakeMachFunction(aircraft.drag_rise, aircraft.drag_rises, 0);
+    kernel->thrust_growth = MakeMachFunction(aircraft.engine.growth, aircraft.engine.grows, 1);
+  } catch (const Error& error) {
+    throw Error("aircraft " + aircraft.name + ": " + error.what());
+  }
   return kernel;
 }
 

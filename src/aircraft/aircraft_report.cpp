@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
@@ -14,6 +15,7 @@
 #include "envs/aircraft/engine.h"
 #include "envs/aircraft/registry.h"
 #include "envs/aircraft/units.h"
+#include "envs/kernels/plant_kernel.h"
 #include "envs/reference/linear_flight.h"
 #include "envs/state/state.h"
 #include "envs/tuning/linear_modes.h"
@@ -142,6 +144,16 @@ std::vector<Finding> CheckPresets(const AircraftDocument& document) {
                                         DidYouMean(name, known), fmt::join(known, ", "))}};
 }
 
+/// That the kernels, by which all but `skein fdm` flies, take its tables.
+std::vector<Finding> CheckKernels(const Aircraft& aircraft) {
+  try {
+    MakeKernelAircraft(aircraft, AtmosphereModel::kStevensLewis);
+  } catch (const Error& error) {
+    return {{Finding::kError, error.what()}};
+  }
+  return {};
+}
+
 }  // namespace
 
 CheckedAircraft LoadForCheck(const std::string& aircraft) {
@@ -150,6 +162,7 @@ CheckedAircraft LoadForCheck(const std::string& aircraft) {
     const Aircraft tables = MakeAircraft(document);
     CheckedAircraft checked = Checked(document, tables, LimitsOfGains(tables.flight_control));
     checked.findings = CheckAirframe(tables.airframe);
+    for (Finding& finding : CheckKernels(tables)) checked.findings.push_back(std::move(finding));
     return checked;
   }
   const DerivativeAircraft model =

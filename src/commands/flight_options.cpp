@@ -262,8 +262,8 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
 }
 
 void WarnOfTargets(const EnvConfig& env, const GivenTargets& given) {
-  for (const auto& beyond : {TargetsBeyondLimits(env, given), AltitudesBeyondTables(env, given),
-                             WindsBeyondAirspeed(env)}) {
+  for (const auto& beyond : {StartsBeyondOwnEnds(env), TargetsBeyondLimits(env, given),
+                             AltitudesBeyondTables(env, given), WindsBeyondAirspeed(env)}) {
     for (const std::string& line : beyond) fmt::print(stderr, "warning: {}\n", line);
   }
 }

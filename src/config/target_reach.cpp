@@ -37,8 +37,8 @@ std::string Beyond(const TermTarget& target, double nearest, const std::string& 
                    const std::string& limit) {
   const std::string& unit = target.quantity.name;
   return fmt::format("target {} cannot be reached: it is {:.5g}{}{}, but flights end {}",
-                     target.name, nearest, more, unit == target.name ? "" : " (" + unit + ")",
-                     limit);
+                     target.name, nearest * target.quantity.per_value, more,
+                     unit == target.name ? "" : " (" + unit + ")", limit);
 }
 std::string AboveAll(const TermTarget& target, const Range& drawn, const std::string& limit) {
   return Beyond(target, drawn.min, drawn.max > drawn.min ? " or more" : "", limit);
@@ -69,10 +69,50 @@ std::string BeyondAltitude(const TermTarget& target, const Range& drawn,
       fmt::format("below {:.5g} ft (env.termination.min_altitude_ft)", limits.min_altitude_ft));
 }
 
+/// Where an end of a task file begins, of values such as targets have.
+struct OwnEnd {
+  bool above = false, below = false;  ///< beyond its limit; both of abs(x)
+  double limit = 0;
+};
+
+/// The ends of the task file that are of that value.
+std::vector<OwnEnd> OwnEndsOf(const EnvConfig& env, TermValue value) {
+  std::vector<OwnEnd> ends;
+  if (env.term_task == nullptr) return ends;
+  for (const auto& [condition, termination] : env.term_task->ends) {
+    const TermUnit& unit = condition.number.unit;
+    if (condition.number.value != value || unit.reference != ReferenceUnit::kNone) continue;
+    using Kind = TermCondition::Kind;
+    ends.push_back({condition.kind == Kind::kAbove || condition.kind == Kind::kBeyond,
+                    condition.kind == Kind::kBelow || condition.kind == Kind::kBeyond,
+                    condition.limit * unit.number / condition.number.per_value});
+  }
+  return ends;
+}
+
+/// Empty if some of `drawn` can be flown.
+std::string BeyondOwnEnds(const TermTarget& target, const Range& drawn, const EnvConfig& env) {
+  const auto limit = [&target](const char* side, double value) {
+    return fmt::format("{} {:.5g} ([[termination]])", side, value * target.quantity.per_value);
+  };
+  for (const OwnEnd& end : OwnEndsOf(env, target.quantity.value)) {
+    if (end.above && drawn.min > end.limit) {
+      return AboveAll(target, drawn, limit("above", end.limit));
+    }
+    const double least = end.above ? -end.limit : end.limit;
+    if (end.below && drawn.max < least) return BelowAll(target, drawn, limit("below", least));
+  }
+  return "";
+}
+
 std::string BeyondLimits(const TermTarget& target, const EnvConfig& env,
                          const GivenTargets& given) {
   const TerminationConfig& limits = env.termination;
   const std::optional<Range> alone = GivenOf(given, target.quantity.name);
+  if (!alone && target.draw_from == TermTarget::Draw::kBetween) {
+    std::string line = BeyondOwnEnds(target, target.draw, env);
+    if (!line.empty()) return line;
+  }
   switch (target.quantity.value) {
     case TermValue::kAltitude: {
       if (alone) return BeyondAltitude(target, *alone, limits);
@@ -173,6 +213,23 @@ std::vector<std::string> WindsBeyondAirspeed(const EnvConfig& env) {
   return {fmt::format(
       "winds of up to {:.6g} ft/s met as a step at {:.6g} ft/s: flights may end as they begin",
       wind, slowest)};
+}
+
+std::vector<std::string> StartsBeyondOwnEnds(const EnvConfig& env) {
+  std::vector<std::string> lines;
+  const auto append = [&](const char* name, TermValue value, const Range& start) {
+    for (const OwnEnd& end : OwnEndsOf(env, value)) {
+      const bool is_above = end.above && start.min > end.limit;
+      if (!is_above && !(end.below && !end.above && start.max < end.limit)) continue;
+      lines.push_back(fmt::format(
+          "flights end as they begin: with {} from {:.5g} to {:.5g}, and a [[termination]] is {} "
+          "{:.5g}",
+          name, start.min, start.max, is_above ? "above" : "below", end.limit));
+    }
+  };
+  append("altitude_ft", TermValue::kAltitude, env.initial.altitude_ft);
+  append("true_airspeed_fps", TermValue::kTrueAirspeed, env.initial.true_airspeed_fps);
+  return lines;
 }
 
 std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given) {

@@ -17,7 +17,8 @@ using GivenTargets = std::map<std::string, double>;
 /// flight can come to, for all that is drawn of it lies beyond where flights end: altitudes below
 /// env.termination.min_altitude_ft, airspeeds and Mach numbers out of min_mach to max_mach. What
 /// else makes a target too high or too fast, it does not know. What is `given` is judged as all
-/// that is drawn.
+/// that is drawn. Of a task file's own ends it knows those of a target that is drawn between two
+/// values.
 std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given = {});
 
 /// A line if flights may begin above the engine's tables of the aircraft, and one for every target
@@ -27,6 +28,9 @@ std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTa
 /// target's. Throws Error on an unknown aircraft.
 std::vector<std::string> AltitudesBeyondTables(const EnvConfig& env,
                                                const GivenTargets& given = {});
+
+/// A line for every end of a task file beyond which all flights begin, of altitude and airspeed.
+std::vector<std::string> StartsBeyondOwnEnds(const EnvConfig& env);
 
 /// A line if the strongest steady wind, met as a step, is no weaker than the slowest flight begins:
 /// from behind it leaves no air ahead.

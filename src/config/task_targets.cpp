@@ -2,8 +2,10 @@
 // What a task file draws, and the terrain below it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/ends_with.h"
 #include "base/error.h"
@@ -53,7 +55,7 @@ void ReadPoint(TableReader& own, const TermTaskConfig& task, TermTarget* target)
   target->quantity.value = TermValue::kPointNorth;
   target->distance_ft = own.NumberRange("distance_ft", {0, 1e6}).value_or(Range{0, 0});
   if (target->distance_ft.max <= 0 || target->distance_ft.min < 0) {
-    own.RefuseLack({"distance_ft"}, "a point needs distance_ft = [from, to]");
+    own.RefuseLack({"distance_ft"}, "a point needs distance_ft = [from, to], to above 0");
   }
   target->azimuth_deg = own.Number("azimuth_deg", {0, 180}).value_or(0);
   target->elevation_deg = own.Number("elevation_deg", {0, 90}).value_or(0);
@@ -62,7 +64,7 @@ void ReadPoint(TableReader& own, const TermTaskConfig& task, TermTarget* target)
 
 void ReadDraw(TableReader& own, const std::string& quantity, TermTarget* target) {
   target->quantity = FindTargetQuantity(quantity, own.Here());
-  target->name = own.Text("name", quantity.substr(0, quantity.rfind('_')));
+  target->name = own.Text("name", NameWithoutUnit(quantity));
   const std::string draw = OneOf(own, {"around_start", "between"});
   target->draw_from =
       draw == "between" ? TermTarget::Draw::kBetween : TermTarget::Draw::kAroundStart;
@@ -72,6 +74,17 @@ void ReadDraw(TableReader& own, const std::string& quantity, TermTarget* target)
     throw Error(fmt::format(
         "{}: around_start is for altitude, airspeed, position and attitude; {} needs between",
         own.Here(), quantity));
+  }
+}
+
+/// Two names of errors can be one: of targets "x", an angle, and "x_deg".
+void RequireNamesApart(const TermTaskConfig& task, const std::string& where) {
+  std::vector<std::string> names = TermNumbers(task).Names();
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end()) {
+    throw Error(fmt::format("{}: two targets' errors are called {}; give one of them another name",
+                            where, *twice));
   }
 }
 
@@ -109,6 +122,8 @@ void ReadTarget(const toml::table& table, const std::string& source, TermTaskCon
   }
   RequireName(target.name, own.Here() + ": name of a target");
   target.unit = ReadUnit(own, "unit", UsualUnit(target));
+  // A number is in the quantity's own unit, errors are in that of its value.
+  if (own.Find("unit") != nullptr) target.unit.number /= target.quantity.per_value;
   for (const TermTarget& other : task->targets) {
     if (other.name == target.name) {
       throw Error(fmt::format("{}: two targets are called {}", own.Here(), target.name));
@@ -119,6 +134,7 @@ void ReadTarget(const toml::table& table, const std::string& source, TermTaskCon
   }
   own.RefuseOthers();
   task->targets.push_back(target);
+  RequireNamesApart(*task, own.Here());
 }
 
 }  // namespace skein

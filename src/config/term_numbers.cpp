@@ -141,6 +141,10 @@ TermNumber FindTargetQuantity(const std::string& name, const std::string& where)
     const std::vector<const TermName*> same = NamesOf(candidate.value);
     const bool is_recorded = std::any_of(same.begin(), same.end(),
                                          [](const TermName* other) { return other->is_recorded; });
+    if (!is_recorded && candidate.name == name) {
+      throw Error(fmt::format("{}: {} cannot be a target, as recorded flights do not have it",
+                              where, name));
+    }
     if (!is_recorded) continue;
     known.emplace_back(candidate.name);
     if (candidate.name != name) continue;
@@ -151,6 +155,11 @@ TermNumber FindTargetQuantity(const std::string& name, const std::string& where)
     return number;
   }
   RefuseUnknown(name, known, where);
+}
+
+std::string NameWithoutUnit(const std::string& name) {
+  const std::string unit = UnitOf(name);
+  return unit.empty() ? name : name.substr(0, name.size() - unit.size() - 1);
 }
 
 TermUnit ReadUnit(TableReader& reader, const std::string& key, const TermUnit& otherwise) {

@@ -36,6 +36,9 @@ class TermNumbers {
 /// The flight's number called `name` that targets may be compared with. Throws Error as above.
 TermNumber FindTargetQuantity(const std::string& name, const std::string& where);
 
+/// "roll" of "roll_deg".
+std::string NameWithoutUnit(const std::string& name);
+
 /// The key's unit: a positive number, or the name of one of the aircraft's reference units; if it
 /// is not there `otherwise`.
 TermUnit ReadUnit(TableReader& reader, const std::string& key, const TermUnit& otherwise);

@@ -21,14 +21,28 @@ EnvConfig PresetWith(const std::string& preset, const EnvConfig& made_in) {
       .train.env;
 }
 
+[[noreturn]] void RefuseWithoutPreset(const EnvConfig& made_in) {
+  throw Error(
+      fmt::format("no preset of task {} flies the aircraft {} of the policy: export it from the "
+                  "directory of its run, which says where it flew",
+                  made_in.task, made_in.aircraft));
+}
+
+/// What the task file says, with the aircraft.
+EnvConfig TaskFileOf(const EnvConfig& made_in) {
+  ConfigSources sources{made_in.task, kUsualPreset, "", {AircraftAssignment(made_in.aircraft)}};
+  sources.task_text = made_in.term_task->text;
+  sources.text_aircraft = made_in.aircraft;
+  try {
+    return ResolveConfig(sources).train.env;
+  } catch (const Error&) {  // the run's --config said where this aircraft flies
+    RefuseWithoutPreset(made_in);
+  }
+}
+
 /// The usual preset if it has the aircraft, else the first that does.
 EnvConfig PresetOf(const EnvConfig& made_in) {
-  if (made_in.term_task != nullptr) {
-    ConfigSources sources{made_in.task, kUsualPreset, "", {AircraftAssignment(made_in.aircraft)}};
-    sources.task_text = made_in.term_task->text;
-    sources.text_aircraft = made_in.aircraft;
-    return ResolveConfig(sources).train.env;
-  }
+  if (made_in.term_task != nullptr) return TaskFileOf(made_in);
   EnvConfig usual = ResolveConfig({made_in.task, kUsualPreset, "", {}}).train.env;
   if (usual.aircraft == made_in.aircraft) return usual;
   for (const Preset& preset : Presets()) {
@@ -40,10 +54,7 @@ EnvConfig PresetOf(const EnvConfig& made_in) {
     }
   }
   if (IsKeptFile(made_in.aircraft)) return PresetWith(kUsualPreset, made_in);
-  throw Error(
-      fmt::format("no preset of task {} flies the aircraft {} of the policy: export it from the "
-                  "directory of its run, which says where it flew",
-                  made_in.task, made_in.aircraft));
+  RefuseWithoutPreset(made_in);
 }
 
 }  // namespace

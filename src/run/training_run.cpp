@@ -339,8 +339,8 @@ void TrainingRun::Record(const IterationReport& report) {
                  Scalars(report, static_cast<double>(ControlStepsPerIteration(config_.train))));
   if (report.non_finite > 0) {
     log_.Say(
-        fmt::format("warning: {} aircraft left the finite numbers in iteration {} and were "
-                    "reset",
+        fmt::format("warning: {} aircraft, or their rewards, left the finite numbers in iteration "
+                    "{} and were reset",
                     report.non_finite, report.iteration));
   }
   if (report.evaluation_success_rate >= 0) {

@@ -150,6 +150,21 @@ TEST_F(AircraftCommand, CheckSaysWhatIsWrongInTheFileBeforeHowItFlies) {
   EXPECT_LT(cause, effect);
 }
 
+TEST_F(AircraftCommand, CheckRefusesTablesThatNothingFlies) {
+  json file = json::parse(AircraftText("f16"));
+  file["presets_of"] = "f16";
+  Write(file);
+  EXPECT_EQ(Check(mine_).exit_code, 0);
+  file["aerodynamics"]["axes"]["beta_deg"][1] = -27.0;  // where cells are 5 wide
+  Write(file);
+  const ProgramResult checked = Check(mine_);
+  const ProgramResult flown = CallSkein({"compare", "--task", "heading", "--agents", "zero",
+                                         "--episodes", "1", "--no-html", "--aircraft", mine_});
+  EXPECT_EQ(checked.exit_code, 1);
+  EXPECT_THAT(checked.output, HasSubstr("error: aircraft mine: axis beta_deg has a cell of width"));
+  ExpectOneLine(flown.error, "aircraft mine: axis beta_deg has a cell of width");
+}
+
 TEST_F(AircraftCommand, BadInputIsOneLine) {
   const auto refused = [](const std::vector<std::string>& arguments, int exit_code,
                           const std::string& why) {

@@ -88,6 +88,22 @@ TEST(TaskFileTest, TakesDegreesAndRadians) {
   EXPECT_DOUBLE_EQ(task.targets[1].draw.max, M_PI);
 }
 
+TEST(TaskFileTest, AUnitIsInTheUnitOfItsQuantity) {
+  const auto unit_of = [](const std::string& target) {
+    return Read(Minimal("[[reward]]", "[[target]]\n" + target + "[[reward]]")).targets[1].unit;
+  };
+  const auto in_degrees = unit_of("quantity = \"roll_deg\"\nbetween = 60\nunit = 90\n");
+  EXPECT_DOUBLE_EQ(in_degrees.number, M_PI / 2);
+  const auto in_radians = unit_of("quantity = \"roll_rad\"\nbetween = 1\nunit = 0.5\n");
+  EXPECT_EQ(in_radians.number, 0.5);
+  EXPECT_EQ(unit_of("quantity = \"roll_deg\"\nbetween = 60\n").number, 1) << "a radian";
+}
+
+TEST(TaskFileTest, ATargetIsCalledAsItsQuantityWithoutTheUnit) {
+  const std::string rate = "[[target]]\nquantity = \"p_deg_s\"\nbetween = 60\n[[reward]]";
+  EXPECT_EQ(Read(Minimal("[[reward]]", rate)).targets[1].name, "p");
+}
+
 struct Wrong {
   const char *from, *to, *message;
 };
@@ -105,6 +121,11 @@ TEST(TaskFileTest, RefusesInOneLineThatNamesTheField) {
       {"[\"error_altitude\"]", "[\"nose_angle_rad\"]", "a target pitch and yaw"},
       {"[\"error_altitude\"]", "[\"error_altitude\", \"error_altitude\"]", "twice"},
       {"[\"error_altitude\"]", "[\"error_altitude\"]\nflight = false", "at least 4"},
+      {"\"altitude_ft\"", "\"climb_rate_fps\"", "climb_rate_fps cannot be a target"},
+      {"[[reward]]",
+       "[[target]]\nquantity = \"roll_deg\"\nname = \"x\"\nbetween = 9\n"
+       "[[target]]\nquantity = \"mach\"\nname = \"x_deg\"\nbetween = 1\n[[reward]]",
+       "two targets' errors are called error_x_deg"},
       {"[\"error_altitude\"]", "[1]", "numbers must be the name of a quantity"},
       {"around_start = 500", "around_start = nan", "around_start must be a finite number"},
       {"around_start = 500", "around_start = -5", "must not be negative"},
@@ -210,6 +231,28 @@ TEST(TaskFileTest, TargetsBeyondWhereFlightsEndAreNamed) {
   EXPECT_EQ(other(speed + "between = [1, 5]").size(), 1u) << "below Mach 0.01";
   EXPECT_TRUE(other(mach + "between = [2, 4]").empty());
   EXPECT_EQ(other(mach + "between = [3.1, 4]").size(), 1u);
+}
+
+TEST(TaskFileTest, TargetsAndStartsBeyondOwnEndsAreNamed) {
+  const auto with = [](const std::string& target, const std::string& end) {
+    EnvConfig env;  // from 19,000 to 20,000 ft
+    env.SetTermTask(Read(Minimal("[[reward]]", target + "[[termination]]\n" + end + "[[reward]]")));
+    return env;
+  };
+  const std::string roll = "[[target]]\nquantity = \"roll_deg\"\nbetween = ";
+  const std::string beyond = "quantity = \"roll_rad\"\nbeyond = 2\n";
+  EXPECT_TRUE(TargetsBeyondLimits(with(roll + "[100, 130]\n", beyond)).empty());
+  ASSERT_EQ(TargetsBeyondLimits(with(roll + "[130, 150]\n", beyond)).size(), 1u);
+  EXPECT_EQ(TargetsBeyondLimits(with(roll + "[130, 150]\n", beyond))[0],
+            "target roll cannot be reached: it is 130 or more (roll_deg), but flights end above "
+            "114.59 ([[termination]])");
+  EXPECT_EQ(TargetsBeyondLimits(with(roll + "[-150, -130]\n", beyond)).size(), 1u);
+  const std::string altitude = "quantity = \"altitude_ft\"\n";
+  EXPECT_TRUE(StartsBeyondOwnEnds(with("", altitude + "below = 19500\n")).empty());
+  EXPECT_EQ(StartsBeyondOwnEnds(with("", altitude + "below = 25000\n")),
+            std::vector<std::string>{"flights end as they begin: with altitude_ft from 19000 to "
+                                     "20000, and a [[termination]] is below 25000"});
+  EXPECT_EQ(StartsBeyondOwnEnds(with("", altitude + "above = 18000\n")).size(), 1u);
 }
 
 TEST(TaskFileTest, RefusesTooMuch) {
