@@ -54,7 +54,7 @@ class FlightsView {
   private episode = 0;
   private followed = 0;
   private trail = 1e9;
-  private colouring = 1;
+  private colouring: number;
   private isDirty = true;
   private frame = 0;
   private before = 0;
@@ -63,6 +63,8 @@ class FlightsView {
   constructor(place: HTMLElement, private readonly set: FlightSet, pack: ReportPack) {
     this.records = recordsOf(set, pack);
     this.scales = colourScales(set, this.records);
+    // Whose path is whose, before how it was flown.
+    this.colouring = set.agents.length > 1 ? 0 : 1;
     this.hideSome();
     this.strips = new Strips(stripsOf(set, this.records), set.agents, (t) => this.seek(t));
     const table = new FlightTable(this.records, set.agents, (record, time) => this.goTo(record, time));
