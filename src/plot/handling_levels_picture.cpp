@@ -17,7 +17,7 @@ namespace skein {
 namespace {
 
 constexpr double kHeightPerWidth = 0.9, kMapHeightPerWidth = 0.24, kBelowPanel = 40;
-constexpr double kRadius = 2.2, kPale = 0.7;
+constexpr double kRadius = 2.2, kPale = 0.5;
 constexpr double kLeastPadding = 0.1;  // decades beyond the outermost figures
 
 /// Of levels 1, 2, 3 and what is below; paler than the colours of altitudes.
@@ -78,7 +78,10 @@ class LevelsDrawing {
     }
     speeds_ = SpanOf(speeds);
     std::size_t index = 0;
-    for (auto& [altitude, style] : altitudes_) style = StyleOf(index++);
+    for (auto& [altitude, style] : altitudes_) {
+      style = StyleOf(index);
+      style.marker = kMarkers[index++ % kMarkers.size()];  // as pale colours are alike to some
+    }
   }
 
   Picture Draw(const std::string& title) {
@@ -245,6 +248,11 @@ class LevelsDrawing {
     for (const auto& [altitude, style] : altitudes_) {
       entries.push_back({MarkerSample(style.marker, {{}, kRadius, style.colour, std::nullopt}),
                          TickText(altitude) + " ft"});
+    }
+    if (speeds_.max > speeds_.min) {
+      entries.push_back({PaleAndDarkSample(kRadius, kPale),
+                         fmt::format("pale: {} ft/s, dark: {} ft/s", TickText(speeds_.min),
+                                     TickText(speeds_.max))});
     }
     std::array<bool, kLevelColours.size()> seen{};
     for (const AssessedFlight& flight : flights_) {

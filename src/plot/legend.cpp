@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace skein {
@@ -30,6 +31,14 @@ Sample BandSample(Colour colour, double opacity) {
 Sample MarkerSample(Marker marker, const Disc& look) {
   return [=](PagePoint left, std::vector<Shape>* shapes) {
     shapes->push_back(MarkerAt({left.x + kSampleWidth / 2, left.y}, marker, look));
+  };
+}
+
+Sample PaleAndDarkSample(double radius, double pale) {
+  return [radius, pale](PagePoint left, std::vector<Shape>* shapes) {
+    const Colour first = Mixed(kInk, kWhite, pale);
+    shapes->emplace_back(Disc{{left.x + 5, left.y}, radius, first, std::nullopt});
+    shapes->emplace_back(Disc{{left.x + 15, left.y}, radius, kInk, std::nullopt});
   };
 }
 

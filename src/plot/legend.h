@@ -21,6 +21,8 @@ struct LegendEntry {
 Sample LineSample(Colour colour, double width, Dash dash = Dash::kNone);
 Sample BandSample(Colour colour, double opacity);
 Sample MarkerSample(Marker marker, const Disc& look);
+/// Two dots of ink, the first `pale` of the way to white.
+Sample PaleAndDarkSample(double radius, double pale);
 
 /// Of each name whether it is there more than once, so that a legend could not tell apart what has
 /// it.

@@ -17,9 +17,9 @@ struct PagePoint {
 
 using Colour = std::uint32_t;  ///< 0xRRGGBB
 
-/// Okabe and Ito (2008): distinguishable with every kind of colour blindness.
-inline constexpr std::array<Colour, 6> kAgentColours = {0x0072B2, 0xD55E00, 0x009E73,
-                                                        0xCC79A7, 0xE69F00, 0x56B4E9};
+/// As many as differ clearly for protanopes and deuteranopes, too: those of the viewer
+/// (viewer/src/palette.ts), of which tests/palette.test.ts there says by how much.
+inline constexpr std::array<Colour, 4> kAgentColours = {0x0072B2, 0xD55E00, 0x009E73, 0x59124A};
 inline constexpr Colour kInk = 0x222222, kGrey = 0x666666, kGridGrey = 0xDDDDDD, kWhite = 0xFFFFFF;
 
 /// The colour of the agent or setting of that number; after the last the first again.

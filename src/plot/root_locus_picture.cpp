@@ -17,7 +17,7 @@ namespace skein {
 namespace {
 
 constexpr double kHeightPerWidth = 0.9;
-constexpr double kRadius = 2, kPale = 0.75;
+constexpr double kRadius = 2, kPale = 0.5;
 constexpr std::size_t kMostMarkers = 2 * kMarkers.size();  // full, then hollow
 
 bool IsAnyMode(const FlightMode&) { return true; }
@@ -30,11 +30,12 @@ bool IsPhugoidOrSpiral(const FlightMode& mode) {
 /// "short period" of "short period, real".
 std::string NameOf(const FlightMode& mode) { return mode.name.substr(0, mode.name.find(',')); }
 
-/// The same in every picture, of each of the names that FindFlightModes gives.
+/// The same in every picture, of each of the names that FindFlightModes gives. The colours are of
+/// Okabe and Ito (2008): more than all can tell apart, but where a mode lies says which it is, too.
 Colour ColourOfMode(const std::string& name) {
   static const std::map<std::string, Colour> colours = {
-      {"short period", ColourOf(0)}, {"phugoid", ColourOf(1)}, {"Dutch roll", ColourOf(2)},
-      {"roll", ColourOf(3)},         {"spiral", ColourOf(4)},  {"third oscillatory", ColourOf(5)},
+      {"short period", 0x0072B2}, {"phugoid", 0xD55E00}, {"Dutch roll", 0x009E73},
+      {"roll", 0xCC79A7},         {"spiral", 0xE69F00},  {"third oscillatory", 0x56B4E9},
       {"roll-spiral", kInk}};
   return colours.at(name);
 }
@@ -120,14 +121,9 @@ class LocusDrawing {
       entries.push_back({MarkerSample(Marker::kDisc, LookOf(0, ColourOfMode(name))), name});
     }
     if (speeds_.max > speeds_.min) {
-      entries.push_back(
-          {[](PagePoint left, std::vector<Shape>* shapes) {
-             const Colour pale = Mixed(kInk, kWhite, kPale);
-             shapes->emplace_back(Disc{{left.x + 5, left.y}, kRadius, pale, std::nullopt});
-             shapes->emplace_back(Disc{{left.x + 15, left.y}, kRadius, kInk, std::nullopt});
-           },
-           fmt::format("pale: {} ft/s, dark: {} ft/s", TickText(speeds_.min),
-                       TickText(speeds_.max))});
+      entries.push_back({PaleAndDarkSample(kRadius, kPale),
+                         fmt::format("pale: {} ft/s, dark: {} ft/s", TickText(speeds_.min),
+                                     TickText(speeds_.max))});
     }
     for (const auto& [altitude, number] : altitudes_) {
       if (!HasMarkers()) break;

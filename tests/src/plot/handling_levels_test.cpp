@@ -239,13 +239,17 @@ TEST(HandlingLevels, EveryAltitudeLooksDifferent) {
     flights.back().request.altitude_ft = 1000 * static_cast<double>(k + 1);
   }
   const Picture picture = DrawHandlingLevels(flights, LimitsNamed("IV", "A"), kWidth, "");
-  std::set<std::pair<Colour, bool>> looks;
+  std::set<std::pair<Colour, std::size_t>> looks;  // and corners
   for (std::size_t k = 1; k < picture.shapes.size(); ++k) {
     const auto* const words = std::get_if<Words>(&picture.shapes[k]);
     if (words == nullptr || words->text.find(",000 ft") == std::string::npos) continue;
     const auto* const disc = std::get_if<Disc>(&picture.shapes[k - 1]);
-    looks.emplace(disc != nullptr ? *disc->fill : *std::get<Path>(picture.shapes[k - 1]).fill,
-                  disc != nullptr);
+    if (disc != nullptr) {
+      looks.emplace(*disc->fill, 0);
+    } else {
+      const auto& marker = std::get<Path>(picture.shapes[k - 1]);
+      looks.emplace(*marker.fill, marker.points.size());
+    }
   }
   EXPECT_EQ(looks.size(), kAltitudes);
 }
