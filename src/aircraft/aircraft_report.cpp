@@ -144,7 +144,8 @@ std::vector<Finding> CheckPresets(const AircraftDocument& document) {
                                         DidYouMean(name, known), fmt::join(known, ", "))}};
 }
 
-/// That the kernels, by which all but `skein fdm` flies, take its tables.
+/// That the float32 kernels, by which all flies but `skein fdm` in double precision, take its
+/// tables.
 std::vector<Finding> CheckKernels(const Aircraft& aircraft) {
   try {
     MakeKernelAircraft(aircraft, AtmosphereModel::kStevensLewis);
@@ -162,7 +163,6 @@ CheckedAircraft LoadForCheck(const std::string& aircraft) {
     const Aircraft tables = MakeAircraft(document);
     CheckedAircraft checked = Checked(document, tables, LimitsOfGains(tables.flight_control));
     checked.findings = CheckAirframe(tables.airframe);
-    for (Finding& finding : CheckKernels(tables)) checked.findings.push_back(std::move(finding));
     return checked;
   }
   const DerivativeAircraft model =
@@ -213,6 +213,7 @@ AircraftReport CheckAircraft(const CheckedAircraft& aircraft) {
     report.findings.insert(report.findings.end(), more.begin(), more.end());
   };
   append(CheckPresets(aircraft.document));
+  append(CheckKernels(aircraft.plant.aircraft()));
   const FlightEnvelope envelope = ReportEnvelope(aircraft.plant, aircraft.limits);
   append(CheckEnvelope(aircraft.plant, aircraft.limits, envelope));
   const bool is_of_derivatives = aircraft.document.model == "derivatives";

@@ -11,6 +11,7 @@
 #include "envs/air/atmosphere.h"
 #include "envs/aircraft/registry.h"
 #include "envs/tasks/terms/term_task_config.h"
+#include "envs/tasks/terms/term_values.h"
 
 namespace skein {
 namespace {
@@ -105,11 +106,27 @@ std::string BeyondOwnEnds(const TermTarget& target, const Range& drawn, const En
   return "";
 }
 
+/// Whether the target is what is drawn between two values, neither raised nor wrapped.
+bool IsFlownToAsDrawn(const TermTarget& target, const EnvConfig& env) {
+  if (target.draw_from != TermTarget::Draw::kBetween) return false;
+  const double furthest = std::max(std::abs(target.draw.min), std::abs(target.draw.max));
+  switch (target.quantity.value) {
+    case TermValue::kAltitude:
+      return !env.mission.enabled() && env.target_altitude_min_ft <= 0;
+    case TermValue::kTrueAirspeed:
+      return env.target_mach_min <= 0;
+    case TermValue::kPitch:
+      return furthest <= M_PI / 2;
+    default:
+      return !IsWrapped(target.quantity.value) || furthest <= M_PI;
+  }
+}
+
 std::string BeyondLimits(const TermTarget& target, const EnvConfig& env,
                          const GivenTargets& given) {
   const TerminationConfig& limits = env.termination;
   const std::optional<Range> alone = GivenOf(given, target.quantity.name);
-  if (!alone && target.draw_from == TermTarget::Draw::kBetween) {
+  if (!alone && IsFlownToAsDrawn(target, env)) {
     std::string line = BeyondOwnEnds(target, target.draw, env);
     if (!line.empty()) return line;
   }

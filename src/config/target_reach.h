@@ -18,7 +18,7 @@ using GivenTargets = std::map<std::string, double>;
 /// env.termination.min_altitude_ft, airspeeds and Mach numbers out of min_mach to max_mach. What
 /// else makes a target too high or too fast, it does not know. What is `given` is judged as all
 /// that is drawn. Of a task file's own ends it knows those of a target that is drawn between two
-/// values.
+/// values, as long as nothing is given in its place, raises or wraps it.
 std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given = {});
 
 /// A line if flights may begin above the engine's tables of the aircraft, and one for every target

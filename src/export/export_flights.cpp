@@ -21,12 +21,8 @@ EnvConfig PresetWith(const std::string& preset, const EnvConfig& made_in) {
       .train.env;
 }
 
-[[noreturn]] void RefuseWithoutPreset(const EnvConfig& made_in) {
-  throw Error(
-      fmt::format("no preset of task {} flies the aircraft {} of the policy: export it from the "
-                  "directory of its run, which says where it flew",
-                  made_in.task, made_in.aircraft));
-}
+constexpr const char* kFromRun =
+    "export it from the directory of its run, which says where it flew";
 
 /// What the task file says, with the aircraft.
 EnvConfig TaskFileOf(const EnvConfig& made_in) {
@@ -35,8 +31,8 @@ EnvConfig TaskFileOf(const EnvConfig& made_in) {
   sources.text_aircraft = made_in.aircraft;
   try {
     return ResolveConfig(sources).train.env;
-  } catch (const Error&) {  // the run's --config said where this aircraft flies
-    RefuseWithoutPreset(made_in);
+  } catch (const Error& error) {  // the run's --config may have said where this aircraft flies
+    throw Error(fmt::format("{}; or {}", error.what(), kFromRun));
   }
 }
 
@@ -54,7 +50,8 @@ EnvConfig PresetOf(const EnvConfig& made_in) {
     }
   }
   if (IsKeptFile(made_in.aircraft)) return PresetWith(kUsualPreset, made_in);
-  RefuseWithoutPreset(made_in);
+  throw Error(fmt::format("no preset of task {} flies the aircraft {} of the policy: {}",
+                          made_in.task, made_in.aircraft, kFromRun));
 }
 
 }  // namespace

@@ -247,7 +247,14 @@ TEST(TaskFileTest, TargetsAndStartsBeyondOwnEndsAreNamed) {
             "target roll cannot be reached: it is 130 or more (roll_deg), but flights end above "
             "114.59 ([[termination]])");
   EXPECT_EQ(TargetsBeyondLimits(with(roll + "[-150, -130]\n", beyond)).size(), 1u);
+  EXPECT_TRUE(TargetsBeyondLimits(with(roll + "[130, 250]\n", beyond)).empty()) << "wrapped";
   const std::string altitude = "quantity = \"altitude_ft\"\n";
+  EnvConfig low;
+  low.SetTermTask(Read(Minimal("around_start = 500\n", "between = [5000, 6000]\n[[termination]]\n" +
+                                                           altitude + "below = 8000\n")));
+  EXPECT_EQ(TargetsBeyondLimits(low).size(), 1u);
+  low.target_altitude_min_ft = 9000;
+  EXPECT_TRUE(TargetsBeyondLimits(low).empty()) << "raised";
   EXPECT_TRUE(StartsBeyondOwnEnds(with("", altitude + "below = 19500\n")).empty());
   EXPECT_EQ(StartsBeyondOwnEnds(with("", altitude + "below = 25000\n")),
             std::vector<std::string>{"flights end as they begin: with altitude_ft from 19000 to "
