@@ -250,9 +250,7 @@ class LevelsDrawing {
                          TickText(altitude) + " ft"});
     }
     if (speeds_.max > speeds_.min) {
-      entries.push_back({PaleAndDarkSample(kRadius, kPale),
-                         fmt::format("pale: {} ft/s, dark: {} ft/s", TickText(speeds_.min),
-                                     TickText(speeds_.max))});
+      entries.push_back(PaleIsSlow(speeds_, kRadius, kPale));
     }
     std::array<bool, kLevelColours.size()> seen{};
     for (const AssessedFlight& flight : flights_) {

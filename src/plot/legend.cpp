@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/plot/legend.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
+
+#include "src/plot/axes.h"
 
 namespace skein {
 namespace {
@@ -34,12 +38,14 @@ Sample MarkerSample(Marker marker, const Disc& look) {
   };
 }
 
-Sample PaleAndDarkSample(double radius, double pale) {
-  return [radius, pale](PagePoint left, std::vector<Shape>* shapes) {
-    const Colour first = Mixed(kInk, kWhite, pale);
-    shapes->emplace_back(Disc{{left.x + 5, left.y}, radius, first, std::nullopt});
+LegendEntry PaleIsSlow(const Range& true_airspeed_fps, double radius, double pale) {
+  const auto sample = [radius, pale](PagePoint left, std::vector<Shape>* shapes) {
+    const Colour slow = Mixed(kInk, kWhite, pale);
+    shapes->emplace_back(Disc{{left.x + 5, left.y}, radius, slow, std::nullopt});
     shapes->emplace_back(Disc{{left.x + 15, left.y}, radius, kInk, std::nullopt});
   };
+  return {sample, fmt::format("pale: {} ft/s, dark: {} ft/s", TickText(true_airspeed_fps.min),
+                              TickText(true_airspeed_fps.max))};
 }
 
 std::vector<bool> AreTwice(const std::vector<std::string>& names) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/range.h"
 #include "src/plot/picture.h"
 
 namespace skein {
@@ -21,8 +22,8 @@ struct LegendEntry {
 Sample LineSample(Colour colour, double width, Dash dash = Dash::kNone);
 Sample BandSample(Colour colour, double opacity);
 Sample MarkerSample(Marker marker, const Disc& look);
-/// Two dots of ink, the first `pale` of the way to white.
-Sample PaleAndDarkSample(double radius, double pale);
+/// Of dots that are the paler the slower they are, the slowest `pale` of the way to white.
+LegendEntry PaleIsSlow(const Range& true_airspeed_fps, double radius, double pale);
 
 /// Of each name whether it is there more than once, so that a legend could not tell apart what has
 /// it.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/plot/root_locus_picture.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -121,9 +119,7 @@ class LocusDrawing {
       entries.push_back({MarkerSample(Marker::kDisc, LookOf(0, ColourOfMode(name))), name});
     }
     if (speeds_.max > speeds_.min) {
-      entries.push_back({PaleAndDarkSample(kRadius, kPale),
-                         fmt::format("pale: {} ft/s, dark: {} ft/s", TickText(speeds_.min),
-                                     TickText(speeds_.max))});
+      entries.push_back(PaleIsSlow(speeds_, kRadius, kPale));
     }
     for (const auto& [altitude, number] : altitudes_) {
       if (!HasMarkers()) break;
