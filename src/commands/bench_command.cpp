@@ -175,7 +175,7 @@ void AddBenchCommand(CLI::App* app) {
       "  skein bench iteration --preset paper --set ppo.rollout_steps=96\n"
       "  skein bench iteration --task tracking --preset planner --low-level "
       "policies/control.skein\n"
-      "  mpirun -np 2 --bind-to none skein bench iteration --set learner.shards=32 --threads 8");
+      "  mpirun -np 2 --bind-to none skein bench iteration --threads 8");
   AddScaling(bench, options);
   AddCompare(bench, options);
   AddBench(bench, "signature", "One hash of a fixed short training", options, BenchSignature)

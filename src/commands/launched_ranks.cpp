@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -12,9 +13,11 @@
 
 #include "base/error.h"
 #include "base/reason_of.h"
+#include "src/config/configuration.h"
 #include "src/config/usage_error.h"
 #include "src/config/whole_number.h"
 #include "train/files/file_descriptor.h"
+#include "train/ppo/rank_shards.h"
 #include "train/ranks/collectives.h"
 #include "train/ranks/rank_module.h"
 
@@ -76,6 +79,19 @@ void OnLaunchedRanks(double timeout_s, const std::function<void(Ranks& ranks)>& 
     if (ranks.rank() != 0) CloseStandardOutput();
     work(ranks);
   });
+}
+
+void ShareOut(const std::vector<std::string>& assignments, const Ranks& ranks,
+              TrainConfig* config) {
+  const bool is_chosen =
+      config->learner.shards > 1 ||
+      std::any_of(assignments.begin(), assignments.end(), [](const std::string& assignment) {
+        return KeyOf(assignment) == "learner.shards";
+      });
+  if (!is_chosen && ranks.count() > 1) {
+    config->learner.shards = ShardsForRanks(*config, ranks.count());
+  }
+  AsUsage([&] { return ShardsOfRank(*config, ranks); });
 }
 
 }  // namespace skein

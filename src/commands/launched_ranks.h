@@ -3,7 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
+#include "train/ppo/train_config.h"
 #include "train/ranks/ranks.h"
 
 namespace skein {
@@ -25,5 +28,10 @@ void WorkAsRank(Ranks& ranks, const std::function<void(Ranks& ranks)>& work);
 /// them when all have done it; after that none waits for another, and rank 0 may work on. Warns of
 /// processes that should be ranks and cannot.
 void OnLaunchedRanks(double timeout_s, const std::function<void(Ranks& ranks)>& work);
+
+/// Cuts the aircraft of a new training by `ranks` into shards, unless the assignments of the
+/// command line, or what the configuration says already, say how many. Throws UsageError if it
+/// cannot be done by so many.
+void ShareOut(const std::vector<std::string>& assignments, const Ranks& ranks, TrainConfig* config);
 
 }  // namespace skein

@@ -8,13 +8,13 @@
 #include "src/bench/learner_rates.h"
 #include "src/bench/machine.h"
 #include "src/commands/benchmarks.h"
+#include "src/commands/launched_ranks.h"
 #include "src/config/usage_error.h"
 #include "src/files/output_file.h"
 #include "src/files/text_table.h"
 #include "src/run/progress.h"
 #include "train/network/backend_module.h"
 #include "train/network/precision.h"
-#include "train/ppo/rank_shards.h"
 #include "train/ppo/trainer.h"
 #include "train/ranks/collectives.h"
 
@@ -156,9 +156,9 @@ double PeakMemoryGb() {
   return static_cast<double>(usage.ru_maxrss) * 1024 / 1e9;
 }
 
-std::string Workers(int ranks, int threads) {
+std::string Workers(int ranks, int shards, int threads) {
   const std::string each = Counted(threads, "thread");
-  return ranks == 1 ? each : fmt::format("{} ranks x {}", ranks, each);
+  return ranks == 1 ? each : fmt::format("{} ranks x {}, {} shards", ranks, each, shards);
 }
 
 /// What whole iterations came to.
@@ -180,10 +180,10 @@ void PrintIteration(const TrainConfig& config, const LearnerRates& rates, int ra
       "  rollout {} policy steps/s ({} {:.0f} % of it), gradients {} samples/s\n"
       "  these two alone would take {:.1f} % of the time; {:.2f} GB of memory at most\n"
       "  {} control steps would take {:.2f} h\n",
-      config.ppo.num_aircraft, config.ppo.rollout_steps, config.ppo.epochs, Workers(ranks, threads),
-      Describe(rates.backend), rates.iteration_s, FormatCount(figures.steps_per_s),
-      FormatCount(rates.rollout_policy_steps_per_s), NameSimulator(config),
-      100 * rates.simulator_share, FormatCount(rates.gradient_samples_per_s),
+      config.ppo.num_aircraft, config.ppo.rollout_steps, config.ppo.epochs,
+      Workers(ranks, config.learner.shards, threads), Describe(rates.backend), rates.iteration_s,
+      FormatCount(figures.steps_per_s), FormatCount(rates.rollout_policy_steps_per_s),
+      NameSimulator(config), 100 * rates.simulator_share, FormatCount(rates.gradient_samples_per_s),
       100 * rates.efficiency, PeakMemoryGb(), FormatCount(static_cast<double>(config.total_steps)),
       figures.budget_h);
   if (ranks == 1) return;
@@ -198,6 +198,7 @@ Json IterationJson(const TrainConfig& config, const LearnerRates& rates, int ran
   return {{"backend", Name(rates.backend.backend)},
           {"precision", Name(rates.backend.precision)},
           {"ranks", ranks},
+          {"shards", config.learner.shards},
           {"iteration_s", rates.iteration_s},
           {"control_steps_per_s", figures.steps_per_s},
           {"policy_steps_per_s", rates.rollout_policy_steps_per_s},
@@ -218,7 +219,7 @@ void MeasureIteration(const BenchOptions& options, Ranks& ranks) {
   TrainConfig config;
   DoTogether(ranks, [&] {
     config = LearnerBenchConfig(options);
-    AsUsage([&] { return ShardsOfRank(config, ranks); });
+    ShareOut(options.assignments, ranks, &config);
     if (ranks.rank() == 0) CheckWritable({options.json}, FilesRead(options));
   });
   RequireSameOnRanks(ranks, "what they measure", DescribeProgram());

@@ -36,13 +36,13 @@ class BenchRanks : public RanksFixture {
 };
 
 TEST_F(BenchRanks, IterationsOfSeveralRanksSayHowLongTheyExchange) {
-  const ProgramResult result =
-      RunWords(Mpirun(2, Bench("iteration", {"--threads", "1", "--set", "learner.shards=2"})));
+  const ProgramResult result = RunWords(Mpirun(2, Bench("iteration", {"--threads", "1"})));
   ASSERT_EQ(result.exit_code, 0) << result.error;
-  EXPECT_THAT(result.output, HasSubstr("2 ranks x 1 thread; "));
+  EXPECT_THAT(result.output, HasSubstr("2 ranks x 1 thread, 32 shards; "));
   EXPECT_EQ(result.output.find("iteration: "), result.output.rfind("iteration: ")) << "said once";
   const auto json = Results();
   EXPECT_EQ(json["ranks"], 2);
+  EXPECT_EQ(json["shards"], 32);
   EXPECT_GT(json["exchange_share"], 0);
   EXPECT_LT(json["exchange_share"], 1);
   EXPECT_GT(json["exchange_s"], 0);

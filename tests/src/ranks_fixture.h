@@ -86,13 +86,17 @@ class RanksFixture : public ::testing::Test {
     std::string program = SKEIN_PROGRAM;
   };
 
-  /// The words that start `count` ranks over shared memory, as they are all here. What the last has
+  /// What ranks exchange their bytes over, in Open MPI's words.
+  static constexpr const char *kSharedMemory = "^tcp", *kTcp = "tcp,self";
+
+  /// The words that start `count` ranks, over shared memory as they are all here. What the last has
   /// of its own a shell gives it: Open MPI 5.0.7's mpirun crashes where it starts more than one
   /// program.
   static std::vector<std::string> Mpirun(int count, const std::vector<std::string>& arguments,
-                                         const std::optional<LastRank>& last = std::nullopt) {
+                                         const std::optional<LastRank>& last = std::nullopt,
+                                         const char* transport = kSharedMemory) {
     std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
-    words.insert(words.end(), {"--mca", "btl", "^tcp", "-np", std::to_string(count), "-x",
+    words.insert(words.end(), {"--mca", "btl", transport, "-np", std::to_string(count), "-x",
                                AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS"))});
     if (last) {
       words.insert(words.end(), {"sh", "-c",

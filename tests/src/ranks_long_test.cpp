@@ -131,6 +131,27 @@ TEST_F(ManyRanks, SixteenAreOneInEveryPrecision) {
   }
 }
 
+TEST_F(ManyRanks, ARunGoesOnByAnyNumberOfThem) {
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  for (const std::vector<int>& counts : {std::vector<int>{8, 2, 1}, {1, 4}}) {
+    SCOPED_TRACE(::testing::PrintToString(counts));
+    std::filesystem::remove_all(run_);
+    std::vector<std::string> words = TinyTraining(run_, kShards);
+    for (std::size_t part = 0; part < counts.size(); ++part) {
+      RunningProgram training(ProgramWords{Mpirun(counts[part], words)});
+      if (part + 1 < counts.size()) {
+        const std::uint64_t enough = kIterations * (part + 1) / counts.size();
+        ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, enough); }));
+        kill(RanksOf(run_).back(), SIGTERM);
+      }
+      const ProgramResult result = training.Wait();
+      ASSERT_EQ(result.exit_code, 0) << result.error;
+      words = {"train", "--resume", run_, "--threads", "1"};
+    }
+    ExpectSameRun(reference_, run_);
+  }
+}
+
 TEST_F(ManyRanks, HighLevelPoliciesTrainOverALowLevelPolicyAsByOne) {
   const std::string control = scratch_ / "control";
   ASSERT_EQ(RunSkein(TinyTrainingOf("control", control, {"--steps", "10240"})).exit_code, 0);
@@ -139,7 +160,7 @@ TEST_F(ManyRanks, HighLevelPoliciesTrainOverALowLevelPolicyAsByOne) {
                            std::to_string(2 * kStepsPerIteration * kIterations), "--set",
                            "env.action_repeat=10"});
   ASSERT_EQ(RunSkein(TinyTrainingOf("tracking", reference_, more)).exit_code, 0);
-  for (const int count : {2, 16}) {
+  for (const int count : {2, 4, 8, 16}) {
     SCOPED_TRACE(count);
     const std::string together = run_ + std::to_string(count);
     const ProgramResult result =

@@ -130,6 +130,21 @@ TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcess) {
   }
 }
 
+TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcessOverTcp) {
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, kShards)).exit_code, 0);
+  const ProgramResult result = RunWords(Mpirun(4, TinyTraining(run_, kShards), std::nullopt, kTcp));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  ExpectSameRun(reference_, run_);
+}
+
+TEST_F(RanksPipeline, TrainAsOneProcessOfThirtyTwoShardsUnlessAskedForOthers) {
+  ASSERT_EQ(RunSkein(TinyTraining(reference_, {"--set", "learner.shards=32"})).exit_code, 0);
+  const ProgramResult result = RunWords(Mpirun(2, TinyTraining(run_, {"--threads", "1"})));
+  ASSERT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("2 ranks, 16 of 32 shards each"));
+  ExpectSameRun(reference_, run_);
+}
+
 /// Networks so large that more than two ranks sum their gradients part by part.
 TEST_F(RanksPipeline, LeaveTheSameFilesAsOneProcessOfLargerNetworksToo) {
   std::vector<std::string> arguments = kShards;
@@ -169,6 +184,7 @@ TEST_F(RanksPipeline, ASignalToOneRankStopsAllAndTheRunGoesOnWithAnyNumber) {
   const ProgramResult stopped = training.Wait();
   EXPECT_EQ(stopped.exit_code, 0) << stopped.error;
   EXPECT_THAT(stopped.output, HasSubstr("stopped by SIGTERM"));
+  EXPECT_EQ(stopped.output.find("stopped by"), stopped.output.rfind("stopped by")) << "once";
   const ProgramResult resumed = RunWords(Mpirun(2, {"train", "--resume", run_, "--threads", "1"}));
   ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
   ExpectSameRun(reference_, run_);
@@ -372,7 +388,8 @@ TEST_F(RanksPipeline, NumbersThatAreNotPossibleAreRefused) {
   const ProgramResult three = RunWords(Mpirun(3, TinyTraining(run_, kShards)));
   EXPECT_EQ(three.exit_code, 2);
   EXPECT_THAT(three.error, HasSubstr("a power of two"));
-  const ProgramResult unsharded = RunWords(Mpirun(2, TinyTraining(run_, {"--threads", "1"})));
+  const ProgramResult unsharded =
+      RunWords(Mpirun(2, TinyTraining(run_, {"--threads", "1", "--set", "learner.shards = 1"})));
   EXPECT_EQ(unsharded.exit_code, 2);
   EXPECT_THAT(unsharded.error, HasSubstr("learner.shards = 1 cannot be done by 2 ranks"));
   EXPECT_THAT(unsharded.error, HasSubstr("--set learner.shards=2"));

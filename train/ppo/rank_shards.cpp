@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train/ppo/rank_shards.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/error.h"
 
 namespace skein {
 namespace {
+
+/// Enough for a few machines, and few enough for the default presets' aircraft.
+constexpr int kShardsForRanks = 32;
 
 /// The most shards that the configuration could have, up to `most`, a power of two.
 int MostShards(const TrainConfig& config, int most) {
@@ -33,6 +37,10 @@ ShardRange ShardsOfRank(const TrainConfig& config, const Ranks& ranks) {
               (shards > 1 ? ", by " + std::to_string(shards) + " at most" : "") +
               ": begin a new run with --set learner.shards=" + most +
               (most == wanted ? "" : " on as many, the most that its aircraft allow"));
+}
+
+int ShardsForRanks(const TrainConfig& config, int ranks) {
+  return MostShards(config, std::max(kShardsForRanks, ranks));
 }
 
 }  // namespace skein
