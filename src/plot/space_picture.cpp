@@ -183,18 +183,24 @@ class SpaceDrawing {
     }
   }
 
+  /// Where an aircraft is drawn: of the first agent every interval, of others at the end.
+  std::vector<std::size_t> AircraftRowsOf(const Track& track) const {
+    if (!track.is_first) return {track.points.size() - 1};
+    std::vector<std::size_t> rows = track.Instants(interval_s_);
+    if (rows.size() > 1) rows.erase(rows.begin());
+    return rows;
+  }
+
   void DrawFlights() {
     std::vector<Piece> pieces;
     for (const Track& track : tracks_) {
-      if (!track.is_first) {
+      if (track.is_first) {
+        AddRibbon(track, &pieces);
+      } else {
         AddPath(track, &pieces);
-        AddAircraft(track, track.points.size() - 1, kOthersSize * enlarged_, &pieces);
-        continue;
       }
-      AddRibbon(track, &pieces);
-      const std::vector<std::size_t> rows = track.Instants(interval_s_);
-      for (std::size_t k = rows.size() > 1 ? 1 : 0; k < rows.size(); ++k) {
-        AddAircraft(track, rows[k], enlarged_, &pieces);
+      for (const std::size_t row : AircraftRowsOf(track)) {
+        AddAircraft(track, row, track.is_first ? enlarged_ : kOthersSize * enlarged_, &pieces);
       }
     }
     std::stable_sort(pieces.begin(), pieces.end(),
@@ -239,10 +245,11 @@ class SpaceDrawing {
       for (std::size_t row = 0; row < track.points.size(); row += kRowsPerObstacle) {
         places.Avoid(view_.Place(track.points[row]), track.is_first ? glyph_ / 4 : 2.5, 1);
       }
-      const PagePoint end = view_.Place(track.points.back());
+      for (const std::size_t row : AircraftRowsOf(track)) {
+        places.Avoid(view_.Place(track.points[row]), glyph_ / 2, kHeavy);
+      }
       const PagePoint tip = view_.Place(TargetTip(view_, track, arrow_ft()));
       const PagePoint target = view_.Place(track.TargetPoint());
-      places.Avoid(end, glyph_ / 2, kHeavy);
       for (const double share : {0.3, 0.6, 1.0}) {
         places.Avoid({target.x + share * (tip.x - target.x), target.y + share * (tip.y - target.y)},
                      4, kHeavy);
