@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <string>
 
 #include "base/error.h"
@@ -12,20 +11,10 @@ namespace skein {
 namespace {
 
 constexpr int kLaneMultiple = 32;
-constexpr std::size_t kCacheLine = 64;
 
 int RoundUp(int count, int multiple) { return (count + multiple - 1) / multiple * multiple; }
 
-std::byte* AllocateZeros(std::size_t size) {
-  void* const memory = ::operator new[](size, std::align_val_t{kCacheLine});
-  return static_cast<std::byte*>(std::memset(memory, 0, size));
-}
-
 }  // namespace
-
-void EnvStorage::AlignedDelete::operator()(std::byte* bytes) const {
-  ::operator delete[](bytes, std::align_val_t{kCacheLine});
-}
 
 EnvStorage::EnvStorage(int num_aircraft, int requested_tile_size, const EnvColumns& columns)
     : num_aircraft_(num_aircraft),
@@ -37,7 +26,7 @@ EnvStorage::EnvStorage(int num_aircraft, int requested_tile_size, const EnvColum
   stride_ = TileStride(std::min(tile_size_, kAircraftPerBlock));
   num_blocks_ = static_cast<std::size_t>(blocks_per_tile_) * static_cast<std::size_t>(num_tiles_);
   block_bytes_ = words_per_aircraft() * stride_ * sizeof(float);
-  memory_.reset(AllocateZeros(block_bytes_ * num_blocks_));
+  memory_ = LargeMemory(block_bytes_ * num_blocks_);
   newest_slots_.assign(num_blocks_, {});
 }
 
@@ -51,7 +40,7 @@ EnvBlock EnvStorage::BlockAt(int tile, int begin) {
   block.index = static_cast<std::size_t>(tile * blocks_per_tile_ + begin / kAircraftPerBlock);
   block.first_aircraft = tile * tile_size_ + begin;
   block.count = std::min(kAircraftPerBlock - lane, tile_count(tile) - begin);
-  float* const base = reinterpret_cast<float*>(memory_.get() + block_bytes_ * block.index) + lane;
+  float* const base = reinterpret_cast<float*>(memory_.data() + block_bytes_ * block.index) + lane;
   block.flight = {base, stride_, block.count, columns_.windy, columns_.rotational_gusts};
   block.task = {block.flight[flight_columns_], stride_, block.count};
   block.last_action = {block.task[columns_.task], stride_, block.count};
@@ -82,7 +71,7 @@ EnvBlock EnvStorage::BlockFrom(int aircraft) {
 
 MemoryAhead EnvStorage::MemoryAfter(const EnvBlock& block) const {
   if (block.index + 1 >= num_blocks_) return {};
-  return {memory_.get() + block_bytes_ * (block.index + 1), block_bytes_};
+  return {memory_.data() + block_bytes_ * (block.index + 1), block_bytes_};
 }
 
 std::size_t EnvStorage::words_per_aircraft() const {

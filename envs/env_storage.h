@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "base/large_memory.h"
 #include "envs/kernels/plant_kernel.h"
 #include "envs/plant/delay_line.h"
 #include "envs/plant/plant_columns.h"
@@ -87,10 +87,6 @@ class EnvStorage {
   void FillPadding(const EnvBlock& block);
 
  private:
-  struct AlignedDelete {
-    void operator()(std::byte* bytes) const;
-  };
-
   /// Columns of float32, and after them those of int32.
   int float_columns() const;
   int int_columns() const;
@@ -105,7 +101,7 @@ class EnvStorage {
   std::size_t stride_ = 0;  // of a block's columns
   std::size_t num_blocks_ = 0;
   std::size_t block_bytes_ = 0;
-  std::unique_ptr<std::byte[], AlignedDelete> memory_;
+  LargeMemory memory_;
   /// DelayLine::newest by block. No part of the aircraft's state: words come by age.
   std::vector<NewestSlots> newest_slots_;
 };

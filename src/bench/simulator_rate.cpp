@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/aligned_vector.h"
+#include "base/large_memory.h"
 #include "base/median.h"
 #include "base/seconds_since.h"
 #include "envs/aircraft/engine.h"
@@ -63,7 +63,8 @@ class TrimmedFlock {
  public:
   /// Filled by the workers.
   TrimmedFlock(int count, WorkerPool& pool)
-      : count_(count), columns_(static_cast<std::size_t>(num_tiles()) * kFloatsPerTile) {
+      : count_(count),
+        memory_(static_cast<std::size_t>(num_tiles()) * kFloatsPerTile * sizeof(float)) {
     const EnvConfig config = SpreadFlights();
     const Aircraft f16 = F16();
     const FlightReset reset(config, f16);
@@ -94,8 +95,9 @@ class TrimmedFlock {
       (kNumColumns + kNumCommands) * TileStride(kTileSize);
 
   Tile At(int index) {
-    return {columns_.data() + static_cast<std::size_t>(index) * kFloatsPerTile,
-            TileStride(kTileSize), std::min(kTileSize, count_ - index * kTileSize)};
+    return {
+        reinterpret_cast<float*>(memory_.data()) + static_cast<std::size_t>(index) * kFloatsPerTile,
+        TileStride(kTileSize), std::min(kTileSize, count_ - index * kTileSize)};
   }
 
   void Fill(const FlightReset& reset, const ThrottleGearing& gearing, int index) {
@@ -114,7 +116,7 @@ class TrimmedFlock {
   }
 
   int count_;
-  AlignedVector<float> columns_;
+  LargeMemory memory_;
   std::shared_ptr<const KernelAircraft> kernel_;
 };
 
