@@ -266,3 +266,10 @@ it('commands of one agent are charted beside what is flown', () => {
   expect(titles([plain])).toContain('yaw, deg');
   expect(titles([plain, high])).toContain('yaw, deg, and dashed as commanded');
 });
+
+it('a chart of two units says on which side the dashed one is read', () => {
+  const flown = record({ ...STRAIGHT, action_pitch: [0, 0, 0, 0], elevator_deg: [-2, -2, -2, -2] });
+  const pair = stripsOf({ targets: [] } as unknown as FlightSet, [flown])
+    .find(({ secondAxis }) => secondAxis);
+  expect(pair?.title).toBe('action pitch, and dashed elevator, deg (right)');
+});

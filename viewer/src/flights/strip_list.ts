@@ -95,8 +95,8 @@ export function stripsOf(set: FlightSet, records: FlightRecord[]): Strip[] {
     tolerance: target.tolerance,
   }));
   const pair = (command: string, surface: string, isOn: boolean): Strip => ({
-    title: `${titleOf(command)}, and dashed ${titleOf(surface)}`, columns: [command, surface],
-    isOn, secondAxis: true,
+    title: `${titleOf(command)}, and dashed ${titleOf(surface)} (right)`,
+    columns: [command, surface], isOn, secondAxis: true,
   });
   /** With what a high-level policy commands, if one does. */
   const one = (column: string, isOn: boolean): Strip => {

@@ -89,8 +89,8 @@ export class Strips {
     private readonly strips: Strip[], private readonly agents: string[],
     private readonly seek: (time: number) => void,
   ) {
-    const ticks = strips.map((strip) => tick(strip.title.replace(/, and dashed.*/, ' | surface'),
-      strip.isOn, (isOn) => {
+    const ticks = strips.map((strip) => tick(
+      strip.title.replace(', and dashed ', ' | ').replace(' (right)', ''), strip.isOn, (isOn) => {
         strip.isOn = isOn;
         this.draw(this.records, this.end);
       }));
