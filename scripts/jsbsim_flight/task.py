@@ -41,8 +41,9 @@ def angle_error(target, actual):
 
 
 class Task:
-    """A target, and how far from it an aircraft is. Each task's class has its RANGES, TOLERANCES, FIRST_UNIT (of the
-    first error when observed), EARLIEST_SUCCESS_STEP, and the first quantity that its target is compared with."""
+    """A target, and how far from it an aircraft is. Each task's class has its RANGES, TOLERANCES, ERRORS (by the names
+    of Skein's columns, how many of the column's unit an error of 1 is), FIRST_UNIT (of the first error when observed),
+    EARLIEST_SUCCESS_STEP, and the first quantity that its target is compared with."""
 
     def __init__(self, state, draw):
         """Draws the target; draw(x) is uniform in [-x, x]."""
@@ -72,6 +73,7 @@ class Task:
 class Heading(Task):
     RANGES = (3000, 3, 300)
     TOLERANCES = (100, math.radians(5), 20)
+    ERRORS = {"altitude_ft": 1, "yaw_deg": math.degrees(1), "true_airspeed_fps": 1}
     FIRST_UNIT = ALTITUDE_ERROR_UNIT
     EARLIEST_SUCCESS_STEP = 300
 
@@ -83,6 +85,7 @@ class Heading(Task):
 class Control(Task):
     RANGES = (0.5, 3, 300)
     TOLERANCES = (math.radians(5), math.radians(5), 20)
+    ERRORS = {"pitch_deg": math.degrees(1), "yaw_deg": math.degrees(1), "true_airspeed_fps": 1}
     FIRST_UNIT = 1
     EARLIEST_SUCCESS_STEP = 1
 
