@@ -3,6 +3,7 @@
 
 #include <sys/mman.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -20,11 +21,14 @@ void LargeMemory::Free::operator()(std::byte* bytes) const { std::free(bytes); }
 
 LargeMemory::LargeMemory(std::size_t size) {
   const std::size_t alignment = size < kLeastSize ? kCacheLine : kHugePage;
+  if (size > SIZE_MAX - alignment) throw std::bad_alloc();
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
   bytes_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, rounded)));
   if (bytes_ == nullptr) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
   // Advice: where it is not taken, pages are small.
-  if (size >= kLeastSize) madvise(bytes_.get(), rounded, MADV_HUGEPAGE);
+  if (alignment == kHugePage) madvise(bytes_.get(), rounded, MADV_HUGEPAGE);
+#endif
   std::memset(bytes_.get(), 0, size);
 }
 

@@ -81,15 +81,15 @@ void OnLaunchedRanks(double timeout_s, const std::function<void(Ranks& ranks)>& 
   });
 }
 
-void ShareOut(const std::vector<std::string>& assignments, const Ranks& ranks,
-              TrainConfig* config) {
+void ChooseShards(const std::vector<std::string>& assignments, const Ranks& ranks,
+                  TrainConfig* config) {
   const bool is_chosen =
       config->learner.shards > 1 ||
       std::any_of(assignments.begin(), assignments.end(), [](const std::string& assignment) {
         return KeyOf(assignment) == "learner.shards";
       });
   if (!is_chosen && ranks.count() > 1) {
-    config->learner.shards = ShardsForRanks(*config, ranks.count());
+    config->learner.shards = DefaultShards(*config, ranks.count());
   }
   AsUsage([&] { return ShardsOfRank(*config, ranks); });
 }

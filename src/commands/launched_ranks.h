@@ -29,9 +29,10 @@ void WorkAsRank(Ranks& ranks, const std::function<void(Ranks& ranks)>& work);
 /// processes that should be ranks and cannot.
 void OnLaunchedRanks(double timeout_s, const std::function<void(Ranks& ranks)>& work);
 
-/// Cuts the aircraft of a new training by `ranks` into shards, unless the assignments of the
-/// command line, or what the configuration says already, say how many. Throws UsageError if it
-/// cannot be done by so many.
-void ShareOut(const std::vector<std::string>& assignments, const Ranks& ranks, TrainConfig* config);
+/// Gives a new training by several ranks, whose one shard cannot be dealt out, DefaultShards,
+/// unless the assignments of the command line say how many. Throws UsageError if it cannot be done
+/// by so many.
+void ChooseShards(const std::vector<std::string>& assignments, const Ranks& ranks,
+                  TrainConfig* config);
 
 }  // namespace skein

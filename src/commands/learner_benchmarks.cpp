@@ -219,7 +219,7 @@ void MeasureIteration(const BenchOptions& options, Ranks& ranks) {
   TrainConfig config;
   DoTogether(ranks, [&] {
     config = LearnerBenchConfig(options);
-    ShareOut(options.assignments, ranks, &config);
+    ChooseShards(options.assignments, ranks, &config);
     if (ranks.rank() == 0) CheckWritable({options.json}, FilesRead(options));
   });
   RequireSameOnRanks(ranks, "what they measure", DescribeProgram());

@@ -144,7 +144,7 @@ std::string Begin(const TrainOptions& options, Ranks& ranks) {
       throw CLI::RequiredError(fmt::format("TASK ({})", fmt::join(PresetTasks(), ", ")));
     }
     config = Configure(options, options.task);
-    ShareOut(options.assignments, ranks, &config.train);
+    ChooseShards(options.assignments, ranks, &config.train);
     origin.from = options.from.empty() ? "" : NetworksFileOf(options.from);
     const ChosenLowLevelPolicy low_level =
         ChooseLowLevelPolicy(config.train.env, options.low_level, origin.from);

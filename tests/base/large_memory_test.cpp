@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <new>
 
 namespace skein {
 namespace {
@@ -15,6 +16,10 @@ std::uintptr_t AddressOf(const LargeMemory& memory) {
 
 TEST(LargeMemoryTest, IsOfZerosFromACacheLineOnWhateverItsSize) {
   for (const std::size_t size : {1, 100, 4096, 4 << 20, (4 << 20) + 1}) {
+    {
+      const LargeMemory used(size);  // what comes next may be the same memory
+      std::fill_n(used.data(), size, std::byte{1});
+    }
     const LargeMemory memory(size);
     EXPECT_EQ(AddressOf(memory) % 64, 0u) << size;
     EXPECT_EQ(std::count(memory.data(), memory.data() + size, std::byte{0}),
@@ -24,6 +29,10 @@ TEST(LargeMemoryTest, IsOfZerosFromACacheLineOnWhateverItsSize) {
 
 TEST(LargeMemoryTest, BeginsWithAHugePageWhereItIsLong) {
   EXPECT_EQ(AddressOf(LargeMemory(std::size_t{8} << 20)) % (2 << 20), 0u);
+}
+
+TEST(LargeMemoryTest, RefusesWhatNoMachineHas) {
+  EXPECT_THROW(LargeMemory(SIZE_MAX - 1), std::bad_alloc);
 }
 
 TEST(LargeMemoryTest, IsNowhereUntilItHasASize) { EXPECT_EQ(LargeMemory().data(), nullptr); }

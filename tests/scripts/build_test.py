@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Two builds of one preset take turns. Skipped without cmake or ninja."""
+"""Builds of one preset take turns. Skipped without cmake, ninja or flock."""
+import fcntl
 import json
 import pathlib
 import shutil
@@ -14,20 +15,16 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from script_module import SCRIPTS  # noqa: E402
 
-# Building makes a folder that must not be there, and takes it away again.
 PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(turns NONE)
-add_custom_target(turn ALL COMMAND ${CMAKE_COMMAND} -E echo at work
-                           COMMAND mkdir ${PROJECT_SOURCE_DIR}/turn
-                           COMMAND sleep 1
-                           COMMAND rmdir ${PROJECT_SOURCE_DIR}/turn)
+add_custom_target(turn ALL COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/built)
 """
 BUILD_PRESETS = '''"buildPresets": [
     { "name": "release", "configurePreset": "release" }
   ]'''
 
 
-@unittest.skipUnless(shutil.which("cmake") and shutil.which("ninja"), "no cmake or ninja")
+@unittest.skipUnless(all(map(shutil.which, ("cmake", "ninja", "flock"))), "no cmake, ninja or flock")
 class Build(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -40,12 +37,16 @@ class Build(unittest.TestCase):
         (self.tree / "CMakePresets.json").write_text(
             f'{{"version": 3, "configurePresets": [{json.dumps(configure)}], {BUILD_PRESETS}}}')
 
-    def test_takes_turns(self):
-        builds = [subprocess.Popen([self.tree / "scripts" / "build"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True) for _ in range(2)]
-        said = [build.communicate()[1] for build in builds]
-        self.assertEqual([build.returncode for build in builds], [0, 0], said)
-        self.assertEqual(sorted(said), ["", "scripts/build: waiting for another build of the preset release\n"])
+    def test_waits_for_another(self):
+        (self.tree / "build").mkdir()
+        with open(self.tree / "build" / "release.lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            build = subprocess.Popen([self.tree / "scripts" / "build"], stderr=subprocess.PIPE, text=True)
+            self.assertEqual(build.stderr.readline(),
+                             "scripts/build: waiting for another build of the preset release\n")
+            self.assertFalse((self.tree / "build" / "release").exists())
+        self.assertEqual((build.communicate()[1], build.returncode), ("", 0))
+        self.assertTrue((self.tree / "build" / "release" / "built").exists())
 
 
 if __name__ == "__main__":

@@ -87,7 +87,7 @@ class RanksFixture : public ::testing::Test {
   };
 
   /// What ranks exchange their bytes over, in Open MPI's words.
-  static constexpr const char *kSharedMemory = "^tcp", *kTcp = "tcp,self";
+  static constexpr const char *kSharedMemory = "^tcp", *kTcp = "tcp,self";  // by the loopback
 
   /// The words that start `count` ranks, over shared memory as they are all here. What the last has
   /// of its own a shell gives it: Open MPI 5.0.7's mpirun crashes where it starts more than one
@@ -96,8 +96,9 @@ class RanksFixture : public ::testing::Test {
                                          const std::optional<LastRank>& last = std::nullopt,
                                          const char* transport = kSharedMemory) {
     std::vector<std::string> words = {"mpirun", "--allow-run-as-root", "--oversubscribe"};
-    words.insert(words.end(), {"--mca", "btl", transport, "-np", std::to_string(count), "-x",
-                               AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS"))});
+    words.insert(words.end(),
+                 {"--mca", "btl", transport, "--mca", "btl_tcp_if_include", "lo", "-np",
+                  std::to_string(count), "-x", AsanOptionsOfRanks(std::getenv("ASAN_OPTIONS"))});
     if (last) {
       words.insert(words.end(), {"sh", "-c",
                                  "[ $OMPI_COMM_WORLD_RANK = " + std::to_string(count - 1) +

@@ -142,10 +142,14 @@ TEST_F(ManyRanks, ARunGoesOnByAnyNumberOfThem) {
       if (part + 1 < counts.size()) {
         const std::uint64_t enough = kIterations * (part + 1) / counts.size();
         ASSERT_TRUE(training.WaitUntil([&] { return HasCheckpoint(run_, enough); }));
-        kill(RanksOf(run_).back(), SIGTERM);
+        const std::vector<pid_t> ranks = ProcessesOf(run_);
+        ASSERT_EQ(ranks.size(), static_cast<std::size_t>(counts[part]));
+        kill(ranks.back(), SIGTERM);
       }
       const ProgramResult result = training.Wait();
       ASSERT_EQ(result.exit_code, 0) << result.error;
+      EXPECT_EQ(result.output.find("stopped by SIGTERM") == std::string::npos,
+                part + 1 == counts.size());
       words = {"train", "--resume", run_, "--threads", "1"};
     }
     ExpectSameRun(reference_, run_);

@@ -39,7 +39,7 @@ ShardRange ShardsOfRank(const TrainConfig& config, const Ranks& ranks) {
               (most == wanted ? "" : " on as many, the most that its aircraft allow"));
 }
 
-int ShardsForRanks(const TrainConfig& config, int ranks) {
+int DefaultShards(const TrainConfig& config, int ranks) {
   return MostShards(config, std::max(kShardsForRanks, ranks));
 }
 

@@ -11,8 +11,9 @@ namespace skein {
 /// shards so many ranks need, if the configuration's cannot be dealt out so.
 ShardRange ShardsOfRank(const TrainConfig& config, const Ranks& ranks);
 
-/// As many shards as a training by `ranks` is given unless it says how many: 32, or more if there
-/// are more ranks, or the most that the configuration allows. Up to 32 ranks get the same training.
-int ShardsForRanks(const TrainConfig& config, int ranks);
+/// As many shards as a training by several ranks has unless it is said how many: 32, or as many as
+/// ranks if those are more, or the most that the configuration allows. So up to 32 ranks do the
+/// same training.
+int DefaultShards(const TrainConfig& config, int ranks);
 
 }  // namespace skein

@@ -93,6 +93,16 @@ TEST(ShardsOfRankTest, ARefusalNamesANumberThatWorks) {
   }
 }
 
+TEST(DefaultShardsTest, AreThirtyTwoUnlessRanksOrAircraftAskForOthers) {
+  TrainConfig config = SmallConfig();  // of 96 aircraft: 32 shards at most
+  for (const int ranks : {2, 8, 32, 64}) EXPECT_EQ(DefaultShards(config, ranks), 32);
+  config.ppo.num_aircraft = 24;
+  EXPECT_EQ(DefaultShards(config, 2), 8);
+  config.ppo.num_aircraft = 4096;
+  EXPECT_EQ(DefaultShards(config, 2), 32);
+  EXPECT_EQ(DefaultShards(config, 64), 64);
+}
+
 TEST(ShardsTest, TheFirstRolloutsEpisodesAreThoseOfOneShard) {
   TrainConfig config = SmallConfig();
   config.env.stagger_clocks = false;
