@@ -25,8 +25,8 @@ void ListFields(LearnerConfig& config, FieldList& list) {
   list.Add("rollout_tile", &config.rollout_tile, {1, 1000000}, "aircraft per rollout tile");
   list.Add("shards", &config.shards, {1, kMaxShards},
            "equal parts, a power of two, into which the aircraft are cut; part of the result, as "
-           "every minibatch takes its share of each and sums are ordered by them; a new run of several "
-           "ranks has 32 in place of 1, or the most that can be")
+           "every minibatch takes its share of each and sums are ordered by them; a new run of "
+           "several ranks has 32 in place of 1, or the most that can be")
       .OffUnless(config.shards > 1);
 }
 
