@@ -58,6 +58,7 @@ void RunStagePartKernel(bench::StagePart part, const KernelAircraft& aircraft, T
   MeasureFlowAngles(aircraft, first, &block);
   MeasureDynamicPressure<true>(aircraft, first, &block);
   ThrustAndPowerRate<true>(aircraft, first, controls, &block);
+  ReadTables(aircraft, &block);
   EvaluateStateRates(aircraft.constants, first, block, IgnoreCoefficients());
 
   // A step of no time: the rounds find the state as it is.
@@ -97,17 +98,15 @@ void FindTableCellsKernel(const KernelAircraft& aircraft, Tile tile, std::int32_
 
 void ReadTablesOfKernel(const KernelAircraft& aircraft, Tile tile, const std::int32_t* cell_slot,
                         const std::int32_t* alpha_cell) {
-  const IntTag di;
   KernelBlock block;
   for (int first = 0; first < tile.count; first += kLanesPerBlock) {
     const BlockControls controls = ControlsOf(tile, first);
     for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
       LocateSurfaces(aircraft, controls, NominalPlant(), lane, &block);
     }
-    for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
-      ReadTables(aircraft, hn::LoadU(di, cell_slot + first + lane),
-                 hn::LoadU(di, alpha_cell + first + lane), lane, &block);
-    }
+    std::copy_n(cell_slot + first, kLanesPerBlock, block.cell_slot);
+    std::copy_n(alpha_cell + first, kLanesPerBlock, block.alpha_cell);
+    ReadTables(aircraft, &block);
     Touch(&block);
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 
 #include "envs/kernels/kernel_aircraft.h"
 #include "simd/dispatch.h"
@@ -32,11 +33,17 @@ using namespace plant_kernel;  // NOLINT: one room, split into files by phase
 
 /// One evaluation of the equations of motion for a block, phase by phase.
 template <bool kEngine, class State, class Observer>
-HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const State& state,
+HWY_NOINLINE void EvaluateBlock(const KernelAircraft& aircraft, const State& given,
                                 const BlockControls& controls, const Observer& coefficients) {
+  // A copy of its own: stores of vectors may alias anything, so that what lies behind a reference
+  // is loaded anew after each of them. In the first stage the copy makes slower code.
+  using Held = std::conditional_t<State::kStage == kFirstStage, const State&, const State>;
+  Held state = given;
   MeasureFlowAngles(aircraft, state, state.block);
   MeasureDynamicPressure<kEngine>(aircraft, state, state.block);
   ThrustAndPowerRate<kEngine>(aircraft, state, controls, state.block);
+  // Here, not as soon as the cells are known: meanwhile the chains that find them end.
+  if constexpr (State::kStage == kFirstStage) ReadTables(aircraft, state.block);
   if constexpr (kEngine) {
     if (HWY_UNLIKELY(aircraft.depends_on_mach)) AddMachEffects(aircraft, state.block);
   }

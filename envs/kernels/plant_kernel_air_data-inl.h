@@ -72,7 +72,8 @@ HWY_INLINE void MeasureFlowAngles(const KernelAircraft& aircraft, const State& s
   for (int n = 0; n < kVectors; ++n) {
     const int lane = n * kLanes;
     if constexpr (State::kStage == kFirstStage) {
-      ReadTables(aircraft, cell_slot[n], alpha_cell[n], lane, block);
+      hn::Store(cell_slot[n], di, block->cell_slot + lane);
+      hn::Store(alpha_cell[n], di, block->alpha_cell + lane);
     } else if (!hn::AllTrue(di, hn::Eq(cell_slot[n], hn::Load(di, block->cell_slot + lane)))) {
       ReadChangedTables(aircraft, cell_slot[n], alpha_cell[n], lane, block);
     }

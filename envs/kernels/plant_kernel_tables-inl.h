@@ -120,7 +120,6 @@ HWY_INLINE void ReadAlphaFunctions(const KernelAircraft& aircraft, VI alpha_cell
                                    KernelBlock* block) {
   const FloatTag d;
   const V flap_up = hn::Load(d, block->flap_up + lane);
-  hn::Store(alpha_cell, IntTag(), block->alpha_cell + lane);
   for (int k = 0; k < kNumAlphaFunctions; ++k) {
     const CellTable& function = aircraft.alpha_functions[k];
     V value = Lookup32(d, function.value, alpha_cell);
@@ -149,18 +148,18 @@ inline HWY_NOINLINE void ReadChangedTables(const KernelAircraft& aircraft, VI ce
     ReadPatchesOf<kLongitudinal>(aircraft, i, block);
   }
   if (!hn::AllTrue(di, hn::Eq(alpha_cell, hn::Load(di, block->alpha_cell + lane)))) {
+    hn::Store(alpha_cell, di, block->alpha_cell + lane);
     ReadAlphaFunctions(aircraft, alpha_cell, lane, block);
   }
 }
 
-/// Reads the tables of the aircraft in lanes `lane` to `lane + kLanes`, whose cells begin at
-/// `cell_slot`.
-HWY_INLINE void ReadTables(const KernelAircraft& aircraft, VI cell_slot, VI alpha_cell, int lane,
-                           KernelBlock* block) {
-  hn::Store(cell_slot, IntTag(), block->cell_slot + lane);
-  ReadPatches<kLateral>(aircraft, lane, block);
-  ReadPatches<kLongitudinal>(aircraft, lane, block);
-  ReadAlphaFunctions(aircraft, alpha_cell, lane, block);
+/// Reads the tables of all aircraft of the block in the cells that they are in.
+HWY_INLINE void ReadTables(const KernelAircraft& aircraft, KernelBlock* block) {
+  for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
+    ReadPatches<kLateral>(aircraft, lane, block);
+    ReadPatches<kLongitudinal>(aircraft, lane, block);
+    ReadAlphaFunctions(aircraft, hn::Load(IntTag(), block->alpha_cell + lane), lane, block);
+  }
 }
 
 }  // namespace plant_kernel
