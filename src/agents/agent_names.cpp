@@ -111,6 +111,16 @@ Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
       [&] { return Agent::Of(MakeAutopilot(own, AutopilotOf(AutopilotVariantOf(name)))); });
 }
 
+/// The names of the forms of those kinds that are `wanted`, on one line.
+template <class Wanted>
+std::string NamesAmong(const Wanted& wanted) {
+  std::vector<std::string> names;
+  for (const AgentForm& form : AgentForms()) {
+    if (wanted(form.name.substr(0, form.name.find_first_of(":[")))) names.push_back(form.name);
+  }
+  return fmt::format("{} (autopilot means autopilot:aggressive)", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 bool IsAgentName(const std::string& name) {
@@ -136,9 +146,11 @@ std::vector<AgentForm> AgentForms() {
 }
 
 std::string AgentNames() {
-  std::vector<std::string> names;
-  for (const AgentForm& form : AgentForms()) names.push_back(form.name);
-  return fmt::format("{} (autopilot means autopilot:aggressive)", fmt::join(names, ", "));
+  return NamesAmong([](const std::string& /*kind*/) { return true; });
+}
+
+std::string OtherAgentNames() {
+  return NamesAmong([](const std::string& kind) { return kind != kPolicy; });
 }
 
 std::string PolicyFileOfAgent(const std::string& name) {

@@ -51,6 +51,8 @@ struct AgentForm {
 std::vector<AgentForm> AgentForms();
 /// Their names on one line, for help and errors.
 std::string AgentNames();
+/// The same of those that are no policies.
+std::string OtherAgentNames();
 
 /// The agent called `name` (AgentForms) for the environment of `config`. Throws UsageError on a
 /// name of no form, and Error on a policy that cannot be read or is not made for the environment.

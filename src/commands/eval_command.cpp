@@ -18,6 +18,7 @@
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
 #include "src/config/usage_error.h"
+#include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/evaluation/recording_limit.h"
 #include "src/files/output_file.h"
@@ -36,6 +37,7 @@ struct EvalOptions {
   bool sampled = false;
   bool other_aircraft = false;
   FlightOptions flight;
+  std::vector<const CLI::Option*> of_policies;  ///< what other agents cannot do
 };
 
 std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {
@@ -46,43 +48,49 @@ std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {
                      std::min(env.action_repeat, policy.low_level()->action_repeat()));
 }
 
-/// Of the mode that is reported first.
-void WriteRecords(const EvalOptions& options, const std::string& path,
-                  const RecurrentPolicy& policy, const EnvConfig& env, WorkerPool& pool) {
-  const FlightOptions& flight = options.flight;
-  const AgentFlights flown =
-      RecordFirst(flight, "policy:" + path,
-                  options.sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy), env, pool);
-  if (!flight.flights.empty()) {
-    WriteFlightsCsv(flight, flight.flights,
-                    options.sampled ? "with sampled actions" : "with the mean action", flown);
-  }
+void WriteRecords(const FlightOptions& flight, const std::string& manner,
+                  const AgentFlights& flown) {
+  if (!flight.flights.empty()) WriteFlightsCsv(flight, flight.flights, manner, flown);
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, {flown});
 }
 
-/// Throws UsageError if `policy` is no file, but the name of an agent of `skein compare`.
-void RefuseAgentNames(const std::string& policy) {
+/// Whether an agent flies that is no policy: a name, unless a file is called so. Throws UsageError
+/// on a policy that is called as an agent.
+bool IsOtherAgent(const std::string& policy) {
   std::error_code failure;
-  if (!IsAgentName(policy) || std::filesystem::exists(policy, failure)) return;
+  if (!IsAgentName(policy) || std::filesystem::exists(policy, failure)) return false;
   if (const std::string file = PolicyFileOfAgent(policy); !file.empty()) {
     throw UsageError(fmt::format("--policy {}: it takes the file or run alone: {}", policy, file));
   }
-  throw UsageError(
-      fmt::format("--policy {}: eval measures one policy, by its file or run; skein compare "
-                  "--agents {} flies other agents, too",
-                  policy, policy));
+  return true;
 }
 
-/// The policy that is flown, and where.
+/// Who is flown, and where.
 struct Subject {
-  std::string path;
+  std::string name;  ///< the policy's file, or the agent's name
   ProgramConfig config;
-  RecurrentPolicy policy;
+  std::optional<RecurrentPolicy> policy;  ///< nothing: another agent
+  Agent agent;                            ///< of a policy that of the mode that is reported first
+  EnvConfig env;                          ///< as that agent flies in it
 };
 
-Subject FindSubject(const EvalOptions& options) {
+Subject FindOtherAgent(const EvalOptions& options) {
   const FlightOptions& flight = options.flight;
-  RefuseAgentNames(options.policy);
+  for (const CLI::Option* option : options.of_policies) {
+    if (option->count() == 0) continue;
+    throw UsageError(
+        fmt::format("{} is for policies, not for --policy {}", option->get_name(), options.policy));
+  }
+  ProgramConfig config = ConfigFor(flight, options.policy, std::nullopt, "");
+  const EnvConfig asked = config.train.env;
+  ApplyOverrides(flight, {}, "", &config);
+  AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });
+  const Agent agent = FindAgent(options.policy, config, flight.seed);
+  return {options.policy, config, std::nullopt, agent, agent.EnvironmentFor(config.train.env)};
+}
+
+Subject FindPolicy(const EvalOptions& options) {
+  const FlightOptions& flight = options.flight;
   const std::string path = PolicyFileOf(options.policy);
   if (path != kUntrained && !options.low_level.empty()) {
     throw UsageError(
@@ -102,13 +110,15 @@ Subject FindSubject(const EvalOptions& options) {
   }
   RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);
   if (options.other_aircraft) policy = ForAnyAircraft(policy);
-  return {path, config, policy};
+  const Agent first = options.sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
+  return {path, config, policy, first, config.train.env};
 }
 
 std::vector<std::string> Inputs(const EvalOptions& options) {
   std::vector<std::string> files = FilesRead(options.flight);
+  const std::string policy = IsOtherAgent(options.policy) ? "" : options.policy;
   const std::string low_level = IsAutopilot(options.low_level) ? "" : options.low_level;
-  for (const auto& policies : {FilesOfPolicy(options.policy), FilesOfPolicy(low_level)}) {
+  for (const auto& policies : {FilesOfPolicy(policy), FilesOfPolicy(low_level)}) {
     files.insert(files.end(), policies.begin(), policies.end());
   }
   return files;
@@ -116,11 +126,40 @@ std::vector<std::string> Inputs(const EvalOptions& options) {
 
 /// What is flown, in short.
 std::string Identity(const Subject& subject, const FlightOptions& flight) {
-  TensorFile policy;
-  StorePolicy(*subject.policy.parameters(), policy);
-  return fmt::format("{}, policy {}, environment {}, {} episodes of seed {}", DescribeProgram(),
-                     HexHash(policy.Bytes()), HexHash(EnvironmentJson(subject.config).dump()),
-                     flight.episodes, flight.seed);
+  std::string agent = "agent " + subject.name;
+  if (subject.policy) {
+    TensorFile policy;
+    StorePolicy(*subject.policy->parameters(), policy);
+    agent = "policy " + HexHash(policy.Bytes());
+  }
+  return fmt::format("{}, {}, environment {}, {} episodes of seed {}", DescribeProgram(), agent,
+                     HexHash(EnvironmentJson(subject.config).dump()), flight.episodes, flight.seed);
+}
+
+/// On all ranks together: flies the episodes; rank 0 says what came of them.
+void Report(const EvalOptions& options, const Subject& subject, WorkerPool& pool, Ranks& ranks) {
+  const FlightOptions& flight = options.flight;
+  const auto& [name, config, policy, agent, env] = subject;
+  std::string lines = InLines("  ", DescribeEvaluation(env)), text;
+  nlohmann::ordered_json json;
+  if (policy) {
+    const EvaluationReport report =
+        EvaluateBothWays(*policy, env, flight.episodes, flight.seed, pool, ranks);
+    lines += fmt::format("\n  {}\n  {}", Rates(*policy, env), Describe(policy->backend()));
+    text = ToText(report, !options.sampled);
+    json = ToJson(report, name, config, flight.seed, !options.sampled);
+  } else {
+    const FlightSummary summary =
+        EvaluateAgent(agent, env, flight.episodes, flight.seed, pool, ranks);
+    text = ToText(summary);
+    json = ToJson(summary, name, config, flight.seed);
+  }
+  if (ranks.rank() != 0) return;
+  fmt::print("{} on {}, {}, seed {}\n{}\n  {}\n{}\n", name, env.task,
+             Counted(flight.episodes, "episode"), flight.seed, lines, DescribeWorkers(pool), text);
+  if (flight.json.empty()) return;
+  json["program"] = ProgramJson();
+  WriteJson(flight.json, json);
 }
 
 /// On all ranks together.
@@ -129,47 +168,43 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
   std::optional<Subject> subject;
   std::string identity;
   DoTogether(ranks, [&] {
-    subject.emplace(FindSubject(options));
+    subject.emplace(IsOtherAgent(options.policy) ? FindOtherAgent(options) : FindPolicy(options));
     if (RecordsFlights(flight)) {
-      const EnvConfig& env = subject->config.train.env;
+      const EnvConfig& env = subject->env;
       RequireRoomFor(std::min(flight.flights_count, flight.episodes), 1, LongestFlight(env), env,
                      "--flights-count or " + LengthOption(env));
     }
     if (ranks.rank() == 0) {
       CheckWritable({flight.json, flight.flights, flight.acmi}, Inputs(options));
       RequireEndings(flight);
-      WarnOfTargets(subject->config.train.env);
+      WarnOfTargets(subject->env);
     }
     if (ranks.count() > 1) identity = Identity(*subject, flight);
   });
   RequireSameOnRanks(ranks, "what they fly", identity);
-  const auto& [path, config, policy] = *subject;
-  const EnvConfig& env = config.train.env;
   WorkerPool pool(flight.threads);
-  const EvaluationReport report =
-      EvaluateBothWays(policy, env, flight.episodes, flight.seed, pool, ranks);
-  if (ranks.rank() != 0) return;
-  fmt::print("{} on {}, {}, seed {}\n{}\n  {}\n  {}\n  {}\n{}\n", path, env.task,
-             Counted(flight.episodes, "episode"), flight.seed,
-             InLines("  ", DescribeEvaluation(env)), Rates(policy, env), Describe(policy.backend()),
-             DescribeWorkers(pool), ToText(report, !options.sampled));
-  if (!flight.json.empty()) {
-    nlohmann::ordered_json json = ToJson(report, path, config, flight.seed, !options.sampled);
-    json["program"] = ProgramJson();
-    WriteJson(flight.json, json);
+  Report(options, *subject, pool, ranks);
+  if (ranks.rank() != 0 || !RecordsFlights(flight)) return;
+  const auto& [name, config, policy, agent, env] = *subject;
+  if (policy) {
+    WriteRecords(flight, options.sampled ? "with sampled actions" : "with the mean action",
+                 RecordFirst(flight, "policy:" + name, agent, env, pool));
+  } else {
+    WriteRecords(flight, "by " + name, RecordFirst(flight, name, agent, env, pool));
   }
-  if (RecordsFlights(flight)) WriteRecords(options, path, policy, env, pool);
 }
 
 }  // namespace
 
 void AddEvalCommand(CLI::App* app) {
   auto options = std::make_shared<EvalOptions>();
-  CLI::App* command = app->add_subcommand("eval", "Fly a policy over fresh episodes");
+  CLI::App* command =
+      app->add_subcommand("eval", "Fly a policy, or another agent, over fresh episodes");
   command
       ->add_option("--policy", options->policy,
-                   "policy file, checkpoint, directory of a run (its best policy), or the word "
-                   "untrained (freshly initialised networks)")
+                   "policy file, checkpoint, directory of a run (its best policy), the word "
+                   "untrained (freshly initialised networks), or who else flies: " +
+                       OtherAgentNames())
       ->type_name("FILE_OR_RUN")
       ->required();
   FlightOptionTexts texts;
@@ -181,20 +216,24 @@ void AddEvalCommand(CLI::App* app) {
       "write the first episodes here, a CSV row for every control step, for skein plot "
       "(by mean actions, with --sampled by sampled ones)";
   AddFlightOptions(command, texts, &options->flight);
-  command
-      ->add_option(
-          "--low-level", options->low_level,
-          "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
-          "(autopilot means autopilot:aggressive) that is the low-level policy; without it "
-          "the policy flies itself")
-      ->type_name("RUN_OR_POLICY");
-  command->add_flag("--other-aircraft", options->other_aircraft,
-                    "fly the policy even if it was trained on another aircraft");
+  const CLI::Option* const low_level =
+      command
+          ->add_option(
+              "--low-level", options->low_level,
+              "with --policy untrained: the policy of task control, or autopilot[:VARIANT] "
+              "(autopilot means autopilot:aggressive) that is the low-level policy; without it "
+              "the policy flies itself")
+          ->type_name("RUN_OR_POLICY");
+  const CLI::Option* const other_aircraft =
+      command->add_flag("--other-aircraft", options->other_aircraft,
+                        "fly the policy even if it was trained on another aircraft");
   CLI::Option* const sampled =
       command->add_flag("--sampled", options->sampled,
                         "report sampled actions first (default: mean actions; both are flown)");
-  command->add_flag("--deterministic", "report mean actions first, as is the default")
-      ->excludes(sampled);
+  const CLI::Option* const deterministic =
+      command->add_flag("--deterministic", "report mean actions first, as is the default")
+          ->excludes(sampled);
+  options->of_policies = {low_level, other_aircraft, sampled, deterministic};
   command->footer(
       "A policy file knows for how many control steps it holds an action; --set "
       "env.action_repeat=N\n"
@@ -202,6 +241,7 @@ void AddEvalCommand(CLI::App* app) {
       "Example: skein eval --policy runs/short --task heading --episodes 1000 "
       "--json result.json\n"
       "         skein eval --policy runs/short --flights flights.csv\n"
+      "         skein eval --policy autopilot --task heading --hold 30\n"
       "         skein eval --policy runs/short --condition windy=60fps,moderate --condition "
       "noisy=0.03");
   command->callback([options] {

@@ -62,15 +62,15 @@ PairedDifferences Differences(const std::vector<Quantity>& quantities,
 
 void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin) {
   if (env.action_repeat != origin.action_repeat) {
-    throw Error("env.action_repeat: agents that are compared act each at their own rate");
+    throw Error("env.action_repeat: agents act each at their own rate");
   }
   if (env.tracking.error_axes != origin.tracking.error_axes) {
-    throw Error("env.tracking.error_axes: agents that are compared see each in their own axes");
+    throw Error("env.tracking.error_axes: agents see each in their own axes");
   }
   if (env.high_level.averages_observations != origin.high_level.averages_observations) {
     throw Error(
-        "env.high_level.averages_observations: high-level policies that are compared observe each "
-        "as they were trained");
+        "env.high_level.averages_observations: high-level policies observe each as they were "
+        "trained");
   }
 }
 

@@ -39,14 +39,19 @@ std::string Lines(const char* mode, const FlightSummary& summary) {
 
 }  // namespace
 
-EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
-                                  std::uint64_t seed, WorkerPool& pool, Ranks& ranks) {
+FlightSummary EvaluateAgent(const Agent& agent, const EnvConfig& env, int episodes,
+                            std::uint64_t seed, WorkerPool& pool, Ranks& ranks) {
   EvaluationOptions options;
   options.episodes = episodes;
   options.seed = seed;
   options.flight_metrics = true;
+  return SummariseFlights(FlyEpisodesOnRanks(agent, env, options, pool, ranks).episodes, env);
+}
+
+EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
+                                  std::uint64_t seed, WorkerPool& pool, Ranks& ranks) {
   const auto fly = [&](const Agent& agent) {
-    return SummariseFlights(FlyEpisodesOnRanks(agent, env, options, pool, ranks).episodes, env);
+    return EvaluateAgent(agent, env, episodes, seed, pool, ranks);
   };
   return {fly(Agent::MeanOf(policy)), fly(Agent::SamplingFrom(policy))};
 }
@@ -77,11 +82,24 @@ Json ToJson(const EvaluationReport& report, const std::string& policy, const Pro
   return json;
 }
 
+Json ToJson(const FlightSummary& summary, const std::string& agent, const ProgramConfig& config,
+            std::uint64_t seed) {
+  Json json = {{"agent", agent}, {"task", config.train.env.task}, {"seed", seed}};
+  json.update(ToJson(summary));
+  json["environment"] = EnvironmentJson(config);
+  return json;
+}
+
 std::string ToText(const EvaluationReport& report, bool deterministic) {
   return fmt::format("{}\n{}\n{}, means over episodes with 95 % intervals:\n{}",
                      Lines("deterministic", report.deterministic), Lines("sampled", report.sampled),
                      deterministic ? "deterministic" : "sampled",
                      FormatFlightMetrics(deterministic ? report.deterministic : report.sampled));
+}
+
+std::string ToText(const FlightSummary& summary) {
+  return fmt::format("{}\nmeans over episodes with 95 % intervals:\n{}", Lines("outcome", summary),
+                     FormatFlightMetrics(summary));
 }
 
 std::string ToSummary(const EvaluationReport& report) {

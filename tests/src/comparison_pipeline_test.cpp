@@ -84,6 +84,25 @@ TEST_F(ComparisonPipeline, FliesWhatEvalFlies) {
   EXPECT_EQ(evaluated["program"], nlohmann::json(ProgramJson()));
 }
 
+TEST_F(ComparisonPipeline, FliesEveryOtherAgentAsEvalDoes) {
+  const auto compared = Compare("zero,random:0.5,autopilot:traditional", {"--seed", "5"});
+  for (const auto& expected : compared["agents"]) {
+    const std::string name = expected["name"], path = scratch_ / "eval.json";
+    SCOPED_TRACE(name);
+    std::vector<std::string> arguments = Command({"--policy", name, "--seed", "5", "--json", path});
+    arguments[0] = "eval";
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.output, HasSubstr(name + " on heading"));
+    const auto evaluated = nlohmann::json::parse(ReadFile(path));
+    EXPECT_EQ(evaluated["agent"], name);
+    EXPECT_EQ(evaluated["estimates"], expected["estimates"]);
+    EXPECT_EQ(evaluated["terminations"], expected["terminations"]);
+    EXPECT_EQ(evaluated["environment"], compared["environment"]);
+    EXPECT_FALSE(evaluated.contains("sampled"));
+  }
+}
+
 TEST_F(ComparisonPipeline, PairedDifferencesAreThoseOfTheMeans) {
   constexpr Tolerance kRounding{1e-9, "float64 rounding, relative"};
   const auto result = Compare("zero,random");
@@ -359,7 +378,7 @@ TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
   }
   const ProgramResult rate =
       CallSkein(Command({"--agents", "zero", "--set", "env.action_repeat=2"}));
-  EXPECT_THAT(rate.error, HasSubstr("env.action_repeat: agents that are compared"));
+  EXPECT_THAT(rate.error, HasSubstr("env.action_repeat: agents act each"));
   const std::string file = scratch_ / "same";
   const ProgramResult twice =
       CallSkein(Command({"--agents", "zero", "--csv", file, "--json", file}));

@@ -231,11 +231,19 @@ TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
     EXPECT_EQ(result.exit_code, arguments[2] == file ? 1 : 2);
     EXPECT_THAT(result.error, HasSubstr(arguments[2]));
   }
-  for (const std::string agent : {"autopilot", "autopilot:traditional", "random:2", "zero"}) {
-    const ProgramResult result = CallSkein({"eval", "--policy", agent, "--task", "heading"});
+  const std::vector<std::string> autopilot = {"eval", "--policy", "autopilot", "--task", "heading"};
+  const std::pair<std::vector<std::string>, std::string> of_policies[] = {
+      {{"--sampled"}, "--sampled is for policies, not for --policy autopilot"},
+      {{"--deterministic"}, "--deterministic is for policies"},
+      {{"--other-aircraft"}, "--other-aircraft is for policies"},
+      {{"--low-level", "autopilot"}, "--low-level is for policies"},
+      {{"--set", "env.action_repeat=2"}, "env.action_repeat: agents act each at their own rate"}};
+  for (const auto& [options, error] : of_policies) {
+    std::vector<std::string> arguments = autopilot;
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.error, HasSubstr("--policy " + agent + ": eval measures one policy"));
-    EXPECT_THAT(result.error, HasSubstr("skein compare --agents " + agent));
+    EXPECT_THAT(result.error, HasSubstr(error));
   }
   const ProgramResult prefixed =
       CallSkein({"eval", "--policy", "policy:other.skein", "--task", "heading"});

@@ -139,7 +139,7 @@ TEST_F(HighLevelPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
   all_in_earth.insert(all_in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
   const ProgramResult refused = CallSkein(all_in_earth);
   EXPECT_EQ(refused.exit_code, 2);
-  ExpectOneLine(refused.error, "env.tracking.error_axes: agents that are compared");
+  ExpectOneLine(refused.error, "env.tracking.error_axes: agents see each");
 }
 
 TEST_F(HighLevelPipeline, LowLevelPoliciesThatDoNotFitAreNamed) {
