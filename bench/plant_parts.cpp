@@ -85,10 +85,6 @@ void FindTableCellsKernel(const KernelAircraft& aircraft, Tile tile, std::int32_
                           std::int32_t* alpha_cell) {
   KernelBlock block;
   for (int first = 0; first < tile.count; first += kLanesPerBlock) {
-    const BlockControls controls = ControlsOf(tile, first);
-    for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
-      LocateSurfaces(aircraft, controls, NominalPlant(), lane, &block);
-    }
     MeasureFlowAngles(aircraft, StageState<kFirstStage>{tile.base + first, tile.stride, &block, 0},
                       &block);
     std::copy_n(block.cell_slot, kLanesPerBlock, cell_slot + first);

@@ -32,7 +32,8 @@ inline constexpr float kMinPlaneSpeedSquared = 1e-12f;
 // The parts of the phase. They are chains of dependent operations, so each goes over all vectors of
 // the block before the next: the processor then overlaps the chains of different aircraft.
 
-/// Airspeed, flow angles, and the aerodynamic tables where those are.
+/// Airspeed, flow angles and the cells of the tables where those are. The first stage leaves the
+/// cells to ReadTables; the others read the tables of aircraft that have changed theirs.
 template <class State>
 HWY_INLINE void MeasureFlowAngles(const KernelAircraft& aircraft, const State& state,
                                   KernelBlock* block) {

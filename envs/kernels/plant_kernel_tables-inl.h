@@ -153,7 +153,8 @@ inline HWY_NOINLINE void ReadChangedTables(const KernelAircraft& aircraft, VI ce
   }
 }
 
-/// Reads the tables of all aircraft of the block in the cells that they are in.
+/// Reads the tables of all aircraft of the block in the cells that MeasureFlowAngles has found, at
+/// the surfaces' positions that LocateSurfaces has.
 HWY_INLINE void ReadTables(const KernelAircraft& aircraft, KernelBlock* block) {
   for (int lane = 0; lane < kLanesPerBlock; lane += kLanes) {
     ReadPatches<kLateral>(aircraft, lane, block);

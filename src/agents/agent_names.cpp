@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -111,21 +112,22 @@ Agent AutopilotAgent(const std::string& name, const EnvConfig& env) {
       [&] { return Agent::Of(MakeAutopilot(own, AutopilotOf(AutopilotVariantOf(name)))); });
 }
 
-/// The names of the forms of those kinds that are `wanted`, on one line.
-template <class Wanted>
-std::string NamesAmong(const Wanted& wanted) {
+/// The names of these forms on one line.
+std::string Listed(const std::vector<AgentForm>& forms) {
   std::vector<std::string> names;
-  for (const AgentForm& form : AgentForms()) {
-    if (wanted(form.name.substr(0, form.name.find_first_of(":[")))) names.push_back(form.name);
-  }
+  for (const AgentForm& form : forms) names.push_back(form.name);
   return fmt::format("{} (autopilot means autopilot:aggressive)", fmt::join(names, ", "));
 }
 
 }  // namespace
 
 bool IsAgentName(const std::string& name) {
+  return KindOf(name) == kPolicy || IsOtherAgentName(name);
+}
+
+bool IsOtherAgentName(const std::string& name) {
   const std::string kind = KindOf(name);
-  return kind == kPolicy || kind == kAutopilot || kind == kRandom || kind == kZero;
+  return kind == kAutopilot || kind == kRandom || kind == kZero;
 }
 
 bool IsAutopilot(const std::string& name) { return KindOf(name) == kAutopilot; }
@@ -136,21 +138,23 @@ std::string AutopilotVariantOf(const std::string& name) {
 }
 
 std::vector<AgentForm> AgentForms() {
-  return {
-      {fmt::format("autopilot[:{}]", fmt::join(AutopilotNames(), "|:")),
-       "the autopilot of TECS and L1 (autopilot means autopilot:aggressive)"},
-      {"policy:FILE_OR_RUN[@sampled][@other-aircraft]",
-       "a trained policy with its mean action, or as sampled; on another aircraft than its own"},
-      {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
-      {kZero, "zero actions"}};
+  return {{fmt::format("autopilot[:{}]", fmt::join(AutopilotNames(), "|:")),
+           "the autopilot of TECS and L1 (autopilot means autopilot:aggressive)"},
+          {"policy:FILE_OR_RUN[@sampled][@other-aircraft]",
+           "a trained policy with its mean action, or as sampled; on another aircraft than its own",
+           true},
+          {"random[:SECONDS]", "random actions, drawn anew every second, or every SECONDS"},
+          {kZero, "zero actions"}};
 }
 
-std::string AgentNames() {
-  return NamesAmong([](const std::string& /*kind*/) { return true; });
-}
+std::string AgentNames() { return Listed(AgentForms()); }
 
 std::string OtherAgentNames() {
-  return NamesAmong([](const std::string& kind) { return kind != kPolicy; });
+  std::vector<AgentForm> forms = AgentForms();
+  forms.erase(std::remove_if(forms.begin(), forms.end(),
+                             [](const AgentForm& form) { return form.is_policy; }),
+              forms.end());
+  return Listed(forms);
 }
 
 std::string PolicyFileOfAgent(const std::string& name) {

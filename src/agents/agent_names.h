@@ -13,6 +13,9 @@ namespace skein {
 /// Whether `name` begins as an agent's name does: no file that is not there is called so.
 bool IsAgentName(const std::string& name);
 
+/// Whether it begins as that of an agent that is no policy.
+bool IsOtherAgentName(const std::string& name);
+
 /// Whether `name` is "autopilot" or "autopilot:VARIANT".
 bool IsAutopilot(const std::string& name);
 /// The variant that such a name means; "autopilot" alone is the quickest, aggressive.
@@ -45,6 +48,7 @@ std::string FingerprintOfAgent(const std::string& name);
 struct AgentForm {
   std::string name;     ///< "random[:SECONDS]"
   std::string meaning;  ///< what flies
+  bool is_policy = false;
 };
 
 /// Every form of an agent's name.

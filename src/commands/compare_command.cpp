@@ -41,23 +41,6 @@ struct CompareOptions {
   FlightOptions flight;
 };
 
-ProgramConfig Configure(const CompareOptions& options) {
-  const FlightOptions& flight = options.flight;
-  const std::string aircraft = AircraftOfRun(flight, options.agents);
-  ConfigSources sources = SourcesFor(
-      flight, "", flight.task.empty() ? FirstPolicyWithTask(options.agents) : std::nullopt,
-      aircraft);
-  sources.file = flight.config;
-  const std::vector<std::string> policies = PoliciesAmong(options.agents);
-  return AsUsage([&] {
-    ProgramConfig config = ResolveConfig(sources);
-    const EnvConfig asked = config.train.env;
-    ApplyOverrides(flight, policies, aircraft, &config);
-    CheckEachAgentsOwn(config.train.env, asked);
-    return config;
-  });
-}
-
 std::vector<std::string> Inputs(const CompareOptions& options) {
   std::vector<std::string> files = FilesRead(options.flight);
   for (const auto& of_agents :
@@ -192,7 +175,7 @@ void CompareAgents(const CompareOptions& options, Ranks& ranks) {
   std::vector<NamedAgent> agents;
   std::string identity;
   DoTogether(ranks, [&] {
-    config = Configure(options);
+    config = ConfigOfAgents(flight, options.agents);
     RequireRoom(options, config.train.env);
     if (ranks.rank() == 0) {
       CheckFiles(options);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/fnv_hash.h"
+#include "base/nearest_name.h"
 #include "src/agents/agent_names.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
@@ -18,7 +19,6 @@
 #include "src/config/conditions.h"
 #include "src/config/presets.h"
 #include "src/config/usage_error.h"
-#include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
 #include "src/evaluation/recording_limit.h"
 #include "src/files/output_file.h"
@@ -40,8 +40,13 @@ struct EvalOptions {
   std::vector<const CLI::Option*> of_policies;  ///< what other agents cannot do
 };
 
+std::string Rate(const EnvConfig& env) {
+  if (env.action_repeat == 1) return "an action every control step";
+  return fmt::format("an action every {} control steps", env.action_repeat);
+}
+
 std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {
-  std::string own = fmt::format("an action every {} control steps", env.action_repeat);
+  const std::string own = Rate(env);
   if (policy.low_level() == nullptr) return own;
   // It acts anew with every policy step of the high-level policy, too.
   return fmt::format("{} for a low-level policy with one every {}", own,
@@ -54,15 +59,24 @@ void WriteRecords(const FlightOptions& flight, const std::string& manner,
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, {flown});
 }
 
-/// Whether an agent flies that is no policy: a name, unless a file is called so. Throws UsageError
-/// on a policy that is called as an agent.
-bool IsOtherAgent(const std::string& policy) {
+bool IsThere(const std::string& path) {
   std::error_code failure;
-  if (!IsAgentName(policy) || std::filesystem::exists(policy, failure)) return false;
+  return std::filesystem::exists(path, failure);
+}
+
+/// Whether an agent flies that is no policy: a name, unless a file is called so.
+bool IsOtherAgent(const std::string& policy) {
+  return IsOtherAgentName(policy) && !IsThere(policy);
+}
+
+/// Throws UsageError on a policy that is called as an agent of `skein compare`, or nearly as one.
+void RefuseNearAgentNames(const std::string& policy) {
+  if (policy == kUntrained || IsThere(policy)) return;
   if (const std::string file = PolicyFileOfAgent(policy); !file.empty()) {
     throw UsageError(fmt::format("--policy {}: it takes the file or run alone: {}", policy, file));
   }
-  return true;
+  const std::string near = DidYouMean(policy, {"autopilot", "random", "zero", kUntrained});
+  if (!near.empty()) throw UsageError(fmt::format("--policy {}: no such file{}", policy, near));
 }
 
 /// Who is flown, and where.
@@ -71,7 +85,6 @@ struct Subject {
   ProgramConfig config;
   std::optional<RecurrentPolicy> policy;  ///< nothing: another agent
   Agent agent;                            ///< of a policy that of the mode that is reported first
-  EnvConfig env;                          ///< as that agent flies in it
 };
 
 Subject FindOtherAgent(const EvalOptions& options) {
@@ -81,16 +94,15 @@ Subject FindOtherAgent(const EvalOptions& options) {
     throw UsageError(
         fmt::format("{} is for policies, not for --policy {}", option->get_name(), options.policy));
   }
-  ProgramConfig config = ConfigFor(flight, options.policy, std::nullopt, "");
-  const EnvConfig asked = config.train.env;
-  ApplyOverrides(flight, {}, "", &config);
-  AsUsage([&] { CheckEachAgentsOwn(config.train.env, asked); });
+  ProgramConfig config = ConfigOfAgents(flight, {options.policy});
   const Agent agent = FindAgent(options.policy, config, flight.seed);
-  return {options.policy, config, std::nullopt, agent, agent.EnvironmentFor(config.train.env)};
+  config.train.env = agent.EnvironmentFor(config.train.env);
+  return {options.policy, config, std::nullopt, agent};
 }
 
 Subject FindPolicy(const EvalOptions& options) {
   const FlightOptions& flight = options.flight;
+  RefuseNearAgentNames(options.policy);
   const std::string path = PolicyFileOf(options.policy);
   if (path != kUntrained && !options.low_level.empty()) {
     throw UsageError(
@@ -111,7 +123,7 @@ Subject FindPolicy(const EvalOptions& options) {
   RecurrentPolicy policy = LoadPolicy(path, config, flight.seed, low_level);
   if (options.other_aircraft) policy = ForAnyAircraft(policy);
   const Agent first = options.sampled ? Agent::SamplingFrom(policy) : Agent::MeanOf(policy);
-  return {path, config, policy, first, config.train.env};
+  return {path, config, policy, first};
 }
 
 std::vector<std::string> Inputs(const EvalOptions& options) {
@@ -139,7 +151,8 @@ std::string Identity(const Subject& subject, const FlightOptions& flight) {
 /// On all ranks together: flies the episodes; rank 0 says what came of them.
 void Report(const EvalOptions& options, const Subject& subject, WorkerPool& pool, Ranks& ranks) {
   const FlightOptions& flight = options.flight;
-  const auto& [name, config, policy, agent, env] = subject;
+  const auto& [name, config, policy, agent] = subject;
+  const EnvConfig& env = config.train.env;
   std::string lines = InLines("  ", DescribeEvaluation(env)), text;
   nlohmann::ordered_json json;
   if (policy) {
@@ -151,6 +164,7 @@ void Report(const EvalOptions& options, const Subject& subject, WorkerPool& pool
   } else {
     const FlightSummary summary =
         EvaluateAgent(agent, env, flight.episodes, flight.seed, pool, ranks);
+    lines += "\n  " + Rate(env);
     text = ToText(summary);
     json = ToJson(summary, name, config, flight.seed);
   }
@@ -170,14 +184,14 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
   DoTogether(ranks, [&] {
     subject.emplace(IsOtherAgent(options.policy) ? FindOtherAgent(options) : FindPolicy(options));
     if (RecordsFlights(flight)) {
-      const EnvConfig& env = subject->env;
+      const EnvConfig& env = subject->config.train.env;
       RequireRoomFor(std::min(flight.flights_count, flight.episodes), 1, LongestFlight(env), env,
                      "--flights-count or " + LengthOption(env));
     }
     if (ranks.rank() == 0) {
       CheckWritable({flight.json, flight.flights, flight.acmi}, Inputs(options));
       RequireEndings(flight);
-      WarnOfTargets(subject->env);
+      WarnOfTargets(subject->config.train.env);
     }
     if (ranks.count() > 1) identity = Identity(*subject, flight);
   });
@@ -185,7 +199,8 @@ void Evaluate(const EvalOptions& options, Ranks& ranks) {
   WorkerPool pool(flight.threads);
   Report(options, *subject, pool, ranks);
   if (ranks.rank() != 0 || !RecordsFlights(flight)) return;
-  const auto& [name, config, policy, agent, env] = *subject;
+  const auto& [name, config, policy, agent] = *subject;
+  const EnvConfig& env = config.train.env;
   if (policy) {
     WriteRecords(flight, options.sampled ? "with sampled actions" : "with the mean action",
                  RecordFirst(flight, "policy:" + name, agent, env, pool));

@@ -261,6 +261,21 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
   });
 }
 
+ProgramConfig ConfigOfAgents(const FlightOptions& options, const std::vector<std::string>& agents) {
+  const std::string aircraft = AircraftOfRun(options, agents);
+  ConfigSources sources = SourcesFor(
+      options, "", options.task.empty() ? FirstPolicyWithTask(agents) : std::nullopt, aircraft);
+  sources.file = options.config;
+  const std::vector<std::string> policies = PoliciesAmong(agents);
+  return AsUsage([&] {
+    ProgramConfig config = ResolveConfig(sources);
+    const EnvConfig asked = config.train.env;
+    ApplyOverrides(options, policies, aircraft, &config);
+    CheckEachAgentsOwn(config.train.env, asked);
+    return config;
+  });
+}
+
 void WarnOfTargets(const EnvConfig& env, const GivenTargets& given) {
   for (const auto& beyond : {StartsBeyondOwnEnds(env), TargetsBeyondLimits(env, given),
                              AltitudesBeyondTables(env, given), WindsBeyondAirspeed(env)}) {

@@ -96,6 +96,12 @@ std::vector<std::string> PoliciesAmong(const std::vector<std::string>& agents);
 void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>& policies,
                     const std::string& aircraft, ProgramConfig* config);
 
+/// The configuration in which all of these agents fly: of --task, else of the first policy among
+/// them that says its own, and of --preset, with --config and what ApplyOverrides takes on top.
+/// Throws UsageError as that does, and if more than --config changes what every agent has of its
+/// own (CheckEachAgentsOwn).
+ProgramConfig ConfigOfAgents(const FlightOptions& options, const std::vector<std::string>& agents);
+
 /// Says on the error stream which targets no flight can come to (TargetsBeyondLimits), what lies
 /// above the engine's tables (AltitudesBeyondTables), and which winds few flights get over
 /// (WindsBeyondAirspeed).

@@ -62,15 +62,16 @@ PairedDifferences Differences(const std::vector<Quantity>& quantities,
 
 void CheckEachAgentsOwn(const EnvConfig& env, const EnvConfig& origin) {
   if (env.action_repeat != origin.action_repeat) {
-    throw Error("env.action_repeat: agents act each at their own rate");
+    throw Error("env.action_repeat cannot be set here: every agent acts at its own rate");
   }
   if (env.tracking.error_axes != origin.tracking.error_axes) {
-    throw Error("env.tracking.error_axes: agents see each in their own axes");
+    throw Error(
+        "env.tracking.error_axes cannot be set here: every agent sees errors in its own axes");
   }
   if (env.high_level.averages_observations != origin.high_level.averages_observations) {
     throw Error(
-        "env.high_level.averages_observations: high-level policies observe each as they were "
-        "trained");
+        "env.high_level.averages_observations cannot be set here: every high-level policy "
+        "observes as it was trained");
   }
 }
 

@@ -21,13 +21,14 @@ struct EvaluationReport {
   FlightSummary sampled;        ///< with sampled actions
 };
 
-/// On all ranks together: flies `episodes` episodes of each kind; clocks are not staggered.
-EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
-                                  std::uint64_t seed, WorkerPool& pool, Ranks& ranks = OneRank());
-
-/// On all ranks together: one agent on episodes as of EvaluateBothWays.
+/// On all ranks together: flies `episodes` fresh episodes of `seed`; clocks are not staggered. The
+/// same on every rank. Throws as FlyEpisodesOnRanks.
 FlightSummary EvaluateAgent(const Agent& agent, const EnvConfig& env, int episodes,
                             std::uint64_t seed, WorkerPool& pool, Ranks& ranks = OneRank());
+
+/// EvaluateAgent with the policy's mean action and with sampled ones.
+EvaluationReport EvaluateBothWays(const RecurrentPolicy& policy, const EnvConfig& env, int episodes,
+                                  std::uint64_t seed, WorkerPool& pool, Ranks& ranks = OneRank());
 
 /// The document of `skein eval --json` and evaluation.json but for `program` (ProgramJson): policy,
 /// task, mode, seed, the keys of FlightSummary for the mode asked for, both modes in full, and the

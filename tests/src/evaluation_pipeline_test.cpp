@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -231,20 +232,6 @@ TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
     EXPECT_EQ(result.exit_code, arguments[2] == file ? 1 : 2);
     EXPECT_THAT(result.error, HasSubstr(arguments[2]));
   }
-  const std::vector<std::string> autopilot = {"eval", "--policy", "autopilot", "--task", "heading"};
-  const std::pair<std::vector<std::string>, std::string> of_policies[] = {
-      {{"--sampled"}, "--sampled is for policies, not for --policy autopilot"},
-      {{"--deterministic"}, "--deterministic is for policies"},
-      {{"--other-aircraft"}, "--other-aircraft is for policies"},
-      {{"--low-level", "autopilot"}, "--low-level is for policies"},
-      {{"--set", "env.action_repeat=2"}, "env.action_repeat: agents act each at their own rate"}};
-  for (const auto& [options, error] : of_policies) {
-    std::vector<std::string> arguments = autopilot;
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const ProgramResult result = CallSkein(arguments);
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.error, HasSubstr(error));
-  }
   const ProgramResult prefixed =
       CallSkein({"eval", "--policy", "policy:other.skein", "--task", "heading"});
   EXPECT_EQ(prefixed.exit_code, 2);
@@ -252,6 +239,40 @@ TEST_F(EvaluationPipeline, RefusesWhatIsNotAPolicy) {
   const ProgramResult no_task = CallSkein({"eval", "--policy", "untrained"});
   EXPECT_EQ(no_task.exit_code, 2);
   EXPECT_THAT(no_task.error, HasSubstr("--task"));
+}
+
+TEST_F(EvaluationPipeline, AgentsThatAreNoPoliciesRefuseWhatOnlyPoliciesHave) {
+  const std::vector<std::string> autopilot = {"eval", "--policy", "autopilot", "--task", "heading"};
+  const std::pair<std::vector<std::string>, std::string> of_policies[] = {
+      {{"--sampled"}, "--sampled is for policies, not for --policy autopilot"},
+      {{"--deterministic"}, "--deterministic is for policies"},
+      {{"--other-aircraft"}, "--other-aircraft is for policies"},
+      {{"--low-level", "autopilot"}, "--low-level is for policies"},
+      {{"--set", "env.action_repeat=2"},
+       "env.action_repeat cannot be set here: every agent acts at its own rate"}};
+  for (const auto& [options, error] : of_policies) {
+    std::vector<std::string> arguments = autopilot;
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = CallSkein(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.error, HasSubstr(error));
+  }
+}
+
+TEST_F(EvaluationPipeline, AFileThatIsCalledAsAnAgentIsTheFile) {
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  WriteFile("zero", "GIF89a");
+  const ProgramResult result = CallSkein({"eval", "--policy", "zero", "--task", "heading"});
+  std::filesystem::current_path(here);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.error, HasSubstr("zero"));
+}
+
+TEST_F(EvaluationPipeline, MisspeltAgentsAreSuggested) {
+  const ProgramResult result = CallSkein({"eval", "--policy", "autopilt", "--task", "heading"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.error, HasSubstr("did you mean autopilot?"));
 }
 
 }  // namespace

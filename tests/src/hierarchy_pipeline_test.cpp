@@ -139,7 +139,7 @@ TEST_F(HighLevelPipeline, AgentsThatAreComparedSeeTheTargetEachInTheirOwnAxes) {
   all_in_earth.insert(all_in_earth.end(), {"--set", "env.tracking.error_axes=\"earth\""});
   const ProgramResult refused = CallSkein(all_in_earth);
   EXPECT_EQ(refused.exit_code, 2);
-  ExpectOneLine(refused.error, "env.tracking.error_axes: agents see each");
+  ExpectOneLine(refused.error, "env.tracking.error_axes cannot be set here");
 }
 
 TEST_F(HighLevelPipeline, LowLevelPoliciesThatDoNotFitAreNamed) {

@@ -97,7 +97,9 @@ class RanksStudy : public RanksFixture {
 };
 
 TEST_F(RanksStudy, EvaluationsAreThoseOfOneProcess) {
-  for (const int count : {2, 4}) ExpectSame(count, {"eval", "--policy", "untrained"}, {"json"});
+  for (const std::string agent : {"untrained", "autopilot", "random"}) {
+    for (const int count : {2, 4}) ExpectSame(count, {"eval", "--policy", agent}, {"json"});
+  }
 }
 
 TEST_F(RanksStudy, ComparisonsAreThoseOfOneProcess) {
