@@ -46,7 +46,7 @@ std::string Rate(const EnvConfig& env) {
 }
 
 std::string Rates(const RecurrentPolicy& policy, const EnvConfig& env) {
-  const std::string own = Rate(env);
+  std::string own = Rate(env);
   if (policy.low_level() == nullptr) return own;
   // It acts anew with every policy step of the high-level policy, too.
   return fmt::format("{} for a low-level policy with one every {}", own,
