@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/ends_with.h"
 #include "base/fnv_hash.h"
 #include "base/nearest_name.h"
 #include "src/agents/agent_names.h"
@@ -74,6 +75,11 @@ void RefuseNearAgentNames(const std::string& policy) {
   if (policy == kUntrained || IsThere(policy)) return;
   if (const std::string file = PolicyFileOfAgent(policy); !file.empty()) {
     throw UsageError(fmt::format("--policy {}: it takes the file or run alone: {}", policy, file));
+  }
+  for (const char* option : {"sampled", "other-aircraft"}) {
+    if (!EndsWith(policy, std::string("@") + option)) continue;
+    throw UsageError(fmt::format("--policy {}: it takes the file or run alone; --{} says the rest",
+                                 policy, option));
   }
   const std::string near = DidYouMean(policy, {"autopilot", "random", "zero", kUntrained});
   if (!near.empty()) throw UsageError(fmt::format("--policy {}: no such file{}", policy, near));

@@ -273,6 +273,11 @@ TEST_F(EvaluationPipeline, MisspeltAgentsAreSuggested) {
   const ProgramResult result = CallSkein({"eval", "--policy", "autopilt", "--task", "heading"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.error, HasSubstr("did you mean autopilot?"));
+  for (const std::string option : {"sampled", "other-aircraft"}) {
+    const ProgramResult suffixed = CallSkein({"eval", "--policy", "x.skein@" + option});
+    EXPECT_EQ(suffixed.exit_code, 2);
+    EXPECT_THAT(suffixed.error, HasSubstr("--" + option + " says the rest"));
+  }
 }
 
 }  // namespace
