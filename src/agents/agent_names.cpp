@@ -121,10 +121,6 @@ std::string Listed(const std::vector<AgentForm>& forms) {
 
 }  // namespace
 
-bool IsAgentName(const std::string& name) {
-  return KindOf(name) == kPolicy || IsOtherAgentName(name);
-}
-
 bool IsOtherAgentName(const std::string& name) {
   const std::string kind = KindOf(name);
   return kind == kAutopilot || kind == kRandom || kind == kZero;

@@ -10,10 +10,7 @@
 
 namespace skein {
 
-/// Whether `name` begins as an agent's name does: no file that is not there is called so.
-bool IsAgentName(const std::string& name);
-
-/// Whether it begins as that of an agent that is no policy.
+/// Whether `name` begins as that of an agent that is no policy.
 bool IsOtherAgentName(const std::string& name);
 
 /// Whether `name` is "autopilot" or "autopilot:VARIANT".
