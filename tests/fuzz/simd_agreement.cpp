@@ -325,10 +325,11 @@ Rows Act(Target target, const Records& records) {
 }
 
 /// `sizes`, or what of `tolerance` each number of `scalar`, which Act gives of the records, moves
-/// by where observations are rounded, if that is more. Where few units of a layer are active, and
-/// hardly, its normalisation makes much of the rounding of what came before.
+/// by where two targets round observations, if that is more. Where few units of a layer are active,
+/// and hardly, its normalisation makes much of the rounding of what came before.
 Rows SizesWhereRounded(const Records& records, const Rows& scalar, Rows sizes, double tolerance) {
   constexpr std::uint32_t kTrials = 16;
+  constexpr double kTargets = 2;  // each of the two that are compared rounds as much
   constexpr float kRounding = std::numeric_limits<float>::epsilon();
   for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
     std::mt19937 random(trial);
@@ -338,7 +339,7 @@ Rows SizesWhereRounded(const Records& records, const Rows& scalar, Rows sizes, d
         Act(Target::kScalar, records, [&rounding](std::size_t k) { return rounding[k]; });
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       for (std::size_t c = 0; c < sizes[i].size(); ++c) {
-        const double moved = std::abs(rows[i][c] - scalar[i][c]);
+        const double moved = kTargets * std::abs(rows[i][c] - scalar[i][c]);
         sizes[i][c] = std::max(sizes[i][c], static_cast<float>(moved / tolerance));
       }
     }
