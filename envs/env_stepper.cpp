@@ -350,8 +350,8 @@ void EnvStepper::DrawTarget(const EnvBlock& block, int i) const {
     start.north_ft = block.flight[kNorth][i];
     start.east_ft = block.flight[kEast][i];
   }
-  const auto given = static_cast<std::uint32_t>(block.progress.targets_reached[i] +
-                                                block.progress.targets_missed[i]);
+  const std::uint32_t given = static_cast<std::uint32_t>(block.progress.targets_reached[i]) +
+                              static_cast<std::uint32_t>(block.progress.targets_missed[i]);
   simd::RandomStream target({seed_, aircraft, episode, given, simd::RandomPurpose::kTarget});
   task_->Reset(start, &target, block.task, i);
 }

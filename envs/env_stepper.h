@@ -57,7 +57,8 @@ class EnvStepper {
   /// Begins the episode that follows the one under way, of which nothing is measured any more.
   void BeginNextEpisode(const EnvBlock& block, int i) {
     metric_sums_[block.index].Begin(i);
-    BeginEpisode(block, i, block.episode[i] + 1);
+    const std::uint32_t next = static_cast<std::uint32_t>(block.episode[i]) + 1;
+    BeginEpisode(block, i, static_cast<std::int32_t>(next));
   }
 
   /// Writes the block's observations, row-major, noise included.

@@ -30,6 +30,8 @@ class FlightMetricSums {
   void Begin(int index);
 
  private:
+  std::int32_t StepsOf(int index) const;
+
   AlignedVector<float> columns_;  ///< empty until Add
   std::size_t stride_ = 0;
 };

@@ -2,6 +2,7 @@
 #include "envs/flight_metrics.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "envs/aircraft/aircraft.h"
@@ -34,8 +35,8 @@ constexpr double kBetaHalfRangeDeg = 30;
 // What smoothness divides by, ours: body rates by pi rad/s, the load factor by its limit.
 constexpr double kPi = 3.14159265358979324;
 
-// Rows of sums: how many steps, what they sum to, what rounding has lost of that, the smoothed
-// quantities one and two steps ago, and the peaks.
+// Rows of sums: how many steps (an int32), what they sum to, what rounding has lost of that, the
+// smoothed quantities one and two steps ago, and the peaks.
 constexpr int kNumSmoothed = 4;
 constexpr int kSteps = 0;
 constexpr int kSum = kSteps + 1;
@@ -107,8 +108,9 @@ HWY_INLINE V SecondDifference(const Tile& tile, const Tile& sums, Mask flying, i
     hn::StoreU(hn::IfThenElse(flying, before, two_before), d, sums[kTwoBefore + k] + first);
     hn::StoreU(hn::IfThenElse(flying, now, before), d, sums[kBefore + k] + first);
   }
-  const V steps = Column(sums, kSteps, first);
-  return hn::IfThenElseZero(hn::Ge(steps, Constant(2)), hn::Sqrt(square));
+  const IntTag di;
+  const auto has_two = hn::Gt(hn::BitCast(di, Column(sums, kSteps, first)), hn::Set(di, 1));
+  return hn::IfThenElseZero(hn::RebindMask(d, has_two), hn::Sqrt(square));
 }
 
 /// Adds with what rounding loses carried along (Kahan 1965): the sums of a long episode are as
@@ -148,9 +150,10 @@ void AddFlightMetrics(const KernelAircraft& aircraft, Tile tile, const std::int3
     for (int k = 0; k < kFirstPeak; ++k) {
       AddWhere(flying, values[k], sums[kSum + k] + first, sums[kLost + k] + first);
     }
-    const V steps = Column(sums, kSteps, first);
-    FollowPeaks(flying, hn::Eq(steps, hn::Zero(d)), values, sums, first);
-    hn::StoreU(hn::Add(steps, hn::IfThenElseZero(flying, Constant(1))), d, sums[kSteps] + first);
+    const auto steps = hn::BitCast(di, Column(sums, kSteps, first));
+    FollowPeaks(flying, hn::RebindMask(d, hn::Eq(steps, hn::Zero(di))), values, sums, first);
+    const auto one_more = hn::IfThenElseZero(hn::RebindMask(di, flying), hn::Set(di, 1));
+    hn::StoreU(hn::BitCast(d, hn::Add(steps, one_more)), d, sums[kSteps] + first);
   }
 }
 
@@ -198,12 +201,18 @@ void FlightMetricSums::Add(const KernelAircraft& aircraft, Tile flight,
   (aircraft, flight, termination, {columns_.data(), stride_, flight.count});
 }
 
+std::int32_t FlightMetricSums::StepsOf(int index) const {
+  std::int32_t steps;
+  std::memcpy(&steps, &columns_[kSteps * stride_ + static_cast<std::size_t>(index)], sizeof steps);
+  return steps;
+}
+
 void FlightMetricSums::Report(int index, std::int32_t episode_steps, double control_interval_s,
                               float* metrics) const {
   const auto sum = [&](int column) -> double {
     return columns_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(index)];
   };
-  if (columns_.empty() || sum(kSteps) != episode_steps) {
+  if (columns_.empty() || StepsOf(index) != episode_steps) {
     std::fill_n(metrics, kNumFlightMetrics, std::numeric_limits<float>::quiet_NaN());
     return;
   }

@@ -48,8 +48,8 @@ enum PlantColumn : int {
   kNumPlantColumnsWithSensors = kPlantSensorErrors + kNumSensedNumbers
 };
 
-/// Beyond the length of any episode, control steps.
-inline constexpr float kNeverFreezes = 1e9f;
+/// Beyond every clock, control steps: those are int32.
+inline constexpr float kNeverFreezes = 4e9f;
 
 /// A sensor that may freeze: the one or two observed numbers that it gives
 /// (envs/tasks/observation.h).

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "envs/plant/sensor_freeze.h"
 
+#include <algorithm>
+
 #include "simd/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -46,7 +48,10 @@ bool Freezes(const PlantTile& plants, int i, const std::int32_t* step) {
 }
 
 const FreezingSensor& SensorOf(const PlantTile& plants, int i) {
-  return kFreezingSensors[static_cast<int>(plants[kPlantFrozenSensor][i])];
+  // A snapshot that was restored may hold any number, and none.
+  const float index = plants[kPlantFrozenSensor][i];
+  return kFreezingSensors[index > 0 ? static_cast<int>(std::min(index, kNumFreezingSensors - 1.0f))
+                                    : 0];
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ TrainConfig FuzzedTraining() {
   config.ppo.num_aircraft = 32;
   config.ppo.minibatches = 1;
   config.evaluation.interval_iterations = 0;
+  config.env.plant.sensor_freeze_chance = 0.5;  // the sensor is an index in the checkpoint
   return config;
 }
 

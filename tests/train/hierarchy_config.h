@@ -14,7 +14,7 @@ inline std::shared_ptr<const RecurrentPolicy> SmallLowLevelPolicy(std::uint64_t 
       RecurrentPolicy::Untrained(SmallConfig().network, 22, 4, seed, /*action_repeat=*/4));
 }
 
-/// SmallConfig for a high-level policy of Tracking over SmallController.
+/// SmallConfig for a high-level policy of Tracking over SmallLowLevelPolicy.
 inline TrainConfig SmallHighLevelConfig() {
   TrainConfig config = SmallConfig();
   config.env.task = "tracking";

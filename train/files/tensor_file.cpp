@@ -165,6 +165,15 @@ std::vector<Entry> ParseHeader(const std::string& text, std::uint64_t data_size,
   return entries;
 }
 
+/// JSON is UTF-8.
+std::string HeaderText(const nlohmann::ordered_json& header, const std::string& path) {
+  try {
+    return header.dump();
+  } catch (const nlohmann::json::exception&) {
+    throw Error(path + ": a name or text of its header is not UTF-8");
+  }
+}
+
 /// All that stands before the tensors' bytes. `path` is what errors call the file.
 std::string HeadOf(const TensorFile& file, const std::string& path) {
   nlohmann::ordered_json header;
@@ -172,10 +181,13 @@ std::string HeadOf(const TensorFile& file, const std::string& path) {
   texts[kChecksumKey] = std::string(kChecksumDigits, '0');
   for (const auto& [key, value] : file.metadata) {
     if (key == kChecksumKey) throw Error(path + ": metadata key \"checksum\" is reserved");
+    RequireOneLine(key, path);
+    if (!EndsWith(key, kWholeFile)) RequireOneLine(value, path);
     texts[key] = value;
   }
   std::uint64_t offset = 0;
   for (const auto& [name, tensor] : file.tensors) {
+    RequireOneLine(name, path);
     const TypeName& type = Describe(tensor.type);
     if (ByteSize(tensor.shape, type.bytes, path, name) != tensor.bytes.size()) {
       throw Error(path + ": tensor \"" + name + "\" does not have the bytes of its shape");
@@ -184,7 +196,7 @@ std::string HeadOf(const TensorFile& file, const std::string& path) {
     header[name] = {{"dtype", type.name}, {"shape", tensor.shape}, {"data_offsets", {offset, end}}};
     offset = end;
   }
-  std::string text = header.dump();
+  std::string text = HeaderText(header, path);
   // Spaces to a whole number of words, so that data is aligned when the file is mapped.
   text.append((kAlignment - text.size() % kAlignment) % kAlignment, ' ');
   if (text.size() > kMaxHeaderBytes) throw Error(path + ": the header would exceed 16 MiB");

@@ -33,7 +33,7 @@ void ValidateLearning(const TrainConfig& config) {
   list.Group("evaluation", listed.evaluation);
   list.Check();
   Validate(config.ppo);
-  if (!config.ppo.pedals && NeedsLowLevel(config.env)) {
+  if (!config.ppo.pedals && (config.low_level != nullptr || NeedsLowLevel(config.env))) {
     throw Error("ppo.pedals = false: a high-level policy has no pedals; leave it out");
   }
   if (config.ppo.time_limit_ramp > 0 && config.env.mission.training_time_limit_s == 0) {

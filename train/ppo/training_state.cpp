@@ -19,6 +19,7 @@
 namespace skein {
 namespace {
 
+constexpr const char* kFormatKey = "checkpoint.format";
 constexpr const char* kFormat = "skein-checkpoint-2";
 /// Of version 0.1, which had other names for some tensors (train/files/legacy_names.h).
 constexpr const char* kOldFormat = "skein-checkpoint-1";
@@ -44,6 +45,15 @@ void VisitFloats(State& state, const Visit& visit) {
 std::array<std::uint64_t, 5> Counters(const TrainingState& state) {
   return {state.iteration, state.policy_steps, static_cast<std::uint64_t>(state.actor_adam.step),
           static_cast<std::uint64_t>(state.critic_adam.step), state.popart.started ? 1u : 0u};
+}
+
+/// Throws Error unless this version reads the format.
+void RequireKnownFormat(const TensorFile& file, const std::string& path) {
+  const auto format = file.metadata.find(kFormatKey);
+  if (format == file.metadata.end() ||
+      (format->second != kFormat && format->second != kOldFormat)) {
+    throw Error(path + ": not a checkpoint of this version of Skein (\"" + kFormat + "\")");
+  }
 }
 
 /// Throws Error on counters beyond those of the longest training (run.total_steps): what is
@@ -109,7 +119,7 @@ std::map<std::string, std::string> DescribeConfig(const TrainConfig& config) {
 TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor,
                            const TrainingState& state) {
   TensorFile file;
-  file.metadata["checkpoint.format"] = kFormat;
+  file.metadata[kFormatKey] = kFormat;
   file.metadata[kSimdTargetKey] = Name(simd::ActiveTarget());
   for (const auto& [name, value] : DescribeConfig(config)) {
     file.metadata[kConfigPrefix + name] = value;
@@ -139,11 +149,7 @@ TensorFile StoreCheckpoint(const TrainConfig& config, const NetworkLayout& actor
 
 TrainingState LoadCheckpoint(TensorFile file, const std::string& path, const TrainConfig& config,
                              const NetworkLayout& actor, const NetworkLayout& critic) {
-  const auto format = file.metadata.find("checkpoint.format");
-  if (format == file.metadata.end() ||
-      (format->second != kFormat && format->second != kOldFormat)) {
-    throw Error(path + ": not a checkpoint of this version of Skein (\"" + kFormat + "\")");
-  }
+  RequireKnownFormat(file, path);
   TakeCurrentNames(file);
   if (file.metadata.find(kSimdTargetKey) == file.metadata.end()) {
     throw Error(path + ": the checkpoint does not say on which SIMD target it was made");
@@ -212,7 +218,8 @@ StartingNetworks LoadNetworks(const std::string& path, const TrainConfig& config
   RecurrentPolicy(policy).CheckMadeFor(config.env, path);
   StartingNetworks networks;
   networks.actor = policy->values;
-  if (file.metadata.count("checkpoint.format") == 0) return networks;
+  if (file.metadata.count(kFormatKey) == 0) return networks;
+  RequireKnownFormat(file, path);
   const auto counters = LoadTensor<std::uint64_t>(
       file, path, "counters", {std::tuple_size_v<decltype(Counters(TrainingState()))>});
   const auto scalars = LoadTensor<double>(file, path, "scalars",

@@ -144,18 +144,32 @@ TEST_F(TensorFileTest, RefusesHostileHeadersWithRightChecksums) {
 }
 
 TEST_F(TensorFileTest, WhatBreaksALineIsRefusedInOne) {
-  TensorFile name = Example(), key = Example(), text = Example(), whole_file = Example();
-  name.tensors["a\nb"] = {NamedTensor::Type::kU8, {0}, {}};
-  key.metadata["a\x7f"] = "b";
-  text.metadata["a"] = "b\nc";
-  for (const TensorFile& file : {name, key, text}) {
-    file.Write(path_);
+  const auto header = [](const std::string& metadata, const std::string& rest) {
+    return R"({"__metadata__":{"checksum":"0000000000000000")" + metadata + "}" + rest + "}";
+  };
+  for (const std::string& forged :
+       {header("", R"(,"a\nb":{"dtype":"U8","shape":[0],"data_offsets":[0,0]})"),
+        header(R"(,"a\u007f":"b")", ""), header(R"(,"a":"b\nc")", "")}) {
+    WriteForged(forged, "");
     EXPECT_NE(Refusal().find("control character"), std::string::npos);
     EXPECT_EQ(Refusal().find('\n'), std::string::npos);
   }
+  TensorFile whole_file = Example();
   whole_file.metadata["task_file"] = "lines\nof a file\n";
   whole_file.Write(path_);
   EXPECT_EQ(Refusal(), "");
+}
+
+TEST_F(TensorFileTest, WhatCouldNotBeReadIsNotWritten) {
+  TensorFile name = Example(), key = Example(), text = Example(), latin_1 = Example();
+  name.tensors["a\nb"] = {NamedTensor::Type::kU8, {0}, {}};
+  key.metadata["a\x7f"] = "b";
+  text.metadata["a"] = "b\nc";
+  latin_1.metadata["a"] = "caf\xe9";
+  for (const TensorFile& file : {name, key, text, latin_1}) {
+    EXPECT_THROW(file.Write(path_), Error);
+    EXPECT_FALSE(std::filesystem::exists(path_));
+  }
 }
 
 TEST_F(TensorFileTest, HugeLengthsAllocateNothing) {

@@ -11,6 +11,7 @@
 #include "envs/actions.h"
 #include "tests/scratch_directory.h"
 #include "tests/tolerance.h"
+#include "tests/train/hierarchy_config.h"
 #include "tests/train/libtorch.h"
 #include "tests/train/network/gradient_comparison.h"
 #include "tests/train/small_config.h"
@@ -182,6 +183,8 @@ TEST(IdlePedals, AreNoneOfAHighLevelPolicy) {
   EXPECT_THROW(ValidateLearning(config), Error);
   config.env.tracking.acts_directly = true;
   ValidateLearning(config);
+  config.low_level = SmallLowLevelPolicy();
+  EXPECT_THROW(ValidateLearning(config), Error);
 }
 
 }  // namespace
