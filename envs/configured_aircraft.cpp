@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/error.h"
+#include "base/choice_error.h"
 #include "envs/aircraft/registry.h"
 
 namespace skein {
@@ -14,8 +14,8 @@ Aircraft ConfiguredAircraft(const EnvConfig& config) {
   aircraft.airframe.engine_angular_momentum = config.engine_angular_momentum;
   const auto require = [&](bool asked, const MachFunction& function, const char* key) {
     if (!asked || !function.mach.empty()) return;
-    throw Error("configuration: " + std::string(key) + " = true, but the aircraft " +
-                config.aircraft + " has no data for it; it must be false");
+    throw ChoiceError("configuration: " + std::string(key) + " = true, but the aircraft " +
+                      config.aircraft + " has no data for it; it must be false");
   };
   require(config.thrust_grows, aircraft.engine.growth, "env.thrust_growth_above_mach_1");
   require(config.drag_rises, aircraft.drag_rise, "env.drag_rise");

@@ -75,6 +75,16 @@ def text(name: str, value: Any) -> str:
     )
 
 
+def _converted(array: NDArray[Any], dtype: Any) -> NDArray[Any]:
+    """In C order. Finite numbers beyond those of `dtype` are the largest that it has."""
+    with np.errstate(over="ignore"):
+        converted = np.ascontiguousarray(array, dtype)
+    if np.issubdtype(dtype, np.floating) and not (is_finite := np.isfinite(converted)).all():
+        beyond = ~is_finite & np.isfinite(array)
+        converted[beyond] = np.copysign(np.finfo(dtype).max, array[beyond])
+    return converted
+
+
 def rows(name: str, value: Any, shape: tuple[int | None, ...], dtype: Any = np.float32) -> NDArray[Any]:
     """An array of real numbers, in place where type and layout fit; None in `shape` is any number."""
     if isinstance(value, np.ndarray) and value.dtype == dtype and value.shape == shape and value.flags.c_contiguous:
@@ -83,7 +93,7 @@ def rows(name: str, value: Any, shape: tuple[int | None, ...], dtype: Any = np.f
         array = _array(value)
         if array.dtype.kind not in ("iu" if np.issubdtype(dtype, np.integer) else "fiu"):
             raise TypeError
-        converted = np.ascontiguousarray(array, dtype)
+        converted = _converted(array, dtype)
     except NO_ARRAY as error:
         reason = reason_of(error)
         raise ConfigurationError(f"{name} must be an array of numbers, not {_described(value)}{reason}") from error

@@ -43,6 +43,13 @@ class Evaluation:
     starts: int
     """A hash of initial states and targets: equal for agents that flew the same episodes."""
 
+    def __repr__(self) -> str:
+        episodes = len(self.columns["episode_return"])
+        return (
+            f"Evaluation({episodes} episodes, success {100 * self.success_rate:.1f} %, "
+            f"{self.time_to_target_mean_s:.2f} s to the target, return {self.return_mean:.1f})"
+        )
+
     @property
     def success_rate(self) -> float:
         """Share of the episodes that reached their target."""
@@ -82,6 +89,10 @@ class Comparison:
 
     def __str__(self) -> str:
         return self.text
+
+    def __repr__(self) -> str:
+        names = ", ".join(agent["name"] for agent in self.summary["agents"])
+        return f"Comparison({self.summary['task']}, {self.summary['episodes']} episodes: {names})"
 
 
 def evaluate(

@@ -113,6 +113,8 @@ def test_agents_are_compared_on_the_same_episodes(heading_policy):
     rates = {agent["name"]: agent["success_rate"] for agent in compared.summary["agents"]}
     assert rates["policy"] > rates["idle"] == 0
     assert "policy" in str(compared)
+    assert repr(compared) == f"Comparison(heading, {EPISODES} episodes: policy, autopilot, idle)"
+    assert repr(skein.evaluate("zero", "heading", episodes=4)).startswith("Evaluation(4 episodes, success 0.0 %, nan s")
     assert len({agent["name"] for agent in compared.summary["agents"]}) == 3
     assert compared.summary["program"]["version"] == skein.__version__
 

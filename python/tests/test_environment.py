@@ -404,6 +404,17 @@ def test_actions_of_another_shape_are_refused(shape):
         envs.step(np.zeros(shape, np.float32))
 
 
+def test_an_action_beyond_float32_is_clipped_as_any_other():
+    beyond, clipped = skein.make_vec("heading", 4), skein.make_vec("heading", 4)
+    for envs in (beyond, clipped):
+        envs.reset(seed=3)
+    actions = np.zeros((4, 4))
+    actions[0] = [1e39, -1e39, 1e300, -1e300]
+    steps = beyond.step(actions), clipped.step(actions.clip(-1, 1))
+    np.testing.assert_array_equal(steps[0][0], steps[1][0])
+    np.testing.assert_array_equal(steps[0][1], steps[1][1])
+
+
 def test_an_action_that_is_not_finite_ends_its_episode_alone():
     envs = skein.make_vec("heading", 4)
     envs.reset(seed=0)

@@ -40,6 +40,12 @@ std::string ArgumentOf(const std::string& name) {
   return colon == std::string::npos ? "" : name.substr(colon + 1);
 }
 
+std::string Trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(' ');
+  return first == std::string::npos ? ""
+                                    : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
 std::string KindOf(const std::string& name) { return name.substr(0, name.find(':')); }
 
 /// What follows "policy:", apart.
@@ -66,8 +72,10 @@ void RequireKnownSuffix(const std::string& file, const std::string& name) {
                                DidYouMean(suffix, known), fmt::join(known, ", ")));
 }
 
-PolicyArgument PolicyArgumentOf(const std::string& name) {
+/// A file whose name ends as a suffix comes first.
+PolicyArgument WithoutSuffixes(const std::string& name) {
   PolicyArgument argument{ArgumentOf(name)};
+  if (IsThere(argument.file)) return argument;
   const auto takes = [&argument](const std::string& suffix) {
     if (!EndsWith(argument.file, suffix)) return false;
     argument.file.resize(argument.file.size() - suffix.size());
@@ -77,8 +85,33 @@ PolicyArgument PolicyArgumentOf(const std::string& name) {
   argument.is_of_other_aircraft = takes(kOtherAircraftSuffix);
   argument.is_sampled = takes(kSampledSuffix);
   argument.is_of_other_aircraft = takes(kOtherAircraftSuffix) || argument.is_of_other_aircraft;
+  return argument;
+}
+
+PolicyArgument PolicyArgumentOf(const std::string& name) {
+  PolicyArgument argument = WithoutSuffixes(name);
   RequireKnownSuffix(argument.file, name);
   return argument;
+}
+
+/// Whether `name` is that of a policy that is not there.
+bool IsMissingPolicy(const std::string& name) {
+  return KindOf(name) == kPolicy && !IsThere(WithoutSuffixes(name).file);
+}
+
+/// Where the name that begins at `begin` ends: at the next comma, but for the path of a policy that
+/// is there and has commas of its own.
+std::size_t EndOfName(const std::string& list, std::size_t begin) {
+  const auto comma_from = [&list](std::size_t from) {
+    return std::min(list.find(',', from), list.size());
+  };
+  const std::size_t next = comma_from(begin);
+  if (!IsMissingPolicy(Trimmed(list.substr(begin, next - begin)))) return next;
+  for (std::size_t end = next; end < list.size();) {
+    end = comma_from(end + 1);
+    if (!IsMissingPolicy(Trimmed(list.substr(begin, end - begin)))) return end;
+  }
+  return next;
 }
 
 Agent PolicyAgent(const std::string& name, const ProgramConfig& config, std::uint64_t seed) {
@@ -121,9 +154,9 @@ std::string Listed(const std::vector<AgentForm>& forms) {
 
 }  // namespace
 
-bool IsOtherAgentName(const std::string& name) {
-  const std::string kind = KindOf(name);
-  return kind == kAutopilot || kind == kRandom || kind == kZero;
+bool IsOtherAgent(const std::string& policy) {
+  const std::string kind = KindOf(policy);
+  return (kind == kAutopilot || kind == kRandom || kind == kZero) && !IsThere(policy);
 }
 
 bool IsAutopilot(const std::string& name) { return KindOf(name) == kAutopilot; }
@@ -151,6 +184,17 @@ std::string OtherAgentNames() {
                              [](const AgentForm& form) { return form.is_policy; }),
               forms.end());
   return Listed(forms);
+}
+
+std::vector<std::string> AgentsIn(const std::string& list) {
+  std::vector<std::string> agents;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = EndOfName(list, begin);
+    agents.push_back(Trimmed(list.substr(begin, end - begin)));
+    if (agents.back().empty()) throw UsageError(fmt::format("agents {}: one has no name", list));
+    begin = end + 1;
+  }
+  return agents;
 }
 
 std::string PolicyFileOfAgent(const std::string& name) {

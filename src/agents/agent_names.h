@@ -10,13 +10,17 @@
 
 namespace skein {
 
-/// Whether `name` begins as that of an agent that is no policy.
-bool IsOtherAgentName(const std::string& name);
+/// Whether what is given for a policy is an agent that is none: a name, unless a file is called so.
+bool IsOtherAgent(const std::string& policy);
 
 /// Whether `name` is "autopilot" or "autopilot:VARIANT".
 bool IsAutopilot(const std::string& name);
 /// The variant that such a name means; "autopilot" alone is the quickest, aggressive.
 std::string AutopilotVariantOf(const std::string& name);
+
+/// The names of a list that commas separate. A policy whose path has commas is one agent if it is
+/// there. Throws UsageError on an empty name.
+std::vector<std::string> AgentsIn(const std::string& list);
 
 /// The file of a policy that is called "policy:FILE_OR_RUN[@sampled][@other-aircraft]"; empty for
 /// other agents. Throws UsageError on an unknown suffix of a file that is there.

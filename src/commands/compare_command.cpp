@@ -19,6 +19,7 @@
 #include "src/commands/launched_ranks.h"
 #include "src/config/configuration.h"
 #include "src/config/presets.h"
+#include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
@@ -189,7 +190,9 @@ void CompareAgents(const CompareOptions& options, Ranks& ranks) {
   WorkerPool pool(flight.threads);
   const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool, ranks);
   if (ranks.rank() != 0) return;
-  fmt::print("{}\n(preset {}; {})\n", ToText(comparison), flight.preset, DescribeWorkers(pool));
+  const std::string settings =
+      IsTaskFile(flight.task) ? "settings of " + flight.task : "preset " + flight.preset;
+  fmt::print("{}\n({}; {})\n", ToText(comparison), settings, DescribeWorkers(pool));
   WriteAll(options, comparison, config, agents, pool);
 }
 

@@ -65,11 +65,6 @@ bool IsThere(const std::string& path) {
   return std::filesystem::exists(path, failure);
 }
 
-/// Whether an agent flies that is no policy: a name, unless a file is called so.
-bool IsOtherAgent(const std::string& policy) {
-  return IsOtherAgentName(policy) && !IsThere(policy);
-}
-
 /// Throws UsageError on a policy that is called as an agent of `skein compare`, or nearly as one.
 void RefuseNearAgentNames(const std::string& policy) {
   if (policy == kUntrained || IsThere(policy)) return;

@@ -8,6 +8,7 @@
 #include "base/ends_with.h"
 #include "base/name_in.h"
 #include "envs/aircraft/registry.h"
+#include "src/agents/agent_names.h"
 #include "src/commands/aircraft_option.h"
 #include "src/commands/commands.h"
 #include "src/config/one_of.h"
@@ -77,6 +78,12 @@ std::vector<std::string> Export(ExportOptions options) {
   if (!options.policy.empty() && options.aircraft_option->count() > 0 &&
       !IsKeptFile(options.aircraft)) {
     throw UsageError("--aircraft is for --flight-control without a policy, which says its own");
+  }
+  if (IsOtherAgent(options.policy)) {
+    throw UsageError(
+        fmt::format("{} is no policy: policies are exported, and by --flight-control "
+                    "the flight control laws",
+                    options.policy));
   }
   CheckWritable({options.out}, {options.policy, file});
   if (!options.flight_control.empty()) {

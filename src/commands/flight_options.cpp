@@ -145,10 +145,17 @@ void AddFlightOptions(CLI::App* command, const FlightOptionTexts& texts, FlightO
 
 CLI::Option* AddAgentList(CLI::App* command, const std::string& description,
                           std::vector<std::string>* agents) {
-  return command->add_option("--agents", *agents, fmt::format("{}: {}", description, AgentNames()))
-      ->type_name("AGENT,...")
-      ->delimiter(',')
-      ->transform([](const std::string& name) { return CLI::detail::trim_copy(name); });
+  const auto take = [agents](const std::vector<std::string>& lists) {
+    agents->clear();
+    for (const std::string& list : lists) {
+      const std::vector<std::string> names = AgentsIn(list);
+      agents->insert(agents->end(), names.begin(), names.end());
+    }
+  };
+  return command
+      ->add_option_function<std::vector<std::string>>(
+          "--agents", take, fmt::format("{}: {}", description, AgentNames()))
+      ->type_name("AGENT,...");
 }
 
 std::vector<std::string> FilesRead(const FlightOptions& options) {
@@ -233,8 +240,8 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
   }
   RequireHeeded(options.assignments, policies);
   const ProgramConfig base = *config;
-  const bool is_own = options.task.empty() || IsTaskFile(options.task);
-  const std::string& task = is_own ? base.train.env.task : options.task;
+  EnvConfig asked = base.train.env;
+  if (!options.task.empty() && !IsTaskFile(options.task)) asked.task = options.task;
   *config = AsUsage([&] {
     ProgramConfig flown = WithAircraft(base, [&](ProgramConfig* changed) {
       if (!aircraft.empty()) changed->train.env.aircraft = aircraft;
@@ -251,7 +258,7 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
       ApplyConditionsAndAssignments({},
                                     FlightLengthAssignments(options.hold_s, options.mission_min),
                                     changed, options.hold_s ? "--hold" : "--mission");
-      RequireTask(*changed, task);
+      RequireTask(changed->train.env, asked);
     });
     RequireOwnScale(base, flown);
     if (flown.train.env.aircraft == base.train.env.aircraft) RequireScaleOfTaskFile(flown);

@@ -28,6 +28,9 @@ bool HavePresetsInCommon(const EnvConfig& a, const EnvConfig& b) {
   return PresetsOf(a.aircraft) == PresetsOf(b.aircraft);
 }
 
+const std::vector<std::string> kOthersToSay = {"env.task", "env.task_file_hash",
+                                               "env.task_interface", "env.aircraft"};
+
 /// Applies the settings in the aircraft's file, but for those of other tasks.
 void ApplySettingsOf(const std::string& aircraft, ProgramConfig* config) {
   const std::string source = fmt::format("aircraft {}", IdentifyAircraft(aircraft).name);
@@ -35,7 +38,7 @@ void ApplySettingsOf(const std::string& aircraft, ProgramConfig* config) {
   const std::vector<Field> fields = FieldsOf(*config);
   for (const std::string& setting : AircraftSettings(aircraft)) {
     const std::string key = KeyOf(setting);
-    if (key == "env.task" || key == "env.aircraft") {
+    if (std::count(kOthersToSay.begin(), kOthersToSay.end(), key) > 0) {
       throw Error(fmt::format("{}: {} is not for an aircraft to say", source, key));
     }
     if (FindField(fields, key, source).IsOf(config->train.env.task)) settings.push_back(setting);

@@ -193,6 +193,7 @@ ProgramConfig ConfigOfTaskFile(const ConfigSources& sources) {
   const std::string folder = sources.task_text.empty() ? FolderOf(sources.task) : "";
   return WithAircraft(base, [&](ProgramConfig* config) {
     TomlReader(sources.task, Reading::kStrict, config).Apply(file.settings, "");
+    RequireTask(config->train.env, base.train.env, sources.task);
     KeepAircraft(folder, &config->train.env);
   });
 }
@@ -309,10 +310,15 @@ void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
   KeepAircraft("", &config->train.env);
 }
 
-void RequireTask(const ProgramConfig& config, const std::string& task) {
-  if (config.train.env.task == task) return;
-  throw Error(fmt::format("the configuration says env.task = {}, but the task asked for is {}",
-                          config.train.env.task, task));
+void RequireTask(const EnvConfig& env, const EnvConfig& asked, const std::string& source) {
+  const auto require = [&source](const char* key, const std::string& said, const std::string& is) {
+    if (said == is) return;
+    throw Error(fmt::format("{} says {} = {}, but the task asked for is {}", source, key,
+                            said.empty() ? "\"\"" : said, is.empty() ? "a built-in one" : is));
+  };
+  require("env.task", env.task, asked.task);
+  require("env.task_file_hash", env.task_file_hash, asked.task_file_hash);
+  require("env.task_interface", env.task_interface, asked.task_interface);
 }
 
 void CheckConsistent(const ProgramConfig& config) {
@@ -359,7 +365,7 @@ ProgramConfig ResolveConfig(const ConfigSources& sources) {
     if (!sources.file.empty()) ApplyTomlFile(sources.file, changed);
     ApplyConditionsAndAssignments(sources.conditions, sources.assignments, changed,
                                   sources.assignments_are);
-    RequireTask(*changed, base.train.env.task);
+    RequireTask(changed->train.env, base.train.env);
   });
   RequireOwnScale(base, config);
   const bool is_of_base = config.train.env.aircraft == base.train.env.aircraft;

@@ -39,8 +39,10 @@ std::string KeyOf(const std::string& assignment);
 /// The name, with quotes or without, that an assignment gives `key`; empty if it gives none.
 std::string NameAssigned(const std::string& assignment, const std::string& key);
 
-/// Throws Error if the configuration has come to name another task than the one asked for.
-void RequireTask(const ProgramConfig& config, const std::string& task);
+/// Throws Error, which calls what was read `source`, unless `env` is of the task that is `asked`
+/// for. Keys may repeat which one that is, as the configuration of a run does.
+void RequireTask(const EnvConfig& env, const EnvConfig& asked,
+                 const std::string& source = "the configuration");
 
 /// Throws Error on values that are each allowed but cannot go together.
 void CheckConsistent(const ProgramConfig& config);

@@ -122,6 +122,17 @@ bool IsFlownToAsDrawn(const TermTarget& target, const EnvConfig& env) {
   }
 }
 
+/// Of an angle: empty if all that is drawn or given lies within a turn.
+std::string BeyondATurn(const TermTarget& target, const std::optional<Range>& alone) {
+  const double shown = target.quantity.per_value;
+  const double furthest =
+      alone ? std::abs(alone->max)
+            : shown * std::max(std::abs(target.draw.min), std::abs(target.draw.max));
+  if (furthest <= 2 * M_PI * shown) return "";
+  return fmt::format("target {} is {}{:.5g}, more than a turn: it is flown to modulo {:g}",
+                     target.name, alone ? "" : "up to ", furthest, 2 * M_PI * shown);
+}
+
 std::string BeyondLimits(const TermTarget& target, const EnvConfig& env,
                          const GivenTargets& given) {
   const TerminationConfig& limits = env.termination;
@@ -153,7 +164,7 @@ std::string BeyondLimits(const TermTarget& target, const EnvConfig& env,
     case TermValue::kMach:
       return BeyondMach(target, alone.value_or(target.draw), 1, 1, limits);
     default:
-      return "";
+      return IsWrapped(target.quantity.value) ? BeyondATurn(target, alone) : "";
   }
 }
 
@@ -165,6 +176,7 @@ std::vector<TermTarget> TargetsOfBuiltIn(const GivenTargets& given) {
     TermTarget target;
     target.name = target.quantity.name = known.name;
     target.quantity.value = known.value;
+    target.quantity.per_value = known.per_value;
     targets.push_back(std::move(target));
   }
   return targets;

@@ -13,12 +13,13 @@ namespace skein {
 /// altitude_ft, true_airspeed_fps, mach.
 using GivenTargets = std::map<std::string, double>;
 
-/// A line for every target, of a task file or, in a built-in task, of what is `given`, that no
-/// flight can come to, for all that is drawn of it lies beyond where flights end: altitudes below
-/// env.termination.min_altitude_ft, airspeeds and Mach numbers out of min_mach to max_mach. What
-/// else makes a target too high or too fast, it does not know. What is `given` is judged as all
-/// that is drawn. Of a task file's own ends it knows those of a target that is drawn between two
-/// values, as long as nothing is given in its place, raises or wraps it.
+/// A line for every target, of a task file or, in a built-in task, of what is `given`, that is an
+/// angle of more than a turn, or that no flight can come to, for all that is drawn of it lies
+/// beyond where flights end: altitudes below env.termination.min_altitude_ft, airspeeds and Mach
+/// numbers out of min_mach to max_mach. What else makes a target too high or too fast, it does not
+/// know. What is `given` is judged as all that is drawn. Of a task file's own ends it knows those
+/// of a target that is drawn between two values, as long as nothing is given in its place, raises
+/// or wraps it.
 std::vector<std::string> TargetsBeyondLimits(const EnvConfig& env, const GivenTargets& given = {});
 
 /// A line if flights may begin above the engine's tables of the aircraft, and one for every target

@@ -27,7 +27,7 @@ AtmosphereModel AtmosphereNamed(const std::string& name) {
 
 Plant MakePlant(const std::string& aircraft, AtmosphereModel atmosphere, const Gravity& gravity,
                 const PlantSetting& setting) {
-  Aircraft flown = LoadAircraft(aircraft);
+  Aircraft flown = AsUsage([&] { return LoadAircraft(aircraft); });
   const auto require = [&](bool asked, const MachFunction& data, const char* what) {
     if (asked && data.mach.empty()) {
       throw UsageError(fmt::format("aircraft {} has no data of {}", flown.name, what));

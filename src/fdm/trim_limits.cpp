@@ -16,7 +16,7 @@ namespace {
 
 // Thrust is linear in power between table entries: what the inverse leaves is rounding.
 constexpr double kThrustToleranceLbf = 1e-3;
-constexpr double kAlphaStepDeg = 1;
+constexpr double kAlphaStepDeg = 0.5;
 
 double MachOf(const Plant& plant, const TrimRequest& request) {
   return request.true_airspeed_ft_s /
@@ -47,6 +47,19 @@ std::vector<ExceededLimit> OutsideEngineTables(const Plant& plant, const TrimReq
   return limits;
 }
 
+/// A wing that has stalled carries the weight, too, where a plate's lift grows with alpha.
+std::vector<ExceededLimit> BeyondStall(const Plant& plant, const TrimRequest& request,
+                                       const TrimPoint& trim) {
+  const GreatestLift lift =
+      FindGreatestLift(plant, request.altitude_ft, request.true_airspeed_ft_s, kAlphaStepDeg);
+  const double alpha_deg = trim.alpha_rad * kDegPerRad;
+  if (alpha_deg <= lift.alpha_deg + kAlphaStepDeg) return {};
+  return {{FlightLimit::kStall,
+           fmt::format("is beyond the stall (alpha {:.1f} deg; the wing has its greatest lift "
+                       "coefficient, {:.2f}, at {:.1f} deg)",
+                       alpha_deg, lift.coefficient, lift.alpha_deg)}};
+}
+
 }  // namespace
 
 std::vector<std::string> WordsOf(const std::vector<ExceededLimit>& limits) {
@@ -57,7 +70,7 @@ std::vector<std::string> WordsOf(const std::vector<ExceededLimit>& limits) {
 
 std::vector<ExceededLimit> ExceededLimits(const Plant& plant, const TrimRequest& request,
                                           const TrimPoint& trim) {
-  std::vector<ExceededLimit> limits;
+  std::vector<ExceededLimit> limits = BeyondStall(plant, request, trim);
   const EngineTables& engine = plant.aircraft().engine;
   const double mach = MachOf(plant, request), needed = trim.controls.thrust_lbf;
   // The trim's power is the nearest that the engine has; its thrust tells whether that is enough.

@@ -75,7 +75,7 @@ class SpaceDrawing {
     interval_s_ = options_.interval_s.value_or(RoundInterval(view_, tracks_, glyph_));
     for (Shape& shape : ground_.Draw(view_)) shapes_.push_back(std::move(shape));
     for (const Track& track : tracks_) DrawShadow(track);
-    for (const Track& track : tracks_) DrawTargetOf(track);
+    for (const Track& track : tracks_) DrawTargetsOf(track);
     DrawFlights();
     DrawStarts(top_ + height + 24);
     DrawTimes(top_ + height + 24);
@@ -90,7 +90,7 @@ class SpaceDrawing {
   static std::vector<SpacePoint> PointsOf(const std::vector<Track>& tracks) {
     std::vector<SpacePoint> points;
     for (const Track& track : tracks) {
-      points.push_back(track.TargetPoint());
+      for (const TrackTarget& target : track.targets) points.push_back(target.place);
       for (std::size_t row = 0; row < track.points.size(); row += 10) {
         points.push_back(track.points[row]);
       }
@@ -123,13 +123,12 @@ class SpaceDrawing {
 
   double arrow_ft() const { return TargetArrow(options_.width) / view_.scale(); }
 
-  void DrawTargetOf(const Track& track) {
-    if (track.HasTargetInSpace()) {
-      DrawPost(track.TargetPoint(), kInk);
-    } else {
-      DrawPost(track.points.back(), track.style.colour);
+  void DrawTargetsOf(const Track& track) {
+    for (const TrackTarget& target : track.targets) {
+      if (target.is_in_space) DrawPost(target.place, kInk);
     }
-    DrawTarget(view_, track, recordings_, arrow_ft(), &shapes_);
+    if (!track.targets.back().is_in_space) DrawPost(track.points.back(), track.style.colour);
+    DrawTargets(view_, track, recordings_, arrow_ft(), &shapes_);
   }
 
   /// The area that the wings sweep, darker from above and paler from below.
@@ -248,11 +247,10 @@ class SpaceDrawing {
       for (const std::size_t row : AircraftRowsOf(track)) {
         places.Avoid(view_.Place(track.points[row]), glyph_ / 2, kHeavy);
       }
-      const PagePoint tip = view_.Place(TargetTip(view_, track, arrow_ft()));
-      const PagePoint target = view_.Place(track.TargetPoint());
-      for (const double share : {0.3, 0.6, 1.0}) {
-        places.Avoid({target.x + share * (tip.x - target.x), target.y + share * (tip.y - target.y)},
-                     4, kHeavy);
+      for (const TrackTarget& target : track.targets) {
+        for (const PagePoint& point : TargetArrowPoints(view_, target, arrow_ft())) {
+          places.Avoid(point, 4, kHeavy);
+        }
       }
     }
     for (const Track& track : tracks_) {

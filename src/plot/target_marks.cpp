@@ -21,7 +21,7 @@ double ToleranceOf(const Recordings& recordings, const char* column) {
 }
 
 /// The edges of a box, as seen through.
-void DrawBox(const View& view, const SpacePoint& middle, const SpacePoint& half,
+void DrawBox(const View& view, const SpacePoint& middle, const SpacePoint& half, Colour colour,
              std::vector<Shape>* shapes) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double a : {-1.0, 1.0}) {
@@ -34,14 +34,15 @@ void DrawBox(const View& view, const SpacePoint& middle, const SpacePoint& half,
         corner[axis] = half[axis];
         const PagePoint end = view.Place(middle + corner);
         if (std::hypot(end.x - begin.x, end.y - begin.y) < 0.05) continue;
-        shapes->emplace_back(Line({begin, end}, kInk, kEdge));
+        shapes->emplace_back(Line({begin, end}, colour, kEdge));
       }
     }
   }
 }
 
 void DrawHeading(const View& view, const SpacePoint& target, const BodyAxes& axes,
-                 const Recordings& recordings, double arrow_ft, std::vector<Shape>* shapes) {
+                 const Recordings& recordings, double arrow_ft, Colour colour,
+                 std::vector<Shape>* shapes) {
   constexpr double kSteps = 4, kRadians = 0.017453292519943295;
   const double yaw = ToleranceOf(recordings, "yaw_deg");
   if (yaw > 0) {
@@ -51,58 +52,76 @@ void DrawHeading(const View& view, const SpacePoint& target, const BodyAxes& axe
       const SpacePoint turned = std::cos(angle) * axes.forward + std::sin(angle) * axes.right;
       sector.push_back(view.Place(target + arrow_ft * turned));
     }
-    shapes->emplace_back(Area(std::move(sector), kInk, 0.3));
+    shapes->emplace_back(Area(std::move(sector), colour, 0.3));
   }
   const SpacePoint up = ToleranceOf(recordings, "altitude_ft") * kUpward;
-  shapes->emplace_back(Line({view.Place(target - up), view.Place(target + up)}, kInk, 2));
-  DrawArrow(view.Place(target), view.Place(target + arrow_ft * axes.forward), shapes);
+  shapes->emplace_back(Line({view.Place(target - up), view.Place(target + up)}, colour, 2));
+  DrawArrow(view.Place(target), view.Place(target + arrow_ft * axes.forward), colour, shapes);
+}
+
+void DrawTarget(const View& view, const TrackTarget& target, const Recordings& recordings,
+                double arrow_ft, Colour colour, std::vector<Shape>* shapes) {
+  if (target.is_in_space) {
+    shapes->emplace_back(Disc{view.Place(target.place), kRingRadius, std::nullopt, colour, kEdge});
+    DrawBox(view, target.place,
+            {ToleranceOf(recordings, "north_ft"), ToleranceOf(recordings, "east_ft"),
+             ToleranceOf(recordings, "altitude_ft")},
+            colour, shapes);
+  } else if (target.axes) {
+    DrawHeading(view, target.place, view.Shown(*target.axes), recordings, arrow_ft, colour, shapes);
+  }
 }
 
 }  // namespace
 
-void DrawArrow(PagePoint begin, PagePoint end, std::vector<Shape>* shapes) {
+void DrawArrow(PagePoint begin, PagePoint end, Colour colour, std::vector<Shape>* shapes) {
   const double length = std::hypot(end.x - begin.x, end.y - begin.y);
   if (length == 0) return;
   const double x = kHeadLength * (end.x - begin.x) / length;
   const double y = kHeadLength * (end.y - begin.y) / length;
-  shapes->emplace_back(Line({begin, {end.x - 0.7 * x, end.y - 0.7 * y}}, kInk, 1));
+  shapes->emplace_back(Line({begin, {end.x - 0.7 * x, end.y - 0.7 * y}}, colour, 1));
   shapes->emplace_back(Area(
       {end, {end.x - x - 0.4 * y, end.y - y + 0.4 * x}, {end.x - x + 0.4 * y, end.y - y - 0.4 * x}},
-      kInk));
+      colour));
 }
 
 double TargetArrow(double picture_width) {
   return std::clamp(kArrowLength * picture_width / kPageWidth, kShortestArrow, kArrowLength);
 }
 
-SpacePoint TargetTip(const View& view, const Track& track, double arrow_ft) {
-  const auto axes = track.HasTargetInSpace() ? std::nullopt : track.TargetAxes();
-  const SpacePoint target = track.TargetPoint();
-  return axes ? SpacePoint(target + arrow_ft * view.Shown(*axes).forward) : target;
+SpacePoint TargetTip(const View& view, const TrackTarget& target, double arrow_ft) {
+  if (target.is_in_space || !target.axes) return target.place;
+  return target.place + arrow_ft * view.Shown(*target.axes).forward;
 }
 
-void DrawTarget(const View& view, const Track& track, const Recordings& recordings, double arrow_ft,
-                std::vector<Shape>* shapes) {
-  const SpacePoint target = track.TargetPoint();
-  if (track.HasTargetInSpace()) {
-    shapes->emplace_back(Disc{view.Place(target), kRingRadius, std::nullopt, kInk, kEdge});
-    DrawBox(view, target,
-            {ToleranceOf(recordings, "north_ft"), ToleranceOf(recordings, "east_ft"),
-             ToleranceOf(recordings, "altitude_ft")},
-            shapes);
-  } else if (const auto axes = track.TargetAxes()) {
-    DrawHeading(view, target, view.Shown(*axes), recordings, arrow_ft, shapes);
+std::vector<PagePoint> TargetArrowPoints(const View& view, const TrackTarget& target,
+                                         double arrow_ft) {
+  const PagePoint begin = view.Place(target.place);
+  const PagePoint tip = view.Place(TargetTip(view, target, arrow_ft));
+  std::vector<PagePoint> points;
+  for (const double share : {0.3, 0.6, 1.0}) {
+    points.push_back({begin.x + share * (tip.x - begin.x), begin.y + share * (tip.y - begin.y)});
+  }
+  return points;
+}
+
+void DrawTargets(const View& view, const Track& track, const Recordings& recordings,
+                 double arrow_ft, std::vector<Shape>* shapes) {
+  const bool is_own = track.targets.size() > 1 && recordings.agents.size() > 1;
+  for (const TrackTarget& target : track.targets) {
+    DrawTarget(view, target, recordings, arrow_ft, is_own ? track.style.colour : kInk, shapes);
   }
 }
 
 std::optional<LegendEntry> TargetEntry(const Track& track, const Recordings& recordings) {
   const double altitude = ToleranceOf(recordings, "altitude_ft");
-  if (track.HasTargetInSpace()) {
+  const TrackTarget& target = track.targets.front();
+  if (target.is_in_space) {
     return LegendEntry{
         MarkerSample(Marker::kDisc, {{}, kRingRadius, std::nullopt, kInk, kEdge}),
         altitude > 0 ? fmt::format("target, box ±{:g}\u00a0ft", altitude) : "target"};
   }
-  if (!track.TargetAxes()) return std::nullopt;
+  if (!target.axes) return std::nullopt;
   std::string words = track.Asked("pitch_deg") ? "target heading and pitch" : "target heading";
   std::vector<std::string> known;
   if (const double yaw = ToleranceOf(recordings, "yaw_deg"); yaw > 0) {
@@ -114,7 +133,7 @@ std::optional<LegendEntry> TargetEntry(const Track& track, const Recordings& rec
   }
   if (!known.empty()) words += fmt::format(" ({})", fmt::join(known, ", "));
   return LegendEntry{[](PagePoint left, std::vector<Shape>* shapes) {
-                       DrawArrow(left, {left.x + kSampleWidth, left.y}, shapes);
+                       DrawArrow(left, {left.x + kSampleWidth, left.y}, kInk, shapes);
                      },
                      words};
 }

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "base/error.h"
+#include "src/files/csv_columns.h"
 
 namespace skein {
 namespace {
@@ -21,6 +23,44 @@ void RequireNear(const SpacePoint& point, const DrawnFlight& flight) {
   if (distance_ft <= kFarthest_ft) return;
   throw Error(fmt::format("{}: episode {} or its target is {:g} ft away; up to {:g} can be drawn",
                           flight.source, flight.episode, distance_ft, kFarthest_ft));
+}
+
+/// What is asked for in a row of a flight: north, east, altitude, heading and pitch, each where the
+/// task has it.
+using AskedNumbers = std::array<std::optional<double>, 5>;
+
+AskedNumbers AskedIn(const CsvColumns& table, std::size_t row) {
+  constexpr std::array<const char*, 5> kColumns = {"target_north_ft", "target_east_ft",
+                                                   "target_altitude_ft", "target_yaw_deg",
+                                                   "target_pitch_deg"};
+  AskedNumbers asked;
+  for (std::size_t k = 0; k < kColumns.size(); ++k) {
+    const std::vector<double>* const column = table.Find(kColumns[k]);
+    if (column != nullptr && std::isfinite((*column)[row])) asked[k] = (*column)[row];
+  }
+  return asked;
+}
+
+/// The target that was asked for until the aircraft was at `last`.
+TrackTarget TargetOf(const AskedNumbers& asked, const SpacePoint& last) {
+  const auto& [north, east, altitude, yaw, pitch] = asked;
+  TrackTarget target;
+  target.is_in_space = north && east;
+  target.place = {north.value_or(last.x()), east.value_or(last.y()), altitude.value_or(last.z())};
+  if (yaw) target.axes = BodyAxesOf(0, pitch.value_or(0), *yaw);
+  return target;
+}
+
+/// `rows` are those of the points.
+std::vector<TrackTarget> TargetsOf(const CsvColumns& table, const std::vector<SpacePoint>& points,
+                                   const std::vector<std::size_t>& rows) {
+  std::vector<TrackTarget> targets;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const AskedNumbers asked = AskedIn(table, rows[k]);
+    if (k + 1 < points.size() && AskedIn(table, rows[k + 1]) == asked) continue;
+    targets.push_back(TargetOf(asked, points[k]));
+  }
+  return targets;
 }
 
 }  // namespace
@@ -47,20 +87,6 @@ std::optional<double> Track::Asked(const char* quantity) const {
   return column->back();
 }
 
-bool Track::HasTargetInSpace() const { return Asked("north_ft") && Asked("east_ft"); }
-
-SpacePoint Track::TargetPoint() const {
-  const SpacePoint& last = points.back();
-  return {Asked("north_ft").value_or(last.x()), Asked("east_ft").value_or(last.y()),
-          Asked("altitude_ft").value_or(last.z())};
-}
-
-std::optional<BodyAxes> Track::TargetAxes() const {
-  const std::optional<double> yaw = Asked("yaw_deg");
-  if (!yaw) return std::nullopt;
-  return BodyAxesOf(0, Asked("pitch_deg").value_or(0), *yaw);
-}
-
 Track TrackOf(const DrawnEpisode::Entry& entry, bool is_first) {
   const DrawnFlight& flight = *entry.flight;
   std::vector<const std::vector<double>*> columns;
@@ -72,10 +98,12 @@ Track TrackOf(const DrawnEpisode::Entry& entry, bool is_first) {
   track.flight = &flight;
   track.style = entry.agent->style;
   track.is_first = is_first;
+  std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < columns[0]->size(); ++row) {
     const auto at = [&](std::size_t column) { return (*columns[column])[row]; };
     const SpacePoint point(at(0), at(1), at(2)), attitude(at(3), at(4), at(5));
     if (!point.allFinite() || !attitude.allFinite()) continue;
+    rows.push_back(row);
     track.points.push_back(point);
     track.attitudes.push_back(BodyAxesOf(attitude.x(), attitude.y(), attitude.z()));
     track.times.push_back(at(6));
@@ -84,7 +112,8 @@ Track TrackOf(const DrawnEpisode::Entry& entry, bool is_first) {
     throw Error(fmt::format("{}: episode {} has no position", flight.source, flight.episode));
   }
   for (const SpacePoint& point : track.points) RequireNear(point, flight);
-  RequireNear(track.TargetPoint(), flight);
+  track.targets = TargetsOf(flight.table, track.points, rows);
+  for (const TrackTarget& target : track.targets) RequireNear(target.place, flight);
   return track;
 }
 

@@ -9,6 +9,14 @@
 
 namespace skein {
 
+/// What a flight was to reach until there was another target, or the flight ended.
+struct TrackTarget {
+  /// A target in space, or else the target's altitude, if any, where the aircraft was at last.
+  SpacePoint place;
+  bool is_in_space = false;
+  std::optional<BodyAxes> axes;  ///< of its heading and pitch; nothing if there is no heading
+};
+
 /// A flight in space.
 struct Track {
   const DrawnFlight* flight = nullptr;
@@ -16,17 +24,13 @@ struct Track {
   bool is_first = false;  ///< of the first agent, which is drawn with aircraft
   std::vector<SpacePoint> points;
   std::vector<BodyAxes> attitudes;
-  std::vector<double> times;  ///< s
+  std::vector<double> times;         ///< s
+  std::vector<TrackTarget> targets;  ///< one, but for missions
 
   /// Row numbers `interval_s` apart, and the last one.
   std::vector<std::size_t> Instants(double interval_s) const;
   /// The last target of a quantity, if the task has one.
   std::optional<double> Asked(const char* quantity) const;
-  bool HasTargetInSpace() const;
-  /// A target in space, or else the target's altitude, if any, at the last place.
-  SpacePoint TargetPoint() const;
-  /// Of the target's heading and pitch; nothing if the task asks for no heading.
-  std::optional<BodyAxes> TargetAxes() const;
 };
 
 /// Throws Error if the flight has no positions or attitudes, or is too far away to be drawn.

@@ -62,9 +62,11 @@ class TracksDrawing {
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
       }
-      for (const double arrow : {0.0, arrow_ft}) {
-        low = low.cwiseMin(TargetTip(view_, track, arrow));
-        high = high.cwiseMax(TargetTip(view_, track, arrow));
+      for (const TrackTarget& target : track.targets) {
+        for (const double arrow : {0.0, arrow_ft}) {
+          low = low.cwiseMin(TargetTip(view_, target, arrow));
+          high = high.cwiseMax(TargetTip(view_, target, arrow));
+        }
       }
     }
     const double margin = kMapMargin * std::max({(high - low).x(), (high - low).y(), 100.0});
@@ -112,7 +114,7 @@ class TracksDrawing {
     view_.PutOrigin(Onto(map, SpacePoint::Zero()),
                     map.width() / (map.x_range().max - map.x_range().min) / kThousand);
     for (const Track& track : tracks_) {
-      DrawTarget(view_, track, recordings_, arrow_ft(), &shapes_);
+      DrawTargets(view_, track, recordings_, arrow_ft(), &shapes_);
     }
     interval_s_ = options_.interval_s.value_or(RoundInterval(view_, tracks_, 2 * kGlyph));
     for (auto track = tracks_.rbegin(); track != tracks_.rend(); ++track) DrawTrack(*track);
@@ -146,12 +148,11 @@ class TracksDrawing {
         places.Avoid(flown.back(), kGlyph / 3, 1);
       }
       places.Avoid(view_.Place(track.points.back()), kGlyph / 2, 5);
-      const PagePoint target = view_.Place(track.TargetPoint());
-      const PagePoint tip = view_.Place(TargetTip(view_, track, arrow_ft()));
-      for (const double share : {0.3, 0.6, 1.0}) {
-        flown.push_back(
-            {target.x + share * (tip.x - target.x), target.y + share * (tip.y - target.y)});
-        places.Avoid(flown.back(), 5, 5);
+      for (const TrackTarget& target : track.targets) {
+        for (const PagePoint& point : TargetArrowPoints(view_, target, arrow_ft())) {
+          flown.push_back(point);
+          places.Avoid(point, 5, 5);
+        }
       }
     }
     DrawNorthArrow(map, flown, &places);

@@ -28,10 +28,12 @@ AcmiUnit AcmiUnitOf(const std::string& unit) {
   return {unit, 1};
 }
 
+/// Of Mach numbers and other ratios, three.
+int DecimalsWithoutTolerance(const AcmiUnit& unit) { return unit.name.empty() ? 3 : 1; }
+
 /// One, and more where a tolerance needs them for two significant digits.
 int DecimalsFor(double tolerance) {
   constexpr double kMostDecimals = 9;
-  if (!(tolerance > 0)) return 1;
   return static_cast<int>(std::clamp(1 - std::floor(std::log10(tolerance)), 1.0, kMostDecimals));
 }
 
@@ -80,10 +82,11 @@ std::string AcmiTarget::Describe(std::size_t row) const {
     const AcmiUnit unit = AcmiUnitOf(words.unit);
     const double value = flight_.Column(std::string("target_") + quantity.column)[row];
     const double tolerance = quantity.tolerance * unit.factor;
-    const int decimals = DecimalsFor(tolerance);
-    text += fmt::format("{}{} {} +- {}{}{}", text.empty() ? "" : ", ", words.quantity,
-                        AcmiNumber(value * unit.factor, decimals), AcmiNumber(tolerance, decimals),
-                        unit.name.empty() ? "" : " ", unit.name);
+    const int decimals = tolerance > 0 ? DecimalsFor(tolerance) : DecimalsWithoutTolerance(unit);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", words.quantity,
+                        AcmiNumber(value * unit.factor, decimals));
+    if (tolerance > 0) text += fmt::format(" +- {}", AcmiNumber(tolerance, decimals));
+    if (!unit.name.empty()) text += " " + unit.name;
   }
   return text;
 }

@@ -207,7 +207,7 @@ ProgramConfig Configure(const Study& study, const std::string& task,
                                       AssignmentsFor(task, study, part.assignments), changed);
       }
     });
-    RequireTask(config, base.train.env.task);
+    RequireTask(config.train.env, base.train.env);
     RequireOwnScale(base, config);
     return config;
   });

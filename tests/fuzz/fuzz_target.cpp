@@ -46,7 +46,7 @@ void ReadConfiguration(const std::string& file) {
   const std::string path = InFile(file, ".toml");
   const ProgramConfig config = WithAircraft(preset, [&path](ProgramConfig* changed) {
     ApplyTomlFile(path, changed);
-    RequireTask(*changed, "heading");
+    RequireTask(changed->train.env, preset.train.env);
   });
   RequireOwnScale(preset, config);
   CheckConsistent(config);

@@ -476,6 +476,7 @@ TEST_F(ExportCommand, RefusesWhatItCannotDoInOneLine) {
   };
   expect_failure(policy_, scratch_ / "missing" + "/out.h", "cannot be written", 2);
   expect_failure(scratch_ / "nothing.skein", out, "No such file", 2);
+  expect_failure("autopilot:traditional", out, "autopilot:traditional is no policy", 2);
   WriteFile(scratch_ / "config.toml", "");
   expect_failure(scratch_.path(), out, "the run has not saved a policy yet");
   RecurrentPolicy::Untrained({}, 22, 4, 1).Save(scratch_ / "untrained.skein");

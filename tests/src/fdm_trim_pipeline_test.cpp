@@ -241,6 +241,29 @@ TEST_F(FdmTrimPipeline, AGridSaysOfEveryPointWhyItIsNotFlown) {
   EXPECT_EQ(grid["points"][0]["limit"], "below stall speed");
 }
 
+TEST_F(FdmTrimPipeline, AStalledWingThatCarriesTheWeightIsBelowStallSpeed) {
+  // An elevator that holds any alpha: there are trims at which the wing is a plate.
+  json aircraft = json::parse(ReadFile(SKEIN_SOURCE "/data/cessna172/aircraft.json"));
+  aircraft["longitudinal"]["Cm_elevator"] =
+      4 * aircraft["longitudinal"]["Cm_elevator"].get<double>();
+  aircraft["longitudinal"]["CL_elevator"] = 0;
+  const std::string file = folder_ + "/strong.json", path = folder_ + "/grid.json";
+  WriteFile(file, aircraft.dump());
+  const std::vector<std::string> trim = {"fdm", "trim",          "--aircraft",
+                                         file,  "--altitude-ft", "1000"};
+  std::vector<std::string> of_one = trim, of_grid = trim;
+  of_one.insert(of_one.end(), {"--speed-fps", "40"});
+  of_grid.insert(of_grid.end(), {"--speed-fps", "30..90:10", "--json", path});
+  EXPECT_THAT(CallSkein(of_one).output, HasSubstr("this flight is beyond the stall (alpha 78.2"));
+  ASSERT_EQ(CallSkein(of_grid).exit_code, 0);
+  const json points = json::parse(ReadFile(path))["points"];
+  ASSERT_EQ(points.size(), 7u);
+  for (const json& point : points) {
+    if (point["flown"].get<bool>()) continue;
+    EXPECT_EQ(point["limit"], "below stall speed") << point;
+  }
+}
+
 TEST_F(FdmTrimPipeline, AGridIsTheSameInWhateverOrderItsAxesAreGiven) {
   const auto flown = [&](const std::string& altitudes_ft, const std::string& speeds_fps) {
     const std::string numbers = folder_ + "/grid.json", picture = folder_ + "/grid.svg";

@@ -61,6 +61,17 @@ TEST_F(TaskFilePipelineTest, NeedsItsFileNoMoreOnceItIsTrained) {
   EXPECT_THAT(ReadFile(scratch_ / "policy.c"), HasSubstr("bank_and_altitude_step("));
 }
 
+TEST_F(TaskFilePipelineTest, SaysOfNoOtherTaskThatItIsFlown) {
+  for (const char* other :
+       {"task = \"heading\"", "task_file_hash = \"0123\"", "task_interface = \"0123\""}) {
+    WriteFile(file_, text_ + "\n[env]\n" + other + "\n");
+    const ProgramResult result =
+        CallSkein({"compare", "--task", file_, "--agents", "zero", "--no-html"});
+    EXPECT_EQ(result.exit_code, 2) << other;
+    EXPECT_THAT(result.error, HasSubstr(file_ + " says env.task"));
+  }
+}
+
 TEST_F(TaskFilePipelineTest, ResumesToTheSameBits) {
   WriteFile(file_, text_);
   const std::string other = scratch_ / "other";

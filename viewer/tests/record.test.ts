@@ -202,6 +202,12 @@ it('targets are read with their tolerances, headings from 0 to 360', () => {
   expect(errorsOf(flown, targets, 3)[1]).toBe('heading, deg: 0.0 off 190.0 ± 5 ✓');
 });
 
+it('a target without a tolerance is read without one', () => {
+  const targets = [{ column: 'mach', is_angle: false, tolerance: 0 }];
+  const flown = record({ ...STRAIGHT, target_mach: [1, 1, 1, 1], error_mach: [0, 0, 0, 0] });
+  expect(errorsOf(flown, targets, 0)).toEqual(['mach: 0.000 off 1.000']);
+});
+
 it('a target of heading just below north is read as 0', () => {
   const targets = [{ column: 'yaw_deg', is_angle: true, tolerance: 5 }];
   const flown = record({ ...STRAIGHT, target_yaw_deg: [-0.04, -0.04, -0.06, NaN],

@@ -299,7 +299,10 @@ TEST(Configuration, UnknownPresetsAndTasksListWhatThereIs) {
 }
 
 TEST(Configuration, AnotherTaskInTheFileIsAConflict) {
-  EXPECT_THROW(ResolveConfig({"heading", "default", "", {"env.task=control"}}), Error);
+  for (const char* other :
+       {"env.task=control", "env.task_file_hash=0123", "env.task_interface=0123"}) {
+    EXPECT_THROW(ResolveConfig({"heading", "default", "", {other}}), Error) << other;
+  }
 }
 
 TEST(Configuration, DifferencesNameTheKeysAndBothValues) {

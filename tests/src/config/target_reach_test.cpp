@@ -130,6 +130,27 @@ TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
                           "end above Mach 1 (env.termination.max_mach)"));
 }
 
+TEST(TargetsBeyondLimits, AnglesOfMoreThanATurnAreNamed) {
+  EnvConfig env;
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"yaw_deg", -350}, {"pitch_deg", 80}}), IsEmpty());
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"yaw_deg", 4000}}),
+              ElementsAre("target yaw_deg is 4000, more than a turn: it is flown to modulo 360"));
+  TermTaskConfig task;
+  task.targets.resize(1);
+  task.targets[0].name = "bank";
+  task.targets[0].quantity.name = "roll_deg";
+  task.targets[0].quantity.value = TermValue::kRoll;
+  task.targets[0].quantity.per_value = 180 / M_PI;
+  task.targets[0].draw = {-M_PI, M_PI};
+  env.SetTermTask(task);
+  EXPECT_THAT(TargetsBeyondLimits(env), IsEmpty());
+  task.targets[0].draw = {-10, 10};
+  env.SetTermTask(task);
+  EXPECT_THAT(
+      TargetsBeyondLimits(env),
+      ElementsAre("target bank is up to 572.96, more than a turn: it is flown to modulo 360"));
+}
+
 TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenToABuiltInTask) {
   EnvConfig env;
   EXPECT_THAT(TargetsBeyondLimits(env), IsEmpty());

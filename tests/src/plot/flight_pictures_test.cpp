@@ -15,6 +15,7 @@
 #include "src/plot/recordings.h"
 #include "src/plot/space_picture.h"
 #include "src/plot/time_histories.h"
+#include "src/plot/track.h"
 #include "src/plot/tracks_picture.h"
 #include "tests/error_message.h"
 #include "tests/scratch_directory.h"
@@ -81,6 +82,14 @@ class FlightPictures : public ::testing::Test {
         ReadRecordings({Write("f.policy.csv", episodes), Write("f.autopilot.csv", episodes)});
     Choose({{}, {}, {{"altitude_ft", 100}, {"yaw_deg", 5}}}, &recordings);
     return recordings;
+  }
+
+  /// As in missions: from `first_row` on the aircraft is to be at another altitude.
+  static void GiveNewTarget(std::size_t first_row, double altitude_ft, CsvColumns* table) {
+    const auto column = std::find(table->names.begin(), table->names.end(), "target_altitude_ft");
+    std::vector<double>& targets =
+        table->values[static_cast<std::size_t>(column - table->names.begin())];
+    std::fill(targets.begin() + static_cast<std::ptrdiff_t>(first_row), targets.end(), altitude_ft);
   }
 
   const ScratchDirectory scratch_;
@@ -307,15 +316,27 @@ TEST_F(FlightPictures, AgentsWithOtherTargetsHaveThemInTheirColours) {
   EXPECT_THAT(DashedLines(same), ElementsAre(Pair(kInk, 2)));
   EXPECT_THAT(WordsOf(same), Contains("target"));
   Recordings recordings = TwoAgents(1);
-  CsvColumns& table = recordings.agents[1].flights[0].table;
-  const auto column = std::find(table.names.begin(), table.names.end(), "target_altitude_ft");
-  std::vector<double>& targets =
-      table.values[static_cast<std::size_t>(column - table.names.begin())];
-  for (std::size_t row = 50; row < targets.size(); ++row) targets[row] = 21000;
+  GiveNewTarget(50, 21000, &recordings.agents[1].flights[0].table);
   const Picture other = TimeHistories(recordings, {});
   EXPECT_THAT(DashedLines(other),
               UnorderedElementsAre(Pair(ColourOf(0), 1), Pair(ColourOf(1), 1), Pair(kInk, 1)));
   EXPECT_THAT(WordsOf(other), Contains(StartsWith("target; in the agents' colours")));
+}
+
+TEST_F(FlightPictures, EveryTargetOfAMissionIsMarkedWhereItWasLeft) {
+  Recordings recordings = TwoAgents(1);
+  const std::size_t shapes = TracksPicture(recordings, {}).shapes.size();
+  GiveNewTarget(50, 21000, &recordings.agents[1].flights[0].table);
+  const std::vector<Track> tracks = TracksOf(recordings);
+  EXPECT_EQ(tracks[0].targets.size(), 1u);
+  ASSERT_EQ(tracks[1].targets.size(), 2u);
+  EXPECT_EQ(tracks[1].targets[0].place,
+            SpacePoint(tracks[1].points[49].x(), tracks[1].points[49].y(), 22000));
+  EXPECT_EQ(tracks[1].targets[1].place,
+            SpacePoint(tracks[1].points.back().x(), tracks[1].points.back().y(), 21000));
+  const Picture picture = TracksPicture(recordings, {});
+  EXPECT_GT(picture.shapes.size(), shapes);
+  ExpectLegible(picture);
 }
 
 TEST_F(FlightPictures, TolerancesStayInTheirPanels) {

@@ -54,9 +54,10 @@ export function errorsOf(record: FlightRecord, targets: Target[], time: number):
     const shown = (number: number) => reading(column, number);
     const aim = isYaw ? headingOf(target, shown) : shown(target);
     const name = isYaw ? 'heading, deg' : titleOf(column);
+    const off = `${name}: ${shown(error)} off ${aim}`;
+    if (!(tolerance > 0)) return off;
     const within = Math.abs(error) <= tolerance ? ' ✓' : '';
-    return `${name}: ${shown(error)} off ${aim} ± ${Number(tolerance.toPrecision(3))}`
-      + within;
+    return `${off} ± ${Number(tolerance.toPrecision(3))}${within}`;
   });
 }
 
