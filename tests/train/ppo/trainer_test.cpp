@@ -204,17 +204,6 @@ TEST_F(TrainerTest, APrivilegedCriticTrainsAndResumesBitExactly) {
   without.Iterate();
 }
 
-TEST_F(TrainerTest, CheckpointsOfLaterFormatsAreRefused) {
-  WorkerPool pool(1);
-  Trainer trainer(SmallConfig(), pool);
-  trainer.Save(path_);
-  TensorFile file = TensorFile::Read(path_);
-  file.metadata["checkpoint.format"] = "skein-checkpoint-3";
-  file.Write(path_);
-  EXPECT_THROW(trainer.Restore(path_), Error);
-  EXPECT_THROW(trainer.StartFrom(path_), Error);
-}
-
 TEST_F(TrainerTest, NetworksThatDoNotFitChangeNothing) {
   WorkerPool pool(1);
   Trainer(SmallConfig(), pool).Save(path_);

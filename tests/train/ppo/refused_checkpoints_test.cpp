@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "base/worker_pool.h"
 #include "tests/error_message.h"
@@ -15,7 +16,7 @@
 namespace skein {
 namespace {
 
-TEST(DamagedCounters, BeyondThoseOfAnyTrainingAreRefused) {
+TEST(RefusedCheckpoints, AreThoseThatCountMoreThanAnyTraining) {
   constexpr std::size_t kSteps = 4;  // iterations, policy steps, the steps of both optimisers
   const ScratchDirectory scratch;
   const std::string path = scratch / "checkpoint.skein";
@@ -34,6 +35,21 @@ TEST(DamagedCounters, BeyondThoseOfAnyTrainingAreRefused) {
   }
   whole.Write(path);
   trainer.Restore(path);
+}
+
+TEST(RefusedCheckpoints, AreThoseOfLaterFormats) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch / "checkpoint.skein";
+  WorkerPool pool(1);
+  Trainer trainer(SmallConfig(), pool);
+  trainer.Save(path);
+  TensorFile later = TensorFile::Read(path);
+  later.metadata["checkpoint.format"] = "skein-checkpoint-3";
+  later.Write(path);
+  for (const std::string& message :
+       {MessageOf([&] { trainer.Restore(path); }), MessageOf([&] { trainer.StartFrom(path); })}) {
+    EXPECT_THAT(message, testing::HasSubstr("not a checkpoint of this version"));
+  }
 }
 
 }  // namespace
