@@ -43,7 +43,7 @@ ProgramConfig WithSettings(const ProgramConfig& config, const std::string& file,
     ProgramConfig changed = WithAircraft(config, [&](ProgramConfig* set) {
       if (!file.empty()) ApplyTomlFile(file, set);
       ApplyConditionsAndAssignments(conditions, assignments, set, "settings");
-      RequireTask(*set, config.train.env.task);
+      RequireTask(set->train.env, config.train.env);
     });
     RequireOwnScale(config, changed);
     CheckConsistent(changed);

@@ -80,8 +80,8 @@ def _converted(array: NDArray[Any], dtype: Any) -> NDArray[Any]:
     with np.errstate(over="ignore"):
         converted = np.ascontiguousarray(array, dtype)
     if np.issubdtype(dtype, np.floating) and not (is_finite := np.isfinite(converted)).all():
-        beyond = ~is_finite & np.isfinite(array)
-        converted[beyond] = np.copysign(np.finfo(dtype).max, array[beyond])
+        largest = np.copysign(np.finfo(dtype).max, array)
+        converted = np.ascontiguousarray(np.where(~is_finite & np.isfinite(array), largest, converted), dtype)
     return converted
 
 
