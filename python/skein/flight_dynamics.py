@@ -370,7 +370,7 @@ def simulate(
             skein.CONTROL_NAMES: thrust (lbf, not throttle), elevator, aileron, rudder, leading-edge flap (deg).
         state: (13,): begin there and not in the trim's state. In the order of skein.STATE_NAMES: u, v, w (body axes,
             ft/s), p, q, r (rad/s), north, east, down (ft), q0, qx, qy, qz.
-        duration_s: of the flight, with controls that are held; to the nearest step, and one at least.
+        duration_s: of the flight, with controls that are held; rounded to whole steps, of which there must be one.
         dt: time step, s.
 
     Returns:
@@ -389,8 +389,9 @@ def simulate(
     if is_held:
         if duration_s is None:
             raise ConfigurationError("simulate: duration_s is needed with controls that are held")
-        steps = round(number("duration_s", duration_s) / dt)
-        if not 1 <= steps <= MOST_STEPS:
+        intervals = number("duration_s", duration_s) / dt
+        steps = round(intervals) if intervals <= MOST_STEPS else 0
+        if steps < 1:
             raise ConfigurationError(f"duration_s must be 1 to {MOST_STEPS} steps of {dt} s, not {duration_s} s")
         flown = np.repeat(flown[None], steps, axis=0)
     elif duration_s is not None:

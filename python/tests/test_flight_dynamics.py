@@ -124,9 +124,9 @@ def test_what_cannot_be_flown_says_why():
         skein.trim(15000, 500, aircraft="glider")
     with pytest.raises(skein.ConfigurationError, match="duration_s"):
         skein.simulate(skein.trim(15000, 500), np.zeros(5))
-    for duration_s in (-1, 0, 0.005, 1e9):
+    for duration_s, dt in ((-1, 0.02), (0, 0.02), (0.005, 0.02), (1e9, 0.02), (1e300, 1e-300)):
         with pytest.raises(skein.ConfigurationError, match="duration_s must be 1 to"):
-            skein.simulate(skein.trim(15000, 500), np.zeros(5), duration_s=duration_s)
+            skein.simulate(skein.trim(15000, 500), np.zeros(5), duration_s=duration_s, dt=dt)
     with pytest.raises(skein.Error, match=r"shape \(13,\)"):
         skein.simulate(skein.trim(15000, 500), np.zeros((1, 5)), state=np.zeros(12))
 

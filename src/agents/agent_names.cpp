@@ -14,6 +14,7 @@
 #include "base/ends_with.h"
 #include "base/fnv_hash.h"
 #include "base/nearest_name.h"
+#include "base/trimmed.h"
 #include "envs/autopilot/autopilot.h"
 #include "src/agents/policy_file.h"
 #include "src/config/usage_error.h"
@@ -38,12 +39,6 @@ constexpr int kLongestHold = 1000;  // control steps, as of env.action_repeat
 std::string ArgumentOf(const std::string& name) {
   const auto colon = name.find(':');
   return colon == std::string::npos ? "" : name.substr(colon + 1);
-}
-
-std::string Trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(' ');
-  return first == std::string::npos ? ""
-                                    : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
 std::string KindOf(const std::string& name) { return name.substr(0, name.find(':')); }
@@ -75,9 +70,8 @@ void RequireKnownSuffix(const std::string& file, const std::string& name) {
 /// A file whose name ends as a suffix comes first.
 PolicyArgument WithoutSuffixes(const std::string& name) {
   PolicyArgument argument{ArgumentOf(name)};
-  if (IsThere(argument.file)) return argument;
   const auto takes = [&argument](const std::string& suffix) {
-    if (!EndsWith(argument.file, suffix)) return false;
+    if (IsThere(argument.file) || !EndsWith(argument.file, suffix)) return false;
     argument.file.resize(argument.file.size() - suffix.size());
     return true;
   };

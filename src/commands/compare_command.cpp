@@ -19,7 +19,6 @@
 #include "src/commands/launched_ranks.h"
 #include "src/config/configuration.h"
 #include "src/config/presets.h"
-#include "src/config/task_file.h"
 #include "src/config/usage_error.h"
 #include "src/evaluation/comparison.h"
 #include "src/evaluation/evaluation_report.h"
@@ -190,8 +189,10 @@ void CompareAgents(const CompareOptions& options, Ranks& ranks) {
   WorkerPool pool(flight.threads);
   const Comparison comparison = Compare(agents, config, flight.episodes, flight.seed, pool, ranks);
   if (ranks.rank() != 0) return;
-  const std::string settings =
-      IsTaskFile(flight.task) ? "settings of " + flight.task : "preset " + flight.preset;
+  const EnvConfig& env = config.train.env;
+  const std::string settings = env.term_task == nullptr
+                                   ? "preset " + flight.preset
+                                   : "settings of the task file of " + env.task;
   fmt::print("{}\n({}; {})\n", ToText(comparison), settings, DescribeWorkers(pool));
   WriteAll(options, comparison, config, agents, pool);
 }

@@ -74,7 +74,7 @@ ExportForm ChooseForm(const ExportOptions& options) {
 std::vector<std::string> Export(ExportOptions options) {
   // What a policy was trained on is found by its hash among the files that are kept.
   const std::string file = IsAircraftPath(options.aircraft) ? options.aircraft : "";
-  if (!file.empty()) options.aircraft = KeepAircraftFile(file);
+  if (!file.empty()) options.aircraft = AsUsage([&] { return KeepAircraftFile(file); });
   if (!options.policy.empty() && options.aircraft_option->count() > 0 &&
       !IsKeptFile(options.aircraft)) {
     throw UsageError("--aircraft is for --flight-control without a policy, which says its own");

@@ -102,9 +102,9 @@ void ApplyOverrides(const FlightOptions& options, const std::vector<std::string>
 /// own (CheckEachAgentsOwn).
 ProgramConfig ConfigOfAgents(const FlightOptions& options, const std::vector<std::string>& agents);
 
-/// Says on the error stream which targets no flight can come to (TargetsBeyondLimits), what lies
-/// above the engine's tables (AltitudesBeyondTables), and which winds few flights get over
-/// (WindsBeyondAirspeed).
+/// Says on the error stream which targets no flight can come to or are of more than a turn
+/// (TargetsBeyondLimits), what lies above the engine's tables (AltitudesBeyondTables), and which
+/// winds few flights get over (WindsBeyondAirspeed).
 void WarnOfTargets(const EnvConfig& env, const GivenTargets& given = {});
 
 /// The agents of a list of --agents, for the environment of `config`. Throws UsageError on a name

@@ -28,8 +28,8 @@ bool HavePresetsInCommon(const EnvConfig& a, const EnvConfig& b) {
   return PresetsOf(a.aircraft) == PresetsOf(b.aircraft);
 }
 
-const std::vector<std::string> kOthersToSay = {"env.task", "env.task_file_hash",
-                                               "env.task_interface", "env.aircraft"};
+const std::vector<std::string> kKeysNotOfAircraft = {"env.task", "env.task_file_hash",
+                                                     "env.task_interface", "env.aircraft"};
 
 /// Applies the settings in the aircraft's file, but for those of other tasks.
 void ApplySettingsOf(const std::string& aircraft, ProgramConfig* config) {
@@ -38,7 +38,7 @@ void ApplySettingsOf(const std::string& aircraft, ProgramConfig* config) {
   const std::vector<Field> fields = FieldsOf(*config);
   for (const std::string& setting : AircraftSettings(aircraft)) {
     const std::string key = KeyOf(setting);
-    if (std::count(kOthersToSay.begin(), kOthersToSay.end(), key) > 0) {
+    if (std::count(kKeysNotOfAircraft.begin(), kKeysNotOfAircraft.end(), key) > 0) {
       throw Error(fmt::format("{}: {} is not for an aircraft to say", source, key));
     }
     if (FindField(fields, key, source).IsOf(config->train.env.task)) settings.push_back(setting);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/trimmed.h"
 #include "envs/aircraft/registry.h"
 #include "src/config/aircraft_choice.h"
 #include "src/config/conditions.h"
@@ -120,12 +121,6 @@ class TomlReader {
 void ApplyText(const std::string& text, const std::string& source, Reading reading,
                ProgramConfig* config) {
   TomlReader(source, reading, config).Apply(ParseToml(text, source), "");
-}
-
-std::string Trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 ProgramConfig ConfigOf(const Preset& preset) {
@@ -311,12 +306,15 @@ void ApplyConditionsAndAssignments(const std::vector<std::string>& conditions,
 }
 
 void RequireTask(const EnvConfig& env, const EnvConfig& asked, const std::string& source) {
+  if (env.task != asked.task) {
+    throw Error(fmt::format("{} says env.task = {}, but the task asked for is {}", source, env.task,
+                            asked.task));
+  }
   const auto require = [&source](const char* key, const std::string& said, const std::string& is) {
     if (said == is) return;
-    throw Error(fmt::format("{} says {} = {}, but the task asked for is {}", source, key,
-                            said.empty() ? "\"\"" : said, is.empty() ? "a built-in one" : is));
+    throw Error(fmt::format("{} is of another task file: it says {} = \"{}\", not \"{}\"", source,
+                            key, said, is));
   };
-  require("env.task", env.task, asked.task);
   require("env.task_file_hash", env.task_file_hash, asked.task_file_hash);
   require("env.task_interface", env.task_interface, asked.task_interface);
 }

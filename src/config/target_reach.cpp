@@ -122,7 +122,7 @@ bool IsFlownToAsDrawn(const TermTarget& target, const EnvConfig& env) {
   }
 }
 
-/// Of an angle: empty if all that is drawn or given lies within a turn.
+/// A line about an angle of more than a turn; empty if all that is drawn or given lies within one.
 std::string BeyondATurn(const TermTarget& target, const std::optional<Range>& alone) {
   const double shown = target.quantity.per_value;
   const double furthest =
@@ -130,7 +130,8 @@ std::string BeyondATurn(const TermTarget& target, const std::optional<Range>& al
             : shown * std::max(std::abs(target.draw.min), std::abs(target.draw.max));
   if (furthest <= 2 * M_PI * shown) return "";
   return fmt::format("target {} is {}{:.5g}, more than a turn: it is flown to modulo {:g}",
-                     target.name, alone ? "" : "up to ", furthest, 2 * M_PI * shown);
+                     target.name, alone ? "" : "up to ", alone ? alone->max : furthest,
+                     2 * M_PI * shown);
 }
 
 std::string BeyondLimits(const TermTarget& target, const EnvConfig& env,

@@ -47,7 +47,7 @@ std::vector<ExceededLimit> OutsideEngineTables(const Plant& plant, const TrimReq
   return limits;
 }
 
-/// A wing that has stalled carries the weight, too, where a plate's lift grows with alpha.
+/// A wing that has stalled may carry the weight, too, as a plate that leans on thrust.
 std::vector<ExceededLimit> BeyondStall(const Plant& plant, const TrimRequest& request,
                                        const TrimPoint& trim) {
   const GreatestLift lift =
@@ -70,7 +70,7 @@ std::vector<std::string> WordsOf(const std::vector<ExceededLimit>& limits) {
 
 std::vector<ExceededLimit> ExceededLimits(const Plant& plant, const TrimRequest& request,
                                           const TrimPoint& trim) {
-  std::vector<ExceededLimit> limits = BeyondStall(plant, request, trim);
+  std::vector<ExceededLimit> limits;
   const EngineTables& engine = plant.aircraft().engine;
   const double mach = MachOf(plant, request), needed = trim.controls.thrust_lbf;
   // The trim's power is the nearest that the engine has; its thrust tells whether that is enough.
@@ -93,6 +93,10 @@ std::vector<ExceededLimit> ExceededLimits(const Plant& plant, const TrimRequest&
     limits.push_back({FlightLimit::kAlphaTables,
                       fmt::format("has alpha outside the aerodynamic tables ({} to {} deg)",
                                   alpha_deg.front(), alpha_deg.back())});
+  }
+  if (!limits.empty()) {  // what a stalled wing lacks it lacks because it has stalled
+    std::vector<ExceededLimit> stall = BeyondStall(plant, request, trim);
+    limits.insert(limits.begin(), stall.begin(), stall.end());
   }
   for (ExceededLimit& limit : OutsideEngineTables(plant, request))
     limits.push_back(std::move(limit));

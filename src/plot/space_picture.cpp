@@ -125,7 +125,7 @@ class SpaceDrawing {
 
   void DrawTargetsOf(const Track& track) {
     for (const TrackTarget& target : track.targets) {
-      if (target.is_in_space) DrawPost(target.place, kInk);
+      if (target.is_in_space) DrawPost(target.place, TargetColour(track, recordings_));
     }
     if (!track.targets.back().is_in_space) DrawPost(track.points.back(), track.style.colour);
     DrawTargets(view_, track, recordings_, arrow_ft(), &shapes_);

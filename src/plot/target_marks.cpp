@@ -89,6 +89,11 @@ double TargetArrow(double picture_width) {
   return std::clamp(kArrowLength * picture_width / kPageWidth, kShortestArrow, kArrowLength);
 }
 
+Colour TargetColour(const Track& track, const Recordings& recordings) {
+  const bool is_own = track.targets.size() > 1 && recordings.agents.size() > 1;
+  return is_own ? track.style.colour : kInk;
+}
+
 SpacePoint TargetTip(const View& view, const TrackTarget& target, double arrow_ft) {
   if (target.is_in_space || !target.axes) return target.place;
   return target.place + arrow_ft * view.Shown(*target.axes).forward;
@@ -107,19 +112,20 @@ std::vector<PagePoint> TargetArrowPoints(const View& view, const TrackTarget& ta
 
 void DrawTargets(const View& view, const Track& track, const Recordings& recordings,
                  double arrow_ft, std::vector<Shape>* shapes) {
-  const bool is_own = track.targets.size() > 1 && recordings.agents.size() > 1;
   for (const TrackTarget& target : track.targets) {
-    DrawTarget(view, target, recordings, arrow_ft, is_own ? track.style.colour : kInk, shapes);
+    DrawTarget(view, target, recordings, arrow_ft, TargetColour(track, recordings), shapes);
   }
 }
 
 std::optional<LegendEntry> TargetEntry(const Track& track, const Recordings& recordings) {
   const double altitude = ToleranceOf(recordings, "altitude_ft");
   const TrackTarget& target = track.targets.front();
+  const char* const in_colours =
+      TargetColour(track, recordings) == kInk ? "" : "; in the agents' colours";
   if (target.is_in_space) {
-    return LegendEntry{
-        MarkerSample(Marker::kDisc, {{}, kRingRadius, std::nullopt, kInk, kEdge}),
-        altitude > 0 ? fmt::format("target, box ±{:g}\u00a0ft", altitude) : "target"};
+    const std::string box = altitude > 0 ? fmt::format(", box ±{:g}\u00a0ft", altitude) : "";
+    return LegendEntry{MarkerSample(Marker::kDisc, {{}, kRingRadius, std::nullopt, kInk, kEdge}),
+                       "target" + box + in_colours};
   }
   if (!target.axes) return std::nullopt;
   std::string words = track.Asked("pitch_deg") ? "target heading and pitch" : "target heading";
@@ -132,6 +138,7 @@ std::optional<LegendEntry> TargetEntry(const Track& track, const Recordings& rec
     if (altitude > 0) known.push_back(fmt::format("±{:g}\u00a0ft", altitude));
   }
   if (!known.empty()) words += fmt::format(" ({})", fmt::join(known, ", "));
+  words += in_colours;
   return LegendEntry{[](PagePoint left, std::vector<Shape>* shapes) {
                        DrawArrow(left, {left.x + kSampleWidth, left.y}, kInk, shapes);
                      },

@@ -18,6 +18,10 @@ void DrawArrow(PagePoint begin, PagePoint end, Colour colour, std::vector<Shape>
 /// that is narrower than a page.
 double TargetArrow(double picture_width);
 
+/// Of the marks of its targets. Those of missions, which differ between agents, have the agent's
+/// colour where there are several.
+Colour TargetColour(const Track& track, const Recordings& recordings);
+
 /// Where a target is marked last: the end of the arrow into its heading, which is so many feet
 /// long, or the target.
 SpacePoint TargetTip(const View& view, const TrackTarget& target, double arrow_ft);
@@ -28,8 +32,7 @@ std::vector<PagePoint> TargetArrowPoints(const View& view, const TrackTarget& ta
 
 /// What a track was to reach: a ring at a target in space with the box of its tolerances, or else
 /// an arrow of so many feet into its heading at its altitude with the sector and the height that
-/// count as reached. Targets of missions, which differ between agents, have the agent's colour
-/// where there are several.
+/// count as reached.
 void DrawTargets(const View& view, const Track& track, const Recordings& recordings,
                  double arrow_ft, std::vector<Shape>* shapes);
 

@@ -417,7 +417,7 @@ TEST_F(ComparisonPipeline, PoliciesSayTheTask) {
 }
 
 TEST_F(ComparisonPipeline, NamesOfAgentsMayHaveBlanksAround) {
-  const nlohmann::json result = Compare(" zero, random:0.2 ");
+  const nlohmann::json result = Compare(" zero,\t random:0.2 \n");
   EXPECT_EQ(result["agents"][0]["name"], "zero");
   EXPECT_EQ(result["agents"][1]["name"], "random:0.2");
 }
@@ -425,15 +425,17 @@ TEST_F(ComparisonPipeline, NamesOfAgentsMayHaveBlanksAround) {
 TEST_F(ComparisonPipeline, PathsOfPoliciesMayHaveCommasAndEndAsSuffixes) {
   const std::string commas = "policy:" + (scratch_ / "a, b,c.skein");
   const std::string sampled = "policy:" + (scratch_ / "run@sampled");
+  const std::string drawn = sampled + "@sampled";
   for (const std::string& policy : {commas, sampled}) {
     std::filesystem::copy_file(SKEIN_SOURCE "/policies/heading.skein", policy.substr(7));
   }
-  const nlohmann::json agents = Compare("zero," + commas + "," + sampled + ",random")["agents"];
+  const nlohmann::json agents = Compare("zero," + commas + "," + sampled + "," + drawn)["agents"];
   ASSERT_EQ(agents.size(), 4u);
   EXPECT_EQ(agents[1]["name"], commas);
   EXPECT_EQ(agents[2]["name"], sampled);
   // The mean action: the same flights as by the other.
   EXPECT_EQ(agents[1]["return_mean"], agents[2]["return_mean"]);
+  EXPECT_NE(agents[1]["return_mean"], agents[3]["return_mean"]);
   for (const char* list : {"zero,,random", "zero,", ""}) {
     EXPECT_EQ(CallSkein(Command({"--agents", list})).exit_code, 2) << list;
   }

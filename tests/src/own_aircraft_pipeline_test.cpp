@@ -202,10 +202,13 @@ TEST_F(OwnAircraft, WhatDoesNotSayWhereItFliesIsRefused) {
   WriteFile(mine_, wrong.dump());
   Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2,
           "env.heading.altitude_change_ft");
-  wrong = MyAircraft(11.5);
-  wrong["env"]["task"] = "control";
-  WriteFile(mine_, wrong.dump());
-  Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2, "not for an aircraft to say");
+  for (const char* key : {"task", "task_file_hash", "task_interface"}) {
+    wrong = MyAircraft(11.5);
+    wrong["env"][key] = "control";
+    WriteFile(mine_, wrong.dump());
+    Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2,
+            "not for an aircraft to say");
+  }
   WriteFile(mine_, "{");
   Refused({"train", "heading", "--aircraft", mine_, "--out", out}, 2, mine_);
   Refused({"train", "heading", "--aircraft", scratch_ / "no.json", "--out", out}, 2, "no.json");

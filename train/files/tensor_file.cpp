@@ -124,12 +124,14 @@ std::string_view TextOf(const std::vector<std::uint8_t>& bytes) {
 /// Keys of texts that are whole files end so.
 constexpr const char* kWholeFile = "_file";
 
-/// Names and texts stand in errors, which are of one line.
-void RequireOneLine(const std::string& text, const std::string& path) {
+/// As names and texts are: they stand in errors.
+bool IsOneLine(const std::string& text) {
   const auto breaks = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
-  if (std::any_of(text.begin(), text.end(), breaks)) {
-    Refuse(path, "its header has a control character in a name or text");
-  }
+  return std::none_of(text.begin(), text.end(), breaks);
+}
+
+void RequireOneLine(const std::string& text, const std::string& path) {
+  if (!IsOneLine(text)) Refuse(path, "its header has a control character in a name or text");
 }
 
 /// The tensors that the header describes, in the order of their bytes.
@@ -176,18 +178,23 @@ std::string HeaderText(const nlohmann::ordered_json& header, const std::string& 
 
 /// All that stands before the tensors' bytes. `path` is what errors call the file.
 std::string HeadOf(const TensorFile& file, const std::string& path) {
+  const auto require_one_line = [&path](const std::string& text) {
+    if (!IsOneLine(text))
+      throw Error(path + ": a name or text of its header has a control character");
+  };
   nlohmann::ordered_json header;
   nlohmann::ordered_json& texts = header[kMetadataKey];
   texts[kChecksumKey] = std::string(kChecksumDigits, '0');
   for (const auto& [key, value] : file.metadata) {
     if (key == kChecksumKey) throw Error(path + ": metadata key \"checksum\" is reserved");
-    RequireOneLine(key, path);
-    if (!EndsWith(key, kWholeFile)) RequireOneLine(value, path);
+    require_one_line(key);
+    if (!EndsWith(key, kWholeFile)) require_one_line(value);
     texts[key] = value;
   }
   std::uint64_t offset = 0;
   for (const auto& [name, tensor] : file.tensors) {
-    RequireOneLine(name, path);
+    if (name == kMetadataKey) throw Error(path + ": tensor name \"__metadata__\" is reserved");
+    require_one_line(name);
     const TypeName& type = Describe(tensor.type);
     if (ByteSize(tensor.shape, type.bytes, path, name) != tensor.bytes.size()) {
       throw Error(path + ": tensor \"" + name + "\" does not have the bytes of its shape");

@@ -25,9 +25,10 @@ struct TensorFile {
   std::map<std::string, NamedTensor> tensors;
 
   /// Atomic: temporary file in the same directory, fsync, rename, fsync of the directory. Throws
-  /// Error (disk full and the like); an existing file is then untouched.
+  /// Error on what Read would refuse, and if it cannot be written; an existing file is then
+  /// untouched.
   void Write(const std::string& path) const;
-  /// What Write writes.
+  /// What Write writes. Throws Error on what Read would refuse.
   std::string Bytes() const;
   /// Throws Error with one clear line on a file that is missing, truncated, bit-flipped or foreign.
   static TensorFile Read(const std::string& path);

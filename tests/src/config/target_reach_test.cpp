@@ -133,8 +133,8 @@ TEST(TargetsBeyondLimits, AreNamedOfWhatIsGivenInThePlaceOfADraw) {
 TEST(TargetsBeyondLimits, AnglesOfMoreThanATurnAreNamed) {
   EnvConfig env;
   EXPECT_THAT(TargetsBeyondLimits(env, {{"yaw_deg", -350}, {"pitch_deg", 80}}), IsEmpty());
-  EXPECT_THAT(TargetsBeyondLimits(env, {{"yaw_deg", 4000}}),
-              ElementsAre("target yaw_deg is 4000, more than a turn: it is flown to modulo 360"));
+  EXPECT_THAT(TargetsBeyondLimits(env, {{"yaw_deg", -4000}}),
+              ElementsAre("target yaw_deg is -4000, more than a turn: it is flown to modulo 360"));
   TermTaskConfig task;
   task.targets.resize(1);
   task.targets[0].name = "bank";

@@ -162,11 +162,13 @@ TEST_F(TensorFileTest, WhatBreaksALineIsRefusedInOne) {
 
 TEST_F(TensorFileTest, WhatCouldNotBeReadIsNotWritten) {
   TensorFile name = Example(), key = Example(), text = Example(), latin_1 = Example();
+  TensorFile reserved = Example();
+  reserved.tensors["__metadata__"] = {NamedTensor::Type::kU8, {0}, {}};
   name.tensors["a\nb"] = {NamedTensor::Type::kU8, {0}, {}};
   key.metadata["a\x7f"] = "b";
   text.metadata["a"] = "b\nc";
   latin_1.metadata["a"] = "caf\xe9";
-  for (const TensorFile& file : {name, key, text, latin_1}) {
+  for (const TensorFile& file : {name, key, text, latin_1, reserved}) {
     EXPECT_THROW(file.Write(path_), Error);
     EXPECT_FALSE(std::filesystem::exists(path_));
   }
