@@ -48,7 +48,7 @@ bool Freezes(const PlantTile& plants, int i, const std::int32_t* step) {
 }
 
 const FreezingSensor& SensorOf(const PlantTile& plants, int i) {
-  // A snapshot that was restored may hold any number, and none.
+  // A snapshot that was restored may hold any number, or NaN.
   const float index = plants[kPlantFrozenSensor][i];
   return kFreezingSensors[index > 0 ? static_cast<int>(std::min(index, kNumFreezingSensors - 1.0f))
                                     : 0];
