@@ -106,7 +106,7 @@ void ListFields(PpoConfig& config, FieldList& list) {
   list.Add("clip_value_loss", &config.clip_value_loss, "clip the value's change like the ratio");
   list.Add("privileged_critic", &config.privileged_critic,
            "the critic also sees what no policy observes: errors without noise, clock, progress, "
-           "wind (C++ API, VecEnv::privileged_names)")
+           "wind, the drawn plant (C++ API, VecEnv::privileged_names)")
       .OffUnless(config.privileged_critic);
   list.Add("normalise_advantages", &config.normalise_advantages,
            "advantages get zero mean and unit variance");

@@ -239,7 +239,7 @@ TEST(ClosedLoop, BankDoesNotDriftHandsOff) {
 }
 
 // The combined limits keep full sticks below the 10 g at which an episode ends: all three held, and
-// full deflections at random redrawn each second (about one flight in a hundred overloads; three in
+// full deflections at random redrawn each second (a few flights in a hundred may overload; three in
 // four did before the limits).
 TEST(ClosedLoop, CombinedSticksRarelyOverload) {
   constexpr double kOverload = 10;
