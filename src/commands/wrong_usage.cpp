@@ -11,8 +11,11 @@
 #include <system_error>
 
 #include "base/ends_with.h"
+#include "base/field_list.h"
 #include "base/nearest_name.h"
 #include "src/commands/command_tree.h"
+#include "src/config/other_names.h"
+#include "src/config/program_config.h"
 
 namespace skein {
 namespace {
@@ -123,6 +126,40 @@ std::string Unexpected(const CLI::App& command, const std::string& argument) {
       option != nullptr ? fmt::format("; did you mean {}{}?", option, argument) : "");
 }
 
+/// "; did you mean --set ppo.gamma=VALUE?" for an option that is called as a key is, here or in
+/// other PPO implementations; empty if none is. Of what flies without a training it is told of the
+/// keys of flights alone.
+std::string KeyMeant(const CLI::App& command, const std::string& option) {
+  if (!Takes(command, "--set")) return "";
+  const auto has_effect = [&command](const std::string& key) {
+    return command.get_name() == "train" || key.rfind("env.", 0) == 0;
+  };
+  const OtherName* const other = FindOtherName(option);
+  if (other != nullptr && has_effect(other->key)) {
+    return DidYouMean(
+        *other, other->key == "run.total_steps" ? "--steps" : "--set " + other->key + "=VALUE");
+  }
+  std::string last_part =
+      "." + option.substr(std::min(option.find_first_not_of('-'), option.size()));
+  std::replace(last_part.begin(), last_part.end(), '-', '_');
+  ProgramConfig config;
+  for (const Field& field : FieldsOf(config)) {
+    if (field.key == "env.task") continue;  // decides which of the others there are
+    if (EndsWith(field.key, last_part) && has_effect(field.key)) {
+      return fmt::format("; did you mean --set {}=VALUE?", field.key);
+    }
+  }
+  return "";
+}
+
+/// Whether the command takes `option`, "--task", as an argument without a name.
+bool TakesWithoutName(const CLI::App& command, const std::string& option) {
+  const std::vector<const CLI::Option*> options = command.get_options();
+  return std::any_of(options.begin(), options.end(), [&option](const CLI::Option* argument) {
+    return argument->get_positional() && "--" + argument->get_name(true) == option;
+  });
+}
+
 /// An option that the command does not have, with the one that was meant: of two commands that fly
 /// policies, one is told of a policy and the other of agents.
 std::string UnknownOption(const CLI::App& command, const std::string& argument) {
@@ -133,8 +170,11 @@ std::string UnknownOption(const CLI::App& command, const std::string& argument) 
     meant = "; did you mean --agents policy:FILE_OR_RUN?";
   } else if (name == "--agents" && Takes(command, "--policy")) {
     meant = "; it flies one --policy, and skein compare several agents";
+  } else if (TakesWithoutName(command, name)) {
+    meant = "; its value is written alone, without " + name;
   } else {
-    meant = DidYouMean(argument, OptionNames(command));
+    meant = KeyMeant(command, name);
+    if (meant.empty()) meant = DidYouMean(argument, OptionNames(command));
   }
   return fmt::format("unknown option {}{}", argument, meant);
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "src/config/other_names.h"
 #include "src/files/plain_line.h"
 
 namespace skein {
@@ -92,6 +93,17 @@ struct Assigner {
   }
 };
 
+/// "; did you mean ppo.gamma?" for an unknown key; empty if none is near.
+std::string KeyMeant(const std::vector<Field>& fields, const std::string& key) {
+  const OtherName* const other = FindOtherName(key);
+  std::vector<std::string> keys;
+  for (const Field& field : fields) {
+    if (other != nullptr && field.key == other->key) return DidYouMean(*other, field.key);
+    keys.push_back(field.key);
+  }
+  return DidYouMean(key, keys);
+}
+
 }  // namespace
 
 const Field& FindField(const std::vector<Field>& fields, const std::string& key,
@@ -102,9 +114,7 @@ const Field& FindField(const std::vector<Field>& fields, const std::string& key,
       throw Error(fmt::format("{}: {} is called {} now", where, key, field.key));
     }
   }
-  std::vector<std::string> keys;
-  for (const Field& field : fields) keys.push_back(field.key);
-  const std::string suggestion = DidYouMean(key, keys);
+  const std::string suggestion = KeyMeant(fields, key);
   throw Error(
       fmt::format("{}: unknown key {}{}", where, PlainLine(key),
                   suggestion.empty() ? "; `skein train --help-keys` lists all keys" : suggestion));

@@ -15,7 +15,8 @@ namespace skein {
 using SettingValue = std::variant<bool, std::int64_t, double, std::string>;
 
 /// The field called `key`. Throws Error that names `where`: if only older files call one so, with
-/// its name; else with the nearest key.
+/// its name; else with the key that other PPO
+/// implementations call so, or the nearest one.
 const Field& FindField(const std::vector<Field>& fields, const std::string& key,
                        const std::string& where);
 

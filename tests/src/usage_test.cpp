@@ -424,6 +424,18 @@ TEST(Usage, UnknownOptionsSuggestTheNearest) {
               HasSubstr("unknown option --altitude; did you mean --altitude-ft?"));
 }
 
+TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
+  const auto complaint = [](const char* option) {
+    return CallSkein({"train", "heading", option, "5"}).error;
+  };
+  EXPECT_THAT(complaint("--learning-rate"),
+              HasSubstr("did you mean --set ppo.learning_rate=VALUE?"));
+  EXPECT_THAT(complaint("--num-envs"), HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
+  EXPECT_THAT(complaint("--total-timesteps"), HasSubstr("did you mean --steps?"));
+  EXPECT_THAT(CallSkein({"train", "--task", "heading"}).error,
+              HasSubstr("unknown option --task; its value is written alone, without --task"));
+}
+
 TEST(Usage, ExamplesAreOfTheProgramOrOfTheCommandAskedFor) {
   EXPECT_THAT(CallSkein({"--help"}).output, HasSubstr("skein train heading   "));
   EXPECT_THAT(CallSkein({"fdm", "--help"}).output, Not(HasSubstr("skein train heading")));

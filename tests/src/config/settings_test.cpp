@@ -13,6 +13,7 @@
 #include "envs/task_registry.h"
 #include "src/config/configuration.h"
 #include "src/config/key_reference.h"
+#include "src/config/other_names.h"
 #include "src/files/output_file.h"
 #include "tests/error_message.h"
 #include "train/ppo/training_state.h"
@@ -123,6 +124,23 @@ TEST(Settings, UnknownKeysSuggestTheNearest) {
             "--set: unknown key zzzzzzzz; `skein train --help-keys` lists all keys");
   // Most keys were never called otherwise.
   EXPECT_THAT(MessageOf([] { Find(""); }), HasSubstr("--set: unknown key"));
+}
+
+TEST(Settings, NamesOfOtherLibrariesAreAnsweredWithTheKey) {
+  EXPECT_EQ(MessageOf([] { Find("ppo.num_envs"); }),
+            "--set: unknown key ppo.num_envs; did you mean ppo.num_aircraft?");
+  EXPECT_EQ(MessageOf([] { Find("batch-size"); }),
+            "--set: unknown key batch-size; did you mean ppo.minibatches (their number, not their "
+            "size)?");
+  ProgramConfig config;
+  const std::vector<Field> fields = FieldsOf(config);
+  for (const OtherName& other : OtherNames()) {
+    EXPECT_EQ(FindOtherName("--" + other.name), &other) << "twice, or not in lower case";
+    EXPECT_THAT(MessageOf([&] { Find("ppo." + other.name); }), HasSubstr(other.key));
+    for (const Field& field : fields) {
+      EXPECT_NE(field.key.substr(field.key.rfind('.') + 1), other.name) << "is a key here";
+    }
+  }
 }
 
 TEST(Settings, TextsOfSeveralLinesAreRefusedInOne) {
