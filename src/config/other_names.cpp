@@ -10,6 +10,7 @@ namespace skein {
 namespace {
 
 constexpr char kTheirNumber[] = "their number, not their size";
+constexpr char kControlSteps[] = "control steps, env.action_repeat to a policy step";
 
 /// "--num-envs" and "ppo.num_envs" are "num_envs".
 std::string Normalised(const std::string& name) {
@@ -25,10 +26,10 @@ std::string Normalised(const std::string& name) {
 
 const std::vector<OtherName>& OtherNames() {
   static const std::vector<OtherName> names = {
-      {"total_timesteps", "run.total_steps", ""},
-      {"num_timesteps", "run.total_steps", ""},
-      {"num_env_steps", "run.total_steps", ""},
-      {"timesteps", "run.total_steps", ""},
+      {"total_timesteps", "run.total_steps", kControlSteps},
+      {"num_timesteps", "run.total_steps", kControlSteps},
+      {"num_env_steps", "run.total_steps", kControlSteps},
+      {"timesteps", "run.total_steps", kControlSteps},
       {"max_iterations", "run.total_steps", "control steps, not iterations"},
       {"num_envs", "ppo.num_aircraft", ""},
       {"n_envs", "ppo.num_aircraft", ""},
@@ -42,6 +43,7 @@ const std::vector<OtherName>& OtherNames() {
       {"rollout_length", "ppo.rollout_steps", ""},
       {"unroll_length", "ppo.rollout_steps", ""},
       {"buffer_size", "ppo.rollout_steps", ""},
+      {"rollouts", "ppo.rollout_steps", ""},
       {"seq_length", "ppo.chunk_length", ""},
       {"data_chunk_length", "ppo.chunk_length", ""},
       {"bptt_horizon", "ppo.chunk_length", ""},
@@ -51,11 +53,13 @@ const std::vector<OtherName>& OtherNames() {
       {"mini_epochs", "ppo.epochs", ""},
       {"ppo_epoch", "ppo.epochs", ""},
       {"num_learning_epochs", "ppo.epochs", ""},
+      {"learning_epochs", "ppo.epochs", ""},
       {"num_sgd_iter", "ppo.epochs", ""},
       {"num_updates_per_batch", "ppo.epochs", ""},
       {"num_minibatches", "ppo.minibatches", ""},
       {"num_mini_batches", "ppo.minibatches", ""},
       {"num_mini_batch", "ppo.minibatches", ""},
+      {"mini_batches", "ppo.minibatches", ""},
       {"batch_size", "ppo.minibatches", kTheirNumber},
       {"minibatch_size", "ppo.minibatches", kTheirNumber},
       {"sgd_minibatch_size", "ppo.minibatches", kTheirNumber},
@@ -66,7 +70,7 @@ const std::vector<OtherName>& OtherNames() {
       {"desired_kl", "ppo.target_kl", ""},
       {"kl_target", "ppo.target_kl", ""},
       {"kl_threshold", "ppo.target_kl", ""},
-      {"discount", "ppo.gamma", ""},
+      {"discount_factor", "ppo.gamma", ""},
       {"discounting", "ppo.gamma", ""},
       {"lam", "ppo.gae_lambda", ""},
       {"lambda", "ppo.gae_lambda", ""},
@@ -76,6 +80,7 @@ const std::vector<OtherName>& OtherNames() {
       {"clip_param", "ppo.clip", ""},
       {"clip_params", "ppo.clip", ""},
       {"clip_ratio", "ppo.clip", ""},
+      {"ratio_clip", "ppo.clip", ""},
       {"clipping_epsilon", "ppo.clip", ""},
       {"e_clip", "ppo.clip", ""},
       {"clip_range_vf", "ppo.clip_value_loss", "true or false; the range is ppo.clip"},
@@ -87,13 +92,16 @@ const std::vector<OtherName>& OtherNames() {
       {"entropy_coef", "ppo.entropy_coefficient", ""},
       {"entropy_coeff", "ppo.entropy_coefficient", ""},
       {"entropy_cost", "ppo.entropy_coefficient", ""},
+      {"entropy_loss_scale", "ppo.entropy_coefficient", ""},
       {"vf_coef", "ppo.value_coefficient", ""},
       {"critic_coef", "ppo.value_coefficient", ""},
       {"value_loss_coef", "ppo.value_coefficient", ""},
       {"vf_loss_coeff", "ppo.value_coefficient", ""},
+      {"value_loss_scale", "ppo.value_coefficient", ""},
       {"max_grad_norm", "ppo.max_gradient_norm", ""},
       {"grad_norm", "ppo.max_gradient_norm", ""},
       {"grad_clip", "ppo.max_gradient_norm", ""},
+      {"grad_norm_clip", "ppo.max_gradient_norm", ""},
       {"norm_adv", "ppo.normalise_advantages", ""},
       {"normalize_advantage", "ppo.normalise_advantages", ""},
       {"normalize_advantages", "ppo.normalise_advantages", ""},
@@ -106,8 +114,7 @@ const std::vector<OtherName>& OtherNames() {
       {"eval_freq", "evaluation.interval_iterations", "iterations, not steps"},
       {"n_eval_episodes", "evaluation.episodes", ""},
       {"save_freq", "checkpoint.interval_iterations", "iterations, not steps"},
-      {"max_episode_steps", "env.time_limit_steps", ""},
-      {"episode_length", "env.time_limit_steps", ""},
+      {"max_episode_steps", "env.time_limit_steps", kControlSteps},
       {"frame_skip", "env.action_repeat", ""},
       {"decimation", "env.action_repeat", ""},
   };

@@ -14,8 +14,8 @@ struct OtherName {
   std::string difference;
 };
 
-/// Names of settings in Stable-Baselines3, CleanRL, RLlib, rl_games, rsl_rl, Brax and on-policy
-/// (MAPPO, whose names NeuralPlane and LAG have), where they differ from Skein's.
+/// Names of settings in Stable-Baselines3, CleanRL, RLlib, rl_games, rsl_rl, skrl, Brax
+/// and MAPPO's on-policy, whose names NeuralPlane and LAG have, where they differ from Skein's.
 const std::vector<OtherName>& OtherNames();
 
 /// The entry for the last part of `name`, which may be an option or a key: "--num-envs",

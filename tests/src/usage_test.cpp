@@ -431,7 +431,7 @@ TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
   EXPECT_THAT(complaint("--learning-rate"),
               HasSubstr("did you mean --set ppo.learning_rate=VALUE?"));
   EXPECT_THAT(complaint("--num-envs"), HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
-  EXPECT_THAT(complaint("--total-timesteps"), HasSubstr("did you mean --steps?"));
+  EXPECT_THAT(complaint("--total-timesteps"), HasSubstr("did you mean --steps (control steps, "));
   EXPECT_THAT(CallSkein({"train", "--task", "heading"}).error,
               HasSubstr("unknown option --task; its value is written alone, without --task"));
 }
