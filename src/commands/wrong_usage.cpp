@@ -136,8 +136,8 @@ std::string KeyMeant(const CLI::App& command, const std::string& option) {
   };
   const OtherName* const other = FindOtherName(option);
   if (other != nullptr && has_effect(other->key)) {
-    return DidYouMean(
-        *other, other->key == "run.total_steps" ? "--steps" : "--set " + other->key + "=VALUE");
+    const std::string key = other->key;
+    return DidYouMean(*other, key == "run.total_steps" ? "--steps" : "--set " + key + "=VALUE");
   }
   std::string last_part =
       "." + option.substr(std::min(option.find_first_not_of('-'), option.size()));

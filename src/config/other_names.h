@@ -9,14 +9,14 @@ namespace skein {
 /// What another PPO implementation calls a setting, the key that has it here, and how the values
 /// differ ("" if they do not). Names are in lower case, with underscores.
 struct OtherName {
-  std::string name;
-  std::string key;
-  std::string difference;
+  const char* name;
+  const char* key;
+  const char* difference;
 };
 
 /// Names of settings in Stable-Baselines3, CleanRL, RLlib, rl_games, rsl_rl, skrl, Brax
 /// and MAPPO's on-policy, whose names NeuralPlane and LAG have, where they differ from Skein's.
-const std::vector<OtherName>& OtherNames();
+std::vector<OtherName> OtherNames();
 
 /// The entry for the last part of `name`, which may be an option or a key: "--num-envs",
 /// "ppo.num_envs". Null if there is none.

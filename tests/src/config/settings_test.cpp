@@ -135,10 +135,13 @@ TEST(Settings, NamesOfOtherLibrariesAreAnsweredWithTheKey) {
   ProgramConfig config;
   const std::vector<Field> fields = FieldsOf(config);
   for (const OtherName& other : OtherNames()) {
-    EXPECT_EQ(FindOtherName("--" + other.name), &other) << "twice, or not in lower case";
-    EXPECT_THAT(MessageOf([&] { Find("ppo." + other.name); }), HasSubstr(other.key));
+    const std::string name = other.name;
+    const OtherName* const found = FindOtherName("--" + name);
+    ASSERT_NE(found, nullptr) << name << " is not in lower case";
+    EXPECT_EQ(found->key, std::string(other.key)) << name << " is there twice";
+    EXPECT_THAT(MessageOf([&] { Find("ppo." + name); }), HasSubstr(other.key));
     for (const Field& field : fields) {
-      EXPECT_NE(field.key.substr(field.key.rfind('.') + 1), other.name) << "is a key here";
+      EXPECT_NE(field.key.substr(field.key.rfind('.') + 1), name) << "is a key here";
     }
   }
 }
