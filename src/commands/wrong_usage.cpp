@@ -16,6 +16,8 @@
 #include "src/commands/command_tree.h"
 #include "src/config/other_names.h"
 #include "src/config/program_config.h"
+#include "src/config/settings.h"
+#include "src/files/plain_line.h"
 
 namespace skein {
 namespace {
@@ -126,28 +128,51 @@ std::string Unexpected(const CLI::App& command, const std::string& argument) {
       option != nullptr ? fmt::format("; did you mean {}{}?", option, argument) : "");
 }
 
+/// The task that was given, as an argument or by --task; empty if none was.
+std::string TaskOf(const CLI::App& command) {
+  for (const char* name : {"task", "--task"}) {
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    if (option != nullptr && option->count() > 0) return option->results().front();
+  }
+  return "";
+}
+
+/// Trainings heed all keys, and so do benchmarks; what flies heeds keys of flights. Keys
+/// env.task... are for the program to set.
+bool Heeds(const CLI::App& command, const Field& field) {
+  if (field.key.rfind("env.task", 0) == 0) return false;
+  const std::string task = TaskOf(command);
+  if (!field.tasks.empty() && !task.empty() && !field.IsOf(task)) return false;
+  if (command.get_name() == "train" || command.get_parent()->get_name() == "bench") return true;
+  return field.key.rfind("env.", 0) == 0 && !field.is_training_only;
+}
+
+/// How the command is told the setting: by an option of its own, or by --set.
+std::string OptionOf(const CLI::App& command, const std::string& key) {
+  if (key == "run.total_steps" && Takes(command, "--steps")) return "--steps";
+  std::string option = "--" + key.substr(key.rfind('.') + 1);
+  std::replace(option.begin(), option.end(), '_', '-');
+  return Takes(command, option.c_str()) ? option : "--set " + key + "=VALUE";
+}
+
 /// "; did you mean --set ppo.gamma=VALUE?" for an option that is called as a key is, here or in
-/// other PPO implementations; empty if none is. Of what flies without a training it is told of the
-/// keys of flights alone.
+/// other PPO implementations; empty if none is.
 std::string KeyMeant(const CLI::App& command, const std::string& option) {
   if (!Takes(command, "--set")) return "";
-  const auto has_effect = [&command](const std::string& key) {
-    return command.get_name() == "train" || key.rfind("env.", 0) == 0;
-  };
-  const OtherName* const other = FindOtherName(option);
-  if (other != nullptr && has_effect(other->key)) {
-    const std::string key = other->key;
-    return DidYouMean(*other, key == "run.total_steps" ? "--steps" : "--set " + key + "=VALUE");
-  }
-  std::string last_part =
-      "." + option.substr(std::min(option.find_first_not_of('-'), option.size()));
-  std::replace(last_part.begin(), last_part.end(), '-', '_');
   ProgramConfig config;
-  for (const Field& field : FieldsOf(config)) {
-    if (field.key == "env.task") continue;  // decides which of the others there are
-    if (EndsWith(field.key, last_part) && has_effect(field.key)) {
-      return fmt::format("; did you mean --set {}=VALUE?", field.key);
-    }
+  std::vector<Field> fields = FieldsOf(config);
+  fields.erase(std::remove_if(fields.begin(), fields.end(),
+                              [&command](const Field& field) { return !Heeds(command, field); }),
+               fields.end());
+  MeantSetting meant = FindMeantSetting(fields, option);
+  if (!meant.name.empty()) meant.name = OptionOf(command, meant.name);
+  return DidYouMean(meant);
+}
+
+/// "; did you mean --action-repeat?" for --action_repeat; empty if the command has no such option.
+std::string OtherwiseWritten(const CLI::App& command, const std::string& option) {
+  for (const std::string& own : OptionNames(command)) {
+    if (WrittenAsKey(own) == WrittenAsKey(option)) return "; did you mean " + own + "?";
   }
   return "";
 }
@@ -173,10 +198,11 @@ std::string UnknownOption(const CLI::App& command, const std::string& argument) 
   } else if (TakesWithoutName(command, name)) {
     meant = "; its value is written alone, without " + name;
   } else {
-    meant = KeyMeant(command, name);
-    if (meant.empty()) meant = DidYouMean(argument, OptionNames(command));
+    meant = OtherwiseWritten(command, name);
+    if (meant.empty()) meant = KeyMeant(command, name);
+    if (meant.empty()) meant = DidYouMean(name, OptionNames(command));
   }
-  return fmt::format("unknown option {}{}", argument, meant);
+  return fmt::format("unknown option {}{}", PlainLine(argument), meant);
 }
 
 /// Names that are not known come first, in their order: CLI11 says that what is required is missing

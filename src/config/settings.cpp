@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "src/config/other_names.h"
@@ -93,17 +94,6 @@ struct Assigner {
   }
 };
 
-/// "; did you mean ppo.gamma?" for an unknown key; empty if none is near.
-std::string KeyMeant(const std::vector<Field>& fields, const std::string& key) {
-  const OtherName* const other = FindOtherName(key);
-  std::vector<std::string> keys;
-  for (const Field& field : fields) {
-    if (other != nullptr && field.key == other->key) return DidYouMean(*other, field.key);
-    keys.push_back(field.key);
-  }
-  return DidYouMean(key, keys);
-}
-
 }  // namespace
 
 const Field& FindField(const std::vector<Field>& fields, const std::string& key,
@@ -114,10 +104,32 @@ const Field& FindField(const std::vector<Field>& fields, const std::string& key,
       throw Error(fmt::format("{}: {} is called {} now", where, key, field.key));
     }
   }
-  const std::string suggestion = KeyMeant(fields, key);
+  const std::string meant = DidYouMean(FindMeantSetting(fields, key));
+  std::vector<std::string> keys;
+  for (const Field& field : fields) keys.push_back(field.key);
+  const std::string suggestion = meant.empty() ? DidYouMean(key, keys) : meant;
   throw Error(
       fmt::format("{}: unknown key {}{}", where, PlainLine(key),
                   suggestion.empty() ? "; `skein train --help-keys` lists all keys" : suggestion));
+}
+
+MeantSetting FindMeantSetting(const std::vector<Field>& fields, const std::string& name) {
+  const std::string written = WrittenAsKey(name);
+  const OtherName* const other = FindOtherName(name);
+  for (const Field& field : fields) {
+    if (other != nullptr && field.key == other->key) return {field.key, other->difference};
+    if (!written.empty() && (field.key == written || EndsWith(field.key, "." + written))) {
+      return {field.key, ""};
+    }
+  }
+  return {};
+}
+
+std::string DidYouMean(const MeantSetting& meant) {
+  if (meant.name.empty()) return "";
+  const std::string difference =
+      meant.difference.empty() ? "" : fmt::format(" ({})", meant.difference);
+  return fmt::format("; did you mean {}{}?", meant.name, difference);
 }
 
 void Assign(const Field& field, const SettingValue& value, const std::string& where) {

@@ -425,15 +425,41 @@ TEST(Usage, UnknownOptionsSuggestTheNearest) {
 }
 
 TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
-  const auto complaint = [](const char* option) {
-    return CallSkein({"train", "heading", option, "5"}).error;
+  const auto complaint = [](std::vector<std::string> arguments) {
+    return CallSkein(std::move(arguments)).error;
   };
-  EXPECT_THAT(complaint("--learning-rate"),
+  EXPECT_THAT(complaint({"train", "heading", "--learning-rate", "5"}),
               HasSubstr("did you mean --set ppo.learning_rate=VALUE?"));
-  EXPECT_THAT(complaint("--num-envs"), HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
-  EXPECT_THAT(complaint("--total-timesteps"), HasSubstr("did you mean --steps (control steps, "));
-  EXPECT_THAT(CallSkein({"train", "--task", "heading"}).error,
+  EXPECT_THAT(complaint({"train", "heading", "--ppo.gamma=0.9"}),
+              HasSubstr("did you mean --set ppo.gamma=VALUE?"));
+  EXPECT_THAT(complaint({"train", "heading", "--num-envs", "5"}),
+              HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
+  EXPECT_THAT(complaint({"bench", "iteration", "--num_envs", "5"}),
+              HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
+  for (const char* steps : {"--total-timesteps", "--total_steps"}) {
+    EXPECT_THAT(complaint({"train", "heading", steps, "5"}), HasSubstr("did you mean --steps"));
+  }
+  EXPECT_THAT(complaint({"train", "--task", "heading"}),
               HasSubstr("unknown option --task; its value is written alone, without --task"));
+}
+
+TEST(Usage, UnknownOptionsNameNoSettingThatWouldBeRefused) {
+  const auto complaint = [](std::vector<std::string> arguments) {
+    return CallSkein(std::move(arguments)).error;
+  };
+  EXPECT_THAT(complaint({"train", "control", "--dwell-s", "5"}),
+              HasSubstr("did you mean --set env.control.dwell_s=VALUE?"));
+  for (const char* training : {"--gamma", "--lr", "--training-noise-max", "--task-file-hash"}) {
+    EXPECT_THAT(complaint({"eval", "--policy", "untrained", training, "5"}),
+                Not(HasSubstr("--set")))
+        << training;
+  }
+  EXPECT_THAT(complaint({"eval", "--policy", "untrained", "--max-episode-steps", "5"}),
+              HasSubstr("did you mean --set env.time_limit_steps=VALUE (control steps; "));
+  for (const char* repeat : {"--action_repeat", "--frame-skip"}) {
+    EXPECT_THAT(complaint({"bench", "sim", repeat, "5"}),
+                HasSubstr("did you mean --action-repeat?"));
+  }
 }
 
 TEST(Usage, ExamplesAreOfTheProgramOrOfTheCommandAskedFor) {

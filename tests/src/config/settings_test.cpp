@@ -13,7 +13,6 @@
 #include "envs/task_registry.h"
 #include "src/config/configuration.h"
 #include "src/config/key_reference.h"
-#include "src/config/other_names.h"
 #include "src/files/output_file.h"
 #include "tests/error_message.h"
 #include "train/ppo/training_state.h"
@@ -129,21 +128,10 @@ TEST(Settings, UnknownKeysSuggestTheNearest) {
 TEST(Settings, NamesOfOtherLibrariesAreAnsweredWithTheKey) {
   EXPECT_EQ(MessageOf([] { Find("ppo.num_envs"); }),
             "--set: unknown key ppo.num_envs; did you mean ppo.num_aircraft?");
-  EXPECT_EQ(MessageOf([] { Find("batch-size"); }),
-            "--set: unknown key batch-size; did you mean ppo.minibatches (their number, not their "
-            "size)?");
-  ProgramConfig config;
-  const std::vector<Field> fields = FieldsOf(config);
-  for (const OtherName& other : OtherNames()) {
-    const std::string name = other.name;
-    const OtherName* const found = FindOtherName("--" + name);
-    ASSERT_NE(found, nullptr) << name << " is not in lower case";
-    EXPECT_EQ(found->key, std::string(other.key)) << name << " is there twice";
-    EXPECT_THAT(MessageOf([&] { Find("ppo." + name); }), HasSubstr(other.key));
-    for (const Field& field : fields) {
-      EXPECT_NE(field.key.substr(field.key.rfind('.') + 1), name) << "is a key here";
-    }
-  }
+  EXPECT_EQ(
+      MessageOf([] { Find("batch-size"); }),
+      "--set: unknown key batch-size; did you mean ppo.minibatches (the number of minibatches, "
+      "not their size)?");
 }
 
 TEST(Settings, TextsOfSeveralLinesAreRefusedInOne) {
