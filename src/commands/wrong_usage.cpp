@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <sstream>
 #include <system_error>
 
@@ -185,6 +186,10 @@ bool TakesWithoutName(const CLI::App& command, const std::string& option) {
   });
 }
 
+bool IsOneOf(const std::string& name, std::initializer_list<const char*> names) {
+  return std::find(names.begin(), names.end(), WrittenAsKey(name)) != names.end();
+}
+
 /// An option that the command does not have, with the one that was meant: of two commands that fly
 /// policies, one is told of a policy and the other of agents.
 std::string UnknownOption(const CLI::App& command, const std::string& argument) {
@@ -195,6 +200,10 @@ std::string UnknownOption(const CLI::App& command, const std::string& argument) 
     meant = "; did you mean --agents policy:FILE_OR_RUN?";
   } else if (name == "--agents" && Takes(command, "--policy")) {
     meant = "; it flies one --policy, and skein compare several agents";
+  } else if (IsOneOf(name, {"device", "gpu", "gpus", "cuda"})) {
+    meant = "; Skein computes on the CPU, with --threads threads";
+  } else if (IsOneOf(name, {"env", "env_id", "env_name"}) && TakesWithoutName(command, "--task")) {
+    meant = "; the task is written alone, without " + name;
   } else if (TakesWithoutName(command, name)) {
     meant = "; its value is written alone, without " + name;
   } else {

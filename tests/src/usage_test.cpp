@@ -441,6 +441,10 @@ TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
   }
   EXPECT_THAT(complaint({"train", "--task", "heading"}),
               HasSubstr("unknown option --task; its value is written alone, without --task"));
+  EXPECT_THAT(complaint({"train", "--env-id", "heading"}),
+              HasSubstr("the task is written alone, without --env-id"));
+  EXPECT_THAT(complaint({"train", "heading", "--device", "cuda"}),
+              HasSubstr("unknown option --device; Skein computes on the CPU"));
 }
 
 TEST(Usage, UnknownOptionsNameNoSettingThatWouldBeRefused) {
