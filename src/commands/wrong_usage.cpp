@@ -232,8 +232,16 @@ std::string WhatIsWrong(const CLI::App& command, const CLI::ParseError& error) {
 }  // namespace
 
 std::string WrongUsage(const CLI::App& program, const CLI::ParseError& error) {
-  return fmt::format("{} (see {} --help)", WhatIsWrong(DeepestOf(program), error),
-                     CommandPath(program));
+  const CLI::App& deepest = DeepestOf(program);
+  // What stands before the command is left with the program, which has hardly an option itself.
+  for (const std::string& argument : program.remaining()) {
+    if (&deepest == &program || argument.rfind('-', 0) != 0) continue;
+    const std::string name = argument.substr(0, argument.find('='));
+    const std::string wrong = Takes(deepest, name.c_str()) ? name + " is written behind the command"
+                                                           : UnknownOption(deepest, argument);
+    return fmt::format("{} (see {} --help)", wrong, CommandPath(program));
+  }
+  return fmt::format("{} (see {} --help)", WhatIsWrong(deepest, error), CommandPath(program));
 }
 
 }  // namespace skein

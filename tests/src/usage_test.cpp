@@ -445,6 +445,10 @@ TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
               HasSubstr("the task is written alone, without --env-id"));
   EXPECT_THAT(complaint({"train", "heading", "--device", "cuda"}),
               HasSubstr("unknown option --device; Skein computes on the CPU"));
+  EXPECT_THAT(complaint({"--threads", "2", "train", "heading"}),
+              HasSubstr("--threads is written behind the command"));
+  EXPECT_THAT(complaint({"--device", "cuda", "train", "heading"}),
+              HasSubstr("unknown option --device; Skein computes on the CPU"));
 }
 
 TEST(Usage, UnknownOptionsNameNoSettingThatWouldBeRefused) {
