@@ -425,8 +425,8 @@ TEST(Usage, UnknownOptionsSuggestTheNearest) {
 }
 
 TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
-  const auto complaint = [](std::vector<std::string> arguments) {
-    return CallSkein(std::move(arguments)).error;
+  const auto complaint = [](const std::vector<std::string>& arguments) {
+    return CallSkein(arguments).error;
   };
   EXPECT_THAT(complaint({"train", "heading", "--learning-rate", "5"}),
               HasSubstr("did you mean --set ppo.learning_rate=VALUE?"));
@@ -452,8 +452,8 @@ TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
 }
 
 TEST(Usage, UnknownOptionsNameNoSettingThatWouldBeRefused) {
-  const auto complaint = [](std::vector<std::string> arguments) {
-    return CallSkein(std::move(arguments)).error;
+  const auto complaint = [](const std::vector<std::string>& arguments) {
+    return CallSkein(arguments).error;
   };
   EXPECT_THAT(complaint({"train", "control", "--dwell-s", "5"}),
               HasSubstr("did you mean --set env.control.dwell_s=VALUE?"));
