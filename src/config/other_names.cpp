@@ -4,164 +4,82 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <sstream>
 
 namespace skein {
 namespace {
 
-constexpr char kControlSteps[] =
-    "control steps of all aircraft, env.action_repeat to a policy step";
 constexpr char kIterations[] = "iterations, not steps";
-constexpr char kNumber[] = "the number of minibatches, not their size";
-constexpr char kSetsRate[] = "it sets the learning rate";
-constexpr char kHalfSquare[] = "of half the squared error";
-constexpr char kEach[] = "of actor and critic each";
 constexpr char kOfGru[] = "of a GRU";
 
-constexpr OtherName kOtherNames[] = {
-    {"total_timesteps", "run.total_steps", kControlSteps},
-    {"num_timesteps", "run.total_steps", kControlSteps},
-    {"num_env_steps", "run.total_steps", kControlSteps},
-    {"timesteps", "run.total_steps", kControlSteps},
-    {"max_frames", "run.total_steps", kControlSteps},
-    {"max_iterations", "run.total_steps",
-     "control steps: num_aircraft x rollout_steps x action_repeat an iteration"},
-    {"max_epochs", "run.total_steps",
-     "control steps: num_aircraft x rollout_steps x action_repeat an iteration"},
-    {"num_envs", "ppo.num_aircraft", ""},
-    {"n_envs", "ppo.num_aircraft", ""},
-    {"num_actors", "ppo.num_aircraft", ""},
-    {"n_rollout_threads", "ppo.num_aircraft", ""},
-    {"num_envs_per_env_runner", "ppo.num_aircraft", ""},
-    {"n_steps", "ppo.rollout_steps", ""},
-    {"num_steps", "ppo.rollout_steps", ""},
-    {"num_steps_per_env", "ppo.rollout_steps", ""},
-    {"horizon_length", "ppo.rollout_steps", ""},
-    {"rollout_fragment_length", "ppo.rollout_steps", ""},
-    {"rollout_length", "ppo.rollout_steps", ""},
-    {"unroll_length", "ppo.rollout_steps", ""},
-    {"buffer_size", "ppo.rollout_steps", ""},
-    {"rollouts", "ppo.rollout_steps", ""},
-    {"train_batch_size", "ppo.rollout_steps", "of each aircraft"},
-    {"train_batch_size_per_learner", "ppo.rollout_steps", "of each aircraft"},
-    {"seq_length", "ppo.chunk_length", ""},
-    {"seq_len", "ppo.chunk_length", ""},
-    {"max_seq_len", "ppo.chunk_length", ""},
-    {"sequence_length", "ppo.chunk_length", ""},
-    {"data_chunk_length", "ppo.chunk_length", ""},
-    {"bptt_horizon", "ppo.chunk_length", ""},
-    {"n_epochs", "ppo.epochs", ""},
-    {"num_epochs", "ppo.epochs", ""},
-    {"update_epochs", "ppo.epochs", ""},
-    {"mini_epochs", "ppo.epochs", ""},
-    {"ppo_epoch", "ppo.epochs", ""},
-    {"num_learning_epochs", "ppo.epochs", ""},
-    {"learning_epochs", "ppo.epochs", ""},
-    {"num_sgd_iter", "ppo.epochs", ""},
-    {"num_updates_per_batch", "ppo.epochs", ""},
-    {"num_minibatches", "ppo.minibatches", ""},
-    {"num_mini_batches", "ppo.minibatches", ""},
-    {"num_mini_batch", "ppo.minibatches", ""},
-    {"mini_batches", "ppo.minibatches", ""},
-    {"batch_size", "ppo.minibatches", kNumber},
-    {"minibatch_size", "ppo.minibatches", kNumber},
-    {"sgd_minibatch_size", "ppo.minibatches", kNumber},
-    {"lr", "ppo.learning_rate", ""},
-    {"actor_lr", "ppo.learning_rate", ""},
-    {"policy_learning_rate", "ppo.learning_rate", ""},
-    {"critic_lr", "ppo.critic_learning_rate", ""},
-    {"value_learning_rate", "ppo.critic_learning_rate", ""},
-    {"anneal_lr", "ppo.final_learning_rate_fraction",
-     "the share left at the end; 0 needs ppo.learning_rate_decay=linear"},
-    {"lr_schedule", "ppo.learning_rate_decay",
-     "linear or exponential; ppo.target_kl adapts the rate"},
-    {"use_linear_lr_decay", "ppo.learning_rate_decay",
-     "linear or exponential; ppo.target_kl adapts the rate"},
-    {"desired_kl", "ppo.target_kl", ""},
-    {"kl_target", "ppo.target_kl", kSetsRate},
-    {"kl_threshold", "ppo.target_kl", kSetsRate},
-    {"opti_eps", "ppo.adam_epsilon", ""},
-    {"discount_factor", "ppo.gamma", ""},
-    {"discounting", "ppo.gamma", ""},
-    {"lam", "ppo.gae_lambda", ""},
-    {"lambda", "ppo.gae_lambda", ""},
-    {"lambda_", "ppo.gae_lambda", ""},
-    {"tau", "ppo.gae_lambda", ""},
-    {"clip_range", "ppo.clip", ""},
-    {"clip_coef", "ppo.clip", ""},
-    {"clip_param", "ppo.clip", ""},
-    {"clip_params", "ppo.clip", ""},
-    {"clip_ratio", "ppo.clip", ""},
-    {"ratio_clip", "ppo.clip", ""},
-    {"clipping_epsilon", "ppo.clip", ""},
-    {"e_clip", "ppo.clip", ""},
-    {"clip_range_vf", "ppo.clip_value_loss",
-     "true or false: it clips the value's change, by ppo.clip"},
-    {"vf_clip_param", "ppo.clip_value_loss",
-     "true or false: it clips the value's change, by ppo.clip"},
-    {"clip_vloss", "ppo.clip_value_loss",
-     "true or false: it clips the value's change, by ppo.clip"},
-    {"clip_value", "ppo.clip_value_loss",
-     "true or false: it clips the value's change, by ppo.clip"},
-    {"value_clip", "ppo.clip_value_loss",
-     "true or false: it clips the value's change, by ppo.clip"},
-    {"use_clipped_value_loss", "ppo.clip_value_loss",
-     "true or false: it clips the value's change, by ppo.clip"},
-    {"clip_predicted_values", "ppo.clip_value_loss",
-     "true or false: it clips the value's change, by ppo.clip"},
-    {"ent_coef", "ppo.entropy_coefficient", ""},
-    {"entropy_coef", "ppo.entropy_coefficient", ""},
-    {"entropy_coeff", "ppo.entropy_coefficient", ""},
-    {"entropy_cost", "ppo.entropy_coefficient", ""},
-    {"entropy_loss_scale", "ppo.entropy_coefficient", ""},
-    {"vf_coef", "ppo.value_coefficient", kHalfSquare},
-    {"critic_coef", "ppo.value_coefficient", kHalfSquare},
-    {"value_loss_coef", "ppo.value_coefficient", kHalfSquare},
-    {"vf_loss_coeff", "ppo.value_coefficient", kHalfSquare},
-    {"value_loss_scale", "ppo.value_coefficient", kHalfSquare},
-    {"max_grad_norm", "ppo.max_gradient_norm", kEach},
-    {"grad_norm", "ppo.max_gradient_norm", kEach},
-    {"grad_clip", "ppo.max_gradient_norm", kEach},
-    {"grad_norm_clip", "ppo.max_gradient_norm", kEach},
-    {"norm_adv", "ppo.normalise_advantages", ""},
-    {"normalize_advantage", "ppo.normalise_advantages", ""},
-    {"normalize_advantages", "ppo.normalise_advantages", ""},
-    {"normalize_value", "ppo.popart", "true or false"},
-    {"use_popart", "ppo.popart", "true or false"},
-    {"use_valuenorm", "ppo.popart", "true or false"},
-    {"log_std_init", "network.initial_log_std", ""},
-    {"init_noise_std", "network.initial_log_std", "the logarithm of the deviation"},
-    {"init_std", "network.initial_log_std", "the logarithm of the deviation"},
-    {"recurrent_hidden_size", "network.gru_size", ""},
-    {"lstm_hidden_size", "network.gru_size", kOfGru},
-    {"lstm_cell_size", "network.gru_size", kOfGru},
-    {"rnn_hidden_size", "network.gru_size", kOfGru},
-    {"rnn_hidden_dim", "network.gru_size", kOfGru},
-    {"recurrent_hidden_layers", "network.gru_layers", ""},
-    {"recurrent_n", "network.gru_layers", ""},
-    {"n_lstm_layers", "network.gru_layers", kOfGru},
-    {"rnn_num_layers", "network.gru_layers", kOfGru},
-    {"layer_n", "network.hidden_layers", "before the GRU, and as many behind it"},
-    {"gain", "network.actor_head_scale", ""},
-    {"eval_freq", "evaluation.interval_iterations", kIterations},
-    {"eval_interval", "evaluation.interval_iterations", kIterations},
-    {"evaluation_interval", "evaluation.interval_iterations", kIterations},
-    {"n_eval_episodes", "evaluation.episodes", ""},
-    {"eval_episodes", "evaluation.episodes", ""},
-    {"save_freq", "checkpoint.interval_iterations", kIterations},
-    {"save_frequency", "checkpoint.interval_iterations", kIterations},
-    {"save_interval", "checkpoint.interval_iterations", kIterations},
-    {"checkpoint_interval", "checkpoint.interval_iterations", kIterations},
-    {"max_episode_steps", "env.time_limit_steps",
-     "control steps; at the limit a flight fails, unless env.truncate_at_time_limit"},
-    {"time_limit_bootstrap", "env.truncate_at_time_limit", "true or false"},
-    {"frame_skip", "env.action_repeat", ""},
-    {"decimation", "env.action_repeat", ""},
-    {"reward_scaling", "env.reward_scale", ""},
+constexpr SettingOfOthers kSettings[] = {
+    {"run.total_steps", "control steps of all aircraft, env.action_repeat to a policy step",
+     "total_timesteps num_timesteps num_env_steps timesteps max_frames"},
+    {"run.total_steps", "control steps: num_aircraft x rollout_steps x action_repeat an iteration",
+     "max_iterations max_epochs"},
+    {"ppo.num_aircraft", "",
+     "num_envs n_envs num_actors n_rollout_threads num_envs_per_env_runner"},
+    {"ppo.rollout_steps", "",
+     "n_steps num_steps num_steps_per_env horizon_length rollout_fragment_length rollout_length "
+     "unroll_length buffer_size rollouts"},
+    {"ppo.rollout_steps", "of each aircraft", "train_batch_size train_batch_size_per_learner"},
+    {"ppo.chunk_length", "",
+     "seq_length seq_len max_seq_len sequence_length data_chunk_length bptt_horizon"},
+    {"ppo.epochs", "",
+     "n_epochs num_epochs update_epochs mini_epochs ppo_epoch num_learning_epochs learning_epochs "
+     "num_sgd_iter num_updates_per_batch"},
+    {"ppo.minibatches", "", "num_minibatches num_mini_batches num_mini_batch mini_batches"},
+    {"ppo.minibatches", "the number of minibatches, not their size",
+     "batch_size minibatch_size sgd_minibatch_size"},
+    {"ppo.learning_rate", "", "lr actor_lr policy_learning_rate"},
+    {"ppo.critic_learning_rate", "", "critic_lr value_learning_rate"},
+    {"ppo.final_learning_rate_fraction",
+     "the share left at the end; 0 needs ppo.learning_rate_decay=linear", "anneal_lr"},
+    {"ppo.learning_rate_decay", "linear or exponential; ppo.target_kl adapts the rate",
+     "lr_schedule use_linear_lr_decay"},
+    {"ppo.target_kl", "", "desired_kl"},
+    {"ppo.target_kl", "it sets the learning rate", "kl_target kl_threshold"},
+    {"ppo.adam_epsilon", "", "opti_eps"},
+    {"ppo.gamma", "", "discount_factor discounting"},
+    {"ppo.gae_lambda", "", "lam lambda lambda_ tau"},
+    {"ppo.clip", "",
+     "clip_range clip_coef clip_param clip_params clip_ratio ratio_clip clipping_epsilon e_clip"},
+    {"ppo.clip_value_loss", "true or false: it clips the value's change, by ppo.clip",
+     "clip_range_vf vf_clip_param clip_vloss clip_value value_clip use_clipped_value_loss "
+     "clip_predicted_values"},
+    {"ppo.entropy_coefficient", "",
+     "ent_coef entropy_coef entropy_coeff entropy_cost entropy_loss_scale"},
+    {"ppo.value_coefficient", "of half the squared error",
+     "vf_coef critic_coef value_loss_coef vf_loss_coeff value_loss_scale"},
+    {"ppo.max_gradient_norm", "of actor and critic each",
+     "max_grad_norm grad_norm grad_clip grad_norm_clip"},
+    {"ppo.normalise_advantages", "", "norm_adv normalize_advantage normalize_advantages"},
+    {"ppo.popart", "true or false", "normalize_value use_popart use_valuenorm"},
+    {"network.initial_log_std", "", "log_std_init"},
+    {"network.initial_log_std", "the logarithm of the deviation", "init_noise_std init_std"},
+    {"network.gru_size", "", "recurrent_hidden_size"},
+    {"network.gru_size", kOfGru, "lstm_hidden_size lstm_cell_size rnn_hidden_size rnn_hidden_dim"},
+    {"network.gru_layers", "", "recurrent_hidden_layers recurrent_n"},
+    {"network.gru_layers", kOfGru, "n_lstm_layers rnn_num_layers"},
+    {"network.hidden_layers", "before the GRU, and as many behind it", "layer_n"},
+    {"network.actor_head_scale", "", "gain"},
+    {"evaluation.interval_iterations", kIterations, "eval_freq eval_interval evaluation_interval"},
+    {"evaluation.episodes", "", "n_eval_episodes eval_episodes"},
+    {"checkpoint.interval_iterations", kIterations,
+     "save_freq save_frequency save_interval checkpoint_interval"},
+    {"env.time_limit_steps",
+     "control steps; at the limit a flight fails, unless env.truncate_at_time_limit",
+     "max_episode_steps"},
+    {"env.truncate_at_time_limit", "true or false", "time_limit_bootstrap"},
+    {"env.action_repeat", "", "frame_skip decimation"},
+    {"env.reward_scale", "", "reward_scaling"},
 };
 
 }  // namespace
 
-std::vector<OtherName> OtherNames() { return {std::begin(kOtherNames), std::end(kOtherNames)}; }
+std::vector<SettingOfOthers> SettingsOfOthers() {
+  return {std::begin(kSettings), std::end(kSettings)};
+}
 
 std::string WrittenAsKey(const std::string& name) {
   std::string written = name.substr(std::min(name.find_first_not_of('-'), name.size()));
@@ -171,13 +89,15 @@ std::string WrittenAsKey(const std::string& name) {
   return written;
 }
 
-const OtherName* FindOtherName(const std::string& name) {
+const SettingOfOthers* FindSettingOfOthers(const std::string& name) {
   const std::string written = WrittenAsKey(name);
   const std::string last_part = written.substr(written.rfind('.') + 1);
-  const auto* const found =
-      std::find_if(std::begin(kOtherNames), std::end(kOtherNames),
-                   [&last_part](const OtherName& other) { return last_part == other.name; });
-  return found == std::end(kOtherNames) ? nullptr : found;
+  const auto* const found = std::find_if(
+      std::begin(kSettings), std::end(kSettings), [&last_part](const SettingOfOthers& setting) {
+        std::istringstream names(setting.names);
+        return std::count(std::istream_iterator<std::string>(names), {}, last_part) > 0;
+      });
+  return found == std::end(kSettings) ? nullptr : found;
 }
 
 }  // namespace skein

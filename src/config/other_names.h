@@ -6,23 +6,22 @@
 
 namespace skein {
 
-/// What another PPO implementation calls a setting, the key that has it here, and how the values
-/// differ ("" if they do not).
-struct OtherName {
-  const char* name;  ///< in lower case, with underscores
-  const char* key;
-  const char* difference;
+/// A setting that other PPO implementations call otherwise.
+struct SettingOfOthers {
+  const char* key;         ///< that has it here
+  const char* difference;  ///< of the values; "" if there is none
+  const char* names;       ///< elsewhere, in lower case with underscores, blanks between
 };
 
-/// Names of settings in Stable-Baselines3, CleanRL, RLlib, rl_games, rsl_rl, skrl, Brax, PufferLib,
-/// MAPPO (and so in NeuralPlane and LAG), Gymnasium and Isaac Lab, where they differ from Skein's.
-std::vector<OtherName> OtherNames();
+/// Those of Stable-Baselines3, CleanRL, RLlib, rl_games, rsl_rl, skrl, Brax, PufferLib, MAPPO (and
+/// so of NeuralPlane and LAG), Gymnasium and Isaac Lab.
+std::vector<SettingOfOthers> SettingsOfOthers();
 
 /// A key's or an option's name as keys are written: "--Num-Envs" is "num_envs".
 std::string WrittenAsKey(const std::string& name);
 
-/// The entry for the last part of `name`, of a key or an option: "--num-envs", "ppo.num_envs".
-/// Null if there is none.
-const OtherName* FindOtherName(const std::string& name);
+/// The setting with the last part of `name`, of a key or an option, among its names: "--num-envs",
+/// "ppo.num_envs". Null if there is none.
+const SettingOfOthers* FindSettingOfOthers(const std::string& name);
 
 }  // namespace skein

@@ -115,7 +115,7 @@ const Field& FindField(const std::vector<Field>& fields, const std::string& key,
 
 MeantSetting FindMeantSetting(const std::vector<Field>& fields, const std::string& name) {
   const std::string written = WrittenAsKey(name);
-  const OtherName* const other = FindOtherName(name);
+  const SettingOfOthers* const other = FindSettingOfOthers(name);
   for (const Field& field : fields) {
     if (other != nullptr && field.key == other->key) return {field.key, other->difference};
     if (!written.empty() && (field.key == written || EndsWith(field.key, "." + written))) {

@@ -424,48 +424,46 @@ TEST(Usage, UnknownOptionsSuggestTheNearest) {
               HasSubstr("unknown option --altitude; did you mean --altitude-ft?"));
 }
 
+std::string Complaint(const std::vector<std::string>& arguments) {
+  return CallSkein(arguments).error;
+}
+
 TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
-  const auto complaint = [](const std::vector<std::string>& arguments) {
-    return CallSkein(arguments).error;
-  };
-  EXPECT_THAT(complaint({"train", "heading", "--learning-rate", "5"}),
+  EXPECT_THAT(Complaint({"train", "heading", "--learning-rate", "5"}),
               HasSubstr("did you mean --set ppo.learning_rate=VALUE?"));
-  EXPECT_THAT(complaint({"train", "heading", "--ppo.gamma=0.9"}),
+  EXPECT_THAT(Complaint({"train", "heading", "--ppo.gamma=0.9"}),
               HasSubstr("did you mean --set ppo.gamma=VALUE?"));
-  EXPECT_THAT(complaint({"train", "heading", "--num-envs", "5"}),
+  EXPECT_THAT(Complaint({"train", "heading", "--num-envs", "5"}),
               HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
-  EXPECT_THAT(complaint({"bench", "iteration", "--num_envs", "5"}),
+  EXPECT_THAT(Complaint({"bench", "iteration", "--num_envs", "5"}),
               HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
   for (const char* steps : {"--total-timesteps", "--total_steps"}) {
-    EXPECT_THAT(complaint({"train", "heading", steps, "5"}), HasSubstr("did you mean --steps"));
+    EXPECT_THAT(Complaint({"train", "heading", steps, "5"}), HasSubstr("did you mean --steps"));
   }
-  EXPECT_THAT(complaint({"train", "--task", "heading"}),
+  EXPECT_THAT(Complaint({"train", "--task", "heading"}),
               HasSubstr("unknown option --task; its value is written alone, without --task"));
-  EXPECT_THAT(complaint({"train", "--env-id", "heading"}),
+  EXPECT_THAT(Complaint({"train", "--env-id", "heading"}),
               HasSubstr("the task is written alone, without --env-id"));
-  EXPECT_THAT(complaint({"train", "heading", "--device", "cuda"}),
+  EXPECT_THAT(Complaint({"train", "heading", "--device", "cuda"}),
               HasSubstr("unknown option --device; Skein computes on the CPU"));
-  EXPECT_THAT(complaint({"--threads", "2", "train", "heading"}),
+  EXPECT_THAT(Complaint({"--threads", "2", "train", "heading"}),
               HasSubstr("--threads is written behind the command"));
-  EXPECT_THAT(complaint({"--device", "cuda", "train", "heading"}),
+  EXPECT_THAT(Complaint({"--device", "cuda", "train", "heading"}),
               HasSubstr("unknown option --device; Skein computes on the CPU"));
 }
 
 TEST(Usage, UnknownOptionsNameNoSettingThatWouldBeRefused) {
-  const auto complaint = [](const std::vector<std::string>& arguments) {
-    return CallSkein(arguments).error;
-  };
-  EXPECT_THAT(complaint({"train", "control", "--dwell-s", "5"}),
+  EXPECT_THAT(Complaint({"train", "control", "--dwell-s", "5"}),
               HasSubstr("did you mean --set env.control.dwell_s=VALUE?"));
   for (const char* training : {"--gamma", "--lr", "--training-noise-max", "--task-file-hash"}) {
-    EXPECT_THAT(complaint({"eval", "--policy", "untrained", training, "5"}),
+    EXPECT_THAT(Complaint({"eval", "--policy", "untrained", training, "5"}),
                 Not(HasSubstr("--set")))
         << training;
   }
-  EXPECT_THAT(complaint({"eval", "--policy", "untrained", "--max-episode-steps", "5"}),
+  EXPECT_THAT(Complaint({"eval", "--policy", "untrained", "--max-episode-steps", "5"}),
               HasSubstr("did you mean --set env.time_limit_steps=VALUE (control steps; "));
   for (const char* repeat : {"--action_repeat", "--frame-skip"}) {
-    EXPECT_THAT(complaint({"bench", "sim", repeat, "5"}),
+    EXPECT_THAT(Complaint({"bench", "sim", repeat, "5"}),
                 HasSubstr("did you mean --action-repeat?"));
   }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,22 +20,25 @@ TEST(OtherNames, EachIsThereOnceAndMeansAKeyThatIsCalledOtherwiseHere) {
   for (const Field& field : fields) {
     last_parts.insert(field.key.substr(field.key.rfind('.') + 1));
   }
-  for (const OtherName& other : OtherNames()) {
-    EXPECT_TRUE(seen.insert(other.name).second) << other.name << " is there twice";
-    EXPECT_EQ(last_parts.count(other.name), 0u) << other.name << " is a key here";
-    EXPECT_EQ(WrittenAsKey(other.name), other.name);
-    EXPECT_EQ(FindField(fields, other.key, "").key, other.key);
-    const MeantSetting meant = FindMeantSetting(fields, std::string("--") + other.name);
-    EXPECT_EQ(meant.name, other.key);
-    EXPECT_EQ(meant.difference, other.difference);
+  for (const SettingOfOthers& setting : SettingsOfOthers()) {
+    EXPECT_EQ(FindField(fields, setting.key, "").key, setting.key);
+    std::istringstream names(setting.names);
+    for (std::string name; names >> name;) {
+      EXPECT_TRUE(seen.insert(name).second) << name << " is there twice";
+      EXPECT_EQ(last_parts.count(name), 0u) << name << " is a key here";
+      EXPECT_EQ(WrittenAsKey(name), name);
+      const MeantSetting meant = FindMeantSetting(fields, "--" + name);
+      EXPECT_EQ(meant.name, setting.key);
+      EXPECT_EQ(meant.difference, setting.difference);
+    }
   }
 }
 
 TEST(OtherNames, AreFoundByTheLastPartHoweverTheyAreWritten) {
-  ASSERT_NE(FindOtherName("ppo.num_envs"), nullptr);
-  EXPECT_EQ(FindOtherName("--Num-Envs"), FindOtherName("ppo.num_envs"));
+  ASSERT_NE(FindSettingOfOthers("ppo.num_envs"), nullptr);
+  EXPECT_EQ(FindSettingOfOthers("--Num-Envs"), FindSettingOfOthers("ppo.num_envs"));
   for (const char* name : {"", "-", "--", "ppo.", "ppo.num_envs.x", "num_env"}) {
-    EXPECT_EQ(FindOtherName(name), nullptr) << name;
+    EXPECT_EQ(FindSettingOfOthers(name), nullptr) << name;
   }
 }
 
