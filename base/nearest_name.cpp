@@ -4,22 +4,25 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 #include "base/ends_with.h"
 
 namespace skein {
 namespace {
 
+/// Of optimal string alignment: a pair that was swapped is one edit, and is not edited again.
 std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1), above, two_above;
   std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    two_above = std::exchange(above, row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({replaced, row[j - 1] + 1, above[j] + 1});
+      const bool is_swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (is_swapped) row[j] = std::min(row[j], two_above[j - 2] + 1);
     }
   }
   return row[b.size()];
@@ -43,8 +46,8 @@ std::string NearestName(const std::string& name, const std::vector<std::string>&
     // The distance is at least the difference in length.
     if (longer - shorter >= best) continue;
     const std::size_t distance = EditDistance(name, candidate);
-    // Of short names half may differ: else any two letters would be near each other.
-    if (distance < best && distance <= shorter / 2) {
+    // Of short names a third may differ: else words of four letters would be near each other.
+    if (distance < best && distance <= (shorter + 1) / 3) {
       best = distance;
       nearest = candidate;
     }

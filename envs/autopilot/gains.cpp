@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 
 namespace skein {
 namespace {
@@ -48,12 +49,15 @@ std::vector<std::string> AutopilotNames() {
 }
 
 AutopilotVariant AutopilotOf(const std::string& name) {
-  std::string known;
   for (const Registration& autopilot : kAutopilots) {
     if (name == autopilot.name) return autopilot.variant;
+  }
+  std::string known;
+  for (const Registration& autopilot : kAutopilots) {
     known += (known.empty() ? "" : ", ") + std::string(autopilot.name);
   }
-  throw Error("unknown autopilot \"" + name + "\"; known: " + known);
+  throw Error("unknown autopilot \"" + name + "\"" + DidYouMean(name, AutopilotNames()) +
+              "; known: " + known);
 }
 
 }  // namespace skein

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "envs/vec_env.h"
 #include "src/config/configuration.h"
+#include "src/config/usage_error.h"
 #include "src/files/installed_file.h"
 #include "src/run/require_run.h"
 #include "src/run/run_directory.h"
@@ -25,10 +26,30 @@ std::string PathOrInstalledPolicy(const std::string& path) {
   return installed.empty() ? path : installed;
 }
 
+/// The policy that is there and was meant by `path`, which is not: with the ending of policies, of
+/// the shipped ones, or both. Empty if there is none.
+std::string PolicyMeant(const std::string& path) {
+  for (const std::string& meant :
+       {path + ".skein", kPoliciesRoot + path, kPoliciesRoot + path + ".skein"}) {
+    if (std::filesystem::is_regular_file(PathOrInstalledPolicy(meant))) return meant;
+  }
+  return "";
+}
+
+/// `path`, or the installed policy of its name; throws UsageError if neither is there and another
+/// was meant. Whoever reads it complains of others that are not there.
+std::string ExistingPolicy(const std::string& path) {
+  const std::string file = PathOrInstalledPolicy(path);
+  if (path == kUntrained || std::filesystem::exists(file)) return file;
+  const std::string meant = PolicyMeant(path);
+  if (meant.empty()) return file;
+  throw UsageError(fmt::format("{}: no such file or run; did you mean {}?", path, meant));
+}
+
 }  // namespace
 
 std::string PolicyFileOf(const std::string& path) {
-  if (!std::filesystem::is_directory(path)) return PathOrInstalledPolicy(path);
+  if (!std::filesystem::is_directory(path)) return ExistingPolicy(path);
   RequireRun(path);
   const std::string checkpoints = path + "/checkpoints";
   for (const char* name : {"/policy-best.skein", "/policy-final.skein"}) {

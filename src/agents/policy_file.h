@@ -20,7 +20,8 @@ inline constexpr const char* kPoliciesRoot = "policies/";
 /// The file of the policy that `path` stands for: of the directory of a run its best policy, else
 /// the final one, else the newest checkpoint; of policies/NAME that is not there, the policy of
 /// that name that was installed with the program; otherwise `path` itself. Throws Error on a
-/// directory that holds no run, or a run that has not saved a policy yet.
+/// directory that holds no run, or a run that has not saved a policy yet, and UsageError on the
+/// name of a policy, "heading", in place of its file.
 std::string PolicyFileOf(const std::string& path);
 
 /// The files that are read of the policy that `path` stands for: those of the run, or the file of

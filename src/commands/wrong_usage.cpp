@@ -115,20 +115,6 @@ bool Takes(const CLI::App& command, const char* option) {
   return std::count(options.begin(), options.end(), option) > 0;
 }
 
-/// An argument of a command that takes no more; of a policy with the option that takes it.
-std::string Unexpected(const CLI::App& command, const std::string& argument) {
-  std::error_code failure;
-  const bool is_policy =
-      EndsWith(argument, ".skein") || std::filesystem::is_directory(argument, failure);
-  const char* const option = !is_policy                   ? nullptr
-                             : Takes(command, "--policy") ? "--policy "
-                             : Takes(command, "--agents") ? "--agents policy:"
-                                                          : nullptr;
-  return fmt::format(
-      "unexpected argument {}{}", argument,
-      option != nullptr ? fmt::format("; did you mean {}{}?", option, argument) : "");
-}
-
 /// The task that was given, as an argument or by --task; empty if none was.
 std::string TaskOf(const CLI::App& command) {
   for (const char* name : {"task", "--task"}) {
@@ -170,10 +156,15 @@ std::string KeyMeant(const CLI::App& command, const std::string& option) {
   return DidYouMean(meant);
 }
 
-/// "; did you mean --action-repeat?" for --action_repeat; empty if the command has no such option.
+/// "; did you mean --action-repeat?" for --action_repeat, and --altitude-ft for --altitude; empty
+/// if the command has no such option.
 std::string OtherwiseWritten(const CLI::App& command, const std::string& option) {
+  const std::string written = WrittenAsKey(option);
   for (const std::string& own : OptionNames(command)) {
-    if (WrittenAsKey(own) == WrittenAsKey(option)) return "; did you mean " + own + "?";
+    const std::string own_written = WrittenAsKey(own);
+    if (own_written == written || own_written.rfind(written + "_", 0) == 0) {
+      return "; did you mean " + own + "?";
+    }
   }
   return "";
 }
@@ -190,28 +181,87 @@ bool IsOneOf(const std::string& name, std::initializer_list<const char*> names) 
   return std::find(names.begin(), names.end(), WrittenAsKey(name)) != names.end();
 }
 
-/// An option that the command does not have, with the one that was meant: of two commands that fly
-/// policies, one is told of a policy and the other of agents.
+/// What stands here for options of other training programs; empty if nothing is known of `name`.
+std::string OptionElsewhere(const CLI::App& command, const std::string& name) {
+  if (IsOneOf(name, {"device", "gpu", "gpus", "cuda"})) {
+    return "; Skein computes on the CPU, with --threads threads";
+  }
+  if (IsOneOf(name, {"env", "env_id", "env_name"}) && TakesWithoutName(command, "--task")) {
+    return "; the task is written alone, without " + name;
+  }
+  if (IsOneOf(name, {"exp_name", "experiment_name", "run_name", "name", "log_dir", "logdir",
+                     "output_dir", "save_dir", "save_path"}) &&
+      Takes(command, "--out")) {
+    return "; did you mean --out?";
+  }
+  const bool is_policy = IsOneOf(name, {"model", "model_path", "checkpoint", "checkpoint_path",
+                                        "ckpt", "load", "load_run", "load_path", "weights"});
+  if (is_policy && Takes(command, "--policy")) return "; did you mean --policy?";
+  if (is_policy && Takes(command, "--resume")) {
+    return "; --resume goes on with a run, and --from starts from a policy";
+  }
+  if (IsOneOf(name, {"wandb", "wandb_project", "wandb_project_name", "track", "tensorboard",
+                     "tensorboard_log"}) &&
+      command.get_name() == "train") {
+    return "; every run writes TensorBoard's events and metrics.csv";
+  }
+  return "";
+}
+
+/// What was meant by an option that the command does not have: of two commands that fly policies,
+/// one is told of a policy and the other of agents. Empty if nothing is near.
+std::string OptionMeant(const CLI::App& command, const std::string& name) {
+  if (name == "--controller") return "; it is now called --low-level";
+  if (name == "--policy" && Takes(command, "--agents")) {
+    return "; did you mean --agents policy:FILE_OR_RUN?";
+  }
+  if (name == "--agents" && Takes(command, "--policy")) {
+    return "; it flies one --policy, and skein compare several agents";
+  }
+  if (TakesWithoutName(command, name)) return "; its value is written alone, without " + name;
+  for (const auto& find : {OptionElsewhere, OtherwiseWritten, KeyMeant}) {
+    std::string meant = find(command, name);
+    if (!meant.empty()) return meant;
+  }
+  return DidYouMean(name, OptionNames(command));
+}
+
 std::string UnknownOption(const CLI::App& command, const std::string& argument) {
   const std::string name = argument.substr(0, argument.find('='));
-  std::string meant;
-  if (name == "--controller") return "--controller is now called --low-level";
-  if (name == "--policy" && Takes(command, "--agents")) {
-    meant = "; did you mean --agents policy:FILE_OR_RUN?";
-  } else if (name == "--agents" && Takes(command, "--policy")) {
-    meant = "; it flies one --policy, and skein compare several agents";
-  } else if (IsOneOf(name, {"device", "gpu", "gpus", "cuda"})) {
-    meant = "; Skein computes on the CPU, with --threads threads";
-  } else if (IsOneOf(name, {"env", "env_id", "env_name"}) && TakesWithoutName(command, "--task")) {
-    meant = "; the task is written alone, without " + name;
-  } else if (TakesWithoutName(command, name)) {
-    meant = "; its value is written alone, without " + name;
-  } else {
-    meant = OtherwiseWritten(command, name);
-    if (meant.empty()) meant = KeyMeant(command, name);
-    if (meant.empty()) meant = DidYouMean(name, OptionNames(command));
+  return fmt::format("unknown option {}{}", PlainLine(argument), OptionMeant(command, name));
+}
+
+/// What was meant by an argument of a command that takes no more: a policy with the option that
+/// takes it, the value of --set KEY VALUE, or KEY=VALUE without --set. Empty if nothing is near.
+std::string ArgumentMeant(const CLI::App& command, const std::string& argument) {
+  std::error_code failure;
+  if (EndsWith(argument, ".skein") || std::filesystem::is_directory(argument, failure)) {
+    const char* const option = Takes(command, "--policy")   ? "--policy "
+                               : Takes(command, "--agents") ? "--agents policy:"
+                                                            : "";
+    return *option == '\0' ? "" : fmt::format("; did you mean {}{}?", option, argument);
   }
-  return fmt::format("unknown option {}{}", PlainLine(argument), meant);
+  if (!Takes(command, "--set")) return "";
+  if (const std::size_t equals = argument.find('='); equals != std::string::npos) {
+    return OptionMeant(command, "--" + argument.substr(0, equals));
+  }
+  for (const std::string& assignment : command.get_option("--set")->results()) {
+    if (assignment.find('=') != std::string::npos) continue;
+    return fmt::format("; did you mean --set {}={}?", assignment, argument);
+  }
+  return "";
+}
+
+/// An argument of a command that takes no more; it is the value of an option that an option before
+/// it took for its own: --preset --threads 1.
+std::string Unexpected(const CLI::App& command, const std::string& argument) {
+  for (const CLI::Option* option : GivenOptions(command)) {
+    for (const std::string& value : option->results()) {
+      if (Takes(command, value.c_str())) return NameOf(*option) + " needs a value";
+    }
+  }
+  return fmt::format("unexpected argument {}{}", PlainLine(argument),
+                     ArgumentMeant(command, argument));
 }
 
 /// Names that are not known come first, in their order: CLI11 says that what is required is missing

@@ -21,6 +21,17 @@ void LevelRequest::Refuse(const std::string& part) const {
                           name, form));
 }
 
+void LevelRequest::RefuseUnit(const std::string& number, const std::string& unit,
+                              const Units& units) const {
+  std::vector<std::string> known;
+  for (const Unit& one : units) {
+    if (one.suffix[0] != '\0') known.emplace_back(one.suffix);
+  }
+  if (known.empty()) Refuse(number);
+  throw Error(fmt::format("--condition {}={}: {} has the unknown unit {}; known: {}", name, level,
+                          number, unit, fmt::join(known, ", ")));
+}
+
 void LevelRequest::RefuseWithoutUnit(const std::string& number, const Units& units) const {
   std::vector<std::string> forms;
   for (const Unit& unit : units) forms.push_back(number + unit.suffix);
@@ -46,7 +57,7 @@ double ParseNumber(const std::string& text, const Units& units, const LevelReque
     if (suffix == unit.suffix) return value * unit.factor;
   }
   if (suffix.empty()) request.RefuseWithoutUnit(text, units);
-  request.Refuse(text);
+  request.RefuseUnit(text, suffix, units);
 }
 
 std::pair<std::string, std::string> SplitRange(const std::string& text) {
@@ -63,7 +74,7 @@ Range ParseRange(const std::string& text, const Units& units, const LevelRequest
   if (!low_has_unit && high_has_unit) {
     const std::string suffix = high.substr(unit + 1);
     const auto is_it = [&suffix](const Unit& known) { return suffix == known.suffix; };
-    if (std::none_of(units.begin(), units.end(), is_it)) request.Refuse(text);
+    if (std::none_of(units.begin(), units.end(), is_it)) request.RefuseUnit(text, suffix, units);
     low += suffix;
   }
   const Range range{ParseNumber(low, units, request), ParseNumber(high, units, request)};

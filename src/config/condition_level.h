@@ -24,6 +24,9 @@ struct LevelRequest {
 
   /// Throws Error: `part` of the level cannot be read.
   [[noreturn]] void Refuse(const std::string& part) const;
+  /// Throws Error: `number`, "10mps", has a unit that is none of these.
+  [[noreturn]] void RefuseUnit(const std::string& number, const std::string& unit,
+                               const Units& units) const;
   /// Throws Error: a number needs one of the units.
   [[noreturn]] void RefuseWithoutUnit(const std::string& number, const Units& units) const;
   /// Throws Error: `range` from `low` to `high`, "the range 2..1", has its ends exchanged.

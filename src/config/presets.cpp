@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/ends_with.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
 
@@ -22,6 +23,18 @@ constexpr std::pair<const char*, const char*> kMeanings[] = {
     {"planner", "Tracking by a high-level policy"},
     {"quick", "Heading in minutes"},
     {"robust", "under all conditions"}};
+
+/// What `name`, which is none of the task's presets, `names`, may be: "; it is one of tracking";
+/// empty if nothing is known.
+std::string PresetMeant(const std::string& name, const std::vector<std::string>& names) {
+  if (EndsWith(name, ".toml")) return "; a file of settings is given by --config";
+  std::vector<std::string> tasks;
+  for (const Preset& preset : Presets()) {
+    if (name == preset.name) tasks.emplace_back(preset.task);
+  }
+  if (!tasks.empty()) return fmt::format("; it is one of {}", fmt::join(tasks, ", "));
+  return DidYouMean(name, names);
+}
 
 }  // namespace
 
@@ -67,7 +80,7 @@ const Preset& FindPreset(const std::string& task, const std::string& name) {
                             DidYouMean(task, PresetTasks()), fmt::join(PresetTasks(), ", ")));
   }
   throw Error(fmt::format("unknown preset {} of task {}{}; known presets: {}", name, task,
-                          DidYouMean(name, names), fmt::join(names, ", ")));
+                          PresetMeant(name, names), fmt::join(names, ", ")));
 }
 
 }  // namespace skein

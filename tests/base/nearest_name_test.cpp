@@ -9,6 +9,7 @@ namespace {
 TEST(NearestName, FindsWhatWasMisspelt) {
   EXPECT_EQ(NearestName("hedding", {"control", "heading", "tracking"}), "heading");
   EXPECT_EQ(NearestName("zreo", {"random", "zero"}), "zero");
+  EXPECT_EQ(NearestName("trian", {"train", "trim"}), "train");
   EXPECT_EQ(NearestName("gamma", {"ppo.gae_lambda", "ppo.gamma"}), "ppo.gamma");
 }
 
@@ -17,6 +18,9 @@ TEST(NearestName, OfShortNamesMostMustAgree) {
   EXPECT_EQ(NearestName("X", {"A", "B", "C"}), "");
   EXPECT_EQ(NearestName("png", {"svg", "pdf"}), "");
   EXPECT_EQ(NearestName("pdg", {"svg", "pdf"}), "pdf");
+  EXPECT_EQ(NearestName("test", {"list"}), "");
+  EXPECT_EQ(NearestName("fast", {"default", "easy", "robust"}), "");
+  EXPECT_EQ(NearestName("tset", {"test"}), "test");
 }
 
 TEST(NearestName, OfLongNamesAThirdMayDiffer) {

@@ -365,6 +365,7 @@ TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
       {"idle", "agent idle is now called zero"},
       {"policies/a.skein", "unknown agent policies/a.skein; did you mean policy:policies/a.skein?"},
       {"untrained", "unknown agent untrained; did you mean policy:untrained?"},
+      {"autopilot:agressive", "unknown autopilot \"agressive\"; did you mean aggressive?; known: "},
       {"autopilot:lazy", "unknown autopilot \"lazy\"; known: public, traditional, aggressive"},
       {"policy", "policy: needs a file or a run"},
       {"random:often", "as in random:0.5"},

@@ -369,6 +369,9 @@ TEST(ExitCodes, WhatIsTypedWronglyIsSaidInTheProgramsOwnWords) {
       {{"eval", "policies/heading.skein"},
        "unexpected argument policies/heading.skein; did you mean --policy policies/heading.skein?"},
       {{"eval", "heading"}, "unexpected argument heading (see skein eval --help)"},
+      {{"eval", "--policy", SKEIN_SOURCE "/policies/heading"},
+       SKEIN_SOURCE "/policies/heading: no such file or run; did you mean " SKEIN_SOURCE
+                    "/policies/heading.skein?"},
       {{"compare", "a.skein"},
        "unexpected argument a.skein; did you mean --agents policy:a.skein?"},
       {{"compare", "--policy", "a.skein"},

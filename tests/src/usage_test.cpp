@@ -293,7 +293,7 @@ TEST(Usage, TheManualIsARoffPageOfAllCommands) {
 
 TEST(Usage, OldNamesAreErrorsThatSayTheNewOnes) {
   EXPECT_THAT(CallSkein({"train", "tracking", "--controller", "x"}).error,
-              HasSubstr("--controller is now called --low-level"));
+              HasSubstr("unknown option --controller; it is now called --low-level"));
   EXPECT_THAT(CallSkein({"compare", "--task", "heading", "--agents", "idle"}).error,
               HasSubstr("agent idle is now called zero"));
 }
@@ -468,6 +468,29 @@ TEST(Usage, UnknownOptionsNameNoSettingThatWouldBeRefused) {
   }
 }
 
+TEST(Usage, OptionsOfOtherTrainersNameWhatStandsForThem) {
+  const auto train = [](const char* option) { return Complaint({"train", "heading", option}); };
+  EXPECT_THAT(train("--exp-name"), HasSubstr("unknown option --exp-name; did you mean --out?"));
+  EXPECT_THAT(train("--checkpoint"), HasSubstr("--resume goes on with a run, and --from starts"));
+  EXPECT_THAT(train("--wandb"), HasSubstr("every run writes TensorBoard's events and metrics.csv"));
+  EXPECT_THAT(Complaint({"eval", "--model", "x"}), HasSubstr("did you mean --policy?"));
+  EXPECT_THAT(Complaint({"fdm", "trim", "--speed", "500"}), HasSubstr("mean --speed-fps?"));
+}
+
+TEST(Usage, SettingsThatAreWrittenOtherwiseAreNamed) {
+  EXPECT_THAT(Complaint({"train", "heading", "--set", "ppo.gamma", "0.9"}),
+              HasSubstr("unexpected argument 0.9; did you mean --set ppo.gamma=0.9?"));
+  EXPECT_THAT(Complaint({"train", "heading", "ppo.lr=3e-4"}),
+              HasSubstr("unexpected argument ppo.lr=3e-4; did you mean --set ppo.learning_rate="));
+  EXPECT_THAT(Complaint({"train", "task=heading", "x=1"}),
+              HasSubstr("unexpected argument x=1 (see skein train --help)"));
+}
+
+TEST(Usage, AnOptionIsNoValueOfAnother) {
+  EXPECT_THAT(Complaint({"train", "heading", "--preset", "--threads", "1"}),
+              HasSubstr("error: --preset needs a value (see skein train --help)"));
+}
+
 TEST(Usage, ExamplesAreOfTheProgramOrOfTheCommandAskedFor) {
   EXPECT_THAT(CallSkein({"--help"}).output, HasSubstr("skein train heading   "));
   EXPECT_THAT(CallSkein({"fdm", "--help"}).output, Not(HasSubstr("skein train heading")));
@@ -476,8 +499,13 @@ TEST(Usage, ExamplesAreOfTheProgramOrOfTheCommandAskedFor) {
 TEST(Usage, UnknownTasksAndPresetsListTheKnownOnes) {
   EXPECT_THAT(CallSkein({"train", "heding"}).error,
               HasSubstr("unknown task heding; did you mean heading?"));
-  EXPECT_THAT(CallSkein({"train", "heading", "--preset", "fast"}).error,
-              HasSubstr("known presets: aerosonde, cessna172, default, easy"));
+  const auto preset = [](const char* name) {
+    return Complaint({"train", "heading", "--preset", name});
+  };
+  EXPECT_THAT(preset("fast"), HasSubstr("unknown preset fast of task heading; known presets: "
+                                        "aerosonde, cessna172, default, easy"));
+  EXPECT_THAT(preset("planner"), HasSubstr("; it is one of tracking; known presets: "));
+  EXPECT_THAT(preset("./my.toml"), HasSubstr("; a file of settings is given by --config; "));
 }
 
 TEST(Usage, HelpKeysListsEveryKeyWithItsValue) {

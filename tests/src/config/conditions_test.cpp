@@ -481,7 +481,9 @@ TEST(Conditions, WhatCannotBeReadIsNamedWithWhatCould) {
   EXPECT_THAT(Complaint({"windy"}), HasSubstr("--condition windy: expected NAME=LEVEL"));
   EXPECT_THAT(Complaint({"noisy=0.1", "noisy=0.2"}), HasSubstr("noisy is given twice"));
   EXPECT_THAT(Complaint({"noisy=loud"}), HasSubstr("cannot read \"loud\"; noisy takes"));
-  EXPECT_THAT(Complaint({"windy=60mph"}), HasSubstr("cannot read \"60mph\""));
+  EXPECT_THAT(Complaint({"windy=60mph"}),
+              HasSubstr("60mph has the unknown unit mph; known: fps, kt, m/s"));
+  EXPECT_THAT(Complaint({"high_altitude=30..35km"}), HasSubstr("unknown unit km; known: kft, ft"));
   EXPECT_THAT(Complaint({"windy=60fps,moderat"}), HasSubstr("cannot read \"moderat\""));
   EXPECT_THAT(Complaint({"windy=60fps,90fps"}), HasSubstr("cannot read \"90fps\""));
   EXPECT_THAT(Complaint({"windy=severe..light"}),
